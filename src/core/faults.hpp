@@ -1,0 +1,53 @@
+#pragma once
+// The three kinds of failure a user can meet, each with its own exit code. A programmer's fault is an assert.
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace railstrata {
+
+/// Exit codes of the program (docs/conventions.md).
+enum class ExitCode : int { ok = 0, failed_checks = 1, user = 2, numerics = 3, environment = 4, interrupted = 130 };
+
+/// Something the user wrote is wrong: a case file, a profile, a command line. Exit code 2.
+/// `where` is "file:line:column" as far as it is known, `remedy` says what to do.
+struct Diagnostic {
+  std::string where;
+  std::string message;
+  std::string remedy;
+};
+
+class CaseError : public std::runtime_error {
+ public:
+  explicit CaseError(std::vector<Diagnostic> all) : std::runtime_error(text(all)), diagnostics(std::move(all)) {}
+  explicit CaseError(std::string message, std::string remedy = {}, std::string where = {})
+      : CaseError(std::vector<Diagnostic>{{std::move(where), std::move(message), std::move(remedy)}}) {}
+  /// Every error of the input at once, in the order of the file.
+  std::vector<Diagnostic> diagnostics;
+
+ private:
+  static std::string text(const std::vector<Diagnostic>& all) {
+    std::string out;
+    for (const Diagnostic& d : all) {
+      if (!out.empty()) out += '\n';
+      if (!d.where.empty()) out += d.where + ": ";
+      out += d.message;
+      if (!d.remedy.empty()) out += "\n    remedy: " + d.remedy;
+    }
+    return out;
+  }
+};
+
+/// The numbers went wrong: NaN, inverted element, no convergence. The message says where and when. Exit code 3.
+class NumericalError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The machine cannot do it: disk full, no permission, not enough memory. Exit code 4.
+class EnvironmentError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace railstrata
