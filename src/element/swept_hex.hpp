@@ -1,0 +1,235 @@
+#pragma once
+// The 8-node hexahedron of a swept mesh.
+//
+// An element is a quadrilateral (corners k = 0..3, section coordinates y_k, z_k) carried over one station spacing. In its own frame (1 along the sweep, 2 lateral,
+// 3 up) the corners stand at (-+ a_k, y_k, b_k) with, for a spacing D,
+//   extrude: a_k = sigma,        b_k = z_k,    sigma = D/2,      c = 1
+//   revolve: a_k = -z_k sigma,   b_k = z_k c,  sigma = sin(D/2), c = cos(D/2).
+// So all elements of a quadrilateral are affine images of one reference shape (sigma = c = 1): gradients are shared, two numbers a station scale them.
+//
+// Total Lagrangian, one-point mean gradients [FlanaganBelytschko1981], with a stiffness for the 12 hourglass modes:
+//   F = Q + H,  H_i = sum_a u_a b_ai,   E = (F^T F - I)/2,   S = lambda tr E + 2 mu E,   f_a = V F S b_a + sum_l gamma_la R K_lm R^T q_m,   q_l = sum_a gamma_la u_a.
+// Q turns the element's frame into the model frame (F's left index is the model frame's, its right index the element's own), R is Q turned by the body's rigid
+// rotation. b is the exact volume mean of the shape gradients and gamma_l = h_l - sum_i (h_l . X_i) b_i, so that rigid motion of any size gives no force.
+//
+// K (12 x 12) makes the element: with K = Phi^T K_full Phi (Phi: the displacement modes that have no mean gradient) the linear element is *identical* to the fully
+// integrated one that K_full comes from, at the cost of one stress point. Two kinds:
+//   full       Taylor–Wilson incompatible modes, 2x2x2 Gauss points: neither shear nor volumetric locking [TaylorBeresfordWilson1976]
+//   one_point  K = kappa (lambda + 2 mu) V (b:b)/8 I, the stiffness hourglass control of explicit codes [FlanaganBelytschko1981]
+// By the mirror symmetry of the element K falls apart into a 5x5 (even) and a 7x7 (odd) block: 43 numbers.
+#include <Eigen/Dense>
+#include <array>
+
+#include "core/vec.hpp"
+#include "material/elastic.hpp"
+#include "mesh/swept.hpp"
+
+namespace railstrata {
+
+inline constexpr int kHourglassEntries = 15 + 28;  ///< upper triangles of the 5x5 and the 7x7 block, row by row
+using HourglassStiffness = std::array<double, kHourglassEntries>;
+
+/// Shared by all elements of one quadrilateral: the reference shape sigma = c = 1.
+struct QuadReference {
+  double gx[4], gy[4], gz[4];  ///< mean gradients of the corners at +a (at -a: gx changes sign)
+  double volume;
+  double even_y, even_z;       ///< h_even . Y, h_even . Z
+  double odd[3];               ///< h_m . A for the patterns eta, zeta, eta zeta
+  double lambda, mu;
+};
+
+/// The two numbers by which a station spacing scales the reference shape.
+struct SweepScale {
+  double sigma, c;
+};
+SweepScale sweep_scale(SweepKind kind, double spacing);
+
+enum class ElementKind { full, one_point };
+
+/// Corner coordinates of the element in its own frame, 0–3 at -a, 4–7 at +a.
+std::array<Vec3, 8> local_corners(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale);
+
+QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material);
+HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material, ElementKind element, double kappa);
+
+/// Row-sum lumped masses of the eight corners, kg; corner k at -a and at +a have the same.
+std::array<double, 4> corner_masses(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, double density);
+
+using Matrix24 = Eigen::Matrix<double, 24, 24>;
+/// Linear stiffness of the element in its own frame (dof 3 a + i, corners as in local_corners), from the reference data the solver uses.
+Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const HourglassStiffness& hourglass);
+/// Stiffness of the fully integrated incompatible-mode element, condensed: what `full` must reproduce.
+Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const Elastic& material);
+
+/// 2 / omega_max of the free element with lumped mass: a lower bound of the whole mesh's stable step [Hughes2000 ch. 9].
+double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material, const HourglassStiffness& hourglass);
+
+// ---- the law ---------------------------------------------------------------------------------------------------------------------------------------------
+
+/// Signs of the section patterns eta, zeta, eta zeta at the corners.
+inline constexpr double kEta[4] = {-1, 1, 1, -1}, kZeta[4] = {-1, -1, 1, 1}, kEtaZeta[4] = {1, -1, 1, -1};
+
+/// Per station (one lane each): scales and rotations. A padding lane has all zero.
+template <class T>
+struct StationScale {
+  T inv_sigma, inv_c;    ///< of the gradients
+  T v1, v2, v3;          ///< volume factors: c, sigma c, sigma (V b = reference volume x factor x reference gradient)
+  T sigma, c;
+  T cos_q, sin_q;        ///< Q: element frame -> model frame
+  T cos_r, sin_r;        ///< R: Q turned by the body's rotation
+};
+
+/// Elastic and hourglass energies [J] of an element.
+template <class T>
+struct ElementEnergy {
+  T strain, hourglass;
+};
+
+namespace detail {
+
+template <class T>
+inline void rotate(T c, T s, const T (&v)[3], T (&out)[3]) {  // element frame -> model frame
+  out[0] = c * v[0] - s * v[2];
+  out[1] = v[1];
+  out[2] = s * v[0] + c * v[2];
+}
+template <class T>
+inline void rotate_back(T c, T s, const T (&v)[3], T (&out)[3]) {
+  out[0] = c * v[0] + s * v[2];
+  out[1] = v[1];
+  out[2] = c * v[2] - s * v[0];
+}
+
+/// y = K x for a symmetric matrix given by its upper triangle.
+template <int N, class T, class Entry>
+inline void symmetric_product(const Entry& k, int first, const T (&x)[N], T (&y)[N]) {
+  for (int i = 0; i < N; ++i) y[i] = T{};
+  int e = first;
+  for (int i = 0; i < N; ++i) {
+    y[i] += k(e++) * x[i];
+    for (int j = i + 1; j < N; ++j, ++e) {
+      y[i] += k(e) * x[j];
+      y[j] += k(e) * x[i];
+    }
+  }
+}
+
+}  // namespace detail
+
+/// Displacement gradient columns and hourglass amplitudes from the sums s_k = u(+a_k) + u(-a_k) and differences d_k = u(+a_k) - u(-a_k).
+template <class T>
+struct ElementKinematics {
+  T h1[3], h2[3], h3[3];            ///< H columns: derivative along the sweep, lateral, up; components in the model frame
+  T even[3], odd[3][3];             ///< q: pattern eta zeta of the sums; patterns eta, zeta, eta zeta of the differences
+};
+
+template <class T>
+inline ElementKinematics<T> element_kinematics(const QuadReference& r, const StationScale<T>& st, const T (&s)[4][3], const T (&d)[4][3]) {
+  ElementKinematics<T> k;
+  for (int i = 0; i < 3; ++i) {
+    k.h1[i] = (r.gx[0] * d[0][i] + r.gx[1] * d[1][i] + r.gx[2] * d[2][i] + r.gx[3] * d[3][i]) * st.inv_sigma;
+    k.h2[i] = r.gy[0] * s[0][i] + r.gy[1] * s[1][i] + r.gy[2] * s[2][i] + r.gy[3] * s[3][i];
+    k.h3[i] = (r.gz[0] * s[0][i] + r.gz[1] * s[1][i] + r.gz[2] * s[2][i] + r.gz[3] * s[3][i]) * st.inv_c;
+    const T d10 = d[1][i] - d[0][i], d23 = d[2][i] - d[3][i], d10s = d[1][i] + d[0][i], d23s = d[2][i] + d[3][i];
+    k.even[i] = (s[0][i] - s[1][i]) + (s[2][i] - s[3][i]) - r.even_y * k.h2[i] - (r.even_z * st.c) * k.h3[i];
+    k.odd[0][i] = (d10 + d23) - (r.odd[0] * st.sigma) * k.h1[i];
+    k.odd[1][i] = (d23s - d10s) - (r.odd[1] * st.sigma) * k.h1[i];
+    k.odd[2][i] = (d23 - d10) - (r.odd[2] * st.sigma) * k.h1[i];
+  }
+  return k;
+}
+
+/// Second Piola–Kirchhoff stress in the element's frame and the first one's columns in the model frame (P = F S).
+template <class T>
+struct ElementStress {
+  T s[6];               ///< 11, 22, 33, 12, 23, 13
+  T p1[3], p2[3], p3[3];
+  T strain[6];
+};
+
+/// Exact (geometrically non-linear) response.
+template <class T>
+inline ElementStress<T> nonlinear_stress(const QuadReference& r, const StationScale<T>& st, const ElementKinematics<T>& k) {
+  ElementStress<T> out;
+  T f1[3], f2[3], f3[3];
+  f1[0] = st.cos_q + k.h1[0], f1[1] = k.h1[1], f1[2] = st.sin_q + k.h1[2];
+  f2[0] = k.h2[0], f2[1] = 1.0 + k.h2[1], f2[2] = k.h2[2];
+  f3[0] = k.h3[0] - st.sin_q, f3[1] = k.h3[1], f3[2] = st.cos_q + k.h3[2];
+  auto dot3 = [](const T(&a)[3], const T(&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
+  out.strain[0] = 0.5 * (dot3(f1, f1) - 1.0);
+  out.strain[1] = 0.5 * (dot3(f2, f2) - 1.0);
+  out.strain[2] = 0.5 * (dot3(f3, f3) - 1.0);
+  out.strain[3] = 0.5 * dot3(f1, f2);
+  out.strain[4] = 0.5 * dot3(f2, f3);
+  out.strain[5] = 0.5 * dot3(f1, f3);
+  elastic_stress(r.lambda, r.mu, out.strain, out.s);
+  const T(&s)[6] = out.s;
+  for (int i = 0; i < 3; ++i) {
+    out.p1[i] = f1[i] * s[0] + f2[i] * s[3] + f3[i] * s[5];
+    out.p2[i] = f1[i] * s[3] + f2[i] * s[1] + f3[i] * s[4];
+    out.p3[i] = f1[i] * s[5] + f2[i] * s[4] + f3[i] * s[2];
+  }
+  return out;
+}
+
+/// Small strains about the undeformed body (F = Q): the tangent of nonlinear_stress at u = 0, used by the static solver.
+template <class T>
+inline ElementStress<T> linear_stress(const QuadReference& r, const StationScale<T>& st, const ElementKinematics<T>& k) {
+  ElementStress<T> out;
+  T h1[3], h2[3], h3[3];
+  detail::rotate_back(st.cos_q, st.sin_q, k.h1, h1);
+  detail::rotate_back(st.cos_q, st.sin_q, k.h2, h2);
+  detail::rotate_back(st.cos_q, st.sin_q, k.h3, h3);
+  out.strain[0] = h1[0], out.strain[1] = h2[1], out.strain[2] = h3[2];
+  out.strain[3] = 0.5 * (h1[1] + h2[0]);
+  out.strain[4] = 0.5 * (h2[2] + h3[1]);
+  out.strain[5] = 0.5 * (h1[2] + h3[0]);
+  elastic_stress(r.lambda, r.mu, out.strain, out.s);
+  const T(&s)[6] = out.s;
+  const T p1[3] = {s[0], s[3], s[5]}, p2[3] = {s[3], s[1], s[4]}, p3[3] = {s[5], s[4], s[2]};
+  detail::rotate(st.cos_q, st.sin_q, p1, out.p1);
+  detail::rotate(st.cos_q, st.sin_q, p2, out.p2);
+  detail::rotate(st.cos_q, st.sin_q, p3, out.p3);
+  return out;
+}
+
+/// Generalised hourglass forces R K R^T q in place of q; returns the hourglass energy q.Kq / 2. `entry(e)` gives the e-th number of HourglassStiffness.
+template <class T, class Entry>
+inline T hourglass_forces(const Entry& entry, const StationScale<T>& st, ElementKinematics<T>& k) {
+  T e[3], o[3][3];
+  detail::rotate_back(st.cos_r, st.sin_r, k.even, e);
+  for (int m = 0; m < 3; ++m) detail::rotate_back(st.cos_r, st.sin_r, k.odd[m], o[m]);
+  const T a[5] = {e[1], e[2], o[0][0], o[1][0], o[2][0]};
+  const T b[7] = {e[0], o[0][1], o[0][2], o[1][1], o[1][2], o[2][1], o[2][2]};
+  T ka[5], kb[7];
+  detail::symmetric_product<5>(entry, 0, a, ka);
+  detail::symmetric_product<7>(entry, 15, b, kb);
+  T energy{};
+  for (int i = 0; i < 5; ++i) energy += a[i] * ka[i];
+  for (int i = 0; i < 7; ++i) energy += b[i] * kb[i];
+  const T fe[3] = {kb[0], ka[0], ka[1]};
+  detail::rotate(st.cos_r, st.sin_r, fe, k.even);
+  for (int m = 0; m < 3; ++m) {
+    const T fo[3] = {ka[2 + m], kb[1 + 2 * m], kb[2 + 2 * m]};
+    detail::rotate(st.cos_r, st.sin_r, fo, k.odd[m]);
+  }
+  return 0.5 * energy;
+}
+
+/// Nodal internal forces as sums and differences: corner +a_k gets sf_k + df_k, corner -a_k gets sf_k - df_k. `k` holds generalised hourglass forces.
+template <class T>
+inline void element_forces(const QuadReference& r, const StationScale<T>& st, const ElementStress<T>& stress, const ElementKinematics<T>& k, T (&sf)[4][3], T (&df)[4][3]) {
+  for (int i = 0; i < 3; ++i) {
+    const T t1 = (r.volume * st.v1) * stress.p1[i] - (r.odd[0] * k.odd[0][i] + r.odd[1] * k.odd[1][i] + r.odd[2] * k.odd[2][i]);
+    const T t2 = (r.volume * st.v2) * stress.p2[i] - r.even_y * k.even[i];
+    const T t3 = (r.volume * st.v3) * stress.p3[i] - r.even_z * k.even[i];
+    const T plus = k.odd[0][i] + k.odd[1][i], minus = k.odd[0][i] - k.odd[1][i];
+    const T odd[4] = {k.odd[2][i] - plus, minus - k.odd[2][i], plus + k.odd[2][i], -(minus + k.odd[2][i])};
+    for (int c = 0; c < 4; ++c) {
+      sf[c][i] = r.gy[c] * t2 + r.gz[c] * t3 + (c % 2 == 0 ? k.even[i] : -k.even[i]);
+      df[c][i] = r.gx[c] * t1 + odd[c];
+    }
+  }
+}
+
+}  // namespace railstrata

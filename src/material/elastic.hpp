@@ -1,0 +1,52 @@
+#pragma once
+// Isotropic linear elasticity as pointwise functions: no arrays, no memory, any number type.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/vec.hpp"
+
+namespace railstrata {
+
+/// Lamé constants [Pa] and density [kg/m³] of one material.
+struct Elastic {
+  double lambda = 0, mu = 0, density = 0;
+  double p_wave_modulus() const { return lambda + 2 * mu; }
+};
+
+/// From Young's modulus E [Pa] and Poisson's ratio nu in (-1, 0.5).
+inline Elastic elastic(double young, double poisson, double density) {
+  return {young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson)), density};
+}
+inline double young(const Elastic& m) { return m.mu * (3 * m.lambda + 2 * m.mu) / (m.lambda + m.mu); }
+inline double poisson(const Elastic& m) { return m.lambda / (2 * (m.lambda + m.mu)); }
+
+/// Stress from strain, S = lambda tr(E) I + 2 mu E; components xx, yy, zz, xy, yz, xz. With E the Green strain and S the second Piola–Kirchhoff stress this is the
+/// St. Venant–Kirchhoff law. [SimoHughes1998]
+template <class T>
+inline void elastic_stress(double lambda, double mu, const T (&strain)[6], T (&stress)[6]) {
+  const T pressure = lambda * (strain[0] + strain[1] + strain[2]);
+  for (int i = 0; i < 3; ++i) stress[i] = pressure + 2 * mu * strain[i];
+  for (int i = 3; i < 6; ++i) stress[i] = 2 * mu * strain[i];
+}
+
+/// von Mises stress, sqrt(3/2 s:s).
+inline double von_mises(const Sym3& s) {
+  const double a = s.xx - s.yy, b = s.yy - s.zz, c = s.zz - s.xx;
+  return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s.xy * s.xy + s.yz * s.yz + s.xz * s.xz));
+}
+
+/// Principal stresses, largest first (trigonometric solution of the characteristic equation; exact for repeated roots).
+inline Vec3 principal_stresses(const Sym3& s) {
+  const double mean = (s.xx + s.yy + s.zz) / 3;
+  const double xx = s.xx - mean, yy = s.yy - mean, zz = s.zz - mean;
+  const double j2 = 0.5 * (xx * xx + yy * yy + zz * zz) + s.xy * s.xy + s.yz * s.yz + s.xz * s.xz;
+  if (j2 <= 0) return {mean, mean, mean};
+  const double j3 = xx * (yy * zz - s.yz * s.yz) - s.xy * (s.xy * zz - s.yz * s.xz) + s.xz * (s.xy * s.yz - yy * s.xz);
+  const double r = std::sqrt(j2 / 3);
+  const double angle = std::acos(std::clamp(j3 / (2 * r * r * r), -1.0, 1.0)) / 3;
+  const double turn = 2 * std::numbers::pi / 3;
+  return {mean + 2 * r * std::cos(angle), mean + 2 * r * std::cos(angle - turn), mean + 2 * r * std::cos(angle + turn)};
+}
+
+}  // namespace railstrata
