@@ -1,0 +1,111 @@
+#include "mesh/grading.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace railstrata {
+
+std::vector<double> graded_points(double a, double b, const std::function<double(double)>& size) {
+  constexpr int kSamples = 400;
+  std::vector<double> count(kSamples + 1, 0.0);
+  const double dx = (b - a) / kSamples;
+  for (int i = 0; i < kSamples; ++i) count[i + 1] = count[i] + dx / size(a + (i + 0.5) * dx);
+  const int n = std::max(1, static_cast<int>(std::ceil(count.back() - 0.25)));
+
+  std::vector<double> points{a};
+  for (int k = 1, i = 0; k < n; ++k) {
+    const double wanted = count.back() * k / n;
+    while (count[i + 1] < wanted) ++i;
+    points.push_back(a + dx * (i + (wanted - count[i]) / (count[i + 1] - count[i])));
+  }
+  points.push_back(b);
+  return points;
+}
+
+std::vector<double> growing_spacings(double length, double first, double ratio, double largest) {
+  std::vector<double> out;
+  double rest = length, step = first;
+  while (step * ratio < largest && rest > 2.7 * step * ratio) {
+    step *= ratio;
+    out.push_back(step);
+    rest -= step;
+  }
+  const double limit = std::min(largest, step * ratio);
+  const int n = std::max(1, static_cast<int>(std::ceil(rest / limit - 1e-9)));
+  out.insert(out.end(), n, rest / n);
+  return out;
+}
+
+bool snap_interior(std::vector<double>& points, double value) {
+  const auto nearest = std::min_element(points.begin(), points.end(), [&](double p, double q) { return std::abs(p - value) < std::abs(q - value); });
+  if (nearest == points.begin() || nearest == points.end() - 1) return false;
+  const double a = points.front(), b = points.back(), old = *nearest;
+  for (double& p : points) p = p <= old ? a + (p - a) * (value - a) / (old - a) : b - (b - p) * (b - value) / (b - old);
+  *nearest = value;
+  return true;
+}
+
+namespace {
+
+int coarse_steps(double begin, double end, double coarse) { return std::max(1, static_cast<int>(std::ceil((end - begin) / coarse - 1e-6))); }
+
+void append_run(StationPair& stations, const std::vector<double>& spacings) {
+  double at = stations.fine.back();
+  for (double d : spacings) {
+    at += d;
+    stations.fine.push_back(at);
+    stations.coarse.push_back(at);
+  }
+}
+
+void append_fine_range(StationPair& stations, double begin, int coarse_count, double step, int ratio) {
+  stations.fine_begin = begin;
+  stations.fine_end = begin + coarse_count * ratio * step;
+  for (int i = 0; i <= coarse_count * ratio; ++i) {
+    const double at = begin + i * step;
+    stations.fine.push_back(at);
+    if (i % ratio == 0) stations.coarse.push_back(at);
+  }
+}
+
+}  // namespace
+
+StationPair extruded_stations(double begin, double end, double step, int ratio, double end_length, double largest) {
+  StationPair out;
+  const double coarse = ratio * step;
+  const std::vector<double> run = growing_spacings(end_length, coarse, kStationGrowth, largest);
+  double at = begin;
+  for (double d : run) {
+    at -= d;
+    out.fine.push_back(at);
+  }
+  std::reverse(out.fine.begin(), out.fine.end());
+  out.coarse = out.fine;
+  append_fine_range(out, begin, coarse_steps(begin, end, coarse), step, ratio);
+  append_run(out, run);
+  return out;
+}
+
+StationPair ring_stations(double begin, double end, double step, int ratio, double largest) {
+  StationPair out;
+  const double coarse = ratio * step;
+  append_fine_range(out, begin, coarse_steps(begin, end, coarse), step, ratio);
+  const double rest = 2 * std::numbers::pi - (out.fine_end - out.fine_begin);
+  std::vector<double> run = growing_spacings(rest / 2, coarse, kStationGrowth, largest);
+  append_run(out, run);
+  std::reverse(run.begin(), run.end());
+  run.pop_back();  // the last element closes the ring
+  append_run(out, run);
+  return out;
+}
+
+std::vector<double> thinned(const std::vector<double>& stations, double largest) {
+  std::vector<double> out{stations.front()};
+  for (std::size_t i = 1; i + 1 < stations.size(); ++i)
+    if (stations[i + 1] - out.back() > largest * (1 + 1e-9)) out.push_back(stations[i]);
+  out.push_back(stations.back());
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,234 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/faults.hpp"
+#include "mesh/contact_band.hpp"
+#include "mesh/grading.hpp"
+#include "mesh/offset_frame.hpp"
+#include "mesh/rail_sections.hpp"
+
+namespace railstrata {
+
+namespace {
+
+constexpr double kCornerAngle = std::numbers::pi / 4;
+constexpr double kFlankDepth = 22e-3;     // of the band's ends below the crown
+constexpr double kBandOfRadius = 0.81;    // deepest band / smallest head radius: the columns of the corner keep a fifth of their width
+constexpr double kArcPerColumn = 0.46;    // rad, of the smallest radius
+
+/// Columns of the band beside the fine ones on one side, as distances from the fine columns' edge.
+struct SideColumns {
+  std::vector<double> distance;
+  std::size_t corner = 0;
+};
+
+SideColumns side_columns(double to_corner, double to_end, double h, double largest, const std::vector<double>& edges) {
+  const auto size = [&](double d) { return std::min(largest, kColumnStart * h + kColumnSlope * d); };
+  for (double e : edges)
+    if (std::abs(e - to_corner) < 0.35 * size(to_corner)) to_corner = e;
+  SideColumns out;
+  std::vector<double> upper{0.0};
+  if (to_corner > 0.5 * h) upper = graded_points(0, to_corner, size);
+  else to_corner = 0;
+  std::vector<double> lower = graded_points(to_corner, to_end, size);
+  while (lower.size() < 3) lower.insert(lower.begin() + 1, 0.5 * (lower[0] + lower[1]));
+  for (double e : edges) {
+    if (e > 0.5 * h && e < to_corner) snap_interior(upper, e);
+    if (e > to_corner && e < to_end) snap_interior(lower, e);
+  }
+  out.distance = upper;
+  out.corner = upper.size() - 1;
+  out.distance.insert(out.distance.end(), lower.begin() + 1, lower.end());
+  return out;
+}
+
+/// Arc length at which the flank is kFlankDepth below the crown, or the profile's end.
+double flank_end(const Profile& profile, double from, double last) {
+  double shallow = from, deep = last;
+  if (profile.at(deep).position.z > -kFlankDepth) return deep;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (shallow + deep);
+    (profile.at(middle).position.z > -kFlankDepth ? shallow : deep) = middle;
+  }
+  return deep;
+}
+
+/// The side's columns that carry the head's boundary: `flank` intervals from the corner to the end, then towards the fine columns chords of at least `element`.
+std::vector<double> boundary_distances(const Profile& profile, double edge, double sign, const SideColumns& side, double depth, double element, std::size_t flank) {
+  std::vector<double> out;  // from the end inward
+  const std::size_t last = side.distance.size() - 1;
+  for (std::size_t i = 0; i <= flank; ++i) out.push_back(side.distance[last - std::lround(static_cast<double>(i * (last - side.corner)) / static_cast<double>(flank))]);
+  if (side.corner == 0) return out;
+  std::vector<double> inner{0.0};
+  Vec2 previous = offset_point(profile, edge, depth);
+  for (std::size_t k = 1; k < side.corner; ++k) {
+    const Vec2 p = offset_point(profile, edge + sign * side.distance[k], depth);
+    if (norm(p - previous) < element) continue;
+    inner.push_back(side.distance[k]);
+    previous = p;
+  }
+  if (inner.size() > 1 && norm(offset_point(profile, edge + sign * side.distance[side.corner], depth) - previous) < 0.5 * element) inner.pop_back();
+  out.insert(out.end(), inner.rbegin(), inner.rend());
+  return out;
+}
+
+struct RailBand {
+  std::vector<double> left, fine, right;  // arc lengths, each increasing
+  SideColumns left_side, right_side;
+  BandRows rows, side_rows;
+  double element = 0;  // size of the elements under the band
+};
+
+RailBand rail_band(const Profile& profile, const RailMeshSpec& spec, const MeshSizes& sizes) {
+  RailBand band;
+  const double h = sizes.element;
+  const std::pair corners = running_range(profile, kCornerAngle);
+  band.fine = fine_columns(spec.contact_s, h, sizes.fine_width, corners, "rail");
+  const double begin = flank_end(profile, corners.first, profile.s_min()), end = flank_end(profile, corners.second, profile.s_max());
+  const double radius = smallest_convex_radius(profile, begin, end);
+  band.rows = band_rows(spec.layers, h, sizes.fine_depth, kBandOfRadius * radius, "head");
+  const double depth = band.rows.depth.back();
+  band.side_rows = merged_rows(band.rows, side_row_height(sizes, depth));
+  band.element = under_band_size(sizes, depth);
+
+  const double low = band.fine.front(), high = band.fine.back();
+  const double largest = std::max(h, std::min(0.5 * sizes.largest, kArcPerColumn * radius));
+  std::vector<double> left_edges, right_edges;
+  for (double s : layer_edges(profile, spec.layers, "head")) {
+    left_edges.push_back(low - s);
+    right_edges.push_back(s - high);
+  }
+  band.left_side = side_columns(low - corners.first, low - begin, h, largest, left_edges);
+  band.right_side = side_columns(corners.second - high, end - high, h, largest, right_edges);
+  for (double d : band.left_side.distance) band.left.push_back(low - d);
+  std::reverse(band.left.begin(), band.left.end());
+  for (double d : band.right_side.distance) band.right.push_back(high + d);
+  return band;
+}
+
+HeadBoundary head_boundary(const Profile& profile, const RailBand& band) {
+  const double depth = band.rows.depth.back();
+  const SideColumns &left = band.left_side, &right = band.right_side;
+  const Vec2 end = offset_point(profile, band.right.back(), depth), corner = offset_point(profile, band.fine.back() + right.distance[right.corner], depth);
+  const auto wanted = static_cast<std::size_t>(std::max(2.0, std::round(norm(end - corner) / band.element)));
+  const std::size_t flank = std::min({wanted, left.distance.size() - 1 - left.corner, right.distance.size() - 1 - right.corner});
+
+  std::vector<double> s;
+  for (double d : boundary_distances(profile, band.fine.front(), -1, left, depth, band.element, flank)) s.push_back(band.fine.front() - d);
+  const std::vector<double> middle = fine_subset(band.fine, band.element);
+  s.insert(s.end(), middle.begin() + 1, middle.end());
+  std::vector<double> beyond = boundary_distances(profile, band.fine.back(), 1, right, depth, band.element, flank);
+  for (std::size_t i = beyond.size() - 1; i-- > 0;) s.push_back(band.fine.back() + beyond[i]);
+
+  HeadBoundary out;
+  for (double at : s) out.under_band.push_back(offset_point(profile, at, depth));
+  out.left_corner = flank;
+  out.right_corner = s.size() - 1 - flank;
+  out.left_flank = profile.at(band.left.front()).position;
+  out.right_flank = profile.at(band.right.back()).position;
+  if (out.under_band[out.right_corner].z - out.under_band.back().z < 2e-3 || out.under_band[out.left_corner].z - out.under_band.front().z < 2e-3)
+    throw CaseError(fmt::format("the rail profile '{}' ends too high on its flanks", profile.name()), "give it down to 20 mm below the crown, or use rail_shape = \"block\"");
+  return out;
+}
+
+struct BandBlock {
+  Block block;
+  std::vector<NodeLine> rows;
+};
+
+BandBlock band_block(const char* name, const Profile& profile, const std::vector<double>& s, const BandRows& rows, const std::vector<LayerMesh>& layers,
+                     const std::vector<Vec2>& seat, const std::vector<double>& stations) {
+  BandBlock out{{name, {}, {stations, false}}, {}};
+  out.rows = add_band(out.block.section, profile, s, rows, layers);
+  seat_on_line(out.block.section, out.rows, seat);
+  return out;
+}
+
+enum RailBlock { kCap, kLeftShell, kRightShell, kHead, kFoot };
+
+void tie_rail(SweptBody& body, const BandBlock& cap, const BandBlock& left, const BandBlock& right, const HeadSection& head, const FootSection& foot) {
+  NodeLine cap_left = column_of(cap.rows, 0), cap_right = column_of(cap.rows, cap.rows[0].size() - 1);
+  cap_left.pop_back();
+  cap_right.pop_back();
+  tie_to_line(body, kCap, cap_left, kLeftShell, column_of(left.rows, left.rows[0].size() - 1));
+  tie_to_line(body, kCap, cap_right, kRightShell, column_of(right.rows, 0));
+  tie_to_line(body, kCap, cap.rows.back(), kHead, head.under_band);
+
+  NodeLine left_end = column_of(left.rows, 0), right_end = column_of(right.rows, right.rows[0].size() - 1);
+  left_end.pop_back();
+  right_end.pop_back();
+  tie_to_line(body, kLeftShell, left_end, kHead, head.left_face);
+  tie_to_line(body, kLeftShell, left.rows.back(), kHead, head.under_band);
+  tie_to_line(body, kRightShell, right_end, kHead, head.right_face);
+  tie_to_line(body, kRightShell, right.rows.back(), kHead, head.under_band);
+
+  tie_to_line(body, kHead, head.web_line, kFoot, foot.web_line);
+}
+
+void fill_rail(SweptBody& body, const Profile& profile, const RailMeshSpec& spec, const MeshSizes& sizes, const StationPair& stations) {
+  const RailBand band = rail_band(profile, spec, sizes);
+  const HeadBoundary boundary = head_boundary(profile, band);
+  const LowerOutline lower = lower_outline(rail_outline(profile));
+  HeadSection head = head_section(boundary, lower, band.element);
+  FootSection foot = foot_section(lower, sizes.largest);
+  BandBlock cap = band_block("cap", profile, band.fine, band.rows, spec.layers, boundary.under_band, stations.fine);
+  BandBlock left = band_block("gauge shell", profile, band.left, band.side_rows, spec.layers, boundary.under_band, stations.coarse);
+  BandBlock right = band_block("field shell", profile, band.right, band.side_rows, spec.layers, boundary.under_band, stations.coarse);
+
+  body.contact = {kCap, static_cast<int>(band.fine.size()) - 1, band.rows.count(), band.fine, band.rows.depth, stations.fine_begin, stations.fine_end};
+  body.blocks = {cap.block, left.block, right.block, {"head", head.section, {stations.coarse, false}},
+                 {"foot", foot.section, {thinned(stations.coarse, sizes.largest), false}}};
+  tie_rail(body, cap, left, right, head, foot);
+  for (int node : foot.base) body.held.push_back({kFoot, node});
+}
+
+void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spec, const MeshSizes& sizes, const StationPair& stations) {
+  const double half = 0.5 * spec.block_width;
+  if (half > std::min(-profile.y_min(), profile.y_max()))
+    throw CaseError(fmt::format("rail block wider than the rail's profile: {:g} mm", 1e3 * spec.block_width), "reduce block_width");
+  const double low = profile.s_at_y(-half), high = profile.s_at_y(half);
+  const double end = std::max(4e-3, sizes.element);
+
+  OffsetFrameSpec frame;
+  frame.name = "block";
+  frame.carrier = "block";
+  frame.fine_range = {low + end, high - end};
+  frame.tread_range = frame.fine_range;
+  frame.band_limit = std::min(0.4 * spec.block_height, kBandOfRadius * smallest_convex_radius(profile, low, high));
+  frame.floor = -spec.block_height;
+  frame.layered_ends = true;
+  const auto side = [&](double s, double y) {
+    return [&profile, s, y](const std::vector<double>& depth) {
+      const ProfilePoint p = profile.at(s);
+      std::vector<Vec2> line;
+      for (double d : depth) line.push_back({y, p.position.z - d / p.outward.z});
+      return line;
+    };
+  };
+  frame.left_top = [&](double) { return std::vector<Vec2>{profile.at(low).position}; };
+  frame.right_top = [&](double) { return std::vector<Vec2>{profile.at(high).position}; };
+  frame.left_side = side(low, -half);
+  frame.right_side = side(high, half);
+  const FrameNodes nodes = add_offset_frame(body, profile, spec.contact_s, spec.layers, sizes, frame, {stations.fine, false}, {stations.coarse, false}, stations);
+  for (int node : nodes.floor) body.held.push_back({nodes.block, node});
+}
+
+}  // namespace
+
+SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const RailMeshSpec& spec, const MeshSizes& sizes) {
+  SweptBody body;
+  body.name = "rail";
+  body.kind = SweepKind::extrude;
+  body.materials = material_names(spec.layers);
+  const StationPair stations = extruded_stations(spec.x_begin, spec.x_end, sizes.element, sizes.coarse_ratio, spec.end_length, far_spacing(sizes));
+  if (spec.shape == RailShape::rail) fill_rail(body, profile, spec, sizes, stations);
+  else fill_block(body, profile, spec, sizes, stations);
+  for (Block& block : body.blocks)
+    for (Vec2& p : block.section.nodes) p = rail_to_model(track, p);
+  return body;
+}
+
+}  // namespace railstrata
