@@ -1,0 +1,118 @@
+#include "bem/influence_operator.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace railstrata {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+std::vector<double> component(const std::vector<RectangleInfluence>& table, double RectangleInfluence::*member) {
+  std::vector<double> out(table.size());
+  std::transform(table.begin(), table.end(), out.begin(), [&](const RectangleInfluence& t) { return t.*member; });
+  return out;
+}
+
+bool couples_at_all(const SurfaceCompliance& pair) {
+  double rz = 0, zz = 0;
+  for (const ComplianceImage& image : pair) rz = std::max(rz, std::abs(image.c.rz)), zz = std::max(zz, std::abs(image.c.zz));
+  return rz > 1e-12 * zz;
+}
+
+}  // namespace
+
+InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy) : fft_(nx, ny), dx_(dx), dy_(dy) {
+  const auto table = rectangle_influence_table(pair, fft_.mx() / 2 + 1, fft_.my() / 2 + 1, dx, dy);
+  using I = RectangleInfluence;
+  nn_hat_ = fft_.spectrum(component(table, &I::nn), 1, 1);
+  xx_hat_ = fft_.spectrum(component(table, &I::xx), 1, 1);
+  xy_hat_ = fft_.spectrum(component(table, &I::xy), -1, -1);
+  yy_hat_ = fft_.spectrum(component(table, &I::yy), 1, 1);
+  if (couples_at_all(pair)) {
+    nx_hat_ = fft_.spectrum(component(table, &I::nx), -1, 1);
+    ny_hat_ = fft_.spectrum(component(table, &I::ny), 1, -1);
+  }
+  const std::size_t n = fft_.spectrum_size();
+  for (auto* v : {&inv_nn_, &inv_xx_, &inv_xy_, &inv_yy_}) v->assign(n, 0.0);
+  const double points = static_cast<double>(fft_.mx()) * fft_.my(), scale = 1 / (points * points);
+  const double floor_nn = 1e-6 * *std::max_element(nn_hat_.begin(), nn_hat_.end());
+  for (std::size_t k = 0; k < n; ++k) {
+    inv_nn_[k] = scale / std::max(nn_hat_[k], floor_nn);
+    const double trace = 0.5 * (xx_hat_[k] + yy_hat_[k]);
+    if (trace <= 0) continue;  // padding columns of the last block
+    const double det = std::max(xx_hat_[k] * yy_hat_[k] - xy_hat_[k] * xy_hat_[k], 1e-3 * trace * trace);
+    inv_xx_[k] = scale * yy_hat_[k] / det;
+    inv_xy_[k] = -scale * xy_hat_[k] / det;
+    inv_yy_[k] = scale * xx_hat_[k] / det;
+  }
+}
+
+namespace {
+
+struct ScalarProduct {
+  const double* s;
+  void operator()(std::size_t first, int count, Complex* a, Complex*) const {
+    for (int k = 0; k < count; ++k) a[k] *= s[first + static_cast<std::size_t>(k)];
+  }
+};
+
+struct SymmetricProduct {
+  const double *xx, *xy, *yy;
+  void operator()(std::size_t first, int count, Complex* a, Complex* b) const {
+    for (int k = 0; k < count; ++k) {
+      const std::size_t i = first + static_cast<std::size_t>(k);
+      const Complex u = a[k], v = b[k];
+      a[k] = xx[i] * u + xy[i] * v;
+      b[k] = xy[i] * u + yy[i] * v;
+    }
+  }
+};
+
+Complex times_i(Complex z) { return {-z.imag(), z.real()}; }
+
+}  // namespace
+
+void InfluenceOperator::normal(const double* p, double* closing) const { fft_.apply({p}, {closing}, nx(), ScalarProduct{nn_hat_.data()}); }
+
+void InfluenceOperator::precondition_normal(const double* closing, double* p) const { fft_.apply({closing}, {p}, nx(), ScalarProduct{inv_nn_.data()}); }
+
+void InfluenceOperator::tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const {
+  fft_.apply({q_x, q_y}, {u_x, u_y}, rows, SymmetricProduct{xx_hat_.data(), xy_hat_.data(), yy_hat_.data()});
+}
+
+void InfluenceOperator::precondition_tangential(const double* u_x, const double* u_y, double* q_x, double* q_y) const {
+  fft_.apply({u_x, u_y}, {q_x, q_y}, nx(), SymmetricProduct{inv_xx_.data(), inv_xy_.data(), inv_yy_.data()});
+}
+
+void InfluenceOperator::tangential_from_pressure(const double* p, double* u_x, double* u_y, int rows) const {
+  if (!couples()) {
+    std::fill(u_x, u_x + static_cast<std::ptrdiff_t>(rows) * ny(), 0.0);
+    std::fill(u_y, u_y + static_cast<std::ptrdiff_t>(rows) * ny(), 0.0);
+    return;
+  }
+  fft_.apply({p}, {u_x, u_y}, rows, [this](std::size_t first, int count, Complex* a, Complex* b) {
+    for (int k = 0; k < count; ++k) {
+      const std::size_t i = first + static_cast<std::size_t>(k);
+      const Complex ip = times_i(a[k]);
+      a[k] = -nx_hat_[i] * ip;
+      b[k] = -ny_hat_[i] * ip;
+    }
+  });
+}
+
+void InfluenceOperator::normal_from_traction(const double* q_x, const double* q_y, double* closing) const {
+  if (!couples()) {
+    std::fill(closing, closing + static_cast<std::ptrdiff_t>(nx()) * ny(), 0.0);
+    return;
+  }
+  fft_.apply({q_x, q_y}, {closing}, nx(), [this](std::size_t first, int count, Complex* a, Complex* b) {
+    for (int k = 0; k < count; ++k) {
+      const std::size_t i = first + static_cast<std::size_t>(k);
+      a[k] = times_i(nx_hat_[i] * a[k] + ny_hat_[i] * b[k]);
+    }
+  });
+}
+
+}  // namespace railstrata
