@@ -131,7 +131,7 @@ std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerM
 }
 
 Vec2 offset_point(const Profile& profile, double s, double depth) {
-  const ProfilePoint p = profile.at(s);
+  const ProfilePoint p = profile.at(std::clamp(s, profile.s_min(), profile.s_max()));
   return p.position - depth * p.outward;
 }
 

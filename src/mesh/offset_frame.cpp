@@ -116,7 +116,7 @@ FrameNodes add_offset_frame(SweptBody& body, const Profile& profile, double cont
   for (double y : floor_positions(frame, band_bottom, spec.floor_breaks)) floor_points.push_back({y, spec.floor});
   const NodeLine floor = add_nodes(frame, floor_points);
   const double below = std::abs(spec.floor - frame.nodes[seat[seat.size() / 2]].z);
-  std::vector<double> fractions = graded_points(0, below, [&](double d) { return std::min(1.5 * sizes.largest, element + 0.25 * d); });
+  std::vector<double> fractions = graded_points(0, below, [&](double d) { return std::min(1.5 * sizes.largest, element + 0.33 * d); });
   for (double& f : fractions) f /= below;
   fractions = {fractions.begin() + 1, fractions.end() - 1};
   const NodeLine west = add_straight(frame, band_bottom.front(), floor.front(), fractions), east = add_straight(frame, band_bottom.back(), floor.back(), fractions);

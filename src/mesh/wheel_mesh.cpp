@@ -30,7 +30,7 @@ double left_corner(const Profile& profile, double tread_end) {
 std::vector<Vec2> surface_points(const Profile& profile, double from, double to, double size) {
   const int n = std::max(1, static_cast<int>(std::lround((to - from) / size)));
   std::vector<Vec2> out;
-  for (int i = 0; i <= n; ++i) out.push_back(profile.at(from + (to - from) * i / n).position);
+  for (int i = 0; i <= n; ++i) out.push_back(offset_point(profile, from + (to - from) * i / n, 0));
   return out;
 }
 
@@ -38,7 +38,7 @@ std::vector<Vec2> surface_points(const Profile& profile, double from, double to,
 std::vector<Vec2> side_points(const Profile& profile, double s, double end, double z, std::size_t count) {
   constexpr int kPieces = 100;
   std::vector<Vec2> line;
-  for (int i = 0; i <= kPieces; ++i) line.push_back(profile.at(s + (end - s) * i / kPieces).position);
+  for (int i = 0; i <= kPieces; ++i) line.push_back(offset_point(profile, s + (end - s) * i / kPieces, 0));
   line.push_back({line.back().y, z});
   return resampled(line, static_cast<int>(count) - 1);
 }
