@@ -1,0 +1,105 @@
+#include "halfspace/layered.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+
+#include "core/faults.hpp"
+#include "halfspace/layer_waves.hpp"
+
+namespace railstrata {
+
+CompliancePoint layered_compliance_at(const LayeredHalfSpace& body, double k) {
+  const LayerWaves waves(body, k);
+  const WaveState s = waves.state(0, 0);
+  const Eigen::Matrix2d displacement = s.topRows<2>();                             // U, W
+  const Eigen::Matrix2d by_traction = -displacement * s.bottomRows<2>().inverse();  // columns: tangential (T), normal (S)
+  const ShearState t = waves.shear_state(0, 0);
+  return {by_traction(1, 1), 0.5 * (by_traction(0, 1) + by_traction(1, 0)), by_traction(0, 0), -t[0] / t[1]};
+}
+
+namespace {
+
+using Four = Eigen::Matrix<double, 1, 4>;
+Four four(const CompliancePoint& c) { return {c.zz, c.rz, c.rr, c.tt}; }
+
+LayeredHalfSpace merged(const LayeredHalfSpace& body) {
+  LayeredHalfSpace out{{}, body.substrate};
+  for (const HalfSpaceLayer& layer : body.layers) {
+    if (layer.thickness <= 0) continue;
+    if (!out.layers.empty() && out.layers.back().material == layer.material)
+      out.layers.back().thickness += layer.thickness;
+    else
+      out.layers.push_back(layer);
+  }
+  while (!out.layers.empty() && out.layers.back().material == out.substrate) out.layers.pop_back();
+  return out;
+}
+
+struct Samples {
+  Eigen::VectorXd k;
+  Eigen::Matrix<double, Eigen::Dynamic, 4> c;
+};
+Samples sample(const LayeredHalfSpace& body, double k_low, double k_high, int n) {
+  Samples s{Eigen::VectorXd(n), Eigen::Matrix<double, Eigen::Dynamic, 4>(n, 4)};
+  for (int i = 0; i < n; ++i) {
+    s.k[i] = k_low * std::pow(k_high / k_low, static_cast<double>(i) / (n - 1));
+    s.c.row(i) = four(layered_compliance_at(body, s.k[i]));
+  }
+  return s;
+}
+
+Eigen::MatrixXd exponentials(const Eigen::VectorXd& k, const Eigen::VectorXd& depth) { return (-(k * depth.transpose())).array().exp().matrix(); }
+
+}  // namespace
+
+SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double tolerance) {
+  const LayeredHalfSpace body = merged(given);
+  if (body.layers.empty()) return homogeneous_compliance(body.substrate);
+  double total = 0, thinnest = body.layers.front().thickness;
+  for (const HalfSpaceLayer& l : body.layers) total += l.thickness, thinnest = std::min(thinnest, l.thickness);
+
+  SurfaceCompliance out = homogeneous_compliance(body.layers.front().material);
+  const Four top = four(out[0].c);
+  const double k_low = 1e-5 / total, k_high = 60 / thinnest;
+  const Samples fit = sample(body, k_low, k_high, 400), check = sample(body, k_low, k_high, 1013);
+  double best = 0;
+  for (double ratio : {1.9, 1.6, 1.4, 1.25}) {
+    const double nearest = 0.4 * thinnest, farthest = 2000 * total;
+    const int n = 1 + static_cast<int>(std::log(farthest / nearest) / std::log(ratio));
+    Eigen::VectorXd depth(n);
+    for (int j = 0; j < n; ++j) depth[j] = nearest * std::pow(ratio, j);
+    // relative to the compliance itself: a soft layer's 1/k is as exact as the stiff substrate's
+    const Eigen::VectorXd weight = fit.c.col(0).cwiseInverse();
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
+    qr.setThreshold(1e-12);
+    qr.compute(weight.asDiagonal() * exponentials(fit.k, depth));
+    const Eigen::Matrix<double, Eigen::Dynamic, 4> coefficient = qr.solve(weight.asDiagonal() * (fit.c.rowwise() - top));
+    const Eigen::Matrix<double, Eigen::Dynamic, 4> deviation = (check.c.rowwise() - top) - exponentials(check.k, depth) * coefficient;
+    best = (check.c.col(0).cwiseInverse().asDiagonal() * deviation).cwiseAbs().maxCoeff();
+    if (best > tolerance) continue;
+    for (int j = 0; j < n; ++j) out.push_back({depth[j], {coefficient(j, 0), coefficient(j, 1), coefficient(j, 2), coefficient(j, 3)}});
+    return out;
+  }
+  throw NumericalError("the compliance of the layer stack could be represented only to a relative deviation of " + std::to_string(best));
+}
+
+std::vector<HalfSpaceLayer> cut_into_layers(const std::vector<GradedPoint>& table, double tolerance) {
+  if (table.size() < 2 || table.front().depth != 0) throw CaseError("a graded modulus needs at least two depths, the first 0", "add rows to the table");
+  std::vector<HalfSpaceLayer> layers;
+  for (std::size_t i = 0; i + 1 < table.size(); ++i) {
+    const GradedPoint &a = table[i], &b = table[i + 1];
+    if (!(b.depth > a.depth)) throw CaseError("the depths of a graded modulus must increase", "sort the rows by depth");
+    const double change = std::abs(std::log(b.material.young / a.material.young));
+    const int pieces = std::max({1, static_cast<int>(std::ceil(change / std::log1p(tolerance))), static_cast<int>(std::ceil(std::abs(b.material.poisson - a.material.poisson) / tolerance))});
+    for (int j = 0; j < pieces; ++j) {
+      const double t = (j + 0.5) / pieces;
+      layers.push_back({(b.depth - a.depth) / pieces,
+                        {a.material.young + t * (b.material.young - a.material.young), a.material.poisson + t * (b.material.poisson - a.material.poisson)}});
+    }
+  }
+  return layers;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,39 @@
+#pragma once
+// A half-space of bonded elastic layers.
+//
+// In the Fourier domain every layer carries two decaying and two growing waves in depth; the growing ones are measured from the layer's bottom, so that no exponential
+// exceeds one, and are found from the interface below as reflections of the decaying ones (a recursion from the substrate up). Any thickness, any modulus ratio, also
+// Poisson's ratio 1/2. [ChenEngel1972]
+#include <vector>
+
+#include "halfspace/boussinesq_cerruti.hpp"
+
+namespace railstrata {
+
+struct HalfSpaceLayer {
+  double thickness = 0;  ///< m
+  HalfSpaceMaterial material;
+};
+
+/// Layers from the surface down on a homogeneous substrate. No layers: homogeneous.
+struct LayeredHalfSpace {
+  std::vector<HalfSpaceLayer> layers;
+  HalfSpaceMaterial substrate;
+};
+
+/// The four surface compliances at wave number k > 0 [1/m], times k [1/Pa] (boussinesq_cerruti.hpp).
+CompliancePoint layered_compliance_at(const LayeredHalfSpace& body, double k);
+
+/// The surface compliance as the top material's closed form plus images at depths spread geometrically over the scales of the stack, fitted to layered_compliance_at.
+/// `tolerance`: largest relative deviation of any of the four compliances at any wave number; throws NumericalError if it cannot be met.
+SurfaceCompliance layered_compliance(const LayeredHalfSpace& body, double tolerance = 1e-6);
+
+/// A modulus that varies with depth, given as a table with increasing depths from 0 (linear between, the substrate below the last).
+struct GradedPoint {
+  double depth = 0;
+  HalfSpaceMaterial material;
+};
+/// Cuts the table into layers of constant modulus (its mean over the layer) so that within each the modulus changes by at most the factor 1 + tolerance.
+std::vector<HalfSpaceLayer> cut_into_layers(const std::vector<GradedPoint>& table, double tolerance = 0.02);
+
+}  // namespace railstrata

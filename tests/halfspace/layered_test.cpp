@@ -1,0 +1,104 @@
+#include "halfspace/layered.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "halfspace/layer_waves.hpp"
+
+namespace railstrata {
+namespace {
+
+const HalfSpaceMaterial kSteel{210e9, 0.3};
+
+void expect_close(const CompliancePoint& a, const CompliancePoint& b, double relative) {
+  EXPECT_NEAR(a.zz, b.zz, relative * b.zz);
+  EXPECT_NEAR(a.rz, b.rz, relative * b.zz);
+  EXPECT_NEAR(a.rr, b.rr, relative * b.zz);
+  EXPECT_NEAR(a.tt, b.tt, relative * b.zz);
+}
+
+TEST(Layered, EqualMaterialsGiveTheHomogeneousClosedForm) {
+  const CompliancePoint exact = homogeneous_compliance(kSteel)[0].c;
+  for (double k : {1e-3, 1.0, 1e3, 1e7}) expect_close(layered_compliance_at({{{1e-3, kSteel}, {5e-3, kSteel}}, kSteel}, k), exact, 1e-13);
+}
+
+TEST(Layered, ThinLimitIsTheSubstrateAndThickLimitTheLayer) {
+  const HalfSpaceMaterial layer{4 * 210e9, 0.25};
+  const LayeredHalfSpace body{{{1e-3, layer}}, kSteel};
+  expect_close(layered_compliance_at(body, 1e-6), homogeneous_compliance(kSteel)[0].c, 1e-8);
+  expect_close(layered_compliance_at(body, 1e5), homogeneous_compliance(layer)[0].c, 1e-12);
+}
+
+TEST(Layered, EightEqualSubLayersAreOneLayer) {
+  const HalfSpaceMaterial coat{2.1e9, 0.45};
+  LayeredHalfSpace one{{{2e-3, coat}}, kSteel}, eight{{}, kSteel};
+  for (int i = 0; i < 8; ++i) eight.layers.push_back({0.25e-3, coat});
+  for (double k = 1; k < 1e6; k *= 3) expect_close(layered_compliance_at(eight, k), layered_compliance_at(one, k), 1e-11);
+}
+
+// Incompressible layer on a rigid base: zz k = (sinh 2kh - 2kh)/(2G (cosh 2kh + 1 + 2 (kh)²)), the limit of [Johnson1985 sec. 5.8].
+TEST(Layered, IncompressibleLayerOnANearlyRigidBaseMeetsItsClosedForm) {
+  const HalfSpaceMaterial rubber{3e6, 0.5}, rigid{3e18, 0.3};
+  const double h = 5e-3, G = rubber.shear();
+  for (double kh : {0.3, 1.0, 2.5}) {
+    const double exact = (std::sinh(2 * kh) - 2 * kh) / (std::cosh(2 * kh) + 1 + 2 * kh * kh) / (2 * G);
+    EXPECT_NEAR(layered_compliance_at({{{h, rubber}}, rigid}, kh / h).zz / exact, 1, 1e-8) << kh;
+  }
+}
+
+TEST(Layered, BettiReciprocityOfNormalAndTangentialCompliance) {
+  const LayeredHalfSpace body{{{1e-3, {50e9, 0.1}}, {0.3e-3, {900e9, 0.2}}, {4e-3, {100e9, 0.49}}}, kSteel};
+  for (double k : {10.0, 300.0, 3000.0}) {
+    const WaveState s = LayerWaves(body, k).state(0, 0);
+    const Eigen::Matrix2d u = s.topRows<2>(), t = s.bottomRows<2>();
+    const Eigen::Matrix2d c = u * Eigen::Matrix2d{{t(1, 1), -t(0, 1)}, {-t(1, 0), t(0, 0)}} / (t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0));
+    EXPECT_NEAR(c(0, 1), c(1, 0), 1e-12 * std::abs(c(1, 1))) << k;
+  }
+}
+
+TEST(Layered, StateIsContinuousAcrossInterfacesAndObeysEquilibriumByFiniteDifferences) {
+  const LayeredHalfSpace body{{{1e-3, {50e9, 0.1}}, {0.3e-3, {900e9, 0.2}}, {4e-3, {100e9, 0.49}}}, kSteel};
+  const double k = 700;
+  const LayerWaves waves(body, k);
+  double depth = 0;
+  for (std::size_t l = 0; l < body.layers.size(); ++l) {
+    depth += body.layers[l].thickness;
+    const WaveState above = waves.state(l, depth), below = waves.state(l + 1, depth);
+    const double scale = above.cwiseAbs().maxCoeff();
+    EXPECT_LT((above.topRows<2>() - below.topRows<2>()).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((above - below).cwiseAbs().maxCoeff(), 1e-12 * scale);
+    EXPECT_LT((waves.shear_state(l, depth) - waves.shear_state(l + 1, depth)).cwiseAbs().maxCoeff(), 1e-12 * scale);
+    // dS/dz = k T: force balance across the layer's depth
+    const double z = depth - 0.4 * body.layers[l].thickness, e = 1e-7;
+    const WaveState slope = (waves.state(l, z + e) - waves.state(l, z - e)) / (2 * e);
+    EXPECT_LT((slope.row(3) - k * waves.state(l, z).row(2)).cwiseAbs().maxCoeff(), 1e-6 * k * scale);
+  }
+}
+
+TEST(Layered, ImagesMeetTheRecursionFor1MicrometreTo50MillimetresAndRatios001To100) {
+  for (double h : {1e-6, 1e-3, 50e-3})
+    for (double ratio : {0.01, 0.5, 4.0, 100.0}) {
+      const LayeredHalfSpace body{{{h, {ratio * 210e9, 0.3}}}, kSteel};
+      const SurfaceCompliance images = layered_compliance(body);
+      for (double kh = 3e-5; kh < 50; kh *= 1.31) {
+        CompliancePoint sum;
+        for (const ComplianceImage& i : images) {
+          const double e = std::exp(-kh / h * i.depth);
+          sum = {sum.zz + e * i.c.zz, sum.rz + e * i.c.rz, sum.rr + e * i.c.rr, sum.tt + e * i.c.tt};
+        }
+        expect_close(sum, layered_compliance_at(body, kh / h), 1e-6);
+      }
+    }
+}
+
+TEST(Layered, ImagesMeetAThreeLayerStackAndAGradedOne) {
+  const LayeredHalfSpace stack{{{0.05e-3, {630e9, 0.25}}, {1e-3, {100e9, 0.4}}, {6e-3, {420e9, 0.3}}}, kSteel};
+  EXPECT_NO_THROW(layered_compliance(stack));
+  const LayeredHalfSpace graded{cut_into_layers({{0, {840e9, 0.3}}, {3e-3, {210e9, 0.3}}}, 0.05), kSteel};
+  EXPECT_GT(graded.layers.size(), 20u);
+  EXPECT_NO_THROW(layered_compliance(graded));
+}
+
+}  // namespace
+}  // namespace railstrata
