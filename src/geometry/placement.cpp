@@ -1,0 +1,165 @@
+#include "geometry/placement.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kSearchStep = 0.05e-3;  // m, along the rail
+constexpr double kCandidate = 1e-7;      // m: a minimum this close to the lowest sample may be the lowest of all
+constexpr double kEqual = 1e-12;         // m: gaps closer than this are equal
+
+Vec2 turn(Vec2 p, double tangent) {
+  const double c = 1 / std::hypot(1.0, tangent), s = tangent * c;
+  return {c * p.y - s * p.z, s * p.y + c * p.z};
+}
+
+/// Vertical gap between the wheel, its tape circle at (offset_y, 0), and the canted rail.
+class Gap {
+ public:
+  Gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track, double offset_y)
+      : wheel_(wheel), rail_(rail), track_(track), offset_y_(offset_y), wheel_begin_(wheel.y_min()), wheel_end_(wheel.y_max()) {}
+
+  double wheel_y(double s) const { return rail_to_model(track_, rail_.at(s).position).y - offset_y_; }
+  bool faces_wheel(double s) const {
+    const double y = wheel_y(s);
+    return y >= wheel_begin_ && y <= wheel_end_;
+  }
+  double value(double s) const { return wheel_.height(wheel_y(s)) - rail_to_model(track_, rail_.at(s).position).z; }
+  double derivative(double s) const {
+    const Vec2 t = rail_to_model(track_, rail_.at(s).tangent), w = wheel_.at(wheel_.s_at_y(wheel_y(s))).tangent;
+    return t.y * w.z / w.y - t.z;
+  }
+
+ private:
+  const Profile &wheel_, &rail_;
+  const TrackGeometry& track_;
+  double offset_y_, wheel_begin_, wheel_end_;
+};
+
+/// y of the gauge face in the model frame: where the rail, canted, passes the gauge depth below its highest point, on the gauge side.
+double gauge_face(const Profile& rail, const TrackGeometry& track) {
+  const auto at = [&](double s) { return rail_to_model(track, rail.at(s).position); };
+  double top = -std::numeric_limits<double>::infinity(), top_s = 0;
+  const int n = static_cast<int>(std::ceil((rail.s_max() - rail.s_min()) / kSearchStep));
+  const auto sample = [&](int i) { return rail.s_min() + (rail.s_max() - rail.s_min()) * i / n; };
+  for (int i = 0; i <= n; ++i)
+    if (const double z = at(sample(i)).z; z > top) {
+      top = z;
+      top_s = sample(i);
+    }
+  const double wanted = top - track.gauge_depth;
+  double above = top_s, below = rail.s_min();
+  if (at(below).z > wanted)
+    throw CaseError(fmt::format("the rail profile {} ends {:.1f} mm below its top on the gauge side, above the gauge depth of {:.1f} mm", rail.name(),
+                                1e3 * (top - at(below).z), 1e3 * track.gauge_depth),
+                    "give a profile that reaches further down the gauge face, or a smaller gauge_depth");
+  for (int i = 0; i < 80; ++i) {
+    const double middle = 0.5 * (above + below);
+    (at(middle).z > wanted ? above : below) = middle;
+  }
+  return at(above).y;
+}
+
+double lateral_offset(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
+  if (wheel.primitive() || rail.primitive()) return track.lateral_shift;
+  const double tape_circle = 0.5 * track.back_to_back + track.flange_back_to_tape, rail_axis = 0.5 * track.gauge - gauge_face(rail, track);
+  return tape_circle - rail_axis + track.lateral_shift;
+}
+
+struct Samples {
+  std::vector<double> s, gap;
+};
+
+Samples sample_overlap(const Gap& gap, const Profile& rail) {
+  const double begin = rail.s_at_y(rail.y_min()), end = rail.s_at_y(rail.y_max());
+  const int n = std::max(10, static_cast<int>(std::ceil((end - begin) / kSearchStep)));
+  Samples out;
+  for (int i = 0; i <= n; ++i) {
+    const double s = i == n ? end : begin + (end - begin) * i / n;
+    if (!gap.faces_wheel(s)) continue;
+    out.s.push_back(s);
+    out.gap.push_back(gap.value(s));
+  }
+  return out;
+}
+
+/// Lowest point between two samples: the gap falls before it and rises after it.
+double refine(const Gap& gap, double lo, double centre, double hi) {
+  const double start = gap.value(centre);
+  for (int i = 0; i < 60 && hi - lo > 1e-16; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    (gap.derivative(middle) > 0 ? hi : lo) = middle;
+  }
+  const double found = 0.5 * (lo + hi);
+  return gap.value(found) < start - 1e-16 ? found : centre;
+}
+
+/// Rail arc length of the first contact: the lowest gap; of equal ones that nearest the tape circle.
+double first_contact(const Gap& gap, const Samples& samples) {
+  const double lowest = *std::min_element(samples.gap.begin(), samples.gap.end());
+  double best_s = 0, best_gap = std::numeric_limits<double>::infinity();
+  const auto consider = [&](double s) {
+    const double g = gap.value(s);
+    const bool equal = std::abs(g - best_gap) <= kEqual;
+    if (equal ? std::abs(gap.wheel_y(s)) < std::abs(gap.wheel_y(best_s)) : g < best_gap) {
+      best_s = s;
+      best_gap = g;
+    }
+  };
+  const std::size_t last = samples.s.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    if (samples.gap[i] > lowest + kCandidate) continue;
+    const double before = samples.gap[i == 0 ? 0 : i - 1], after = samples.gap[i == last ? last : i + 1];
+    if (samples.gap[i] > before || samples.gap[i] > after) continue;
+    if (i == 0 || i == last) consider(samples.s[i]);
+    else consider(refine(gap, samples.s[i - 1], samples.s[i], samples.s[i + 1]));
+  }
+  return best_s;
+}
+
+std::string pair_name(const Profile& wheel, const Profile& rail) { return fmt::format("wheel {} on rail {}", wheel.name(), rail.name()); }
+
+}  // namespace
+
+Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point) { return turn(rail_point, track.cant); }
+Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point) { return turn(model_point, -track.cant); }
+
+RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
+  const double offset_y = lateral_offset(wheel, rail, track);
+  const Gap gap(wheel, rail, track, offset_y);
+  const Samples samples = sample_overlap(gap, rail);
+  if (samples.s.size() < 3)
+    throw CaseError(fmt::format("{}: the wheel misses the rail; its tape circle stands {:.1f} mm from the rail's axis", pair_name(wheel, rail), 1e3 * offset_y),
+                    "check lateral_shift, gauge and back_to_back");
+  const double s = first_contact(gap, samples);
+  if (s - samples.s.front() < kSearchStep || samples.s.back() - s < kSearchStep)
+    throw CaseError(fmt::format("{}: the contact lies at the end of a profile, at wheel y = {:.2f} mm", pair_name(wheel, rail), 1e3 * gap.wheel_y(s)),
+                    "check lateral_shift, gauge, back_to_back and cant, or give profiles that reach further");
+
+  const ProfilePoint r = rail.at(s);
+  RigidContact out;
+  out.wheel_offset_y = offset_y;
+  out.wheel_offset_z = -gap.value(s);
+  out.axle_height = out.wheel_offset_z + track.wheel_radius;
+  out.rail_s = s;
+  out.wheel_s = wheel.s_at_y(gap.wheel_y(s));
+  const ProfilePoint w = wheel.at(out.wheel_s);
+  const Vec2 tangent = rail_to_model(track, r.tangent);
+  out.point = rail_to_model(track, r.position);
+  out.angle = std::atan2(tangent.z, tangent.y);
+  out.rolling_radius = track.wheel_radius - w.position.z;
+  out.curvature_wheel_lateral = w.curvature;
+  out.curvature_rail_lateral = r.curvature;
+  out.curvature_rolling = std::cos(out.angle) / out.rolling_radius;  // Meusnier: the parallel's plane is not normal to the surface
+  return out;
+}
+
+}  // namespace railstrata

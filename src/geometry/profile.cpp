@@ -1,0 +1,164 @@
+#include "geometry/profile.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "core/faults.hpp"
+#include "geometry/point_defects.hpp"
+#include "geometry/smoothing_spline.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kJoin = 1e-9;  // m
+
+/// Signed angle from p0 to p1 about the centre, positive anticlockwise.
+double sweep(const ProfileSegment& g) {
+  const Vec2 a = g.p0 - g.centre, b = g.p1 - g.centre;
+  return std::atan2(cross(a, b), dot(a, b));
+}
+
+double length(const ProfileSegment& g) { return g.radius > 0 ? g.radius * std::abs(sweep(g)) : norm(g.p1 - g.p0); }
+
+void require_joined(const std::vector<ProfileSegment>& segments) {
+  if (segments.empty()) throw std::invalid_argument("a profile needs at least one segment");
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const ProfileSegment& g = segments[i];
+    if (i > 0 && norm(g.p0 - segments[i - 1].p1) > kJoin) throw std::invalid_argument("profile segments do not join");
+    if (g.radius > 0 && (std::abs(norm(g.p0 - g.centre) - g.radius) > kJoin || std::abs(norm(g.p1 - g.centre) - g.radius) > kJoin))
+      throw std::invalid_argument("the ends of an arc are not on its circle");
+  }
+}
+
+}  // namespace
+
+Profile Profile::from_segments(ProfileKind kind, std::string name, std::vector<ProfileSegment> segments) {
+  require_joined(segments);
+  Profile out;
+  out.kind_ = kind;
+  out.name_ = std::move(name);
+  out.s_ = {0.0};
+  for (const ProfileSegment& g : segments) out.s_.push_back(out.s_.back() + length(g));
+  out.segments_ = std::move(segments);
+  out.set_origin();
+  return out;
+}
+
+Profile Profile::from_points(ProfileKind kind, std::string name, std::vector<Vec2> points) {
+  if (const auto defect = find_defect(points)) throw CaseError(name + ": " + defect->message, defect->remedy);
+  SmoothingSpline spline = fit_smoothing_spline(points);
+  Profile out;
+  out.kind_ = kind;
+  out.name_ = std::move(name);
+  out.s_ = std::move(spline.s);
+  out.p_ = std::move(spline.p);
+  out.d2_ = std::move(spline.d2);
+  out.set_origin();
+  return out;
+}
+
+double Profile::s_min() const { return s_.front(); }
+double Profile::s_max() const { return s_.back(); }
+double Profile::y_min() const { return at(graph_begin_).position.y; }
+double Profile::y_max() const { return at(graph_end_).position.y; }
+
+std::size_t Profile::piece_of(double s) const {
+  const auto after = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
+  return static_cast<std::size_t>(after - s_.begin()) - 1;
+}
+
+Profile::Local Profile::local(std::size_t i, double s) const {
+  const double h = s_[i + 1] - s_[i];
+  if (!segments_.empty()) {
+    const ProfileSegment& g = segments_[i];
+    if (g.radius <= 0) {
+      const Vec2 t = (1 / h) * (g.p1 - g.p0);
+      return {g.p0 + (s - s_[i]) * t, t, {}};
+    }
+    const double turn = std::copysign(1.0, sweep(g)), angle = turn * (s - s_[i]) / g.radius;
+    const double c = std::cos(angle), d = std::sin(angle);
+    const Vec2 a = g.p0 - g.centre, arm{c * a.y - d * a.z, d * a.y + c * a.z};
+    return {g.centre + arm, (turn / g.radius) * Vec2{-arm.z, arm.y}, (-1 / (g.radius * g.radius)) * arm};
+  }
+  const double a = (s_[i + 1] - s) / h, b = (s - s_[i]) / h;
+  return {a * p_[i] + b * p_[i + 1] + (h * h / 6) * ((a * a * a - a) * d2_[i] + (b * b * b - b) * d2_[i + 1]),
+          (1 / h) * (p_[i + 1] - p_[i]) + (h / 6) * ((1 - 3 * a * a) * d2_[i] + (3 * b * b - 1) * d2_[i + 1]), a * d2_[i] + b * d2_[i + 1]};
+}
+
+ProfilePoint Profile::at(double s) const {
+  if (!(s >= s_min() - kJoin && s <= s_max() + kJoin)) throw std::out_of_range(name_ + ": arc length outside the profile");
+  const Local c = local(piece_of(s), s);
+  const double speed = norm(c.d1), side = kind_ == ProfileKind::rail ? 1.0 : -1.0;
+  const Vec2 t = (1 / speed) * c.d1;
+  return {c.position, t, side * Vec2{-t.z, t.y}, -side * cross(c.d1, c.d2) / (speed * speed * speed)};
+}
+
+double Profile::s_at_y_within(std::size_t piece, double y) const {
+  double lo = s_[piece], hi = s_[piece + 1], s = 0.5 * (lo + hi);
+  for (int i = 0; i < 100 && hi - lo > 0; ++i) {
+    const Local c = local(piece, s);
+    const double error = c.position.y - y;
+    (error > 0 ? hi : lo) = s;
+    double next = s - error / c.d1.y;
+    if (!(next > lo && next < hi)) next = 0.5 * (lo + hi);
+    if (std::abs(next - s) < 1e-15) return next;
+    s = next;
+  }
+  return s;
+}
+
+double Profile::s_at_y(double y) const {
+  const double lo = y_min(), hi = y_max();
+  if (!(y >= lo - kJoin && y <= hi + kJoin)) throw std::out_of_range(name_ + ": no running surface at this lateral coordinate");
+  if (y <= lo) return graph_begin_;
+  if (y >= hi) return graph_end_;
+  std::size_t first = piece_of(graph_begin_), last = piece_of(graph_end_);
+  while (first < last) {
+    const std::size_t middle = (first + last + 1) / 2;
+    if (local(middle, s_[middle]).position.y <= y) first = middle;
+    else last = middle - 1;
+  }
+  return std::clamp(s_at_y_within(first, y), graph_begin_, graph_end_);
+}
+
+double Profile::graph_end(bool towards_field) const {
+  const std::size_t pieces = s_.size() - 1;
+  for (std::size_t i = piece_of(0.0); i < pieces; towards_field ? ++i : --i) {  // --i past zero wraps and ends the loop
+    const double near = i == piece_of(0.0) ? 0.0 : s_[towards_field ? i : i + 1], far = s_[towards_field ? i + 1 : i];
+    if (local(i, near).d1.y <= 0) return near;
+    if (local(i, far).d1.y > 0) continue;
+    double good = near, bad = far;
+    for (int k = 0; k < 80; ++k) {
+      const double middle = 0.5 * (good + bad);
+      (local(i, middle).d1.y > 0 ? good : bad) = middle;
+    }
+    return good;
+  }
+  return towards_field ? s_max() : s_min();
+}
+
+void Profile::set_origin() {
+  const std::size_t pieces = s_.size() - 1;
+  std::size_t crossing = pieces;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < pieces; ++i) {
+    const Vec2 a = local(i, s_[i]).position, b = local(i, s_[i + 1]).position;
+    const double height = std::min(std::abs(a.z), std::abs(b.z));
+    if (a.y <= 0 && b.y >= 0 && a.y < b.y && height < nearest) {
+      crossing = i;
+      nearest = height;
+    }
+  }
+  if (crossing == pieces)
+    throw CaseError(name_ + ": the profile does not cover y = 0",
+                    "move the origin to the rail's axis or the wheel's tape circle; y must increase towards the field side");
+  const double zero = s_at_y_within(crossing, 0.0);
+  for (double& s : s_) s -= zero;
+  graph_begin_ = graph_end(false);
+  graph_end_ = graph_end(true);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,98 @@
+// From names to built-in profiles.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+
+#include "core/faults.hpp"
+#include "geometry/builtin_profiles.hpp"
+
+namespace railstrata {
+namespace {
+
+using Maker = Profile (*)();
+
+const std::map<std::string, Maker>& makers(ProfileKind kind) {
+  static const std::map<std::string, Maker> wheels = {{"LMA", lma_wheel}, {"S1002", s1002_wheel}};
+  static const std::map<std::string, Maker> rails = {{"CN60", cn60_rail}, {"UIC60", uic60_rail}, {"UIC54", uic54_rail}};
+  return kind == ProfileKind::wheel ? wheels : rails;
+}
+
+std::string upper(std::string text) {
+  for (char& c : text) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
+  return text;
+}
+
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
+      diagonal = row[j];
+      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
+    }
+  }
+  return row.back();
+}
+
+constexpr const char* kArcRemedy = "write for example arc:R=300 mm (convex) or arc:R=-450 mm (hollow)";
+
+double arc_radius(const std::string& name) {
+  const std::size_t equals = name.find('=');
+  const std::string key = equals == std::string::npos ? "" : name.substr(0, equals);
+  if (key != "arc:R" && key != "arc:r") throw CaseError("cannot read the profile '" + name + "'", kArcRemedy);
+  char* end = nullptr;
+  const double value = std::strtod(name.c_str() + equals + 1, &end);
+  std::string unit = end;
+  std::erase(unit, ' ');
+  const double scale = unit == "mm" ? 1e-3 : unit == "m" ? 1.0 : 0.0;
+  if (end == name.c_str() + equals + 1 || scale == 0) throw CaseError("cannot read the radius of the profile '" + name + "'", kArcRemedy);
+  if (!(std::abs(value * scale) >= 1e-3)) throw CaseError("the radius of the profile '" + name + "' is below 1 mm", kArcRemedy);
+  return value * scale;
+}
+
+}  // namespace
+
+std::vector<std::string> builtin_profile_names(ProfileKind kind) {
+  std::vector<std::string> names;
+  for (const auto& [name, make] : makers(kind)) names.push_back(name);
+  names.emplace_back("flat");
+  return names;
+}
+
+Profile builtin_profile(ProfileKind kind, const std::string& name) {
+  if (upper(name) == "FLAT") return circular_profile(kind, std::numeric_limits<double>::infinity());
+  if (name.starts_with("arc")) return circular_profile(kind, arc_radius(name));
+  const auto found = makers(kind).find(upper(name));
+  if (found != makers(kind).end()) return found->second();
+
+  const std::vector<std::string> names = builtin_profile_names(kind);
+  const auto nearest = std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+    return edit_distance(upper(name), upper(a)) < edit_distance(upper(name), upper(b));
+  });
+  throw CaseError(fmt::format("there is no built-in {} profile '{}'", kind == ProfileKind::wheel ? "wheel" : "rail", name),
+                  fmt::format("did you mean '{}'? Known: {}, arc:R=300 mm; or give a file", *nearest, fmt::join(names, ", ")));
+}
+
+Profile circular_profile(ProfileKind kind, double radius, double half_width) {
+  if (!(half_width > 0) || !(std::abs(radius) > 0)) throw CaseError("an arc profile needs a radius and a width", kArcRemedy);
+  const bool plane = std::isinf(radius);
+  const double r = std::abs(radius), w = plane ? half_width : std::min(half_width, 0.7 * r);
+  const double body = kind == ProfileKind::rail ? -1.0 : 1.0;  // side of the material
+  const double towards_centre = body * std::copysign(1.0, radius);
+  const auto on_arc = [&](double y) { return Vec2{y, plane ? 0.0 : towards_centre * (y * y / (r + std::sqrt(r * r - y * y)))}; };
+  ProfileSegment g{on_arc(-w), on_arc(w), {0, plane ? 0.0 : towards_centre * r}, plane ? 0.0 : r};
+  Profile out = Profile::from_segments(kind, plane ? std::string("flat") : fmt::format("arc:R={:g} mm", 1e3 * radius), {g});
+  out.primitive_ = true;
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/faults.hpp"
+#include "geometry/profile.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kSagitta = 2e-6;  // m
+constexpr double kDegree = M_PI / 180;
+
+// CN60 below its flank, right half, in metres and z up, from the drawing's radii and lines (data/profiles/README.md).
+constexpr Vec2 mm(double y, double z) { return {1e-3 * y, -1e-3 * z}; }
+constexpr Vec2 kFlankEnd = mm(36.39278664727267, 34.05573294545356);
+constexpr Vec2 kHeadCorner = mm(33.396529630639144, 34.20554579628524);  // centre of R3
+constexpr Vec2 kUndersideBegin = mm(34.345212928689655, 37.051595690436784), kUndersideEnd = mm(18.891640108631478, 42.202786630456174);
+constexpr Vec2 kHeadFillet = mm(22.686373300833534, 53.58698620706234);  // R12
+constexpr Vec2 kWebBegin = mm(10.761725052405666, 52.24431567738385), kWebEnd = mm(10.19742027146441, 136.42263019456968);
+constexpr Vec2 kWebCentre = mm(408.25, 97.0);                             // R400
+constexpr Vec2 kFootFillet = mm(30.100049257891172, 134.4514986848412);   // R20
+constexpr Vec2 kFootBegin = mm(23.775493937554412, 153.42516464585148), kFootBreakBegin = mm(41.72984620668091, 159.4099487355603);
+constexpr Vec2 kFootBreak = mm(54.37895684735443, 121.46261681353975);    // R40
+constexpr Vec2 kFootBreakEnd = mm(49.96169580436056, 161.2179662004845), kFootEnd = mm(71.44172610429939, 163.60463623381105);
+constexpr Vec2 kToeTop = mm(71.0, 167.58017117250552);                    // centre of R4
+constexpr Vec2 kToeBegin = mm(75.0, 167.58017117250552), kToeEnd = mm(75.0, 174.0), kToeBottom = mm(73.0, 174.0), kBaseEnd = mm(73.0, 176.0);
+
+Vec2 at_angle(Vec2 centre, double radius, double degrees) { return centre + radius * Vec2{std::cos(degrees * kDegree), std::sin(degrees * kDegree)}; }
+
+/// Appends the shorter arc about the centre from the list's last point to `end`.
+void arc_to(std::vector<Vec2>& line, Vec2 centre, Vec2 end) {
+  const Vec2 a = line.back() - centre, b = end - centre;
+  const double radius = norm(a), angle = std::atan2(cross(a, b), dot(a, b));
+  const int n = static_cast<int>(std::ceil(std::abs(angle) / (2 * std::acos(1 - kSagitta / radius))));
+  for (int i = 1; i < n; ++i) {
+    const double c = std::cos(angle * i / n), s = std::sin(angle * i / n);
+    line.push_back(centre + Vec2{c * a.y - s * a.z, s * a.y + c * a.z});
+  }
+  line.push_back(end);
+}
+
+/// Moves CN60's underside so that it begins at another flank's end and still ends on the web.
+void widen(std::vector<Vec2>& underside, double by) {
+  const double web = underside.back().y, width = kFlankEnd.y - web;
+  for (Vec2& p : underside) p.y += by * std::clamp((p.y - web) / width, 0.0, 1.0);
+}
+
+/// y of the flank's end: where the field-side flank reaches CN60's depth, continued straight if it ends higher.
+double flank_end_y(const Profile& head) {
+  const ProfilePoint end = head.at(head.s_at_y(head.y_max()));
+  if (head.primitive() || std::abs(end.tangent.z) < std::abs(end.tangent.y))
+    throw CaseError(fmt::format("the rail profile {} has no flanks: it ends {:.1f} mm below the crown", head.name(), -1e3 * end.position.z),
+                    "give a head profile that reaches down its sides, or use rail_shape = \"block\"");
+  if (end.position.z > kFlankEnd.z) return end.position.y + end.tangent.y * (kFlankEnd.z - end.position.z) / end.tangent.z;
+  double above = 0, below = head.y_max();
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (above + below);
+    (head.height(middle) > kFlankEnd.z ? above : below) = middle;
+  }
+  return above;
+}
+
+std::vector<double> spaced(const Profile& head, double from, double to) {
+  constexpr double step = 0.1e-3;
+  std::vector<double> s;
+  const int n = static_cast<int>(std::ceil((to - from) / step));
+  for (int i = 0; i <= n; ++i) s.push_back(from + (to - from) * i / n);
+  for (const double knot : head.knots())
+    if (knot > from && knot < to) s.push_back(knot);
+  std::sort(s.begin(), s.end());
+  return s;
+}
+
+}  // namespace
+
+RailOutline rail_outline(const Profile& head) {
+  RailOutline out;
+  out.flank_y = flank_end_y(head);
+  out.flank_z = kFlankEnd.z;
+  out.underside = {kFlankEnd};
+  arc_to(out.underside, kHeadCorner, kUndersideBegin);
+  out.underside.push_back(kUndersideEnd);
+  arc_to(out.underside, kHeadFillet, at_angle(kHeadFillet, 0.012, 135));
+  out.web = {out.underside.back()};
+  arc_to(out.web, kHeadFillet, kWebBegin);
+  arc_to(out.web, kWebCentre, kWebEnd);
+  arc_to(out.web, kFootFillet, at_angle(kFootFillet, 0.020, 225));
+  out.foot_top = {out.web.back()};
+  arc_to(out.foot_top, kFootFillet, kFootBegin);
+  out.foot_top.push_back(kFootBreakBegin);
+  arc_to(out.foot_top, kFootBreak, kFootBreakEnd);
+  out.foot_top.push_back(kFootEnd);
+  arc_to(out.foot_top, kToeTop, kToeBegin);
+  out.toe = {kToeBegin, kToeEnd};
+  arc_to(out.toe, kToeBottom, kBaseEnd);
+  out.base_z = kBaseEnd.z;
+  widen(out.underside, out.flank_y - kFlankEnd.y);
+  return out;
+}
+
+std::vector<Vec2> outline_polygon(const Profile& head, const RailOutline& outline) {
+  std::vector<Vec2> left;  // from the gauge-side flank's end down to the base
+  for (const auto* part : {&outline.underside, &outline.web, &outline.foot_top, &outline.toe})
+    for (const Vec2 p : *part)
+      if (left.empty() || norm(p - Vec2{-left.back().y, left.back().z}) > 0) left.push_back({-p.y, p.z});
+  std::vector<Vec2> polygon = left;
+  for (auto p = left.rbegin(); p != left.rend(); ++p) polygon.push_back({-p->y, p->z});
+  const std::vector<double> s = spaced(head, head.s_at_y(head.y_min()), head.s_at_y(head.y_max()));
+  for (auto i = s.rbegin(); i != s.rend(); ++i)
+    if (const Vec2 p = head.at(*i).position; p.z > outline.flank_z) polygon.push_back(p);
+  return polygon;
+}
+
+SectionProperties section_properties(const std::vector<Vec2>& polygon) {
+  double area = 0, sy = 0, sz = 0, iyy = 0, izz = 0, lowest = polygon.front().z;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
+    const double w = cross(a, b);
+    area += w / 2;
+    sy += w * (a.y + b.y) / 6;
+    sz += w * (a.z + b.z) / 6;
+    iyy += w * (a.y * a.y + a.y * b.y + b.y * b.y) / 12;
+    izz += w * (a.z * a.z + a.z * b.z + b.z * b.z) / 12;
+    lowest = std::min(lowest, a.z);
+  }
+  const double y = sy / area, z = sz / area;
+  return {area, z - lowest, izz - area * z * z, iyy - area * y * y};
+}
+
+}  // namespace railstrata

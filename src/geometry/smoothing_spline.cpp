@@ -1,0 +1,203 @@
+#include "geometry/smoothing_spline.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace railstrata {
+namespace {
+
+constexpr double kClosestKnots = 0.5e-3, kWidestKnots = 4e-3;  // m
+constexpr double kCurvatureNoise = 0.05;                       // 1/m
+constexpr double kSmallestTolerance = 0.2e-6;                  // m
+constexpr double kEndWeight = 1e-3;
+
+std::vector<double> chord_lengths(const std::vector<Vec2>& points) {
+  std::vector<double> t = {0.0};
+  for (std::size_t i = 1; i < points.size(); ++i) t.push_back(t.back() + norm(points[i] - points[i - 1]));
+  return t;
+}
+
+/// Cubic B-splines on a knot vector whose end knots are repeated.
+class Basis {
+ public:
+  explicit Basis(const std::vector<double>& knots) : knots_(knots.size() + 6) {
+    std::fill_n(knots_.begin(), 3, knots.front());
+    std::copy(knots.begin(), knots.end(), knots_.begin() + 3);
+    std::fill_n(knots_.end() - 3, 3, knots.back());
+  }
+  int size() const { return static_cast<int>(knots_.size()) - 4; }
+  int intervals() const { return size() - 3; }
+  /// Interval [knot_i, knot_{i+1}] of t; basis functions i … i+3 live on it.
+  int interval(double t) const {
+    const auto after = std::upper_bound(knots_.begin() + 4, knots_.end() - 4, t);
+    return static_cast<int>(after - knots_.begin()) - 4;
+  }
+  /// Values of the four basis functions on the interval, or their `derivative`-th derivatives [deBoor1978].
+  std::array<double, 4> values(int interval, double t, int derivative = 0) const {
+    const double* k = knots_.data() + interval + 3;  // k[0] <= t <= k[1]
+    std::array<double, 4> b = {0, 0, 0, 1};
+    for (int degree = 1; degree <= 3; ++degree) {
+      const bool differentiate = degree > 3 - derivative;
+      for (int j = 3 - degree; j <= 3; ++j) {
+        const int i = j - 3;  // B_i starts at k[i]
+        const double width0 = k[i + degree] - k[i], width1 = k[i + degree + 1] - k[i + 1];
+        const double left = width0 > 0 && j > 3 - degree ? b[j] / width0 : 0.0, right = width1 > 0 && j < 3 ? b[j + 1] / width1 : 0.0;
+        b[j] = differentiate ? degree * (left - right) : (t - k[i]) * left + (k[i + degree + 1] - t) * right;
+      }
+    }
+    return b;
+  }
+  double knot(int i) const { return knots_[static_cast<std::size_t>(i) + 3]; }
+
+ private:
+  std::vector<double> knots_;
+};
+
+using Coefficients = Eigen::Matrix<double, Eigen::Dynamic, 2>;
+using Rows = std::vector<Eigen::Triplet<double>>;
+
+void add_row(Rows& rows, int row, int first, const std::array<double, 4>& values, double scale) {
+  for (int j = 0; j < 4; ++j) rows.emplace_back(row, first + j, scale * values[j]);
+}
+
+/// A weak wish for one cubic over the first two and the last two intervals; it decides only what the points leave open.
+void add_end_rows(Rows& rows, const Basis& basis, int row) {
+  for (const int knot : {1, basis.intervals() - 1}) {
+    const double h = basis.knot(knot + 1) - basis.knot(knot - 1), scale = kEndWeight * h * h * h / 48;
+    const double before = 0.5 * (basis.knot(knot - 1) + basis.knot(knot)), after = 0.5 * (basis.knot(knot) + basis.knot(knot + 1));
+    add_row(rows, row, knot, basis.values(knot, after, 3), scale);
+    add_row(rows, row, knot - 1, basis.values(knot - 1, before, 3), -scale);
+    ++row;
+  }
+}
+
+Coefficients least_squares(const Basis& basis, const std::vector<double>& t, const std::vector<Vec2>& points) {
+  const int n = static_cast<int>(t.size());
+  Rows rows;
+  Coefficients wanted = Coefficients::Zero(n + 2, 2);
+  for (int i = 0; i < n; ++i) {
+    const int k = basis.interval(t[i]);
+    add_row(rows, i, k, basis.values(k, t[i]), 1.0);
+    wanted(i, 0) = points[i].y;
+    wanted(i, 1) = points[i].z;
+  }
+  add_end_rows(rows, basis, n);
+  Eigen::SparseMatrix<double> a(n + 2, basis.size());
+  a.setFromTriplets(rows.begin(), rows.end());
+  const Eigen::SparseMatrix<double> normal = a.transpose() * a;
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(normal);
+  Coefficients c = solver.solve(a.transpose() * wanted);
+  c += solver.solve(a.transpose() * (wanted - a * c));  // one refinement: normal equations square the condition number
+  return c;
+}
+
+Vec2 combine(const Coefficients& c, int first, const std::array<double, 4>& values) {
+  Vec2 sum;
+  for (int j = 0; j < 4; ++j) sum = sum + values[j] * Vec2{c(first + j, 0), c(first + j, 1)};
+  return sum;
+}
+
+std::vector<double> knots_of(const std::vector<double>& t, const std::vector<char>& chosen) {
+  std::vector<double> knots;
+  for (std::size_t i = 0; i < t.size(); ++i)
+    if (chosen[i]) knots.push_back(t[i]);
+  return knots;
+}
+
+std::vector<char> spaced_knots(const std::vector<double>& t, double spacing) {
+  std::vector<char> chosen(t.size(), 0);
+  chosen.front() = chosen.back() = 1;
+  double last = t.front();
+  for (std::size_t i = 1; i + 1 < t.size(); ++i)
+    if (t[i] - last >= spacing * (1 - 1e-3) && t.back() - t[i] >= 0.5 * spacing) {
+      chosen[i] = 1;
+      last = t[i];
+    }
+  return chosen;
+}
+
+/// Makes knots of the middle points of intervals that miss a point. Returns whether it found any.
+bool refine(std::vector<char>& chosen, const std::vector<double>& error, double tolerance) {
+  bool changed = false;
+  std::size_t begin = 0;
+  for (std::size_t end = 1; end < chosen.size(); ++end) {
+    if (!chosen[end]) continue;
+    const double worst = *std::max_element(error.begin() + begin, error.begin() + end + 1);
+    if (worst > tolerance && end - begin > 1) {
+      chosen[(begin + end) / 2] = 1;
+      changed = true;
+    }
+    begin = end;
+  }
+  return changed;
+}
+
+/// Parameters moved to the arc length of the fitted curve (Simpson's rule between neighbouring points).
+std::vector<double> arc_lengths(const Basis& basis, const Coefficients& c, const std::vector<double>& t) {
+  const auto speed = [&](double at) {
+    const int k = basis.interval(at);
+    return norm(combine(c, k, basis.values(k, at, 1)));
+  };
+  std::vector<double> s = {0.0};
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    const double h = t[i] - t[i - 1];
+    s.push_back(s.back() + h / 6 * (speed(t[i - 1]) + 4 * speed(t[i - 1] + 0.5 * h) + speed(t[i])));
+  }
+  return s;
+}
+
+SmoothingSpline at_knots(const Basis& basis, const Coefficients& c) {
+  SmoothingSpline out;
+  for (int i = 0; i <= basis.intervals(); ++i) {
+    const int k = std::min(i, basis.intervals() - 1);
+    out.s.push_back(basis.knot(i));
+    out.p.push_back(combine(c, k, basis.values(k, basis.knot(i))));
+    out.d2.push_back(combine(c, k, basis.values(k, basis.knot(i), 2)));
+  }
+  return out;
+}
+
+}  // namespace
+
+double estimated_noise(const std::vector<Vec2>& points) {
+  const std::vector<double> t = chord_lengths(points);
+  std::vector<double> distance;
+  for (std::size_t i = 2; i + 2 < t.size(); ++i) {
+    Vec2 guess;
+    double variance = 1;
+    for (const std::size_t j : {i - 2, i - 1, i + 1, i + 2}) {
+      double weight = 1;
+      for (const std::size_t k : {i - 2, i - 1, i + 1, i + 2})
+        if (k != j) weight *= (t[i] - t[k]) / (t[j] - t[k]);
+      guess = guess + weight * points[j];
+      variance += weight * weight;
+    }
+    const Vec2 along = points[i + 1] - points[i - 1];
+    distance.push_back(std::abs(cross(along, points[i] - guess)) / (norm(along) * std::sqrt(variance)));
+  }
+  std::nth_element(distance.begin(), distance.begin() + distance.size() / 2, distance.end());
+  return distance[distance.size() / 2] / 0.6745;  // median of |N(0,1)|
+}
+
+SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points) {
+  const double noise = estimated_noise(points), tolerance = std::max(4 * noise, kSmallestTolerance);
+  const double spacing = std::clamp(std::sqrt(10 * noise / kCurvatureNoise), kClosestKnots, kWidestKnots);
+  std::vector<double> t = chord_lengths(points);
+  std::vector<char> chosen = spaced_knots(t, spacing);
+  for (int round = 0;; ++round) {
+    const Basis basis(knots_of(t, chosen));
+    const Coefficients c = least_squares(basis, t, points);
+    std::vector<double> error;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const int k = basis.interval(t[i]);
+      error.push_back(norm(combine(c, k, basis.values(k, t[i])) - points[i]));
+    }
+    const bool refined = refine(chosen, error, tolerance);
+    if (!refined && round >= 2) return at_knots(basis, c);
+    t = arc_lengths(basis, c, t);
+  }
+}
+
+}  // namespace railstrata
