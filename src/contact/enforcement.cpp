@@ -1,0 +1,139 @@
+#include "contact/enforcement.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace railstrata {
+
+void WheelNumbering::number(const MortarRows& rows, const ContactSurface& wheel, ContactSystem& system) {
+  const std::ptrdiff_t node_stride = static_cast<std::ptrdiff_t>(wheel.stride) * 3;
+  mark_.resize(static_cast<std::size_t>(wheel.columns) * wheel.stride, -1);
+  auto slot = [&](std::ptrdiff_t index) -> int& {
+    const std::ptrdiff_t k = index - wheel.first_line;
+    return mark_[k / node_stride * wheel.stride + k % node_stride];
+  };
+  system.wheel_nodes.clear();
+  system.weight_node.resize(rows.weights.size());
+  for (std::size_t k = 0; k < rows.weights.size(); ++k) {
+    int& m = slot(rows.weights[k].wheel);
+    if (m < 0) {
+      m = static_cast<int>(system.wheel_nodes.size());
+      system.wheel_nodes.push_back(rows.weights[k].wheel);
+    }
+    system.weight_node[k] = m;
+  }
+  for (std::ptrdiff_t index : system.wheel_nodes) slot(index) = -1;
+}
+
+namespace {
+
+class Sweeper {
+ public:
+  Sweeper(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system, TractionMemory& memory)
+      : rows_(rows), dt_(dt), options_(options), sys_(system), memory_(memory) {}
+
+  Vec3 relative_velocity(std::size_t r) const {
+    const ContactRow& row = rows_.rows[r];
+    Vec3 w = -sys_.rail_velocity[r];
+    for (int k = row.first; k < row.first + row.count; ++k) w += rows_.weights[k].m * sys_.wheel_velocity[sys_.weight_node[k]];
+    return w;
+  }
+  void push(std::size_t r, Vec3 traction) {
+    const ContactRow& row = rows_.rows[r];
+    const Vec3 impulse = dt_ * row.area * traction;
+    sys_.rail_velocity[r] += sys_.rail_inverse_mass[r] * impulse;
+    for (int k = row.first; k < row.first + row.count; ++k) {
+      const int n = sys_.weight_node[k];
+      sys_.wheel_velocity[n] -= (rows_.weights[k].m * sys_.wheel_inverse_mass[n]) * impulse;
+    }
+  }
+  // Velocity gained per unit traction.
+  double compliance(std::size_t r) const {
+    const ContactRow& row = rows_.rows[r];
+    double c = sys_.rail_inverse_mass[r];
+    for (int k = row.first; k < row.first + row.count; ++k) c += rows_.weights[k].m * rows_.weights[k].m * sys_.wheel_inverse_mass[sys_.weight_node[k]];
+    return dt_ * row.area * c;
+  }
+
+  void multipliers() {
+    const std::size_t n = rows_.rows.size();
+    std::vector<double> diagonal(n);
+    for (std::size_t r = 0; r < n; ++r) {
+      diagonal[r] = compliance(r);
+      if (const NodeTraction& t = node(r); t.p > 0) push(r, traction_vector(t, rows_.rows[r].normal));
+    }
+    for (sys_.sweeps = 0; sys_.sweeps < options_.max_sweeps;) {
+      double change = 0;
+      const bool forward = sys_.sweeps % 2 == 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        const std::size_t r = forward ? i : n - 1 - i;
+        change = std::max(change, relax(r, diagonal[r]));
+      }
+      ++sys_.sweeps;
+      if (change * dt_ < options_.tolerance) break;
+    }
+  }
+
+  void penalty() {
+    for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
+      const ContactRow& row = rows_.rows[r];
+      NodeTraction& t = node(r);
+      const Vec3 w = relative_velocity(r);
+      const TangentFrame f = tangent_frame(row.normal);
+      t.p = options_.penalty_stiffness * std::max(0.0, -row.gap);
+      t.q1 += options_.penalty_stiffness * dt_ * dot(w, f.t1);
+      t.q2 += options_.penalty_stiffness * dt_ * dot(w, f.t2);
+      return_to_coulomb_disc(options_.friction_coefficient, t.p, t.q1, t.q2);
+    }
+    for (std::size_t r = 0; r < rows_.rows.size(); ++r) push(r, traction_vector(node(r), rows_.rows[r].normal));
+  }
+
+  void record_slip() {
+    for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
+      const TangentFrame f = tangent_frame(rows_.rows[r].normal);
+      const Vec3 w = relative_velocity(r);
+      node(r).slip1 = dot(w, f.t1);
+      node(r).slip2 = dot(w, f.t2);
+    }
+  }
+
+ private:
+  NodeTraction& node(std::size_t r) { return memory_.at(rows_.rows[r].column, rows_.rows[r].station); }
+
+  double relax(std::size_t r, double diagonal) {
+    const ContactRow& row = rows_.rows[r];
+    NodeTraction& t = node(r);
+    const Vec3 w = relative_velocity(r);
+    const double closing = -row.gap / dt_ - dot(w, row.normal);  // what the pressure must still take away
+    if (t.p == 0 && closing <= 0) return 0;
+    const TangentFrame f = tangent_frame(row.normal);
+    NodeTraction next = t;
+    next.p = std::max(0.0, t.p + closing / diagonal);
+    next.q1 += dot(w, f.t1) / diagonal;
+    next.q2 += dot(w, f.t2) / diagonal;
+    return_to_coulomb_disc(options_.friction_coefficient, next.p, next.q1, next.q2);
+    NodeTraction step = next;
+    step.p -= t.p, step.q1 -= t.q1, step.q2 -= t.q2;
+    const Vec3 change = traction_vector(step, row.normal);
+    push(r, change);
+    t = next;
+    return norm(change) * diagonal;
+  }
+
+  const MortarRows& rows_;
+  double dt_;
+  const EnforcementOptions& options_;
+  ContactSystem& sys_;
+  TractionMemory& memory_;
+};
+
+}  // namespace
+
+void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system, TractionMemory& memory) {
+  Sweeper sweeper(rows, dt, options, system, memory);
+  if (options.penalty) sweeper.penalty();
+  else sweeper.multipliers();
+  sweeper.record_slip();
+}
+
+}  // namespace railstrata

@@ -1,0 +1,78 @@
+#pragma once
+// Contact forces of one explicit step.
+//
+// mortar (default): Lagrange multipliers found so that at the END of the step no chosen node penetrates and no sticking node slides (forward-increment multipliers
+// [CarpenterTaylorKatona1991]):
+//   g_A + dt w_A . n_A >= 0,  p_A >= 0,  one of them zero;     w_tA = 0 with |q_A| < f p_A (stick)  or  q_A = f p_A w_tA/|w_tA| (slip)
+//   w = w_free - dt (M m_w^-1 M^T a + m_r^-1 a) tau
+// solved by projected block Gauss–Seidel sweeps from the last step's tractions. It adds no stiffness, so it does not lower the stable step, and leaves a penetration
+// of the order of the solver's tolerance.
+// penalty: p = k max(0, -g), with a tangential spring of the same stiffness returned to the Coulomb disc; for comparison with codes that do so.
+#include "contact/mortar.hpp"
+#include "friction/coulomb.hpp"
+
+namespace railstrata {
+
+/// What a rail node remembers from step to step: traction on the rail in its own frame (normal into the rail, rolling direction, lateral) and slip velocity.
+struct NodeTraction {
+  double p = 0, q1 = 0, q2 = 0;          ///< Pa
+  double slip1 = 0, slip2 = 0;           ///< m/s, wheel relative to rail, mean of the step
+};
+
+/// Unit vectors of the contact plane at a rail node with the normal n = (0, n_y, n_z).
+struct TangentFrame {
+  Vec3 t1, t2;
+};
+inline TangentFrame tangent_frame(Vec3 n) { return {{1, 0, 0}, {0, n.z, -n.y}}; }
+
+/// Traction on the rail as a vector in the model frame.
+inline Vec3 traction_vector(const NodeTraction& t, Vec3 n) {
+  const TangentFrame f = tangent_frame(n);
+  return -t.p * n + t.q1 * f.t1 + t.q2 * f.t2;
+}
+
+/// The velocities the contact works on, gathered for the rows of a step: rail nodes in the order of the rows, wheel nodes each once.
+struct ContactSystem {
+  std::vector<std::ptrdiff_t> wheel_nodes;    ///< index of component x
+  std::vector<int> weight_node;               ///< per weight of the rows, position in wheel_nodes
+  std::vector<Vec3> rail_velocity, wheel_velocity;  ///< free velocities on input, final on output
+  std::vector<double> rail_inverse_mass, wheel_inverse_mass;
+  int sweeps = 0;
+};
+
+/// Numbers the wheel nodes of the rows.
+class WheelNumbering {
+ public:
+  void number(const MortarRows& rows, const ContactSurface& wheel, ContactSystem& system);
+
+ private:
+  std::vector<int> mark_;
+};
+
+/// Tractions of the rail's surface nodes, [column * stations + station].
+class TractionMemory {
+ public:
+  TractionMemory(int columns, int stations) : stations_(stations), node_(static_cast<std::size_t>(columns) * stations) {}
+  NodeTraction& at(int column, int station) { return node_[static_cast<std::size_t>(column) * stations_ + station]; }
+  const NodeTraction& at(int column, int station) const { return node_[static_cast<std::size_t>(column) * stations_ + station]; }
+  std::vector<NodeTraction>& all() { return node_; }
+  const std::vector<NodeTraction>& all() const { return node_; }
+  int stations() const { return stations_; }
+
+ private:
+  int stations_;
+  std::vector<NodeTraction> node_;
+};
+
+struct EnforcementOptions {
+  bool penalty = false;
+  double penalty_stiffness = 0;    ///< Pa/m, penalty only
+  double friction_coefficient = 0;
+  double tolerance = 1e-11;        ///< m, change of a relative displacement per step at which the sweeps stop
+  int max_sweeps = 100;
+};
+
+/// Finds the tractions of the rows and the velocities after the step. Nodes of `memory` that are not among the rows must be zero.
+void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system, TractionMemory& memory);
+
+}  // namespace railstrata

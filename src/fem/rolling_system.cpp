@@ -1,0 +1,135 @@
+#include "fem/rolling_system.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+SolidOptions solid_options(const CaseSpec& spec) {
+  return {spec.mesh.element == "one_point" ? ElementKind::one_point : ElementKind::full, spec.mesh.hourglass_coefficient};
+}
+
+// Areas of the section that belong to each of its nodes.
+std::vector<double> nodal_areas(const Section& s) {
+  std::vector<double> area(s.nodes.size(), 0.0);
+  for (const auto& q : s.quads) {
+    const double a = 0.5 * cross(s.nodes[q[2]] - s.nodes[q[0]], s.nodes[q[3]] - s.nodes[q[1]]);
+    for (int k : q) area[k] += 0.25 * a;
+  }
+  return area;
+}
+
+std::vector<EndDashpot> end_absorbers(const DeformableBody& rail) {
+  const BodyLayout& lay = rail.solid.layout();
+  Field coefficient = lay.field();
+  const Elastic& m = rail.solid.materials().front();
+  const double normal = std::sqrt(m.p_wave_modulus() * m.density), tangential = std::sqrt(m.mu * m.density);
+  for (std::size_t b = 0; b < lay.blocks.size(); ++b) {
+    const std::vector<double> area = nodal_areas(rail.solid.body().blocks[b].section);
+    for (std::size_t n = 0; n < area.size(); ++n)
+      for (int i = 0; i < 3; ++i)
+        for (int j : {0, lay.blocks[b].stations - 1}) coefficient[lay.blocks[b].line(static_cast<int>(n), i) + j] = area[n] * (i == 0 ? normal : tangential);
+  }
+  rail.ties.collect(coefficient);
+  std::vector<EndDashpot> out;
+  for (std::ptrdiff_t k = 0; k < lay.size; ++k)
+    if (coefficient[k] > 0 && rail.inverse_mass[k] > 0) out.push_back({k, coefficient[k]});
+  return out;
+}
+
+// A penalty rule of explicit codes, k = scale K A / V with the bulk modulus K of the rail's surface elements (A / V = 1 / height).
+double penalty_rule(const Model& model) {
+  const Elastic& m = model.rail_materials.back();
+  const auto& depth = model.rail.contact.depth;
+  return model.spec.contact.penalty_scale * (m.lambda + 2.0 / 3.0 * m.mu) / (depth[1] - depth[0]);
+}
+
+}  // namespace
+
+DeformableBody::DeformableBody(const SweptBody& mesh, const std::vector<Elastic>& materials, const SolidOptions& options, bool hold_is_fixed)
+    : solid(mesh, materials, options), ties(mesh, solid.layout()), mass(solid.mass()) {
+  (void)hold_is_fixed;
+  ties.collect(mass);
+  const BodyLayout& lay = solid.layout();
+  std::vector<std::vector<bool>> held;
+  for (const BlockLayout& b : lay.blocks) held.emplace_back(b.nodes, false);
+  for (const SectionNode& n : mesh.held) held[n.block][n.node] = true;
+  inverse_mass = lay.field();
+  for (int b = 0; b < static_cast<int>(lay.blocks.size()); ++b)
+    for (int n = 0; n < lay.blocks[b].nodes; ++n)
+      for (int i = 0; i < 3; ++i) {
+        const std::ptrdiff_t first = lay.blocks[b].line(n, i);
+        const int count = lay.blocks[b].stations;
+        if (held[b][n] || ties.is_slave(b, n)) {
+          if (!held[b][n]) std::fill(mass.begin() + first, mass.begin() + first + count, 0.0);
+          continue;
+        }
+        for (int j = 0; j < count; ++j) inverse_mass[first + j] = 1 / mass[first + j];
+        lines.push_back({first, count, i, b, n});
+      }
+}
+
+RollingSystem::RollingSystem(const Model& m)
+    : model(m),
+      rail(m.rail, m.rail_materials, solid_options(m.spec), true),
+      wheel(m.wheel, m.wheel_materials, solid_options(m.spec), false),
+      gravity(m.spec.vehicle.gravity),
+      rolling_radius(m.placement.contact.rolling_radius) {
+  const VehicleSpec& v = m.spec.vehicle;
+  const double meshed = wheel.solid.total_mass(), added = v.wheel_mass - meshed;
+  if (added < 0)
+    throw CaseError(fmt::format("vehicle.wheel_mass = {:.1f} kg is less than the meshed wheel alone weighs ({:.1f} kg)", v.wheel_mass, meshed),
+                    "give the mass of wheel and axle share together, or make the wheel lighter (geometry.web_thickness, rim_thickness, hub_radius)");
+  const BodyLayout& lay = wheel.solid.layout();
+  axle.mass_z = added;
+  axle.inertia = 0.5 * added * m.spec.geometry.bore_radius * m.spec.geometry.bore_radius;
+  for (const SectionNode& n : m.wheel.held)
+    for (int j = 0; j < lay.blocks[n.block].stations; ++j) {
+      const std::ptrdiff_t index = lay.blocks[n.block].line(n.node, 0) + j;
+      const Vec3 arm = wheel.solid.reference_position(n.block, n.node, j) - m.wheel.origin;
+      axle.bore.push_back({index, lay.blocks[n.block].stride, arm});
+      axle.mass_z += wheel.mass[index];
+      axle.inertia += wheel.mass[index] * (arm.x * arm.x + arm.z * arm.z);
+    }
+  for (const SectionNode& n : m.wheel.held)
+    for (int i = 0; i < 3; ++i) std::fill_n(wheel.mass.begin() + lay.blocks[n.block].line(n.node, i), lay.blocks[n.block].stations, 0.0);
+  for (const SectionNode& n : m.rail.held)
+    for (int i = 0; i < 3; ++i) {
+      const BlockLayout& b = rail.solid.layout().blocks[n.block];
+      std::fill_n(rail.mass.begin() + b.line(n.node, i), b.stations, 0.0);
+    }
+  axle.mass_x = axle.mass_z + (v.couple_sprung_mass ? v.sprung_mass : 0.0);
+
+  travel_mass = v.wheel_mass + (v.couple_sprung_mass ? v.sprung_mass : 0.0);
+  spin_inertia = axle.inertia;
+  for (const DeformableBody::Line& l : wheel.lines)
+    if (l.component == 0)
+      for (int j = 0; j < l.count; ++j) {
+        const double radius = wheel.solid.body().blocks[l.block].section.nodes[l.node].z;
+        spin_inertia += wheel.mass[l.first + j] * radius * radius;
+      }
+  const double traction = m.spec.drive.traction_coefficient * m.load;
+  torque = traction * (rolling_radius + spin_inertia / (travel_mass * rolling_radius));
+
+  absorbers = end_absorbers(rail);
+  rail_surface = contact_surface(m.rail, rail.solid.layout(), [&](double s) { return SectionPoint{m.rail_section_point(s), m.rail_section_normal(s)}; });
+  wheel_surface = contact_surface(m.wheel, wheel.solid.layout(), [&](double s) { return SectionPoint{m.wheel_section_point(s), m.wheel_section_normal(s)}; });
+  penalty_stiffness = penalty_rule(m);
+}
+
+void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose) const {
+  const double c = std::cos(pose.psi), s = std::sin(pose.psi);
+  for (const BoreNode& n : axle.bore) {
+    u_wheel[n.index] = pose.x + (c - 1) * n.arm.x + s * n.arm.z;
+    u_wheel[n.index + n.stride] = 0;
+    u_wheel[n.index + 2 * n.stride] = pose.z + (c - 1) * n.arm.z - s * n.arm.x;
+  }
+  rail.ties.spread(u_rail, 0);
+  wheel.ties.spread(u_wheel, pose.psi);
+}
+
+}  // namespace railstrata

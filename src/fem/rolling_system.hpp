@@ -1,0 +1,71 @@
+#pragma once
+// The mechanical system of a case, ready for computing and constant: two elastic bodies, the rigid axle that carries the wheel's bore, the suspension and its masses,
+// the track's support, and the contact surfaces.
+//
+// Axle: a rigid body in the bore with the degrees of freedom x, z and the spin psi (positive rolling forward, about +y); it does not move laterally or tilt (the
+// other wheel of the set and the bearings hold it). It has what the given wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius.
+// Suspension: groups of a spring and a dashpot with a share of the sprung mass each, vertical, around the axle's (non-rotating) box. In x the sprung mass rides along
+// with the axle if the case says so.
+#include "contact/enforcement.hpp"
+#include "fem/solid.hpp"
+#include "fem/ties.hpp"
+#include "model/model.hpp"
+
+namespace railstrata {
+
+/// A deformable body with its constraints and lumped inertia.
+struct DeformableBody {
+  Solid solid;
+  Ties ties;
+  Field mass;          ///< of the free nodes; slaves, fixed and rigid nodes have zero
+  Field inverse_mass;  ///< zero likewise
+  /// Lines of free nodes: one component of one section node at all stations.
+  struct Line {
+    std::ptrdiff_t first;
+    int count, component, block, node;
+  };
+  std::vector<Line> lines;
+
+  DeformableBody(const SweptBody& mesh, const std::vector<Elastic>& materials, const SolidOptions& options, bool hold_is_fixed);
+};
+
+/// A node on the rigid axle: index of component x in the wheel's fields, arm from the axle's centre in the undeformed wheel.
+struct BoreNode {
+  std::ptrdiff_t index;
+  int stride;
+  Vec3 arm;
+};
+
+struct Axle {
+  double mass_z = 0;       ///< kg, of the axle and the bore's nodes
+  double mass_x = 0;       ///< the same plus the sprung mass when it rides along
+  double inertia = 0;      ///< kg m², about the axle, of axle and bore
+  std::vector<BoreNode> bore;
+};
+
+/// Viscous absorber at a node of the rail's end planes: f = coefficient * v. [LysmerKuhlemeyer1969]
+struct EndDashpot {
+  std::ptrdiff_t index;
+  double coefficient;
+};
+
+struct RollingSystem {
+  explicit RollingSystem(const Model& model);
+
+  Model model;
+  DeformableBody rail, wheel;
+  Axle axle;
+  std::vector<EndDashpot> absorbers;
+  ContactSurface rail_surface, wheel_surface;
+  double gravity = 0;
+  double rolling_radius = 0;
+  double spin_inertia = 0;    ///< kg m², of everything that turns
+  double travel_mass = 0;     ///< kg, of everything that moves along x
+  double torque = 0;          ///< N m, steady: gives the wanted F_T with the inertia of the accelerated wheel, M = F_T (r + I/(m r))
+  double penalty_stiffness = 0;  ///< Pa/m, of the penalty method
+
+  /// Moves the bore's nodes with the axle and the slaves with their masters.
+  void apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose) const;
+};
+
+}  // namespace railstrata

@@ -1,0 +1,42 @@
+#pragma once
+// Where the values of a nodal vector field stand in memory: for every block [section node][component][station], stations contiguous and padded to whole packs, so
+// that lines of elements load their corners as plain vectors. A closed ring keeps a ghost of station 0 behind its last station. Padding is zero.
+#include "core/array.hpp"
+#include "core/simd.hpp"
+#include "mesh/swept.hpp"
+
+namespace railstrata {
+
+struct BlockLayout {
+  std::ptrdiff_t offset = 0;
+  int stride = 0;    ///< between components; a node takes 3 strides
+  int nodes = 0;     ///< section nodes
+  int stations = 0;  ///< without ghost
+  int elements = 0;  ///< along the sweep
+  bool closed = false;
+  std::ptrdiff_t line(int node, int component) const { return offset + (static_cast<std::ptrdiff_t>(node) * 3 + component) * stride; }
+};
+
+struct BodyLayout {
+  std::vector<BlockLayout> blocks;
+  std::ptrdiff_t size = 0;
+  Field field() const { return Field(static_cast<std::size_t>(size), 0.0); }
+};
+
+inline BodyLayout layout_of(const SweptBody& body) {
+  BodyLayout layout;
+  for (const Block& b : body.blocks) {
+    BlockLayout l;
+    l.offset = layout.size;
+    l.nodes = static_cast<int>(b.section.nodes.size());
+    l.stations = b.stations.nodes();
+    l.elements = b.stations.elements();
+    l.closed = b.stations.closed;
+    l.stride = whole_packs(l.elements) + kLanes;
+    layout.size += static_cast<std::ptrdiff_t>(l.nodes) * 3 * l.stride;
+    layout.blocks.push_back(l);
+  }
+  return layout;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,93 @@
+#include "model/model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+Profile find_profile(ProfileKind kind, const std::string& name, const std::filesystem::path& folder, std::vector<std::string>& notes) {
+  std::filesystem::path file = name;
+  if (file.is_relative()) file = folder / file;
+  if (file.has_extension() && (file.extension() == ".csv" || file.extension() == ".txt" || file.extension() == ".dat" || std::filesystem::exists(file)))
+    return read_profile(kind, file, &notes);
+  return builtin_profile(kind, name);
+}
+
+Elastic to_elastic(const MaterialSpec& m) { return elastic(m.young, m.poisson, m.density); }
+
+std::vector<LayerMesh> layers_on(const CaseSpec& spec, const std::string& body) {
+  std::vector<LayerMesh> out;
+  for (const LayerSpec& l : spec.layers)
+    if (l.on == body) out.push_back({l.name, l.thickness, l.width, spec.mesh.elements_through_layer_one ? 1 : l.elements});
+  return out;
+}
+
+std::vector<Elastic> materials_of(const CaseSpec& spec, const std::string& body, const MaterialSpec& matrix) {
+  std::vector<Elastic> out{to_elastic(matrix)};
+  for (const LayerSpec& l : spec.layers)
+    if (l.on == body) out.push_back(to_elastic(l.material));
+  return out;
+}
+
+}  // namespace
+
+Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
+  const GeometrySpec& g = spec.geometry;
+  std::vector<std::string> notes;
+  Profile wheel = find_profile(ProfileKind::wheel, g.wheel_profile, folder, notes);
+  Profile rail = find_profile(ProfileKind::rail, g.rail_profile, folder, notes);
+  TrackGeometry track{g.gauge, g.gauge_depth, g.back_to_back, g.flange_back_to_tape, g.cant, g.lateral_shift, g.wheel_radius};
+  const RigidContact contact = place_wheel(wheel, rail, track);
+  return {std::move(wheel), std::move(rail), track, contact, std::move(notes)};
+}
+
+double static_load(const CaseSpec& spec) { return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity; }
+
+HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
+  const double lateral = c.curvature_wheel_lateral + c.curvature_rail_lateral;
+  const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson}, {spec.rail_material.young, spec.rail_material.poisson});
+  return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, static_load(spec));
+}
+
+Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
+  Model m{spec, place(spec, folder), {}, {}, materials_of(spec, "rail", spec.rail_material), materials_of(spec, "wheel", spec.wheel_material), static_load(spec), {}, 0};
+  const RigidContact& contact = m.placement.contact;
+  m.hertz = hertz_estimate(spec, contact);
+  const double last = spec.run.rolling ? *std::max_element(spec.run.positions.begin(), spec.run.positions.end()) : 0.0;
+  m.x_end = spec.run.rolling ? last + 0.5 * spec.run.window : 0.0;
+  // The fine range holds the patch and room for its search at both ends of the path.
+  const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size;
+  const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio, spec.mesh.largest};
+
+  const GeometrySpec& g = spec.geometry;
+  RailMeshSpec rail;
+  rail.shape = g.rail_shape == "block" ? RailShape::block : RailShape::rail;
+  rail.contact_s = contact.rail_s;
+  rail.x_begin = -margin;
+  rail.x_end = m.x_end + margin;
+  rail.end_length = spec.mesh.end_length;
+  rail.block_width = g.block_width;
+  rail.block_height = g.block_height;
+  rail.layers = layers_on(spec, "rail");
+  m.rail = mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
+
+  WheelMeshSpec wheel;
+  wheel.shape = g.wheel_shape == "disc" ? WheelShape::disc : WheelShape::wheel;
+  wheel.contact_s = contact.wheel_s;
+  wheel.theta_begin = -margin / contact.rolling_radius;
+  wheel.theta_end = (m.x_end + margin) / contact.rolling_radius;
+  wheel.rim_thickness = g.rim_thickness;
+  wheel.web_thickness = g.web_thickness;
+  wheel.web_offset = g.web_offset;
+  wheel.hub_radius = g.hub_radius;
+  wheel.hub_width = g.hub_width;
+  wheel.bore_radius = g.bore_radius;
+  wheel.layers = layers_on(spec, "wheel");
+  m.wheel = mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);
+  return m;
+}
+
+}  // namespace railstrata
