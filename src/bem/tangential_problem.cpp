@@ -1,0 +1,351 @@
+#include "bem/tangential_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+#include "bem/gmres.hpp"
+#include "core/faults.hpp"
+
+namespace railstrata {
+
+namespace {
+
+constexpr unsigned char kOutside = 0, kStick = 1, kSlip = 2;
+
+/// Vectors of the Newton system hold the planes x and y one after the other, then one entry for each direction whose force is given.
+class Solver {
+ public:
+  Solver(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options)
+      : A_(influence), grid_(grid), problem_(problem), options_(options), n_(grid.size()), ahead_(static_cast<std::size_t>(grid.ny)),
+        q_(2 * n_, 0.0), slip_(2 * n_), rigid_(2 * n_), normal_(2 * n_, 0.0), diagonal_(n_, 0.0), set_(n_, kOutside), u_(2 * (n_ + ahead_)) {
+    if (problem.x.force) directions_.push_back(0);
+    if (problem.y.force) directions_.push_back(1);
+    creepage_[0] = problem.x.creepage;
+    creepage_[1] = problem.y.creepage;
+    fill_fixed_slip();
+  }
+
+  TangentialSolution solve(const TangentialSolution* start) {
+    for (std::size_t i = 0; i < n_; ++i) set_[i] = problem_.bound[i] > 0 ? kStick : kOutside;
+    check_forces();
+    if (start) adopt(*start);
+    update_slip();
+    double accuracy = 0.05;
+    for (outer_ = 0; outer_ < options_.max_outer; ++outer_) {
+      prepare_slip_cells();
+      Plane step;
+      newton_step(accuracy, step);
+      advance(step);
+      update_slip();
+      const int changed = update_sets();
+      const double error = violation();
+      if (std::getenv("BEM_TRACE")) std::printf("outer %d changed %d error %.3e its %d xi %.6e acc %.1e\n", outer_, changed, error, iterations_, creepage_[0], accuracy);
+      if (changed == 0 && error <= options_.tolerance) return solution();
+      accuracy = changed == 0 ? std::clamp(0.3 * options_.tolerance / error, 1e-4, 0.05) : 0.05;
+    }
+    throw NumericalError("the tangential contact problem did not converge");
+  }
+
+ private:
+  bool steady() const { return problem_.kind == RollingKind::steady; }
+  double step_length() const { return problem_.kind == RollingKind::transient ? problem_.step : problem_.kind == RollingKind::shift ? 1.0 : grid_.dx; }
+
+  void fill_fixed_slip() {
+    for (int i = 0; i < grid_.nx; ++i)
+      for (int j = 0; j < grid_.ny; ++j) {
+        const std::size_t k = grid_.index(i, j);
+        rigid_[k] = -problem_.spin * grid_.y(j) + (problem_.extra_x.empty() ? 0.0 : problem_.extra_x[k]) + (problem_.before_x.empty() ? 0.0 : problem_.before_x[k] / problem_.step);
+        rigid_[n_ + k] = problem_.spin * grid_.x(i) + (problem_.extra_y.empty() ? 0.0 : problem_.extra_y[k]) + (problem_.before_y.empty() ? 0.0 : problem_.before_y[k] / problem_.step);
+      }
+  }
+
+  void check_forces() const {
+    const double available = sum(problem_.bound) * grid_.cell_area(), wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
+    if (wanted >= available && wanted > 0)
+      throw CaseError("friction cannot carry the tangential force: " + std::to_string(wanted) + " N of at most " + std::to_string(available) + " N",
+                      "lower the traction or raise the friction coefficient");
+  }
+
+  void adopt(const TangentialSolution& start) {
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (set_[i] == kOutside) continue;
+      const double size = std::hypot(start.q_x[i], start.q_y[i]), g = problem_.bound[i];
+      const bool slips = start.state[i] == ContactState::slip && size > 0;
+      const double scale = slips || size > g ? g / size : 1.0;
+      q_[i] = scale * start.q_x[i];
+      q_[n_ + i] = scale * start.q_y[i];
+      if (slips) set_[i] = kSlip;
+    }
+    if (problem_.x.force) creepage_[0] = start.creepage_x;
+    if (problem_.y.force) creepage_[1] = start.creepage_y;
+  }
+
+  /// out = L in on the patch.
+  void apply_L(const double* in, double* out) {
+    const int rows = steady() ? grid_.nx + 1 : grid_.nx;
+    double *ux = u_.data(), *uy = ux + n_ + ahead_;
+    A_.tangential(in, in + n_, ux, uy, rows);
+    ++iterations_;
+    const double over = 1 / step_length();
+    const std::size_t next = steady() ? ahead_ : 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const bool in_patch = set_[i] != kOutside;
+      out[i] = in_patch ? over * (next ? ux[i] - ux[i + next] : ux[i]) : 0.0;
+      out[n_ + i] = in_patch ? over * (next ? uy[i] - uy[i + next] : uy[i]) : 0.0;
+    }
+  }
+
+  void update_slip() {
+    apply_L(q_.data(), slip_.data());
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (set_[i] == kOutside) continue;
+      slip_[i] = rigid_[i] + creepage_[0] - slip_[i];
+      slip_[n_ + i] = rigid_[n_ + i] + creepage_[1] - slip_[n_ + i];
+    }
+  }
+
+  double force(int direction) const {
+    const Plane part(q_.begin() + static_cast<std::ptrdiff_t>(direction ? n_ : 0), q_.begin() + static_cast<std::ptrdiff_t>(direction ? 2 * n_ : n_));
+    return sum(part);  // in units of the cell area
+  }
+
+  /// Unit traction direction and the stabilising diagonal (s·n)/g of slipping cells.
+  void prepare_slip_cells() {
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (set_[i] != kSlip) continue;
+      const double g = problem_.bound[i];
+      normal_[i] = q_[i] / g;
+      normal_[n_ + i] = q_[n_ + i] / g;
+      diagonal_[i] = std::max(0.0, slip_[i] * normal_[i] + slip_[n_ + i] * normal_[n_ + i]) / g;
+    }
+  }
+
+  /// Restricts a pair of planes to the unknowns: all in stick, across the traction in slip, nothing outside.
+  void project(double* v) const {
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (set_[i] == kStick) continue;
+      if (set_[i] == kOutside) {
+        v[i] = v[n_ + i] = 0;
+        continue;
+      }
+      const double across = -v[i] * normal_[n_ + i] + v[n_ + i] * normal_[i];
+      v[i] = -across * normal_[n_ + i];
+      v[n_ + i] = across * normal_[i];
+    }
+  }
+
+  void newton_step(double accuracy, Plane& step) {
+    prepare_border();
+    const std::size_t m = directions_.size();
+    Plane b(2 * n_ + m);
+    std::copy(slip_.begin(), slip_.end(), b.begin());
+    project(b.data());
+    for (std::size_t c = 0; c < m; ++c) {
+      const double wanted = (directions_[c] == 0 ? *problem_.x.force : *problem_.y.force) / grid_.cell_area();
+      b[2 * n_ + c] = force_row_ * (wanted - force(directions_[c]));
+    }
+    gmres([&](const Plane& in, Plane& out) { newton_product(in, out); }, [&](const Plane& in, Plane& out) { precondition(in, out); }, b, step, accuracy, 120);
+  }
+
+  void newton_product(const Plane& in, Plane& out) {
+    apply_L(in.data(), out.data());
+    const std::size_t m = directions_.size();
+    for (std::size_t c = 0; c < m; ++c) {
+      const std::size_t offset = directions_[c] ? n_ : 0;
+      double total = 0;
+      for (std::size_t i = 0; i < n_; ++i) out[offset + i] -= in[2 * n_ + c], total += in[offset + i];
+      out[2 * n_ + c] = force_row_ * total;
+    }
+    project(out.data());
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (set_[i] != kSlip) continue;
+      out[i] += diagonal_[i] * in[i];
+      out[n_ + i] += diagonal_[i] * in[n_ + i];
+    }
+  }
+
+  /// Approximate inverse of the first block.
+  void precondition_block(const double* in, double* out) {
+    Plane v(in, in + 2 * n_);
+    if (steady()) integrate_from_leading_edge(v);
+    else
+      for (double& e : v) e *= step_length();
+    for (std::size_t i = 0; i < n_; ++i)
+      if (set_[i] != kStick) v[i] = v[n_ + i] = 0;
+    A_.precondition_tangential(v.data(), v.data() + n_, out, out + n_);
+    ++iterations_;
+    const double self = self_influence();
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (set_[i] == kStick) continue;
+      const double scale = set_[i] == kSlip ? 1 / (self + diagonal_[i]) : 0.0;
+      out[i] = scale * in[i];
+      out[n_ + i] = scale * in[n_ + i];
+    }
+  }
+
+  double self_influence() const {
+    // of the operator L on one cell, isotropic estimate
+    return self_;
+  }
+
+  /// u(x) from u(x) - u(x + dx) = dx r along each run of sticking cells, zero ahead of it.
+  void integrate_from_leading_edge(Plane& v) const {
+    for (int i = grid_.nx - 1; i >= 0; --i)
+      for (int j = 0; j < grid_.ny; ++j) {
+        const std::size_t k = grid_.index(i, j);
+        if (set_[k] != kStick) continue;
+        const bool continues = i + 1 < grid_.nx && set_[k + ahead_] == kStick;
+        for (std::size_t c : {k, n_ + k}) v[c] = grid_.dx * v[c] + (continues ? v[c + ahead_] : 0.0);
+      }
+  }
+
+  void prepare_border() {
+    if (self_ == 0) {
+      Plane one(2 * n_, 0.0), out(2 * n_);
+      const std::size_t middle = grid_.index(grid_.nx / 2, grid_.ny / 2);
+      one[middle] = 1;
+      const auto kept = set_;
+      std::fill(set_.begin(), set_.end(), kStick);
+      apply_L(one.data(), out.data());
+      set_ = kept;
+      self_ = out[middle];
+      force_row_ = self_ / static_cast<double>(n_);  // a force residual weighs like a slip residual
+    }
+    border_.clear();
+    for (int direction : directions_) {
+      Plane e(2 * n_, 0.0), z(2 * n_);
+      std::fill(e.begin() + static_cast<std::ptrdiff_t>(direction ? n_ : 0), e.begin() + static_cast<std::ptrdiff_t>(direction ? 2 * n_ : n_), 1.0);
+      project(e.data());
+      precondition_block(e.data(), z.data());
+      border_.push_back(std::move(z));
+    }
+  }
+
+  void precondition(const Plane& in, Plane& out) {
+    out.resize(in.size());
+    precondition_block(in.data(), out.data());
+    const std::size_t m = directions_.size();
+    if (m == 0) return;
+    const auto total = [&](const double* v, int direction) {
+      double s = 0;
+      for (std::size_t i = 0; i < n_; ++i) s += v[(direction ? n_ : 0) + i];
+      return s;
+    };
+    double a[2][2] = {{1, 0}, {0, 1}}, r[2] = {0, 0};
+    for (std::size_t c = 0; c < m; ++c) {
+      r[c] = in[2 * n_ + c] / force_row_ - total(out.data(), directions_[c]);
+      for (std::size_t d = 0; d < m; ++d) a[c][d] = total(border_[d].data(), directions_[c]);
+    }
+    const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+    const double creep[2] = {(a[1][1] * r[0] - a[0][1] * r[1]) / det, (a[0][0] * r[1] - a[1][0] * r[0]) / det};
+    for (std::size_t c = 0; c < m; ++c) {
+      for (std::size_t i = 0; i < 2 * n_; ++i) out[i] += creep[c] * border_[c][i];
+      out[2 * n_ + c] = creep[c];
+    }
+  }
+
+  void advance(const Plane& step) {
+    for (std::size_t c = 0; c < directions_.size(); ++c) creepage_[directions_[c]] += step[2 * n_ + c];
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (set_[i] == kOutside) continue;
+      q_[i] += step[i];
+      q_[n_ + i] += step[n_ + i];
+      const double size = std::hypot(q_[i], q_[n_ + i]), g = problem_.bound[i];
+      if (set_[i] == kSlip || size > g) {
+        if (set_[i] == kStick) pending_.push_back(i);
+        q_[i] *= g / size;
+        q_[n_ + i] *= g / size;
+      }
+    }
+  }
+
+  int update_sets() {
+    const int to_slip = static_cast<int>(pending_.size());
+    int to_stick = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (set_[i] != kSlip) continue;
+      if (slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i] < -1e-9 * slip_scale() * problem_.bound[i]) {
+        set_[i] = kStick;
+        ++to_stick;
+      }
+    }
+    for (std::size_t i : pending_) set_[i] = kSlip;
+    pending_.clear();
+    return to_slip + to_stick;
+  }
+
+  double slip_scale() const {
+    return scale_ > 0 ? scale_ : 1e-30;
+  }
+
+  /// Largest violation of the slip conditions over the largest rigid slip.
+  double violation() {
+    double worst = 0, largest = 0;
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (set_[i] == kOutside) continue;
+      largest = std::max(largest, std::hypot(rigid_[i] + creepage_[0], rigid_[n_ + i] + creepage_[1]));
+      const double g = problem_.bound[i];
+      const double wrong = set_[i] == kStick ? std::hypot(slip_[i], slip_[n_ + i]) : std::abs(slip_[i] * q_[n_ + i] - slip_[n_ + i] * q_[i]) / g;
+      worst = std::max(worst, wrong);
+    }
+    scale_ = largest;
+    return largest > 0 ? worst / largest : 0.0;
+  }
+
+  TangentialSolution solution() const {
+    TangentialSolution s;
+    const auto half = static_cast<std::ptrdiff_t>(n_);
+    s.q_x.assign(q_.begin(), q_.begin() + half);
+    s.q_y.assign(q_.begin() + half, q_.end());
+    s.slip_x.assign(n_, 0.0);
+    s.slip_y.assign(n_, 0.0);
+    s.state.assign(n_, ContactState::separated);
+    s.creepage_x = creepage_[0];
+    s.creepage_y = creepage_[1];
+    const double dA = grid_.cell_area();
+    for (int i = 0; i < grid_.nx; ++i)
+      for (int j = 0; j < grid_.ny; ++j) {
+        const std::size_t k = grid_.index(i, j);
+        if (set_[k] == kOutside) continue;
+        s.state[k] = set_[k] == kStick ? ContactState::stick : ContactState::slip;
+        (set_[k] == kStick ? s.stick_area : s.slip_area) += dA;
+        if (set_[k] == kSlip) {
+          s.slip_x[k] = slip_[k];
+          s.slip_y[k] = slip_[n_ + k];
+        }
+        s.dissipation += (q_[k] * s.slip_x[k] + q_[n_ + k] * s.slip_y[k]) * dA;
+        s.moment += (grid_.x(i) * q_[n_ + k] - grid_.y(j) * q_[k]) * dA;
+      }
+    s.force_x = sum(s.q_x) * dA;
+    s.force_y = sum(s.q_y) * dA;
+    s.outer_iterations = outer_ + 1;
+    s.iterations = iterations_;
+    return s;
+  }
+
+  const InfluenceOperator& A_;
+  const PatchGrid& grid_;
+  const TangentialProblem& problem_;
+  TangentialOptions options_;
+  std::size_t n_, ahead_;
+  Plane q_, slip_, rigid_, normal_, diagonal_;
+  Mask set_;
+  Plane u_;
+  std::vector<Plane> border_;
+  std::vector<int> directions_;  // 0 x, 1 y: those whose force is given
+  std::vector<std::size_t> pending_;
+  double creepage_[2] = {0, 0};
+  double scale_ = 0, self_ = 0, force_row_ = 1;
+  int outer_ = 0, iterations_ = 0;
+};
+
+}  // namespace
+
+TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options, const TangentialSolution* start) {
+  return Solver(influence, grid, problem, options).solve(start);
+}
+
+}  // namespace railstrata

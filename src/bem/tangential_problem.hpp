@@ -1,0 +1,60 @@
+#pragma once
+// The frictional (tangential) contact problem for a given pressure: Kalker's theory on a grid of cells. [Kalker1990 ch. 4, Vollebregt2014]
+//
+// In every cell of the patch, with the relative slip s = (velocity of the wheel's surface over the rail's)/V and the bound g = f p,
+//   |q| <= g;   |q| < g: s = 0 (stick);   s != 0: q = g s/|s| (slip),        q acts on the rail,
+//   s = w - L q + history,   w = (xi - phi y, eta + phi x) the rigid slip, u = rail minus wheel displacement by q:
+//   steady rolling     L q = (u(x) - u(x + dx))/dx         (particles enter at the leading edge, x large)
+//   transient rolling  L q = u(x)/dq, history = u_before(x + dq)/dq, one step of rolled distance dq
+//   shift              L q = u(x), s and w are distances [m], no rolling.
+// Solved by an active-set Newton method: unknown are both components in stick and the direction in slip; each linear system by GMRES with FFT products. L has a positive
+// semi-definite symmetric part, and slip along the traction adds a positive diagonal, so every linear system is solvable.
+#include <optional>
+
+#include "bem/influence_operator.hpp"
+#include "bem/patch_grid.hpp"
+#include "bem/plane_algebra.hpp"
+#include "contact/contact_field.hpp"
+
+namespace railstrata {
+
+enum class RollingKind { steady, transient, shift };
+
+/// Each direction is governed by its creepage (rigid slip of the wheel over the rail / V; for a shift the distance) or by its force on the rail [N].
+struct CreepOrForce {
+  double creepage = 0;
+  std::optional<double> force;
+};
+
+struct TangentialProblem {
+  RollingKind kind = RollingKind::steady;
+  Plane bound;                 ///< f p in each cell [Pa]; 0 outside the patch
+  CreepOrForce x, y;
+  double spin = 0;             ///< 1/m
+  Plane extra_x, extra_y;      ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies; empty: none
+  double step = 0;             ///< rolled distance dq [m]: transient only
+  Plane before_x, before_y;    ///< transient: rail minus wheel displacement of the state before, at (x + dq, y); empty: none
+};
+
+struct TangentialOptions {
+  double tolerance = 1e-5;  ///< of the slip conditions, relative to the largest rigid slip
+  int max_outer = 80;
+};
+
+struct TangentialSolution {
+  Plane q_x, q_y;        ///< Pa, on the rail
+  Plane slip_x, slip_y;  ///< relative to V (shift: m)
+  std::vector<ContactState> state;
+  double creepage_x = 0, creepage_y = 0;
+  double force_x = 0, force_y = 0;  ///< N, on the rail
+  double moment = 0;                ///< N m about the normal at the grid's origin, on the rail
+  double dissipation = 0;           ///< ∑ q·s dA: friction power over V [N]; shift: work [J]
+  double stick_area = 0, slip_area = 0;  ///< m²
+  int outer_iterations = 0, iterations = 0;  ///< active sets; products with the influence operator and its preconditioner
+};
+
+/// start: traction of a similar problem, or null. Throws CaseError for a force that friction cannot carry, NumericalError if the iteration does not end.
+TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options = {},
+                                    const TangentialSolution* start = nullptr);
+
+}  // namespace railstrata
