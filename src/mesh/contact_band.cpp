@@ -38,6 +38,21 @@ std::vector<double> matrix_heights(double rest, double above, double h) {
   return heights;
 }
 
+/// Outward direction of the column at s: the surface's normal, blended across the kinks nearby.
+Vec2 column_direction(const Profile& profile, double s, Vec2 normal) {
+  constexpr double kKink = 1e-3;  // rad
+  const auto& knots = profile.knots();
+  Vec2 direction = normal;
+  for (auto k = std::upper_bound(knots.begin(), knots.end(), s - kKinkHalfWidth); k != knots.end() && *k < s + kKinkHalfWidth; ++k) {
+    if (k == knots.begin() || k + 1 == knots.end()) continue;
+    const Vec2 before = profile.at(*k - 1e-9).outward, after = profile.at(*k).outward;
+    if (norm(after - before) < kKink) continue;
+    const double weight = 0.5 * (1 - std::abs(s - *k) / kKinkHalfWidth);
+    direction = direction + weight * (s < *k ? after - before : before - after);
+  }
+  return (1 / norm(direction)) * direction;
+}
+
 double inclination(const Profile& profile, double s) {
   const Vec2 t = profile.at(s).tangent;
   return std::atan2(std::abs(t.z), t.y);
@@ -132,7 +147,8 @@ std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerM
 
 Vec2 offset_point(const Profile& profile, double s, double depth) {
   const ProfilePoint p = profile.at(std::clamp(s, profile.s_min(), profile.s_max()));
-  return p.position - depth * p.outward;
+  const Vec2 direction = column_direction(profile, s, p.outward);
+  return p.position - (depth / dot(direction, p.outward)) * direction;
 }
 
 int material_at(const BandRows& rows, int row, double y, const std::vector<LayerMesh>& layers) {

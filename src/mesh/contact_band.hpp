@@ -33,7 +33,9 @@ std::vector<double> fine_columns(double contact_s, double h, double fine_width, 
 /// Arc lengths at which layers end (|y| = width / 2), within the profile. Throws CaseError for a layer wider than the profile.
 std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerMesh>& layers, const char* carrier);
 
-/// Point at a depth below the surface along the normal; s is clamped to the profile (round-off at its ends).
+/// Point at a depth below the surface along the normal; s is clamped to the profile (round-off at its ends). Near a kink of the profile the direction turns gradually
+/// over kKinkHalfWidth on both sides, so that columns do not cross; the depth is still measured along the surface's own normal.
+inline constexpr double kKinkHalfWidth = 2.5e-3;
 Vec2 offset_point(const Profile& profile, double s, double depth);
 
 /// Adds the grid of offset points to a section: node rows from the surface down, each with one node per column. Quadrilaterals in the order of ContactBand, with the

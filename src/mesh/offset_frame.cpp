@@ -73,6 +73,8 @@ Side add_side(Section& section, const Profile& profile, const std::vector<double
 
 }  // namespace
 
+std::size_t intervals_of(double length, double size) { return static_cast<std::size_t>(std::max(1.0, std::round(length / size))); }
+
 double far_spacing(const MeshSizes& sizes) { return std::max(sizes.coarse_ratio * sizes.element, std::min(sizes.largest, kLargestAspect * sizes.element)); }
 
 double under_band_size(const MeshSizes& sizes, double depth) {
@@ -81,12 +83,24 @@ double under_band_size(const MeshSizes& sizes, double depth) {
 
 double side_row_height(const MeshSizes& sizes, double depth) { return std::max(sizes.element, std::min(sizes.coarse_ratio * sizes.element, depth / 2.5)); }
 
-std::vector<double> fine_subset(const std::vector<double>& fine, double size) {
-  const std::size_t n = fine.size() - 1;
-  const auto groups = std::max<std::size_t>(1, std::lround((fine.back() - fine.front()) / size));
-  std::vector<double> out;
-  for (std::size_t i = 0; i <= groups; ++i) out.push_back(fine[std::lround(static_cast<double>(i * n) / static_cast<double>(groups))]);
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+double length_at_depth(const Profile& profile, const std::vector<double>& s, double depth) {
+  double length = 0;
+  for (std::size_t i = 1; i < s.size(); ++i) length += norm(offset_point(profile, s[i], depth) - offset_point(profile, s[i - 1], depth));
+  return length;
+}
+
+std::vector<double> column_subset(const Profile& profile, const std::vector<double>& s, double depth, std::size_t intervals) {
+  std::vector<double> walked{0.0};
+  for (std::size_t i = 1; i < s.size(); ++i) walked.push_back(walked.back() + norm(offset_point(profile, s[i], depth) - offset_point(profile, s[i - 1], depth)));
+  const std::size_t last = s.size() - 1;
+  intervals = std::min(intervals, last);
+  std::vector<double> out{s.front()};
+  for (std::size_t k = 1, i = 1; k < intervals; ++k, ++i) {
+    const double wanted = walked.back() * static_cast<double>(k) / static_cast<double>(intervals);
+    while (i < last - (intervals - k) && std::abs(walked[i + 1] - wanted) < std::abs(walked[i] - wanted)) ++i;
+    out.push_back(s[i]);
+  }
+  out.push_back(s.back());
   return out;
 }
 
@@ -105,7 +119,7 @@ FrameNodes add_offset_frame(SweptBody& body, const Profile& profile, double cont
   const Side right = add_side(frame, profile, right_s, side_rows, layers, spec.right_top(right_s.back()), spec.right_side(side_rows.depth), false, spec.layered_ends);
 
   std::vector<Vec2> middle;
-  const std::vector<double> middle_s = fine_subset(fine, element);
+  const std::vector<double> middle_s = column_subset(profile, fine, depth, intervals_of(length_at_depth(profile, fine, depth), element));
   for (std::size_t i = 1; i + 1 < middle_s.size(); ++i) middle.push_back(offset_point(profile, middle_s[i], depth));
   NodeLine seat = add_nodes(frame, middle);
   seat.insert(seat.begin(), left.tread.back().back());

@@ -41,6 +41,8 @@ std::vector<int> distinct_stations(const Stations& stations) {
 
 }  // namespace
 
+double scaled_jacobian(const std::array<Vec3, 8>& corners) { return measure(corners).scaled_jacobian; }
+
 std::array<Vec3, 8> element_corners(const SweptBody& body, const Block& block, int quad, int station) {
   const Stations& stations = block.stations;
   const double t0 = stations.at[station], t1 = t0 + spacing(stations, station);

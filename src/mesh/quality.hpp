@@ -14,6 +14,9 @@ struct BlockQuality {
   Vec3 worst_at;                   ///< centre of that element, model frame
 };
 
+/// Smallest determinant of the three unit edge vectors at the eight corners.
+double scaled_jacobian(const std::array<Vec3, 8>& corners);
+
 std::vector<BlockQuality> measure_quality(const SweptBody& body);
 
 /// The eight corners of the element of quadrilateral q between stations j and j+1 (modulo the number of stations when closed), model frame:

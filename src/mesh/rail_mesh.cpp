@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kCornerAngle = std::numbers::pi / 4;
 constexpr double kFlankDepth = 22e-3;     // of the band's ends below the crown
-constexpr double kBandOfRadius = 0.81;    // deepest band / smallest head radius: the columns of the corner keep a fifth of their width
+constexpr double kBandOfRadius = 0.85;    // deepest band / smallest head radius: the columns of the corner keep a seventh of their width
 constexpr double kArcPerColumn = 0.46;    // rad, of the smallest radius
 
 /// Columns of the band beside the fine ones on one side, as distances from the fine columns' edge.
@@ -56,25 +56,6 @@ double flank_end(const Profile& profile, double from, double last) {
   return deep;
 }
 
-/// The side's columns that carry the head's boundary: `flank` intervals from the corner to the end, then towards the fine columns chords of at least `element`.
-std::vector<double> boundary_distances(const Profile& profile, double edge, double sign, const SideColumns& side, double depth, double element, std::size_t flank) {
-  std::vector<double> out;  // from the end inward
-  const std::size_t last = side.distance.size() - 1;
-  for (std::size_t i = 0; i <= flank; ++i) out.push_back(side.distance[last - std::lround(static_cast<double>(i * (last - side.corner)) / static_cast<double>(flank))]);
-  if (side.corner == 0) return out;
-  std::vector<double> inner{0.0};
-  Vec2 previous = offset_point(profile, edge, depth);
-  for (std::size_t k = 1; k < side.corner; ++k) {
-    const Vec2 p = offset_point(profile, edge + sign * side.distance[k], depth);
-    if (norm(p - previous) < element) continue;
-    inner.push_back(side.distance[k]);
-    previous = p;
-  }
-  if (inner.size() > 1 && norm(offset_point(profile, edge + sign * side.distance[side.corner], depth) - previous) < 0.5 * element) inner.pop_back();
-  out.insert(out.end(), inner.rbegin(), inner.rend());
-  return out;
-}
-
 struct RailBand {
   std::vector<double> left, fine, right;  // arc lengths, each increasing
   SideColumns left_side, right_side;
@@ -111,17 +92,22 @@ RailBand rail_band(const Profile& profile, const RailMeshSpec& spec, const MeshS
 
 HeadBoundary head_boundary(const Profile& profile, const RailBand& band) {
   const double depth = band.rows.depth.back();
-  const SideColumns &left = band.left_side, &right = band.right_side;
-  const Vec2 end = offset_point(profile, band.right.back(), depth), corner = offset_point(profile, band.fine.back() + right.distance[right.corner], depth);
-  const auto wanted = static_cast<std::size_t>(std::max(2.0, std::round(norm(end - corner) / band.element)));
-  const std::size_t flank = std::min({wanted, left.distance.size() - 1 - left.corner, right.distance.size() - 1 - right.corner});
+  const std::size_t left_corner = band.left_side.distance.size() - 1 - band.left_side.corner, right_corner = band.right_side.corner;
+  const std::vector<double> left_flank(band.left.begin(), band.left.begin() + left_corner + 1), left_top(band.left.begin() + left_corner, band.left.end());
+  const std::vector<double> right_top(band.right.begin(), band.right.begin() + right_corner + 1), right_flank(band.right.begin() + right_corner, band.right.end());
+  const auto wanted = [&](const std::vector<double>& s) { return intervals_of(length_at_depth(profile, s, depth), band.element); };
+  const std::size_t flank = std::min({std::max<std::size_t>(2, wanted(right_flank)), left_flank.size() - 1, right_flank.size() - 1});
 
-  std::vector<double> s;
-  for (double d : boundary_distances(profile, band.fine.front(), -1, left, depth, band.element, flank)) s.push_back(band.fine.front() - d);
-  const std::vector<double> middle = fine_subset(band.fine, band.element);
-  s.insert(s.end(), middle.begin() + 1, middle.end());
-  std::vector<double> beyond = boundary_distances(profile, band.fine.back(), 1, right, depth, band.element, flank);
-  for (std::size_t i = beyond.size() - 1; i-- > 0;) s.push_back(band.fine.back() + beyond[i]);
+  std::vector<double> s{band.left.front()};
+  const auto append = [&](const std::vector<double>& part, std::size_t intervals) {
+    const std::vector<double> chosen = column_subset(profile, part, depth, intervals);
+    s.insert(s.end(), chosen.begin() + 1, chosen.end());
+  };
+  append(left_flank, flank);
+  if (left_top.size() > 1) append(left_top, wanted(left_top));
+  append(band.fine, wanted(band.fine));
+  if (right_top.size() > 1) append(right_top, wanted(right_top));
+  append(right_flank, flank);
 
   HeadBoundary out;
   for (double at : s) out.under_band.push_back(offset_point(profile, at, depth));

@@ -54,7 +54,7 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
   };
   frame.fine_range = within(kFineAngle);
   frame.tread_range = within(kTreadAngle);
-  frame.band_limit = std::min(0.4 * spec.rim_thickness, 0.81 * smallest_convex_radius(profile, frame.tread_range.first, frame.tread_range.second));
+  frame.band_limit = std::min(0.4 * spec.rim_thickness, 0.85 * smallest_convex_radius(profile, frame.tread_range.first, frame.tread_range.second));
   frame.floor = spec.rim_thickness;
 
   const std::pair tread = frame.tread_range;
@@ -71,7 +71,7 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
   };
   const auto side = [&profile](double s, double profile_end, double tread_end) {
     return [&profile, s, profile_end, tread_end](const std::vector<double>& depth) {
-      const double z = std::max(profile.at(profile_end).position.z + 0.3 * depth.back(), offset_point(profile, tread_end, depth.back()).z);
+      const double z = std::max(profile.at(profile_end).position.z + 0.75 * depth.back(), offset_point(profile, tread_end, depth.back()).z);
       return side_points(profile, s, profile_end, z, depth.size());
     };
   };
