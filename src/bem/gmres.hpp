@@ -34,7 +34,7 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
       std::vector<double> column(k + 2);
       for (std::size_t i = 0; i <= k; ++i) {
         column[i] = dot(v[i], w);
-        for (std::size_t j = 0; j < n; ++j) w[j] -= column[i] * v[i][j];
+        add_scaled(w, -column[i], v[i]);
       }
       column[k + 1] = std::sqrt(dot(w, w));
       v.push_back(w);
@@ -59,10 +59,10 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
       c[i] = g[i];
       for (std::size_t j = i + 1; j < h.size(); ++j) c[i] -= h[j][i] * c[j];
       c[i] /= h[i][i];
-      for (std::size_t j = 0; j < n; ++j) y[j] += c[i] * v[i][j];
+      add_scaled(y, c[i], v[i]);
     }
     precondition(y, z);
-    for (std::size_t j = 0; j < n; ++j) x[j] += z[j];
+    add_scaled(x, 1, z);
     result.residual = std::abs(g.back());
     if (result.residual <= relative * norm_b) break;
     apply(x, w);

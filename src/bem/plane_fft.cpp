@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <mutex>
 
-#include "core/parallel.hpp"
-
 namespace railstrata {
 
 namespace {
@@ -74,7 +72,7 @@ std::vector<double> PlaneFft::spectrum(const std::vector<double>& table, int par
   const int hx = mx_ / 2, hy = my_ / 2;
   const std::size_t pitch = static_cast<std::size_t>(hy) + 1;
   std::vector<std::complex<double>> rows(static_cast<std::size_t>(hx + 1) * static_cast<std::size_t>(blocks_ * kBlock));
-  for_each(hx + 1, [&](std::ptrdiff_t i) {
+  for_each_if(threads_pay(), hx + 1, [&](std::ptrdiff_t i) {
     double* r = reinterpret_cast<double*>(scratch<2>(static_cast<std::size_t>(width_)));
     const double* t = table.data() + static_cast<std::size_t>(i) * pitch;
     for (int j = 0; j <= hy; ++j) r[j] = t[j];
@@ -106,7 +104,7 @@ PlaneFft::Work PlaneFft::begin(const std::vector<const double*>& in) const {
   Work work;
   const std::size_t pitch = static_cast<std::size_t>(blocks_ * kBlock);
   for (std::size_t c = 0; c < 2; ++c) work.spectra[c].resize(static_cast<std::size_t>(nx_ + 1) * pitch);
-  for_each(static_cast<std::ptrdiff_t>(in.size()) * nx_, [&](std::ptrdiff_t k) {
+  for_each_if(threads_pay(), static_cast<std::ptrdiff_t>(in.size()) * nx_, [&](std::ptrdiff_t k) {
     const std::size_t c = static_cast<std::size_t>(k / nx_), i = static_cast<std::size_t>(k % nx_);
     double* r = reinterpret_cast<double*>(scratch<2>(static_cast<std::size_t>(width_)));
     const double* row = in[c] + i * static_cast<std::size_t>(ny_);
@@ -145,7 +143,7 @@ void PlaneFft::columns_out(Work& work, int block, int plane, int rows_out) const
 
 void PlaneFft::end(const Work& work, const std::vector<double*>& out, int rows_out) const {
   const std::size_t pitch = static_cast<std::size_t>(blocks_ * kBlock);
-  for_each(static_cast<std::ptrdiff_t>(out.size()) * rows_out, [&](std::ptrdiff_t k) {
+  for_each_if(threads_pay(), static_cast<std::ptrdiff_t>(out.size()) * rows_out, [&](std::ptrdiff_t k) {
     const std::size_t c = static_cast<std::size_t>(k / rows_out), i = static_cast<std::size_t>(k % rows_out);
     std::complex<double>* z = scratch<0>(static_cast<std::size_t>(width_));
     const std::complex<double>* s = work.spectra[c].data() + i * pitch;

@@ -7,6 +7,8 @@
 #include <memory>
 #include <vector>
 
+#include "bem/plane_algebra.hpp"
+
 namespace railstrata {
 
 class PlaneFft {
@@ -58,9 +60,9 @@ class PlaneFft {
   void end(const Work& work, const std::vector<double*>& out, int rows_out) const;
   template <class Body>
   void for_blocks(Body&& body) const {
-#pragma omp parallel for schedule(static)
-    for (int block = 0; block < blocks_; ++block) body(block);
+    for_each_if(threads_pay(), blocks_, body);
   }
+  bool threads_pay() const { return threads_pay_for(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_)); }
 
   int nx_, ny_, mx_, my_, width_, blocks_;
   std::unique_ptr<Plans> plans_;

@@ -3,8 +3,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/parallel.hpp"
-
 namespace railstrata {
 
 namespace {
@@ -70,8 +68,7 @@ ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeo
   const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
   const double none = std::numeric_limits<double>::quiet_NaN();
   ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size())};
-  for_each(grid.ny, [&](std::ptrdiff_t column) {
-    const int j = static_cast<int>(column);
+  for_each_if(threads_pay_for(grid.size()), grid.ny, [&](int j) {
     const double t = grid.y(j);
     const double rail_w = height_over_plane(contact.point, tangent, t, 0, [&](double y) { return rail_curve.covers(y) ? rail_curve.z(y) : none; });
     for (int i = 0; i < grid.nx; ++i) {
