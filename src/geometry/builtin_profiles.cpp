@@ -41,15 +41,15 @@ constexpr DrawnSegment kUic60[] = {
     {0.0, 0.0, 0.0, 300.0, 300.0},
     {10.228, 0.1744040012593473, 7.500533333333332, 80.12789626759019, 80.0},
     {26.0265, 2.30252406118467, 23.016030416666666, 14.949147044725564, 13.0},
-    {36.0, 14.303752700874607},
-    {36.78481236495627, 30.0},
+    {35.99981082207864, 14.299958024454964},
+    {36.7848129208559, 30.0},
 };
 constexpr DrawnSegment kUic54[] = {
     {0.0, 0.0, 0.0, 300.0, 300.0},
     {10.012000000000002, 0.16711345150940815, 7.342133333333335, 80.12254986444023, 80.0},
     {24.863500000000002, 2.0648679226081157, 22.016277916666667, 14.749241238155832, 13.0},
-    {35.0, 14.09888682496075},
-    {35.79505565875196, 30.0},
+    {35.000058322078644, 14.100052217885233},
+    {35.79505571118438, 30.0},
 };
 
 std::vector<ProfileSegment> segments(std::span<const DrawnSegment> drawn) {
@@ -84,6 +84,12 @@ double circle(double y, double centre_y, double centre_z, double radius, double 
 constexpr double kZoneB[] = {0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8, 5.309217349e-15, -5.957839843e-12, 2.646656573e-13};
 constexpr double kZoneC[] = {-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1, -4.169739389e-3, -4.687195829e-5, -2.252755540e-7};
 
+/// Zone C as published ends 3.7e-5 mm below zone B and 1.2e-4 mm below zone D; a straight line added closes both steps.
+double closing_zone_c(double y) {
+  const double at_b = polynomial(kZoneB, -26.0) - polynomial(kZoneC, -26.0), at_d = circle(-35.0, -26.210665, 16.446, 13.0, -1) - polynomial(kZoneC, -35.0);
+  return at_b + (at_d - at_b) * (y + 26.0) / -9.0;
+}
+
 /// The point a chord further along the curve.
 double march(double y, double end, double chord) {
   const auto distance = [&](double to) { return std::hypot(to - y, s1002_height_mm(to) - s1002_height_mm(y)); };
@@ -101,7 +107,7 @@ double march(double y, double end, double chord) {
 double s1002_height_mm(double y) {
   if (y > 32.15796) return 1.364323640 - 0.066666667 * y;
   if (y > -26.0) return polynomial(kZoneB, y);
-  if (y > -35.0) return polynomial(kZoneC, y);
+  if (y > -35.0) return polynomial(kZoneC, y) + closing_zone_c(y);
   if (y > -38.426669071) return circle(y, -26.210665, 16.446, 13.0, -1);
   if (y > -39.764473993) return -93.576667419 - 2.747477419 * y;
   if (y > -49.662510381) return circle(y, -58.558326413, 8.834924130, 20.0, 1);

@@ -36,7 +36,7 @@ class Profile {
   /// Curve through measured or listed points (metres, in the frame above), made C2 in arc length.
   /// Rounding noise is estimated from the points and smoothed away (knots half a millimetre apart, wider for noisier points, down to the points' own
   /// spacing where the curve bends sharply); points half a millimetre or more apart are interpolated. The curve leaves no point by more than four times the
-  /// noise or 0.2 micrometres.
+  /// noise or 1 nanometre.
   /// Throws CaseError: fewer than 5 points, total chord length outside 5–500 mm (metre/millimetre mix-up), loops, y = 0 not covered.
   static Profile from_points(ProfileKind kind, std::string name, std::vector<Vec2> points);
 

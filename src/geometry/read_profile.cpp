@@ -1,5 +1,161 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+
 #include "core/faults.hpp"
+#include "geometry/number_table.hpp"
+#include "geometry/point_defects.hpp"
 #include "geometry/profile.hpp"
+
 namespace railstrata {
-Profile read_profile(ProfileKind, const std::filesystem::path&, std::vector<std::string>*) { throw CaseError("not written yet"); }
+namespace {
+
+constexpr double kShortest = 0.020, kLongest = 0.500;    // m, curve of a listed profile
+constexpr double kSmallestFlange = 0.009;                // m: lower than any flange, higher than any tread's fall
+constexpr double kCrestNear = -0.035, kCrestFar = -0.075;  // m, y of the flange's crest (nominal -0.054 to -0.056)
+constexpr double kAxisTolerance = 0.015;                 // m, of the middle of a rail head
+constexpr double kSymmetry = 0.02e-3;                    // m
+
+struct Extent {
+  double lo = 0, hi = 0;
+  double size() const { return hi - lo; }
+};
+
+template <class Component>
+Extent extent(const std::vector<Vec2>& points, Component component) {
+  Extent e{component(points[0]), component(points[0])};
+  for (const Vec2 p : points) e = {std::min(e.lo, component(p)), std::max(e.hi, component(p))};
+  return e;
 }
+Extent extent_y(const std::vector<Vec2>& points) {
+  return extent(points, [](Vec2 p) { return p.y; });
+}
+Extent extent_z(const std::vector<Vec2>& points) {
+  return extent(points, [](Vec2 p) { return p.z; });
+}
+
+class Reading {
+ public:
+  Reading(ProfileKind kind, const std::filesystem::path& file) : kind_(kind), file_(file), table_(read_number_table(file)), points_(table_.rows) {}
+
+  Profile profile(std::vector<std::string>* notes) {
+    if (points_.size() < 5)
+      fail(fmt::format("{} points are too few for a profile", points_.size()), "give at least 5 points; every 0.1 to 1 mm is usual");
+    if (table_.decimal_commas) note("Commas were read as decimal commas.");
+    if (table_.columns > 2) note(fmt::format("Only the first two of {} columns were used.", table_.columns));
+    drop_repeated_points();
+    to_metres();
+    if (const auto defect = find_defect(points_)) fail(defect->message, defect->remedy, table_.lines[defect->index]);
+    kind_ == ProfileKind::wheel ? orient_wheel() : orient_rail();
+    if (points_.front().y > points_.back().y) {
+      std::reverse(points_.begin(), points_.end());
+      note("The points were listed from the field side; their order was reversed.");
+    }
+    Profile out = at_origin();
+    if (notes)
+      for (const std::string& n : notes_) notes->push_back(file_.filename().string() + ": " + n);
+    return out;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message, const std::string& remedy, int line = 0) const {
+    throw CaseError(message, remedy, line > 0 ? fmt::format("{}:{}", file_.string(), line) : file_.string());
+  }
+  void note(std::string text) { notes_.push_back(std::move(text)); }
+
+  void drop_repeated_points() {
+    const std::size_t before = points_.size();
+    for (std::size_t i = points_.size(); i-- > 1;) {
+      if (norm(points_[i] - points_[i - 1]) > 0) continue;
+      points_.erase(points_.begin() + static_cast<std::ptrdiff_t>(i));
+      table_.lines.erase(table_.lines.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+    if (points_.size() < before) note(fmt::format("{} repeated points were dropped.", before - points_.size()));
+  }
+
+  void to_metres() {
+    const double y = extent_y(points_).size(), z = extent_z(points_).size();
+    if ((z > 0 && z < 5e-4 * y) || y < 2e-2 * z)
+      fail(fmt::format("y spans {:.4g} and z spans {:.4g}: the columns seem to be in different units", y, z), "give both columns in millimetres or both in metres");
+    double length = 0;
+    for (std::size_t i = 1; i < points_.size(); ++i) length += norm(points_[i] - points_[i - 1]);
+    const bool metres = length >= kShortest && length <= kLongest, millimetres = length >= 1e3 * kShortest && length <= 1e3 * kLongest;
+    if (!metres && !millimetres)
+      fail(fmt::format("the curve is {:.4g} long, which fits a profile neither in millimetres (20 to 500) nor in metres (0.02 to 0.5)", length),
+           "give y and z in millimetres or metres");
+    static const std::regex says_mm(R"((^|[^A-Za-z])mm([^A-Za-z]|$))"), says_m(R"([\[\(_]m([\]\)\s,;]|$)|\bmet(re|er)s?\b)");
+    const bool claims_mm = std::regex_search(table_.heading, says_mm), claims_m = std::regex_search(table_.heading, says_m);
+    if (claims_mm != claims_m && claims_mm != millimetres)
+      fail(fmt::format("the heading says {}, but the curve would then be {:.4g} m long", claims_mm ? "millimetres" : "metres", claims_mm ? 1e-3 * length : length),
+           "correct the heading or the numbers");
+    if (metres) note("The numbers were taken as metres.");
+    for (Vec2& p : points_) p = (metres ? 1.0 : 1e-3) * p;
+  }
+
+  void flip_z(const char* reason) {
+    for (Vec2& p : points_) p.z = -p.z;
+    note(reason);
+  }
+
+  void orient_wheel() {
+    const auto nearest = std::min_element(points_.begin(), points_.end(), [](Vec2 a, Vec2 b) { return std::abs(a.y) < std::abs(b.y); });
+    const double tread = nearest->z, above = extent_z(points_).hi - tread, below = tread - extent_z(points_).lo;
+    if (std::max(above, below) < kSmallestFlange) {
+      note("No flange was found; y was taken as positive to the field side and z as positive up.");
+      return;
+    }
+    if (above > below) flip_z("z was positive down; it was turned up.");
+    const Vec2 crest = *std::min_element(points_.begin(), points_.end(), [](Vec2 a, Vec2 b) { return a.z < b.z; });
+    const double crest_y = -std::abs(crest.y);
+    if (crest_y > kCrestNear || crest_y < kCrestFar)
+      fail(fmt::format("the flange's crest stands at y = {:.2f} mm; from the tape circle it should be about 55 mm away", 1e3 * crest.y),
+           "put y = 0 at the tape circle, 70 mm from the flange back");
+    if (crest.y > 0) {
+      for (Vec2& p : points_) p.y = -p.y;
+      note("The flange was on the side of positive y; the profile was mirrored.");
+    }
+  }
+
+  void orient_rail() {
+    const Extent y = extent_y(points_);
+    const double middle = 0.5 * (y.lo + y.hi);
+    if (std::abs(middle) > kAxisTolerance)
+      fail(fmt::format("the middle of the rail head stands at y = {:.2f} mm", 1e3 * middle), "put y = 0 on the rail's axis");
+    const auto centre = std::min_element(points_.begin(), points_.end(), [&](Vec2 a, Vec2 b) { return std::abs(a.y - middle) < std::abs(b.y - middle); });
+    if (0.5 * (points_.front().z + points_.back().z) > centre->z) flip_z("z was positive down; it was turned up.");
+  }
+
+  /// The profile with z = 0 at y = 0.
+  Profile at_origin() {
+    Profile out = Profile::from_points(kind_, file_.stem().string(), points_);
+    const double height = out.height(0);
+    if (std::abs(height) > 1e-8) {
+      for (Vec2& p : points_) p.z -= height;
+      out = Profile::from_points(kind_, file_.stem().string(), points_);
+    }
+    if (std::abs(height) > 1e-6) note(fmt::format("z was shifted by {:.3f} mm so that it is zero at y = 0.", -1e3 * height));
+    if (kind_ == ProfileKind::rail && asymmetric(out)) note("The head is not symmetric; its gauge side was taken at y < 0.");
+    return out;
+  }
+
+  static bool asymmetric(const Profile& rail) {
+    const double reach = std::min(-rail.y_min(), rail.y_max());
+    for (int i = 1; i < 20; ++i)
+      if (const double y = 0.9 * reach * i / 20; std::abs(rail.height(y) - rail.height(-y)) > kSymmetry) return true;
+    return false;
+  }
+
+  ProfileKind kind_;
+  std::filesystem::path file_;
+  NumberTable table_;
+  std::vector<Vec2> points_;
+  std::vector<std::string> notes_;
+};
+
+}  // namespace
+
+Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes) { return Reading(kind, file).profile(notes); }
+
+}  // namespace railstrata

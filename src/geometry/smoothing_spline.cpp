@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kClosestKnots = 0.5e-3, kWidestKnots = 4e-3;  // m
 constexpr double kCurvatureNoise = 0.05;                       // 1/m
-constexpr double kSmallestTolerance = 0.2e-6;                  // m
+constexpr double kSmallestTolerance = 1e-9;                    // m
 constexpr double kEndWeight = 1e-3;
 
 std::vector<double> chord_lengths(const std::vector<Vec2>& points) {
@@ -182,9 +182,10 @@ double estimated_noise(const std::vector<Vec2>& points) {
 }
 
 SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points) {
-  const double noise = estimated_noise(points), tolerance = std::max(4 * noise, kSmallestTolerance);
-  const double spacing = std::clamp(std::sqrt(10 * noise / kCurvatureNoise), kClosestKnots, kWidestKnots);
   std::vector<double> t = chord_lengths(points);
+  const bool dense = t.back() / static_cast<double>(t.size() - 1) < kClosestKnots;  // else the shape between points would be taken for noise
+  const double noise = dense ? estimated_noise(points) : 0.0, tolerance = std::max(4 * noise, kSmallestTolerance);
+  const double spacing = dense ? std::clamp(std::sqrt(10 * noise / kCurvatureNoise), kClosestKnots, kWidestKnots) : 0.0;
   std::vector<char> chosen = spaced_knots(t, spacing);
   for (int round = 0;; ++round) {
     const Basis basis(knots_of(t, chosen));

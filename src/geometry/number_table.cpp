@@ -1,0 +1,104 @@
+#include "geometry/number_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <optional>
+#include <regex>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+struct Line {
+  int number = 0;
+  std::string text;
+};
+
+constexpr const char* kBlank = " \t\r\f\v";
+
+std::string trimmed(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+}
+
+bool looks_numeric(const std::string& text) { return !text.empty() && std::string("0123456789+-.").find(text.front()) != std::string::npos; }
+
+std::vector<Line> read_lines(const std::filesystem::path& file, std::string& comments) {
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file)) throw CaseError("cannot open the profile file", "check the path; it is relative to the case file", file.string());
+  std::vector<Line> lines;
+  std::string text;
+  bool rows_begun = false;
+  for (int number = 1; std::getline(in, text); ++number) {
+    if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+    const std::size_t comment = text.find_first_of("#%!\"");
+    if (comment != std::string::npos && !rows_begun) comments += text.substr(comment) + '\n';
+    const std::string content = trimmed(text.substr(0, comment));
+    rows_begun = rows_begun || looks_numeric(content);
+    if (!content.empty()) lines.push_back({number, content});
+  }
+  if (in.bad()) throw CaseError("cannot read the profile file", "check that it is a text file", file.string());
+  return lines;
+}
+
+/// Commas are decimal when something else separates the columns and no point occurs.
+bool commas_are_decimal(const std::vector<Line>& lines) {
+  static const std::regex two_with_blanks(R"([-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?\s+[-+]?[0-9].*)");
+  for (const Line& line : lines) {
+    if (!looks_numeric(line.text) || line.text.find(',') == std::string::npos) continue;
+    if (line.text.find('.') != std::string::npos) return false;
+    return line.text.find_first_of(";\t") != std::string::npos || std::regex_match(line.text, two_with_blanks);
+  }
+  return false;
+}
+
+std::vector<std::string> fields(std::string text, bool decimal_commas) {
+  if (decimal_commas) std::replace(text.begin(), text.end(), ',', '.');
+  std::vector<std::string> out;
+  const char* separators = " \t\r;,";
+  for (std::size_t begin = text.find_first_not_of(separators); begin != std::string::npos;) {
+    const std::size_t end = text.find_first_of(separators, begin);
+    out.push_back(text.substr(begin, end - begin));
+    begin = end == std::string::npos ? end : text.find_first_not_of(separators, end);
+  }
+  return out;
+}
+
+std::optional<double> number(const std::string& text) {
+  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  double value = 0;
+  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+}  // namespace
+
+NumberTable read_number_table(const std::filesystem::path& file) {
+  NumberTable table;
+  const std::vector<Line> lines = read_lines(file, table.heading);
+  table.decimal_commas = commas_are_decimal(lines);
+  for (const Line& line : lines) {
+    const std::string where = fmt::format("{}:{}", file.string(), line.number);
+    const std::vector<std::string> text = fields(line.text, table.decimal_commas);
+    const std::optional<double> y = text.empty() ? std::nullopt : number(text[0]), z = text.size() < 2 ? std::nullopt : number(text[1]);
+    if ((y && !std::isfinite(*y)) || (z && !std::isfinite(*z))) throw CaseError("'" + line.text + "' is not a finite number", "remove or repair the point", where);
+    if (y && z) {
+      table.rows.push_back({*y, *z});
+      table.lines.push_back(line.number);
+      table.columns = std::max(table.columns, text.size());
+    } else if (table.rows.empty() && (!looks_numeric(line.text) || text.size() == 1)) {
+      table.heading += line.text + '\n';
+    } else {
+      throw CaseError("'" + line.text + "' is not two numbers", "give two columns, y and z; mark comments with #", where);
+    }
+  }
+  return table;
+}
+
+}  // namespace railstrata

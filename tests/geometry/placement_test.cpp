@@ -1,0 +1,146 @@
+#include "geometry/placement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double mm = 1e-3;
+
+Profile wheel(const std::string& name) { return builtin_profile(ProfileKind::wheel, name); }
+Profile rail(const std::string& name) { return builtin_profile(ProfileKind::rail, name); }
+
+TrackGeometry upright() {
+  TrackGeometry track;
+  track.cant = 0;
+  return track;
+}
+
+/// Smallest vertical gap found by brute force over the wheel's lateral coordinate.
+double brute_force_gap(const Profile& w, const Profile& r, const TrackGeometry& track, const RigidContact& c) {
+  double smallest = 1;
+  for (double s = r.s_min(); s < r.s_max(); s += 2e-6) {
+    const Vec2 p = rail_to_model(track, r.at(s).position);
+    const double y = p.y - c.wheel_offset_y;
+    if (y > w.y_min() && y < w.y_max()) smallest = std::min(smallest, w.height(y) + c.wheel_offset_z - p.z);
+  }
+  return smallest;
+}
+
+TEST(Placement, LMA_on_CN60_at_1_in_40_touches_on_the_rails_axis_on_the_wheels_cone) {
+  const Profile lma = wheel("LMA"), cn60 = rail("CN60");
+  const RigidContact c = place_wheel(lma, cn60, {});
+  EXPECT_NEAR(lma.at(c.wheel_s).position.y, 6.06 * mm, 0.01 * mm);
+  EXPECT_NEAR(c.rail_s, 0, 1e-9);
+  EXPECT_NEAR(c.angle, std::atan(1.0 / 40), 1e-6);  // the cone's 1:40 is the cant
+  EXPECT_NEAR(c.angle, 25e-3, 0.01e-3);
+  EXPECT_NEAR(c.rolling_radius, 0.430 - 0.1715 * mm, 1e-3 * mm);
+  EXPECT_NEAR(c.curvature_rail_lateral, 1 / 0.3, 1e-9);
+  EXPECT_NEAR(c.curvature_wheel_lateral, 0, 1e-9);
+  EXPECT_NEAR(c.curvature_rolling, std::cos(c.angle) / c.rolling_radius, 1e-12);
+  EXPECT_NEAR(c.axle_height, c.point.z + c.rolling_radius, 1e-12);
+}
+
+TEST(Placement, every_built_in_pair_just_touches_over_a_range_of_shifts) {
+  for (const char* w : {"LMA", "S1002"})
+    for (const char* r : {"CN60", "UIC60", "UIC54"})
+      for (const double shift : {-5.0, 0.0, 1.5, 6.0}) {
+        const Profile wp = wheel(w), rp = rail(r);
+        TrackGeometry track;
+        track.lateral_shift = shift * mm;
+        const RigidContact c = place_wheel(wp, rp, track);
+        EXPECT_NEAR(brute_force_gap(wp, rp, track, c), 0, 1e-9) << w << " " << r << " " << shift;
+        const Vec2 on_wheel = wp.at(c.wheel_s).position;
+        EXPECT_NEAR(norm(Vec2{on_wheel.y + c.wheel_offset_y, on_wheel.z + c.wheel_offset_z} - c.point), 0, 1e-12);
+        const Vec2 wheel_tangent = wp.at(c.wheel_s).tangent, rail_tangent = rail_to_model(track, rp.at(c.rail_s).tangent);
+        EXPECT_NEAR(cross(wheel_tangent, rail_tangent), 0, 1e-6) << w << " " << r << " " << shift;
+      }
+}
+
+TEST(Placement, the_gauge_is_measured_16_mm_below_the_top_of_the_canted_rail) {
+  const RigidContact c = place_wheel(wheel("LMA"), rail("CN60"), {});
+  const double rail_axis = 0.5 * 1.353 + 0.070 - c.wheel_offset_y, face = 0.5 * 1.435 - rail_axis;  // from the track's centre; from the rail's axis
+  const Profile cn60 = rail("CN60");
+  const double top = rail_to_model({}, cn60.at(cn60.s_at_y(7.5 * mm)).position).z;
+  double nearest = 1;
+  for (double s = cn60.s_min(); s < -0.02; s += 1e-6) {
+    const Vec2 p = rail_to_model({}, cn60.at(s).position);
+    if (std::abs(p.z - (top - 16 * mm)) < 2e-6) nearest = std::min(nearest, std::abs(p.y - face));
+  }
+  EXPECT_LT(nearest, 1e-6);
+}
+
+TEST(Placement, a_far_shift_to_the_gauge_side_brings_the_flange_to_the_gauge_face) {
+  TrackGeometry track;
+  track.lateral_shift = 10 * mm;  // to the field side: the flange, on the gauge side, meets the rail
+  const RigidContact c = place_wheel(wheel("LMA"), rail("CN60"), track);
+  EXPECT_LT(c.point.y, -25 * mm);
+  EXPECT_LT(c.angle, 70 * M_PI / 180 + 0.01);
+  EXPECT_GT(std::abs(c.angle), 0.5);
+}
+
+TEST(Placement, arcs_touch_where_their_centres_are_in_line) {  // plane on a circle, cant turned about the crown
+  TrackGeometry track = upright();
+  track.lateral_shift = 4 * mm;
+  const RigidContact two_arcs = place_wheel(wheel("arc:R=500 mm"), rail("arc:R=300 mm"), track);
+  const double y = 4 * mm * 300 / 800;  // on the line from one centre to the other
+  EXPECT_NEAR(std::sin(-two_arcs.angle), 4e-3 / 0.8, 1e-9);
+  EXPECT_NEAR(two_arcs.point.y, y, 1e-9);
+
+  const RigidContact hollow = place_wheel(wheel("arc:R=-450 mm"), rail("arc:R=300 mm"), track);
+  EXPECT_NEAR(std::sin(-hollow.angle), -4e-3 / 0.15, 1e-8);
+}
+
+TEST(Placement, a_plane_touches_a_canted_crown_at_its_top) {
+  TrackGeometry track;
+  const RigidContact c = place_wheel(wheel("flat"), rail("arc:R=300 mm"), track);
+  EXPECT_NEAR(c.angle, 0, 1e-9);
+  EXPECT_NEAR(c.rail_s, 0.3 * std::atan(1.0 / 40), 1e-9);
+}
+
+TEST(Placement, of_equal_gaps_the_one_nearest_the_tape_circle_is_taken) {
+  TrackGeometry track = upright();
+  track.lateral_shift = 1.234 * mm;
+  const RigidContact c = place_wheel(wheel("flat"), rail("flat"), track);
+  EXPECT_NEAR(c.point.y, 1.234 * mm, 0.05 * mm);
+  EXPECT_EQ(c.wheel_offset_z, 0);
+}
+
+TEST(Placement, rail_and_model_frame_invert_each_other) {
+  TrackGeometry track;
+  const Vec2 p{0.013, -0.027}, back = model_to_rail(track, rail_to_model(track, p));
+  EXPECT_NEAR(norm(back - p), 0, 1e-17);
+  EXPECT_LT(rail_to_model(track, {0, 1}).y, 0);  // the rail leans to the track's centre
+}
+
+std::string error_of(const Profile& w, const Profile& r, const TrackGeometry& track) {
+  try {
+    place_wheel(w, r, track);
+  } catch (const CaseError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(Placement, errors_say_what_is_wrong) {
+  TrackGeometry track;
+  track.lateral_shift = 0.2;
+  EXPECT_NE(error_of(wheel("LMA"), rail("CN60"), track).find("wheel LMA on rail CN60: the wheel misses the rail; its tape circle stands 193.9 mm from the rail's axis\n"
+                                                             "    remedy: check lateral_shift, gauge and back_to_back"),
+            std::string::npos);
+  track = upright();
+  track.lateral_shift = 40 * mm;
+  EXPECT_NE(error_of(wheel("flat"), rail("arc:R=300 mm"), track).find("the contact lies at the end of a profile, at wheel y = -"), std::string::npos);
+  std::vector<Vec2> crown;
+  for (int i = -10; i <= 10; ++i) crown.push_back({i * mm, -i * i * mm * mm / 0.6});
+  const Profile shallow = Profile::from_points(ProfileKind::rail, "crown", crown);
+  EXPECT_NE(error_of(wheel("LMA"), shallow, upright()).find("the rail profile crown ends 0.2 mm below its top on the gauge side, above the gauge depth of 16.0 mm"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace railstrata

@@ -1,0 +1,206 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+
+#include "core/faults.hpp"
+#include "geometry/placement.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double mm = 1e-3;
+
+fs::path shipped(const char* name) { return fs::path(RAILSTRATA_SOURCE_DIR) / "data" / "profiles" / name; }
+
+class ReadProfile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("railstrata_profiles_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  fs::path written(const std::string& text) {
+    const fs::path file = folder_ / "list.csv";
+    std::ofstream(file) << text;
+    return file;
+  }
+  std::string error_of(const std::string& text, ProfileKind kind = ProfileKind::rail) {
+    try {
+      read_profile(kind, written(text));
+    } catch (const CaseError& e) {
+      const std::string what = e.what();
+      return what.substr(0, folder_.string().size()) == folder_.string() ? what.substr(folder_.string().size() + 1) : what;
+    }
+    return "accepted";
+  }
+  /// The shipped list as another file: each point (y, z), in mm and z down, printed by `print`.
+  std::string relisted(const char* name, const std::function<std::string(double, double)>& print, bool backwards = false) {
+    std::ifstream in(shipped(name));
+    std::vector<std::string> rows;
+    for (std::string line; std::getline(in, line);) {
+      double y, z;
+      if (line[0] != '#' && std::sscanf(line.c_str(), "%lf,%lf", &y, &z) == 2) rows.push_back(print(y, z));
+    }
+    if (backwards) std::reverse(rows.begin(), rows.end());
+    std::string text;
+    for (const std::string& row : rows) text += row + "\n";
+    return text;
+  }
+  fs::path folder_;
+};
+
+std::string formatted(const char* format, double a, double b) {
+  char row[100];
+  std::snprintf(row, sizeof row, format, a, b);
+  return row;
+}
+
+/// A parabolic crown of 81 points, one a line, from `first_line` text on.
+std::string crown(const std::string& heading = "", double scale = 1.0) {
+  std::string text = heading;
+  for (int i = -40; i <= 40; ++i) text += formatted("%.6f %.6f\n", scale * 0.8 * i, -scale * 0.64 * i * i / 100);
+  return text;
+}
+
+void expect_same_curve(const Profile& a, const Profile& b, double tolerance) {
+  const double lo = std::max(a.y_min(), b.y_min()) + 1 * mm, hi = std::min(a.y_max(), b.y_max()) - 1 * mm;
+  ASSERT_GT(hi - lo, 60 * mm);
+  for (int i = 0; i <= 500; ++i) {
+    const double y = lo + (hi - lo) * i / 500;
+    EXPECT_NEAR(a.height(y), b.height(y), tolerance) << "y = " << y;
+  }
+}
+
+bool mentions(const std::vector<std::string>& notes, const std::string& text) {
+  for (const std::string& n : notes)
+    if (n.find(text) != std::string::npos) return true;
+  return false;
+}
+
+TEST_F(ReadProfile, the_listed_LMA_touches_CN60_where_the_arcs_do_and_away_from_jumps_with_the_same_curvature_within_1_percent) {
+  const Profile arcs = builtin_profile(ProfileKind::wheel, "LMA"), listed = read_profile(ProfileKind::wheel, shipped("lma_wheel.csv"));
+  const Profile rail_arcs = builtin_profile(ProfileKind::rail, "CN60"), rail_listed = read_profile(ProfileKind::rail, shipped("cn60_head.csv"));
+  for (const double shift : {-2.0, -1.0, 0.0, 1.0, 1.5, 5.0}) {
+    TrackGeometry track;
+    track.lateral_shift = shift * mm;
+    const RigidContact exact = place_wheel(arcs, rail_arcs, track), read = place_wheel(listed, rail_listed, track);
+    EXPECT_NEAR(read.point.y, exact.point.y, 5e-3 * mm) << shift;
+    EXPECT_NEAR(read.wheel_offset_z, exact.wheel_offset_z, 1e-5 * mm) << shift;
+    if (shift == 1.5) continue;  // 0.3 mm beside the jump from R450 to the cone, which a C2 curve cannot follow
+    const double exact_sum = exact.curvature_wheel_lateral + exact.curvature_rail_lateral;
+    EXPECT_NEAR(read.curvature_wheel_lateral + read.curvature_rail_lateral, exact_sum, 0.01 * exact_sum) << shift;
+    EXPECT_NEAR(read.curvature_rail_lateral, exact.curvature_rail_lateral, 0.01 * exact.curvature_rail_lateral) << shift;
+  }
+}
+
+TEST_F(ReadProfile, shipped_lists_read_back_as_the_built_in_profiles) {
+  const std::pair<const char*, const char*> rails[] = {{"cn60_head.csv", "CN60"}, {"uic60_60e1_head.csv", "UIC60"}, {"uic54_54e1_head.csv", "UIC54"}};
+  for (const auto& [file, name] : rails)
+    expect_same_curve(read_profile(ProfileKind::rail, shipped(file)), builtin_profile(ProfileKind::rail, name), 1e-3 * mm);
+  expect_same_curve(read_profile(ProfileKind::wheel, shipped("lma_wheel.csv")), builtin_profile(ProfileKind::wheel, "LMA"), 5e-3 * mm);  // chamfer's kink
+  expect_same_curve(read_profile(ProfileKind::wheel, shipped("s1002_wheel.csv")), builtin_profile(ProfileKind::wheel, "S1002"), 1e-3 * mm);
+}
+
+TEST_F(ReadProfile, orientation_units_and_separators_are_found_and_said) {
+  struct Variant {
+    const char* what;
+    std::function<std::string(double, double)> print;
+    bool backwards;
+    std::vector<std::string> notes;
+  };
+  const Variant variants[] = {
+      {"z up, blanks", [](double y, double z) { return formatted("%.6f  %.6f", y, -z); }, false, {}},
+      {"flange at positive y, tabs", [](double y, double z) { return formatted("%.6f\t%.6f", -y, z); }, false,
+       {"z was positive down; it was turned up.", "the profile was mirrored"}},
+      {"metres, semicolons, backwards", [](double y, double z) { return formatted("%.9f; %.9f", y * mm, -z * mm); }, true, {"taken as metres", "their order was reversed"}},
+      {"lifted by 3 mm", [](double y, double z) { return formatted("%.6f,%.6f", y, 3 - z); }, false, {"z was shifted by -3.000 mm"}},
+      {"decimal commas",
+       [](double y, double z) {
+         std::string row = formatted("%.6f;%.6f;7", y, -z);
+         for (char& c : row) c = c == '.' ? ',' : c;
+         return row;
+       },
+       false, {"Commas were read as decimal commas.", "Only the first two of 3 columns were used."}},
+  };
+  const Profile lma = builtin_profile(ProfileKind::wheel, "LMA");
+  for (const Variant& v : variants) {
+    std::vector<std::string> notes;
+    const Profile read = read_profile(ProfileKind::wheel, written("\xEF\xBB\xBFy z\r\n\"quoted\"\n" + relisted("lma_wheel.csv", v.print, v.backwards)), &notes);
+    SCOPED_TRACE(v.what);
+    expect_same_curve(read, lma, 5e-3 * mm);
+    EXPECT_EQ(notes.size(), v.notes.size());
+    for (const std::string& n : v.notes) EXPECT_TRUE(mentions(notes, n)) << n;
+  }
+}
+
+TEST_F(ReadProfile, rail_turned_upside_down_or_worn_on_one_side_is_noted) {
+  std::vector<std::string> notes;
+  const auto worn = [](double y, double z) { return formatted("%.6f %.6f", y, y < -20 ? z + 0.001 * (y + 20) * (y + 20) : z); };
+  const Profile read = read_profile(ProfileKind::rail, written(relisted("cn60_head.csv", worn)), &notes);
+  EXPECT_LT(read.height(-0.030), read.height(0.030) - 0.05 * mm);
+  ASSERT_EQ(notes.size(), 2u);
+  EXPECT_EQ(notes[0], "list.csv: z was positive down; it was turned up.");
+  EXPECT_EQ(notes[1], "list.csv: The head is not symmetric; its gauge side was taken at y < 0.");
+}
+
+TEST_F(ReadProfile, headings_counts_comments_and_inline_comments_are_passed_over) {
+  EXPECT_EQ(error_of(crown("Rail scan 7\n# made up\n% y/mm z/mm\n! 3\n81\n") + "\n  # end\n"), "accepted");
+}
+
+TEST_F(ReadProfile, bad_lines_are_named_with_their_number) {
+  EXPECT_EQ(error_of(crown("y_mm z_mm\n") + "33.0 oops\n"), "list.csv:83: '33.0 oops' is not two numbers\n    remedy: give two columns, y and z; mark comments with #");
+  EXPECT_EQ(error_of(crown() + "33.0\n"), "list.csv:82: '33.0' is not two numbers\n    remedy: give two columns, y and z; mark comments with #");
+  EXPECT_EQ(error_of(crown() + "33.0 nan\n"), "list.csv:82: '33.0 nan' is not a finite number\n    remedy: remove or repair the point");
+}
+
+TEST_F(ReadProfile, too_few_points_and_empty_files_are_refused) {
+  EXPECT_NE(error_of("0 0\n1 0\n2 -1\n").find("list.csv: 3 points are too few for a profile"), std::string::npos);
+  EXPECT_NE(error_of("").find("0 points are too few"), std::string::npos);
+}
+
+TEST_F(ReadProfile, a_loop_is_refused_with_the_line_where_it_closes) {
+  std::string text;
+  for (int i = 0; i < 80; ++i) {
+    const double t = -4 + 0.1 * i;  // a strophoid-like curl
+    text += formatted("%.6f %.6f\n", 8 * (t * t * t / 6 - t), -4 * t * t);
+  }
+  EXPECT_TRUE(error_of(text).find("the curve crosses itself") != std::string::npos) << error_of(text);
+  EXPECT_EQ(error_of(text).substr(0, 9), "list.csv:") << error_of(text);
+  EXPECT_NE(error_of(crown() + "30 -10\n").find("list.csv:82: the curve turns back on itself at point 81"), std::string::npos) << error_of(crown() + "30 -10\n");
+}
+
+TEST_F(ReadProfile, units_that_cannot_be_resolved_are_refused) {
+  EXPECT_NE(error_of(crown("", 0.05)).find("which fits a profile neither in millimetres (20 to 500) nor in metres (0.02 to 0.5)"), std::string::npos);
+  EXPECT_NE(error_of(crown("# units: mm\n", 1e-3)).find("the heading says millimetres, but the curve would then be 6.813e-05 m long"), std::string::npos) << error_of(crown("# units: mm\n", 1e-3));
+  EXPECT_NE(error_of(crown("y [m] z [m]\n")).find("the heading says metres, but the curve would then be 68.13 m long"), std::string::npos) << error_of(crown("y [m] z [m]\n"));
+  std::string mixed;
+  for (int i = -40; i <= 40; ++i) mixed += formatted("%.6f %.9f\n", 0.8 * i, -1e-6 * i * i);
+  EXPECT_NE(error_of(mixed).find("the columns seem to be in different units"), std::string::npos);
+}
+
+TEST_F(ReadProfile, an_origin_elsewhere_than_the_tape_circle_or_the_axis_is_refused) {
+  const auto from_back = [](double y, double z) { return formatted("%.6f %.6f", y + 70, z); };
+  EXPECT_NE(error_of(relisted("lma_wheel.csv", from_back), ProfileKind::wheel).find("the flange's crest stands at y = 16.00 mm; from the tape circle it should be about 55 mm away"),
+            std::string::npos);
+  const auto from_track = [](double y, double z) { return formatted("%.6f %.6f", y + 753, z); };
+  EXPECT_NE(error_of(relisted("cn60_head.csv", from_track)).find("the middle of the rail head stands at y = 753.00 mm"), std::string::npos);
+}
+
+TEST_F(ReadProfile, a_missing_file_is_named) {
+  try {
+    read_profile(ProfileKind::rail, "nowhere/profile.txt");
+    FAIL();
+  } catch (const CaseError& e) {
+    EXPECT_STREQ(e.what(), "nowhere/profile.txt: cannot open the profile file\n    remedy: check the path; it is relative to the case file");
+  }
+}
+
+}  // namespace
+}  // namespace railstrata
