@@ -10,6 +10,9 @@
 namespace railstrata {
 namespace {
 
+constexpr double kPenetration = 1e-4;  // of the Hertzian approach
+constexpr double kPenaltyScale = 4.0;  // of a surface element's stiffness
+
 // A vector of the static problem: free displacements of both bodies and the axle's height.
 struct StaticVector {
   Field rail, wheel;
@@ -39,9 +42,9 @@ class Preload {
   explicit Preload(const RollingSystem& system)
       : sys_(system), contact_(system.rail_surface, system.wheel_surface), tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()) {
     u_ = zero();
-    // about the stiffness of a surface element: does not spoil the conditioning
+    // a few times the stiffness of a surface element: few multiplier updates without spoiling the conditioning
     const auto& depth = sys_.model.rail.contact.depth;
-    penalty_ = young(sys_.model.rail_materials.back()) / std::max(depth[1] - depth[0], 0.5e-3);
+    penalty_ = kPenaltyScale * young(sys_.model.rail_materials.back()) / std::max(depth[1] - depth[0], 0.5e-3);
     diagonal();
   }
 
@@ -50,29 +53,31 @@ class Preload {
     start_from_hertz();
     PreloadResult out;
     const double load = load_norm();
-    double best_penetration = 0;
+    // Outer: multipliers; inner: Newton steps on the exact residual at fixed multipliers (a convex, piecewise quadratic problem).
+    double wanted = 1e-2;
     for (int step = 1;; ++step) {
       update_contact();
       StaticVector r = residual();
       out.residual = std::sqrt(dot(r, r)) / load;
-      best_penetration = penetration();
       out.newton_steps = step;
       if (progress) progress(out.residual, tolerance, out.cg_iterations);
       if (!std::isfinite(out.residual)) throw NumericalError("static preload: the residual is not a number");
-      if (out.residual < tolerance && best_penetration < 1e-4 * sys_.model.hertz.approach) break;
-      if (step > 60) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e})", step, out.residual, tolerance));
+      if (out.residual < wanted) {
+        out.penetration = penetration();
+        if (out.residual < tolerance && out.penetration < kPenetration * sys_.model.hertz.approach) break;
+        wanted = std::max(0.1 * wanted, 0.5 * tolerance);
+        augment();
+        continue;
+      }
+      if (step > 80) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e})", step, out.residual, tolerance));
       if (stop && *stop) throw NumericalError("static preload: stopped");
-      // far from the solution a rough answer is enough
-      const double forcing = std::max(0.02, 0.3 * tolerance / std::max(out.residual, 1e-30));
-      out.cg_iterations += conjugate_gradients(r, std::min(forcing, 0.3));
+      out.cg_iterations += conjugate_gradients(r, std::clamp(0.1 * wanted / out.residual, 1e-4, 1e-2));
       add(u_, 1.0, r);
       sys_.apply_constraints(u_.rail, u_.wheel, {0, u_.axle, 0});
-      augment();
     }
     out.u_rail = u_.rail;
     out.u_wheel = u_.wheel;
     out.axle_z = u_.axle;
-    out.penetration = best_penetration;
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
       tractions_.at(row.column, row.station) = {pressure_[k], 0, 0, 0, 0};
@@ -93,7 +98,7 @@ class Preload {
     sys_.apply_constraints(u_.rail, u_.wheel, {0, u_.axle, 0});
   }
 
-  // Weight of everything on its nodes and on the axle.
+  // Weight of everything on its nodes and on the axle; centrifugal forces of a wheel that rolls.
   StaticVector loads() const {
     StaticVector f = zero();
     const double g = sys_.gravity;
@@ -104,6 +109,16 @@ class Preload {
     };
     weigh(sys_.rail, f.rail);
     weigh(sys_.wheel, f.wheel);
+    const double spin = sys_.start_spin, spin2 = spin * spin;
+    for (const DeformableBody::Line& l : sys_.wheel.lines) {
+      if (l.component == 1) continue;
+      const Block& block = sys_.model.wheel.blocks[l.block];
+      const double z = block.section.nodes[l.node].z;
+      for (int j = 0; j < l.count; ++j) {
+        const double t = block.stations.at[j];
+        f.wheel[l.first + j] += spin2 * sys_.wheel.mass[l.first + j] * (l.component == 0 ? -z * std::sin(t) : z * std::cos(t));
+      }
+    }
     f.axle = -g * (sys_.axle.mass_z + sys_.model.spec.vehicle.sprung_mass);
     return f;
   }
@@ -126,7 +141,6 @@ class Preload {
     }
   }
   void augment() {
-    update_contact();
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = pressure_[k];
   }
@@ -222,16 +236,35 @@ class Preload {
     d.axle = 1 / axle;
     preconditioner_ = std::move(d);
   }
-  void precondition(const StaticVector& r, StaticVector& z) const {
-    for_each(static_cast<std::ptrdiff_t>(r.rail.size()), [&](std::ptrdiff_t i) { z.rail[i] = preconditioner_.rail[i] * r.rail[i]; });
-    for_each(static_cast<std::ptrdiff_t>(r.wheel.size()), [&](std::ptrdiff_t i) { z.wheel[i] = preconditioner_.wheel[i] * r.wheel[i]; });
-    z.axle = preconditioner_.axle * r.axle;
+  // The contact's share of the diagonal, for the present active set.
+  StaticVector with_contact() const {
+    StaticVector d = preconditioner_;
+    auto stiffen = [&](Field& f, std::ptrdiff_t i, double k) {
+      if (f[i] > 0) f[i] = 1 / (1 / f[i] + k);
+    };
+    for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
+      if (!active_[k]) continue;
+      const ContactRow& row = rows_->rows[k];
+      const double n2[3] = {row.normal.x * row.normal.x, row.normal.y * row.normal.y, row.normal.z * row.normal.z};
+      for (int i = 0; i < 3; ++i) {
+        stiffen(d.rail, row.rail + i * sys_.rail_surface.stride, penalty_ * row.area * n2[i]);
+        for (int w = row.first; w < row.first + row.count; ++w)
+          stiffen(d.wheel, rows_->weights[w].wheel + i * sys_.wheel_surface.stride, penalty_ * row.area * n2[i] * rows_->weights[w].m * rows_->weights[w].m);
+      }
+    }
+    return d;
+  }
+  static void precondition(const StaticVector& inverse, const StaticVector& r, StaticVector& z) {
+    for_each(static_cast<std::ptrdiff_t>(r.rail.size()), [&](std::ptrdiff_t i) { z.rail[i] = inverse.rail[i] * r.rail[i]; });
+    for_each(static_cast<std::ptrdiff_t>(r.wheel.size()), [&](std::ptrdiff_t i) { z.wheel[i] = inverse.wheel[i] * r.wheel[i]; });
+    z.axle = inverse.axle * r.axle;
   }
 
   // Solves for r in place; returns the number of iterations.
   int conjugate_gradients(StaticVector& r, double tolerance) {
+    const StaticVector inverse = with_contact();
     StaticVector x = zero(), z = zero(), p, q = zero();
-    precondition(r, z);
+    precondition(inverse, r, z);
     p = z;
     double rz = dot(r, z);
     const double wanted = tolerance * tolerance * rz;
@@ -241,7 +274,7 @@ class Preload {
       const double alpha = rz / dot(p, q);
       add(x, alpha, p);
       add(r, -alpha, q);
-      precondition(r, z);
+      precondition(inverse, r, z);
       const double next = dot(r, z), beta = next / rz;
       rz = next;
       for_each(static_cast<std::ptrdiff_t>(p.rail.size()), [&](std::ptrdiff_t i) { p.rail[i] = z.rail[i] + beta * p.rail[i]; });

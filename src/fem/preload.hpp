@@ -1,5 +1,6 @@
 #pragma once
-// Static equilibrium under gravity, frictionless contact, before anything moves.
+// Equilibrium before the rolling: gravity, the centrifugal forces of the wheel's starting spin (they widen the rim by some 10 um, a tenth of the approach: a wheel set
+// spinning without them rings), frictionless contact.
 //
 // Unknown: the displacements of both bodies and the axle's height. Newton steps on the exact residual with the stiffness of the undeformed bodies, augmented
 // multipliers for the contact (p <- max(0, p - eps g)), each step solved by conjugate gradients that use the explicit solver's element kernel as the operator and the

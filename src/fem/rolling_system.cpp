@@ -112,6 +112,7 @@ RollingSystem::RollingSystem(const Model& m)
         const double radius = wheel.solid.body().blocks[l.block].section.nodes[l.node].z;
         spin_inertia += wheel.mass[l.first + j] * radius * radius;
       }
+  if (m.spec.run.rolling) start_spin = m.spec.drive.speed * (1 - m.spec.drive.creepage_start) / rolling_radius;
   const double traction = m.spec.drive.traction_coefficient * m.load;
   torque = traction * (rolling_radius + spin_inertia / (travel_mass * rolling_radius));
 

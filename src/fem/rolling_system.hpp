@@ -61,6 +61,7 @@ struct RollingSystem {
   double rolling_radius = 0;
   double spin_inertia = 0;    ///< kg m², of everything that turns
   double travel_mass = 0;     ///< kg, of everything that moves along x
+  double start_spin = 0;      ///< rad/s, at the start of the rolling: V (1 - creepage)/r; 0 for a static case
   double torque = 0;          ///< N m, steady: gives the wanted F_T with the inertia of the accelerated wheel, M = F_T (r + I/(m r))
   double penalty_stiffness = 0;  ///< Pa/m, of the penalty method
 

@@ -58,7 +58,7 @@ void Stepper::start(const PreloadResult& preload) {
   state_.u_rail = preload.u_rail;
   state_.u_wheel = preload.u_wheel;
   state_.tractions = preload.tractions;
-  state_.axle = {0, preload.axle_z, 0, spec.drive.speed, 0, spec.drive.speed * (1 - spec.drive.creepage_start) / sys_.rolling_radius};
+  state_.axle = {0, preload.axle_z, 0, spec.drive.speed, 0, sys_.start_spin};
   axle_z0_ = preload.axle_z;
   old_spin_ = state_.axle.spin;
   state_.groups.assign(spec.vehicle.suspension_groups, MassGroup{});
@@ -161,7 +161,7 @@ void Stepper::contact() {
       const std::ptrdiff_t k = i - sys_.wheel_surface.first_line;
       const int column = static_cast<int>(k / (3 * ws)), station = static_cast<int>(k % (3 * ws));
       const double z = sys_.wheel_surface.node[column].z, t = sys_.wheel_surface.stations.at[station] - state_.axle.psi;
-      a -= rate * (v - Vec3{state_.axle.vx + state_.axle.spin * z * std::cos(t), 0, state_.axle.spin * z * std::sin(t)});
+      a -= rate * (v - Vec3{mean_travel_ + mean_spin_ * z * std::cos(t), 0, mean_spin_ * z * std::sin(t)});
     }
     c.wheel_velocity.push_back(v + dt_ * a);
     c.wheel_inverse_mass.push_back(sys_.wheel.inverse_mass[i]);
@@ -200,13 +200,6 @@ void Stepper::contact() {
 void Stepper::advance(const DeformableBody& body, Field& u, Field& v, const Field& f, bool is_wheel, double& kinetic, double& damping_power) {
   const double rate = damping_rate(), g = sys_.gravity, dt = dt_;
   const bool energy = want_energy_;
-  if (is_wheel && rate > 0)
-    for (std::size_t b = 0; b < cos_node_.size(); ++b)
-      for (std::size_t j = 0; j < cos_node_[b].size(); ++j) {
-        const double t = sys_.model.wheel.blocks[b].stations.at[j] - state_.axle.psi;
-        cos_node_[b][j] = std::cos(t);
-        sin_node_[b][j] = std::sin(t);
-      }
   const auto lines = static_cast<std::ptrdiff_t>(body.lines.size());
   for_each(lines, [&](std::ptrdiff_t n) {
     const DeformableBody::Line& l = body.lines[n];
@@ -223,8 +216,8 @@ void Stepper::advance(const DeformableBody& body, Field& u, Field& v, const Fiel
       return;
     }
     const double* turn = is_wheel && rate > 0 && l.component != 1 ? (l.component == 0 ? cos_node_ : sin_node_)[l.block].data() : nullptr;
-    const double arm = turn ? state_.axle.spin * body.solid.body().blocks[l.block].section.nodes[l.node].z : 0.0;
-    const double travel = turn && l.component == 0 ? state_.axle.vx : 0.0;
+    const double arm = turn ? mean_spin_ * body.solid.body().blocks[l.block].section.nodes[l.node].z : 0.0;
+    const double travel = turn && l.component == 0 ? mean_travel_ : 0.0;
     double twice_kinetic = 0, power = 0;
     for (int j = 0; j < l.count; ++j) {
       const double relative = pv[j] - (turn ? travel + arm * turn[j] : 0.0);
@@ -239,6 +232,34 @@ void Stepper::advance(const DeformableBody& body, Field& u, Field& v, const Fiel
   });
   if (rate == 0 && !energy) return;
   for (std::ptrdiff_t n = 0; n < lines; ++n) kinetic += line_kinetic_[n], damping_power += line_damping_[n];
+}
+
+// Mean travel and spin of the wheel's free nodes, and the turned station angles the run-up damping needs.
+void Stepper::measure_rigid_motion() {
+  for (std::size_t b = 0; b < cos_node_.size(); ++b)
+    for (std::size_t j = 0; j < cos_node_[b].size(); ++j) {
+      const double t = sys_.model.wheel.blocks[b].stations.at[j] - state_.axle.psi;
+      cos_node_[b][j] = std::cos(t);
+      sin_node_[b][j] = std::sin(t);
+    }
+  const auto lines = static_cast<std::ptrdiff_t>(sys_.wheel.lines.size());
+  std::vector<std::array<double, 4>> part(lines);  // mass, m v_x, m r^2, angular momentum
+  for_each(lines, [&](std::ptrdiff_t n) {
+    const DeformableBody::Line& l = sys_.wheel.lines[n];
+    part[n] = {};
+    if (l.component == 1) return;
+    const double z = sys_.model.wheel.blocks[l.block].section.nodes[l.node].z;
+    const double* turn = (l.component == 0 ? cos_node_ : sin_node_)[l.block].data();
+    for (int j = 0; j < l.count; ++j) {
+      const double m = sys_.wheel.mass[l.first + j], v = state_.v_wheel[l.first + j];
+      if (l.component == 0) part[n][0] += m, part[n][1] += m * v, part[n][2] += m * z * z;
+      part[n][3] += m * z * turn[j] * v;
+    }
+  });
+  double mass = 0, momentum = 0, inertia = 0, angular = 0;
+  for (const auto& p : part) mass += p[0], momentum += p[1], inertia += p[2], angular += p[3];
+  mean_travel_ = momentum / mass;
+  mean_spin_ = angular / inertia;
 }
 
 void Stepper::advance_axle() {
@@ -294,6 +315,7 @@ double Stepper::spring_energy() const {
 
 void Stepper::step() {
   internal_forces();
+  if (damping_rate() > 0) measure_rigid_motion();
   contact();
   if (want_energy_) {
     const StrainEnergy rail = sys_.rail.solid.energy(state_.u_rail, 0), wheel = sys_.wheel.solid.energy(state_.u_wheel, state_.axle.psi);
@@ -303,8 +325,6 @@ void Stepper::step() {
     balance_.spring = spring_energy();
   }
   double kinetic = 0, damping = 0;
-  const double torque_before = balance_.torque_work;
-  (void)torque_before;
   advance(sys_.rail, state_.u_rail, state_.v_rail, f_rail_, false, kinetic, damping);
   advance(sys_.wheel, state_.u_wheel, state_.v_wheel, f_wheel_, true, kinetic, damping);
   balance_.damping += dt_ * damping;

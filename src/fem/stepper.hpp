@@ -3,7 +3,7 @@
 //
 //   v(n+1/2) = v(n-1/2) + dt a(n),   u(n+1) = u(n) + dt v(n+1/2),   m a = contact + weight - internal forces - absorbers - run-up damping
 // The axle turns with the bore's forces, the torque and the suspension. Run-up damping acts on vibration only: on velocities relative to the rigid rolling motion,
-// with a rate that fades to zero, and never on the axle's x and spin.
+// with a rate that fades to zero: the mean travel and spin of the wheel's free nodes are the reference, so that it takes neither momentum along x nor angular momentum.
 #include "fem/preload.hpp"
 #include "fem/rolling_system.hpp"
 
@@ -87,6 +87,7 @@ class Stepper {
   void internal_forces();
   void contact();
   void advance(DeformableBody const& body, Field& u, Field& v, const Field& f, bool is_wheel, double& kinetic, double& damping_power);
+  void measure_rigid_motion();
   void advance_axle();
   Vec3 free_acceleration(const DeformableBody& body, const Field& f, std::ptrdiff_t index, int stride) const;
   AxlePose pose() const { return {state_.axle.x, state_.axle.z, state_.axle.psi}; }
@@ -110,6 +111,7 @@ class Stepper {
   bool want_energy_ = false, reached_edge_ = false;
   double old_spin_ = 0;
   std::vector<double> line_kinetic_, line_damping_;
+  double mean_travel_ = 0, mean_spin_ = 0;                // of the wheel's free nodes (run-up only)
   std::vector<std::vector<double>> cos_node_, sin_node_;  // per wheel block and station, of theta - psi (run-up only)
 };
 
