@@ -6,22 +6,12 @@
 #include <random>
 
 #include "core/faults.hpp"
+#include "half_space_pair.hpp"
+#include "halfspace/layered.hpp"
+#include "reference_table.hpp"
 
 namespace railstrata {
 namespace {
-
-const HalfSpaceMaterial kSteel{210e9, 0.3};
-
-Plane hertz_plane(const PatchGrid& g, double A, double B) {
-  Plane gap(g.size());
-  for (int i = 0; i < g.nx; ++i)
-    for (int j = 0; j < g.ny; ++j) gap[g.index(i, j)] = A * g.x(i) * g.x(i) + B * g.y(j) * g.y(j);
-  return gap;
-}
-
-SurfaceCompliance steel_pair() { return combined_compliance(homogeneous_compliance(kSteel), homogeneous_compliance(kSteel)); }
-
-double peak(const NormalSolution& s) { return *std::max_element(s.pressure.begin(), s.pressure.end()); }
 
 TEST(InfluenceOperator, EqualsDirectSummationForEveryComponent) {
   const SurfaceCompliance pair = combined_compliance(homogeneous_compliance({1, 0.1}), homogeneous_compliance({2, 0.45}));
@@ -68,13 +58,13 @@ TEST(NormalProblem, MeetsHertzWithin02PercentAt40CellsForAxisRatios01To10) {
     const HertzContact exact = hertz_contact(gap.A, gap.B, Es, F);
     const double dx = a > b ? 2 * d : d, dy = b > a ? 2 * d : d;
     const PatchGrid g = centred_grid(static_cast<int>(1.1 * a / dx) + 1, static_cast<int>(1.1 * b / dy) + 1, dx, dy);
-    const InfluenceOperator op(steel_pair(), g.nx, g.ny, g.dx, g.dy);
-    const NormalSolution s = solve_normal(op, g, hertz_plane(g, gap.A, gap.B), {.load = F, .approach = {}});
-    EXPECT_NEAR(peak(s) / exact.p0, 1, 2e-3) << ratio;
+    const InfluenceOperator op(pair_of(kSteel, kSteel), g.nx, g.ny, g.dx, g.dy);
+    const NormalSolution s = solve_normal(op, g, quadratic_gap(g, gap.A, gap.B), {.load = F, .approach = {}});
+    EXPECT_NEAR(peak(s.pressure) / exact.p0, 1, 2e-3) << ratio;
     EXPECT_NEAR(s.approach / exact.approach, 1, 2e-3) << ratio;
     EXPECT_NEAR(s.load / F, 1, 1e-9);
     EXPECT_FALSE(s.touches_edge);
-    const NormalSolution t = solve_normal(op, g, hertz_plane(g, gap.A, gap.B), {.load = {}, .approach = s.approach});
+    const NormalSolution t = solve_normal(op, g, quadratic_gap(g, gap.A, gap.B), {.load = {}, .approach = s.approach});
     EXPECT_NEAR(t.load / F, 1, 1e-5) << "load and approach are inverse";
   }
 }
@@ -88,9 +78,9 @@ TEST(NormalProblem, MeetsContactCellForCellOnTheCircle) {
   for (const Row r : {Row{1e-3, 1076.15847297e6, 0.0898027331686e-3, 121}, Row{0.5e-3, 1074.78250351e6, 0.0898450979144e-3, 489}, Row{0.25e-3, 1074.62875675e6, 0.08987096239e-3, 1901}}) {
     const int half = static_cast<int>(7e-3 / r.dx);
     const PatchGrid g = centred_grid(half, half, r.dx, r.dx);
-    const InfluenceOperator op(steel_pair(), g.nx, g.ny, g.dx, g.dy);
-    const NormalSolution s = solve_normal(op, g, hertz_plane(g, 1000.0 / 840, 1000.0 / 840), {.load = 84954.6, .approach = {}});
-    EXPECT_NEAR(peak(s) / r.p_max, 1, 1e-5);
+    const InfluenceOperator op(pair_of(kSteel, kSteel), g.nx, g.ny, g.dx, g.dy);
+    const NormalSolution s = solve_normal(op, g, quadratic_gap(g, 1000.0 / 840, 1000.0 / 840), {.load = 84954.6, .approach = {}});
+    EXPECT_NEAR(peak(s.pressure) / r.p_max, 1, 1e-5);
     EXPECT_NEAR(s.approach / r.approach, 1, 1e-5);
     EXPECT_EQ(std::count_if(s.pressure.begin(), s.pressure.end(), [](double p) { return p > 0; }), r.cells);
   }
@@ -104,7 +94,7 @@ TEST(NormalProblem, TwoPatchesShareTheLoadOfTwoEqualBumps) {
       const double x = std::abs(g.x(i)) - 6e-3;
       gap[g.index(i, j)] = 4 * (x * x + g.y(j) * g.y(j));
     }
-  const InfluenceOperator op(steel_pair(), g.nx, g.ny, g.dx, g.dy);
+  const InfluenceOperator op(pair_of(kSteel, kSteel), g.nx, g.ny, g.dx, g.dy);
   const NormalSolution s = solve_normal(op, g, gap, {.load = 2e4, .approach = {}});
   double left = 0, right = 0;
   for (int i = 0; i < g.nx; ++i)
@@ -114,12 +104,29 @@ TEST(NormalProblem, TwoPatchesShareTheLoadOfTwoEqualBumps) {
   EXPECT_EQ(s.pressure[g.index(g.nx / 2, g.ny / 2)], 0);
 }
 
+// coated_sphere.csv: rigid sphere, Fourier-domain solution with a grid error of up to 1 %.
+TEST(NormalProblem, RigidSphereOnACoatedHalfSpaceMeetsTheTableWithin15Percent) {
+  const double R = 0.01, F = 100;
+  const HalfSpaceMaterial base{210e9, 0.3}, rigid{1e20, 0.3};
+  const HertzContact hertz = hertz_contact(0.5 / R, 0.5 / R, contact_modulus(rigid, base), F);
+  for (const ReferenceRow& r : reference_table("coated_sphere.csv")) {
+    const LayeredHalfSpace body{{{r.at("h_over_aH") * hertz.a, {r.at("E1_over_E0") * base.young, 0.3}}}, base};
+    const double d = hertz.a / 40;
+    const PatchGrid g = centred_grid(56, 56, d, d);
+    const InfluenceOperator op(layered_compliance(body), g.nx, g.ny, d, d);
+    const NormalSolution s = solve_normal(op, g, quadratic_gap(g, 0.5 / R, 0.5 / R), {.load = F, .approach = {}});
+    const auto cells = std::count_if(s.pressure.begin(), s.pressure.end(), [](double p) { return p > 0; });
+    EXPECT_NEAR(peak(s.pressure) / hertz.p0 / r.at("p0_over_pH"), 1, 0.015) << r.at("h_over_aH") << ' ' << r.at("E1_over_E0");
+    EXPECT_NEAR(std::sqrt(static_cast<double>(cells) / 3.141592653589793) * d / hertz.a / r.at("a_over_aH"), 1, 0.015) << r.at("h_over_aH") << ' ' << r.at("E1_over_E0");
+  }
+}
+
 TEST(NormalProblem, SaysWhenTheGridIsTooSmallOrTheBodiesDoNotTouch) {
   const PatchGrid g = centred_grid(5, 5, 1e-3, 1e-3);
-  const InfluenceOperator op(steel_pair(), g.nx, g.ny, g.dx, g.dy);
-  EXPECT_TRUE(solve_normal(op, g, hertz_plane(g, 1, 1), {.load = 8e4, .approach = {}}).touches_edge);
-  EXPECT_THROW(solve_normal(op, g, hertz_plane(g, 1, 1), {.load = {}, .approach = -1e-6}), CaseError);
-  EXPECT_THROW(solve_normal(op, g, hertz_plane(g, 1, 1), {.load = -1.0, .approach = {}}), CaseError);
+  const InfluenceOperator op(pair_of(kSteel, kSteel), g.nx, g.ny, g.dx, g.dy);
+  EXPECT_TRUE(solve_normal(op, g, quadratic_gap(g, 1, 1), {.load = 8e4, .approach = {}}).touches_edge);
+  EXPECT_THROW(solve_normal(op, g, quadratic_gap(g, 1, 1), {.load = {}, .approach = -1e-6}), CaseError);
+  EXPECT_THROW(solve_normal(op, g, quadratic_gap(g, 1, 1), {.load = -1.0, .approach = {}}), CaseError);
 }
 
 }  // namespace
