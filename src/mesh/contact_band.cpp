@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/faults.hpp"
 #include "mesh/grading.hpp"
@@ -18,24 +19,38 @@ int layer_rows(const LayerMesh& layer, double h) {
   return std::max(layer.thickness > 3e-3 - 1e-9 ? 3 : 2, by_height);
 }
 
-/// Heights that fill `rest` below a row of height `above`: by factors of two to h, then h.
-std::vector<double> matrix_heights(double rest, double above, double h) {
+/// n rows below one of height `above`, each `ratio` times its neighbour until h is reached.
+std::vector<double> growing_heights(double above, double h, double ratio, int n) {
   std::vector<double> heights;
-  double sum = 0, height = above;
-  while (std::abs(height - h) > 1e-9 * h) {
-    height = height < h ? std::min(2 * height, h) : std::max(0.5 * height, h);
-    if (sum + height > rest) break;
+  double height = above;
+  for (int i = 0; i < n; ++i) {
+    height = above < h ? std::min(height * ratio, h) : std::max(height / ratio, h);
     heights.push_back(height);
-    sum += height;
   }
-  const int n = static_cast<int>(std::lround((rest - sum) / h));
-  if (n > 0) {
-    heights.insert(heights.end(), n, (rest - sum) / n);
-    return heights;
-  }
-  if (heights.empty()) return {rest};
-  for (double& x : heights) x *= rest / sum;
   return heights;
+}
+
+/// Heights that fill `rest` below a row of height `above`: towards h by a ratio of at most two, then h.
+std::vector<double> matrix_heights(double rest, double above, double h) {
+  if (std::abs(above - h) < 1e-9 * h) {
+    const int n = std::max(1, static_cast<int>(std::lround(rest / h)));
+    return std::vector<double>(n, rest / n);
+  }
+  const auto sum = [&](double ratio, int n) {
+    const std::vector<double> heights = growing_heights(above, h, ratio, n);
+    return std::accumulate(heights.begin(), heights.end(), 0.0);
+  };
+  int n = 1;
+  if (above < h)
+    while (sum(2, n) < rest) ++n;
+  else
+    while (sum(2, n + 1) <= rest) ++n;
+  double low = 1, high = 2;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    ((sum(middle, n) > rest) == (above < h) ? high : low) = middle;
+  }
+  return growing_heights(above, h, 0.5 * (low + high), n);
 }
 
 /// Outward direction of the column at s: the surface's normal, blended across the kinks nearby.
@@ -75,7 +90,7 @@ BandRows band_rows(const std::vector<LayerMesh>& layers, double h, double fine_d
     throw CaseError(fmt::format("layer thicker than the {}: {:g} mm of layers, the {} carries {:.2f} mm", carrier, 1e3 * layered, carrier, 1e3 * limit),
                     "make the layers thinner");
 
-  const double bottom = std::min(limit, std::max(fine_depth, layers.empty() ? h : layered + 2 * h));
+  const double bottom = std::min(limit, std::max(fine_depth, layers.empty() ? h : layered + std::max(2 * h, above)));
   if (bottom - layered < 0.25 * above) return rows;
   for (double height : matrix_heights(bottom - layered, above, h)) {
     rows.depth.push_back(rows.depth.back() + height);

@@ -15,7 +15,7 @@ struct BandRows {
   int count() const { return static_cast<int>(material.size()); }
 };
 
-/// Rows of the layers, then rows of height h to fine_depth (or two rows below the layers), never below `limit`; neighbouring rows differ by a factor of at most about 2.
+/// Rows of the layers, then rows of height h to fine_depth (or, where that is deeper, two rows or the last layer row's height below the layers), never below `limit`; neighbouring rows differ by a factor of at most about 2.
 /// Throws CaseError when the layers reach below `limit`; `carrier` names what carries them ("head", "rim").
 BandRows band_rows(const std::vector<LayerMesh>& layers, double h, double fine_depth, double limit, const char* carrier);
 /// The same with rows of one material merged up to the given height: the band beside the fine columns.

@@ -28,7 +28,7 @@ struct SideColumns {
 SideColumns side_columns(double to_corner, double to_end, double h, double largest, const std::vector<double>& edges) {
   const auto size = [&](double d) { return std::min(largest, kColumnStart * h + kColumnSlope * d); };
   for (double e : edges)
-    if (std::abs(e - to_corner) < 0.35 * size(to_corner)) to_corner = e;
+    if (std::abs(e - to_corner) < 0.6 * size(to_corner)) to_corner = e;
   SideColumns out;
   std::vector<double> upper{0.0};
   if (to_corner > 0.5 * h) upper = graded_points(0, to_corner, size);

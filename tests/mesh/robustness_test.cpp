@@ -1,0 +1,79 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "mesh_checks.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace mesh_checks;
+
+constexpr double kSizes[] = {0.25e-3, 0.5e-3, 1e-3, 2e-3, 4e-3};
+constexpr double kThickness[] = {0, 0.05e-3, 0.1e-3, 0.2e-3, 1e-3, 3e-3, 6e-3, 10e-3};
+
+template <class Make>
+WorstQuality scan(const Make& make) {
+  WorstQuality worst;
+  for (double h : kSizes)
+    for (double t : kThickness)
+      gather(worst, make(MeshSizes{h, 24e-3, 8e-3, 3, 12e-3}, t > 0 ? one_layer(t) : std::vector<LayerMesh>{}), fmt::format("h {:g} mm, layer {:g} mm", 1e3 * h, 1e3 * t));
+  return worst;
+}
+
+class RailProfiles : public testing::TestWithParam<const char*> {};
+class WheelProfiles : public testing::TestWithParam<const char*> {};
+
+TEST_P(RailProfiles, GiveNoPoorElementForAnySizeAndLayer) {
+  const Profile profile = builtin_profile(ProfileKind::rail, GetParam());
+  for (double s : {-8e-3, 0.0, 3e-3, 12e-3}) {
+    const WorstQuality worst = scan([&](const MeshSizes& sizes, const std::vector<LayerMesh>& layers) { return mesh_rail(profile, kTrack, rail_spec(s, layers), sizes); });
+    EXPECT_GT(worst.scaled_jacobian, 0.1) << worst.where << ", contact at s = " << s;
+    RecordProperty(fmt::format("scaled_jacobian_min_at_{:g}_mm", 1e3 * s), fmt::format("{:.3f}: {}", worst.scaled_jacobian, worst.where));
+  }
+}
+
+TEST_P(WheelProfiles, GiveNoPoorElementForAnySizeAndLayer) {
+  const Profile profile = builtin_profile(ProfileKind::wheel, GetParam());
+  for (double s : {-12e-3, 0.0, 3e-3, 15e-3}) {
+    const WorstQuality worst = scan([&](const MeshSizes& sizes, const std::vector<LayerMesh>& layers) { return mesh_wheel(profile, 0.430, {}, wheel_spec(s, layers), sizes); });
+    EXPECT_GT(worst.scaled_jacobian, 0.1) << worst.where << ", contact at s = " << s;
+    RecordProperty(fmt::format("scaled_jacobian_min_at_{:g}_mm", 1e3 * s), fmt::format("{:.3f}: {}", worst.scaled_jacobian, worst.where));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Shipped, RailProfiles, testing::Values("CN60", "UIC60", "UIC54"));
+INSTANTIATE_TEST_SUITE_P(Shipped, WheelProfiles, testing::Values("LMA", "S1002"));
+
+TEST(SimpleShapes, GiveNoPoorElementForAnySizeAndLayer) {
+  const Profile rail = builtin_profile(ProfileKind::rail, "CN60"), wheel = builtin_profile(ProfileKind::wheel, "LMA");
+  const WorstQuality block = scan([&](const MeshSizes& sizes, const std::vector<LayerMesh>& layers) {
+    RailMeshSpec spec = rail_spec(0, layers);
+    spec.shape = RailShape::block;
+    return mesh_rail(rail, kTrack, spec, sizes);
+  });
+  EXPECT_GT(block.scaled_jacobian, 0.1) << block.where;
+  const WorstQuality disc = scan([&](const MeshSizes& sizes, const std::vector<LayerMesh>& layers) {
+    WheelMeshSpec spec = wheel_spec(0, layers);
+    spec.shape = WheelShape::disc;
+    return mesh_wheel(wheel, 0.430, {}, spec, sizes);
+  });
+  EXPECT_GT(disc.scaled_jacobian, 0.1) << disc.where;
+}
+
+TEST(Primitives, ArcsAndPlanesGiveNearlyPerfectBlocksAndDiscs) {
+  TrackGeometry flat;
+  flat.cant = 0;
+  for (double radius : {0.3, std::numeric_limits<double>::infinity()}) {
+    RailMeshSpec rail = rail_spec();
+    rail.shape = RailShape::block;
+    rail.block_width = 0.05;
+    WheelMeshSpec wheel = wheel_spec();
+    wheel.shape = WheelShape::disc;
+    wheel.rim_thickness = 0.05;
+    for (const SweptBody& body : {mesh_rail(circular_profile(ProfileKind::rail, radius), flat, rail, {}), mesh_wheel(circular_profile(ProfileKind::wheel, radius), 0.43, {}, wheel, {})})
+      for (const BlockQuality& q : measure_quality(body)) EXPECT_GT(q.scaled_jacobian_min, 0.8) << body.name << " " << q.block;
+  }
+}
+
+}  // namespace
+}  // namespace railstrata
