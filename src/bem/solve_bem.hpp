@@ -1,0 +1,61 @@
+#pragma once
+// The half-space solution of a case: the same case file the finite elements run, answered by Kalker's method.
+//
+// What it takes of a case: profiles and track, wheel radius, moduli, layers (unbounded sideways), load G = (wheel + sprung mass) g as the vertical force, friction and
+// traction coefficients. Steady rolling: F_x = traction_coefficient G on the wheel, no lateral creepage, spin and the variation of the rolling radius across the patch
+// from the geometry. What it has not: inertia, the bodies' shape outside the patch, the layer's edges.
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bem/rolling_contact.hpp"
+#include "contact/contact_field.hpp"
+#include "halfspace/layered.hpp"
+#include "model/model.hpp"
+
+namespace railstrata {
+
+/// Influence operators of earlier solutions, for sweeps; safe to share between threads.
+class InfluenceCache {
+ public:
+  InfluenceCache();
+  ~InfluenceCache();
+  std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail, const PatchGrid& grid);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+struct BemOptions {
+  double cell = 0.25e-3;               ///< m
+  double largest_patch = 60e-3;        ///< m, of the potential contact area, per direction
+  RollingOptions rolling;
+  InfluenceCache* cache = nullptr;
+};
+
+struct BemResult {
+  ContactField field;
+  PatchGrid grid;                       ///< contact frame: x rolling, y along the common tangent, origin at the rigid contact point
+  RigidContact contact;
+  LayeredHalfSpace wheel, rail;
+  double p_max = 0, q_max = 0;          ///< Pa, of the cells
+  double F_x = 0, F_y = 0, F_z = 0;     ///< N, on the rail, model frame (z up: F_z < 0)
+  double normal_force = 0, tangential_y = 0;  ///< N, contact frame
+  double moment = 0;                    ///< N m about the contact normal, on the rail
+  double approach = 0;                  ///< m
+  double creepage_x = 0, creepage_y = 0, spin = 0;  ///< rigid slip of the wheel over the rail / V; a driving wheel has creepage_x < 0
+  double patch_area = 0, slip_area = 0; ///< m², of the cells
+  double dissipation = 0;               ///< W
+  int turns = 1, iterations = 0;
+  double wall_s = 0;
+  std::vector<std::string> notes;       ///< what the user should know: a grown grid, …
+};
+
+/// Layers of one body ("rail" or "wheel") from the case, from the surface down.
+LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body);
+
+/// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch.
+BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {});
+
+}  // namespace railstrata

@@ -1,0 +1,83 @@
+#include "bem/solve_bem.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+CaseSpec paper_base() {
+  CaseSpec spec;
+  spec.geometry.lateral_shift = 1.5e-3;
+  return spec;
+}
+
+// Half-space solution of the exact profiles (project notes): 1074 MPa; slip area about 0.23–0.26 of the patch; creepage 1.3–1.6e-3.
+TEST(SolveBem, PaperBaseCase) {
+  const CaseSpec spec = paper_base();
+  const BemResult r = solve_bem(spec, place(spec, {}));
+  EXPECT_NEAR(r.p_max / 1074e6, 1, 0.007);
+  EXPECT_NEAR(r.F_x / (-0.2 * static_load(spec)), 1, 1e-5);
+  EXPECT_NEAR(-r.F_z / static_load(spec), 1, 2e-3);
+  EXPECT_GT(r.slip_area / r.patch_area, 0.20);
+  EXPECT_LT(r.slip_area / r.patch_area, 0.30);
+  EXPECT_LT(r.creepage_x, -1.2e-3);
+  EXPECT_GT(r.creepage_x, -1.7e-3);
+  double sum = 0;
+  for (std::size_t k = 0; k < r.field.p.size(); ++k) sum += r.field.p[k] * r.field.area[k];
+  EXPECT_NEAR(sum, r.normal_force, 1e-6 * sum);
+}
+
+TEST(SolveBem, StiffLayerRaisesThePeakPressureAndSoftLayerLowersIt) {
+  CaseSpec spec = paper_base();
+  const double bare = solve_bem(spec, place(spec, {})).p_max;
+  spec.layers.push_back({});
+  spec.layers[0].material.young = 4 * 210e9;
+  const double stiff = solve_bem(spec, place(spec, {})).p_max;
+  spec.layers[0].material.young = 0.25 * 210e9;
+  const double soft = solve_bem(spec, place(spec, {})).p_max;
+  EXPECT_GT(stiff, 1.05 * bare);
+  EXPECT_LT(soft, 0.95 * bare);
+  spec.layers[0].material.young = 210e9;
+  EXPECT_NEAR(solve_bem(spec, place(spec, {})).p_max / bare, 1, 1e-9) << "a layer of the rail's own steel changes nothing";
+}
+
+TEST(SolveBem, GrowsThePotentialContactAreaByItselfAndSaysSo) {
+  CaseSpec spec;
+  spec.vehicle.sprung_mass = 20000;
+  BemOptions options;
+  options.cell = 0.5e-3;
+  const BemResult r = solve_bem(spec, place(spec, {}), options);
+  ASSERT_EQ(r.notes.size(), 1u);
+  EXPECT_NE(r.notes[0].find("grown"), std::string::npos);
+  spec.vehicle.sprung_mass = 3e6;
+  EXPECT_THROW(solve_bem(spec, place(spec, {}), options), CaseError);
+}
+
+TEST(SolveBem, TractionAboveFrictionIsACaseError) {
+  CaseSpec spec = paper_base();
+  spec.drive.traction_coefficient = 0.51;
+  EXPECT_THROW(solve_bem(spec, place(spec, {})), CaseError);
+  spec.drive.friction_coefficient = 0;
+  EXPECT_THROW(solve_bem(spec, place(spec, {})), CaseError);
+  spec.drive.traction_coefficient = 0;
+  EXPECT_EQ(solve_bem(spec, place(spec, {})).q_max, 0);
+}
+
+TEST(SolveBem, CachedInfluenceGivesTheSameBits) {
+  CaseSpec spec = paper_base();
+  spec.layers.push_back({});
+  InfluenceCache cache;
+  BemOptions options;
+  options.cache = &cache;
+  const BemResult a = solve_bem(spec, place(spec, {}), options), b = solve_bem(spec, place(spec, {}), options), c = solve_bem(spec, place(spec, {}));
+  EXPECT_EQ(a.field.p, b.field.p);
+  EXPECT_EQ(a.field.q_x, b.field.q_x);
+  EXPECT_EQ(a.field.q_x, c.field.q_x);
+}
+
+}  // namespace
+}  // namespace railstrata
