@@ -1,0 +1,34 @@
+#pragma once
+// Tables as text: "#" lines that say where the numbers come from, one header row of names with units, then rows of numbers with a decimal point that read back
+// to the same doubles. Errors: EnvironmentError for the disk, std::invalid_argument for columns of unequal length or names with commas.
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/output_file.hpp"
+
+namespace railstrata {
+
+struct CsvColumn {
+  std::string name;  ///< with its unit: "pressure_MPa"
+  std::vector<double> values;
+};
+
+/// Writes a finished table, whole (io/output_file). provenance: one "# …" line each.
+void write_csv(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<CsvColumn>& columns);
+
+/// A table that grows during a run (history.csv): every row is handed to the system at once, so it can be watched and survives a crash of the program.
+class CsvLog {
+ public:
+  CsvLog(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<std::string>& names);
+  /// One value per column.
+  void add(std::span<const double> row);
+  void add(std::initializer_list<double> row) { add(std::span<const double>(row.begin(), row.size())); }
+
+ private:
+  OutputFile file_;
+  std::size_t columns_;
+};
+
+}  // namespace railstrata

@@ -1,0 +1,74 @@
+#include "io/output_file.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+#include <utility>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_on(const fs::path& path, int reason) {
+  throw EnvironmentError("cannot write " + path.string() + ": " + std::generic_category().message(reason));
+}
+
+/// A rename is on the disk when its folder is.
+void sync_folder(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  ::fsync(descriptor);  // not every file system can; the file itself is safe by now
+  ::close(descriptor);
+}
+
+}  // namespace
+
+OutputFile::OutputFile(fs::path path) : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+  if (descriptor_ < 0) fail();
+}
+
+OutputFile::OutputFile(OutputFile&& other) noexcept : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+OutputFile::~OutputFile() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+void OutputFile::fail() const { fail_on(path_, errno); }
+
+void OutputFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) fail();
+    bytes.remove_prefix(static_cast<std::size_t>(n));
+  }
+}
+
+void OutputFile::finish() {
+  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail();  // EINVAL: pipes and devices
+  if (::close(std::exchange(descriptor_, -1)) != 0) fail();
+}
+
+void write_whole_file(const fs::path& path, std::string_view bytes) {
+  const fs::path temporary = path.string() + ".part" + std::to_string(::getpid());
+  try {
+    OutputFile file(temporary);
+    file.write(bytes);
+    file.finish();
+    if (::rename(temporary.c_str(), path.c_str()) != 0) fail_on(path, errno);
+  } catch (const EnvironmentError& e) {
+    ::unlink(temporary.c_str());
+    std::string text = e.what();
+    if (const std::size_t at = text.find(temporary.string()); at != std::string::npos) text.replace(at, temporary.string().size(), path.string());
+    throw EnvironmentError(text);
+  }
+  sync_folder(path);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,33 @@
+#pragma once
+// Files that are either whole or not there.
+#include <filesystem>
+#include <string_view>
+
+namespace railstrata {
+
+/// A file open for writing. Every failure (disk full, no permission, quota) throws EnvironmentError naming the file and the system's reason.
+class OutputFile {
+ public:
+  /// Creates the file or empties it.
+  explicit OutputFile(std::filesystem::path path);
+  ~OutputFile();
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&&) = delete;
+
+  /// Hands the bytes to the system; a reader sees them at once.
+  void write(std::string_view bytes);
+  /// Waits until the disk has them, then closes.
+  void finish();
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  [[noreturn]] void fail() const;
+  std::filesystem::path path_;
+  int descriptor_ = -1;
+};
+
+/// Writes to a temporary name beside `path`, waits for the disk and renames: a reader, or a crash, finds the old file or the new one, never a part. On failure the
+/// old file is untouched and the temporary one removed. Throws EnvironmentError naming `path`.
+void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace railstrata

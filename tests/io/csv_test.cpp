@@ -1,0 +1,76 @@
+#include "io/csv.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <stdexcept>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Csv : public ::testing::Test {
+ protected:
+  void SetUp() override { file_ = fs::temp_directory_path() / ("railstrata_" + std::to_string(::getpid()) + ".csv"); }
+  void TearDown() override { fs::remove(file_); }
+  std::string content() const {
+    std::ifstream in(file_);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  fs::path file_;
+};
+
+TEST_F(Csv, a_table_has_provenance_lines_a_header_and_rows) {
+  write_csv(file_, {"made by a test", "two\nlines"}, {{"x_m", {0, 0.1}}, {"pressure_MPa", {1e3, -2.5}}});
+  EXPECT_EQ(content(), "# made by a test\n# two\n# lines\nx_m,pressure_MPa\n0,1000\n0.1,-2.5\n");
+}
+
+TEST_F(Csv, numbers_read_back_to_the_same_doubles) {
+  const std::vector<double> values = {1.0 / 3, M_PI * 1e-300, -0.1, 1e22, std::nextafter(1.0, 2.0), std::numeric_limits<double>::denorm_min(), -0.0};
+  write_csv(file_, {}, {{"a", values}});
+  std::ifstream in(file_);
+  std::string line;
+  std::getline(in, line);
+  for (const double v : values) {
+    std::getline(in, line);
+    const double back = std::strtod(line.c_str(), nullptr);
+    EXPECT_EQ(back, v) << line;
+    EXPECT_EQ(std::signbit(back), std::signbit(v));
+  }
+}
+
+TEST_F(Csv, a_log_shows_every_row_at_once) {
+  CsvLog log(file_, {"run 1"}, {"time_s", "F_z_N"});
+  EXPECT_EQ(content(), "# run 1\ntime_s,F_z_N\n");
+  log.add({0.001, 85e3});
+  EXPECT_EQ(content(), "# run 1\ntime_s,F_z_N\n0.001,85000\n");
+  EXPECT_THROW(log.add({1.0}), std::invalid_argument);
+}
+
+TEST_F(Csv, unequal_columns_and_names_with_commas_are_refused) {
+  EXPECT_THROW(write_csv(file_, {}, {{"a", {1}}, {"b", {}}}), std::invalid_argument);
+  EXPECT_THROW(write_csv(file_, {}, {{"a,b", {1}}}), std::invalid_argument);
+  EXPECT_FALSE(fs::exists(file_));
+}
+
+TEST(CsvLogOnAFullDisk, says_which_file) {
+  CsvLog log("/dev/null", {}, {"a"});
+  EXPECT_NO_THROW(log.add({1.0}));
+  try {
+    CsvLog full("/dev/full", {}, {"a"});
+    FAIL();
+  } catch (const EnvironmentError& e) {
+    EXPECT_STREQ(e.what(), "cannot write /dev/full: No space left on device");
+  }
+}
+
+}  // namespace
+}  // namespace railstrata
