@@ -27,14 +27,20 @@ struct RigidContact {
   Vec2 point;                   ///< contact point, model frame
   double angle = 0;             ///< contact angle [rad]: inclination of the common tangent to the y axis, positive when rising to the field side
   double rolling_radius = 0;    ///< distance of the contact point from the axle
-  double curvature_wheel_lateral = 0, curvature_rail_lateral = 0, curvature_rolling = 0;  ///< 1/m, convex positive
+  double curvature_wheel_lateral = 0, curvature_rail_lateral = 0;  ///< of the profiles at the contact, 1/m, convex positive
+  double curvature_rolling = 0;  ///< of the wheel across them, cos(angle) / rolling_radius [1/m]
 };
 
 /// Rail profile frame -> model frame (rotation by atan(cant)) and back.
 Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point);
 Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point);
 
-/// Finds the first contact point of the rigid profiles. Throws CaseError if the wheel misses the rail or touches at the end of a profile.
+/// Lowers the wheel vertically until it touches: the smallest vertical gap over the rail's whole running surface, found to 1e-9 m where the contact is a
+/// single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. Yaw is zero, so the contact lies below the axle.
+/// The tape circle stands at back_to_back / 2 + flange_back_to_tape from the track's centre, the gauge face (gauge_depth below the highest point of the canted
+/// rail) at gauge / 2, and lateral_shift moves the wheel from there. A plane or arc (Profile::primitive) has neither flange nor gauge face: with one in the pair
+/// the tape circle stands over the rail's axis, moved by lateral_shift.
+/// Throws CaseError if the wheel misses the rail, touches at the end of a profile, or the rail's profile ends above the gauge depth.
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track);
 
 }  // namespace railstrata

@@ -1,7 +1,6 @@
 #include "geometry/profile.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -62,8 +61,6 @@ Profile Profile::from_points(ProfileKind kind, std::string name, std::vector<Vec
 
 double Profile::s_min() const { return s_.front(); }
 double Profile::s_max() const { return s_.back(); }
-double Profile::y_min() const { return at(graph_begin_).position.y; }
-double Profile::y_max() const { return at(graph_end_).position.y; }
 
 std::size_t Profile::piece_of(double s) const {
   const auto after = std::upper_bound(s_.begin() + 1, s_.end() - 1, s);
@@ -78,9 +75,10 @@ Profile::Local Profile::local(std::size_t i, double s) const {
       const Vec2 t = (1 / h) * (g.p1 - g.p0);
       return {g.p0 + (s - s_[i]) * t, t, {}};
     }
-    const double turn = std::copysign(1.0, sweep(g)), angle = turn * (s - s_[i]) / g.radius;
+    const Vec2 a = g.p0 - g.centre;
+    const double turn = cross(a, g.p1 - g.centre) > 0 ? 1.0 : -1.0, angle = turn * (s - s_[i]) / g.radius;
     const double c = std::cos(angle), d = std::sin(angle);
-    const Vec2 a = g.p0 - g.centre, arm{c * a.y - d * a.z, d * a.y + c * a.z};
+    const Vec2 arm{c * a.y - d * a.z, d * a.y + c * a.z};
     return {g.centre + arm, (turn / g.radius) * Vec2{-arm.z, arm.y}, (-1 / (g.radius * g.radius)) * arm};
   }
   const double a = (s_[i + 1] - s) / h, b = (s - s_[i]) / h;
@@ -111,17 +109,12 @@ double Profile::s_at_y_within(std::size_t piece, double y) const {
 }
 
 double Profile::s_at_y(double y) const {
-  const double lo = y_min(), hi = y_max();
-  if (!(y >= lo - kJoin && y <= hi + kJoin)) throw std::out_of_range(name_ + ": no running surface at this lateral coordinate");
-  if (y <= lo) return graph_begin_;
-  if (y >= hi) return graph_end_;
-  std::size_t first = piece_of(graph_begin_), last = piece_of(graph_end_);
-  while (first < last) {
-    const std::size_t middle = (first + last + 1) / 2;
-    if (local(middle, s_[middle]).position.y <= y) first = middle;
-    else last = middle - 1;
-  }
-  return std::clamp(s_at_y_within(first, y), graph_begin_, graph_end_);
+  if (!(y >= y_min() - kJoin && y <= y_max() + kJoin)) throw std::out_of_range(name_ + ": no running surface at this lateral coordinate");
+  if (y <= y_min()) return graph_begin_;
+  if (y >= y_max()) return graph_end_;
+  const auto begin = knot_y_.begin() + static_cast<std::ptrdiff_t>(piece_of(graph_begin_)), end = knot_y_.begin() + static_cast<std::ptrdiff_t>(piece_of(graph_end_));
+  const std::size_t piece = static_cast<std::size_t>(std::upper_bound(begin + 1, end + 1, y) - knot_y_.begin()) - 1;
+  return std::clamp(s_at_y_within(piece, y), graph_begin_, graph_end_);
 }
 
 double Profile::graph_end(bool towards_field) const {
@@ -157,8 +150,11 @@ void Profile::set_origin() {
                     "move the origin to the rail's axis or the wheel's tape circle; y must increase towards the field side");
   const double zero = s_at_y_within(crossing, 0.0);
   for (double& s : s_) s -= zero;
+  for (std::size_t i = 0; i < s_.size(); ++i) knot_y_.push_back(local(std::min(i, pieces - 1), s_[i]).position.y);
   graph_begin_ = graph_end(false);
   graph_end_ = graph_end(true);
+  graph_y_begin_ = at(graph_begin_).position.y;
+  graph_y_end_ = at(graph_end_).position.y;
 }
 
 }  // namespace railstrata

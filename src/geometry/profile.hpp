@@ -50,8 +50,8 @@ class Profile {
   double s_at_y(double y) const;
   /// Height of the running surface, z(y).
   double height(double y) const { return at(s_at_y(y)).position.z; }
-  double y_min() const;  ///< of the running surface (the part around s = 0 where the curve is a graph over y)
-  double y_max() const;
+  double y_min() const { return graph_y_begin_; }  ///< of the running surface (the part around s = 0 where the curve is a graph over y)
+  double y_max() const { return graph_y_end_; }
   /// Arc lengths where pieces join: ends of the segments, or the spline's knots. Increasing; first s_min, last s_max.
   const std::vector<double>& knots() const { return s_; }
   /// The exact curve; empty for a point profile.
@@ -76,7 +76,9 @@ class Profile {
   std::vector<ProfileSegment> segments_;
   std::vector<double> s_;                 // knots (segment ends, or spline knots)
   std::vector<Vec2> p_, d2_;              // point profiles: positions and second derivatives of the cubic spline in s
-  double graph_begin_ = 0, graph_end_ = 0;  // arc lengths of y_min and y_max
+  std::vector<double> knot_y_;            // lateral coordinates of the knots
+  double graph_begin_ = 0, graph_end_ = 0;      // arc lengths of y_min and y_max
+  double graph_y_begin_ = 0, graph_y_end_ = 0;
 };
 
 /// Names accepted by builtin_profile: LMA, S1002 (wheel); CN60, UIC60, UIC54 (rail); "flat" (both).

@@ -185,7 +185,8 @@ SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points) {
   std::vector<double> t = chord_lengths(points);
   const bool dense = t.back() / static_cast<double>(t.size() - 1) < kClosestKnots;  // else the shape between points would be taken for noise
   const double noise = dense ? estimated_noise(points) : 0.0, tolerance = std::max(4 * noise, kSmallestTolerance);
-  const double spacing = dense ? std::clamp(std::sqrt(10 * noise / kCurvatureNoise), kClosestKnots, kWidestKnots) : 0.0;
+  const double wanted = std::clamp(std::sqrt(10 * noise / kCurvatureNoise), kClosestKnots, kWidestKnots);
+  const double spacing = dense ? std::min(wanted, t.back() / 5) : 0.0;
   std::vector<char> chosen = spaced_knots(t, spacing);
   for (int round = 0;; ++round) {
     const Basis basis(knots_of(t, chosen));

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <random>
 #include <stdexcept>
 
 #include "core/faults.hpp"
 #include "geometry/builtin_profiles.hpp"
+#include "geometry/smoothing_spline.hpp"
 
 namespace railstrata {
 namespace {
@@ -227,6 +229,33 @@ TEST(ProfileFromPoints, rounding_to_1e_6_mm_every_01_mm_leaves_the_curvature_of_
   for (Vec2& p : points) p.z = std::round(p.z / (1e-6 * mm)) * 1e-6 * mm;
   const Profile p = Profile::from_points(ProfileKind::rail, "rounded", points);
   for (double s = -0.009; s <= 0.009; s += 1e-5) EXPECT_NEAR(p.at(s).curvature, 1 / 0.3, 0.01 / 0.3);
+}
+
+/// Deviates of a unit normal distribution, the same on every machine (sums of twelve uniform ones).
+double scatter(std::mt19937& random) {
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += static_cast<double>(random()) / 4294967296.0;
+  return sum;
+}
+
+TEST(ProfileFromPoints, measured_points_scattered_by_3_micrometres_give_a_curve_closer_than_that) {
+  std::mt19937 random(1);
+  std::vector<Vec2> points = crown(0.3, 0.03, 0.2 * mm);
+  for (Vec2& p : points) p.z += 3e-6 * scatter(random);
+  EXPECT_NEAR(estimated_noise(points), 3e-6, 1e-6);
+  const Profile p = Profile::from_points(ProfileKind::rail, "measured", points);
+  for (double y = -0.025; y <= 0.025; y += 1e-4) {
+    EXPECT_NEAR(p.height(y), std::sqrt(0.09 - y * y) - 0.3, 3e-6);
+    EXPECT_NEAR(p.at(p.s_at_y(y)).curvature, 1 / 0.3, 2.0);
+  }
+}
+
+TEST(ProfileFromPoints, short_and_noisy_lists_still_make_a_curve) {
+  std::mt19937 random(2);
+  std::vector<Vec2> points = crown(0.3, 0.003, 0.1 * mm);
+  for (Vec2& p : points) p.z += 10e-6 * scatter(random);
+  const Profile p = Profile::from_points(ProfileKind::rail, "scrap", points);
+  EXPECT_NEAR(p.height(0.002), std::sqrt(0.09 - 4e-6) - 0.3, 15e-6);
 }
 
 TEST(ProfileFromPoints, a_kink_is_rounded_over_its_neighbours_without_overshoot) {
