@@ -8,9 +8,15 @@ namespace railstrata {
 namespace {
 
 std::vector<double> tread_columns(double edge, double end, const MeshSizes& sizes, const std::vector<double>& layer_ends) {
-  const double sign = end < edge ? -1 : 1, length = std::abs(end - edge);
+  const double sign = end < edge ? -1 : 1;
+  double length = std::abs(end - edge);
+  const auto size = [&](double d) { return std::min(sizes.largest, kColumnStart * sizes.element + kColumnSlope * d); };
+  for (double s : layer_ends) {
+    const double d = sign * (s - edge);
+    if (d > 0.5 * sizes.element && d < length && length - d < 0.6 * size(length)) length = d;
+  }
   if (length < 0.5 * sizes.element) return {edge};
-  std::vector<double> distance = graded_points(0, length, [&](double d) { return std::min(sizes.largest, kColumnStart * sizes.element + kColumnSlope * d); });
+  std::vector<double> distance = graded_points(0, length, size);
   for (double s : layer_ends) {
     const double d = sign * (s - edge);
     if (d > 0.5 * sizes.element && d < length) snap_interior(distance, d);
