@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/faults.hpp"
 #include "halfspace/layer_waves.hpp"
@@ -52,6 +53,26 @@ Samples sample(const LayeredHalfSpace& body, double k_low, double k_high, int n)
 
 Eigen::MatrixXd exponentials(const Eigen::VectorXd& k, const Eigen::VectorXd& depth) { return (-(k * depth.transpose())).array().exp().matrix(); }
 
+/// Depths nearest, nearest ratio, nearest ratio², … of `count` images.
+struct DepthLadder {
+  double nearest, ratio;
+  int count;
+  Eigen::VectorXd depths() const {
+    Eigen::VectorXd d(count);
+    for (int j = 0; j < count; ++j) d[j] = nearest * std::pow(ratio, j);
+    return d;
+  }
+};
+
+/// From few images to many: a moderate stack needs about fifteen, an extreme one fifty.
+std::vector<DepthLadder> ladders(double nearest, double total) {
+  std::vector<DepthLadder> all;
+  for (double farthest : {20.0, 100.0, 400.0, 2000.0})
+    for (double ratio : {2.2, 1.9, 1.7, 1.5, 1.35, 1.25}) all.push_back({nearest, ratio, 1 + static_cast<int>(std::log(farthest * total / nearest) / std::log(ratio))});
+  std::stable_sort(all.begin(), all.end(), [](const DepthLadder& a, const DepthLadder& b) { return a.count < b.count; });
+  return all;
+}
+
 }  // namespace
 
 SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double tolerance) {
@@ -64,22 +85,19 @@ SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double toler
   const Four top = four(out[0].c);
   const double k_low = 1e-5 / total, k_high = 60 / thinnest;
   const Samples fit = sample(body, k_low, k_high, 400), check = sample(body, k_low, k_high, 1013);
-  double best = 0;
-  for (double ratio : {1.9, 1.6, 1.4, 1.25}) {
-    const double nearest = 0.4 * thinnest, farthest = 2000 * total;
-    const int n = 1 + static_cast<int>(std::log(farthest / nearest) / std::log(ratio));
-    Eigen::VectorXd depth(n);
-    for (int j = 0; j < n; ++j) depth[j] = nearest * std::pow(ratio, j);
-    // relative to the compliance itself: a soft layer's 1/k is as exact as the stiff substrate's
-    const Eigen::VectorXd weight = fit.c.col(0).cwiseInverse();
+  // relative to the compliance itself: a soft layer's 1/k is as exact as the stiff substrate's
+  const Eigen::VectorXd weight = fit.c.col(0).cwiseInverse(), check_weight = check.c.col(0).cwiseInverse();
+  double best = std::numeric_limits<double>::infinity();
+  for (const DepthLadder& ladder : ladders(0.4 * thinnest, total)) {
+    const Eigen::VectorXd depth = ladder.depths();
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
     qr.setThreshold(1e-12);
     qr.compute(weight.asDiagonal() * exponentials(fit.k, depth));
     const Eigen::Matrix<double, Eigen::Dynamic, 4> coefficient = qr.solve(weight.asDiagonal() * (fit.c.rowwise() - top));
     const Eigen::Matrix<double, Eigen::Dynamic, 4> deviation = (check.c.rowwise() - top) - exponentials(check.k, depth) * coefficient;
-    best = (check.c.col(0).cwiseInverse().asDiagonal() * deviation).cwiseAbs().maxCoeff();
+    best = std::min(best, (check_weight.asDiagonal() * deviation).cwiseAbs().maxCoeff());
     if (best > tolerance) continue;
-    for (int j = 0; j < n; ++j) out.push_back({depth[j], {coefficient(j, 0), coefficient(j, 1), coefficient(j, 2), coefficient(j, 3)}});
+    for (int j = 0; j < depth.size(); ++j) out.push_back({depth[j], {coefficient(j, 0), coefficient(j, 1), coefficient(j, 2), coefficient(j, 3)}});
     return out;
   }
   throw NumericalError("the compliance of the layer stack could be represented only to a relative deviation of " + std::to_string(best));
