@@ -1,0 +1,83 @@
+#include "halfspace/interior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "halfspace/boussinesq_cerruti.hpp"
+
+namespace railstrata {
+namespace {
+
+const HalfSpaceMaterial kBody{70e9, 0.27};
+
+// Far from a small square the fields are those of point forces [Johnson1985 eqs. 3.19, 3.77].
+TEST(Interior, FarFieldIsBoussinesqAndCerruti) {
+  const double x = 0.3, y = -0.5, z = 0.7, s = 1e-3, r2 = x * x + y * y, rho = std::sqrt(r2 + z * z), P = s * s, nu = kBody.poisson, pi = std::numbers::pi;
+  const InteriorInfluence i = rectangle_interior(kBody, x, y, z, s, s);
+  const Sym3 n = stress_of(i[0], kBody), t = stress_of(i[1], kBody);
+  const double tolerance = 2e-6 * P;
+  EXPECT_NEAR(n.zz, -3 * P * z * z * z / (2 * pi * std::pow(rho, 5)), tolerance);
+  EXPECT_NEAR(n.xz, -3 * P * x * z * z / (2 * pi * std::pow(rho, 5)), tolerance);
+  EXPECT_NEAR(n.xx, P / (2 * pi) * ((1 - 2 * nu) / r2 * ((1 - z / rho) * (x * x - y * y) / r2 + z * y * y / (rho * rho * rho)) - 3 * z * x * x / std::pow(rho, 5)), tolerance);
+  EXPECT_NEAR(n.xx + n.yy + n.zz, -P / pi * (1 + nu) * z / (rho * rho * rho), tolerance);
+  EXPECT_NEAR(t.zz, -3 * P * x * z * z / (2 * pi * std::pow(rho, 5)), tolerance);
+  EXPECT_NEAR(t.yz, -3 * P * x * y * z / (2 * pi * std::pow(rho, 5)), tolerance);
+  EXPECT_NEAR(t.xz, -3 * P * x * x * z / (2 * pi * std::pow(rho, 5)), tolerance);
+  EXPECT_NEAR(t.xx + t.yy + t.zz, -P / pi * (1 + nu) * x / (rho * rho * rho), tolerance);
+}
+
+TEST(Interior, SurfaceTractionsAreTheLoads) {
+  const InteriorInfluence inside = rectangle_interior(kBody, 0.1, 0.05, 0, 1, 1), outside = rectangle_interior(kBody, 0.8, 0.05, 0, 1, 1);
+  EXPECT_NEAR(inside[0].s_zz, -1, 1e-14);
+  EXPECT_NEAR(inside[1].s_xz, -1, 1e-14);
+  EXPECT_NEAR(inside[2].s_yz, -1, 1e-14);
+  EXPECT_NEAR(inside[1].s_zz, 0, 1e-14);
+  for (std::size_t l = 0; l < 3; ++l) EXPECT_NEAR(std::abs(outside[l].s_xz) + std::abs(outside[l].s_yz) + std::abs(outside[l].s_zz), 0, 1e-14);
+}
+
+TEST(Interior, EquilibriumHoldsByFiniteDifferencesForEveryLoad) {
+  const double e = 1e-4;
+  for (std::size_t load = 0; load < 3; ++load) {
+    const auto at = [&](double x, double y, double z) { return stress_of(rectangle_interior(kBody, x, y, z, 1, 0.6)[load], kBody); };
+    for (const Vec3 p : {Vec3{0.2, 0.1, 0.3}, Vec3{-0.9, 0.5, 0.15}, Vec3{0.45, -0.31, 1.2}}) {
+      const auto d = [&](double Sym3::*m, int axis) {
+        const Vec3 h{axis == 0 ? e : 0, axis == 1 ? e : 0, axis == 2 ? e : 0};
+        return (at(p.x + h.x, p.y + h.y, p.z + h.z).*m - at(p.x - h.x, p.y - h.y, p.z - h.z).*m) / (2 * e);
+      };
+      EXPECT_NEAR(d(&Sym3::xx, 0) + d(&Sym3::xy, 1) + d(&Sym3::xz, 2), 0, 1e-6);
+      EXPECT_NEAR(d(&Sym3::xy, 0) + d(&Sym3::yy, 1) + d(&Sym3::yz, 2), 0, 1e-6);
+      EXPECT_NEAR(d(&Sym3::xz, 0) + d(&Sym3::yz, 1) + d(&Sym3::zz, 2), 0, 1e-6);
+    }
+  }
+}
+
+TEST(Interior, SurfaceStrainsAreTheDerivativesOfTheSurfaceDisplacements) {
+  const SurfaceCompliance c = homogeneous_compliance(kBody);
+  const double x = 0.2, y = 0.13, e = 1e-5;
+  const auto u = [&](double px, double py) { return rectangle_influence(c, px, py, 1, 0.6); };
+  const InteriorInfluence s = rectangle_interior(kBody, x, y, 0, 1, 0.6);
+  const double scale = 1 / kBody.shear(), h = 2 * e;
+  EXPECT_NEAR(s[1].e_xx, (u(x + e, y).xx - u(x - e, y).xx) / h, 1e-8 * scale);
+  EXPECT_NEAR(s[1].e_yy, (u(x, y + e).xy - u(x, y - e).xy) / h, 1e-8 * scale);
+  EXPECT_NEAR(s[2].e_xx, (u(x + e, y).xy - u(x - e, y).xy) / h, 1e-8 * scale);
+  EXPECT_NEAR(s[2].e_xy, 0.5 * ((u(x + e, y).yy - u(x - e, y).yy) + (u(x, y + e).xy - u(x, y - e).xy)) / h, 1e-8 * scale);
+  EXPECT_NEAR(s[0].e_xx, -(u(x + e, y).nx - u(x - e, y).nx) / h, 1e-8 * scale);
+  EXPECT_NEAR(s[0].e_xy, -0.5 * ((u(x + e, y).ny - u(x - e, y).ny) + (u(x, y + e).nx - u(x, y - e).nx)) / h, 1e-8 * scale);
+}
+
+TEST(Interior, TableEqualsSingleRectangles) {
+  const auto table = rectangle_interior_table(kBody, 0.2, 3, 4, 0.3, 0.2);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j)
+      for (std::size_t l = 0; l < 3; ++l) {
+        const InteriorState one = rectangle_interior(kBody, i * 0.3, j * 0.2, 0.2, 0.3, 0.2)[l], &t = table[static_cast<std::size_t>(4 * i + j)][l];
+        EXPECT_NEAR(t.s_zz, one.s_zz, 1e-14);
+        EXPECT_NEAR(t.s_xz, one.s_xz, 1e-14);
+        EXPECT_NEAR(t.e_xy * kBody.shear(), one.e_xy * kBody.shear(), 1e-14);
+      }
+}
+
+}  // namespace
+}  // namespace railstrata
