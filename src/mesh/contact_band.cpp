@@ -117,6 +117,9 @@ std::pair<double, double> running_range(const Profile& profile, double angle) {
   double low = middle, high = middle;
   while (low - kStep > profile.s_min() && inclination(profile, low - kStep) < angle) low -= kStep;
   while (high + kStep < profile.s_max() && inclination(profile, high + kStep) < angle) high += kStep;
+  const auto jumps = [&](double a, double b) { return std::abs(inclination(profile, a) - inclination(profile, b)) > 0.1; };
+  if (low - kStep > profile.s_min() && jumps(low, low - kStep)) low += kKinkHalfWidth;
+  if (high + kStep < profile.s_max() && jumps(high, high + kStep)) high -= kKinkHalfWidth;
   return {low, high};
 }
 

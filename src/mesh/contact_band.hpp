@@ -21,7 +21,10 @@ BandRows band_rows(const std::vector<LayerMesh>& layers, double h, double fine_d
 /// The same with rows of one material merged up to the given height: the band beside the fine columns.
 BandRows merged_rows(const BandRows& rows, double height);
 
-/// Arc lengths between which the running surface is inclined by less than `angle` [rad], seen from the middle of the profile.
+/// Reach of a kink of the profile to both sides, see offset_point.
+inline constexpr double kKinkHalfWidth = 2.5e-3;
+
+/// Arc lengths between which the running surface is inclined by less than `angle` [rad], seen from the middle of the profile; short of a kink that ends it.
 std::pair<double, double> running_range(const Profile& profile, double angle);
 /// Smallest radius of convex curvature in [s0, s1], measured over 4 mm of arc so that the noise of measured profiles does not count.
 double smallest_convex_radius(const Profile& profile, double s0, double s1);
@@ -35,7 +38,6 @@ std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerM
 
 /// Point at a depth below the surface along the normal; s is clamped to the profile (round-off at its ends). Near a kink of the profile the direction turns gradually
 /// over kKinkHalfWidth on both sides, so that columns do not cross; the depth is still measured along the surface's own normal.
-inline constexpr double kKinkHalfWidth = 2.5e-3;
 Vec2 offset_point(const Profile& profile, double s, double depth);
 
 /// Adds the grid of offset points to a section: node rows from the surface down, each with one node per column. Quadrilaterals in the order of ContactBand, with the

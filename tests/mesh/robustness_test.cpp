@@ -44,6 +44,13 @@ TEST_P(WheelProfiles, GiveNoPoorElementForAnySizeAndLayer) {
 INSTANTIATE_TEST_SUITE_P(Shipped, RailProfiles, testing::Values("CN60", "UIC60", "UIC54"));
 INSTANTIATE_TEST_SUITE_P(Shipped, WheelProfiles, testing::Values("LMA", "S1002"));
 
+TEST(LmaWheel, GivesNoPoorElementForDeepLayersBesideTheChamfer) {
+  const Profile lma = builtin_profile(ProfileKind::wheel, "LMA");
+  WorstQuality worst;
+  for (int ratio : {1, 3}) gather(worst, mesh_wheel(lma, 0.430, {}, wheel_spec(20e-3, one_layer(8e-3)), {3e-3, 10e-3, 2e-3, ratio, 6e-3}), fmt::format("ratio {}", ratio));
+  EXPECT_GT(worst.scaled_jacobian, 0.1) << worst.where;
+}
+
 TEST(SimpleShapes, GiveNoPoorElementForAnySizeAndLayer) {
   const Profile rail = builtin_profile(ProfileKind::rail, "CN60"), wheel = builtin_profile(ProfileKind::wheel, "LMA");
   const WorstQuality block = scan([&](const MeshSizes& sizes, const std::vector<LayerMesh>& layers) {
