@@ -11,7 +11,7 @@ namespace railstrata {
 namespace {
 
 constexpr double kPenetration = 1e-4;  // of the Hertzian approach
-constexpr double kPenaltyScale = 4.0;  // of a surface element's stiffness
+constexpr double kPenaltyScale = 16.0;  // of a surface element's stiffness
 
 // A vector of the static problem: free displacements of both bodies and the axle's height.
 struct StaticVector {

@@ -1,0 +1,218 @@
+#include "fem/rolling_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr int kFiniteCheckInterval = 500;  // steps
+constexpr double kLostContact = 0.02;      // of the static load
+
+// Half length of a sample: the patch and the stress field around it.
+double sample_half_length(const RollingSystem& s) { return 1.5 * s.model.hertz.a + 8 * s.model.spec.mesh.element_size; }
+
+BandSample band_sample(const Solid& solid, const ContactBand& band, const Field& u, double centre, double radius, const AxlePose& pose, double half_length) {
+  const Block& block = solid.body().blocks[band.block];
+  const BlockLayout& lay = solid.layout().blocks[band.block];
+  const auto& at = block.stations.at;
+  const double period = block.stations.closed ? 2 * std::numbers::pi : 0;
+  const int n = lay.stations;
+  auto wrapped = [&](int j) { return ((j % n) + n) % n; };
+  auto coordinate = [&](int j) { return block.stations.closed ? at[wrapped(j)] + period * std::floor(static_cast<double>(j) / n) : at[j]; };
+  if (period > 0) {
+    while (centre < at.front()) centre += period;
+    while (centre >= at.front() + period) centre -= period;
+  }
+  int middle = static_cast<int>(std::lower_bound(at.begin(), at.end(), centre) - at.begin());
+  if (middle > 0 && (middle >= n || centre - at[middle - 1] < at[middle] - centre)) --middle;
+  const double half = half_length / radius;
+  int first = middle, last = middle;
+  while ((block.stations.closed || first > 0) && centre - coordinate(first) < half) --first;
+  while ((block.stations.closed || last < lay.elements) && coordinate(last) - centre < half) ++last;
+
+  BandSample s;
+  s.columns = band.columns;
+  s.rows = band.rows;
+  s.stations = last - first;
+  for (int j = first; j <= last; ++j) s.along.push_back(radius * (coordinate(j) - centre));
+  for (int j = first; j < last; ++j)
+    for (int q = 0; q < band.rows * band.columns; ++q) s.stress.push_back(solid.stress(u, band.block, q, block.stations.closed ? wrapped(j) : j));
+  const bool turning = solid.body().kind == SweepKind::revolve;
+  const double c = std::cos(pose.psi), sn = std::sin(pose.psi);
+  for (int j = first; j <= last; ++j)
+    for (int k = 0; k < (band.rows + 1) * (band.columns + 1); ++k) {
+      const int station = block.stations.closed ? wrapped(j) : j;
+      const std::ptrdiff_t i = lay.line(k, 0) + station;
+      Vec3 d{u[i], u[i + lay.stride], u[i + 2 * lay.stride]};
+      if (turning) {
+        const Vec3 arm = solid.reference_position(band.block, k, station) - solid.body().origin;
+        d -= Vec3{pose.x + (c - 1) * arm.x + sn * arm.z, 0, pose.z + (c - 1) * arm.z - sn * arm.x};
+      }
+      s.displacement.push_back(d);
+    }
+  return s;
+}
+
+double largest_pressure(const TractionMemory& t) {
+  double p = 0;
+  for (const NodeTraction& n : t.all()) p = std::max(p, n.p);
+  return p;
+}
+
+// The wheel positions at which a wanted position is sampled: every rail station of the window, so that samples fall on the same points of the mesh.
+std::vector<double> sample_positions(const RollingSystem& s, double position) {
+  const auto& at = s.rail_surface.stations.at;
+  const auto near = std::lower_bound(at.begin(), at.end(), position);
+  const double spacing = *near - *std::prev(near);
+  const int half = std::max(1, static_cast<int>(std::lround(0.5 * s.model.spec.run.window / spacing)));
+  std::vector<double> out;
+  for (int k = -half; k <= half; ++k) out.push_back(position + k * spacing);
+  return out;
+}
+
+HistoryRow history_row(const Stepper& st, const EnergyBalance& now, const EnergyBalance& start) {
+  const RollingState& s = st.state();
+  return {s.time, st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(), s.axle.vx, s.axle.vz, s.axle.spin, now, now.total() - start.total()};
+}
+
+void require_sound(const Stepper& st) {
+  if (!std::isfinite(st.forces().z) || !std::isfinite(st.position()) || !std::isfinite(st.creepage())) {
+    const std::string where = st.check_finite();
+    throw NumericalError(fmt::format("the run became unstable at t = {:.4g} ms, x = {:.4g} mm: numbers are no longer finite ({}); dt = {:.3g} us\n    try a smaller run.step_safety", 1e3 * st.state().time,
+                                     1e3 * st.position(), where.empty() ? "contact forces" : where, 1e6 * st.dt()));
+  }
+}
+
+void require_contact(const Stepper& st, double load) {
+  if (st.forces().z < kLostContact * load)
+    throw NumericalError(fmt::format("the wheel lost contact with the rail at t = {:.4g} ms, x = {:.4g} mm (F_z = {:.3g} kN of {:.3g} kN)\n    try a longer run.run_up or more run.run_up_damping",
+                                     1e3 * st.state().time, 1e3 * st.position(), 1e-3 * st.forces().z, 1e-3 * load));
+}
+
+}  // namespace
+
+RollingSample take_sample(const RollingSystem& sys, const Field& u_rail, const Field& u_wheel, const TractionMemory& tractions, const AxlePose& pose) {
+  RollingSample out;
+  const double half = sample_half_length(sys);
+  out.position = pose.x;
+  out.rail = band_sample(sys.rail.solid, sys.model.rail.contact, u_rail, pose.x, 1.0, {}, half);
+  out.wheel = band_sample(sys.wheel.solid, sys.model.wheel.contact, u_wheel, pose.psi, sys.rolling_radius, pose, half);
+  const auto& at = sys.rail_surface.stations.at;
+  const int first = static_cast<int>(std::lower_bound(at.begin(), at.end(), out.rail.along.front() + pose.x - 1e-9) - at.begin());
+  for (int j = first; j <= first + out.rail.stations; ++j)
+    for (int c = 0; c < sys.rail_surface.columns; ++c) out.tractions.push_back(tractions.at(c, j));
+  return out;
+}
+
+RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
+  const RunSpec& run = sys.model.spec.run;
+  const auto start_time = Clock::now();
+  RunResult out;
+  out.elements = sys.model.rail.elements() + sys.model.wheel.elements();
+  out.nodes = sys.model.rail.nodes() + sys.model.wheel.nodes();
+  PreloadResult preload = solve_preload(sys, run.preload_tolerance, observer.preload, observer.stop);
+  out.preload_wall_seconds = preload.wall_seconds;
+
+  if (!run.rolling) {
+    PositionSamples still{0.0, {take_sample(sys, preload.u_rail, preload.u_wheel, preload.tractions, {0, preload.axle_z, 0})}};
+    still.samples.front().axle.z = preload.axle_z;
+    still.samples.front().forces.z = preload.contact_force_z;
+    still.samples.front().forces.penetration = preload.penetration;
+    Field& ur = preload.u_rail;
+    Field& uw = preload.u_wheel;
+    const StrainEnergy rail = sys.rail.solid.energy(ur, 0), wheel = sys.wheel.solid.energy(uw, 0);
+    out.hourglass_share = (rail.hourglass + wheel.hourglass) / (rail.strain + wheel.strain);
+    out.penetration = preload.penetration;
+    out.positions.push_back(std::move(still));
+    preload.u_rail = preload.u_wheel = Field{};
+    out.preload = std::move(preload);
+    out.wall_seconds = seconds_since(start_time);
+    return out;
+  }
+
+  Stepper st(sys, preload);
+  preload.u_rail = preload.u_wheel = Field{};
+  out.preload = std::move(preload);
+  out.limits = st.limits();
+  out.dt = st.dt();
+
+  struct Wanted {
+    double position;
+    std::size_t group;
+  };
+  std::vector<Wanted> wanted;
+  std::vector<double> targets = run.positions;
+  std::sort(targets.begin(), targets.end());
+  for (double target : targets) {
+    out.positions.push_back({target, {}});
+    for (double x : sample_positions(sys, target)) wanted.push_back({x, out.positions.size() - 1});
+  }
+  std::stable_sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) { return a.position < b.position; });
+  const double end = std::max(sys.model.x_end, wanted.back().position);
+
+  std::size_t next_sample = 0;
+  double next_history = 0, next_frame = 0;
+  const int frames = std::max(sys.model.spec.output.series_frames, 1);
+  EnergyBalance start_energy;
+  bool started = false;
+  double largest_closure = 0, largest_energy = 0;
+  while (next_sample < wanted.size()) {
+    const bool record = st.position() >= next_history;
+    if (record) st.want_energy();
+    st.step();
+    if (st.state().step % kFiniteCheckInterval == 0 || record) require_sound(st);
+    if (record) {
+      next_history += run.history_interval;
+      const EnergyBalance now = st.energy();
+      if (!started) start_energy = now, started = true;
+      const HistoryRow row = history_row(st, now, start_energy);
+      require_contact(st, sys.model.load);
+      largest_closure = std::max(largest_closure, std::abs(row.closure));
+      largest_energy = std::max({largest_energy, now.torque_work, now.strain});
+      out.hourglass_share = std::max(out.hourglass_share, now.hourglass / now.strain);
+      out.run_up_damping_energy = now.damping;
+      out.history.push_back(row);
+      if (observer.history) observer.history(row);
+      if (observer.progress) observer.progress(st.position() / end, row);
+      if (observer.stop && *observer.stop) {
+        out.stopped = true;
+        break;
+      }
+    }
+    auto sample = [&] {
+      RollingSample s = take_sample(sys, st.state().u_rail, st.state().u_wheel, st.state().tractions, {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
+      s.time = st.state().time;
+      s.axle = st.state().axle;
+      s.forces = st.forces();
+      s.creepage = st.creepage();
+      return s;
+    };
+    if (observer.frame && st.position() >= next_frame) {
+      next_frame += end / frames;
+      observer.frame(sample());
+    }
+    while (next_sample < wanted.size() && st.position() >= wanted[next_sample].position) {
+      out.penetration = std::max(out.penetration, st.forces().penetration);
+      out.positions[wanted[next_sample].group].samples.push_back(sample());
+      ++next_sample;
+    }
+  }
+  require_sound(st);
+  out.closure = largest_energy > 0 ? largest_closure / largest_energy : 0;
+  out.reached_edge = st.reached_edge();
+  out.steps = st.state().step;
+  out.wall_seconds = seconds_since(start_time);
+  return out;
+}
+
+}  // namespace railstrata
