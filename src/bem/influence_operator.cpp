@@ -53,14 +53,15 @@ namespace {
 
 struct ScalarProduct {
   const double* s;
-  void operator()(std::size_t first, int count, Complex* a, Complex*) const {
-    for (int k = 0; k < count; ++k) a[k] *= s[first + static_cast<std::size_t>(k)];
+  void operator()(std::size_t first, int count, Complex** z) const {
+    for (int k = 0; k < count; ++k) z[0][k] *= s[first + static_cast<std::size_t>(k)];
   }
 };
 
 struct SymmetricProduct {
   const double *xx, *xy, *yy;
-  void operator()(std::size_t first, int count, Complex* a, Complex* b) const {
+  void operator()(std::size_t first, int count, Complex** z) const {
+    Complex *a = z[0], *b = z[1];
     for (int k = 0; k < count; ++k) {
       const std::size_t i = first + static_cast<std::size_t>(k);
       const Complex u = a[k], v = b[k];
@@ -92,7 +93,8 @@ void InfluenceOperator::tangential_from_pressure(const double* p, double* u_x, d
     std::fill(u_y, u_y + static_cast<std::ptrdiff_t>(rows) * ny(), 0.0);
     return;
   }
-  fft_.apply({p}, {u_x, u_y}, rows, [this](std::size_t first, int count, Complex* a, Complex* b) {
+  fft_.apply({p}, {u_x, u_y}, rows, [this](std::size_t first, int count, Complex** z) {
+    Complex *a = z[0], *b = z[1];
     for (int k = 0; k < count; ++k) {
       const std::size_t i = first + static_cast<std::size_t>(k);
       const Complex ip = times_i(a[k]);
@@ -107,7 +109,8 @@ void InfluenceOperator::normal_from_traction(const double* q_x, const double* q_
     std::fill(closing, closing + static_cast<std::ptrdiff_t>(nx()) * ny(), 0.0);
     return;
   }
-  fft_.apply({q_x, q_y}, {closing}, nx(), [this](std::size_t first, int count, Complex* a, Complex* b) {
+  fft_.apply({q_x, q_y}, {closing}, nx(), [this](std::size_t first, int count, Complex** z) {
+    Complex *a = z[0], *b = z[1];
     for (int k = 0; k < count; ++k) {
       const std::size_t i = first + static_cast<std::size_t>(k);
       a[k] = times_i(nx_hat_[i] * a[k] + ny_hat_[i] * b[k]);

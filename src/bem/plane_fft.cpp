@@ -100,10 +100,9 @@ std::vector<double> PlaneFft::spectrum(const std::vector<double>& table, int par
   return out;
 }
 
-PlaneFft::Work PlaneFft::begin(const std::vector<const double*>& in) const {
-  Work work;
+std::vector<PlaneFft::Spectrum> PlaneFft::rows_in(const std::vector<const double*>& in, std::size_t outputs) const {
   const std::size_t pitch = static_cast<std::size_t>(blocks_ * kBlock);
-  for (std::size_t c = 0; c < 2; ++c) work.spectra[c].resize(static_cast<std::size_t>(nx_ + 1) * pitch);
+  std::vector<Spectrum> work(std::max(in.size(), outputs), Spectrum(static_cast<std::size_t>(nx_ + 1) * pitch));
   for_each_if(threads_pay(), static_cast<std::ptrdiff_t>(in.size()) * nx_, [&](std::ptrdiff_t k) {
     const std::size_t c = static_cast<std::size_t>(k / nx_), i = static_cast<std::size_t>(k % nx_);
     double* r = reinterpret_cast<double*>(scratch<2>(static_cast<std::size_t>(width_)));
@@ -112,41 +111,34 @@ PlaneFft::Work PlaneFft::begin(const std::vector<const double*>& in) const {
     std::fill(r + ny_, r + my_, 0.0);
     std::complex<double>* z = scratch<0>(static_cast<std::size_t>(width_));
     fftw_execute_dft_r2c(plans_->row_forward, r, raw(z));
-    std::copy(z, z + width_, work.spectra[c].data() + i * pitch);
+    std::copy(z, z + width_, work[c].data() + i * pitch);
   });
   return work;
 }
 
-std::complex<double>* PlaneFft::columns_in(const Work& work, int block, int plane, bool present) const {
-  const std::size_t n = static_cast<std::size_t>(mx_) * kBlock;
-  std::complex<double>* z = plane == 0 ? scratch<0>(n) : scratch<1>(n);
-  if (!present) {
-    std::fill(z, z + n, 0.0);
-    return z;
-  }
-  const std::complex<double>* s = work.spectra[plane].data() + static_cast<std::size_t>(block) * kBlock;
+std::complex<double>* PlaneFft::block_buffer(std::size_t planes) const { return scratch<1>(planes * static_cast<std::size_t>(mx_) * kBlock); }
+
+void PlaneFft::columns_in(const Spectrum& rows, int block, std::complex<double>* z) const {
+  const std::complex<double>* s = rows.data() + static_cast<std::size_t>(block) * kBlock;
   const std::size_t pitch = static_cast<std::size_t>(blocks_ * kBlock);
   for (int i = 0; i < nx_; ++i) std::copy(s + static_cast<std::size_t>(i) * pitch, s + static_cast<std::size_t>(i) * pitch + kBlock, z + i * kBlock);
-  std::fill(z + nx_ * kBlock, z + n, 0.0);
+  std::fill(z + nx_ * kBlock, z + mx_ * kBlock, 0.0);
   fftw_execute_dft(plans_->columns_forward, raw(z), raw(z));
-  return z;
 }
 
-void PlaneFft::columns_out(Work& work, int block, int plane, int rows_out) const {
-  const std::size_t n = static_cast<std::size_t>(mx_) * kBlock;
-  std::complex<double>* z = plane == 0 ? scratch<0>(n) : scratch<1>(n);
+void PlaneFft::columns_out(Spectrum& rows, int block, std::complex<double>* z, int rows_out) const {
   fftw_execute_dft(plans_->columns_backward, raw(z), raw(z));
-  std::complex<double>* s = work.spectra[plane].data() + static_cast<std::size_t>(block) * kBlock;
+  std::complex<double>* s = rows.data() + static_cast<std::size_t>(block) * kBlock;
   const std::size_t pitch = static_cast<std::size_t>(blocks_ * kBlock);
   for (int i = 0; i < rows_out; ++i) std::copy(z + i * kBlock, z + (i + 1) * kBlock, s + static_cast<std::size_t>(i) * pitch);
 }
 
-void PlaneFft::end(const Work& work, const std::vector<double*>& out, int rows_out) const {
+void PlaneFft::rows_out_of(const std::vector<Spectrum>& work, const std::vector<double*>& out, int rows_out) const {
   const std::size_t pitch = static_cast<std::size_t>(blocks_ * kBlock);
   for_each_if(threads_pay(), static_cast<std::ptrdiff_t>(out.size()) * rows_out, [&](std::ptrdiff_t k) {
     const std::size_t c = static_cast<std::size_t>(k / rows_out), i = static_cast<std::size_t>(k % rows_out);
     std::complex<double>* z = scratch<0>(static_cast<std::size_t>(width_));
-    const std::complex<double>* s = work.spectra[c].data() + i * pitch;
+    const std::complex<double>* s = work[c].data() + i * pitch;
     std::copy(s, s + width_, z);
     double* r = reinterpret_cast<double*>(scratch<2>(static_cast<std::size_t>(width_)));
     fftw_execute_dft_c2r(plans_->row_backward, raw(z), r);

@@ -33,31 +33,30 @@ class PlaneFft {
   /// are the real or the imaginary part. table[i * (my/2 + 1) + j], i = 0 … mx/2, j = 0 … my/2. Divided by mx my, so that `multiply` needs no scaling.
   std::vector<double> spectrum(const std::vector<double>& table, int parity_x, int parity_y) const;
 
-  /// in: planes of nx x ny; out: planes of rows_out x ny (rows_out <= nx + 1). Calls multiply(first, count, a, b) on `count` consecutive spectrum entries starting at
-  /// index `first`: a (and b) hold the transformed inputs and are to be replaced by the transformed outputs; b is null when there is one input and one output.
+  /// in: planes of nx x ny; out: planes of rows_out x ny (rows_out <= nx + 1). Calls multiply(first, count, z) on `count` consecutive spectrum entries starting at
+  /// index `first`: z[c] holds input c transformed and is to be replaced by output c transformed. There are max(in, out) planes; those without an input hold anything.
   template <class Multiply>
-  void apply(std::vector<const double*> in, std::vector<double*> out, int rows_out, Multiply&& multiply) const {
-    const std::size_t planes = in.size() > out.size() ? in.size() : out.size();
-    Work work = begin(in);
+  void apply(const std::vector<const double*>& in, const std::vector<double*>& out, int rows_out, Multiply&& multiply) const {
+    std::vector<Spectrum> work = rows_in(in, out.size());
+    const int count = mx_ * kBlock;
     for_blocks([&](int block) {
-      std::complex<double>* a = columns_in(work, block, 0, in.size() > 0);
-      std::complex<double>* b = planes > 1 ? columns_in(work, block, 1, in.size() > 1) : nullptr;
-      multiply(static_cast<std::size_t>(block) * static_cast<std::size_t>(mx_) * kBlock, mx_ * kBlock, a, b);
-      for (std::size_t c = 0; c < out.size(); ++c) columns_out(work, block, static_cast<int>(c), rows_out);
+      std::vector<std::complex<double>*> z(work.size());
+      for (std::size_t c = 0; c < z.size(); ++c) z[c] = block_buffer(work.size()) + c * static_cast<std::size_t>(count);
+      for (std::size_t c = 0; c < in.size(); ++c) columns_in(work[c], block, z[c]);
+      multiply(static_cast<std::size_t>(block) * static_cast<std::size_t>(count), count, z.data());
+      for (std::size_t c = 0; c < out.size(); ++c) columns_out(work[c], block, z[c], rows_out);
     });
-    end(work, out, rows_out);
+    rows_out_of(work, out, rows_out);
   }
 
  private:
   struct Plans;
-  struct Work {
-    std::vector<std::complex<double>> spectra[2];
-    int rows_in = 0;
-  };
-  Work begin(const std::vector<const double*>& in) const;
-  std::complex<double>* columns_in(const Work& work, int block, int plane, bool present) const;
-  void columns_out(Work& work, int block, int plane, int rows_out) const;
-  void end(const Work& work, const std::vector<double*>& out, int rows_out) const;
+  using Spectrum = std::vector<std::complex<double>>;  // transformed along y: rows of blocks_ * kBlock wave numbers
+  std::vector<Spectrum> rows_in(const std::vector<const double*>& in, std::size_t outputs) const;
+  std::complex<double>* block_buffer(std::size_t planes) const;
+  void columns_in(const Spectrum& rows, int block, std::complex<double>* z) const;
+  void columns_out(Spectrum& rows, int block, std::complex<double>* z, int rows_out) const;
+  void rows_out_of(const std::vector<Spectrum>& work, const std::vector<double*>& out, int rows_out) const;
   template <class Body>
   void for_blocks(Body&& body) const {
     for_each_if(threads_pay(), blocks_, body);

@@ -1,0 +1,185 @@
+#include "bem/subsurface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "half_space_pair.hpp"
+#include "material/elastic.hpp"
+#include "reference_table.hpp"
+
+namespace railstrata {
+namespace {
+
+// [Johnson1985 sec. 4.2]: 0.62 p0 at 0.48 a for nu = 0.3.
+TEST(Subsurface, FrictionlessVonMisesMaximumIs062p0At048a) {
+  const HertzContact h = hertz_contact(1.2, 1.2, contact_modulus(kSteel, kSteel), 8e4);
+  const PatchGrid g = grid_around(h.a, h.a, h.a / 25, h.a / 25);
+  const InfluenceOperator op(pair_of(kSteel, kSteel), g.nx, g.ny, g.dx, g.dy);
+  const NormalSolution s = solve_normal(op, g, quadratic_gap(g, 1.2, 1.2), {.load = 8e4, .approach = {}});
+  const SubsurfacePeaks peaks = Subsurface({{}, kSteel}, g, s.pressure, Plane(g.size()), Plane(g.size())).peaks(2 * h.a);
+  EXPECT_NEAR(peaks.subsurface.von_mises.value / h.p0, 0.62, 0.005 * 0.62);
+  EXPECT_NEAR(peaks.subsurface.von_mises.depth / h.a, 0.48, 0.005);
+  EXPECT_NEAR(peaks.subsurface.von_mises.x, 0, 1e-6);
+  EXPECT_NEAR(peaks.subsurface.von_mises.y, 0, 1e-6);
+  EXPECT_NEAR(std::hypot(peaks.surface.sigma1.x, peaks.surface.sigma1.y) / h.a, 1, 0.05) << "tension is largest at the edge";
+}
+
+// [Johnson1985 eq. 3.43]: outside the circle sigma_r = -sigma_theta = (1 - 2 nu) p0 a²/(3 r²).
+TEST(Subsurface, SurfaceOutsideAHertzCircleIsInPureShear) {
+  const HertzContact h = hertz_contact(1.2, 1.2, contact_modulus(kSteel, kSteel), 8e4);
+  const PatchGrid g = centred_grid(40, 40, h.a / 25, h.a / 25);
+  Plane p(g.size());
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) p[g.index(i, j)] = h.pressure(g.x(i), g.y(j));
+  const Subsurface body({{}, kSteel}, g, p, Plane(g.size()), Plane(g.size()));
+  const StatePlane surface = body.plane(0);
+  for (int i : {70, 74, 78}) {
+    const Sym3 s = body.stress(surface, g.index(i, 40));
+    const double exact = (1 - 2 * 0.3) * h.p0 * h.a * h.a / (3 * g.x(i) * g.x(i));
+    EXPECT_NEAR(s.xx / exact, 1, 0.01);
+    EXPECT_NEAR(s.yy / exact, -1, 0.01);
+    EXPECT_NEAR(s.zz / exact, 0, 1e-6);
+  }
+}
+
+// circ_subsurf_fx0.4_dx0.5_y0.csv: CONTACT, its own surface tractions; x against depth on y = 0.
+TEST(Subsurface, StressesUnderADrivingWheelMeetContactTo1MPa) {
+  const ReferenceContact c(1000.0 / 840, 1000.0 / 840, 0.5e-3);
+  TangentialProblem t = c.rolling();
+  t.x.force = -0.4 * c.kFriction * c.kLoad;
+  const TangentialSolution q = solve_tangential(c.influence, c.grid, t);
+  const PatchGrid wide = centred_grid(26, 15, 0.5e-3, 0.5e-3);
+  Plane p(wide.size(), 0.0), qx = p, qy = p;
+  for (int i = 0; i < c.grid.nx; ++i)
+    for (int j = 0; j < c.grid.ny; ++j) {
+      const std::size_t to = wide.index(i + (wide.nx - c.grid.nx) / 2, j + (wide.ny - c.grid.ny) / 2), from = c.grid.index(i, j);
+      p[to] = c.normal.pressure[from], qx[to] = q.q_x[from], qy[to] = q.q_y[from];
+    }
+  const Subsurface body({{}, kSteel}, wide, p, qx, qy);
+  StatePlane plane;
+  int compared = 0;
+  double worst = 0;
+  for (const ReferenceRow& r : reference_table("circ_subsurf_fx0.4_dx0.5_y0.csv")) {
+    const double depth = 1e-3 * r.at("depth_mm");
+    if (plane.s_zz.empty() || plane.depth != depth) {
+      if (std::fmod(compared, 5) > 3 && depth > 6e-3) continue;
+      plane = body.plane(depth);
+    }
+    const int i = static_cast<int>(std::lround((1e-3 * r.at("x_mm") - wide.x0) / wide.dx));
+    const Sym3 s = body.stress(plane, wide.index(i, wide.ny / 2));
+    worst = std::max({worst, std::abs(s.xx - 1e6 * r.at("sxx")), std::abs(s.zz - 1e6 * r.at("szz")), std::abs(s.yy - 1e6 * r.at("syy")), std::abs(s.xz - 1e6 * r.at("sxz")),
+                      std::abs(von_mises(s) - 1e6 * r.at("von_mises")), std::abs(principal_stresses(s).x - 1e6 * r.at("sigma1"))});
+    ++compared;
+  }
+  EXPECT_GT(compared, 1000);
+  EXPECT_LT(worst, 1e6);
+}
+
+struct LayeredFixture {
+  PatchGrid g = centred_grid(24, 24, 0.25e-3, 0.25e-3);
+  Plane p, qx, qy;
+  LayeredFixture() : p(g.size()), qx(g.size()), qy(g.size(), 0.0) {
+    for (int i = 0; i < g.nx; ++i)
+      for (int j = 0; j < g.ny; ++j) {
+        const double s = 1 - (g.x(i) * g.x(i) + g.y(j) * g.y(j)) / (5e-3 * 5e-3);
+        p[g.index(i, j)] = s > 0 ? 1e9 * std::sqrt(s) : 0.0;
+        qx[g.index(i, j)] = s > 0 ? -0.3e9 * s : 0.0;
+      }
+  }
+};
+
+TEST(Subsurface, LayerOfTheSubstratesMaterialChangesNothing) {
+  const LayeredFixture f;
+  const Subsurface plain({{}, kSteel}, f.g, f.p, f.qx, f.qy), layered({{{1e-3, kSteel}, {2e-3, kSteel}}, kSteel}, f.g, f.p, f.qx, f.qy);
+  for (double depth : {0.0, 0.5e-3, 2e-3, 5e-3}) {
+    const StatePlane a = plain.plane(depth), b = layered.plane(depth);
+    for (std::size_t k = 0; k < f.g.size(); ++k) ASSERT_NEAR(von_mises(plain.stress(a, k)), von_mises(layered.stress(b, k)), 1e-6 * 1e9);
+  }
+}
+
+TEST(Subsurface, ThickLayerIsAHalfSpaceOfItsMaterial) {
+  const LayeredFixture f;
+  const HalfSpaceMaterial hard{4 * 210e9, 0.25};
+  const Subsurface plain({{}, hard}, f.g, f.p, f.qx, f.qy), layered({{{0.4, hard}}, kSteel}, f.g, f.p, f.qx, f.qy);
+  for (double depth : {1e-3, 2e-3, 5e-3}) {
+    const StatePlane a = plain.plane(depth), b = layered.plane(depth);
+    double worst = 0;
+    for (std::size_t k = 0; k < f.g.size(); ++k) {
+      const Sym3 s = plain.stress(a, k), t = layered.stress(b, k);
+      worst = std::max({worst, std::abs(s.xx - t.xx), std::abs(s.yy - t.yy), std::abs(s.zz - t.zz), std::abs(s.xz - t.xz), std::abs(s.xy - t.xy), std::abs(s.yz - t.yz)});
+    }
+    EXPECT_LT(worst, 0.002e9) << depth;
+  }
+}
+
+TEST(Subsurface, LayeredFieldCarriesTheLoadAndItsTractionsAreContinuousAcrossTheInterface) {
+  const LayeredFixture f;
+  const Subsurface body({{{1e-3, {4 * 210e9, 0.25}}}, kSteel}, f.g, f.p, f.qx, f.qy);
+  const StatePlane above = body.plane(1e-3), below = body.plane(1e-3 * (1 + 1e-9));
+  for (std::size_t k = 0; k < f.g.size(); k += 7) {
+    const Sym3 a = body.stress(above, k), b = body.stress(below, k);
+    EXPECT_NEAR(a.zz, b.zz, 1e3);
+    EXPECT_NEAR(a.xz, b.xz, 1e3);
+    EXPECT_NEAR(a.yz, b.yz, 1e3);
+    EXPECT_NEAR(stress_of(above.at(k), kSteel).xx, b.xx, 1e4);
+  }
+  // the load is carried at every depth, but for what spreads beyond the grid
+  double load = 0, carried = 0;
+  const Plane zz = body.plane(0.3e-3).s_zz;
+  for (std::size_t k = 0; k < f.g.size(); ++k) load += f.p[k], carried -= zz[k];
+  EXPECT_NEAR(carried / load, 1, 0.01);
+}
+
+// Two ways to the same strain: the interior waves with their periodic grid, and the displacements of the surface by images at depth.
+TEST(Subsurface, SurfaceStrainsOfALayeredBodyAreTheDerivativesOfItsSurfaceDisplacements) {
+  const LayeredHalfSpace body{{{1e-3, {4 * 210e9, 0.25}}}, kSteel};
+  const PatchGrid g = centred_grid(48, 48, 0.125e-3, 0.125e-3);
+  Plane p(g.size()), qx(g.size()), qy(g.size());
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) {
+      const double s = std::max(0.0, 1 - (g.x(i) * g.x(i) + g.y(j) * g.y(j)) / (5e-3 * 5e-3)), x = g.x(i) / 5e-3;
+      p[g.index(i, j)] = 1e9 * s * s * s, qx[g.index(i, j)] = 0.4e9 * s * s * s * (1 + x), qy[g.index(i, j)] = 0.3e9 * s * s * s * x;
+    }
+  const InfluenceOperator op(combined_compliance({}, layered_compliance(body)), g.nx, g.ny, g.dx, g.dy);
+  Plane ux(g.size()), uy(g.size()), vx(g.size()), vy(g.size());
+  op.tangential(qx.data(), qy.data(), ux.data(), uy.data(), g.nx);
+  op.tangential_from_pressure(p.data(), vx.data(), vy.data(), g.nx);
+  for (std::size_t k = 0; k < g.size(); ++k) ux[k] += vx[k], uy[k] += vy[k];
+  const StatePlane s = Subsurface(body, g, p, qx, qy).plane(0);
+  const double largest = peak(s.e_xx);
+  for (int i = 4; i < g.nx - 4; i += 3)
+    for (int j = 4; j < g.ny - 4; j += 3) {
+      const auto d = [&](const Plane& u, int di, int dj) { return (8 * (u[g.index(i + di, j + dj)] - u[g.index(i - di, j - dj)]) - (u[g.index(i + 2 * di, j + 2 * dj)] - u[g.index(i - 2 * di, j - 2 * dj)])) / (12 * g.dx); };
+      ASSERT_NEAR(s.e_xx[g.index(i, j)], d(ux, 1, 0), 0.01 * largest) << i << ' ' << j;
+      ASSERT_NEAR(s.e_yy[g.index(i, j)], d(uy, 0, 1), 0.01 * largest);
+      ASSERT_NEAR(s.e_xy[g.index(i, j)], 0.5 * (d(ux, 0, 1) + d(uy, 1, 0)), 0.01 * largest);
+    }
+}
+
+TEST(Subsurface, PeriodOfTheGridDoesNotShow) {
+  const LayeredFixture f;
+  const LayeredHalfSpace body{{{6e-3, {4 * 210e9, 0.3}}}, kSteel};
+  const PatchGrid wide = centred_grid(60, 60, 0.25e-3, 0.25e-3);
+  Plane p(wide.size(), 0.0), qx = p;
+  for (int i = 0; i < f.g.nx; ++i)
+    for (int j = 0; j < f.g.ny; ++j) p[wide.index(i + 36, j + 36)] = f.p[f.g.index(i, j)], qx[wide.index(i + 36, j + 36)] = f.qx[f.g.index(i, j)];
+  const SubsurfacePeaks a = Subsurface(body, f.g, f.p, f.qx, f.qy).peaks(8e-3), b = Subsurface(body, wide, p, qx, Plane(wide.size())).peaks(8e-3);
+  EXPECT_NEAR(a.layers[0].von_mises.value / b.layers[0].von_mises.value, 1, 5e-4);
+  EXPECT_NEAR(a.matrix.von_mises.value / b.matrix.von_mises.value, 1, 5e-4);
+  EXPECT_NEAR(a.above_interface[0].sigma1.value / b.above_interface[0].sigma1.value, 1, 5e-4);
+}
+
+TEST(Subsurface, StiffLayerTakesTheStress) {
+  const LayeredFixture f;
+  const SubsurfacePeaks plain = Subsurface({{}, kSteel}, f.g, f.p, f.qx, f.qy).peaks(8e-3);
+  const SubsurfacePeaks stiff = Subsurface({{{2e-3, {4 * 210e9, 0.3}}}, kSteel}, f.g, f.p, f.qx, f.qy).peaks(8e-3);
+  ASSERT_EQ(stiff.layers.size(), 1u);
+  EXPECT_GT(stiff.layers[0].von_mises.value, plain.subsurface.von_mises.value);
+  EXPECT_LT(stiff.matrix.von_mises.value, plain.matrix.von_mises.value);
+  EXPECT_GT(stiff.above_interface[0].von_mises.value, stiff.below_interface[0].von_mises.value);
+  EXPECT_EQ(stiff.below_interface[0].von_mises.depth, 2e-3);
+}
+
+}  // namespace
+}  // namespace railstrata
