@@ -19,7 +19,7 @@ constexpr int kFiniteCheckInterval = 500;  // steps
 constexpr double kLostContact = 0.02;      // of the static load
 
 // Half length of a sample: the patch and the stress field around it.
-double sample_half_length(const RollingSystem& s) { return 1.5 * s.model.hertz.a + 8 * s.model.spec.mesh.element_size; }
+double sample_half_length(const RollingSystem& s) { return 1.5 * s.model.hertz.a + 2 * s.model.spec.mesh.element_size; }
 
 BandSample band_sample(const Solid& solid, const ContactBand& band, const Field& u, double centre, double radius, const AxlePose& pose, double half_length) {
   const Block& block = solid.body().blocks[band.block];
@@ -35,10 +35,10 @@ BandSample band_sample(const Solid& solid, const ContactBand& band, const Field&
   }
   int middle = static_cast<int>(std::lower_bound(at.begin(), at.end(), centre) - at.begin());
   if (middle > 0 && (middle >= n || centre - at[middle - 1] < at[middle] - centre)) --middle;
-  const double half = half_length / radius;
-  int first = middle, last = middle;
-  while ((block.stations.closed || first > 0) && centre - coordinate(first) < half) --first;
-  while ((block.stations.closed || last < lay.elements) && coordinate(last) - centre < half) ++last;
+  // The same number of stations on either side whatever the exact position, so that samples can be averaged station by station.
+  const int reach = static_cast<int>(std::ceil(half_length / radius / (coordinate(middle + 1) - coordinate(middle))));
+  const int first = block.stations.closed ? middle - reach : std::max(middle - reach, 0);
+  const int last = block.stations.closed ? middle + reach : std::min(middle + reach, lay.elements);
 
   BandSample s;
   s.columns = band.columns;

@@ -1,0 +1,148 @@
+#include "io/result_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "material/elastic.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kMilli = 1e3, kMega = 1e-6;
+
+std::vector<double> scaled(const std::vector<double>& v, double factor) {
+  std::vector<double> out(v);
+  for (double& x : out) x *= factor;
+  return out;
+}
+
+std::vector<float> to_floats(const std::vector<double>& v, double factor) {
+  std::vector<float> out;
+  out.reserve(v.size());
+  for (double x : v) out.push_back(static_cast<float>(factor * x));
+  return out;
+}
+
+std::vector<double> state_numbers(const ContactField& f) {
+  std::vector<double> out;
+  for (ContactState s : f.state) out.push_back(static_cast<double>(s));
+  return out;
+}
+
+void push(std::vector<float>& out, const Sym3& s) {
+  for (double v : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) out.push_back(static_cast<float>(kMega * v));
+}
+
+}  // namespace
+
+void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance, const ContactField& f) {
+  write_csv(folder / "patch.csv", provenance,
+            {{"x_mm", scaled(f.x, kMilli)},
+             {"y_mm", scaled(f.y, kMilli)},
+             {"z_mm", scaled(f.z, kMilli)},
+             {"area_mm2", scaled(f.area, 1e6)},
+             {"p_MPa", scaled(f.p, kMega)},
+             {"q_x_MPa", scaled(f.q_x, kMega)},
+             {"q_y_MPa", scaled(f.q_y, kMega)},
+             {"slip_x_mm_s", scaled(f.slip_x, kMilli)},
+             {"slip_y_mm_s", scaled(f.slip_y, kMilli)},
+             {"state_0separated_1stick_2slip", state_numbers(f)}});
+  const CentreLine line = centre_line(f);
+  write_csv(folder / "centre_line.csv", provenance,
+            {{"x_mm", scaled(line.x, kMilli)}, {"p_MPa", scaled(line.p, kMega)}, {"q_x_MPa", scaled(line.q_x, kMega)}, {"q_y_MPa", scaled(line.q_y, kMega)}, {"slip_x_mm_s", scaled(line.slip_x, kMilli)}});
+}
+
+void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance, const DepthLine& line) {
+  const char* names[] = {"depth_mm", "sigma_xx_MPa", "sigma_yy_MPa", "sigma_zz_MPa", "sigma_xy_MPa", "sigma_yz_MPa", "sigma_xz_MPa", "von_mises_MPa", "sigma_1_MPa", "sigma_2_MPa", "sigma_3_MPa", "material"};
+  std::vector<CsvColumn> columns;
+  for (const char* n : names) columns.push_back({n, {}});
+  for (std::size_t i = 0; i < line.depth.size(); ++i) {
+    const Sym3& s = line.stress[i];
+    const Vec3 p = principal_stresses(s);
+    const double row[] = {kMilli * line.depth[i], kMega * s.xx,          kMega * s.yy, kMega * s.zz, kMega * s.xy, kMega * s.yz,
+                          kMega * s.xz,           kMega * von_mises(s), kMega * p.x,  kMega * p.y,  kMega * p.z,  static_cast<double>(line.material[i])};
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
+  }
+  write_csv(file, provenance, columns);
+}
+
+VtkQuads patch_mesh(const ContactField& f, double wheel_x) {
+  VtkQuads mesh;
+  std::vector<float> traction, slip;
+  std::vector<std::int32_t> state;
+  for (int i = 0; i < f.size(); ++i) {
+    mesh.points.push_back({wheel_x + f.x[i], f.y[i], f.z[i]});
+    for (double v : {f.q_x[i], f.q_y[i], 0.0}) traction.push_back(static_cast<float>(kMega * v));
+    for (double v : {f.slip_x[i], f.slip_y[i], 0.0}) slip.push_back(static_cast<float>(kMilli * v));
+    state.push_back(static_cast<std::int32_t>(f.state[i]));
+  }
+  for (long long s = 0; s + 1 < f.stations; ++s)
+    for (long long c = 0; c + 1 < f.columns; ++c) {
+      const long long a = s * f.columns + c;
+      mesh.cells.push_back({a, a + f.columns, a + f.columns + 1, a + 1});
+    }
+  mesh.point_fields = {{"pressure_MPa", 1, to_floats(f.p, kMega)}, {"traction_MPa", 3, traction}, {"slip_velocity_mm_s", 3, slip}, {"state", 1, state}};
+  return mesh;
+}
+
+VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
+  VtkHexahedra mesh;
+  const ContactBand& band = b.body->contact;
+  const Section& section = b.body->blocks[band.block].section;
+  const int nc = band.columns + 1, nr = band.rows + 1, per_station = nc * nr;
+  const bool turning = b.body->kind == SweepKind::revolve;
+  std::vector<float> displacement;
+  for (int s = 0; s <= b.sample.stations; ++s)
+    for (int k = 0; k < per_station; ++k) {
+      // the wheel as it stands over the rail: station angle counted from the vertical below the axle
+      const double radius = turning ? -section.nodes[static_cast<std::size_t>(band.columns / 2)].z : 1.0;
+      const double t = turning ? b.sample.along[s] / radius : b.sample.along[s];
+      Vec3 p = swept_point(b.body->kind, b.body->origin, section.nodes[k], t);
+      p.x += wheel_x;
+      mesh.points.push_back(p);
+      const Vec3 u = b.sample.displacement[static_cast<std::size_t>(s) * per_station + k];
+      for (double v : {u.x, u.y, u.z}) displacement.push_back(static_cast<float>(kMilli * v));
+    }
+  std::vector<float> stress, equivalent, principal;
+  std::vector<std::int32_t> material;
+  std::vector<Sym3> sum(mesh.points.size());
+  std::vector<int> count(mesh.points.size(), 0), top_material(mesh.points.size(), -1);
+  for (int s = 0; s < b.sample.stations; ++s)
+    for (int r = 0; r < band.rows; ++r)
+      for (int c = 0; c < band.columns; ++c) {
+        const long long a = static_cast<long long>(s) * per_station;
+        const auto& q = section.quads[static_cast<std::size_t>(r) * band.columns + c];
+        mesh.cells.push_back({a + q[0], a + q[1], a + q[2], a + q[3], a + per_station + q[0], a + per_station + q[1], a + per_station + q[2], a + per_station + q[3]});
+        const Sym3 value = b.at(c, r, s);
+        push(stress, value);
+        equivalent.push_back(static_cast<float>(kMega * von_mises(value)));
+        principal.push_back(static_cast<float>(kMega * principal_stresses(value).x));
+        const int m = section.quad_material[static_cast<std::size_t>(r) * band.columns + c];
+        material.push_back(m);
+        for (long long n : mesh.cells.back()) {
+          // at an interface the points belong to the material met first, from the surface down
+          if (top_material[n] < 0) top_material[n] = m;
+          if (top_material[n] != m) continue;
+          sum[n] = sum[n] + value;
+          ++count[n];
+        }
+      }
+  std::vector<float> smooth;
+  for (std::size_t n = 0; n < sum.size(); ++n) smooth.push_back(static_cast<float>(kMega * von_mises((1.0 / std::max(count[n], 1)) * sum[n])));
+  mesh.point_fields = {{"displacement_mm", 3, displacement}, {"von_mises_smooth_MPa", 1, smooth}};
+  mesh.cell_fields = {{"stress_MPa", 6, stress}, {"von_mises_MPa", 1, equivalent}, {"sigma1_MPa", 1, principal}, {"material", 1, material}};
+  return mesh;
+}
+
+HistoryLog::HistoryLog(const std::filesystem::path& file, const std::vector<std::string>& provenance)
+    : log_(file, provenance, {"time_ms",         "position_mm",  "torque_N_m",      "F_x_N",          "F_y_N",      "F_z_N",       "p_max_MPa",        "creepage",         "penetration_um",
+                              "contact_nodes",   "axle_vx_m_s",  "axle_vz_m_s",     "spin_rad_s",     "kinetic_J",  "strain_J",    "hourglass_J",      "weight_J",         "spring_J",
+                              "torque_work_J",   "friction_J",   "contact_normal_J", "run_up_damping_J", "absorbed_J", "dashpot_J",  "closure_J"}) {}
+
+void HistoryLog::add(const HistoryRow& r) {
+  const EnergyBalance& e = r.energy;
+  log_.add({1e3 * r.time, kMilli * r.position, r.torque, r.forces.x, r.forces.y, r.forces.z, kMega * r.p_max, r.creepage, 1e6 * r.forces.penetration, static_cast<double>(r.forces.nodes), r.axle_vx,
+            r.axle_vz, r.spin, e.kinetic, e.strain, e.hourglass, e.weight, e.spring, e.torque_work, e.friction, e.contact_normal, e.damping, e.absorbed, e.dashpot, r.closure});
+}
+
+}  // namespace railstrata

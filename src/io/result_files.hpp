@@ -1,0 +1,37 @@
+#pragma once
+// The files of a result folder: tables for people and scripts, VTK files for pictures. Millimetres and MPa in what people read; every column names its unit.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/csv.hpp"
+#include "io/vtk.hpp"
+#include "post/rolling_mean.hpp"
+#include "post/stress_maxima.hpp"
+
+namespace railstrata {
+
+/// patch.csv: every point of the field; centre_line.csv: along the rolling direction through the largest pressure.
+void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance, const ContactField& field);
+
+/// depth_line.csv: the six stresses, von Mises and the principal stresses against depth.
+void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance, const DepthLine& line);
+
+/// The patch as quadrilaterals with pressure_MPa, traction_MPa, slip_velocity_mm_s, state.
+VtkQuads patch_mesh(const ContactField& field, double wheel_x);
+
+/// A body's contact band around the wheel: nodes displaced by displacement_mm (a point field, not applied to the points), cell fields stress_MPa, von_mises_MPa,
+/// sigma1_MPa, material; the same stresses averaged to the points within each material, for smooth pictures (von_mises_smooth_MPa).
+VtkHexahedra band_mesh(const BandStress& band, double wheel_x);
+
+/// history.csv, a row at a time.
+class HistoryLog {
+ public:
+  HistoryLog(const std::filesystem::path& file, const std::vector<std::string>& provenance);
+  void add(const HistoryRow& row);
+
+ private:
+  CsvLog log_;
+};
+
+}  // namespace railstrata

@@ -1,0 +1,14 @@
+#pragma once
+// summary.json: stable keys, SI units, the same from both engines; what does not apply is null.
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+nlohmann::ordered_json summary_json(const Summary& summary);
+void write_summary(const std::filesystem::path& file, const Summary& summary);
+
+}  // namespace railstrata

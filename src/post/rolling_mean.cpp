@@ -1,0 +1,92 @@
+#include "post/rolling_mean.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kNoise = 0.025;      // of p_max: points below are left out of areas and ratios
+constexpr double kSlipFraction = 0.999;  // of the friction limit
+
+void set_states(ContactField& f, double friction) {
+  const double p_max = f.p.empty() ? 0 : *std::max_element(f.p.begin(), f.p.end());
+  f.p_noise = kNoise * p_max;
+  for (int i = 0; i < f.size(); ++i) {
+    if (f.p[i] <= 0) f.state[i] = ContactState::separated;
+    else f.state[i] = std::hypot(f.q_x[i], f.q_y[i]) >= kSlipFraction * friction * f.p[i] ? ContactState::slip : ContactState::stick;
+  }
+}
+
+void add(BandSample& sum, const BandSample& s, double weight) {
+  if (sum.stress.empty()) {
+    sum = s;
+    for (double& v : sum.along) v = 0;
+    for (Sym3& v : sum.stress) v = {};
+    for (Vec3& v : sum.displacement) v = {};
+  }
+  for (std::size_t i = 0; i < sum.along.size(); ++i) sum.along[i] += weight * s.along[i];
+  for (std::size_t i = 0; i < sum.stress.size(); ++i) sum.stress[i] = sum.stress[i] + weight * s.stress[i];
+  for (std::size_t i = 0; i < sum.displacement.size(); ++i) sum.displacement[i] += weight * s.displacement[i];
+}
+
+}  // namespace
+
+ContactField contact_field(const RollingSystem& sys, const RollingSample& s) {
+  ContactField f;
+  const ContactSurface& surface = sys.rail_surface;
+  f.resize(surface.columns, s.rail.stations + 1);
+  auto tributary = [](auto&& width, int i, int n) { return 0.5 * ((i > 0 ? width(i - 1) : 0.0) + (i + 1 < n ? width(i) : 0.0)); };
+  for (int j = 0; j < f.stations; ++j)
+    for (int c = 0; c < f.columns; ++c) {
+      const std::size_t i = static_cast<std::size_t>(j) * f.columns + c;
+      const NodeTraction& t = s.tractions[i];
+      f.x[i] = s.rail.along[j];
+      f.y[i] = surface.origin.y + surface.node[c].y;
+      f.z[i] = surface.origin.z + surface.node[c].z;
+      f.area[i] = tributary([&](int k) { return surface.width[k]; }, c, f.columns) * tributary([&](int k) { return s.rail.along[k + 1] - s.rail.along[k]; }, j, f.stations);
+      f.p[i] = t.p, f.q_x[i] = t.q1, f.q_y[i] = t.q2, f.slip_x[i] = t.slip1, f.slip_y[i] = t.slip2;
+    }
+  set_states(f, sys.model.spec.drive.friction_coefficient);
+  return f;
+}
+
+MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group) {
+  if (group.samples.empty()) throw NumericalError("no sample was taken: the run ended before the wanted position");
+  MeanContact m;
+  m.position = group.position;
+  m.samples = static_cast<int>(group.samples.size());
+  const double weight = 1.0 / m.samples;
+  double p_sum = 0, p_square = 0, slip = 0;
+  for (const RollingSample& s : group.samples) {
+    const ContactField f = contact_field(sys, s);
+    const PatchMeasures patch = measure_patch(f);
+    p_sum += patch.p_max, p_square += patch.p_max * patch.p_max, slip += weight * patch.slip_area_fraction;
+    if (m.field.size() == 0) {
+      m.field = f;
+      for (auto* a : {&m.field.x, &m.field.p, &m.field.q_x, &m.field.q_y, &m.field.slip_x, &m.field.slip_y}) std::fill(a->begin(), a->end(), 0.0);
+    }
+    if (f.size() != m.field.size()) throw NumericalError("samples of different size");
+    for (int i = 0; i < f.size(); ++i) {
+      m.field.x[i] += weight * f.x[i], m.field.p[i] += weight * f.p[i], m.field.q_x[i] += weight * f.q_x[i], m.field.q_y[i] += weight * f.q_y[i];
+      m.field.slip_x[i] += weight * f.slip_x[i], m.field.slip_y[i] += weight * f.slip_y[i];
+    }
+    m.F_x += weight * s.forces.x, m.F_y += weight * s.forces.y, m.F_z += weight * s.forces.z;
+    m.creepage += weight * s.creepage;
+    m.axle_z += weight * s.axle.z;
+    if (s.axle.vx > 0) m.spin_per_m -= weight * s.axle.spin / s.axle.vx * std::sin(sys.model.placement.contact.angle);
+    add(m.rail, s.rail, weight);
+    add(m.wheel, s.wheel, weight);
+  }
+  // a point slips if it does in the mean; areas keep the samples' own ratio
+  set_states(m.field, sys.model.spec.drive.friction_coefficient);
+  m.patch = measure_patch(m.field);
+  m.patch.slip_area_fraction = slip;
+  const double mean = p_sum * weight;
+  m.p_max_scatter = mean > 0 ? std::sqrt(std::max(0.0, p_square * weight - mean * mean)) / mean : 0;
+  return m;
+}
+
+}  // namespace railstrata

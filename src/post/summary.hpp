@@ -1,0 +1,58 @@
+#pragma once
+// The numbers of a result, the same for both engines: what summary.json holds. SI units; a number that does not apply is NaN (null in the file).
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace railstrata {
+
+inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN();
+
+struct ContactSummary {
+  double p_max = kNotApplicable, q_max = kNotApplicable;
+  double patch_length = kNotApplicable, patch_width = kNotApplicable, patch_area = kNotApplicable, slip_area_fraction = kNotApplicable;
+  double F_x = kNotApplicable, F_y = kNotApplicable, F_z = kNotApplicable;  ///< N, on the wheel
+  double creepage_x = kNotApplicable, creepage_y = kNotApplicable, spin_per_m = kNotApplicable;
+  double approach = kNotApplicable, penetration_max = kNotApplicable, p_max_scatter = kNotApplicable;
+};
+
+/// x from the axle in the rolling direction, y from the rigid contact point towards the field side, depth below the surface along its normal.
+struct StressMaximum {
+  double value = kNotApplicable, x = kNotApplicable, y = kNotApplicable, depth = kNotApplicable;
+};
+struct StressPair {
+  StressMaximum von_mises, sigma1;
+};
+struct StressSummary {
+  std::optional<StressPair> surface, subsurface, layer, interface, matrix;
+};
+
+struct EnergySummary {
+  double closure = kNotApplicable, hourglass_share = kNotApplicable;
+};
+
+struct RunSummary {
+  std::string engine, commit;
+  double wall_s = kNotApplicable, preload_wall_s = kNotApplicable, dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
+  long elements = 0, nodes = 0, steps = 0;
+  int threads = 0;
+};
+
+struct Check {
+  std::string name;
+  bool ok = false;
+  double value = kNotApplicable, limit = kNotApplicable;
+};
+
+struct Summary {
+  std::string title;
+  double position = kNotApplicable;
+  ContactSummary contact;
+  StressSummary rail, wheel;
+  EnergySummary energy;
+  RunSummary run;
+  std::vector<Check> checks;
+};
+
+}  // namespace railstrata
