@@ -153,8 +153,32 @@ StatePlane Subsurface::plane(double depth) const {
       }
     }
   });
+  straighten_steps(depth, out);
   if (layered_) add_layer_difference(depth, out);
   return out;
+}
+
+void Subsurface::straighten_steps(double depth, StatePlane& out) const {
+  // Tractions constant in each cell differ from linear ones by a sawtooth, whose waves k = 2 pi n/dx reach the cell's middle with the sum of (-1)^n/n exp(-k z) …
+  const double G = body_.substrate.shear(), nu = body_.substrate.poisson;
+  struct Tooth {
+    double normal_strain, shear_strain, s_zz;  // per unit slope of the traction
+  };
+  const auto tooth = [&](double d) {
+    const double r = std::exp(-2 * std::numbers::pi * depth / d), alternating = std::log1p(r), once = r / (1 + r);
+    return Tooth{d / (2 * std::numbers::pi * G) * (2 * (1 - nu) * alternating - 2 * std::numbers::pi * depth / d * once), d / (2 * std::numbers::pi * G) * alternating, 2 * depth * once};
+  };
+  const Tooth tx = tooth(grid_.dx), ty = tooth(grid_.dy);
+  for (int i = 1; i + 1 < grid_.nx; ++i)
+    for (int j = 1; j + 1 < grid_.ny; ++j) {
+      const std::size_t k = grid_.index(i, j), n = grid_.index(i + 1, j), s = grid_.index(i - 1, j);
+      const double xx = (q_x_[n] - q_x_[s]) / (2 * grid_.dx), yx = (q_y_[n] - q_y_[s]) / (2 * grid_.dx);
+      const double xy = (q_x_[k + 1] - q_x_[k - 1]) / (2 * grid_.dy), yy = (q_y_[k + 1] - q_y_[k - 1]) / (2 * grid_.dy);
+      out.e_xx[k] += tx.normal_strain * xx;
+      out.e_yy[k] += ty.normal_strain * yy;
+      out.e_xy[k] += tx.shear_strain * yx + ty.shear_strain * xy;
+      out.s_zz[k] += tx.s_zz * xx + ty.s_zz * yy;
+    }
 }
 
 void Subsurface::add_layer_difference(double depth, StatePlane& out) const {

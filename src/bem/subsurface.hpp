@@ -59,6 +59,8 @@ class Subsurface {
 
  private:
   struct Layered;
+  /// Takes the first-order error of stepwise tractions out of a plane nearer to the surface than a cell.
+  void straighten_steps(double depth, StatePlane& out) const;
   void add_layer_difference(double depth, StatePlane& out) const;
 
   LayeredHalfSpace body_;

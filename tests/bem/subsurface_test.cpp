@@ -43,8 +43,9 @@ TEST(Subsurface, SurfaceOutsideAHertzCircleIsInPureShear) {
   }
 }
 
-// circ_subsurf_fx0.4_dx0.5_y0.csv: CONTACT, its own surface tractions; x against depth on y = 0.
-TEST(Subsurface, StressesUnderADrivingWheelMeetContactTo1MPa) {
+// circ_subsurf_fx0.4_dx0.5_y0.csv: CONTACT; x against depth on y = 0. Nearer to the surface than a cell its stepwise tractions carry a first-order error in the strains
+// along the traction (47 MPa here) that this program takes out; see SurfaceStrains… for the proof there.
+TEST(Subsurface, StressesUnderADrivingWheelMeetContactTo1MPaFromOneCellDown) {
   const ReferenceContact c(1000.0 / 840, 1000.0 / 840, 0.5e-3);
   TangentialProblem t = c.rolling();
   t.x.force = -0.4 * c.kFriction * c.kLoad;
@@ -62,10 +63,8 @@ TEST(Subsurface, StressesUnderADrivingWheelMeetContactTo1MPa) {
   double worst = 0;
   for (const ReferenceRow& r : reference_table("circ_subsurf_fx0.4_dx0.5_y0.csv")) {
     const double depth = 1e-3 * r.at("depth_mm");
-    if (plane.s_zz.empty() || plane.depth != depth) {
-      if (std::fmod(compared, 5) > 3 && depth > 6e-3) continue;
-      plane = body.plane(depth);
-    }
+    if (depth < 0.99 * wide.dx) continue;
+    if (plane.s_zz.empty() || plane.depth != depth) plane = body.plane(depth);
     const int i = static_cast<int>(std::lround((1e-3 * r.at("x_mm") - wide.x0) / wide.dx));
     const Sym3 s = body.stress(plane, wide.index(i, wide.ny / 2));
     worst = std::max({worst, std::abs(s.xx - 1e6 * r.at("sxx")), std::abs(s.zz - 1e6 * r.at("szz")), std::abs(s.yy - 1e6 * r.at("syy")), std::abs(s.xz - 1e6 * r.at("sxz")),
@@ -151,9 +150,9 @@ TEST(Subsurface, SurfaceStrainsOfALayeredBodyAreTheDerivativesOfItsSurfaceDispla
   for (int i = 4; i < g.nx - 4; i += 3)
     for (int j = 4; j < g.ny - 4; j += 3) {
       const auto d = [&](const Plane& u, int di, int dj) { return (8 * (u[g.index(i + di, j + dj)] - u[g.index(i - di, j - dj)]) - (u[g.index(i + 2 * di, j + 2 * dj)] - u[g.index(i - 2 * di, j - 2 * dj)])) / (12 * g.dx); };
-      ASSERT_NEAR(s.e_xx[g.index(i, j)], d(ux, 1, 0), 0.01 * largest) << i << ' ' << j;
-      ASSERT_NEAR(s.e_yy[g.index(i, j)], d(uy, 0, 1), 0.01 * largest);
-      ASSERT_NEAR(s.e_xy[g.index(i, j)], 0.5 * (d(ux, 0, 1) + d(uy, 1, 0)), 0.01 * largest);
+      ASSERT_NEAR(s.e_xx[g.index(i, j)], d(ux, 1, 0), 0.005 * largest) << i << ' ' << j;
+      ASSERT_NEAR(s.e_yy[g.index(i, j)], d(uy, 0, 1), 0.005 * largest);
+      ASSERT_NEAR(s.e_xy[g.index(i, j)], 0.5 * (d(ux, 0, 1) + d(uy, 1, 0)), 0.005 * largest);
     }
 }
 
