@@ -150,4 +150,13 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   return r;
 }
 
+Subsurface rail_interior(const BemResult& r) { return {r.rail, r.grid, r.field.p, r.field.q_x, r.field.q_y}; }
+
+Subsurface wheel_interior(const BemResult& r) {
+  Plane q_x = r.field.q_x, q_y = r.field.q_y;
+  for (Plane* q : {&q_x, &q_y})
+    for (double& v : *q) v = -v;
+  return {r.wheel, r.grid, r.field.p, std::move(q_x), std::move(q_y)};
+}
+
 }  // namespace railstrata

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bem/rolling_contact.hpp"
+#include "bem/subsurface.hpp"
 #include "contact/contact_field.hpp"
 #include "halfspace/layered.hpp"
 #include "model/model.hpp"
@@ -57,5 +58,9 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body);
 
 /// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch.
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {});
+
+/// The stresses inside the rail or the wheel of a result. Axes x rolling, y along the common tangent, z into the body (rail: down, wheel: up).
+Subsurface rail_interior(const BemResult& result);
+Subsurface wheel_interior(const BemResult& result);
 
 }  // namespace railstrata

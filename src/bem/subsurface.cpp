@@ -322,7 +322,7 @@ class PeakSearch {
   ZonePeaks zone(double top, double bottom) {
     const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / (2 * grid_.dx))), 2, 16);
     std::vector<double> depth;
-    for (int i = 0; i <= pieces; ++i) depth.push_back(top + (bottom - top) * i / pieces);
+    for (int i = 0; i <= pieces; ++i) depth.push_back(i == pieces ? bottom : top + (bottom - top) * i / pieces);
     ZonePeaks best;
     for (double z : depth) keep_larger(best, at(z, z == top));
     refine(depth, top, best, &ZonePeaks::von_mises);

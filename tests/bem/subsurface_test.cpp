@@ -178,6 +178,11 @@ TEST(Subsurface, StiffLayerTakesTheStress) {
   EXPECT_LT(stiff.matrix.von_mises.value, plain.matrix.von_mises.value);
   EXPECT_GT(stiff.above_interface[0].von_mises.value, stiff.below_interface[0].von_mises.value);
   EXPECT_EQ(stiff.below_interface[0].von_mises.depth, 2e-3);
+  for (double h : {1e-3, 3e-3, 3.3e-3, 6e-3}) {
+    const SubsurfacePeaks p = Subsurface({{{h, {4 * 210e9, 0.3}}}, kSteel}, f.g, f.p, f.qx, f.qy).peaks(8e-3);
+    EXPECT_GE(p.layers[0].von_mises.value, p.above_interface[0].von_mises.value) << "the layer includes its bottom, " << h;
+    EXPECT_GE(p.matrix.von_mises.value, p.below_interface[0].von_mises.value) << h;
+  }
 }
 
 }  // namespace
