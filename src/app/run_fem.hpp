@@ -1,0 +1,37 @@
+#pragma once
+// The finite element run of a case, from the spec to the files of its folder.
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "model/case_spec.hpp"
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+/// What the caller wants to hear: a phase ("mesh", "preload", "rolling", "results"), how far it is (0..1, negative: unknown) and a line of numbers.
+using RunReporter = std::function<void(const std::string& phase, double fraction, const std::string& detail)>;
+
+struct FemRequest {
+  CaseSpec spec;
+  std::filesystem::path case_folder;      ///< of relative profile names
+  std::filesystem::path out;              ///< exists
+  std::vector<std::string> provenance;    ///< "#" lines of the tables
+  std::string commit;
+  int threads = 0;
+  RunReporter report;
+  const std::atomic<bool>* stop = nullptr;
+};
+
+struct FemOutcome {
+  std::vector<Summary> summaries;         ///< one per wanted position, in order of position; the last one is summary.json
+  bool stopped = false;                   ///< by the stop flag, before the last position: results of the finished positions only
+};
+
+/// Writes into request.out: history.csv, and per position (in the folder itself for the last, in position_<mm>/ for the others) summary.json, patch.csv,
+/// centre_line.csv, depth_line.csv, patch.vtp, rail.vtu, wheel.vtu; patch.pvd with its frames. Throws as build_model and run_rolling do.
+FemOutcome run_fem(const FemRequest& request);
+
+}  // namespace railstrata
