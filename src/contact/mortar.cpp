@@ -45,8 +45,8 @@ Vec3 MortarContact::rail_point(const Field& u, int c, int j, double wy, double w
 
 int MortarContact::wheel_station(double theta, double& weight) const {
   const auto& at = wheel_.stations.at;
-  while (theta < at.front()) theta += kPeriod;
-  while (theta >= at.front() + kPeriod) theta -= kPeriod;
+  if (!std::isfinite(theta)) return weight = 0, 0;  // the driver's check of the numbers will tell
+  theta -= kPeriod * std::floor((theta - at.front()) / kPeriod);
   const int j = static_cast<int>(std::upper_bound(at.begin(), at.end(), theta) - at.begin()) - 1;
   const double next = j + 1 < static_cast<int>(at.size()) ? at[j + 1] : at.front() + kPeriod;
   weight = (theta - at[j]) / (next - at[j]);

@@ -29,10 +29,7 @@ BandSample band_sample(const Solid& solid, const ContactBand& band, const Field&
   const int n = lay.stations;
   auto wrapped = [&](int j) { return ((j % n) + n) % n; };
   auto coordinate = [&](int j) { return block.stations.closed ? at[wrapped(j)] + period * std::floor(static_cast<double>(j) / n) : at[j]; };
-  if (period > 0) {
-    while (centre < at.front()) centre += period;
-    while (centre >= at.front() + period) centre -= period;
-  }
+  if (period > 0) centre -= period * std::floor((centre - at.front()) / period);
   int middle = static_cast<int>(std::lower_bound(at.begin(), at.end(), centre) - at.begin());
   if (middle > 0 && (middle >= n || centre - at[middle - 1] < at[middle] - centre)) --middle;
   // The same number of stations on either side whatever the exact position, so that samples can be averaged station by station.

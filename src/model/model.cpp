@@ -32,6 +32,26 @@ std::vector<Elastic> materials_of(const CaseSpec& spec, const std::string& body,
   return out;
 }
 
+// Middle of the lateral strip in which the undeformed profiles are closer than `closeness`: the patch may lie to one side of the first point of contact.
+struct StripMiddle {
+  double rail_s, wheel_s;
+};
+StripMiddle strip_middle(const Placement& p, double closeness) {
+  const RigidContact& c = p.contact;
+  constexpr double step = 0.1e-3, reach = 30e-3;
+  auto gap = [&](double s) {
+    const Vec2 rail = rail_to_model(p.track, p.rail.at(s).position);
+    const double y = rail.y - c.wheel_offset_y;
+    if (y <= p.wheel.y_min() || y >= p.wheel.y_max()) return closeness + 1;
+    return c.wheel_offset_z + p.wheel.height(y) - rail.z;
+  };
+  double low = c.rail_s, high = c.rail_s;
+  while (low - step > p.rail.s_min() && c.rail_s - low < reach && gap(low - step) < closeness) low -= step;
+  while (high + step < p.rail.s_max() && high - c.rail_s < reach && gap(high + step) < closeness) high += step;
+  const double middle = 0.5 * (low + high);
+  return {middle, p.wheel.s_at_y(rail_to_model(p.track, p.rail.at(middle).position).y - c.wheel_offset_y)};
+}
+
 }  // namespace
 
 Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
@@ -62,10 +82,12 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size;
   const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio, spec.mesh.largest};
 
+  const StripMiddle strip = strip_middle(m.placement, m.hertz.approach);
+
   const GeometrySpec& g = spec.geometry;
   RailMeshSpec rail;
   rail.shape = g.rail_shape == "block" ? RailShape::block : RailShape::rail;
-  rail.contact_s = contact.rail_s;
+  rail.contact_s = strip.rail_s;
   rail.x_begin = -margin;
   rail.x_end = m.x_end + margin;
   rail.end_length = spec.mesh.end_length;
@@ -76,7 +98,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
 
   WheelMeshSpec wheel;
   wheel.shape = g.wheel_shape == "disc" ? WheelShape::disc : WheelShape::wheel;
-  wheel.contact_s = contact.wheel_s;
+  wheel.contact_s = strip.wheel_s;
   wheel.theta_begin = -margin / contact.rolling_radius;
   wheel.theta_end = (m.x_end + margin) / contact.rolling_radius;
   wheel.rim_thickness = g.rim_thickness;
