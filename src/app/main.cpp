@@ -1,1 +1,3 @@
-int main() { return 2; }
+#include "app/program.hpp"
+
+int main(int argc, char** argv) { return railstrata::run_program(argc, argv); }

@@ -7,7 +7,7 @@
 namespace railstrata {
 
 /// Exit codes of the program (docs/conventions.md).
-enum class ExitCode : int { ok = 0, failed_checks = 1, user = 2, numerics = 3, environment = 4, interrupted = 130 };
+enum class ExitCode : int { ok = 0, failed_checks = 1, user = 2, numerics = 3, environment = 4, internal = 70, interrupted = 130 };
 
 /// Something the user wrote is wrong: a case file, a profile, a command line. Exit code 2.
 /// `where` is "file:line:column" as far as it is known, `remedy` says what to do.

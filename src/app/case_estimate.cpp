@@ -1,0 +1,54 @@
+#include "app/case_estimate.hpp"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "fem/stepper.hpp"
+
+namespace railstrata {
+namespace {
+
+/// Seconds of one evaluation of the internal forces of a body: the best of a quarter of a second, because other programs may hold the cores.
+double force_seconds(const DeformableBody& body) {
+  Field u(body.mass.size(), 0.0), f(body.mass.size(), 0.0);
+  double best = 1e9;
+  for (double spent = 0, last = 0; spent < 0.25; spent += last, best = std::min(best, last)) {
+    const auto start = std::chrono::steady_clock::now();
+    body.solid.internal_force(u, 0.0, f);
+    last = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  return best;
+}
+
+double memory_in_use() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+}  // namespace
+
+RunEstimate estimate_run(const Model& model) {
+  // Node update, ties and contact cost about as much again as a quarter of the element forces.
+  constexpr double kRestOfStep = 1.25;
+  const RollingSystem system(model);
+  RunEstimate e;
+  e.stable_step = std::min(lanczos_stable_step(system.rail), lanczos_stable_step(system.wheel));
+  e.element_bound = HUGE_VAL;
+  for (const DeformableBody* body : {&system.rail, &system.wheel})
+    if (const auto bound = body->solid.element_step_bound(); bound.step < e.element_bound) {
+      e.element_bound = bound.step;
+      e.limited_by = fmt::format("{} {}", body->solid.body().name, body->solid.body().blocks[bound.block].name);
+    }
+  e.step = model.spec.run.step_safety * e.stable_step;
+  e.steps = std::lround(model.x_end / (model.spec.drive.speed * e.step));
+  e.seconds = kRestOfStep * static_cast<double>(e.steps) * (force_seconds(system.rail) + force_seconds(system.wheel));
+  e.memory_bytes = memory_in_use();
+  return e;
+}
+
+}  // namespace railstrata

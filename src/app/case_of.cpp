@@ -1,0 +1,21 @@
+#include <spdlog/spdlog.h>
+
+#include "app/commands.hpp"
+
+namespace railstrata {
+
+LoadedCase load_case_of(const CommandOptions& options) {
+  std::filesystem::path file = options.case_file;
+  if (std::filesystem::is_directory(file) && std::filesystem::exists(file / "case.toml")) file /= "case.toml";
+  LoadedCase loaded = load_case(file, options.overrides);
+  for (const std::string& note : loaded.notes) spdlog::warn("{}", note);
+  return loaded;
+}
+
+std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded) {
+  if (!options.out.empty()) return options.out;
+  const std::filesystem::path file = std::filesystem::absolute(loaded.file).lexically_normal();
+  return std::filesystem::path("results") / (file.stem() == "case" ? file.parent_path().filename() : file.stem());
+}
+
+}  // namespace railstrata

@@ -1,0 +1,71 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/case_estimate.hpp"
+#include "app/commands.hpp"
+#include "app/mesh_report.hpp"
+#include "app/progress.hpp"
+
+namespace railstrata {
+namespace {
+
+void print_geometry(const Model& m) {
+  const RigidContact& c = m.placement.contact;
+  fmt::print("profiles       {} on {}\n", m.placement.wheel.name(), m.placement.rail.name());
+  fmt::print("contact point  y = {:.3f} mm, z = {:.3f} mm; on the wheel at y = {:.3f} mm\n", 1e3 * c.point.y, 1e3 * c.point.z, 1e3 * (c.point.y - c.wheel_offset_y));
+  fmt::print("contact angle  {:.2f} mrad; rolling radius {:.3f} mm\n", 1e3 * c.angle, 1e3 * c.rolling_radius);
+  fmt::print("static load    {:.3f} kN\n", 1e-3 * m.load);
+  fmt::print("Hertz estimate a = {:.2f} mm, b = {:.2f} mm, p0 = {:.0f} MPa (local curvatures only)\n", 1e3 * m.hertz.a, 1e3 * m.hertz.b, 1e-6 * m.hertz.p0);
+}
+
+void print_layers(const Model& m) {
+  for (const LayerSpec& l : m.spec.layers)
+    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {:.4g} GPa\n", l.name, l.on, 1e3 * l.thickness, 1e3 * l.width, 1e-9 * l.material.young);
+}
+
+void print_estimate(const Model& m, const RunEstimate& e) {
+  fmt::print("mesh           {} elements, {} nodes\n", m.rail.elements() + m.wheel.elements(), m.rail.nodes() + m.wheel.nodes());
+  fmt::print("stable step    {:.2f} ns (single elements {:.2f} ns, limited by {}); steps of {:.2f} ns\n", 1e9 * e.stable_step, 1e9 * e.element_bound, e.limited_by, 1e9 * e.step);
+  fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
+  if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
+}
+
+nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
+  const RigidContact& c = m.placement.contact;
+  return {{"title", m.spec.title},
+          {"contact", {{"y_m", c.point.y}, {"z_m", c.point.z}, {"wheel_y_m", c.point.y - c.wheel_offset_y}, {"angle_rad", c.angle}, {"rolling_radius_m", c.rolling_radius}}},
+          {"load_N", m.load},
+          {"hertz", {{"a_m", m.hertz.a}, {"b_m", m.hertz.b}, {"p0_Pa", m.hertz.p0}}},
+          {"elements", m.rail.elements() + m.wheel.elements()},
+          {"nodes", m.rail.nodes() + m.wheel.nodes()},
+          {"stable_step_s", e.stable_step},
+          {"element_step_bound_s", e.element_bound},
+          {"limited_by", e.limited_by},
+          {"step_s", e.step},
+          {"steps", e.steps},
+          {"rolling_wall_s", e.seconds},
+          {"memory_bytes", e.memory_bytes}};
+}
+
+}  // namespace
+
+ExitCode command_check(const CommandOptions& options) {
+  const LoadedCase loaded = load_case_of(options);
+  const Model model = build_model(loaded.spec, loaded.folder());
+  for (const std::string& note : model.placement.notes) spdlog::info("{}", note);
+  const RunEstimate estimate = estimate_run(model);
+  if (options.json) {
+    fmt::print("{}\n", as_json(model, estimate).dump(2));
+    return ExitCode::ok;
+  }
+  fmt::print("{}: {}\n\n", loaded.file.string(), loaded.spec.title);
+  print_geometry(model);
+  print_layers(model);
+  print_estimate(model, estimate);
+  fmt::print("\n{}", mesh_table(mesh_rows(model)));
+  return ExitCode::ok;
+}
+
+}  // namespace railstrata

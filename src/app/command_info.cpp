@@ -1,0 +1,51 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/version.h>
+
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "app/commands.hpp"
+#include "core/parallel.hpp"
+#include "geometry/profile.hpp"
+#include "io/provenance.hpp"
+
+namespace railstrata {
+namespace {
+
+void print_text(const nlohmann::ordered_json& info) {
+  for (const auto& [key, value] : info.items()) {
+    std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+    if (value.is_array()) text = fmt::format("{}", fmt::join(value.get<std::vector<std::string>>(), ", "));
+    if (value.is_object()) {
+      text.clear();
+      for (const auto& [name, version] : value.items()) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version.get<std::string>());
+    }
+    fmt::print("{:<16} {}\n", key, text);
+  }
+}
+
+}  // namespace
+
+ExitCode command_info(const CommandOptions& options) {
+  const BuildInfo& build = build_info();
+  nlohmann::ordered_json libraries;
+  for (const auto& [name, version] : library_versions()) libraries[name] = version;
+  libraries["spdlog"] = fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH);
+  const nlohmann::ordered_json info{{"version", version_text()},
+                                    {"rail_profiles", builtin_profile_names(ProfileKind::rail)},
+                                    {"wheel_profiles", builtin_profile_names(ProfileKind::wheel)},
+                                    {"compiler", build.compiler},
+                                    {"flags", build.flags},
+                                    {"build_type", build.build_type},
+                                    {"isa", compiled_isa()},
+                                    {"cpu", cpu_name()},
+                                    {"cores", std::thread::hardware_concurrency()},
+                                    {"threads", max_threads()},
+                                    {"libraries", libraries}};
+  if (options.json) fmt::print("{}\n", info.dump(2));
+  else print_text(info);
+  return ExitCode::ok;
+}
+
+}  // namespace railstrata

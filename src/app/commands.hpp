@@ -1,0 +1,36 @@
+#pragma once
+// The subcommands. Each reads its case, calls the rooms below and prints; exceptions carry faults to program.cpp.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/faults.hpp"
+#include "io/case_file.hpp"
+
+namespace railstrata {
+
+/// What the command line says.
+struct CommandOptions {
+  std::filesystem::path case_file;        ///< a file, or a folder that holds case.toml
+  std::vector<std::string> overrides;     ///< --set
+  std::filesystem::path out;              ///< --out; empty: results/<case name>
+  bool force = false;                     ///< --force: write into a folder that is not empty
+  bool json = false;                      ///< --json: results on standard output as JSON
+  bool markdown = false, schema = false;  ///< of `schema`
+  int threads = 1;
+  std::vector<std::string> command_line;
+};
+
+ExitCode command_check(const CommandOptions& options);
+ExitCode command_mesh(const CommandOptions& options);
+ExitCode command_run(const CommandOptions& options);
+ExitCode command_schema(const CommandOptions& options);
+ExitCode command_info(const CommandOptions& options);
+
+/// The case with the overrides applied; its notes are logged.
+LoadedCase load_case_of(const CommandOptions& options);
+
+/// --out, or results/<case name>.
+std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded);
+
+}  // namespace railstrata

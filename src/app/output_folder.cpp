@@ -1,0 +1,31 @@
+#include "app/output_folder.hpp"
+
+#include <fmt/format.h>
+
+#include "core/faults.hpp"
+#include "io/output_file.hpp"
+#include "io/provenance.hpp"
+
+namespace railstrata {
+
+void prepare_output_folder(const std::filesystem::path& folder, bool force) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder))
+    throw EnvironmentError(fmt::format("cannot make the output folder {}: {}", folder.string(), error ? error.message() : "a file of this name is in the way"));
+  const bool empty = std::filesystem::is_empty(folder, error);
+  if (error) throw EnvironmentError(fmt::format("cannot read the output folder {}: {}", folder.string(), error.message()));
+  if (!empty && !force)
+    throw CaseError(fmt::format("the output folder {} is not empty", folder.string()), "choose another with --out, or overwrite files of the same name with --force");
+  const std::filesystem::path probe = folder / ".writable";
+  write_whole_file(probe, "");
+  std::filesystem::remove(probe, error);
+}
+
+void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded, const std::vector<std::string>& command_line, int threads) {
+  write_whole_file(folder / "case.toml", "# Every option of the run; reads back to the same case.\n" + loaded.resolved_toml);
+  write_whole_file(folder / "case.original.toml", loaded.source_text);
+  write_whole_file(folder / "provenance.json", provenance_json(command_line, loaded.overrides, loaded.inputs, threads));
+}
+
+}  // namespace railstrata

@@ -1,0 +1,15 @@
+#pragma once
+// The folder of a run's results.
+#include <filesystem>
+
+#include "io/case_file.hpp"
+
+namespace railstrata {
+
+/// Makes the folder and tries to write in it. Throws CaseError when it holds files and `force` is not set, EnvironmentError when it cannot be made or written.
+void prepare_output_folder(const std::filesystem::path& folder, bool force);
+
+/// case.toml with every option written out, case.original.toml as it was given, provenance.json. Each file is whole or not there.
+void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded, const std::vector<std::string>& command_line, int threads);
+
+}  // namespace railstrata

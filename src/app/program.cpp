@@ -1,0 +1,151 @@
+#include "app/program.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <nlohmann/json.hpp>
+#include <new>
+
+#include "app/commands.hpp"
+#include "core/parallel.hpp"
+#include "io/nearest_word.hpp"
+#include "io/provenance.hpp"
+
+namespace railstrata {
+namespace {
+
+using Command = ExitCode (*)(const CommandOptions&);
+
+struct Entry {
+  const char *name, *what, *examples;
+  Command run;
+};
+constexpr Entry kEntries[] = {
+    {"check", "Read a case and tell what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
+     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 mm\"\n  railstrata check cases/paper/base.toml --json\n", command_check},
+    {"mesh", "Make the meshes and write them as VTU with a table of their quality", "Examples:\n  railstrata mesh cases/quick --out /tmp/mesh\n", command_mesh},
+    {"run", "Run a case: static preload, rolling, results",
+     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n  railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n", command_run},
+    {"schema", "Print the JSON schema of case files for editors, or their reference page", "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n",
+     command_schema},
+    {"info", "Built-in profiles, compiler, instruction set, libraries, threads", "Examples:\n  railstrata info\n  railstrata info --json\n", command_info},
+};
+
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const Entry& e : kEntries) names.emplace_back(e.name);
+  return names;
+}
+
+void add_case_options(CLI::App& sub, CommandOptions& options, bool writes) {
+  sub.add_option("case", options.case_file, "Case file, or a folder with case.toml")->required();
+  sub.add_option("--set", options.overrides, "Override a key: --set mesh.element_size=\"2 mm\" (repeatable)")->allow_extra_args(false);
+  if (!writes) return;
+  sub.add_option("-o,--out", options.out, "Folder for the results (default: results/<case name>)");
+  sub.add_flag("--force", options.force, "Write into a folder that is not empty; files of the same name are replaced");
+}
+
+/// CLI11 calls an unknown command "extra arguments"; this finds the word that was meant.
+void check_command_word(const std::vector<std::string>& words) {
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    if (words[i] == "-j" || words[i] == "--threads") {
+      ++i;
+      continue;
+    }
+    if (words[i].starts_with("-")) continue;
+    const std::vector<std::string> names = command_names();
+    if (std::find(names.begin(), names.end(), words[i]) != names.end()) return;
+    const std::string near = nearest_word(words[i], names);
+    throw CaseError(fmt::format("unknown command \"{}\"", words[i]), fmt::format("{}commands: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(names, ", ")));
+  }
+}
+
+void set_up_log(bool quiet, int verbose) {
+  auto logger = std::make_shared<spdlog::logger>("railstrata", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
+  logger->set_pattern("%^%l:%$ %v");
+  logger->set_level(quiet ? spdlog::level::warn : verbose > 0 ? spdlog::level::debug : spdlog::level::info);
+  spdlog::set_default_logger(logger);
+}
+
+int tell(ExitCode code, const std::string& text) {
+  fmt::print(stderr, "error: {}\n", text);
+  return static_cast<int>(code);
+}
+
+int tell(const CaseError& e, bool json) {
+  if (json) {
+    auto all = nlohmann::ordered_json::array();
+    for (const Diagnostic& d : e.diagnostics) all.push_back({{"where", d.where}, {"message", d.message}, {"remedy", d.remedy}});
+    fmt::print("{}\n", nlohmann::ordered_json{{"errors", all}}.dump(2));
+  }
+  for (const Diagnostic& d : e.diagnostics)
+    fmt::print(stderr, "{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message, d.remedy.empty() ? "" : "\n    remedy: " + d.remedy);
+  return static_cast<int>(ExitCode::user);
+}
+
+int parse_and_run(const std::vector<std::string>& words, CommandOptions& options) {
+  CLI::App app{"RailStrata: rolling contact of a wheel on a layered rail", "railstrata"};
+  app.footer("Examples:\n  railstrata check cases/quick\n  railstrata run cases/quick --threads 2\n  railstrata run --help\n\nExit codes: 0 done, 1 a check of the result failed, 2 the input is wrong, "
+             "3 the numbers went wrong, 4 the machine could not, 70 a fault of the program, 130 interrupted\n");
+  app.set_version_flag("--version", "railstrata " + version_text());
+  app.require_subcommand(1);
+  app.fallthrough();
+  bool quiet = false;
+  int verbose = 0;
+  options.threads = max_threads();
+  app.add_option("-j,--threads", options.threads, "Threads (default: all the system offers)")->check(CLI::Range(1, 1024));
+  app.add_flag("--json", options.json, "Results on standard output as JSON");
+  app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
+  app.add_flag("-v,--verbose", verbose, "Say more");
+  std::vector<std::pair<CLI::App*, Command>> commands;
+  for (const Entry& e : kEntries) {
+    CLI::App* sub = app.add_subcommand(e.name, e.what);
+    sub->footer(e.examples);
+    if (e.run == command_schema) {
+      auto* json = sub->add_flag("--json-schema", options.schema, "JSON schema (default)");
+      sub->add_flag("--markdown", options.markdown, "Reference page in Markdown")->excludes(json);
+    } else if (e.run != command_info) {
+      add_case_options(*sub, options, e.run != command_check);
+    }
+    commands.emplace_back(sub, e.run);
+  }
+  check_command_word(words);
+  try {
+    std::vector<std::string> reversed(words.rbegin(), words.rend() - 1);
+    app.parse(reversed);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? static_cast<int>(ExitCode::ok) : static_cast<int>(ExitCode::user);
+  }
+  set_up_log(quiet, verbose);
+  set_threads(options.threads);
+  for (const auto& [sub, command] : commands)
+    if (sub->parsed()) return static_cast<int>(command(options));
+  return static_cast<int>(ExitCode::user);
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv) {
+  CommandOptions options;
+  options.command_line.assign(argv, argv + argc);
+  try {
+    return parse_and_run(options.command_line, options);
+  } catch (const CaseError& e) {
+    return tell(e, options.json);
+  } catch (const NumericalError& e) {
+    return tell(ExitCode::numerics, e.what());
+  } catch (const EnvironmentError& e) {
+    return tell(ExitCode::environment, e.what());
+  } catch (const std::filesystem::filesystem_error& e) {
+    return tell(ExitCode::environment, e.what());
+  } catch (const std::bad_alloc&) {
+    return tell(ExitCode::environment, "not enough memory; `railstrata check` tells what a case needs");
+  } catch (const std::exception& e) {
+    return tell(ExitCode::internal, fmt::format("{} (a fault of the program: please report it with the case file)", e.what()));
+  }
+}
+
+}  // namespace railstrata

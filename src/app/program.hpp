@@ -1,0 +1,8 @@
+#pragma once
+// The command line: words to commands, faults to exit codes (docs/conventions.md).
+
+namespace railstrata {
+
+int run_program(int argc, const char* const* argv);
+
+}  // namespace railstrata

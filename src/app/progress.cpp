@@ -1,0 +1,45 @@
+#include "app/progress.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace railstrata {
+
+std::string duration_text(double seconds) {
+  const long s = std::lround(std::max(0.0, seconds));
+  if (s < 60) return fmt::format("{} s", s);
+  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
+  return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
+}
+
+std::string progress_bar(const std::string& what, double fraction, double elapsed) {
+  constexpr int kWidth = 30;
+  const double f = std::clamp(fraction, 0.0, 1.0);
+  const int done = static_cast<int>(f * kWidth);
+  const std::string left = f > 0.005 ? fmt::format("{} left", duration_text(elapsed * (1 - f) / f)) : "";
+  return fmt::format("{}  [{:#<{}}{:-<{}}] {:3.0f} %  {}", what, "", done, "", kWidth - done, 100 * f, left);
+}
+
+Progress::Progress(std::string what, bool shown) : what_(std::move(what)), shown_(shown), terminal_(isatty(STDERR_FILENO) != 0) {
+  if (!terminal_) next_ += std::chrono::seconds(30);
+}
+
+Progress::~Progress() {
+  if (drawn_ && terminal_) fmt::print(stderr, "\r\033[K");
+}
+
+void Progress::update(double fraction) {
+  const auto now = Clock::now();
+  if (!shown_ || now < next_) return;
+  next_ = now + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(30000));
+  const std::string line = progress_bar(what_, fraction, std::chrono::duration<double>(now - start_).count());
+  fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n");
+  std::fflush(stderr);
+  drawn_ = true;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,31 @@
+#pragma once
+// How far a run is: a bar with the time left on a terminal, a line every half minute elsewhere.
+#include <chrono>
+#include <string>
+
+namespace railstrata {
+
+/// "3 s", "2 min 05 s", "1 h 02 min".
+std::string duration_text(double seconds);
+
+/// "rolling  [#####-----]  50 %, 12 s left": fraction in [0, 1], elapsed in seconds.
+std::string progress_bar(const std::string& what, double fraction, double elapsed);
+
+class Progress {
+ public:
+  /// Writes to standard error. `shown` = false: says nothing at all.
+  explicit Progress(std::string what, bool shown = true);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  /// Cheap when called often.
+  void update(double fraction);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::string what_;
+  bool shown_, terminal_, drawn_ = false;
+  Clock::time_point start_ = Clock::now(), next_ = start_;
+};
+
+}  // namespace railstrata

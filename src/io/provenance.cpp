@@ -1,0 +1,106 @@
+#include "io/provenance.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <array>
+#include <ctime>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+#include <toml++/toml.h>
+
+#include "core/faults.hpp"
+#include "core/simd.hpp"
+
+namespace railstrata {
+
+std::string version_text() {
+  const BuildInfo& b = build_info();
+  return b.commit.empty() ? b.version : fmt::format("{} ({}{})", b.version, b.commit, b.dirty ? "+dirty" : "");
+}
+
+std::vector<std::pair<std::string, std::string>> library_versions() {
+  const auto dotted = [](int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); };
+  return {{"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+          {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+          {"openssl", OpenSSL_version(OPENSSL_VERSION_STRING)},
+          {"toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+          {"zlib", zlibVersion()}};
+}
+
+std::string compiled_isa() {
+#if defined(__AVX512F__)
+  const char* name = "AVX-512";
+#elif defined(__AVX2__)
+  const char* name = "AVX2";
+#elif defined(__AVX__)
+  const char* name = "AVX";
+#elif defined(__x86_64__)
+  const char* name = "SSE2";
+#else
+  const char* name = "generic";
+#endif
+  return fmt::format("{}, {} doubles a vector", name, kLanes);
+}
+
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name"))
+      if (const auto colon = line.find(": "); colon != std::string::npos) return line.substr(colon + 2);
+  return {};
+}
+
+std::string sha256_of(std::string_view bytes) {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned int length = 0;
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) throw EnvironmentError("libcrypto has no SHA-256");
+  std::string out;
+  for (unsigned int i = 0; i < length; ++i) out += fmt::format("{:02x}", digest[i]);
+  return out;
+}
+
+std::string sha256_of_file(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream bytes;
+  bytes << stream.rdbuf();
+  if (!stream) throw EnvironmentError(fmt::format("cannot read {}", file.string()));
+  return sha256_of(bytes.str());
+}
+
+std::string provenance_json(const std::vector<std::string>& command_line, const std::vector<std::string>& overrides, const std::vector<std::filesystem::path>& inputs, int threads) {
+  using Json = nlohmann::ordered_json;
+  const BuildInfo& build = build_info();
+  Json libraries, files = Json::array();
+  for (const auto& [name, version] : library_versions()) libraries[name] = version;
+  for (const auto& file : inputs) files.push_back({{"file", std::filesystem::absolute(file).lexically_normal().string()}, {"sha256", sha256_of_file(file)}});
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  const Json all{{"program", "RailStrata"},
+                 {"version", build.version},
+                 {"commit", build.commit.empty() ? Json(nullptr) : Json(build.commit)},
+                 {"dirty", build.dirty},
+                 {"compiler", build.compiler},
+                 {"flags", build.flags},
+                 {"build_type", build.build_type},
+                 {"libraries", libraries},
+                 {"cpu", cpu_name()},
+                 {"isa", compiled_isa()},
+                 {"cores", std::thread::hardware_concurrency()},
+                 {"threads", threads},
+                 {"host", host.data()},
+                 {"command_line", command_line},
+                 {"overrides", overrides},
+                 {"inputs", files},
+                 {"time_utc", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
+  return all.dump(2) + "\n";
+}
+
+}  // namespace railstrata

@@ -1,0 +1,37 @@
+#pragma once
+// Where a result comes from: everything needed to make it again, as provenance.json.
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace railstrata {
+
+/// Written by cmake/write_build_info.cmake at every build.
+struct BuildInfo {
+  std::string version, commit;  ///< commit is empty outside a git checkout
+  bool dirty = false;           ///< the checkout had uncommitted changes
+  std::string compiler, flags, build_type;
+};
+const BuildInfo& build_info();
+
+/// "0.1.0 (1a2b3c4d5e6f+dirty)"
+std::string version_text();
+
+/// Name and version of every library linked.
+std::vector<std::pair<std::string, std::string>> library_versions();
+
+/// "avx512, 8 doubles a vector": what the kernels were compiled for.
+std::string compiled_isa();
+
+/// The processor's name as the system tells it; empty if it does not.
+std::string cpu_name();
+
+/// SHA-256 in hexadecimal [FIPS 180-4]. The file's: throws EnvironmentError if it cannot be read.
+std::string sha256_of(std::string_view bytes);
+std::string sha256_of_file(const std::filesystem::path& file);
+
+/// The text of provenance.json: program, build, machine, threads, command line, overrides, time (UTC, ISO 8601) and the SHA-256 of every input file.
+std::string provenance_json(const std::vector<std::string>& command_line, const std::vector<std::string>& overrides, const std::vector<std::filesystem::path>& inputs, int threads);
+
+}  // namespace railstrata

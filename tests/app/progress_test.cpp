@@ -1,0 +1,36 @@
+#include "app/progress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+
+#include "app/stop_flag.hpp"
+
+namespace railstrata {
+namespace {
+
+TEST(Progress, DurationsAreToldInTheTwoUnitsThatMatter) {
+  EXPECT_EQ(duration_text(2.6), "3 s");
+  EXPECT_EQ(duration_text(125), "2 min 05 s");
+  EXPECT_EQ(duration_text(3725), "1 h 02 min");
+  EXPECT_EQ(duration_text(-1), "0 s");
+}
+
+TEST(Progress, TheTimeLeftIsTheTimeSpentScaledByWhatIsLeft) {
+  EXPECT_EQ(progress_bar("rolling", 0.25, 10), "rolling  [#######-----------------------]  25 %  30 s left");
+  EXPECT_EQ(progress_bar("rolling", 0, 10), "rolling  [------------------------------]   0 %  ");
+  EXPECT_EQ(progress_bar("rolling", 1.2, 10), "rolling  [##############################] 100 %  0 s left");
+}
+
+TEST(StopFlag, TheFirstSignalAsksAndTheSecondEndsTheProgramWith130) {
+  EXPECT_FALSE(stop_flag());
+  EXPECT_EXIT({
+    std::raise(SIGTERM);
+    if (!stop_flag()) std::exit(1);
+    std::raise(SIGINT);
+    std::exit(2);
+  }, testing::ExitedWithCode(130), "");
+}
+
+}  // namespace
+}  // namespace railstrata

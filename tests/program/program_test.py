@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""The program seen from outside: exit codes, messages, files. usage: program_test.py BINARY SOURCE_DIR"""
+import hashlib
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BINARY, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+COARSE = ["--set", "mesh.element_size=4 mm", "--set", "mesh.fine_depth=12 mm"]
+
+
+def railstrata(*words, cwd=None):
+    done = subprocess.run([BINARY, *map(str, words)], capture_output=True, text=True, timeout=120, cwd=cwd)
+    return done.returncode, done.stdout, done.stderr
+
+
+class Program(unittest.TestCase):
+    def setUp(self):
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def case(self, text):
+        file = self.folder / "case.toml"
+        file.write_text(text)
+        return file
+
+    def refused(self, code, words, *messages):
+        rc, out, err = railstrata(*words)
+        self.assertEqual(rc, code, err)
+        for message in messages:
+            self.assertIn(message, err)
+        return out
+
+    def test_a_case_error_exits_2_with_place_caret_and_remedy(self):
+        case = self.case('[mesh]\nelement_size = "1 MPa"\n[geometry]\nguage = "1.4 m"\n')
+        self.refused(2, ["check", case], f'{case}:2:16: error: mesh.element_size = "1 MPa": "MPa" is not the unit of a length\n    2 | element_size = "1 MPa"\n      |                ^\n'
+                     '    remedy: write a length', f"{case}:4:1: error: unknown key geometry.guage\n", "did you mean gauge?")
+
+    def test_errors_come_as_json_on_request(self):
+        out = self.refused(2, ["check", self.case("[mesh]\nelement_size = 1\n"), "--json"], "a bare number has no unit")
+        self.assertEqual(len(json.loads(out)["errors"]), 1)
+
+    def test_unknown_commands_and_options_exit_2(self):
+        self.refused(2, ["chekc"], 'error: unknown command "chekc"\n    remedy: did you mean check?')
+        self.refused(2, ["check"], "case is required")
+        self.refused(2, ["check", "a.toml", "--colour"], "--colour")
+        self.refused(2, [], "A subcommand is required")
+        self.refused(2, ["check", "a.toml", "--threads", "many"], "--threads")
+
+    def test_a_missing_case_exits_2(self):
+        self.refused(2, ["check", "no/such.toml"], "cannot read no/such.toml: No such file or directory")
+
+    def test_a_missing_profile_exits_2(self):
+        self.refused(2, ["check", self.case('[geometry]\nrail_profile = "rail.csv"\n')], "neither a built-in profile nor a file")
+
+    def test_a_wheel_beside_the_rail_exits_2(self):
+        self.refused(2, ["check", self.case('[geometry]\ngauge = "1.7 m"\n')], "error: ")
+
+    def test_a_looped_profile_exits_2_naming_the_file(self):
+        loop = self.folder / "loop.csv"
+        loop.write_text("\n".join(f"{y} {z}" for y, z in [(-30, 5), (-20, 2), (-10, 0.5), (0, 0), (10, 0.5), (12, 3), (5, 4), (3, -2), (20, 2), (30, 5)]))
+        self.refused(2, ["check", self.case('[geometry]\nrail_profile = "loop.csv"\n')], str(loop))
+
+    def test_a_folder_that_is_not_empty_exits_2_and_force_writes_into_it(self):
+        (self.folder / "out").mkdir()
+        (self.folder / "out" / "mine.txt").write_text("keep")
+        words = ["mesh", self.case(""), *COARSE, "--out", self.folder / "out"]
+        self.refused(2, words, "is not empty\n    remedy: choose another with --out, or overwrite files of the same name with --force")
+        rc, _, err = railstrata(*words, "--force")
+        self.assertEqual(rc, 0, err)
+        self.assertEqual((self.folder / "out" / "mine.txt").read_text(), "keep")
+
+    def test_a_folder_that_cannot_be_made_exits_4(self):
+        (self.folder / "file").write_text("")
+        self.refused(4, ["mesh", self.case(""), *COARSE, "--out", self.folder / "file" / "out"], "cannot make the output folder")
+
+    def test_check_tells_the_contact_point_and_the_mesh(self):
+        rc, out, err = railstrata("check", self.case(""), *COARSE, "--json")
+        self.assertEqual(rc, 0, err)
+        report = json.loads(out)
+        self.assertAlmostEqual(report["contact"]["wheel_y_m"], 6.06e-3, delta=0.01e-3)  # half-space contact scripts' rigid contact point, LMA on CN60 at 1:40
+        self.assertAlmostEqual(report["contact"]["angle_rad"], 0.025, delta=0.1e-3)
+        self.assertAlmostEqual(report["load_N"], 8660 * 9.81, places=6)
+        self.assertLess(report["step_s"], report["stable_step_s"])
+        self.assertGreaterEqual(report["stable_step_s"], report["element_step_bound_s"])
+
+    def test_mesh_writes_its_files_and_where_they_come_from(self):
+        case = self.case('[case]\ntitle = "m"\n')
+        rc, out, err = railstrata("mesh", case, *COARSE, cwd=self.folder)
+        self.assertEqual(rc, 0, err)
+        self.assertIn("limits the step", out)
+        results = self.folder / "results" / self.folder.name
+        self.assertTrue({"rail.vtu", "wheel.vtu", "case.toml", "case.original.toml", "provenance.json"} <= {f.name for f in results.iterdir()})
+        provenance = json.loads((results / "provenance.json").read_text())
+        self.assertEqual(provenance["inputs"][0]["sha256"], hashlib.sha256(case.read_bytes()).hexdigest())
+        self.assertEqual(provenance["overrides"], COARSE[1::2])
+
+    def test_the_resolved_case_of_a_run_is_accepted_and_says_the_same(self):
+        railstrata("mesh", self.case('[[layer]]\nyoung_ratio = 2\n'), *COARSE, "--out", self.folder / "first")
+        rc, _, err = railstrata("mesh", self.folder / "first" / "case.toml", "--out", self.folder / "second")
+        self.assertEqual(rc, 0, err)
+        self.assertEqual((self.folder / "first" / "case.toml").read_text(), (self.folder / "second" / "case.toml").read_text())
+
+    def test_version_names_the_commit_of_the_sources(self):
+        rc, out, _ = railstrata("--version")
+        self.assertEqual(rc, 0)
+        self.assertRegex(out, r"^railstrata \d+\.\d+\.\d+( \([0-9a-f]{12}(\+dirty)?\))?\n$")
+
+    def test_every_command_has_help_with_examples(self):
+        for command in ["check", "mesh", "run", "schema", "info"]:
+            rc, out, _ = railstrata(command, "--help")
+            self.assertEqual(rc, 0)
+            self.assertIn(f"railstrata {command}", out)
+
+    def test_info_lists_the_built_in_profiles(self):
+        info = json.loads(railstrata("info", "--json")[1])
+        self.assertIn("LMA", info["wheel_profiles"])
+        self.assertIn("CN60", info["rail_profiles"])
+
+    def test_the_schema_is_json(self):
+        self.assertIn("geometry", json.loads(railstrata("schema")[1])["properties"])
+
+    def test_every_shipped_case_is_accepted(self):
+        cases = sorted(SOURCE.glob("cases/**/*.toml"))
+        cases = [c for c in cases if c.name != "expect.toml"]
+        self.assertGreaterEqual(len(cases), 4)
+        for case in cases:
+            rc, _, err = railstrata("check", case, *COARSE)
+            self.assertEqual(rc, 0, f"{case}: {err}")
+
+    def test_every_command_named_in_the_readme_exists(self):
+        readme = (SOURCE / "README.md").read_text()
+        for word in set(re.findall(r"\./railstrata ([a-z]+)", readme)) - {"demo", "test"}:
+            self.assertEqual(railstrata(word, "--help")[0], 0, word)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
