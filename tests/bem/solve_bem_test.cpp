@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -65,6 +66,35 @@ TEST(SolveBem, TractionAboveFrictionIsACaseError) {
   EXPECT_THROW(solve_bem(spec, place(spec, {})), CaseError);
   spec.drive.traction_coefficient = 0;
   EXPECT_EQ(solve_bem(spec, place(spec, {})).q_max, 0);
+}
+
+TEST(SolveBem, InteriorPeakOfTheBaseCaseIsAbout062OfThePeakPressureBetween2And35Millimetres) {
+  BemOptions options;
+  options.cell = 0.5e-3;
+  const BemResult r = solve_bem(paper_base(), place(paper_base(), {}), options);
+  const SubsurfacePeaks rail = rail_interior(r).peaks(8e-3), wheel = wheel_interior(r).peaks(8e-3);
+  EXPECT_NEAR(rail.subsurface.von_mises.value / r.p_max, 0.62, 0.05 * 0.62);
+  EXPECT_GT(rail.subsurface.von_mises.depth, 2e-3);
+  EXPECT_LT(rail.subsurface.von_mises.depth, 3.5e-3);
+  EXPECT_NEAR(wheel.subsurface.von_mises.value / r.p_max, 0.62, 0.05 * 0.62);
+  // the driving wheel's trailing edge is in compression where the rail's is in tension
+  EXPECT_LT(rail.surface.sigma1.x * wheel.surface.sigma1.x, 0);
+}
+
+TEST(CreepCurve, OfTheBaseCaseRisesToTheBound) {
+  BemOptions options;
+  options.cell = 0.5e-3;
+  const auto curve = creep_curve(paper_base(), place(paper_base(), {}), {-2e-4, -1e-3, -3e-3, -2e-2}, options);
+  for (std::size_t i = 1; i < curve.size(); ++i) {
+    EXPECT_LT(curve[i].full, curve[i - 1].full);
+    EXPECT_GT(curve[i].slip_fraction, curve[i - 1].slip_fraction);
+  }
+  EXPECT_NEAR(curve.back().full, -1, 0.01);
+  for (const CreepCurvePoint& p : curve)
+    for (double fast : {p.fastsim, p.polach, p.vermeulen_johnson}) {
+      EXPECT_LT(fast, 0) << p.creepage;
+      EXPECT_GE(fast, -1.01) << p.creepage;
+    }
 }
 
 TEST(SolveBem, CachedInfluenceGivesTheSameBits) {

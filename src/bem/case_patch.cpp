@@ -1,0 +1,77 @@
+#include "bem/case_patch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+
+namespace {
+
+HalfSpaceMaterial half_space(const MaterialSpec& m) { return {m.young, m.poisson}; }
+
+PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  const HertzContact estimate = hertz_estimate(spec, placement.contact);
+  const auto cells = [&](double semi_axis) { return static_cast<int>(std::ceil(std::min(1.15 * semi_axis, 0.5 * options.largest_patch) / options.cell)) + 2; };
+  return centred_grid(cells(estimate.a), cells(estimate.b), options.cell, options.cell);
+}
+
+void fit_grid(const Placement& placement, double normal, const BemOptions& options, InfluenceCache& cache, CasePatch& patch) {
+  for (int grown = 0;; ++grown) {
+    PatchGrid& g = patch.grid;
+    patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, g);
+    patch.influence = cache.get(patch.wheel, patch.rail, g);
+    const NormalSolution s = solve_normal(*patch.influence, g, patch.profile.gap, {.load = normal, .approach = {}}, options.rolling.normal);
+    if (!s.touches_edge) {
+      if (grown > 0) patch.notes.push_back(fmt::format("the potential contact area was grown to {:.1f} mm x {:.1f} mm", 1e3 * g.nx * g.dx, 1e3 * g.ny * g.dy));
+      return;
+    }
+    const int half_x = g.nx * 7 / 10 + 1, half_y = g.ny * 7 / 10 + 1;
+    if (std::max(half_x, half_y) * 2 * options.cell > options.largest_patch)
+      throw CaseError(fmt::format("the load of {:.1f} kN flattens the whole potential contact area of {:.0f} mm", 1e-3 * normal, 1e3 * options.largest_patch),
+                      "check the load, the profiles and the moduli; half-space theory no longer applies");
+    g = centred_grid(half_x, half_y, options.cell, options.cell);
+  }
+}
+
+/// Rigid slip of the wheel's surface beyond creepage: it turns with its local radius. The spin part is given apart (its lateral slip).
+Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidContact& contact, double spin) {
+  Plane slip(g.size());
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) {
+      const double radius = gap.radius[g.index(g.nx / 2, j)];
+      slip[g.index(i, j)] = (contact.rolling_radius - radius) / contact.rolling_radius + spin * g.y(j);
+    }
+  return slip;
+}
+
+}  // namespace
+
+LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body) {
+  LayeredHalfSpace out{{}, half_space(body == "wheel" ? spec.wheel_material : spec.rail_material)};
+  for (const LayerSpec& layer : spec.layers)
+    if (layer.on == body) out.layers.push_back({layer.thickness, half_space(layer.material)});
+  return out;
+}
+
+CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  const double normal = static_load(spec) / std::cos(placement.contact.angle);
+  CasePatch patch;
+  patch.wheel = layered_body(spec, "wheel");
+  patch.rail = layered_body(spec, "rail");
+  patch.grid = first_grid(spec, placement, options);
+  InfluenceCache own;
+  fit_grid(placement, normal, options, options.cache ? *options.cache : own, patch);
+  RollingContact& contact = patch.contact;
+  contact.gap = patch.profile.gap;
+  contact.target.load = normal;
+  contact.friction = spec.drive.friction_coefficient;
+  contact.spin = -std::sin(placement.contact.angle) / placement.contact.rolling_radius;
+  contact.extra_x = slip_of_radius(patch.grid, patch.profile, placement.contact, contact.spin);
+  return patch;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,22 @@
+#pragma once
+// From a case to the problem on a grid: what solve_bem and creep_curve share.
+#include <memory>
+
+#include "bem/profile_gap.hpp"
+#include "bem/solve_bem.hpp"
+
+namespace railstrata {
+
+struct CasePatch {
+  PatchGrid grid;
+  ProfileGap profile;
+  std::shared_ptr<const InfluenceOperator> influence;
+  RollingContact contact;          ///< gap, load, friction, spin and rigid slip of the geometry; creepages and forces are left to the caller
+  LayeredHalfSpace wheel, rail;
+  std::vector<std::string> notes;
+};
+
+/// Places the grid and grows it until the frictionless patch, with a ring to spare, lies inside. Throws CaseError as solve_bem.
+CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options);
+
+}  // namespace railstrata
