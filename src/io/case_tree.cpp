@@ -108,11 +108,11 @@ class TreeReader {
 
   void read_table(const OptionTable& table, const std::string& name, std::size_t index, const toml::table& entries) {
     for (const auto& [key, node] : entries) {
-      const std::string full = name + "." + std::string(key.str());
-      const auto option = std::find_if(table.options.begin(), table.options.end(), [&](const Option& o) { return o.key == key.str(); });
+      const std::string word(key.str()), full = name + "." + word;
+      const auto option = std::find_if(table.options.begin(), table.options.end(), [&](const Option& o) { return o.key == word; });
       if (option == table.options.end()) {
         source_.remember(full, place_of(key.source()));
-        unknown_key(table, full, std::string(key.str()));
+        unknown_key(table, full, word);
         continue;
       }
       remember(full, key, node);
