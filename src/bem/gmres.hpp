@@ -25,7 +25,7 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
     std::vector<Plane> v{r};
     std::vector<std::vector<double>> h;  // columns of the triangular factor
     std::vector<double> cosine, sine, g{result.residual};
-    for (double& e : v[0]) e /= result.residual;
+    scale_by(v[0], 1 / result.residual);
     while (static_cast<int>(h.size()) < restart && result.iterations < max_iterations && std::abs(g.back()) > relative * norm_b) {
       const std::size_t k = h.size();
       precondition(v[k], z);
@@ -38,8 +38,7 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
       }
       column[k + 1] = std::sqrt(dot(w, w));
       v.push_back(w);
-      if (column[k + 1] > 0)
-        for (double& e : v.back()) e /= column[k + 1];
+      if (column[k + 1] > 0) scale_by(v.back(), 1 / column[k + 1]);
       for (std::size_t i = 0; i < k; ++i) {
         const double a = column[i], c = column[i + 1];
         column[i] = cosine[i] * a + sine[i] * c;

@@ -89,11 +89,11 @@ class Solver {
     ++iterations_;
     const double over = 1 / step_length();
     const std::size_t next = steady() ? ahead_ : 0;
-    for (std::size_t i = 0; i < n_; ++i) {
+    for_cells(n_, [&](std::size_t i) {
       const bool in_patch = set_[i] != kOutside;
       out[i] = in_patch ? over * (next ? ux[i] - ux[i + next] : ux[i]) : 0.0;
       out[n_ + i] = in_patch ? over * (next ? uy[i] - uy[i + next] : uy[i]) : 0.0;
-    }
+    });
   }
 
   void update_slip() {
@@ -106,8 +106,8 @@ class Solver {
   }
 
   double force(int direction) const {
-    const Plane part(q_.begin() + static_cast<std::ptrdiff_t>(direction ? n_ : 0), q_.begin() + static_cast<std::ptrdiff_t>(direction ? 2 * n_ : n_));
-    return sum(part);  // in units of the cell area
+    const std::size_t offset = direction ? n_ : 0;
+    return ordered_sum_of(n_, [&](std::size_t i) { return q_[offset + i]; });  // in units of the cell area
   }
 
   /// Unit traction direction and the stabilising diagonal (s·n)/g of slipping cells.
@@ -123,16 +123,16 @@ class Solver {
 
   /// Restricts a pair of planes to the unknowns: all in stick, across the traction in slip, nothing outside.
   void project(double* v) const {
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (set_[i] == kStick) continue;
+    for_cells(n_, [&](std::size_t i) {
+      if (set_[i] == kStick) return;
       if (set_[i] == kOutside) {
         v[i] = v[n_ + i] = 0;
-        continue;
+        return;
       }
       const double across = -v[i] * normal_[n_ + i] + v[n_ + i] * normal_[i];
       v[i] = -across * normal_[n_ + i];
       v[n_ + i] = across * normal_[i];
-    }
+    });
   }
 
   void newton_step(double accuracy, Plane& step) {
@@ -153,16 +153,15 @@ class Solver {
     const std::size_t m = directions_.size();
     for (std::size_t c = 0; c < m; ++c) {
       const std::size_t offset = directions_[c] ? n_ : 0;
-      double total = 0;
-      for (std::size_t i = 0; i < n_; ++i) out[offset + i] -= in[2 * n_ + c], total += in[offset + i];
-      out[2 * n_ + c] = force_row_ * total;
+      for_cells(n_, [&](std::size_t i) { out[offset + i] -= in[2 * n_ + c]; });
+      out[2 * n_ + c] = force_row_ * ordered_sum_of(n_, [&](std::size_t i) { return in[offset + i]; });
     }
     project(out.data());
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (set_[i] != kSlip) continue;
+    for_cells(n_, [&](std::size_t i) {
+      if (set_[i] != kSlip) return;
       out[i] += diagonal_[i] * in[i];
       out[n_ + i] += diagonal_[i] * in[n_ + i];
-    }
+    });
   }
 
   /// Approximate inverse of the first block.
@@ -171,27 +170,31 @@ class Solver {
     if (steady()) integrate_from_leading_edge(v);
     else
       for (double& e : v) e *= step_length();
-    for (std::size_t i = 0; i < n_; ++i)
+    for_cells(n_, [&](std::size_t i) {
       if (set_[i] != kStick) v[i] = v[n_ + i] = 0;
+    });
     A_.precondition_tangential(v.data(), v.data() + n_, out, out + n_);
     ++iterations_;
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (set_[i] == kStick) continue;
+    for_cells(n_, [&](std::size_t i) {
+      if (set_[i] == kStick) return;
       const double scale = set_[i] == kSlip ? 1 / (self_ + diagonal_[i]) : 0.0;
       out[i] = scale * in[i];
       out[n_ + i] = scale * in[n_ + i];
-    }
+    });
   }
 
   /// u(x) from u(x) - u(x + dx) = dx r along each run of sticking cells, zero ahead of it.
   void integrate_from_leading_edge(Plane& v) const {
-    for (int i = grid_.nx - 1; i >= 0; --i)
-      for (int j = 0; j < grid_.ny; ++j) {
-        const std::size_t k = grid_.index(i, j);
-        if (set_[k] != kStick) continue;
-        const bool continues = i + 1 < grid_.nx && set_[k + ahead_] == kStick;
-        for (std::size_t c : {k, n_ + k}) v[c] = grid_.dx * v[c] + (continues ? v[c + ahead_] : 0.0);
-      }
+    constexpr int strip = 64;  // columns
+    for_each_if(threads_pay_for_sweep(n_), (grid_.ny + strip - 1) / strip, [&](int s) {
+      for (int i = grid_.nx - 1; i >= 0; --i)
+        for (int j = s * strip; j < std::min(grid_.ny, (s + 1) * strip); ++j) {
+          const std::size_t k = grid_.index(i, j);
+          if (set_[k] != kStick) continue;
+          const bool continues = i + 1 < grid_.nx && set_[k + ahead_] == kStick;
+          for (std::size_t c : {k, n_ + k}) v[c] = grid_.dx * v[c] + (continues ? v[c + ahead_] : 0.0);
+        }
+    });
   }
 
   void prepare_border() {
@@ -221,11 +224,7 @@ class Solver {
     precondition_block(in.data(), out.data());
     const std::size_t m = directions_.size();
     if (m == 0) return;
-    const auto total = [&](const double* v, int direction) {
-      double s = 0;
-      for (std::size_t i = 0; i < n_; ++i) s += v[(direction ? n_ : 0) + i];
-      return s;
-    };
+    const auto total = [&](const double* v, int direction) { return ordered_sum_of(n_, [&](std::size_t i) { return v[(direction ? n_ : 0) + i]; }); };
     double a[2][2] = {{1, 0}, {0, 1}}, r[2] = {0, 0};
     for (std::size_t c = 0; c < m; ++c) {
       r[c] = in[2 * n_ + c] / force_row_ - total(out.data(), directions_[c]);
@@ -234,7 +233,7 @@ class Solver {
     const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
     const double creep[2] = {(a[1][1] * r[0] - a[0][1] * r[1]) / det, (a[0][0] * r[1] - a[1][0] * r[0]) / det};
     for (std::size_t c = 0; c < m; ++c) {
-      for (std::size_t i = 0; i < 2 * n_; ++i) out[i] += creep[c] * border_[c][i];
+      for_cells(2 * n_, [&](std::size_t i) { out[i] += creep[c] * border_[c][i]; });
       out[2 * n_ + c] = creep[c];
     }
   }
