@@ -68,7 +68,7 @@ struct DepthLadder {
 std::vector<DepthLadder> ladders(double nearest, double total) {
   std::vector<DepthLadder> all;
   for (double farthest : {20.0, 100.0, 400.0, 2000.0})
-    for (double ratio : {2.2, 1.9, 1.7, 1.5, 1.35, 1.25}) all.push_back({nearest, ratio, 1 + static_cast<int>(std::log(farthest * total / nearest) / std::log(ratio))});
+    for (double ratio : {2.2, 1.9, 1.7, 1.5, 1.35, 1.25, 1.18, 1.12}) all.push_back({nearest, ratio, 1 + static_cast<int>(std::log(farthest * total / nearest) / std::log(ratio))});
   std::stable_sort(all.begin(), all.end(), [](const DepthLadder& a, const DepthLadder& b) { return a.count < b.count; });
   return all;
 }
@@ -86,16 +86,18 @@ SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double toler
   const double k_low = 1e-5 / total, k_high = 60 / thinnest;
   const Samples fit = sample(body, k_low, k_high, 400), check = sample(body, k_low, k_high, 1013);
   // relative to the compliance itself: a soft layer's 1/k is as exact as the stiff substrate's
-  const Eigen::VectorXd weight = fit.c.col(0).cwiseInverse(), check_weight = check.c.col(0).cwiseInverse();
+  const Eigen::VectorXd weight = fit.c.col(0).cwiseInverse();
+  Eigen::Matrix<double, Eigen::Dynamic, 4> size = check.c;
+  size.col(1) = check.c.col(0).cwiseProduct(check.c.col(2)).cwiseSqrt();  // the coupling may pass through zero
   double best = std::numeric_limits<double>::infinity();
   for (const DepthLadder& ladder : ladders(0.4 * thinnest, total)) {
     const Eigen::VectorXd depth = ladder.depths();
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
-    qr.setThreshold(1e-12);
+    qr.setThreshold(1e-15);
     qr.compute(weight.asDiagonal() * exponentials(fit.k, depth));
     const Eigen::Matrix<double, Eigen::Dynamic, 4> coefficient = qr.solve(weight.asDiagonal() * (fit.c.rowwise() - top));
     const Eigen::Matrix<double, Eigen::Dynamic, 4> deviation = (check.c.rowwise() - top) - exponentials(check.k, depth) * coefficient;
-    best = std::min(best, (check_weight.asDiagonal() * deviation).cwiseAbs().maxCoeff());
+    best = std::min(best, deviation.cwiseQuotient(size).cwiseAbs().maxCoeff());
     if (best > tolerance) continue;
     for (int j = 0; j < depth.size(); ++j) out.push_back({depth[j], {coefficient(j, 0), coefficient(j, 1), coefficient(j, 2), coefficient(j, 3)}});
     return out;

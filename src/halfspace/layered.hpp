@@ -25,7 +25,8 @@ struct LayeredHalfSpace {
 CompliancePoint layered_compliance_at(const LayeredHalfSpace& body, double k);
 
 /// The surface compliance as the top material's closed form plus images at depths spread geometrically over the scales of the stack, fitted to layered_compliance_at.
-/// `tolerance`: largest relative deviation of any of the four compliances at any wave number; throws NumericalError if it cannot be met.
+/// `tolerance`: largest deviation of zz, rr, tt relative to themselves and of rz relative to
+/// sqrt(zz rr), at any wave number; throws NumericalError if it cannot be met.
 SurfaceCompliance layered_compliance(const LayeredHalfSpace& body, double tolerance = 1e-6);
 
 /// A modulus that varies with depth, given as a table with increasing depths from 0 (linear between, the substrate below the last).
