@@ -95,19 +95,13 @@ void shift_and_ten_steps(benchmark::State& state) {
   set_threads(1);
   const Problem p(cell_of(state));
   const NormalSolution n = p.normal();
-  const std::size_t row = static_cast<std::size_t>(p.grid.ny);
   for (auto _ : state) {
     TangentialProblem t = p.rolling(n);
     t.kind = RollingKind::shift;
     t.x.force = -0.4 * kFriction * kLoad;
     TangentialSolution s = solve_tangential(p.influence, p.grid, t);
-    t.kind = RollingKind::transient;
-    t.step = p.grid.dx;
-    Plane ux(p.grid.size() + row), uy(p.grid.size() + row);
     for (int step = 0; step < 10; ++step) {
-      p.influence.tangential(s.q_x.data(), s.q_y.data(), ux.data(), uy.data(), p.grid.nx + 1);
-      t.before_x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
-      t.before_y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
+      roll_on_one_cell(p.influence, p.grid, s, t);
       s = solve_tangential(p.influence, p.grid, t, {}, &s);
     }
     benchmark::DoNotOptimize(s);

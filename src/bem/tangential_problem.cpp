@@ -337,4 +337,14 @@ TangentialSolution solve_tangential(const InfluenceOperator& influence, const Pa
   return Solver(influence, grid, problem, options).solve(start);
 }
 
+void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before, TangentialProblem& problem) {
+  const std::size_t n = grid.size(), row = static_cast<std::size_t>(grid.ny);
+  Plane ux(n + row), uy(n + row);
+  influence.tangential(before.q_x.data(), before.q_y.data(), ux.data(), uy.data(), grid.nx + 1);
+  problem.kind = RollingKind::transient;
+  problem.step = grid.dx;
+  problem.before_x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
+  problem.before_y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
+}
+
 }  // namespace railstrata

@@ -57,4 +57,7 @@ struct TangentialSolution {
 TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options = {},
                                     const TangentialSolution* start = nullptr);
 
+/// Makes `problem` the transient step in which the wheel rolls on by one cell (dx) from the state `before`, at the same pressure.
+void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before, TangentialProblem& problem);
+
 }  // namespace railstrata

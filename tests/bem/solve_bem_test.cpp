@@ -97,6 +97,24 @@ TEST(CreepCurve, OfTheBaseCaseRisesToTheBound) {
     }
 }
 
+TEST(SolveBem, ConvergesForLayersFrom50MicrometresTo10MillimetresAndRatios001To100OnEitherBody) {
+  CaseSpec spec = paper_base();
+  BemOptions options;
+  options.cell = 1e-3;
+  for (const char* on : {"rail", "wheel"})
+    for (double nu : {0.3, 0.49})
+      for (double ratio : {0.01, 0.1, 10.0, 100.0})
+        for (double h : {50e-6, 1e-3, 10e-3}) {
+          LayerSpec layer;
+          layer.on = on;
+          layer.thickness = h;
+          layer.material = {ratio * 210e9, nu, 7800};
+          spec.layers = {layer};
+          const BemResult r = solve_bem(spec, place(spec, {}), options);
+          EXPECT_NEAR(r.F_x / (-0.2 * static_load(spec)), 1, 1e-4) << on << nu << ' ' << ratio << ' ' << h;
+        }
+}
+
 TEST(SolveBem, CachedInfluenceGivesTheSameBits) {
   CaseSpec spec = paper_base();
   spec.layers.push_back({});

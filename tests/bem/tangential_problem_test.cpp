@@ -77,14 +77,8 @@ TEST(TransientRolling, ShiftThenRollingAtConstantForceMeetsContactStepByStep) {
   TangentialSolution s = solve_tangential(c.influence, c.grid, p);
   EXPECT_NEAR(s.creepage_x / (1e-3 * table[0].at("creep_x_or_shift_mm")), 1, 1e-4);
   EXPECT_EQ(std::count(s.state.begin(), s.state.end(), ContactState::slip), static_cast<long>(table[0].at("slip_cells")));
-  p.kind = RollingKind::transient;
-  p.step = c.grid.dx;
-  const std::size_t n = c.grid.size(), row = static_cast<std::size_t>(c.grid.ny);
   for (std::size_t step = 1; step < table.size(); ++step) {
-    Plane ux(n + row), uy(n + row);
-    c.influence.tangential(s.q_x.data(), s.q_y.data(), ux.data(), uy.data(), c.grid.nx + 1);
-    p.before_x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
-    p.before_y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
+    roll_on_one_cell(c.influence, c.grid, s, p);
     s = solve_tangential(c.influence, c.grid, p, {}, &s);
     EXPECT_NEAR(s.creepage_x / table[step].at("creep_x_or_shift_mm"), 1, 2e-3) << step;
     EXPECT_NEAR(largest_traction(s) / (1e6 * table[step].at("tau_max_MPa")), 1, 2e-3) << step;
