@@ -265,17 +265,9 @@ void Stepper::measure_rigid_motion() {
 void Stepper::advance_axle() {
   const VehicleSpec& v = sys_.model.spec.vehicle;
   AxleMotion& a = state_.axle;
-  const double share = 1.0 / static_cast<double>(state_.groups.size()), k = v.suspension_stiffness * share, c = v.suspension_damping * share;
-  double suspension = -v.sprung_mass * sys_.gravity, dashpot = 0;
-  for (MassGroup& m : state_.groups) {
-    const double closing = a.vz - m.vz, force = k * (a.z - axle_z0_ - m.z) + c * closing;  // upwards on the mass
-    suspension -= force;
-    dashpot += c * closing * closing;
-    const double acceleration = v.sprung_mass > 0 ? force / (v.sprung_mass * share) : 0.0;
-    m.vz += dt_ * acceleration;
-    m.z += dt_ * m.vz;
-  }
-  balance_.dashpot += dt_ * dashpot;
+  const SuspensionForce spring = step_suspension(v, a.z - axle_z0_, a.vz, dt_, state_.groups);
+  const double suspension = -v.sprung_mass * sys_.gravity - spring.on_masses;
+  balance_.dashpot += dt_ * spring.dashpot_power;
   const double rate = damping_rate(), moment = torque();
   const double vx = a.vx, vz = a.vz, spin = a.spin;
   a.vx += dt_ * bore_fx_ / sys_.axle.mass_x;
@@ -287,7 +279,8 @@ void Stepper::advance_axle() {
   balance_.torque_work += dt_ * moment * 0.5 * (spin + a.spin);
   balance_.damping += dt_ * rate * sys_.axle.mass_z * vz * 0.5 * (vz + a.vz);
   axle_kinetic_ = 0.5 * (sys_.axle.mass_x * vx * a.vx + sys_.axle.mass_z * vz * a.vz + sys_.axle.inertia * spin * a.spin);
-  for (const MassGroup& m : state_.groups) axle_kinetic_ += 0.5 * v.sprung_mass * share * m.vz * m.vz;
+  const double share = v.sprung_mass / static_cast<double>(state_.groups.size());
+  for (const MassGroup& m : state_.groups) axle_kinetic_ += 0.5 * share * m.vz * m.vz;
 }
 
 double Stepper::weight_potential() const {

@@ -6,6 +6,7 @@
 // with a rate that fades to zero: the mean travel and spin of the wheel's free nodes are the reference, so that it takes neither momentum along x nor angular momentum.
 #include "fem/preload.hpp"
 #include "fem/rolling_system.hpp"
+#include "fem/suspension.hpp"
 
 namespace railstrata {
 
@@ -26,10 +27,6 @@ struct EnergyBalance {
 struct AxleMotion {
   double x = 0, z = 0, psi = 0;     ///< displacement from the start of the rolling's reference (rigid contact position), spin angle
   double vx = 0, vz = 0, spin = 0;  ///< half-step velocities
-};
-
-struct MassGroup {
-  double z = 0, vz = 0;             ///< displacement and velocity of a share of the sprung mass
 };
 
 /// The only thing that changes.
