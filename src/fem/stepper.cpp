@@ -26,6 +26,13 @@ double station_derivative(const Block& block, int stations, int j, F&& value) {
   return (value(after) - value(before)) / (t1 - t0);
 }
 
+// Work and losses are summed over whole steps; the moment between two steps has half of the one that follows.
+EnergyBalance halfway(const EnergyBalance& before, EnergyBalance now) {
+  using E = EnergyBalance;
+  for (double E::*sum : {&E::torque_work, &E::friction, &E::contact_normal, &E::damping, &E::absorbed, &E::dashpot}) now.*sum = 0.5 * (before.*sum + now.*sum);
+  return now;
+}
+
 }  // namespace
 
 Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : sys_(system), contact_(system.rail_surface, system.wheel_surface) {
@@ -101,7 +108,7 @@ void Stepper::internal_forces() {
   sys_.rail.solid.internal_force(state_.u_rail, 0, f_rail_);
   sys_.wheel.solid.internal_force(state_.u_wheel, state_.axle.psi, f_wheel_);
   sys_.rail.ties.collect(f_rail_);
-  sys_.wheel.ties.collect(f_wheel_);
+  const double offset_moment = sys_.wheel.ties.collect_turning(f_wheel_, state_.axle.psi);
   double absorbed = 0;
   for (const EndDashpot& d : sys_.absorbers) {
     const double v = state_.v_rail[d.index];
@@ -110,7 +117,8 @@ void Stepper::internal_forces() {
   }
   balance_.absorbed += dt_ * absorbed;
   const double c = std::cos(state_.axle.psi), s = std::sin(state_.axle.psi);
-  bore_fx_ = bore_fz_ = bore_my_ = 0;
+  bore_fx_ = bore_fz_ = 0;
+  bore_my_ = -offset_moment;
   for (const BoreNode& n : sys_.axle.bore) {
     const double fx = -f_wheel_[n.index], fz = -f_wheel_[n.index + 2 * n.stride];
     const double rx = c * n.arm.x + s * n.arm.z, rz = c * n.arm.z - s * n.arm.x;
@@ -307,6 +315,7 @@ double Stepper::spring_energy() const {
 }
 
 void Stepper::step() {
+  const EnergyBalance before = balance_;
   internal_forces();
   if (damping_rate() > 0) measure_rigid_motion();
   contact();
@@ -322,14 +331,15 @@ void Stepper::step() {
   advance(sys_.wheel, state_.u_wheel, state_.v_wheel, f_wheel_, true, kinetic, damping);
   balance_.damping += dt_ * damping;
   advance_axle();
-  if (want_energy_) balance_.kinetic = kinetic + axle_kinetic_;
+  if (want_energy_) {
+    balance_.kinetic = kinetic + axle_kinetic_;
+    recorded_ = halfway(before, balance_);
+  }
   sys_.apply_constraints(state_.u_rail, state_.u_wheel, pose());
   state_.time += dt_;
   ++state_.step;
   want_energy_ = false;
 }
-
-EnergyBalance Stepper::energy() { return balance_; }
 
 std::string Stepper::check_finite() const {
   auto look = [](const DeformableBody& body, const Field& u) -> std::string {

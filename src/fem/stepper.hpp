@@ -65,8 +65,8 @@ class Stepper {
   double torque() const;
   double damping_rate() const;
   /// Energies at the beginning of the last step (kinetic energy v(n-1/2).v(n+1/2)/2, exact for the scheme).
-  EnergyBalance energy();
-  /// Ask for the kinetic energy with the next step.
+  const EnergyBalance& energy() const { return recorded_; }
+  /// Ask for the energies with the next step.
   void want_energy() { want_energy_ = true; }
   bool reached_edge() const { return reached_edge_; }
   /// First node whose displacement is not finite, described; empty if all is well.
@@ -98,7 +98,7 @@ class Stepper {
   ContactSystem contact_system_;
   EnforcementOptions enforcement_;
   ContactForces forces_;
-  EnergyBalance balance_;
+  EnergyBalance balance_, recorded_;
   StepLimits limits_;
   double dt_ = 0;
   Field f_rail_, f_wheel_;

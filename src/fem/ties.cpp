@@ -97,14 +97,24 @@ void Ties::spread_component(Field& u, int i, double cos_psi, double sin_psi, boo
   }
 }
 
-void Ties::collect_component(Field& f, int i) const {
+double Ties::collect_component(Field& f, int i, double cos_psi, double sin_psi) const {
   std::vector<double> gathered;
+  const bool turning = kind_ == SweepKind::revolve && i != 1;
+  double moment = 0;
   for (auto line = lines_.rbegin(); line != lines_.rend(); ++line) {
     const BlockLayout& to = layout_.blocks[line->master_block];
     const Interpolation& in = interpolations_[line->interpolation];
     double* out = f.data() + layout_.blocks[line->slave_block].line(line->slave_node, i);
     gathered.assign(to.stations, 0.0);
     const int n = static_cast<int>(in.left.size());
+    if (turning) {
+      const double* dx = delta_x_.data() + line->delta;
+      const double* dz = delta_z_.data() + line->delta;
+      if (i == 0)
+        for (int j = 0; j < n; ++j) moment += out[j] * (cos_psi * dz[j] - sin_psi * dx[j]);
+      else
+        for (int j = 0; j < n; ++j) moment -= out[j] * (cos_psi * dx[j] + sin_psi * dz[j]);
+    }
     for (int j = 0; j < n; ++j) {
       gathered[in.left[j]] += (1 - in.weight[j]) * out[j];
       gathered[in.right[j]] += in.weight[j] * out[j];
@@ -117,6 +127,7 @@ void Ties::collect_component(Field& f, int i) const {
       m1[j] += line->weight1 * gathered[j];
     }
   }
+  return moment;
 }
 
 void Ties::spread(Field& u, double psi, bool homogeneous) const {
@@ -124,8 +135,13 @@ void Ties::spread(Field& u, double psi, bool homogeneous) const {
   for_each(3, [&](std::ptrdiff_t i) { spread_component(u, static_cast<int>(i), c, s, homogeneous); }, true);
 }
 
-void Ties::collect(Field& f) const {
-  for_each(3, [&](std::ptrdiff_t i) { collect_component(f, static_cast<int>(i)); }, true);
+void Ties::collect(Field& f) const { collect_turning(f, 0); }
+
+double Ties::collect_turning(Field& f, double psi) const {
+  const double c = std::cos(psi), s = std::sin(psi);
+  double moment[3];
+  for_each(3, [&](std::ptrdiff_t i) { moment[i] = collect_component(f, static_cast<int>(i), c, s); }, true);
+  return moment[0] + moment[1] + moment[2];
 }
 
 }  // namespace railstrata

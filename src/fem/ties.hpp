@@ -17,6 +17,9 @@ class Ties {
   void spread(Field& u, double psi, bool homogeneous = false) const;
   /// Adds what stands at the slaves (forces, masses) to their masters and clears it at the slaves.
   void collect(Field& f) const;
+  /// The same for forces on a body turned by psi. Returns what the offsets hand to the rotation itself, sum f_s . d(R delta)/dpsi [N m]: without it the work of the
+  /// forces on the slaves is not that of the collected ones.
+  double collect_turning(Field& f, double psi) const;
 
   bool is_slave(int block, int node) const { return slave_[block][node]; }
 
@@ -33,7 +36,7 @@ class Ties {
     std::vector<double> weight;  // of right
   };
   void spread_component(Field& u, int component, double cos_psi, double sin_psi, bool homogeneous) const;
-  void collect_component(Field& f, int component) const;
+  double collect_component(Field& f, int component, double cos_psi, double sin_psi) const;
 
   BodyLayout layout_;
   SweepKind kind_;
