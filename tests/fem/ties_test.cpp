@@ -111,6 +111,23 @@ TEST(Ties, CollectIsTheTransposeOfSpread) {
   }
 }
 
+// The slaves follow masters and rotation: f . du_s/dpsi is what collect_turning hands to the rotation, and the masters get the same as from collect.
+TEST(Ties, MomentOfTheOffsetsIsTheWorkOfTheSlavesForcesOnARotation) {
+  for (const SweptBody& body : {coarse_lma_wheel(), tied_body(SweepKind::revolve)}) {
+    const Solid solid(body, {kSteel}, {});
+    const Ties ties(body, solid.layout());
+    const double psi = 0.8, step = 1e-4;
+    Field ahead = scattered_field(solid, 1.0), behind = ahead, f = scattered_field(solid, 1.0, 12345), plain = f;
+    ties.spread(ahead, psi + step);
+    ties.spread(behind, psi - step);
+    for (std::size_t k = 0; k < ahead.size(); ++k) ahead[k] = (ahead[k] - behind[k]) / (2 * step);
+    const double work = nodal_dot(solid.layout(), f, ahead), size = std::sqrt(nodal_dot(solid.layout(), f, f) * nodal_dot(solid.layout(), ahead, ahead));
+    EXPECT_NEAR(ties.collect_turning(f, psi), work, 1e-8 * size) << body.name;
+    ties.collect(plain);
+    EXPECT_EQ(f, plain);
+  }
+}
+
 TEST(Ties, CollectedMassIsTheWholeMass) {
   for (const SweptBody& body : tied_bodies()) {
     const Solid solid(body, {kSteel, kSteel}, {});

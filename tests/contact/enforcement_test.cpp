@@ -1,0 +1,157 @@
+#include "contact/enforcement.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sample_surfaces.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace contact_checks;
+
+constexpr double kStep = 2e-7, kFriction = 0.3;
+
+double scatter(std::size_t i) { return 2 * std::fmod(0.6180339887498949 * static_cast<double>(i * i + 7 * i + 1), 1.0) - 1; }
+
+// A wheel pressed into the rail while it approaches and slides; velocities without pattern, unequal masses.
+struct Impact {
+  Surfaces surfaces{1.37};
+  MortarContact contact{surfaces.rail, surfaces.wheel};
+  MortarRows rows;
+  ContactSystem before, after;
+  TractionMemory memory{surfaces.rail.columns, surfaces.rail.stations.nodes()};
+
+  explicit Impact(const EnforcementOptions& options, double lift = -0.5e-6) {
+    const AxlePose pose{0, lift, 0};
+    contact.search(surfaces.rail_field(), surfaces.rolled(pose), pose, 20e-3, 30e-6);
+    rows = contact.rows(surfaces.rail_field(), surfaces.rolled(pose), pose);
+    WheelNumbering numbering;
+    numbering.number(rows, surfaces.wheel, before);
+    for (std::size_t r = 0; r < rows.rows.size(); ++r) {
+      before.rail_velocity.push_back({0.3 * scatter(3 * r), 0.3 * scatter(3 * r + 1), scatter(3 * r + 2)});
+      before.rail_inverse_mass.push_back(2e5 * (1 + 0.3 * scatter(r)));
+    }
+    for (std::size_t n = 0; n < before.wheel_nodes.size(); ++n) {
+      before.wheel_velocity.push_back({1 + 2 * scatter(4 * n), scatter(4 * n + 1), -2 + scatter(4 * n + 2)});
+      before.wheel_inverse_mass.push_back(1.2e5 * (1 + 0.3 * scatter(n + 77)));
+    }
+    after = before;
+    enforce_contact(rows, kStep, options, after, memory);
+  }
+  Vec3 slip(const ContactSystem& s, std::size_t r) const {
+    Vec3 w = -s.rail_velocity[r];
+    for (int k = rows.rows[r].first; k < rows.rows[r].first + rows.rows[r].count; ++k) w += rows.weights[k].m * s.wheel_velocity[s.weight_node[k]];
+    return w;
+  }
+  const NodeTraction& traction(std::size_t r) const { return memory.at(rows.rows[r].column, rows.rows[r].station); }
+};
+
+EnforcementOptions exact(double friction = kFriction) { return {false, 0, friction, 1e-19, 20000}; }
+
+}  // namespace
+
+TEST(Multipliers, SatisfySignoriniAndCoulombAtTheEndOfTheStep) {
+  constexpr double kLow = 0.15;
+  const Impact c(exact(kLow), -2e-6);
+  int open = 0, stick = 0, sliding = 0;
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    const ContactRow& row = c.rows.rows[r];
+    const NodeTraction& t = c.traction(r);
+    const Vec3 w = c.slip(c.after, r);
+    const double gap = row.gap + kStep * dot(w, row.normal), q = std::hypot(t.q1, t.q2);
+    constexpr double kPressure = 1e6, kLength = 1e-15, kSpeed = 1e-8;  // of pressures of GPa, gaps of um and speeds of m/s
+    EXPECT_GE(t.p, 0.0);
+    EXPECT_GE(gap, -kLength);
+    EXPECT_LT(t.p > 0 ? std::abs(gap) : 0.0, kLength);
+    EXPECT_LE(q, kLow * t.p * (1 + 1e-12));
+    EXPECT_NEAR(t.slip1, dot(w, tangent_frame(row.normal).t1), 1e-12);
+    if (t.p < kPressure) {
+      ++open;
+      continue;
+    }
+    if (q < kLow * t.p * (1 - 1e-9)) {
+      ++stick;
+      EXPECT_LT(std::hypot(t.slip1, t.slip2), kSpeed);
+    } else {
+      ++sliding;  // the traction on the rail points the way the wheel slips
+      EXPECT_NEAR((t.q1 * t.slip1 + t.q2 * t.slip2), q * std::hypot(t.slip1, t.slip2), 1e-6 * q * std::hypot(t.slip1, t.slip2) + q * kSpeed);
+    }
+  }
+  EXPECT_GT(open, 10);
+  EXPECT_GT(stick, 4);
+  EXPECT_GT(sliding, 4);
+}
+
+TEST(Multipliers, KeepLinearMomentum) {
+  for (double friction : {0.0, kFriction}) {
+    const Impact c(exact(friction));
+    Vec3 change, exchanged;
+    for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+      const Vec3 dp = (1 / c.before.rail_inverse_mass[r]) * (c.after.rail_velocity[r] - c.before.rail_velocity[r]);
+      change += dp, exchanged += Vec3{std::abs(dp.x), std::abs(dp.y), std::abs(dp.z)};
+    }
+    for (std::size_t n = 0; n < c.before.wheel_nodes.size(); ++n) change += (1 / c.before.wheel_inverse_mass[n]) * (c.after.wheel_velocity[n] - c.before.wheel_velocity[n]);
+    EXPECT_LT(norm(change), 1e-12 * norm(exchanged));
+  }
+}
+
+TEST(Multipliers, ImpulseIsAreaTimesTractionTimesTheStepOnBothSides) {
+  const Impact c(exact());
+  std::vector<Vec3> wheel(c.before.wheel_nodes.size());
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    const ContactRow& row = c.rows.rows[r];
+    const Vec3 impulse = (kStep * row.area) * traction_vector(c.traction(r), row.normal);
+    const Vec3 rail = (1 / c.before.rail_inverse_mass[r]) * (c.after.rail_velocity[r] - c.before.rail_velocity[r]);
+    EXPECT_LT(norm(rail - impulse), 1e-9 * norm(impulse) + 1e-15);
+    for (int k = row.first; k < row.first + row.count; ++k) wheel[c.before.weight_node[k]] -= c.rows.weights[k].m * impulse;
+  }
+  for (std::size_t n = 0; n < wheel.size(); ++n) {
+    const Vec3 dp = (1 / c.before.wheel_inverse_mass[n]) * (c.after.wheel_velocity[n] - c.before.wheel_velocity[n]);
+    EXPECT_LT(norm(dp - wheel[n]), 1e-9 * norm(dp) + 1e-15);
+  }
+}
+
+TEST(Multipliers, TakeKineticEnergyOutOfSurfacesThatDoNotOverlap) {
+  const Impact c(exact(), 0.3e-6);
+  for (const ContactRow& row : c.rows.rows) ASSERT_GE(row.gap, 0.0);
+  double loss = 0;
+  auto energy = [](Vec3 v, double inverse_mass) { return 0.5 * dot(v, v) / inverse_mass; };
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) loss += energy(c.before.rail_velocity[r], c.before.rail_inverse_mass[r]) - energy(c.after.rail_velocity[r], c.before.rail_inverse_mass[r]);
+  for (std::size_t n = 0; n < c.before.wheel_nodes.size(); ++n)
+    loss += energy(c.before.wheel_velocity[n], c.before.wheel_inverse_mass[n]) - energy(c.after.wheel_velocity[n], c.before.wheel_inverse_mass[n]);
+  EXPECT_GT(loss, 0.0);
+}
+
+TEST(Multipliers, OfALooseToleranceLeaveAPenetrationOfItsOrder) {
+  for (double tolerance : {1e-11, 1e-13}) {
+    EnforcementOptions options = exact();
+    options.tolerance = tolerance;
+    const Impact c(options);
+    double worst = 0;
+    for (std::size_t r = 0; r < c.rows.rows.size(); ++r) worst = std::max(worst, -(c.rows.rows[r].gap + kStep * dot(c.slip(c.after, r), c.rows.rows[r].normal)));
+    EXPECT_LT(worst, 20 * tolerance);
+  }
+}
+
+TEST(Multipliers, AreTheSameWhenTheyStartFromTheSolution) {
+  Impact c(exact());
+  const std::vector<NodeTraction> first = c.memory.all();
+  c.after = c.before;
+  enforce_contact(c.rows, kStep, exact(), c.after, c.memory);
+  for (std::size_t k = 0; k < first.size(); ++k) EXPECT_NEAR(c.memory.all()[k].p, first[k].p, 1e-7 * 1e9);
+}
+
+TEST(Penalty, PressureIsStiffnessTimesPenetrationAndFrictionStaysOnTheCoulombDisc) {
+  const EnforcementOptions options{true, 5e13, kFriction, 0, 0};
+  const Impact c(options);
+  int pressed = 0;
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    const NodeTraction& t = c.traction(r);
+    EXPECT_NEAR(t.p, 5e13 * std::max(0.0, -c.rows.rows[r].gap), 1.0);
+    EXPECT_LE(std::hypot(t.q1, t.q2), kFriction * t.p * (1 + 1e-12));
+    pressed += t.p > 0;
+  }
+  EXPECT_GT(pressed, 5);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,72 @@
+#pragma once
+// A flat rail and a cylindrical wheel as bare surfaces, without bodies.
+#include <cmath>
+#include <numbers>
+
+#include "contact/mortar.hpp"
+
+namespace railstrata::contact_checks {
+
+struct Surfaces {
+  double h = 1e-3, width = 1e-3;      ///< facets of the rail
+  double wheel_h, wheel_width;        ///< facets of the wheel below the axle
+  double radius;
+  ContactSurface rail, wheel;
+
+  /// `ratio`: the wheel's facets over the rail's.
+  explicit Surfaces(double ratio = 1.0, double radius_ = 0.43) : wheel_h(ratio * h), wheel_width(ratio * width), radius(radius_) {
+    rail.kind = SweepKind::extrude;
+    for (int j = -12; j <= 12; ++j) rail.stations.at.push_back(j * h);
+    flat(rail, 11, width, 0.0, {0, 1});
+    wheel.kind = SweepKind::revolve;
+    wheel.origin = {0, 0, radius};
+    // a ring: fine facets below the axle, eight stations round the rest
+    const int fine = static_cast<int>(std::ceil(40e-3 / wheel_h));
+    for (int j = -fine; j <= fine; ++j) wheel.stations.at.push_back((j + 0.31) * wheel_h / radius);
+    const double last = wheel.stations.at.back(), rest = wheel.stations.at.front() + 2 * std::numbers::pi - last;
+    for (int k = 1; k <= 8; ++k) wheel.stations.at.push_back(last + rest * k / 9);
+    wheel.stations.closed = true;
+    flat(wheel, 2 * static_cast<int>(std::ceil(7e-3 / wheel_width)) + 2, wheel_width, -radius, {0, -1});
+  }
+
+  Field rail_field() const { return Field(static_cast<std::size_t>(rail.columns) * 3 * rail.stride, 0.0); }
+  Field wheel_field() const { return Field(static_cast<std::size_t>(wheel.columns) * 3 * wheel.stride, 0.0); }
+  template <class F>
+  Field rail_field(F&& f) const {
+    Field u = rail_field();
+    for (int c = 0; c < rail.columns; ++c)
+      for (int j = 0; j < rail.stations.nodes(); ++j) {
+        const Vec3 v = f(Vec3{rail.stations.at[j], rail.node[c].y, rail.node[c].z});
+        u[rail.index(c, j)] = v.x, u[rail.index(c, j) + rail.stride] = v.y, u[rail.index(c, j) + 2 * rail.stride] = v.z;
+      }
+    return u;
+  }
+  /// Displacements of the wheel's nodes as a rigid body that has moved with the axle.
+  Field rolled(const AxlePose& pose) const {
+    Field u = wheel_field();
+    const double cos_psi = std::cos(pose.psi), sin_psi = std::sin(pose.psi);
+    for (int c = 0; c < wheel.columns; ++c)
+      for (int j = 0; j < wheel.stations.nodes(); ++j) {
+        const double t = wheel.stations.at[j], z = wheel.node[c].z, ax = -z * std::sin(t), az = z * std::cos(t);
+        u[wheel.index(c, j)] = pose.x + (cos_psi - 1) * ax + sin_psi * az;
+        u[wheel.index(c, j) + 2 * wheel.stride] = pose.z + (cos_psi - 1) * az - sin_psi * ax;
+      }
+    return u;
+  }
+
+ private:
+  static void flat(ContactSurface& s, int columns, double width, double z, Vec2 outward) {
+    s.columns = columns;
+    for (int c = 0; c < columns; ++c) {
+      s.node.push_back({(c - 0.5 * (columns - 1)) * width, z});
+      s.outward.push_back(outward);
+      s.s.push_back(s.node.back().y);
+    }
+    s.sagitta.assign(columns - 1, {});
+    s.width.assign(columns - 1, width);
+    s.first_line = 0;
+    s.stride = s.stations.nodes() + 8;
+  }
+};
+
+}  // namespace railstrata::contact_checks

@@ -1,0 +1,104 @@
+#include "fem/rolling_run.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <numbers>
+
+#include "small_rolling.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace fem_checks;
+
+EnergyBalance energy_now(Stepper& st) {
+  st.want_energy();
+  st.step();
+  return st.energy();
+}
+
+}  // namespace
+
+// No torque, friction, damping: the balance's total must stand still. A revolution is 2.7 m; 15 mm of it are rolled and the drift is scaled up linearly, which
+// overstates a drift that grows like a random walk.
+TEST(Rolling, AFreeWheelKeepsItsEnergyToOneInTenMillionPerRevolution) {
+  CaseSpec spec = small_case();
+  spec.drive.traction_coefficient = 0;
+  spec.drive.friction_coefficient = 0;
+  spec.vehicle.suspension_damping = 0;
+  const RollingSystem system = small_system(spec);
+  Stepper st(system, solve_preload(system, 1e-7));
+  const EnergyBalance start = energy_now(st);
+  double drift = 0;
+  while (st.position() < 0.015) {
+    for (int k = 0; k < 200; ++k) st.step();
+    const EnergyBalance now = energy_now(st);
+    drift = std::max(drift, std::abs(now.total() - start.total()));
+  }
+  const double revolutions = st.position() / (2 * std::numbers::pi * system.rolling_radius);
+  EXPECT_LT(drift / revolutions, 1e-7 * start.kinetic);
+}
+
+TEST(Rolling, SameBitsOnOneTwoAndFourThreads) {
+  CaseSpec spec = small_case();
+  spec.run.run_up = 0.02;
+  spec.run.run_up_damping = 2000;
+  const RollingSystem system = small_system(spec);
+  const PreloadResult preload = solve_preload(system, 1e-5);
+  const int before = max_threads();
+  auto run = [&](int threads) {
+    set_threads(threads);
+    Stepper st(system, preload);
+    for (int k = 0; k < 60; ++k) st.step();
+    const EnergyBalance e = energy_now(st);
+    std::vector<double> bits{st.dt(), st.forces().x, st.forces().y, st.forces().z, st.state().axle.x, st.state().axle.psi, e.total(), e.kinetic, e.friction, e.damping};
+    for (const auto& [body, u] : {std::pair{&system.rail, &st.state().u_rail}, std::pair{&system.wheel, &st.state().u_wheel}})
+      for (const DeformableBody::Line& l : body->lines) bits.insert(bits.end(), u->begin() + l.first, u->begin() + l.first + l.count);
+    return bits;
+  };
+  const std::vector<double> one = run(1);
+  for (int threads : {2, 4}) {
+    const std::vector<double> many = run(threads);
+    ASSERT_EQ(many.size(), one.size());
+    EXPECT_EQ(std::memcmp(many.data(), one.data(), one.size() * sizeof(double)), 0) << threads;
+  }
+  set_threads(before);
+}
+
+// A rigid wheel under the torque M = F (r + I/(m r)) is driven by F = m a. The wheel's inertia swings on the tangential stiffness of its contact with a period of
+// about 2.3 ms; the torque rises over about one period and F_x is averaged over another.
+TEST(SlowRolling, ThePoweredWheelReachesTheWantedTractionAndItsEnergyClosesToATenthOfAThousandthOfTheWork) {
+  CaseSpec spec = small_case();
+  spec.vehicle.wheel_mass = 300;
+  spec.vehicle.sprung_mass = 8200;
+  spec.drive.speed = 10;
+  spec.drive.torque_ramp = 2.5e-3;
+  spec.run.positions = {0.045};
+  spec.run.run_up = 0.02;
+  spec.run.run_up_damping = 3000;
+  const RollingSystem system = small_system(spec);
+  Stepper st(system, solve_preload(system, 1e-6));
+  const EnergyBalance start = energy_now(st);
+  const double window_begin = 2.6e-3, window_end = window_begin + 2.3e-3;
+  double sum = 0, vertical = 0, worst = 0, v0 = 0, t0 = 0;
+  long count = 0;
+  while (st.state().time < window_end) {
+    for (int k = 0; k < 100; ++k) {
+      st.step();
+      if (st.state().time < window_begin) continue;
+      if (count++ == 0) v0 = st.state().axle.vx, t0 = st.state().time;
+      sum += st.forces().x, vertical += st.forces().z;
+    }
+    const EnergyBalance now = energy_now(st);
+    worst = std::max(worst, std::abs(now.total() - start.total()));
+  }
+  EXPECT_LT(worst, 1e-4 * st.energy().torque_work);
+  const double wanted = spec.drive.traction_coefficient * system.model.load;
+  EXPECT_NEAR(sum / static_cast<double>(count) / wanted, 1.0, 0.01);
+  EXPECT_NEAR(vertical / static_cast<double>(count) / system.model.load, 1.0, 0.01);
+  EXPECT_NEAR((st.state().axle.vx - v0) / (st.state().time - t0) * system.travel_mass / wanted, 1.0, 0.01);
+  EXPECT_FALSE(st.reached_edge());
+}
+
+}  // namespace railstrata

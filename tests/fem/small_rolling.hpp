@@ -1,0 +1,32 @@
+#pragma once
+// A rolling contact small enough for a test: a disc with a crowned tread on a flat block, 4 mm elements.
+#include "fem/rolling_run.hpp"
+
+namespace railstrata::fem_checks {
+
+inline CaseSpec small_case() {
+  CaseSpec s;
+  s.geometry.rail_profile = "flat";
+  s.geometry.wheel_profile = "arc:R=430 mm";
+  s.geometry.rail_shape = "block";
+  s.geometry.wheel_shape = "disc";
+  s.geometry.cant = 0;
+  s.geometry.bore_radius = 0.25;
+  s.vehicle.wheel_mass = 1500;
+  s.vehicle.sprung_mass = 7000;
+  s.mesh.element_size = 4e-3;
+  s.mesh.fine_width = 32e-3;
+  s.mesh.fine_depth = 8e-3;
+  s.mesh.coarse_ratio = 2;
+  s.mesh.largest = 20e-3;
+  s.mesh.end_length = 0.06;
+  s.run.positions = {0.03};
+  s.run.window = 8e-3;
+  s.run.run_up = 0;
+  s.run.run_up_damping = 0;
+  return s;
+}
+
+inline RollingSystem small_system(const CaseSpec& spec) { return RollingSystem(build_model(spec, ".")); }
+
+}  // namespace railstrata::fem_checks
