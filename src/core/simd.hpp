@@ -25,10 +25,12 @@ inline void store(double* p, Pack v) { std::memcpy(p, &v, sizeof v); }
 
 /// {before[last], now[0], now[1], …}: moves a line of values on by one lane.
 inline Pack shift_in(Pack before, Pack now) {
-#if defined(__clang__)
-  if constexpr (kLanes == 8) return __builtin_shufflevector(before, now, 7, 8, 9, 10, 11, 12, 13, 14);
-  else if constexpr (kLanes == 4) return __builtin_shufflevector(before, now, 3, 4, 5, 6);
-  else return __builtin_shufflevector(before, now, 1, 2);
+#if defined(__clang__) && defined(__AVX512F__)
+  return __builtin_shufflevector(before, now, 7, 8, 9, 10, 11, 12, 13, 14);
+#elif defined(__clang__) && defined(__AVX__)
+  return __builtin_shufflevector(before, now, 3, 4, 5, 6);
+#elif defined(__clang__)
+  return __builtin_shufflevector(before, now, 1, 2);
 #else
   typedef long long Index __attribute__((vector_size(kLanes * sizeof(long long))));
   Index index;

@@ -6,74 +6,48 @@
 #include <cmath>
 
 #include "core/faults.hpp"
+#include "fem/static_preconditioner.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr double kPenetration = 1e-4;  // of the Hertzian approach
-constexpr double kPenaltyScale = 16.0;  // of a surface element's stiffness
-
-// A vector of the static problem: free displacements of both bodies and the axle's height.
-struct StaticVector {
-  Field rail, wheel;
-  double axle = 0;
-};
-
-double dot(const Field& a, const Field& b) {
-  return ordered_sum(static_cast<std::ptrdiff_t>(a.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
-    double sum = 0;
-    for (std::ptrdiff_t i = begin; i < end; ++i) sum += a[i] * b[i];
-    return sum;
-  });
-}
-double dot(const StaticVector& a, const StaticVector& b) { return dot(a.rail, b.rail) + dot(a.wheel, b.wheel) + a.axle * b.axle; }
-
-void add(Field& y, double s, const Field& x) {
-  for_each(static_cast<std::ptrdiff_t>(y.size()), [&](std::ptrdiff_t i) { y[i] += s * x[i]; });
-}
-void add(StaticVector& y, double s, const StaticVector& x) {
-  add(y.rail, s, x.rail);
-  add(y.wheel, s, x.wheel);
-  y.axle += s * x.axle;
-}
+constexpr double kPenetration = 1e-4;     // of the Hertzian approach
+constexpr double kVirtualPenetration = 0.55;  // of the approach: rigid profiles pushed so far into one another overlap in about the patch
+constexpr int kMostSteps = 60;
+const double kForcing=getenv("FO")?atof(getenv("FO")):0.05; const double kPenaltyScale=getenv("PS")?atof(getenv("PS")):1000;
+constexpr int kMostIterations = 5000;
+const ClusterSizes kClusters{getenv("CL")?atof(getenv("CL"))*1e-3:8e-3, getenv("CG")?atof(getenv("CG")):0.3};
 
 class Preload {
  public:
   explicit Preload(const RollingSystem& system)
-      : sys_(system), contact_(system.rail_surface, system.wheel_surface), tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()) {
-    u_ = zero();
-    // a few times the stiffness of a surface element: few multiplier updates without spoiling the conditioning
+      : sys_(system), contact_(system.rail_surface, system.wheel_surface), tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()),
+        preconditioner_(system, kClusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
+        u_(zero()) {
     const auto& depth = sys_.model.rail.contact.depth;
-    penalty_ = kPenaltyScale * young(sys_.model.rail_materials.back()) / std::max(depth[1] - depth[0], 0.5e-3);
-    diagonal();
+    element_stiffness_ = young(sys_.model.rail_materials.back()) / (depth[1] - depth[0]);
+    penalty_ = kPenaltyScale * element_stiffness_;
   }
 
   PreloadResult solve(double tolerance, const PreloadProgress& progress, const std::atomic<bool>* stop) {
     const auto start = std::chrono::steady_clock::now();
-    start_from_hertz();
+    start_from_overlap();
     PreloadResult out;
     const double load = load_norm();
-    // Outer: multipliers; inner: Newton steps on the exact residual at fixed multipliers (a convex, piecewise quadratic problem).
-    double wanted = 1e-2;
     for (int step = 1;; ++step) {
       update_contact();
       StaticVector r = residual();
       out.residual = std::sqrt(dot(r, r)) / load;
+      out.penetration = penetration();
       out.newton_steps = step;
       if (progress) progress(out.residual, tolerance, out.cg_iterations);
       if (!std::isfinite(out.residual)) throw NumericalError("static preload: the residual is not a number");
-      if (out.residual < wanted) {
-        out.penetration = penetration();
-        if (out.residual < tolerance && out.penetration < kPenetration * sys_.model.hertz.approach) break;
-        wanted = std::max(0.1 * wanted, 0.5 * tolerance);
-        augment();
-        continue;
-      }
-      if (step > 80) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e})", step, out.residual, tolerance));
+      if (out.residual < tolerance && out.penetration < kPenetration * sys_.model.hertz.approach) break;
+      if (step > kMostSteps) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e})", step, out.residual, tolerance));
       if (stop && *stop) throw NumericalError("static preload: stopped");
-      out.cg_iterations += conjugate_gradients(r, std::clamp(0.1 * wanted / out.residual, 1e-4, 1e-2));
-      add(u_, 1.0, r);
-      sys_.apply_constraints(u_.rail, u_.wheel, {0, u_.axle, 0});
+      hold_gaps_shut(r);
+      out.cg_iterations += conjugate_gradients(r, load * std::max(0.3 * tolerance, std::min(kForcing * out.residual, kForcing)));
+      advance(r);
     }
     out.u_rail = u_.rail;
     out.u_wheel = u_.wheel;
@@ -91,8 +65,8 @@ class Preload {
  private:
   StaticVector zero() const { return {sys_.rail.solid.layout().field(), sys_.wheel.solid.layout().field(), 0.0}; }
 
-  void start_from_hertz() {
-    u_.axle = -sys_.model.hertz.approach;
+  void start_from_overlap() {
+    u_.axle = -kVirtualPenetration * sys_.model.hertz.approach;
     for (const DeformableBody::Line& l : sys_.wheel.lines)
       if (l.component == 2) std::fill_n(u_.wheel.begin() + l.first, l.count, u_.axle);
     sys_.apply_constraints(u_.rail, u_.wheel, {0, u_.axle, 0});
@@ -135,14 +109,33 @@ class Preload {
     pressure_.clear();
     active_.clear();
     for (const ContactRow& row : rows_->rows) {
-      const double p = tractions_.at(row.column, row.station).p - penalty_ * row.gap;
+      const double p = tractions_.at(row.column, row.station).p - element_stiffness_ * row.gap;
       active_.push_back(p > 0);
       pressure_.push_back(std::max(0.0, p));
     }
   }
-  void augment() {
+  // The stiff springs of the linear step at the present gaps, in place of the pressures.
+  void hold_gaps_shut(StaticVector& r) {
+    spring_.assign(rows_->rows.size(), 0.0);
+    StaticVector f = zero();
+    for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
+      if (!active_[k]) continue;
+      const ContactRow& row = rows_->rows[k];
+      spring_[k] = tractions_.at(row.column, row.station).p - penalty_ * row.gap;
+      push(k, spring_[k] - pressure_[k], f.rail, f.wheel);
+    }
+    reduce(f);
+    add(r, 1.0, f);
+  }
+  // Takes the step; the springs' pressures are the next multipliers, negative ones too: they open the contact there.
+  void advance(StaticVector& step) {
+    sys_.rail.ties.spread(step.rail, 0, true);
+    sys_.wheel.ties.spread(step.wheel, 0, true);
     for (NodeTraction& t : tractions_.all()) t = {};
-    for (std::size_t k = 0; k < rows_->rows.size(); ++k) tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = pressure_[k];
+    for (std::size_t k = 0; k < rows_->rows.size(); ++k)
+      if (active_[k]) tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = spring_[k] - penalty_ * gap_change(k, step);
+    add(u_, 1.0, step);
+    sys_.apply_constraints(u_.rail, u_.wheel, {0, u_.axle, 0});
   }
   double penetration() const {
     double worst = 0;
@@ -189,8 +182,21 @@ class Preload {
     return r;
   }
 
-  // y = (K + eps G^T a G) x on the free degrees of freedom; x keeps its constrained values consistent.
+  // y = K x on the free degrees of freedom; constrained entries of x are not unknowns.
+  void stiffness(StaticVector& x, StaticVector& y) {
+    elastic(x, y);
+    reduce(y);
+    release(x);
+  }
+  // y = (K + eps G^T a G) x
   void apply(StaticVector& x, StaticVector& y) {
+    elastic(x, y);
+    for (std::size_t k = 0; k < rows_->rows.size(); ++k)
+      if (active_[k]) push(k, penalty_ * gap_change(k, x), y.rail, y.wheel);
+    reduce(y);
+    release(x);
+  }
+  void elastic(StaticVector& x, StaticVector& y) {
     for (const BoreNode& n : sys_.axle.bore) {
       x.wheel[n.index] = x.wheel[n.index + n.stride] = 0;
       x.wheel[n.index + 2 * n.stride] = x.axle;
@@ -200,10 +206,8 @@ class Preload {
     sys_.rail.solid.linear_force(x.rail, y.rail);
     sys_.wheel.solid.linear_force(x.wheel, y.wheel);
     y.axle = 0;
-    for (std::size_t k = 0; k < rows_->rows.size(); ++k)
-      if (active_[k]) push(k, penalty_ * gap_change(k, x), y.rail, y.wheel);
-    reduce(y);
-    // constrained entries of x are not unknowns
+  }
+  void release(StaticVector& x) const {
     mask(sys_.rail, x.rail);
     mask(sys_.wheel, x.wheel);
   }
@@ -219,67 +223,21 @@ class Preload {
     return g;
   }
 
-  void diagonal() {
-    preconditioner_ = zero();
-    sys_.rail.solid.stiffness_diagonal(preconditioner_.rail);
-    sys_.wheel.solid.stiffness_diagonal(preconditioner_.wheel);
-    StaticVector d = preconditioner_;
-    sys_.rail.ties.collect(d.rail);
-    sys_.wheel.ties.collect(d.wheel);
-    double axle = 0;
-    for (const BoreNode& n : sys_.axle.bore) axle += d.wheel[n.index + 2 * n.stride];
-    auto invert = [](const DeformableBody& body, Field& f) {
-      for (std::size_t i = 0; i < f.size(); ++i) f[i] = body.inverse_mass[i] > 0 && f[i] > 0 ? 1 / f[i] : 0;
-    };
-    invert(sys_.rail, d.rail);
-    invert(sys_.wheel, d.wheel);
-    d.axle = 1 / axle;
-    preconditioner_ = std::move(d);
-  }
-  // The contact's share of the diagonal, for the present active set.
-  StaticVector with_contact() const {
-    StaticVector d = preconditioner_;
-    auto stiffen = [&](Field& f, std::ptrdiff_t i, double k) {
-      if (f[i] > 0) f[i] = 1 / (1 / f[i] + k);
-    };
-    for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
-      if (!active_[k]) continue;
-      const ContactRow& row = rows_->rows[k];
-      const double n2[3] = {row.normal.x * row.normal.x, row.normal.y * row.normal.y, row.normal.z * row.normal.z};
-      for (int i = 0; i < 3; ++i) {
-        stiffen(d.rail, row.rail + i * sys_.rail_surface.stride, penalty_ * row.area * n2[i]);
-        for (int w = row.first; w < row.first + row.count; ++w)
-          stiffen(d.wheel, rows_->weights[w].wheel + i * sys_.wheel_surface.stride, penalty_ * row.area * n2[i] * rows_->weights[w].m * rows_->weights[w].m);
-      }
-    }
-    return d;
-  }
-  static void precondition(const StaticVector& inverse, const StaticVector& r, StaticVector& z) {
-    for_each(static_cast<std::ptrdiff_t>(r.rail.size()), [&](std::ptrdiff_t i) { z.rail[i] = inverse.rail[i] * r.rail[i]; });
-    for_each(static_cast<std::ptrdiff_t>(r.wheel.size()), [&](std::ptrdiff_t i) { z.wheel[i] = inverse.wheel[i] * r.wheel[i]; });
-    z.axle = inverse.axle * r.axle;
-  }
-
-  // Solves for r in place; returns the number of iterations.
-  int conjugate_gradients(StaticVector& r, double tolerance) {
-    const StaticVector inverse = with_contact();
-    StaticVector x = zero(), z = zero(), p, q = zero();
-    precondition(inverse, r, z);
-    p = z;
-    double rz = dot(r, z);
-    const double wanted = tolerance * tolerance * rz;
+  // Solves for r in place, down to |r| <= wanted; returns the number of iterations.
+  int conjugate_gradients(StaticVector& r, double wanted) {
+    preconditioner_.set_contact(*rows_, active_, penalty_);
+    StaticVector x = zero(), z = zero(), p = zero(), q = zero();
+    double rz = 1;
     int iteration = 0;
-    for (; iteration < 5000 && rz > wanted; ++iteration) {
+    for (; iteration < kMostIterations && dot(r, r) > wanted * wanted; ++iteration) {
+      preconditioner_.apply(r, z);
+      const double next = dot(r, z);
+      scale_and_add(p, iteration > 0 ? next / rz : 0.0, z);
+      rz = next;
       apply(p, q);
       const double alpha = rz / dot(p, q);
       add(x, alpha, p);
       add(r, -alpha, q);
-      precondition(inverse, r, z);
-      const double next = dot(r, z), beta = next / rz;
-      rz = next;
-      for_each(static_cast<std::ptrdiff_t>(p.rail.size()), [&](std::ptrdiff_t i) { p.rail[i] = z.rail[i] + beta * p.rail[i]; });
-      for_each(static_cast<std::ptrdiff_t>(p.wheel.size()), [&](std::ptrdiff_t i) { p.wheel[i] = z.wheel[i] + beta * p.wheel[i]; });
-      p.axle = z.axle + beta * p.axle;
     }
     r = std::move(x);
     return iteration;
@@ -288,10 +246,12 @@ class Preload {
   const RollingSystem& sys_;
   MortarContact contact_;
   TractionMemory tractions_;
-  StaticVector u_, preconditioner_;
-  double penalty_ = 0;
+  StaticPreconditioner preconditioner_;
+  StaticVector u_;
+  double element_stiffness_ = 0;  // Pa/m, weighs gaps against pressures where a node is to open or close
+  double penalty_ = 0;            // Pa/m, of the springs in a linear step
   const MortarRows* rows_ = nullptr;
-  std::vector<double> pressure_;
+  std::vector<double> pressure_, spring_;
   std::vector<char> active_;
 };
 

@@ -104,7 +104,7 @@ OptionTable drive_table() {
            {"traction_coefficient", at<&C::drive, &D::traction_coefficient>, "Wanted F_T / G; positive drives, negative brakes", kNumber, {-1, 1}},
            {"friction_coefficient", at<&C::drive, &D::friction_coefficient>, "Coulomb's coefficient", kNumber, {0, 2}},
            {"torque_ramp", at<&C::drive, &D::torque_ramp>, "Smooth rise of the torque at the start", kTime, {0, 1}},
-           {"creepage_start", at<&C::drive, &D::creepage_start>, "Longitudinal creepage of the initial spin, (omega r - V) / V", kNumber, {-0.1, 0.1}}}};
+           {"creepage_start", at<&C::drive, &D::creepage_start>, "Longitudinal creepage at the start, (V - omega r) / V: negative drives", kNumber, {-0.1, 0.1}}}};
 }
 
 OptionTable mesh_table() {

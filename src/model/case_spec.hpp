@@ -43,8 +43,8 @@ struct DriveSpec {
   double speed = 27.78;
   double traction_coefficient = 0.2;    ///< F_T / G, the paper's mu
   double friction_coefficient = 0.5;    ///< the paper's f
-  double torque_ramp = 1.5e-3;          ///< s, smooth rise of the torque
-  double creepage_start = 0.0;          ///< longitudinal creepage of the initial spin, (omega r - V)/V
+  double torque_ramp = 4e-3;            ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
+  double creepage_start = 0.0;          ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
 };
 
 struct MeshSpec {
@@ -64,7 +64,7 @@ struct ContactSpec {
 struct RunSpec {
   std::vector<double> positions = {0.3};  ///< wheel positions at which results are wanted, m
   double window = 0.010;                ///< m of rolling, centred on each position, over which results are averaged
-  double run_up = 0.10;                 ///< m of rolling over which the run-up damping fades to zero
+  double run_up = 0.12;                 ///< m of rolling over which the run-up damping fades to zero
   double run_up_damping = 2000.0;       ///< 1/s, mass-proportional damping of vibration at the start
   double step_safety = 0.9;             ///< of the stable step
   double preload_tolerance = 1e-6;      ///< relative residual of the static equilibrium
