@@ -11,18 +11,18 @@
 namespace railstrata {
 namespace {
 
-constexpr double kPenetration = 1e-4;     // of the Hertzian approach
-constexpr double kVirtualPenetration = 0.55;  // of the approach: rigid profiles pushed so far into one another overlap in about the patch
-constexpr int kMostSteps = 60;
-const double kForcing=getenv("FO")?atof(getenv("FO")):0.05; const double kPenaltyScale=getenv("PS")?atof(getenv("PS")):1000;
-constexpr int kMostIterations = 5000;
-const ClusterSizes kClusters{getenv("CL")?atof(getenv("CL"))*1e-3:8e-3, getenv("CG")?atof(getenv("CG")):0.3};
+constexpr double kPenetration = 1e-4;         // of the Hertzian approach
+constexpr double kVirtualPenetration = 0.55;  // of the approach: rigid profiles pushed so far into one another overlap in about the patch [PiotrowskiKik2008]
+constexpr double kPenaltyScale = 1000.0;      // springs of a linear step, of a surface element's stiffness: penetrations of nanometres
+constexpr double kForcing = 0.02;             // of the residual, left over by a linear step
+constexpr double kLastStep = 0.3;             // of the tolerance, likewise
+constexpr int kMostSteps = 60, kMostIterations = 5000;
 
 class Preload {
  public:
-  explicit Preload(const RollingSystem& system)
+  Preload(const RollingSystem& system, const ClusterSizes& clusters)
       : sys_(system), contact_(system.rail_surface, system.wheel_surface), tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()),
-        preconditioner_(system, kClusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
+        preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero()) {
     const auto& depth = sys_.model.rail.contact.depth;
     element_stiffness_ = young(sys_.model.rail_materials.back()) / (depth[1] - depth[0]);
@@ -30,7 +30,6 @@ class Preload {
   }
 
   PreloadResult solve(double tolerance, const PreloadProgress& progress, const std::atomic<bool>* stop) {
-    const auto start = std::chrono::steady_clock::now();
     start_from_overlap();
     PreloadResult out;
     const double load = load_norm();
@@ -46,19 +45,19 @@ class Preload {
       if (step > kMostSteps) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e})", step, out.residual, tolerance));
       if (stop && *stop) throw NumericalError("static preload: stopped");
       hold_gaps_shut(r);
-      out.cg_iterations += conjugate_gradients(r, load * std::max(0.3 * tolerance, std::min(kForcing * out.residual, kForcing)));
+      out.cg_iterations += conjugate_gradients(r, load * std::max(kLastStep * tolerance, kForcing * std::min(out.residual, 1.0)));
       advance(r);
     }
     out.u_rail = u_.rail;
     out.u_wheel = u_.wheel;
     out.axle_z = u_.axle;
+    for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
       tractions_.at(row.column, row.station) = {pressure_[k], 0, 0, 0, 0};
       out.contact_force_z += row.area * pressure_[k] * row.normal.z;
     }
     out.tractions = tractions_;
-    out.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return out;
   }
 
@@ -257,8 +256,11 @@ class Preload {
 
 }  // namespace
 
-PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress, const std::atomic<bool>* stop) {
-  return Preload(system).solve(tolerance, progress, stop);
+PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress, const std::atomic<bool>* stop, const ClusterSizes& clusters) {
+  const auto start = std::chrono::steady_clock::now();
+  PreloadResult result = Preload(system, clusters).solve(tolerance, progress, stop);
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
 }
 
 }  // namespace railstrata

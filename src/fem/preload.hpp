@@ -2,12 +2,15 @@
 // Equilibrium before the rolling: gravity, the centrifugal forces of the wheel's starting spin (they widen the rim by some 10 um, a tenth of the approach: a wheel set
 // spinning without them rings), frictionless contact.
 //
-// Unknown: the displacements of both bodies and the axle's height. Newton steps on the exact residual with the stiffness of the undeformed bodies, augmented
-// multipliers for the contact (p <- max(0, p - eps g)), each step solved by conjugate gradients that use the explicit solver's element kernel as the operator and the
-// point-block diagonal as the preconditioner. Nothing is assembled.
+// Unknown: the displacements of both bodies, the axle's height and the pressures. A primal-dual active set: a node is in contact where p - c g > 0 (c: stiffness of a
+// surface element); a step solves the equilibrium of the undeformed bodies' stiffness with the gaps of these nodes held shut by springs a thousand times stiffer than an
+// element, whose pressures are the next p, and opens and closes nodes by it until residual and penetration are met [HueberWohlmuth2005]. The linear systems are solved by
+// conjugate gradients with the explicit solver's element kernel as the operator and two levels of preconditioning (fem/static_preconditioner.hpp), never more
+// exactly than the next step can use. Nothing but the coarse level is assembled.
 #include <atomic>
 #include <functional>
 
+#include "fem/cluster_sizes.hpp"
 #include "fem/rolling_system.hpp"
 
 namespace railstrata {
@@ -19,7 +22,7 @@ struct PreloadResult {
   double residual = 0;                ///< |r| / |load vector|
   double penetration = 0;             ///< m, largest of the nodes in contact
   double contact_force_z = 0;         ///< N, on the wheel
-  int newton_steps = 0, cg_iterations = 0;
+  int newton_steps = 0, cg_iterations = 0;  ///< steps: evaluations of the exact residual
   double wall_seconds = 0;
 };
 
@@ -27,6 +30,7 @@ struct PreloadResult {
 using PreloadProgress = std::function<void(double, double, int)>;
 
 /// Throws NumericalError when it does not converge, or `stop` was set.
-PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {}, const std::atomic<bool>* stop = nullptr);
+PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {}, const std::atomic<bool>* stop = nullptr,
+                            const ClusterSizes& clusters = {});
 
 }  // namespace railstrata

@@ -1,0 +1,60 @@
+#pragma once
+// Two-level additive preconditioner of the static problem A = K + G^T W G (K: both elastic bodies and the axle, G: gaps of the rows in contact, W = penalty x area):
+//
+//   M^-1 = (D + G^T W G)^-1 + P (P^T A P)^-1 P^T
+//
+// D is the diagonal of K; the contact's stiffness enters the first term exactly, through the small sparse matrix W^-1 + G D^-1 G^T (Sherman, Morrison, Woodbury), so that
+// a stiff penalty costs no iterations. P holds the rigid-body modes of clusters of nodes (fem/aggregates.hpp) and the axle's height: the long waves and the nearly free
+// motion of the wheel on its contact, which a diagonal alone needs thousands of iterations for. P^T K P is found by applying K to the modes of many clusters that do
+// not touch at once.
+#include <Eigen/SparseCholesky>
+#include <functional>
+
+#include "fem/aggregates.hpp"
+#include "fem/static_vector.hpp"
+
+namespace railstrata {
+
+class StaticPreconditioner {
+ public:
+  /// stiffness(x, y): y = K x on the free degrees of freedom, without contact.
+  using Operator = std::function<void(StaticVector&, StaticVector&)>;
+  StaticPreconditioner(const RollingSystem& system, const ClusterSizes& sizes, const Operator& stiffness);
+
+  /// The rows in contact and their stiffness (Pa/m); factorises both levels.
+  void set_contact(const MortarRows& rows, const std::vector<char>& active, double penalty);
+  /// z = M^-1 r
+  void apply(const StaticVector& r, StaticVector& z) const;
+
+  int coarse_size() const { return size_; }
+  int probes() const { return probes_; }  ///< applications of K that the coarse matrix took
+
+ private:
+  using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>;
+  struct Entry {
+    bool wheel;
+    std::ptrdiff_t index;
+    double value;
+  };
+  struct GapRow {
+    std::vector<Entry> entry;
+    double stiffness;  // N/m
+  };
+  void invert_diagonal();
+  void probe(const Operator& stiffness);
+  void probe_axle(const Operator& stiffness);
+  void gather_gaps(const MortarRows& rows, const std::vector<char>& active, double penalty);
+  void factorise_gaps();
+  void factorise_coarse();
+  std::vector<Eigen::Triplet<double>> coarse_row(const GapRow& row, int number) const;
+
+  const RollingSystem& sys_;
+  Aggregates rail_, wheel_;
+  int size_ = 0, probes_ = 0;
+  StaticVector inverse_;
+  std::vector<GapRow> gaps_;
+  std::vector<Eigen::Triplet<double>> coarse_;
+  Cholesky gap_factor_, coarse_factor_;
+};
+
+}  // namespace railstrata
