@@ -10,8 +10,8 @@
 #include <new>
 
 #include "app/commands.hpp"
+#include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
-#include "io/nearest_word.hpp"
 #include "io/provenance.hpp"
 
 namespace railstrata {

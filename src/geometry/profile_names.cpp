@@ -1,15 +1,14 @@
 // From names to built-in profiles.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>
-#include <numeric>
-#include <optional>
 
 #include "core/faults.hpp"
+#include "core/nearest_word.hpp"
 #include "geometry/builtin_profiles.hpp"
 
 namespace railstrata {
@@ -26,21 +25,6 @@ const std::map<std::string, Maker>& makers(ProfileKind kind) {
 std::string upper(std::string text) {
   for (char& c : text) c = static_cast<char>(c >= 'a' && c <= 'z' ? c - 'a' + 'A' : c);
   return text;
-}
-
-std::size_t edit_distance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substituted = diagonal + (a[i - 1] != b[j - 1]);
-      diagonal = row[j];
-      row[j] = std::min({row[j] + 1, row[j - 1] + 1, substituted});
-    }
-  }
-  return row.back();
 }
 
 constexpr const char* kArcRemedy = "write for example arc:R=300 mm (convex) or arc:R=-450 mm (hollow)";
@@ -75,11 +59,9 @@ Profile builtin_profile(ProfileKind kind, const std::string& name) {
   if (found != makers(kind).end()) return found->second();
 
   const std::vector<std::string> names = builtin_profile_names(kind);
-  const auto nearest = std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
-    return edit_distance(upper(name), upper(a)) < edit_distance(upper(name), upper(b));
-  });
+  const std::string near = nearest_word(name, names);
   throw CaseError(fmt::format("there is no built-in {} profile '{}'", kind == ProfileKind::wheel ? "wheel" : "rail", name),
-                  fmt::format("did you mean '{}'? Known: {}, arc:R=300 mm; or give a file", *nearest, fmt::join(names, ", ")));
+                  fmt::format("{}Known: {}, arc:R=300 mm; or give a file", near.empty() ? "" : fmt::format("did you mean '{}'? ", near), fmt::join(names, ", ")));
 }
 
 Profile circular_profile(ProfileKind kind, double radius, double half_width) {

@@ -8,11 +8,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "core/nearest_word.hpp"
 #include "geometry/profile.hpp"
 #include "io/case_rules.hpp"
 #include "io/case_source.hpp"
 #include "io/case_tree.hpp"
-#include "io/nearest_word.hpp"
 #include "io/option_table.hpp"
 
 namespace railstrata {

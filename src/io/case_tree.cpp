@@ -8,7 +8,7 @@
 #include <sstream>
 #include <toml++/toml.h>
 
-#include "io/nearest_word.hpp"
+#include "core/nearest_word.hpp"
 #include "io/option_table.hpp"
 
 namespace railstrata {

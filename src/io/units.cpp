@@ -12,7 +12,7 @@
 #include <optional>
 #include <vector>
 
-#include "io/nearest_word.hpp"
+#include "core/nearest_word.hpp"
 
 namespace railstrata {
 namespace {
