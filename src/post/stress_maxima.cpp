@@ -100,31 +100,83 @@ BandStress band_stress(const SweptBody& body, BandSample sample, double contact_
   return b;
 }
 
-std::vector<Sym3> rail_surface_stress(const RollingSystem& sys, const MeanContact& m) {
-  const ContactField& f = m.field;
-  const ContactSurface& surface = sys.rail_surface;
-  std::vector<Sym3> out(static_cast<std::size_t>(f.size()));
-  const int nodes_per_station = (m.rail.rows + 1) * (m.rail.columns + 1);
-  const auto& quad_material = sys.model.rail.blocks[sys.model.rail.contact.block].section.quad_material;
-  for (int j = 1; j + 1 < f.stations; ++j)
-    for (int c = 1; c + 1 < f.columns; ++c) {
-      const int i = j * f.columns + c;
-      auto u = [&](int column, int station) { return m.rail.displacement[static_cast<std::size_t>(station) * nodes_per_station + column]; };
-      const Vec3 n{0, surface.outward[c].y, surface.outward[c].z};
-      const TangentFrame t = tangent_frame(n);
-      const double dx = m.rail.along[j + 1] - m.rail.along[j - 1], dy = surface.width[c - 1] + surface.width[c];
-      const Vec3 du1 = (1 / dx) * (u(c, j + 1) - u(c, j - 1)), du2 = (1 / dy) * (u(c + 1, j) - u(c - 1, j));
-      const double e11 = dot(du1, t.t1), e22 = dot(du2, t.t2), g12 = dot(du1, t.t2) + dot(du2, t.t1);
-      const Elastic& mat = sys.model.rail_materials[quad_material[std::min(c, m.rail.columns - 1)]];
-      const double e = young(mat), nu = poisson(mat), snn = -f.p[i];
-      const double s11 = e / (1 - nu * nu) * (e11 + nu * e22) + nu / (1 - nu) * snn, s22 = e / (1 - nu * nu) * (e22 + nu * e11) + nu / (1 - nu) * snn, s12 = mat.mu * g12;
-      const double s1n = f.q_x[i], s2n = f.q_y[i];
-      // t1 = x; rotate (t2, n) into (y, z)
-      const double cy = t.t2.y, sy = t.t2.z;  // t2 = (0, cy, sy), n = (0, -sy, cy)
-      out[i] = {s11, cy * cy * s22 - 2 * cy * sy * s2n + sy * sy * snn, sy * sy * s22 + 2 * cy * sy * s2n + cy * cy * snn, cy * s12 - sy * s1n, cy * sy * (s22 - snn) + (cy * cy - sy * sy) * s2n,
-                sy * s12 + cy * s1n};
+Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12, Vec3 traction) {
+  const double e = young(material), nu = poisson(material), snn = dot(traction, n);
+  const double s11 = e / (1 - nu * nu) * (e11 + nu * e22) + nu / (1 - nu) * snn, s22 = e / (1 - nu * nu) * (e22 + nu * e11) + nu / (1 - nu) * snn;
+  auto dyad = [](Vec3 a, Vec3 b) {  // (ab + ba)/2
+    return Sym3{a.x * b.x, a.y * b.y, a.z * b.z, 0.5 * (a.x * b.y + a.y * b.x), 0.5 * (a.y * b.z + a.z * b.y), 0.5 * (a.x * b.z + a.z * b.x)};
+  };
+  return s11 * dyad(t1, t1) + s22 * dyad(t2, t2) + snn * dyad(n, n) + (2 * material.mu * g12) * dyad(t1, t2) + (2 * dot(traction, t1)) * dyad(t1, n) + (2 * dot(traction, t2)) * dyad(t2, n);
+}
+
+namespace {
+
+// Recovery at the inner surface nodes of a sample; `traction(column, station)` acts on this body.
+template <class Traction>
+std::vector<Sym3> recover_surface(const ContactSurface& surface, const BandSample& sample, const SweptBody& body, const std::vector<Elastic>& materials, double radius, Traction&& traction) {
+  const int columns = sample.columns + 1, stations = sample.stations + 1, nodes_per_station = columns * (sample.rows + 1);
+  const auto& quad_material = body.blocks[body.contact.block].section.quad_material;
+  std::vector<Sym3> out(static_cast<std::size_t>(columns) * stations);
+  auto u = [&](int c, int j) { return sample.displacement[static_cast<std::size_t>(j) * nodes_per_station + c]; };
+  for (int j = 1; j + 1 < stations; ++j)
+    for (int c = 1; c + 1 < columns; ++c) {
+      const double angle = radius > 0 ? sample.along[j] / radius : 0;  // of the section plane against the vertical below the axle
+      const Vec3 t1{std::cos(angle), 0, std::sin(angle)};
+      const Vec3 n{-surface.outward[c].z * std::sin(angle), surface.outward[c].y, surface.outward[c].z * std::cos(angle)};
+      const Vec3 t2 = cross(n, t1);
+      const double along = sample.along[j + 1] - sample.along[j - 1], across = (t2.y > 0 ? 1 : -1) * (surface.width[c - 1] + surface.width[c]);
+      const Vec3 d1 = (1 / along) * (u(c, j + 1) - u(c, j - 1)), d2 = (1 / across) * (u(c + 1, j) - u(c - 1, j));
+      out[static_cast<std::size_t>(j) * columns + c] =
+          surface_stress(materials[quad_material[c]], n, t1, t2, dot(d1, t1), dot(d2, t2), dot(d1, t2) + dot(d2, t1), traction(c, j));
     }
   return out;
+}
+
+// Traction on the rail at a point of the field's plane, bilinear; zero outside.
+Vec3 traction_at(const ContactField& f, const ContactSurface& rail, double x, double y) {
+  auto column = [&](int c) { return f.y[c]; };
+  auto station = [&](int s) { return f.x[static_cast<std::size_t>(s) * f.columns]; };
+  int c = 0, s = 0;
+  while (c + 2 < f.columns && column(c + 1) <= y) ++c;
+  while (s + 2 < f.stations && station(s + 1) <= x) ++s;
+  const double a = (y - column(c)) / (column(c + 1) - column(c)), b = (x - station(s)) / (station(s + 1) - station(s));
+  if (a < 0 || a > 1 || b < 0 || b > 1) return {};
+  Vec3 t{};
+  for (int k = 0; k < 4; ++k) {
+    const int i = (s + k / 2) * f.columns + c + k % 2;
+    const Vec3 n{0, rail.outward[c + k % 2].y, rail.outward[c + k % 2].z};
+    t += ((k % 2 ? a : 1 - a) * (k / 2 ? b : 1 - b)) * traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, n);
+  }
+  return t;
+}
+
+StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sample, const ContactSurface& surface, double contact_y) {
+  StressPair best;
+  const int columns = sample.columns + 1;
+  for (int j = 1; j < sample.stations; ++j)
+    for (int c = 1; c + 1 < columns; ++c) {
+      const Sym3& s = stress[static_cast<std::size_t>(j) * columns + c];
+      const double y = surface.origin.y + surface.node[c].y - contact_y;
+      offer(best.von_mises, von_mises(s), sample.along[j], y, 0);
+      offer(best.sigma1, largest_principal(s), sample.along[j], y, 0);
+    }
+  return best;
+}
+
+}  // namespace
+
+std::vector<Sym3> rail_surface_stress(const RollingSystem& sys, const MeanContact& m) {
+  const ContactField& f = m.field;
+  return recover_surface(sys.rail_surface, m.rail, sys.model.rail, sys.model.rail_materials, 0, [&](int c, int j) {
+    const int i = j * f.columns + c;
+    return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, {0, sys.rail_surface.outward[c].y, sys.rail_surface.outward[c].z});
+  });
+}
+
+std::vector<Sym3> wheel_surface_stress(const RollingSystem& sys, const MeanContact& m) {
+  return recover_surface(sys.wheel_surface, m.wheel, sys.model.wheel, sys.model.wheel_materials, sys.rolling_radius, [&](int c, int j) {
+    return -traction_at(m.field, sys.rail_surface, m.wheel.along[j], sys.wheel_surface.origin.y + sys.wheel_surface.node[c].y);
+  });
 }
 
 StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m) {
@@ -132,16 +184,7 @@ StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m
   const double contact_y = sys.model.placement.contact.point.y - sys.model.rail.origin.y;
   const BandStress b = band_stress(sys.model.rail, m.rail, contact_y);
   below_surface(b, sys.model.spec.mesh.element_size, sys.model.rail_materials.size() > 1, out);
-  const std::vector<Sym3> surface = rail_surface_stress(sys, m);
-  StressPair best;
-  for (int j = 1; j + 1 < m.field.stations; ++j)
-    for (int c = 1; c + 1 < m.field.columns; ++c) {
-      const int i = j * m.field.columns + c;
-      const double y = m.field.y[i] - sys.model.placement.contact.point.y;
-      offer(best.von_mises, von_mises(surface[i]), m.field.x[i], y, 0);
-      offer(best.sigma1, largest_principal(surface[i]), m.field.x[i], y, 0);
-    }
-  out.surface = best;
+  out.surface = surface_maxima(rail_surface_stress(sys, m), m.rail, sys.rail_surface, sys.model.placement.contact.point.y);
   return out;
 }
 
@@ -149,6 +192,7 @@ StressSummary wheel_stress_summary(const RollingSystem& sys, const MeanContact& 
   StressSummary out;
   const double contact_y = sys.model.placement.contact.point.y - sys.model.wheel.origin.y;
   below_surface(band_stress(sys.model.wheel, m.wheel, contact_y), sys.model.spec.mesh.element_size, sys.model.wheel_materials.size() > 1, out);
+  out.surface = surface_maxima(wheel_surface_stress(sys, m), m.wheel, sys.wheel_surface, sys.model.placement.contact.point.y);
   return out;
 }
 

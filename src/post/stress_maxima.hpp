@@ -24,10 +24,15 @@ struct BandStress {
 };
 BandStress band_stress(const SweptBody& body, BandSample sample, double contact_y);
 
-/// Stress tensors at the rail's surface nodes (interior ones; zero on the border), index as in ContactField. Components in the model frame.
+/// Recovered stress tensors at the surface nodes of a body (zero on the border of the sample), index station * (columns + 1) + column, model frame.
 std::vector<Sym3> rail_surface_stress(const RollingSystem& system, const MeanContact& mean);
+std::vector<Sym3> wheel_surface_stress(const RollingSystem& system, const MeanContact& mean);
 
-/// subsurface: deeper than one element edge (mesh.element_size). surface is given for the rail only.
+/// Stress at a free or loaded surface from the traction t = sigma n and the strains in the surface's own plane; n outward, t1, t2 tangents, orthonormal:
+/// s_11 = E/(1-nu²) (e11 + nu e22) + nu/(1-nu) t.n, s_22 alike, s_12 = mu g12, s_1n = t.t1, s_2n = t.t2, s_nn = t.n.
+Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12, Vec3 traction);
+
+/// subsurface: deeper than one element edge (mesh.element_size).
 StressSummary rail_stress_summary(const RollingSystem& system, const MeanContact& mean);
 StressSummary wheel_stress_summary(const RollingSystem& system, const MeanContact& mean);
 

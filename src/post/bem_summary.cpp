@@ -1,0 +1,120 @@
+#include "post/bem_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "post/patch.hpp"
+
+namespace railstrata {
+namespace {
+
+StressMaximum maximum(const StressPeak& p) { return {p.value, p.x, p.y, p.depth}; }
+StressPair pair(const ZonePeaks& z) { return {maximum(z.von_mises), maximum(z.sigma1)}; }
+
+std::optional<StressPair> largest(const std::vector<const std::vector<ZonePeaks>*>& groups) {
+  std::optional<StressPair> best;
+  for (const auto* group : groups)
+    for (const ZonePeaks& z : *group) {
+      const StressPair p = pair(z);
+      if (!best) best = p;
+      if (p.von_mises.value > best->von_mises.value) best->von_mises = p.von_mises;
+      if (p.sigma1.value > best->sigma1.value) best->sigma1 = p.sigma1;
+    }
+  return best;
+}
+
+StressSummary stress_summary(const SubsurfacePeaks& p) {
+  StressSummary s;
+  s.surface = pair(p.surface);
+  s.subsurface = pair(p.subsurface);
+  if (p.layers.empty()) return s;
+  s.layer = largest({&p.layers});
+  s.interface = largest({&p.above_interface, &p.below_interface});
+  s.matrix = pair(p.matrix);
+  return s;
+}
+
+bool reaches_edge(const ContactField& f) {
+  for (int s = 0; s < f.stations; ++s)
+    for (int c = 0; c < f.columns; ++c)
+      if ((s == 0 || c == 0 || s + 1 == f.stations || c + 1 == f.columns) && f.p[static_cast<std::size_t>(c + f.columns * s)] > 0) return true;
+  return false;
+}
+
+std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchMeasures& m) {
+  const auto at_most = [](std::string name, double value, double limit) { return Check{std::move(name), value <= limit, value, limit}; };
+  const double load = static_load(spec);
+  std::vector<Check> out{at_most("load_reached", std::abs(m.force_z * std::cos(r.contact.angle) / load - 1), 1e-3)};
+  if (spec.drive.friction_coefficient > 0 && spec.drive.traction_coefficient != 0)
+    out.push_back(at_most("traction_coefficient_reached", std::abs(m.force_x / load / spec.drive.traction_coefficient - 1), 1e-3));
+  out.push_back(at_most("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0, 0));
+  return out;
+}
+
+/// From the rail's own axes (y along the common tangent, z down) to the model frame.
+Sym3 in_model_frame(const Sym3& s, double angle) {
+  const double c = std::cos(angle), n = std::sin(angle), yz = -s.yz, xz = -s.xz;
+  return {s.xx, c * c * s.yy - 2 * c * n * yz + n * n * s.zz, n * n * s.yy + 2 * c * n * yz + c * c * s.zz, c * s.xy - n * xz, c * n * (s.yy - s.zz) + (c * c - n * n) * yz, n * s.xy + c * xz};
+}
+
+int cell(double at, double first, double size, int count) { return std::clamp(static_cast<int>(std::lround((at - first) / size)), 0, count - 1); }
+
+}  // namespace
+
+double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact) {
+  double depth = std::max(contact.patch_length, contact.patch_width);
+  for (const HalfSpaceLayer& layer : body.layers) depth += layer.thickness;
+  return depth;
+}
+
+Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
+  Summary s;
+  s.title = spec.title;
+  const PatchMeasures m = measure_patch(r.field);
+  const bool friction = spec.drive.friction_coefficient > 0;
+  ContactSummary& c = s.contact;
+  c.p_max = m.p_max, c.q_max = m.q_max;
+  c.patch_length = m.length, c.patch_width = m.width, c.patch_area = m.area;
+  c.F_x = -r.F_x, c.F_y = -r.F_y, c.F_z = -r.F_z;
+  c.approach = r.approach;
+  if (friction) {
+    c.slip_area_fraction = m.slip_area_fraction;
+    c.creepage_x = r.creepage_x, c.creepage_y = r.creepage_y, c.spin_per_m = r.spin;
+  }
+  s.run.engine = "bem";
+  s.run.wall_s = r.wall_s;
+  s.run.elements = static_cast<long>(r.grid.size());
+  s.checks = checks(spec, r, m);
+  return s;
+}
+
+Summary bem_summary(const CaseSpec& spec, const BemResult& r) {
+  Summary s = bem_contact_summary(spec, r);
+  s.rail = stress_summary(rail_interior(r).peaks(depth_of_interest(r.rail, s.contact)));
+  s.wheel = stress_summary(wheel_interior(r).peaks(depth_of_interest(r.wheel, s.contact)));
+  return s;
+}
+
+DepthLine rail_depth_line(const BemResult& r, double x, double y, double deepest) {
+  const Subsurface interior = rail_interior(r);
+  const PatchGrid& g = r.grid;
+  const int i = cell(x, g.x0, g.dx, g.nx), j = cell(y, g.y0, g.dy, g.ny);
+  DepthLine line;
+  line.x = g.x(i), line.y = g.y(j);
+  const auto add = [&](const StatePlane& plane, bool below, int material) {
+    line.depth.push_back(plane.depth);
+    line.stress.push_back(in_model_frame(interior.stress(plane, g.index(i, j), below), r.contact.angle));
+    line.material.push_back(material);
+  };
+  const int layers = static_cast<int>(r.rail.layers.size());
+  double top = 0;
+  for (int zone = 0; zone <= layers; ++zone) {
+    const double bottom = zone < layers ? top + r.rail.layers[static_cast<std::size_t>(zone)].thickness : std::max(deepest, top + 4 * g.dx);
+    const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / g.dx)), 2, 60), material = zone < layers ? zone + 1 : 0;
+    for (int k = 0; k <= pieces; ++k) add(interior.plane(k == pieces ? bottom : top + (bottom - top) * k / pieces), k == 0, material);
+    top = bottom;
+  }
+  return line;
+}
+
+}  // namespace railstrata

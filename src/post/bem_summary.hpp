@@ -1,0 +1,25 @@
+#pragma once
+// A half-space result as a Summary, with its checks: the same keys with the same meanings as a finite element result.
+#include "bem/solve_bem.hpp"
+#include "post/stress_maxima.hpp"
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+/// How far below the surface stresses are looked for, m: under all layers by the longer side of the patch (the largest von Mises stress of any Hertzian ellipse lies
+/// above 0.4 of it).
+double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact);
+
+/// Contact, stresses of both bodies and checks; commit, threads and peak memory are the program's to add. run.elements counts the cells of the grid.
+/// Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface` starts half a cell below the surface; `interface` takes either side.
+/// NaN: position, penetration and scatter; without friction also slip area and creepages.
+/// Checks (limits): the pressure's resultant against G/cos(contact angle) (0.1 %), F_x/G against the wanted traction coefficient (0.1 %), the patch inside the grid.
+Summary bem_summary(const CaseSpec& spec, const BemResult& result);
+
+/// Contact and checks alone, without the stresses, which cost more than the contact itself.
+Summary bem_contact_summary(const CaseSpec& spec, const BemResult& result);
+
+/// The rail's stress below the cell nearest to (x, y), model axes, from the surface to `deepest`; at an interface a row for either side.
+DepthLine rail_depth_line(const BemResult& result, double x, double y, double deepest);
+
+}  // namespace railstrata
