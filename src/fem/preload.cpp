@@ -24,8 +24,7 @@ class Preload {
       : sys_(system), contact_(system.rail_surface, system.wheel_surface), tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()),
         preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero()) {
-    const auto& depth = sys_.model.rail.contact.depth;
-    element_stiffness_ = young(sys_.model.rail_materials.back()) / (depth[1] - depth[0]);
+    element_stiffness_ = young(sys_.model.rail_materials.front()) / sys_.model.spec.mesh.element_size;
     penalty_ = kPenaltyScale * element_stiffness_;
   }
 
