@@ -12,10 +12,11 @@ LoadedCase load_case_of(const CommandOptions& options) {
   return loaded;
 }
 
-std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded) {
+std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix) {
   if (!options.out.empty()) return options.out;
   const std::filesystem::path file = std::filesystem::absolute(loaded.file).lexically_normal();
-  return std::filesystem::path("results") / (file.stem() == "case" ? file.parent_path().filename() : file.stem());
+  const std::filesystem::path name = file.stem() == "case" ? file.parent_path().filename() : file.stem();
+  return std::filesystem::path("results") / (name.string() + suffix);
 }
 
 }  // namespace railstrata

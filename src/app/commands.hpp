@@ -17,6 +17,12 @@ struct CommandOptions {
   bool force = false;                     ///< --force: write into a folder that is not empty
   bool json = false;                      ///< --json: results on standard output as JSON
   bool markdown = false, schema = false;  ///< of `schema`
+  std::string cell;                       ///< --cell of the half-space commands: a length; empty: the engine's default
+  std::filesystem::path reference;        ///< second folder of `compare`
+  std::vector<std::string> vary;          ///< --vary of `sweep`
+  bool stresses = false;                  ///< --stresses of `sweep`
+  double largest_creepage = 0.02;         ///< --largest of `creep-curve`
+  int points = 21;                        ///< --points of `creep-curve`
   int threads = 1;
   std::vector<std::string> command_line;
 };
@@ -24,13 +30,17 @@ struct CommandOptions {
 ExitCode command_check(const CommandOptions& options);
 ExitCode command_mesh(const CommandOptions& options);
 ExitCode command_run(const CommandOptions& options);
+ExitCode command_bem(const CommandOptions& options);
+ExitCode command_compare(const CommandOptions& options);
+ExitCode command_creep_curve(const CommandOptions& options);
+ExitCode command_sweep(const CommandOptions& options);
 ExitCode command_schema(const CommandOptions& options);
 ExitCode command_info(const CommandOptions& options);
 
 /// The case with the overrides applied; its notes are logged.
 LoadedCase load_case_of(const CommandOptions& options);
 
-/// --out, or results/<case name>.
-std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded);
+/// --out, or results/<case name><suffix>.
+std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix = {});
 
 }  // namespace railstrata

@@ -28,4 +28,11 @@ void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
   write_whole_file(folder / "provenance.json", provenance_json(command_line, loaded.overrides, loaded.inputs, threads));
 }
 
+std::vector<std::string> table_origin(const LoadedCase& loaded) {
+  return {fmt::format("RailStrata {}", version_text()), fmt::format("case: {} ({})", loaded.file.filename().string(), loaded.spec.title),
+          "x from the axle in the rolling direction, y towards the field side; tractions act on the rail"};
+}
+
+std::string commit_text() { return build_info().commit + (build_info().dirty ? "+dirty" : ""); }
+
 }  // namespace railstrata

@@ -1,6 +1,8 @@
 #pragma once
 // The folder of a run's results.
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "io/case_file.hpp"
 
@@ -11,5 +13,11 @@ void prepare_output_folder(const std::filesystem::path& folder, bool force);
 
 /// case.toml with every option written out, case.original.toml as it was given, provenance.json. Each file is whole or not there.
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded, const std::vector<std::string>& command_line, int threads);
+
+/// The "#" lines of a case's tables: program, case, axes and signs.
+std::vector<std::string> table_origin(const LoadedCase& loaded);
+
+/// The commit a summary names, "+dirty" if the sources had changes.
+std::string commit_text();
 
 }  // namespace railstrata

@@ -19,33 +19,91 @@ namespace {
 
 using Command = ExitCode (*)(const CommandOptions&);
 
+void add_case(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("case", options.case_file, "Case file, or a folder with case.toml")->required();
+  sub.add_option("--set", options.overrides, "Override a key: --set mesh.element_size=\"2 mm\" (repeatable)")->allow_extra_args(false);
+}
+
+void add_output(CLI::App& sub, CommandOptions& options, const char* preset) {
+  sub.add_option("-o,--out", options.out, fmt::format("Folder for the results (default: {})", preset));
+  sub.add_flag("--force", options.force, "Write into a folder that is not empty; files of the same name are replaced");
+}
+
+void add_case_and_output(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>");
+}
+
+void add_cell(CLI::App& sub, CommandOptions& options) { sub.add_option("--cell", options.cell, "Cells of the potential contact area (default: \"0.25 mm\")"); }
+
+void add_bem(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-bem");
+  add_cell(sub, options);
+}
+
+void add_creep_curve(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-creep-curve");
+  add_cell(sub, options);
+  sub.add_option("--largest", options.largest_creepage, "Largest creepage (default: 0.02)")->check(CLI::Range(1e-6, 0.5));
+  sub.add_option("--points", options.points, "Creepages, spaced geometrically over two and a half decades (default: 21)")->check(CLI::Range(2, 1000));
+}
+
+void add_sweep(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-sweep");
+  add_cell(sub, options);
+  sub.add_option("--vary", options.vary, "A key and its values: --vary layer.0.young_ratio=0.5,1,2 (repeatable: every combination is solved)")->allow_extra_args(false)->required();
+  sub.add_flag("--stresses", options.stresses, "Largest stresses in the rail too (takes longer than the contact)");
+}
+
+void add_compare(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("a", options.case_file, "Result folder A")->required();
+  sub.add_option("b", options.reference, "Result folder B: differences are relative to it")->required();
+  add_output(sub, options, "results/compare");
+}
+
+void add_schema(CLI::App& sub, CommandOptions& options) {
+  auto* json = sub.add_flag("--json-schema", options.schema, "JSON schema (default)");
+  sub.add_flag("--markdown", options.markdown, "Reference page in Markdown")->excludes(json);
+}
+
+void add_nothing(CLI::App&, CommandOptions&) {}
+
 struct Entry {
   const char *name, *what, *examples;
+  void (*add_options)(CLI::App&, CommandOptions&);
   Command run;
 };
 constexpr Entry kEntries[] = {
     {"check", "Read a case and tell what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
-     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 mm\"\n  railstrata check cases/paper/base.toml --json\n", command_check},
-    {"mesh", "Make the meshes and write them as VTU with a table of their quality", "Examples:\n  railstrata mesh cases/quick --out /tmp/mesh\n", command_mesh},
+     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 mm\"\n  railstrata check cases/paper/base.toml --json\n", add_case, command_check},
+    {"mesh", "Make the meshes and write them as VTU with a table of their quality", "Examples:\n  railstrata mesh cases/quick --out /tmp/mesh\n", add_case_and_output, command_mesh},
     {"run", "Run a case: static preload, rolling, results",
-     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n  railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n", command_run},
+     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n  railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n",
+     add_case_and_output, command_run},
+    {"bem", "Solve a case by half-space theory, in about a second: the files and numbers of `run`, no meshes",
+     "Examples:\n  railstrata bem cases/paper/base.toml\n  railstrata bem cases/quick --cell \"0.5 mm\" --out results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n",
+     add_bem, command_bem},
+    {"compare", "Two results, of either engine, on one grid: a table, the differences of the fields, a picture",
+     "Examples:\n  railstrata compare results/quick results/quick-bem\n  railstrata compare results/thin results/thick --out results/thin-against-thick\n", add_compare, command_compare},
+    {"creep-curve", "Force against creepage by the full half-space theory and by the fast ones",
+     "Examples:\n  railstrata creep-curve cases/paper/base.toml\n  railstrata creep-curve cases/quick --largest 0.01 --points 11 --cell \"0.5 mm\" --out results/creep\n", add_creep_curve,
+     command_creep_curve},
+    {"sweep", "Half-space solutions over every combination of values, one table out",
+     "Examples:\n  railstrata sweep cases/paper/layer_3mm_2E0.toml --vary layer.0.thickness=\"1 mm,2 mm,3 mm\" --vary layer.0.young_ratio=0.5,1,2\n"
+     "  railstrata sweep cases/paper/base.toml --vary drive.traction_coefficient=0.1,0.2,0.3 --stresses --out results/traction\n",
+     add_sweep, command_sweep},
     {"schema", "Print the JSON schema of case files for editors, or their reference page", "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n",
-     command_schema},
-    {"info", "Built-in profiles, compiler, instruction set, libraries, threads", "Examples:\n  railstrata info\n  railstrata info --json\n", command_info},
+     add_schema, command_schema},
+    {"info", "Built-in profiles, compiler, instruction set, libraries, threads", "Examples:\n  railstrata info\n  railstrata info --json\n", add_nothing, command_info},
 };
 
 std::vector<std::string> command_names() {
   std::vector<std::string> names;
   for (const Entry& e : kEntries) names.emplace_back(e.name);
   return names;
-}
-
-void add_case_options(CLI::App& sub, CommandOptions& options, bool writes) {
-  sub.add_option("case", options.case_file, "Case file, or a folder with case.toml")->required();
-  sub.add_option("--set", options.overrides, "Override a key: --set mesh.element_size=\"2 mm\" (repeatable)")->allow_extra_args(false);
-  if (!writes) return;
-  sub.add_option("-o,--out", options.out, "Folder for the results (default: results/<case name>)");
-  sub.add_flag("--force", options.force, "Write into a folder that is not empty; files of the same name are replaced");
 }
 
 /// CLI11 calls an unknown command "extra arguments"; this finds the word that was meant.
@@ -88,7 +146,7 @@ int tell(const CaseError& e, bool json) {
 
 int parse_and_run(const std::vector<std::string>& words, CommandOptions& options) {
   CLI::App app{"RailStrata: rolling contact of a wheel on a layered rail", "railstrata"};
-  app.footer("Examples:\n  railstrata check cases/quick\n  railstrata run cases/quick --threads 2\n  railstrata run --help\n\nExit codes: 0 done, 1 a check of the result failed, 2 the input is wrong, "
+  app.footer("Examples:\n  railstrata check cases/quick\n  railstrata run cases/quick --threads 2\n  railstrata bem cases/quick\n  railstrata run --help\n\nExit codes: 0 done, 1 a check of the result failed, 2 the input is wrong, "
              "3 the numbers went wrong, 4 the machine could not, 70 a fault of the program, 130 interrupted\n");
   app.set_version_flag("--version", "railstrata " + version_text());
   app.require_subcommand(1);
@@ -104,12 +162,7 @@ int parse_and_run(const std::vector<std::string>& words, CommandOptions& options
   for (const Entry& e : kEntries) {
     CLI::App* sub = app.add_subcommand(e.name, e.what);
     sub->footer(e.examples);
-    if (e.run == command_schema) {
-      auto* json = sub->add_flag("--json-schema", options.schema, "JSON schema (default)");
-      sub->add_flag("--markdown", options.markdown, "Reference page in Markdown")->excludes(json);
-    } else if (e.run != command_info) {
-      add_case_options(*sub, options, e.run != command_check);
-    }
+    e.add_options(*sub, options);
     commands.emplace_back(sub, e.run);
   }
   check_command_word(words);

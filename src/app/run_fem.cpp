@@ -1,8 +1,8 @@
 #include "app/run_fem.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
+#include "app/peak_memory.hpp"
 #include "fem/rolling_run.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
@@ -12,12 +12,6 @@ namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
-
-double peak_memory() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
 
 // patch.pvd and its frames.
 class PatchSeries {

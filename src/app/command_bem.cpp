@@ -1,0 +1,38 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "app/commands.hpp"
+#include "app/output_folder.hpp"
+#include "app/peak_memory.hpp"
+#include "app/run_bem.hpp"
+#include "app/summary_text.hpp"
+#include "io/summary_json.hpp"
+#include "post/bem_summary.hpp"
+
+namespace railstrata {
+
+ExitCode command_bem(const CommandOptions& options) {
+  const LoadedCase loaded = load_case_of(options);
+  const std::filesystem::path out = output_folder_of(options, loaded, "-bem");
+  const CaseSpec spec = half_space_case(loaded.spec);
+  BemOptions bem;
+  bem.cell = cell_size(options.cell);
+  const BemResult result = solve_bem(spec, place(spec, loaded.folder()), bem);
+  for (const std::string& note : result.notes) spdlog::info("{}", note);
+  Summary summary = bem_summary(spec, result);
+  summary.run.commit = commit_text();
+  summary.run.threads = options.threads;
+  summary.run.peak_memory_bytes = peak_memory();
+
+  prepare_output_folder(out, options.force);
+  write_origin(out, loaded, options.command_line, options.threads);
+  write_bem_result(out, table_origin(loaded), result, summary);
+  if (options.json) fmt::print("{}\n", summary_json(summary).dump(2));
+  else fmt::print("{}", summary_text(summary));
+  spdlog::info("results are in {}", out.string());
+  const bool ok = all_checks_hold(summary);
+  if (!ok) spdlog::warn("a check failed: read the results with care");
+  return ok ? ExitCode::ok : ExitCode::failed_checks;
+}
+
+}  // namespace railstrata

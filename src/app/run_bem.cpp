@@ -1,0 +1,46 @@
+#include "app/run_bem.hpp"
+
+#include <fmt/format.h>
+
+#include "core/faults.hpp"
+#include "io/result_files.hpp"
+#include "io/summary_json.hpp"
+#include "io/units.hpp"
+#include "post/bem_summary.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kSmallestCell = 0.02e-3, kLargestCell = 5e-3;
+
+double length_of(const std::string& text) {
+  try {
+    return parse_quantity(text, dimension::kLength);
+  } catch (const UnitError& e) {
+    throw CaseError(fmt::format("--cell \"{}\": {}", text, e.what()), e.remedy);
+  }
+}
+
+}  // namespace
+
+CaseSpec half_space_case(CaseSpec spec) {
+  if (!spec.run.rolling) spec.drive.traction_coefficient = spec.drive.friction_coefficient = 0;
+  return spec;
+}
+
+double cell_size(const std::string& text) {
+  if (text.empty()) return BemOptions{}.cell;
+  const double cell = length_of(text);
+  if (!(cell >= kSmallestCell && cell <= kLargestCell)) throw CaseError(fmt::format("--cell \"{}\" is out of range", text), "write a length from 0.02 mm to 5 mm");
+  return cell;
+}
+
+void write_bem_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance, const BemResult& result, const Summary& summary) {
+  write_patch_tables(folder, provenance, result.field);
+  const StressMaximum& deepest = summary.rail.subsurface->von_mises;
+  write_depth_line(folder / "depth_line.csv", provenance, rail_depth_line(result, deepest.x, deepest.y, depth_of_interest(result.rail, summary.contact)));
+  write_vtp(folder / "patch.vtp", patch_mesh(result.field, 0));
+  write_summary(folder / "summary.json", summary);
+}
+
+}  // namespace railstrata

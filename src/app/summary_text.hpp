@@ -1,0 +1,15 @@
+#pragma once
+// What a person reads of a result, the same for both engines.
+#include <string>
+
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+/// The summary as lines of text in mm, MPa and kN; numbers that do not apply are left out.
+std::string summary_text(const Summary& summary);
+
+/// Every check of the result holds.
+bool all_checks_hold(const Summary& summary);
+
+}  // namespace railstrata
