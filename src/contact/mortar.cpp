@@ -47,7 +47,7 @@ int MortarContact::wheel_station(double theta, double& weight) const {
   const auto& at = wheel_.stations.at;
   if (!std::isfinite(theta)) return weight = 0, 0;  // the driver's check of the numbers will tell
   theta -= kPeriod * std::floor((theta - at.front()) / kPeriod);
-  const int j = static_cast<int>(std::upper_bound(at.begin(), at.end(), theta) - at.begin()) - 1;
+  const int j = std::max(static_cast<int>(std::upper_bound(at.begin(), at.end(), theta) - at.begin()) - 1, 0);  // round-off may leave theta below the first station
   const double next = j + 1 < static_cast<int>(at.size()) ? at[j + 1] : at.front() + kPeriod;
   weight = (theta - at[j]) / (next - at[j]);
   return j;

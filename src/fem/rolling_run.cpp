@@ -15,7 +15,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr int kFiniteCheckInterval = 500;  // steps
 constexpr double kLostContact = 0.02;      // of the static load
 
 // Half length of a sample: the patch and the stress field around it.
@@ -82,12 +81,24 @@ HistoryRow history_row(const Stepper& st, const EnergyBalance& now, const Energy
   return {s.time, st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(), s.axle.vx, s.axle.vz, s.axle.spin, now, now.total() - start.total()};
 }
 
-void require_sound(const Stepper& st) {
-  if (!std::isfinite(st.forces().z) || !std::isfinite(st.position()) || !std::isfinite(st.creepage())) {
-    const std::string where = st.check_finite();
-    throw NumericalError(fmt::format("the run became unstable at t = {:.4g} ms, x = {:.4g} mm: numbers are no longer finite ({}); dt = {:.3g} us\n    try a smaller run.step_safety", 1e3 * st.state().time,
-                                     1e3 * st.position(), where.empty() ? "contact forces" : where, 1e6 * st.dt()));
-  }
+// Nothing of a sound run moves by an element in one step; false for NaN too.
+bool axle_keeps_pace(const Stepper& st, double element_size) {
+  const AxleMotion& a = st.state().axle;
+  const double travel = st.dt() * std::max(std::abs(a.vx), std::abs(a.vz));
+  return std::isfinite(a.x) && std::isfinite(a.spin) && travel < element_size;
+}
+
+void require_sound(const Stepper& st, double element_size) {
+  if (std::isfinite(st.forces().z) && std::isfinite(st.creepage()) && axle_keeps_pace(st, element_size)) return;
+  const std::string where = st.check_finite();
+  throw NumericalError(fmt::format("the run became unstable at t = {:.4g} ms, x = {:.4g} mm: numbers are no longer finite or beyond all bounds ({}); dt = {:.3g} us\n    try a smaller run.step_safety",
+                                   1e3 * st.state().time, 1e3 * st.position(), where.empty() ? "forces on the axle" : where, 1e6 * st.dt()));
+}
+
+void require_forward(const Stepper& st) {
+  if (st.state().axle.vx <= 0)
+    throw NumericalError(fmt::format("the wheel came to a stand at t = {:.4g} ms, x = {:.4g} mm\n    try a higher drive.speed, less braking by drive.traction_coefficient, or nearer run.positions", 1e3 * st.state().time,
+                                     1e3 * st.position()));
 }
 
 void require_contact(const Stepper& st, double load) {
@@ -167,7 +178,8 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
     const bool record = st.position() >= next_history;
     if (record) st.want_energy();
     st.step();
-    if (st.state().step % kFiniteCheckInterval == 0 || record) require_sound(st);
+    require_sound(st, sys.model.spec.mesh.element_size);
+    require_forward(st);
     if (record) {
       next_history += run.history_interval;
       const EnergyBalance now = st.energy();
@@ -204,7 +216,6 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
       ++next_sample;
     }
   }
-  require_sound(st);
   out.closure = largest_energy > 0 ? largest_closure / largest_energy : 0;
   out.reached_edge = st.reached_edge();
   out.steps = st.state().step;

@@ -63,7 +63,7 @@ struct RunObserver {
   const std::atomic<bool>* stop = nullptr;
 };
 
-/// Throws NumericalError (NaN, lost contact, no equilibrium) and CaseError (wheel too heavy).
+/// Throws NumericalError (NaN, lost contact, a wheel that stops, no equilibrium) and CaseError (wheel too heavy).
 RunResult run_rolling(const RollingSystem& system, const RunObserver& observer);
 
 RollingSample take_sample(const RollingSystem& system, const Field& u_rail, const Field& u_wheel, const TractionMemory& tractions, const AxlePose& pose);

@@ -96,7 +96,10 @@ void Stepper::start(const PreloadResult& preload) {
   }
 }
 
-double Stepper::torque() const { return sys_.torque * smooth_rise(state_.time / sys_.model.spec.drive.torque_ramp); }
+double Stepper::torque() const {
+  const double ramp = sys_.model.spec.drive.torque_ramp;
+  return ramp > 0 ? sys_.torque * smooth_rise(state_.time / ramp) : sys_.torque;
+}
 
 double Stepper::damping_rate() const {
   const RunSpec& run = sys_.model.spec.run;
