@@ -1,0 +1,148 @@
+// Static equilibrium before the rolling.
+#include "fem/preload.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fem/aggregates.hpp"
+#include "sample_bodies.hpp"
+#include "small_rolling.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace fem_checks;
+
+CaseSpec static_case() {
+  CaseSpec s = small_case();
+  s.run.rolling = false;
+  return s;
+}
+
+double largest_pressure(const PreloadResult& r) {
+  double p = 0;
+  for (const NodeTraction& t : r.tractions.all()) p = std::max(p, t.p);
+  return p;
+}
+
+double largest_difference(const PreloadResult& a, const PreloadResult& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < a.tractions.all().size(); ++i) worst = std::max(worst, std::abs(a.tractions.all()[i].p - b.tractions.all()[i].p));
+  return worst;
+}
+
+TEST(Preload, ContactForceIsTheWeight) {
+  const RollingSystem sys = small_system(static_case());
+  const PreloadResult r = solve_preload(sys, 1e-9);
+  EXPECT_LT(r.residual, 1e-9);
+  EXPECT_NEAR(r.contact_force_z / sys.model.load, 1.0, 1e-6);
+}
+
+// The wheel's polygon is finer under the contact, so its centrifugal forces do not quite cancel.
+TEST(Preload, ContactForceOfASpinningWheelIsTheWeightUpToTheMeshsImbalance) {
+  const RollingSystem sys = small_system(small_case());
+  ASSERT_GT(sys.start_spin, 0);
+  double imbalance = 0;
+  for (const DeformableBody::Line& l : sys.wheel.lines)
+    if (l.component == 2) {
+      const Block& block = sys.model.wheel.blocks[l.block];
+      for (int j = 0; j < l.count; ++j) imbalance += sys.start_spin * sys.start_spin * sys.wheel.mass[l.first + j] * block.section.nodes[l.node].z * std::cos(block.stations.at[j]);
+    }
+  const PreloadResult r = solve_preload(sys, 1e-9);
+  EXPECT_NEAR(r.contact_force_z / (sys.model.load - imbalance), 1.0, 1e-6);
+}
+
+// Signorini: g >= 0, p >= 0, p g = 0, evaluated afresh from the result.
+TEST(Preload, PressuresAndGapsAreComplementary) {
+  const RollingSystem sys = small_system(static_case());
+  PreloadResult r = solve_preload(sys, 1e-8);
+  MortarContact contact(sys.rail_surface, sys.wheel_surface);
+  const AxlePose pose{0, r.axle_z, 0};
+  contact.search(r.u_rail, r.u_wheel, pose, 4 * sys.model.hertz.a, sys.model.hertz.approach);
+  const double thin = 1e-4 * sys.model.hertz.approach;
+  int shut = 0, open = 0;
+  for (const ContactRow& row : contact.rows(r.u_rail, r.u_wheel, pose).rows) {
+    const double p = r.tractions.at(row.column, row.station).p;
+    EXPECT_GE(p, 0);
+    EXPECT_GT(row.gap, -thin);
+    if (p > 0) {
+      EXPECT_LT(row.gap, thin);
+      ++shut;
+    } else {
+      ++open;
+    }
+  }
+  EXPECT_GT(shut, 9);
+  EXPECT_GT(open, 9);
+}
+
+TEST(Preload, ClustersChangeTheIterationsAndNotTheResult) {
+  const RollingSystem sys = small_system(static_case());
+  const PreloadResult fine = solve_preload(sys, 1e-8, {}, nullptr, {24e-3, 0.2}), one = solve_preload(sys, 1e-8, {}, nullptr, {10.0, 0.0});
+  EXPECT_LT(largest_difference(fine, one), 1e-6 * largest_pressure(fine));
+  EXPECT_NEAR(fine.axle_z, one.axle_z, 1e-6 * std::abs(one.axle_z));
+  EXPECT_LT(2 * fine.cg_iterations, one.cg_iterations);
+}
+
+TEST(Preload, SameBitsForOneTwoAndFourThreads) {
+  const RollingSystem sys = small_system(static_case());
+  const int before = max_threads();
+  set_threads(1);
+  const PreloadResult one = solve_preload(sys, 1e-6);
+  for (int n : {2, 4}) {
+    set_threads(n);
+    const PreloadResult many = solve_preload(sys, 1e-6);
+    EXPECT_EQ(many.cg_iterations, one.cg_iterations) << n;
+    EXPECT_EQ(many.axle_z, one.axle_z) << n;
+    EXPECT_TRUE(many.u_rail == one.u_rail && many.u_wheel == one.u_wheel) << n;
+    EXPECT_EQ(largest_difference(many, one), 0) << n;
+  }
+  set_threads(before);
+}
+
+// Equal curvatures both ways: a circular patch of six elements' radius, small beside the bodies. [Johnson1985 sec. 4.2]
+TEST(Preload, PeakPressureOfASphereLikePairIsHertzWithin2Percent) {
+  CaseSpec s = static_case();
+  s.vehicle.gravity = 1.0;
+  s.mesh.element_size = 0.5e-3;
+  s.mesh.fine_width = 10e-3;
+  s.mesh.fine_depth = 4e-3;
+  s.mesh.coarse_ratio = 3;
+  const RollingSystem sys = small_system(s);
+  const HertzContact& hertz = sys.model.hertz;
+  ASSERT_NEAR(hertz.a / hertz.b, 1.0, 1e-3);
+  ASSERT_NEAR(hertz.a / s.mesh.element_size, 6.0, 0.3);
+  EXPECT_NEAR(largest_pressure(solve_preload(sys, 1e-5)) / hertz.p0, 1.0, 0.02);
+}
+
+TEST(Preload, ALayerFourTimesAsStiffAndThinIsReachedToo) {
+  CaseSpec s = static_case();
+  LayerSpec layer;
+  layer.thickness = 0.2e-3;
+  layer.elements = 2;
+  layer.material.young = 840e9;
+  s.layers = {layer};
+  const RollingSystem sys = small_system(s);
+  const PreloadResult r = solve_preload(sys, 1e-6);
+  EXPECT_LT(r.residual, 1e-6);
+  EXPECT_LT(r.newton_steps, 20);
+}
+
+// The modes of a cluster are orthonormal, so P P^T leaves what they span unchanged.
+TEST(Aggregates, ProjectionKeepsARigidMotion) {
+  const DeformableBody body{coarse_lma_wheel(), {kSteel}, {}, false};
+  const Aggregates clusters(body, {0, -0.43}, {24e-3, 0.2});
+  const Field motion = nodal_field(body.solid, [](Vec3 x) { return Vec3{1, -2, 3} + cross(Vec3{4, 5, -6}, x); });
+  std::vector<double> c(clusters.modes());
+  Field back = body.solid.layout().field();
+  clusters.restrict_to(motion, c.data());
+  clusters.prolong(c.data(), back);
+  double worst = 0;
+  for (const DeformableBody::Line& l : body.lines)
+    for (int j = 0; j < l.count; ++j) worst = std::max(worst, std::abs(back[l.first + j] - motion[l.first + j]));
+  EXPECT_LT(worst, 1e-9);
+}
+
+}  // namespace
+}  // namespace railstrata
