@@ -1,5 +1,135 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cmath>
+#include <iterator>
+#include <stdexcept>
+
 #include "app/commands.hpp"
+#include "app/comparison_picture.hpp"
+#include "app/output_folder.hpp"
+#include "app/result_folder.hpp"
 #include "core/faults.hpp"
+#include "io/csv.hpp"
+#include "io/output_file.hpp"
+#include "io/provenance.hpp"
+#include "post/compare.hpp"
+
 namespace railstrata {
-ExitCode command_compare(const CommandOptions&) { throw CaseError("not there yet"); }
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Quantity {
+  const char *name, *unit, *key, *path;  ///< for people; for JSON, in SI units; where summary.json has it
+  double scale;                          ///< SI to unit
+};
+constexpr Quantity kQuantities[] = {
+    {"p_max", "MPa", "p_max_Pa", "/contact/p_max_Pa", 1e-6},
+    {"q_max", "MPa", "q_max_Pa", "/contact/q_max_Pa", 1e-6},
+    {"patch length", "mm", "patch_length_m", "/contact/patch_length_m", 1e3},
+    {"patch width", "mm", "patch_width_m", "/contact/patch_width_m", 1e3},
+    {"patch area", "mm2", "patch_area_m2", "/contact/patch_area_m2", 1e6},
+    {"slip area fraction", "", "slip_area_fraction", "/contact/slip_area_fraction", 1},
+    {"F_x", "kN", "F_x_N", "/contact/F_x_N", 1e-3},
+    {"F_y", "kN", "F_y_N", "/contact/F_y_N", 1e-3},
+    {"F_z", "kN", "F_z_N", "/contact/F_z_N", 1e-3},
+    {"creepage x", "1e-3", "creepage_x", "/contact/creepage_x", 1e3},
+    {"spin", "1/m", "spin_per_m", "/contact/spin_per_m", 1},
+    {"rail von Mises below surface", "MPa", "rail_subsurface_von_mises_Pa", "/stress/rail/subsurface/von_mises_max/value_Pa", 1e-6},
+    {"its depth", "mm", "rail_subsurface_von_mises_depth_m", "/stress/rail/subsurface/von_mises_max/depth_m", 1e3},
+    {"rail von Mises at surface", "MPa", "rail_surface_von_mises_Pa", "/stress/rail/surface/von_mises_max/value_Pa", 1e-6},
+};
+
+struct Row {
+  const Quantity& quantity;
+  double a, b;  ///< SI
+  double relative() const { return (a - b) / std::abs(b); }
+};
+
+std::vector<Row> rows_of(const ResultFolder& a, const ResultFolder& b) {
+  std::vector<Row> rows;
+  for (const Quantity& q : kQuantities) rows.push_back({q, a.number(q.path), b.number(q.path)});
+  return rows;
+}
+
+std::string number(double v, const char* format) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "-"; }
+
+void print_table(const ResultFolder& a, const ResultFolder& b, const std::vector<Row>& rows, const FieldComparison& g) {
+  fmt::print("A  {} ({}): {}\nB  {} ({}): {}\n\n", a.folder.string(), a.engine, a.title, b.folder.string(), b.engine, b.title);
+  fmt::print("  {:<36} {:>12} {:>12} {:>12}\n", "", "A", "B", "(A-B)/|B|");
+  for (const Row& r : rows) {
+    const Quantity& q = r.quantity;
+    fmt::print("  {:<36} {:>12} {:>12} {:>12}\n", fmt::format("{}{}{}", q.name, *q.unit ? ", " : "", q.unit), number(q.scale * r.a, "{:.4g}"), number(q.scale * r.b, "{:.4g}"),
+               number(100 * r.relative(), "{:+.2f} %"));
+  }
+  const auto field = [](const char* name, const FieldDifference& d) {
+    if (std::isfinite(d.rms)) fmt::print("  {:<4} over the patch: rms {:.2f} %, largest {:.2f} % of B's maximum, at x {:+.2f}, y {:+.2f} mm\n", name, 100 * d.rms, 100 * d.largest, 1e3 * d.x, 1e3 * d.y);
+  };
+  fmt::print("\n");
+  field("p", g.p);
+  field("|q|", g.q);
+}
+
+nlohmann::ordered_json value(double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); }
+
+nlohmann::ordered_json as_json(const ResultFolder& a, const ResultFolder& b, const std::vector<Row>& rows, const FieldComparison& g) {
+  const auto side = [](const ResultFolder& r) { return nlohmann::ordered_json{{"folder", r.folder.string()}, {"engine", r.engine}, {"title", r.title}}; };
+  const auto field = [](const FieldDifference& d) { return nlohmann::ordered_json{{"rms_relative", value(d.rms)}, {"largest_relative", value(d.largest)}, {"x_m", d.x}, {"y_m", d.y}}; };
+  nlohmann::ordered_json out{{"a", side(a)}, {"b", side(b)}};
+  for (const Row& r : rows) out["numbers"][r.quantity.key] = {{"a", value(r.a)}, {"b", value(r.b)}, {"relative_difference", value(r.relative())}};
+  out["fields"] = {{"pressure", field(g.p)}, {"traction", field(g.q)}};
+  return out;
+}
+
+std::string csv_text(const std::vector<Row>& rows) {
+  std::string out = "quantity,unit,a,b,relative_difference\n";
+  for (const Row& r : rows) {
+    const Quantity& q = r.quantity;
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n", q.name, q.unit, q.scale * r.a, q.scale * r.b, r.relative());
+  }
+  return out;
+}
+
+void write_fields(const fs::path& file, const std::vector<std::string>& origin, const FieldComparison& g) {
+  std::vector<CsvColumn> table{{"x_mm", {}}, {"y_mm", {}}, {"p_a_MPa", {}}, {"p_b_MPa", {}}, {"q_a_MPa", {}}, {"q_b_MPa", {}}};
+  for (std::size_t k = 0; k < g.p_a.size(); ++k) {
+    const double row[] = {1e3 * g.x[k / g.y.size()], 1e3 * g.y[k % g.y.size()], 1e-6 * g.p_a[k], 1e-6 * g.p_b[k], 1e-6 * g.q_a[k], 1e-6 * g.q_b[k]};
+    for (std::size_t c = 0; c < table.size(); ++c) table[c].values.push_back(row[c]);
+  }
+  write_csv(file, origin, table);
+}
+
+FieldComparison compare_fields_of(const ResultFolder& a, const ResultFolder& b) {
+  try {
+    return compare_fields(a.field, b.field);
+  } catch (const std::invalid_argument& e) {
+    throw CaseError(fmt::format("{} and {} cannot be compared: {}", a.folder.string(), b.folder.string(), e.what()), "compare folders that `railstrata run` or `railstrata bem` has written");
+  }
+}
+
+std::string last_name(const fs::path& folder) { return fs::absolute(folder / "").lexically_normal().parent_path().filename().string(); }
+
+}  // namespace
+
+ExitCode command_compare(const CommandOptions& options) {
+  const ResultFolder a = read_result_folder(options.case_file), b = read_result_folder(options.reference);
+  const fs::path out = options.out.empty() ? fs::path("results") / fmt::format("{}-against-{}", last_name(a.folder), last_name(b.folder)) : options.out;
+  const FieldComparison comparison = compare_fields_of(a, b);
+  const std::vector<Row> rows = rows_of(a, b);
+  const nlohmann::ordered_json json = as_json(a, b, rows, comparison);
+
+  prepare_output_folder(out, options.force);
+  const std::vector<std::string> origin{fmt::format("RailStrata {}", version_text()), fmt::format("a: {} ({}); b: {} ({})", a.folder.string(), a.engine, b.folder.string(), b.engine),
+                                        "x from the axle in the rolling direction, y towards the field side; q: magnitude of the traction"};
+  write_whole_file(out / "compare.json", json.dump(2) + "\n");
+  write_whole_file(out / "compare.csv", csv_text(rows));
+  write_fields(out / "fields.csv", origin, comparison);
+  write_whole_file(out / "compare.svg", comparison_svg({"A: " + last_name(a.folder) + " (" + a.engine + ")", a.field}, {"B: " + last_name(b.folder) + " (" + b.engine + ")", b.field}, comparison));
+  if (options.json) fmt::print("{}\n", json.dump(2));
+  else print_table(a, b, rows, comparison);
+  spdlog::info("results are in {}", out.string());
+  return ExitCode::ok;
+}
+
 }  // namespace railstrata

@@ -75,7 +75,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   ContactSummary& c = s.contact;
   c.p_max = m.p_max, c.q_max = m.q_max;
   c.patch_length = m.length, c.patch_width = m.width, c.patch_area = m.area;
-  c.F_x = -r.F_x, c.F_y = -r.F_y, c.F_z = -r.F_z;
+  c.F_x = 0.0 - r.F_x, c.F_y = 0.0 - r.F_y, c.F_z = 0.0 - r.F_z;
   c.approach = r.approach;
   if (friction) {
     c.slip_area_fraction = m.slip_area_fraction;

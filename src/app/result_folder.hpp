@@ -1,0 +1,25 @@
+#pragma once
+// A result folder read back: what `run` and `bem` wrote.
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "contact/contact_field.hpp"
+
+namespace railstrata {
+
+struct ResultFolder {
+  std::filesystem::path folder;
+  std::string title, engine;
+  nlohmann::json summary;  ///< summary.json
+  ContactField field;      ///< patch.csv
+
+  /// A number of the summary by its path ("/contact/p_max_Pa"); NaN if it is null or not there.
+  double number(const std::string& path) const;
+};
+
+/// Throws CaseError when the folder is not there, holds no summary.json or patch.csv, or they are not as this program writes them.
+ResultFolder read_result_folder(const std::filesystem::path& folder);
+
+}  // namespace railstrata
