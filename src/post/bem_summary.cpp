@@ -88,10 +88,14 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   return s;
 }
 
+StressSummary bem_rail_stress(const BemResult& r, const ContactSummary& contact) { return stress_summary(rail_interior(r).peaks(depth_of_interest(r.rail, contact))); }
+
+StressSummary bem_wheel_stress(const BemResult& r, const ContactSummary& contact) { return stress_summary(wheel_interior(r).peaks(depth_of_interest(r.wheel, contact))); }
+
 Summary bem_summary(const CaseSpec& spec, const BemResult& r) {
   Summary s = bem_contact_summary(spec, r);
-  s.rail = stress_summary(rail_interior(r).peaks(depth_of_interest(r.rail, s.contact)));
-  s.wheel = stress_summary(wheel_interior(r).peaks(depth_of_interest(r.wheel, s.contact)));
+  s.rail = bem_rail_stress(r, s.contact);
+  s.wheel = bem_wheel_stress(r, s.contact);
   return s;
 }
 

@@ -19,6 +19,10 @@ Summary bem_summary(const CaseSpec& spec, const BemResult& result);
 /// Contact and checks alone, without the stresses, which cost more than the contact itself.
 Summary bem_contact_summary(const CaseSpec& spec, const BemResult& result);
 
+/// The stresses of one body.
+StressSummary bem_rail_stress(const BemResult& result, const ContactSummary& contact);
+StressSummary bem_wheel_stress(const BemResult& result, const ContactSummary& contact);
+
 /// The rail's stress below the cell nearest to (x, y), model axes, from the surface to `deepest`; at an interface a row for either side.
 DepthLine rail_depth_line(const BemResult& result, double x, double y, double deepest);
 
