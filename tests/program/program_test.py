@@ -4,36 +4,16 @@ import hashlib
 import json
 import pathlib
 import re
-import subprocess
 import sys
-import tempfile
 import unittest
 
-BINARY, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+from outside import FromOutside, railstrata
+
+SOURCE = pathlib.Path(sys.argv[2]).resolve()
 COARSE = ["--threads", "1", "--set", "mesh.element_size=4 mm", "--set", "mesh.fine_depth=12 mm"]
 
 
-def railstrata(*words, cwd=None):
-    done = subprocess.run([BINARY, *map(str, words)], capture_output=True, text=True, timeout=120, cwd=cwd)
-    return done.returncode, done.stdout, done.stderr
-
-
-class Program(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
-
-    def case(self, text):
-        file = self.folder / "case.toml"
-        file.write_text(text)
-        return file
-
-    def refused(self, code, words, *messages):
-        rc, out, err = railstrata(*words)
-        self.assertEqual(rc, code, err)
-        for message in messages:
-            self.assertIn(message, err)
-        return out
-
+class Program(FromOutside):
     def test_a_case_error_exits_2_with_place_caret_and_remedy(self):
         case = self.case('[mesh]\nelement_size = "1 MPa"\n[geometry]\nguage = "1.4 m"\n')
         self.refused(2, ["check", case], f'{case}:2:16: error: mesh.element_size = "1 MPa": "MPa" is not the unit of a length\n    2 | element_size = "1 MPa"\n      |                ^\n'
@@ -53,17 +33,6 @@ class Program(unittest.TestCase):
     def test_a_missing_case_exits_2(self):
         self.refused(2, ["check", "no/such.toml"], "cannot read no/such.toml: No such file or directory")
 
-    def test_a_missing_profile_exits_2(self):
-        self.refused(2, ["check", self.case('[geometry]\nrail_profile = "rail.csv"\n')], "neither a built-in profile nor a file")
-
-    def test_a_wheel_beside_the_rail_exits_2(self):
-        self.refused(2, ["check", self.case('[geometry]\ngauge = "1.7 m"\n')], "error: ")
-
-    def test_a_looped_profile_exits_2_naming_the_file(self):
-        loop = self.folder / "loop.csv"
-        loop.write_text("\n".join(f"{y} {z}" for y, z in [(-30, 5), (-20, 2), (-10, 0.5), (0, 0), (10, 0.5), (12, 3), (5, 4), (3, -2), (20, 2), (30, 5)]))
-        self.refused(2, ["check", self.case('[geometry]\nrail_profile = "loop.csv"\n')], str(loop))
-
     def test_a_folder_that_is_not_empty_exits_2_and_force_writes_into_it(self):
         (self.folder / "out").mkdir()
         (self.folder / "out" / "mine.txt").write_text("keep")
@@ -72,10 +41,6 @@ class Program(unittest.TestCase):
         rc, _, err = railstrata(*words, "--force")
         self.assertEqual(rc, 0, err)
         self.assertEqual((self.folder / "out" / "mine.txt").read_text(), "keep")
-
-    def test_a_folder_that_cannot_be_made_exits_4(self):
-        (self.folder / "file").write_text("")
-        self.refused(4, ["mesh", self.case(""), *COARSE, "--out", self.folder / "file" / "out"], "cannot make the output folder")
 
     def test_check_tells_the_contact_point_and_the_mesh(self):
         rc, out, err = railstrata("check", self.case(""), *COARSE, "--json")
@@ -125,7 +90,7 @@ class Program(unittest.TestCase):
 
     def test_every_shipped_case_is_accepted(self):
         cases = sorted(SOURCE.glob("cases/**/*.toml"))
-        cases = [c for c in cases if c.name != "expect.toml"]
+        cases = [c for c in cases if not c.name.endswith("expect.toml")]
         self.assertGreaterEqual(len(cases), 4)
         for case in cases:
             rc, _, err = railstrata("check", case, *COARSE)

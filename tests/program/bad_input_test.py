@@ -1,0 +1,123 @@
+#!/usr/bin/env python3
+"""Wrong input, one test each: the whole message and the exit code. usage: bad_input_test.py BINARY"""
+import os
+import sys
+import unittest
+
+from outside import TINY, FromOutside, railstrata
+
+CROWN = [(0.8 * i, -0.0064 * i * i) for i in range(-40, 41)]  # mm
+
+
+class Refusal(FromOutside):
+    def answers(self, text, message, remedy):
+        """`check` refuses the case, saying just this; the place is given within the message, FOLDER for the folder."""
+        rc, out, err = railstrata("check", self.case(text))
+        told = err.replace(str(self.folder), "FOLDER")
+        without_source_lines = "\n".join(line for line in told.splitlines() if "|" not in line)
+        self.assertEqual((rc, out, without_source_lines), (2, "", f"{message}\n    remedy: {remedy}"))
+
+
+class InTheCase(Refusal):
+    def test_an_unknown_key(self):
+        self.answers('[drive]\nsped = "20 m/s"\n', "FOLDER/case.toml:2:1: error: unknown key drive.sped",
+                     "did you mean speed? keys of [drive]: speed, traction_coefficient, friction_coefficient, torque_ramp, creepage_start")
+
+    def test_a_wrong_unit(self):
+        self.answers('[mesh]\nelement_size = "1 MPa"\n', 'FOLDER/case.toml:2:16: error: mesh.element_size = "1 MPa": "MPa" is not the unit of a length',
+                     'write a length, e.g. "0.2 mm" (units: mm, m, µm, cm)')
+
+    def test_a_missing_unit(self):
+        self.answers("[mesh]\nelement_size = 1\n", "FOLDER/case.toml:2:16: error: mesh.element_size = 1: a bare number has no unit", 'write a length, e.g. "0.2 mm", in quotes')
+
+    def test_a_value_out_of_range(self):
+        self.answers('[mesh]\nelement_size = "30 mm"\n', 'FOLDER/case.toml:2:16: error: mesh.element_size = "30 mm": must be between 0.05 mm and 20 mm', "choose a value in this range")
+        self.answers("[run]\nstep_safety = 1.5\n", "FOLDER/case.toml:2:15: error: run.step_safety = 1.5: must be above 0 and at most 1", "choose a value in this range")
+
+    def test_layers_thicker_than_the_head(self):
+        layers = "".join(f'[[layer]]\nname = "{name}"\nthickness = "10 mm"\nyoung_ratio = 2.0\n' for name in "abc")
+        rc, _, err = railstrata("check", self.case(layers))
+        self.assertEqual(rc, 2)
+        self.assertRegex(err, r"^error: layer thicker than the head: 30 mm of layers, the head carries \d+\.\d\d mm\n    remedy: make the layers thinner\n$")
+
+    def test_a_wheel_that_misses_the_rail(self):
+        self.answers('[geometry]\ngauge = "1.7 m"\n', "error: wheel LMA on rail CN60: the wheel misses the rail; its tape circle stands -138.6 mm from the rail's axis",
+                     "check lateral_shift, gauge and back_to_back")
+
+
+class InProfiles(Refusal):
+    def profile(self, rows, message, remedy, heading="", place=""):
+        (self.folder / "rail.csv").write_text(heading + "".join(f"{y:.6f}, {z:.6f}\n" for y, z in rows))
+        self.answers('[geometry]\nrail_profile = "rail.csv"\n', f"FOLDER/rail.csv{place}: error: {message}", remedy)
+
+    def test_a_missing_file(self):
+        self.answers('[geometry]\nrail_profile = "rail.csv"\n', 'FOLDER/case.toml:2:16: error: geometry.rail_profile = "rail.csv": neither a built-in profile nor a file (looked for FOLDER/rail.csv)',
+                     "built in: CN60, UIC54, UIC60, flat, arc:R=300 mm")
+
+    def test_metres_under_a_heading_of_millimetres(self):
+        self.profile([(1e-3 * y, 1e-3 * z) for y, z in CROWN], "the heading says millimetres, but the curve would then be 6.813e-05 m long", "correct the heading or the numbers", heading="y [mm], z [mm]\n")
+
+    def test_one_column_in_metres(self):
+        self.profile([(1e-3 * y, z) for y, z in CROWN], "y spans 0.064 and z spans 10.24: the columns seem to be in different units", "give both columns in millimetres or both in metres")
+
+    def test_a_unit_that_is_neither(self):
+        self.profile([(1e3 * y, 1e3 * z) for y, z in CROWN], "the curve is 6.813e+04 long, which fits a profile neither in millimetres (20 to 500) nor in metres (0.02 to 0.5)",
+                     "give y and z in millimetres or metres")
+
+    def test_a_loop(self):
+        loop = [(-30, 5), (-20, 2), (-10, 0.5), (0, 0), (10, 0.5), (12, 3), (5, 4), (3, -2), (20, 2), (30, 5)]
+        self.profile(loop, "the curve crosses itself: point 7 meets point 4", "a profile is one open curve walked once from end to end: remove the loop, or cut a closed outline down to its running surface", place=":7")
+
+    def test_plain_metres_are_understood(self):
+        (self.folder / "rail.csv").write_text("".join(f"{1e-3 * y:.9f}, {1e-3 * z:.9f}\n" for y, z in CROWN))
+        rc, out, err = railstrata("check", self.case(TINY.replace('rail_profile = "flat"', 'rail_profile = "rail.csv"')))
+        self.assertEqual(rc, 0, err)
+        self.assertIn("rail.csv: The numbers were taken as metres.", err + out)
+
+
+class Folders(FromOutside):
+    def run_into(self, out, *words):
+        return ["run", self.case(TINY), "--set", "run.rolling=false", "--out", out, *words]
+
+    def test_one_that_is_not_empty(self):
+        (self.folder / "out").mkdir()
+        (self.folder / "out" / "mine.txt").write_text("keep")
+        self.refused(2, self.run_into(self.folder / "out"), f"error: the output folder {self.folder}/out is not empty\n    remedy: choose another with --out, or overwrite files of the same name with --force\n")
+        self.assertEqual([f.name for f in (self.folder / "out").iterdir()], ["mine.txt"])
+
+    def test_one_that_cannot_be_made(self):
+        (self.folder / "file").write_text("")
+        self.refused(4, self.run_into(self.folder / "file" / "out"), f"error: cannot make the output folder {self.folder}/file/out: Not a directory\n")
+        self.refused(4, self.run_into("/proc/railstrata"), "error: cannot make the output folder /proc/railstrata: No such file or directory\n")
+
+    @unittest.skipIf(os.geteuid() == 0, "SKIPPED: permissions do not bind the superuser")
+    def test_one_without_the_permission_to_write(self):
+        (self.folder / "out").mkdir(mode=0o555)
+        self.refused(4, self.run_into(self.folder / "out"), "Permission denied")
+
+
+class DuringTheRun(FromOutside):
+    def breaks_off(self, *settings):
+        out = self.folder / "out"
+        words = [word for setting in settings for word in ("--set", setting)]
+        rc, _, err = railstrata("run", self.case(TINY), "--threads", "1", "--quiet", "--out", out, *words)
+        self.assertEqual(rc, 3, err)
+        self.assertFalse((out / "summary.json").exists())
+        self.assertNotIn("nan", (out / "history.csv").read_text().lower())
+        return err
+
+    def test_numbers_that_grow_beyond_all_bounds(self):
+        err = self.breaks_off('vehicle.sprung_mass="1 g"', 'vehicle.suspension_damping="1e8 N s/m"')  # a dashpot far too stiff for its mass and the step
+        self.assertRegex(err, r"^error: the run became unstable at t = [\d.]+ ms, x = -?[\d.]+ mm: numbers are no longer finite or beyond all bounds \(.+\); dt = [\d.]+ us\n    try a smaller run\.step_safety\n$")
+
+    def test_a_wheel_thrown_off_the_rail(self):
+        err = self.breaks_off('vehicle.suspension_stiffness="10000 MN/m"', "run.step_safety=1.0")
+        self.assertRegex(err, r"^error: the wheel lost contact with the rail at t = [\d.]+ ms, x = [\d.]+ mm \(F_z = [\d.e-]+ kN of 83\.4 kN\)\n    try a longer run\.run_up or more run\.run_up_damping\n$")
+
+    def test_a_wheel_braked_to_a_stand_is_not_waited_for(self):
+        err = self.breaks_off('drive.speed="5 mm/s"', "drive.traction_coefficient=-0.2", 'drive.torque_ramp="0 s"')
+        self.assertRegex(err, r"^error: the wheel came to a stand at t = [\d.]+ ms, x = [\d.]+ mm\n    try a higher drive\.speed, less braking by drive\.traction_coefficient, or nearer run\.positions\n$")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])

@@ -1,0 +1,138 @@
+#!/usr/bin/env python3
+"""The files of `mesh` and `run` open in VTK's own readers, with the fields they should have. usage: vtk_files_test.py BINARY SOURCE_DIR"""
+import json
+import pathlib
+import sys
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+
+from outside import TINY, railstrata
+
+try:
+    import numpy as np
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkFiltersVerdict import vtkMeshQuality
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataReader, vtkXMLUnstructuredGridReader
+except ImportError as missing:
+    print(f"SKIPPED: {missing} (Debian package python3-vtk9)")
+    sys.exit(77)
+
+SOURCE = pathlib.Path(sys.argv[2]).resolve()
+HEXAHEDRON = 12
+LAYER = '[[layer]]\nname = "clad"\nthickness = "2 mm"\nyoung_ratio = 2.0\n'
+
+
+def read(file):
+    reader = {".vtu": vtkXMLUnstructuredGridReader, ".vtp": vtkXMLPolyDataReader}[file.suffix]()
+    faults = []
+    reader.AddObserver("ErrorEvent", lambda *event: faults.append(event))
+    reader.SetFileName(str(file))
+    reader.Update()
+    assert not faults, f"VTK reported errors on {file}"
+    return reader.GetOutput()
+
+
+def names(fields):
+    return {fields.GetArrayName(i) for i in range(fields.GetNumberOfArrays())}
+
+
+def array(fields, name):
+    return vtk_to_numpy(fields.GetArray(name))
+
+
+def hexahedra_volumes(grid):
+    quality = vtkMeshQuality()
+    quality.SetInputData(grid)
+    quality.SetHexQualityMeasureToVolume()
+    quality.Update()
+    return array(quality.GetOutput().GetCellData(), "Quality")
+
+
+class Results(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = pathlib.Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
+        cls.make()
+
+    @classmethod
+    def call(cls, *words):
+        rc, out, err = railstrata(*words, "--threads", "1")
+        assert rc in (0, 1), err  # 1: a check of a result so coarse may fail
+        return out
+
+
+class Mesh(Results):
+    """`mesh cases/quick`."""
+
+    @classmethod
+    def make(cls):
+        cls.rows = json.loads(cls.call("mesh", SOURCE / "cases" / "quick", "--out", cls.folder, "--json"))
+
+    def test_bodies_are_hexahedra_as_many_as_the_table_says_and_none_is_inverted(self):
+        for body in ["rail", "wheel"]:
+            grid = read(self.folder / f"{body}.vtu")
+            self.assertEqual(grid.GetNumberOfCells(), sum(row["elements"] for row in self.rows if row["body"] == body))
+            self.assertEqual({grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}, {HEXAHEDRON})
+            self.assertGreater(hexahedra_volumes(grid).min(), 0)
+            self.assertGreater(array(grid.GetCellData(), "scaled_jacobian").min(), 0)
+
+    def test_the_layer_of_2_mm_is_a_material_of_its_own_under_the_rail_s_surface(self):
+        grid = read(self.folder / "rail.vtu")
+        self.assertEqual(set(array(grid.GetCellData(), "material")), {0, 1})
+        self.assertEqual(set(array(read(self.folder / "wheel.vtu").GetCellData(), "material")), {0})
+        volumes, material = hexahedra_volumes(grid), array(grid.GetCellData(), "material")
+        length = np.ptp(vtk_to_numpy(grid.GetPoints().GetData())[:, 0])
+        self.assertAlmostEqual(volumes[material == 1].sum() / (2e-3 * 60e-3 * length), 1, delta=0.05)  # thickness x width x length; the surface is curved
+
+
+class Run(Results):
+    """`run` of a small rolling with a layer: the files a run of cases/quick writes."""
+
+    @classmethod
+    def make(cls):
+        case = cls.folder / "case.toml"
+        case.write_text(TINY + LAYER)
+        cls.out = cls.folder / "out"
+        cls.call("run", case, "--out", cls.out, "--quiet")
+        cls.summary = json.loads((cls.out / "summary.json").read_text())
+
+    def test_the_patch_has_the_summary_s_pressure_at_the_wheel_s_place(self):
+        patch = read(self.out / "patch.vtp")
+        self.assertEqual(names(patch.GetPointData()), {"pressure_MPa", "traction_MPa", "slip_velocity_mm_s", "state"})
+        pressure, x = array(patch.GetPointData(), "pressure_MPa"), vtk_to_numpy(patch.GetPoints().GetData())[:, 0]
+        self.assertAlmostEqual(pressure.max() / (1e-6 * self.summary["contact"]["p_max_Pa"]), 1, delta=0.1)  # the peak between points is interpolated
+        self.assertAlmostEqual((pressure * x).sum() / pressure.sum(), self.summary["position_m"], delta=1e-3)
+        self.assertGreater(patch.GetNumberOfPolys(), 0)
+
+    def test_volumes_are_hexahedra_with_stress_displacement_and_material(self):
+        for body, materials in [("rail", {0, 1}), ("wheel", {0})]:
+            grid = read(self.out / f"{body}.vtu")
+            self.assertEqual({grid.GetCellType(i) for i in range(grid.GetNumberOfCells())}, {HEXAHEDRON})
+            self.assertGreater(hexahedra_volumes(grid).min(), 0)
+            self.assertEqual(names(grid.GetPointData()), {"displacement_mm", "von_mises_smooth_MPa"})
+            self.assertEqual(names(grid.GetCellData()), {"stress_MPa", "von_mises_MPa", "sigma1_MPa", "material"})
+            self.assertEqual(set(array(grid.GetCellData(), "material")), materials)
+            stress, equivalent = array(grid.GetCellData(), "stress_MPa").astype(float), array(grid.GetCellData(), "von_mises_MPa")
+            xx, yy, zz, xy, yz, xz = stress.T
+            np.testing.assert_allclose(equivalent, np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + yz**2 + xz**2)), rtol=1e-4, atol=1e-3)
+            self.assertLess(zz.min(), -300)  # the patch presses with some 1000 MPa
+
+    def test_the_series_names_frames_that_open_and_follow_the_wheel(self):
+        frames = ElementTree.parse(self.out / "patch.pvd").getroot().findall("Collection/DataSet")
+        self.assertGreaterEqual(len(frames), 10)
+        times = [float(frame.get("timestep")) for frame in frames]
+        self.assertEqual(times, sorted(set(times)))
+        places = []
+        for frame in frames:
+            patch = read(self.out / frame.get("file"))
+            pressure, x = array(patch.GetPointData(), "pressure_MPa"), vtk_to_numpy(patch.GetPoints().GetData())[:, 0]
+            places.append((pressure * x).sum() / pressure.sum())
+        np.testing.assert_allclose(np.diff(places) / np.diff(times), 27.78, rtol=0.25)  # 4 mm elements
+        self.assertAlmostEqual((places[-1] - places[0]) / (times[-1] - times[0]), 27.78, delta=0.3)
+
+
+del Results  # only its heirs are tests
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
