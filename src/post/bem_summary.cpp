@@ -44,7 +44,7 @@ bool reaches_edge(const ContactField& f) {
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchMeasures& m) {
   const auto at_most = [](std::string name, double value, double limit) { return Check{std::move(name), value <= limit, value, limit}; };
   const double load = static_load(spec);
-  std::vector<Check> out{at_most("load_reached", std::abs(m.force_z * std::cos(r.contact.angle) / load - 1), 1e-3)};
+  std::vector<Check> out{at_most("F_z_relative_to_weight", std::abs(-r.F_z / load - 1), 5e-3)};
   if (spec.drive.friction_coefficient > 0 && spec.drive.traction_coefficient != 0)
     out.push_back(at_most("traction_coefficient_reached", std::abs(m.force_x / load / spec.drive.traction_coefficient - 1), 1e-3));
   out.push_back(at_most("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0, 0));

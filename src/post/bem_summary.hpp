@@ -13,7 +13,7 @@ double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& con
 /// Contact, stresses of both bodies and checks; commit, threads and peak memory are the program's to add. run.elements counts the cells of the grid.
 /// Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface` starts half a cell below the surface; `interface` takes either side.
 /// NaN: position, penetration and scatter; without friction also slip area and creepages.
-/// Checks (limits): the pressure's resultant against G/cos(contact angle) (0.1 %), F_x/G against the wanted traction coefficient (0.1 %), the patch inside the grid.
+/// Checks (limits): F_z against G (0.5 %: the lateral force of spin is not fed back, see docs/bem.md), F_x/G against the wanted traction coefficient (0.1 %), the patch inside the grid.
 Summary bem_summary(const CaseSpec& spec, const BemResult& result);
 
 /// Contact and checks alone, without the stresses, which cost more than the contact itself.

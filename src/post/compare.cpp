@@ -58,12 +58,15 @@ double finest(const std::vector<double>& t) {
   return h;
 }
 
-/// The range and a spacing on either side of it.
-std::vector<double> line_over(const Range& r, double step, double margin) {
-  const double low = r.low - margin, length = r.high - r.low + 2 * margin;
-  const int n = std::clamp(static_cast<int>(std::ceil(length / step)) + 1, 2, kMostPoints);
+/// Points over the range and the coarser line's spacing on either side, falling on those of the finer line where it is even.
+std::vector<double> line_over(const Range& r, const std::vector<double>& a, const std::vector<double>& b) {
+  const double ha = finest(a), hb = finest(b), margin = std::max(ha, hb);
+  const double origin = ha <= hb ? a.front() : b.front(), fine = std::min(ha, hb);
+  const double step = fine * std::ceil((r.high - r.low + 2 * margin) / (fine * (kMostPoints - 2)));
+  const double tiny = 1e-6;
+  const auto first = static_cast<long>(std::floor((r.low - margin - origin) / step + tiny)), last = static_cast<long>(std::ceil((r.high + margin - origin) / step - tiny));
   std::vector<double> out;
-  for (int i = 0; i < n; ++i) out.push_back(low + length * i / (n - 1));
+  for (long k = first; k <= last; ++k) out.push_back(origin + static_cast<double>(k) * step);
   return out;
 }
 
@@ -92,10 +95,9 @@ FieldComparison compare_fields(const ContactField& a, const ContactField& b) {
       if (f->p[k] > 0) x.add(f->x[k]), y.add(f->y[k]);
   if (x.low > x.high) throw std::invalid_argument("compare_fields: no pressure in either field");
 
-  const double ax = finest(la.x()), bx = finest(lb.x()), ay = finest(la.y()), by = finest(lb.y());
   FieldComparison g;
-  g.x = line_over(x, std::min(ax, bx), std::max(ax, bx));
-  g.y = line_over(y, std::min(ay, by), std::max(ay, by));
+  g.x = line_over(x, la.x(), lb.x());
+  g.y = line_over(y, la.y(), lb.y());
   const auto sample = [&](const Lattice& l, const ContactField& f, std::vector<double>& p, std::vector<double>& q) {
     for (double gx : g.x)
       for (double gy : g.y) {

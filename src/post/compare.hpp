@@ -20,7 +20,7 @@ struct FieldComparison {
   FieldDifference p, q;
 };
 
-/// The grid's spacings are the finest of the two fields', at most kMostPoints a side; points stay where they are: x from the axle, y in the model frame.
+/// The grid is the finer field's, in x and in y, continued over both patches (thinned to kMostPoints a side); points stay where they are: x from the axle, y in the model frame.
 /// Both fields need x growing with the station and y with the column. Throws std::invalid_argument if not, or if neither has pressure.
 inline constexpr int kMostPoints = 400;
 FieldComparison compare_fields(const ContactField& a, const ContactField& b);
