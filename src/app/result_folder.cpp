@@ -84,6 +84,11 @@ ContactField read_patch(const fs::path& file) {
   return f;
 }
 
+std::string text_at(const nlohmann::json& summary, const std::string& path) {
+  const nlohmann::json::json_pointer at(path);
+  return summary.contains(at) && summary[at].is_string() ? summary[at].get<std::string>() : "";
+}
+
 }  // namespace
 
 double ResultFolder::number(const std::string& path) const {
@@ -98,8 +103,8 @@ ResultFolder read_result_folder(const fs::path& folder) {
   std::ifstream in = open_for_reading(file);
   r.summary = nlohmann::json::parse(in, nullptr, false);
   if (!r.summary.is_object() || !r.summary.contains("contact")) refuse(file, 0, "this is not a summary");
-  r.title = r.summary.value("title", "");
-  r.engine = r.summary.value(nlohmann::json::json_pointer("/run/engine"), "");
+  r.title = text_at(r.summary, "/title");
+  r.engine = text_at(r.summary, "/run/engine");
   r.field = read_patch(folder / "patch.csv");
   return r;
 }
