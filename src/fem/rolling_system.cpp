@@ -50,9 +50,8 @@ double penalty_rule(const Model& model) {
 
 }  // namespace
 
-DeformableBody::DeformableBody(const SweptBody& mesh, const std::vector<Elastic>& materials, const SolidOptions& options, bool hold_is_fixed)
+DeformableBody::DeformableBody(const SweptBody& mesh, const std::vector<Elastic>& materials, const SolidOptions& options)
     : solid(mesh, materials, options), ties(mesh, solid.layout()), mass(solid.mass()) {
-  (void)hold_is_fixed;
   ties.collect(mass);
   const BodyLayout& lay = solid.layout();
   std::vector<std::vector<bool>> held;
@@ -75,8 +74,8 @@ DeformableBody::DeformableBody(const SweptBody& mesh, const std::vector<Elastic>
 
 RollingSystem::RollingSystem(const Model& m)
     : model(m),
-      rail(m.rail, m.rail_materials, solid_options(m.spec), true),
-      wheel(m.wheel, m.wheel_materials, solid_options(m.spec), false),
+      rail(m.rail, m.rail_materials, solid_options(m.spec)),
+      wheel(m.wheel, m.wheel_materials, solid_options(m.spec)),
       gravity(m.spec.vehicle.gravity),
       rolling_radius(m.placement.contact.rolling_radius) {
   const VehicleSpec& v = m.spec.vehicle;

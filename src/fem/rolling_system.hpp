@@ -26,7 +26,7 @@ struct DeformableBody {
   };
   std::vector<Line> lines;
 
-  DeformableBody(const SweptBody& mesh, const std::vector<Elastic>& materials, const SolidOptions& options, bool hold_is_fixed);
+  DeformableBody(const SweptBody& mesh, const std::vector<Elastic>& materials, const SolidOptions& options);
 };
 
 /// A node on the rigid axle: index of component x in the wheel's fields, arm from the axle's centre in the undeformed wheel.

@@ -135,7 +135,7 @@ TEST(Preload, ALayerFourTimesAsStiffAndThinIsReachedToo) {
 
 // The modes of a cluster are orthonormal, so P P^T leaves what they span unchanged.
 TEST(Aggregates, ProjectionKeepsARigidMotion) {
-  const DeformableBody body{coarse_lma_wheel(), {kSteel}, {}, false};
+  const DeformableBody body{coarse_lma_wheel(), {kSteel}, {}};
   const Aggregates clusters(body, {0, -0.43}, {24e-3, 0.2});
   const Field motion = nodal_field(body.solid, [](Vec3 x) { return Vec3{1, -2, 3} + cross(Vec3{4, 5, -6}, x); });
   std::vector<double> c(clusters.modes());
