@@ -32,10 +32,11 @@ class Sweeper {
   Sweeper(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system, TractionMemory& memory)
       : rows_(rows), dt_(dt), options_(options), sys_(system), memory_(memory) {}
 
-  Vec3 relative_velocity(std::size_t r) const {
+  Vec3 relative_velocity(std::size_t r) const { return relative(r, sys_.rail_velocity, sys_.wheel_velocity); }
+  Vec3 relative(std::size_t r, const std::vector<Vec3>& rail, const std::vector<Vec3>& wheel) const {
     const ContactRow& row = rows_.rows[r];
-    Vec3 w = -sys_.rail_velocity[r];
-    for (int k = row.first; k < row.first + row.count; ++k) w += rows_.weights[k].m * sys_.wheel_velocity[sys_.weight_node[k]];
+    Vec3 w = -rail[r];
+    for (int k = row.first; k < row.first + row.count; ++k) w += rows_.weights[k].m * wheel[sys_.weight_node[k]];
     return w;
   }
   void push(std::size_t r, Vec3 traction) {
@@ -78,7 +79,7 @@ class Sweeper {
     for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
       const ContactRow& row = rows_.rows[r];
       NodeTraction& t = node(r);
-      const Vec3 w = relative_velocity(r);
+      const Vec3 w = relative(r, sys_.rail_before, sys_.wheel_before);
       const TangentFrame f = tangent_frame(row.normal);
       t.p = options_.penalty_stiffness * std::max(0.0, -row.gap);
       t.q1 += options_.penalty_stiffness * dt_ * dot(w, f.t1);

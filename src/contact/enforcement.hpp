@@ -36,6 +36,7 @@ struct ContactSystem {
   std::vector<std::ptrdiff_t> wheel_nodes;    ///< index of component x
   std::vector<int> weight_node;               ///< per weight of the rows, position in wheel_nodes
   std::vector<Vec3> rail_velocity, wheel_velocity;  ///< free velocities on input, final on output
+  std::vector<Vec3> rail_before, wheel_before;      ///< velocities of the last half step: what a penalty's tangential spring has been stretched by
   std::vector<double> rail_inverse_mass, wheel_inverse_mass;
   int sweeps = 0;
 };

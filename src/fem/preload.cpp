@@ -24,8 +24,9 @@ class Preload {
       : sys_(system), contact_(system.rail_surface, system.wheel_surface), tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()),
         preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero()) {
-    element_stiffness_ = young(sys_.model.rail_materials.front()) / sys_.model.spec.mesh.element_size;
-    penalty_ = kPenaltyScale * element_stiffness_;
+    compliant_ = sys_.model.spec.contact.method == "penalty";
+    element_stiffness_ = compliant_ ? sys_.penalty_stiffness : young(sys_.model.rail_materials.front()) / sys_.model.spec.mesh.element_size;
+    penalty_ = compliant_ ? sys_.penalty_stiffness : kPenaltyScale * element_stiffness_;
   }
 
   PreloadResult solve(double tolerance, const PreloadProgress& progress, const std::atomic<bool>* stop) {
@@ -40,7 +41,7 @@ class Preload {
       out.newton_steps = step;
       if (progress) progress(out.residual, tolerance, out.cg_iterations);
       if (!std::isfinite(out.residual)) throw NumericalError("static preload: the residual is not a number");
-      if (out.residual < tolerance && out.penetration < kPenetration * sys_.model.hertz.approach) break;
+      if (out.residual < tolerance && (compliant_ || out.penetration < kPenetration * sys_.model.hertz.approach)) break;
       if (step > kMostSteps) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e})", step, out.residual, tolerance));
       if (stop && *stop) throw NumericalError("static preload: stopped");
       hold_gaps_shut(r);
@@ -131,7 +132,7 @@ class Preload {
     sys_.wheel.ties.spread(step.wheel, 0, true);
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
-      if (active_[k]) tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = spring_[k] - penalty_ * gap_change(k, step);
+      if (active_[k] && !compliant_) tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = spring_[k] - penalty_ * gap_change(k, step);
     add(u_, 1.0, step);
     sys_.apply_constraints(u_.rail, u_.wheel, {0, u_.axle, 0});
   }
@@ -246,6 +247,7 @@ class Preload {
   TractionMemory tractions_;
   StaticPreconditioner preconditioner_;
   StaticVector u_;
+  bool compliant_ = false;  // penalty contact: its springs are the contact, there are no multipliers
   double element_stiffness_ = 0;  // Pa/m, weighs gaps against pressures where a node is to open or close
   double penalty_ = 0;            // Pa/m, of the springs in a linear step
   const MortarRows* rows_ = nullptr;

@@ -158,15 +158,15 @@ void Stepper::contact() {
   const double rate = damping_rate();
   auto velocity = [](const Field& v, std::ptrdiff_t i, int stride) { return Vec3{v[i], v[i + stride], v[i + 2 * stride]}; };
   c.rail_velocity.clear(), c.rail_inverse_mass.clear(), c.wheel_velocity.clear(), c.wheel_inverse_mass.clear();
-  std::vector<Vec3> rail_before, wheel_before;
+  c.rail_before.clear(), c.wheel_before.clear();
   for (const ContactRow& r : rows.rows) {
-    rail_before.push_back(velocity(state_.v_rail, r.rail, rs));
-    c.rail_velocity.push_back((1 - rate * dt_) * rail_before.back() + dt_ * free_acceleration(sys_.rail, f_rail_, r.rail, rs));
+    c.rail_before.push_back(velocity(state_.v_rail, r.rail, rs));
+    c.rail_velocity.push_back((1 - rate * dt_) * c.rail_before.back() + dt_ * free_acceleration(sys_.rail, f_rail_, r.rail, rs));
     c.rail_inverse_mass.push_back(sys_.rail.inverse_mass[r.rail]);
   }
   for (std::ptrdiff_t i : c.wheel_nodes) {
     const Vec3 v = velocity(state_.v_wheel, i, ws);
-    wheel_before.push_back(v);
+    c.wheel_before.push_back(v);
     Vec3 a = free_acceleration(sys_.wheel, f_wheel_, i, ws);
     if (rate > 0) {
       const std::ptrdiff_t k = i - sys_.wheel_surface.first_line;
@@ -189,13 +189,13 @@ void Stepper::contact() {
     if (t.p <= 0) continue;
     const Vec3 force = row.area * traction_vector(t, row.normal);  // on the rail
     const double component[3] = {force.x, force.y, force.z};
-    Vec3 slip = -0.5 * (rail_before[k] + c.rail_velocity[k]);      // mean of the step, wheel against rail
+    Vec3 slip = -0.5 * (c.rail_before[k] + c.rail_velocity[k]);      // mean of the step, wheel against rail
     for (int i = 0; i < 3; ++i) f_rail_[row.rail + i * rs] -= component[i];
     for (int w = row.first; w < row.first + row.count; ++w) {
       const WheelWeight& weight = rows.weights[w];
       for (int i = 0; i < 3; ++i) f_wheel_[weight.wheel + i * ws] += weight.m * component[i];
       const int n = c.weight_node[w];
-      slip += (0.5 * weight.m) * (wheel_before[n] + c.wheel_velocity[n]);
+      slip += (0.5 * weight.m) * (c.wheel_before[n] + c.wheel_velocity[n]);
     }
     forces_.x -= force.x, forces_.y -= force.y, forces_.z -= force.z;
     forces_.penetration = std::max(forces_.penetration, -row.gap);

@@ -35,6 +35,8 @@ struct Impact {
       before.wheel_velocity.push_back({1 + 2 * scatter(4 * n), scatter(4 * n + 1), -2 + scatter(4 * n + 2)});
       before.wheel_inverse_mass.push_back(1.2e5 * (1 + 0.3 * scatter(n + 77)));
     }
+    before.rail_before = before.rail_velocity;
+    before.wheel_before = before.wheel_velocity;
     after = before;
     enforce_contact(rows, kStep, options, after, memory);
   }
@@ -152,6 +154,18 @@ TEST(Penalty, PressureIsStiffnessTimesPenetrationAndFrictionStaysOnTheCoulombDis
     pressed += t.p > 0;
   }
   EXPECT_GT(pressed, 5);
+}
+
+TEST(Penalty, TangentialSpringIsStretchedByTheLastStepsMotionNotByTheFreeOne) {
+  const EnforcementOptions options{true, 5e13, 1e6, 0, 0};  // friction that never slips
+  const Impact c(options);
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    if (c.traction(r).p <= 0) continue;
+    const TangentFrame f = tangent_frame(c.rows.rows[r].normal);
+    const Vec3 w = c.slip(c.before, r);
+    EXPECT_NEAR(c.traction(r).q1, 5e13 * kStep * dot(w, f.t1), 1e-3);
+    EXPECT_NEAR(c.traction(r).q2, 5e13 * kStep * dot(w, f.t2), 1e-3);
+  }
 }
 
 }  // namespace railstrata

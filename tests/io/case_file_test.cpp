@@ -168,7 +168,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:2:13: run.positions must increase\n    2 | positions = [\"0.3 m\", \"0.2 m\"]\n      |             ^\n    remedy: list each wheel position once, the smallest first"},
       {"[run]\npositions = []\n", "a.toml:2:13: run.positions = []: needs at least one value\n    2 | positions = []\n      |             ^\n    remedy: write a list, e.g. [\"0.1 m\", \"0.3 m\"]"},
       {"[run]\npositions = [\"0.05 m\"]\n",
-       "a.toml:2:13: run.positions: 50 mm is not yet beyond the run-up (100 mm) and half the window (5 mm)\n    2 | positions = [\"0.05 m\"]\n      |             ^\n    remedy: start at 105 mm or "
+       "a.toml:2:13: run.positions: 50 mm is not yet beyond the run-up (120 mm) and half the window (5 mm)\n    2 | positions = [\"0.05 m\"]\n      |             ^\n    remedy: start at 125 mm or "
        "later, or shorten run.run_up or run.window"},
       {"[drive]\ntraction_coefficient = 0.5\n",
        "a.toml:2:24: drive.traction_coefficient = 0.5: must be below drive.friction_coefficient = 0.5\n    2 | traction_coefficient = 0.5\n      |                        ^\n    remedy: the wheel "
