@@ -3,43 +3,27 @@
 import csv
 import json
 import math
-import os
 import pathlib
-import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
-BINARY, SOURCE = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
+from outside import FromOutside, railstrata
+
+SOURCE = pathlib.Path(sys.argv[2]).resolve()
 BASE = SOURCE / "cases" / "paper" / "base.toml"
 COARSE = ["--threads", "1", "--cell", "1 mm"]
 LOAD = 8660 * 9.81
-
-
-def railstrata(*words, cwd=None):
-    done = subprocess.run([BINARY, *map(str, words)], capture_output=True, text=True, timeout=60, cwd=cwd, env={**os.environ, "OMP_WAIT_POLICY": "passive"})
-    return done.returncode, done.stdout, done.stderr
 
 
 def table(file):
     return list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#")))
 
 
-class HalfSpaceCommands(unittest.TestCase):
-    def setUp(self):
-        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
-
+class HalfSpaceCommands(FromOutside):
     def done(self, *words):
         rc, out, err = railstrata(*words)
         self.assertEqual(rc, 0, err)
-        return out
-
-    def refused(self, code, words, *messages):
-        rc, out, err = railstrata(*words)
-        self.assertEqual(rc, code, err)
-        for message in messages:
-            self.assertIn(message, err)
         return out
 
     def bem(self, name, *words):
