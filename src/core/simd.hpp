@@ -1,45 +1,65 @@
 #pragma once
-// The SIMD pack: a vector of doubles as wide as the machine's registers, with + - * / and mixed scalar operations from the compiler's vector extension.
-// Laws are templates on the number type and take double or Pack alike.
+// The SIMD pack: a vector as wide as the machine's registers, with + - * / and mixed scalar operations from the compiler's vector extension.
+// Laws are templates on the number type and take a scalar or a pack alike.
 #include <cstddef>
 #include <cstring>
+#include <type_traits>
+#include <utility>
+
+/// In front of a short loop of a law: packs stay in registers only if the compiler takes the loop apart, and it shies away from long bodies.
+#define RAILSTRATA_UNROLL _Pragma("GCC unroll 16")
 
 namespace railstrata {
 
 #if defined(__AVX512F__)
-inline constexpr int kLanes = 8;
+inline constexpr int kPackBytes = 64;
 #elif defined(__AVX__)
-inline constexpr int kLanes = 4;
+inline constexpr int kPackBytes = 32;
 #else
-inline constexpr int kLanes = 2;
+inline constexpr int kPackBytes = 16;
 #endif
 
-typedef double Pack __attribute__((vector_size(kLanes * sizeof(double))));
+template <class Real>
+struct PackType {
+  typedef Real type __attribute__((vector_size(kPackBytes)));
+};
+template <class Real>
+using PackOf = typename PackType<Real>::type;
+template <class Real>
+inline constexpr int kLanesOf = kPackBytes / static_cast<int>(sizeof(Real));
 
-inline Pack load(const double* p) {
-  Pack v;
+/// The number type of a scalar or a pack.
+template <class T>
+struct ScalarType {
+  using type = std::remove_cvref_t<decltype(std::declval<T&>()[0])>;
+};
+template <>
+struct ScalarType<double> {
+  using type = double;
+};
+template <class T>
+using ScalarOf = typename ScalarType<T>::type;
+
+using Pack = PackOf<double>;
+inline constexpr int kLanes = kLanesOf<double>;
+
+template <class Real>
+inline PackOf<Real> load(const Real* p) {
+  PackOf<Real> v;
   std::memcpy(&v, p, sizeof v);
   return v;
 }
 inline void store(double* p, Pack v) { std::memcpy(p, &v, sizeof v); }
+inline void store(float* p, PackOf<float> v) { std::memcpy(p, &v, sizeof v); }
 
 /// {before[last], now[0], now[1], …}: moves a line of values on by one lane.
-inline Pack shift_in(Pack before, Pack now) {
-#if defined(__clang__) && defined(__AVX512F__)
-  return __builtin_shufflevector(before, now, 7, 8, 9, 10, 11, 12, 13, 14);
-#elif defined(__clang__) && defined(__AVX__)
-  return __builtin_shufflevector(before, now, 3, 4, 5, 6);
-#elif defined(__clang__)
-  return __builtin_shufflevector(before, now, 1, 2);
-#else
-  typedef long long Index __attribute__((vector_size(kLanes * sizeof(long long))));
-  Index index;
-  for (int i = 0; i < kLanes; ++i) index[i] = kLanes - 1 + i;
-  return __builtin_shuffle(before, now, index);
-#endif
+template <class P>
+inline P shift_in(P before, P now) {
+  constexpr int lanes = static_cast<int>(sizeof(P) / sizeof(now[0]));
+  return [&]<int... I>(std::integer_sequence<int, I...>) { return __builtin_shufflevector(before, now, (lanes - 1 + I)...); }(std::make_integer_sequence<int, lanes>{});
 }
 
-/// n rounded up to whole packs.
+/// n rounded up to whole packs of doubles.
 constexpr int whole_packs(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
 
 }  // namespace railstrata

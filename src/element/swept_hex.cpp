@@ -206,15 +206,18 @@ Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const Hour
   StationScale<double> st{1 / scale.sigma, 1 / scale.c, scale.c, scale.sigma * scale.c, scale.sigma, scale.sigma, scale.c, 1, 0, 1, 0};
   Matrix24 k;
   for (int column = 0; column < 24; ++column) {
-    double s[4][3] = {}, d[4][3] = {}, sf[4][3], df[4][3];
     const int a = column / 3;
-    s[a % 4][column % 3] = 1.0;
-    d[a % 4][column % 3] = xi_of(a);
-    auto kin = element_kinematics(ref, st, s, d);
+    auto kin = element_kinematics<SweepKind::revolve, double>(ref, st, [&](int c, int i, double& left, double& right) {
+      const bool here = c == a % 4 && i == column % 3;
+      left = here && a < 4 ? 1.0 : 0.0;
+      right = here && a >= 4 ? 1.0 : 0.0;
+    });
     const auto stress = linear_stress(ref, st, kin);
     hourglass_forces([&](int e) { return hourglass[static_cast<std::size_t>(e)]; }, st, kin);
-    element_forces(ref, st, stress, kin, sf, df);
-    for (int row = 0; row < 24; ++row) k(row, column) = sf[row / 3 % 4][row % 3] + xi_of(row / 3) * df[row / 3 % 4][row % 3];
+    element_forces(ref, st, stress, kin, [&](int c, int i, double left, double right) {
+      k(3 * c + i, column) = left;
+      k(3 * (c + 4) + i, column) = right;
+    });
   }
   return k;
 }

@@ -20,6 +20,7 @@
 #include <Eigen/Dense>
 #include <array>
 
+#include "core/simd.hpp"
 #include "core/vec.hpp"
 #include "material/elastic.hpp"
 #include "mesh/swept.hpp"
@@ -30,13 +31,15 @@ inline constexpr int kHourglassEntries = 15 + 28;  ///< upper triangles of the 5
 using HourglassStiffness = std::array<double, kHourglassEntries>;
 
 /// Shared by all elements of one quadrilateral: the reference shape sigma = c = 1.
-struct QuadReference {
-  double gx[4], gy[4], gz[4];  ///< mean gradients of the corners at +a (at -a: gx changes sign)
-  double volume;
-  double even_y, even_z;       ///< h_even . Y, h_even . Z
-  double odd[3];               ///< h_m . A for the patterns eta, zeta, eta zeta
-  double lambda, mu;
+template <class Real>
+struct QuadReferenceOf {
+  Real gx[4], gy[4], gz[4];  ///< mean gradients of the corners at +a (at -a: gx changes sign)
+  Real volume;
+  Real even_y, even_z;       ///< h_even . Y, h_even . Z
+  Real odd[3];               ///< h_m . A for the patterns eta, zeta, eta zeta
+  Real lambda, mu;
 };
+using QuadReference = QuadReferenceOf<double>;
 
 /// The two numbers by which a station spacing scales the reference shape.
 struct SweepScale {
@@ -99,14 +102,23 @@ inline void rotate_back(T c, T s, const T (&v)[3], T (&out)[3]) {
   out[1] = v[1];
   out[2] = c * v[2] - s * v[0];
 }
+template <class T>
+inline void rotate_in_place(T c, T s, T (&v)[3]) {
+  const T x = v[0];
+  v[0] = c * x - s * v[2];
+  v[2] = s * x + c * v[2];
+}
 
 /// y = K x for a symmetric matrix given by its upper triangle.
 template <int N, class T, class Entry>
 inline void symmetric_product(const Entry& k, int first, const T (&x)[N], T (&y)[N]) {
+  RAILSTRATA_UNROLL
   for (int i = 0; i < N; ++i) y[i] = T{};
   int e = first;
+  RAILSTRATA_UNROLL
   for (int i = 0; i < N; ++i) {
     y[i] += k(e++) * x[i];
+    RAILSTRATA_UNROLL
     for (int j = i + 1; j < N; ++j, ++e) {
       y[i] += k(e) * x[j];
       y[j] += k(e) * x[i];
@@ -116,25 +128,38 @@ inline void symmetric_product(const Entry& k, int first, const T (&x)[N], T (&y)
 
 }  // namespace detail
 
-/// Displacement gradient columns and hourglass amplitudes from the sums s_k = u(+a_k) + u(-a_k) and differences d_k = u(+a_k) - u(-a_k).
+/// Displacement gradient columns and hourglass amplitudes.
 template <class T>
 struct ElementKinematics {
   T h1[3], h2[3], h3[3];            ///< H columns: derivative along the sweep, lateral, up; components in the model frame
   T even[3], odd[3][3];             ///< q: pattern eta zeta of the sums; patterns eta, zeta, eta zeta of the differences
 };
 
-template <class T>
-inline ElementKinematics<T> element_kinematics(const QuadReference& r, const StationScale<T>& st, const T (&s)[4][3], const T (&d)[4][3]) {
+/// corner(k, i, left, right) gives component i of the displacements at -a_k and +a_k. One component at a time, so that few registers are alive.
+template <SweepKind kind = SweepKind::revolve, class T, class Real, class Corner>
+inline ElementKinematics<T> element_kinematics(const QuadReferenceOf<Real>& r, const StationScale<T>& st, Corner&& corner) {
   ElementKinematics<T> k;
+  RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
-    k.h1[i] = (r.gx[0] * d[0][i] + r.gx[1] * d[1][i] + r.gx[2] * d[2][i] + r.gx[3] * d[3][i]) * st.inv_sigma;
-    k.h2[i] = r.gy[0] * s[0][i] + r.gy[1] * s[1][i] + r.gy[2] * s[2][i] + r.gy[3] * s[3][i];
-    k.h3[i] = (r.gz[0] * s[0][i] + r.gz[1] * s[1][i] + r.gz[2] * s[2][i] + r.gz[3] * s[3][i]) * st.inv_c;
-    const T d10 = d[1][i] - d[0][i], d23 = d[2][i] - d[3][i], d10s = d[1][i] + d[0][i], d23s = d[2][i] + d[3][i];
-    k.even[i] = (s[0][i] - s[1][i]) + (s[2][i] - s[3][i]) - r.even_y * k.h2[i] - (r.even_z * st.c) * k.h3[i];
-    k.odd[0][i] = (d10 + d23) - (r.odd[0] * st.sigma) * k.h1[i];
-    k.odd[1][i] = (d23s - d10s) - (r.odd[1] * st.sigma) * k.h1[i];
-    k.odd[2][i] = (d23 - d10) - (r.odd[2] * st.sigma) * k.h1[i];
+    T s[4], d[4];
+    RAILSTRATA_UNROLL
+    for (int c = 0; c < 4; ++c) {
+      T left, right;
+      corner(c, i, left, right);
+      s[c] = right + left;
+      d[c] = right - left;
+    }
+    k.h1[i] = (r.gx[0] * d[0] + r.gx[1] * d[1] + r.gx[2] * d[2] + r.gx[3] * d[3]) * st.inv_sigma;
+    k.h2[i] = r.gy[0] * s[0] + r.gy[1] * s[1] + r.gy[2] * s[2] + r.gy[3] * s[3];
+    k.h3[i] = r.gz[0] * s[0] + r.gz[1] * s[1] + r.gz[2] * s[2] + r.gz[3] * s[3];
+    T arm_z = T{} + r.even_z;
+    if constexpr (kind == SweepKind::revolve) k.h3[i] *= st.inv_c, arm_z *= st.c;
+    const T d10 = d[1] - d[0], d23 = d[2] - d[3], d10s = d[1] + d[0], d23s = d[2] + d[3];
+    const T arm = k.h1[i] * st.sigma;
+    k.even[i] = (s[0] - s[1]) + (s[2] - s[3]) - r.even_y * k.h2[i] - arm_z * k.h3[i];
+    k.odd[0][i] = (d10 + d23) - r.odd[0] * arm;
+    k.odd[1][i] = (d23s - d10s) - r.odd[1] * arm;
+    k.odd[2][i] = (d23 - d10) - r.odd[2] * arm;
   }
   return k;
 }
@@ -148,22 +173,23 @@ struct ElementStress {
 };
 
 /// Exact (geometrically non-linear) response.
-template <class T>
-inline ElementStress<T> nonlinear_stress(const QuadReference& r, const StationScale<T>& st, const ElementKinematics<T>& k) {
+template <SweepKind kind = SweepKind::revolve, class T, class Real>
+inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementKinematics<T>& k) {
   ElementStress<T> out;
-  T f1[3], f2[3], f3[3];
-  f1[0] = st.cos_q + k.h1[0], f1[1] = k.h1[1], f1[2] = st.sin_q + k.h1[2];
-  f2[0] = k.h2[0], f2[1] = 1.0 + k.h2[1], f2[2] = k.h2[2];
-  f3[0] = k.h3[0] - st.sin_q, f3[1] = k.h3[1], f3[2] = st.cos_q + k.h3[2];
+  const Real one = 1, half = Real(0.5);
+  T f1[3] = {k.h1[0], k.h1[1], k.h1[2]}, f2[3] = {k.h2[0], one + k.h2[1], k.h2[2]}, f3[3] = {k.h3[0], k.h3[1], k.h3[2]};
+  if constexpr (kind == SweepKind::revolve) f1[0] += st.cos_q, f1[2] += st.sin_q, f3[0] -= st.sin_q, f3[2] += st.cos_q;
+  else f1[0] += one, f3[2] += one;
   auto dot3 = [](const T(&a)[3], const T(&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
-  out.strain[0] = 0.5 * (dot3(f1, f1) - 1.0);
-  out.strain[1] = 0.5 * (dot3(f2, f2) - 1.0);
-  out.strain[2] = 0.5 * (dot3(f3, f3) - 1.0);
-  out.strain[3] = 0.5 * dot3(f1, f2);
-  out.strain[4] = 0.5 * dot3(f2, f3);
-  out.strain[5] = 0.5 * dot3(f1, f3);
+  out.strain[0] = half * (dot3(f1, f1) - one);
+  out.strain[1] = half * (dot3(f2, f2) - one);
+  out.strain[2] = half * (dot3(f3, f3) - one);
+  out.strain[3] = half * dot3(f1, f2);
+  out.strain[4] = half * dot3(f2, f3);
+  out.strain[5] = half * dot3(f1, f3);
   elastic_stress(r.lambda, r.mu, out.strain, out.s);
   const T(&s)[6] = out.s;
+  RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
     out.p1[i] = f1[i] * s[0] + f2[i] * s[3] + f3[i] * s[5];
     out.p2[i] = f1[i] * s[3] + f2[i] * s[1] + f3[i] * s[4];
@@ -173,17 +199,18 @@ inline ElementStress<T> nonlinear_stress(const QuadReference& r, const StationSc
 }
 
 /// Small strains about the undeformed body (F = Q): the tangent of nonlinear_stress at u = 0, used by the static solver.
-template <class T>
-inline ElementStress<T> linear_stress(const QuadReference& r, const StationScale<T>& st, const ElementKinematics<T>& k) {
+template <class T, class Real>
+inline ElementStress<T> linear_stress(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementKinematics<T>& k) {
   ElementStress<T> out;
   T h1[3], h2[3], h3[3];
   detail::rotate_back(st.cos_q, st.sin_q, k.h1, h1);
   detail::rotate_back(st.cos_q, st.sin_q, k.h2, h2);
   detail::rotate_back(st.cos_q, st.sin_q, k.h3, h3);
   out.strain[0] = h1[0], out.strain[1] = h2[1], out.strain[2] = h3[2];
-  out.strain[3] = 0.5 * (h1[1] + h2[0]);
-  out.strain[4] = 0.5 * (h2[2] + h3[1]);
-  out.strain[5] = 0.5 * (h1[2] + h3[0]);
+  const Real half = Real(0.5);
+  out.strain[3] = half * (h1[1] + h2[0]);
+  out.strain[4] = half * (h2[2] + h3[1]);
+  out.strain[5] = half * (h1[2] + h3[0]);
   elastic_stress(r.lambda, r.mu, out.strain, out.s);
   const T(&s)[6] = out.s;
   const T p1[3] = {s[0], s[3], s[5]}, p2[3] = {s[3], s[1], s[4]}, p3[3] = {s[5], s[4], s[2]};
@@ -194,40 +221,52 @@ inline ElementStress<T> linear_stress(const QuadReference& r, const StationScale
 }
 
 /// Generalised hourglass forces R K R^T q in place of q; returns the hourglass energy q.Kq / 2. `entry(e)` gives the e-th number of HourglassStiffness.
-template <class T, class Entry>
+/// still: the body has not turned (R = 1), extruded bodies only.
+template <bool still = false, class T, class Entry>
 inline T hourglass_forces(const Entry& entry, const StationScale<T>& st, ElementKinematics<T>& k) {
-  T e[3], o[3][3];
-  detail::rotate_back(st.cos_r, st.sin_r, k.even, e);
-  for (int m = 0; m < 3; ++m) detail::rotate_back(st.cos_r, st.sin_r, k.odd[m], o[m]);
-  const T a[5] = {e[1], e[2], o[0][0], o[1][0], o[2][0]};
-  const T b[7] = {e[0], o[0][1], o[0][2], o[1][1], o[1][2], o[2][1], o[2][2]};
-  T ka[5], kb[7];
-  detail::symmetric_product<5>(entry, 0, a, ka);
-  detail::symmetric_product<7>(entry, 15, b, kb);
-  T energy{};
-  for (int i = 0; i < 5; ++i) energy += a[i] * ka[i];
-  for (int i = 0; i < 7; ++i) energy += b[i] * kb[i];
-  const T fe[3] = {kb[0], ka[0], ka[1]};
-  detail::rotate(st.cos_r, st.sin_r, fe, k.even);
-  for (int m = 0; m < 3; ++m) {
-    const T fo[3] = {ka[2 + m], kb[1 + 2 * m], kb[2 + 2 * m]};
-    detail::rotate(st.cos_r, st.sin_r, fo, k.odd[m]);
+  if constexpr (!still) {
+    detail::rotate_in_place(st.cos_r, -st.sin_r, k.even);
+    RAILSTRATA_UNROLL
+    for (int m = 0; m < 3; ++m) detail::rotate_in_place(st.cos_r, -st.sin_r, k.odd[m]);
   }
-  return 0.5 * energy;
+  const T a[5] = {k.even[1], k.even[2], k.odd[0][0], k.odd[1][0], k.odd[2][0]};
+  T ka[5];
+  detail::symmetric_product<5>(entry, 0, a, ka);
+  const T b[7] = {k.even[0], k.odd[0][1], k.odd[0][2], k.odd[1][1], k.odd[1][2], k.odd[2][1], k.odd[2][2]};
+  T kb[7];
+  detail::symmetric_product<7>(entry, 15, b, kb);
+  T twice_energy{};
+  RAILSTRATA_UNROLL
+  for (int i = 0; i < 5; ++i) twice_energy += a[i] * ka[i];
+  RAILSTRATA_UNROLL
+  for (int i = 0; i < 7; ++i) twice_energy += b[i] * kb[i];
+  k.even[0] = kb[0], k.even[1] = ka[0], k.even[2] = ka[1];
+  RAILSTRATA_UNROLL
+  for (int m = 0; m < 3; ++m) k.odd[m][0] = ka[2 + m], k.odd[m][1] = kb[1 + 2 * m], k.odd[m][2] = kb[2 + 2 * m];
+  if constexpr (!still) {
+    detail::rotate_in_place(st.cos_r, st.sin_r, k.even);
+    RAILSTRATA_UNROLL
+    for (int m = 0; m < 3; ++m) detail::rotate_in_place(st.cos_r, st.sin_r, k.odd[m]);
+  }
+  return twice_energy * ScalarOf<T>(0.5);
 }
 
-/// Nodal internal forces as sums and differences: corner +a_k gets sf_k + df_k, corner -a_k gets sf_k - df_k. `k` holds generalised hourglass forces.
-template <class T>
-inline void element_forces(const QuadReference& r, const StationScale<T>& st, const ElementStress<T>& stress, const ElementKinematics<T>& k, T (&sf)[4][3], T (&df)[4][3]) {
+/// Nodal internal forces: add(k, i, left, right) gets component i of those at -a_k and +a_k. `k` holds generalised hourglass forces.
+template <class T, class Real, class Add>
+inline void element_forces(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementStress<T>& stress, const ElementKinematics<T>& k, Add&& add) {
+  const T v1 = r.volume * st.v1, v2 = r.volume * st.v2, v3 = r.volume * st.v3;
+  RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
-    const T t1 = (r.volume * st.v1) * stress.p1[i] - (r.odd[0] * k.odd[0][i] + r.odd[1] * k.odd[1][i] + r.odd[2] * k.odd[2][i]);
-    const T t2 = (r.volume * st.v2) * stress.p2[i] - r.even_y * k.even[i];
-    const T t3 = (r.volume * st.v3) * stress.p3[i] - r.even_z * k.even[i];
+    const T t1 = v1 * stress.p1[i] - (r.odd[0] * k.odd[0][i] + r.odd[1] * k.odd[1][i] + r.odd[2] * k.odd[2][i]);
+    const T t2 = v2 * stress.p2[i] - r.even_y * k.even[i];
+    const T t3 = v3 * stress.p3[i] - r.even_z * k.even[i];
     const T plus = k.odd[0][i] + k.odd[1][i], minus = k.odd[0][i] - k.odd[1][i];
     const T odd[4] = {k.odd[2][i] - plus, minus - k.odd[2][i], plus + k.odd[2][i], -(minus + k.odd[2][i])};
+    RAILSTRATA_UNROLL
     for (int c = 0; c < 4; ++c) {
-      sf[c][i] = r.gy[c] * t2 + r.gz[c] * t3 + (c % 2 == 0 ? k.even[i] : -k.even[i]);
-      df[c][i] = r.gx[c] * t1 + odd[c];
+      const T sum = r.gy[c] * t2 + r.gz[c] * t3 + (c % 2 == 0 ? k.even[i] : -k.even[i]);
+      const T difference = r.gx[c] * t1 + odd[c];
+      add(c, i, sum - difference, sum + difference);
     }
   }
 }

@@ -3,11 +3,33 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace railstrata {
 namespace {
 
-constexpr int kTile = 64;  // elements along the sweep; a multiple of every pack width
+constexpr int kGroup = 8;                    // elements along the sweep that share one hourglass stiffness; a multiple of every pack of doubles
+constexpr int kLineEnd = 64 / sizeof(float);  // lines end with a whole pack of any number type
+
+bool same_spacing(double a, double b) { return std::abs(a - b) < 1e-9 * b; }
+
+// Index of `value` in `known`, added if it is new.
+template <class T, class Same>
+int class_of(std::vector<T>& known, const T& value, Same&& same) {
+  const auto at = std::find_if(known.begin(), known.end(), [&](const T& k) { return same(k, value); });
+  if (at != known.end()) return static_cast<int>(at - known.begin());
+  known.push_back(value);
+  return static_cast<int>(known.size()) - 1;
+}
+
+QuadReferenceOf<float> rounded(const QuadReference& r) {
+  QuadReferenceOf<float> out;
+  auto f = [](double x) { return static_cast<float>(x); };
+  for (int k = 0; k < 4; ++k) out.gx[k] = f(r.gx[k]), out.gy[k] = f(r.gy[k]), out.gz[k] = f(r.gz[k]);
+  for (int k = 0; k < 3; ++k) out.odd[k] = f(r.odd[k]);
+  out.volume = f(r.volume), out.even_y = f(r.even_y), out.even_z = f(r.even_z), out.lambda = f(r.lambda), out.mu = f(r.mu);
+  return out;
+}
 
 }  // namespace
 
@@ -17,67 +39,118 @@ std::array<Vec2, 4> Solid::corners(int block, int quad) const {
   return {s.nodes[q[0]], s.nodes[q[1]], s.nodes[q[2]], s.nodes[q[3]]};
 }
 
-Solid::Solid(const SweptBody& body, const std::vector<Elastic>& materials, const SolidOptions& options) : body_(body), layout_(layout_of(body)), materials_(materials) {
+Solid::Solid(const SweptBody& body, const std::vector<Elastic>& materials, const SolidOptions& options)
+    : body_(body), layout_(layout_of(body)), materials_(materials), precision_(options.precision) {
   mass_ = layout_.field();
-  std::ptrdiff_t spill = 0;
+  std::ptrdiff_t border = 0;
   for (int b = 0; b < static_cast<int>(body_.blocks.size()); ++b) {
     const Block& block = body_.blocks[b];
     const BlockLayout& lay = layout_.blocks[b];
-    const int padded = whole_packs(lay.elements), quads = static_cast<int>(block.section.quads.size());
+    const int quads = static_cast<int>(block.section.quads.size()), padded = (lay.elements + kLineEnd - 1) / kLineEnd * kLineEnd;
     BlockData d;
-    d.spacing_class.resize(padded);
-    for (Field* a : {&d.inv_sigma, &d.inv_c, &d.v1, &d.v2, &d.v3, &d.sigma, &d.c, &d.theta, &d.cos_q, &d.sin_q}) a->assign(padded, 0.0);
+    KernelData<double>& k = d.kernel;
+    for (auto* a : {&k.inv_sigma, &k.inv_c, &k.v1, &k.v2, &k.v3, &k.sigma, &k.c, &k.cos_q, &k.sin_q, &k.cos_r, &k.sin_r}) a->assign(padded, 0.0);
+    d.theta.assign(lay.elements, 0.0);
+    std::vector<double> spacing(lay.elements);
     for (int e = 0; e < lay.elements; ++e) {
       const double t0 = block.stations.at[e];
       const double t1 = e + 1 < lay.stations ? block.stations.at[e + 1] : block.stations.at[0] + 2 * std::numbers::pi;
-      const double spacing = t1 - t0;
-      auto known = std::find_if(d.spacings.begin(), d.spacings.end(), [&](double s) { return std::abs(s - spacing) < 1e-9 * spacing; });
-      d.spacing_class[e] = static_cast<int>(known - d.spacings.begin());
-      if (known == d.spacings.end()) d.spacings.push_back(spacing);
-      const SweepScale scale = sweep_scale(body_.kind, d.spacings[d.spacing_class[e]]);
-      d.inv_sigma[e] = 1 / scale.sigma, d.inv_c[e] = 1 / scale.c;
-      d.v1[e] = scale.c, d.v2[e] = scale.sigma * scale.c, d.v3[e] = scale.sigma;
-      d.sigma[e] = scale.sigma, d.c[e] = scale.c;
+      spacing[e] = t1 - t0;
+      const SweepScale scale = sweep_scale(body_.kind, spacing[e]);
+      k.inv_sigma[e] = 1 / scale.sigma, k.inv_c[e] = 1 / scale.c;
+      k.v1[e] = scale.c, k.v2[e] = scale.sigma * scale.c, k.v3[e] = scale.sigma;
+      k.sigma[e] = scale.sigma, k.c[e] = scale.c;
       d.theta[e] = body_.kind == SweepKind::revolve ? 0.5 * (t0 + t1) : 0.0;
-      d.cos_q[e] = std::cos(d.theta[e]), d.sin_q[e] = std::sin(d.theta[e]);
+      k.cos_q[e] = std::cos(d.theta[e]), k.sin_q[e] = std::sin(d.theta[e]);
     }
-    const int classes = static_cast<int>(d.spacings.size());
-    std::fill(d.spacing_class.begin() + lay.elements, d.spacing_class.end(), classes);
-    d.quads.reserve(quads);
-    for (int q = 0; q < quads; ++q) d.quads.push_back(quad_reference(body_.kind, corners(b, q), materials_[block.section.quad_material[q]]));
-    d.hourglass.assign(static_cast<std::size_t>(classes + 1) * quads, HourglassStiffness{});
+    k.cos_r = k.cos_q, k.sin_r = k.sin_q;
+
+    std::vector<double> hourglass_spacings;
+    for (int e = 0; e < lay.elements; ++e) {
+      if (e % kGroup == 0) {
+        const int count = std::min(kGroup, lay.elements - e);
+        d.hourglass_class.push_back(class_of(hourglass_spacings, std::accumulate(&spacing[e], &spacing[e] + count, 0.0) / count, same_spacing));
+      }
+      const SpacingClass mine{spacing[e], d.hourglass_class.back()};
+      d.element_class.push_back(class_of(d.classes, mine, [](const SpacingClass& a, const SpacingClass& c) { return same_spacing(a.spacing, c.spacing) && a.hourglass == c.hourglass; }));
+    }
+    const int classes = static_cast<int>(hourglass_spacings.size());
+    d.hourglass_class.resize(padded / kGroup, classes);
+    k.quads.reserve(quads);
+    for (int q = 0; q < quads; ++q) k.quads.push_back(quad_reference(body_.kind, corners(b, q), materials_[block.section.quad_material[q]]));
+    k.hourglass.assign(static_cast<std::size_t>(classes + 1) * quads, HourglassStiffness{});
     for_each(static_cast<std::ptrdiff_t>(classes) * quads, [&](std::ptrdiff_t i) {
       const int q = static_cast<int>(i % quads);
-      d.hourglass[i] = hourglass_stiffness(body_.kind, corners(b, q), sweep_scale(body_.kind, d.spacings[i / quads]), materials_[block.section.quad_material[q]], options.element,
+      k.hourglass[i] = hourglass_stiffness(body_.kind, corners(b, q), sweep_scale(body_.kind, hourglass_spacings[i / quads]), materials_[block.section.quad_material[q]], options.element,
                                            options.hourglass_coefficient);
     });
+    if (precision_ == Precision::single_precision) {
+      for (const QuadReference& r : k.quads) d.single.quads.push_back(rounded(r));
+      for (const HourglassStiffness& h : k.hourglass) {
+        d.single.hourglass.emplace_back();
+        std::transform(h.begin(), h.end(), d.single.hourglass.back().begin(), [](double x) { return static_cast<float>(x); });
+      }
+      auto round_line = [](const Line<double>& from, Line<float>& to) { to.assign(from.begin(), from.end()); };
+      round_line(k.inv_sigma, d.single.inv_sigma), round_line(k.inv_c, d.single.inv_c), round_line(k.v1, d.single.v1), round_line(k.v2, d.single.v2), round_line(k.v3, d.single.v3);
+      round_line(k.sigma, d.single.sigma), round_line(k.c, d.single.c), round_line(k.cos_q, d.single.cos_q), round_line(k.sin_q, d.single.sin_q);
+      round_line(k.cos_r, d.single.cos_r), round_line(k.sin_r, d.single.sin_r);
+    }
 
     for (int e = 0; e < lay.elements; ++e) {
       const int next = e + 1 < lay.stations ? e + 1 : 0;
-      const SweepScale scale{d.sigma[e], d.c[e]};
+      const SweepScale scale{k.sigma[e], k.c[e]};
       for (int q = 0; q < quads; ++q) {
         const auto m = corner_masses(body_.kind, corners(b, q), scale, materials_[block.section.quad_material[q]].density);
-        for (int k = 0; k < 4; ++k)
+        for (int n = 0; n < 4; ++n)
           for (int i = 0; i < 3; ++i) {
-            const std::ptrdiff_t line = lay.line(block.section.quads[q][k], i);
-            mass_[line + e] += m[k];
-            mass_[line + next] += m[k];
+            const std::ptrdiff_t line = lay.line(block.section.quads[q][n], i);
+            mass_[line + e] += m[n];
+            mass_[line + next] += m[n];
           }
       }
     }
+    plan_scratch(b, d);
     first_tile_.push_back(static_cast<int>(tiles_.size()));
     for (int first = 0; first < lay.elements; first += kTile) {
-      tiles_.push_back({b, first, std::min(first + kTile, padded), spill});
-      spill += static_cast<std::ptrdiff_t>(lay.nodes) * 3;
+      tiles_.push_back({b, first, std::min(first + kTile, lay.elements)});
+      border_.push_back(border);
+      border += static_cast<std::ptrdiff_t>(lay.nodes) * 3;
     }
-    frame_offset_.push_back(frame_size_);
-    frame_size_ += padded;
     data_.push_back(std::move(d));
   }
   first_tile_.push_back(static_cast<int>(tiles_.size()));
-  spill_.assign(spill, 0.0);
-  cos_r_.assign(frame_size_, 0.0);
-  sin_r_.assign(frame_size_, 0.0);
+  border_first_.assign(border, 0.0);
+  border_end_.assign(border, 0.0);
+}
+
+// Rows of scratch memory: the lowest free one at the first touch, given back after the last.
+void Solid::plan_scratch(int block, BlockData& d) const {
+  const auto& quads = body_.blocks[block].section.quads;
+  const std::size_t nodes = body_.blocks[block].section.nodes.size();
+  std::vector<int> first(nodes, -1), last(nodes, -1);
+  for (int q = 0; q < static_cast<int>(quads.size()); ++q)
+    for (int n : quads[q]) {
+      if (first[n] < 0) first[n] = q;
+      last[n] = q;
+    }
+  d.slot.assign(nodes, 0);
+  std::vector<char> taken;
+  for (int q = 0; q < static_cast<int>(quads.size()); ++q) {
+    d.fresh.push_back({});
+    d.done.push_back({});
+    for (int k = 0; k < 4; ++k) {
+      const int n = quads[q][k];
+      if (first[n] != q) continue;
+      d.fresh[q][k] = 1;
+      const auto free = std::find(taken.begin(), taken.end(), 0);
+      d.slot[n] = static_cast<int>(free - taken.begin());
+      if (free == taken.end()) taken.push_back(1);
+      else *free = 1;
+    }
+    for (int k = 0; k < 4; ++k)
+      if (last[quads[q][k]] == q) d.done[q][k] = 1, taken[d.slot[quads[q][k]]] = 0;
+  }
+  d.slots = static_cast<int>(taken.size());
 }
 
 double Solid::total_mass() const {
@@ -95,140 +168,211 @@ void Solid::refresh_ghosts(Field& u) const {
         for (int i = 0; i < 3; ++i) u[l.line(n, i) + l.stations] = u[l.line(n, i)];
 }
 
-void Solid::turned_frames(double psi, Field& cos_r, Field& sin_r) const {
+void Solid::turn_frames(double psi) const {
+  if (body_.kind == SweepKind::extrude) return;
   const double cp = std::cos(psi), sp = std::sin(psi);
-  for (std::size_t b = 0; b < data_.size(); ++b) {
-    const BlockData& d = data_[b];
-    const std::ptrdiff_t o = frame_offset_[b];
-    for (std::size_t e = 0; e < d.cos_q.size(); ++e) {
-      cos_r[o + e] = d.cos_q[e] * cp + d.sin_q[e] * sp;  // theta - psi
-      sin_r[o + e] = d.sin_q[e] * cp - d.cos_q[e] * sp;
+  for (BlockData& d : data_) {
+    KernelData<double>& k = d.kernel;
+    for (std::size_t e = 0; e < k.cos_q.size(); ++e) {
+      k.cos_r[e] = k.cos_q[e] * cp + k.sin_q[e] * sp;  // theta - psi
+      k.sin_r[e] = k.sin_q[e] * cp - k.cos_q[e] * sp;
     }
+    if (precision_ == Precision::single_precision)
+      for (std::size_t e = 0; e < k.cos_q.size(); ++e) d.single.cos_r[e] = static_cast<float>(k.cos_r[e]), d.single.sin_r[e] = static_cast<float>(k.sin_r[e]);
   }
 }
 
-namespace {
-
-// Corner values of a pack of elements: sums and differences over the two stations.
-struct LinePointers {
-  const double* u[4][3];
-};
-
-inline void gather(const LinePointers& p, int e, Pack (&s)[4][3], Pack (&d)[4][3]) {
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 3; ++i) {
-      const Pack left = load(p.u[k][i] + e), right = load(p.u[k][i] + e + 1);
-      s[k][i] = right + left;
-      d[k][i] = right - left;
-    }
+template <class Real>
+template <class T, class Load>
+StationScale<T> Solid::KernelData<Real>::scale(int e, Load&& read) const {
+  return {read(&inv_sigma[e]), read(&inv_c[e]), read(&v1[e]), read(&v2[e]), read(&v3[e]), read(&sigma[e]), read(&c[e]), read(&cos_q[e]), read(&sin_q[e]), read(&cos_r[e]), read(&sin_r[e])};
 }
 
-// Hourglass stiffness of a pack whose elements have one spacing (scalars) or several (a lane each).
+template <>
+const Solid::KernelData<double>& Solid::kernel<double>(const BlockData& d) const { return d.kernel; }
+template <>
+const Solid::KernelData<float>& Solid::kernel<float>(const BlockData& d) const { return d.single; }
+
+namespace {
+
+// Hourglass stiffness of a pack: whole and of one class, or of one class in each half and with elements that do not exist.
+template <class Real>
 struct OneClass {
-  const double* k;
-  double operator()(int e) const { return k[e]; }
+  const Real* k;
+  Real operator()(int e) const { return k[e]; }
 };
-struct LaneClass {
-  const double* k[kLanes];
-  Pack operator()(int e) const {
-    Pack v;
-    for (int l = 0; l < kLanes; ++l) v[l] = k[l][e];
+template <class Real>
+struct TwoClasses {
+  const Real *lower, *upper;
+  int elements;
+  PackOf<Real> operator()(int e) const {
+    PackOf<Real> v;
+    RAILSTRATA_UNROLL
+    for (int l = 0; l < kLanesOf<Real>; ++l) v[l] = l >= elements ? Real(0) : l < kLanesOf<Real> / 2 ? lower[e] : upper[e];
     return v;
   }
 };
 
+// Replaces the hourglass amplitudes of the elements from `first` on by their forces; returns the energy. `table`: the classes' stiffnesses of one quadrilateral.
+template <class Real, bool still, class P, class Table>
+P pack_hourglass(const Table& table, const std::vector<int>& group_class, int first, int elements, const StationScale<P>& st, ElementKinematics<P>& kin) {
+  constexpr int lanes = kLanesOf<Real>;
+  const int lower = group_class[first / kGroup], upper = group_class[(first + lanes / 2) / kGroup];
+  if (lower == upper && elements - first >= lanes) return hourglass_forces<still>(OneClass<Real>{table(lower)}, st, kin);
+  return hourglass_forces<still>(TwoClasses<Real>{table(lower), table(upper), elements - first}, st, kin);
+}
+
+template <class Real>
+struct Scratch {
+  using Row = Real[3][Solid::kTile + kLineEnd];
+  std::vector<Real, CacheLineAllocator<Real>> force, carry, displacement;
+  void fit(int slots) {
+    force.resize(std::max(force.size(), static_cast<std::size_t>(slots) * 3 * Solid::kTile));
+    carry.resize(std::max(carry.size(), static_cast<std::size_t>(slots) * 3));
+    if (sizeof(Real) < sizeof(double)) displacement.resize(std::max(displacement.size(), static_cast<std::size_t>(slots) * 3 * kRow));
+  }
+  static constexpr int kRow = Solid::kTile + kLineEnd;  // stations of a row of displacements: one more than elements, whole packs
+};
+
 }  // namespace
 
-template <bool linear>
-void Solid::tile_forces(const Tile& tile, const Field& u, const Field& cos_r, const Field& sin_r, Field& f) const {
+template <class Real, bool linear, SweepKind kind>
+void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take) const {
+  using P = PackOf<Real>;
+  constexpr int lanes = kLanesOf<Real>;
+  constexpr bool copies = sizeof(Real) < sizeof(double);  // lines of displacements are rounded to Real once, when first touched
+  const Tile& tile = tiles_[t];
   const BlockData& d = data_[tile.block];
+  const KernelData<Real>& k = kernel<Real>(d);
   const BlockLayout& lay = layout_.blocks[tile.block];
   const auto& quads = body_.blocks[tile.block].section.quads;
-  for (std::ptrdiff_t line = 0; line < static_cast<std::ptrdiff_t>(lay.nodes) * 3; ++line) {
-    double* out = f.data() + lay.offset + line * lay.stride;
-    std::fill(out + tile.first, out + tile.last, 0.0);
-  }
-  double* spill = spill_.data() + tile.spill;
-  std::fill(spill, spill + static_cast<std::ptrdiff_t>(lay.nodes) * 3, 0.0);
+  const int count = tile.end - tile.first, packs = (count + lanes - 1) / lanes;
+  thread_local Scratch<Real> scratch;
+  scratch.fit(d.slots);
+  alignas(64) double rows[3 * kTile];
 
-  const int packs = (tile.last - tile.first) / kLanes;
-  StationScale<Pack> st[kTile / kLanes];
-  int pack_class[kTile / kLanes];  // -1: several spacings in one pack
-  for (int n = 0; n < packs; ++n) {
-    const int e = tile.first + n * kLanes;
-    st[n] = {load(&d.inv_sigma[e]), load(&d.inv_c[e]), load(&d.v1[e]), load(&d.v2[e]),   load(&d.v3[e]),
-             load(&d.sigma[e]),     load(&d.c[e]),     load(&d.cos_q[e]), load(&d.sin_q[e]), load(&cos_r[frame_offset_[tile.block] + e]), load(&sin_r[frame_offset_[tile.block] + e])};
-    pack_class[n] = d.spacing_class[e];
-    for (int l = 1; l < kLanes; ++l)
-      if (d.spacing_class[e + l] != pack_class[n]) pack_class[n] = -1;
-  }
+  StationScale<P> st[kTile / lanes];
+  for (int n = 0; n < packs; ++n) st[n] = k.template scale<P>(tile.first + n * lanes, [](const Real* x) { return load(x); });
 
   for (std::size_t q = 0; q < quads.size(); ++q) {
-    const QuadReference& ref = d.quads[q];
-    LinePointers in;
-    double* out[4][3];
-    for (int k = 0; k < 4; ++k)
+    const QuadReferenceOf<Real>& ref = k.quads[q];
+    const Real* in[4][3];
+    Real* out[4][3];
+    for (int c = 0; c < 4; ++c) {
+      const int node = quads[q][c], slot = d.slot[node];
       for (int i = 0; i < 3; ++i) {
-        in.u[k][i] = u.data() + lay.line(quads[q][k], i);
-        out[k][i] = f.data() + lay.line(quads[q][k], i);
-      }
-    Pack right[4][3] = {};
-    for (int n = 0; n < packs; ++n) {
-      const int e = tile.first + n * kLanes;
-      Pack s[4][3], diff[4][3], sf[4][3], df[4][3];
-      gather(in, e, s, diff);
-      auto kin = element_kinematics(ref, st[n], s, diff);
-      ElementStress<Pack> stress;
-      if constexpr (linear) stress = linear_stress(ref, st[n], kin);
-      else stress = nonlinear_stress(ref, st[n], kin);
-      if (pack_class[n] >= 0) {
-        hourglass_forces(OneClass{d.hourglass[pack_class[n] * quads.size() + q].data()}, st[n], kin);
-      } else {
-        LaneClass lanes;
-        for (int l = 0; l < kLanes; ++l) lanes.k[l] = d.hourglass[d.spacing_class[e + l] * quads.size() + q].data();
-        hourglass_forces(lanes, st[n], kin);
-      }
-      element_forces(ref, st[n], stress, kin, sf, df);
-      for (int k = 0; k < 4; ++k)
-        for (int i = 0; i < 3; ++i) {
-          const Pack now = sf[k][i] + df[k][i];
-          store(out[k][i] + e, load(out[k][i] + e) + (sf[k][i] - df[k][i]) + shift_in(right[k][i], now));
-          right[k][i] = now;
+        out[c][i] = &scratch.force[(static_cast<std::size_t>(slot) * 3 + i) * kTile];
+        const double* line = u.data() + lay.line(node, i) + tile.first;
+        if constexpr (copies) {
+          Real* copy = &scratch.displacement[(static_cast<std::size_t>(slot) * 3 + i) * Scratch<Real>::kRow];
+          if (d.fresh[q][c]) {
+            for (int j = 0; j <= count; ++j) copy[j] = static_cast<Real>(line[j]);
+            std::fill(copy + count + 1, copy + packs * lanes + 1, Real(0));
+          }
+          in[c][i] = copy;
+        } else {
+          in[c][i] = line;
         }
+      }
+      if (d.fresh[q][c]) {
+        std::fill(out[c][0], out[c][0] + 3 * kTile, Real(0));
+        std::fill_n(&scratch.carry[static_cast<std::size_t>(slot) * 3], 3, Real(0));
+      }
     }
-    for (int k = 0; k < 4; ++k)
-      for (int i = 0; i < 3; ++i) spill[quads[q][k] * 3 + i] += right[k][i][kLanes - 1];
+    P right[4][3] = {};
+    for (int n = 0; n < packs; ++n) {
+      const int e = n * lanes;
+      auto kin = element_kinematics<kind, P>(ref, st[n], [&](int c, int i, P& left_value, P& right_value) {
+        left_value = load(in[c][i] + e);
+        right_value = load(in[c][i] + e + 1);
+      });
+      ElementStress<P> stress;
+      if constexpr (linear) stress = linear_stress(ref, st[n], kin);
+      else stress = nonlinear_stress<kind>(ref, st[n], kin);
+      pack_hourglass<Real, kind == SweepKind::extrude>([&](int c) { return k.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, tile.first + e, lay.elements, st[n], kin);
+      element_forces(ref, st[n], stress, kin, [&](int c, int i, P left_force, P right_force) {
+        Real* x = out[c][i] + e;
+        store(x, load(x) + left_force + shift_in(right[c][i], right_force));
+        right[c][i] = right_force;
+      });
+    }
+    for (int c = 0; c < 4; ++c)
+      for (int i = 0; i < 3; ++i) scratch.carry[static_cast<std::size_t>(d.slot[quads[q][c]]) * 3 + i] += right[c][i][lanes - 1];
+
+    for (int c = 0; c < 4; ++c) {
+      if (!d.done[q][c]) continue;
+      const int node = quads[q][c];
+      for (int i = 0; i < 3; ++i) {
+        const std::ptrdiff_t border = border_[t] + static_cast<std::ptrdiff_t>(node) * 3 + i;
+        border_first_[border] = out[c][i][0];
+        border_end_[border] = count < packs * lanes ? out[c][i][count] : scratch.carry[static_cast<std::size_t>(d.slot[node]) * 3 + i];
+      }
+      const double* complete = nullptr;
+      if constexpr (copies) {
+        for (int j = 0; j < 3 * kTile; ++j) rows[j] = out[c][0][j];
+        complete = rows;
+      } else {
+        complete = out[c][0];
+      }
+      if (take && (*take)(tile, node, complete)) continue;
+      for (int i = 0; i < 3; ++i) std::copy(complete + i * kTile + 1, complete + i * kTile + count, f.data() + lay.line(node, i) + tile.first + 1);
+    }
+  }
+}
+
+template <class Real, bool linear>
+void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take) const {
+  if (body_.kind == SweepKind::extrude) run_tile<Real, linear, SweepKind::extrude>(t, u, f, take);
+  else run_tile<Real, linear, SweepKind::revolve>(t, u, f, take);
+}
+
+void Solid::begin_forces(Field& u, double psi) const {
+  refresh_ghosts(u);
+  turn_frames(psi);
+}
+
+void Solid::tile_forces(int t, const Field& u, Field& f, const TakeRows& take) const {
+  if (precision_ == Precision::single_precision) run_tile<float, false>(t, u, f, &take);
+  else run_tile<double, false>(t, u, f, &take);
+}
+
+void Solid::end_forces(Field& f) const {
+  for (int b = 0; b < static_cast<int>(layout_.blocks.size()); ++b) {
+    const BlockLayout& l = layout_.blocks[b];
+    const int first_tile = first_tile_[b], last_tile = first_tile_[b + 1] - 1;
+    for (std::ptrdiff_t line = 0; line < static_cast<std::ptrdiff_t>(l.nodes) * 3; ++line) {
+      double* out = f.data() + l.offset + line * l.stride;
+      double before = l.closed ? border_end_[border_[last_tile] + line] : 0.0;
+      for (int t = first_tile; t <= last_tile; ++t) {
+        out[tiles_[t].first] = before + border_first_[border_[t] + line];
+        before = border_end_[border_[t] + line];
+      }
+      if (!l.closed) out[l.elements] = before;
+    }
   }
 }
 
 template <bool linear>
 void Solid::forces(Field& u, double psi, Field& f) const {
-  refresh_ghosts(u);
-  turned_frames(psi, cos_r_, sin_r_);
-  for_each(static_cast<std::ptrdiff_t>(tiles_.size()), [&](std::ptrdiff_t t) { tile_forces<linear>(tiles_[t], u, cos_r_, sin_r_, f); }, true);
-  for (int b = 0; b < static_cast<int>(layout_.blocks.size()); ++b) {
-    const BlockLayout& l = layout_.blocks[b];
-    for_each(static_cast<std::ptrdiff_t>(l.nodes) * 3, [&](std::ptrdiff_t line) {
-      double* out = f.data() + l.offset + line * l.stride;
-      for (int t = first_tile_[b]; t < first_tile_[b + 1]; ++t) {
-        const int plane = tiles_[t].last;
-        if (plane == l.elements) out[plane] = 0.0;  // the plane behind the last whole pack belongs to no tile
-        out[plane] += spill_[tiles_[t].spill + line];
-      }
-      if (l.closed) out[0] += out[l.elements];
-    });
-  }
+  begin_forces(u, psi);
+  for_each(
+      tiles(),
+      [&](std::ptrdiff_t t) {
+        if (!linear && precision_ == Precision::single_precision) run_tile<float, false>(static_cast<int>(t), u, f, nullptr);
+        else run_tile<double, linear>(static_cast<int>(t), u, f, nullptr);
+      },
+      true);
+  end_forces(f);
 }
 
 void Solid::internal_force(Field& u, double psi, Field& f) const { forces<false>(u, psi, f); }
 void Solid::linear_force(Field& u, Field& f) const { forces<true>(u, 0.0, f); }
 
 StrainEnergy Solid::energy(Field& u, double psi) const {
-  refresh_ghosts(u);
-  turned_frames(psi, cos_r_, sin_r_);
+  begin_forces(u, psi);
   std::vector<StrainEnergy> part(tiles_.size());
   for_each(
-      static_cast<std::ptrdiff_t>(tiles_.size()),
+      tiles(),
       [&](std::ptrdiff_t t) {
         const Tile& tile = tiles_[t];
         const BlockData& d = data_[tile.block];
@@ -236,21 +380,18 @@ StrainEnergy Solid::energy(Field& u, double psi) const {
         const auto& quads = body_.blocks[tile.block].section.quads;
         Pack strain{}, hourglass{};
         for (std::size_t q = 0; q < quads.size(); ++q) {
-          const QuadReference& ref = d.quads[q];
-          LinePointers in;
-          for (int k = 0; k < 4; ++k)
-            for (int i = 0; i < 3; ++i) in.u[k][i] = u.data() + lay.line(quads[q][k], i);
-          for (int e = tile.first; e < tile.last; e += kLanes) {
-            const std::ptrdiff_t o = frame_offset_[tile.block] + e;
-            const StationScale<Pack> st{load(&d.inv_sigma[e]), load(&d.inv_c[e]), load(&d.v1[e]),    load(&d.v2[e]),    load(&d.v3[e]), load(&d.sigma[e]),
-                                        load(&d.c[e]),         load(&d.cos_q[e]), load(&d.sin_q[e]), load(&cos_r_[o]), load(&sin_r_[o])};
-            Pack s[4][3], diff[4][3];
-            gather(in, e, s, diff);
-            auto kin = element_kinematics(ref, st, s, diff);
+          const QuadReference& ref = d.kernel.quads[q];
+          const double* in[4][3];
+          for (int c = 0; c < 4; ++c)
+            for (int i = 0; i < 3; ++i) in[c][i] = u.data() + lay.line(quads[q][c], i);
+          for (int e = tile.first; e < tile.end; e += kLanes) {
+            const StationScale<Pack> st = d.kernel.scale<Pack>(e, [](const double* x) { return load(x); });
+            auto kin = element_kinematics<SweepKind::revolve, Pack>(ref, st, [&](int c, int i, Pack& left, Pack& right) {
+              left = load(in[c][i] + e);
+              right = load(in[c][i] + e + 1);
+            });
             const auto stress = nonlinear_stress(ref, st, kin);
-            LaneClass lanes;
-            for (int l = 0; l < kLanes; ++l) lanes.k[l] = d.hourglass[d.spacing_class[e + l] * quads.size() + q].data();
-            hourglass += hourglass_forces(lanes, st, kin);
+            hourglass += pack_hourglass<double, false>([&](int c) { return d.kernel.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, e, lay.elements, st, kin);
             const auto& a = stress.strain;
             const auto& b = stress.s;
             strain += 0.5 * ref.volume * st.v2 * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]));
@@ -268,12 +409,14 @@ void Solid::stiffness_diagonal(Field& diagonal) const {
   std::fill(diagonal.begin(), diagonal.end(), 0.0);
   for (int b = 0; b < static_cast<int>(data_.size()); ++b) {
     const BlockData& d = data_[b];
+    const KernelData<double>& kernel_data = d.kernel;
     const BlockLayout& lay = layout_.blocks[b];
-    const int quads = static_cast<int>(d.quads.size()), classes = static_cast<int>(d.spacings.size());
+    const int quads = static_cast<int>(kernel_data.quads.size()), classes = static_cast<int>(d.classes.size());
     // per (class, quad, corner): xx, yy, zz, xz of the corner's own block, element frame; the same at both stations but for the sign of xz
     std::vector<std::array<double, 32>> block(static_cast<std::size_t>(classes) * quads);
     for_each(static_cast<std::ptrdiff_t>(block.size()), [&](std::ptrdiff_t i) {
-      const Matrix24 k = linear_stiffness(d.quads[i % quads], sweep_scale(body_.kind, d.spacings[i / quads]), d.hourglass[i]);
+      const SpacingClass& mine = d.classes[i / quads];
+      const Matrix24 k = linear_stiffness(kernel_data.quads[i % quads], sweep_scale(body_.kind, mine.spacing), kernel_data.hourglass[mine.hourglass * quads + i % quads]);
       for (int a = 0; a < 8; ++a) {
         block[i][4 * a] = k(3 * a, 3 * a);
         block[i][4 * a + 1] = k(3 * a + 1, 3 * a + 1);
@@ -285,9 +428,9 @@ void Solid::stiffness_diagonal(Field& diagonal) const {
       for (int a = 0; a < 8; ++a) {
         double* x = diagonal.data() + lay.line(body_.blocks[b].section.quads[q][a % 4], 0);
         for (int e = 0; e < lay.elements; ++e) {
-          const auto& k = block[static_cast<std::size_t>(d.spacing_class[e]) * quads + q];
+          const auto& k = block[static_cast<std::size_t>(d.element_class[e]) * quads + q];
           const int j = a < 4 ? e : (e + 1 < lay.stations ? e + 1 : 0);
-          const double c = d.cos_q[e], s = d.sin_q[e], cross_term = 2 * c * s * k[4 * a + 3];
+          const double c = kernel_data.cos_q[e], s = kernel_data.sin_q[e], cross_term = 2 * c * s * k[4 * a + 3];
           x[j] += c * c * k[4 * a] + s * s * k[4 * a + 2] - cross_term;
           x[j + lay.stride] += k[4 * a + 1];
           x[j + 2 * lay.stride] += s * s * k[4 * a] + c * c * k[4 * a + 2] + cross_term;
@@ -298,31 +441,23 @@ void Solid::stiffness_diagonal(Field& diagonal) const {
 
 namespace {
 
-struct OneElement {
-  double s[4][3], d[4][3];
-};
-
-OneElement gather_one(const BlockLayout& l, const std::array<int, 4>& quad, const Field& u, int station) {
-  OneElement out{};
+// Corner displacements of one element.
+auto corners_of(const BlockLayout& l, const std::array<int, 4>& quad, const Field& u, int station) {
   const int next = l.closed && station + 1 == l.stations ? 0 : station + 1;
-  for (int k = 0; k < 4; ++k)
-    for (int i = 0; i < 3; ++i) {
-      const double a = u[l.line(quad[k], i) + station], b = u[l.line(quad[k], i) + next];
-      out.s[k][i] = a + b;
-      out.d[k][i] = b - a;
-    }
-  return out;
+  return [&l, &quad, &u, station, next](int c, int i, double& left, double& right) {
+    left = u[l.line(quad[c], i) + station];
+    right = u[l.line(quad[c], i) + next];
+  };
 }
 
 }  // namespace
 
 Sym3 Solid::stress(const Field& u, int block, int quad, int station) const {
-  const BlockData& d = data_[block];
+  const KernelData<double>& d = data_[block].kernel;
   const QuadReference& ref = d.quads[quad];
-  const OneElement c = gather_one(layout_.blocks[block], body_.blocks[block].section.quads[quad], u, station);
-  const StationScale<double> st{d.inv_sigma[station], d.inv_c[station], d.v1[station],    d.v2[station],    d.v3[station], d.sigma[station],
-                                d.c[station],         d.cos_q[station], d.sin_q[station], d.cos_q[station], d.sin_q[station]};
-  const auto kin = element_kinematics(ref, st, c.s, c.d);
+  StationScale<double> st = d.scale<double>(station, [](const double* x) { return *x; });
+  st.cos_r = st.cos_q, st.sin_r = st.sin_q;
+  const auto kin = element_kinematics<SweepKind::revolve, double>(ref, st, corners_of(layout_.blocks[block], body_.blocks[block].section.quads[quad], u, station));
   const auto p = nonlinear_stress(ref, st, kin);
   // sigma = P F^T / det F, P and F with the element's frame as their right index
   const Vec3 f1{st.cos_q + kin.h1[0], kin.h1[1], st.sin_q + kin.h1[2]}, f2{kin.h2[0], 1 + kin.h2[1], kin.h2[2]}, f3{kin.h3[0] - st.sin_q, kin.h3[1], st.cos_q + kin.h3[2]};
@@ -335,10 +470,9 @@ Sym3 Solid::stress(const Field& u, int block, int quad, int station) const {
 }
 
 std::array<Vec3, 3> Solid::displacement_gradient(const Field& u, int block, int quad, int station) const {
-  const BlockData& d = data_[block];
-  const OneElement c = gather_one(layout_.blocks[block], body_.blocks[block].section.quads[quad], u, station);
+  const KernelData<double>& d = data_[block].kernel;
   const StationScale<double> st{d.inv_sigma[station], d.inv_c[station], 0, 0, 0, d.sigma[station], d.c[station], 1, 0, 1, 0};
-  const auto k = element_kinematics(d.quads[quad], st, c.s, c.d);
+  const auto k = element_kinematics<SweepKind::revolve, double>(d.quads[quad], st, corners_of(layout_.blocks[block], body_.blocks[block].section.quads[quad], u, station));
   return {Vec3{k.h1[0], k.h1[1], k.h1[2]}, Vec3{k.h2[0], k.h2[1], k.h2[2]}, Vec3{k.h3[0], k.h3[1], k.h3[2]}};
 }
 
@@ -351,16 +485,18 @@ Solid::StepBound Solid::element_step_bound() const {
   StepBound best{std::numeric_limits<double>::infinity(), 0, 0, 0};
   for (int b = 0; b < static_cast<int>(data_.size()); ++b) {
     const BlockData& d = data_[b];
-    const int quads = static_cast<int>(d.quads.size()), classes = static_cast<int>(d.spacings.size());
+    const int quads = static_cast<int>(d.kernel.quads.size()), classes = static_cast<int>(d.classes.size());
     std::vector<double> step(static_cast<std::size_t>(quads) * classes);
     for_each(static_cast<std::ptrdiff_t>(step.size()), [&](std::ptrdiff_t i) {
       const int q = static_cast<int>(i % quads);
-      step[i] = element_stable_step(body_.kind, corners(b, q), sweep_scale(body_.kind, d.spacings[i / quads]), materials_[body_.blocks[b].section.quad_material[q]], d.hourglass[i]);
+      const SpacingClass& mine = d.classes[i / quads];
+      step[i] = element_stable_step(body_.kind, corners(b, q), sweep_scale(body_.kind, mine.spacing), materials_[body_.blocks[b].section.quad_material[q]],
+                                    d.kernel.hourglass[mine.hourglass * quads + q]);
     });
     const auto smallest = std::min_element(step.begin(), step.end()) - step.begin();
     if (step[smallest] < best.step) {
       const int cls = static_cast<int>(smallest / quads);
-      const int station = static_cast<int>(std::find(d.spacing_class.begin(), d.spacing_class.end(), cls) - d.spacing_class.begin());
+      const int station = static_cast<int>(std::find(d.element_class.begin(), d.element_class.end(), cls) - d.element_class.begin());
       best = {step[smallest], b, static_cast<int>(smallest % quads), station};
     }
   }

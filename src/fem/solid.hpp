@@ -1,9 +1,12 @@
 #pragma once
 // A meshed elastic body ready for computing: reference data of its elements, masses, internal forces, energies and stresses.
 //
-// Work is split into tiles of stations; a tile adds up its own elements in the order of the quadrilaterals and hands the forces on its last node plane to its
-// neighbour through a spill buffer, so there are no races and the sums do not depend on the number of threads.
+// Work is split into tiles of stations. A tile goes through its quadrilaterals in their order and keeps the forces of the nodes that are not complete yet in a few
+// rows of scratch memory; a finished row is handed over at once, so that it can be used while it is in cache. Forces on the node planes between two tiles are added
+// up afterwards. No races, and sums that do not depend on the number of threads.
 #include <array>
+#include <functional>
+#include <memory>
 #include <vector>
 
 #include "core/array.hpp"
@@ -13,9 +16,14 @@
 
 namespace railstrata {
 
+/// Of the element's arithmetic; nodal values are kept in double precision. `single` wants displacements that are small against the body: relative to a frame that
+/// moves with it.
+enum class Precision { double_precision, single_precision };
+
 struct SolidOptions {
   ElementKind element = ElementKind::full;
   double hourglass_coefficient = 0.05;
+  Precision precision = Precision::double_precision;
 };
 
 /// Sum over the body [J].
@@ -38,11 +46,27 @@ class Solid {
   /// f = internal forces at displacement u (model frame, u = x - X); psi: rigid rotation of the body about its axle, positive when rolling forward.
   /// Ghosts of u are refreshed; padding of f is not defined.
   void internal_force(Field& u, double psi, Field& f) const;
-  /// f = K u, K the stiffness of the undeformed body.
+  /// f = K u, K the stiffness of the undeformed body; always in double precision.
   void linear_force(Field& u, Field& f) const;
   StrainEnergy energy(Field& u, double psi) const;
   /// Adds the diagonal of K to d (cleared first).
   void stiffness_diagonal(Field& d) const;
+
+  // -- internal_force in pieces: begin_forces, every tile once (in parallel if wanted), end_forces ---------------------------------------------------------
+  static constexpr int kTile = 64;  ///< elements along the sweep; a multiple of every pack width
+  struct Tile {
+    int block, first, end;  ///< owns the stations first <= j < end; first is a border plane, complete after end_forces only
+  };
+  /// Complete internal forces on a node at the stations tile.first < j < tile.end: rows[i * kTile + j - tile.first]. May change the displacements there. Returns true
+  /// if it has used them up; otherwise they are stored in f.
+  using TakeRows = std::function<bool(const Tile& tile, int node, const double* rows)>;
+
+  void begin_forces(Field& u, double psi) const;
+  int tiles() const { return static_cast<int>(tiles_.size()); }
+  const Tile& tile(int t) const { return tiles_[t]; }
+  void tile_forces(int tile, const Field& u, Field& f, const TakeRows& take) const;
+  /// Forces on the border planes of all tiles, and on the last station of an open block.
+  void end_forces(Field& f) const;
 
   /// Cauchy stress at the centre of an element, model frame [Pa].
   Sym3 stress(const Field& u, int block, int quad, int station) const;
@@ -59,35 +83,58 @@ class Solid {
   StepBound element_step_bound() const;
 
  private:
+  template <class Real>
+  using Line = std::vector<Real, CacheLineAllocator<Real>>;
+  /// What the element law reads: by quadrilateral, by hourglass class and quadrilateral, by station (padded with zeros).
+  template <class Real>
+  struct KernelData {
+    std::vector<QuadReferenceOf<Real>> quads;
+    std::vector<std::array<Real, kHourglassEntries>> hourglass;  // [class * quads + quad]; zero for the padding
+    Line<Real> inv_sigma, inv_c, v1, v2, v3, sigma, c, cos_q, sin_q, cos_r, sin_r;
+    template <class T, class Load>
+    StationScale<T> scale(int element, Load&& read) const;
+  };
+  /// Elements along the sweep have their own spacing and share the hourglass stiffness of their group: one of the group's mean spacing where the mesh is graded.
+  struct SpacingClass {
+    double spacing;
+    int hourglass;
+    friend bool operator==(const SpacingClass&, const SpacingClass&) = default;
+  };
   struct BlockData {
-    std::vector<QuadReference> quads;
-    std::vector<int> spacing_class;              // per element along the sweep, padded; the last class is the padding's
-    std::vector<double> spacings;                // per class
-    std::vector<HourglassStiffness> hourglass;   // [class][quad]; zero for the padding
-    Field inv_sigma, inv_c, v1, v2, v3, sigma, c, theta, cos_q, sin_q;  // per element along the sweep, padded with zeros
+    KernelData<double> kernel;
+    KernelData<float> single;                    // empty in double precision
+    std::vector<int> hourglass_class;            // per group of elements
+    std::vector<SpacingClass> classes;
+    std::vector<int> element_class;              // per element, index into classes
+    Field theta;                                 // of the element centres
+    // scratch rows: a node has one from the first quadrilateral that touches it to the last
+    std::vector<int> slot;                       // per node
+    std::vector<std::array<char, 4>> fresh, done;  // per quadrilateral: corners touched for the first, the last time
+    int slots = 0;
   };
-  struct Tile {
-    int block, first, last;  // elements along the sweep
-    std::ptrdiff_t spill;    // start in the spill buffer
-  };
-  StationScale<Pack> station_scale(const BlockData& data, int element, double psi) const;
+
   template <bool linear>
   void forces(Field& u, double psi, Field& f) const;
-  template <bool linear>
-  void tile_forces(const Tile& tile, const Field& u, const Field& cos_r, const Field& sin_r, Field& f) const;
+  template <class Real, bool linear>
+  void run_tile(int tile, const Field& u, Field& f, const TakeRows* take) const;
+  template <class Real, bool linear, SweepKind kind>
+  void run_tile(int tile, const Field& u, Field& f, const TakeRows* take) const;
+  template <class Real>
+  KernelData<Real> const& kernel(const BlockData& d) const;
+  void plan_scratch(int block, BlockData& d) const;
   void refresh_ghosts(Field& u) const;
-  void turned_frames(double psi, Field& cos_r, Field& sin_r) const;
+  void turn_frames(double psi) const;
   std::array<Vec2, 4> corners(int block, int quad) const;
 
   SweptBody body_;
   BodyLayout layout_;
   std::vector<Elastic> materials_;
-  std::vector<BlockData> data_;
+  Precision precision_;
+  mutable std::vector<BlockData> data_;
   std::vector<Tile> tiles_;
-  std::vector<int> first_tile_;  // per block, and one past the end
-  std::vector<std::ptrdiff_t> frame_offset_;  // per block, start in the arrays of turned frames
-  std::ptrdiff_t frame_size_ = 0;
-  mutable Field spill_, cos_r_, sin_r_;
+  std::vector<int> first_tile_;               // per block, and one past the end
+  std::vector<std::ptrdiff_t> border_;        // per tile, start in the border buffers
+  mutable Field border_first_, border_end_;   // forces of a tile on its border planes, [node][component]
   Field mass_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/simd.hpp"
 #include "core/vec.hpp"
 
 namespace railstrata {
@@ -23,10 +24,12 @@ inline double poisson(const Elastic& m) { return m.lambda / (2 * (m.lambda + m.m
 
 /// Stress from strain, S = lambda tr(E) I + 2 mu E; components xx, yy, zz, xy, yz, xz. With E the Green strain and S the second Piola–Kirchhoff stress this is the
 /// St. Venant–Kirchhoff law. [SimoHughes1998]
-template <class T>
-inline void elastic_stress(double lambda, double mu, const T (&strain)[6], T (&stress)[6]) {
+template <class T, class Real>
+inline void elastic_stress(Real lambda, Real mu, const T (&strain)[6], T (&stress)[6]) {
   const T pressure = lambda * (strain[0] + strain[1] + strain[2]);
+  RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) stress[i] = pressure + 2 * mu * strain[i];
+  RAILSTRATA_UNROLL
   for (int i = 3; i < 6; ++i) stress[i] = 2 * mu * strain[i];
 }
 

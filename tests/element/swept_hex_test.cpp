@@ -32,28 +32,24 @@ std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const s
   const QuadReference r = quad_reference(shape.kind, shape.quad, kSteel);
   const SweepScale sc = sweep_scale(shape.kind, shape.spacing);
   const StationScale<double> st{1 / sc.sigma, 1 / sc.c, sc.c, sc.sigma * sc.c, sc.sigma, sc.sigma, sc.c, std::cos(theta), std::sin(theta), std::cos(theta - psi), std::sin(theta - psi)};
-  double s[4][3], d[4][3], sf[4][3], df[4][3];
-  for (int k = 0; k < 4; ++k) {
-    const Vec3 sum = u[k + 4] + u[k], difference = u[k + 4] - u[k];
-    s[k][0] = sum.x, s[k][1] = sum.y, s[k][2] = sum.z;
-    d[k][0] = difference.x, d[k][1] = difference.y, d[k][2] = difference.z;
-  }
-  auto kin = element_kinematics(r, st, s, d);
+  auto kin = element_kinematics<SweepKind::revolve, double>(r, st, [&](int k, int i, double& left, double& right) {
+    auto component = [i](Vec3 v) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
+    left = component(u[k]);
+    right = component(u[k + 4]);
+  });
   const auto stress = nonlinear_stress(r, st, kin);
   const double hourglass = hourglass_forces([&](int e) { return hg[static_cast<std::size_t>(e)]; }, st, kin);
-  element_forces(r, st, stress, kin, sf, df);
+  double f[8][3];
+  element_forces(r, st, stress, kin, [&](int k, int i, double left, double right) { f[k][i] = left, f[k + 4][i] = right; });
   if (out) *out = stress;
   if (energy) {
     const double* e = stress.strain;
     const double* p = stress.s;
     *energy = hourglass + 0.5 * r.volume * sc.sigma * sc.c * (e[0] * p[0] + e[1] * p[1] + e[2] * p[2] + 2 * (e[3] * p[3] + e[4] * p[4] + e[5] * p[5]));
   }
-  std::array<Vec3, 8> f;
-  for (int k = 0; k < 4; ++k) {
-    f[k] = {sf[k][0] - df[k][0], sf[k][1] - df[k][1], sf[k][2] - df[k][2]};
-    f[k + 4] = {sf[k][0] + df[k][0], sf[k][1] + df[k][1], sf[k][2] + df[k][2]};
-  }
-  return f;
+  std::array<Vec3, 8> out_forces;
+  for (int k = 0; k < 8; ++k) out_forces[k] = {f[k][0], f[k][1], f[k][2]};
+  return out_forces;
 }
 
 Vec3 turn(double angle, Vec3 v) { return {std::cos(angle) * v.x - std::sin(angle) * v.z, v.y, std::sin(angle) * v.x + std::cos(angle) * v.z}; }
