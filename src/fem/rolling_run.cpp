@@ -199,7 +199,7 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
       }
     }
     auto sample = [&] {
-      RollingSample s = take_sample(sys, st.state().u_rail, st.state().u_wheel, st.state().tractions, {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
+      RollingSample s = take_sample(sys, st.state().u_rail, st.wheel_displacement(), st.state().tractions, {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
       s.time = st.state().time;
       s.axle = st.state().axle;
       s.forces = st.forces();

@@ -128,8 +128,11 @@ void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxleP
     u_wheel[n.index + n.stride] = 0;
     u_wheel[n.index + 2 * n.stride] = pose.z + (c - 1) * n.arm.z - s * n.arm.x;
   }
-  rail.ties.spread(u_rail, 0);
-  wheel.ties.spread(u_wheel, pose.psi);
+  for_each(6, [&](std::ptrdiff_t k) {
+    const int component = static_cast<int>(k % 3);
+    if (k < 3) wheel.ties.spread_component(u_wheel, component, c, s, false);
+    else rail.ties.spread_component(u_rail, component, 1, 0, false);
+  });
 }
 
 }  // namespace railstrata

@@ -65,7 +65,7 @@ struct RollingSystem {
   double torque = 0;          ///< N m, steady: gives the wanted F_T with the inertia of the accelerated wheel, M = F_T (r + I/(m r))
   double penalty_stiffness = 0;  ///< Pa/m, of the penalty method
 
-  /// Moves the bore's nodes with the axle and the slaves with their masters.
+  /// Moves the bore's nodes with the axle and the slaves with their masters; u_wheel and pose in the same frame.
   void apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose) const;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace railstrata {
 namespace {
@@ -69,7 +68,7 @@ Solid::Solid(const SweptBody& body, const std::vector<Elastic>& materials, const
     for (int e = 0; e < lay.elements; ++e) {
       if (e % kGroup == 0) {
         const int count = std::min(kGroup, lay.elements - e);
-        d.hourglass_class.push_back(class_of(hourglass_spacings, std::accumulate(&spacing[e], &spacing[e] + count, 0.0) / count, same_spacing));
+        d.hourglass_class.push_back(class_of(hourglass_spacings, *std::min_element(&spacing[e], &spacing[e] + count), same_spacing));
       }
       const SpacingClass mine{spacing[e], d.hourglass_class.back()};
       d.element_class.push_back(class_of(d.classes, mine, [](const SpacingClass& a, const SpacingClass& c) { return same_spacing(a.spacing, c.spacing) && a.hourglass == c.hourglass; }));

@@ -94,7 +94,8 @@ class Solid {
     template <class T, class Load>
     StationScale<T> scale(int element, Load&& read) const;
   };
-  /// Elements along the sweep have their own spacing and share the hourglass stiffness of their group: one of the group's mean spacing where the mesh is graded.
+  /// Elements along the sweep have their own spacing and share the hourglass stiffness of their group: where the mesh is graded that of its shortest
+  /// element (a stiffer one would shorten the stable step).
   struct SpacingClass {
     double spacing;
     int hourglass;

@@ -39,8 +39,6 @@ Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : sy
   enforcement_.penalty = sys_.model.spec.contact.method == "penalty";
   enforcement_.penalty_stiffness = sys_.penalty_stiffness;
   enforcement_.friction_coefficient = sys_.model.spec.drive.friction_coefficient;
-  start(preload);
-
   const auto rail_bound = sys_.rail.solid.element_step_bound(), wheel_bound = sys_.wheel.solid.element_step_bound();
   const bool rail_limits = rail_bound.step < wheel_bound.step;
   const auto& bound = rail_limits ? rail_bound : wheel_bound;
@@ -58,6 +56,23 @@ Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : sy
     free_step = 1 / std::sqrt(1 / (free_step * free_step) + 1 / (limits_.contact * limits_.contact));
   }
   dt_ = limits_.chosen = sys_.model.spec.run.step_safety * free_step;
+  start(preload);
+}
+
+void ReferenceFrame::set_step(double dt) {
+  const double turn = spin * dt, half = std::sin(0.5 * turn);
+  cos_step = 1 - 2 * half * half;
+  sin_step = std::sin(turn);
+  centrifugal = 4 * half * half / (dt * dt);
+  slope_cos = -2 * half * half / dt;
+  slope_sin = sin_step / dt;
+}
+
+void ReferenceFrame::move_to(double time) {
+  x = speed * time;
+  psi = spin * time;
+  cos_psi = std::cos(psi);
+  sin_psi = std::sin(psi);
 }
 
 void Stepper::start(const PreloadResult& preload) {
@@ -67,7 +82,6 @@ void Stepper::start(const PreloadResult& preload) {
   state_.tractions = preload.tractions;
   state_.axle = {0, preload.axle_z, 0, spec.drive.speed, 0, sys_.start_spin};
   axle_z0_ = preload.axle_z;
-  old_spin_ = state_.axle.spin;
   state_.groups.assign(spec.vehicle.suspension_groups, MassGroup{});
   state_.v_rail = sys_.rail.solid.layout().field();
   state_.v_wheel = sys_.wheel.solid.layout().field();
@@ -79,21 +93,62 @@ void Stepper::start(const PreloadResult& preload) {
       state_.v_rail[l.first + j] = -spec.drive.speed * station_derivative(block, l.count, j, [&](int k) { return state_.u_rail[l.first + k]; });
   }
   const double spin = state_.axle.spin;
+  frame_.speed = spec.drive.speed;
+  frame_.spin = spin;
+  frame_.set_step(dt_);
+  frame_.move_to(0);
   for (const DeformableBody::Line& l : sys_.wheel.lines) {
     const Block& block = sys_.model.wheel.blocks[l.block];
-    const double z = block.section.nodes[l.node].z;
     for (int j = 0; j < l.count; ++j) {
-      const double t = block.stations.at[j];
-      const double rigid = l.component == 0 ? spec.drive.speed + spin * z * std::cos(t) : l.component == 2 ? spin * z * std::sin(t) : 0.0;
-      state_.v_wheel[l.first + j] = rigid - spin * station_derivative(block, l.count, j, [&](int k) { return state_.u_wheel[l.first + k]; });
+      state_.v_wheel[l.first + j] = -spin * station_derivative(block, l.count, j, [&](int k) { return state_.u_wheel[l.first + k]; });
     }
   }
-  line_kinetic_.resize(std::max(sys_.rail.lines.size(), sys_.wheel.lines.size()));
-  line_damping_.resize(line_kinetic_.size());
   for (const Block& b : sys_.model.wheel.blocks) {
-    cos_node_.emplace_back(b.stations.nodes());
-    sin_node_.emplace_back(b.stations.nodes());
+    cos_node_.emplace_back();
+    sin_node_.emplace_back();
+    for (double t : b.stations.at) cos_node_.back().push_back(std::cos(t)), sin_node_.back().push_back(std::sin(t));
   }
+  wheel_surface_u_ = state_.u_wheel;
+  rail_schedule_ = schedule(sys_.rail, sys_.rail_surface);
+  wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface);
+
+  Sums all;
+  for (const DeformableBody::Line& l : sys_.wheel.lines) {
+    if (l.component == 1) continue;
+    const double z = sys_.model.wheel.blocks[l.block].section.nodes[l.node].z;
+    const std::vector<double>& turn = (l.component == 0 ? cos_node_ : sin_node_)[l.block];
+    for (int j = 0; j < l.count; ++j) {
+      const double m = sys_.wheel.mass[l.first + j], w = state_.v_wheel[l.first + j];
+      if (l.component == 0) free_mass_ += m, free_inertia_ += m * z * z;
+      (l.component == 0 ? all.momentum_x : all.momentum_z) += m * w;
+      all.angular += m * z * turn[j] * w;
+    }
+  }
+  take_mean_motion(all);
+}
+
+// Nodes on the running surface and at ties wait for the contact; those that are not free are not updated at all.
+Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSurface& surface) const {
+  Schedule out;
+  const SweptBody& mesh = body.solid.body();
+  for (const BlockLayout& b : body.solid.layout().blocks) out.at_once.emplace_back(b.nodes, 0);
+  for (const DeformableBody::Line& l : body.lines) out.at_once[l.block][l.node] = 1;
+  auto wait = [&](int block, int node) {
+    if (out.at_once[block][node]) out.later.push_back({block, node}), out.at_once[block][node] = 0;
+  };
+  for (int c = 0; c < surface.columns; ++c) wait(mesh.contact.block, c);
+  for (const Tie& t : mesh.ties) wait(t.master_block, t.master_node0), wait(t.master_block, t.master_node1);
+  for (int b = 0; b < static_cast<int>(out.at_once.size()); ++b)
+    for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n)
+      if (out.at_once[b][n]) out.bordered.push_back({b, n});
+  out.borders.resize(out.at_once.size());
+  for (int t = 0; t < body.solid.tiles(); ++t) out.borders[body.solid.tile(t).block].push_back(body.solid.tile(t).first);
+  for (std::size_t b = 0; b < out.borders.size(); ++b)
+    if (const BlockLayout& l = body.solid.layout().blocks[b]; !l.closed) out.borders[b].push_back(l.elements);
+  out.tile_sums.resize(body.solid.tiles());
+  out.later_sums.resize(out.later.size());
+  out.border_sums.resize(out.bordered.size());
+  return out;
 }
 
 double Stepper::torque() const {
@@ -107,11 +162,43 @@ double Stepper::damping_rate() const {
   return run.run_up_damping * (1 - smooth_rise(state_.axle.x / run.run_up));
 }
 
+AxlePose Stepper::pose_in_frame() const {
+  const Vec3 at = frame_.to_frame({state_.axle.x - frame_.x, 0, state_.axle.z});
+  return {at.x, at.z, state_.axle.psi - frame_.psi};
+}
+
 void Stepper::internal_forces() {
-  sys_.rail.solid.internal_force(state_.u_rail, 0, f_rail_);
-  sys_.wheel.solid.internal_force(state_.u_wheel, state_.axle.psi, f_wheel_);
-  sys_.rail.ties.collect(f_rail_);
-  const double offset_moment = sys_.wheel.ties.collect_turning(f_wheel_, state_.axle.psi);
+  const double drift = state_.axle.psi - frame_.psi;
+  const Solid& rail = sys_.rail.solid;
+  const Solid& wheel = sys_.wheel.solid;
+  rail.begin_forces(state_.u_rail, 0);
+  wheel.begin_forces(state_.u_wheel, drift);
+  const bool fused = !want_energy_;
+  for_each(
+      wheel.tiles() + rail.tiles(),
+      [&](std::ptrdiff_t k) {
+        const bool is_wheel = k < wheel.tiles();
+        const int t = static_cast<int>(is_wheel ? k : k - wheel.tiles());
+        Schedule& plan = is_wheel ? wheel_schedule_ : rail_schedule_;
+        Sums sums;
+        const Solid::TakeRows take = [&](const Solid::Tile& tile, int node, const double* rows) {
+          if (!fused || !plan.at_once[tile.block][node]) return false;
+          const double* const f[3] = {rows - tile.first, rows + Solid::kTile - tile.first, rows + 2 * Solid::kTile - tile.first};
+          advance_node(is_wheel, {tile.block, node}, tile.first + 1, tile.end, f, sums);
+          return true;
+        };
+        (is_wheel ? wheel : rail).tile_forces(t, is_wheel ? state_.u_wheel : state_.u_rail, is_wheel ? f_wheel_ : f_rail_, take);
+        plan.tile_sums[t] = sums;
+      },
+      true);
+  rail.end_forces(f_rail_);
+  wheel.end_forces(f_wheel_);
+  const double c = std::cos(drift), s = std::sin(drift);
+  double moment[6];  // what the ties' offsets hand to the rotation
+  for_each(6, [&](std::ptrdiff_t k) {
+    const int component = static_cast<int>(k % 3);
+    moment[k] = k < 3 ? sys_.wheel.ties.collect_component(f_wheel_, component, c, s) : sys_.rail.ties.collect_component(f_rail_, component, 1, 0);
+  });
   double absorbed = 0;
   for (const EndDashpot& d : sys_.absorbers) {
     const double v = state_.v_rail[d.index];
@@ -119,30 +206,82 @@ void Stepper::internal_forces() {
     absorbed += d.coefficient * v * v;
   }
   balance_.absorbed += dt_ * absorbed;
-  const double c = std::cos(state_.axle.psi), s = std::sin(state_.axle.psi);
-  bore_fx_ = bore_fz_ = 0;
-  bore_my_ = -offset_moment;
+  Vec3 bore{};
+  bore_my_ = -(moment[0] + moment[1] + moment[2]);
   for (const BoreNode& n : sys_.axle.bore) {
     const double fx = -f_wheel_[n.index], fz = -f_wheel_[n.index + 2 * n.stride];
     const double rx = c * n.arm.x + s * n.arm.z, rz = c * n.arm.z - s * n.arm.x;
-    bore_fx_ += fx;
-    bore_fz_ += fz;
+    bore.x += fx;
+    bore.z += fz;
     bore_my_ += rz * fx - rx * fz;
+  }
+  bore = frame_.to_model(bore);
+  bore_fx_ = bore.x;
+  bore_fz_ = bore.z;
+}
+
+// Model frame; zero for a node that is not free.
+Vec3 Stepper::free_acceleration(const DeformableBody& body, const Field& f, std::ptrdiff_t i, int stride) const {
+  const double m = body.inverse_mass[i];
+  if (m == 0) return {};
+  Vec3 a = -m * Vec3{f[i], f[i + stride], f[i + 2 * stride]};
+  if (&body == &sys_.wheel) a = frame_.to_model(a);
+  return a - Vec3{0, 0, sys_.gravity};
+}
+
+// From the axle to an undeformed node of the wheel's running surface, frame components.
+Vec3 Stepper::wheel_arm(std::ptrdiff_t index) const {
+  const ContactSurface& surface = sys_.wheel_surface;
+  const std::ptrdiff_t k = index - surface.first_line;
+  const auto column = k / (3 * surface.stride), station = k % (3 * surface.stride);
+  const int block = sys_.model.wheel.contact.block;
+  const double z = surface.node[column].z;
+  return {-z * sin_node_[block][station], 0, z * cos_node_[block][station]};
+}
+
+// Displacements of the wheel's running surface in the model frame, for the contact.
+void Stepper::lift_wheel_surface() {
+  const ContactSurface& surface = sys_.wheel_surface;
+  const int block = sys_.model.wheel.contact.block, stations = surface.stations.nodes();
+  const double* cosine = cos_node_[block].data();
+  const double* sine = sin_node_[block].data();
+  const double c = frame_.cos_psi, s = frame_.sin_psi;
+  for (int column = 0; column < surface.columns; ++column) {
+    const std::ptrdiff_t x = surface.index(column, 0), y = x + surface.stride, z = y + surface.stride;
+    const double radius = surface.node[column].z;
+    for (int j = 0; j < stations; ++j) {
+      const double ax = -radius * sine[j], az = radius * cosine[j], px = ax + state_.u_wheel[x + j], pz = az + state_.u_wheel[z + j];
+      wheel_surface_u_[x + j] = frame_.x + c * px + s * pz - ax;
+      wheel_surface_u_[y + j] = state_.u_wheel[y + j];
+      wheel_surface_u_[z + j] = c * pz - s * px - az;
+    }
   }
 }
 
-Vec3 Stepper::free_acceleration(const DeformableBody& body, const Field& f, std::ptrdiff_t i, int stride) const {
-  const double m = body.inverse_mass[i];
-  return {-m * f[i], -m * f[i + stride], -m * f[i + 2 * stride] - (m > 0 ? sys_.gravity : 0.0)};
+Field Stepper::wheel_displacement() const {
+  Field out = sys_.wheel.solid.layout().field();
+  const auto& blocks = sys_.wheel.solid.layout().blocks;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (int n = 0; n < blocks[b].nodes; ++n) {
+      const std::ptrdiff_t x = blocks[b].line(n, 0), y = blocks[b].line(n, 1), z = blocks[b].line(n, 2);
+      const double radius = sys_.model.wheel.blocks[b].section.nodes[n].z;
+      for (int j = 0; j < blocks[b].stations; ++j) {
+        const Vec3 arm{-radius * sin_node_[b][j], 0, radius * cos_node_[b][j]};
+        const Vec3 u = Vec3{frame_.x, 0, 0} + frame_.to_model(arm + Vec3{state_.u_wheel[x + j], state_.u_wheel[y + j], state_.u_wheel[z + j]}) - arm;
+        out[x + j] = u.x, out[y + j] = u.y, out[z + j] = u.z;
+      }
+    }
+  return out;
 }
 
 void Stepper::contact() {
   const double h = sys_.model.spec.mesh.element_size;
+  lift_wheel_surface();
   if (state_.step % kSearchInterval == 0) {
     const double half = 1.5 * sys_.model.hertz.a + 3 * h;
-    contact_.search(state_.u_rail, state_.u_wheel, pose(), half, 0.25 * sys_.model.hertz.approach);
+    contact_.search(state_.u_rail, wheel_surface_u_, pose(), half, 0.25 * sys_.model.hertz.approach);
   }
-  const MortarRows& rows = contact_.rows(state_.u_rail, state_.u_wheel, pose());
+  const MortarRows& rows = contact_.rows(state_.u_rail, wheel_surface_u_, pose());
   reached_edge_ = reached_edge_ || rows.reached_edge;
   // nodes that left the neighbourhood of the patch carry nothing
   if (state_.step % kSearchInterval == 0) {
@@ -155,26 +294,20 @@ void Stepper::contact() {
   ContactSystem& c = contact_system_;
   numbering_.number(rows, sys_.wheel_surface, c);
   const int rs = sys_.rail_surface.stride, ws = sys_.wheel_surface.stride;
-  const double rate = damping_rate();
   auto velocity = [](const Field& v, std::ptrdiff_t i, int stride) { return Vec3{v[i], v[i + stride], v[i + 2 * stride]}; };
   c.rail_velocity.clear(), c.rail_inverse_mass.clear(), c.wheel_velocity.clear(), c.wheel_inverse_mass.clear();
   c.rail_before.clear(), c.wheel_before.clear();
   for (const ContactRow& r : rows.rows) {
     c.rail_before.push_back(velocity(state_.v_rail, r.rail, rs));
-    c.rail_velocity.push_back((1 - rate * dt_) * c.rail_before.back() + dt_ * free_acceleration(sys_.rail, f_rail_, r.rail, rs));
+    c.rail_velocity.push_back((1 - rate_ * dt_) * c.rail_before.back() + dt_ * free_acceleration(sys_.rail, f_rail_, r.rail, rs));
     c.rail_inverse_mass.push_back(sys_.rail.inverse_mass[r.rail]);
   }
   for (std::ptrdiff_t i : c.wheel_nodes) {
-    const Vec3 v = velocity(state_.v_wheel, i, ws);
-    c.wheel_before.push_back(v);
+    const Vec3 arm = wheel_arm(i), w = velocity(state_.v_wheel, i, ws);
+    c.wheel_before.push_back(Vec3{frame_.speed, 0, 0} + frame_.to_model(frame_.step_back(w + frame_.rigid_rate(arm))));
     Vec3 a = free_acceleration(sys_.wheel, f_wheel_, i, ws);
-    if (rate > 0) {
-      const std::ptrdiff_t k = i - sys_.wheel_surface.first_line;
-      const int column = static_cast<int>(k / (3 * ws)), station = static_cast<int>(k % (3 * ws));
-      const double z = sys_.wheel_surface.node[column].z, t = sys_.wheel_surface.stations.at[station] - state_.axle.psi;
-      a -= rate * (v - Vec3{mean_travel_ + mean_spin_ * z * std::cos(t), 0, mean_spin_ * z * std::sin(t)});
-    }
-    c.wheel_velocity.push_back(v + dt_ * a);
+    if (rate_ > 0) a -= rate_ * frame_.to_model(frame_.step_back(w - Vec3{mean_.x + mean_.spin * arm.z, 0, mean_.z - mean_.spin * arm.x}));
+    c.wheel_velocity.push_back(c.wheel_before.back() + dt_ * a);
     c.wheel_inverse_mass.push_back(sys_.wheel.inverse_mass[i]);
   }
 
@@ -188,12 +321,13 @@ void Stepper::contact() {
     const NodeTraction& t = state_.tractions.at(row.column, row.station);
     if (t.p <= 0) continue;
     const Vec3 force = row.area * traction_vector(t, row.normal);  // on the rail
-    const double component[3] = {force.x, force.y, force.z};
+    const Vec3 turned = frame_.to_frame(force);
+    const double component[3] = {force.x, force.y, force.z}, wheel_component[3] = {turned.x, turned.y, turned.z};
     Vec3 slip = -0.5 * (c.rail_before[k] + c.rail_velocity[k]);      // mean of the step, wheel against rail
     for (int i = 0; i < 3; ++i) f_rail_[row.rail + i * rs] -= component[i];
     for (int w = row.first; w < row.first + row.count; ++w) {
       const WheelWeight& weight = rows.weights[w];
-      for (int i = 0; i < 3; ++i) f_wheel_[weight.wheel + i * ws] += weight.m * component[i];
+      for (int i = 0; i < 3; ++i) f_wheel_[weight.wheel + i * ws] += weight.m * wheel_component[i];
       const int n = c.weight_node[w];
       slip += (0.5 * weight.m) * (c.wheel_before[n] + c.wheel_velocity[n]);
     }
@@ -208,69 +342,127 @@ void Stepper::contact() {
   balance_.contact_normal += dt_ * normal;
 }
 
-void Stepper::advance(const DeformableBody& body, Field& u, Field& v, const Field& f, bool is_wheel, double& kinetic, double& damping_power) {
-  const double rate = damping_rate(), g = sys_.gravity, dt = dt_;
-  const bool energy = want_energy_;
-  const auto lines = static_cast<std::ptrdiff_t>(body.lines.size());
-  for_each(lines, [&](std::ptrdiff_t n) {
-    const DeformableBody::Line& l = body.lines[n];
-    const double weight = l.component == 2 ? g : 0.0;
-    double* pu = u.data() + l.first;
-    double* pv = v.data() + l.first;
-    const double* pf = f.data() + l.first;
-    const double* pm = body.inverse_mass.data() + l.first;
-    if (rate == 0 && !energy) {
-      for (int j = 0; j < l.count; ++j) {
-        pv[j] -= dt * (pm[j] * pf[j] + weight);
-        pu[j] += dt * pv[j];
+// Update of one section node's stations begin <= j < end; f: forces by station. measured: with run-up damping and sums.
+template <SweepKind kind, bool measured>
+void Stepper::advance_node(const DeformableBody& body, Field& u, Field& v, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums) const {
+  constexpr bool turning = kind == SweepKind::revolve;
+  const BlockLayout& lay = body.solid.layout().blocks[node.block];
+  const std::ptrdiff_t x = lay.line(node.node, 0), y = x + lay.stride, z = y + lay.stride;
+  double *ux = u.data() + x, *uy = u.data() + y, *uz = u.data() + z, *vx = v.data() + x, *vy = v.data() + y, *vz = v.data() + z;
+  const double *fx = f[0], *fy = f[1], *fz = f[2];
+  const double* inverse_mass = body.inverse_mass.data() + x;
+  const double* cosine = turning ? cos_node_[node.block].data() : nullptr;
+  const double* sine = turning ? sin_node_[node.block].data() : nullptr;
+  const double radius = turning ? body.solid.body().blocks[node.block].section.nodes[node.node].z : 0.0;
+  const double dt = dt_, rate = rate_, cd = frame_.cos_step, sd = frame_.sin_step;
+  const double push = turning ? frame_.centrifugal * radius : 0.0;
+  const double gx = turning ? frame_.sin_psi * sys_.gravity : 0.0, gz = turning ? -frame_.cos_psi * sys_.gravity : -sys_.gravity;
+  const MeanMotion mean = mean_;
+  double twice_kinetic = 0, power = 0, px = 0, pz = 0, angular = 0;
+#pragma GCC ivdep
+  for (int j = begin; j < end; ++j) {
+    const double m = inverse_mass[j];
+    double wx = vx[j], wy = vy[j], wz = vz[j];
+    double ax = gx - m * fx[j], ay = -m * fy[j], az = gz - m * fz[j];
+    if constexpr (turning) ax -= push * sine[j], az += push * cosine[j];
+    [[maybe_unused]] double rx = 0, ry = 0, rz = 0;  // what the run-up damping takes off
+    if constexpr (measured) {
+      rx = rate * wx, ry = rate * wy, rz = rate * wz;
+      if constexpr (turning) rx -= rate * (mean.x + mean.spin * radius * cosine[j]), rz -= rate * (mean.z + mean.spin * radius * sine[j]);
+    }
+    double bx = wx, bz = wz;  // before, in the frame of this step
+    if constexpr (turning) {
+      bx = cd * wx - sd * wz, bz = sd * wx + cd * wz;
+      if constexpr (measured) {
+        const double r = rx;
+        rx = cd * r - sd * rz, rz = sd * r + cd * rz;
       }
-      return;
     }
-    const double* turn = is_wheel && rate > 0 && l.component != 1 ? (l.component == 0 ? cos_node_ : sin_node_)[l.block].data() : nullptr;
-    const double arm = turn ? mean_spin_ * body.solid.body().blocks[l.block].section.nodes[l.node].z : 0.0;
-    const double travel = turn && l.component == 0 ? mean_travel_ : 0.0;
-    double twice_kinetic = 0, power = 0;
-    for (int j = 0; j < l.count; ++j) {
-      const double relative = pv[j] - (turn ? travel + arm * turn[j] : 0.0);
-      const double before = pv[j], m = 1 / pm[j];
-      pv[j] -= dt * (pm[j] * pf[j] + weight + rate * relative);
-      pu[j] += dt * pv[j];
-      twice_kinetic += m * before * pv[j];
-      power += m * rate * relative * 0.5 * (before + pv[j]);
+    if constexpr (measured) ax -= rx, ay -= ry, az -= rz;
+    const double qx = bx + dt * ax, qy = wy + dt * ay, qz = bz + dt * az;
+    vx[j] = qx, vy[j] = qy, vz[j] = qz;
+    const double dx = ux[j] + dt * qx, dz = uz[j] + dt * qz;
+    uy[j] += dt * qy;
+    if constexpr (turning) {
+      ux[j] = cd * dx - sd * dz;
+      uz[j] = sd * dx + cd * dz;
+    } else {
+      ux[j] = dx;
+      uz[j] = dz;
     }
-    line_kinetic_[n] = 0.5 * twice_kinetic;
-    line_damping_[n] = power;
-  });
-  if (rate == 0 && !energy) return;
-  for (std::ptrdiff_t n = 0; n < lines; ++n) kinetic += line_kinetic_[n], damping_power += line_damping_[n];
+    if constexpr (measured) {
+      const double mass = 1 / m;
+      double before_x = bx, before_z = bz, after_x = qx, after_z = qz;
+      if constexpr (turning) {  // to velocities in the model frame, components of this step's frame
+        const double armx = -radius * sine[j], armz = radius * cosine[j];
+        const double slope_x = frame_.slope_cos * armx + frame_.slope_sin * armz, slope_z = frame_.slope_cos * armz - frame_.slope_sin * armx;
+        const double travel_x = frame_.cos_psi * frame_.speed, travel_z = frame_.sin_psi * frame_.speed;
+        before_x += cd * slope_x - sd * slope_z + travel_x, before_z += sd * slope_x + cd * slope_z + travel_z;
+        after_x += slope_x + travel_x, after_z += slope_z + travel_z;
+        px += mass * qx, pz += mass * qz;
+        angular += mass * radius * (cosine[j] * qx + sine[j] * qz);
+      }
+      twice_kinetic += mass * (before_x * after_x + wy * qy + before_z * after_z);
+      power += 0.5 * mass * (rx * (before_x + after_x) + ry * (wy + qy) + rz * (before_z + after_z));
+    }
+  }
+  if constexpr (measured) sums += {0.5 * twice_kinetic, power, px, pz, angular};
 }
 
-// Mean travel and spin of the wheel's free nodes, and the turned station angles the run-up damping needs.
-void Stepper::measure_rigid_motion() {
-  for (std::size_t b = 0; b < cos_node_.size(); ++b)
-    for (std::size_t j = 0; j < cos_node_[b].size(); ++j) {
-      const double t = sys_.model.wheel.blocks[b].stations.at[j] - state_.axle.psi;
-      cos_node_[b][j] = std::cos(t);
-      sin_node_[b][j] = std::sin(t);
+void Stepper::advance_node(bool is_wheel, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums) {
+  const bool measured = rate_ > 0 || want_energy_;
+  if (is_wheel && measured) advance_node<SweepKind::revolve, true>(sys_.wheel, state_.u_wheel, state_.v_wheel, node, begin, end, f, sums);
+  else if (is_wheel) advance_node<SweepKind::revolve, false>(sys_.wheel, state_.u_wheel, state_.v_wheel, node, begin, end, f, sums);
+  else if (measured) advance_node<SweepKind::extrude, true>(sys_.rail, state_.u_rail, state_.v_rail, node, begin, end, f, sums);
+  else advance_node<SweepKind::extrude, false>(sys_.rail, state_.u_rail, state_.v_rail, node, begin, end, f, sums);
+}
+
+// The nodes that waited for the contact, and the border planes of the others.
+void Stepper::advance_later() {
+  const auto waiting = [](const Schedule& s) { return static_cast<std::ptrdiff_t>(s.later.size()); };
+  const auto bordered = [](const Schedule& s) { return static_cast<std::ptrdiff_t>(s.bordered.size()); };
+  const std::ptrdiff_t wheel_later = waiting(wheel_schedule_), wheel_all = wheel_later + bordered(wheel_schedule_), rail_later = waiting(rail_schedule_),
+                       rail_all = rail_later + bordered(rail_schedule_);
+  for_each(wheel_all + rail_all, [&](std::ptrdiff_t k) {
+    const bool is_wheel = k < wheel_all;
+    if (!is_wheel) k -= wheel_all;
+    Schedule& plan = is_wheel ? wheel_schedule_ : rail_schedule_;
+    const BodyLayout& layout = (is_wheel ? sys_.wheel : sys_.rail).solid.layout();
+    const Field& force = is_wheel ? f_wheel_ : f_rail_;
+    const bool border = k >= (is_wheel ? wheel_later : rail_later);
+    if (border) k -= is_wheel ? wheel_later : rail_later;
+    const SectionNode node = border ? plan.bordered[k] : plan.later[k];
+    const BlockLayout& lay = layout.blocks[node.block];
+    const double* line = force.data() + lay.line(node.node, 0);
+    const double* const f[3] = {line, line + lay.stride, line + 2 * lay.stride};
+    Sums sums;
+    if (border && !want_energy_) {
+      for (int j : plan.borders[node.block]) advance_node(is_wheel, node, j, j + 1, f, sums);
+    } else {
+      advance_node(is_wheel, node, 0, lay.stations, f, sums);
     }
-  const auto lines = static_cast<std::ptrdiff_t>(sys_.wheel.lines.size());
-  std::vector<std::array<double, 4>> part(lines);  // mass, m v_x, m r^2, angular momentum
-  for_each(lines, [&](std::ptrdiff_t n) {
-    const DeformableBody::Line& l = sys_.wheel.lines[n];
-    part[n] = {};
-    if (l.component == 1) return;
-    const double z = sys_.model.wheel.blocks[l.block].section.nodes[l.node].z;
-    const double* turn = (l.component == 0 ? cos_node_ : sin_node_)[l.block].data();
-    for (int j = 0; j < l.count; ++j) {
-      const double m = sys_.wheel.mass[l.first + j], v = state_.v_wheel[l.first + j];
-      if (l.component == 0) part[n][0] += m, part[n][1] += m * v, part[n][2] += m * z * z;
-      part[n][3] += m * z * turn[j] * v;
-    }
+    (border ? plan.border_sums : plan.later_sums)[k] = sums;
   });
-  double mass = 0, momentum = 0, inertia = 0, angular = 0;
-  for (const auto& p : part) mass += p[0], momentum += p[1], inertia += p[2], angular += p[3];
-  mean_travel_ = momentum / mass;
-  mean_spin_ = angular / inertia;
+  sums_ = {};
+  if (rate_ == 0 && !want_energy_) return;
+  Sums wheel;
+  for (const Schedule* plan : {&wheel_schedule_, &rail_schedule_}) {
+    Sums all;
+    if (!want_energy_)
+      for (const Sums& s : plan->tile_sums) all += s;
+    for (const Sums& s : plan->later_sums) all += s;
+    for (const Sums& s : plan->border_sums) all += s;
+    if (plan == &wheel_schedule_) wheel = all;
+    sums_ += all;
+  }
+  take_mean_motion(wheel);
+}
+
+// The run-up damping spares the mean travel along the rail and the mean spin, not the vertical motion.
+void Stepper::take_mean_motion(const Sums& wheel) {
+  const double travel = (frame_.cos_psi * wheel.momentum_x + frame_.sin_psi * wheel.momentum_z) / free_mass_;
+  const Vec3 in_frame = frame_.to_frame({travel, 0, 0});
+  mean_ = {in_frame.x, in_frame.z, wheel.angular / free_inertia_};
 }
 
 void Stepper::advance_axle() {
@@ -279,7 +471,7 @@ void Stepper::advance_axle() {
   const SuspensionForce spring = step_suspension(v, a.z - axle_z0_, a.vz, dt_, state_.groups);
   const double suspension = -v.sprung_mass * sys_.gravity - spring.on_masses;
   balance_.dashpot += dt_ * spring.dashpot_power;
-  const double rate = damping_rate(), moment = torque();
+  const double rate = rate_, moment = torque();
   const double vx = a.vx, vz = a.vz, spin = a.spin;
   a.vx += dt_ * bore_fx_ / sys_.axle.mass_x;
   a.vz += dt_ * ((bore_fz_ + suspension) / sys_.axle.mass_z - sys_.gravity - rate * a.vz);
@@ -296,13 +488,17 @@ void Stepper::advance_axle() {
 
 double Stepper::weight_potential() const {
   double sum = 0;
-  auto add = [&](const DeformableBody& body, const Field& u) {
-    for (const DeformableBody::Line& l : body.lines)
-      if (l.component == 2)
-        for (int j = 0; j < l.count; ++j) sum += body.mass[l.first + j] * u[l.first + j];
-  };
-  add(sys_.rail, state_.u_rail);
-  add(sys_.wheel, state_.u_wheel);
+  for (const DeformableBody::Line& l : sys_.rail.lines)
+    if (l.component == 2)
+      for (int j = 0; j < l.count; ++j) sum += sys_.rail.mass[l.first + j] * state_.u_rail[l.first + j];
+  for (const DeformableBody::Line& l : sys_.wheel.lines) {
+    if (l.component == 1) continue;
+    const double z = sys_.model.wheel.blocks[l.block].section.nodes[l.node].z;
+    for (int j = 0; j < l.count; ++j) {
+      const double arm = l.component == 0 ? -z * sin_node_[l.block][j] : z * cos_node_[l.block][j], at = arm + state_.u_wheel[l.first + j];
+      sum += sys_.wheel.mass[l.first + j] * (l.component == 0 ? -frame_.sin_psi * at : frame_.cos_psi * at - arm);
+    }
+  }
   return sys_.gravity * (sum + sys_.axle.mass_z * state_.axle.z);
 }
 
@@ -319,28 +515,27 @@ double Stepper::spring_energy() const {
 
 void Stepper::step() {
   const EnergyBalance before = balance_;
-  internal_forces();
-  if (damping_rate() > 0) measure_rigid_motion();
-  contact();
+  rate_ = damping_rate();
   if (want_energy_) {
-    const StrainEnergy rail = sys_.rail.solid.energy(state_.u_rail, 0), wheel = sys_.wheel.solid.energy(state_.u_wheel, state_.axle.psi);
+    const StrainEnergy rail = sys_.rail.solid.energy(state_.u_rail, 0), wheel = sys_.wheel.solid.energy(state_.u_wheel, state_.axle.psi - frame_.psi);
     balance_.strain = rail.strain + wheel.strain;
     balance_.hourglass = rail.hourglass + wheel.hourglass;
     balance_.weight = weight_potential();
     balance_.spring = spring_energy();
   }
-  double kinetic = 0, damping = 0;
-  advance(sys_.rail, state_.u_rail, state_.v_rail, f_rail_, false, kinetic, damping);
-  advance(sys_.wheel, state_.u_wheel, state_.v_wheel, f_wheel_, true, kinetic, damping);
-  balance_.damping += dt_ * damping;
+  internal_forces();
+  contact();
+  advance_later();
+  balance_.damping += dt_ * sums_.damping;
   advance_axle();
   if (want_energy_) {
-    balance_.kinetic = kinetic + axle_kinetic_;
+    balance_.kinetic = sums_.kinetic + axle_kinetic_;
     recorded_ = halfway(before, balance_);
   }
-  sys_.apply_constraints(state_.u_rail, state_.u_wheel, pose());
   state_.time += dt_;
   ++state_.step;
+  frame_.move_to(state_.time);
+  sys_.apply_constraints(state_.u_rail, state_.u_wheel, pose_in_frame());
   want_energy_ = false;
 }
 

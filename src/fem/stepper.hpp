@@ -2,6 +2,15 @@
 // Explicit rolling: central differences with half-step velocities.
 //
 //   v(n+1/2) = v(n-1/2) + dt a(n),   u(n+1) = u(n) + dt v(n+1/2),   m a = contact + weight - internal forces - absorbers - run-up damping
+// The wheel's nodes are followed in a reference frame that travels and turns uniformly, with the speed V and the spin omega of the start: with X a node's arm from the
+// axle, R the frame's rotation, D = R(omega dt) that of one step,
+//   x(n) = V t e_x + R(n) (X + d(n)),   w(n+1/2) = (D d(n+1) - d(n))/dt
+//   w(n+1/2) = D^T w(n-1/2) + dt (R^T a + 2 (1 - cos omega dt)/dt^2 P X),   d(n+1) = D^T (d(n) + dt w(n+1/2))
+// (P: projector normal to the axle). It is the same scheme exactly, and d stays as small as the deformation and the drift from uniform rolling: no digits are lost to
+// the rigid motion, not even by elements in single precision.
+//
+// Nodes whose forces come from their elements alone are updated as soon as a tile has finished their forces, while everything is in cache; the running surface, tied
+// lines and the tiles' border planes follow after the contact.
 // The axle turns with the bore's forces, the torque and the suspension. Run-up damping acts on vibration only: on velocities relative to the rigid rolling motion,
 // with a rate that fades to zero: the mean travel and spin of the wheel's free nodes are the reference, so that it takes neither momentum along x nor angular momentum.
 #include "fem/preload.hpp"
@@ -29,7 +38,22 @@ struct AxleMotion {
   double vx = 0, vz = 0, spin = 0;  ///< half-step velocities
 };
 
-/// The only thing that changes.
+/// Uniform travel and turn.
+struct ReferenceFrame {
+  double speed = 0, spin = 0;
+  double x = 0, cos_psi = 1, sin_psi = 0, psi = 0;
+  double cos_step = 1, sin_step = 0;  ///< of the turn in one step
+  double centrifugal = 0;             ///< 2 (1 - cos omega dt)/dt^2
+  double slope_cos = 0, slope_sin = 0;  ///< (cos omega dt - 1)/dt, sin omega dt/dt
+  void set_step(double dt);
+  void move_to(double time);
+  Vec3 to_model(Vec3 v) const { return {cos_psi * v.x + sin_psi * v.z, v.y, cos_psi * v.z - sin_psi * v.x}; }
+  Vec3 to_frame(Vec3 v) const { return {cos_psi * v.x - sin_psi * v.z, v.y, sin_psi * v.x + cos_psi * v.z}; }
+  Vec3 step_back(Vec3 v) const { return {cos_step * v.x - sin_step * v.z, v.y, sin_step * v.x + cos_step * v.z}; }  ///< D^T v
+  Vec3 rigid_rate(Vec3 arm) const { return {slope_cos * arm.x + slope_sin * arm.z, 0, slope_cos * arm.z - slope_sin * arm.x}; }  ///< (D - 1) X / dt
+};
+
+/// The only thing that changes. Wheel: displacements d and velocities w relative to the reference frame; rail: model frame.
 struct RollingState {
   double time = 0;
   long step = 0;
@@ -55,6 +79,8 @@ class Stepper {
   void step();
 
   const RollingState& state() const { return state_; }
+  /// Of the wheel, model frame, u = x - X.
+  Field wheel_displacement() const;
   const ContactForces& forces() const { return forces_; }
   const RollingSystem& system() const { return sys_; }
   double dt() const { return dt_; }
@@ -80,19 +106,49 @@ class Stepper {
   const StepLimits& limits() const { return limits_; }
 
  private:
+  /// What an update adds up.
+  struct Sums {
+    double kinetic = 0, damping = 0;                      // energy, power
+    double momentum_x = 0, momentum_z = 0, angular = 0;   // of w, wheel only
+    Sums& operator+=(const Sums& o) {
+      kinetic += o.kinetic, damping += o.damping, momentum_x += o.momentum_x, momentum_z += o.momentum_z, angular += o.angular;
+      return *this;
+    }
+  };
+  /// Mean motion of the wheel's free nodes relative to the reference frame, in its components.
+  struct MeanMotion {
+    double x = 0, z = 0, spin = 0;
+  };
+  /// How a body's nodes are updated: as soon as their forces are complete, or after the contact.
+  struct Schedule {
+    std::vector<std::vector<char>> at_once;      // per block and section node
+    std::vector<SectionNode> later;              // free nodes that wait
+    std::vector<SectionNode> bordered;           // nodes updated at once, but for the border planes
+    std::vector<std::vector<int>> borders;       // per block, border stations
+    std::vector<Sums> tile_sums, later_sums, border_sums;
+  };
+
   void start(const PreloadResult& preload);
+  Schedule schedule(const DeformableBody& body, const ContactSurface& surface) const;
   void internal_forces();
   void contact();
-  void advance(DeformableBody const& body, Field& u, Field& v, const Field& f, bool is_wheel, double& kinetic, double& damping_power);
-  void measure_rigid_motion();
+  template <SweepKind kind, bool measured>
+  void advance_node(const DeformableBody& body, Field& u, Field& v, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums) const;
+  void advance_node(bool is_wheel, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums);
+  void advance_later();
+  Vec3 wheel_arm(std::ptrdiff_t surface_index) const;
+  void lift_wheel_surface();
+  void take_mean_motion(const Sums& sums);
   void advance_axle();
   Vec3 free_acceleration(const DeformableBody& body, const Field& f, std::ptrdiff_t index, int stride) const;
   AxlePose pose() const { return {state_.axle.x, state_.axle.z, state_.axle.psi}; }
+  AxlePose pose_in_frame() const;
   double weight_potential() const;
   double spring_energy() const;
 
   const RollingSystem& sys_;
   RollingState state_;
+  ReferenceFrame frame_;
   MortarContact contact_;
   WheelNumbering numbering_;
   ContactSystem contact_system_;
@@ -102,14 +158,17 @@ class Stepper {
   StepLimits limits_;
   double dt_ = 0;
   Field f_rail_, f_wheel_;
+  Field wheel_surface_u_;                                 // model frame, valid on the wheel's surface lines
+  Schedule rail_schedule_, wheel_schedule_;
   double bore_fx_ = 0, bore_fz_ = 0, bore_my_ = 0;
   double axle_z0_ = 0;
   double axle_kinetic_ = 0;
   bool want_energy_ = false, reached_edge_ = false;
-  double old_spin_ = 0;
-  std::vector<double> line_kinetic_, line_damping_;
-  double mean_travel_ = 0, mean_spin_ = 0;                // of the wheel's free nodes (run-up only)
-  std::vector<std::vector<double>> cos_node_, sin_node_;  // per wheel block and station, of theta - psi (run-up only)
+  double rate_ = 0;                                       // run-up damping of this step
+  Sums sums_;                                             // of this step
+  MeanMotion mean_;
+  double free_mass_ = 0, free_inertia_ = 0;               // of the wheel's free nodes
+  std::vector<std::vector<double>> cos_node_, sin_node_;  // per wheel block and station
 };
 
 /// Largest eigenvalue of M^-1 K by Lanczos steps on the free degrees of freedom (body alone); returns 2/sqrt of it.

@@ -21,6 +21,10 @@ class Ties {
   /// forces on the slaves is not that of the collected ones.
   double collect_turning(Field& f, double psi) const;
 
+  /// One component (0, 1, 2) of spread and collect_turning, for callers that run them in parallel.
+  void spread_component(Field& u, int component, double cos_psi, double sin_psi, bool homogeneous) const;
+  double collect_component(Field& f, int component, double cos_psi, double sin_psi) const;
+
   bool is_slave(int block, int node) const { return slave_[block][node]; }
 
  private:
@@ -35,9 +39,6 @@ class Ties {
     std::vector<int> left, right;
     std::vector<double> weight;  // of right
   };
-  void spread_component(Field& u, int component, double cos_psi, double sin_psi, bool homogeneous) const;
-  double collect_component(Field& f, int component, double cos_psi, double sin_psi) const;
-
   BodyLayout layout_;
   SweepKind kind_;
   std::vector<Line> lines_;  // masters' own ties come before
