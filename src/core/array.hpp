@@ -20,4 +20,9 @@ struct CacheLineAllocator {
 /// One number per degree of freedom (or per station); how it is indexed is told by mesh/layout.hpp.
 using Field = std::vector<double, CacheLineAllocator<double>>;
 
+/// Asks for n values to be brought into cache.
+inline void fetch(const double* p, std::ptrdiff_t n) {
+  for (std::ptrdiff_t i = 0; i < n; i += 8) __builtin_prefetch(p + i);
+}
+
 }  // namespace railstrata

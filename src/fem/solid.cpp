@@ -221,22 +221,23 @@ P pack_hourglass(const Table& table, const std::vector<int>& group_class, int fi
   return hourglass_forces<still>(TwoClasses<Real>{table(lower), table(upper), elements - first}, st, kin);
 }
 
+// Rows of a tile's scratch memory, three components each.
 template <class Real>
 struct Scratch {
-  using Row = Real[3][Solid::kTile + kLineEnd];
-  std::vector<Real, CacheLineAllocator<Real>> force, carry, displacement;
-  void fit(int slots) {
-    force.resize(std::max(force.size(), static_cast<std::size_t>(slots) * 3 * Solid::kTile));
-    carry.resize(std::max(carry.size(), static_cast<std::size_t>(slots) * 3));
-    if (sizeof(Real) < sizeof(double)) displacement.resize(std::max(displacement.size(), static_cast<std::size_t>(slots) * 3 * kRow));
-  }
   static constexpr int kRow = Solid::kTile + kLineEnd;  // stations of a row of displacements: one more than elements, whole packs
+  std::vector<Real, CacheLineAllocator<Real>> left, right, displacement;
+  void fit(int slots) {
+    const std::size_t rows = static_cast<std::size_t>(slots) * 3;
+    left.resize(std::max(left.size(), rows * Solid::kTile));
+    right.resize(left.size());
+    if (sizeof(Real) < sizeof(double)) displacement.resize(std::max(displacement.size(), rows * kRow));
+  }
 };
 
 }  // namespace
 
 template <class Real, bool linear, SweepKind kind>
-void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take) const {
+void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const {
   using P = PackOf<Real>;
   constexpr int lanes = kLanesOf<Real>;
   constexpr bool copies = sizeof(Real) < sizeof(double);  // lines of displacements are rounded to Real once, when first touched
@@ -253,17 +254,28 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take) cons
   StationScale<P> st[kTile / lanes];
   for (int n = 0; n < packs; ++n) st[n] = k.template scale<P>(tile.first + n * lanes, [](const Real* x) { return load(x); });
 
+  auto look_ahead = [&](std::size_t q) {
+    for (int c = 0; c < 4; ++c) {
+      if (!d.fresh[q][c]) continue;
+      for (int i = 0; i < 3; ++i) fetch(u.data() + lay.line(quads[q][c], i) + tile.first, count + 1);
+      if (expect) (*expect)(tile, quads[q][c]);
+    }
+  };
+  look_ahead(0);
   for (std::size_t q = 0; q < quads.size(); ++q) {
+    if (q + 1 < quads.size()) look_ahead(q + 1);
     const QuadReferenceOf<Real>& ref = k.quads[q];
     const Real* in[4][3];
-    Real* out[4][3];
+    Real *left[4][3], *right[4][3];  // forces of the elements in front of a station and behind it
     for (int c = 0; c < 4; ++c) {
-      const int node = quads[q][c], slot = d.slot[node];
+      const int node = quads[q][c];
+      const std::size_t slot = static_cast<std::size_t>(d.slot[node]) * 3;
       for (int i = 0; i < 3; ++i) {
-        out[c][i] = &scratch.force[(static_cast<std::size_t>(slot) * 3 + i) * kTile];
+        left[c][i] = &scratch.left[(slot + i) * kTile];
+        right[c][i] = &scratch.right[(slot + i) * kTile];
         const double* line = u.data() + lay.line(node, i) + tile.first;
         if constexpr (copies) {
-          Real* copy = &scratch.displacement[(static_cast<std::size_t>(slot) * 3 + i) * Scratch<Real>::kRow];
+          Real* copy = &scratch.displacement[(slot + i) * Scratch<Real>::kRow];
           if (d.fresh[q][c]) {
             for (int j = 0; j <= count; ++j) copy[j] = static_cast<Real>(line[j]);
             std::fill(copy + count + 1, copy + packs * lanes + 1, Real(0));
@@ -274,11 +286,10 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take) cons
         }
       }
       if (d.fresh[q][c]) {
-        std::fill(out[c][0], out[c][0] + 3 * kTile, Real(0));
-        std::fill_n(&scratch.carry[static_cast<std::size_t>(slot) * 3], 3, Real(0));
+        std::fill(left[c][0], left[c][0] + 3 * kTile, Real(0));
+        std::fill(right[c][0], right[c][0] + 3 * kTile, Real(0));
       }
     }
-    P right[4][3] = {};
     for (int n = 0; n < packs; ++n) {
       const int e = n * lanes;
       auto kin = element_kinematics<kind, P>(ref, st[n], [&](int c, int i, P& left_value, P& right_value) {
@@ -290,39 +301,31 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take) cons
       else stress = nonlinear_stress<kind>(ref, st[n], kin);
       pack_hourglass<Real, kind == SweepKind::extrude>([&](int c) { return k.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, tile.first + e, lay.elements, st[n], kin);
       element_forces(ref, st[n], stress, kin, [&](int c, int i, P left_force, P right_force) {
-        Real* x = out[c][i] + e;
-        store(x, load(x) + left_force + shift_in(right[c][i], right_force));
-        right[c][i] = right_force;
+        store(left[c][i] + e, load(left[c][i] + e) + left_force);
+        store(right[c][i] + e, load(right[c][i] + e) + right_force);
       });
     }
-    for (int c = 0; c < 4; ++c)
-      for (int i = 0; i < 3; ++i) scratch.carry[static_cast<std::size_t>(d.slot[quads[q][c]]) * 3 + i] += right[c][i][lanes - 1];
 
     for (int c = 0; c < 4; ++c) {
       if (!d.done[q][c]) continue;
       const int node = quads[q][c];
       for (int i = 0; i < 3; ++i) {
         const std::ptrdiff_t border = border_[t] + static_cast<std::ptrdiff_t>(node) * 3 + i;
-        border_first_[border] = out[c][i][0];
-        border_end_[border] = count < packs * lanes ? out[c][i][count] : scratch.carry[static_cast<std::size_t>(d.slot[node]) * 3 + i];
+        border_first_[border] = left[c][i][0];
+        border_end_[border] = right[c][i][count - 1];
+        double* row = rows + i * kTile;
+        for (int j = 1; j < count; ++j) row[j] = static_cast<double>(left[c][i][j]) + static_cast<double>(right[c][i][j - 1]);
       }
-      const double* complete = nullptr;
-      if constexpr (copies) {
-        for (int j = 0; j < 3 * kTile; ++j) rows[j] = out[c][0][j];
-        complete = rows;
-      } else {
-        complete = out[c][0];
-      }
-      if (take && (*take)(tile, node, complete)) continue;
-      for (int i = 0; i < 3; ++i) std::copy(complete + i * kTile + 1, complete + i * kTile + count, f.data() + lay.line(node, i) + tile.first + 1);
+      if (take && (*take)(tile, node, rows)) continue;
+      for (int i = 0; i < 3; ++i) std::copy(rows + i * kTile + 1, rows + i * kTile + count, f.data() + lay.line(node, i) + tile.first + 1);
     }
   }
 }
 
 template <class Real, bool linear>
-void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take) const {
-  if (body_.kind == SweepKind::extrude) run_tile<Real, linear, SweepKind::extrude>(t, u, f, take);
-  else run_tile<Real, linear, SweepKind::revolve>(t, u, f, take);
+void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const {
+  if (body_.kind == SweepKind::extrude) run_tile<Real, linear, SweepKind::extrude>(t, u, f, take, expect);
+  else run_tile<Real, linear, SweepKind::revolve>(t, u, f, take, expect);
 }
 
 void Solid::begin_forces(Field& u, double psi) const {
@@ -330,9 +333,9 @@ void Solid::begin_forces(Field& u, double psi) const {
   turn_frames(psi);
 }
 
-void Solid::tile_forces(int t, const Field& u, Field& f, const TakeRows& take) const {
-  if (precision_ == Precision::single_precision) run_tile<float, false>(t, u, f, &take);
-  else run_tile<double, false>(t, u, f, &take);
+void Solid::tile_forces(int t, const Field& u, Field& f, const TakeRows& take, const ExpectRows& expect) const {
+  if (precision_ == Precision::single_precision) run_tile<float, false>(t, u, f, &take, &expect);
+  else run_tile<double, false>(t, u, f, &take, &expect);
 }
 
 void Solid::end_forces(Field& f) const {
@@ -357,8 +360,8 @@ void Solid::forces(Field& u, double psi, Field& f) const {
   for_each(
       tiles(),
       [&](std::ptrdiff_t t) {
-        if (!linear && precision_ == Precision::single_precision) run_tile<float, false>(static_cast<int>(t), u, f, nullptr);
-        else run_tile<double, linear>(static_cast<int>(t), u, f, nullptr);
+        if (!linear && precision_ == Precision::single_precision) run_tile<float, false>(static_cast<int>(t), u, f, nullptr, nullptr);
+        else run_tile<double, linear>(static_cast<int>(t), u, f, nullptr, nullptr);
       },
       true);
   end_forces(f);

@@ -60,11 +60,13 @@ class Solid {
   /// Complete internal forces on a node at the stations tile.first < j < tile.end: rows[i * kTile + j - tile.first]. May change the displacements there. Returns true
   /// if it has used them up; otherwise they are stored in f.
   using TakeRows = std::function<bool(const Tile& tile, int node, const double* rows)>;
+  /// Told of a node some time before its rows are handed over, to fetch from memory what will be wanted then.
+  using ExpectRows = std::function<void(const Tile& tile, int node)>;
 
   void begin_forces(Field& u, double psi) const;
   int tiles() const { return static_cast<int>(tiles_.size()); }
   const Tile& tile(int t) const { return tiles_[t]; }
-  void tile_forces(int tile, const Field& u, Field& f, const TakeRows& take) const;
+  void tile_forces(int tile, const Field& u, Field& f, const TakeRows& take, const ExpectRows& expect) const;
   /// Forces on the border planes of all tiles, and on the last station of an open block.
   void end_forces(Field& f) const;
 
@@ -117,9 +119,9 @@ class Solid {
   template <bool linear>
   void forces(Field& u, double psi, Field& f) const;
   template <class Real, bool linear>
-  void run_tile(int tile, const Field& u, Field& f, const TakeRows* take) const;
+  void run_tile(int tile, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const;
   template <class Real, bool linear, SweepKind kind>
-  void run_tile(int tile, const Field& u, Field& f, const TakeRows* take) const;
+  void run_tile(int tile, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const;
   template <class Real>
   KernelData<Real> const& kernel(const BlockData& d) const;
   void plan_scratch(int block, BlockData& d) const;

@@ -41,6 +41,19 @@ Ties::Ties(const SweptBody& body, const BodyLayout& layout) : layout_(layout), k
       in.right.push_back(right);
       in.weight.push_back(std::clamp((t - from.at[left]) / (t1 - from.at[left]), 0.0, 1.0));
     }
+    in.first.assign(n + 1, 0);
+    auto each_share = [&](auto&& give) {
+      for (std::size_t j = 0; j < in.left.size(); ++j) {
+        if (in.weight[j] < 1) give(in.left[j], static_cast<int>(j), 1 - in.weight[j]);
+        if (in.weight[j] > 0) give(in.right[j], static_cast<int>(j), in.weight[j]);
+      }
+    };
+    each_share([&](int i, int, double) { ++in.first[i + 1]; });
+    for (int i = 0; i < n; ++i) in.first[i + 1] += in.first[i];
+    in.from.resize(in.first[n]);
+    in.share.resize(in.first[n]);
+    std::vector<int> next(in.first.begin(), in.first.end() - 1);
+    each_share([&](int i, int j, double share) { in.from[next[i]] = j, in.share[next[i]++] = share; });
     interpolations_.push_back(std::move(in));
     return known->second;
   };
@@ -98,14 +111,12 @@ void Ties::spread_component(Field& u, int i, double cos_psi, double sin_psi, boo
 }
 
 double Ties::collect_component(Field& f, int i, double cos_psi, double sin_psi) const {
-  std::vector<double> gathered;
   const bool turning = kind_ == SweepKind::revolve && i != 1;
   double moment = 0;
   for (auto line = lines_.rbegin(); line != lines_.rend(); ++line) {
     const BlockLayout& to = layout_.blocks[line->master_block];
     const Interpolation& in = interpolations_[line->interpolation];
     double* out = f.data() + layout_.blocks[line->slave_block].line(line->slave_node, i);
-    gathered.assign(to.stations, 0.0);
     const int n = static_cast<int>(in.left.size());
     if (turning) {
       const double* dx = delta_x_.data() + line->delta;
@@ -115,17 +126,15 @@ double Ties::collect_component(Field& f, int i, double cos_psi, double sin_psi) 
       else
         for (int j = 0; j < n; ++j) moment -= out[j] * (cos_psi * dx[j] + sin_psi * dz[j]);
     }
-    for (int j = 0; j < n; ++j) {
-      gathered[in.left[j]] += (1 - in.weight[j]) * out[j];
-      gathered[in.right[j]] += in.weight[j] * out[j];
-      out[j] = 0;
-    }
     double* m0 = f.data() + to.line(line->node0, i);
     double* m1 = f.data() + to.line(line->node1, i);
     for (int j = 0; j < to.stations; ++j) {
-      m0[j] += (1 - line->weight1) * gathered[j];
-      m1[j] += line->weight1 * gathered[j];
+      double gathered = 0;
+      for (int k = in.first[j]; k < in.first[j + 1]; ++k) gathered += in.share[k] * out[in.from[k]];
+      m0[j] += (1 - line->weight1) * gathered;
+      m1[j] += line->weight1 * gathered;
     }
+    std::fill(out, out + n, 0.0);
   }
   return moment;
 }

@@ -38,6 +38,9 @@ class Ties {
     int slave_block, master_block;
     std::vector<int> left, right;
     std::vector<double> weight;  // of right
+    // the transposed: master station i gets the slaves' values share[k] * at station from[k], first[i] <= k < first[i + 1]
+    std::vector<int> first, from;
+    std::vector<double> share;
   };
   BodyLayout layout_;
   SweepKind kind_;

@@ -25,6 +25,7 @@ struct BodyLayout {
 
 inline BodyLayout layout_of(const SweptBody& body) {
   BodyLayout layout;
+  layout.size = kLanes - 1;
   for (const Block& b : body.blocks) {
     BlockLayout l;
     l.offset = layout.size;
