@@ -10,7 +10,8 @@ namespace railstrata {
 namespace {
 
 SolidOptions solid_options(const CaseSpec& spec) {
-  return {spec.mesh.element == "one_point" ? ElementKind::one_point : ElementKind::full, spec.mesh.hourglass_coefficient};
+  return {spec.mesh.element == "one_point" ? ElementKind::one_point : ElementKind::full, spec.mesh.hourglass_coefficient,
+          spec.run.precision == "single" ? Precision::single_precision : Precision::double_precision};
 }
 
 // Areas of the section that belong to each of its nodes.

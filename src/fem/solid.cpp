@@ -359,11 +359,7 @@ void Solid::forces(Field& u, double psi, Field& f) const {
   begin_forces(u, psi);
   for_each(
       tiles(),
-      [&](std::ptrdiff_t t) {
-        if (!linear && precision_ == Precision::single_precision) run_tile<float, false>(static_cast<int>(t), u, f, nullptr, nullptr);
-        else run_tile<double, linear>(static_cast<int>(t), u, f, nullptr, nullptr);
-      },
-      true);
+      [&](std::ptrdiff_t t) { run_tile<double, linear>(static_cast<int>(t), u, f, nullptr, nullptr); }, true);
   end_forces(f);
 }
 

@@ -16,8 +16,8 @@
 
 namespace railstrata {
 
-/// Of the element's arithmetic; nodal values are kept in double precision. `single` wants displacements that are small against the body: relative to a frame that
-/// moves with it.
+/// Of the element's arithmetic in tile_forces; nodal values are kept in double precision. `single` wants displacements that are small against the body: relative to a
+/// frame that moves with it.
 enum class Precision { double_precision, single_precision };
 
 struct SolidOptions {
@@ -44,15 +44,15 @@ class Solid {
   double total_mass() const;
 
   /// f = internal forces at displacement u (model frame, u = x - X); psi: rigid rotation of the body about its axle, positive when rolling forward.
-  /// Ghosts of u are refreshed; padding of f is not defined.
+  /// Ghosts of u are refreshed; padding of f is not defined. Always in double precision.
   void internal_force(Field& u, double psi, Field& f) const;
-  /// f = K u, K the stiffness of the undeformed body; always in double precision.
+  /// f = K u, K the stiffness of the undeformed body.
   void linear_force(Field& u, Field& f) const;
   StrainEnergy energy(Field& u, double psi) const;
   /// Adds the diagonal of K to d (cleared first).
   void stiffness_diagonal(Field& d) const;
 
-  // -- internal_force in pieces: begin_forces, every tile once (in parallel if wanted), end_forces ---------------------------------------------------------
+  // -- internal forces in pieces: begin_forces, every tile once (in parallel if wanted), end_forces --------------------------------------------------------
   static constexpr int kTile = 64;  ///< elements along the sweep; a multiple of every pack width
   struct Tile {
     int block, first, end;  ///< owns the stations first <= j < end; first is a border plane, complete after end_forces only

@@ -136,6 +136,7 @@ OptionTable run_table() {
            {"run_up", at<&C::run, &R::run_up>, "Rolling distance over which the run-up damping fades to zero", kLength, {0, 10}},
            {"run_up_damping", at<&C::run, &R::run_up_damping>, "Mass-proportional damping of vibration at the start", kRate, {0, 1e6}},
            {"step_safety", at<&C::run, &R::step_safety>, "Time step as a share of the stable one", kNumber, above(0, 1)},
+           {"precision", at<&C::run, &R::precision>, "Element arithmetic while rolling; nodal values and the static preload are always double", {}, {}, {"double", "single"}},
            {"preload_tolerance", at<&C::run, &R::preload_tolerance>, "Relative residual of the static equilibrium", kNumber, {1e-13, 0.1}},
            {"history_interval", at<&C::run, &R::history_interval>, "Rolling distance between rows of history.csv", kLength, above(0, 1)},
            {"rolling", at<&C::run, &R::rolling>, "false stops after the static preload"}}};

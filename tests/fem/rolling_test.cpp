@@ -40,6 +40,37 @@ TEST(Rolling, AFreeWheelKeepsItsEnergyToOneInTenMillionPerRevolution) {
   EXPECT_LT(drift / revolutions, 1e-7 * start.kinetic);
 }
 
+// Elements in single precision see displacements relative to the uniformly turning frame. Tractions after 1.5 mm of rolling
+// with a creepage that slides a part of the patch, against those of double precision.
+TEST(Rolling, ElementsInSinglePrecisionChangeTractionsByLessThanAFifthOfAPercentOfTheirMaximum) {
+  CaseSpec spec = small_case();
+  spec.drive.traction_coefficient = 0;
+  spec.drive.creepage_start = -0.02;
+  const PreloadResult preload = solve_preload(small_system(spec), 1e-5);
+  auto roll = [&](const char* precision, double closure) {
+    spec.run.precision = precision;
+    const RollingSystem system = small_system(spec);
+    Stepper st(system, preload);
+    const EnergyBalance start = energy_now(st);
+    while (st.position() < 0.0015) st.step();
+    const EnergyBalance end = energy_now(st);
+    EXPECT_LT(std::abs(end.total() - start.total()), closure * end.strain) << precision;
+    return st.state().tractions.all();
+  };
+  const std::vector<NodeTraction> exact = roll("double", 1e-6), rounded = roll("single", 1e-4);
+  ASSERT_EQ(exact.size(), rounded.size());
+  double p_max = 0, q_max = 0, p_difference = 0, q_difference = 0;
+  for (std::size_t k = 0; k < exact.size(); ++k) {
+    p_max = std::max(p_max, exact[k].p), q_max = std::max(q_max, std::hypot(exact[k].q1, exact[k].q2));
+    p_difference = std::max(p_difference, std::abs(rounded[k].p - exact[k].p));
+    q_difference = std::max(q_difference, std::hypot(rounded[k].q1 - exact[k].q1, rounded[k].q2 - exact[k].q2));
+  }
+  EXPECT_GT(q_max, 0.1 * p_max);
+  EXPECT_LT(p_difference, 2e-3 * p_max);
+  EXPECT_LT(q_difference, 2e-3 * q_max);
+  EXPECT_GT(p_difference, 0);  // it is another arithmetic
+}
+
 // The penalty's compliance lets the surfaces into one another but must neither lose the load nor the energy, and it widens the patch and lowers the peak.
 TEST(Rolling, PenaltyContactCarriesTheWeightSoftly) {
   CaseSpec spec = small_case();
