@@ -8,7 +8,7 @@
 #include "app/commands.hpp"
 #include "app/comparison_picture.hpp"
 #include "app/output_folder.hpp"
-#include "app/result_folder.hpp"
+#include "io/result_folder.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
