@@ -66,14 +66,19 @@ void replace(Solution& old, Solution next) {
 }
 
 RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact, const RollingOptions& options, const RollingSolution* start) {
-  constexpr double kFirst = 0.3;             // a third of the tangential solution is enough to see the pressure move
-  constexpr double kPressurePerGap = 1e-3;   // an error in the gap, over its range, makes a thousandfold one in the pressure of single cells
-  constexpr int kOneStepTurns = 30;          // after these, a turn is taken to its end
+  constexpr double kFirst = 0.3;           // a third of the tangential solution is enough to see the pressure move
+  constexpr double kSharper = 0.03;        // of the last change of the pressure: how well the next pressure is known
+  constexpr double kGapPerPressure = 0.01; // a small deviation of the gap, over its range, is a hundredfold one of the pressure in single cells
+  constexpr int kOneStepTurns = 30;        // after these, a turn is taken to its end
   RollingSolution s;
-  s.normal = start ? solve_normal(influence, grid, gap_closed_by_traction(influence, contact, start->tangential), contact.target, options.normal, start->normal.pressure)
-                   : solve_normal(influence, grid, contact.gap, contact.target, options.normal);
   if (start) s.tangential = start->tangential, s.tangential.iterations = 0;
   double change = kFirst;
+  const auto pressure = [&](const Plane& from) {
+    NormalOptions close_enough = options.normal;
+    close_enough.tolerance = std::max(close_enough.tolerance, kGapPerPressure * kSharper * change);
+    return solve_normal(influence, grid, from.empty() ? contact.gap : gap_closed_by_traction(influence, contact, s.tangential), contact.target, close_enough, from);
+  };
+  s.normal = pressure(start ? start->normal.pressure : Plane{});
   for (s.turns = 1; s.turns <= options.max_turns; ++s.turns) {
     const bool settled = change < options.coupling_tolerance, first = s.turns == 1 && !start;
     TangentialOptions further = options.tangential;
@@ -83,10 +88,8 @@ RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGri
     }
     replace(s.tangential, solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), further, first ? nullptr : &s.tangential));
     if (settled) return s;
-    NormalOptions closer = options.normal;
-    closer.tolerance = std::max(closer.tolerance, kPressurePerGap * change);
-    NormalSolution next = solve_normal(influence, grid, gap_closed_by_traction(influence, contact, s.tangential), contact.target, closer, s.normal.pressure);
-    change = largest_change(next.pressure, s.normal.pressure);
+    NormalSolution next = pressure(s.normal.pressure);
+    change = std::max(kSharper * change, largest_change(next.pressure, s.normal.pressure));
     replace(s.normal, std::move(next));
   }
   throw NumericalError("normal and tangential contact did not settle against each other");
