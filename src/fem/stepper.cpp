@@ -35,29 +35,12 @@ EnergyBalance halfway(const EnergyBalance& before, EnergyBalance now) {
 
 }  // namespace
 
-Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : sys_(system), contact_(system.rail_surface, system.wheel_surface) {
+Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : sys_(system), contact_(system.rail_surface, system.wheel_surface), plan_(system) {
   enforcement_.penalty = sys_.model.spec.contact.method == "penalty";
   enforcement_.penalty_stiffness = sys_.penalty_stiffness;
   enforcement_.friction_coefficient = sys_.model.spec.drive.friction_coefficient;
   start(preload);
-
-  const auto rail_bound = sys_.rail.solid.element_step_bound(), wheel_bound = sys_.wheel.solid.element_step_bound();
-  const bool rail_limits = rail_bound.step < wheel_bound.step;
-  const auto& bound = rail_limits ? rail_bound : wheel_bound;
-  const SweptBody& body = rail_limits ? sys_.model.rail : sys_.model.wheel;
-  limits_.element = bound.step;
-  limits_.where = fmt::format("{} {}", body.name, body.blocks[bound.block].name);
-  limits_.lanczos = std::min(lanczos_stable_step(sys_.rail), lanczos_stable_step(sys_.wheel));
-  double free_step = limits_.lanczos;
-  if (enforcement_.penalty) {
-    // a penalty spring k a_A between a rail node and a wheel node of like mass
-    const ContactSurface& r = sys_.rail_surface;
-    const int c = r.columns / 2, j = r.stations.nodes() / 2;
-    const double area = r.width[c] * (r.stations.at[j + 1] - r.stations.at[j]);
-    limits_.contact = 2 / std::sqrt(2 * enforcement_.penalty_stiffness * area * sys_.rail.inverse_mass[r.index(c, j)]);
-    free_step = 1 / std::sqrt(1 / (free_step * free_step) + 1 / (limits_.contact * limits_.contact));
-  }
-  dt_ = limits_.chosen = sys_.model.spec.run.step_safety * free_step;
+  dt_ = plan_.limits.chosen;
 }
 
 void Stepper::start(const PreloadResult& preload) {
@@ -162,7 +145,7 @@ void Stepper::contact() {
   for (const ContactRow& r : rows.rows) {
     c.rail_before.push_back(velocity(state_.v_rail, r.rail, rs));
     c.rail_velocity.push_back((1 - rate * dt_) * c.rail_before.back() + dt_ * free_acceleration(sys_.rail, f_rail_, r.rail, rs));
-    c.rail_inverse_mass.push_back(sys_.rail.inverse_mass[r.rail]);
+    c.rail_inverse_mass.push_back(plan_.rail.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
   }
   for (std::ptrdiff_t i : c.wheel_nodes) {
     const Vec3 v = velocity(state_.v_wheel, i, ws);
@@ -175,7 +158,7 @@ void Stepper::contact() {
       a -= rate * (v - Vec3{mean_travel_ + mean_spin_ * z * std::cos(t), 0, mean_spin_ * z * std::sin(t)});
     }
     c.wheel_velocity.push_back(v + dt_ * a);
-    c.wheel_inverse_mass.push_back(sys_.wheel.inverse_mass[i]);
+    c.wheel_inverse_mass.push_back(plan_.wheel.share(i) * sys_.wheel.inverse_mass[i]);
   }
 
   enforce_contact(rows, dt_, enforcement_, c, state_.tractions);
@@ -190,10 +173,10 @@ void Stepper::contact() {
     const Vec3 force = row.area * traction_vector(t, row.normal);  // on the rail
     const double component[3] = {force.x, force.y, force.z};
     Vec3 slip = -0.5 * (c.rail_before[k] + c.rail_velocity[k]);      // mean of the step, wheel against rail
-    for (int i = 0; i < 3; ++i) f_rail_[row.rail + i * rs] -= component[i];
+    for (int i = 0; i < 3; ++i) plan_.rail.add_force(f_rail_, row.rail + i * rs, -component[i]);
     for (int w = row.first; w < row.first + row.count; ++w) {
       const WheelWeight& weight = rows.weights[w];
-      for (int i = 0; i < 3; ++i) f_wheel_[weight.wheel + i * ws] += weight.m * component[i];
+      for (int i = 0; i < 3; ++i) plan_.wheel.add_force(f_wheel_, weight.wheel + i * ws, weight.m * component[i]);
       const int n = c.weight_node[w];
       slip += (0.5 * weight.m) * (c.wheel_before[n] + c.wheel_velocity[n]);
     }
@@ -320,14 +303,19 @@ double Stepper::spring_energy() const {
 void Stepper::step() {
   const EnergyBalance before = balance_;
   internal_forces();
+  plan_.rail.scale(f_rail_);
+  plan_.wheel.scale(f_wheel_);
   if (damping_rate() > 0) measure_rigid_motion();
   contact();
+  Field rail_before, wheel_before;
   if (want_energy_) {
     const StrainEnergy rail = sys_.rail.solid.energy(state_.u_rail, 0), wheel = sys_.wheel.solid.energy(state_.u_wheel, state_.axle.psi);
     balance_.strain = rail.strain + wheel.strain;
     balance_.hourglass = rail.hourglass + wheel.hourglass;
     balance_.weight = weight_potential();
     balance_.spring = spring_energy();
+    rail_before = plan_.rail.differences(state_.v_rail);
+    wheel_before = plan_.wheel.differences(state_.v_wheel);
   }
   double kinetic = 0, damping = 0;
   advance(sys_.rail, state_.u_rail, state_.v_rail, f_rail_, false, kinetic, damping);
@@ -335,7 +323,7 @@ void Stepper::step() {
   balance_.damping += dt_ * damping;
   advance_axle();
   if (want_energy_) {
-    balance_.kinetic = kinetic + axle_kinetic_;
+    balance_.kinetic = kinetic + axle_kinetic_ + plan_.rail.kinetic(rail_before, state_.v_rail) + plan_.wheel.kinetic(wheel_before, state_.v_wheel);
     recorded_ = halfway(before, balance_);
   }
   sys_.apply_constraints(state_.u_rail, state_.u_wheel, pose());

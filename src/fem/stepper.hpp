@@ -6,6 +6,7 @@
 // with a rate that fades to zero: the mean travel and spin of the wheel's free nodes are the reference, so that it takes neither momentum along x nor angular momentum.
 #include "fem/preload.hpp"
 #include "fem/rolling_system.hpp"
+#include "fem/step_plan.hpp"
 #include "fem/suspension.hpp"
 
 namespace railstrata {
@@ -72,12 +73,7 @@ class Stepper {
   /// First node whose displacement is not finite, described; empty if all is well.
   std::string check_finite() const;
 
-  /// What limits the step: 2/omega_max of the assembled system by Lanczos, the element bound, and the contact's (penalty only).
-  struct StepLimits {
-    double lanczos = 0, element = 0, contact = 0, chosen = 0;
-    std::string where;
-  };
-  const StepLimits& limits() const { return limits_; }
+  const StepPlan& plan() const { return plan_; }
 
  private:
   void start(const PreloadResult& preload);
@@ -99,7 +95,7 @@ class Stepper {
   EnforcementOptions enforcement_;
   ContactForces forces_;
   EnergyBalance balance_, recorded_;
-  StepLimits limits_;
+  StepPlan plan_;
   double dt_ = 0;
   Field f_rail_, f_wheel_;
   double bore_fx_ = 0, bore_fz_ = 0, bore_my_ = 0;
@@ -111,8 +107,5 @@ class Stepper {
   double mean_travel_ = 0, mean_spin_ = 0;                // of the wheel's free nodes (run-up only)
   std::vector<std::vector<double>> cos_node_, sin_node_;  // per wheel block and station, of theta - psi (run-up only)
 };
-
-/// Largest eigenvalue of M^-1 K by Lanczos steps on the free degrees of freedom (body alone); returns 2/sqrt of it.
-double lanczos_stable_step(const DeformableBody& body, int iterations = 60);
 
 }  // namespace railstrata
