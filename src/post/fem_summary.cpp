@@ -48,6 +48,9 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   s.run.steps = run.steps;
   if (run.steps > 0) {
     s.run.dt_s = run.dt;
+    s.run.stable_step = run.limits.lanczos;
+    s.run.unscaled_step = run.limits.unscaled;
+    s.run.added_mass = run.limits.added_mass;
     s.run.element_steps_per_s = static_cast<double>(run.elements) * static_cast<double>(run.steps) / (run.wall_seconds - run.preload_wall_seconds);
   }
   s.checks = checks(sys, run, m);

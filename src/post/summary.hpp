@@ -45,6 +45,8 @@ struct EnergySummary {
 struct RunSummary {
   std::string engine, commit;
   double wall_s = kNotApplicable, preload_wall_s = kNotApplicable, dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
+  double stable_step = kNotApplicable, unscaled_step = kNotApplicable;  ///< s, with and without selective mass scaling
+  double added_mass = kNotApplicable;                                   ///< kg, by selective mass scaling of thin rows; 0: real masses
   long elements = 0, nodes = 0, steps = 0;
   int threads = 0;
 };
