@@ -7,8 +7,6 @@
 #include <chrono>
 #include <cmath>
 
-#include "fem/stepper.hpp"
-
 namespace railstrata {
 namespace {
 
@@ -37,15 +35,8 @@ RunEstimate estimate_run(const Model& model) {
   constexpr double kRestOfStep = 1.25;
   const RollingSystem system(model);
   RunEstimate e;
-  e.stable_step = std::min(lanczos_stable_step(system.rail), lanczos_stable_step(system.wheel));
-  e.element_bound = HUGE_VAL;
-  for (const DeformableBody* body : {&system.rail, &system.wheel})
-    if (const auto bound = body->solid.element_step_bound(); bound.step < e.element_bound) {
-      e.element_bound = bound.step;
-      e.limited_by = fmt::format("{} {}", body->solid.body().name, body->solid.body().blocks[bound.block].name);
-    }
-  e.step = model.spec.run.step_safety * e.stable_step;
-  e.steps = std::lround(model.x_end / (model.spec.drive.speed * e.step));
+  e.limits = StepPlan(system).limits;
+  e.steps = std::lround(model.x_end / (model.spec.drive.speed * e.limits.chosen));
   e.seconds = kRestOfStep * static_cast<double>(e.steps) * (force_seconds(system.rail) + force_seconds(system.wheel));
   e.memory_bytes = memory_in_use();
   return e;

@@ -6,6 +6,7 @@
 #include "app/peak_memory.hpp"
 #include "app/run_bem.hpp"
 #include "app/summary_text.hpp"
+#include "io/geometry_json.hpp"
 #include "io/summary_json.hpp"
 #include "post/bem_summary.hpp"
 
@@ -17,7 +18,8 @@ ExitCode command_bem(const CommandOptions& options) {
   const CaseSpec spec = half_space_case(loaded.spec);
   BemOptions bem;
   bem.cell = cell_size(options.cell);
-  const BemResult result = solve_bem(spec, place(spec, loaded.folder()), bem);
+  const Placement placement = place(spec, loaded.folder());
+  const BemResult result = solve_bem(spec, placement, bem);
   for (const std::string& note : result.notes) spdlog::info("{}", note);
   Summary summary = bem_summary(spec, result);
   summary.run.commit = commit_text();
@@ -27,6 +29,7 @@ ExitCode command_bem(const CommandOptions& options) {
   prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   write_bem_result(out, table_origin(loaded), result, summary);
+  write_geometry(out / "geometry.json", spec, placement);
   if (options.json) fmt::print("{}\n", summary_json(summary).dump(2));
   else fmt::print("{}", summary_text(summary));
   spdlog::info("results are in {}", out.string());

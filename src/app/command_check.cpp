@@ -27,7 +27,9 @@ void print_layers(const Model& m) {
 
 void print_estimate(const Model& m, const RunEstimate& e) {
   fmt::print("mesh           {} elements, {} nodes\n", m.rail.elements() + m.wheel.elements(), m.rail.nodes() + m.wheel.nodes());
-  fmt::print("stable step    {:.2f} ns (single elements {:.2f} ns, limited by {}); steps of {:.2f} ns\n", 1e9 * e.stable_step, 1e9 * e.element_bound, e.limited_by, 1e9 * e.step);
+  fmt::print("stable step    {:.2f} ns (single elements {:.2f} ns, limited by {}); steps of {:.2f} ns\n", 1e9 * e.limits.lanczos, 1e9 * e.limits.element, e.limits.where, 1e9 * e.limits.chosen);
+  if (e.limits.added_mass > 0)
+    fmt::print("mass scaling   {:.3f} kg against stretching across thin rows, on {:.3f} kg of {}; the step without it {:.2f} ns\n", e.limits.added_mass, e.limits.scaled_mass, e.limits.scaled_where, 1e9 * e.limits.unscaled);
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
 }
@@ -40,10 +42,12 @@ nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
           {"hertz", {{"a_m", m.hertz.a}, {"b_m", m.hertz.b}, {"p0_Pa", m.hertz.p0}}},
           {"elements", m.rail.elements() + m.wheel.elements()},
           {"nodes", m.rail.nodes() + m.wheel.nodes()},
-          {"stable_step_s", e.stable_step},
-          {"element_step_bound_s", e.element_bound},
-          {"limited_by", e.limited_by},
-          {"step_s", e.step},
+          {"stable_step_s", e.limits.lanczos},
+          {"unscaled_step_s", e.limits.unscaled},
+          {"added_mass_kg", e.limits.added_mass},
+          {"element_step_bound_s", e.limits.element},
+          {"limited_by", e.limits.where},
+          {"step_s", e.limits.chosen},
           {"steps", e.steps},
           {"rolling_wall_s", e.seconds},
           {"memory_bytes", e.memory_bytes}};

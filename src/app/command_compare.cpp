@@ -8,7 +8,7 @@
 #include "app/commands.hpp"
 #include "app/comparison_picture.hpp"
 #include "app/output_folder.hpp"
-#include "app/result_folder.hpp"
+#include "io/result_folder.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
@@ -34,6 +34,8 @@ constexpr Quantity kQuantities[] = {
     {"F_x", "kN", "F_x_N", "/contact/F_x_N", 1e-3},
     {"F_y", "kN", "F_y_N", "/contact/F_y_N", 1e-3},
     {"F_z", "kN", "F_z_N", "/contact/F_z_N", 1e-3},
+    {"normal force in contact plane", "kN", "normal_force_N", "/contact/normal_force_N", 1e-3},
+    {"lateral force in contact plane", "kN", "lateral_force_N", "/contact/lateral_force_N", 1e-3},
     {"creepage x", "1e-3", "creepage_x", "/contact/creepage_x", 1e3},
     {"spin", "1/m", "spin_per_m", "/contact/spin_per_m", 1},
     {"rail von Mises below surface", "MPa", "rail_subsurface_von_mises_Pa", "/stress/rail/subsurface/von_mises_max/value_Pa", 1e-6},

@@ -44,6 +44,8 @@ constexpr Column kContactColumns[] = {{"p_max_MPa", [](const Summary& s) { retur
                                       {"F_x_kN", [](const Summary& s) { return 1e-3 * s.contact.F_x; }},
                                       {"F_y_kN", [](const Summary& s) { return 1e-3 * s.contact.F_y; }},
                                       {"F_z_kN", [](const Summary& s) { return 1e-3 * s.contact.F_z; }},
+                                      {"normal_force_kN", [](const Summary& s) { return 1e-3 * s.contact.normal_force; }},
+                                      {"lateral_force_kN", [](const Summary& s) { return 1e-3 * s.contact.lateral_force; }},
                                       {"creepage_x", [](const Summary& s) { return s.contact.creepage_x; }},
                                       {"spin_per_m", [](const Summary& s) { return s.contact.spin_per_m; }},
                                       {"approach_um", [](const Summary& s) { return 1e6 * s.contact.approach; }},

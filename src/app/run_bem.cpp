@@ -39,7 +39,10 @@ void write_bem_result(const std::filesystem::path& folder, const std::vector<std
   write_patch_tables(folder, provenance, result.field);
   const StressMaximum& deepest = summary.rail.subsurface->von_mises;
   write_depth_line(folder / "depth_line.csv", provenance, rail_depth_line(result, deepest.x, deepest.y, depth_of_interest(result.rail, summary.contact)));
-  write_vtp(folder / "patch.vtp", patch_mesh(result.field, 0));
+  const double centre_y = centre_line(result.field).y;
+  write_sections(folder, "rail", provenance, rail_sections(result, deepest.x, centre_y, depth_of_interest(result.rail, summary.contact)));
+  write_sections(folder, "wheel", provenance, wheel_sections(result, summary.wheel.subsurface->von_mises.x, centre_y, depth_of_interest(result.wheel, summary.contact)));
+  write_vtp(folder / "patch.vtp", patch_mesh(result.field, summary.position));
   write_summary(folder / "summary.json", summary);
 }
 

@@ -4,6 +4,7 @@
 
 #include "app/peak_memory.hpp"
 #include "fem/rolling_run.hpp"
+#include "io/geometry_json.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
 #include "post/fem_summary.hpp"
@@ -38,6 +39,10 @@ void write_position(const RollingSystem& sys, const MeanContact& mean, const Sum
   const BandStress wheel = band_stress(sys.model.wheel, mean.wheel, contact_y - sys.model.wheel.origin.y);
   const StressMaximum& deepest = summary.rail.subsurface->von_mises;
   write_depth_line(folder / "depth_line.csv", provenance, depth_line(rail, deepest.x, deepest.y));
+  const double centre_y = centre_line(mean.field).y;
+  write_sections(folder, "rail", provenance, band_sections(rail, deepest.x, centre_y));
+  write_sections(folder, "wheel", provenance, band_sections(wheel, summary.wheel.subsurface->von_mises.x, centre_y));
+  write_geometry(folder / "geometry.json", sys.model.spec, sys.model.placement);
   write_vtp(folder / "patch.vtp", patch_mesh(mean.field, mean.position));
   if (sys.model.spec.output.volume) {
     write_vtu(folder / "rail.vtu", band_mesh(rail, mean.position));

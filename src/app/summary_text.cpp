@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 namespace railstrata {
 namespace {
@@ -21,6 +22,7 @@ std::string contact_text(const ContactSummary& c) {
   fmt::format_to(to, "  patch            {} long, {} wide, {:.1f} mm²\n", in_mm(c.patch_length), in_mm(c.patch_width), 1e6 * c.patch_area);
   if (std::isfinite(c.slip_area_fraction)) fmt::format_to(to, "  slip area        {:8.1f} % of the patch\n", 100 * c.slip_area_fraction);
   fmt::format_to(to, "  forces on wheel  F_x {:.2f}, F_y {:.2f}, F_z {:.2f} kN, F_x/F_z {:.4f}\n", 1e-3 * c.F_x, 1e-3 * c.F_y, 1e-3 * c.F_z, c.F_x / c.F_z);
+  fmt::format_to(to, "  in contact plane normal {:.2f}, lateral {:.2f} kN, at {:+.2f} degrees\n", 1e-3 * c.normal_force, 1e-3 * c.lateral_force, c.contact_angle * 180 / std::numbers::pi);
   if (std::isfinite(c.creepage_x)) fmt::format_to(to, "  creepage         {:8.3f} e-3 longitudinal (negative: driving)\n", 1e3 * c.creepage_x);
   if (std::isfinite(c.penetration_max)) fmt::format_to(to, "  penetration      {:8.4f} um of {:.1f} um approach\n", 1e6 * c.penetration_max, 1e6 * c.approach);
   else fmt::format_to(to, "  approach         {:8.1f} um\n", 1e6 * c.approach);
@@ -40,6 +42,8 @@ std::string summary_text(const Summary& s) {
   maximum("layer", s.rail.layer);
   maximum("interface", s.rail.interface);
   maximum("matrix", s.rail.matrix);
+  if (s.run.added_mass > 0)
+    fmt::format_to(to, "  mass scaling     {:.3f} kg against stretching of thin rows: stable step {:.1f} ns instead of {:.1f} ns\n", s.run.added_mass, 1e9 * s.run.stable_step, 1e9 * s.run.unscaled_step);
   fmt::format_to(to, "  checks\n");
   for (const Check& k : s.checks) fmt::format_to(to, "    {:<6} {:<34} {:10.3g}  (limit {:.3g})\n", k.ok ? "ok" : "FAILED", k.name, k.value, k.limit);
   return out;

@@ -8,7 +8,7 @@ namespace railstrata {
 
 std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, const std::vector<double>& creepages, const BemOptions& options) {
   if (!(spec.drive.friction_coefficient > 0)) throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero");
-  CasePatch patch = make_case_patch(spec, placement, options);
+  CasePatch patch = make_case_patch(spec, placement, options, normal_load(static_load(spec), 0, placement.contact));
   const RollingEllipse ellipse = rolling_ellipse(hertz_estimate(spec, placement.contact), patch.contact.friction, patch.wheel.substrate, patch.rail.substrate);
   std::vector<CreepCurvePoint> curve;
   for (double creepage : creepages) {

@@ -26,6 +26,8 @@ bool couples_at_all(const SurfaceCompliance& pair) {
 InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy) : fft_(nx, ny), dx_(dx), dy_(dy) {
   const auto table = rectangle_influence_table(pair, fft_.mx() / 2 + 1, fft_.my() / 2 + 1, dx, dy);
   using I = RectangleInfluence;
+  near_[0] = table[0];
+  near_[1] = table[static_cast<std::size_t>(fft_.my() / 2 + 1)];
   nn_hat_ = fft_.spectrum(component(table, &I::nn), 1, 1);
   xx_hat_ = fft_.spectrum(component(table, &I::xx), 1, 1);
   xy_hat_ = fft_.spectrum(component(table, &I::xy), -1, -1);

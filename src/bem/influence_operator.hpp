@@ -19,6 +19,8 @@ class InfluenceOperator {
   int ny() const { return fft_.ny(); }
   double dx() const { return dx_; }
   double dy() const { return dy_; }
+  /// Displacement at (i dx, 0), i = 0 or 1, from the centre of a cell under unit traction.
+  const RectangleInfluence& of_one_cell(int i) const { return near_[i]; }
   bool couples() const { return !nx_hat_.empty(); }  ///< normal and tangential problems interact
 
   /// Closing of the gap by pressure: nx x ny.
@@ -37,6 +39,7 @@ class InfluenceOperator {
  private:
   PlaneFft fft_;
   double dx_, dy_;
+  RectangleInfluence near_[2];
   std::vector<double> nn_hat_, xx_hat_, xy_hat_, yy_hat_, nx_hat_, ny_hat_;  // nx, ny: imaginary parts
   std::vector<double> inv_nn_, inv_xx_, inv_xy_, inv_yy_;
 };

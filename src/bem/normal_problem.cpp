@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/faults.hpp"
 
@@ -36,51 +37,54 @@ class ActiveSetSolver {
  private:
   bool load_given() const { return target_.load.has_value(); }
 
-  /// p ~ sqrt(depth of rigid interpenetration), scaled to the load of a Hertz-like patch of that area.
+  /// p ~ sqrt(depth of rigid interpenetration). For a given load the depth is right when the closing mirrors the gap.
   void first_guess() {
     const double lowest = *std::min_element(gap_.begin(), gap_.end());
     if (!load_given()) {
       if (*target_.approach <= lowest) throw CaseError("the bodies do not touch at this approach", "increase the approach or the load");
-      for (std::size_t i = 0; i < n_; ++i) p_[i] = std::sqrt(std::max(0.0, lowest + 0.5 * (*target_.approach - lowest) - gap_[i]));
-      const double per_metre = unit_pressure_closing();
-      const double scale = (*target_.approach - lowest) / per_metre;
-      for (double& p : p_) p *= scale;
+      set_pressure(lowest + 0.5 * (*target_.approach - lowest));
+      influence_.normal(p_.data(), closing_.data());
+      scale_by(p_, (*target_.approach - lowest) / *std::max_element(closing_.begin(), closing_.end()));
       return;
     }
+    double level = level_of_a_half_space(lowest);
+    for (int i = 0; i < 4; ++i) {
+      set_pressure(level);
+      scale_by(p_, *target_.load / (sum(p_) * grid_.cell_area()));
+      influence_.normal(p_.data(), closing_.data());
+      ++iterations_;
+      const double mirror = mirroring_of_the_gap();
+      if (!(std::abs(mirror - 1) > 0.1)) return;
+      level = lowest + (level - lowest) * std::clamp(std::pow(mirror, 0.6), 0.2, 5.0);  // ~ level^(-3/2) on a half-space, level^-2 on a mattress
+    }
+  }
+
+  void set_pressure(double level) {
+    for (std::size_t i = 0; i < n_; ++i) p_[i] = std::sqrt(std::max(0.0, level - gap_[i]));
+    if (sum(p_) == 0) p_[static_cast<std::size_t>(std::min_element(gap_.begin(), gap_.end()) - gap_.begin())] = 1;
+  }
+
+  /// Where a Hertz circle of the same area closes twice the level, its compliance taken from that of one cell (a square of side s: 1.122 s/E*).
+  double level_of_a_half_space(double lowest) const {
+    const double compliance = influence_.of_one_cell(0).nn / (1.122 * std::sqrt(grid_.cell_area()));
     Plane sorted = gap_;
     std::sort(sorted.begin(), sorted.end());
-    // the level whose sqrt pressure, carrying the load, closes about twice the level (Hertz: approach = 2 x gap at the mean edge)
     std::size_t low = 1, high = n_ - 1;
     while (high - low > 1) {
       const std::size_t mid = (low + high) / 2;
-      const double level = sorted[mid], area = static_cast<double>(mid) * grid_.cell_area();
-      const double p0 = 1.5 * *target_.load / area;
-      const double closes = p0 * centre_closing_of_unit_hertz(area);
-      (2 * (level - lowest) < closes ? low : high) = mid;
+      const double area = static_cast<double>(mid) * grid_.cell_area(), p0 = 1.5 * *target_.load / area;
+      const double closes = p0 * compliance * 0.5 * std::sqrt(area * std::numbers::pi);
+      (2 * (sorted[mid] - lowest) < closes ? low : high) = mid;
     }
-    const double level = sorted[high];
-    for (std::size_t i = 0; i < n_; ++i) p_[i] = std::sqrt(std::max(0.0, level - gap_[i]));
-    if (sum(p_) == 0) p_[static_cast<std::size_t>(std::min_element(gap_.begin(), gap_.end()) - gap_.begin())] = 1;
-    const double scale = *target_.load / (sum(p_) * grid_.cell_area());
-    for (double& p : p_) p *= scale;
+    return sorted[high];
   }
 
-  /// Closing at the centre of a circular Hertz patch with p0 = 1 Pa, from the operator's own compliance of one cell.
-  double centre_closing_of_unit_hertz(double area) {
-    if (cell_closing_ == 0) {
-      Plane one(n_, 0.0), u(n_);
-      const std::size_t middle = grid_.index(grid_.nx / 2, grid_.ny / 2);
-      one[middle] = 1;
-      influence_.normal(one.data(), u.data());
-      cell_closing_ = u[middle];
-    }
-    // a square cell of side s: 1.122 s/E* under 1 Pa; a Hertz circle: pi a/(2 E*)
-    return cell_closing_ / (1.122 * std::sqrt(grid_.cell_area())) * 0.5 * std::sqrt(area * 3.141592653589793);
-  }
-
-  double unit_pressure_closing() {
-    influence_.normal(p_.data(), closing_.data());
-    return *std::max_element(closing_.begin(), closing_.end());
+  /// Slope of the closing over the gap, where there is pressure: 1 in the solution, more for too small a patch.
+  double mirroring_of_the_gap() const {
+    double n = 0, gap = 0, closing = 0, both = 0, square = 0;
+    for (std::size_t i = 0; i < n_; ++i)
+      if (p_[i] > 0) n += 1, gap += gap_[i], closing += closing_[i], both += gap_[i] * closing_[i], square += gap_[i] * gap_[i];
+    return (gap * closing - n * both) / (n * square - gap * gap);
   }
 
   double gap_range() const {
@@ -186,7 +190,7 @@ class ActiveSetSolver {
   std::size_t n_;
   Plane p_, closing_, residual_, z_, d_, Ad_, ones_;
   Mask active_;
-  double approach_ = 0, ones_sum_ = 1, cell_closing_ = 0;
+  double approach_ = 0, ones_sum_ = 1;
   int iterations_ = 0;
 };
 

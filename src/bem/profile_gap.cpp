@@ -1,86 +1,109 @@
 #include "bem/profile_gap.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 namespace railstrata {
 
 namespace {
 
-/// Height of a profile over the model frame's y.
+/// Axes of the contact plane: t along the common tangent, w along the normal from the rail to the wheel.
+struct PlaneAxes {
+  Vec2 origin, tangent, normal;
+  explicit PlaneAxes(const RigidContact& c) : origin(c.point), tangent{std::cos(c.angle), std::sin(c.angle)}, normal{-tangent.z, tangent.y} {}
+};
+
+/// A point of a section curve and its derivative along the profile's arc length, in the contact plane's axes.
+struct PlanePoint {
+  double t, w, dt;
+};
+
 struct RailCurve {
   const Profile& profile;
   const TrackGeometry& track;
-  double floor, ceiling;  // y range in the model frame
-  RailCurve(const Profile& p, const TrackGeometry& t) : profile(p), track(t) {
-    floor = rail_to_model(t, p.at(p.s_at_y(p.y_min())).position).y;
-    ceiling = rail_to_model(t, p.at(p.s_at_y(p.y_max())).position).y;
-  }
-  bool covers(double y) const { return y > floor && y < ceiling; }
-  double z(double y) const {
-    // the canted profile over y: rotate back at a height found by iteration
-    double z = 0;
-    for (int i = 0; i < 30; ++i) {
-      const Vec2 in_profile = model_to_rail(track, {y, z});
-      if (in_profile.y <= profile.y_min() || in_profile.y >= profile.y_max()) return std::numeric_limits<double>::quiet_NaN();
-      const double step = rail_to_model(track, {in_profile.y, profile.height(in_profile.y)}).z - z;
-      z += step;
-      if (std::abs(step) < 1e-15) break;
-    }
-    return z;
+  PlaneAxes axes;
+  PlanePoint at(double s, double) const {
+    const ProfilePoint p = profile.at(s);
+    const Vec2 d = rail_to_model(track, p.position) - axes.origin;
+    return {dot(d, axes.tangent), dot(d, axes.normal), dot(rail_to_model(track, p.tangent), axes.tangent)};
   }
 };
 
+/// The wheel cut at x: every point of the profile moves on its circle about the axle.
 struct WheelCurve {
   const Profile& profile;
   const RigidContact& contact;
-  bool covers(double y) const { return y - contact.wheel_offset_y > profile.y_min() && y - contact.wheel_offset_y < profile.y_max(); }
-  double radius(double y) const { return contact.axle_height - contact.wheel_offset_z - profile.height(y - contact.wheel_offset_y); }
-  double z(double y, double x) const {
-    const double r = radius(y);
-    return contact.axle_height - std::sqrt((r - x) * (r + x));
+  PlaneAxes axes;
+  PlanePoint at(double s, double x) const {
+    const ProfilePoint p = profile.at(s);
+    const double r = contact.axle_height - contact.wheel_offset_z - p.position.z, below = std::sqrt(std::max(0.0, (r - x) * (r + x)));
+    const Vec2 d = Vec2{contact.wheel_offset_y + p.position.y, contact.axle_height - below} - axes.origin;
+    return {dot(d, axes.tangent), dot(d, axes.normal), p.tangent.y * axes.tangent.y + r / below * p.tangent.z * axes.tangent.z};
   }
 };
 
-/// Height above the contact plane, at the tangential coordinate t, of a curve z(y) in the section plane; NaN where the curve has ended.
+struct Found {
+  double s, w;
+};
+
+/// Height of a curve over the contact plane, point by point; the part of it around the contact that faces the plane.
 template <class Curve>
-double height_over_plane(Vec2 origin, Vec2 tangent, double t, double guess, const Curve& curve) {
-  const Vec2 normal{-tangent.z, tangent.y}, foot = origin + t * tangent;
-  double w = guess, previous_w = 0, previous_f = 0;
-  for (int i = 0; i < 40; ++i) {
-    const Vec2 p = foot + w * normal;
-    const double f = p.z - curve(p.y);
-    if (!(std::abs(f) > 1e-16)) break;
-    const double slope = i > 0 && std::abs(w - previous_w) > 1e-14 ? (f - previous_f) / (w - previous_w) : normal.z;
-    previous_w = w, previous_f = f;
-    const double step = f / slope;
-    w -= step;
-    if (std::abs(step) < 1e-15) break;
+class HeightOverPlane {
+ public:
+  HeightOverPlane(const Curve& curve, double contact_s) : curve_(curve), contact_s_(contact_s), low_(end(-1)), high_(end(1)) {}
+
+  /// At (x, t), by Newton's method kept inside the facing part; nothing where that has ended. guess: arc length to start from.
+  std::optional<Found> at(double x, double t, double guess) const {
+    double low = low_, high = high_, s = std::clamp(guess, low, high);
+    if (t < curve_.at(low, x).t || t > curve_.at(high, x).t) return {};
+    PlanePoint p{};
+    for (int i = 0; i < 100; ++i) {
+      p = curve_.at(s, x);
+      const double error = p.t - t;
+      (error > 0 ? high : low) = s;
+      double next = s - error / p.dt;
+      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      if (std::abs(next - s) < 1e-15) break;
+      s = next;
+    }
+    return Found{s, p.w};
   }
-  return w;
-}
+
+ private:
+  /// Where, walking away from the contact, the curve has turned its back on the plane (steeper than 87 degrees to it).
+  double end(int direction) const {
+    constexpr double kStep = 0.05e-3, kFacing = 0.05;
+    const double last = direction > 0 ? curve_.profile.s_max() : curve_.profile.s_min();
+    double s = contact_s_;
+    while ((last - s) * direction > kStep && curve_.at(s + direction * kStep, 0).dt > kFacing) s += direction * kStep;
+    return s;
+  }
+  const Curve& curve_;
+  double contact_s_, low_, high_;
+};
 
 }  // namespace
 
 ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& contact, const PatchGrid& grid) {
-  const RailCurve rail_curve(rail, track);
-  const WheelCurve wheel_curve{wheel, contact};
-  const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
-  const double none = std::numeric_limits<double>::quiet_NaN();
+  const PlaneAxes axes(contact);
+  const RailCurve rail_curve{rail, track, axes};
+  const WheelCurve wheel_curve{wheel, contact, axes};
+  const HeightOverPlane rail_height(rail_curve, contact.rail_s);
+  const HeightOverPlane wheel_height(wheel_curve, contact.wheel_s);
   ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size())};
   for_each_if(threads_pay_for(grid.size()), grid.ny, [&](int j) {
     const double t = grid.y(j);
-    const double rail_w = height_over_plane(contact.point, tangent, t, 0, [&](double y) { return rail_curve.covers(y) ? rail_curve.z(y) : none; });
+    const auto on_rail = rail_height.at(0, t, contact.rail_s + t), under_axle = wheel_height.at(0, t, contact.wheel_s + t);
     for (int i = 0; i < grid.nx; ++i) {
       const double x = grid.x(i);
-      const double wheel_w = height_over_plane(contact.point, tangent, t, 0, [&](double y) { return wheel_curve.covers(y) && std::abs(x) < wheel_curve.radius(y) ? wheel_curve.z(y, x) : none; });
-      const double middle = 0.5 * (rail_w + wheel_w), gap = wheel_w - rail_w;
-      const bool present = std::isfinite(gap);
+      const auto on_wheel = under_axle ? wheel_height.at(x, t, under_axle->s) : under_axle;
       const std::size_t k = grid.index(i, j);
-      out.gap[k] = present ? gap : ProfileGap::kNoSurface;
-      out.rail_height[k] = std::isfinite(rail_w) ? rail_w : 0.0;
-      const double z = (contact.point + t * tangent + (present ? middle : 0.0) * normal).z;
-      out.radius[k] = std::hypot(x, contact.axle_height - z);
+      const bool present = on_rail && on_wheel;
+      out.gap[k] = present ? on_wheel->w - on_rail->w : ProfileGap::kNoSurface;
+      out.rail_height[k] = on_rail ? on_rail->w : 0.0;
+      const double middle = present ? 0.5 * (on_rail->w + on_wheel->w) : 0.0;
+      out.radius[k] = std::hypot(x, contact.axle_height - (axes.origin + t * axes.tangent + middle * axes.normal).z);
     }
   });
   return out;

@@ -11,7 +11,7 @@
 namespace railstrata {
 
 struct ProfileGap {
-  Plane gap;          ///< m, >= 0 up to round-off; where a profile has ended: kNoSurface
+  Plane gap;          ///< m, >= 0 up to round-off at small contact angles (the wheel is lowered along z); where a profile has ended or turned away: kNoSurface
   Plane rail_height;  ///< m, the rail's surface above the contact plane
   Plane radius;       ///< m, distance from the axle of the middle between the two surfaces: what the deformed interface rolls on
   static constexpr double kNoSurface = 0.05;

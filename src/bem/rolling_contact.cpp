@@ -9,33 +9,47 @@ namespace railstrata {
 
 namespace {
 
-/// Rigid slip equivalent to the displacement that the pressure causes: what the tangential problem sees of it.
-void add_slip_of_pressure(const InfluenceOperator& influence, const PatchGrid& grid, RollingKind kind, const Plane& p, Plane& slip_x, Plane& slip_y) {
-  const std::size_t n = grid.size(), row = static_cast<std::size_t>(grid.ny);
-  Plane ux(n + row), uy(n + row);
-  influence.tangential_from_pressure(p.data(), ux.data(), uy.data(), grid.nx + 1);
+/// Rail minus wheel on the grid and one row of cells ahead of it.
+struct Displacement {
+  Plane x, y;
+  Displacement(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure) : x(grid.size() + row(grid)), y(x.size()) {
+    influence.tangential_from_pressure(pressure.data(), x.data(), y.data(), grid.nx + 1);
+  }
+  Displacement(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& s) : Displacement(influence, grid, s.normal.pressure) {
+    Plane qx(x.size()), qy(x.size());
+    influence.tangential(s.tangential.q_x.data(), s.tangential.q_y.data(), qx.data(), qy.data(), grid.nx + 1);
+    add_scaled(x, 1, qx);
+    add_scaled(y, 1, qy);
+  }
+  static std::size_t row(const PatchGrid& grid) { return static_cast<std::size_t>(grid.ny); }
+};
+
+/// What the tangential problem sees of the displacement by pressure: rigid slip in steady rolling, else a part of the history.
+void add_displacement_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure, TangentialProblem& t) {
+  const Displacement u(influence, grid, pressure);
+  const std::size_t n = grid.size(), row = Displacement::row(grid);
+  const bool steady = t.kind == RollingKind::steady;
+  Plane &x = steady ? t.extra_x : t.before_x, &y = steady ? t.extra_y : t.before_y;
+  x.resize(n, 0.0);
+  y.resize(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
-    slip_x[i] += kind == RollingKind::shift ? -ux[i] : (ux[i + row] - ux[i]) / grid.dx;
-    slip_y[i] += kind == RollingKind::shift ? -uy[i] : (uy[i + row] - uy[i]) / grid.dx;
+    x[i] += steady ? (u.x[i + row] - u.x[i]) / grid.dx : -u.x[i];
+    y[i] += steady ? (u.y[i + row] - u.y[i]) / grid.dx : -u.y[i];
   }
 }
 
 TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact, const Plane& pressure) {
-  TangentialProblem t;
-  t.kind = contact.kind;
-  t.x = contact.x;
-  t.y = contact.y;
-  t.spin = contact.spin;
-  t.extra_x = contact.extra_x;
-  t.extra_y = contact.extra_y;
-  t.bound = pressure;
+  TangentialProblem t{contact.kind, pressure, contact.x, contact.y, contact.spin, contact.extra_x, contact.extra_y, contact.step, contact.before_x, contact.before_y};
   for (std::size_t i = 0; i < t.bound.size(); ++i) t.bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
-  if (influence.couples()) {
-    t.extra_x.resize(grid.size(), 0.0);
-    t.extra_y.resize(grid.size(), 0.0);
-    add_slip_of_pressure(influence, grid, contact.kind, pressure, t.extra_x, t.extra_y);
-  }
+  if (influence.couples()) add_displacement_by_pressure(influence, grid, pressure, t);
   return t;
+}
+
+Plane gap_closed_by_traction(const InfluenceOperator& influence, const RollingContact& contact, const TangentialSolution& s) {
+  Plane gap(contact.gap.size());
+  influence.normal_from_traction(s.q_x.data(), s.q_y.data(), gap.data());
+  add_scaled(gap, 1, contact.gap);
+  return gap;
 }
 
 double largest_change(const Plane& a, const Plane& b) {
@@ -44,24 +58,68 @@ double largest_change(const Plane& a, const Plane& b) {
   return change / peak;
 }
 
-}  // namespace
+/// Solves one of the two problems further, counting its iterations on.
+template <class Solution>
+void replace(Solution& old, Solution next) {
+  next.iterations += old.iterations;
+  old = std::move(next);
+}
 
-RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact, const RollingOptions& options) {
+RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact, const RollingOptions& options, const RollingSolution* start) {
+  constexpr double kFirst = 0.3;           // a third of the tangential solution is enough to see the pressure move
+  constexpr double kSharper = 0.03;        // of the last change of the pressure: how well the next pressure is known
+  constexpr double kGapPerPressure = 0.01; // a small deviation of the gap, over its range, is a hundredfold one of the pressure in single cells
+  constexpr int kOneStepTurns = 30;        // after these, a turn is taken to its end
   RollingSolution s;
-  s.normal = solve_normal(influence, grid, contact.gap, contact.target, options.normal);
-  s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), options.tangential);
-  if (!influence.couples()) return s;
-  Plane gap(grid.size());
-  for (s.turns = 2; s.turns <= options.max_turns; ++s.turns) {
-    influence.normal_from_traction(s.tangential.q_x.data(), s.tangential.q_y.data(), gap.data());
-    for (std::size_t i = 0; i < gap.size(); ++i) gap[i] += contact.gap[i];
-    NormalSolution next = solve_normal(influence, grid, gap, contact.target, options.normal, s.normal.pressure);
-    const double change = largest_change(next.pressure, s.normal.pressure);
-    s.normal = std::move(next);
-    s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), options.tangential, &s.tangential);
-    if (change < options.coupling_tolerance) return s;
+  if (start) s.tangential = start->tangential, s.tangential.iterations = 0;
+  double change = kFirst;
+  const auto pressure = [&](const Plane& from) {
+    NormalOptions close_enough = options.normal;
+    close_enough.tolerance = std::max(close_enough.tolerance, kGapPerPressure * kSharper * change);
+    return solve_normal(influence, grid, from.empty() ? contact.gap : gap_closed_by_traction(influence, contact, s.tangential), contact.target, close_enough, from);
+  };
+  s.normal = pressure(start ? start->normal.pressure : Plane{});
+  for (s.turns = 1; s.turns <= options.max_turns; ++s.turns) {
+    const bool settled = change < options.coupling_tolerance, first = s.turns == 1 && !start;
+    TangentialOptions further = options.tangential;
+    if (!settled) {
+      further.tolerance = std::max(further.tolerance, change);
+      if (!first && s.turns < kOneStepTurns) further.max_outer = 1, further.partial = true;
+    }
+    replace(s.tangential, solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), further, first ? nullptr : &s.tangential));
+    if (settled) return s;
+    NormalSolution next = pressure(s.normal.pressure);
+    change = std::max(kSharper * change, largest_change(next.pressure, s.normal.pressure));
+    replace(s.normal, std::move(next));
   }
   throw NumericalError("normal and tangential contact did not settle against each other");
+}
+
+}  // namespace
+
+RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact, const RollingOptions& options, const RollingSolution* start) {
+  if (influence.couples()) return solve_in_turn(influence, grid, contact, options, start);
+  RollingSolution s;
+  s.normal = solve_normal(influence, grid, contact.gap, contact.target, options.normal, start ? start->normal.pressure : Plane{});
+  s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), options.tangential, start ? &start->tangential : nullptr);
+  return s;
+}
+
+void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before, RollingContact& contact) {
+  const Displacement u(influence, grid, before);
+  const auto row = static_cast<std::ptrdiff_t>(Displacement::row(grid));
+  contact.kind = RollingKind::transient;
+  contact.step = grid.dx;
+  contact.before_x.assign(u.x.begin() + row, u.x.end());
+  contact.before_y.assign(u.y.begin() + row, u.y.end());
+}
+
+void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before, RollingContact& contact) {
+  const Displacement u(influence, grid, before);
+  const auto row = static_cast<std::ptrdiff_t>(Displacement::row(grid));
+  contact.kind = RollingKind::shift;
+  contact.before_x.assign(u.x.begin(), u.x.end() - row);
+  contact.before_y.assign(u.y.begin(), u.y.end() - row);
 }
 
 }  // namespace railstrata

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 #include "bem/case_patch.hpp"
 #include "core/faults.hpp"
@@ -68,15 +69,56 @@ void fill_totals(const RollingSolution& s, double speed, BemResult& r) {
   }
 }
 
+struct LoadedPatch {
+  CasePatch patch;
+  RollingSolution solution;
+  int turns = 1;
+};
+
+/// Seeks the normal force by secants: lateral friction carries a share of the weight that grows with the contact angle, and itself depends on the normal force.
+LoadedPatch bear_the_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double weight) {
+  constexpr double kTolerance = 1e-5;
+  constexpr int kMostTurns = 20;
+  const RigidContact& contact = placement.contact;
+  const double cosine = std::cos(contact.angle), sine = std::sin(contact.angle);
+  double normal = normal_load(weight, 0, contact), slope = cosine, previous_normal = 0, previous_excess = 0;
+  LoadedPatch out;
+  const auto solve = [&] {
+    const auto again = [&] {
+      out.patch.contact.target.load = normal;
+      out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling);
+    };
+    const auto place = [&] {
+      out.patch = make_case_patch(spec, placement, options, normal);
+      if (spec.drive.friction_coefficient > 0) out.patch.contact.x.force = -spec.drive.traction_coefficient * weight;
+      again();
+    };
+    if (out.turns == 1) return place();
+    again();
+    if (out.solution.normal.touches_edge) place();
+  };
+  for (;; ++out.turns) {
+    solve();
+    const double excess = normal * cosine - out.solution.tangential.force_y * sine - weight;
+    if (std::abs(excess) <= kTolerance * weight) return out;
+    if (out.turns > 1) slope = (excess - previous_excess) / (normal - previous_normal);
+    if (!(slope > 0.02 * cosine) || out.turns == kMostTurns)
+      throw CaseError(fmt::format("no normal force balances the weight at a contact angle of {:.1f} degrees: friction wedges the wheel", std::abs(contact.angle) * 180 / std::numbers::pi),
+                      "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+    previous_normal = normal, previous_excess = excess;
+    normal -= excess / slope;
+  }
+}
+
 }  // namespace
 
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const double load = static_load(spec);
-  check_friction(spec, load, load / std::cos(placement.contact.angle));
-  CasePatch patch = make_case_patch(spec, placement, options);
-  if (spec.drive.friction_coefficient > 0) patch.contact.x.force = -spec.drive.traction_coefficient * load;
-  const RollingSolution s = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling);
+  check_friction(spec, load, normal_load(load, 0, placement.contact));
+  const LoadedPatch loaded = bear_the_weight(spec, placement, options, load);
+  const CasePatch& patch = loaded.patch;
+  const RollingSolution& s = loaded.solution;
 
   BemResult r;
   r.contact = placement.contact;
@@ -85,6 +127,7 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   r.rail = patch.rail;
   r.spin = patch.contact.spin;
   r.notes = patch.notes;
+  r.load_turns = loaded.turns;
   fill_field(patch, s, r.contact, spec.drive.speed, r.field);
   fill_totals(s, spec.drive.speed, r);
   r.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

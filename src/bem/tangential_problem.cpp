@@ -11,17 +11,21 @@ namespace railstrata {
 namespace {
 
 constexpr unsigned char kOutside = 0, kStick = 1, kSlip = 2;
+constexpr double kCoarse = 0.1;  // of the linear systems, while sets still change
 
 /// Vectors of the Newton system hold the planes x and y one after the other, then one entry for each direction whose force is given.
 class Solver {
  public:
   Solver(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options)
       : A_(influence), grid_(grid), problem_(problem), options_(options), n_(grid.size()), ahead_(static_cast<std::size_t>(grid.ny)),
-        q_(2 * n_, 0.0), slip_(2 * n_), rigid_(2 * n_), normal_(2 * n_, 0.0), diagonal_(n_, 0.0), set_(n_, kOutside), u_(2 * (n_ + ahead_)) {
+        q_(2 * n_, 0.0), slip_(2 * n_), rigid_(2 * n_), normal_(2 * n_, 0.0), diagonal_(n_, 0.0), history_(2 * n_, 0.0),
+        set_(n_, kOutside), u_(2 * (n_ + ahead_)) {
     if (problem.x.force) directions_.push_back(0);
     if (problem.y.force) directions_.push_back(1);
     creepage_[0] = problem.x.creepage;
     creepage_[1] = problem.y.creepage;
+    self_ = (influence.of_one_cell(0).xx - (steady() ? influence.of_one_cell(1).xx : 0.0)) / step_length();
+    force_row_ = self_ / static_cast<double>(n_);  // a force residual weighs like a slip residual
     fill_fixed_slip();
   }
 
@@ -30,18 +34,19 @@ class Solver {
     check_forces();
     if (start) adopt(*start);
     update_slip();
-    double accuracy = 0.05;
-    for (outer_ = 0; outer_ < options_.max_outer; ++outer_) {
+    if (start && fill_new_cells(*start)) update_slip();
+    int changed = update_sets();
+    double error = violation();
+    for (; error > options_.tolerance && outer_ < options_.max_outer; ++outer_) {
       prepare_slip_cells();
       Plane step;
-      newton_step(accuracy, step);
+      newton_step(changed == 0 && outer_ > 0 ? std::clamp(0.3 * options_.tolerance / error, 1e-4, kCoarse) : kCoarse, step);
       advance(step);
       update_slip();
-      const int changed = update_sets();
-      const double error = violation();
-      if (changed == 0 && error <= options_.tolerance) return solution();
-      accuracy = changed == 0 ? std::clamp(0.3 * options_.tolerance / error, 1e-4, 0.05) : 0.05;
+      changed = update_sets();
+      error = violation();
     }
+    if (error <= options_.tolerance || options_.partial) return solution();
     throw NumericalError("the tangential contact problem did not converge");
   }
 
@@ -55,13 +60,16 @@ class Solver {
     for (int i = 0; i < grid_.nx; ++i)
       for (int j = 0; j < grid_.ny; ++j) {
         const std::size_t k = grid_.index(i, j);
-        rigid_[k] = -problem_.spin * grid_.y(j) + (problem_.extra_x.empty() ? 0.0 : problem_.extra_x[k]) + (problem_.before_x.empty() ? 0.0 : problem_.before_x[k] / problem_.step);
-        rigid_[n_ + k] = problem_.spin * (grid_.x(i) + ahead) + (problem_.extra_y.empty() ? 0.0 : problem_.extra_y[k]) + (problem_.before_y.empty() ? 0.0 : problem_.before_y[k] / problem_.step);
+        rigid_[k] = -problem_.spin * grid_.y(j) + (problem_.extra_x.empty() ? 0.0 : problem_.extra_x[k]);
+        rigid_[n_ + k] = problem_.spin * (grid_.x(i) + ahead) + (problem_.extra_y.empty() ? 0.0 : problem_.extra_y[k]);
+        if (!problem_.before_x.empty()) history_[k] = problem_.before_x[k] / step_length();
+        if (!problem_.before_y.empty()) history_[n_ + k] = problem_.before_y[k] / step_length();
       }
   }
 
-  void check_forces() const {
-    const double available = sum(problem_.bound) * grid_.cell_area(), wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
+  void check_forces() {
+    available_ = sum(problem_.bound);
+    const double available = available_ * grid_.cell_area(), wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
     if (wanted >= available && wanted > 0)
       throw CaseError("friction cannot carry the tangential force: " + std::to_string(wanted) + " N of at most " + std::to_string(available) + " N",
                       "lower the traction or raise the friction coefficient");
@@ -79,6 +87,21 @@ class Solver {
     }
     if (problem_.x.force) creepage_[0] = start.creepage_x;
     if (problem_.y.force) creepage_[1] = start.creepage_y;
+  }
+
+  /// Cells that have come into contact since: as if alone. Left without traction they would mislead the first Newton step.
+  bool fill_new_cells(const TangentialSolution& start) {
+    bool any = false;
+    for (std::size_t i = 0; i < n_; ++i) {
+      const double slip = std::hypot(slip_[i], slip_[n_ + i]);
+      if (set_[i] == kOutside || start.state[i] != ContactState::separated || slip == 0) continue;
+      const double g = problem_.bound[i], q = std::min(g, slip / self_);
+      if (q == g) set_[i] = kSlip;
+      q_[i] = q * slip_[i] / slip;
+      q_[n_ + i] = q * slip_[n_ + i] / slip;
+      any = true;
+    }
+    return any;
   }
 
   /// out = L in on the patch.
@@ -100,14 +123,16 @@ class Solver {
     apply_L(q_.data(), slip_.data());
     for (std::size_t i = 0; i < n_; ++i) {
       if (set_[i] == kOutside) continue;
-      slip_[i] = rigid_[i] + creepage_[0] - slip_[i];
-      slip_[n_ + i] = rigid_[n_ + i] + creepage_[1] - slip_[n_ + i];
+      slip_[i] = rigid_[i] + creepage_[0] + history_[i] - slip_[i];
+      slip_[n_ + i] = rigid_[n_ + i] + creepage_[1] + history_[n_ + i] - slip_[n_ + i];
     }
   }
 
-  double force(int direction) const {
+  /// What a given force lacks, over the area of a cell.
+  double missing_force(int direction) const {
     const std::size_t offset = direction ? n_ : 0;
-    return ordered_sum_of(n_, [&](std::size_t i) { return q_[offset + i]; });  // in units of the cell area
+    const double wanted = direction ? *problem_.y.force : *problem_.x.force;
+    return wanted / grid_.cell_area() - ordered_sum_of(n_, [&](std::size_t i) { return q_[offset + i]; });
   }
 
   /// Unit traction direction and the stabilising diagonal (s·n)/g of slipping cells.
@@ -142,8 +167,7 @@ class Solver {
     std::copy(slip_.begin(), slip_.end(), b.begin());
     project(b.data());
     for (std::size_t c = 0; c < m; ++c) {
-      const double wanted = (directions_[c] == 0 ? *problem_.x.force : *problem_.y.force) / grid_.cell_area();
-      b[2 * n_ + c] = force_row_ * (wanted - force(directions_[c]));
+      b[2 * n_ + c] = force_row_ * missing_force(directions_[c]);
     }
     gmres([&](const Plane& in, Plane& out) { newton_product(in, out); }, [&](const Plane& in, Plane& out) { precondition(in, out); }, b, step, accuracy, 120);
   }
@@ -198,17 +222,6 @@ class Solver {
   }
 
   void prepare_border() {
-    if (self_ == 0) {
-      Plane one(2 * n_, 0.0), out(2 * n_);
-      const std::size_t middle = grid_.index(grid_.nx / 2, grid_.ny / 2);
-      one[middle] = 1;
-      const auto kept = set_;
-      std::fill(set_.begin(), set_.end(), kStick);
-      apply_L(one.data(), out.data());
-      set_ = kept;
-      self_ = out[middle];
-      force_row_ = self_ / static_cast<double>(n_);  // a force residual weighs like a slip residual
-    }
     border_.clear();
     for (int direction : directions_) {
       Plane e(2 * n_, 0.0), z(2 * n_);
@@ -268,18 +281,19 @@ class Solver {
     return to_slip + to_stick;
   }
 
-  /// Largest violation of the slip conditions over the largest rigid slip.
+  /// Largest violation of the slip conditions and of the given forces, as TangentialOptions::tolerance counts it.
   double violation() {
-    double worst = 0, largest = 0;
+    double worst = 0, largest = 0, force = 0;
     for (std::size_t i = 0; i < n_; ++i) {
       if (set_[i] == kOutside) continue;
-      largest = std::max(largest, std::hypot(rigid_[i] + creepage_[0], rigid_[n_ + i] + creepage_[1]));
+      largest = std::max({largest, std::hypot(rigid_[i] + creepage_[0], rigid_[n_ + i] + creepage_[1]), 0.01 * std::hypot(history_[i], history_[n_ + i])});
       const double g = problem_.bound[i];
       const double wrong = set_[i] == kStick ? std::hypot(slip_[i], slip_[n_ + i]) : std::abs(slip_[i] * q_[n_ + i] - slip_[n_ + i] * q_[i]) / g;
       worst = std::max(worst, wrong);
     }
+    for (int direction : directions_) force = std::max(force, std::abs(missing_force(direction)));
     scale_ = largest;
-    return largest > 0 ? worst / largest : 0.0;
+    return std::max(worst > 0 ? worst / largest : 0.0, force > 0 ? force / available_ : 0.0);
   }
 
   TangentialSolution solution() const {
@@ -308,7 +322,7 @@ class Solver {
       }
     s.force_x = sum(s.q_x) * dA;
     s.force_y = sum(s.q_y) * dA;
-    s.outer_iterations = outer_ + 1;
+    s.outer_iterations = outer_;
     s.iterations = iterations_;
     return s;
   }
@@ -318,7 +332,7 @@ class Solver {
   const TangentialProblem& problem_;
   TangentialOptions options_;
   std::size_t n_, ahead_;
-  Plane q_, slip_, rigid_, normal_, diagonal_;
+  Plane q_, slip_, rigid_, normal_, diagonal_, history_;
   Mask set_;
   Plane u_;
   std::vector<Plane> border_;
@@ -326,6 +340,7 @@ class Solver {
   std::vector<std::size_t> pending_;
   double creepage_[2] = {0, 0};
   double scale_ = 0;          // largest rigid slip
+  double available_ = 0;      // friction over the area of a cell
   double self_ = 0;           // L of one cell on itself
   double force_row_ = 1;
   int outer_ = 0, iterations_ = 0;
@@ -345,6 +360,13 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   problem.step = grid.dx;
   problem.before_x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
   problem.before_y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
+}
+
+void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before, TangentialProblem& problem) {
+  problem.kind = RollingKind::shift;
+  problem.before_x.resize(grid.size());
+  problem.before_y.resize(grid.size());
+  influence.tangential(before.q_x.data(), before.q_y.data(), problem.before_x.data(), problem.before_y.data(), grid.nx);
 }
 
 }  // namespace railstrata

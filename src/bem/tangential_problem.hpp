@@ -6,7 +6,7 @@
 //   s = w - L q + history,   w = (xi - phi y, eta + phi x) the rigid slip, u = rail minus wheel displacement by q:
 //   steady rolling     L q = (u(x) - u(x + dx))/dx         (particles enter at the leading edge, x large)
 //   transient rolling  L q = u(x)/dq, history = u_before(x + dq)/dq, one step of rolled distance dq
-//   shift              L q = u(x), s and w are distances [m], no rolling.
+//   shift              L q = u(x), history = u_before(x), s and w are distances [m], no rolling: one increment of a load that may come and go.
 // Solved by an active-set Newton method: unknown are both components in stick and the direction in slip; each linear system by GMRES with FFT products. L has a positive
 // semi-definite symmetric part, and slip along the traction adds a positive diagonal, so every linear system is solvable.
 #include <optional>
@@ -33,12 +33,13 @@ struct TangentialProblem {
   double spin = 0;             ///< 1/m
   Plane extra_x, extra_y;      ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies; empty: none
   double step = 0;             ///< rolled distance dq [m]: transient only
-  Plane before_x, before_y;    ///< transient: rail minus wheel displacement of the state before, at (x + dq, y); empty: none
+  Plane before_x, before_y;    ///< transient: rail minus wheel displacement of the state before, at (x + dq, y); shift: at (x, y); empty: none
 };
 
 struct TangentialOptions {
-  double tolerance = 1e-5;  ///< of the slip conditions, relative to the largest rigid slip
+  double tolerance = 1e-5;  ///< of the slip conditions, relative to the largest rigid slip (history counts with a hundredth), and of a given force, relative to friction
   int max_outer = 80;
+  bool partial = false;     ///< true: after max_outer steps what was reached is the answer, not an error
 };
 
 struct TangentialSolution {
@@ -53,11 +54,13 @@ struct TangentialSolution {
   int outer_iterations = 0, iterations = 0;  ///< active sets; products with the influence operator and its preconditioner
 };
 
-/// start: traction of a similar problem, or null. Throws CaseError for a force that friction cannot carry, NumericalError if the iteration does not end.
+/// start: traction of a similar problem, or null; taken as it is where it solves this problem too. Throws CaseError for a force that friction cannot carry, NumericalError if the iteration does not end.
 TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options = {},
                                     const TangentialSolution* start = nullptr);
 
 /// Makes `problem` the transient step in which the wheel rolls on by one cell (dx) from the state `before`, at the same pressure.
 void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before, TangentialProblem& problem);
+/// Makes `problem` the next increment of a shift from the state `before`: creepages are further distances, forces the new totals.
+void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before, TangentialProblem& problem);
 
 }  // namespace railstrata

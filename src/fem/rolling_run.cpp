@@ -151,7 +151,7 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
   Stepper st(sys, preload);
   preload.u_rail = preload.u_wheel = Field{};
   out.preload = std::move(preload);
-  out.limits = st.limits();
+  out.limits = st.plan().limits;
   out.dt = st.dt();
 
   struct Wanted {

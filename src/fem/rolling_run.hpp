@@ -40,7 +40,7 @@ struct PositionSamples {
 
 struct RunResult {
   PreloadResult preload;                    ///< fields emptied
-  Stepper::StepLimits limits;
+  StepLimits limits;
   std::vector<HistoryRow> history;
   std::vector<PositionSamples> positions;   ///< a static case has one with one sample
   double closure = 0;                       ///< largest |closure| / largest of torque work and strain energy

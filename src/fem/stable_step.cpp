@@ -1,12 +1,13 @@
+#include "fem/stable_step.hpp"
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <cstdint>
 
-#include "fem/stepper.hpp"
-
 namespace railstrata {
 
-double lanczos_stable_step(const DeformableBody& body, int iterations) {
+// Lanczos on S^-1 K in the inner product of S = M + A, which needs S^-1 alone: residuals r = S z are kept beside the vectors z.
+double lanczos_stable_step(const DeformableBody& body, const MassScaling& scaling, int iterations) {
   const auto n = static_cast<std::ptrdiff_t>(body.inverse_mass.size());
   auto dot = [n](const Field& a, const Field& b) {
     return ordered_sum(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -15,37 +16,32 @@ double lanczos_stable_step(const DeformableBody& body, int iterations) {
       return s;
     });
   };
-  // The operator A = M^-1/2 K M^-1/2 on free nodes; slaves follow their masters.
-  Field root = body.solid.layout().field(), q = root, before = root, w = root, u = root;
+  Field r = body.solid.layout().field(), z = r, q = r, s_q = r, s_before = r, k_q = r;
+  auto solve = [&] {
+    z = r;
+    scaling.scale(z);
+    for (std::ptrdiff_t i = 0; i < n; ++i) z[i] *= body.inverse_mass[i];
+  };
   std::uint64_t seed = 0x9E3779B97F4A7C15ull;  // any fixed start will do
   for (std::ptrdiff_t i = 0; i < n; ++i) {
-    root[i] = std::sqrt(body.inverse_mass[i]);
     seed = seed * 6364136223846793005ull + 1442695040888963407ull;
-    q[i] = root[i] > 0 ? static_cast<double>(seed >> 11) * 0x1p-53 - 0.5 : 0;
+    if (body.inverse_mass[i] > 0) r[i] = (static_cast<double>(seed >> 11) * 0x1p-53 - 0.5) * std::sqrt(body.mass[i]);
   }
-  const double norm0 = std::sqrt(dot(q, q));
-  for (double& v : q) v /= norm0;
+  solve();
   Eigen::VectorXd alpha(iterations), beta(iterations);
-  double last = 0;
+  double norm = std::sqrt(dot(r, z));
   int k = 0;
-  for (; k < iterations; ++k) {
-    for (std::ptrdiff_t i = 0; i < n; ++i) u[i] = root[i] * q[i];
-    body.ties.spread(u, 0, true);
-    body.solid.linear_force(u, w);
-    body.ties.collect(w);
-    for (std::ptrdiff_t i = 0; i < n; ++i) w[i] *= root[i];
-    alpha[k] = dot(w, q);
-    for (std::ptrdiff_t i = 0; i < n; ++i) w[i] -= alpha[k] * q[i] + last * before[i];
-    last = std::sqrt(dot(w, w));
-    beta[k] = last;
-    if (last == 0) {
-      ++k;
-      break;
-    }
-    for (std::ptrdiff_t i = 0; i < n; ++i) {
-      before[i] = q[i];
-      q[i] = w[i] / last;
-    }
+  for (; k < iterations && norm > 0; ++k) {
+    s_before.swap(s_q);
+    for (std::ptrdiff_t i = 0; i < n; ++i) q[i] = z[i] / norm, s_q[i] = r[i] / norm;
+    body.ties.spread(q, 0, true);  // slaves follow their masters
+    body.solid.linear_force(q, r);
+    body.ties.collect(r);
+    for (std::ptrdiff_t i = 0; i < n; ++i) r[i] = body.inverse_mass[i] > 0 ? r[i] : 0;
+    alpha[k] = dot(r, q);
+    for (std::ptrdiff_t i = 0; i < n; ++i) r[i] -= alpha[k] * s_q[i] + (k > 0 ? norm : 0) * s_before[i];
+    solve();
+    beta[k] = norm = std::sqrt(dot(r, z));
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(alpha.head(k), beta.head(k - 1), Eigen::EigenvaluesOnly);

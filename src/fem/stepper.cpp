@@ -35,27 +35,11 @@ EnergyBalance halfway(const EnergyBalance& before, EnergyBalance now) {
 
 }  // namespace
 
-Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : sys_(system), contact_(system.rail_surface, system.wheel_surface) {
+Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : sys_(system), contact_(system.rail_surface, system.wheel_surface), plan_(system) {
   enforcement_.penalty = sys_.model.spec.contact.method == "penalty";
   enforcement_.penalty_stiffness = sys_.penalty_stiffness;
   enforcement_.friction_coefficient = sys_.model.spec.drive.friction_coefficient;
-  const auto rail_bound = sys_.rail.solid.element_step_bound(), wheel_bound = sys_.wheel.solid.element_step_bound();
-  const bool rail_limits = rail_bound.step < wheel_bound.step;
-  const auto& bound = rail_limits ? rail_bound : wheel_bound;
-  const SweptBody& body = rail_limits ? sys_.model.rail : sys_.model.wheel;
-  limits_.element = bound.step;
-  limits_.where = fmt::format("{} {}", body.name, body.blocks[bound.block].name);
-  limits_.lanczos = std::min(lanczos_stable_step(sys_.rail), lanczos_stable_step(sys_.wheel));
-  double free_step = limits_.lanczos;
-  if (enforcement_.penalty) {
-    // a penalty spring k a_A between a rail node and a wheel node of like mass
-    const ContactSurface& r = sys_.rail_surface;
-    const int c = r.columns / 2, j = r.stations.nodes() / 2;
-    const double area = r.width[c] * (r.stations.at[j + 1] - r.stations.at[j]);
-    limits_.contact = 2 / std::sqrt(2 * enforcement_.penalty_stiffness * area * sys_.rail.inverse_mass[r.index(c, j)]);
-    free_step = 1 / std::sqrt(1 / (free_step * free_step) + 1 / (limits_.contact * limits_.contact));
-  }
-  dt_ = limits_.chosen = sys_.model.spec.run.step_safety * free_step;
+  dt_ = plan_.limits.chosen;
   start(preload);
 }
 
@@ -109,8 +93,8 @@ void Stepper::start(const PreloadResult& preload) {
     for (double t : b.stations.at) cos_node_.back().push_back(std::cos(t)), sin_node_.back().push_back(std::sin(t));
   }
   wheel_surface_u_ = state_.u_wheel;
-  rail_schedule_ = schedule(sys_.rail, sys_.rail_surface);
-  wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface);
+  rail_schedule_ = schedule(sys_.rail, sys_.rail_surface, plan_.rail);
+  wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface, plan_.wheel);
 
   Sums all;
   for (const DeformableBody::Line& l : sys_.wheel.lines) {
@@ -127,8 +111,8 @@ void Stepper::start(const PreloadResult& preload) {
   take_mean_motion(all);
 }
 
-// Nodes on the running surface and at ties wait for the contact; those that are not free are not updated at all.
-Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSurface& surface) const {
+// Nodes on the running surface, at ties and with added mass wait for the contact; those that are not free are not updated at all.
+Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling) const {
   Schedule out;
   const SweptBody& mesh = body.solid.body();
   for (const BlockLayout& b : body.solid.layout().blocks) out.at_once.emplace_back(b.nodes, 0);
@@ -138,6 +122,9 @@ Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSur
   };
   for (int c = 0; c < surface.columns; ++c) wait(mesh.contact.block, c);
   for (const Tie& t : mesh.ties) wait(t.master_block, t.master_node0), wait(t.master_block, t.master_node1);
+  for (int b = 0; b < static_cast<int>(out.at_once.size()); ++b)
+    for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n)
+      if (scaling.acts_on(b, n)) wait(b, n);
   for (int b = 0; b < static_cast<int>(out.at_once.size()); ++b)
     for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n)
       if (out.at_once[b][n]) out.bordered.push_back({b, n});
@@ -267,6 +254,24 @@ void Stepper::lift_wheel_surface() {
   }
 }
 
+// Velocities relative to the frame's travel, in this step's frame components: of the half step before, or the one after the update. Empty without added mass.
+Field Stepper::wheel_velocity(bool before) const {
+  if (plan_.wheel.empty()) return {};
+  Field out = sys_.wheel.solid.layout().field();
+  const auto& blocks = sys_.wheel.solid.layout().blocks;
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    for (int n = 0; n < blocks[b].nodes; ++n) {
+      const std::ptrdiff_t x = blocks[b].line(n, 0), y = blocks[b].line(n, 1), z = blocks[b].line(n, 2);
+      const double radius = sys_.model.wheel.blocks[b].section.nodes[n].z;
+      for (int j = 0; j < blocks[b].stations; ++j) {
+        const Vec3 w = Vec3{state_.v_wheel[x + j], state_.v_wheel[y + j], state_.v_wheel[z + j]} + frame_.rigid_rate({-radius * sin_node_[b][j], 0, radius * cos_node_[b][j]});
+        const Vec3 v = before ? frame_.step_back(w) : w;
+        out[x + j] = v.x, out[y + j] = v.y, out[z + j] = v.z;
+      }
+    }
+  return out;
+}
+
 Field Stepper::wheel_displacement() const {
   Field out = sys_.wheel.solid.layout().field();
   const auto& blocks = sys_.wheel.solid.layout().blocks;
@@ -309,7 +314,7 @@ void Stepper::contact() {
   for (const ContactRow& r : rows.rows) {
     c.rail_before.push_back(velocity(state_.v_rail, r.rail, rs));
     c.rail_velocity.push_back((1 - rate_ * dt_) * c.rail_before.back() + dt_ * free_acceleration(sys_.rail, f_rail_, r.rail, rs));
-    c.rail_inverse_mass.push_back(sys_.rail.inverse_mass[r.rail]);
+    c.rail_inverse_mass.push_back(plan_.rail.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
   }
   for (std::ptrdiff_t i : c.wheel_nodes) {
     const Vec3 arm = wheel_arm(i), w = velocity(state_.v_wheel, i, ws);
@@ -317,7 +322,7 @@ void Stepper::contact() {
     Vec3 a = free_acceleration(sys_.wheel, f_wheel_, i, ws);
     if (rate_ > 0) a -= rate_ * frame_.to_model(frame_.step_back(w - Vec3{mean_.x + mean_.spin * arm.z, 0, mean_.z - mean_.spin * arm.x}));
     c.wheel_velocity.push_back(c.wheel_before.back() + dt_ * a);
-    c.wheel_inverse_mass.push_back(sys_.wheel.inverse_mass[i]);
+    c.wheel_inverse_mass.push_back(plan_.wheel.share(i) * sys_.wheel.inverse_mass[i]);
   }
 
   enforce_contact(rows, dt_, enforcement_, c, state_.tractions);
@@ -333,10 +338,10 @@ void Stepper::contact() {
     const Vec3 turned = frame_.to_frame(force);
     const double component[3] = {force.x, force.y, force.z}, wheel_component[3] = {turned.x, turned.y, turned.z};
     Vec3 slip = -0.5 * (c.rail_before[k] + c.rail_velocity[k]);      // mean of the step, wheel against rail
-    for (int i = 0; i < 3; ++i) f_rail_[row.rail + i * rs] -= component[i];
+    for (int i = 0; i < 3; ++i) plan_.rail.add_force(f_rail_, row.rail + i * rs, -component[i]);
     for (int w = row.first; w < row.first + row.count; ++w) {
       const WheelWeight& weight = rows.weights[w];
-      for (int i = 0; i < 3; ++i) f_wheel_[weight.wheel + i * ws] += weight.m * wheel_component[i];
+      for (int i = 0; i < 3; ++i) plan_.wheel.add_force(f_wheel_, weight.wheel + i * ws, weight.m * wheel_component[i]);
       const int n = c.weight_node[w];
       slip += (0.5 * weight.m) * (c.wheel_before[n] + c.wheel_velocity[n]);
     }
@@ -525,20 +530,25 @@ double Stepper::spring_energy() const {
 void Stepper::step() {
   const EnergyBalance before = balance_;
   rate_ = damping_rate();
+  Field rail_before, wheel_before;
   if (want_energy_) {
     const StrainEnergy rail = sys_.rail.solid.energy(state_.u_rail, 0), wheel = sys_.wheel.solid.energy(state_.u_wheel, state_.axle.psi - frame_.psi);
     balance_.strain = rail.strain + wheel.strain;
     balance_.hourglass = rail.hourglass + wheel.hourglass;
     balance_.weight = weight_potential();
     balance_.spring = spring_energy();
+    rail_before = plan_.rail.differences(state_.v_rail);
+    wheel_before = plan_.wheel.differences(wheel_velocity(true));
   }
   internal_forces();
+  plan_.rail.scale(f_rail_);
+  plan_.wheel.scale(f_wheel_);
   contact();
   advance_later();
   balance_.damping += dt_ * sums_.damping;
   advance_axle();
   if (want_energy_) {
-    balance_.kinetic = sums_.kinetic + axle_kinetic_;
+    balance_.kinetic = sums_.kinetic + axle_kinetic_ + plan_.rail.kinetic(rail_before, state_.v_rail) + plan_.wheel.kinetic(wheel_before, wheel_velocity(false));
     recorded_ = halfway(before, balance_);
   }
   state_.time += dt_;

@@ -15,6 +15,7 @@
 // with a rate that fades to zero: the mean travel and spin of the wheel's free nodes are the reference, so that it takes neither momentum along x nor angular momentum.
 #include "fem/preload.hpp"
 #include "fem/rolling_system.hpp"
+#include "fem/step_plan.hpp"
 #include "fem/suspension.hpp"
 
 namespace railstrata {
@@ -98,12 +99,7 @@ class Stepper {
   /// First node whose displacement is not finite, described; empty if all is well.
   std::string check_finite() const;
 
-  /// What limits the step: 2/omega_max of the assembled system by Lanczos, the element bound, and the contact's (penalty only).
-  struct StepLimits {
-    double lanczos = 0, element = 0, contact = 0, chosen = 0;
-    std::string where;
-  };
-  const StepLimits& limits() const { return limits_; }
+  const StepPlan& plan() const { return plan_; }
 
  private:
   /// What an update adds up.
@@ -129,7 +125,7 @@ class Stepper {
   };
 
   void start(const PreloadResult& preload);
-  Schedule schedule(const DeformableBody& body, const ContactSurface& surface) const;
+  Schedule schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling) const;
   void internal_forces();
   void contact();
   template <SweepKind kind, bool measured>
@@ -138,6 +134,7 @@ class Stepper {
   void advance_later();
   Vec3 wheel_arm(std::ptrdiff_t surface_index) const;
   void lift_wheel_surface();
+  Field wheel_velocity(bool before) const;
   void take_mean_motion(const Sums& sums);
   void advance_axle();
   Vec3 free_acceleration(const DeformableBody& body, const Field& f, std::ptrdiff_t index, int stride) const;
@@ -155,7 +152,7 @@ class Stepper {
   EnforcementOptions enforcement_;
   ContactForces forces_;
   EnergyBalance balance_, recorded_;
-  StepLimits limits_;
+  StepPlan plan_;
   double dt_ = 0;
   Field f_rail_, f_wheel_;
   Field wheel_surface_u_;                                 // model frame, valid on the wheel's surface lines
@@ -170,8 +167,5 @@ class Stepper {
   double free_mass_ = 0, free_inertia_ = 0;               // of the wheel's free nodes
   std::vector<std::vector<double>> cos_node_, sin_node_;  // per wheel block and station
 };
-
-/// Largest eigenvalue of M^-1 K by Lanczos steps on the free degrees of freedom (body alone); returns 2/sqrt of it.
-double lanczos_stable_step(const DeformableBody& body, int iterations = 60);
 
 }  // namespace railstrata

@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <fstream>
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+
+#include "core/faults.hpp"
 
 namespace railstrata {
 namespace {
@@ -20,7 +24,56 @@ std::string heading(const std::vector<std::string>& provenance, const std::vecto
   return out + fmt::format("{}\n", fmt::join(names, ","));
 }
 
+[[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& what) {
+  throw CaseError(what, "write the results anew with `railstrata run` or `railstrata bem`", line > 0 ? fmt::format("{}:{}", file.string(), line) : file.string());
+}
+
+std::vector<CsvColumn> columns_named(const std::string& line) {
+  std::vector<CsvColumn> columns(1);
+  for (char c : line) {
+    if (c == ',') columns.emplace_back();
+    else if (c != '\r') columns.back().name += c;
+  }
+  return columns;
+}
+
+void read_row(const std::string& text, const std::filesystem::path& file, int line, std::vector<CsvColumn>& columns) {
+  const char *at = text.data(), *end = at + text.size();
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    double value = 0;
+    const auto [next, error] = std::from_chars(at, end, value);
+    const bool last = k + 1 == columns.size();
+    if (error != std::errc{} || (last ? next != end && *next != '\r' : next == end || *next != ',')) refuse(file, line, fmt::format("a row of {} numbers is expected", columns.size()));
+    columns[k].values.push_back(value);
+    at = last ? next : next + 1;
+  }
+}
+
 }  // namespace
+
+std::vector<double> CsvTable::column(const std::string& name, double unit) const {
+  for (const CsvColumn& c : columns)
+    if (c.name == name) {
+      std::vector<double> values = c.values;
+      for (double& v : values) v *= unit;
+      return values;
+    }
+  refuse(file, 0, fmt::format("there is no column {}", name));
+}
+
+CsvTable read_csv(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) refuse(file, 0, "the table cannot be read");
+  CsvTable table{file, {}};
+  int number = 0;
+  for (std::string line; std::getline(in, line);) {
+    ++number;
+    if (line.empty() || line[0] == '#') continue;
+    if (table.columns.empty()) table.columns = columns_named(line);
+    else read_row(line, file, number, table.columns);
+  }
+  return table;
+}
 
 void write_csv(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<CsvColumn>& columns) {
   std::vector<std::string> names;

@@ -18,6 +18,19 @@ struct CsvColumn {
 /// Writes a finished table, whole (io/output_file). provenance: one "# …" line each.
 void write_csv(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<CsvColumn>& columns);
 
+/// A table read back: what write_csv and CsvLog have written.
+struct CsvTable {
+  std::filesystem::path file;
+  std::vector<CsvColumn> columns;
+
+  /// The values of a column times `unit`. Throws CaseError naming the file if there is no such column.
+  std::vector<double> column(const std::string& name, double unit = 1) const;
+  std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
+};
+
+/// Throws CaseError with the line if a row is not as many numbers as there are names, or if the file cannot be read.
+CsvTable read_csv(const std::filesystem::path& file);
+
 /// A table that grows during a run (history.csv): every row is handed to the system at once, so it can be watched and survives a crash of the program.
 class CsvLog {
  public:

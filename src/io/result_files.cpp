@@ -33,7 +33,26 @@ void push(std::vector<float>& out, const Sym3& s) {
   for (double v : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) out.push_back(static_cast<float>(kMega * v));
 }
 
+void write_section(const std::filesystem::path& file, const std::vector<std::string>& provenance, const StressSection& section, bool longitudinal) {
+  const char* names[] = {"x_mm", "y_mm", "depth_mm", "sigma_xx_MPa", "sigma_yy_MPa", "sigma_zz_MPa", "sigma_xy_MPa", "sigma_yz_MPa", "sigma_xz_MPa", "von_mises_MPa", "sigma_1_MPa", "material"};
+  std::vector<CsvColumn> columns;
+  for (const char* n : names) columns.push_back({n, {}});
+  for (std::size_t i = 0; i < section.stress.size(); ++i) {
+    const Sym3& s = section.stress[i];
+    const double along = section.along[i % section.along.size()], depth = section.depth[i / section.along.size()];
+    const double row[] = {kMilli * (longitudinal ? along : section.at), kMilli * (longitudinal ? section.at : along), kMilli * depth, kMega * s.xx, kMega * s.yy, kMega * s.zz,
+                          kMega * s.xy, kMega * s.yz, kMega * s.xz, kMega * von_mises(s), kMega * principal_stresses(s).x, static_cast<double>(section.material[i])};
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(k < 3 ? std::round(1e6 * row[k]) / 1e6 : std::round(1e3 * row[k]) / 1e3);
+  }
+  write_csv(file, provenance, columns);
+}
+
 }  // namespace
+
+void write_sections(const std::filesystem::path& folder, const std::string& body, const std::vector<std::string>& provenance, const StressSections& sections) {
+  write_section(folder / (body + "_longitudinal_section.csv"), provenance, sections.longitudinal, true);
+  write_section(folder / (body + "_cross_section.csv"), provenance, sections.cross, false);
+}
 
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance, const ContactField& f) {
   write_csv(folder / "patch.csv", provenance,

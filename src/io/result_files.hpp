@@ -8,6 +8,7 @@
 #include "io/vtk.hpp"
 #include "post/rolling_mean.hpp"
 #include "post/stress_maxima.hpp"
+#include "post/stress_sections.hpp"
 
 namespace railstrata {
 
@@ -16,6 +17,10 @@ void write_patch_tables(const std::filesystem::path& folder, const std::vector<s
 
 /// depth_line.csv: the six stresses, von Mises and the principal stresses against depth.
 void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance, const DepthLine& line);
+
+/// <body>_longitudinal_section.csv (plane y = const) and <body>_cross_section.csv (plane x = const): cell centres x, y, depth, the six stresses to 1e-3 MPa, von Mises,
+/// the largest principal stress and the material; rows of one depth together, from the surface down.
+void write_sections(const std::filesystem::path& folder, const std::string& body, const std::vector<std::string>& provenance, const StressSections& sections);
 
 /// The patch as quadrilaterals with pressure_MPa, traction_MPa, slip_velocity_mm_s, state.
 VtkQuads patch_mesh(const ContactField& field, double wheel_x);

@@ -44,7 +44,7 @@ bool reaches_edge(const ContactField& f) {
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchMeasures& m) {
   const auto at_most = [](std::string name, double value, double limit) { return Check{std::move(name), value <= limit, value, limit}; };
   const double load = static_load(spec);
-  std::vector<Check> out{at_most("F_z_relative_to_weight", std::abs(-r.F_z / load - 1), 5e-3)};
+  std::vector<Check> out{at_most("F_z_relative_to_weight", std::abs(-r.F_z / load - 1), 1e-4)};
   if (spec.drive.friction_coefficient > 0 && spec.drive.traction_coefficient != 0)
     out.push_back(at_most("traction_coefficient_reached", std::abs(m.force_x / load / spec.drive.traction_coefficient - 1), 1e-3));
   out.push_back(at_most("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0, 0));
@@ -70,12 +70,14 @@ double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& con
 Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   Summary s;
   s.title = spec.title;
+  s.position = spec.run.rolling && !spec.run.positions.empty() ? spec.run.positions.back() : 0.0;
   const PatchMeasures m = measure_patch(r.field);
   const bool friction = spec.drive.friction_coefficient > 0;
   ContactSummary& c = s.contact;
   c.p_max = m.p_max, c.q_max = m.q_max;
   c.patch_length = m.length, c.patch_width = m.width, c.patch_area = m.area;
   c.F_x = 0.0 - r.F_x, c.F_y = 0.0 - r.F_y, c.F_z = 0.0 - r.F_z;
+  turn_into_contact_plane(c, r.contact.angle);
   c.approach = r.approach;
   if (friction) {
     c.slip_area_fraction = m.slip_area_fraction;

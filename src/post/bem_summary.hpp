@@ -12,8 +12,8 @@ double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& con
 
 /// Contact, stresses of both bodies and checks; commit, threads and peak memory are the program's to add. run.elements counts the cells of the grid.
 /// Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface` starts half a cell below the surface; `interface` takes either side.
-/// NaN: position, penetration and scatter; without friction also slip area and creepages.
-/// Checks (limits): F_z against G (0.5 %: the lateral force of spin is not fed back, see docs/bem.md), F_x/G against the wanted traction coefficient (0.1 %), the patch inside the grid.
+/// NaN: penetration and scatter; without friction also slip area and creepages. Steady rolling is the same everywhere: position is the case's last one, of a static case 0.
+/// Checks (limits): F_z against G (0.01 %), F_x/G against the wanted traction coefficient (0.1 %), the patch inside the grid.
 Summary bem_summary(const CaseSpec& spec, const BemResult& result);
 
 /// Contact and checks alone, without the stresses, which cost more than the contact itself.

@@ -35,6 +35,7 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   s.position = m.position;
   s.contact = {m.patch.p_max, m.patch.q_max, m.patch.length, m.patch.width, m.patch.area, m.patch.slip_area_fraction, m.F_x, m.F_y, m.F_z, m.creepage, 0.0, m.spin_per_m, -run.preload.axle_z,
                run.penetration, m.p_max_scatter};
+  turn_into_contact_plane(s.contact, sys.model.placement.contact.angle);
   if (!spec.run.rolling) s.contact.creepage_x = s.contact.creepage_y = s.contact.spin_per_m = s.contact.p_max_scatter = kNotApplicable;
   s.rail = rail_stress_summary(sys, m);
   s.wheel = wheel_stress_summary(sys, m);
@@ -47,6 +48,9 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   s.run.steps = run.steps;
   if (run.steps > 0) {
     s.run.dt_s = run.dt;
+    s.run.stable_step = run.limits.lanczos;
+    s.run.unscaled_step = run.limits.unscaled;
+    s.run.added_mass = run.limits.added_mass;
     s.run.element_steps_per_s = static_cast<double>(run.elements) * static_cast<double>(run.steps) / (run.wall_seconds - run.preload_wall_seconds);
   }
   s.checks = checks(sys, run, m);

@@ -24,6 +24,44 @@ TEST(ProfileGap, LmaOnCn60TouchesAtTheOriginAndIsSymmetricInX) {
   EXPECT_NEAR(gap.gap[g.index(40, 20)] / (0.01 * 0.01 / (2 * 0.43)), 1, 2e-3);
 }
 
+// Two arcs of radius R touching under the angle asin(shift/2R): along the normal of the contact plane their gap is 2 (R - sqrt(R² - t²)).
+TEST(ProfileGap, OfTwoArcsIsThatOfTwoCirclesUnderAnyContactAngle) {
+  const double R = 30e-3;
+  const Profile wheel = circular_profile(ProfileKind::wheel, R), rail = circular_profile(ProfileKind::rail, R);
+  for (double shift : {-35e-3, -20e-3, 0.0, 30e-3}) {
+    TrackGeometry track;
+    track.cant = 0;
+    track.lateral_shift = shift;
+    const RigidContact contact = place_wheel(wheel, rail, track);
+    ASSERT_NEAR(std::sin(contact.angle), -shift / (2 * R), 1e-6);
+    const PatchGrid g = centred_grid(4, 64, 0.5e-3, 0.5e-3);
+    const ProfileGap gap = profile_gap(wheel, rail, track, contact, g);
+    int compared = 0;
+    for (int j = 0; j < g.ny; ++j) {
+      const double t = std::abs(g.y(j)), found = gap.gap[g.index(4, j)];
+      if (found == ProfileGap::kNoSurface) continue;
+      EXPECT_NEAR(found, 2 * (R - std::sqrt(R * R - t * t)), 1e-9 + 1e-6 * t) << shift << ' ' << g.y(j);
+      ++compared;
+    }
+    // the arcs reach 0.7 R to either side of their crowns: one ends on the left of the contact, the other on the right
+    EXPECT_NEAR(compared, 2 * R * std::sin(std::asin(0.7) - std::abs(contact.angle)) / g.dy, 1.5) << shift;
+    // the parallel circle of the wheel has the radius of the contact point; its plane is inclined by the contact angle
+    EXPECT_NEAR(gap.gap[g.index(8, 64)] / (4e-6 * contact.curvature_rolling / 2), 1, 1e-3) << shift;
+  }
+}
+
+TEST(ProfileGap, WhereAProfileEndsThereIsNoSurface) {
+  const Profile wheel = builtin_profile(ProfileKind::wheel, "LMA"), rail = builtin_profile(ProfileKind::rail, "CN60");
+  for (double shift : {9e-3, 10e-3}) {  // in the flange's root and on its flank
+    TrackGeometry track;
+    track.lateral_shift = shift;
+    const PatchGrid g = centred_grid(2, 120, 0.5e-3, 0.5e-3);
+    const ProfileGap gap = profile_gap(wheel, rail, track, place_wheel(wheel, rail, track), g);
+    EXPECT_EQ(gap.gap[g.index(2, 0)], ProfileGap::kNoSurface);
+    for (double v : gap.gap) ASSERT_GT(v, -1e-9) << "the wheel was lowered until it touched";
+  }
+}
+
 // notes of the project: half-space solution of the exact profiles, E = 210 GPa, nu = 0.3, 84.95 kN, wheel radius 430 mm.
 TEST(ProfileGap, LmaOnCn60PeakPressureAtFourLateralShifts) {
   const Profile wheel = builtin_profile(ProfileKind::wheel, "LMA"), rail = builtin_profile(ProfileKind::rail, "CN60");

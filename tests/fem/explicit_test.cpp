@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "fem/stable_step.hpp"
 #include "fem/stepper.hpp"
 #include "sample_bodies.hpp"
 

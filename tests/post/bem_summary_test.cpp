@@ -54,7 +54,8 @@ TEST(BemSummary, OfCrossedCylindersIsHertzs) {
   }
   EXPECT_EQ(s.run.engine, "bem");
   EXPECT_TRUE(std::isnan(s.contact.creepage_x) && std::isnan(s.contact.slip_area_fraction)) << "without friction neither applies";
-  EXPECT_TRUE(std::isnan(s.contact.penetration_max) && std::isnan(s.position));
+  EXPECT_TRUE(std::isnan(s.contact.penetration_max));
+  EXPECT_EQ(s.position, spec.run.positions.back());
 }
 
 TEST(BemSummary, ForcesOfADrivingWheelActOnTheWheelAndItsCreepageIsNegative) {
@@ -62,12 +63,27 @@ TEST(BemSummary, ForcesOfADrivingWheelActOnTheWheelAndItsCreepageIsNegative) {
   spec.geometry.lateral_shift = 1.5e-3;
   const Summary s = bem_contact_summary(spec, solve_bem(spec, place(spec, {}), cells(0.5e-3)));
   EXPECT_NEAR(s.contact.F_x / (0.2 * static_load(spec)), 1, 1e-5);
-  EXPECT_NEAR(s.contact.F_z / static_load(spec), 1, 2e-3);
+  EXPECT_NEAR(s.contact.F_z / static_load(spec), 1, 1e-5);
   EXPECT_LT(s.contact.creepage_x, 0);
   EXPECT_LT(s.contact.spin_per_m, 0) << "the contact plane rises to the field side";
   EXPECT_TRUE(holds(s, "F_z_relative_to_weight"));
   EXPECT_TRUE(holds(s, "traction_coefficient_reached"));
   EXPECT_TRUE(holds(s, "patch_reaches_edge_of_grid"));
+}
+
+// The same force in two frames: along y and z, and along the contact plane's tangent and normal, where pressure and friction are apart.
+TEST(BemSummary, ForcesInTheContactPlaneAreThePressuresAndTheFrictionsResultants) {
+  CaseSpec spec;
+  spec.geometry.lateral_shift = 1.5e-3;
+  const BemResult r = solve_bem(spec, place(spec, {}), cells(0.5e-3));
+  const ContactSummary c = bem_contact_summary(spec, r).contact;
+  double normal = 0, lateral = 0;
+  for (std::size_t k = 0; k < r.field.p.size(); ++k) normal += r.field.p[k] * r.field.area[k], lateral -= r.field.q_y[k] * r.field.area[k];
+  EXPECT_NEAR(c.normal_force / normal, 1, 1e-9);
+  EXPECT_NEAR(c.lateral_force / lateral, 1, 1e-9);
+  EXPECT_GT(std::abs(lateral), 1000) << "spin alone makes a lateral force";
+  EXPECT_NEAR(std::hypot(c.F_y, c.F_z) / std::hypot(normal, lateral), 1, 1e-9);
+  EXPECT_NEAR(c.contact_angle, 0.025, 1e-4);
 }
 
 TEST(BemSummary, ChecksFailForAResultThatMissesItsCase) {

@@ -132,6 +132,25 @@ class Run(Results):
         self.assertAlmostEqual((places[-1] - places[0]) / (times[-1] - times[0]), 27.78, delta=0.3)
 
 
+class HalfSpace(Results):
+    """`bem` of the same case."""
+
+    @classmethod
+    def make(cls):
+        case = cls.folder / "case.toml"
+        case.write_text(TINY)
+        cls.call("bem", case, "--cell", "0.5 mm", "--out", cls.folder / "out", "--quiet")
+        cls.summary = json.loads((cls.folder / "out" / "summary.json").read_text())
+
+    def test_the_patch_stands_where_the_case_wants_the_wheel(self):
+        patch = read(self.folder / "out" / "patch.vtp")
+        self.assertEqual(names(patch.GetPointData()), {"pressure_MPa", "traction_MPa", "slip_velocity_mm_s", "state"})
+        pressure, x = array(patch.GetPointData(), "pressure_MPa"), vtk_to_numpy(patch.GetPoints().GetData())[:, 0]
+        self.assertEqual(self.summary["position_m"], 0.03)
+        self.assertAlmostEqual((pressure * x).sum() / pressure.sum(), 0.03, delta=1e-5)
+        self.assertAlmostEqual(pressure.max() / (1e-6 * self.summary["contact"]["p_max_Pa"]), 1, delta=1e-3)
+
+
 del Results  # only its heirs are tests
 
 if __name__ == "__main__":

@@ -1,0 +1,71 @@
+#include "io/geometry_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/output_file.hpp"
+
+namespace railstrata {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kSpacing = 0.5e-3, kReach = 80e-3;
+
+/// Points of a profile, `depth` below its surface, in the model frame; `half_width`: of the profile's own y.
+template <class ToModel>
+Json curve(const Profile& profile, double contact_s, double depth, double half_width, ToModel&& to_model) {
+  const double begin = std::max(profile.s_min(), contact_s - kReach), end = std::min(profile.s_max(), contact_s + kReach);
+  const int pieces = static_cast<int>(std::ceil((end - begin) / kSpacing));
+  Json points = Json::array();
+  for (int k = 0; k <= pieces; ++k) {
+    const ProfilePoint p = profile.at(k == pieces ? end : begin + (end - begin) * k / pieces);
+    if (std::abs(p.position.y) > half_width) continue;
+    const Vec2 point = to_model(p.position - depth * p.outward);
+    points.push_back({point.y, point.z});
+  }
+  return points;
+}
+
+}  // namespace
+
+Json geometry_json(const CaseSpec& spec, const Placement& placement) {
+  const RigidContact& c = placement.contact;
+  const HertzContact hertz = hertz_estimate(spec, c);
+  const auto rail = [&](Vec2 p) { return rail_to_model(placement.track, p); };
+  const auto wheel = [&](Vec2 p) { return Vec2{p.y + c.wheel_offset_y, p.z + c.wheel_offset_z}; };
+  Json out;
+  out["rail_profile"] = placement.rail.name();
+  out["wheel_profile"] = placement.wheel.name();
+  out["load_N"] = static_load(spec);
+  out["contact"] = {{"y_m", c.point.y},
+                    {"z_m", c.point.z},
+                    {"wheel_y_m", c.point.y - c.wheel_offset_y},
+                    {"angle_rad", c.angle},
+                    {"rolling_radius_m", c.rolling_radius},
+                    {"curvature_rolling_per_m", c.curvature_rolling},
+                    {"curvature_wheel_lateral_per_m", c.curvature_wheel_lateral},
+                    {"curvature_rail_lateral_per_m", c.curvature_rail_lateral}};
+  out["hertz"] = {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}, {"approach_m", hertz.approach}};
+  out["rail_m"] = curve(placement.rail, c.rail_s, 0, kReach, rail);
+  out["wheel_m"] = curve(placement.wheel, c.wheel_s, 0, kReach, wheel);
+  out["layers"] = Json::array();
+  double rail_depth = 0, wheel_depth = 0;
+  for (const LayerSpec& l : spec.layers) {
+    const bool on_rail = l.on == "rail";
+    double& depth = on_rail ? rail_depth : wheel_depth;
+    depth += l.thickness;
+    out["layers"].push_back({{"name", l.name},
+                             {"on", l.on},
+                             {"thickness_m", l.thickness},
+                             {"width_m", l.width},
+                             {"young_Pa", l.material.young},
+                             {"young_ratio", l.material.young / (on_rail ? spec.rail_material : spec.wheel_material).young},
+                             {"bottom_m", on_rail ? curve(placement.rail, c.rail_s, depth, 0.5 * l.width, rail) : curve(placement.wheel, c.wheel_s, depth, 0.5 * l.width, wheel)}});
+  }
+  return out;
+}
+
+void write_geometry(const std::filesystem::path& file, const CaseSpec& spec, const Placement& placement) { write_whole_file(file, geometry_json(spec, placement).dump() + "\n"); }
+
+}  // namespace railstrata

@@ -1,0 +1,69 @@
+#include "io/result_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "core/faults.hpp"
+#include "io/csv.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::ifstream open_for_reading(const fs::path& file) {
+  std::ifstream in(file);
+  if (!in) throw CaseError(fmt::format("{} is not a result folder: it has no {}", file.parent_path().string(), file.filename().string()), "give a folder that `railstrata run` or `railstrata bem` has written");
+  return in;
+}
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+  throw CaseError(what, "write the results anew with `railstrata run` or `railstrata bem`", file.string());
+}
+
+ContactField read_patch(const fs::path& file) {
+  open_for_reading(file);
+  const CsvTable table = read_csv(file);
+  ContactField f;
+  f.x = table.column("x_mm", 1e-3), f.y = table.column("y_mm", 1e-3), f.z = table.column("z_mm", 1e-3);
+  f.area = table.column("area_mm2", 1e-6);
+  f.p = table.column("p_MPa", 1e6), f.q_x = table.column("q_x_MPa", 1e6), f.q_y = table.column("q_y_MPa", 1e6);
+  f.slip_x = table.column("slip_x_mm_s", 1e-3), f.slip_y = table.column("slip_y_mm_s", 1e-3);
+  for (double s : table.column("state_0separated_1stick_2slip")) f.state.push_back(static_cast<ContactState>(std::lround(s)));
+  std::size_t run = 0;
+  while (run < f.x.size() && std::abs(f.x[run] - f.x[0]) < 1e-9) ++run;
+  if (run < 2 || f.x.size() % run != 0) refuse(file, "the points are not a grid");
+  f.columns = static_cast<int>(run);
+  f.stations = static_cast<int>(f.x.size() / run);
+  return f;
+}
+
+std::string text_at(const nlohmann::json& summary, const std::string& path) {
+  const nlohmann::json::json_pointer at(path);
+  return summary.contains(at) && summary[at].is_string() ? summary[at].get<std::string>() : "";
+}
+
+}  // namespace
+
+double ResultFolder::number(const std::string& path) const {
+  const nlohmann::json::json_pointer at(path);
+  return summary.contains(at) && summary[at].is_number() ? summary[at].get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+ResultFolder read_result_folder(const fs::path& folder) {
+  ResultFolder r;
+  r.folder = folder;
+  const fs::path file = folder / "summary.json";
+  std::ifstream in = open_for_reading(file);
+  r.summary = nlohmann::json::parse(in, nullptr, false);
+  if (!r.summary.is_object() || !r.summary.contains("contact")) refuse(file, "this is not a summary");
+  r.title = text_at(r.summary, "/title");
+  r.engine = text_at(r.summary, "/run/engine");
+  r.field = read_patch(folder / "patch.csv");
+  return r;
+}
+
+}  // namespace railstrata
