@@ -6,7 +6,6 @@
 #include "app/peak_memory.hpp"
 #include "app/run_bem.hpp"
 #include "app/summary_text.hpp"
-#include "io/geometry_json.hpp"
 #include "io/summary_json.hpp"
 #include "post/bem_summary.hpp"
 
@@ -29,7 +28,7 @@ ExitCode command_bem(const CommandOptions& options) {
   prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   write_bem_result(out, table_origin(loaded), result, summary);
-  write_geometry(out / "geometry.json", spec, placement);
+  write_bem_geometry(out, spec, placement, summary.position);
   if (options.json) fmt::print("{}\n", summary_json(summary).dump(2));
   else fmt::print("{}", summary_text(summary));
   spdlog::info("results are in {}", out.string());

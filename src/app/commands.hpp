@@ -19,6 +19,8 @@ struct CommandOptions {
   bool markdown = false, schema = false;  ///< of `schema`
   std::string cell;                       ///< --cell of the half-space commands: a length; empty: the engine's default
   std::filesystem::path reference;        ///< second folder of `compare`
+  std::vector<std::filesystem::path> folders;  ///< of `report`
+  bool reference_solution = true;         ///< --no-reference of `report`
   std::vector<std::string> vary;          ///< --vary of `sweep`
   bool stresses = false;                  ///< --stresses of `sweep`
   double largest_creepage = 0.02;         ///< --largest of `creep-curve`
@@ -34,6 +36,7 @@ ExitCode command_bem(const CommandOptions& options);
 ExitCode command_compare(const CommandOptions& options);
 ExitCode command_creep_curve(const CommandOptions& options);
 ExitCode command_sweep(const CommandOptions& options);
+ExitCode command_report(const CommandOptions& options);
 ExitCode command_schema(const CommandOptions& options);
 ExitCode command_info(const CommandOptions& options);
 

@@ -64,6 +64,12 @@ void add_compare(CLI::App& sub, CommandOptions& options) {
   add_output(sub, options, "results/compare");
 }
 
+void add_report(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("folders", options.folders, "Result folders of `run` or `bem`; the second is drawn beside the first")->required();
+  sub.add_option("-o,--out", options.out, "The page to write (default: report.html in the folder); it is made anew if it is there");
+  sub.add_flag("!--no-reference", options.reference_solution, "Do not set a finite element result against the half-space solution of its case");
+}
+
 void add_schema(CLI::App& sub, CommandOptions& options) {
   auto* json = sub.add_flag("--json-schema", options.schema, "JSON schema (default)");
   sub.add_flag("--markdown", options.markdown, "Reference page in Markdown")->excludes(json);
@@ -95,6 +101,8 @@ constexpr Entry kEntries[] = {
      "Examples:\n  railstrata sweep cases/paper/layer_3mm_2E0.toml --vary layer.0.thickness=\"1 mm,2 mm,3 mm\" --vary layer.0.young_ratio=0.5,1,2\n"
      "  railstrata sweep cases/paper/base.toml --vary drive.traction_coefficient=0.1,0.2,0.3 --stresses --out results/traction\n",
      add_sweep, command_sweep},
+    {"report", "One page on a result, or on several side by side: verdict, patch, stresses, history; opens in any browser, without a network",
+     "Examples:\n  railstrata report results/quick\n  railstrata report results/thin results/thick --out thin-thick.html\n", add_report, command_report},
     {"schema", "Print the JSON schema of case files for editors, or their reference page", "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n",
      add_schema, command_schema},
     {"info", "Built-in profiles, compiler, instruction set, libraries, threads", "Examples:\n  railstrata info\n  railstrata info --json\n", add_nothing, command_info},

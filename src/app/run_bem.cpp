@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include "core/faults.hpp"
+#include "io/geometry_json.hpp"
+#include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
 #include "io/units.hpp"
 #include "post/bem_summary.hpp"
+#include "report/view.hpp"
 
 namespace railstrata {
 namespace {
@@ -44,6 +47,12 @@ void write_bem_result(const std::filesystem::path& folder, const std::vector<std
   write_sections(folder, "wheel", provenance, wheel_sections(result, summary.wheel.subsurface->von_mises.x, centre_y, depth_of_interest(result.wheel, summary.contact)));
   write_vtp(folder / "patch.vtp", patch_mesh(result.field, summary.position));
   write_summary(folder / "summary.json", summary);
+}
+
+void write_bem_geometry(const std::filesystem::path& folder, const CaseSpec& spec, const Placement& placement, double wheel_x) {
+  write_geometry(folder / "geometry.json", spec, placement);
+  write_placed_surfaces(folder, placement, wheel_x);
+  write_view_script(folder);
 }
 
 }  // namespace railstrata

@@ -18,4 +18,7 @@ double cell_size(const std::string& text);
 /// Writes summary.json, patch.csv, centre_line.csv, depth_line.csv and patch.vtp. provenance: "#" lines of the tables.
 void write_bem_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance, const BemResult& result, const Summary& summary);
 
+/// Writes geometry.json, rail_surface.vtp, wheel_surface.vtp and view.py; wheel_x: where patch.vtp has the axle [m].
+void write_bem_geometry(const std::filesystem::path& folder, const CaseSpec& spec, const Placement& placement, double wheel_x);
+
 }  // namespace railstrata

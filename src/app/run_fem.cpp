@@ -5,9 +5,11 @@
 #include "app/peak_memory.hpp"
 #include "fem/rolling_run.hpp"
 #include "io/geometry_json.hpp"
+#include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
 #include "post/fem_summary.hpp"
+#include "report/view.hpp"
 
 namespace railstrata {
 namespace {
@@ -43,6 +45,8 @@ void write_position(const RollingSystem& sys, const MeanContact& mean, const Sum
   write_sections(folder, "rail", provenance, band_sections(rail, deepest.x, centre_y));
   write_sections(folder, "wheel", provenance, band_sections(wheel, summary.wheel.subsurface->von_mises.x, centre_y));
   write_geometry(folder / "geometry.json", sys.model.spec, sys.model.placement);
+  write_placed_surfaces(folder, sys.model.placement, mean.position);
+  write_view_script(folder);
   write_vtp(folder / "patch.vtp", patch_mesh(mean.field, mean.position));
   if (sys.model.spec.output.volume) {
     write_vtu(folder / "rail.vtu", band_mesh(rail, mean.position));

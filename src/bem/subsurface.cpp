@@ -16,17 +16,21 @@ namespace {
 using Complex = std::complex<double>;
 constexpr std::size_t kStates = 6;
 constexpr std::array<double InteriorState::*, kStates> kState{&InteriorState::e_xx, &InteriorState::e_yy, &InteriorState::e_xy, &InteriorState::s_xz, &InteriorState::s_yz, &InteriorState::s_zz};
-/// Parities in x and y of the states under p, q_x, q_y.
+/// Parities in x and y under p, q_x, q_y: of the states, and of the displacements.
 struct Parity {
   int x, y;
 };
 constexpr Parity kParity[3][kStates] = {{{1, 1}, {1, 1}, {-1, -1}, {-1, 1}, {1, -1}, {1, 1}},
                                         {{-1, 1}, {-1, 1}, {1, -1}, {1, 1}, {-1, -1}, {-1, 1}},
                                         {{1, -1}, {1, -1}, {-1, 1}, {-1, -1}, {1, 1}, {1, -1}}};
+constexpr std::array<double Vec3::*, 3> kAxis{&Vec3::x, &Vec3::y, &Vec3::z};
+constexpr Parity kDisplacementParity[3][3] = {{{-1, 1}, {1, -1}, {1, 1}}, {{1, 1}, {-1, -1}, {-1, 1}}, {{-1, -1}, {1, 1}, {1, -1}}};
 
 std::array<Plane*, kStates> planes_of(StatePlane& s) { return {&s.e_xx, &s.e_yy, &s.e_xy, &s.s_xz, &s.s_yz, &s.s_zz}; }
+std::array<Plane*, 3> planes_of(DisplacementPlane& u) { return {&u.u_x, &u.u_y, &u.u_z}; }
 
-std::vector<double*> pointers(StatePlane& s, std::size_t n) {
+template <class Planes>
+std::vector<double*> pointers(Planes& s, std::size_t n) {
   std::vector<double*> out;
   for (Plane* p : planes_of(s)) {
     p->assign(n, 0.0);
@@ -35,12 +39,37 @@ std::vector<double*> pointers(StatePlane& s, std::size_t n) {
   return out;
 }
 
-/// The state under unit surface loads at one wave number and depth, in the axes of the wave: strains times 1, tractions; see layer_waves.hpp for U, W, T, S, V, Q.
+/// Loads (p, q_x, q_y) with the table of their influences at offsets from a cell: value(entry, load, quantity).
+template <std::size_t N, class Table, class Value>
+void convolve(const PlaneFft& fft, const std::vector<const double*>& loads, const Table& table, const Parity (&parity)[3][N], const std::vector<double*>& out, Value&& value) {
+  Plane hat[3][N];
+  Plane values(table.size());
+  for (std::size_t load = 0; load < 3; ++load)
+    for (std::size_t s = 0; s < N; ++s) {
+      for (std::size_t i = 0; i < table.size(); ++i) values[i] = value(table[i], load, s);
+      hat[load][s] = fft.spectrum(values, parity[load][s].x, parity[load][s].y);
+    }
+  fft.apply(loads, out, fft.nx(), [&](std::size_t first, int count, Complex** z) {
+    for (int k = 0; k < count; ++k) {
+      const Complex load[3] = {z[0][k], z[1][k], z[2][k]};
+      for (std::size_t s = 0; s < N; ++s) {
+        Complex sum = 0;
+        for (std::size_t l = 0; l < 3; ++l) {
+          const double h = hat[l][s][first + static_cast<std::size_t>(k)];
+          sum += parity[l][s].x * parity[l][s].y > 0 ? h * load[l] : Complex(-h * load[l].imag(), h * load[l].real());
+        }
+        z[s][k] = sum;
+      }
+    }
+  });
+}
+
+/// The state under unit surface loads at one wave number and depth, in the axes of the wave: displacements times k, tractions; see layer_waves.hpp for U, W, T, S, V, Q.
 struct WaveResponse {
-  double kU_p = 0, T_p = 0, S_p = 0, kU_q = 0, T_q = 0, S_q = 0, kV = 0, Q = 0;
+  double kU_p = 0, kW_p = 0, T_p = 0, S_p = 0, kU_q = 0, kW_q = 0, T_q = 0, S_q = 0, kV = 0, Q = 0;
 };
-constexpr std::array<double WaveResponse::*, 8> kResponse{&WaveResponse::kU_p, &WaveResponse::T_p, &WaveResponse::S_p, &WaveResponse::kU_q,
-                                                          &WaveResponse::T_q,  &WaveResponse::S_q, &WaveResponse::kV,  &WaveResponse::Q};
+constexpr std::array<double WaveResponse::*, 10> kResponse{&WaveResponse::kU_p, &WaveResponse::kW_p, &WaveResponse::T_p, &WaveResponse::S_p, &WaveResponse::kU_q,
+                                                           &WaveResponse::kW_q, &WaveResponse::T_q,  &WaveResponse::S_q, &WaveResponse::kV,  &WaveResponse::Q};
 
 WaveResponse response(const LayerWaves& waves, double depth) {
   const WaveState top = waves.state(0, 0), s = waves.state(depth);
@@ -49,7 +78,7 @@ WaveResponse response(const LayerWaves& waves, double depth) {
   const Eigen::Vector2d p{t2 / det, -t1 / det}, q{-s2 / det, s1 / det};
   const Eigen::Vector4d by_p = s * p, by_q = s * q;
   const ShearState v0 = waves.shear_state(0, 0), v = waves.shear_state(depth);
-  return {by_p[0], by_p[2], by_p[3], by_q[0], by_q[2], by_q[3], -v[0] / v0[1], -v[1] / v0[1]};
+  return {by_p[0], by_p[1], by_p[2], by_p[3], by_q[0], by_q[1], by_q[2], by_q[3], -v[0] / v0[1], -v[1] / v0[1]};
 }
 
 }  // namespace
@@ -60,16 +89,16 @@ struct Subsurface::Layered {
   double unit_x, unit_y, log_low, log_step;
   std::vector<LayerWaves> stack, plain;  // at wave numbers spaced geometrically
 
-  /// Four times the grid, more for thick layers, whose strains reach farther.
-  static double period(const LayeredHalfSpace& body, const PatchGrid& g) {
+  /// `extents` times the grid, up to twice that for thick layers, whose strains reach farther.
+  static double period(const LayeredHalfSpace& body, const PatchGrid& g, double extents) {
     double thickness = 0;
     for (const HalfSpaceLayer& layer : body.layers) thickness += layer.thickness;
     const double extent = std::max(g.nx * g.dx, g.ny * g.dy);
-    return std::clamp(8 * thickness, 4 * extent, 8 * extent);
+    return std::clamp(8 * thickness, extents * extent, 2 * extents * extent);
   }
 
-  Layered(const LayeredHalfSpace& body, const PatchGrid& g)
-      : fft(static_cast<int>(period(body, g) / (2 * g.dx)), static_cast<int>(period(body, g) / (2 * g.dy))), unit_x(2 * std::numbers::pi / (fft.mx() * g.dx)), unit_y(2 * std::numbers::pi / (fft.my() * g.dy)) {
+  Layered(const LayeredHalfSpace& body, const PatchGrid& g, double extents)
+      : fft(static_cast<int>(period(body, g, extents) / (2 * g.dx)), static_cast<int>(period(body, g, extents) / (2 * g.dy))), unit_x(2 * std::numbers::pi / (fft.mx() * g.dx)), unit_y(2 * std::numbers::pi / (fft.my() * g.dy)) {
     const double low = 1e-3 * std::min(unit_x, unit_y), high = std::numbers::pi * std::hypot(1 / g.dx, 1 / g.dy) * 1.01;
     log_low = std::log(low);
     log_step = (std::log(high) - log_low) / (kNodes - 1);
@@ -81,6 +110,8 @@ struct Subsurface::Layered {
     }
   }
 
+  double points() const { return static_cast<double>(fft.mx()) * fft.my(); }
+
   std::vector<WaveResponse> nodes(double depth) const {
     std::vector<WaveResponse> out(kNodes);
     for (std::size_t i = 0; i < kNodes; ++i) {
@@ -90,40 +121,88 @@ struct Subsurface::Layered {
     return out;
   }
 
+  /// Averages of a response over wave numbers, weighed by (k_x/k)² and (k_y/k)².
+  struct Means {
+    WaveResponse x, y;
+  };
   /// The FFT's sum over wave numbers instead of an integral is the pull of the periodic images, nearly uniform over the patch. It is the difference of sum and integral at
   /// low wave numbers (a Gaussian cuts off the rest); given with the opposite sign to the mean k = 0, which the sum leaves free, it takes the images away.
-  WaveResponse mean(const std::vector<WaveResponse>& node) const {
+  /// Of the responses over k^power: 0 for strains and tractions, 1 for displacements.
+  Means mean(const std::vector<WaveResponse>& node, int power = 0) const {
     const double unit = std::sqrt(unit_x * unit_y), cut = 4 * unit;
-    const auto add = [&](WaveResponse& to, double weight, double k) {
+    const auto add = [&](double weight_x, double weight_y, double k, Means& to) {
       const WaveResponse w = between(node, k);
-      for (auto m : kResponse) to.*m += weight * std::exp(-k * k / (cut * cut)) * w.*m;
+      const double weight = std::exp(-k * k / (cut * cut)) / (power == 0 ? 1.0 : k);
+      for (auto m : kResponse) to.x.*m += weight_x * weight * w.*m, to.y.*m += weight_y * weight * w.*m;
     };
-    WaveResponse out;
+    Means out;
     constexpr int reach = 20;
-    for (int i = -reach; i <= reach; ++i)
-      for (int j = -reach; j <= reach; ++j)
-        if (i != 0 || j != 0) add(out, -1, unit * std::hypot(i, j));
-    constexpr double step = 0.02;  // of ln k; ∫ 2 pi k² f dln k
-    for (double t = log_low; t < std::log(reach * unit); t += step) add(out, 2 * std::numbers::pi * std::exp(2 * t) * step / (unit * unit), std::exp(t));
+    for (int i = 0; i <= reach; ++i)
+      for (int j = i == 0 ? 1 : 0; j <= reach; ++j) {  // one quadrant stands for four
+        const double kx = i * unit_x, ky = j * unit_y, k2 = kx * kx + ky * ky, count = (i == 0 ? 1.0 : 2.0) * (j == 0 ? 1.0 : 2.0);
+        add(-count * kx * kx / k2, -count * ky * ky / k2, std::sqrt(k2), out);
+      }
+    constexpr double step = 0.02;  // of ln k; ∫ pi k² f dln k each
+    for (double t = log_low; t < std::log(reach * unit); t += step) {
+      const double weight = std::numbers::pi * std::exp(2 * t) * step / (unit * unit);
+      add(weight, weight, std::exp(t), out);
+    }
     return out;
   }
 
-  /// Cubic through the four nodes around k.
+  /// Adds to planes of the grid what the layers change. wave(P, X, Y, cx, cy, k, response, z): the quantities z under loads (P, X, Y) of the wave vector k (cx, cy);
+  /// zero(P, X, Y, z): of the mean.
+  template <class Planes, class Wave, class Zero>
+  void add(const PatchGrid& grid, const std::array<const Plane*, 3>& loads, const std::vector<WaveResponse>& node, Planes& to, Wave&& wave, Zero&& zero) const {
+    const int nx = grid.nx, ny = grid.ny, mx = fft.mx(), my = fft.my();
+    const std::size_t pitch = static_cast<std::size_t>(fft.ny()), n = static_cast<std::size_t>(fft.nx()) * pitch;
+    Plane spread[3];
+    for (std::size_t l = 0; l < 3; ++l) {
+      spread[l].assign(n, 0.0);
+      for (int i = 0; i < nx; ++i)
+        std::copy_n(loads[l]->begin() + static_cast<std::ptrdiff_t>(grid.index(i, 0)), ny, spread[l].begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * pitch));
+    }
+    // the loads are steps, one a cell, as in the closed form: their transform is that of the values times sin(k d/2)/(k d/2)
+    const auto step = [](double half) { return half == 0 ? 1.0 : std::sin(half) / half; };
+    const double scale = 1 / points();
+    Planes wide;
+    const std::vector<double*> out = pointers(wide, n);
+    fft.apply({spread[0].data(), spread[1].data(), spread[2].data()}, out, nx, [&](std::size_t first, int count, Complex** z) {
+      const int block = static_cast<int>(first / static_cast<std::size_t>(count));
+      std::array<Complex, kStates> value;
+      for (int e = 0; e < count; ++e) {
+        const int i = e / PlaneFft::kBlock, j = block * PlaneFft::kBlock + e % PlaneFft::kBlock;
+        const double kx = unit_x * (2 * i < mx ? i : i - mx), ky = unit_y * j, k = std::hypot(kx, ky);
+        const double weight = scale * step(0.5 * kx * grid.dx) * step(0.5 * ky * grid.dy);
+        const Complex P = weight * z[0][e], X = weight * z[1][e], Y = weight * z[2][e];
+        if (k == 0) zero(P, X, Y, value);
+        else if (2 * i == mx || 2 * j >= my) value.fill(0);  // the highest waves have no direction
+        else wave(P, X, Y, kx / k, ky / k, k, between(node, k), value);
+        for (std::size_t s = 0; s < out.size(); ++s) z[s][e] = value[s];
+      }
+    });
+    const auto target = planes_of(to), from = planes_of(wide);
+    for (std::size_t s = 0; s < target.size(); ++s)
+      for (int i = 0; i < nx; ++i)
+        for (int j = 0; j < ny; ++j) (*target[s])[grid.index(i, j)] += (*from[s])[static_cast<std::size_t>(i) * pitch + static_cast<std::size_t>(j)];
+  }
+
+  /// Polynomial of the fifth order through the six nodes around k.
   WaveResponse between(const std::vector<WaveResponse>& node, double k) const {
     const double s = (std::log(k) - log_low) / log_step;
-    const int i = std::clamp(static_cast<int>(s) - 1, 0, kNodes - 4);
-    const double t = s - i;
-    const double w[4] = {-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2, t * (t - 1) * (t - 2) / 6};
+    const int i = std::clamp(static_cast<int>(s) - 2, 0, kNodes - 6);
+    const double t = s - i, d[6] = {t, t - 1, t - 2, t - 3, t - 4, t - 5}, d01 = d[0] * d[1], d45 = d[4] * d[5], d012 = d01 * d[2], d345 = d[3] * d45;
+    const double w[6] = {-d[1] * d[2] * d345 / 120, d[0] * d[2] * d345 / 24, -d01 * d345 / 12, d012 * d45 / 12, -d012 * d[3] * d[5] / 24, d012 * d[3] * d[4] / 120};
     WaveResponse out;
-    for (int l = 0; l < 4; ++l)
+    for (int l = 0; l < 6; ++l)
       for (auto m : kResponse) out.*m += w[l] * node[static_cast<std::size_t>(i + l)].*m;
     return out;
   }
 };
 
-Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y)
-    : body_(body), grid_(grid), p_(std::move(p)), q_x_(std::move(q_x)), q_y_(std::move(q_y)) {
-  if (!body_.layers.empty()) layered_ = std::make_unique<Layered>(body_, grid_);
+Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y, double period)
+    : body_(body), grid_(grid), p_(std::move(p)), q_x_(std::move(q_x)), q_y_(std::move(q_y)), period_(period) {
+  if (!body_.layers.empty()) layered_ = std::make_unique<Layered>(body_, grid_, period_);
 }
 
 Subsurface::~Subsurface() = default;
@@ -133,27 +212,19 @@ StatePlane Subsurface::plane(double depth) const {
   out.depth = depth;
   const PlaneFft fft(grid_.nx, grid_.ny);
   const auto table = rectangle_interior_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
-  Plane hat[3][kStates];
-  Plane values(table.size());
-  for (std::size_t load = 0; load < 3; ++load)
-    for (std::size_t s = 0; s < kStates; ++s) {
-      for (std::size_t i = 0; i < table.size(); ++i) values[i] = table[i][load].*kState[s];
-      hat[load][s] = fft.spectrum(values, kParity[load][s].x, kParity[load][s].y);
-    }
-  fft.apply({p_.data(), q_x_.data(), q_y_.data()}, pointers(out, grid_.size()), grid_.nx, [&](std::size_t first, int count, Complex** z) {
-    for (int k = 0; k < count; ++k) {
-      const Complex load[3] = {z[0][k], z[1][k], z[2][k]};
-      for (std::size_t s = 0; s < kStates; ++s) {
-        Complex sum = 0;
-        for (std::size_t l = 0; l < 3; ++l) {
-          const double h = hat[l][s][first + static_cast<std::size_t>(k)];
-          sum += kParity[l][s].x * kParity[l][s].y > 0 ? h * load[l] : Complex(-h * load[l].imag(), h * load[l].real());
-        }
-        z[s][k] = sum;
-      }
-    }
-  });
+  convolve(fft, {p_.data(), q_x_.data(), q_y_.data()}, table, kParity, pointers(out, grid_.size()), [](const InteriorInfluence& t, std::size_t load, std::size_t s) { return t[load].*kState[s]; });
   straighten_steps(depth, out);
+  if (layered_) add_layer_difference(depth, out);
+  return out;
+}
+
+DisplacementPlane Subsurface::displacement(double depth) const {
+  DisplacementPlane out;
+  out.depth = depth;
+  const PlaneFft fft(grid_.nx, grid_.ny);
+  const auto table = rectangle_displacement_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
+  convolve(fft, {p_.data(), q_x_.data(), q_y_.data()}, table, kDisplacementParity, pointers(out, grid_.size()),
+           [](const InteriorDisplacement& t, std::size_t load, std::size_t axis) { return t[load].*kAxis[axis]; });
   if (layered_) add_layer_difference(depth, out);
   return out;
 }
@@ -182,56 +253,49 @@ void Subsurface::straighten_steps(double depth, StatePlane& out) const {
 }
 
 void Subsurface::add_layer_difference(double depth, StatePlane& out) const {
-  const Layered& layered = *layered_;
-  const PlaneFft& fft = layered.fft;
-  const int nx = grid_.nx, ny = grid_.ny, mx = fft.mx(), my = fft.my();
-  const std::size_t pitch = static_cast<std::size_t>(fft.ny()), n = static_cast<std::size_t>(fft.nx()) * pitch;
-  const auto spread = [&](const Plane& v) {
-    Plane wide(n, 0.0);
-    for (int i = 0; i < nx; ++i) std::copy_n(v.begin() + static_cast<std::ptrdiff_t>(grid_.index(i, 0)), ny, wide.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * pitch));
-    return wide;
+  const std::vector<WaveResponse> node = layered_->nodes(depth);
+  const Layered::Means mean = layered_->mean(node);
+  const auto wave = [](Complex P, Complex X, Complex Y, double cx, double cy, double, const WaveResponse& w, std::array<Complex, kStates>& z) {
+    const Complex I(0, 1), along = -I * (cx * X + cy * Y), across = cx * Y - cy * X;
+    const Complex kU = w.kU_p * P + w.kU_q * along, T = w.T_p * P + w.T_q * along, S = w.S_p * P + w.S_q * along;
+    const Complex kV = w.kV * across, Q = w.Q * across;
+    // u = i k^ U + k^⊥ V with k^⊥ = (-cy, cx); strains i k u, tractions i k^ T + k^⊥ Q
+    z = {-cx * cx * kU - I * cx * cy * kV, -cy * cy * kU + I * cx * cy * kV, -cx * cy * kU + 0.5 * I * (cx * cx - cy * cy) * kV, I * cx * T - cy * Q, I * cy * T + cx * Q, S};
   };
-  const Plane p = spread(p_), qx = spread(q_x_), qy = spread(q_y_);
-  const std::vector<WaveResponse> node = layered.nodes(depth);
-  const WaveResponse mean = layered.mean(node);
-  const double unit_x = layered.unit_x, unit_y = layered.unit_y, scale = 1.0 / (static_cast<double>(mx) * my);
-  StatePlane wide;
-  fft.apply({p.data(), qx.data(), qy.data()}, pointers(wide, n), nx, [&](std::size_t first, int count, Complex** z) {
-    const int block = static_cast<int>(first / static_cast<std::size_t>(count));
-    for (int e = 0; e < count; ++e) {
-      const int i = e / PlaneFft::kBlock, j = block * PlaneFft::kBlock + e % PlaneFft::kBlock;
-      const double kx = unit_x * (2 * i < mx ? i : i - mx), ky = unit_y * j, k = std::hypot(kx, ky);
-      const Complex P = scale * z[0][e], X = scale * z[1][e], Y = scale * z[2][e], I(0, 1);
-      if (k == 0) {
-        z[0][e] = z[1][e] = -0.5 * mean.kU_p * P;
-        z[2][e] = 0;
-        z[3][e] = 0.5 * (mean.T_q + mean.Q) * X;
-        z[4][e] = 0.5 * (mean.T_q + mean.Q) * Y;
-        z[5][e] = mean.S_p * P;
-        continue;
-      }
-      if (2 * i == mx || 2 * j >= my) {  // the highest waves have no direction
-        for (std::size_t s = 0; s < kStates; ++s) z[s][e] = 0;
-        continue;
-      }
-      const double cx = kx / k, cy = ky / k;
-      const WaveResponse w = layered.between(node, k);
-      const Complex along = -I * (cx * X + cy * Y), across = cx * Y - cy * X;
-      const Complex kU = w.kU_p * P + w.kU_q * along, T = w.T_p * P + w.T_q * along, S = w.S_p * P + w.S_q * along;
-      const Complex kV = w.kV * across, Q = w.Q * across;
-      // u = i k^ U + k^⊥ V with k^⊥ = (-cy, cx); strains i k u, tractions i k^ T + k^⊥ Q
-      z[0][e] = -cx * cx * kU - I * cx * cy * kV;
-      z[1][e] = -cy * cy * kU + I * cx * cy * kV;
-      z[2][e] = -cx * cy * kU + 0.5 * I * (cx * cx - cy * cy) * kV;
-      z[3][e] = I * cx * T - cy * Q;
-      z[4][e] = I * cy * T + cx * Q;
-      z[5][e] = S;
+  const auto zero = [&](Complex P, Complex X, Complex Y, std::array<Complex, kStates>& z) {
+    z = {-mean.x.kU_p * P, -mean.y.kU_p * P, 0, (mean.x.T_q + mean.y.Q) * X, (mean.y.T_q + mean.x.Q) * Y, (mean.x.S_p + mean.y.S_p) * P};
+  };
+  layered_->add(grid_, {&p_, &q_x_, &q_y_}, node, out, wave, zero);
+}
+
+void Subsurface::add_layer_difference(double depth, DisplacementPlane& out) const {
+  const std::vector<WaveResponse> node = layered_->nodes(depth);
+  const Layered::Means mean = layered_->mean(node, 1), slope = layered_->mean(node);
+  const auto wave = [](Complex P, Complex X, Complex Y, double cx, double cy, double k, const WaveResponse& w, std::array<Complex, kStates>& z) {
+    const Complex I(0, 1), along = -I * (cx * X + cy * Y), across = cx * Y - cy * X;
+    const Complex U = (w.kU_p * P + w.kU_q * along) / k, W = (w.kW_p * P + w.kW_q * along) / k, V = w.kV * across / k;
+    z = {I * cx * U - cy * V, I * cy * U + cx * V, W};
+  };
+  const auto zero = [&](Complex P, Complex X, Complex Y, std::array<Complex, kStates>& z) {
+    z = {(mean.x.kU_q + mean.y.kV) * X, (mean.y.kU_q + mean.x.kV) * Y, (mean.x.kW_p + mean.y.kW_p) * P};
+  };
+  layered_->add(grid_, {&p_, &q_x_, &q_y_}, node, out, wave, zero);
+  // the images' strain as a displacement from each load: e p (x - x'), and the tilt t q·(x - x')
+  double p = 0, px = 0, py = 0, qx = 0, qy = 0, qx_x = 0, qy_y = 0;
+  for (int i = 0; i < grid_.nx; ++i)
+    for (int j = 0; j < grid_.ny; ++j) {
+      const std::size_t k = grid_.index(i, j);
+      p += p_[k], px += p_[k] * grid_.x(i), py += p_[k] * grid_.y(j);
+      qx += q_x_[k], qx_x += q_x_[k] * grid_.x(i), qy += q_y_[k], qy_y += q_y_[k] * grid_.y(j);
     }
-  });
-  const auto to = planes_of(out), from = planes_of(wide);
-  for (std::size_t s = 0; s < kStates; ++s)
-    for (int i = 0; i < nx; ++i)
-      for (int j = 0; j < ny; ++j) (*to[s])[grid_.index(i, j)] += (*from[s])[static_cast<std::size_t>(i) * pitch + static_cast<std::size_t>(j)];
+  const double share = 1 / layered_->points();
+  for (int i = 0; i < grid_.nx; ++i)
+    for (int j = 0; j < grid_.ny; ++j) {
+      const std::size_t k = grid_.index(i, j);
+      out.u_x[k] -= share * slope.x.kU_p * (p * grid_.x(i) - px);
+      out.u_y[k] -= share * slope.y.kU_p * (p * grid_.y(j) - py);
+      out.u_z[k] += share * (slope.x.kW_q * (qx * grid_.x(i) - qx_x) + slope.y.kW_q * (qy * grid_.y(j) - qy_y));
+    }
 }
 
 const HalfSpaceMaterial& Subsurface::material_at(double depth, bool below_interface) const {
@@ -245,24 +309,75 @@ const HalfSpaceMaterial& Subsurface::material_at(double depth, bool below_interf
 
 Sym3 Subsurface::stress(const StatePlane& plane, std::size_t k, bool below_interface) const { return stress_of(plane.at(k), material_at(plane.depth, below_interface)); }
 
-Sym3 Subsurface::stress_at(double x, double y, double depth) const {
-  const double u = (x - grid_.x0) / grid_.dx, v = (y - grid_.y0) / grid_.dy;
-  if (u < 0 || v < 0 || u > grid_.nx - 1 || v > grid_.ny - 1 || depth < 0) throw std::out_of_range("stress_at: outside the grid");
-  const StatePlane s = plane(depth);
-  const auto weights = [](double t, double (&w)[4]) {
-    w[0] = -(t - 1) * (t - 2) * (t - 3) / 6, w[1] = t * (t - 2) * (t - 3) / 2, w[2] = -t * (t - 1) * (t - 3) / 2, w[3] = t * (t - 1) * (t - 2) / 6;
+namespace {
+
+/// Cubic through four points at 0, 1, 2, 3.
+std::array<double, 4> cubic_weights(double t) {
+  return {-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2, t * (t - 1) * (t - 2) / 6};
+}
+
+/// The sixteen cells around a point of the plan with their weights.
+struct Around {
+  std::size_t first;
+  std::array<double, 4> x, y;
+  Around(const PatchGrid& g, const Vec3& at) {
+    const double u = (at.x - g.x0) / g.dx, v = (at.y - g.y0) / g.dy;
+    const int i = std::clamp(static_cast<int>(std::floor(u)) - 1, 0, g.nx - 4), j = std::clamp(static_cast<int>(std::floor(v)) - 1, 0, g.ny - 4);
+    first = g.index(i, j);
+    x = cubic_weights(u - i), y = cubic_weights(v - j);
+  }
+  double of(const PatchGrid& g, const Plane& v) const {
+    double sum = 0;
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < 4; ++b) sum += x[a] * y[b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
+    return sum;
+  }
+};
+
+bool covers(const PatchGrid& g, const Vec3& at) {
+  return at.x >= g.x(1) && at.x <= g.x(g.nx - 2) && at.y >= g.y(1) && at.y <= g.y(g.ny - 2);
+}
+
+}  // namespace
+
+Subsurface Subsurface::widened(int more_x, int more_y) const {
+  PatchGrid g{grid_.nx + 2 * more_x, grid_.ny + 2 * more_y, grid_.dx, grid_.dy, grid_.x0 - more_x * grid_.dx, grid_.y0 - more_y * grid_.dy};
+  const auto padded = [&](const Plane& v) {
+    Plane wide(g.size(), 0.0);
+    for (int i = 0; i < grid_.nx; ++i)
+      std::copy_n(v.begin() + static_cast<std::ptrdiff_t>(grid_.index(i, 0)), grid_.ny, wide.begin() + static_cast<std::ptrdiff_t>(g.index(i + more_x, more_y)));
+    return wide;
   };
-  const int i = std::clamp(static_cast<int>(u) - 1, 0, grid_.nx - 4), j = std::clamp(static_cast<int>(v) - 1, 0, grid_.ny - 4);
-  double wx[4], wy[4];
-  weights(u - i, wx);
-  weights(v - j, wy);
-  InteriorState state;
-  for (int a = 0; a < 4; ++a)
-    for (int b = 0; b < 4; ++b) {
-      const InteriorState here = s.at(grid_.index(i + a, j + b));
-      for (auto m : kState) state.*m += wx[a] * wy[b] * here.*m;
-    }
-  return stress_of(state, material_at(depth));
+  return {body_, g, padded(p_), padded(q_x_), padded(q_y_), period_};
+}
+
+std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool below_interface) const {
+  constexpr double kMostCells = 4e6;
+  int more_x = 0, more_y = 0;
+  for (const Vec3& p : points) {
+    if (!(p.z >= 0)) throw std::out_of_range("Subsurface::at: a point above the surface");
+    if (covers(grid_, p)) continue;
+    const double x = std::max(grid_.x0 - p.x, p.x - grid_.x(grid_.nx - 1)) / grid_.dx, y = std::max(grid_.y0 - p.y, p.y - grid_.y(grid_.ny - 1)) / grid_.dy;
+    if (!((grid_.nx + 2 * std::max(x, 0.0)) * (grid_.ny + 2 * std::max(y, 0.0)) < kMostCells)) throw std::out_of_range("Subsurface::at: a point too far away for cells of this size");
+    more_x = std::max(more_x, static_cast<int>(std::ceil(x)) + 2), more_y = std::max(more_y, static_cast<int>(std::ceil(y)) + 2);
+  }
+  if (more_x > 0 || more_y > 0) return widened(std::max(more_x, 0), std::max(more_y, 0)).at(points, below_interface);
+
+  std::vector<std::size_t> order(points.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a].z < points[b].z; });
+  std::vector<InteriorPoint> out(points.size());
+  StatePlane s;
+  DisplacementPlane u;
+  for (std::size_t k : order) {
+    const Vec3& p = points[k];
+    if (s.s_zz.empty() || s.depth != p.z) s = plane(p.z), u = displacement(p.z);
+    const Around near(grid_, p);
+    const auto of = [&](const Plane& v) { return near.of(grid_, v); };
+    out[k].displacement = {of(u.u_x), of(u.u_y), of(u.u_z)};
+    out[k].stress = stress_of({of(s.e_xx), of(s.e_yy), of(s.e_xy), of(s.s_xz), of(s.s_yz), of(s.s_zz)}, material_at(p.z, below_interface));
+  }
+  return out;
 }
 
 namespace {

@@ -1,5 +1,5 @@
 #pragma once
-// Stresses inside one body under the tractions of its contact.
+// Displacements and stresses inside one body under the tractions of its contact.
 //
 // On a plane at any depth, by convolution: the closed form of a homogeneous half-space of the substrate's material, plus for layers the difference of the Fourier-domain
 // solutions (layer_waves.hpp), which dies out away from the patch, so that the periodic images of its grid do not reach back.
@@ -23,6 +23,17 @@ struct StatePlane {
   InteriorState at(std::size_t k) const { return {e_xx[k], e_yy[k], e_xy[k], s_xz[k], s_yz[k], s_zz[k]}; }
 };
 
+/// Displacement [m] in every cell of the grid at one depth, u_z into the body. The half-space is at rest far away.
+struct DisplacementPlane {
+  double depth = 0;
+  Plane u_x, u_y, u_z;
+};
+
+struct InteriorPoint {
+  Vec3 displacement;  ///< m
+  Sym3 stress;        ///< Pa; von_mises and principal_stresses stand in material/elastic.hpp
+};
+
 struct StressPeak {
   double value = 0;        ///< Pa
   double x = 0, y = 0;     ///< m, in the grid's frame
@@ -44,15 +55,20 @@ struct SubsurfacePeaks {
 class Subsurface {
  public:
   /// p, q_x, q_y act on the body in its own axes: for the rail z is down and q as in ContactField; for the wheel z is up and q changes sign.
-  Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y);
+  /// period: distance of the periodic images of what layers change, in extents of the grid. Their mean pull is taken out; its variation over the patch leaves some 1e-5 of the
+  /// largest pressure, which falls with the fourth power of the period. The cost grows with its square.
+  Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y, double period = 4);
   ~Subsurface();
 
   StatePlane plane(double depth) const;
+  DisplacementPlane displacement(double depth) const;
   /// Stresses in cell k of a plane; at an interface those of the layer above, or below if asked.
   Sym3 stress(const StatePlane& plane, std::size_t k, bool below_interface = false) const;
   const HalfSpaceMaterial& material_at(double depth, bool below_interface = false) const;
-  /// Stresses at any point with depth >= 0 [m]; between cells by bicubic interpolation of the plane, outside the grid: std::out_of_range.
-  Sym3 stress_at(double x, double y, double depth) const;
+  /// Displacements and stresses at any points (x, y, depth >= 0) [m], in the order given: bicubic between cells, on a wider grid where points lie outside. A plane is
+  /// computed per depth: give points of a depth together. On an interface the stresses of the layer above, or below if asked.
+  /// Throws std::out_of_range for a point above the surface or more than about a thousand cells away.
+  std::vector<InteriorPoint> at(const std::vector<Vec3>& points, bool below_interface = false) const;
 
   /// deepest: how far down to look [m].
   SubsurfacePeaks peaks(double deepest) const;
@@ -62,10 +78,13 @@ class Subsurface {
   /// Takes the first-order error of stepwise tractions out of a plane nearer to the surface than a cell.
   void straighten_steps(double depth, StatePlane& out) const;
   void add_layer_difference(double depth, StatePlane& out) const;
+  void add_layer_difference(double depth, DisplacementPlane& out) const;
+  Subsurface widened(int more_x, int more_y) const;
 
   LayeredHalfSpace body_;
   PatchGrid grid_;
   Plane p_, q_x_, q_y_;
+  double period_;
   std::unique_ptr<Layered> layered_;
 };
 

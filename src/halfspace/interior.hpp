@@ -1,5 +1,5 @@
 #pragma once
-// Strains and stresses inside a half-space under tractions on its surface.
+// Displacements, strains and stresses inside a half-space under tractions on its surface.
 //
 // Depth z points into the body (for the rail: down), p presses it along z, q acts on it. The state at a depth is what is continuous across bonded interfaces: the strains
 // in plan and the tractions on the plane z = const. The stresses follow with the material of whichever side is asked for.
@@ -27,5 +27,10 @@ InteriorInfluence rectangle_interior(const HalfSpaceMaterial& material, double x
 
 /// For offsets (i dx, j dy) as rectangle_influence_table.
 std::vector<InteriorInfluence> rectangle_interior_table(const HalfSpaceMaterial& material, double z, int nx, int ny, double dx, double dy);
+
+/// Displacement [m/Pa], z into the body, in the same setting; z >= 0. On the surface it is that of rectangle_influence.
+using InteriorDisplacement = std::array<Vec3, 3>;
+InteriorDisplacement rectangle_displacement(const HalfSpaceMaterial& material, double x, double y, double z, double dx, double dy);
+std::vector<InteriorDisplacement> rectangle_displacement_table(const HalfSpaceMaterial& material, double z, int nx, int ny, double dx, double dy);
 
 }  // namespace railstrata

@@ -156,13 +156,167 @@ TEST(Subsurface, SurfaceStrainsOfALayeredBodyAreTheDerivativesOfItsSurfaceDispla
     }
 }
 
+/// Tractions as smooth as a bell, and a stack of three layers, stiff, soft and stiff.
+struct StackFixture {
+  PatchGrid g;
+  Plane p, qx, qy;
+  LayeredHalfSpace body{{{0.8e-3, {630e9, 0.25}}, {1.2e-3, {70e9, 0.4}}, {3e-3, {420e9, 0.3}}}, kSteel};
+  static constexpr double kPeak = 1e9, kRadius = 1.5e-3;
+  explicit StackFixture(int half = 36, double cell = 0.25e-3) : g(centred_grid(half, half, cell, cell)), p(g.size()), qx(g.size()), qy(g.size()) {
+    for (int i = 0; i < g.nx; ++i)
+      for (int j = 0; j < g.ny; ++j) {
+        const double x = g.x(i) / kRadius, y = g.y(j) / kRadius, bell = kPeak * std::exp(-0.5 * (x * x + y * y));
+        p[g.index(i, j)] = bell * (1 + 0.3 * y), qx[g.index(i, j)] = -0.4 * bell * (1 + 0.5 * x), qy[g.index(i, j)] = 0.3 * bell * x;
+      }
+  }
+};
+
+TEST(Subsurface, DisplacementsAndTractionsAreContinuousAcrossEveryInterfaceTo1em6) {
+  const StackFixture f;
+  const Subsurface body(f.body, f.g, f.p, f.qx, f.qy);
+  double depth = 0;
+  const double largest = peak(body.displacement(0).u_z);
+  for (const HalfSpaceLayer& layer : f.body.layers) {
+    depth += layer.thickness;
+    const double d = 1e-10;  // m: gradients of the fields count for 1e-7 over it
+    const StatePlane above = body.plane(depth - d), below = body.plane(depth + d);
+    const DisplacementPlane u = body.displacement(depth - d), v = body.displacement(depth + d);
+    double jump = 0;
+    for (std::size_t k = 0; k < f.g.size(); ++k) {
+      const Sym3 a = body.stress(above, k), b = body.stress(below, k);
+      ASSERT_LT(std::max({std::abs(a.zz - b.zz), std::abs(a.xz - b.xz), std::abs(a.yz - b.yz)}), 1e-6 * f.kPeak) << depth;
+      ASSERT_LT(std::max({std::abs(u.u_x[k] - v.u_x[k]), std::abs(u.u_y[k] - v.u_y[k]), std::abs(u.u_z[k] - v.u_z[k])}), 1e-6 * largest) << depth;
+      jump = std::max(jump, std::abs(a.xx - b.xx));
+    }
+    EXPECT_GT(jump, 0.05 * f.kPeak) << "while the stress along the interface jumps";
+  }
+}
+
+/// Derivative along a direction by differences of the eighth order.
+template <class Value>
+double slope(Value&& at, double h) {
+  return (672 * (at(1) - at(-1)) - 168 * (at(2) - at(-2)) + 32 * (at(3) - at(-3)) - 3 * (at(4) - at(-4))) / (840 * h);
+}
+/// The fourth order, for steps that may be short.
+template <class Value>
+double slope_in_depth(Value&& at, double h) {
+  return (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * h);
+}
+
+/// Largest residual of div sigma = 0 over p0/radius, and of Hooke's law between stresses and the displacements' derivatives over p0, at one depth.
+struct Residual {
+  double equilibrium = 0, hooke = 0;
+};
+Residual residual_at(const Subsurface& body, const PatchGrid& g, double depth) {
+  const double h = 0.02e-3;
+  StatePlane s[5];
+  DisplacementPlane u[5];
+  for (int l = 0; l < 5; ++l) s[l] = body.plane(depth + (l - 2) * h), u[l] = body.displacement(depth + (l - 2) * h);
+  const HalfSpaceMaterial& m = body.material_at(depth);
+  const double G = m.shear(), lambda = 2 * G * m.poisson / (1 - 2 * m.poisson);
+  Residual worst;
+  for (int i = 6; i < g.nx - 6; i += 5)
+    for (int j = 6; j < g.ny - 6; j += 5) {
+      const auto stress = [&](int di, int dj, int dl) { return body.stress(s[2 + dl], g.index(i + di, j + dj)); };
+      const auto dx = [&](double Sym3::*c) { return slope([&](int d) { return stress(d, 0, 0).*c; }, g.dx); };
+      const auto dy = [&](double Sym3::*c) { return slope([&](int d) { return stress(0, d, 0).*c; }, g.dy); };
+      const auto dz = [&](double Sym3::*c) { return slope_in_depth([&](int d) { return stress(0, 0, d).*c; }, h); };
+      for (double r : {dx(&Sym3::xx) + dy(&Sym3::xy) + dz(&Sym3::xz), dx(&Sym3::xy) + dy(&Sym3::yy) + dz(&Sym3::yz), dx(&Sym3::xz) + dy(&Sym3::yz) + dz(&Sym3::zz)})
+        worst.equilibrium = std::max(worst.equilibrium, std::abs(r) * StackFixture::kRadius / StackFixture::kPeak);
+      constexpr auto X = &DisplacementPlane::u_x, Y = &DisplacementPlane::u_y, Z = &DisplacementPlane::u_z;
+      const auto ux = [&](Plane DisplacementPlane::*c) { return slope([&](int d) { return (u[2].*c)[g.index(i + d, j)]; }, g.dx); };
+      const auto uy = [&](Plane DisplacementPlane::*c) { return slope([&](int d) { return (u[2].*c)[g.index(i, j + d)]; }, g.dy); };
+      const auto uz = [&](Plane DisplacementPlane::*c) { return slope_in_depth([&](int d) { return (u[2 + d].*c)[g.index(i, j)]; }, h); };
+      const double spread = lambda * (ux(X) + uy(Y) + uz(Z));
+      const Sym3 here = stress(0, 0, 0);
+      for (double r : {here.xx - spread - 2 * G * ux(X), here.yy - spread - 2 * G * uy(Y), here.zz - spread - 2 * G * uz(Z), here.xy - G * (ux(Y) + uy(X)), here.yz - G * (uy(Z) + uz(Y)), here.xz - G * (ux(Z) + uz(X))})
+        worst.hooke = std::max(worst.hooke, std::abs(r) / StackFixture::kPeak);
+    }
+  return worst;
+}
+
+// Inside the second and the third layer and the substrate.
+TEST(Subsurface, LayeredInteriorIsInEquilibriumAndObeysHookesLawByFiniteDifferencesTo1em6) {
+  const StackFixture f;
+  const Subsurface body(f.body, f.g, f.p, f.qx, f.qy, 8);
+  Residual doubled;
+  for (double depth : {1.4e-3, 6e-3, 3.5e-3}) {
+    doubled = residual_at(body, f.g, depth);
+    EXPECT_LT(doubled.equilibrium, 1e-6) << depth;
+    EXPECT_LT(doubled.hooke, 1e-6) << depth;
+  }
+  const Residual usual = residual_at(Subsurface(f.body, f.g, f.p, f.qx, f.qy), f.g, 3.5e-3);
+  EXPECT_LT(usual.equilibrium, 2e-5);
+  EXPECT_GT(usual.equilibrium / doubled.equilibrium, 16) << "what is left is the pull of the images: at least fourth order in the period";
+}
+
+/// Largest difference between the displacement of the surface by waves and by images, over the largest displacement.
+double difference_of_waves_and_images(const StackFixture& f) {
+  const InfluenceOperator op(combined_compliance({}, layered_compliance(f.body)), f.g.nx, f.g.ny, f.g.dx, f.g.dy);
+  Plane ux(f.g.size()), uy = ux, vx = ux, vy = ux, uz = ux, vz = ux;
+  op.tangential(f.qx.data(), f.qy.data(), ux.data(), uy.data(), f.g.nx);
+  op.tangential_from_pressure(f.p.data(), vx.data(), vy.data(), f.g.nx);
+  op.normal(f.p.data(), uz.data());
+  op.normal_from_traction(f.qx.data(), f.qy.data(), vz.data());
+  const DisplacementPlane u = Subsurface(f.body, f.g, f.p, f.qx, f.qy).displacement(0);
+  double worst = 0;
+  for (std::size_t k = 0; k < f.g.size(); ++k)
+    worst = std::max({worst, std::abs(u.u_x[k] - ux[k] - vx[k]), std::abs(u.u_y[k] - uy[k] - vy[k]), std::abs(u.u_z[k] - uz[k] - vz[k])});
+  return worst / peak(uz);
+}
+
+// Two ways to the same displacement: waves with a periodic grid that cannot resolve the steps of the traction, and closed forms of images with neither fault.
+TEST(Subsurface, SurfaceDisplacementTendsToThatOfTheImagesWithTheSquareOfTheCell) {
+  const double coarse = difference_of_waves_and_images(StackFixture(36, 0.25e-3)), fine = difference_of_waves_and_images(StackFixture(72, 0.125e-3));
+  EXPECT_LT(coarse, 1.5e-4);
+  EXPECT_GT(coarse / fine, 3);
+}
+
+TEST(Subsurface, EqualSubLayersAreOneLayer) {
+  const StackFixture f;
+  const HalfSpaceMaterial hard{630e9, 0.25};
+  const Subsurface one({{{2e-3, hard}}, kSteel}, f.g, f.p, f.qx, f.qy), four({{{0.5e-3, hard}, {0.5e-3, hard}, {0.3e-3, hard}, {0.7e-3, hard}}, kSteel}, f.g, f.p, f.qx, f.qy);
+  for (double depth : {0.0, 0.7e-3, 2e-3, 4e-3}) {
+    const StatePlane a = one.plane(depth), b = four.plane(depth);
+    const DisplacementPlane u = one.displacement(depth), v = four.displacement(depth);
+    for (std::size_t k = 0; k < f.g.size(); k += 11) {
+      const Sym3 s = one.stress(a, k), t = four.stress(b, k);
+      ASSERT_LT(std::max({std::abs(s.xx - t.xx), std::abs(s.yy - t.yy), std::abs(s.zz - t.zz), std::abs(s.xy - t.xy), std::abs(s.yz - t.yz), std::abs(s.xz - t.xz)}), 1e-8 * f.kPeak) << depth;
+      ASSERT_LT(std::abs(u.u_z[k] - v.u_z[k]) + std::abs(u.u_x[k] - v.u_x[k]), 1e-8 * peak(u.u_z)) << depth;
+    }
+  }
+}
+
+TEST(Subsurface, PointsAnywhereAreThoseOfThePlanesAndOfAWiderGrid) {
+  const StackFixture f;
+  const Subsurface body(f.body, f.g, f.p, f.qx, f.qy);
+  const std::size_t k = f.g.index(20, 37);
+  const Vec3 in_cell{f.g.x(20), f.g.y(37), 2e-3}, between{0.8e-3 + 0.1e-3, -1.1e-3, 1.4e-3}, outside{12e-3, -9.3e-3, 1.4e-3};
+  const auto points = body.at({outside, in_cell, between});
+  const StatePlane plane = body.plane(2e-3);
+  EXPECT_NEAR(points[1].stress.xx, body.stress(plane, k).xx, 1e-4 * f.kPeak);
+  EXPECT_NEAR(points[1].displacement.z, body.displacement(2e-3).u_z[k], 1e-4 * peak(body.displacement(0).u_z));
+  // half-way between cells, from a grid twice as fine that has a cell there
+  const StackFixture fine(96, 0.125e-3);
+  const auto reference = Subsurface(f.body, fine.g, fine.p, fine.qx, fine.qy).at({outside, in_cell, between});
+  for (std::size_t n = 0; n < points.size(); ++n) {
+    EXPECT_NEAR(von_mises(points[n].stress), von_mises(reference[n].stress), 1e-3 * f.kPeak) << n;
+    EXPECT_NEAR(norm(points[n].displacement - reference[n].displacement), 0, 1e-3 * norm(reference[1].displacement)) << n;
+  }
+  const auto both = std::pair(body.at({{0, 0, 2e-3}})[0].stress, body.at({{0, 0, 2e-3}}, true)[0].stress);
+  EXPECT_NEAR(both.first.zz, both.second.zz, 1);
+  EXPECT_GT(std::abs(both.first.xx - both.second.xx), 0.1 * f.kPeak) << "the two sides of an interface";
+  EXPECT_THROW(body.at({{0, 0, -1e-3}}), std::out_of_range);
+  EXPECT_THROW(body.at({{10, 0, 1e-3}}), std::out_of_range);
+}
+
 TEST(Subsurface, PeriodOfTheGridDoesNotShow) {
   const LayeredFixture f;
   const LayeredHalfSpace body{{{6e-3, {4 * 210e9, 0.3}}}, kSteel};
-  const PatchGrid wide = centred_grid(60, 60, 0.25e-3, 0.25e-3);
+  const PatchGrid wide = centred_grid(40, 40, 0.25e-3, 0.25e-3);
   Plane p(wide.size(), 0.0), qx = p;
   for (int i = 0; i < f.g.nx; ++i)
-    for (int j = 0; j < f.g.ny; ++j) p[wide.index(i + 36, j + 36)] = f.p[f.g.index(i, j)], qx[wide.index(i + 36, j + 36)] = f.qx[f.g.index(i, j)];
+    for (int j = 0; j < f.g.ny; ++j) p[wide.index(i + 16, j + 16)] = f.p[f.g.index(i, j)], qx[wide.index(i + 16, j + 16)] = f.qx[f.g.index(i, j)];
   const SubsurfacePeaks a = Subsurface(body, f.g, f.p, f.qx, f.qy).peaks(8e-3), b = Subsurface(body, wide, p, qx, Plane(wide.size())).peaks(8e-3);
   EXPECT_NEAR(a.layers[0].von_mises.value / b.layers[0].von_mises.value, 1, 5e-4);
   EXPECT_NEAR(a.matrix.von_mises.value / b.matrix.von_mises.value, 1, 5e-4);

@@ -67,6 +67,49 @@ TEST(Interior, SurfaceStrainsAreTheDerivativesOfTheSurfaceDisplacements) {
   EXPECT_NEAR(s[0].e_xy, -0.5 * ((u(x + e, y).ny - u(x - e, y).ny) + (u(x, y + e).nx - u(x, y - e).nx)) / h, 1e-8 * scale);
 }
 
+// [Johnson1985 eqs. 3.18, 3.75]: displacements of point forces.
+TEST(Interior, FarDisplacementIsBoussinesqsAndCerrutis) {
+  const double x = 0.3, y = -0.5, z = 0.7, s = 1e-3, rho = std::sqrt(x * x + y * y + z * z), nu = kBody.poisson, f = s * s / (4 * std::numbers::pi * kBody.shear());
+  const InteriorDisplacement u = rectangle_displacement(kBody, x, y, z, s, s);
+  const double tolerance = 2e-6 * f;
+  EXPECT_NEAR(u[0].x, f * (x * z / std::pow(rho, 3) - (1 - 2 * nu) * x / (rho * (rho + z))), tolerance);
+  EXPECT_NEAR(u[0].y, f * (y * z / std::pow(rho, 3) - (1 - 2 * nu) * y / (rho * (rho + z))), tolerance);
+  EXPECT_NEAR(u[0].z, f * (z * z / std::pow(rho, 3) + 2 * (1 - nu) / rho), tolerance);
+  EXPECT_NEAR(u[1].x, f * (1 / rho + x * x / std::pow(rho, 3) + (1 - 2 * nu) * (1 / (rho + z) - x * x / (rho * std::pow(rho + z, 2)))), tolerance);
+  EXPECT_NEAR(u[1].y, f * (x * y / std::pow(rho, 3) - (1 - 2 * nu) * x * y / (rho * std::pow(rho + z, 2))), tolerance);
+  EXPECT_NEAR(u[1].z, f * (x * z / std::pow(rho, 3) + (1 - 2 * nu) * x / (rho * (rho + z))), tolerance);
+}
+
+TEST(Interior, DisplacementAtTheSurfaceIsThatOfTheSurfaceInfluence) {
+  const RectangleInfluence s = rectangle_influence(homogeneous_compliance(kBody), 0.4, -0.7, 1, 0.6);
+  const InteriorDisplacement u = rectangle_displacement(kBody, 0.4, -0.7, 0, 1, 0.6), below = rectangle_displacement(kBody, 0.4, -0.7, 1e-9, 1, 0.6);
+  const double expected[3][3] = {{-s.nx, -s.ny, s.nn}, {s.xx, s.xy, s.nx}, {s.xy, s.yy, s.ny}};
+  for (std::size_t l = 0; l < 3; ++l) {
+    EXPECT_NEAR(u[l].x, expected[l][0], 1e-12 * s.nn);
+    EXPECT_NEAR(u[l].y, expected[l][1], 1e-12 * s.nn);
+    EXPECT_NEAR(u[l].z, expected[l][2], 1e-12 * s.nn);
+    EXPECT_NEAR(norm(below[l] - u[l]), 0, 1e-7 * s.nn) << "and continuous down to it";
+  }
+}
+
+// Two closed forms of one field: the derivatives of the displacements, by Hooke's law, are the stresses.
+TEST(Interior, StressesFollowFromTheDisplacementsByHookesLaw) {
+  const double e = 1e-4, G = kBody.shear(), lambda = 2 * G * kBody.poisson / (1 - 2 * kBody.poisson);
+  for (std::size_t load = 0; load < 3; ++load)
+    for (const Vec3 p : {Vec3{0.2, 0.1, 0.3}, Vec3{-0.9, 0.5, 0.15}, Vec3{0.45, -0.31, 1.2}}) {
+      const auto u = [&](Vec3 at) { return rectangle_displacement(kBody, at.x, at.y, at.z, 1, 0.6)[load]; };
+      const Vec3 dx = (0.5 / e) * (u(p + Vec3{e, 0, 0}) - u(p - Vec3{e, 0, 0})), dy = (0.5 / e) * (u(p + Vec3{0, e, 0}) - u(p - Vec3{0, e, 0})), dz = (0.5 / e) * (u(p + Vec3{0, 0, e}) - u(p - Vec3{0, 0, e}));
+      const Sym3 s = stress_of(rectangle_interior(kBody, p.x, p.y, p.z, 1, 0.6)[load], kBody);
+      const double spread = lambda * (dx.x + dy.y + dz.z);
+      EXPECT_NEAR(s.xx, spread + 2 * G * dx.x, 1e-6);
+      EXPECT_NEAR(s.yy, spread + 2 * G * dy.y, 1e-6);
+      EXPECT_NEAR(s.zz, spread + 2 * G * dz.z, 1e-6);
+      EXPECT_NEAR(s.xy, G * (dx.y + dy.x), 1e-6);
+      EXPECT_NEAR(s.yz, G * (dy.z + dz.y), 1e-6);
+      EXPECT_NEAR(s.xz, G * (dx.z + dz.x), 1e-6);
+    }
+}
+
 TEST(Interior, TableEqualsSingleRectangles) {
   const auto table = rectangle_interior_table(kBody, 0.2, 3, 4, 0.3, 0.2);
   for (int i = 0; i < 3; ++i)
@@ -76,6 +119,7 @@ TEST(Interior, TableEqualsSingleRectangles) {
         EXPECT_NEAR(t.s_zz, one.s_zz, 1e-14);
         EXPECT_NEAR(t.s_xz, one.s_xz, 1e-14);
         EXPECT_NEAR(t.e_xy * kBody.shear(), one.e_xy * kBody.shear(), 1e-14);
+        EXPECT_NEAR(norm(rectangle_displacement_table(kBody, 0.2, 3, 4, 0.3, 0.2)[static_cast<std::size_t>(4 * i + j)][l] - rectangle_displacement(kBody, i * 0.3, j * 0.2, 0.2, 0.3, 0.2)[l]) * kBody.shear(), 0, 1e-14);
       }
 }
 

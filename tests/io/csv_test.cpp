@@ -61,6 +61,30 @@ TEST_F(Csv, unequal_columns_and_names_with_commas_are_refused) {
   EXPECT_FALSE(fs::exists(file_));
 }
 
+TEST_F(Csv, a_table_reads_back_with_its_names_and_numbers) {
+  const std::vector<double> values = {1.0 / 3, -1e22, 0};
+  write_csv(file_, {"made by a test"}, {{"a_mm", values}, {"b", {1, 2, std::nan("")}}});
+  const CsvTable table = read_csv(file_);
+  EXPECT_EQ(table.rows(), 3u);
+  EXPECT_EQ(table.column("a_mm"), values);
+  EXPECT_EQ(table.column("b", 1e-3)[1], 2e-3);
+  EXPECT_TRUE(std::isnan(table.column("b")[2]));
+  EXPECT_THROW(table.column("c"), CaseError);
+}
+
+TEST_F(Csv, a_broken_table_is_refused_with_its_line) {
+  EXPECT_THROW(read_csv(file_), CaseError) << "no such file";
+  for (const char* row : {"1", "1,2,3", "1,x", "1,", "1;2"}) {
+    std::ofstream(file_) << "# origin\na,b\n1,2\n" << row << "\n";
+    try {
+      read_csv(file_);
+      ADD_FAILURE() << row;
+    } catch (const CaseError& e) {
+      EXPECT_EQ(std::string(e.what()).find(file_.string() + ":4: a row of 2 numbers is expected"), 0u) << e.what();
+    }
+  }
+}
+
 TEST(CsvLogOnAFullDisk, says_which_file) {
   CsvLog log("/dev/null", {}, {"a"});
   EXPECT_NO_THROW(log.add({1.0}));

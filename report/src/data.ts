@@ -1,0 +1,160 @@
+// What the program puts into the page: src/report/payload.cpp writes it, this file reads it. Millimetres, MPa, milliseconds and newtons, except in `summary`, which is
+// summary.json as it stands (SI).
+
+/// Numbers to 1/65534 of their range: 16-bit steps in base64; 65535 is "no value".
+interface PackedNumbers {
+  low: number;
+  high: number;
+  u16: string;
+}
+
+export interface Grid {
+  x: number[];
+  y: number[];
+  p: PackedNumbers;
+  q_x: PackedNumbers;
+  q_y: PackedNumbers;
+  slip_x: PackedNumbers;
+  slip_y: PackedNumbers;
+  state: string; // one digit a point: 0 separated, 1 stick, 2 slip
+}
+
+/// Values at cell centres, index along + along.length * row; rows go down from the surface.
+export interface Section {
+  at: number;
+  along: number[];
+  depth: number[];
+  von_mises: PackedNumbers;
+  sigma_1: PackedNumbers;
+  material: string; // one digit (base 36) a cell
+}
+
+export interface BodySections {
+  longitudinal: Section;
+  cross: Section;
+}
+
+export type Columns = Record<string, number[]>;
+
+export interface StressMaximum {
+  value_Pa: number;
+  x_m: number | null;
+  y_m: number | null;
+  depth_m: number | null;
+}
+export type Zones = Record<string, Record<"von_mises_max" | "sigma1_max", StressMaximum | null> | null>;
+
+export interface Layer {
+  name: string;
+  on: string;
+  thickness_m: number;
+  width_m: number;
+  young_Pa: number;
+  young_ratio: number;
+  bottom_m: [number, number][];
+}
+
+export interface Geometry {
+  rail_profile: string;
+  wheel_profile: string;
+  load_N: number;
+  contact: Record<string, number>;
+  hertz: { a_m: number; b_m: number; p0_Pa: number; approach_m: number };
+  rail_m: [number, number][];
+  wheel_m: [number, number][];
+  layers: Layer[];
+}
+
+export interface Run {
+  name: string;
+  folder: string;
+  engine: string;
+  title: string;
+  summary: {
+    position_m: number | null;
+    contact: Record<string, number | null>;
+    stress: Record<"rail" | "wheel", Zones>;
+    run: Record<string, number | string | null>;
+  };
+  case: [table: string, key: string, value: string][];
+  provenance: Record<string, unknown>;
+  geometry: Geometry | null;
+  patch: Grid;
+  centre_line: Columns & { y: number[] };
+  depth_line: Columns | null;
+  history: Columns | null;
+  sections: Partial<Record<"rail" | "wheel", BodySections>>;
+}
+
+export interface Check {
+  name: string;
+  runs: number[]; // one: the run's own; two: the first against the second
+  judged: boolean; // false: told, not judged
+  ok: boolean;
+  value: number | null;
+  limit: number | null;
+  note: string;
+}
+
+/// A table for the study: text cells are shown as they stand, numbers to four digits.
+export interface Table {
+  id: string;
+  title: string;
+  note: string;
+  columns: string[];
+  rows: (string | number | null)[][];
+}
+
+/// A chart of lines for the study.
+export interface Chart {
+  id: string;
+  title: string;
+  note: string;
+  x: string;
+  y: string;
+  series: { name: string; x: number[]; y: number[]; markers: boolean }[];
+}
+
+export interface Report {
+  title: string;
+  program: string;
+  checks: Check[];
+  runs: Run[];
+  tables: Table[];
+  charts: Chart[];
+}
+
+export function unpack(packed: PackedNumbers): (number | null)[] {
+  const bytes = atob(packed.u16);
+  const out: (number | null)[] = [];
+  const step = (packed.high - packed.low) / 65534;
+  for (let i = 0; i + 1 < bytes.length; i += 2) {
+    const k = bytes.charCodeAt(i) + 256 * bytes.charCodeAt(i + 1);
+    out.push(k === 65535 ? null : packed.low + step * k);
+  }
+  return out;
+}
+
+/// Rows of `width` values.
+export function rowsOf<T>(values: readonly T[], width: number): T[][] {
+  const rows: T[][] = [];
+  for (let i = 0; i < values.length; i += width) rows.push(values.slice(i, i + width));
+  return rows;
+}
+
+export function columnsOf<T>(values: readonly T[], height: number): T[][] {
+  const rows = rowsOf(values, height);
+  return Array.from({ length: height }, (_, j) => rows.map((row) => row[j]));
+}
+
+/// A number of summary.json by its path, "contact/p_max_Pa"; null if it is not there.
+export function numberAt(run: Run, path: string): number | null {
+  let at: unknown = run.summary;
+  for (const key of path.split("/")) at = at && typeof at === "object" ? (at as Record<string, unknown>)[key] : null;
+  return typeof at === "number" ? at : null;
+}
+
+/// Value of an option of the resolved case.
+export function option(run: Run, table: string, key: string): string | null {
+  return run.case.find(([t, k]) => t === table && k === key)?.[2] ?? null;
+}

@@ -1,0 +1,31 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "app/commands.hpp"
+#include "app/write_report.hpp"
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+std::filesystem::path page_of(const CommandOptions& options) {
+  const std::filesystem::path page = options.out.empty() ? options.folders.front() / "report.html" : options.out;
+  if (std::filesystem::is_directory(page)) return page / "report.html";
+  return page;
+}
+
+}  // namespace
+
+ExitCode command_report(const CommandOptions& options) {
+  if (options.folders.size() > 1 && options.out.empty()) throw CaseError("a report on several folders needs a place", "name the page with --out, e.g. --out comparison.html");
+  const std::filesystem::path page = page_of(options);
+  if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path());
+  write_report(page, options.folders, options.reference_solution, options.threads);
+  if (options.json) fmt::print("{{\"report\": \"{}\"}}\n", page.generic_string());
+  spdlog::info("the report is {}", page.string());
+  return ExitCode::ok;
+}
+
+}  // namespace railstrata

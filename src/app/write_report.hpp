@@ -1,0 +1,18 @@
+#pragma once
+// From result folders to a report.
+#include <filesystem>
+#include <vector>
+
+namespace railstrata {
+
+/// Folder of the half-space solution beside a finite element result.
+inline constexpr const char* kReferenceFolder = "half_space";
+
+/// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that is there already. Of several positions each has the one
+/// of the run's folder. Returns the folder; empty, with a warning that says why, where the case or its profiles cannot be read any more or theory has no answer.
+std::filesystem::path half_space_reference(const std::filesystem::path& folder, int threads);
+
+/// Writes the page for these folders. A single finite element result is set against its half-space reference if `reference` says so.
+void write_report(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders, bool reference, int threads);
+
+}  // namespace railstrata

@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "io/units.hpp"
+#include "report/report.hpp"
+
+namespace railstrata {
+namespace {
+
+/// What tells how a case is computed, not what it is.
+bool is_numerical(const CaseOption& o) {
+  static const std::set<std::string> tables{"case", "mesh", "contact", "output"}, keys{"layer.elements", "drive.torque_ramp", "drive.creepage_start"};
+  if (tables.contains(o.table)) return true;
+  if (o.table == "run") return o.key != "rolling";
+  return keys.contains(o.table.substr(0, o.table.find('.')) + "." + o.key);
+}
+
+/// "layer.0.thickness: 1 mm, 2 mm" for every physical option that differs.
+std::vector<std::string> differences(const ReportRun& a, const ReportRun& b) {
+  std::vector<std::string> out;
+  for (const CaseOption& o : a.options)
+    if (!is_numerical(o) && b.option(o.table, o.key) != o.value) out.push_back(fmt::format("{}.{}: {}, {}", o.table, o.key, o.value, b.option(o.table, o.key).empty() ? "none" : b.option(o.table, o.key)));
+  for (const CaseOption& o : b.options)
+    if (!is_numerical(o) && a.option(o.table, o.key).empty() && !o.value.empty()) out.push_back(fmt::format("{}.{}: none, {}", o.table, o.key, o.value));
+  return out;
+}
+
+struct Place {
+  double value = std::numeric_limits<double>::quiet_NaN(), depth = 0;
+};
+
+Place von_mises_below_surface(const ReportRun& run) {
+  Place best;
+  for (const char* zone : {"subsurface", "layer", "interface", "matrix"}) {
+    const std::string at = fmt::format("/stress/rail/{}/von_mises_max/", zone);
+    const double value = run.result.number(at + "value_Pa");
+    if (std::isfinite(value) && !(value <= best.value)) best = {value, run.result.number(at + "depth_m")};
+  }
+  return best;
+}
+
+double element_size(const ReportRun& run) {
+  try {
+    return parse_quantity(run.option("mesh", "element_size"), dimension::kLength);
+  } catch (const UnitError&) {
+    return 0;
+  }
+}
+
+ReportCheck within(std::string name, std::vector<int> runs, double a, double b, double limit) {
+  const double value = std::abs(a / b - 1);
+  if (!std::isfinite(value)) return {std::move(name), std::move(runs), false, true, value, limit, "one of the two has no such number"};
+  return {std::move(name), std::move(runs), true, value <= limit, value, limit, {}};
+}
+
+void add_own(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
+  if (!run.result.summary.contains("checks") || !run.result.summary["checks"].is_array()) return;
+  for (const auto& c : run.result.summary["checks"]) {
+    if (!c.is_object()) continue;
+    const auto number = [&](const char* key) { return c.contains(key) && c[key].is_number() ? c[key].get<double>() : std::numeric_limits<double>::quiet_NaN(); };
+    out.push_back({c.value("name", "check"), {index}, true, c.value("ok", false), number("value"), number("limit"), {}});
+  }
+}
+
+void add_pair(const std::vector<ReportRun>& runs, int fem, int bem, std::vector<ReportCheck>& out) {
+  const ResultFolder &a = runs[fem].result, &b = runs[bem].result;
+  const std::vector<int> both{fem, bem};
+  out.push_back(within("p_max", both, a.number("/contact/p_max_Pa"), b.number("/contact/p_max_Pa"), 0.04));
+  out.push_back(within("patch_length", both, a.number("/contact/patch_length_m"), b.number("/contact/patch_length_m"), 0.06));
+  if (b.number("/contact/q_max_Pa") > 0) out.push_back(within("q_max", both, a.number("/contact/q_max_Pa"), b.number("/contact/q_max_Pa"), 0.07));
+  const Place ours = von_mises_below_surface(runs[fem]), theirs = von_mises_below_surface(runs[bem]);
+  ReportCheck stress = within("von_mises_below_surface", both, ours.value, theirs.value, 0.08);
+  if (const double h = element_size(runs[fem]); stress.judged && theirs.depth <= h) {
+    stress.judged = false;
+    stress.note = fmt::format("not judged: the half-space's largest lies {:.2f} mm deep, within an element of {:.2f} mm", 1e3 * theirs.depth, 1e3 * h);
+  }
+  out.push_back(std::move(stress));
+}
+
+}  // namespace
+
+std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
+  std::vector<ReportCheck> out;
+  const int n = static_cast<int>(runs.size());
+  for (int i = 0; i < n; ++i) add_own(runs[i], i, out);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      if (runs[i].result.engine == "fem" && runs[j].result.engine == "bem" && differences(runs[i], runs[j]).empty()) add_pair(runs, i, j, out);
+  if (n == 2)
+    if (std::vector<std::string> d = differences(runs[0], runs[1]); !d.empty()) {
+      const std::size_t shown = std::min<std::size_t>(d.size(), 12), left = d.size() - shown;
+      d.resize(shown);
+      out.push_back({"cases_differ", {0, 1}, false, true, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+                     fmt::format("{}{}", fmt::join(d, "; "), left ? fmt::format("; and {} more", left) : "")});
+    }
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,183 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/faults.hpp"
+#include "io/provenance.hpp"
+#include "post/patch.hpp"
+#include "report/base64.hpp"
+#include "report/report.hpp"
+
+namespace railstrata {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kMostPoints = 300, kMostRows = 1500;
+constexpr double kMilli = 1e3, kMega = 1e-6;
+
+Json number(double v) { return std::isfinite(v) ? Json(std::stod(fmt::format("{:.6g}", v))) : Json(nullptr); }
+
+Json numbers(const std::vector<double>& values, double factor = 1) {
+  Json out = Json::array();
+  for (double v : values) out.push_back(number(factor * v));
+  return out;
+}
+
+/// 16 bits a number, low byte first: low + (high - low) k / 65534; 65535 stands for no number.
+Json packed(const std::vector<double>& values) {
+  double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
+  for (double v : values)
+    if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+  if (low > high) low = high = 0;
+  std::string bytes;
+  for (double v : values) {
+    const auto k = std::isfinite(v) ? static_cast<std::uint16_t>(high > low ? std::lround((v - low) / (high - low) * 65534) : 0) : std::uint16_t{65535};
+    bytes += static_cast<char>(k & 0xFF);
+    bytes += static_cast<char>(k >> 8);
+  }
+  return {{"low", low}, {"high", high}, {"u16", base64_of(bytes)}};
+}
+
+/// Every n-th index from first to last, at most kMostPoints of them.
+std::vector<int> thinned(int first, int last) {
+  const int step = 1 + (last - first) / kMostPoints;
+  std::vector<int> out;
+  for (int i = first; i <= last; i += step) out.push_back(i);
+  return out;
+}
+
+struct Range {
+  int first, last;
+};
+
+/// The stations (or columns) that touch, and so many beside them that 2 mm are clear on either side.
+template <class Coordinate, class Touches>
+Range touching(int n, Coordinate&& at, Touches&& touches) {
+  constexpr double kMargin = 2e-3;
+  int first = 0, last = n - 1;
+  while (first < n && !touches(first)) ++first;
+  if (first == n) return {0, n - 1};
+  while (!touches(last)) --last;
+  const double low = at(first) - kMargin, high = at(last) + kMargin;
+  while (first > 0 && at(first) > low) --first;
+  while (last + 1 < n && at(last) < high) ++last;
+  return {first, last};
+}
+
+Json patch(const ContactField& f) {
+  const auto at = [&](int s, int c) { return static_cast<std::size_t>(s) * f.columns + c; };
+  const auto station_touches = [&](int s) { return std::any_of(f.p.begin() + at(s, 0), f.p.begin() + at(s, 0) + f.columns, [](double p) { return p > 0; }); };
+  const auto column_touches = [&](int c) {
+    for (int s = 0; s < f.stations; ++s)
+      if (f.p[at(s, c)] > 0) return true;
+    return false;
+  };
+  const Range sr = touching(f.stations, [&](int s) { return f.x[at(s, 0)]; }, station_touches), cr = touching(f.columns, [&](int c) { return f.y[c]; }, column_touches);
+  const std::vector<int> stations = thinned(sr.first, sr.last), columns = thinned(cr.first, cr.last);
+  Json out;
+  out["x"] = Json::array(), out["y"] = Json::array();
+  for (int s : stations) out["x"].push_back(number(kMilli * f.x[at(s, 0)]));
+  for (int c : columns) out["y"].push_back(number(kMilli * f.y[c]));
+  const auto values = [&](const std::vector<double>& all, double factor) {
+    std::vector<double> v;
+    for (int s : stations)
+      for (int c : columns) v.push_back(factor * all[at(s, c)]);
+    return packed(v);
+  };
+  out["p"] = values(f.p, kMega), out["q_x"] = values(f.q_x, kMega), out["q_y"] = values(f.q_y, kMega);
+  out["slip_x"] = values(f.slip_x, kMilli), out["slip_y"] = values(f.slip_y, kMilli);
+  std::string state;
+  for (int s : stations)
+    for (int c : columns) state += static_cast<char>('0' + static_cast<int>(f.state[at(s, c)]));
+  out["state"] = state;
+  return out;
+}
+
+Json centre(const ContactField& field) {
+  const CentreLine line = centre_line(field);
+  return {{"x_mm", numbers(line.x, kMilli)}, {"p_MPa", numbers(line.p, kMega)}, {"q_x_MPa", numbers(line.q_x, kMega)}, {"q_y_MPa", numbers(line.q_y, kMega)}, {"y", Json::array({number(kMilli * line.y)})}};
+}
+
+Json columns(const std::optional<CsvTable>& table) {
+  if (!table) return nullptr;
+  const std::size_t step = 1 + (table->rows() - 1) / kMostRows;
+  Json out = Json::object();
+  for (const CsvColumn& c : table->columns) {
+    std::vector<double> v;
+    for (std::size_t i = 0; i < c.values.size(); i += step) v.push_back(c.values[i]);
+    out[c.name] = numbers(v);
+  }
+  return out;
+}
+
+Json section(const CsvTable& table, bool longitudinal) {
+  const std::vector<double> x = table.column("x_mm"), y = table.column("y_mm"), depth = table.column("depth_mm"), material = table.column("material");
+  std::size_t width = 0;
+  while (width < depth.size() && depth[width] == depth[0]) ++width;
+  if (width < 2 || depth.size() % width != 0 || depth.size() < 2 * width) throw CaseError("the rows are not a section", "write the results anew with `railstrata run` or `railstrata bem`", table.file.string());
+  const std::vector<double>& along = longitudinal ? x : y;
+  std::vector<double> rows;
+  for (std::size_t i = 0; i < depth.size(); i += width) rows.push_back(depth[i]);
+  std::string digits;
+  for (double m : material) digits += "0123456789abcdefghijklmnopqrstuvwxyz"[std::clamp(static_cast<int>(m), 0, 35)];
+  return {{"at", number(longitudinal ? y[0] : x[0])},
+          {"along", numbers({along.begin(), along.begin() + static_cast<std::ptrdiff_t>(width)})},
+          {"depth", numbers(rows)},
+          {"von_mises", packed(table.column("von_mises_MPa"))},
+          {"sigma_1", packed(table.column("sigma_1_MPa"))},
+          {"material", digits}};
+}
+
+Json sections(const ReportRun& run) {
+  Json out = Json::object();
+  for (const char* body : {"rail", "wheel"}) {
+    const auto along = run.sections.find(std::string(body) + "_longitudinal"), across = run.sections.find(std::string(body) + "_cross");
+    if (along != run.sections.end() && across != run.sections.end()) out[body] = {{"longitudinal", section(along->second, true)}, {"cross", section(across->second, false)}};
+  }
+  return out;
+}
+
+Json run_json(const ReportRun& run) {
+  Json options = Json::array();
+  for (const CaseOption& o : run.options) options.push_back({o.table, o.key, o.value});
+  return {{"name", run.name},
+          {"folder", run.result.folder.string()},
+          {"engine", run.result.engine},
+          {"title", run.result.title},
+          {"summary", run.result.summary},
+          {"case", options},
+          {"provenance", run.provenance.is_object() ? run.provenance : Json::object()},
+          {"geometry", run.geometry},
+          {"patch", patch(run.result.field)},
+          {"centre_line", centre(run.result.field)},
+          {"depth_line", columns(run.depth_line)},
+          {"history", columns(run.history)},
+          {"sections", sections(run)}};
+}
+
+Json finite(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+}  // namespace
+
+Json report_payload(const Report& report) {
+  Json out;
+  out["title"] = report.title;
+  out["program"] = version_text();
+  out["checks"] = Json::array(), out["runs"] = Json::array(), out["tables"] = Json::array(), out["charts"] = Json::array();
+  for (const ReportCheck& c : report.checks)
+    out["checks"].push_back({{"name", c.name}, {"runs", c.runs}, {"judged", c.judged}, {"ok", c.ok}, {"value", finite(c.value)}, {"limit", finite(c.limit)}, {"note", c.note}});
+  for (const ReportRun& run : report.runs) out["runs"].push_back(run_json(run));
+  for (const ReportTable& t : report.tables) out["tables"].push_back({{"id", t.id}, {"title", t.title}, {"note", t.note}, {"columns", t.columns}, {"rows", t.rows}});
+  for (const ReportChart& c : report.charts) {
+    Json series = Json::array();
+    for (const ReportSeries& s : c.series) series.push_back({{"name", s.name}, {"x", numbers(s.x)}, {"y", numbers(s.y)}, {"markers", s.markers}});
+    out["charts"].push_back({{"id", c.id}, {"title", c.title}, {"note", c.note}, {"x", c.x}, {"y", c.y}, {"series", series}});
+  }
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,89 @@
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "core/faults.hpp"
+#include "report/report.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file of the folder, or of the one it stands in if it is one of several positions; empty if neither has it.
+fs::path file_of(const fs::path& folder, const std::string& name) {
+  if (fs::exists(folder / name)) return folder / name;
+  const fs::path full = fs::absolute(folder).lexically_normal();
+  if (full.filename().string().starts_with("position_") && fs::exists(full.parent_path() / name)) return full.parent_path() / name;
+  return {};
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+nlohmann::ordered_json json_of(const fs::path& file) {
+  if (file.empty()) return nullptr;
+  nlohmann::ordered_json out = nlohmann::ordered_json::parse(text_of(file), nullptr, false);
+  if (!out.is_object()) throw CaseError("this is not a JSON object", "write the results anew with `railstrata run` or `railstrata bem`", file.string());
+  return out;
+}
+
+std::string trimmed(std::string text) {
+  text.erase(0, text.find_first_not_of(" \t"));
+  text.erase(text.find_last_not_of(" \t\r") + 1);
+  return text;
+}
+
+std::string unquoted(const std::string& text) { return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text; }
+
+/// The resolved case has a line for each option: "[table]", "[[layer]]", "key = value".
+std::vector<CaseOption> options_of(const std::string& text) {
+  std::vector<CaseOption> out;
+  std::string table;
+  int layers = 0;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    line = trimmed(line);
+    if (line.empty() || line[0] == '#') continue;
+    if (line.starts_with("[[")) table = fmt::format("layer.{}", layers++);
+    else if (line[0] == '[') table = line.substr(1, line.find(']') - 1);
+    else if (const auto equals = line.find('='); equals != std::string::npos) out.push_back({table, trimmed(line.substr(0, equals)), unquoted(trimmed(line.substr(equals + 1)))});
+  }
+  return out;
+}
+
+std::optional<CsvTable> table_of(const fs::path& file) {
+  if (file.empty()) return std::nullopt;
+  CsvTable table = read_csv(file);
+  if (table.rows() == 0) return std::nullopt;
+  return table;
+}
+
+}  // namespace
+
+std::string ReportRun::option(const std::string& table, const std::string& key) const {
+  for (const CaseOption& o : options)
+    if (o.table == table && o.key == key) return o.value;
+  return {};
+}
+
+ReportRun read_report_run(const fs::path& folder) {
+  ReportRun run;
+  run.result = read_result_folder(folder);
+  run.name = fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
+  if (const fs::path file = file_of(folder, "case.toml"); !file.empty()) run.options = options_of(text_of(file));
+  run.provenance = json_of(file_of(folder, "provenance.json"));
+  run.geometry = json_of(file_of(folder, "geometry.json"));
+  run.depth_line = table_of(file_of(folder, "depth_line.csv"));
+  run.history = table_of(file_of(folder, "history.csv"));
+  for (const char* name : {"rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"})
+    if (auto table = table_of(file_of(folder, std::string(name) + "_section.csv"))) run.sections.emplace(name, std::move(*table));
+  return run;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,10 @@
+#pragma once
+// view.py: the result in ParaView or VTK.
+#include <filesystem>
+
+namespace railstrata {
+
+/// Writes report/view.py into a result folder with its absolute path: the script finds its files beside itself, and by that path where it is not told where it lies.
+void write_view_script(const std::filesystem::path& folder);
+
+}  // namespace railstrata
