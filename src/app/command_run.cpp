@@ -6,6 +6,7 @@
 
 #include "app/commands.hpp"
 #include "app/output_folder.hpp"
+#include "app/processors.hpp"
 #include "app/progress.hpp"
 #include "app/run_fem.hpp"
 #include "app/stop_flag.hpp"
@@ -47,6 +48,8 @@ ExitCode command_run(const CommandOptions& options) {
   prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   spdlog::info("{}: results go to {}", loaded.spec.title, out.string());
+
+  if (const std::string slow = oversubscription(options.threads); !slow.empty()) spdlog::warn("{}", slow);
 
   FemRequest request;
   request.spec = loaded.spec;

@@ -10,6 +10,7 @@
 #include <new>
 
 #include "app/commands.hpp"
+#include "app/processors.hpp"
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
 #include "io/provenance.hpp"
@@ -161,8 +162,8 @@ int parse_and_run(const std::vector<std::string>& words, CommandOptions& options
   app.fallthrough();
   bool quiet = false;
   int verbose = 0;
-  options.threads = max_threads();
-  app.add_option("-j,--threads", options.threads, "Threads (default: all the system offers)")->check(CLI::Range(1, 1024));
+  options.threads = default_threads();
+  app.add_option("-j,--threads", options.threads, "Threads (default: OMP_NUM_THREADS, or one a core)")->check(CLI::Range(1, 1024));
   app.add_flag("--json", options.json, "Results on standard output as JSON");
   app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
   app.add_flag("-v,--verbose", verbose, "Say more");

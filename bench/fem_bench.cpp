@@ -1,0 +1,201 @@
+// Explicit steps against what the machine can do: fused multiply-adds and memory traffic are measured in the same run, and every rate is given with its share of both.
+//
+// Arithmetic and traffic of one element-step, counted from the law (src/element/swept_hex.hpp) and the update: see kFlops and kBytes. The traffic is the least possible,
+// with every nodal value moved once; what a run really moves is more where tiles do not stay in cache.
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "core/parallel.hpp"
+#include "fem/stepper.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kFlops[2] = {564, 620};  // extruded, revolved: kinematics 153, stress 98, hourglass 136, forces 153, sums and differences 24; frames 56
+constexpr double kBytes = 104;            // u and v read and written, 1/m read, 24 + 24 + 24 + 24 + 8
+
+// -- the machine ------------------------------------------------------------------------------------------------------------------------------------------
+
+template <class Real>
+double multiply_adds(long rounds) {
+  PackOf<Real> a[12], m = PackOf<Real>{} + Real(0.999999), c = PackOf<Real>{} + Real(1e-9);
+  for (int i = 0; i < 12; ++i) a[i] = PackOf<Real>{} + Real(i);
+  for (long k = 0; k < rounds; ++k) {
+    RAILSTRATA_UNROLL
+    for (int i = 0; i < 12; ++i) {
+      a[i] = a[i] * m + c;
+      asm volatile("" : "+v"(a[i]));  // one at a time, in a register
+    }
+  }
+  for (int i = 1; i < 12; ++i) a[0] += a[i];
+  benchmark::DoNotOptimize(a[0]);
+  return static_cast<double>(rounds) * 12 * 2 * kLanesOf<Real>;
+}
+
+template <class Real>
+void peak_arithmetic(benchmark::State& state) {
+  const int threads = static_cast<int>(state.range(0));
+  set_threads(threads);
+  double flops = 0;
+  for (auto _ : state) for_each(threads, [](std::ptrdiff_t) { multiply_adds<Real>(200000); });
+  flops = static_cast<double>(state.iterations()) * threads * 200000.0 * 12 * 2 * kLanesOf<Real>;
+  state.counters["GF/s"] = benchmark::Counter(1e-9 * flops, benchmark::Counter::kIsRate);
+}
+BENCHMARK(peak_arithmetic<double>)->Arg(1)->Arg(2)->UseRealTime();
+BENCHMARK(peak_arithmetic<float>)->Arg(1)->Arg(2)->UseRealTime();
+
+/// Reads and writes 13 doubles a node in as many streams as a step has.
+void memory_traffic(benchmark::State& state) {
+  const int threads = static_cast<int>(state.range(0));
+  set_threads(threads);
+  const std::ptrdiff_t nodes = 1 << 20;
+  std::vector<Field> u(6, Field(nodes, 1.0));
+  Field m(nodes, 1e-9);
+  for (auto _ : state)
+    for_each(nodes / 4096, [&](std::ptrdiff_t piece) {
+      for (std::ptrdiff_t i = 4096 * piece; i < 4096 * (piece + 1); ++i)
+        for (int k = 0; k < 3; ++k) u[k][i] += m[i] * (u[k + 3][i] += m[i]);
+    });
+  state.counters["GB/s"] = benchmark::Counter(static_cast<double>(state.iterations() * nodes) * kBytes * 1e-9, benchmark::Counter::kIsRate);
+}
+BENCHMARK(memory_traffic)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
+
+// -- swept lines without contact --------------------------------------------------------------------------------------------------------------------------
+
+struct Lines {
+  Solid solid;
+  Field u, v, f, inverse_mass;
+  Lines(SweepKind kind, Precision precision, int columns, int rows, int stations) : solid(body(kind, columns, rows, stations), {elastic(210e9, 0.3, 7800)}, {ElementKind::full, 0.05, precision}) {
+    u = v = f = inverse_mass = solid.layout().field();
+    for (std::size_t i = 0; i < u.size(); ++i) inverse_mass[i] = solid.mass()[i] > 0 ? 1 / solid.mass()[i] : 0, v[i] = 1e-3 * std::sin(static_cast<double>(i));
+  }
+  static SweptBody body(SweepKind kind, int columns, int rows, int stations) {
+    SweptBody b = mesh_brick(columns, rows, stations, 1e-3, 1e-3, 1e-3);
+    b.kind = kind;
+    if (kind == SweepKind::revolve) {
+      for (Vec2& n : b.blocks[0].section.nodes) n.z -= 0.43;
+      for (double& t : b.blocks[0].stations.at) t /= 0.43;
+    }
+    return b;
+  }
+  void advance(int node, int begin, int end, const double* const (&row)[3]) {
+    const BlockLayout& l = solid.layout().blocks[0];
+    const double dt = 1e-7;
+    for (int i = 0; i < 3; ++i) {
+      double *pu = u.data() + l.line(node, i), *pv = v.data() + l.line(node, i);
+      const double* m = inverse_mass.data() + l.line(node, 0);
+#pragma GCC ivdep
+      for (int j = begin; j < end; ++j) {
+        pv[j] -= dt * m[j] * row[i][j];
+        pu[j] += dt * pv[j];
+      }
+    }
+  }
+  void step() {
+    const BlockLayout& l = solid.layout().blocks[0];
+    solid.begin_forces(u, 0);
+    const Solid::TakeRows take = [&](const Solid::Tile& t, int node, const double* rows) {
+      advance(node, t.first + 1, t.end, {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
+      return true;
+    };
+    const Solid::ExpectRows expect = [&](const Solid::Tile& t, int node) {
+      for (int i = 0; i < 3; ++i) fetch(&v[l.line(node, i) + t.first], t.end - t.first);
+      fetch(&inverse_mass[l.line(node, 0) + t.first], t.end - t.first);
+    };
+    for_each(solid.tiles(), [&](std::ptrdiff_t t) { solid.tile_forces(static_cast<int>(t), u, f, take, expect); }, true);
+    solid.end_forces(f);
+    for_each(l.nodes, [&](std::ptrdiff_t n) {
+      const double* row[3] = {f.data() + l.line(static_cast<int>(n), 0), f.data() + l.line(static_cast<int>(n), 1), f.data() + l.line(static_cast<int>(n), 2)};
+      for (int t = 0; t < solid.tiles(); ++t) advance(static_cast<int>(n), solid.tile(t).first, solid.tile(t).first + 1, {row[0], row[1], row[2]});
+      advance(static_cast<int>(n), l.stations - 1, l.stations, {row[0], row[1], row[2]});
+    });
+  }
+};
+
+void set_rates(benchmark::State& state, double element_steps, double flops) {
+  state.counters["Mel-steps/s"] = benchmark::Counter(1e-6 * element_steps, benchmark::Counter::kIsRate);
+  state.counters["GF/s"] = benchmark::Counter(1e-9 * element_steps * flops, benchmark::Counter::kIsRate);
+  state.counters["GB/s"] = benchmark::Counter(1e-9 * element_steps * kBytes, benchmark::Counter::kIsRate);
+}
+
+/// Arguments: threads, stations.
+template <SweepKind kind, Precision precision>
+void swept_lines(benchmark::State& state) {
+  set_threads(static_cast<int>(state.range(0)));
+  const int stations = static_cast<int>(state.range(1));
+  Lines lines(kind, precision, 32, 32, stations);
+  lines.step();
+  for (auto _ : state) lines.step();
+  set_rates(state, static_cast<double>(state.iterations()) * 1024.0 * stations, kFlops[kind == SweepKind::revolve]);
+}
+void sizes(benchmark::internal::Benchmark* b) {
+  b->ArgNames({"threads", "stations"})->UseRealTime()->Unit(benchmark::kMillisecond);
+  for (int threads : {1, 2})
+    for (int stations : {125, 250, 1000}) b->Args({threads, stations});
+}
+BENCHMARK(swept_lines<SweepKind::extrude, Precision::double_precision>)->Apply(sizes);
+BENCHMARK(swept_lines<SweepKind::extrude, Precision::single_precision>)->Apply(sizes);
+BENCHMARK(swept_lines<SweepKind::revolve, Precision::double_precision>)->Apply(sizes);
+BENCHMARK(swept_lines<SweepKind::revolve, Precision::single_precision>)->Apply(sizes);
+
+// -- whole steps of a case --------------------------------------------------------------------------------------------------------------------------------
+
+/// The paper's base case, elements of `millimetres`, after the run-up damping has gone: contact, suspension, ties, absorbers.
+struct Rolling {
+  RollingSystem system;
+  std::unique_ptr<Stepper> stepper;
+  double preload_seconds = 0;
+  Rolling(double millimetres, const char* precision) : system(build_model(spec(millimetres, precision), ".")) {
+    const PreloadResult preload = solve_preload(system, 1e-2);
+    preload_seconds = preload.wall_seconds;
+    stepper = std::make_unique<Stepper>(system, preload);
+  }
+  static CaseSpec spec(double millimetres, const char* precision) {
+    CaseSpec s;
+    s.geometry.wheel_profile = "LMA";
+    s.geometry.rail_profile = "CN60";
+    s.geometry.cant = 1.0 / 40;
+    s.geometry.lateral_shift = 1.5e-3;
+    s.drive.speed = 27.78;
+    s.drive.traction_coefficient = 0.2;
+    s.drive.friction_coefficient = 0.5;
+    s.mesh.element_size = 1e-3 * millimetres;
+    s.run.positions = {0.3};
+    s.run.run_up = 0;
+    s.run.precision = precision;
+    return s;
+  }
+};
+
+Rolling& rolling(double millimetres, bool single) {
+  static std::map<std::pair<double, bool>, std::unique_ptr<Rolling>> known;
+  auto& here = known[{millimetres, single}];
+  if (!here) here = std::make_unique<Rolling>(millimetres, single ? "single" : "double");
+  return *here;
+}
+
+/// Arguments: threads, element size in tenths of a millimetre, single precision. One history row in 50 steps, as a run at 100 km/h has with 0.2 mm between rows.
+void whole_steps(benchmark::State& state) {
+  set_threads(2);
+  Rolling& r = rolling(0.1 * static_cast<double>(state.range(1)), state.range(2) != 0);
+  set_threads(static_cast<int>(state.range(0)));
+  long k = 0;
+  for (auto _ : state) {
+    if (k++ % 50 == 0) r.stepper->want_energy();
+    r.stepper->step();
+  }
+  const double elements = static_cast<double>(r.system.model.rail.elements() + r.system.model.wheel.elements());
+  set_rates(state, static_cast<double>(state.iterations()) * elements, 0.5 * (kFlops[0] + kFlops[1]));
+  state.counters["elements"] = elements;
+  state.counters["dt_ns"] = 1e9 * r.stepper->dt();
+  state.counters["preload_s(1e-2)"] = r.preload_seconds;
+}
+BENCHMARK(whole_steps)->ArgNames({"threads", "h/0.1mm", "single"})->ArgsProduct({{1, 2}, {20, 10}, {0, 1}})->UseRealTime()->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace railstrata
+
+BENCHMARK_MAIN();

@@ -1,0 +1,51 @@
+#include "app/processors.hpp"
+
+#include <fmt/format.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <set>
+#include <vector>
+
+#include "core/parallel.hpp"
+
+namespace railstrata {
+namespace {
+
+std::vector<int> allowed_processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  std::vector<int> out;
+  if (sched_getaffinity(0, sizeof set, &set) == 0)
+    for (int i = 0; i < CPU_SETSIZE; ++i)
+      if (CPU_ISSET(i, &set)) out.push_back(i);
+  return out;
+}
+
+}  // namespace
+
+int physical_cores() {
+  std::set<std::string> cores;  // by the list of their hardware threads
+  for (int i : allowed_processors()) {
+    std::ifstream file(fmt::format("/sys/devices/system/cpu/cpu{}/topology/thread_siblings_list", i));
+    std::string siblings;
+    cores.insert(std::getline(file, siblings) ? siblings : fmt::format("{}", i));
+  }
+  return std::max(1, static_cast<int>(cores.size()));
+}
+
+int default_threads() { return std::getenv("OMP_NUM_THREADS") != nullptr ? max_threads() : std::min(max_threads(), physical_cores()); }
+
+std::string oversubscription(int threads) {
+  const int processors = std::max(1, static_cast<int>(allowed_processors().size()));
+  if (threads > processors) return fmt::format("{} threads share {} processor{}: fewer would be faster, see --threads", threads, processors, processors == 1 ? "" : "s");
+  double load = 0;
+  if (std::ifstream file("/proc/loadavg"); !(file >> load)) return {};
+  if (load + threads > 1.5 * processors)
+    return fmt::format("other programs keep {:.1f} of {} processors busy (mean of the last minute): this will take longer than on a free machine", std::min(load, 1.0 * processors), processors);
+  return {};
+}
+
+}  // namespace railstrata
