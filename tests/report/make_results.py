@@ -1,0 +1,75 @@
+#!/usr/bin/env python3
+"""Result folders for the tests of the report: fem (a wheel on a layered block, 30 mm of rolling), its reference fem/half_space, bem (LMA on CN60 by half-spaces, with two
+layers), old (what folders held before they had sections and geometry). usage: make_results.py BINARY FOLDER"""
+import pathlib
+import shutil
+import subprocess
+import sys
+
+BINARY, FOLDER = sys.argv[1], pathlib.Path(sys.argv[2])
+ROLLING = """
+[case]
+title = "a wheel <b>on</b> a layered block & more"
+[geometry]
+rail_profile = "flat"
+wheel_profile = "arc:R=430 mm"
+rail_shape = "block"
+wheel_shape = "disc"
+cant = 0.0
+bore_radius = "250 mm"
+[[layer]]
+name = "clad"
+thickness = "3 mm"
+young_ratio = 2.0
+[vehicle]
+wheel_mass = "1500 kg"
+sprung_mass = "7000 kg"
+[mesh]
+element_size = "3 mm"
+fine_width = "30 mm"
+fine_depth = "12 mm"
+coarse_ratio = 2
+largest = "20 mm"
+end_length = "60 mm"
+[drive]
+torque_ramp = "0.5 ms"
+[run]
+positions = ["30 mm"]
+window = "6 mm"
+run_up = "0 mm"
+"""
+HALF_SPACE = """
+[case]
+title = "two layers by half-spaces"
+[geometry]
+lateral_shift = "1.5 mm"
+[[layer]]
+name = "hard"
+thickness = "0.5 mm"
+young_ratio = 1.5
+[[layer]]
+name = "bond"
+thickness = "1.5 mm"
+young_ratio = 0.8
+"""
+
+
+def railstrata(*words):
+    done = subprocess.run([BINARY, *map(str, words)], capture_output=True, text=True, timeout=240)
+    if done.returncode not in (0, 1):  # 1: a check of so coarse a result may fail
+        sys.exit(f"{words}: exit {done.returncode}\n{done.stdout}{done.stderr}")
+
+
+shutil.rmtree(FOLDER, ignore_errors=True)
+FOLDER.mkdir(parents=True)
+(FOLDER / "rolling.toml").write_text(ROLLING)
+(FOLDER / "layers.toml").write_text(HALF_SPACE)
+railstrata("run", FOLDER / "rolling.toml", "--out", FOLDER / "fem", "--threads", "1", "--quiet")
+railstrata("bem", FOLDER / "layers.toml", "--out", FOLDER / "bem", "--cell", "0.4 mm", "--threads", "1", "--quiet")
+railstrata("report", FOLDER / "fem", "--quiet")
+railstrata("report", FOLDER / "bem", "--quiet")
+shutil.copytree(FOLDER / "fem", FOLDER / "old")
+for file in [*(FOLDER / "old").glob("*_section.csv"), FOLDER / "old" / "geometry.json", FOLDER / "old" / "report.html"]:
+    file.unlink(missing_ok=True)
+railstrata("report", FOLDER / "old", "--no-reference", "--quiet")
+railstrata("report", FOLDER / "fem", FOLDER / "bem", FOLDER / "fem" / "half_space", "--out", FOLDER / "three.html", "--quiet")

@@ -1,0 +1,338 @@
+#!/usr/bin/env python3
+"""The report as a reader meets it: in a browser, from the disk, its numbers held against the files of the result folder. usage: page_test.py BINARY RESULTS"""
+import json
+import pathlib
+import re
+import subprocess
+import sys
+import unittest
+
+sys.dont_write_bytecode = True
+from browser import Browser
+from tables import read_table, row_borders
+
+BINARY, RESULTS = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
+FEM, BEM, HALF_SPACE = RESULTS / "fem", RESULTS / "bem", RESULTS / "fem" / "half_space"
+
+
+def summary_of(folder):
+    return json.loads((folder / "summary.json").read_text())
+
+
+def number_in(text):
+    """The first number of a text, as the page writes numbers."""
+    found = re.search(r"(−?\d[\d ]*\.?\d*)(?: × 10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+))?", text)
+    power = int("".join("-" if c == "⁻" else str("⁰¹²³⁴⁵⁶⁷⁸⁹".index(c)) for c in found[2])) if found[2] else 0
+    return float(found[1].replace("−", "-").replace(" ", "")) * 10.0**power
+
+
+def cells(table, value):
+    """(place, value) of the largest value of a section's or patch's table."""
+    return max(range(len(table[value])), key=lambda k: table[value][k])
+
+
+class Page(unittest.TestCase):
+    file: pathlib.Path
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = cls.enterClassContext(Browser())
+        cls.browser.open(cls.file)
+
+    def js(self, script, *arguments):
+        return self.browser.js(script, *arguments)
+
+    def trace(self, plot, k=0):
+        return self.js("const t = document.getElementById(arguments[0]).data[arguments[1]]; return {x: [...t.x], y: [...t.y], z: t.z && t.z.map(r => [...r]), name: t.name}", plot, k)
+
+    def map_peak(self, plot):
+        t = self.trace(plot)
+        value, i, j = max((v, i, j) for j, row in enumerate(t["z"]) for i, v in enumerate(row) if v is not None)
+        return t["x"][i], t["y"][j], value
+
+
+class Run(Page):
+    """A finite element run beside the half-space solution of its case."""
+
+    file = FEM / "report.html"
+
+    def test_nothing_is_fetched_and_nothing_is_wrong(self):
+        self.browser.open(self.file)
+        self.js("document.querySelector('#wheel').open = true; window.scrollTo(0, document.body.scrollHeight)")
+        self.browser.wait(lambda: self.js("return document.querySelectorAll('#wheel .main-svg').length > 0"), "the wheel's sections are drawn")
+        self.assertEqual(self.browser.console(), [])
+        asked = [address for address in self.browser.requests() if not address.startswith(("data:", "blob:"))]
+        self.assertEqual(asked, [self.file.as_uri()])
+
+    def test_the_page_could_not_reach_out_if_it_wanted(self):
+        blocked = self.browser.driver.execute_async_script(
+            """const done = arguments[arguments.length - 1], seen = [];
+               document.addEventListener('securitypolicyviolation', e => { seen.push(e.effectiveDirective); if (seen.length === 3) done(seen); });
+               fetch('https://example.org/').catch(() => {});
+               document.body.append(Object.assign(new Image(), {src: 'https://example.org/a.png'}));
+               document.head.append(Object.assign(document.createElement('script'), {textContent: 'window.intruder = true'}));
+               setTimeout(() => done(seen), 5000);""")
+        self.assertEqual(sorted(blocked), ["connect-src", "img-src", "script-src-elem"])
+        self.assertIsNone(self.js("return window.intruder ?? null"))
+        self.browser.console()  # it has just complained about this
+
+    def test_it_fits_into_six_megabytes(self):
+        self.assertLess(self.file.stat().st_size, 6e6)
+
+    def test_the_title_is_text(self):
+        self.assertEqual(self.browser.text("h1"), summary_of(FEM)["title"])
+        self.assertIn("<b>", summary_of(FEM)["title"])
+
+    def test_the_verdict_is_that_of_the_checks(self):
+        rows = self.js("return [...document.querySelectorAll('#verdict tr[data-check]')].map(r => ({name: r.dataset.check, runs: r.dataset.runs, ok: r.dataset.ok === 'true', judged: r.dataset.judged === 'true', "
+                       "mark: r.querySelector('.mark').innerText, value: r.querySelector('.value').innerText}))")
+        for run, folder in [("0", FEM), ("1", HALF_SPACE)]:
+            for check in summary_of(folder)["checks"]:
+                row = next(r for r in rows if r["name"] == check["name"] and r["runs"] == run)
+                self.assertEqual(row["ok"], check["ok"], check["name"])
+                self.assertIn("holds" if check["ok"] else "fails", row["mark"])
+                scale = 100 if "%" in row["value"] else 1
+                self.assertAlmostEqual(number_in(row["value"]) / scale, check["value"], delta=6e-3 * abs(check["value"]) + 1e-12)
+        failed = [r for r in rows if r["judged"] and not r["ok"]]
+        self.assertGreater(len(failed), 0, "30 mm of rolling on 3 mm elements are not enough")
+        self.assertTrue(self.browser.text("#verdict h2").startswith(f"✗ {len(failed)} of {sum(r['judged'] for r in rows)} checks"))
+        red, green, blue = map(int, re.findall(r"\d+", self.js("return getComputedStyle(document.querySelector('#verdict')).backgroundColor"))[:3])
+        self.assertTrue(red > green and red > blue)
+
+    def test_finite_elements_are_held_against_half_spaces(self):
+        fem, bem = summary_of(FEM), summary_of(HALF_SPACE)
+        for check, key, limit in [("p_max", "p_max_Pa", 0.04), ("patch_length", "patch_length_m", 0.06), ("q_max", "q_max_Pa", 0.07)]:
+            value = abs(fem["contact"][key] / bem["contact"][key] - 1)
+            row = self.js("const r = document.querySelector(`tr[data-check='${arguments[0]}'][data-runs='0,1']`); return {ok: r.dataset.ok === 'true', value: r.querySelector('.value').innerText, limit: r.querySelector('.limit').innerText}", check)
+            self.assertAlmostEqual(number_in(row["value"]) / 100, value, delta=6e-3 * value)
+            self.assertAlmostEqual(number_in(row["limit"]) / 100, limit)
+            self.assertEqual(row["ok"], value <= limit)
+
+    def test_the_numbers_are_those_of_the_summaries(self):
+        shown = self.js("return [...document.querySelectorAll('#contact-numbers td[data-path]')].map(c => [c.dataset.path, c.innerText, c.parentElement.cells[1].innerText])")
+        self.assertGreater(len(shown), 20)
+        units = {"MPa": 1e6, "mm": 1e-3, "mm²": 1e-6, "%": 1e-2, "kN": 1e3, "10⁻³": 1e-3, "1/m": 1, "µm": 1e-6, "nm": 1e-9}
+        summaries, seen = [summary_of(FEM), summary_of(HALF_SPACE)], {}
+        for path, text, unit in shown:
+            run = seen[path] = seen.get(path, -1) + 1
+            value = summaries[run]
+            for key in path.split("/"):
+                value = value[key]
+            if value is None:
+                self.assertEqual(text, "–", path)
+            else:
+                self.assertAlmostEqual(number_in(text) * units[unit], value, delta=6e-4 * abs(value), msg=path)
+
+    def test_the_maxima_are_those_of_the_summary_with_their_places(self):
+        rows = self.js("return [...document.querySelectorAll('#maxima-rail tbody tr')].map(r => [...r.cells].map(c => c.innerText))")
+        zones = {"at the surface": "surface", "below the surface": "subsurface", "in the layers": "layer", "at the interfaces": "interface", "in the matrix": "matrix"}
+        self.assertEqual(len(rows), 10)
+        for row in rows:
+            wanted = summary_of(FEM)["stress"]["rail"][zones[row[0]]]["von_mises_max" if row[1] == "von Mises" else "sigma1_max"]
+            self.assertAlmostEqual(number_in(row[2]), 1e-6 * wanted["value_Pa"], delta=6e-4 * abs(1e-6 * wanted["value_Pa"]))
+            place = [number_in(part) for part in row[3].split(",")]
+            for text, key in zip(place, ["x_m", "y_m", "depth_m"]):
+                self.assertAlmostEqual(text, 1e3 * wanted[key], delta=0.0051)
+
+    def test_the_maps_have_the_patch_s_peaks_where_they_are(self):
+        contact = json.loads((FEM / "geometry.json").read_text())["contact"]
+        for n, folder in enumerate([FEM, HALF_SPACE]):
+            patch = read_table(folder / "patch.csv")
+            patch["q"] = [(a * a + b * b) ** 0.5 for a, b in zip(patch["q_x_MPa"], patch["q_y_MPa"])]
+            for kind, column in [("p", "p_MPa"), ("q", "q")]:
+                k = cells(patch, column)
+                x, y, value = self.map_peak(f"plot-map-{kind}-{n}")
+                self.assertAlmostEqual(value, patch[column][k], delta=1e-3 * patch[column][k])
+                near = [i for i, v in enumerate(patch[column]) if v > (1 - 1e-3) * patch[column][k]]  # a symmetric patch has several
+                self.assertTrue(any(abs(patch["x_mm"][i] - x) < 1e-4 and abs(patch["y_mm"][i] - 1e3 * contact["y_m"] - y) < 1e-4 for i in near), (x, y))
+            states = [v for row in self.trace(f"plot-map-state-{n}")["z"] for v in row]
+            for state in (1, 2):
+                self.assertEqual(states.count(state), patch["state_0separated_1stick_2slip"].count(state))
+
+    def test_millimetres_are_equally_long_on_both_axes(self):
+        for plot in ["plot-map-p-0", "plot-section-rail-longitudinal-von_mises-0", "plot-section-rail-cross-sigma_1-1", "plot-profiles"]:
+            scale = self.js("const f = document.getElementById(arguments[0])._fullLayout; return [f.xaxis, f.yaxis].map(a => a._length / Math.abs(a.range[1] - a.range[0]))", plot)
+            self.assertAlmostEqual(scale[0] / scale[1], 1, delta=0.01, msg=plot)
+
+    def test_the_words_over_a_map_tell_value_and_units(self):
+        t = self.trace("plot-map-p-1")
+        i, j = (min(range(len(line)), key=lambda k: abs(line[k] - wanted)) for line, wanted in ((t["x"], 3), (t["y"], -2)))  # away from the cross at the contact point
+        words = self.browser.hover("plot-map-p-1", t["x"][i], t["y"][j])
+        self.assertEqual(re.findall(r"(-?[\d.]+) (mm|MPa)", words), [(f"{t['x'][i]:.2f}", "mm"), (f"{t['y'][j]:.2f}", "mm"), (f"{t['z'][j][i]:.1f}", "MPa")])
+
+    def test_the_sections_have_the_tables_peaks_and_the_layer_s_border(self):
+        for n, folder in enumerate([FEM, HALF_SPACE]):
+            for plane in ["longitudinal", "cross"]:
+                table = read_table(folder / f"rail_{plane}_section.csv")
+                for kind, column in [("von_mises", "von_mises_MPa"), ("sigma_1", "sigma_1_MPa")]:
+                    plot = f"plot-section-rail-{plane}-{kind}-{n}"
+                    k = cells(table, column)
+                    _, _, value = self.map_peak(plot)
+                    self.assertAlmostEqual(value, table[column][k], delta=1e-4 * (max(table[column]) - min(table[column])))
+                    edges = self.trace(plot)["y"]
+                    for a, b in zip(edges, row_borders(sorted(set(table["depth_mm"])))):
+                        self.assertAlmostEqual(a, b, delta=1e-3)
+                    self.assertEqual(edges[0], 0)
+                    border = self.trace(plot, 1)
+                    self.assertTrue(all(abs(d - 3) < 2e-3 for d in border["y"] if d is not None), "the layer is 3 mm thick")
+                    self.assertAlmostEqual(max(v for v in border["x"] if v is not None), self.trace(plot)["x"][-1])
+
+    def test_the_centre_lines_are_those_of_both_engines_and_hertz(self):
+        names = self.js("return document.getElementById('plot-centre-p').data.map(t => t.name)")
+        self.assertEqual(len(names), 3)
+        for n, folder in enumerate([FEM, HALF_SPACE]):
+            line, shown = read_table(folder / "centre_line.csv"), self.trace("plot-centre-p", n)
+            self.assertEqual(len(shown["x"]), len(line["x_mm"]))
+            for a, b in zip(shown["x"] + shown["y"], line["x_mm"] + line["p_MPa"]):
+                self.assertAlmostEqual(a, b, delta=1e-5 * abs(b) + 1e-9)
+            shear = self.trace("plot-centre-q", n)["y"]
+            for q, qx, qy in zip(shear, line["q_x_MPa"], line["q_y_MPa"]):
+                self.assertAlmostEqual(q, (qx * qx + qy * qy) ** 0.5, delta=1e-4 * q + 1e-9)
+        hertz = json.loads((FEM / "geometry.json").read_text())["hertz"]
+        reference = self.trace("plot-centre-p", 2)
+        self.assertAlmostEqual(max(reference["y"]), 1e-6 * hertz["p0_Pa"], delta=1e-3)
+        self.assertAlmostEqual(reference["x"][-1], 1e3 * hertz["a_m"], delta=1e-6)
+
+    def test_depth_line_and_history_are_the_folder_s(self):
+        depth = read_table(FEM / "depth_line.csv")
+        shown = self.trace("plot-depth", 0)
+        points = [(x, y) for x, y in zip(shown["x"], shown["y"]) if x is not None]
+        self.assertEqual(len(points), len(depth["depth_mm"]))
+        for (x, y), stress, d in zip(points, depth["von_mises_MPa"], depth["depth_mm"]):
+            self.assertAlmostEqual(x, stress, delta=1e-5 * stress)
+            self.assertAlmostEqual(y, d, delta=1e-5 * d)
+        history = read_table(FEM / "history.csv")
+        shown = self.trace("plot-history-forces", 0)
+        self.assertAlmostEqual(shown["y"][0], 1e-3 * history["F_z_N"][0], delta=1e-3)
+        self.assertAlmostEqual(shown["x"][-1], history["position_mm"][-1], delta=0.5)
+
+    def test_every_figure_offers_its_numbers(self):
+        figures = self.js("return [...document.querySelectorAll('figure')].map(f => f.id)")
+        self.assertGreater(len(figures), 25)
+        self.assertEqual(self.js("return [...document.querySelectorAll('[data-csv]')].map(b => b.dataset.csv)"), figures)
+
+    def test_saved_numbers_are_the_folder_s(self):
+        lines = self.browser.download("map-p-1").read_text().splitlines()
+        self.assertIn("# Pressure p", "\n".join(lines))
+        rows = [line.split(",") for line in lines if not line.startswith("#")]
+        self.assertEqual(rows[0], ["x_mm", "y_mm", "p_MPa"])
+        saved = {(round(float(x), 3), round(float(y), 3)): float(p) for x, y, p in rows[1:] if p}
+        patch = read_table(HALF_SPACE / "patch.csv")
+        shift = 1e3 * json.loads((HALF_SPACE / "geometry.json").read_text())["contact"]["y_m"]
+        touching = [k for k, p in enumerate(patch["p_MPa"]) if p > 0]
+        self.assertEqual(len(saved), len(touching))
+        for k in touching:
+            self.assertAlmostEqual(saved[round(patch["x_mm"][k], 3), round(patch["y_mm"][k] - shift, 3)], patch["p_MPa"][k], delta=2e-5 * max(patch["p_MPa"]))
+
+    def test_no_button_sends_anything_away(self):
+        buttons = self.js("return [...document.querySelectorAll('.modebar-btn')].map(b => b.dataset.title)")
+        self.assertGreater(len(buttons), 50)
+        self.assertEqual({b for b in buttons if re.search("cloud|share|edit|send", b, re.I)}, set())
+        self.assertEqual(len(set(buttons)), 4, set(buttons))
+
+    def test_light_and_dark(self):
+        def look():
+            return self.js("return [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor, document.getElementById('plot-map-p-0')._fullLayout.paper_bgcolor]")
+
+        before = look()
+        self.js("document.getElementById('theme').click()")
+        after = look()
+        self.js("document.getElementById('theme').click()")
+        self.assertEqual({before[0], after[0]}, {"light", "dark"})
+        self.assertTrue(all(a != b for a, b in zip(before, after)))
+        self.assertEqual(look(), before)
+
+    def test_it_prints_on_a4_in_light_colours(self):
+        self.js("""window.printed = []; window.addEventListener('beforeprint', () => document.querySelectorAll('.js-plotly-plot').forEach(g => g.clientWidth !== 0 && window.printed.push([g._fullLayout.width, g._fullLayout.paper_bgcolor])));
+                   document.getElementById('theme').click()""")
+        pdf = self.browser.pdf()
+        self.js("document.getElementById('theme').click()")
+        self.assertTrue(pdf.startswith(b"%PDF"))
+        self.assertIn(len(re.findall(rb"/Type\s*/Page\b", pdf)), range(4, 16))
+        printed = self.js("return window.printed")
+        self.assertGreater(len(printed), 20)
+        self.assertLess(max(width for width, _ in printed), 186 / 25.4 * 96, "between margins of 12 mm")
+        self.assertEqual({colour for _, colour in printed}, {"#ffffff"})
+        self.browser.console()
+
+    def test_a_narrow_window_needs_no_sideways_scrolling(self):
+        self.browser.driver.set_window_size(760, 900)
+        try:
+            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width <= document.getElementById('plot-map-p-0').clientWidth"), "figures have followed")
+            self.assertLessEqual(self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth"), 1)
+        finally:
+            self.browser.driver.set_window_size(1366, 900)
+
+
+class HalfSpace(Page):
+    """A half-space result by itself, with two layers."""
+
+    file = BEM / "report.html"
+
+    def test_its_verdict_is_green(self):
+        self.assertTrue(all(check["ok"] for check in summary_of(BEM)["checks"]))
+        self.assertRegex(self.browser.text("#verdict h2"), r"^✓ All \d+ checks hold")
+        red, green, blue = map(int, re.findall(r"\d+", self.js("return getComputedStyle(document.querySelector('#verdict')).backgroundColor"))[:3])
+        self.assertTrue(green > red and green > blue)
+
+    def test_it_has_no_history_and_says_nothing_of_it(self):
+        self.assertIsNone(self.browser.text("#history"))
+        self.assertNotIn("history", self.browser.text("nav"))
+
+    def test_both_layers_have_their_borders(self):
+        depths = {round(d, 3) for d in self.trace("plot-section-rail-longitudinal-von_mises-0", 1)["y"] if d is not None}
+        self.assertEqual(depths, {0.5, 2.0})
+        levels = self.js("return document.getElementById('plot-depth').layout.shapes.map(s => s.y0)")
+        self.assertEqual([round(d, 3) for d in levels], [0.5, 2.0])
+
+    def test_the_console_is_silent(self):
+        self.assertEqual(self.browser.console(), [])
+
+
+class Old(Page):
+    """A folder from before there were sections and geometry."""
+
+    file = RESULTS / "old" / "report.html"
+
+    def test_it_shows_what_there_is_and_says_what_is_missing(self):
+        self.assertEqual(self.browser.console(), [])
+        self.assertIn("No geometry in this folder", self.browser.text("#geometry"))
+        self.assertIn("No sections of the rail", self.browser.text("#stress"))
+        self.assertEqual(self.js("return document.querySelectorAll('#patch figure').length"), 6)
+
+
+class Several(Page):
+    """More than two runs: any two are looked at side by side."""
+
+    file = RESULTS / "three.html"
+
+    def test_the_chosen_runs_are_shown(self):
+        self.assertEqual(self.browser.text("header .sub").split(" · ")[0], "3 runs")
+        pick = "const s = document.querySelectorAll('.chooser select')[arguments[0]]; s.value = arguments[1]; s.dispatchEvent(new Event('change'))"
+        self.js(pick, 0, "1")
+        self.js(pick, 1, "")
+        self.assertAlmostEqual(self.map_peak("plot-map-p-0")[2], max(read_table(BEM / "patch.csv")["p_MPa"]), delta=0.1)
+        self.assertIsNone(self.browser.text("#plot-map-p-1"))
+        self.js(pick, 1, "0")
+        self.assertAlmostEqual(self.map_peak("plot-map-p-1")[2], max(read_table(FEM / "patch.csv")["p_MPa"]), delta=0.1)
+        self.assertEqual(self.browser.console(), [])
+
+
+class Command(unittest.TestCase):
+    def refused(self, code, words, *messages):
+        done = subprocess.run([BINARY, "report", *map(str, words)], capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, code, done.stderr)
+        for message in messages:
+            self.assertIn(message, done.stderr)
+
+    def test_what_is_no_result_is_refused(self):
+        self.refused(2, [RESULTS / "nowhere"], "is not a result folder", "remedy: give a folder that `railstrata run` or `railstrata bem` has written")
+
+    def test_several_folders_need_a_place(self):
+        self.refused(2, [FEM, BEM], "a report on several folders needs a place", "--out")
+
+
+del Page  # only its heirs are tests
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
