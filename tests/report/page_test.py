@@ -36,8 +36,9 @@ class Page(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.browser = cls.enterClassContext(Browser())
+        cls.browser = BROWSER
         cls.browser.open(cls.file)
+        cls.first_words, cls.asked = cls.browser.console(), cls.browser.requests()
 
     def js(self, script, *arguments):
         return self.browser.js(script, *arguments)
@@ -57,12 +58,12 @@ class Run(Page):
     file = FEM / "report.html"
 
     def test_nothing_is_fetched_and_nothing_is_wrong(self):
-        self.browser.open(self.file)
+        self.browser.console()
         self.js("document.querySelector('#wheel').open = true; window.scrollTo(0, document.body.scrollHeight)")
         self.browser.wait(lambda: self.js("return document.querySelectorAll('#wheel .main-svg').length > 0"), "the wheel's sections are drawn")
-        self.assertEqual(self.browser.console(), [])
-        asked = [address for address in self.browser.requests() if not address.startswith(("data:", "blob:"))]
-        self.assertEqual(asked, [self.file.as_uri()])
+        self.assertEqual(self.first_words + self.browser.console(), [])
+        self.js("document.querySelector('#wheel').open = false")
+        self.assertEqual([address for address in self.asked if not address.startswith(("data:", "blob:"))], [self.file.as_uri()])
 
     def test_the_page_could_not_reach_out_if_it_wanted(self):
         blocked = self.browser.driver.execute_async_script(
@@ -230,38 +231,26 @@ class Run(Page):
         self.assertEqual({b for b in buttons if re.search("cloud|share|edit|send", b, re.I)}, set())
         self.assertEqual(len(set(buttons)), 4, set(buttons))
 
-    def test_light_and_dark(self):
+    def test_light_dark_and_light_again_in_print(self):
         def look():
             return self.js("return [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor, document.getElementById('plot-map-p-0')._fullLayout.paper_bgcolor]")
 
-        before = look()
+        light = look()
         self.js("document.getElementById('theme').click()")
-        after = look()
-        self.js("document.getElementById('theme').click()")
-        self.assertEqual({before[0], after[0]}, {"light", "dark"})
-        self.assertTrue(all(a != b for a, b in zip(before, after)))
-        self.assertEqual(look(), before)
-
-    def test_it_prints_on_a4_in_light_colours(self):
-        self.js("""window.printed = []; window.addEventListener('beforeprint', () => document.querySelectorAll('.js-plotly-plot').forEach(g => g.clientWidth !== 0 && window.printed.push([g._fullLayout.width, g._fullLayout.paper_bgcolor])));
-                   document.getElementById('theme').click()""")
+        dark = look()
+        self.assertEqual([light[0], dark[0]], ["light", "dark"])
+        self.assertTrue(all(a != b for a, b in zip(light, dark)))
+        self.js("window.printed = []; window.addEventListener('beforeprint', () => document.querySelectorAll('.js-plotly-plot').forEach(g => g.clientWidth !== 0 && window.printed.push([g._fullLayout.width, g._fullLayout.paper_bgcolor])))")
         pdf = self.browser.pdf()
-        self.js("document.getElementById('theme').click()")
         self.assertTrue(pdf.startswith(b"%PDF"))
         self.assertIn(len(re.findall(rb"/Type\s*/Page\b", pdf)), range(4, 16))
         printed = self.js("return window.printed")
         self.assertGreater(len(printed), 20)
-        self.assertLess(max(width for width, _ in printed), 186 / 25.4 * 96, "between margins of 12 mm")
-        self.assertEqual({colour for _, colour in printed}, {"#ffffff"})
-        self.browser.console()
-
-    def test_a_narrow_window_needs_no_sideways_scrolling(self):
-        self.browser.driver.set_window_size(760, 900)
-        try:
-            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width <= document.getElementById('plot-map-p-0').clientWidth"), "figures have followed")
-            self.assertLessEqual(self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth"), 1)
-        finally:
-            self.browser.driver.set_window_size(1366, 900)
+        self.assertLess(max(width for width, _ in printed), 186 / 25.4 * 96, "A4 between margins of 12 mm")
+        self.assertEqual({colour for _, colour in printed}, {light[2]})
+        self.assertEqual(look(), dark, "as it was before")
+        self.js("document.getElementById('theme').click()")
+        self.assertEqual(look(), light)
 
 
 class HalfSpace(Page):
@@ -286,7 +275,7 @@ class HalfSpace(Page):
         self.assertEqual([round(d, 3) for d in levels], [0.5, 2.0])
 
     def test_the_console_is_silent(self):
-        self.assertEqual(self.browser.console(), [])
+        self.assertEqual(self.first_words + self.browser.console(), [])
 
 
 class Old(Page):
@@ -295,27 +284,49 @@ class Old(Page):
     file = RESULTS / "old" / "report.html"
 
     def test_it_shows_what_there_is_and_says_what_is_missing(self):
-        self.assertEqual(self.browser.console(), [])
+        self.assertEqual(self.first_words, [])
         self.assertIn("No geometry in this folder", self.browser.text("#geometry"))
         self.assertIn("No sections of the rail", self.browser.text("#stress"))
         self.assertEqual(self.js("return document.querySelectorAll('#patch figure').length"), 6)
 
+    def test_a_narrow_window_needs_no_sideways_scrolling(self):
+        self.browser.driver.set_window_size(760, 900)
+        try:
+            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width <= document.getElementById('plot-map-p-0').clientWidth"), "figures have followed")
+            self.assertLessEqual(self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth"), 1)
+        finally:
+            self.browser.driver.set_window_size(1366, 900)
 
-class Several(Page):
-    """More than two runs: any two are looked at side by side."""
 
-    file = RESULTS / "three.html"
+class Study(Page):
+    """More than two runs, of which any two are looked at side by side, and tables and charts over all of them."""
+
+    file = RESULTS / "study.html"
+
+    @classmethod
+    def setUpClass(cls):
+        table = [{"id": "trend", "title": "Trend", "note": "A note.", "columns": ["layer", "p_max [MPa]"], "rows": [["1 mm", 1101.48], ["2 mm <i>", None]]}]
+        chart = [{"id": "fig", "title": "Pressure against thickness", "note": "", "x": "h [mm]", "y": "p_max [MPa]",
+                  "series": [{"name": "2 E0", "x": [0.5, 1, 3], "y": [1090, 1100, 1130], "markers": True}, {"name": "4 E0", "x": [0.5, 1, 3], "y": [1100, 1150, 1250], "markers": True}]}]
+        page = (RESULTS / "three.html").read_text().replace('"tables":[],"charts":[]', f'"tables":{json.dumps(table)},"charts":{json.dumps(chart)}'.replace("<", "\\u003c"), 1)
+        cls.file.write_text(page)
+        super().setUpClass()
+
+    def test_its_chart_has_the_lines(self):
+        self.assertEqual(self.trace("plot-fig", 1)["y"], [1100, 1150, 1250])
+        self.assertEqual(self.js("return [...document.querySelectorAll('#plot-fig .legendtext')].map(e => e.textContent)"), ["2 E0", "4 E0"])
+
+    def test_its_table_has_the_cells(self):
+        rows = self.js("return [...document.querySelectorAll('#table-trend tr')].map(r => [...r.cells].map(c => c.innerText))")
+        self.assertEqual(rows, [["layer", "p_max [MPa]"], ["1 mm", "1101"], ["2 mm <i>", "–"]])
 
     def test_the_chosen_runs_are_shown(self):
         self.assertEqual(self.browser.text("header .sub").split(" · ")[0], "3 runs")
-        pick = "const s = document.querySelectorAll('.chooser select')[arguments[0]]; s.value = arguments[1]; s.dispatchEvent(new Event('change'))"
-        self.js(pick, 0, "1")
-        self.js(pick, 1, "")
+        self.assertAlmostEqual(self.map_peak("plot-map-p-0")[2], max(read_table(FEM / "patch.csv")["p_MPa"]), delta=0.1)
+        self.js("const s = document.querySelectorAll('.chooser select'); s[0].value = '1'; s[1].value = ''; s[0].dispatchEvent(new Event('change'))")
         self.assertAlmostEqual(self.map_peak("plot-map-p-0")[2], max(read_table(BEM / "patch.csv")["p_MPa"]), delta=0.1)
         self.assertIsNone(self.browser.text("#plot-map-p-1"))
-        self.js(pick, 1, "0")
-        self.assertAlmostEqual(self.map_peak("plot-map-p-1")[2], max(read_table(FEM / "patch.csv")["p_MPa"]), delta=0.1)
-        self.assertEqual(self.browser.console(), [])
+        self.assertEqual(self.first_words + self.browser.console(), [])
 
 
 class Command(unittest.TestCase):
@@ -335,4 +346,5 @@ class Command(unittest.TestCase):
 del Page  # only its heirs are tests
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    with Browser() as BROWSER:
+        unittest.main(argv=sys.argv[:1])
