@@ -49,7 +49,8 @@ ExitCode command_run(const CommandOptions& options) {
   write_origin(out, loaded, options.command_line, options.threads);
   spdlog::info("{}: results go to {}", loaded.spec.title, out.string());
 
-  if (const std::string slow = oversubscription(options.threads); !slow.empty()) spdlog::warn("{}", slow);
+  if (const std::string many = oversubscription(options.threads); !many.empty()) spdlog::warn("{}", many);
+  if (const std::string busy = competition(options.threads); !busy.empty()) spdlog::info("{}", busy);
 
   FemRequest request;
   request.spec = loaded.spec;

@@ -41,6 +41,11 @@ int default_threads() { return std::getenv("OMP_NUM_THREADS") != nullptr ? max_t
 std::string oversubscription(int threads) {
   const int processors = std::max(1, static_cast<int>(allowed_processors().size()));
   if (threads > processors) return fmt::format("{} threads share {} processor{}: fewer would be faster, see --threads", threads, processors, processors == 1 ? "" : "s");
+  return {};
+}
+
+std::string competition(int threads) {
+  const int processors = std::max(1, static_cast<int>(allowed_processors().size()));
   double load = 0;
   if (std::ifstream file("/proc/loadavg"); !(file >> load)) return {};
   if (load + threads > 1.5 * processors)

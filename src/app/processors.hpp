@@ -8,7 +8,9 @@ namespace railstrata {
 int physical_cores();
 /// Threads to start with: OMP_NUM_THREADS if that is set, otherwise physical_cores().
 int default_threads();
-/// What slows `threads` threads down before they start: more of them than processors, or other programs that keep these busy. Empty if nothing does.
+/// What is wrong with so many threads here: more of them than processors. Empty if nothing is.
 std::string oversubscription(int threads);
+/// Whether other programs keep the processors busy that `threads` threads are about to use (load average of the last minute). Empty if they do not.
+std::string competition(int threads);
 
 }  // namespace railstrata
