@@ -6,6 +6,7 @@
 #include "app/peak_memory.hpp"
 #include "app/run_bem.hpp"
 #include "app/summary_text.hpp"
+#include "app/write_report.hpp"
 #include "io/summary_json.hpp"
 #include "post/bem_summary.hpp"
 
@@ -32,6 +33,7 @@ ExitCode command_bem(const CommandOptions& options) {
   if (options.json) fmt::print("{}\n", summary_json(summary).dump(2));
   else fmt::print("{}", summary_text(summary));
   spdlog::info("results are in {}", out.string());
+  if (options.report) add_report(out, options.threads);
   const bool ok = all_checks_hold(summary);
   if (!ok) spdlog::warn("a check failed: read the results with care");
   return ok ? ExitCode::ok : ExitCode::failed_checks;

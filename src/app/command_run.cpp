@@ -11,6 +11,7 @@
 #include "app/run_fem.hpp"
 #include "app/stop_flag.hpp"
 #include "app/summary_text.hpp"
+#include "app/write_report.hpp"
 #include "io/provenance.hpp"
 #include "io/summary_json.hpp"
 #include "model/model.hpp"
@@ -72,6 +73,7 @@ ExitCode command_run(const CommandOptions& options) {
     spdlog::warn("stopped before the last wanted position; {} holds the history so far", out.string());
     return ExitCode::interrupted;
   }
+  if (options.report) add_report(out, options.threads);
   const bool all_ok = std::all_of(outcome.summaries.begin(), outcome.summaries.end(), all_checks_hold);
   if (!all_ok) spdlog::warn("a check failed: read the results with care");
   return all_ok ? ExitCode::ok : ExitCode::failed_checks;

@@ -20,6 +20,7 @@ struct CommandOptions {
   std::string cell;                       ///< --cell of the half-space commands: a length; empty: the engine's default
   std::filesystem::path reference;        ///< second folder of `compare`
   std::vector<std::filesystem::path> folders;  ///< of `report`
+  bool report = true;                     ///< --no-report of `run` and `bem`
   bool reference_solution = true;         ///< --no-reference of `report`
   std::vector<std::string> vary;          ///< --vary of `sweep`
   bool stresses = false;                  ///< --stresses of `sweep`

@@ -35,12 +35,20 @@ void add_case_and_output(CLI::App& sub, CommandOptions& options) {
   add_output(sub, options, "results/<case name>");
 }
 
+void add_no_report(CLI::App& sub, CommandOptions& options) { sub.add_flag("!--no-report", options.report, "Do not write report.html"); }
+
+void add_run(CLI::App& sub, CommandOptions& options) {
+  add_case_and_output(sub, options);
+  add_no_report(sub, options);
+}
+
 void add_cell(CLI::App& sub, CommandOptions& options) { sub.add_option("--cell", options.cell, "Cells of the potential contact area (default: \"0.25 mm\")"); }
 
 void add_bem(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-bem");
   add_cell(sub, options);
+  add_no_report(sub, options);
 }
 
 void add_creep_curve(CLI::App& sub, CommandOptions& options) {
@@ -89,7 +97,7 @@ constexpr Entry kEntries[] = {
     {"mesh", "Make the meshes and write them as VTU with a table of their quality", "Examples:\n  railstrata mesh cases/quick --out /tmp/mesh\n", add_case_and_output, command_mesh},
     {"run", "Run a case: static preload, rolling, results",
      "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n  railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n",
-     add_case_and_output, command_run},
+     add_run, command_run},
     {"bem", "Solve a case by half-space theory, in about a second: the files and numbers of `run`, no meshes",
      "Examples:\n  railstrata bem cases/paper/base.toml\n  railstrata bem cases/quick --cell \"0.5 mm\" --out results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n",
      add_bem, command_bem},

@@ -4,6 +4,10 @@
 #include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
 #include "app/output_folder.hpp"
 #include "app/peak_memory.hpp"
 #include "app/run_bem.hpp"
@@ -33,6 +37,11 @@ void solve_reference(const fs::path& case_file, const fs::path& folder, int thre
   write_bem_result(folder, table_origin(loaded), result, summary);
 }
 
+bool same_text(const fs::path& a, const fs::path& b) {
+  std::ifstream left(a, std::ios::binary), right(b, std::ios::binary);
+  return left && right && std::equal(std::istreambuf_iterator<char>(left), {}, std::istreambuf_iterator<char>(right), {});
+}
+
 std::string title_of(const std::vector<ReportRun>& runs) {
   std::vector<std::string> titles;
   for (const ReportRun& run : runs)
@@ -45,7 +54,7 @@ std::string title_of(const std::vector<ReportRun>& runs) {
 fs::path half_space_reference(const fs::path& folder, int threads) {
   const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
   const fs::path home = full.filename().string().starts_with("position_") ? full.parent_path() : full, out = home / kReferenceFolder;
-  if (fs::exists(out / "summary.json")) return out;
+  if (fs::exists(out / "summary.json") && same_text(home / "case.toml", out / "case.toml")) return out;
   try {
     solve_reference(home / "case.toml", out, threads);
     return out;
@@ -68,6 +77,17 @@ void write_report(const fs::path& page, const std::vector<fs::path>& folders, bo
   report.title = title_of(report.runs);
   report.checks = report_checks(report.runs);
   write_whole_file(page, report_page(report));
+}
+
+void add_report(const fs::path& folder, int threads) {
+  try {
+    write_report(folder / "report.html", {folder}, true, threads);
+    spdlog::info("everything on one page: {}", (folder / "report.html").string());
+  } catch (const CaseError& e) {
+    spdlog::warn("no report: {}", e.what());
+  } catch (const EnvironmentError& e) {
+    spdlog::warn("no report: {}", e.what());
+  }
 }
 
 }  // namespace railstrata

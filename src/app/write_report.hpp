@@ -8,11 +8,14 @@ namespace railstrata {
 /// Folder of the half-space solution beside a finite element result.
 inline constexpr const char* kReferenceFolder = "half_space";
 
-/// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that is there already. Of several positions each has the one
-/// of the run's folder. Returns the folder; empty, with a warning that says why, where the case or its profiles cannot be read any more or theory has no answer.
+/// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that holds this case already. Of several positions each has the
+/// one of the run's folder. Returns the folder; empty, with a warning that says why, where the case or its profiles cannot be read any more or theory has no answer.
 std::filesystem::path half_space_reference(const std::filesystem::path& folder, int threads);
 
-/// Writes the page for these folders. A single finite element result is set against its half-space reference if `reference` says so.
+/// Writes the page for these folders; throws CaseError where one is no result, EnvironmentError for the disk. A single finite element result is set against its half-space reference if `reference` says so.
 void write_report(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders, bool reference, int threads);
+
+/// What `run` and `bem` do when they are done: report.html in the folder. Failing, it warns: the results are there without it.
+void add_report(const std::filesystem::path& folder, int threads);
 
 }  // namespace railstrata

@@ -66,8 +66,6 @@ FOLDER.mkdir(parents=True)
 (FOLDER / "layers.toml").write_text(HALF_SPACE)
 railstrata("run", FOLDER / "rolling.toml", "--out", FOLDER / "fem", "--threads", "1", "--quiet")
 railstrata("bem", FOLDER / "layers.toml", "--out", FOLDER / "bem", "--cell", "0.4 mm", "--threads", "1", "--quiet")
-railstrata("report", FOLDER / "fem", "--quiet")
-railstrata("report", FOLDER / "bem", "--quiet")
 shutil.copytree(FOLDER / "fem", FOLDER / "old")
 for file in [*(FOLDER / "old").glob("*_section.csv"), FOLDER / "old" / "geometry.json", FOLDER / "old" / "report.html"]:
     file.unlink(missing_ok=True)

@@ -3,8 +3,10 @@
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
@@ -338,6 +340,24 @@ class Command(unittest.TestCase):
 
     def test_what_is_no_result_is_refused(self):
         self.refused(2, [RESULTS / "nowhere"], "is not a result folder", "remedy: give a folder that `railstrata run` or `railstrata bem` has written")
+
+    def test_no_report_is_written_where_none_is_wanted(self):
+        with tempfile.TemporaryDirectory() as place:
+            for word, wanted in [("--no-report", False), ("--force", True)]:
+                done = subprocess.run([BINARY, "bem", RESULTS / "layers.toml", "--cell", "0.8 mm", "--out", f"{place}/bem", word, "--quiet"], capture_output=True, text=True, timeout=60)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.assertEqual(pathlib.Path(place, "bem", "report.html").exists(), wanted)
+
+    def test_the_reference_is_that_of_the_folder_s_case(self):
+        with tempfile.TemporaryDirectory() as place:
+            folder = pathlib.Path(place, "changed")
+            shutil.copytree(FEM, folder)
+            case = (folder / "case.toml").read_text()
+            (folder / "case.toml").write_text(case.replace("friction_coefficient = 0.5", "friction_coefficient = 0.4"))
+            done = subprocess.run([BINARY, "report", folder, "--quiet"], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("friction_coefficient = 0.4", (folder / "half_space" / "case.toml").read_text())
+            self.assertNotEqual(summary_of(folder / "half_space")["contact"]["slip_area_fraction"], summary_of(HALF_SPACE)["contact"]["slip_area_fraction"])
 
     def test_several_folders_need_a_place(self):
         self.refused(2, [FEM, BEM], "a report on several folders needs a place", "--out")
