@@ -12,33 +12,67 @@ struct GmresResult {
   double residual = 0;  ///< 2-norm left
 };
 
+/// Vectors that later solutions of the same size use again.
+struct GmresSpace {
+  std::vector<Plane> basis;
+  Plane r, z, w, y;
+};
+
+/// Takes out of w its parts along basis[0 … count-1] (orthonormal) and adds them to `parts`. Returns |w|² left. Two sweeps: classical Gram–Schmidt.
+inline double orthogonalize(const std::vector<Plane>& basis, std::size_t count, Plane& w, std::vector<double>& parts) {
+  const std::size_t n = w.size();
+  std::vector<double> dots(pieces_of(n) * count), squares(pieces_of(n));
+  for_pieces(n, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    for (std::size_t i = 0; i < count; ++i) dots[k * count + i] = sum_of(begin, end, [&](std::size_t j) { return basis[i][j] * w[j]; });
+  }, count);
+  std::vector<double> h(count, 0.0);
+  for (std::size_t k = 0; k < pieces_of(n); ++k)
+    for (std::size_t i = 0; i < count; ++i) h[i] += dots[k * count + i];
+  for_pieces(n, [&](std::size_t k, std::size_t begin, std::size_t end) {
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = begin; j < end; ++j) w[j] -= h[i] * basis[i][j];
+    squares[k] = sum_of(begin, end, [&](std::size_t j) { return w[j] * w[j]; });
+  }, count);
+  for (std::size_t i = 0; i < count; ++i) parts[i] += h[i];
+  double left = 0;
+  for (double s : squares) left += s;
+  return left;
+}
+
 /// Solves A x = b from x = 0 to |b - A x| <= relative |b| or max_iterations. apply(in, out) and precondition(in, out) act on whole vectors.
 template <class Apply, class Precondition>
-GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative, int max_iterations, int restart = 60) {
+GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative, int max_iterations, GmresSpace& space, int restart = 60) {
   const std::size_t n = b.size();
+  auto& [basis, r, z, w, y] = space;
   x.assign(n, 0.0);
-  Plane r = b, z(n), w(n);
+  z.resize(n), w.resize(n), y.resize(n);
+  r = b;
   const double norm_b = std::sqrt(dot(b, b));
   GmresResult result{0, norm_b};
   if (norm_b == 0) return result;
   while (result.iterations < max_iterations && result.residual > relative * norm_b) {
-    std::vector<Plane> v{r};
+    const auto vector = [&](std::size_t k) -> Plane& {
+      if (basis.size() <= k) basis.emplace_back();
+      basis[k].resize(n);
+      return basis[k];
+    };
     std::vector<std::vector<double>> h;  // columns of the triangular factor
     std::vector<double> cosine, sine, g{result.residual};
-    scale_by(v[0], 1 / result.residual);
+    Plane& first = vector(0);
+    for_cells(n, [&](std::size_t i) { first[i] = r[i] / result.residual; });
     while (static_cast<int>(h.size()) < restart && result.iterations < max_iterations && std::abs(g.back()) > relative * norm_b) {
       const std::size_t k = h.size();
-      precondition(v[k], z);
+      precondition(basis[k], z);
       apply(z, w);
       ++result.iterations;
       std::vector<double> column(k + 2);
-      for (std::size_t i = 0; i <= k; ++i) {
-        column[i] = dot(v[i], w);
-        add_scaled(w, -column[i], v[i]);
-      }
-      column[k + 1] = std::sqrt(dot(w, w));
-      v.push_back(w);
-      if (column[k + 1] > 0) scale_by(v.back(), 1 / column[k + 1]);
+      double square = orthogonalize(basis, k + 1, w, column), along = 0;
+      for (double c : column) along += c * c;
+      if (square < 1e-4 * along) square = orthogonalize(basis, k + 1, w, column);  // little was left: once more against round-off
+      column[k + 1] = std::sqrt(square);
+      Plane& next = vector(k + 1);
+      const double scale = square > 0 ? 1 / column[k + 1] : 0.0;
+      for_cells(n, [&](std::size_t i) { next[i] = scale * w[i]; });
       for (std::size_t i = 0; i < k; ++i) {
         const double a = column[i], c = column[i + 1];
         column[i] = cosine[i] * a + sine[i] * c;
@@ -52,14 +86,17 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
       g[k] *= cosine[k];
       h.push_back(std::move(column));
     }
-    Plane y(n, 0.0);
     std::vector<double> c(h.size());
     for (std::size_t i = h.size(); i-- > 0;) {
       c[i] = g[i];
       for (std::size_t j = i + 1; j < h.size(); ++j) c[i] -= h[j][i] * c[j];
       c[i] /= h[i][i];
-      add_scaled(y, c[i], v[i]);
     }
+    for_pieces(n, [&](std::size_t, std::size_t begin, std::size_t end) {
+      for (std::size_t j = begin; j < end; ++j) y[j] = 0;
+      for (std::size_t i = 0; i < c.size(); ++i)
+        for (std::size_t j = begin; j < end; ++j) y[j] += c[i] * basis[i][j];
+    }, c.size());
     precondition(y, z);
     add_scaled(x, 1, z);
     result.residual = std::abs(g.back());

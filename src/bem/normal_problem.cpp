@@ -97,29 +97,37 @@ class ActiveSetSolver {
   /// Removes from z the part that would change the load.
   void keep_load(Plane& z) const {
     if (!load_given()) return;
-    const double excess = sum(z) / ones_sum_;
-    for (std::size_t i = 0; i < n_; ++i) z[i] -= excess * ones_[i];
+    add_scaled(z, -sum(z) / ones_sum_, ones_);
   }
 
   void precondition(const Plane& r, Plane& z) const {
     influence_.precondition_normal(r.data(), z.data());
-    for (std::size_t i = 0; i < n_; ++i)
-      if (!active_[i]) z[i] = 0;
+    for_cells(n_, [&](std::size_t i) { z[i] = active_[i] ? z[i] : 0.0; });
   }
 
-  void compute_residual() {
-    double mean = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < n_; ++i)
-      if (active_[i]) mean += gap_[i] + closing_[i], ++count;
-    approach_ = load_given() ? mean / static_cast<double>(count) : *target_.approach;
-    for (std::size_t i = 0; i < n_; ++i) residual_[i] = active_[i] ? approach_ - gap_[i] - closing_[i] : 0.0;
-  }
-
-  double largest_residual() const {
-    double r = 0;
-    for (double v : residual_) r = std::max(r, std::abs(v));
-    return r;
+  /// Returns the largest.
+  double compute_residual() {
+    struct Part {
+      double sum = 0, count = 0, largest = 0;
+    };
+    std::vector<Part> part(pieces_of(n_));
+    Part all;
+    if (load_given()) {
+      for_pieces(n_, [&](std::size_t k, std::size_t begin, std::size_t end) {
+        part[k].sum = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? gap_[i] + closing_[i] : 0.0; });
+        part[k].count = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? 1.0 : 0.0; });
+      }, 2);
+      for (const Part& p : part) all.sum += p.sum, all.count += p.count;
+    }
+    approach_ = load_given() ? all.sum / all.count : *target_.approach;
+    for_pieces(n_, [&](std::size_t k, std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        residual_[i] = active_[i] ? approach_ - gap_[i] - closing_[i] : 0.0;
+        part[k].largest = std::max(part[k].largest, std::abs(residual_[i]));
+      }
+    }, 2);
+    for (const Part& p : part) all.largest = std::max(all.largest, p.largest);
+    return all.largest;
   }
 
   /// On the active cells. Returns the largest residual left.
@@ -128,13 +136,11 @@ class ActiveSetSolver {
       Plane mask(active_.begin(), active_.end());
       precondition(mask, ones_);
       ones_sum_ = sum(ones_);
-      const double excess = (sum(p_) - *target_.load / grid_.cell_area()) / ones_sum_;
-      for (std::size_t i = 0; i < n_; ++i) p_[i] -= excess * ones_[i];
+      add_scaled(p_, (*target_.load / grid_.cell_area() - sum(p_)) / ones_sum_, ones_);
     }
     influence_.normal(p_.data(), closing_.data());
     ++iterations_;
-    compute_residual();
-    double left = largest_residual(), previous = 0;
+    double left = compute_residual(), previous = 0;
     const double goal = std::max(0.3 * floor, reduce * left);
     std::fill(d_.begin(), d_.end(), 0.0);
     for (int it = 0; it < 200 && left > goal; ++it) {
@@ -142,13 +148,12 @@ class ActiveSetSolver {
       keep_load(z_);
       const double rho = dot(residual_, z_), beta = previous > 0 ? rho / previous : 0.0;
       previous = rho;
-      for (std::size_t i = 0; i < n_; ++i) d_[i] = z_[i] + beta * d_[i];
+      for_cells(n_, [&](std::size_t i) { d_[i] = z_[i] + beta * d_[i]; });
       influence_.normal(d_.data(), Ad_.data());
       ++iterations_;
       const double alpha = rho / dot(d_, Ad_);
-      for (std::size_t i = 0; i < n_; ++i) p_[i] += alpha * d_[i], closing_[i] += alpha * Ad_[i];
-      compute_residual();
-      left = largest_residual();
+      for_cells(n_, [&](std::size_t i) { p_[i] += alpha * d_[i], closing_[i] += alpha * Ad_[i]; }, 2);
+      left = compute_residual();
     }
     return left;
   }

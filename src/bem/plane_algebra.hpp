@@ -1,5 +1,6 @@
 #pragma once
 // Loops and sums over planes: threads only where they pay, sums in a fixed order whatever their number.
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -18,21 +19,33 @@ void for_each_if(bool threads, std::ptrdiff_t n, Kernel&& kernel) {
   for (std::ptrdiff_t i = 0; i < n; ++i) kernel(static_cast<int>(i));
 }
 
+/// kernel(piece, begin, end) for fixed pieces of [0, n), shared between threads; an index stands for so many values of work.
+constexpr std::size_t kPiece = 4096;
+inline std::size_t pieces_of(std::size_t n) { return (n + kPiece - 1) / kPiece; }
+template <class Kernel>
+void for_pieces(std::size_t n, Kernel&& kernel, std::size_t values_per_index = 1) {
+  for_each_if(threads_pay_for_sweep(n * values_per_index), static_cast<std::ptrdiff_t>(pieces_of(n)), [&](int k) {
+    const std::size_t begin = static_cast<std::size_t>(k) * kPiece;
+    kernel(static_cast<std::size_t>(k), begin, std::min(begin + kPiece, n));
+  });
+}
+
+/// Sum of term(i) over [begin, end), in four interleaved parts.
+template <class Term>
+double sum_of(std::size_t begin, std::size_t end, Term&& term) {
+  double s[4] = {0, 0, 0, 0};
+  std::size_t i = begin;
+  for (; i + 4 <= end; i += 4)
+    for (std::size_t l = 0; l < 4; ++l) s[l] += term(i + l);
+  for (; i < end; ++i) s[0] += term(i);
+  return (s[0] + s[1]) + (s[2] + s[3]);
+}
+
 /// Sum of term(i) over [0, n).
 template <class Term>
 double ordered_sum_of(std::size_t n, Term&& term) {
-  constexpr std::size_t piece = 4096;
-  const std::size_t pieces = (n + piece - 1) / piece;
-  std::vector<double> part(pieces);
-  for_each_if(threads_pay_for_sweep(n), static_cast<std::ptrdiff_t>(pieces), [&](int k) {
-    const std::size_t begin = static_cast<std::size_t>(k) * piece, end = begin + piece < n ? begin + piece : n;
-    double s[4] = {0, 0, 0, 0};
-    std::size_t i = begin;
-    for (; i + 4 <= end; i += 4)
-      for (std::size_t l = 0; l < 4; ++l) s[l] += term(i + l);
-    for (; i < end; ++i) s[0] += term(i);
-    part[static_cast<std::size_t>(k)] = (s[0] + s[1]) + (s[2] + s[3]);
-  });
+  std::vector<double> part(pieces_of(n));
+  for_pieces(n, [&](std::size_t k, std::size_t begin, std::size_t end) { part[k] = sum_of(begin, end, term); });
   double total = 0;
   for (double p : part) total += p;
   return total;
@@ -47,12 +60,13 @@ inline double sum(const Plane& a) {
 
 /// kernel(i) for i in [0, n), in pieces shared between threads.
 template <class Kernel>
-void for_cells(std::size_t n, Kernel&& kernel) {
-  constexpr std::size_t piece = 4096;
-  for_each_if(threads_pay_for_sweep(n), static_cast<std::ptrdiff_t>((n + piece - 1) / piece), [&](int k) {
-    const std::size_t begin = static_cast<std::size_t>(k) * piece, end = begin + piece < n ? begin + piece : n;
-    for (std::size_t i = begin; i < end; ++i) kernel(i);
-  });
+void for_cells(std::size_t n, Kernel&& kernel, std::size_t values_per_index = 1) {
+  for_pieces(
+      n,
+      [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) kernel(i);
+      },
+      values_per_index);
 }
 
 /// y += s x

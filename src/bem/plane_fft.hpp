@@ -1,8 +1,9 @@
 #pragma once
-// Convolution of zero-padded planes by FFT (FFTW), threads over rows and column blocks, the same bits for any number of threads.
+// Convolution of zero-padded planes by FFT (FFTW), threads over rows and groups of columns, the same bits for any number of threads.
 //
 // A plane of nx x ny values is padded to mx x my. Only its nx rows are transformed along y, the padding never is; the transforms along x, the product with the kernel
-// and the transforms back are done block by block of columns, in cache.
+// and the transforms back are done group by group of columns, in cache.
+#include <cassert>
 #include <complex>
 #include <memory>
 #include <vector>
@@ -13,7 +14,7 @@ namespace railstrata {
 
 class PlaneFft {
  public:
-  static constexpr int kBlock = 8;  ///< columns of wave numbers per block
+  static constexpr int kBlock = 1;  ///< columns of wave numbers (same ky) in one call of multiply
 
   /// Pads so that offsets from -nx to nx are free of wrap-around along x, and -(ny-1) to ny-1 along y.
   PlaneFft(int nx, int ny);
@@ -25,45 +26,50 @@ class PlaneFft {
   int ny() const { return ny_; }
   int mx() const { return mx_; }
   int my() const { return my_; }
-  int blocks() const { return blocks_; }
-  /// Values of one kernel's spectrum: index (block * mx + kx) * kBlock + column.
-  std::size_t spectrum_size() const { return static_cast<std::size_t>(blocks_) * static_cast<std::size_t>(mx_) * kBlock; }
+  /// Values of one kernel's spectrum: index ky mx + kx, ky = 0 … my/2.
+  std::size_t spectrum_size() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(mx_); }
 
   /// Symmetry of a kernel given for offsets >= 0: +1 even, -1 odd in x and in y. Even total parity gives a real spectrum, odd an imaginary one; the returned numbers
   /// are the real or the imaginary part. table[i * (my/2 + 1) + j], i = 0 … mx/2, j = 0 … my/2. Divided by mx my, so that `multiply` needs no scaling.
   std::vector<double> spectrum(const std::vector<double>& table, int parity_x, int parity_y) const;
 
-  /// in: planes of nx x ny; out: planes of rows_out x ny (rows_out <= nx + 1). Calls multiply(first, count, z) on `count` consecutive spectrum entries starting at
+  /// in: planes of nx x ny; out: planes of rows_out x ny (rows_out <= nx + 1). Calls multiply(first, count, z) on `count` = mx consecutive spectrum entries starting at
   /// index `first`: z[c] holds input c transformed and is to be replaced by output c transformed. There are max(in, out) planes; those without an input hold anything.
   template <class Multiply>
   void apply(const std::vector<const double*>& in, const std::vector<double*>& out, int rows_out, Multiply&& multiply) const {
-    std::vector<Spectrum> work = rows_in(in, out.size());
-    const int count = mx_ * kBlock;
-    for_blocks([&](int block) {
-      std::vector<std::complex<double>*> z(work.size());
-      for (std::size_t c = 0; c < z.size(); ++c) z[c] = block_buffer(work.size()) + c * static_cast<std::size_t>(count);
-      for (std::size_t c = 0; c < in.size(); ++c) columns_in(work[c], block, z[c]);
-      multiply(static_cast<std::size_t>(block) * static_cast<std::size_t>(count), count, z.data());
-      for (std::size_t c = 0; c < out.size(); ++c) columns_out(work[c], block, z[c], rows_out);
+    constexpr std::size_t most = 9;
+    const std::size_t planes = in.size() > out.size() ? in.size() : out.size();
+    assert(planes <= most);
+    Complex* work = rows_in(in, planes);
+    for_each_if(threads_pay(), groups_, [&](int group) {
+      Complex* z[most];
+      for (std::size_t c = 0; c < planes; ++c) z[c] = group_buffer(planes) + c * group_size();
+      for (std::size_t c = 0; c < in.size(); ++c) columns_in(work + c * plane_size(), group, z[c]);
+      for (int ky = group * kGroup; ky < (group + 1) * kGroup && ky < width_; ++ky) {
+        multiply(static_cast<std::size_t>(ky) * static_cast<std::size_t>(mx_), mx_, z);
+        for (std::size_t c = 0; c < planes; ++c) z[c] += mx_;
+      }
+      for (std::size_t c = 0; c < out.size(); ++c) columns_out(work + c * plane_size(), group, group_buffer(planes) + c * group_size(), rows_out);
     });
     rows_out_of(work, out, rows_out);
   }
 
  private:
+  using Complex = std::complex<double>;
+  static constexpr int kGroup = 4;  // columns copied side by side: a cache line
   struct Plans;
-  using Spectrum = std::vector<std::complex<double>>;  // transformed along y: rows of blocks_ * kBlock wave numbers
-  std::vector<Spectrum> rows_in(const std::vector<const double*>& in, std::size_t outputs) const;
-  std::complex<double>* block_buffer(std::size_t planes) const;
-  void columns_in(const Spectrum& rows, int block, std::complex<double>* z) const;
-  void columns_out(Spectrum& rows, int block, std::complex<double>* z, int rows_out) const;
-  void rows_out_of(const std::vector<Spectrum>& work, const std::vector<double*>& out, int rows_out) const;
-  template <class Body>
-  void for_blocks(Body&& body) const {
-    for_each_if(threads_pay(), blocks_, body);
-  }
+  /// A plane transformed along y: nx + 1 rows of groups_ * kGroup wave numbers. Planes lie one after the other in a buffer that the calling thread keeps.
+  std::size_t plane_size() const { return static_cast<std::size_t>(nx_ + 1) * pitch(); }
+  std::size_t pitch() const { return static_cast<std::size_t>(groups_ * kGroup); }
+  std::size_t group_size() const { return static_cast<std::size_t>(mx_) * kGroup; }
+  Complex* rows_in(const std::vector<const double*>& in, std::size_t planes) const;
+  Complex* group_buffer(std::size_t planes) const;
+  void columns_in(const Complex* rows, int group, Complex* z) const;
+  void columns_out(Complex* rows, int group, Complex* z, int rows_out) const;
+  void rows_out_of(Complex* work, const std::vector<double*>& out, int rows_out) const;
   bool threads_pay() const { return threads_pay_for(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_)); }
 
-  int nx_, ny_, mx_, my_, width_, blocks_;
+  int nx_, ny_, mx_, my_, width_, groups_;
   std::unique_ptr<Plans> plans_;
 };
 

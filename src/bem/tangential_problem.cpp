@@ -1,6 +1,7 @@
 #include "bem/tangential_problem.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bem/gmres.hpp"
@@ -10,8 +11,10 @@ namespace railstrata {
 
 namespace {
 
-constexpr unsigned char kOutside = 0, kStick = 1, kSlip = 2;
+constexpr unsigned char kOutside = 0, kStick = 1, kSlip = 2, kLoosened = 3;  // loosened: stuck before the Newton step, over the bound after it
 constexpr double kCoarse = 0.1;  // of the linear systems, while sets still change
+
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 /// Vectors of the Newton system hold the planes x and y one after the other, then one entry for each direction whose force is given.
 class Solver {
@@ -19,7 +22,7 @@ class Solver {
   Solver(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options)
       : A_(influence), grid_(grid), problem_(problem), options_(options), n_(grid.size()), ahead_(static_cast<std::size_t>(grid.ny)),
         q_(2 * n_, 0.0), slip_(2 * n_), rigid_(2 * n_), normal_(2 * n_, 0.0), diagonal_(n_, 0.0), history_(2 * n_, 0.0),
-        set_(n_, kOutside), u_(2 * (n_ + ahead_)) {
+        integral_(2 * n_), set_(n_, kOutside), u_(2 * (n_ + ahead_)), over_(1 / step_length()) {
     if (problem.x.force) directions_.push_back(0);
     if (problem.y.force) directions_.push_back(1);
     creepage_[0] = problem.x.creepage;
@@ -39,9 +42,8 @@ class Solver {
     double error = violation();
     for (; error > options_.tolerance && outer_ < options_.max_outer; ++outer_) {
       prepare_slip_cells();
-      Plane step;
-      newton_step(changed == 0 && outer_ > 0 ? std::clamp(0.3 * options_.tolerance / error, 1e-4, kCoarse) : kCoarse, step);
-      advance(step);
+      newton_step(changed == 0 && outer_ > 0 ? std::clamp(0.3 * options_.tolerance / error, 1e-4, kCoarse) : kCoarse);
+      advance();
       update_slip();
       changed = update_sets();
       error = violation();
@@ -78,7 +80,7 @@ class Solver {
   void adopt(const TangentialSolution& start) {
     for (std::size_t i = 0; i < n_; ++i) {
       if (set_[i] == kOutside) continue;
-      const double size = std::hypot(start.q_x[i], start.q_y[i]), g = problem_.bound[i];
+      const double size = length(start.q_x[i], start.q_y[i]), g = problem_.bound[i];
       const bool slips = start.state[i] == ContactState::slip && size > 0;
       const double scale = slips || size > g ? g / size : 1.0;
       q_[i] = scale * start.q_x[i];
@@ -93,7 +95,7 @@ class Solver {
   bool fill_new_cells(const TangentialSolution& start) {
     bool any = false;
     for (std::size_t i = 0; i < n_; ++i) {
-      const double slip = std::hypot(slip_[i], slip_[n_ + i]);
+      const double slip = length(slip_[i], slip_[n_ + i]);
       if (set_[i] == kOutside || start.state[i] != ContactState::separated || slip == 0) continue;
       const double g = problem_.bound[i], q = std::min(g, slip / self_);
       if (q == g) set_[i] = kSlip;
@@ -104,102 +106,115 @@ class Solver {
     return any;
   }
 
-  /// out = L in on the patch.
-  void apply_L(const double* in, double* out) {
-    const int rows = steady() ? grid_.nx + 1 : grid_.nx;
-    double *ux = u_.data(), *uy = ux + n_ + ahead_;
-    A_.tangential(in, in + n_, ux, uy, rows);
+  /// kernel(i) for every cell; each stands for the values of two planes.
+  template <class Kernel>
+  void for_both(Kernel&& kernel) const {
+    for_cells(n_, kernel, 2);
+  }
+
+  /// L in at cell i, after elastic_displacement(in).
+  double L_x(std::size_t i) const { return (u_[i] - (steady() ? u_[i + ahead_] : 0.0)) * over_; }
+  double L_y(std::size_t i) const { return (u_[n_ + ahead_ + i] - (steady() ? u_[n_ + ahead_ + i + ahead_] : 0.0)) * over_; }
+  void elastic_displacement(const double* in) {
+    A_.tangential(in, in + n_, u_.data(), u_.data() + n_ + ahead_, steady() ? grid_.nx + 1 : grid_.nx);
     ++iterations_;
-    const double over = 1 / step_length();
-    const std::size_t next = steady() ? ahead_ : 0;
-    for_cells(n_, [&](std::size_t i) {
-      const bool in_patch = set_[i] != kOutside;
-      out[i] = in_patch ? over * (next ? ux[i] - ux[i + next] : ux[i]) : 0.0;
-      out[n_ + i] = in_patch ? over * (next ? uy[i] - uy[i + next] : uy[i]) : 0.0;
-    });
   }
 
   void update_slip() {
-    apply_L(q_.data(), slip_.data());
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (set_[i] == kOutside) continue;
-      slip_[i] = rigid_[i] + creepage_[0] + history_[i] - slip_[i];
-      slip_[n_ + i] = rigid_[n_ + i] + creepage_[1] + history_[n_ + i] - slip_[n_ + i];
-    }
+    elastic_displacement(q_.data());
+    for_both([&](std::size_t i) {
+      const bool in_patch = set_[i] != kOutside;
+      slip_[i] = in_patch ? rigid_[i] + creepage_[0] + history_[i] - L_x(i) : 0.0;
+      slip_[n_ + i] = in_patch ? rigid_[n_ + i] + creepage_[1] + history_[n_ + i] - L_y(i) : 0.0;
+    });
+  }
+
+  using Vec2 = std::array<double, 2>;
+  /// The same, and the sums of a pair of planes after it.
+  template <class Kernel>
+  Vec2 for_both_summed(const double* pair, Kernel&& kernel) const {
+    std::vector<Vec2> part(pieces_of(n_));
+    for_pieces(
+        n_,
+        [&](std::size_t k, std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) kernel(i);
+          part[k] = {sum_of(begin, end, [&](std::size_t i) { return pair[i]; }), sum_of(begin, end, [&](std::size_t i) { return pair[n_ + i]; })};
+        },
+        2);
+    Vec2 total{0, 0};
+    for (const Vec2& p : part) total[0] += p[0], total[1] += p[1];
+    return total;
   }
 
   /// What a given force lacks, over the area of a cell.
   double missing_force(int direction) const {
-    const std::size_t offset = direction ? n_ : 0;
-    const double wanted = direction ? *problem_.y.force : *problem_.x.force;
-    return wanted / grid_.cell_area() - ordered_sum_of(n_, [&](std::size_t i) { return q_[offset + i]; });
+    const double* q = q_.data() + (direction ? n_ : 0);
+    return (direction ? *problem_.y.force : *problem_.x.force) / grid_.cell_area() - ordered_sum_of(n_, [&](std::size_t i) { return q[i]; });
   }
 
   /// Unit traction direction and the stabilising diagonal (s·n)/g of slipping cells.
   void prepare_slip_cells() {
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (set_[i] != kSlip) continue;
+    for_both([&](std::size_t i) {
+      if (set_[i] != kSlip) return;
       const double g = problem_.bound[i];
       normal_[i] = q_[i] / g;
       normal_[n_ + i] = q_[n_ + i] / g;
       diagonal_[i] = std::max(0.0, slip_[i] * normal_[i] + slip_[n_ + i] * normal_[n_ + i]) / g;
-    }
-  }
-
-  /// Restricts a pair of planes to the unknowns: all in stick, across the traction in slip, nothing outside.
-  void project(double* v) const {
-    for_cells(n_, [&](std::size_t i) {
-      if (set_[i] == kStick) return;
-      if (set_[i] == kOutside) {
-        v[i] = v[n_ + i] = 0;
-        return;
-      }
-      const double across = -v[i] * normal_[n_ + i] + v[n_ + i] * normal_[i];
-      v[i] = -across * normal_[n_ + i];
-      v[n_ + i] = across * normal_[i];
     });
   }
 
-  void newton_step(double accuracy, Plane& step) {
+  /// Restricts a value of cell i to the unknowns: all in stick, across the traction in slip, nothing outside.
+  void project(std::size_t i, double& x, double& y) const {
+    if (set_[i] == kStick) return;
+    if (set_[i] == kOutside) {
+      x = y = 0;
+      return;
+    }
+    const double across = -x * normal_[n_ + i] + y * normal_[i];
+    x = -across * normal_[n_ + i];
+    y = across * normal_[i];
+  }
+
+  void newton_step(double accuracy) {
     prepare_border();
     const std::size_t m = directions_.size();
-    Plane b(2 * n_ + m);
-    std::copy(slip_.begin(), slip_.end(), b.begin());
-    project(b.data());
-    for (std::size_t c = 0; c < m; ++c) {
-      b[2 * n_ + c] = force_row_ * missing_force(directions_[c]);
-    }
-    gmres([&](const Plane& in, Plane& out) { newton_product(in, out); }, [&](const Plane& in, Plane& out) { precondition(in, out); }, b, step, accuracy, 120);
+    right_side_.resize(2 * n_ + m);
+    for_both([&](std::size_t i) {
+      right_side_[i] = slip_[i];
+      right_side_[n_ + i] = slip_[n_ + i];
+      project(i, right_side_[i], right_side_[n_ + i]);
+    });
+    for (std::size_t c = 0; c < m; ++c) right_side_[2 * n_ + c] = force_row_ * missing_force(directions_[c]);
+    gmres([&](const Plane& in, Plane& out) { newton_product(in, out); }, [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, accuracy, 120, space_);
   }
 
   void newton_product(const Plane& in, Plane& out) {
-    apply_L(in.data(), out.data());
+    elastic_displacement(in.data());
     const std::size_t m = directions_.size();
-    for (std::size_t c = 0; c < m; ++c) {
-      const std::size_t offset = directions_[c] ? n_ : 0;
-      for_cells(n_, [&](std::size_t i) { out[offset + i] -= in[2 * n_ + c]; });
-      out[2 * n_ + c] = force_row_ * ordered_sum_of(n_, [&](std::size_t i) { return in[offset + i]; });
-    }
-    project(out.data());
-    for_cells(n_, [&](std::size_t i) {
-      if (set_[i] != kSlip) return;
-      out[i] += diagonal_[i] * in[i];
-      out[n_ + i] += diagonal_[i] * in[n_ + i];
+    double creep[2] = {0, 0};
+    for (std::size_t c = 0; c < m; ++c) creep[directions_[c]] = in[2 * n_ + c];
+    const Vec2 force = for_both_summed(in.data(), [&](std::size_t i) {
+      double x = L_x(i) - creep[0], y = L_y(i) - creep[1];
+      project(i, x, y);
+      const double d = set_[i] == kSlip ? diagonal_[i] : 0.0;
+      out[i] = x + d * in[i];
+      out[n_ + i] = y + d * in[n_ + i];
     });
+    for (std::size_t c = 0; c < m; ++c) out[2 * n_ + c] = force_row_ * force[directions_[c]];
   }
 
-  /// Approximate inverse of the first block.
-  void precondition_block(const double* in, double* out) {
-    Plane v(in, in + 2 * n_);
-    if (steady()) integrate_from_leading_edge(v);
+  /// Approximate inverse of the first block. Returns the sums of the result.
+  Vec2 precondition_block(const double* in, double* out) {
+    if (steady()) integrate_from_leading_edge(in);
     else
-      for (double& e : v) e *= step_length();
-    for_cells(n_, [&](std::size_t i) {
-      if (set_[i] != kStick) v[i] = v[n_ + i] = 0;
-    });
-    A_.precondition_tangential(v.data(), v.data() + n_, out, out + n_);
+      for_both([&](std::size_t i) {
+        const double step = set_[i] == kStick ? step_length() : 0.0;
+        integral_[i] = step * in[i];
+        integral_[n_ + i] = step * in[n_ + i];
+      });
+    A_.precondition_tangential(integral_.data(), integral_.data() + n_, out, out + n_);
     ++iterations_;
-    for_cells(n_, [&](std::size_t i) {
+    return for_both_summed(out, [&](std::size_t i) {
       if (set_[i] == kStick) return;
       const double scale = set_[i] == kSlip ? 1 / (self_ + diagonal_[i]) : 0.0;
       out[i] = scale * in[i];
@@ -207,93 +222,105 @@ class Solver {
     });
   }
 
-  /// u(x) from u(x) - u(x + dx) = dx r along each run of sticking cells, zero ahead of it.
-  void integrate_from_leading_edge(Plane& v) const {
-    constexpr int strip = 64;  // columns
-    for_each_if(threads_pay_for_sweep(n_), (grid_.ny + strip - 1) / strip, [&](int s) {
+  /// u(x) from u(x) - u(x + dx) = dx r along each run of sticking cells, zero ahead of it and elsewhere.
+  void integrate_from_leading_edge(const double* r) {
+    constexpr int strip = 32;  // columns
+    for_each_if(threads_pay_for_sweep(2 * n_), (grid_.ny + strip - 1) / strip, [&](int s) {
       for (int i = grid_.nx - 1; i >= 0; --i)
         for (int j = s * strip; j < std::min(grid_.ny, (s + 1) * strip); ++j) {
           const std::size_t k = grid_.index(i, j);
-          if (set_[k] != kStick) continue;
-          const bool continues = i + 1 < grid_.nx && set_[k + ahead_] == kStick;
-          for (std::size_t c : {k, n_ + k}) v[c] = grid_.dx * v[c] + (continues ? v[c + ahead_] : 0.0);
+          const bool sticks = set_[k] == kStick, continues = sticks && i + 1 < grid_.nx && set_[k + ahead_] == kStick;
+          for (std::size_t c : {k, n_ + k}) integral_[c] = sticks ? grid_.dx * r[c] + (continues ? integral_[c + ahead_] : 0.0) : 0.0;
         }
     });
   }
 
+  /// What a unit creepage does to the first block's approximate inverse.
   void prepare_border() {
-    border_.clear();
-    for (int direction : directions_) {
-      Plane e(2 * n_, 0.0), z(2 * n_);
-      std::fill(e.begin() + static_cast<std::ptrdiff_t>(direction ? n_ : 0), e.begin() + static_cast<std::ptrdiff_t>(direction ? 2 * n_ : n_), 1.0);
-      project(e.data());
-      precondition_block(e.data(), z.data());
-      border_.push_back(std::move(z));
+    border_.resize(directions_.size());
+    right_side_.resize(2 * n_);
+    for (std::size_t c = 0; c < directions_.size(); ++c) {
+      for_both([&](std::size_t i) {
+        right_side_[i] = directions_[c] == 0;
+        right_side_[n_ + i] = directions_[c] == 1;
+        project(i, right_side_[i], right_side_[n_ + i]);
+      });
+      border_[c].resize(2 * n_);
+      const Vec2 force = precondition_block(right_side_.data(), border_[c].data());
+      for (std::size_t d = 0; d < directions_.size(); ++d) border_force_[d][c] = force[directions_[d]];
     }
   }
 
   void precondition(const Plane& in, Plane& out) {
-    out.resize(in.size());
-    precondition_block(in.data(), out.data());
+    const Vec2 force = precondition_block(in.data(), out.data());
     const std::size_t m = directions_.size();
-    if (m == 0) return;
-    const auto total = [&](const double* v, int direction) { return ordered_sum_of(n_, [&](std::size_t i) { return v[(direction ? n_ : 0) + i]; }); };
-    double a[2][2] = {{1, 0}, {0, 1}}, r[2] = {0, 0};
-    for (std::size_t c = 0; c < m; ++c) {
-      r[c] = in[2 * n_ + c] / force_row_ - total(out.data(), directions_[c]);
-      for (std::size_t d = 0; d < m; ++d) a[c][d] = total(border_[d].data(), directions_[c]);
+    double r[2] = {0, 0}, creep[2] = {0, 0};
+    for (std::size_t c = 0; c < m; ++c) r[c] = in[2 * n_ + c] / force_row_ - force[directions_[c]];
+    const auto& a = border_force_;
+    if (m == 1) creep[0] = r[0] / a[0][0];
+    if (m == 2) {
+      const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
+      creep[0] = (a[1][1] * r[0] - a[0][1] * r[1]) / det;
+      creep[1] = (a[0][0] * r[1] - a[1][0] * r[0]) / det;
     }
-    const double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-    const double creep[2] = {(a[1][1] * r[0] - a[0][1] * r[1]) / det, (a[0][0] * r[1] - a[1][0] * r[0]) / det};
     for (std::size_t c = 0; c < m; ++c) {
       for_cells(2 * n_, [&](std::size_t i) { out[i] += creep[c] * border_[c][i]; });
       out[2 * n_ + c] = creep[c];
     }
   }
 
-  void advance(const Plane& step) {
-    for (std::size_t c = 0; c < directions_.size(); ++c) creepage_[directions_[c]] += step[2 * n_ + c];
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (set_[i] == kOutside) continue;
-      q_[i] += step[i];
-      q_[n_ + i] += step[n_ + i];
-      const double size = std::hypot(q_[i], q_[n_ + i]), g = problem_.bound[i];
+  void advance() {
+    for (std::size_t c = 0; c < directions_.size(); ++c) creepage_[directions_[c]] += step_[2 * n_ + c];
+    for_both([&](std::size_t i) {
+      if (set_[i] == kOutside) return;
+      q_[i] += step_[i];
+      q_[n_ + i] += step_[n_ + i];
+      const double size = length(q_[i], q_[n_ + i]), g = problem_.bound[i];
       if (set_[i] == kSlip || size > g) {
-        if (set_[i] == kStick) pending_.push_back(i);
+        if (set_[i] == kStick) set_[i] = kLoosened;
         q_[i] *= g / size;
         q_[n_ + i] *= g / size;
       }
-    }
+    });
   }
 
+  /// Cells that step over the bound slip, those that would slip against their traction stick. Returns how many changed.
   int update_sets() {
-    const int to_slip = static_cast<int>(pending_.size());
-    int to_stick = 0;
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (set_[i] != kSlip) continue;
-      if (slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i] < -1e-9 * scale_ * problem_.bound[i]) {
-        set_[i] = kStick;
-        ++to_stick;
+    return static_cast<int>(ordered_sum_of(n_, [&](std::size_t i) -> double {
+      if (set_[i] == kLoosened) {
+        set_[i] = kSlip;
+        return 1;
       }
-    }
-    for (std::size_t i : pending_) set_[i] = kSlip;
-    pending_.clear();
-    return to_slip + to_stick;
+      if (set_[i] != kSlip || slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i] >= -1e-9 * scale_ * problem_.bound[i]) return 0;
+      set_[i] = kStick;
+      return 1;
+    }));
   }
 
   /// Largest violation of the slip conditions and of the given forces, as TangentialOptions::tolerance counts it.
   double violation() {
-    double worst = 0, largest = 0, force = 0;
-    for (std::size_t i = 0; i < n_; ++i) {
-      if (set_[i] == kOutside) continue;
-      largest = std::max({largest, std::hypot(rigid_[i] + creepage_[0], rigid_[n_ + i] + creepage_[1]), 0.01 * std::hypot(history_[i], history_[n_ + i])});
-      const double g = problem_.bound[i];
-      const double wrong = set_[i] == kStick ? std::hypot(slip_[i], slip_[n_ + i]) : std::abs(slip_[i] * q_[n_ + i] - slip_[n_ + i] * q_[i]) / g;
-      worst = std::max(worst, wrong);
-    }
+    struct Largest {
+      double wrong = 0, rigid = 0;  // squares
+    };
+    std::vector<Largest> part(pieces_of(n_));
+    for_pieces(
+        n_,
+        [&](std::size_t k, std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            if (set_[i] == kOutside) continue;
+            const double x = rigid_[i] + creepage_[0], y = rigid_[n_ + i] + creepage_[1], g = problem_.bound[i];
+            const double across = (slip_[i] * q_[n_ + i] - slip_[n_ + i] * q_[i]) / g;
+            part[k].rigid = std::max({part[k].rigid, x * x + y * y, 1e-4 * (history_[i] * history_[i] + history_[n_ + i] * history_[n_ + i])});
+            part[k].wrong = std::max(part[k].wrong, set_[i] == kStick ? slip_[i] * slip_[i] + slip_[n_ + i] * slip_[n_ + i] : across * across);
+          }
+        },
+        2);
+    Largest all;
+    for (const Largest& p : part) all = {std::max(all.wrong, p.wrong), std::max(all.rigid, p.rigid)};
+    scale_ = std::sqrt(all.rigid);
+    double force = 0;
     for (int direction : directions_) force = std::max(force, std::abs(missing_force(direction)));
-    scale_ = largest;
-    return std::max(worst > 0 ? worst / largest : 0.0, force > 0 ? force / available_ : 0.0);
+    return std::max(all.wrong > 0 ? std::sqrt(all.wrong / all.rigid) : 0.0, force > 0 ? force / available_ : 0.0);
   }
 
   TangentialSolution solution() const {
@@ -332,12 +359,14 @@ class Solver {
   const TangentialProblem& problem_;
   TangentialOptions options_;
   std::size_t n_, ahead_;
-  Plane q_, slip_, rigid_, normal_, diagonal_, history_;
+  Plane q_, slip_, rigid_, normal_, diagonal_, history_, step_, right_side_, integral_;
   Mask set_;
   Plane u_;
+  double over_;
   std::vector<Plane> border_;
   std::vector<int> directions_;  // 0 x, 1 y: those whose force is given
-  std::vector<std::size_t> pending_;
+  double border_force_[2][2] = {{1, 0}, {0, 1}};
+  GmresSpace space_;
   double creepage_[2] = {0, 0};
   double scale_ = 0;          // largest rigid slip
   double available_ = 0;      // friction over the area of a cell
