@@ -66,9 +66,15 @@ function extreme(cuts: Cut[], kind: "von_mises" | "sigma_1", ofSize: boolean): n
   return top || 1;
 }
 
-function place(cut: Cut, kind: "von_mises" | "sigma_1"): { x: number; y: number; value: number } {
+/// The largest value in the window that is drawn.
+function place(cut: Cut, kind: "von_mises" | "sigma_1", windowX: [number, number], windowY: [number, number]): { x: number; y: number; value: number } {
   let best = { x: 0, y: 0, value: -Infinity };
-  cut.values[kind].forEach((row, r) => row.forEach((v, c) => v !== null && v > best.value && (best = { x: cut.centres[c], y: cut.section.depth[r], value: v })));
+  const inside = (v: number, [low, high]: [number, number]) => v > low && v < high;
+  cut.values[kind].forEach((row, r) =>
+    row.forEach((v, c) => {
+      if (v !== null && v > best.value && inside(cut.centres[c], windowX) && inside(cut.section.depth[r], windowY)) best = { x: cut.centres[c], y: cut.section.depth[r], value: v };
+    }),
+  );
   return best;
 }
 
@@ -91,14 +97,14 @@ export function sectionMaps(runs: Run[], body: Body): Figure[] {
       const all = extreme(cuts, kind.key, true);
       const top = kind.key === "von_mises" ? all : Math.max(extreme(cuts, kind.key, false), 0.1 * all);
       return these.map((cut): Figure => {
-        const best = place(cut, kind.key);
+        const best = place(cut, kind.key, windowX, windowY);
         const at = plane === "longitudinal" ? `plane y = ${minus((cut.section.at - contactY(cut.run)).toFixed(2))} mm` : `plane x = ${minus(cut.section.at.toFixed(2))} mm`;
         const borders = materialBorders(cut.section, cut.x, cut.depth);
         const where = `${along} ${minus(best.x.toFixed(2))}, depth ${best.y.toFixed(2)} mm`;
         return mapFigure({
           id: `section-${body}-${plane}-${kind.key}-${runs.indexOf(cut.run)}`,
           title: `${kind.name}, ${plane === "longitudinal" ? "longitudinal section" : "cross section"}${runs.length > 1 ? `, ${runLabel(cut.run)}` : ""}`,
-          words: [`${body === "rail" ? "Rail" : "Wheel"}, ${at}. Circle: largest of this section, ${minus(best.value.toFixed(0))} MPa at ${where}.${borders.length ? " Dashed: border of the layer." : ""}`],
+          words: [`${body === "rail" ? "Rail" : "Wheel"}, ${at}. Circle: the largest shown, ${minus(best.value.toFixed(0))} MPa at ${where}.${borders.length ? " Dashed: border of the layer." : ""}`],
           x: cut.x,
           y: cut.depth,
           z: cut.values[kind.key],
