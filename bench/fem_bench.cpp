@@ -24,12 +24,7 @@ double multiply_adds(long rounds) {
   PackOf<Real> a[12], m = PackOf<Real>{} + Real(0.999999), c = PackOf<Real>{} + Real(1e-9);
   for (int i = 0; i < 12; ++i) a[i] = PackOf<Real>{} + Real(i);
   for (long k = 0; k < rounds; ++k) {
-    RAILSTRATA_UNROLL
-    for (int i = 0; i < 12; ++i) {
-      a[i] = a[i] * m + c;
-      asm volatile("" : "+v"(a[i]));  // one at a time, in a register
-    }
-  }
+@@  }
   for (int i = 1; i < 12; ++i) a[0] += a[i];
   benchmark::DoNotOptimize(a[0]);
   return static_cast<double>(rounds) * 12 * 2 * kLanesOf<Real>;
@@ -101,9 +96,9 @@ struct Lines {
       advance(node, t.first + 1, t.end, {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
       return true;
     };
-    const Solid::ExpectRows expect = [&](const Solid::Tile& t, int node) {
-      for (int i = 0; i < 3; ++i) fetch(&v[l.line(node, i) + t.first], t.end - t.first);
-      fetch(&inverse_mass[l.line(node, 0) + t.first], t.end - t.first);
+    const Solid::ExpectRows expect = [&](const Solid::Tile& t, int node, Prefetch& lines) {
+      for (int i = 0; i < 3; ++i) lines.add(&v[l.line(node, i) + t.first]);
+      lines.add(&inverse_mass[l.line(node, 0) + t.first]);
     };
     for_each(solid.tiles(), [&](std::ptrdiff_t t) { solid.tile_forces(static_cast<int>(t), u, f, take, expect); }, true);
     solid.end_forces(f);

@@ -20,9 +20,24 @@ struct CacheLineAllocator {
 /// One number per degree of freedom (or per station); how it is indexed is told by mesh/layout.hpp.
 using Field = std::vector<double, CacheLineAllocator<double>>;
 
-/// Asks for n values to be brought into cache.
-inline void fetch(const double* p, std::ptrdiff_t n) {
-  for (std::ptrdiff_t i = 0; i < n; i += 8) __builtin_prefetch(p + i);
-}
+/// Lines of memory that will be wanted soon. They are asked for in pieces, between other work: a burst of requests would wait for the few that a core can have open.
+class Prefetch {
+ public:
+  void clear() { count_ = 0; }
+  /// A line more; forgotten when there are too many.
+  void add(const double* line) {
+    if (count_ < kMost) line_[count_++] = line;
+  }
+  /// Asks for the values first <= i < end of every line.
+  void ask(int first, int end) const {
+    for (int i = first; i < end; i += kCacheLine)
+      for (int k = 0; k < count_; ++k) __builtin_prefetch(line_[k] + i);
+  }
+
+ private:
+  static constexpr int kMost = 32, kCacheLine = 64 / sizeof(double);
+  const double* line_[kMost];
+  int count_ = 0;
+};
 
 }  // namespace railstrata

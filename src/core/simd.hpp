@@ -59,6 +59,13 @@ inline P shift_in(P before, P now) {
   return [&]<int... I>(std::integer_sequence<int, I...>) { return __builtin_shufflevector(before, now, (lanes - 1 + I)...); }(std::make_integer_sequence<int, lanes>{});
 }
 
+/// The lower lanes of one pack and the upper ones of another.
+template <class P>
+inline P halves(P lower, P upper) {
+  constexpr int lanes = static_cast<int>(sizeof(P) / sizeof(lower[0]));
+  return [&]<int... I>(std::integer_sequence<int, I...>) { return __builtin_shufflevector(lower, upper, (I < lanes / 2 ? I : lanes + I)...); }(std::make_integer_sequence<int, lanes>{});
+}
+
 /// n rounded up to whole packs of doubles.
 constexpr int whole_packs(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
 

@@ -74,10 +74,10 @@ Solid::Solid(const SweptBody& body, const std::vector<Elastic>& materials, const
       d.element_class.push_back(class_of(d.classes, mine, [](const SpacingClass& a, const SpacingClass& c) { return same_spacing(a.spacing, c.spacing) && a.hourglass == c.hourglass; }));
     }
     const int classes = static_cast<int>(hourglass_spacings.size());
-    d.hourglass_class.resize(padded / kGroup, classes);
+    d.hourglass_class.resize(padded / kGroup, d.hourglass_class.back());
     k.quads.reserve(quads);
     for (int q = 0; q < quads; ++q) k.quads.push_back(quad_reference(body_.kind, corners(b, q), materials_[block.section.quad_material[q]]));
-    k.hourglass.assign(static_cast<std::size_t>(classes + 1) * quads, HourglassStiffness{});
+    k.hourglass.assign(static_cast<std::size_t>(classes) * quads, HourglassStiffness{});
     for_each(static_cast<std::ptrdiff_t>(classes) * quads, [&](std::ptrdiff_t i) {
       const int q = static_cast<int>(i % quads);
       k.hourglass[i] = hourglass_stiffness(body_.kind, corners(b, q), sweep_scale(body_.kind, hourglass_spacings[i / quads]), materials_[block.section.quad_material[q]], options.element,
@@ -194,7 +194,7 @@ const Solid::KernelData<float>& Solid::kernel<float>(const BlockData& d) const {
 
 namespace {
 
-// Hourglass stiffness of a pack: whole and of one class, or of one class in each half and with elements that do not exist.
+// Hourglass stiffness of a pack: of one class, or of one in each half.
 template <class Real>
 struct OneClass {
   const Real* k;
@@ -203,22 +203,16 @@ struct OneClass {
 template <class Real>
 struct TwoClasses {
   const Real *lower, *upper;
-  int elements;
-  PackOf<Real> operator()(int e) const {
-    PackOf<Real> v;
-    RAILSTRATA_UNROLL
-    for (int l = 0; l < kLanesOf<Real>; ++l) v[l] = l >= elements ? Real(0) : l < kLanesOf<Real> / 2 ? lower[e] : upper[e];
-    return v;
-  }
+  PackOf<Real> operator()(int e) const { return halves(PackOf<Real>{} + lower[e], PackOf<Real>{} + upper[e]); }
 };
 
-// Replaces the hourglass amplitudes of the elements from `first` on by their forces; returns the energy. `table`: the classes' stiffnesses of one quadrilateral.
+// Replaces the hourglass amplitudes of a pack of elements from `first` on by their forces; returns the energy. `table`: the classes' stiffnesses of one quadrilateral.
+// Lanes past the end of the line are filled with numbers that mean nothing.
 template <class Real, bool still, class P, class Table>
-P pack_hourglass(const Table& table, const std::vector<int>& group_class, int first, int elements, const StationScale<P>& st, ElementKinematics<P>& kin) {
-  constexpr int lanes = kLanesOf<Real>;
-  const int lower = group_class[first / kGroup], upper = group_class[(first + lanes / 2) / kGroup];
-  if (lower == upper && elements - first >= lanes) return hourglass_forces<still>(OneClass<Real>{table(lower)}, st, kin);
-  return hourglass_forces<still>(TwoClasses<Real>{table(lower), table(upper), elements - first}, st, kin);
+P pack_hourglass(const Table& table, const std::vector<int>& group_class, int first, const StationScale<P>& st, ElementKinematics<P>& kin) {
+  const int lower = group_class[first / kGroup], upper = group_class[(first + kLanesOf<Real> / 2) / kGroup];
+  if (lower == upper) return hourglass_forces<still>(OneClass<Real>{table(lower)}, st, kin);
+  return hourglass_forces<still>(TwoClasses<Real>{table(lower), table(upper)}, st, kin);
 }
 
 // Rows of a tile's scratch memory, three components each.
@@ -254,15 +248,19 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, cons
   StationScale<P> st[kTile / lanes];
   for (int n = 0; n < packs; ++n) st[n] = k.template scale<P>(tile.first + n * lanes, [](const Real* x) { return load(x); });
 
+  Prefetch ahead;
   auto look_ahead = [&](std::size_t q) {
+    ahead.clear();
     for (int c = 0; c < 4; ++c) {
-      if (!d.fresh[q][c]) continue;
-      for (int i = 0; i < 3; ++i) fetch(u.data() + lay.line(quads[q][c], i) + tile.first, count + 1);
-      if (expect) (*expect)(tile, quads[q][c]);
+      if (d.fresh[q][c])
+        for (int i = 0; i < 3; ++i) ahead.add(u.data() + lay.line(quads[q][c], i) + tile.first);
+      if (d.done[q][c] && expect) (*expect)(tile, quads[q][c], ahead);
     }
   };
   look_ahead(0);
+  ahead.ask(0, count + 1);
   for (std::size_t q = 0; q < quads.size(); ++q) {
+    ahead.clear();
     if (q + 1 < quads.size()) look_ahead(q + 1);
     const QuadReferenceOf<Real>& ref = k.quads[q];
     const Real* in[4][3];
@@ -292,6 +290,7 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, cons
     }
     for (int n = 0; n < packs; ++n) {
       const int e = n * lanes;
+      ahead.ask(e, std::min(e + lanes, count + 1));
       auto kin = element_kinematics<kind, P>(ref, st[n], [&](int c, int i, P& left_value, P& right_value) {
         left_value = load(in[c][i] + e);
         right_value = load(in[c][i] + e + 1);
@@ -299,7 +298,7 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, cons
       ElementStress<P> stress;
       if constexpr (linear) stress = linear_stress(ref, st[n], kin);
       else stress = nonlinear_stress<kind>(ref, st[n], kin);
-      pack_hourglass<Real, kind == SweepKind::extrude>([&](int c) { return k.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, tile.first + e, lay.elements, st[n], kin);
+      pack_hourglass<Real, kind == SweepKind::extrude>([&](int c) { return k.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, tile.first + e, st[n], kin);
       element_forces(ref, st[n], stress, kin, [&](int c, int i, P left_force, P right_force) {
         store(left[c][i] + e, load(left[c][i] + e) + left_force);
         store(right[c][i] + e, load(right[c][i] + e) + right_force);
@@ -389,7 +388,8 @@ StrainEnergy Solid::energy(Field& u, double psi) const {
               right = load(in[c][i] + e + 1);
             });
             const auto stress = nonlinear_stress(ref, st, kin);
-            hourglass += pack_hourglass<double, false>([&](int c) { return d.kernel.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, e, lay.elements, st, kin);
+            const Pack stored = pack_hourglass<double, false>([&](int c) { return d.kernel.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, e, st, kin);
+            for (int l = 0; l < std::min(kLanes, tile.end - e); ++l) hourglass[l] += stored[l];
             const auto& a = stress.strain;
             const auto& b = stress.s;
             strain += 0.5 * ref.volume * st.v2 * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]));

@@ -60,8 +60,8 @@ class Solid {
   /// Complete internal forces on a node at the stations tile.first < j < tile.end: rows[i * kTile + j - tile.first]. May change the displacements there. Returns true
   /// if it has used them up; otherwise they are stored in f.
   using TakeRows = std::function<bool(const Tile& tile, int node, const double* rows)>;
-  /// Told of a node some time before its rows are handed over, to fetch from memory what will be wanted then.
-  using ExpectRows = std::function<void(const Tile& tile, int node)>;
+  /// Told of a node some time before its rows are handed over: adds the lines of memory, from the tile's first station, that will be wanted then.
+  using ExpectRows = std::function<void(const Tile& tile, int node, Prefetch& lines)>;
 
   void begin_forces(Field& u, double psi) const;
   int tiles() const { return static_cast<int>(tiles_.size()); }

@@ -177,11 +177,11 @@ void Stepper::internal_forces() {
         const Solid& solid = is_wheel ? wheel : rail;
         const Field& v = is_wheel ? state_.v_wheel : state_.v_rail;
         const Field& inverse_mass = (is_wheel ? sys_.wheel : sys_.rail).inverse_mass;
-        const Solid::ExpectRows expect = [&](const Solid::Tile& tile, int node) {
+        const Solid::ExpectRows expect = [&](const Solid::Tile& tile, int node, Prefetch& lines) {
           if (!plan.at_once[tile.block][node]) return;
           const std::ptrdiff_t x = solid.layout().blocks[tile.block].line(node, 0) + tile.first;
-          for (int i = 0; i < 3; ++i) fetch(&v[x + i * solid.layout().blocks[tile.block].stride], tile.end - tile.first);
-          fetch(&inverse_mass[x], tile.end - tile.first);
+          for (int i = 0; i < 3; ++i) lines.add(&v[x + i * solid.layout().blocks[tile.block].stride]);
+          lines.add(&inverse_mass[x]);
         };
         solid.tile_forces(t, is_wheel ? state_.u_wheel : state_.u_rail, is_wheel ? f_wheel_ : f_rail_, take, expect);
         plan.tile_sums[t] = sums;
