@@ -6,16 +6,18 @@
 
 namespace {
 
-// Threads that spin while they wait cost more than they win where cores are shared. The OpenMP runtime reads this wish before main() starts, hence once more from the top.
-void wait_passively(char** argv) {
+// Threads that spin long while they wait cost more than they win where cores are shared; those that sleep at once take longer to wake than many a sweep lasts. g++'s
+// OpenMP runtime is told to spin for some ten microseconds, others to sleep. They read such wishes before main() starts, hence once more from the top.
+void wait_briefly(char** argv) {
   if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr) return;
   setenv("OMP_WAIT_POLICY", "passive", 1);
+  setenv("GOMP_SPINCOUNT", "3000", 1);
   execv("/proc/self/exe", argv);  // comes back only where that is not possible: then it runs on as it is
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  wait_passively(argv);
+  wait_briefly(argv);
   return railstrata::run_program(argc, argv);
 }

@@ -52,13 +52,6 @@ inline PackOf<Real> load(const Real* p) {
 inline void store(double* p, Pack v) { std::memcpy(p, &v, sizeof v); }
 inline void store(float* p, PackOf<float> v) { std::memcpy(p, &v, sizeof v); }
 
-/// {before[last], now[0], now[1], …}: moves a line of values on by one lane.
-template <class P>
-inline P shift_in(P before, P now) {
-  constexpr int lanes = static_cast<int>(sizeof(P) / sizeof(now[0]));
-  return [&]<int... I>(std::integer_sequence<int, I...>) { return __builtin_shufflevector(before, now, (lanes - 1 + I)...); }(std::make_integer_sequence<int, lanes>{});
-}
-
 /// The lower lanes of one pack and the upper ones of another.
 template <class P>
 inline P halves(P lower, P upper) {

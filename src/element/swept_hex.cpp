@@ -207,16 +207,17 @@ Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const Hour
   Matrix24 k;
   for (int column = 0; column < 24; ++column) {
     const int a = column / 3;
-    auto kin = element_kinematics<SweepKind::revolve, double>(ref, st, [&](int c, int i, double& left, double& right) {
-      const bool here = c == a % 4 && i == column % 3;
-      left = here && a < 4 ? 1.0 : 0.0;
-      right = here && a >= 4 ? 1.0 : 0.0;
+    auto kin = element_kinematics<SweepKind::revolve, double>(ref, st, [&](int c, int i, double& sum, double& difference) {
+      sum = c == a % 4 && i == column % 3 ? 1.0 : 0.0;
+      difference = a < 4 ? -sum : sum;
     });
     const auto stress = linear_stress(ref, st, kin);
     hourglass_forces([&](int e) { return hourglass[static_cast<std::size_t>(e)]; }, st, kin);
-    element_forces(ref, st, stress, kin, [&](int c, int i, double left, double right) {
-      k(3 * c + i, column) = left;
-      k(3 * (c + 4) + i, column) = right;
+    element_forces(ref, st, stress, kin, [&](int c, int i, auto&& add) {
+      double s = 0, d = 0;
+      add(s, d);
+      k(3 * c + i, column) = s - d;
+      k(3 * (c + 4) + i, column) = s + d;
     });
   }
   return k;

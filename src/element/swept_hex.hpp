@@ -135,7 +135,7 @@ struct ElementKinematics {
   T even[3], odd[3][3];             ///< q: pattern eta zeta of the sums; patterns eta, zeta, eta zeta of the differences
 };
 
-/// corner(k, i, left, right) gives component i of the displacements at -a_k and +a_k. One component at a time, so that few registers are alive.
+/// corner(k, i, sum, difference) gives component i of the displacements at +a_k plus and minus that at -a_k. One component at a time, so that few registers are alive.
 template <SweepKind kind = SweepKind::revolve, class T, class Real, class Corner>
 inline ElementKinematics<T> element_kinematics(const QuadReferenceOf<Real>& r, const StationScale<T>& st, Corner&& corner) {
   ElementKinematics<T> k;
@@ -143,12 +143,7 @@ inline ElementKinematics<T> element_kinematics(const QuadReferenceOf<Real>& r, c
   for (int i = 0; i < 3; ++i) {
     T s[4], d[4];
     RAILSTRATA_UNROLL
-    for (int c = 0; c < 4; ++c) {
-      T left, right;
-      corner(c, i, left, right);
-      s[c] = right + left;
-      d[c] = right - left;
-    }
+    for (int c = 0; c < 4; ++c) corner(c, i, s[c], d[c]);
     k.h1[i] = (r.gx[0] * d[0] + r.gx[1] * d[1] + r.gx[2] * d[2] + r.gx[3] * d[3]) * st.inv_sigma;
     k.h2[i] = r.gy[0] * s[0] + r.gy[1] * s[1] + r.gy[2] * s[2] + r.gy[3] * s[3];
     k.h3[i] = r.gz[0] * s[0] + r.gz[1] * s[1] + r.gz[2] * s[2] + r.gz[3] * s[3];
@@ -251,9 +246,9 @@ inline T hourglass_forces(const Entry& entry, const StationScale<T>& st, Element
   return twice_energy * ScalarOf<T>(0.5);
 }
 
-/// Nodal internal forces: add(k, i, left, right) gets component i of those at -a_k and +a_k. `k` holds generalised hourglass forces.
-template <class T, class Real, class Add>
-inline void element_forces(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementStress<T>& stress, const ElementKinematics<T>& k, Add&& add) {
+/// Nodal internal forces s - d at -a_k and s + d at +a_k: change(k, i, add) calls add(s, d), which adds to their component i. `k` holds generalised hourglass forces.
+template <class T, class Real, class Change>
+inline void element_forces(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementStress<T>& stress, const ElementKinematics<T>& k, Change&& change) {
   const T v1 = r.volume * st.v1, v2 = r.volume * st.v2, v3 = r.volume * st.v3;
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
@@ -263,11 +258,14 @@ inline void element_forces(const QuadReferenceOf<Real>& r, const StationScale<T>
     const T plus = k.odd[0][i] + k.odd[1][i], minus = k.odd[0][i] - k.odd[1][i];
     const T odd[4] = {k.odd[2][i] - plus, minus - k.odd[2][i], plus + k.odd[2][i], -(minus + k.odd[2][i])};
     RAILSTRATA_UNROLL
-    for (int c = 0; c < 4; ++c) {
-      const T sum = r.gy[c] * t2 + r.gz[c] * t3 + (c % 2 == 0 ? k.even[i] : -k.even[i]);
-      const T difference = r.gx[c] * t1 + odd[c];
-      add(c, i, sum - difference, sum + difference);
-    }
+    for (int c = 0; c < 4; ++c)
+      change(c, i, [&](T& s, T& d) {
+        s += r.gy[c] * t2;
+        s += r.gz[c] * t3;
+        s += c % 2 == 0 ? k.even[i] : -k.even[i];
+        d += r.gx[c] * t1;
+        d += odd[c];
+      });
   }
 }
 

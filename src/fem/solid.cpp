@@ -215,17 +215,15 @@ P pack_hourglass(const Table& table, const std::vector<int>& group_class, int fi
   return hourglass_forces<still>(TwoClasses<Real>{table(lower), table(upper)}, st, kin);
 }
 
-// Rows of a tile's scratch memory, three components each.
+// A tile's scratch memory. A node that is being worked on has twelve rows: displacements at a station and the next, sum and difference by component; forces in the
+// same form, s - d in front of the element and s + d behind it.
 template <class Real>
 struct Scratch {
-  static constexpr int kRow = Solid::kTile + kLineEnd;  // stations of a row of displacements: one more than elements, whole packs
-  std::vector<Real, CacheLineAllocator<Real>> left, right, displacement;
-  void fit(int slots) {
-    const std::size_t rows = static_cast<std::size_t>(slots) * 3;
-    left.resize(std::max(left.size(), rows * Solid::kTile));
-    right.resize(left.size());
-    if (sizeof(Real) < sizeof(double)) displacement.resize(std::max(displacement.size(), rows * kRow));
-  }
+  static constexpr int kSum = 0, kDifference = 3, kForces = 6, kRows = 12;
+  static constexpr std::size_t kNode = static_cast<std::size_t>(kRows) * Solid::kTile;
+  std::vector<Real, CacheLineAllocator<Real>> rows;
+  alignas(64) Real zero[(kRows - kForces) * Solid::kTile] = {};  // forces on a node before the first element
+  void fit(int slots) { rows.resize(std::max(rows.size(), static_cast<std::size_t>(slots) * kNode)); }
 };
 
 }  // namespace
@@ -233,24 +231,23 @@ struct Scratch {
 template <class Real, bool linear, SweepKind kind>
 void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const {
   using P = PackOf<Real>;
+  using Rows = Scratch<Real>;
   constexpr int lanes = kLanesOf<Real>;
-  constexpr bool copies = sizeof(Real) < sizeof(double);  // lines of displacements are rounded to Real once, when first touched
   const Tile& tile = tiles_[t];
   const BlockData& d = data_[tile.block];
   const KernelData<Real>& k = kernel<Real>(d);
   const BlockLayout& lay = layout_.blocks[tile.block];
   const auto& quads = body_.blocks[tile.block].section.quads;
   const int count = tile.end - tile.first, packs = (count + lanes - 1) / lanes;
-  thread_local Scratch<Real> scratch;
+  thread_local Rows scratch;
   scratch.fit(d.slots);
-  alignas(64) double rows[3 * kTile];
+  alignas(64) double complete[3 * kTile];
 
   StationScale<P> st[kTile / lanes];
   for (int n = 0; n < packs; ++n) st[n] = k.template scale<P>(tile.first + n * lanes, [](const Real* x) { return load(x); });
 
   Prefetch ahead;
   auto look_ahead = [&](std::size_t q) {
-    ahead.clear();
     for (int c = 0; c < 4; ++c) {
       if (d.fresh[q][c])
         for (int i = 0; i < 3; ++i) ahead.add(u.data() + lay.line(quads[q][c], i) + tile.first);
@@ -263,60 +260,53 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, cons
     ahead.clear();
     if (q + 1 < quads.size()) look_ahead(q + 1);
     const QuadReferenceOf<Real>& ref = k.quads[q];
-    const Real* in[4][3];
-    Real *left[4][3], *right[4][3];  // forces of the elements in front of a station and behind it
+    Real* node[4];         // rows of the corners
+    const Real* so_far[4];  // their forces
     for (int c = 0; c < 4; ++c) {
-      const int node = quads[q][c];
-      const std::size_t slot = static_cast<std::size_t>(d.slot[node]) * 3;
+      node[c] = &scratch.rows[static_cast<std::size_t>(d.slot[quads[q][c]]) * Rows::kNode];
+      so_far[c] = d.fresh[q][c] ? scratch.zero : node[c] + Rows::kForces * kTile;
+      if (!d.fresh[q][c]) continue;
       for (int i = 0; i < 3; ++i) {
-        left[c][i] = &scratch.left[(slot + i) * kTile];
-        right[c][i] = &scratch.right[(slot + i) * kTile];
-        const double* line = u.data() + lay.line(node, i) + tile.first;
-        if constexpr (copies) {
-          Real* copy = &scratch.displacement[(slot + i) * Scratch<Real>::kRow];
-          if (d.fresh[q][c]) {
-            for (int j = 0; j <= count; ++j) copy[j] = static_cast<Real>(line[j]);
-            std::fill(copy + count + 1, copy + packs * lanes + 1, Real(0));
-          }
-          in[c][i] = copy;
-        } else {
-          in[c][i] = line;
+        const double* line = u.data() + lay.line(quads[q][c], i) + tile.first;
+        Real *sum = node[c] + (Rows::kSum + i) * kTile, *difference = node[c] + (Rows::kDifference + i) * kTile;
+#pragma GCC ivdep
+        for (int j = 0; j < count; ++j) {
+          sum[j] = static_cast<Real>(line[j + 1] + line[j]);
+          difference[j] = static_cast<Real>(line[j + 1] - line[j]);
         }
-      }
-      if (d.fresh[q][c]) {
-        std::fill(left[c][0], left[c][0] + 3 * kTile, Real(0));
-        std::fill(right[c][0], right[c][0] + 3 * kTile, Real(0));
       }
     }
     for (int n = 0; n < packs; ++n) {
       const int e = n * lanes;
-      ahead.ask(e, std::min(e + lanes, count + 1));
-      auto kin = element_kinematics<kind, P>(ref, st[n], [&](int c, int i, P& left_value, P& right_value) {
-        left_value = load(in[c][i] + e);
-        right_value = load(in[c][i] + e + 1);
+      ahead.ask(n == 0 ? 0 : e + 1, e + lanes + 1);
+      auto kin = element_kinematics<kind, P>(ref, st[n], [&](int c, int i, P& sum, P& difference) {
+        sum = load(node[c] + (Rows::kSum + i) * kTile + e);
+        difference = load(node[c] + (Rows::kDifference + i) * kTile + e);
       });
       ElementStress<P> stress;
       if constexpr (linear) stress = linear_stress(ref, st[n], kin);
       else stress = nonlinear_stress<kind>(ref, st[n], kin);
       pack_hourglass<Real, kind == SweepKind::extrude>([&](int c) { return k.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, tile.first + e, st[n], kin);
-      element_forces(ref, st[n], stress, kin, [&](int c, int i, P left_force, P right_force) {
-        store(left[c][i] + e, load(left[c][i] + e) + left_force);
-        store(right[c][i] + e, load(right[c][i] + e) + right_force);
+      element_forces(ref, st[n], stress, kin, [&](int c, int i, auto&& add) {
+        P s = load(so_far[c] + (Rows::kSum + i) * kTile + e), difference = load(so_far[c] + (Rows::kDifference + i) * kTile + e);
+        add(s, difference);
+        store(node[c] + (Rows::kForces + Rows::kSum + i) * kTile + e, s);
+        store(node[c] + (Rows::kForces + Rows::kDifference + i) * kTile + e, difference);
       });
     }
 
     for (int c = 0; c < 4; ++c) {
       if (!d.done[q][c]) continue;
-      const int node = quads[q][c];
       for (int i = 0; i < 3; ++i) {
-        const std::ptrdiff_t border = border_[t] + static_cast<std::ptrdiff_t>(node) * 3 + i;
-        border_first_[border] = left[c][i][0];
-        border_end_[border] = right[c][i][count - 1];
-        double* row = rows + i * kTile;
-        for (int j = 1; j < count; ++j) row[j] = static_cast<double>(left[c][i][j]) + static_cast<double>(right[c][i][j - 1]);
+        const Real *s = node[c] + (Rows::kForces + Rows::kSum + i) * kTile, *difference = node[c] + (Rows::kForces + Rows::kDifference + i) * kTile;
+        const std::ptrdiff_t border = border_[t] + static_cast<std::ptrdiff_t>(quads[q][c]) * 3 + i;
+        border_first_[border] = s[0] - difference[0];
+        border_end_[border] = s[count - 1] + difference[count - 1];
+        double* row = complete + i * kTile;
+        for (int j = 1; j < count; ++j) row[j] = static_cast<double>(s[j] - difference[j]) + static_cast<double>(s[j - 1] + difference[j - 1]);
       }
-      if (take && (*take)(tile, node, rows)) continue;
-      for (int i = 0; i < 3; ++i) std::copy(rows + i * kTile + 1, rows + i * kTile + count, f.data() + lay.line(node, i) + tile.first + 1);
+      if (take && (*take)(tile, quads[q][c], complete)) continue;
+      for (int i = 0; i < 3; ++i) std::copy(complete + i * kTile + 1, complete + i * kTile + count, f.data() + lay.line(quads[q][c], i) + tile.first + 1);
     }
   }
 }
@@ -341,7 +331,7 @@ void Solid::end_forces(Field& f) const {
   for (int b = 0; b < static_cast<int>(layout_.blocks.size()); ++b) {
     const BlockLayout& l = layout_.blocks[b];
     const int first_tile = first_tile_[b], last_tile = first_tile_[b + 1] - 1;
-    for (std::ptrdiff_t line = 0; line < static_cast<std::ptrdiff_t>(l.nodes) * 3; ++line) {
+    for_each(static_cast<std::ptrdiff_t>(l.nodes) * 3, [&](std::ptrdiff_t line) {
       double* out = f.data() + l.offset + line * l.stride;
       double before = l.closed ? border_end_[border_[last_tile] + line] : 0.0;
       for (int t = first_tile; t <= last_tile; ++t) {
@@ -349,7 +339,7 @@ void Solid::end_forces(Field& f) const {
         before = border_end_[border_[t] + line];
       }
       if (!l.closed) out[l.elements] = before;
-    }
+    });
   }
 }
 
@@ -383,9 +373,10 @@ StrainEnergy Solid::energy(Field& u, double psi) const {
             for (int i = 0; i < 3; ++i) in[c][i] = u.data() + lay.line(quads[q][c], i);
           for (int e = tile.first; e < tile.end; e += kLanes) {
             const StationScale<Pack> st = d.kernel.scale<Pack>(e, [](const double* x) { return load(x); });
-            auto kin = element_kinematics<SweepKind::revolve, Pack>(ref, st, [&](int c, int i, Pack& left, Pack& right) {
-              left = load(in[c][i] + e);
-              right = load(in[c][i] + e + 1);
+            auto kin = element_kinematics<SweepKind::revolve, Pack>(ref, st, [&](int c, int i, Pack& sum, Pack& difference) {
+              const Pack left = load(in[c][i] + e), right = load(in[c][i] + e + 1);
+              sum = right + left;
+              difference = right - left;
             });
             const auto stress = nonlinear_stress(ref, st, kin);
             const Pack stored = pack_hourglass<double, false>([&](int c) { return d.kernel.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, e, st, kin);
@@ -439,12 +430,13 @@ void Solid::stiffness_diagonal(Field& diagonal) const {
 
 namespace {
 
-// Corner displacements of one element.
+// Corner displacements of one element, as element_kinematics wants them.
 auto corners_of(const BlockLayout& l, const std::array<int, 4>& quad, const Field& u, int station) {
   const int next = l.closed && station + 1 == l.stations ? 0 : station + 1;
-  return [&l, &quad, &u, station, next](int c, int i, double& left, double& right) {
-    left = u[l.line(quad[c], i) + station];
-    right = u[l.line(quad[c], i) + next];
+  return [&l, &quad, &u, station, next](int c, int i, double& sum, double& difference) {
+    const double left = u[l.line(quad[c], i) + station], right = u[l.line(quad[c], i) + next];
+    sum = right + left;
+    difference = right - left;
   };
 }
 

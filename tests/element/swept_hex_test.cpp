@@ -32,15 +32,19 @@ std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const s
   const QuadReference r = quad_reference(shape.kind, shape.quad, kSteel);
   const SweepScale sc = sweep_scale(shape.kind, shape.spacing);
   const StationScale<double> st{1 / sc.sigma, 1 / sc.c, sc.c, sc.sigma * sc.c, sc.sigma, sc.sigma, sc.c, std::cos(theta), std::sin(theta), std::cos(theta - psi), std::sin(theta - psi)};
-  auto kin = element_kinematics<SweepKind::revolve, double>(r, st, [&](int k, int i, double& left, double& right) {
+  auto kin = element_kinematics<SweepKind::revolve, double>(r, st, [&](int k, int i, double& sum, double& difference) {
     auto component = [i](Vec3 v) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
-    left = component(u[k]);
-    right = component(u[k + 4]);
+    sum = component(u[k + 4] + u[k]);
+    difference = component(u[k + 4] - u[k]);
   });
   const auto stress = nonlinear_stress(r, st, kin);
   const double hourglass = hourglass_forces([&](int e) { return hg[static_cast<std::size_t>(e)]; }, st, kin);
   double f[8][3];
-  element_forces(r, st, stress, kin, [&](int k, int i, double left, double right) { f[k][i] = left, f[k + 4][i] = right; });
+  element_forces(r, st, stress, kin, [&](int k, int i, auto&& add) {
+    double s = 0, d = 0;
+    add(s, d);
+    f[k][i] = s - d, f[k + 4][i] = s + d;
+  });
   if (out) *out = stress;
   if (energy) {
     const double* e = stress.strain;
