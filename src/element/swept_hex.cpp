@@ -203,7 +203,7 @@ std::array<double, 4> corner_masses(SweepKind kind, const std::array<Vec2, 4>& q
 }
 
 Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const HourglassStiffness& hourglass) {
-  StationScale<double> st{1 / scale.sigma, 1 / scale.c, scale.c, scale.sigma * scale.c, scale.sigma, scale.sigma, scale.c, 1, 0, 1, 0};
+  StationScale<double> st{1 / scale.sigma, 1 / scale.c, scale.c, scale.sigma * scale.c, scale.sigma, scale.sigma, scale.c};
   Matrix24 k;
   for (int column = 0; column < 24; ++column) {
     const int a = column / 3;
@@ -211,8 +211,8 @@ Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const Hour
       sum = c == a % 4 && i == column % 3 ? 1.0 : 0.0;
       difference = a < 4 ? -sum : sum;
     });
-    const auto stress = linear_stress(ref, st, kin);
-    hourglass_forces([&](int e) { return hourglass[static_cast<std::size_t>(e)]; }, st, kin);
+    const auto stress = linear_stress(ref, kin);
+    hourglass_forces([&](int e) { return hourglass[static_cast<std::size_t>(e)]; }, kin);
     element_forces(ref, st, stress, kin, [&](int c, int i, auto&& add) {
       double s = 0, d = 0;
       add(s, d);

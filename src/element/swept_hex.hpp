@@ -11,6 +11,7 @@
 //   F = Q + H,  H_i = sum_a u_a b_ai,   E = (F^T F - I)/2,   S = lambda tr E + 2 mu E,   f_a = V F S b_a + sum_l gamma_la R K_lm R^T q_m,   q_l = sum_a gamma_la u_a.
 // Q turns the element's frame into the model frame (F's left index is the model frame's, its right index the element's own), R is Q turned by the body's rigid
 // rotation. b is the exact volume mean of the shape gradients and gamma_l = h_l - sum_i (h_l . X_i) b_i, so that rigid motion of any size gives no force.
+// The law works in the carried frame, R's: displacements come as R^T u, forces are given as R^T f, and F becomes T + R^T H with T = R^T Q, the same for all elements.
 //
 // K (12 x 12) makes the element: with K = Phi^T K_full Phi (Phi: the displacement modes that have no mean gradient) the linear element is *identical* to the fully
 // integrated one that K_full comes from, at the cost of one stress point. Two kinds:
@@ -72,14 +73,18 @@ double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, Swee
 /// Signs of the section patterns eta, zeta, eta zeta at the corners.
 inline constexpr double kEta[4] = {-1, 1, 1, -1}, kZeta[4] = {-1, -1, 1, 1}, kEtaZeta[4] = {1, -1, 1, -1};
 
-/// Per station (one lane each): scales and rotations. A padding lane has all zero.
+/// Per station (one lane each). A padding lane has all zero.
 template <class T>
 struct StationScale {
   T inv_sigma, inv_c;    ///< of the gradients
   T v1, v2, v3;          ///< volume factors: c, sigma c, sigma (V b = reference volume x factor x reference gradient)
   T sigma, c;
-  T cos_q, sin_q;        ///< Q: element frame -> model frame
-  T cos_r, sin_r;        ///< R: Q turned by the body's rotation
+};
+
+/// T: the carried frame -> the element's own, turned back by the body's rigid rotation psi; positive when rolling forward.
+template <class Real>
+struct BodyTurn {
+  Real c = 1, s = 0;  ///< cos psi, sin psi
 };
 
 /// Elastic and hourglass energies [J] of an element.
@@ -89,25 +94,6 @@ struct ElementEnergy {
 };
 
 namespace detail {
-
-template <class T>
-inline void rotate(T c, T s, const T (&v)[3], T (&out)[3]) {  // element frame -> model frame
-  out[0] = c * v[0] - s * v[2];
-  out[1] = v[1];
-  out[2] = s * v[0] + c * v[2];
-}
-template <class T>
-inline void rotate_back(T c, T s, const T (&v)[3], T (&out)[3]) {
-  out[0] = c * v[0] + s * v[2];
-  out[1] = v[1];
-  out[2] = c * v[2] - s * v[0];
-}
-template <class T>
-inline void rotate_in_place(T c, T s, T (&v)[3]) {
-  const T x = v[0];
-  v[0] = c * x - s * v[2];
-  v[2] = s * x + c * v[2];
-}
 
 /// y = K x for a symmetric matrix given by its upper triangle.
 template <int N, class T, class Entry>
@@ -131,7 +117,7 @@ inline void symmetric_product(const Entry& k, int first, const T (&x)[N], T (&y)
 /// Displacement gradient columns and hourglass amplitudes.
 template <class T>
 struct ElementKinematics {
-  T h1[3], h2[3], h3[3];            ///< H columns: derivative along the sweep, lateral, up; components in the model frame
+  T h1[3], h2[3], h3[3];            ///< H columns: derivative along the sweep, lateral, up; components in the carried frame
   T even[3], odd[3][3];             ///< q: pattern eta zeta of the sums; patterns eta, zeta, eta zeta of the differences
 };
 
@@ -159,7 +145,7 @@ inline ElementKinematics<T> element_kinematics(const QuadReferenceOf<Real>& r, c
   return k;
 }
 
-/// Second Piola–Kirchhoff stress in the element's frame and the first one's columns in the model frame (P = F S).
+/// Second Piola–Kirchhoff stress in the element's frame and the first one's columns in the carried frame (P = F S).
 template <class T>
 struct ElementStress {
   T s[6];               ///< 11, 22, 33, 12, 23, 13
@@ -169,11 +155,11 @@ struct ElementStress {
 
 /// Exact (geometrically non-linear) response.
 template <SweepKind kind = SweepKind::revolve, class T, class Real>
-inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementKinematics<T>& k) {
+inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, BodyTurn<Real> turn, const ElementKinematics<T>& k) {
   ElementStress<T> out;
   const Real one = 1, half = Real(0.5);
   T f1[3] = {k.h1[0], k.h1[1], k.h1[2]}, f2[3] = {k.h2[0], one + k.h2[1], k.h2[2]}, f3[3] = {k.h3[0], k.h3[1], k.h3[2]};
-  if constexpr (kind == SweepKind::revolve) f1[0] += st.cos_q, f1[2] += st.sin_q, f3[0] -= st.sin_q, f3[2] += st.cos_q;
+  if constexpr (kind == SweepKind::revolve) f1[0] += turn.c, f1[2] += turn.s, f3[0] -= turn.s, f3[2] += turn.c;
   else f1[0] += one, f3[2] += one;
   auto dot3 = [](const T(&a)[3], const T(&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   out.strain[0] = half * (dot3(f1, f1) - one);
@@ -193,37 +179,26 @@ inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, const S
   return out;
 }
 
-/// Small strains about the undeformed body (F = Q): the tangent of nonlinear_stress at u = 0, used by the static solver.
+/// Small strains about the undeformed body (T = 1): the tangent of nonlinear_stress at u = 0, used by the static solver.
 template <class T, class Real>
-inline ElementStress<T> linear_stress(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementKinematics<T>& k) {
+inline ElementStress<T> linear_stress(const QuadReferenceOf<Real>& r, const ElementKinematics<T>& k) {
   ElementStress<T> out;
-  T h1[3], h2[3], h3[3];
-  detail::rotate_back(st.cos_q, st.sin_q, k.h1, h1);
-  detail::rotate_back(st.cos_q, st.sin_q, k.h2, h2);
-  detail::rotate_back(st.cos_q, st.sin_q, k.h3, h3);
-  out.strain[0] = h1[0], out.strain[1] = h2[1], out.strain[2] = h3[2];
+  out.strain[0] = k.h1[0], out.strain[1] = k.h2[1], out.strain[2] = k.h3[2];
   const Real half = Real(0.5);
-  out.strain[3] = half * (h1[1] + h2[0]);
-  out.strain[4] = half * (h2[2] + h3[1]);
-  out.strain[5] = half * (h1[2] + h3[0]);
+  out.strain[3] = half * (k.h1[1] + k.h2[0]);
+  out.strain[4] = half * (k.h2[2] + k.h3[1]);
+  out.strain[5] = half * (k.h1[2] + k.h3[0]);
   elastic_stress(r.lambda, r.mu, out.strain, out.s);
   const T(&s)[6] = out.s;
-  const T p1[3] = {s[0], s[3], s[5]}, p2[3] = {s[3], s[1], s[4]}, p3[3] = {s[5], s[4], s[2]};
-  detail::rotate(st.cos_q, st.sin_q, p1, out.p1);
-  detail::rotate(st.cos_q, st.sin_q, p2, out.p2);
-  detail::rotate(st.cos_q, st.sin_q, p3, out.p3);
+  out.p1[0] = s[0], out.p1[1] = s[3], out.p1[2] = s[5];
+  out.p2[0] = s[3], out.p2[1] = s[1], out.p2[2] = s[4];
+  out.p3[0] = s[5], out.p3[1] = s[4], out.p3[2] = s[2];
   return out;
 }
 
-/// Generalised hourglass forces R K R^T q in place of q; returns the hourglass energy q.Kq / 2. `entry(e)` gives the e-th number of HourglassStiffness.
-/// still: the body has not turned (R = 1), extruded bodies only.
-template <bool still = false, class T, class Entry>
-inline T hourglass_forces(const Entry& entry, const StationScale<T>& st, ElementKinematics<T>& k) {
-  if constexpr (!still) {
-    detail::rotate_in_place(st.cos_r, -st.sin_r, k.even);
-    RAILSTRATA_UNROLL
-    for (int m = 0; m < 3; ++m) detail::rotate_in_place(st.cos_r, -st.sin_r, k.odd[m]);
-  }
+/// Generalised hourglass forces K q in place of q; returns the hourglass energy q.Kq / 2. `entry(e)` gives the e-th number of HourglassStiffness.
+template <class T, class Entry>
+inline T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
   const T a[5] = {k.even[1], k.even[2], k.odd[0][0], k.odd[1][0], k.odd[2][0]};
   T ka[5];
   detail::symmetric_product<5>(entry, 0, a, ka);
@@ -238,11 +213,6 @@ inline T hourglass_forces(const Entry& entry, const StationScale<T>& st, Element
   k.even[0] = kb[0], k.even[1] = ka[0], k.even[2] = ka[1];
   RAILSTRATA_UNROLL
   for (int m = 0; m < 3; ++m) k.odd[m][0] = ka[2 + m], k.odd[m][1] = kb[1 + 2 * m], k.odd[m][2] = kb[2 + 2 * m];
-  if constexpr (!still) {
-    detail::rotate_in_place(st.cos_r, st.sin_r, k.even);
-    RAILSTRATA_UNROLL
-    for (int m = 0; m < 3; ++m) detail::rotate_in_place(st.cos_r, st.sin_r, k.odd[m]);
-  }
   return twice_energy * ScalarOf<T>(0.5);
 }
 

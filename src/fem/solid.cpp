@@ -48,8 +48,8 @@ Solid::Solid(const SweptBody& body, const std::vector<Elastic>& materials, const
     const int quads = static_cast<int>(block.section.quads.size()), padded = (lay.elements + kLineEnd - 1) / kLineEnd * kLineEnd;
     BlockData d;
     KernelData<double>& k = d.kernel;
-    for (auto* a : {&k.inv_sigma, &k.inv_c, &k.v1, &k.v2, &k.v3, &k.sigma, &k.c, &k.cos_q, &k.sin_q, &k.cos_r, &k.sin_r}) a->assign(padded, 0.0);
-    d.theta.assign(lay.elements, 0.0);
+    for (auto* a : {&k.inv_sigma, &k.inv_c, &k.v1, &k.v2, &k.v3, &k.sigma, &k.c}) a->assign(padded, 0.0);
+    for (Field* a : {&d.theta, &d.cos_q, &d.sin_q}) a->assign(lay.elements, 0.0);
     std::vector<double> spacing(lay.elements);
     for (int e = 0; e < lay.elements; ++e) {
       const double t0 = block.stations.at[e];
@@ -60,9 +60,9 @@ Solid::Solid(const SweptBody& body, const std::vector<Elastic>& materials, const
       k.v1[e] = scale.c, k.v2[e] = scale.sigma * scale.c, k.v3[e] = scale.sigma;
       k.sigma[e] = scale.sigma, k.c[e] = scale.c;
       d.theta[e] = body_.kind == SweepKind::revolve ? 0.5 * (t0 + t1) : 0.0;
-      k.cos_q[e] = std::cos(d.theta[e]), k.sin_q[e] = std::sin(d.theta[e]);
+      d.cos_q[e] = std::cos(d.theta[e]), d.sin_q[e] = std::sin(d.theta[e]);
     }
-    k.cos_r = k.cos_q, k.sin_r = k.sin_q;
+    d.cos_r = d.cos_q, d.sin_r = d.sin_q;
 
     std::vector<double> hourglass_spacings;
     for (int e = 0; e < lay.elements; ++e) {
@@ -91,8 +91,7 @@ Solid::Solid(const SweptBody& body, const std::vector<Elastic>& materials, const
       }
       auto round_line = [](const Line<double>& from, Line<float>& to) { to.assign(from.begin(), from.end()); };
       round_line(k.inv_sigma, d.single.inv_sigma), round_line(k.inv_c, d.single.inv_c), round_line(k.v1, d.single.v1), round_line(k.v2, d.single.v2), round_line(k.v3, d.single.v3);
-      round_line(k.sigma, d.single.sigma), round_line(k.c, d.single.c), round_line(k.cos_q, d.single.cos_q), round_line(k.sin_q, d.single.sin_q);
-      round_line(k.cos_r, d.single.cos_r), round_line(k.sin_r, d.single.sin_r);
+      round_line(k.sigma, d.single.sigma), round_line(k.c, d.single.c);
     }
 
     for (int e = 0; e < lay.elements; ++e) {
@@ -169,22 +168,18 @@ void Solid::refresh_ghosts(Field& u) const {
 
 void Solid::turn_frames(double psi) const {
   if (body_.kind == SweepKind::extrude) return;
-  const double cp = std::cos(psi), sp = std::sin(psi);
-  for (BlockData& d : data_) {
-    KernelData<double>& k = d.kernel;
-    for (std::size_t e = 0; e < k.cos_q.size(); ++e) {
-      k.cos_r[e] = k.cos_q[e] * cp + k.sin_q[e] * sp;  // theta - psi
-      k.sin_r[e] = k.sin_q[e] * cp - k.cos_q[e] * sp;
+  turn_ = {std::cos(psi), std::sin(psi)};
+  for (BlockData& d : data_)
+    for (std::size_t e = 0; e < d.cos_q.size(); ++e) {
+      d.cos_r[e] = d.cos_q[e] * turn_.c + d.sin_q[e] * turn_.s;  // theta - psi
+      d.sin_r[e] = d.sin_q[e] * turn_.c - d.cos_q[e] * turn_.s;
     }
-    if (precision_ == Precision::single_precision)
-      for (std::size_t e = 0; e < k.cos_q.size(); ++e) d.single.cos_r[e] = static_cast<float>(k.cos_r[e]), d.single.sin_r[e] = static_cast<float>(k.sin_r[e]);
-  }
 }
 
 template <class Real>
 template <class T, class Load>
 StationScale<T> Solid::KernelData<Real>::scale(int e, Load&& read) const {
-  return {read(&inv_sigma[e]), read(&inv_c[e]), read(&v1[e]), read(&v2[e]), read(&v3[e]), read(&sigma[e]), read(&c[e]), read(&cos_q[e]), read(&sin_q[e]), read(&cos_r[e]), read(&sin_r[e])};
+  return {read(&inv_sigma[e]), read(&inv_c[e]), read(&v1[e]), read(&v2[e]), read(&v3[e]), read(&sigma[e]), read(&c[e])};
 }
 
 template <>
@@ -208,11 +203,11 @@ struct TwoClasses {
 
 // Replaces the hourglass amplitudes of a pack of elements from `first` on by their forces; returns the energy. `table`: the classes' stiffnesses of one quadrilateral.
 // Lanes past the end of the line are filled with numbers that mean nothing.
-template <class Real, bool still, class P, class Table>
-P pack_hourglass(const Table& table, const std::vector<int>& group_class, int first, const StationScale<P>& st, ElementKinematics<P>& kin) {
+template <class Real, class P, class Table>
+P pack_hourglass(const Table& table, const std::vector<int>& group_class, int first, ElementKinematics<P>& kin) {
   const int lower = group_class[first / kGroup], upper = group_class[(first + kLanesOf<Real> / 2) / kGroup];
-  if (lower == upper) return hourglass_forces<still>(OneClass<Real>{table(lower)}, st, kin);
-  return hourglass_forces<still>(TwoClasses<Real>{table(lower), table(upper)}, st, kin);
+  if (lower == upper) return hourglass_forces(OneClass<Real>{table(lower)}, kin);
+  return hourglass_forces(TwoClasses<Real>{table(lower), table(upper)}, kin);
 }
 
 // A tile's scratch memory. A node that is being worked on has twelve rows: displacements at a station and the next, sum and difference by component; forces in the
@@ -225,6 +220,56 @@ struct Scratch {
   alignas(64) Real zero[(kRows - kForces) * Solid::kTile] = {};  // forces on a node before the first element
   void fit(int slots) { rows.resize(std::max(rows.size(), static_cast<std::size_t>(slots) * kNode)); }
 };
+
+// Displacements of a node at stations 0 … count as sums and differences over the elements between them, in the carried frame.
+template <SweepKind kind, class Real>
+void take_in(const double* const (&line)[3], const double* cosine, const double* sine, int count, Real* rows) {
+  const double *x = line[0], *y = line[1], *z = line[2];
+  Real *sx = rows, *sy = sx + Solid::kTile, *sz = sy + Solid::kTile, *dx = sz + Solid::kTile, *dy = dx + Solid::kTile, *dz = dy + Solid::kTile;
+#pragma GCC ivdep
+  for (int j = 0; j < count; ++j) {
+    const double a = x[j + 1] + x[j], b = z[j + 1] + z[j], da = x[j + 1] - x[j], db = z[j + 1] - z[j];
+    sy[j] = static_cast<Real>(y[j + 1] + y[j]);
+    dy[j] = static_cast<Real>(y[j + 1] - y[j]);
+    if constexpr (kind == SweepKind::revolve) {
+      const double c = cosine[j], s = sine[j];
+      sx[j] = static_cast<Real>(c * a + s * b), sz[j] = static_cast<Real>(c * b - s * a);
+      dx[j] = static_cast<Real>(c * da + s * db), dz[j] = static_cast<Real>(c * db - s * da);
+    } else {
+      sx[j] = static_cast<Real>(a), sz[j] = static_cast<Real>(b);
+      dx[j] = static_cast<Real>(da), dz[j] = static_cast<Real>(db);
+    }
+  }
+}
+
+// Forces of the elements in front of and behind the stations 0 < j < count, model frame: complete[i * kTile + j]; those at station 0 from the element in front of it, at
+// station `count` from the one behind.
+template <SweepKind kind, class Real>
+void give_out(const Real* rows, const double* cosine, const double* sine, int count, double* complete, double* first, double* end) {
+  const Real *sx = rows, *sy = sx + Solid::kTile, *sz = sy + Solid::kTile, *dx = sz + Solid::kTile, *dy = dx + Solid::kTile, *dz = dy + Solid::kTile;
+  auto front = [&](int j, double& fx, double& fy, double& fz) {
+    const double a = sx[j] - dx[j], b = sz[j] - dz[j];
+    fy = sy[j] - dy[j];
+    if constexpr (kind == SweepKind::revolve) fx = cosine[j] * a - sine[j] * b, fz = sine[j] * a + cosine[j] * b;
+    else fx = a, fz = b;
+  };
+  auto behind = [&](int j, double& fx, double& fy, double& fz) {
+    const double a = sx[j] + dx[j], b = sz[j] + dz[j];
+    fy = sy[j] + dy[j];
+    if constexpr (kind == SweepKind::revolve) fx = cosine[j] * a - sine[j] * b, fz = sine[j] * a + cosine[j] * b;
+    else fx = a, fz = b;
+  };
+  front(0, first[0], first[1], first[2]);
+  behind(count - 1, end[0], end[1], end[2]);
+  double *x = complete, *y = x + Solid::kTile, *z = y + Solid::kTile;
+#pragma GCC ivdep
+  for (int j = 1; j < count; ++j) {
+    double ax, ay, az, bx, by, bz;
+    front(j, ax, ay, az);
+    behind(j - 1, bx, by, bz);
+    x[j] = ax + bx, y[j] = ay + by, z[j] = az + bz;
+  }
+}
 
 }  // namespace
 
@@ -242,6 +287,8 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, cons
   thread_local Rows scratch;
   scratch.fit(d.slots);
   alignas(64) double complete[3 * kTile];
+  const BodyTurn<Real> turn{static_cast<Real>(turn_.c), static_cast<Real>(turn_.s)};
+  const double *cosine = d.cos_r.data() + tile.first, *sine = d.sin_r.data() + tile.first;  // the carried frame
 
   StationScale<P> st[kTile / lanes];
   for (int n = 0; n < packs; ++n) st[n] = k.template scale<P>(tile.first + n * lanes, [](const Real* x) { return load(x); });
@@ -266,15 +313,9 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, cons
       node[c] = &scratch.rows[static_cast<std::size_t>(d.slot[quads[q][c]]) * Rows::kNode];
       so_far[c] = d.fresh[q][c] ? scratch.zero : node[c] + Rows::kForces * kTile;
       if (!d.fresh[q][c]) continue;
-      for (int i = 0; i < 3; ++i) {
-        const double* line = u.data() + lay.line(quads[q][c], i) + tile.first;
-        Real *sum = node[c] + (Rows::kSum + i) * kTile, *difference = node[c] + (Rows::kDifference + i) * kTile;
-#pragma GCC ivdep
-        for (int j = 0; j < count; ++j) {
-          sum[j] = static_cast<Real>(line[j + 1] + line[j]);
-          difference[j] = static_cast<Real>(line[j + 1] - line[j]);
-        }
-      }
+      const double* line[3];
+      for (int i = 0; i < 3; ++i) line[i] = u.data() + lay.line(quads[q][c], i) + tile.first;
+      take_in<kind>(line, cosine, sine, count, node[c]);
     }
     for (int n = 0; n < packs; ++n) {
       const int e = n * lanes;
@@ -284,9 +325,9 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, cons
         difference = load(node[c] + (Rows::kDifference + i) * kTile + e);
       });
       ElementStress<P> stress;
-      if constexpr (linear) stress = linear_stress(ref, st[n], kin);
-      else stress = nonlinear_stress<kind>(ref, st[n], kin);
-      pack_hourglass<Real, kind == SweepKind::extrude>([&](int c) { return k.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, tile.first + e, st[n], kin);
+      if constexpr (linear) stress = linear_stress(ref, kin);
+      else stress = nonlinear_stress<kind>(ref, turn, kin);
+      pack_hourglass<Real>([&](int c) { return k.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, tile.first + e, kin);
       element_forces(ref, st[n], stress, kin, [&](int c, int i, auto&& add) {
         P s = load(so_far[c] + (Rows::kSum + i) * kTile + e), difference = load(so_far[c] + (Rows::kDifference + i) * kTile + e);
         add(s, difference);
@@ -297,14 +338,8 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, cons
 
     for (int c = 0; c < 4; ++c) {
       if (!d.done[q][c]) continue;
-      for (int i = 0; i < 3; ++i) {
-        const Real *s = node[c] + (Rows::kForces + Rows::kSum + i) * kTile, *difference = node[c] + (Rows::kForces + Rows::kDifference + i) * kTile;
-        const std::ptrdiff_t border = border_[t] + static_cast<std::ptrdiff_t>(quads[q][c]) * 3 + i;
-        border_first_[border] = s[0] - difference[0];
-        border_end_[border] = s[count - 1] + difference[count - 1];
-        double* row = complete + i * kTile;
-        for (int j = 1; j < count; ++j) row[j] = static_cast<double>(s[j] - difference[j]) + static_cast<double>(s[j - 1] + difference[j - 1]);
-      }
+      double *first = &border_first_[border_[t] + static_cast<std::ptrdiff_t>(quads[q][c]) * 3], *end = &border_end_[border_[t] + static_cast<std::ptrdiff_t>(quads[q][c]) * 3];
+      give_out<kind>(node[c] + Rows::kForces * kTile, cosine, sine, count, complete, first, end);
       if (take && (*take)(tile, quads[q][c], complete)) continue;
       for (int i = 0; i < 3; ++i) std::copy(complete + i * kTile + 1, complete + i * kTile + count, f.data() + lay.line(quads[q][c], i) + tile.first + 1);
     }
@@ -373,14 +408,22 @@ StrainEnergy Solid::energy(Field& u, double psi) const {
             for (int i = 0; i < 3; ++i) in[c][i] = u.data() + lay.line(quads[q][c], i);
           for (int e = tile.first; e < tile.end; e += kLanes) {
             const StationScale<Pack> st = d.kernel.scale<Pack>(e, [](const double* x) { return load(x); });
+            const int real = std::min(kLanes, tile.end - e);
+            Pack cosine{}, sine{};
+            for (int l = 0; l < real; ++l) cosine[l] = d.cos_r[e + l], sine[l] = d.sin_r[e + l];
             auto kin = element_kinematics<SweepKind::revolve, Pack>(ref, st, [&](int c, int i, Pack& sum, Pack& difference) {
-              const Pack left = load(in[c][i] + e), right = load(in[c][i] + e + 1);
+              auto carried = [&](int station) -> Pack {
+                if (i == 1) return load(in[c][1] + station);
+                const Pack x = load(in[c][0] + station), z = load(in[c][2] + station);
+                return i == 0 ? cosine * x + sine * z : cosine * z - sine * x;
+              };
+              const Pack left = carried(e), right = carried(e + 1);
               sum = right + left;
               difference = right - left;
             });
-            const auto stress = nonlinear_stress(ref, st, kin);
-            const Pack stored = pack_hourglass<double, false>([&](int c) { return d.kernel.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, e, st, kin);
-            for (int l = 0; l < std::min(kLanes, tile.end - e); ++l) hourglass[l] += stored[l];
+            const auto stress = nonlinear_stress(ref, turn_, kin);
+            const Pack stored = pack_hourglass<double>([&](int c) { return d.kernel.hourglass[c * quads.size() + q].data(); }, d.hourglass_class, e, kin);
+            for (int l = 0; l < real; ++l) hourglass[l] += stored[l];
             const auto& a = stress.strain;
             const auto& b = stress.s;
             strain += 0.5 * ref.volume * st.v2 * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]));
@@ -419,7 +462,7 @@ void Solid::stiffness_diagonal(Field& diagonal) const {
         for (int e = 0; e < lay.elements; ++e) {
           const auto& k = block[static_cast<std::size_t>(d.element_class[e]) * quads + q];
           const int j = a < 4 ? e : (e + 1 < lay.stations ? e + 1 : 0);
-          const double c = kernel_data.cos_q[e], s = kernel_data.sin_q[e], cross_term = 2 * c * s * k[4 * a + 3];
+          const double c = d.cos_q[e], s = d.sin_q[e], cross_term = 2 * c * s * k[4 * a + 3];
           x[j] += c * c * k[4 * a] + s * s * k[4 * a + 2] - cross_term;
           x[j + lay.stride] += k[4 * a + 1];
           x[j + 2 * lay.stride] += s * s * k[4 * a] + c * c * k[4 * a + 2] + cross_term;
@@ -443,25 +486,30 @@ auto corners_of(const BlockLayout& l, const std::array<int, 4>& quad, const Fiel
 }  // namespace
 
 Sym3 Solid::stress(const Field& u, int block, int quad, int station) const {
-  const KernelData<double>& d = data_[block].kernel;
-  const QuadReference& ref = d.quads[quad];
-  StationScale<double> st = d.scale<double>(station, [](const double* x) { return *x; });
-  st.cos_r = st.cos_q, st.sin_r = st.sin_q;
-  const auto kin = element_kinematics<SweepKind::revolve, double>(ref, st, corners_of(layout_.blocks[block], body_.blocks[block].section.quads[quad], u, station));
-  const auto p = nonlinear_stress(ref, st, kin);
+  const BlockData& d = data_[block];
+  const QuadReference& ref = d.kernel.quads[quad];
+  const StationScale<double> st = d.kernel.scale<double>(station, [](const double* x) { return *x; });
+  const double c = d.cos_q[station], s = d.sin_q[station];
+  const auto corner = corners_of(layout_.blocks[block], body_.blocks[block].section.quads[quad], u, station);
+  const auto kin = element_kinematics<SweepKind::revolve, double>(ref, st, [&](int k, int i, double& sum, double& difference) {
+    if (i == 1) return corner(k, 1, sum, difference);
+    double sx, dx, sz, dz;
+    corner(k, 0, sx, dx), corner(k, 2, sz, dz);
+    sum = i == 0 ? c * sx + s * sz : c * sz - s * sx;
+    difference = i == 0 ? c * dx + s * dz : c * dz - s * dx;
+  });
+  const auto p = nonlinear_stress(ref, BodyTurn<double>{}, kin);
   // sigma = P F^T / det F, P and F with the element's frame as their right index
-  const Vec3 f1{st.cos_q + kin.h1[0], kin.h1[1], st.sin_q + kin.h1[2]}, f2{kin.h2[0], 1 + kin.h2[1], kin.h2[2]}, f3{kin.h3[0] - st.sin_q, kin.h3[1], st.cos_q + kin.h3[2]};
-  const double det = dot(f1, cross(f2, f3));
-  const double(&a)[3] = p.p1;
-  const double(&b)[3] = p.p2;
-  const double(&e)[3] = p.p3;
-  return (1 / det) * Sym3{a[0] * f1.x + b[0] * f2.x + e[0] * f3.x, a[1] * f1.y + b[1] * f2.y + e[1] * f3.y, a[2] * f1.z + b[2] * f2.z + e[2] * f3.z,
-                          a[0] * f1.y + b[0] * f2.y + e[0] * f3.y, a[1] * f1.z + b[1] * f2.z + e[1] * f3.z, a[0] * f1.z + b[0] * f2.z + e[0] * f3.z};
+  auto to_model = [&](double x, double y, double z) { return Vec3{c * x - s * z, y, s * x + c * z}; };
+  const Vec3 f1 = to_model(1 + kin.h1[0], kin.h1[1], kin.h1[2]), f2 = to_model(kin.h2[0], 1 + kin.h2[1], kin.h2[2]), f3 = to_model(kin.h3[0], kin.h3[1], 1 + kin.h3[2]);
+  const Vec3 a = to_model(p.p1[0], p.p1[1], p.p1[2]), b = to_model(p.p2[0], p.p2[1], p.p2[2]), e = to_model(p.p3[0], p.p3[1], p.p3[2]);
+  return (1 / dot(f1, cross(f2, f3))) * Sym3{a.x * f1.x + b.x * f2.x + e.x * f3.x, a.y * f1.y + b.y * f2.y + e.y * f3.y, a.z * f1.z + b.z * f2.z + e.z * f3.z,
+                                             a.x * f1.y + b.x * f2.y + e.x * f3.y, a.y * f1.z + b.y * f2.z + e.y * f3.z, a.x * f1.z + b.x * f2.z + e.x * f3.z};
 }
 
 std::array<Vec3, 3> Solid::displacement_gradient(const Field& u, int block, int quad, int station) const {
   const KernelData<double>& d = data_[block].kernel;
-  const StationScale<double> st{d.inv_sigma[station], d.inv_c[station], 0, 0, 0, d.sigma[station], d.c[station], 1, 0, 1, 0};
+  const StationScale<double> st{d.inv_sigma[station], d.inv_c[station], 0, 0, 0, d.sigma[station], d.c[station]};
   const auto k = element_kinematics<SweepKind::revolve, double>(d.quads[quad], st, corners_of(layout_.blocks[block], body_.blocks[block].section.quads[quad], u, station));
   return {Vec3{k.h1[0], k.h1[1], k.h1[2]}, Vec3{k.h2[0], k.h2[1], k.h2[2]}, Vec3{k.h3[0], k.h3[1], k.h3[2]}};
 }

@@ -92,7 +92,7 @@ class Solid {
   struct KernelData {
     std::vector<QuadReferenceOf<Real>> quads;
     std::vector<std::array<Real, kHourglassEntries>> hourglass;  // [class * quads + quad]; zero for the padding
-    Line<Real> inv_sigma, inv_c, v1, v2, v3, sigma, c, cos_q, sin_q, cos_r, sin_r;
+    Line<Real> inv_sigma, inv_c, v1, v2, v3, sigma, c;
     template <class T, class Load>
     StationScale<T> scale(int element, Load&& read) const;
   };
@@ -109,7 +109,7 @@ class Solid {
     std::vector<int> hourglass_class;            // per group of elements
     std::vector<SpacingClass> classes;
     std::vector<int> element_class;              // per element, index into classes
-    Field theta;                                 // of the element centres
+    Field theta, cos_q, sin_q, cos_r, sin_r;     // of the element centres; Q and R of the element law (element/swept_hex.hpp)
     // scratch rows: a node has one from the first quadrilateral that touches it to the last
     std::vector<int> slot;                       // per node
     std::vector<std::array<char, 4>> fresh, done;  // per quadrilateral: corners touched for the first, the last time
@@ -134,6 +134,7 @@ class Solid {
   std::vector<Elastic> materials_;
   Precision precision_;
   mutable std::vector<BlockData> data_;
+  mutable BodyTurn<double> turn_;
   std::vector<Tile> tiles_;
   std::vector<int> first_tile_;               // per block, and one past the end
   std::vector<std::ptrdiff_t> border_;        // per tile, start in the border buffers

@@ -26,19 +26,21 @@ std::vector<Shape> shapes() {
           {SweepKind::revolve, on_wheel(kSkewed), 0.1}};
 }
 
+Vec3 turn(double angle, Vec3 v) { return {std::cos(angle) * v.x - std::sin(angle) * v.z, v.y, std::sin(angle) * v.x + std::cos(angle) * v.z}; }
+
 // Nodal forces of one element for given corner displacements in the model frame, rotated station (Q) and body (R).
 std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const std::array<Vec3, 8>& u, const HourglassStiffness& hg, ElementStress<double>* out = nullptr,
                            double* energy = nullptr) {
   const QuadReference r = quad_reference(shape.kind, shape.quad, kSteel);
   const SweepScale sc = sweep_scale(shape.kind, shape.spacing);
-  const StationScale<double> st{1 / sc.sigma, 1 / sc.c, sc.c, sc.sigma * sc.c, sc.sigma, sc.sigma, sc.c, std::cos(theta), std::sin(theta), std::cos(theta - psi), std::sin(theta - psi)};
+  const StationScale<double> st{1 / sc.sigma, 1 / sc.c, sc.c, sc.sigma * sc.c, sc.sigma, sc.sigma, sc.c};
   auto kin = element_kinematics<SweepKind::revolve, double>(r, st, [&](int k, int i, double& sum, double& difference) {
     auto component = [i](Vec3 v) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
-    sum = component(u[k + 4] + u[k]);
-    difference = component(u[k + 4] - u[k]);
+    sum = component(turn(psi - theta, u[k + 4] + u[k]));
+    difference = component(turn(psi - theta, u[k + 4] - u[k]));
   });
-  const auto stress = nonlinear_stress(r, st, kin);
-  const double hourglass = hourglass_forces([&](int e) { return hg[static_cast<std::size_t>(e)]; }, st, kin);
+  const auto stress = nonlinear_stress(r, BodyTurn<double>{std::cos(psi), std::sin(psi)}, kin);
+  const double hourglass = hourglass_forces([&](int e) { return hg[static_cast<std::size_t>(e)]; }, kin);
   double f[8][3];
   element_forces(r, st, stress, kin, [&](int k, int i, auto&& add) {
     double s = 0, d = 0;
@@ -52,11 +54,9 @@ std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const s
     *energy = hourglass + 0.5 * r.volume * sc.sigma * sc.c * (e[0] * p[0] + e[1] * p[1] + e[2] * p[2] + 2 * (e[3] * p[3] + e[4] * p[4] + e[5] * p[5]));
   }
   std::array<Vec3, 8> out_forces;
-  for (int k = 0; k < 8; ++k) out_forces[k] = {f[k][0], f[k][1], f[k][2]};
+  for (int k = 0; k < 8; ++k) out_forces[k] = turn(theta - psi, {f[k][0], f[k][1], f[k][2]});
   return out_forces;
 }
-
-Vec3 turn(double angle, Vec3 v) { return {std::cos(angle) * v.x - std::sin(angle) * v.z, v.y, std::sin(angle) * v.x + std::cos(angle) * v.z}; }
 
 }  // namespace
 
