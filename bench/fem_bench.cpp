@@ -110,7 +110,9 @@ struct Lines {
   void step() {
     const BlockLayout& l = solid.layout().blocks[0];
     solid.begin_forces(u, 0);
-    const Solid::TakeRows take = [&](const Solid::Tile& t, int node, const double* rows) {
+    const std::vector<Solid::Chain> chains = solid.chains(6 * max_threads());
+    const Solid::TakeRows take = [&](const Solid::Tile& t, int begin, int node, const double* rows) {
+      if (begin == t.first) advance(node, begin, begin + 1, {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
       advance(node, t.first + 1, t.end, {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
       return true;
     };
@@ -118,11 +120,11 @@ struct Lines {
       for (int i = 0; i < 3; ++i) lines.add(&v[l.line(node, i) + t.first]);
       lines.add(&inverse_mass[l.line(node, 0) + t.first]);
     };
-    for_each(solid.tiles(), [&](std::ptrdiff_t t) { solid.tile_forces(static_cast<int>(t), u, f, take, expect); }, true);
-    solid.end_forces(f);
+    for_each(static_cast<std::ptrdiff_t>(chains.size()), [&](std::ptrdiff_t k) { solid.chain_forces(chains[k], u, f, take, expect); }, true);
+    solid.end_forces(chains, f);
     for_each(l.nodes, [&](std::ptrdiff_t n) {
       const double* row[3] = {f.data() + l.line(static_cast<int>(n), 0), f.data() + l.line(static_cast<int>(n), 1), f.data() + l.line(static_cast<int>(n), 2)};
-      for (int t = 0; t < solid.tiles(); ++t) advance(static_cast<int>(n), solid.tile(t).first, solid.tile(t).first + 1, {row[0], row[1], row[2]});
+      for (const Solid::Chain& c : chains) advance(static_cast<int>(n), solid.border_plane(c), solid.border_plane(c) + 1, {row[0], row[1], row[2]});
       advance(static_cast<int>(n), l.stations - 1, l.stations, {row[0], row[1], row[2]});
     });
   }

@@ -274,7 +274,7 @@ void give_out(const Real* rows, const double* cosine, const double* sine, int co
 }  // namespace
 
 template <class Real, bool linear, SweepKind kind>
-void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const {
+void Solid::run_tile(int t, bool follows, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const {
   using P = PackOf<Real>;
   using Rows = Scratch<Real>;
   constexpr int lanes = kLanesOf<Real>;
@@ -340,16 +340,32 @@ void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, cons
       if (!d.done[q][c]) continue;
       double *first = &border_first_[border_[t] + static_cast<std::ptrdiff_t>(quads[q][c]) * 3], *end = &border_end_[border_[t] + static_cast<std::ptrdiff_t>(quads[q][c]) * 3];
       give_out<kind>(node[c] + Rows::kForces * kTile, cosine, sine, count, complete, first, end);
-      if (take && (*take)(tile, quads[q][c], complete)) continue;
-      for (int i = 0; i < 3; ++i) std::copy(complete + i * kTile + 1, complete + i * kTile + count, f.data() + lay.line(quads[q][c], i) + tile.first + 1);
+      if (follows)
+        for (int i = 0; i < 3; ++i) complete[i * kTile] = border_end_[border_[t - 1] + static_cast<std::ptrdiff_t>(quads[q][c]) * 3 + i] + first[i];
+      const int begin = follows ? 0 : 1;
+      if (take && (*take)(tile, tile.first + begin, quads[q][c], complete)) continue;
+      for (int i = 0; i < 3; ++i) std::copy(complete + i * kTile + begin, complete + i * kTile + count, f.data() + lay.line(quads[q][c], i) + tile.first + begin);
     }
   }
 }
 
 template <class Real, bool linear>
-void Solid::run_tile(int t, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const {
-  if (body_.kind == SweepKind::extrude) run_tile<Real, linear, SweepKind::extrude>(t, u, f, take, expect);
-  else run_tile<Real, linear, SweepKind::revolve>(t, u, f, take, expect);
+void Solid::run_chain(const Chain& chain, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const {
+  for (int t = chain.first_tile; t < chain.end_tile; ++t) {
+    const bool follows = t > chain.first_tile;
+    if (body_.kind == SweepKind::extrude) run_tile<Real, linear, SweepKind::extrude>(t, follows, u, f, take, expect);
+    else run_tile<Real, linear, SweepKind::revolve>(t, follows, u, f, take, expect);
+  }
+}
+
+std::vector<Solid::Chain> Solid::chains(int at_least) const {
+  const int length = std::max(1, static_cast<int>(tiles_.size()) / at_least);
+  std::vector<Chain> out;
+  for (std::size_t b = 0; b + 1 < first_tile_.size(); ++b) {
+    const int first = first_tile_[b], tiles = first_tile_[b + 1] - first, pieces = (tiles + length - 1) / length;
+    for (int k = 0; k < pieces; ++k) out.push_back({first + k * tiles / pieces, first + (k + 1) * tiles / pieces});
+  }
+  return out;
 }
 
 void Solid::begin_forces(Field& u, double psi) const {
@@ -357,34 +373,35 @@ void Solid::begin_forces(Field& u, double psi) const {
   turn_frames(psi);
 }
 
-void Solid::tile_forces(int t, const Field& u, Field& f, const TakeRows& take, const ExpectRows& expect) const {
-  if (precision_ == Precision::single_precision) run_tile<float, false>(t, u, f, &take, &expect);
-  else run_tile<double, false>(t, u, f, &take, &expect);
+void Solid::chain_forces(const Chain& chain, const Field& u, Field& f, const TakeRows& take, const ExpectRows& expect) const {
+  if (precision_ == Precision::single_precision) run_chain<float, false>(chain, u, f, &take, &expect);
+  else run_chain<double, false>(chain, u, f, &take, &expect);
 }
 
-void Solid::end_forces(Field& f) const {
-  for (int b = 0; b < static_cast<int>(layout_.blocks.size()); ++b) {
+void Solid::end_forces(const std::vector<Chain>& chains, Field& f) const {
+  for_each(static_cast<std::ptrdiff_t>(chains.size()), [&](std::ptrdiff_t k) {
+    const int t = chains[k].first_tile, b = tiles_[t].block;
     const BlockLayout& l = layout_.blocks[b];
-    const int first_tile = first_tile_[b], last_tile = first_tile_[b + 1] - 1;
-    for_each(static_cast<std::ptrdiff_t>(l.nodes) * 3, [&](std::ptrdiff_t line) {
-      double* out = f.data() + l.offset + line * l.stride;
-      double before = l.closed ? border_end_[border_[last_tile] + line] : 0.0;
-      for (int t = first_tile; t <= last_tile; ++t) {
-        out[tiles_[t].first] = before + border_first_[border_[t] + line];
-        before = border_end_[border_[t] + line];
-      }
-      if (!l.closed) out[l.elements] = before;
-    });
-  }
+    const std::ptrdiff_t lines = static_cast<std::ptrdiff_t>(l.nodes) * 3;
+    const bool first_of_block = t == first_tile_[b], last_of_block = chains[k].end_tile == first_tile_[b + 1];
+    const double* front = &border_first_[border_[t]];
+    const double* behind = first_of_block ? (l.closed ? &border_end_[border_[first_tile_[b + 1] - 1]] : nullptr) : &border_end_[border_[t - 1]];
+    double* out = f.data() + l.offset + tiles_[t].first;
+    for (std::ptrdiff_t line = 0; line < lines; ++line) out[line * l.stride] = behind ? behind[line] + front[line] : front[line];
+    if (!last_of_block || l.closed) return;
+    const double* end = &border_end_[border_[chains[k].end_tile - 1]];
+    double* last = f.data() + l.offset + l.elements;
+    for (std::ptrdiff_t line = 0; line < lines; ++line) last[line * l.stride] = end[line];
+  });
 }
 
 template <bool linear>
 void Solid::forces(Field& u, double psi, Field& f) const {
   begin_forces(u, psi);
+  const std::vector<Chain> all = chains(8 * max_threads());
   for_each(
-      tiles(),
-      [&](std::ptrdiff_t t) { run_tile<double, linear>(static_cast<int>(t), u, f, nullptr, nullptr); }, true);
-  end_forces(f);
+      static_cast<std::ptrdiff_t>(all.size()), [&](std::ptrdiff_t k) { run_chain<double, linear>(all[k], u, f, nullptr, nullptr); }, true);
+  end_forces(all, f);
 }
 
 void Solid::internal_force(Field& u, double psi, Field& f) const { forces<false>(u, psi, f); }
@@ -394,7 +411,7 @@ StrainEnergy Solid::energy(Field& u, double psi) const {
   begin_forces(u, psi);
   std::vector<StrainEnergy> part(tiles_.size());
   for_each(
-      tiles(),
+      static_cast<std::ptrdiff_t>(tiles_.size()),
       [&](std::ptrdiff_t t) {
         const Tile& tile = tiles_[t];
         const BlockData& d = data_[tile.block];

@@ -2,8 +2,8 @@
 // A meshed elastic body ready for computing: reference data of its elements, masses, internal forces, energies and stresses.
 //
 // Work is split into tiles of stations. A tile goes through its quadrilaterals in their order and keeps the forces of the nodes that are not complete yet in a few
-// rows of scratch memory; a finished row is handed over at once, so that it can be used while it is in cache. Forces on the node planes between two tiles are added
-// up afterwards. No races, and sums that do not depend on the number of threads.
+// rows of scratch memory; a finished row is handed over at once, so that it can be used while it is in cache. Tiles may be chained: one waits for the other and completes
+// the node plane between them; forces on the planes between two chains are added up afterwards. No races, and sums that do not depend on the number of threads.
 #include <array>
 #include <functional>
 #include <memory>
@@ -52,23 +52,30 @@ class Solid {
   /// Adds the diagonal of K to d (cleared first).
   void stiffness_diagonal(Field& d) const;
 
-  // -- internal forces in pieces: begin_forces, every tile once (in parallel if wanted), end_forces --------------------------------------------------------
+  // -- internal forces in pieces: begin_forces, every chain once (in parallel if wanted), end_forces -------------------------------------------------------
   static constexpr int kTile = 64;  ///< elements along the sweep; a multiple of every pack width
   struct Tile {
-    int block, first, end;  ///< owns the stations first <= j < end; first is a border plane, complete after end_forces only
+    int block, first, end;  ///< owns the stations first <= j < end
   };
-  /// Complete internal forces on a node at the stations tile.first < j < tile.end: rows[i * kTile + j - tile.first]. May change the displacements there. Returns true
-  /// if it has used them up; otherwise they are stored in f.
-  using TakeRows = std::function<bool(const Tile& tile, int node, const double* rows)>;
+  /// Tiles first_tile <= t < end_tile of one block, one after the other: only the first one's first station is a border plane, complete after end_forces.
+  struct Chain {
+    int first_tile, end_tile;
+  };
+  /// At least so many chains if there are as many tiles. The forces are the same to the bit however the tiles are chained.
+  std::vector<Chain> chains(int at_least) const;
+  int border_plane(const Chain& c) const { return tiles_[c.first_tile].first; }
+  int block(const Chain& c) const { return tiles_[c.first_tile].block; }
+
+  /// Complete internal forces on a node at the stations begin <= j < tile.end: rows[i * kTile + j - tile.first]; begin is the tile's first station or the next. May change
+  /// the displacements there. Returns true if it has used them up; otherwise they are stored in f.
+  using TakeRows = std::function<bool(const Tile& tile, int begin, int node, const double* rows)>;
   /// Told of a node some time before its rows are handed over: adds the lines of memory, from the tile's first station, that will be wanted then.
   using ExpectRows = std::function<void(const Tile& tile, int node, Prefetch& lines)>;
 
   void begin_forces(Field& u, double psi) const;
-  int tiles() const { return static_cast<int>(tiles_.size()); }
-  const Tile& tile(int t) const { return tiles_[t]; }
-  void tile_forces(int tile, const Field& u, Field& f, const TakeRows& take, const ExpectRows& expect) const;
-  /// Forces on the border planes of all tiles, and on the last station of an open block.
-  void end_forces(Field& f) const;
+  void chain_forces(const Chain& chain, const Field& u, Field& f, const TakeRows& take, const ExpectRows& expect) const;
+  /// Forces on the border planes of all chains, and on the last station of an open block.
+  void end_forces(const std::vector<Chain>& chains, Field& f) const;
 
   /// Cauchy stress at the centre of an element, model frame [Pa].
   Sym3 stress(const Field& u, int block, int quad, int station) const;
@@ -119,9 +126,9 @@ class Solid {
   template <bool linear>
   void forces(Field& u, double psi, Field& f) const;
   template <class Real, bool linear>
-  void run_tile(int tile, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const;
+  void run_chain(const Chain& chain, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const;
   template <class Real, bool linear, SweepKind kind>
-  void run_tile(int tile, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const;
+  void run_tile(int tile, bool follows, const Field& u, Field& f, const TakeRows* take, const ExpectRows* expect) const;
   template <class Real>
   KernelData<Real> const& kernel(const BlockData& d) const;
   void plan_scratch(int block, BlockData& d) const;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace railstrata {
@@ -128,14 +129,20 @@ Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSur
   for (int b = 0; b < static_cast<int>(out.at_once.size()); ++b)
     for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n)
       if (out.at_once[b][n]) out.bordered.push_back({b, n});
-  out.borders.resize(out.at_once.size());
-  for (int t = 0; t < body.solid.tiles(); ++t) out.borders[body.solid.tile(t).block].push_back(body.solid.tile(t).first);
-  for (std::size_t b = 0; b < out.borders.size(); ++b)
-    if (const BlockLayout& l = body.solid.layout().blocks[b]; !l.closed) out.borders[b].push_back(l.elements);
-  out.tile_sums.resize(body.solid.tiles());
   out.later_sums.resize(out.later.size());
   out.border_sums.resize(out.bordered.size());
   return out;
+}
+
+void Stepper::chain_tiles(const DeformableBody& body, Schedule& schedule) const {
+  constexpr int kChainsPerThread = 6, kSingleTiles = std::numeric_limits<int>::max();
+  const Solid& solid = body.solid;
+  schedule.chains = solid.chains(rate_ > 0 || want_energy_ ? kSingleTiles : kChainsPerThread * max_threads());
+  schedule.chain_sums.assign(schedule.chains.size(), {});
+  schedule.borders.assign(schedule.at_once.size(), {});
+  for (const Solid::Chain& c : schedule.chains) schedule.borders[solid.block(c)].push_back(solid.border_plane(c));
+  for (std::size_t b = 0; b < schedule.borders.size(); ++b)
+    if (const BlockLayout& l = solid.layout().blocks[b]; !l.closed) schedule.borders[b].push_back(l.elements);
 }
 
 double Stepper::torque() const {
@@ -160,17 +167,21 @@ void Stepper::internal_forces() {
   const Solid& wheel = sys_.wheel.solid;
   rail.begin_forces(state_.u_rail, 0);
   wheel.begin_forces(state_.u_wheel, drift);
+  chain_tiles(sys_.rail, rail_schedule_);
+  chain_tiles(sys_.wheel, wheel_schedule_);
   const bool fused = !want_energy_;
+  const std::ptrdiff_t wheel_chains = static_cast<std::ptrdiff_t>(wheel_schedule_.chains.size()), rail_chains = static_cast<std::ptrdiff_t>(rail_schedule_.chains.size());
   for_each(
-      wheel.tiles() + rail.tiles(),
+      wheel_chains + rail_chains,
       [&](std::ptrdiff_t k) {
-        const bool is_wheel = k < wheel.tiles();
-        const int t = static_cast<int>(is_wheel ? k : k - wheel.tiles());
+        const bool is_wheel = k < wheel_chains;
+        if (!is_wheel) k -= wheel_chains;
         Schedule& plan = is_wheel ? wheel_schedule_ : rail_schedule_;
         Sums sums;
-        const Solid::TakeRows take = [&](const Solid::Tile& tile, int node, const double* rows) {
+        const Solid::TakeRows take = [&](const Solid::Tile& tile, int begin, int node, const double* rows) {
           if (!fused || !plan.at_once[tile.block][node]) return false;
           const double* const f[3] = {rows - tile.first, rows + Solid::kTile - tile.first, rows + 2 * Solid::kTile - tile.first};
+          if (begin == tile.first) advance_node(is_wheel, {tile.block, node}, begin, begin + 1, f, sums);  // the others are aligned to packs
           advance_node(is_wheel, {tile.block, node}, tile.first + 1, tile.end, f, sums);
           return true;
         };
@@ -183,12 +194,12 @@ void Stepper::internal_forces() {
           for (int i = 0; i < 3; ++i) lines.add(&v[x + i * solid.layout().blocks[tile.block].stride]);
           lines.add(&inverse_mass[x]);
         };
-        solid.tile_forces(t, is_wheel ? state_.u_wheel : state_.u_rail, is_wheel ? f_wheel_ : f_rail_, take, expect);
-        plan.tile_sums[t] = sums;
+        solid.chain_forces(plan.chains[k], is_wheel ? state_.u_wheel : state_.u_rail, is_wheel ? f_wheel_ : f_rail_, take, expect);
+        plan.chain_sums[k] = sums;
       },
       true);
-  rail.end_forces(f_rail_);
-  wheel.end_forces(f_wheel_);
+  rail.end_forces(rail_schedule_.chains, f_rail_);
+  wheel.end_forces(wheel_schedule_.chains, f_wheel_);
   const double c = std::cos(drift), s = std::sin(drift);
   double moment[6];  // what the ties' offsets hand to the rotation
   for_each(6, [&](std::ptrdiff_t k) {
@@ -476,7 +487,7 @@ void Stepper::advance_later() {
   for (const Schedule* plan : {&wheel_schedule_, &rail_schedule_}) {
     Sums all;
     if (!want_energy_)
-      for (const Sums& s : plan->tile_sums) all += s;
+      for (const Sums& s : plan->chain_sums) all += s;
     for (const Sums& s : plan->later_sums) all += s;
     for (const Sums& s : plan->border_sums) all += s;
     if (plan == &wheel_schedule_) wheel = all;

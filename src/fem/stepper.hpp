@@ -120,12 +120,14 @@ class Stepper {
     std::vector<std::vector<char>> at_once;      // per block and section node
     std::vector<SectionNode> later;              // free nodes that wait
     std::vector<SectionNode> bordered;           // nodes updated at once, but for the border planes
+    std::vector<Solid::Chain> chains;            // as many as keep the threads busy; single tiles if sums are wanted, whose bits are not to depend on the threads
     std::vector<std::vector<int>> borders;       // per block, border stations
-    std::vector<Sums> tile_sums, later_sums, border_sums;
+    std::vector<Sums> chain_sums, later_sums, border_sums;
   };
 
   void start(const PreloadResult& preload);
   Schedule schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling) const;
+  void chain_tiles(const DeformableBody& body, Schedule& schedule) const;
   void internal_forces();
   void contact();
   template <SweepKind kind, bool measured>
