@@ -55,7 +55,7 @@ class Preload {
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
       tractions_.at(row.column, row.station) = {pressure_[k], 0, 0, 0, 0};
-      out.contact_force_z += row.area * pressure_[k] * row.normal.z;
+      out.contact_force += (row.area * pressure_[k]) * row.normal;
     }
     out.tractions = tractions_;
     return out;

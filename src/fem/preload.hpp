@@ -21,7 +21,7 @@ struct PreloadResult {
   TractionMemory tractions{0, 0};
   double residual = 0;                ///< |r| / |load vector|
   double penetration = 0;             ///< m, largest of the nodes in contact
-  double contact_force_z = 0;         ///< N, on the wheel
+  Vec3 contact_force;                 ///< N, on the wheel
   int newton_steps = 0, cg_iterations = 0;  ///< steps: evaluations of the exact residual
   double wall_seconds = 0;
 };

@@ -134,8 +134,8 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
   if (!run.rolling) {
     PositionSamples still{0.0, {take_sample(sys, preload.u_rail, preload.u_wheel, preload.tractions, {0, preload.axle_z, 0})}};
     still.samples.front().axle.z = preload.axle_z;
-    still.samples.front().forces.z = preload.contact_force_z;
-    still.samples.front().forces.penetration = preload.penetration;
+    const Vec3 force = preload.contact_force;
+    still.samples.front().forces = {.x = force.x, .y = force.y, .z = force.z, .penetration = preload.penetration};
     Field& ur = preload.u_rail;
     Field& uw = preload.u_wheel;
     const StrainEnergy rail = sys.rail.solid.energy(ur, 0), wheel = sys.wheel.solid.energy(uw, 0);

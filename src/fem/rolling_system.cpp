@@ -44,7 +44,7 @@ std::vector<EndDashpot> end_absorbers(const DeformableBody& rail) {
 
 // A penalty rule of explicit codes, k = scale K A / V with the bulk modulus K of the rail's surface elements (A / V = 1 / height).
 double penalty_rule(const Model& model) {
-  const Elastic& m = model.rail_materials.back();
+  const Elastic& m = model.rail_materials[model.rail_materials.size() > 1 ? 1 : 0];
   const auto& depth = model.rail.contact.depth;
   return model.spec.contact.penalty_scale * (m.lambda + 2.0 / 3.0 * m.mu) / (depth[1] - depth[0]);
 }

@@ -36,7 +36,7 @@ TEST(Preload, ContactForceIsTheWeight) {
   const RollingSystem sys = small_system(static_case());
   const PreloadResult r = solve_preload(sys, 1e-9);
   EXPECT_LT(r.residual, 1e-9);
-  EXPECT_NEAR(r.contact_force_z / sys.model.load, 1.0, 1e-6);
+  EXPECT_NEAR(r.contact_force.z / sys.model.load, 1.0, 1e-6);
 }
 
 // The wheel's polygon is finer under the contact, so its centrifugal forces do not quite cancel.
@@ -50,7 +50,7 @@ TEST(Preload, ContactForceOfASpinningWheelIsTheWeightUpToTheMeshsImbalance) {
       for (int j = 0; j < l.count; ++j) imbalance += sys.start_spin * sys.start_spin * sys.wheel.mass[l.first + j] * block.section.nodes[l.node].z * std::cos(block.stations.at[j]);
     }
   const PreloadResult r = solve_preload(sys, 1e-9);
-  EXPECT_NEAR(r.contact_force_z / (sys.model.load - imbalance), 1.0, 1e-6);
+  EXPECT_NEAR(r.contact_force.z / (sys.model.load - imbalance), 1.0, 1e-6);
 }
 
 // Signorini: g >= 0, p >= 0, p g = 0, evaluated afresh from the result.

@@ -80,7 +80,7 @@ TEST(Rolling, PenaltyContactCarriesTheWeightSoftly) {
   spec.contact.method = "penalty";
   const RollingSystem system = small_system(spec);
   const PreloadResult soft = solve_preload(system, 1e-6);
-  EXPECT_NEAR(soft.contact_force_z / hard.contact_force_z, 1, 1e-4);
+  EXPECT_NEAR(soft.contact_force.z / hard.contact_force.z, 1, 1e-4);
   EXPECT_GT(soft.penetration, 1e-6);
   auto peak = [](const PreloadResult& p) {
     double top = 0;

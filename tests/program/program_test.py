@@ -2,12 +2,13 @@
 """The program seen from outside: exit codes, messages, files. usage: program_test.py BINARY SOURCE_DIR"""
 import hashlib
 import json
+import math
 import pathlib
 import re
 import sys
 import unittest
 
-from outside import FromOutside, railstrata
+from outside import TINY, FromOutside, railstrata
 
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 COARSE = ["--threads", "1", "--set", "mesh.element_size=4 mm", "--set", "mesh.fine_depth=12 mm"]
@@ -51,6 +52,17 @@ class Program(FromOutside):
         self.assertAlmostEqual(report["load_N"], 8660 * 9.81, places=6)
         self.assertLess(report["step_s"], report["stable_step_s"])
         self.assertGreaterEqual(report["stable_step_s"], report["element_step_bound_s"])
+
+    def test_without_friction_the_force_of_both_engines_stands_on_the_contact_plane(self):
+        case = self.case(TINY.replace("cant = 0.0", 'cant = "1:40"'))
+        for engine, words in [("run", ["--threads", "1", "--set", "mesh.element_size=8 mm", "--set", "mesh.largest=30 mm"]), ("bem", ["--cell", "1 mm"])]:
+            rc, _, err = railstrata(engine, case, *words, "--set", "run.rolling=false", "--quiet", "--out", self.folder / engine)
+            self.assertIn(rc, (0, 1), err)  # 1: a check of a result so coarse may fail
+            contact = json.loads((self.folder / engine / "summary.json").read_text())["contact"]
+            self.assertAlmostEqual(abs(contact["contact_angle_rad"]), 0.025, delta=1e-4)
+            self.assertAlmostEqual(contact["F_y_N"] / contact["F_z_N"], -math.tan(contact["contact_angle_rad"]), delta=1e-6, msg=engine)
+            self.assertAlmostEqual(contact["lateral_force_N"] / contact["normal_force_N"], 0, delta=1e-6, msg=engine)
+            self.assertAlmostEqual(contact["F_z_N"], 8500 * 9.81, delta=5)
 
     def test_mesh_writes_its_files_and_where_they_come_from(self):
         case = self.case('[case]\ntitle = "m"\n')
