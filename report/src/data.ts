@@ -51,6 +51,7 @@ export interface Layer {
   width_m: number;
   young_Pa: number;
   young_ratio: number;
+  young_table?: [number, number][]; // depth [m] and modulus [Pa] of a graded layer; its young_Pa is the mean
   bottom_m: [number, number][];
 }
 

@@ -43,6 +43,11 @@ function largest(patches: Patch[], of: (p: Patch) => (number | null)[][]): numbe
   return top || 1;
 }
 
+/// A static contact without friction has neither traction nor slip to be drawn.
+function hasTraction(runs: Run[]): boolean {
+  return runs.some((run) => run.patch.q_x.high - run.patch.q_x.low > 0 || run.patch.q_y.high - run.patch.q_y.low > 0);
+}
+
 /// Around every contact, with room for half a cell and a millimetre.
 function touchingWindow(patches: Patch[], at: (p: Patch) => number[], touches: (p: Patch, k: number) => boolean): [number, number] {
   let low = Infinity, high = -Infinity;
@@ -71,7 +76,7 @@ export function patchMaps(runs: Run[]): Figure[] {
     { id: "slip", name: "Slip velocity", of: (p) => p.slip, column: "slip_mm_s", hover: "slip %{z:.2f} mm/s", bar: "mm/s" },
     { id: "state", name: "Stick and slip", of: (p) => p.state, column: "state_1stick_2slip", hover: "%{text}", bar: "" },
   ];
-  return kinds.flatMap((kind) => {
+  return kinds.slice(0, hasTraction(runs) ? 4 : 1).flatMap((kind) => {
     const top = largest(patches, kind.of);
     return patches.map((patch, n): Figure => {
       const state = kind.id === "state";
@@ -135,9 +140,9 @@ export function centreLines(runs: Run[]): Figure[] {
       id: "centre-p", title: "Pressure on the centre line", labels: ["x, rolling direction [mm]", "p [MPa]"], names: ["x_mm", "p_MPa"], series: pressure, window,
       words: [`${line}${geometry ? " Hertz’s ellipse takes the curvatures at the rigid contact point and knows no layer: a reference, not a target." : ""}`],
     }),
-    linesFigure({
+    ...(hasTraction(runs) ? [linesFigure({
       id: "centre-q", title: "Traction on the centre line", labels: ["x, rolling direction [mm]", "|q| [MPa]"], names: ["x_mm", "q_MPa"], series: traction, window,
       words: ["Magnitude of the tangential traction on the rail. Where it meets the limit f p (of the first run) the surfaces slip."],
-    }),
+    })] : []),
   ];
 }

@@ -1,5 +1,5 @@
 // Verdict, numbers, geometry, history and origin: the parts of the page around the patch and its stresses.
-import { numberAt, option, type Check, type Report, type Run } from "./data";
+import { numberAt, option, type Check, type Layer, type Report, type Run } from "./data";
 import { element, table, type Cell } from "./dom";
 import { axis, baseLayout, type Figure, type Theme } from "./figures";
 import { linesFigure, type Series } from "./lines";
@@ -130,6 +130,11 @@ export function geometryFigures(run: Run): Figure[] {
   ];
 }
 
+function layerModulus(l: Layer): string {
+  if (!l.young_table) return `E ${numberText(1e-9 * l.young_Pa)} GPa = ${numberText(l.young_ratio, 3)} E₀`;
+  return `graded: E ${l.young_table.map(([depth, young]) => `${numberText(1e-9 * young)} GPa at ${numberText(1e3 * depth, 3)} mm`).join(", ")}`;
+}
+
 export function geometryTable(run: Run): HTMLElement | null {
   const g = run.geometry;
   if (!g) return null;
@@ -146,7 +151,7 @@ export function geometryTable(run: Run): HTMLElement | null {
     ["lateral radius of wheel, of rail (convex positive)", `${radius(c.curvature_wheel_lateral_per_m)}, ${radius(c.curvature_rail_lateral_per_m)}`],
     ["static load", `${numberText(1e-3 * g.load_N, 5)} kN`],
     ["Hertz’s ellipse, no layer", `a ${numberText(1e3 * g.hertz.a_m, 3)}, b ${numberText(1e3 * g.hertz.b_m, 3)} mm, p₀ ${numberText(1e-6 * g.hertz.p0_Pa)} MPa, approach ${numberText(1e6 * g.hertz.approach_m, 3)} µm`],
-    ...g.layers.map((l) => [`layer “${l.name}” on the ${l.on}`, `${numberText(1e3 * l.thickness_m, 3)} mm thick, ${numberText(1e3 * l.width_m, 3)} mm wide, E ${numberText(1e-9 * l.young_Pa)} GPa = ${numberText(l.young_ratio, 3)} E₀`]),
+    ...g.layers.map((l) => [`layer “${l.name}” on the ${l.on}`, `${numberText(1e3 * l.thickness_m, 3)} mm thick, ${numberText(1e3 * l.width_m, 3)} mm wide, ${layerModulus(l)}`]),
   ];
   return table("Placement", ["", ""], rows, { class: "facts" });
 }

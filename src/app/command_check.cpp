@@ -21,8 +21,10 @@ void print_geometry(const Model& m) {
 }
 
 void print_layers(const Model& m) {
-  for (const LayerSpec& l : m.spec.layers)
-    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {:.4g} GPa\n", l.name, l.on, 1e3 * l.thickness, 1e3 * l.width, 1e-9 * l.material.young);
+  for (const LayerSpec& l : m.spec.layers) {
+    const std::string young = l.graded() ? fmt::format("{:.4g} to {:.4g}", 1e-9 * l.young_table.front().young, 1e-9 * l.young_table.back().young) : fmt::format("{:.4g}", 1e-9 * l.material.young);
+    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa\n", l.name, l.on, 1e3 * l.thickness, 1e3 * l.width, young);
+  }
 }
 
 void print_estimate(const Model& m, const RunEstimate& e) {

@@ -70,8 +70,17 @@ Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidConta
 
 LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body) {
   LayeredHalfSpace out{{}, half_space(body == "wheel" ? spec.wheel_material : spec.rail_material)};
-  for (const LayerSpec& layer : spec.layers)
-    if (layer.on == body) out.layers.push_back({layer.thickness, half_space(layer.material)});
+  for (const LayerSpec& layer : spec.layers) {
+    if (layer.on != body) continue;
+    if (!layer.graded()) {
+      out.layers.push_back({layer.thickness, half_space(layer.material)});
+      continue;
+    }
+    std::vector<GradedPoint> table;
+    for (const ModulusPoint& point : layer.young_table) table.push_back({point.depth, {point.young, layer.material.poisson}});
+    const std::vector<HalfSpaceLayer> cuts = cut_into_layers(table, layer.grading_tolerance);
+    out.layers.insert(out.layers.end(), cuts.begin(), cuts.end());
+  }
   return out;
 }
 

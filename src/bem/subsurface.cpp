@@ -298,11 +298,12 @@ void Subsurface::add_layer_difference(double depth, DisplacementPlane& out) cons
     }
 }
 
-const HalfSpaceMaterial& Subsurface::material_at(double depth, bool below_interface) const {
-  double bottom = 0;
+HalfSpaceMaterial Subsurface::material_at(double depth, bool below_interface) const {
+  double top = 0;
   for (const HalfSpaceLayer& layer : body_.layers) {
-    bottom += layer.thickness;
-    if (below_interface ? depth < bottom : depth <= bottom) return layer.material;
+    const double bottom = top + layer.thickness;
+    if (below_interface ? depth < bottom : depth <= bottom) return layer.local(depth - top);
+    top = bottom;
   }
   return body_.substrate;
 }
@@ -482,13 +483,13 @@ SubsurfacePeaks Subsurface::peaks(double deepest) const {
   out.surface = search.at(0, true);
   const double shallow = 0.5 * std::min(grid_.dx, grid_.dy);
   double top = 0;
-  for (const HalfSpaceLayer& layer : body_.layers) {
-    const double bottom = top + layer.thickness, from = top == 0 ? std::min(shallow, 0.5 * layer.thickness) : top;
-    out.layers.push_back(search.zone(from, bottom));
-    if (bottom > shallow) keep_larger(out.subsurface, out.layers.back());
-    out.above_interface.push_back(search.at(bottom, false));
-    out.below_interface.push_back(search.at(bottom, true));
-    top = bottom;
+  for (const LayerExtent& layer : layer_extents(body_)) {
+    const double from = top == 0 ? std::min(shallow, 0.5 * layer.bottom) : top;
+    out.layers.push_back(search.zone(from, layer.bottom));
+    if (layer.bottom > shallow) keep_larger(out.subsurface, out.layers.back());
+    out.above_interface.push_back(search.at(layer.bottom, false));
+    out.below_interface.push_back(search.at(layer.bottom, true));
+    top = layer.bottom;
   }
   out.matrix = search.zone(std::max(top, shallow), std::max(deepest, top + 4 * grid_.dx));
   keep_larger(out.subsurface, out.matrix);

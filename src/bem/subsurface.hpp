@@ -47,8 +47,8 @@ struct ZonePeaks {
 struct SubsurfacePeaks {
   ZonePeaks surface;                 ///< depth 0, the material at the surface
   ZonePeaks subsurface;              ///< below half a cell, whatever the material
-  std::vector<ZonePeaks> layers;     ///< inside each layer, from the surface (excluded) to its bottom
-  std::vector<ZonePeaks> above_interface, below_interface;  ///< the two sides of each interface
+  std::vector<ZonePeaks> layers;     ///< inside each layer (a graded one with all its cuts), from the surface (excluded) to its bottom
+  std::vector<ZonePeaks> above_interface, below_interface;  ///< the two sides of each interface; the cuts of a graded layer are none
   ZonePeaks matrix;                  ///< the substrate; of a homogeneous body as `subsurface`
 };
 
@@ -64,7 +64,8 @@ class Subsurface {
   DisplacementPlane displacement(double depth) const;
   /// Stresses in cell k of a plane; at an interface those of the layer above, or below if asked.
   Sym3 stress(const StatePlane& plane, std::size_t k, bool below_interface = false) const;
-  const HalfSpaceMaterial& material_at(double depth, bool below_interface = false) const;
+  /// The material at a depth, of a graded layer its own there.
+  HalfSpaceMaterial material_at(double depth, bool below_interface = false) const;
   /// Displacements and stresses at any points (x, y, depth >= 0) [m], in the order given: bicubic between cells, on a wider grid where points lie outside. A plane is
   /// computed per depth: give points of a depth together. On an interface the stresses of the layer above, or below if asked.
   /// Throws std::out_of_range for a point above the surface or more than about a thousand cells away.

@@ -105,20 +105,40 @@ SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double toler
   throw NumericalError("the compliance of the layer stack could be represented only to a relative deviation of " + std::to_string(best));
 }
 
+std::vector<LayerExtent> layer_extents(const LayeredHalfSpace& body) {
+  std::vector<LayerExtent> out;
+  double top = 0;
+  bool goes_on = false;
+  for (const HalfSpaceLayer& layer : body.layers) {
+    const double bottom = top + layer.thickness;
+    if (goes_on) out.back().bottom = bottom;
+    else out.push_back({top, bottom});
+    goes_on = layer.continues;
+    top = bottom;
+  }
+  return out;
+}
+
 std::vector<HalfSpaceLayer> cut_into_layers(const std::vector<GradedPoint>& table, double tolerance) {
   if (table.size() < 2 || table.front().depth != 0) throw CaseError("a graded modulus needs at least two depths, the first 0", "add rows to the table");
   std::vector<HalfSpaceLayer> layers;
   for (std::size_t i = 0; i + 1 < table.size(); ++i) {
     const GradedPoint &a = table[i], &b = table[i + 1];
     if (!(b.depth > a.depth)) throw CaseError("the depths of a graded modulus must increase", "sort the rows by depth");
-    const double change = std::abs(std::log(b.material.young / a.material.young));
-    const int pieces = std::max({1, static_cast<int>(std::ceil(change / std::log1p(tolerance))), static_cast<int>(std::ceil(std::abs(b.material.poisson - a.material.poisson) / tolerance))});
+    const double ratio = b.material.young / a.material.young, height = b.depth - a.depth;
+    const double young_slope = (b.material.young - a.material.young) / height, poisson_slope = (b.material.poisson - a.material.poisson) / height;
+    const int pieces = std::max({1, static_cast<int>(std::ceil(std::abs(std::log(ratio)) / std::log1p(tolerance) - 1e-9)),
+                                 static_cast<int>(std::ceil(std::abs(b.material.poisson - a.material.poisson) / tolerance - 1e-9))});
+    // equal steps of ln E
+    const auto border = [&](int j) { return std::abs(ratio - 1) < 1e-9 ? static_cast<double>(j) / pieces : (std::pow(ratio, static_cast<double>(j) / pieces) - 1) / (ratio - 1); };
     for (int j = 0; j < pieces; ++j) {
-      const double t = (j + 0.5) / pieces;
-      layers.push_back({(b.depth - a.depth) / pieces,
-                        {a.material.young + t * (b.material.young - a.material.young), a.material.poisson + t * (b.material.poisson - a.material.poisson)}});
+      const double t = 0.5 * (border(j) + border(j + 1));
+      layers.push_back({height * (border(j + 1) - border(j)),
+                        {a.material.young + t * height * young_slope, a.material.poisson + t * height * poisson_slope},
+                        true, young_slope, poisson_slope});
     }
   }
+  layers.back().continues = false;
   return layers;
 }
 

@@ -13,6 +13,13 @@ namespace railstrata {
 struct HalfSpaceLayer {
   double thickness = 0;  ///< m
   HalfSpaceMaterial material;
+  bool continues = false;  ///< one cut of a graded layer that goes on below: its bottom is no interface
+  double young_slope = 0, poisson_slope = 0;  ///< of the graded material within the cut, 1/m of depth; `material` is its mean
+  /// The graded material at a depth below the cut's top.
+  HalfSpaceMaterial local(double depth) const {
+    const double from_middle = depth - 0.5 * thickness;
+    return {material.young + young_slope * from_middle, material.poisson + poisson_slope * from_middle};
+  }
 };
 
 /// Layers from the surface down on a homogeneous substrate. No layers: homogeneous.
@@ -20,6 +27,12 @@ struct LayeredHalfSpace {
   std::vector<HalfSpaceLayer> layers;
   HalfSpaceMaterial substrate;
 };
+
+/// The layers as they were laid, from the surface down: cuts of a graded one joined. Depths in m.
+struct LayerExtent {
+  double top = 0, bottom = 0;
+};
+std::vector<LayerExtent> layer_extents(const LayeredHalfSpace& body);
 
 /// The four surface compliances at wave number k > 0 [1/m], times k [1/Pa] (boussinesq_cerruti.hpp).
 CompliancePoint layered_compliance_at(const LayeredHalfSpace& body, double k);
@@ -34,7 +47,10 @@ struct GradedPoint {
   double depth = 0;
   HalfSpaceMaterial material;
 };
-/// Cuts the table into layers of constant modulus (its mean over the layer) so that within each the modulus changes by at most the factor 1 + tolerance.
+/// Cuts the table into layers of constant modulus (its mean over the layer) so that within each the modulus changes by at most the factor 1 + tolerance (Poisson's
+/// ratio by about the tolerance). Displacements, strains in plan and tractions that vary slowly over a layer err with the square of the tolerance, and so do all stresses that
+/// are taken with the local modulus. All but the last layer continue below.
+/// Throws CaseError for fewer than two rows, a first depth other than 0 and depths that do not increase.
 std::vector<HalfSpaceLayer> cut_into_layers(const std::vector<GradedPoint>& table, double tolerance = 0.02);
 
 }  // namespace railstrata

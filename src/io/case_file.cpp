@@ -80,7 +80,7 @@ std::string resolved_case(const CaseSpec& given) {
     for (std::size_t i = 0; i < (table.repeated ? spec.layers.size() : 1); ++i) {
       out += fmt::format(fmt::runtime(table.repeated ? "{}[[{}]]\n" : "{}[{}]\n"), out.empty() ? "" : "\n", table.name);
       for (const Option& option : table.options)
-        if (!option.multiple_of) out += fmt::format("{} = {}\n", option.key, toml_value(option, spec, i));
+        if (!option.multiple_of && (!option.applies || option.applies(spec, i))) out += fmt::format("{} = {}\n", option.key, toml_value(option, spec, i));
     }
   return out;
 }

@@ -82,6 +82,8 @@ std::vector<std::string> idle_settings(const CaseSpec& spec) {
   };
   idle(spec.contact.method != "penalty" && spec.contact.penalty_scale != defaults.contact.penalty_scale, "contact.penalty_scale", "contact.method = \"penalty\"");
   idle(spec.mesh.element != "one_point" && spec.mesh.hourglass_coefficient != defaults.mesh.hourglass_coefficient, "mesh.hourglass_coefficient", "mesh.element = \"one_point\"");
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    idle(!spec.layers[i].graded() && spec.layers[i].grading_tolerance != LayerSpec{}.grading_tolerance, fmt::format("layer.{}.grading_tolerance", i).c_str(), "a young_table");
   idle(spec.geometry.rail_shape != "block" && spec.geometry.block_width != defaults.geometry.block_width, "geometry.block_width", "geometry.rail_shape = \"block\"");
   idle(spec.geometry.rail_shape != "block" && spec.geometry.block_height != defaults.geometry.block_height, "geometry.block_height", "geometry.rail_shape = \"block\"");
   return notes;

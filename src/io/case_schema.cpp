@@ -47,6 +47,9 @@ struct TypeSchema {
     if (!option.choices.empty()) s["enum"] = option.choices;
     return s;
   }
+  Json operator()(const std::vector<ModulusPoint>*) const {
+    return {{"type", "array"}, {"minItems", 2}, {"items", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", {{"type", "string"}}}}}};
+  }
   Json operator()(const std::vector<double>*) const { return {{"type", "array"}, {"minItems", 1}, {"items", quantity_schema(option)}}; }
 };
 
@@ -56,7 +59,7 @@ std::string allowed(const Option& option) {
 
 /// A layer's modulus has no default: it must be said.
 std::string default_text(const OptionTable& table, const Option& option, CaseSpec& spec) {
-  return option.multiple_of || (table.repeated && option.key == "young") ? "" : toml_value(option, spec, 0);
+  return option.multiple_of || (table.repeated && option.key.starts_with("young")) ? "" : toml_value(option, spec, 0);
 }
 
 Json option_schema(const OptionTable& table, const Option& option, CaseSpec& spec) {

@@ -51,6 +51,7 @@ std::string wanted(const Option& option) {
       return option.choices.empty() ? "a text in quotes" : fmt::format("one of \"{}\"", fmt::join(option.choices, "\", \""));
     }
     std::string operator()(const std::vector<double>*) const { return "a list, e.g. [\"0.1 m\", \"0.3 m\"]"; }
+    std::string operator()(const std::vector<ModulusPoint>*) const { return "a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]"; }
   };
   CaseSpec any;
   any.layers.resize(1);
@@ -58,6 +59,8 @@ std::string wanted(const Option& option) {
 }
 
 class TreeReader {
+  static constexpr double kThinnestStep = 1e-6;  // m, of depth in a table of moduli
+
  public:
   TreeReader(CaseSource& source, CaseSpec& spec) : source_(source), spec_(spec) {}
 
@@ -122,9 +125,11 @@ class TreeReader {
 
   /// A layer's stiffness is its whole point: no silent default.
   void check_modulus(const std::string& name, const toml::table& entry) {
-    const bool young = entry.contains("young"), ratio = entry.contains("young_ratio");
+    const bool young = entry.contains("young"), ratio = entry.contains("young_ratio"), table = entry.contains("young_table");
     if (young && ratio) source_.complain(name + ".young_ratio", fmt::format("{} has both young and young_ratio", name), "keep one of them");
-    if (!young && !ratio) source_.complain(name, fmt::format("{} has no modulus", name), "add young = \"420 GPa\", or young_ratio = 2.0 for twice the body's");
+    if ((young || ratio) && table) source_.complain(name + ".young_table", fmt::format("{} has both young_table and {}", name, young ? "young" : "young_ratio"), "keep one of them");
+    if (table && entry.contains("thickness")) source_.complain(name + ".thickness", fmt::format("{} has both young_table and thickness", name), "leave thickness out: the layer ends at the table's last depth");
+    if (!young && !ratio && !table) source_.complain(name, fmt::format("{} has no modulus", name), "add young = \"420 GPa\", or young_ratio = 2.0 for twice the body's");
   }
 
   void read_value(const Option& option, const std::string& key, std::size_t index, const toml::node& node) {
@@ -168,12 +173,68 @@ class TreeReader {
     std::vector<double> values;
     for (std::size_t i = 0; i < list->size(); ++i) {
       const std::string item = fmt::format("{}.{}", key, i);
-      if (const TextPlace place = place_of((*list)[i].source()); place.line > 0) source_.remember(item, place);
+      remember_place(item, (*list)[i]);
       double value = 0;
       if (number(option, item, (*list)[i], value)) values.push_back(value);
     }
     if (list->empty()) source_.complain(key, fmt::format("{} = []: needs at least one value", key), fmt::format("write {}", wanted(option)));
     target = values;
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, std::vector<ModulusPoint>& target) {
+    const toml::array* list = node.as_array();
+    if (!list) return mismatch(option, key, node);
+    std::vector<ModulusPoint> rows;
+    bool sound = true;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const std::string item = fmt::format("{}.{}", key, i);
+      const toml::node& row = (*list)[i];
+      remember_place(item, row);
+      const toml::array* pair = row.as_array();
+      if (!pair || pair->size() != 2) {
+        source_.complain(item, fmt::format("{}: must be a depth and a modulus", item), "write [\"3 mm\", \"210 GPa\"]");
+        sound = false;
+        continue;
+      }
+      ModulusPoint point;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const std::string part = fmt::format("{}.{}", item, k);
+        remember_place(part, (*pair)[k]);
+        sound &= number(k == 0 ? table_depth() : table_young(), part, (*pair)[k], k == 0 ? point.depth : point.young);
+      }
+      rows.push_back(point);
+    }
+    if (sound && fits(option, key, rows)) take_table(spec_.layers.at(index), rows);
+    target = rows;
+  }
+
+  /// From the top down, at least two rows, as thick as a layer may be.
+  bool fits(const Option& option, const std::string& key, const std::vector<ModulusPoint>& rows) {
+    const auto refuse = [&](const std::string& at, const std::string& what, const std::string& remedy) {
+      source_.complain(at, what, remedy);
+      return false;
+    };
+    if (rows.size() < 2) return refuse(key, fmt::format("{}: needs at least two rows", key), fmt::format("write {}", wanted(option)));
+    if (rows.front().depth != 0) return refuse(key + ".0", fmt::format("{}: the first depth must be 0 mm, the layer's top", key), "begin with the modulus at the top");
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      if (!(rows[i].depth - rows[i - 1].depth >= kThinnestStep))
+        return refuse(fmt::format("{}.{}", key, i), fmt::format("{}: depths must increase, by {} at least", key, format_quantity(kThinnestStep, dimension::kLength)), "sort the rows by depth; for a jump write two layers");
+    const OptionTable& table = *find_table("layer");
+    const auto thickness = std::find_if(table.options.begin(), table.options.end(), [](const Option& o) { return o.key == "thickness"; });
+    if (!thickness->range.holds(rows.back().depth))
+      return refuse(fmt::format("{}.{}", key, rows.size() - 1), fmt::format("{}: the last depth, the layer's thickness, must be {}", key, describe(thickness->range, thickness->dimension)), "choose depths in this range");
+    return true;
+  }
+
+  static void take_table(LayerSpec& layer, const std::vector<ModulusPoint>& rows) {
+    double area = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) area += 0.5 * (rows[i].young + rows[i - 1].young) * (rows[i].depth - rows[i - 1].depth);
+    layer.thickness = rows.back().depth;
+    layer.material.young = area / layer.thickness;
+  }
+
+  void remember_place(const std::string& item, const toml::node& node) {
+    if (const TextPlace place = place_of(node.source()); place.line > 0) source_.remember(item, place);
   }
 
   bool number(const Option& option, const std::string& key, const toml::node& node, double& out) {

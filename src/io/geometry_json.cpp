@@ -62,6 +62,7 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement) {
                              {"young_Pa", l.material.young},
                              {"young_ratio", l.material.young / (on_rail ? spec.rail_material : spec.wheel_material).young},
                              {"bottom_m", on_rail ? curve(placement.rail, c.rail_s, depth, 0.5 * l.width, rail) : curve(placement.wheel, c.wheel_s, depth, 0.5 * l.width, wheel)}});
+    for (const ModulusPoint& point : l.young_table) out["layers"].back()["young_table"].push_back({point.depth, point.young});
   }
   return out;
 }

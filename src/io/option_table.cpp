@@ -32,6 +32,9 @@ double matrix_modulus(const CaseSpec& spec, std::size_t index) {
   return (spec.layers.at(index).on == "wheel" ? spec.wheel_material : spec.rail_material).young;
 }
 
+bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).graded(); }
+bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).graded(); }
+
 constexpr double kMilli = 1e-3;
 Range above(double min, double max = std::numeric_limits<double>::infinity()) { return {min, max, true}; }
 
@@ -59,7 +62,7 @@ OptionTable geometry_table() {
            {"bore_radius", at<&C::geometry, &G::bore_radius>, "Radius of the axle seat", kLength, {0.005, 1.0}}}};
 }
 
-const Range kYoung{1e9, 1e13}, kPoisson{0.0, 0.495}, kDensityRange{100, 30000};
+const Range kYoung{1e9, 1e13}, kPoisson{0.0, 0.495}, kDensityRange{100, 30000}, kLayerThickness{0.05 * kMilli, 10 * kMilli};
 
 template <auto Member>
 OptionTable material_table(std::string_view name, std::string_view doc) {
@@ -72,16 +75,19 @@ OptionTable material_table(std::string_view name, std::string_view doc) {
 
 OptionTable layer_table() {
   return {"layer",
-          "A bonded layer; the first of a body is its surface, the next lies below it. Each needs young or young_ratio",
+          "A bonded layer; the first of a body is its surface, the next lies below it. Each needs one of young, young_ratio and young_table",
           {{"name", layer<&L::name>, "What results call the layer"},
            {"on", layer<&L::on>, "The body that carries the layer", {}, {}, {"rail", "wheel"}},
-           {"thickness", layer<&L::thickness>, "Along the normal of the surface", kLength, {0.05 * kMilli, 10 * kMilli}},
+           {"thickness", layer<&L::thickness>, "Along the normal of the surface; a young_table tells it itself", kLength, kLayerThickness, {}, nullptr, uniform},
            {"width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength, {kMilli, 0.2}},
-           {"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung},
+           {"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung, {}, nullptr, uniform},
            {"young_ratio", layer<&L::material, &M::young>, "Young's modulus as a multiple of the carrying body's", kNumber, {0.01, 100}, {}, matrix_modulus},
+           {"young_table", layer<&L::young_table>, "A modulus that varies with depth: depths below the layer's top and moduli, linear between", {}, {}, {}, nullptr, graded},
+           {"grading_tolerance", layer<&L::grading_tolerance>, "young_table, half-space engine: largest relative change of the modulus within a sub-layer", kNumber, {1e-3, 1.0}},
            {"poisson", layer<&L::material, &M::poisson>, "Poisson's ratio", kNumber, kPoisson},
            {"density", layer<&L::material, &M::density>, "Mass density", kDensity, kDensityRange},
-           {"elements", layer<&L::elements>, "Through the thickness; 0 chooses (height at most 1 mm, at least 2, at least 3 from 3 mm on)", kNumber, {0, 50}}},
+           {"elements", layer<&L::elements>, "Through the thickness; 0 chooses (height at most 1 mm, at least 2, at least 3 from 3 mm on). Of a young_table each row of elements has the mean modulus over its height",
+            kNumber, {0, 50}}},
           true};
 }
 
@@ -180,6 +186,16 @@ const std::vector<OptionTable>& case_tables() {
   return tables;
 }
 
+const Option& table_depth() {
+  static const Option option{"depth", layer<&L::thickness>, "Below the layer's top", kLength, {0, kLayerThickness.max}};
+  return option;
+}
+
+const Option& table_young() {
+  static const Option option{"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung};
+  return option;
+}
+
 std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) {
   struct Writer {
     const Option& option;
@@ -190,6 +206,11 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
     std::string operator()(const std::vector<double>* v) const {
       std::string out;
       for (double x : *v) out += (out.empty() ? "" : ", ") + quantity(x, option.dimension);
+      return "[" + out + "]";
+    }
+    std::string operator()(const std::vector<ModulusPoint>* v) const {
+      std::string out;
+      for (const ModulusPoint& p : *v) out += fmt::format("{}[{}, {}]", out.empty() ? "" : ", ", quantity(p.depth, kLength), quantity(p.young, kPressure));
       return "[" + out + "]";
     }
   };

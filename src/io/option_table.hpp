@@ -12,8 +12,8 @@
 
 namespace railstrata {
 
-/// Where an option lives in a case, by type. A double or a list of doubles is a quantity of the option's dimension, in SI.
-using Slot = std::variant<double*, int*, bool*, std::string*, std::vector<double>*>;
+/// Where an option lives in a case, by type. A double or a list of doubles is a quantity of the option's dimension, in SI; a table of moduli has rows of a depth and a modulus.
+using Slot = std::variant<double*, int*, bool*, std::string*, std::vector<double>*, std::vector<ModulusPoint>*>;
 
 /// Allowed values of a number, ends included unless `open` (then min itself is refused).
 struct Range {
@@ -31,7 +31,13 @@ struct Option {
   std::vector<std::string_view> choices{};     ///< of a word
   /// Set for a second way of giving the slot of another option: the number written is a multiple of this (young_ratio of the body's modulus).
   double (*multiple_of)(const CaseSpec&, std::size_t index) = nullptr;
+  /// Set for an option that only some cases have (the thickness of a layer, unless a table tells it): whether this case does. Else the resolved case leaves it out.
+  bool (*applies)(const CaseSpec&, std::size_t index) = nullptr;
 };
+
+/// A row of a table of moduli by depth: what its two numbers must be.
+const Option& table_depth();
+const Option& table_young();
 
 struct OptionTable {
   std::string_view name;      ///< "geometry", "material.rail", "layer"

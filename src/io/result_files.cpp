@@ -136,7 +136,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
         push(stress, value);
         equivalent.push_back(static_cast<float>(kMega * von_mises(value)));
         principal.push_back(static_cast<float>(kMega * principal_stresses(value).x));
-        const int m = section.quad_material[static_cast<std::size_t>(r) * band.columns + c];
+        const int m = b.body->layer_of(section.quad_material[static_cast<std::size_t>(r) * band.columns + c]);
         material.push_back(m);
         for (long long n : mesh.cells.back()) {
           // at an interface the points belong to the material met first, from the surface down

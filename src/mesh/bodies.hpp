@@ -12,7 +12,11 @@ struct LayerMesh {
   double thickness = 0;  ///< m, along the surface normal, 0.05 mm … 10 mm
   double width = 0.060;  ///< m, lateral extent, centred on the body's profile origin; clipped to the band that carries it
   int elements = 0;
+  bool continues = false;  ///< a row of a graded layer that goes on below: no interface
 };
+
+/// Rows of elements through a layer on elements of size h.
+int layer_rows(const LayerMesh& layer, double h);
 
 /// Sizes shared by both bodies, metres.
 struct MeshSizes {

@@ -11,13 +11,13 @@
 
 namespace railstrata {
 
-namespace {
-
 int layer_rows(const LayerMesh& layer, double h) {
   if (layer.elements > 0) return layer.elements;
   const int by_height = static_cast<int>(std::ceil(layer.thickness / std::min(1e-3, h) - 1e-9));
   return std::max(layer.thickness > 3e-3 - 1e-9 ? 3 : 2, by_height);
 }
+
+namespace {
 
 /// n rows below one of height `above`, each `ratio` times its neighbour until h is reached.
 std::vector<double> growing_heights(double above, double h, double ratio, int n) {
@@ -213,6 +213,16 @@ std::vector<std::string> material_names(const std::vector<LayerMesh>& layers) {
   std::vector<std::string> names{"matrix"};
   for (const LayerMesh& layer : layers) names.push_back(layer.name);
   return names;
+}
+
+std::vector<int> material_layers(const std::vector<LayerMesh>& layers) {
+  std::vector<int> out{0};
+  int layer = 1;
+  for (const LayerMesh& l : layers) {
+    out.push_back(layer);
+    if (!l.continues) ++layer;
+  }
+  return out;
 }
 
 NodeLine column_of(const std::vector<NodeLine>& rows, std::size_t column) {

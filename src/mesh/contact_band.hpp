@@ -52,6 +52,8 @@ void seat_on_line(Section& band, const std::vector<NodeLine>& rows, const std::v
 
 /// "matrix" and the layers' names.
 std::vector<std::string> material_names(const std::vector<LayerMesh>& layers);
+/// SweptBody::material_layer of these.
+std::vector<int> material_layers(const std::vector<LayerMesh>& layers);
 
 /// Column of a node line.
 NodeLine column_of(const std::vector<NodeLine>& rows, std::size_t column);

@@ -209,6 +209,7 @@ SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const Ra
   body.name = "rail";
   body.kind = SweepKind::extrude;
   body.materials = material_names(spec.layers);
+  body.material_layer = material_layers(spec.layers);
   const StationPair stations = extruded_stations(spec.x_begin, spec.x_end, sizes.element, sizes.coarse_ratio, spec.end_length, far_spacing(sizes));
   if (spec.shape == RailShape::rail) fill_rail(body, profile, spec, sizes, stations);
   else fill_block(body, profile, spec, sizes, stations);

@@ -69,6 +69,9 @@ struct SweptBody {
   ContactBand contact;
   std::vector<SectionNode> held;         ///< rail: nodes of the foot's base (fixed); wheel: nodes of the bore (carried by the rigid axle)
   std::vector<std::string> materials;    ///< names; 0 is the matrix, then the layers from the surface down
+  std::vector<int> material_layer;       ///< of each material: 0 the matrix, k the k-th layer; the rows of a graded layer share theirs. Empty: every material is a layer
+
+  int layer_of(int material) const { return material_layer.empty() ? material : material_layer[static_cast<std::size_t>(material)]; }
 
   long elements() const {
     long n = 0;

@@ -139,6 +139,7 @@ SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, con
   body.kind = SweepKind::revolve;
   body.origin = axle;
   body.materials = material_names(spec.layers);
+  body.material_layer = material_layers(spec.layers);
 
   const double left = profile.at(profile.s_min()).position.y, right = profile.at(profile.s_max()).position.y;
   const bool disc = spec.shape == WheelShape::disc;

@@ -22,13 +22,22 @@ struct MaterialSpec {
   double young = 210e9, poisson = 0.3, density = 7800.0;
 };
 
+/// Young's modulus at a depth below a layer's top; linear between two of them.
+struct ModulusPoint {
+  double depth = 0, young = 0;
+  friend bool operator==(const ModulusPoint&, const ModulusPoint&) = default;
+};
+
 struct LayerSpec {
   std::string name = "layer";
   std::string on = "rail";              ///< rail | wheel
-  double thickness = 1e-3;
+  double thickness = 1e-3;              ///< of a graded layer: its table's last depth
   double width = 0.060;
-  MaterialSpec material;
+  MaterialSpec material;                ///< young of a graded layer: the mean over its depth
+  std::vector<ModulusPoint> young_table;  ///< a modulus that varies with depth, from 0 down; empty: uniform
+  double grading_tolerance = 0.05;      ///< half-space engine: largest relative change of the modulus within one of the layers that a graded one is cut into
   int elements = 0;                     ///< through the thickness; 0 = chosen
+  bool graded() const { return !young_table.empty(); }
 };
 
 struct VehicleSpec {

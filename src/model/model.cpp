@@ -1,5 +1,7 @@
 #include "model/model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -18,18 +20,63 @@ Profile find_profile(ProfileKind kind, const std::string& name, const std::files
 
 Elastic to_elastic(const MaterialSpec& m) { return elastic(m.young, m.poisson, m.density); }
 
+LayerMesh mesh_of(const CaseSpec& spec, const LayerSpec& l) { return {l.name, l.thickness, l.width, spec.mesh.elements_through_layer_one ? 1 : l.elements}; }
+
+/// Mean modulus of a table between two depths.
+double mean_young(const std::vector<ModulusPoint>& table, double top, double bottom) {
+  double area = 0;
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const ModulusPoint &a = table[i - 1], &b = table[i];
+    const double from = std::max(top, a.depth), to = std::min(bottom, b.depth);
+    if (from < to) area += (to - from) * (a.young + (b.young - a.young) * (0.5 * (from + to) - a.depth) / (b.depth - a.depth));
+  }
+  return area / (bottom - top);
+}
+
+/// A layer as the mesh has it: of a graded one each row of elements is one, with the mean modulus over its height.
+struct Row {
+  LayerMesh mesh;
+  MaterialSpec material;
+};
+std::vector<Row> rows_on(const CaseSpec& spec, const std::string& body) {
+  std::vector<Row> out;
+  for (const LayerSpec& l : spec.layers) {
+    if (l.on != body) continue;
+    const LayerMesh whole = mesh_of(spec, l);
+    if (!l.graded()) {
+      out.push_back({whole, l.material});
+      continue;
+    }
+    const int rows = layer_rows(whole, spec.mesh.element_size);
+    for (int k = 0; k < rows; ++k) {
+      MaterialSpec material = l.material;
+      material.young = mean_young(l.young_table, l.thickness * k / rows, l.thickness * (k + 1) / rows);
+      out.push_back({{fmt::format("{} {}", l.name, k + 1), l.thickness / rows, l.width, 1, k + 1 < rows}, material});
+    }
+  }
+  return out;
+}
+
 std::vector<LayerMesh> layers_on(const CaseSpec& spec, const std::string& body) {
   std::vector<LayerMesh> out;
-  for (const LayerSpec& l : spec.layers)
-    if (l.on == body) out.push_back({l.name, l.thickness, l.width, spec.mesh.elements_through_layer_one ? 1 : l.elements});
+  for (const Row& row : rows_on(spec, body)) out.push_back(row.mesh);
   return out;
 }
 
 std::vector<Elastic> materials_of(const CaseSpec& spec, const std::string& body, const MaterialSpec& matrix) {
   std::vector<Elastic> out{to_elastic(matrix)};
-  for (const LayerSpec& l : spec.layers)
-    if (l.on == body) out.push_back(to_elastic(l.material));
+  for (const Row& row : rows_on(spec, body)) out.push_back(to_elastic(row.material));
   return out;
+}
+
+std::vector<Elastic> materials_at_surface(const CaseSpec& spec, const std::string& body, std::vector<Elastic> materials) {
+  const auto top = std::find_if(spec.layers.begin(), spec.layers.end(), [&](const LayerSpec& l) { return l.on == body; });
+  if (top != spec.layers.end() && top->graded()) {
+    MaterialSpec material = top->material;
+    material.young = top->young_table.front().young;
+    materials[1] = to_elastic(material);
+  }
+  return materials;
 }
 
 // Middle of the lateral strip in which the undeformed profiles are closer than `closeness`: the patch may lie to one side of the first point of contact.
@@ -73,7 +120,9 @@ HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
 }
 
 Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
-  Model m{spec, place(spec, folder), {}, {}, materials_of(spec, "rail", spec.rail_material), materials_of(spec, "wheel", spec.wheel_material), static_load(spec), {}, 0};
+  Model m{spec, place(spec, folder), {}, {}, materials_of(spec, "rail", spec.rail_material), materials_of(spec, "wheel", spec.wheel_material), {}, {}, static_load(spec), {}, 0};
+  m.rail_at_surface = materials_at_surface(spec, "rail", m.rail_materials);
+  m.wheel_at_surface = materials_at_surface(spec, "wheel", m.wheel_materials);
   const RigidContact& contact = m.placement.contact;
   m.hertz = hertz_estimate(spec, contact);
   const double last = spec.run.rolling ? *std::max_element(spec.run.positions.begin(), spec.run.positions.end()) : 0.0;

@@ -33,7 +33,8 @@ struct Model {
   CaseSpec spec;
   Placement placement;
   SweptBody rail, wheel;
-  std::vector<Elastic> rail_materials, wheel_materials;  ///< matrix, then layers from the surface down
+  std::vector<Elastic> rail_materials, wheel_materials;  ///< matrix, then layers from the surface down; a graded layer as its rows of elements
+  std::vector<Elastic> rail_at_surface, wheel_at_surface;  ///< the same as they are at the running surface: the top row of a graded layer has the table's first modulus
   double load = 0;                ///< G, N
   HertzContact hertz;
   double x_end = 0;               ///< wheel position at which the run ends, m

@@ -112,14 +112,17 @@ DepthLine rail_depth_line(const BemResult& r, double x, double y, double deepest
     line.stress.push_back(in_model_frame(interior.stress(plane, g.index(i, j), below), r.contact.angle));
     line.material.push_back(material);
   };
-  const int layers = static_cast<int>(r.rail.layers.size());
-  double top = 0;
-  for (int zone = 0; zone <= layers; ++zone) {
-    const double bottom = zone < layers ? top + r.rail.layers[static_cast<std::size_t>(zone)].thickness : std::max(deepest, top + 4 * g.dx);
-    const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / g.dx)), 2, 60), material = zone < layers ? zone + 1 : 0;
+  const auto zone = [&](double top, double bottom, int material) {
+    const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / g.dx)), 2, 60);
     for (int k = 0; k <= pieces; ++k) add(interior.plane(k == pieces ? bottom : top + (bottom - top) * k / pieces), k == 0, material);
-    top = bottom;
+  };
+  double top = 0;
+  int material = 0;
+  for (const LayerExtent& layer : layer_extents(r.rail)) {
+    zone(layer.top, layer.bottom, ++material);
+    top = layer.bottom;
   }
+  zone(top, std::max(deepest, top + 4 * g.dx), 0);
   return line;
 }
 

@@ -23,7 +23,8 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& result);
 StressSummary bem_rail_stress(const BemResult& result, const ContactSummary& contact);
 StressSummary bem_wheel_stress(const BemResult& result, const ContactSummary& contact);
 
-/// The rail's stress below the cell nearest to (x, y), model axes, from the surface to `deepest`; at an interface a row for either side.
+/// The rail's stress below the cell nearest to (x, y), model axes, from the surface to `deepest`; at an interface a row for either side. Material: 0 the matrix, k the
+/// k-th layer.
 DepthLine rail_depth_line(const BemResult& result, double x, double y, double deepest);
 
 }  // namespace railstrata

@@ -13,9 +13,9 @@ namespace {
 double largest_principal(const Sym3& s) { return principal_stresses(s).x; }
 using Measure = double (*)(const Sym3&);
 
-int material_of(const BandStress& b, int column, int row) {
+int layer_of(const BandStress& b, int column, int row) {
   const ContactBand& band = b.body->contact;
-  return b.body->blocks[band.block].section.quad_material[static_cast<std::size_t>(row) * band.columns + column];
+  return b.body->layer_of(b.body->blocks[band.block].section.quad_material[static_cast<std::size_t>(row) * band.columns + column]);
 }
 
 void offer(StressMaximum& best, double value, double x, double y, double depth) {
@@ -59,18 +59,18 @@ Sym3 extrapolate(const Sym3& near, const Sym3& far, double d_near, double d_far,
   return near + t * (near - far);
 }
 
-// Largest value on either side of every interface between materials.
+// Largest value on either side of every interface between layers.
 StressPair at_interfaces(const BandStress& b) {
   StressPair best;
   const auto& depth = b.body->contact.depth;
   for (int r = 1; r < b.sample.rows; ++r)
     for (int c = 0; c < b.sample.columns; ++c) {
-      if (material_of(b, c, r - 1) == material_of(b, c, r)) continue;
+      if (layer_of(b, c, r - 1) == layer_of(b, c, r)) continue;
       for (int s = 0; s < b.sample.stations; ++s)
         for (int side = 0; side < 2; ++side) {
           const int near = side ? r : r - 1, far = side ? r + 1 : r - 2;
           Sym3 stress = b.at(c, near, s);
-          if (far >= 0 && far < b.sample.rows && material_of(b, c, far) == material_of(b, c, near))
+          if (far >= 0 && far < b.sample.rows && layer_of(b, c, far) == layer_of(b, c, near))
             stress = extrapolate(stress, b.at(c, far, s), b.centre_depth[near], b.centre_depth[far], depth[r]);
           const double x = b.x(s), y = b.centre_y[c] - b.contact_y;
           offer(best.von_mises, von_mises(stress), x, y, depth[r]);
@@ -84,8 +84,8 @@ void below_surface(const BandStress& b, double element_size, bool layered, Stres
   const auto deep = [&](int, int r) { return b.centre_depth[r] > element_size; };
   out.subsurface = largest_pair(b, deep);
   if (!layered) return;
-  out.layer = largest_pair(b, [&](int c, int r) { return material_of(b, c, r) > 0; });
-  out.matrix = largest_pair(b, [&](int c, int r) { return material_of(b, c, r) == 0; });
+  out.layer = largest_pair(b, [&](int c, int r) { return layer_of(b, c, r) > 0; });
+  out.matrix = largest_pair(b, [&](int c, int r) { return layer_of(b, c, r) == 0; });
   out.interface = at_interfaces(b);
 }
 
@@ -167,14 +167,14 @@ StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sam
 
 std::vector<Sym3> rail_surface_stress(const RollingSystem& sys, const MeanContact& m) {
   const ContactField& f = m.field;
-  return recover_surface(sys.rail_surface, m.rail, sys.model.rail, sys.model.rail_materials, 0, [&](int c, int j) {
+  return recover_surface(sys.rail_surface, m.rail, sys.model.rail, sys.model.rail_at_surface, 0, [&](int c, int j) {
     const int i = j * f.columns + c;
     return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, {0, sys.rail_surface.outward[c].y, sys.rail_surface.outward[c].z});
   });
 }
 
 std::vector<Sym3> wheel_surface_stress(const RollingSystem& sys, const MeanContact& m) {
-  return recover_surface(sys.wheel_surface, m.wheel, sys.model.wheel, sys.model.wheel_materials, sys.rolling_radius, [&](int c, int j) {
+  return recover_surface(sys.wheel_surface, m.wheel, sys.model.wheel, sys.model.wheel_at_surface, sys.rolling_radius, [&](int c, int j) {
     return -traction_at(m.field, sys.rail_surface, m.wheel.along[j], sys.wheel_surface.origin.y + sys.wheel_surface.node[c].y);
   });
 }
@@ -208,7 +208,7 @@ DepthLine depth_line(const BandStress& b, double x, double y) {
   for (int r = 0; r < b.sample.rows; ++r) {
     line.depth.push_back(b.centre_depth[r]);
     line.stress.push_back(b.at(column, r, station));
-    line.material.push_back(material_of(b, column, r));
+    line.material.push_back(layer_of(b, column, r));
   }
   return line;
 }

@@ -21,11 +21,12 @@ std::vector<Row> rows_of(const LayeredHalfSpace& body, double cell, double deepe
   std::vector<Row> rows;
   double top = 0;
   int material = 0;
-  for (const HalfSpaceLayer& layer : body.layers) {
-    const int pieces = std::clamp(static_cast<int>(std::ceil(layer.thickness / cell)), 3, 40);
+  for (const LayerExtent& layer : layer_extents(body)) {
+    const double thickness = layer.bottom - layer.top;
+    const int pieces = std::clamp(static_cast<int>(std::ceil(thickness / cell)), 3, 40);
     ++material;
-    for (int k = 0; k < pieces; ++k) rows.push_back({top + (k + 0.5) * layer.thickness / pieces, material});
-    top += layer.thickness;
+    for (int k = 0; k < pieces; ++k) rows.push_back({top + (k + 0.5) * thickness / pieces, material});
+    top = layer.bottom;
   }
   for (double height = cell; rows.empty() || rows.back().material > 0 || top < deepest; height *= kGrowth) {
     rows.push_back({top + 0.5 * height, 0});
@@ -80,7 +81,7 @@ StressSections band_sections(const BandStress& b, double x, double y) {
   for (int r = 0; r < b.sample.rows; ++r) {
     const auto add = [&](StressSection& section, int c, int s) {
       section.stress.push_back(b.at(c, r, s));
-      section.material.push_back(materials[static_cast<std::size_t>(r) * band.columns + c]);
+      section.material.push_back(b.body->layer_of(materials[static_cast<std::size_t>(r) * band.columns + c]));
     };
     for (int s = 0; s < b.sample.stations; ++s) add(along, column, s);
     for (int c = 0; c < b.sample.columns; ++c) add(across, c, station);

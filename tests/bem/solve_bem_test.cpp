@@ -68,6 +68,52 @@ TEST(SolveBem, StiffLayerRaisesThePeakPressureAndSoftLayerLowersIt) {
   EXPECT_NEAR(solve_bem(spec, place(spec, {})).p_max / bare, 1, 1e-9) << "a layer of the rail's own steel changes nothing";
 }
 
+LayerSpec layer_on(const std::string& body, double thickness, double young) {
+  LayerSpec layer;
+  layer.on = body;
+  layer.thickness = thickness;
+  layer.material.young = young;
+  return layer;
+}
+
+TEST(SolveBem, LayersOfEitherBodyGiveTheSamePressureWithoutFriction) {
+  CaseSpec spec = paper_base();
+  spec.drive.traction_coefficient = spec.drive.friction_coefficient = 0;
+  BemOptions options;
+  options.cell = 0.5e-3;
+  spec.layers = {layer_on("rail", 1e-3, 420e9), layer_on("rail", 2e-3, 100e9)};
+  const BemResult rail = solve_bem(spec, place(spec, {}), options);
+  spec.layers = {layer_on("wheel", 1e-3, 420e9), layer_on("wheel", 2e-3, 100e9)};
+  const BemResult wheel = solve_bem(spec, place(spec, {}), options);
+  for (std::size_t k = 0; k < rail.field.p.size(); ++k) ASSERT_NEAR(rail.field.p[k], wheel.field.p[k], 1e-8 * rail.p_max);
+  EXPECT_NEAR(rail_interior(rail).peaks(8e-3).layers.at(1).von_mises.value / wheel_interior(wheel).peaks(8e-3).layers.at(1).von_mises.value, 1, 1e-6);
+  spec.layers.push_back(layer_on("rail", 1e-3, 420e9));
+  EXPECT_GT(solve_bem(spec, place(spec, {}), options).p_max, wheel.p_max);
+}
+
+TEST(SolveBem, AGradedLayerLiesBetweenItsEndsAndConvergesWithTheSquareOfTheTolerance) {
+  CaseSpec spec = paper_base();
+  BemOptions options;
+  options.cell = 0.5e-3;
+  const auto solve = [&](const LayerSpec& layer) {
+    spec.layers = {layer};
+    return solve_bem(spec, place(spec, {}), options);
+  };
+  LayerSpec graded = layer_on("rail", 3e-3, 420e9);
+  graded.young_table = {{0, 630e9}, {3e-3, 210e9}};
+  const auto cut = [&](int cuts) {  // equal steps of ln E
+    graded.grading_tolerance = std::pow(3.0, 1.0 / cuts) - 1;
+    return solve(graded);
+  };
+  const BemResult coarse = cut(24), fine = cut(48), exact = cut(384);
+  EXPECT_GT(exact.p_max, solve(layer_on("rail", 3e-3, 210e9)).p_max);
+  EXPECT_LT(exact.p_max, solve(layer_on("rail", 3e-3, 630e9)).p_max);
+  EXPECT_NEAR((coarse.p_max - exact.p_max) / (fine.p_max - exact.p_max), 4, 0.4);
+  EXPECT_NEAR(cut(4).p_max / exact.p_max, 1, 2e-4) << "cuts of 32 %";
+  graded.grading_tolerance = LayerSpec{}.grading_tolerance;
+  EXPECT_NEAR(solve(graded).p_max / exact.p_max, 1, 5e-5) << "the default";
+}
+
 TEST(SolveBem, GrowsThePotentialContactAreaByItselfAndSaysSo) {
   CaseSpec spec;
   spec.vehicle.sprung_mass = 20000;

@@ -287,6 +287,33 @@ TEST(Subsurface, EqualSubLayersAreOneLayer) {
   }
 }
 
+// The state of the cuts with the graded material's own modulus at each depth.
+TEST(Subsurface, StressesInAGradedLayerErrWithTheSquareOfTheToleranceAndDoNotJumpAtTheCuts) {
+  const StackFixture f(24, 0.375e-3);
+  const auto cut = [&](int cuts) { return LayeredHalfSpace{cut_into_layers({{0, {840e9, 0.3}}, {3e-3, {210e9, 0.3}}}, std::pow(4.0, 1.0 / cuts) - 1), kSteel}; };
+  const auto border = [](double share) { return 4e-3 * (1 - std::pow(4.0, -share)); };  // of equal steps of ln E
+  const Subsurface exact(cut(192), f.g, f.p, f.qx, f.qy);
+  const auto largest_error = [&](const Subsurface& body, double depth) {
+    const StatePlane a = body.plane(depth), b = exact.plane(depth);
+    double worst = 0;
+    for (std::size_t k = 0; k < f.g.size(); ++k) worst = std::max(worst, std::abs(von_mises(body.stress(a, k)) - von_mises(exact.stress(b, k))));
+    return worst;
+  };
+  const Subsurface coarse(cut(12), f.g, f.p, f.qx, f.qy), fine(cut(24), f.g, f.p, f.qx, f.qy);
+  const double cut_at = cut(12).layers[0].thickness;
+  for (double share : {0.0, 1.0 / 6, 0.5, 1.0}) {
+    const double error = largest_error(coarse, border(share));
+    EXPECT_LT(error, 0.01 * f.kPeak) << share;
+    EXPECT_NEAR(error / largest_error(fine, border(share)), 3.9, 0.2) << share;
+  }
+  const StatePlane plane = coarse.plane(cut_at);
+  for (std::size_t k = 0; k < f.g.size(); k += 17) ASSERT_NEAR(von_mises(coarse.stress(plane, k)), von_mises(coarse.stress(plane, k, true)), 1e-6 * f.kPeak);
+  const SubsurfacePeaks peaks = coarse.peaks(6e-3);
+  EXPECT_EQ(peaks.layers.size(), 1u);
+  EXPECT_EQ(peaks.above_interface.size(), 1u);
+  EXPECT_NEAR(peaks.above_interface[0].von_mises.depth, 3e-3, 1e-15);
+}
+
 TEST(Subsurface, PointsAnywhereAreThoseOfThePlanesAndOfAWiderGrid) {
   const StackFixture f;
   const Subsurface body(f.body, f.g, f.p, f.qx, f.qy);

@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 
+#include "core/faults.hpp"
 #include "halfspace/layer_waves.hpp"
 
 namespace railstrata {
@@ -108,6 +110,93 @@ TEST(Layered, ImagesMeetAThreeLayerStackAndAGradedOne) {
   const LayeredHalfSpace graded{cut_into_layers({{0, {840e9, 0.3}}, {3e-3, {210e9, 0.3}}}, 0.05), kSteel};
   EXPECT_GT(graded.layers.size(), 20u);
   EXPECT_NO_THROW(layered_compliance(graded));
+}
+
+const std::vector<GradedPoint> kGraded{{0, {840e9, 0.3}}, {1e-3, {840e9, 0.3}}, {3e-3, {210e9, 0.3}}};
+
+TEST(GradedLayer, EveryCutStaysWithinTheToleranceAndFollowsTheTable) {
+  for (double tolerance : {0.3, 0.05}) {
+    const LayeredHalfSpace body{cut_into_layers(kGraded, tolerance), kSteel};
+    double top = 0;
+    for (const HalfSpaceLayer& cut : body.layers) {
+      const double upper = cut.local(0).young, lower = cut.local(cut.thickness).young;
+      EXPECT_LE(upper / lower, 1 + tolerance + 1e-9) << top;
+      EXPECT_NEAR(upper / (top < 1e-3 - 1e-9 ? 840e9 : 840e9 - 630e9 * (top - 1e-3) / 2e-3), 1, 1e-9) << top;
+      EXPECT_NEAR(cut.material.young / (0.5 * (upper + lower)), 1, 1e-12);
+      top += cut.thickness;
+    }
+    EXPECT_NEAR(top, 3e-3, 1e-15);
+    ASSERT_EQ(layer_extents(body).size(), 1u) << "cuts are no layers";
+    EXPECT_NEAR(layer_extents(body)[0].bottom, 3e-3, 1e-15);
+  }
+  EXPECT_THROW(cut_into_layers({{0, kSteel}}), CaseError);
+  EXPECT_THROW(cut_into_layers({{1e-3, kSteel}, {2e-3, kSteel}}), CaseError);
+  EXPECT_THROW(cut_into_layers({{0, kSteel}, {0, kSteel}}), CaseError);
+}
+
+// For waves long against a cut: the thickest of `coarse` is 0.17 mm.
+TEST(GradedLayer, ComplianceErrsWithTheSquareOfTheTolerance) {
+  const LayeredHalfSpace exact{cut_into_layers(kGraded, 0.001), kSteel}, coarse{cut_into_layers(kGraded, 0.1), kSteel}, fine{cut_into_layers(kGraded, 0.05), kSteel};
+  for (double k : {100.0, 500.0, 2000.0}) {
+    const double zz = layered_compliance_at(exact, k).zz, error = layered_compliance_at(coarse, k).zz - zz, finer = layered_compliance_at(fine, k).zz - zz;
+    EXPECT_LT(std::abs(error / zz), 2e-3) << k;
+    EXPECT_NEAR(error / finer, 4, 0.6) << k;
+  }
+}
+
+TEST(GradedLayer, OfOneModulusIsAUniformLayer) {
+  const HalfSpaceMaterial hard{400e9, 0.25};
+  const LayeredHalfSpace graded{cut_into_layers({{0, hard}, {0.7e-3, hard}, {2e-3, hard}}), kSteel}, uniform{{{2e-3, hard}}, kSteel};
+  for (double k : {30.0, 1000.0, 9000.0}) expect_close(layered_compliance_at(graded, k), layered_compliance_at(uniform, k), 1e-12);
+}
+
+/// E(z) = E0 exp(-a z) down to `depth`, then steel, at one wave number: the elasticity equations of layer_waves.hpp's state integrated upwards by Runge and Kutta's rule from the
+/// homogeneous body below,
+///   U' = T/G - k W,  W' = (S + lambda k U)/(lambda + 2 G),  T' = k ((lambda + 2 G) k U - lambda W'),  S' = k T.
+CompliancePoint exponentially_graded_compliance(double young, double a, double depth, double poisson, double k) {
+  using State = Eigen::Matrix<double, 4, 2>;
+  const auto slope = [&](const State& y, double z) {
+    const double E = young * std::exp(-a * z), G = E / (2 * (1 + poisson)), lambda = 2 * G * poisson / (1 - 2 * poisson);
+    State d;
+    d.row(0) = k * (y.row(2) / G - y.row(1));
+    d.row(1) = k * (y.row(3) + lambda * y.row(0)) / (lambda + 2 * G);
+    d.row(2) = k * (lambda + 2 * G) * y.row(0) - lambda * d.row(1);
+    d.row(3) = k * y.row(2);
+    return d;
+  };
+  const CompliancePoint base = homogeneous_compliance(kSteel)[0].c;
+  State y;
+  y.topRows<2>() = -Eigen::Matrix2d{{base.rr, base.rz}, {base.rz, base.zz}};  // of unit tractions T/k, S/k
+  y.bottomRows<2>().setIdentity();
+  constexpr int kSteps = 4000;
+  const double h = -depth / kSteps;
+  for (int i = 0; i < kSteps; ++i) {
+    const double z = depth + i * h;
+    const State k1 = slope(y, z), k2 = slope(y + 0.5 * h * k1, z + 0.5 * h), k3 = slope(y + 0.5 * h * k2, z + 0.5 * h), k4 = slope(y + h * k3, z + h);
+    y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+  }
+  const Eigen::Matrix2d c = -y.topRows<2>() * y.bottomRows<2>().inverse();
+  // Across the wave vector (G V')' = k^2 G V has the solutions exp(r z), r = (a -+ sqrt(a^2 + 4 k^2))/2; below V' = -k V.
+  const double root = std::sqrt(a * a + 4 * k * k), up = 0.5 * (a + root), down = 0.5 * (a - root), G = young / (2 * (1 + poisson)), g = kSteel.shear() / (G * std::exp(-a * depth));
+  const double b = -std::exp((down - up) * depth) * (down + g * k) / (up + g * k);
+  return {c(1, 1), c(0, 1), c(0, 0), -k * (1 + b) / (G * (down + up * b))};
+}
+
+// Cuts at equal steps of ln E: the table and its cuts err with the square of the step.
+TEST(GradedLayer, MeetsTheEquationsOfAnExponentiallyGradedLayerWithSecondOrder) {
+  const double thickness = 3e-3, a = std::log(4.0) / thickness;
+  const auto stack = [&](int rows) {
+    std::vector<GradedPoint> table;
+    for (int i = 0; i <= rows; ++i) table.push_back({thickness * i / rows, {840e9 * std::exp(-a * thickness * i / rows), 0.25}});
+    return LayeredHalfSpace{cut_into_layers(table, 0.3), kSteel};
+  };
+  const LayeredHalfSpace coarse = stack(40), fine = stack(80);
+  ASSERT_EQ(fine.layers.size(), 80u) << "every row one cut";
+  for (double k : {50.0, 400.0, 1500.0}) {
+    const CompliancePoint exact = exponentially_graded_compliance(840e9, a, thickness, 0.25, k), c = layered_compliance_at(coarse, k), f = layered_compliance_at(fine, k);
+    expect_close(f, exact, 3e-4);
+    for (double CompliancePoint::*part : {&CompliancePoint::zz, &CompliancePoint::rr, &CompliancePoint::tt}) EXPECT_NEAR((c.*part - exact.*part) / (f.*part - exact.*part), 4, 0.1) << k;
+  }
 }
 
 }  // namespace

@@ -80,6 +80,22 @@ TEST(CaseFile, TheRatioOfALayerUsesAModulusWrittenFurtherDown) {
   EXPECT_EQ(spec.layers[0].material.young, 800e9);
 }
 
+TEST(CaseFile, AGradedLayerHasAModulusByDepthAndItsTablesThicknessAndMean) {
+  const std::string text = "[[layer]]\nyoung_table = [[\"0 mm\", \"400 GPa\"], [\"1 mm\", \"200 GPa\"],\n  [\"4 mm\", \"200000 MPa\"]]\ngrading_tolerance = \"2 %\"\n";
+  const LoadedCase loaded = parse_case(text, "a.toml");
+  const LayerSpec& layer = loaded.spec.layers.at(0);
+  EXPECT_EQ(layer.young_table, (std::vector<ModulusPoint>{{0, 400e9}, {1e-3, 200e9}, {4e-3, 200e9}}));
+  EXPECT_EQ(layer.thickness, 4e-3);
+  EXPECT_DOUBLE_EQ(layer.material.young, (300e9 + 3 * 200e9) / 4);
+  EXPECT_EQ(layer.grading_tolerance, 0.02);
+  EXPECT_NE(loaded.resolved_toml.find("young_table = [[\"0 mm\", \"400 GPa\"], [\"1 mm\", \"200 GPa\"], [\"4 mm\", \"200 GPa\"]]\n"), std::string::npos) << loaded.resolved_toml;
+  const LoadedCase back = parse_case(loaded.resolved_toml, "a.toml");
+  EXPECT_EQ(back.resolved_toml, loaded.resolved_toml);
+  EXPECT_EQ(back.spec.layers.at(0).young_table, layer.young_table);
+  EXPECT_EQ(back.spec.layers.at(0).thickness, layer.thickness);
+  EXPECT_EQ(parse_case(text, "a.toml", {"layer.0.young_table=[[\"0 mm\", \"300 GPa\"], [\"2 mm\", \"100 GPa\"]]"}).spec.layers.at(0).thickness, 2e-3);
+}
+
 /// A value of every option that differs from its default and is allowed.
 void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
   struct Change {
@@ -93,6 +109,7 @@ void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
     void operator()(bool* v) const { *v = !*v; }
     void operator()(std::string* v) const { *v = o.choices.empty() ? *v + " \"2\"\n" : std::string(o.choices.back()); }
     void operator()(std::vector<double>* v) const { *v = {0.2, 1.0 / 3}; }
+    void operator()(std::vector<ModulusPoint>* v) const { *v = {{0, 1e11 / 3}, {0.7e-3, 3e11}, {1e-3, 1.1e11}}; }
   };
   std::visit(Change{option}, option.slot(spec, index));
 }
@@ -103,7 +120,7 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   spec.layers[1].on = "wheel";
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options)
-      if (!option.multiple_of && !option.key.ends_with("_profile")) disturb(option, spec, 0);
+      if (!option.multiple_of && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0))) disturb(option, spec, 0);
   const std::string text = resolved_case(spec);
   const LoadedCase back = parse_case(text, "a.toml");
   EXPECT_EQ(back.resolved_toml, text);
@@ -177,6 +194,28 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:1:1: layer.0 has no modulus\n    1 | [[layer]]\n      | ^\n    remedy: add young = \"420 GPa\", or young_ratio = 2.0 for twice the body's"},
       {"[[layer]]\nyoung = \"420 GPa\"\nyoung_ratio = 2\n",
        "a.toml:3:15: layer.0 has both young and young_ratio\n    3 | young_ratio = 2\n      |               ^\n    remedy: keep one of them"},
+      {"[[layer]]\nyoung_ratio = 2\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n",
+       "a.toml:3:15: layer.0 has both young_table and young_ratio\n    3 | young_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n      |               ^\n    remedy: keep one of them"},
+      {"[[layer]]\nthickness = \"3 mm\"\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n",
+       "a.toml:2:13: layer.0 has both young_table and thickness\n    2 | thickness = \"3 mm\"\n      |             ^\n    remedy: leave thickness out: the layer ends at the table's last depth"},
+      {"[[layer]]\nyoung_table = \"420 GPa\"\n",
+       "a.toml:2:15: layer.0.young_table = \"420 GPa\": is a text, must be a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n    2 | young_table = \"420 GPa\"\n      |               ^\n"
+       "    remedy: write a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]"},
+      {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\"]]\n",
+       "a.toml:2:37: layer.0.young_table.1: must be a depth and a modulus\n    2 | young_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\"]]\n      |                                     ^\n    remedy: write [\"3 mm\", \"210 GPa\"]"},
+      {"[[layer]]\nyoung_table = [[\"0 mm\", 420], [\"3 mm\", \"210 mm\"]]\n",
+       "a.toml:2:25: layer.0.young_table.0.1 = 420: a bare number has no unit\n    2 | young_table = [[\"0 mm\", 420], [\"3 mm\", \"210 mm\"]]\n      |                         ^\n    remedy: write a pressure or modulus, e.g. \"210 GPa\", in quotes\n"
+       "a.toml:2:40: layer.0.young_table.1.1 = \"210 mm\": \"mm\" is not the unit of a pressure or modulus\n    2 | young_table = [[\"0 mm\", 420], [\"3 mm\", \"210 mm\"]]\n      |                                        ^\n    remedy: write a pressure or modulus, e.g. "
+       "\"210 GPa\" (units: GPa, MPa, Pa)"},
+      {"[[layer]]\nyoung_table = [[\"1 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n",
+       "a.toml:2:16: layer.0.young_table: the first depth must be 0 mm, the layer's top\n    2 | young_table = [[\"1 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n      |                ^\n    remedy: begin with the modulus at the top"},
+      {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"0 mm\", \"210 GPa\"]]\n",
+       "a.toml:2:37: layer.0.young_table: depths must increase, by 0.001 mm at least\n    2 | young_table = [[\"0 mm\", \"420 GPa\"], [\"0 mm\", \"210 GPa\"]]\n      |                                     ^\n    remedy: sort the rows by depth; for a jump write two layers"},
+      {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"]]\n",
+       "a.toml:2:15: layer.0.young_table: needs at least two rows\n    2 | young_table = [[\"0 mm\", \"420 GPa\"]]\n      |               ^\n    remedy: write a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]"},
+      {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"0.01 mm\", \"210 GPa\"]]\n",
+       "a.toml:2:37: layer.0.young_table: the last depth, the layer's thickness, must be between 0.05 mm and 10 mm\n    2 | young_table = [[\"0 mm\", \"420 GPa\"], [\"0.01 mm\", \"210 GPa\"]]\n      |                                     ^\n    remedy: "
+       "choose depths in this range"},
       {"[[layer]]\nyoung_ratio = 2\nthickness = \"20 mm\"\n",
        "a.toml:3:13: layer.0.thickness = \"20 mm\": must be between 0.05 mm and 10 mm\n    3 | thickness = \"20 mm\"\n      |             ^\n    remedy: choose a value in this range"},
       {"[layer]\nyoung_ratio = 2\n", "a.toml:1:2: layer must be a list of tables\n    1 | [layer]\n      |  ^\n    remedy: write [[layer]] with two brackets"},

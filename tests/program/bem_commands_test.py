@@ -101,6 +101,32 @@ class HalfSpaceCommands(FromOutside):
         self.refused(2, ["bem", BASE, "--cell", "3 MPa"], '--cell "3 MPa": "MPa" is not the unit of a length')
         self.refused(2, ["bem", BASE, "--cell", "3 m"], '--cell "3 m" is out of range', "from 0.02 mm to 5 mm")
 
+    def test_layers_of_both_bodies_and_a_graded_one_go_through(self):
+        case = self.case(BASE.read_text() + """
+[[layer]]
+name = "clad"
+young_table = [["0 mm", "420 GPa"], ["1 mm", "420 GPa"], ["3 mm", "210 GPa"]]
+[[layer]]
+name = "soft"
+thickness = "1 mm"
+young_ratio = 0.5
+[[layer]]
+name = "tread"
+on = "wheel"
+thickness = "2 mm"
+young_ratio = 2.0
+""")
+        self.done("bem", case, *COARSE, "--out", self.folder / "stack")
+        summary = json.loads((self.folder / "stack" / "summary.json").read_text())
+        for body in ["rail", "wheel"]:
+            for zone in ["layer", "interface", "matrix"]:
+                self.assertGreater(summary["stress"][body][zone]["von_mises_max"]["value_Pa"], 1e8, f"{body} {zone}")
+        self.assertTrue(all(check["ok"] for check in summary["checks"]))
+        rows = table(self.folder / "stack" / "depth_line.csv")
+        last = {m: max(float(row["depth_mm"]) for row in rows if row["material"] == m) for m in ["1", "2"]}
+        self.assertEqual((round(last["1"], 9), round(last["2"], 9)), (3, 4))
+        self.refused(2, ["bem", case, "--set", "layer.0.young_table=[[\"0 mm\", \"420 GPa\"]]"], "layer.0.young_table: needs at least two rows", "remedy: write a list of depths and moduli")
+
     # compare
 
     def test_a_result_compared_with_itself_differs_by_nothing(self):
