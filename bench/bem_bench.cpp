@@ -1,7 +1,7 @@
 // Times of the half-space engine on the reference ellipse (tests/data/reference): 84954.6 N, E 210 GPa, circle of radius 6.144 mm, f 0.5.
 //
 // Every line gives the best time of its repetitions (CPU time of one thread, wall time where there are two: the machine may be shared) and where they exist the time it
-// must not exceed, and CONTACT's own CPU time on the same problem and cells; ratios above 1 are in this program's favour. bench/record.py keeps a run.
+// must not exceed, and CONTACT's own CPU time on the same problem and cells; ratios above 1 are in this program's favour.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
