@@ -4,9 +4,15 @@
 // with every nodal value moved once; what a run really moves is more where tiles do not stay in cache.
 #include <benchmark/benchmark.h>
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <memory>
+#include <numeric>
+#include <random>
 
 #include "core/parallel.hpp"
 #include "fem/stepper.hpp"
@@ -14,7 +20,7 @@
 namespace railstrata {
 namespace {
 
-constexpr double kFlops[2] = {564, 620};  // extruded, revolved: kinematics 153, stress 98, hourglass 136, forces 153, sums and differences 24; frames 56
+constexpr double kFlops[2] = {534, 568};  // extruded, revolved: kinematics 129, stress 98, hourglass 136, forces 156, per node sums and differences 15; frames 34
 constexpr double kBytes = 104;            // u and v read and written, 1/m read, 24 + 24 + 24 + 24 + 8
 
 // -- the machine ------------------------------------------------------------------------------------------------------------------------------------------
@@ -81,13 +87,26 @@ BENCHMARK(memory_traffic)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMilli
 struct Lines {
   Solid solid;
   Field u, v, f, inverse_mass;
-  Lines(SweepKind kind, Precision precision, int columns, int rows, int stations) : solid(body(kind, columns, rows, stations), {elastic(210e9, 0.3, 7800)}, {ElementKind::full, 0.05, precision}) {
+  Lines(SweepKind kind, Precision precision, int columns, int rows, int stations, bool random = false) : solid(body(kind, columns, rows, stations, random), {elastic(210e9, 0.3, 7800)}, {ElementKind::full, 0.05, precision}) {
     u = v = f = inverse_mass = solid.layout().field();
     for (std::size_t i = 0; i < u.size(); ++i) inverse_mass[i] = solid.mass()[i] > 0 ? 1 / solid.mass()[i] : 0, v[i] = 1e-3 * std::sin(static_cast<double>(i));
   }
-  static SweptBody body(SweepKind kind, int columns, int rows, int stations) {
+  /// random: nodes and quadrilaterals of the section numbered by chance.
+  static SweptBody body(SweepKind kind, int columns, int rows, int stations, bool random) {
     SweptBody b = mesh_brick(columns, rows, stations, 1e-3, 1e-3, 1e-3);
     b.kind = kind;
+    if (random) {
+      Section& s = b.blocks[0].section;
+      std::mt19937 chance(1);
+      std::vector<int> number(s.nodes.size());
+      std::iota(number.begin(), number.end(), 0);
+      std::shuffle(number.begin(), number.end(), chance);
+      const std::vector<Vec2> at = s.nodes;
+      for (std::size_t n = 0; n < at.size(); ++n) s.nodes[number[n]] = at[n];
+      for (auto& q : s.quads)
+        for (int& n : q) n = number[n];
+      std::shuffle(s.quads.begin(), s.quads.end(), chance);
+    }
     if (kind == SweepKind::revolve) {
       for (Vec2& n : b.blocks[0].section.nodes) n.z -= 0.43;
       for (double& t : b.blocks[0].stations.at) t /= 0.43;
@@ -137,11 +156,11 @@ void set_rates(benchmark::State& state, double element_steps, double flops) {
 }
 
 /// Arguments: threads, stations.
-template <SweepKind kind, Precision precision>
+template <SweepKind kind, Precision precision, bool random = false>
 void swept_lines(benchmark::State& state) {
   set_threads(static_cast<int>(state.range(0)));
   const int stations = static_cast<int>(state.range(1));
-  Lines lines(kind, precision, 32, 32, stations);
+  Lines lines(kind, precision, 32, 32, stations, random);
   lines.step();
   for (auto _ : state) lines.step();
   set_rates(state, static_cast<double>(state.iterations()) * 1024.0 * stations, kFlops[kind == SweepKind::revolve]);
@@ -152,21 +171,30 @@ void sizes(benchmark::internal::Benchmark* b) {
     for (int stations : {125, 250, 1000}) b->Args({threads, stations});
 }
 BENCHMARK(swept_lines<SweepKind::extrude, Precision::double_precision>)->Apply(sizes);
+BENCHMARK(swept_lines<SweepKind::extrude, Precision::double_precision, true>)->Apply(sizes);
 BENCHMARK(swept_lines<SweepKind::extrude, Precision::single_precision>)->Apply(sizes);
 BENCHMARK(swept_lines<SweepKind::revolve, Precision::double_precision>)->Apply(sizes);
 BENCHMARK(swept_lines<SweepKind::revolve, Precision::single_precision>)->Apply(sizes);
 
 // -- whole steps of a case --------------------------------------------------------------------------------------------------------------------------------
 
+double resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  double all = 0, resident = 0;
+  file >> all >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
 /// The paper's base case, elements of `millimetres`, after the run-up damping has gone: contact, suspension, ties, absorbers.
 struct Rolling {
   RollingSystem system;
   std::unique_ptr<Stepper> stepper;
-  double preload_seconds = 0;
+  double preload_seconds = 0, bytes = -resident_bytes();  // bytes: of the model, its preload and its stepper
   Rolling(double millimetres, const char* precision) : system(build_model(spec(millimetres, precision), ".")) {
     const PreloadResult preload = solve_preload(system, 1e-2);
     preload_seconds = preload.wall_seconds;
     stepper = std::make_unique<Stepper>(system, preload);
+    bytes += resident_bytes();
   }
   static CaseSpec spec(double millimetres, const char* precision) {
     CaseSpec s;
@@ -192,10 +220,10 @@ Rolling& rolling(double millimetres, bool single) {
   return *here;
 }
 
-/// Arguments: threads, element size in tenths of a millimetre, single precision. One history row in 50 steps, as a run at 100 km/h has with 0.2 mm between rows.
+/// Arguments: threads, element size in hundredths of a millimetre, single precision. One history row in 50 steps, as a run at 100 km/h has with 0.2 mm between rows.
 void whole_steps(benchmark::State& state) {
   set_threads(2);
-  Rolling& r = rolling(0.1 * static_cast<double>(state.range(1)), state.range(2) != 0);
+  Rolling& r = rolling(0.01 * static_cast<double>(state.range(1)), state.range(2) != 0);
   set_threads(static_cast<int>(state.range(0)));
   long k = 0;
   for (auto _ : state) {
@@ -206,9 +234,10 @@ void whole_steps(benchmark::State& state) {
   set_rates(state, static_cast<double>(state.iterations()) * elements, 0.5 * (kFlops[0] + kFlops[1]));
   state.counters["elements"] = elements;
   state.counters["dt_ns"] = 1e9 * r.stepper->dt();
+  state.counters["bytes/element"] = r.bytes / elements;
   state.counters["preload_s(1e-2)"] = r.preload_seconds;
 }
-BENCHMARK(whole_steps)->ArgNames({"threads", "h/0.1mm", "single"})->ArgsProduct({{1, 2}, {20, 10}, {0, 1}})->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(whole_steps)->ArgNames({"threads", "h/0.01mm", "single"})->ArgsProduct({{1, 2}, {200, 100, 67, 50}, {0, 1}})->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace railstrata

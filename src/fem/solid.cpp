@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mesh/sweep_order.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -121,21 +123,22 @@ Solid::Solid(const SweptBody& body, const std::vector<Elastic>& materials, const
   border_end_.assign(border, 0.0);
 }
 
-// Rows of scratch memory: the lowest free one at the first touch, given back after the last.
+// Scratch memory: the lowest free place at the first touch of a node, given back after the last.
 void Solid::plan_scratch(int block, BlockData& d) const {
   const auto& quads = body_.blocks[block].section.quads;
   const std::size_t nodes = body_.blocks[block].section.nodes.size();
+  d.order = sweep_order(body_.blocks[block].section);
+  d.fresh.resize(quads.size());
+  d.done.resize(quads.size());
   std::vector<int> first(nodes, -1), last(nodes, -1);
-  for (int q = 0; q < static_cast<int>(quads.size()); ++q)
+  for (int q : d.order)
     for (int n : quads[q]) {
       if (first[n] < 0) first[n] = q;
       last[n] = q;
     }
   d.slot.assign(nodes, 0);
   std::vector<char> taken;
-  for (int q = 0; q < static_cast<int>(quads.size()); ++q) {
-    d.fresh.push_back({});
-    d.done.push_back({});
+  for (int q : d.order) {
     for (int k = 0; k < 4; ++k) {
       const int n = quads[q][k];
       if (first[n] != q) continue;
@@ -294,18 +297,19 @@ void Solid::run_tile(int t, bool follows, const Field& u, Field& f, const TakeRo
   for (int n = 0; n < packs; ++n) st[n] = k.template scale<P>(tile.first + n * lanes, [](const Real* x) { return load(x); });
 
   Prefetch ahead;
-  auto look_ahead = [&](std::size_t q) {
+  auto look_ahead = [&](int q) {
     for (int c = 0; c < 4; ++c) {
       if (d.fresh[q][c])
         for (int i = 0; i < 3; ++i) ahead.add(u.data() + lay.line(quads[q][c], i) + tile.first);
       if (d.done[q][c] && expect) (*expect)(tile, quads[q][c], ahead);
     }
   };
-  look_ahead(0);
+  look_ahead(d.order.front());
   ahead.ask(0, count + 1);
-  for (std::size_t q = 0; q < quads.size(); ++q) {
+  for (std::size_t p = 0; p < quads.size(); ++p) {
+    const int q = d.order[p];
     ahead.clear();
-    if (q + 1 < quads.size()) look_ahead(q + 1);
+    if (p + 1 < quads.size()) look_ahead(d.order[p + 1]);
     const QuadReferenceOf<Real>& ref = k.quads[q];
     Real* node[4];         // rows of the corners
     const Real* so_far[4];  // their forces

@@ -1,7 +1,7 @@
 #pragma once
 // A meshed elastic body ready for computing: reference data of its elements, masses, internal forces, energies and stresses.
 //
-// Work is split into tiles of stations. A tile goes through its quadrilaterals in their order and keeps the forces of the nodes that are not complete yet in a few
+// Work is split into tiles of stations. A tile goes through its quadrilaterals one by one (mesh/sweep_order.hpp) and keeps the forces of the nodes that are not complete yet in a few
 // rows of scratch memory; a finished row is handed over at once, so that it can be used while it is in cache. Tiles may be chained: one waits for the other and completes
 // the node plane between them; forces on the planes between two chains are added up afterwards. No races, and sums that do not depend on the number of threads.
 #include <array>
@@ -117,7 +117,8 @@ class Solid {
     std::vector<SpacingClass> classes;
     std::vector<int> element_class;              // per element, index into classes
     Field theta, cos_q, sin_q, cos_r, sin_r;     // of the element centres; Q and R of the element law (element/swept_hex.hpp)
-    // scratch rows: a node has one from the first quadrilateral that touches it to the last
+    std::vector<int> order;                      // in which a tile goes through the quadrilaterals
+    // scratch rows: a node has its own from the first quadrilateral that touches it to the last
     std::vector<int> slot;                       // per node
     std::vector<std::array<char, 4>> fresh, done;  // per quadrilateral: corners touched for the first, the last time
     int slots = 0;
