@@ -44,6 +44,8 @@ std::string summary_text(const Summary& s) {
   maximum("matrix", s.rail.matrix);
   if (s.run.added_mass > 0)
     fmt::format_to(to, "  mass scaling     {:.3f} kg against stretching of thin rows: stable step {:.1f} ns instead of {:.1f} ns\n", s.run.added_mass, 1e9 * s.run.stable_step, 1e9 * s.run.unscaled_step);
+  if (s.run.fine_elements > 0)
+    fmt::format_to(to, "  local steps      {:.0f} stages a step in {:.0f} elements: stable step {:.1f} ns instead of {:.1f} ns\n", s.run.local_stages, s.run.fine_elements, 1e9 * s.run.stable_step, 1e9 * s.run.unscaled_step);
   fmt::format_to(to, "  checks\n");
   for (const Check& k : s.checks) fmt::format_to(to, "    {:<6} {:<34} {:10.3g}  (limit {:.3g})\n", k.ok ? "ok" : "FAILED", k.name, k.value, k.limit);
   return out;

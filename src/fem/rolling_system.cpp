@@ -7,12 +7,13 @@
 #include "core/faults.hpp"
 
 namespace railstrata {
-namespace {
 
 SolidOptions solid_options(const CaseSpec& spec) {
   return {spec.mesh.element == "one_point" ? ElementKind::one_point : ElementKind::full, spec.mesh.hourglass_coefficient,
           spec.run.precision == "single" ? Precision::single_precision : Precision::double_precision};
 }
+
+namespace {
 
 // Areas of the section that belong to each of its nodes.
 std::vector<double> nodal_areas(const Section& s) {

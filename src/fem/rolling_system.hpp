@@ -13,6 +13,9 @@
 
 namespace railstrata {
 
+/// Elements and precision that a case asks for.
+SolidOptions solid_options(const CaseSpec& spec);
+
 /// A deformable body with its constraints and lumped inertia.
 struct DeformableBody {
   Solid solid;

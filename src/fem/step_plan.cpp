@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "fem/stable_step.hpp"
 
@@ -17,9 +18,16 @@ void find_element_bound(const RollingSystem& sys, StepLimits& limits) {
   limits.where = fmt::format("{} {}", body.name, body.blocks[least.block].name);
 }
 
-double wanted_step(const DeformableBody& body, const CaseSpec& spec) {
+// The step that thin or stiff elements are to allow, in units of a matrix element's.
+double wanted_step(const DeformableBody& body, const CaseSpec& spec, double units) {
   const Elastic& matrix = body.solid.materials().front();
-  return spec.run.mass_scaling_step * spec.mesh.element_size / std::sqrt(matrix.p_wave_modulus() / matrix.density);
+  return units * spec.mesh.element_size / std::sqrt(matrix.p_wave_modulus() / matrix.density);
+}
+
+// Rows in shear answer slower than in compression: masses scaled to the shear wave answer no less than either does within local steps.
+double response_step(const DeformableBody& body, double step) {
+  const Elastic& matrix = body.solid.materials().front();
+  return step * std::sqrt(matrix.mu / matrix.p_wave_modulus());
 }
 
 // A penalty spring k a_A between a rail node and a wheel node of like mass.
@@ -35,27 +43,63 @@ double penalty_step(const RollingSystem& sys, const MassScaling& rail) {
 StepPlan::StepPlan(const RollingSystem& sys) {
   const CaseSpec& spec = sys.model.spec;
   find_element_bound(sys, limits);
-  limits.lanczos = limits.unscaled = HUGE_VAL;
-  for (const auto& [body, scaling] : {std::pair{&sys.rail, &rail}, std::pair{&sys.wheel, &wheel}}) {
-    const double unscaled = lanczos_stable_step(*body);
-    double step = unscaled;
-    if (spec.run.time_step_method != "uniform") {
-      *scaling = {*body, wanted_step(*body, spec)};
-      if (!scaling->empty()) step = lanczos_stable_step(*body, *scaling);
-      if (spec.run.time_step_method == "auto" && step < kWorthwhile * unscaled) *scaling = {}, step = unscaled;
-    }
-    limits.added_mass += scaling->report().added_mass;
-    limits.scaled_mass += scaling->report().scaled_mass;
-    if (!scaling->empty()) limits.scaled_where += (limits.scaled_where.empty() ? "" : ", ") + scaling->report().where;
-    limits.unscaled = std::min(limits.unscaled, unscaled);
-    limits.lanczos = std::min(limits.lanczos, step);
-  }
+  limits.unscaled = limits.lanczos = std::min(lanczos_stable_step(sys.rail), lanczos_stable_step(sys.wheel));
+  if (spec.run.time_step_method == "local") refine_steps(sys);
+  else if (spec.run.time_step_method != "uniform") scale_masses(sys, spec.run.time_step_method == "auto");
   double least = limits.lanczos;
   if (spec.contact.method == "penalty") {
-    limits.contact = penalty_step(sys, rail);
+    limits.contact = penalty_step(sys, rail_response);
     least = 1 / std::sqrt(1 / (least * least) + 1 / (limits.contact * limits.contact));
   }
   limits.chosen = spec.run.step_safety * least;
+  if (limits.fine_elements > 0) settle_stages(sys);
+}
+
+void StepPlan::scale_masses(const RollingSystem& sys, bool if_worthwhile) {
+  limits.lanczos = HUGE_VAL;
+  for (const auto& [body, scaling] : {std::pair{&sys.rail, &rail}, std::pair{&sys.wheel, &wheel}}) {
+    const double unscaled = lanczos_stable_step(*body);
+    double step = unscaled;
+    *scaling = {*body, wanted_step(*body, sys.model.spec, sys.model.spec.run.mass_scaling_step)};
+    if (!scaling->empty()) step = lanczos_stable_step(*body, *scaling);
+    if (if_worthwhile && step < kWorthwhile * unscaled) *scaling = {}, step = unscaled;
+    limits.added_mass += scaling->report().added_mass;
+    limits.scaled_mass += scaling->report().scaled_mass;
+    if (!scaling->empty()) limits.scaled_where += (limits.scaled_where.empty() ? "" : ", ") + scaling->report().where;
+    limits.lanczos = std::min(limits.lanczos, step);
+  }
+  rail_response = rail;
+  wheel_response = wheel;
+}
+
+void StepPlan::refine_steps(const RollingSystem& sys) {
+  limits.lanczos = HUGE_VAL;
+  for (const auto& [body, steps, response] : {std::tuple{&sys.rail, &rail_steps, &rail_response}, std::tuple{&sys.wheel, &wheel_steps, &wheel_response}}) {
+    *steps = {*body, solid_options(sys.model.spec), wanted_step(*body, sys.model.spec, 1)};
+    limits.lanczos = std::min(limits.lanczos, steps->empty() ? lanczos_stable_step(*body) : lanczos_coarse_step(*body, *steps));
+    limits.fine_elements += steps->fine_elements();
+    if (!steps->empty()) *response = {*body, response_step(*body, wanted_step(*body, sys.model.spec, 1))};
+  }
+}
+
+// Fine and coarse nodes together may stand a little less than the coarse ones alone.
+void StepPlan::settle_stages(const RollingSystem& sys) {
+  constexpr double kEdge = 3.8, kShorter = 0.95;
+  for (const auto& [body, steps, response] : {std::tuple{&sys.rail, &rail_steps, &rail_response}, std::tuple{&sys.wheel, &wheel_steps, &wheel_response}}) {
+    if (steps->empty()) continue;
+    const double own = lanczos_stable_step(*body);
+    for (;; limits.chosen *= kShorter) {
+      steps->set_step(limits.chosen, own);
+      const StepSpectrum s = lanczos_spectrum(*body, *steps);
+      if (s.least > 0 && s.largest < kEdge) break;
+    }
+  }
+  for (const auto& [body, steps, response] : {std::tuple{&sys.rail, &rail_steps, &rail_response}, std::tuple{&sys.wheel, &wheel_steps, &wheel_response}}) {
+    if (steps->empty()) continue;
+    steps->set_step(limits.chosen, lanczos_stable_step(*body));
+    limits.stages = std::max(limits.stages, steps->stages());
+    *response = {*body, response_step(*body, limits.chosen)};
+  }
 }
 
 }  // namespace railstrata

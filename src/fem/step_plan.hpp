@@ -2,29 +2,42 @@
 // Which step a rolling takes and what makes it possible.
 #include <string>
 
+#include "fem/local_steps.hpp"
 #include "fem/mass_scaling.hpp"
 
 namespace railstrata {
 
 /// What limits the step [s]: 2/omega_max of the assembled bodies by Lanczos, the bound from single elements and where that is smallest, the contact (penalty only).
 struct StepLimits {
-  double lanczos = 0;    ///< with the added mass
-  double unscaled = 0;   ///< without
+  double lanczos = 0;    ///< with the added mass, or of the nodes that local steps leave coarse
+  double unscaled = 0;   ///< of the real masses with one step for all
   double element = 0, contact = 0;
   double chosen = 0;     ///< the step taken: run.step_safety times the least
   double added_mass = 0, scaled_mass = 0;  ///< kg, by selective mass scaling and of the nodes it acts on; 0: real masses
+  int stages = 1;          ///< of local steps
+  long fine_elements = 0;  ///< evaluated in every stage
   std::string scaled_where;                ///< blocks with added mass: "rail cap, rail gauge shell"
   std::string where;
 };
 
 /// run.time_step_method: `uniform` takes the step of the real masses, `mass_scaling` adds inertia across thin rows (fem/mass_scaling.hpp), `auto` does so for a body
-/// whose step grows by more than the factor kWorthwhile. The wanted step of thin rows is run.mass_scaling_step times the element size over the matrix's pressure wave speed.
+/// whose step grows by more than the factor kWorthwhile, `local` keeps the real masses and takes inner steps where elements are fast (fem/local_steps.hpp).
+/// The wanted step of thin rows is run.mass_scaling_step times the element size over the matrix's pressure wave speed.
 struct StepPlan {
   static constexpr double kWorthwhile = 1.2;
   explicit StepPlan(const RollingSystem& system);
 
   StepLimits limits;
-  MassScaling rail, wheel;  ///< empty: real masses
+  MassScaling rail, wheel;                    ///< empty: real masses
+  LocalSteps rail_steps, wheel_steps;         ///< empty: one step for all
+  bool local() const { return !rail_steps.empty() || !wheel_steps.empty(); }
+  /// How surface nodes answer a change of the contact forces within a step: as the scaled masses do. With local steps these stand for the stages.
+  MassScaling rail_response, wheel_response;
+
+ private:
+  void scale_masses(const RollingSystem& system, bool if_worthwhile);
+  void refine_steps(const RollingSystem& system);
+  void settle_stages(const RollingSystem& system);
 };
 
 }  // namespace railstrata

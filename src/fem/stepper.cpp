@@ -94,8 +94,8 @@ void Stepper::start(const PreloadResult& preload) {
     for (double t : b.stations.at) cos_node_.back().push_back(std::cos(t)), sin_node_.back().push_back(std::sin(t));
   }
   wheel_surface_u_ = state_.u_wheel;
-  rail_schedule_ = schedule(sys_.rail, sys_.rail_surface, plan_.rail);
-  wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface, plan_.wheel);
+  rail_schedule_ = schedule(sys_.rail, sys_.rail_surface, plan_.rail, plan_.rail_steps);
+  wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface, plan_.wheel, plan_.wheel_steps);
 
   Sums all;
   for (const DeformableBody::Line& l : sys_.wheel.lines) {
@@ -112,8 +112,8 @@ void Stepper::start(const PreloadResult& preload) {
   take_mean_motion(all);
 }
 
-// Nodes on the running surface, at ties and with added mass wait for the contact; those that are not free are not updated at all.
-Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling) const {
+// Nodes on the running surface, at ties, with added mass and those that local steps act on wait for the contact; those that are not free are not updated at all.
+Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling, const LocalSteps& local) const {
   Schedule out;
   const SweptBody& mesh = body.solid.body();
   for (const BlockLayout& b : body.solid.layout().blocks) out.at_once.emplace_back(b.nodes, 0);
@@ -125,7 +125,7 @@ Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSur
   for (const Tie& t : mesh.ties) wait(t.master_block, t.master_node0), wait(t.master_block, t.master_node1);
   for (int b = 0; b < static_cast<int>(out.at_once.size()); ++b)
     for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n)
-      if (scaling.acts_on(b, n)) wait(b, n);
+      if (scaling.acts_on(b, n) || local.acts_on(b, n)) wait(b, n);
   for (int b = 0; b < static_cast<int>(out.at_once.size()); ++b)
     for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n)
       if (out.at_once[b][n]) out.bordered.push_back({b, n});
@@ -227,12 +227,14 @@ void Stepper::internal_forces() {
   bore_fz_ = bore.z;
 }
 
-// Model frame; zero for a node that is not free.
-Vec3 Stepper::free_acceleration(const DeformableBody& body, const Field& f, std::ptrdiff_t i, int stride) const {
-  const double m = body.inverse_mass[i];
+// Of a node on the running surface, model frame; zero for one that is not free.
+Vec3 Stepper::free_acceleration(bool is_wheel, std::ptrdiff_t i) const {
+  const double m = (is_wheel ? sys_.wheel : sys_.rail).inverse_mass[i];
   if (m == 0) return {};
+  const Field& f = is_wheel ? f_wheel_ : f_rail_;
+  const int stride = (is_wheel ? sys_.wheel_surface : sys_.rail_surface).stride;
   Vec3 a = -m * Vec3{f[i], f[i + stride], f[i + 2 * stride]};
-  if (&body == &sys_.wheel) a = frame_.to_model(a);
+  if (is_wheel) a = frame_.to_model(a);
   return a - Vec3{0, 0, sys_.gravity};
 }
 
@@ -299,6 +301,23 @@ Field Stepper::wheel_displacement() const {
   return out;
 }
 
+// Local steps take over all that acts on their nodes, as it stands in the update.
+void Stepper::refine_forces() {
+  plan_.rail_steps.refine(state_.u_rail, 0, {{0, 0, -sys_.gravity}, 0}, f_rail_);
+  plan_.wheel_steps.refine(state_.u_wheel, state_.axle.psi - frame_.psi, {{frame_.sin_psi * sys_.gravity, 0, -frame_.cos_psi * sys_.gravity}, frame_.centrifugal}, f_wheel_);
+}
+
+// A force on the rail in a row of the contact, in whose sense the fields of forces are negative.
+template <class Add>
+void Stepper::spread_contact_force(const MortarRows& rows, const ContactRow& row, Vec3 force, Add&& add) {
+  const Vec3 turned = frame_.to_frame(force);
+  const double component[3] = {force.x, force.y, force.z}, wheel_component[3] = {turned.x, turned.y, turned.z};
+  for (int i = 0; i < 3; ++i) add(plan_.rail_response, f_rail_, row.rail + i * sys_.rail_surface.stride, -component[i]);
+  for (int w = row.first; w < row.first + row.count; ++w)
+    for (int i = 0; i < 3; ++i) add(plan_.wheel_response, f_wheel_, rows.weights[w].wheel + i * sys_.wheel_surface.stride, rows.weights[w].m * wheel_component[i]);
+}
+
+// Local steps carry the tractions of the last step through their stages; what the contact changes of them is answered at once, by the response masses.
 void Stepper::contact() {
   const double h = sys_.model.spec.mesh.element_size;
   lift_wheel_surface();
@@ -322,18 +341,30 @@ void Stepper::contact() {
   auto velocity = [](const Field& v, std::ptrdiff_t i, int stride) { return Vec3{v[i], v[i + stride], v[i + 2 * stride]}; };
   c.rail_velocity.clear(), c.rail_inverse_mass.clear(), c.wheel_velocity.clear(), c.wheel_inverse_mass.clear();
   c.rail_before.clear(), c.wheel_before.clear();
+  std::vector<Vec3> held(plan_.local() ? rows.rows.size() : 0);
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    const ContactRow& row = rows.rows[k];
+    held[k] = row.area * traction_vector(state_.tractions.at(row.column, row.station), row.normal);
+    spread_contact_force(rows, row, held[k], [](const MassScaling&, Field& f, std::ptrdiff_t i, double force) { f[i] += force; });
+  }
+  refine_forces();
   for (const ContactRow& r : rows.rows) {
     c.rail_before.push_back(velocity(state_.v_rail, r.rail, rs));
-    c.rail_velocity.push_back((1 - rate_ * dt_) * c.rail_before.back() + dt_ * free_acceleration(sys_.rail, f_rail_, r.rail, rs));
-    c.rail_inverse_mass.push_back(plan_.rail.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
+    c.rail_velocity.push_back((1 - rate_ * dt_) * c.rail_before.back() + dt_ * free_acceleration(false, r.rail));
+    c.rail_inverse_mass.push_back(plan_.rail_response.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
   }
   for (std::ptrdiff_t i : c.wheel_nodes) {
     const Vec3 arm = wheel_arm(i), w = velocity(state_.v_wheel, i, ws);
     c.wheel_before.push_back(Vec3{frame_.speed, 0, 0} + frame_.to_model(frame_.step_back(w + frame_.rigid_rate(arm))));
-    Vec3 a = free_acceleration(sys_.wheel, f_wheel_, i, ws);
+    Vec3 a = free_acceleration(true, i);
     if (rate_ > 0) a -= rate_ * frame_.to_model(frame_.step_back(w - Vec3{mean_.x + mean_.spin * arm.z, 0, mean_.z - mean_.spin * arm.x}));
     c.wheel_velocity.push_back(c.wheel_before.back() + dt_ * a);
-    c.wheel_inverse_mass.push_back(plan_.wheel.share(i) * sys_.wheel.inverse_mass[i]);
+    c.wheel_inverse_mass.push_back(plan_.wheel_response.share(i) * sys_.wheel.inverse_mass[i]);
+  }
+  for (std::size_t k = 0; k < held.size(); ++k) {
+    c.rail_velocity[k] -= (dt_ * c.rail_inverse_mass[k]) * held[k];
+    for (int w = rows.rows[k].first; w < rows.rows[k].first + rows.rows[k].count; ++w)
+      c.wheel_velocity[c.weight_node[w]] += (dt_ * c.wheel_inverse_mass[c.weight_node[w]] * rows.weights[w].m) * held[k];
   }
 
   enforce_contact(rows, dt_, enforcement_, c, state_.tractions);
@@ -344,17 +375,14 @@ void Stepper::contact() {
   for (std::size_t k = 0; k < rows.rows.size(); ++k) {
     const ContactRow& row = rows.rows[k];
     const NodeTraction& t = state_.tractions.at(row.column, row.station);
-    if (t.p <= 0) continue;
     const Vec3 force = row.area * traction_vector(t, row.normal);  // on the rail
-    const Vec3 turned = frame_.to_frame(force);
-    const double component[3] = {force.x, force.y, force.z}, wheel_component[3] = {turned.x, turned.y, turned.z};
-    Vec3 slip = -0.5 * (c.rail_before[k] + c.rail_velocity[k]);      // mean of the step, wheel against rail
-    for (int i = 0; i < 3; ++i) plan_.rail.add_force(f_rail_, row.rail + i * rs, -component[i]);
+    if (t.p > 0 || !held.empty())
+      spread_contact_force(rows, row, held.empty() ? force : force - held[k], [](const MassScaling& response, Field& f, std::ptrdiff_t i, double part) { response.add_force(f, i, part); });
+    if (t.p <= 0) continue;
+    Vec3 slip = -0.5 * (c.rail_before[k] + c.rail_velocity[k]);  // mean of the step, wheel against rail
     for (int w = row.first; w < row.first + row.count; ++w) {
-      const WheelWeight& weight = rows.weights[w];
-      for (int i = 0; i < 3; ++i) plan_.wheel.add_force(f_wheel_, weight.wheel + i * ws, weight.m * wheel_component[i]);
       const int n = c.weight_node[w];
-      slip += (0.5 * weight.m) * (c.wheel_before[n] + c.wheel_velocity[n]);
+      slip += (0.5 * rows.weights[w].m) * (c.wheel_before[n] + c.wheel_velocity[n]);
     }
     forces_.x -= force.x, forces_.y -= force.y, forces_.z -= force.z;
     forces_.penetration = std::max(forces_.penetration, -row.gap);

@@ -126,10 +126,13 @@ class Stepper {
   };
 
   void start(const PreloadResult& preload);
-  Schedule schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling) const;
+  Schedule schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling, const LocalSteps& local) const;
   void chain_tiles(const DeformableBody& body, Schedule& schedule) const;
   void internal_forces();
   void contact();
+  void refine_forces();
+  template <class Add>
+  void spread_contact_force(const MortarRows& rows, const ContactRow& row, Vec3 force, Add&& add);
   template <SweepKind kind, bool measured>
   void advance_node(const DeformableBody& body, Field& u, Field& v, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums) const;
   void advance_node(bool is_wheel, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums);
@@ -140,7 +143,7 @@ class Stepper {
   Field wheel_velocity(bool before) const;
   void take_mean_motion(const Sums& sums);
   void advance_axle();
-  Vec3 free_acceleration(const DeformableBody& body, const Field& f, std::ptrdiff_t index, int stride) const;
+  Vec3 free_acceleration(bool is_wheel, std::ptrdiff_t surface_index) const;
   AxlePose pose() const { return {state_.axle.x, state_.axle.z, state_.axle.psi}; }
   AxlePose pose_in_frame() const;
   double weight_potential() const;

@@ -142,7 +142,7 @@ OptionTable run_table() {
            {"run_up", at<&C::run, &R::run_up>, "Rolling distance over which the run-up damping fades to zero", kLength, {0, 10}},
            {"run_up_damping", at<&C::run, &R::run_up_damping>, "Mass-proportional damping of vibration at the start", kRate, {0, 1e6}},
            {"step_safety", at<&C::run, &R::step_safety>, "Time step as a share of the stable one", kNumber, above(0, 1)},
-           {"time_step_method", at<&C::run, &R::time_step_method>, "Thin layers: selective mass scaling, or the short step of the real masses; auto scales where the step grows by more than a fifth", {}, {}, {"auto", "uniform", "mass_scaling"}},
+           {"time_step_method", at<&C::run, &R::time_step_method>, "Thin layers: selective mass scaling, the short step of the real masses, or inner steps for the thin rows alone; auto scales where the step grows by more than a fifth", {}, {}, {"auto", "uniform", "mass_scaling", "local"}},
            {"mass_scaling_step", at<&C::run, &R::mass_scaling_step>, "Mass scaling: step it aims at, in element sizes over the matrix's pressure wave speed", kNumber, above(0, 10)},
            {"precision", at<&C::run, &R::precision>, "Element arithmetic while rolling; nodal values and the static preload are always double", {}, {}, {"double", "single"}},
            {"preload_tolerance", at<&C::run, &R::preload_tolerance>, "Relative residual of the static equilibrium", kNumber, {1e-13, 0.1}},

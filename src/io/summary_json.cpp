@@ -63,6 +63,8 @@ Json summary_json(const Summary& s) {
                 {"stable_step_s", number(r.stable_step)},
                 {"unscaled_step_s", number(r.unscaled_step)},
                 {"added_mass_kg", number(r.added_mass)},
+                {"local_stages", number(r.local_stages)},
+                {"fine_elements", number(r.fine_elements)},
                 {"element_steps_per_s", number(r.element_steps_per_s)},
                 {"threads", r.threads},
                 {"peak_memory_bytes", number(r.peak_memory_bytes)},

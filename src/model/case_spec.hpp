@@ -76,7 +76,7 @@ struct RunSpec {
   double run_up = 0.12;                 ///< m of rolling over which the run-up damping fades to zero
   double run_up_damping = 2000.0;       ///< 1/s, mass-proportional damping of vibration at the start
   double step_safety = 0.9;             ///< of the stable step
-  std::string time_step_method = "auto";  ///< auto | uniform | mass_scaling: how thin layers are kept from shortening the step (fem/step_plan.hpp)
+  std::string time_step_method = "auto";  ///< auto | uniform | mass_scaling | local: how thin layers are kept from shortening the step (fem/step_plan.hpp)
   double mass_scaling_step = 1.0;       ///< wanted step of thin rows of elements, in element sizes over the matrix's pressure wave speed
   std::string precision = "double";     ///< double | single: of the element arithmetic while rolling; nodal values and the static preload stay double
   double preload_tolerance = 1e-6;      ///< relative residual of the static equilibrium

@@ -51,6 +51,8 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
     s.run.stable_step = run.limits.lanczos;
     s.run.unscaled_step = run.limits.unscaled;
     s.run.added_mass = run.limits.added_mass;
+    s.run.local_stages = run.limits.stages;
+    s.run.fine_elements = static_cast<double>(run.limits.fine_elements);
     s.run.element_steps_per_s = static_cast<double>(run.elements) * static_cast<double>(run.steps) / (run.wall_seconds - run.preload_wall_seconds);
   }
   s.checks = checks(sys, run, m);

@@ -8,43 +8,13 @@
 
 #include "fem/stable_step.hpp"
 #include "fem/stepper.hpp"
-#include "sample_bodies.hpp"
 #include "small_rolling.hpp"
+#include "thin_layer.hpp"
 
 namespace railstrata {
 namespace {
 
 using namespace fem_checks;
-
-/// A brick on its base whose rows from the surface down have the given heights; the first `layered` rows are of materials[1].
-SweptBody layered_brick(int columns, int stations, double dx, double dy, const std::vector<double>& heights, int layered) {
-  const int rows = static_cast<int>(heights.size());
-  SweptBody body = mesh_brick(columns, rows, stations, dx, dy, 1.0);
-  Section& s = body.blocks[0].section;
-  std::vector<double> depth{0.0};
-  for (double h : heights) depth.push_back(depth.back() + h);
-  for (Vec2& p : s.nodes) p.z = -depth[static_cast<std::size_t>(std::lround(-p.z))];
-  for (std::size_t q = 0; q < s.quads.size(); ++q) {
-    double z = 0;
-    for (int n : s.quads[q]) z += 0.25 * s.nodes[n].z;
-    s.quad_material[q] = -z < depth[layered] ? 1 : 0;
-  }
-  body.materials = {"matrix", "layer"};
-  return body;
-}
-
-const std::vector<double> kHeights{1e-4, 1e-4, 2e-4, 4e-4, 8e-4, 1e-3};
-const std::vector<Elastic> kStiffOnSteel{kSteel, elastic(4 * kYoung, 0.3, 7800)};
-const double kWanted = 1e-3 / std::sqrt(kSteel.p_wave_modulus() / kSteel.density);
-
-DeformableBody thin_layer() { return {layered_brick(1, 3, 1e-3, 1e-3, kHeights, 2), kStiffOnSteel, {}}; }
-
-std::vector<std::ptrdiff_t> free_indices(const DeformableBody& body) {
-  std::vector<std::ptrdiff_t> out;
-  for (const DeformableBody::Line& l : body.lines)
-    for (int j = 0; j < l.count; ++j) out.push_back(l.first + j);
-  return out;
-}
 
 struct Dense {
   std::vector<std::ptrdiff_t> index;
@@ -71,13 +41,6 @@ Dense dense(const DeformableBody& body, const MassScaling& scaling) {
     for (Eigen::Index r = 0; r < n; ++r) d.stiffness(r, c) = f[d.index[r]];
   }
   return d;
-}
-
-Field scattered_forces(const DeformableBody& body, double size) {
-  Field f = body.solid.layout().field();
-  std::size_t k = 0;
-  for (std::ptrdiff_t i : free_indices(body)) f[i] = size * scatter(k++);
-  return f;
 }
 
 class MassScalingTest : public ::testing::Test {
@@ -301,36 +264,49 @@ TEST_F(MassScalingTest, AMeshWithoutThinRowsHasNone) {
   EXPECT_TRUE(MassScaling(thick, kWanted).empty());  // as fast along the row as across it: nothing to gain
 }
 
-// 0.8 mm at 4 E0 on 4 mm elements, rolled with the step of the real masses and with the scaled one.
-TEST(RollingMassScaling, ThinLayerGivesTheSamePressuresStressesAndEnergiesWithATenTimesLongerStep) {
-  CaseSpec spec = small_case();
-  LayerSpec layer;
-  layer.thickness = 0.8e-3;
-  layer.material.young = 4 * kYoung;
-  spec.layers = {layer};
-  const double from = 0.15e-3, to = 0.3e-3;
+// 0.8 mm at 4 E0 on 4 mm elements, rolled with the step of the real masses, with scaled masses and with local steps.
+class ThinLayerRolling : public ::testing::Test {
+ protected:
   struct Outcome {
-    double step = 0, closure = 0, p_max = 0, von_mises_rail = 0, von_mises_wheel = 0;
+    StepLimits limits;
+    double closure = 0, p_max = 0, von_mises_rail = 0, von_mises_wheel = 0, penetration = 0;
+    Field u_rail, u_wheel;
   };
-  auto roll = [&](const char* method) {
+  static constexpr double kFrom = 0.15e-3, kTo = 0.3e-3;
+
+  static CaseSpec thin_case() {
+    CaseSpec spec = small_case();
+    LayerSpec layer;
+    layer.thickness = 0.8e-3;
+    layer.material.young = 4 * kYoung;
+    spec.layers = {layer};
+    return spec;
+  }
+  static const PreloadResult& preload() {  // statics know nothing of masses and steps
+    static const PreloadResult result = solve_preload(small_system(thin_case()), 1e-6);
+    return result;
+  }
+  static Outcome roll(const char* method, double to = kTo) {
+    CaseSpec spec = thin_case();
     spec.run.time_step_method = method;
     const RollingSystem system = small_system(spec);
-    Stepper st(system, solve_preload(system, 1e-6));
+    Stepper st(system, preload());
     auto energy = [&] {
       st.want_energy();
       st.step();
       return st.energy();
     };
     Outcome out;
-    out.step = st.dt();
+    out.limits = st.plan().limits;
     const EnergyBalance start = energy();
     long count = 0;
     while (st.position() < to) {
       st.step();
-      if (st.position() < from) continue;
+      if (st.position() < kFrom) continue;
       double p_max = 0;
       for (const NodeTraction& t : st.state().tractions.all()) p_max = std::max(p_max, t.p);
       out.p_max += p_max;
+      out.penetration = std::max(out.penetration, st.forces().penetration);
       ++count;
     }
     out.p_max /= static_cast<double>(count);
@@ -339,14 +315,36 @@ TEST(RollingMassScaling, ThinLayerGivesTheSamePressuresStressesAndEnergiesWithAT
     const RollingSample sample = take_sample(system, st.state().u_rail, st.state().u_wheel, st.state().tractions, {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
     for (const Sym3& s : sample.rail.stress) out.von_mises_rail = std::max(out.von_mises_rail, von_mises(s));
     for (const Sym3& s : sample.wheel.stress) out.von_mises_wheel = std::max(out.von_mises_wheel, von_mises(s));
+    out.u_rail = st.state().u_rail;
+    out.u_wheel = st.state().u_wheel;
     return out;
-  };
-  const Outcome uniform = roll("uniform"), scaled = roll("auto");
-  EXPECT_GT(scaled.step, 10 * uniform.step);
-  EXPECT_NEAR(scaled.p_max / uniform.p_max, 1.0, 0.003);
-  EXPECT_NEAR(scaled.von_mises_rail / uniform.von_mises_rail, 1.0, 0.01);
-  EXPECT_NEAR(scaled.von_mises_wheel / uniform.von_mises_wheel, 1.0, 0.01);
-  EXPECT_LT(scaled.closure, 1e-4);  // of the strain energy; the same case without a layer: 5e-5
+  }
+};
+
+TEST_F(ThinLayerRolling, ScaledMassesAndLocalStepsGiveTheSamePressuresStressesAndEnergiesWithATenTimesLongerStep) {
+  const Outcome uniform = roll("uniform");
+  for (const char* method : {"auto", "local"}) {
+    const Outcome o = roll(method);
+    EXPECT_GT(o.limits.chosen, 10 * uniform.limits.chosen) << method;
+    EXPECT_NEAR(o.p_max / uniform.p_max, 1.0, 0.003) << method;
+    EXPECT_NEAR(o.von_mises_rail / uniform.von_mises_rail, 1.0, 0.01) << method;
+    EXPECT_NEAR(o.von_mises_wheel / uniform.von_mises_wheel, 1.0, 0.01) << method;
+    EXPECT_LT(o.penetration, 1e-9) << method << ": the contact is solved for the motion that follows";
+    EXPECT_LT(o.closure, 1e-4) << method << ": of the strain energy; the same case without a layer: 5e-5";
+  }
+}
+
+TEST_F(ThinLayerRolling, LocalStepsHaveTheSameBitsOnOneTwoAndFourThreads) {
+  const int threads = max_threads();
+  std::vector<Outcome> results;
+  for (int n : {1, 2, 4}) {
+    set_threads(n);
+    results.push_back(roll("local", 0.2e-3));
+    EXPECT_EQ(std::memcmp(results.back().u_rail.data(), results.front().u_rail.data(), results.front().u_rail.size() * sizeof(double)), 0) << n;
+    EXPECT_EQ(std::memcmp(results.back().u_wheel.data(), results.front().u_wheel.data(), results.front().u_wheel.size() * sizeof(double)), 0) << n;
+    EXPECT_EQ(results.back().p_max, results.front().p_max) << n;
+  }
+  set_threads(threads);
 }
 
 }  // namespace railstrata
