@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <iterator>
 #include <mutex>
 #include <optional>
 
@@ -13,11 +12,13 @@
 #include "app/commands.hpp"
 #include "app/output_folder.hpp"
 #include "app/progress.hpp"
+#include "app/result_columns.hpp"
 #include "app/run_bem.hpp"
 #include "app/stop_flag.hpp"
-#include "app/sweep_plan.hpp"
 #include "core/parallel.hpp"
 #include "io/output_file.hpp"
+#include "io/summary_json.hpp"
+#include "io/variation.hpp"
 #include "post/bem_summary.hpp"
 
 namespace railstrata {
@@ -26,46 +27,10 @@ namespace {
 struct SweepCase {
   std::vector<std::string> values;
   std::optional<LoadedCase> loaded;
-  std::optional<Summary> summary;
+  nlohmann::ordered_json summary;  ///< null: there is none
   std::string fault;   ///< empty: all is well
   bool done = false;
 };
-
-struct Column {
-  const char* name;
-  double (*value)(const Summary&);
-};
-constexpr Column kContactColumns[] = {{"p_max_MPa", [](const Summary& s) { return 1e-6 * s.contact.p_max; }},
-                                      {"q_max_MPa", [](const Summary& s) { return 1e-6 * s.contact.q_max; }},
-                                      {"patch_length_mm", [](const Summary& s) { return 1e3 * s.contact.patch_length; }},
-                                      {"patch_width_mm", [](const Summary& s) { return 1e3 * s.contact.patch_width; }},
-                                      {"patch_area_mm2", [](const Summary& s) { return 1e6 * s.contact.patch_area; }},
-                                      {"slip_area_fraction", [](const Summary& s) { return s.contact.slip_area_fraction; }},
-                                      {"F_x_kN", [](const Summary& s) { return 1e-3 * s.contact.F_x; }},
-                                      {"F_y_kN", [](const Summary& s) { return 1e-3 * s.contact.F_y; }},
-                                      {"F_z_kN", [](const Summary& s) { return 1e-3 * s.contact.F_z; }},
-                                      {"normal_force_kN", [](const Summary& s) { return 1e-3 * s.contact.normal_force; }},
-                                      {"lateral_force_kN", [](const Summary& s) { return 1e-3 * s.contact.lateral_force; }},
-                                      {"creepage_x", [](const Summary& s) { return s.contact.creepage_x; }},
-                                      {"spin_per_m", [](const Summary& s) { return s.contact.spin_per_m; }},
-                                      {"approach_um", [](const Summary& s) { return 1e6 * s.contact.approach; }},
-                                      {"wall_s", [](const Summary& s) { return s.run.wall_s; }}};
-double mises(const std::optional<StressPair>& p) { return p ? 1e-6 * p->von_mises.value : kNotApplicable; }
-double sigma1(const std::optional<StressPair>& p) { return p ? 1e-6 * p->sigma1.value : kNotApplicable; }
-constexpr Column kStressColumns[] = {{"rail_surface_von_mises_MPa", [](const Summary& s) { return mises(s.rail.surface); }},
-                                     {"rail_surface_sigma_1_MPa", [](const Summary& s) { return sigma1(s.rail.surface); }},
-                                     {"rail_subsurface_von_mises_MPa", [](const Summary& s) { return mises(s.rail.subsurface); }},
-                                     {"rail_subsurface_von_mises_depth_mm", [](const Summary& s) { return s.rail.subsurface ? 1e3 * s.rail.subsurface->von_mises.depth : kNotApplicable; }},
-                                     {"rail_layer_von_mises_MPa", [](const Summary& s) { return mises(s.rail.layer); }},
-                                     {"rail_layer_sigma_1_MPa", [](const Summary& s) { return sigma1(s.rail.layer); }},
-                                     {"rail_interface_von_mises_MPa", [](const Summary& s) { return mises(s.rail.interface); }},
-                                     {"rail_matrix_von_mises_MPa", [](const Summary& s) { return mises(s.rail.matrix); }}};
-
-std::vector<Column> columns_of(bool stresses) {
-  std::vector<Column> out(std::begin(kContactColumns), std::end(kContactColumns));
-  if (stresses) out.insert(out.end() - 1, std::begin(kStressColumns), std::end(kStressColumns));
-  return out;
-}
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
@@ -79,7 +44,7 @@ std::vector<SweepCase> load_cases(const CommandOptions& options, const LoadedCas
   for (std::vector<std::string>& values : combinations(keys)) {
     std::vector<std::string> overrides = options.overrides;
     for (std::size_t k = 0; k < keys.size(); ++k) overrides.push_back(keys[k].key + "=" + values[k]);
-    cases.push_back({std::move(values), {}, {}, {}, false});
+    cases.push_back({std::move(values), {}, nullptr, {}, false});
     try {
       cases.back().loaded = parse_case(base.source_text, base.file, overrides);
       any = true;
@@ -97,10 +62,10 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
   try {
     const CaseSpec spec = half_space_case(c.loaded->spec);
     const BemResult result = solve_bem(spec, place(spec, c.loaded->folder()), bem);
-    c.summary = bem_contact_summary(spec, result);
-    if (stresses) c.summary->rail = bem_rail_stress(result, c.summary->contact);
-    for (const Check& k : c.summary->checks)
-      if (!k.ok) c.fault = "check failed: " + k.name;
+    Summary summary = bem_contact_summary(spec, result);
+    if (stresses) summary.rail = bem_rail_stress(result, summary.contact);
+    c.summary = summary_json(summary);
+    c.fault = failed_check(c.summary);
   } catch (const CaseError& e) {
     c.fault = fault_of(e);
   } catch (const std::exception& e) {
@@ -108,24 +73,15 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
   }
 }
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-
 /// sweep.csv, which grows in the order of the cases, whatever the order in which they end.
 class SweepTable {
  public:
-  SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin, const std::vector<VariedKey>& keys, std::vector<Column> columns)
+  SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin, const std::vector<VariedKey>& keys, std::vector<ResultColumn> columns)
       : file_(file), columns_(std::move(columns)) {
     std::string head;
     for (const std::string& line : origin) head += "# " + line + '\n';
     for (const VariedKey& k : keys) head += k.key + ',';
-    for (const Column& c : columns_) head += std::string(c.name) + ',';
+    for (const ResultColumn& c : columns_) head += std::string(c.name) + ',';
     file_.write(head + "fault\n");
   }
   /// Writes the rows that are done and not yet written; returns the number of cases done.
@@ -138,17 +94,12 @@ class SweepTable {
  private:
   std::string row(const SweepCase& c) const {
     std::string out;
-    auto to = std::back_inserter(out);
-    for (const std::string& v : c.values) fmt::format_to(to, "{},", v.find('"') == std::string::npos ? v : quoted(v));
-    for (const Column& column : columns_) {
-      const double v = c.summary ? column.value(*c.summary) : kNotApplicable;
-      if (std::isfinite(v)) fmt::format_to(to, "{}", v);
-      out += ',';
-    }
-    return out + (c.fault.empty() ? "" : quoted(c.fault)) + '\n';
+    for (const std::string& v : c.values) out += csv_cell(v) + ',';
+    for (const ResultColumn& column : columns_) out += csv_cell(column_value(column, c.summary)) + ',';
+    return out + csv_cell(c.fault) + '\n';
   }
   OutputFile file_;
-  std::vector<Column> columns_;
+  std::vector<ResultColumn> columns_;
   std::size_t written_ = 0, done_ = 0;
 };
 
@@ -174,6 +125,15 @@ void solve_all(std::vector<SweepCase>& cases, const BemOptions& bem, bool stress
 
 std::string cell_text(double v, int width, int digits) { return std::isfinite(v) ? fmt::format("  {:>{}.{}f}", v, width, digits) : fmt::format("  {:>{}}", "-", width); }
 
+/// What the terminal shows of a case.
+struct Shown {
+  const char *heading, *path;
+  double factor;
+  int width, digits;
+};
+constexpr Shown kShown[] = {{"p_max MPa", "/contact/p_max_Pa", 1e-6, 9, 1}, {"q_max MPa", "/contact/q_max_Pa", 1e-6, 9, 1}, {"area mm²", "/contact/patch_area_m2", 1e6, 8, 1},
+                            {"slip %", "/contact/slip_area_fraction", 100, 6, 1}, {"creep 1e-3", "/contact/creepage_x", 1e3, 10, 3}};
+
 void print_table(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys) {
   std::vector<std::size_t> width;
   for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -181,27 +141,25 @@ void print_table(const std::vector<SweepCase>& cases, const std::vector<VariedKe
     for (const std::string& v : keys[k].values) width[k] = std::max(width[k], v.size());
     fmt::print("{:<{}}  ", keys[k].key, width[k]);
   }
-  fmt::print("  {:>9}  {:>9}  {:>8}  {:>6}  {:>10}\n", "p_max MPa", "q_max MPa", "area mm²", "slip %", "creep 1e-3");
+  for (const Shown& s : kShown) fmt::print("  {:>{}}", s.heading, s.width);
+  fmt::print("\n");
   for (const SweepCase& c : cases) {
     if (!c.done) continue;
     for (std::size_t k = 0; k < keys.size(); ++k) fmt::print("{:<{}}  ", c.values[k], width[k]);
-    if (c.summary) {
-      const ContactSummary& s = c.summary->contact;
-      fmt::print("{}{}{}{}{}", cell_text(1e-6 * s.p_max, 9, 1), cell_text(1e-6 * s.q_max, 9, 1), cell_text(1e6 * s.patch_area, 8, 1), cell_text(100 * s.slip_area_fraction, 6, 1),
-                 cell_text(1e3 * s.creepage_x, 10, 3));
-    }
+    if (!c.summary.is_null())
+      for (const Shown& s : kShown) fmt::print("{}", cell_text(column_value({s.heading, s.path, s.factor}, c.summary), s.width, s.digits));
     fmt::print("{}\n", c.fault.empty() ? "" : "  " + c.fault);
   }
 }
 
-nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys, const std::vector<Column>& columns) {
+nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys, const std::vector<ResultColumn>& columns) {
   auto out = nlohmann::ordered_json::array();
   for (const SweepCase& c : cases) {
     if (!c.done) continue;
     nlohmann::ordered_json row;
     for (std::size_t k = 0; k < keys.size(); ++k) row[keys[k].key] = c.values[k];
-    for (const Column& column : columns) {
-      const double v = c.summary ? column.value(*c.summary) : kNotApplicable;
+    for (const ResultColumn& column : columns) {
+      const double v = column_value(column, c.summary);
       row[column.name] = std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
     }
     row["fault"] = c.fault.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(c.fault);
@@ -220,7 +178,7 @@ ExitCode command_sweep(const CommandOptions& options) {
   BemOptions bem;
   bem.cell = cell_size(options.cell);
   bem.cache = &cache;
-  const std::vector<Column> columns = columns_of(options.stresses);
+  const std::vector<ResultColumn> columns = result_columns(options.stresses);
 
   const std::filesystem::path out = output_folder_of(options, base, "-sweep");
   prepare_output_folder(out, options.force);

@@ -20,12 +20,17 @@ struct CommandOptions {
   std::string cell;                       ///< --cell of the half-space commands: a length; empty: the engine's default
   std::filesystem::path reference;        ///< second folder of `compare`
   std::vector<std::filesystem::path> folders;  ///< of `report`
-  bool report = true;                     ///< --no-report of `run` and `bem`
+  bool report = true;                     ///< --no-report of `run`, `bem` and `study`
   bool reference_solution = true;         ///< --no-reference of `report`
   std::vector<std::string> vary;          ///< --vary of `sweep`
   bool stresses = false;                  ///< --stresses of `sweep`
   double largest_creepage = 0.02;         ///< --largest of `creep-curve`
   int points = 21;                        ///< --points of `creep-curve`
+  int jobs = 0;                           ///< --jobs of `study`; 0: as many as threads
+  std::string shard = "1/1";              ///< --shard of `study`
+  std::string engine;                     ///< --engine of `study`; empty: all
+  std::vector<std::string> groups;        ///< --group of `study`; empty: all
+  bool dry_run = false;                   ///< --dry-run of `study`
   int threads = 1;
   std::vector<std::string> command_line;
 };
@@ -37,6 +42,7 @@ ExitCode command_bem(const CommandOptions& options);
 ExitCode command_compare(const CommandOptions& options);
 ExitCode command_creep_curve(const CommandOptions& options);
 ExitCode command_sweep(const CommandOptions& options);
+ExitCode command_study(const CommandOptions& options);
 ExitCode command_report(const CommandOptions& options);
 ExitCode command_schema(const CommandOptions& options);
 ExitCode command_info(const CommandOptions& options);

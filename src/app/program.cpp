@@ -67,6 +67,19 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
   sub.add_flag("--stresses", options.stresses, "Largest stresses in the rail too (takes longer than the contact)");
 }
 
+void add_study(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("study", options.case_file, "Study file, or a folder with study.toml")->required();
+  sub.add_option("--set", options.overrides, "Override a key in all cases: --set mesh.element_size=\"2 mm\" (repeatable)")->allow_extra_args(false);
+  sub.add_option("-o,--out", options.out, "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
+  sub.add_flag("--force", options.force, "Write into a folder that is not empty and holds no study");
+  sub.add_option("--jobs", options.jobs, "Cases at a time; they share the threads (default: one thread a case)")->check(CLI::Range(1, 1024));
+  sub.add_option("--engine", options.engine, "Only the cases of one engine")->check(CLI::IsMember({"fem", "bem"}));
+  sub.add_option("--group", options.groups, "Only the cases of this group (repeatable)")->allow_extra_args(false);
+  sub.add_option("--shard", options.shard, "i/n: compute every n-th case from the i-th on, for n machines that share the folder");
+  sub.add_flag("--dry-run", options.dry_run, "List the cases and what is done of them; compute nothing");
+  add_no_report(sub, options);
+}
+
 void add_compare(CLI::App& sub, CommandOptions& options) {
   sub.add_option("a", options.case_file, "Result folder A")->required();
   sub.add_option("b", options.reference, "Result folder B: differences are relative to it")->required();
@@ -110,6 +123,10 @@ constexpr Entry kEntries[] = {
      "Examples:\n  railstrata sweep cases/paper/layer_3mm_2E0.toml --vary layer.0.thickness=\"1 mm,2 mm,3 mm\" --vary layer.0.young_ratio=0.5,1,2\n"
      "  railstrata sweep cases/paper/base.toml --vary drive.traction_coefficient=0.1,0.2,0.3 --stresses --out results/traction\n",
      add_sweep, command_sweep},
+    {"study", "Many cases from one file, by both engines, several at a time; goes on where it stopped; a table and a page over all of them",
+     "Examples:\n  railstrata study cases/paper/study.toml --dry-run\n  railstrata study cases/paper/study.toml --engine bem --out results/study\n  railstrata study cases/paper/study.toml --out results/study --jobs 2 "
+     "--threads 2\n  railstrata study cases/paper/study.toml --out /shared/study --shard 3/8     # one of eight machines\n",
+     add_study, command_study},
     {"report", "One page on a result, or on several side by side: verdict, patch, stresses, history; opens in any browser, without a network",
      "Examples:\n  railstrata report results/quick\n  railstrata report results/thin results/thick --out thin-thick.html\n", add_report, command_report},
     {"schema", "Print the JSON schema of case files for editors, or their reference page", "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n",

@@ -28,8 +28,11 @@ Progress::Progress(std::string what, bool shown) : what_(std::move(what)), shown
   if (!terminal_) next_ += std::chrono::seconds(30);
 }
 
-Progress::~Progress() {
+Progress::~Progress() { clear(); }
+
+void Progress::clear() {
   if (drawn_ && terminal_) fmt::print(stderr, "\r\033[K");
+  drawn_ = false;
 }
 
 void Progress::update(double fraction) {

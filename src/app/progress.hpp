@@ -20,6 +20,8 @@ class Progress {
   Progress& operator=(const Progress&) = delete;
   /// Cheap when called often.
   void update(double fraction);
+  /// Takes the bar off the terminal, so that a line can be written; the next update draws it again.
+  void clear();
 
  private:
   using Clock = std::chrono::steady_clock;

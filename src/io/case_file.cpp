@@ -3,29 +3,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <sstream>
-
 #include "core/nearest_word.hpp"
 #include "geometry/profile.hpp"
 #include "io/case_rules.hpp"
 #include "io/case_source.hpp"
 #include "io/case_tree.hpp"
 #include "io/option_table.hpp"
+#include "io/text_file.hpp"
 
 namespace railstrata {
 namespace {
-
-std::string read_text(const std::filesystem::path& file) {
-  if (std::filesystem::is_directory(file)) throw CaseError(fmt::format("{} is a folder", file.string()), "name the case file in it");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw CaseError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)), "shipped cases stand in cases/, e.g. cases/quick/case.toml");
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 bool is_builtin(ProfileKind kind, const std::string& name) {
   if (name.starts_with("arc:")) return true;
@@ -68,7 +55,7 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
 }
 
 LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  LoadedCase loaded = parse_case(read_text(file), file, overrides);
+  LoadedCase loaded = parse_case(read_text_file(file, "shipped cases stand in cases/, e.g. cases/quick/case.toml"), file, overrides);
   loaded.inputs.insert(loaded.inputs.begin(), file);
   return loaded;
 }

@@ -1,4 +1,4 @@
-#include "app/sweep_plan.hpp"
+#include "io/variation.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 #pragma once
-// The cases of a sweep.
+// Keys of a case that take several values: what `sweep` gets on its command line and `study` from its file.
 #include <string>
 #include <vector>
 
 namespace railstrata {
 
-/// One --vary: a key and its values as they were written.
+/// A key and its values, as an override takes them ("0.2 mm", with or without quotes).
 struct VariedKey {
   std::string key;
   std::vector<std::string> values;
@@ -14,7 +14,7 @@ struct VariedKey {
 /// Reads "key=v1,v2,…"; blanks around values do not count. Throws CaseError: no "=", no or an empty value, a key given twice.
 std::vector<VariedKey> parse_vary(const std::vector<std::string>& options);
 
-/// Every combination, the last key changing fastest: per case the value of each key.
+/// Every combination, the last key changing fastest: per case the value of each key. One empty combination of no keys.
 std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>& keys);
 
 }  // namespace railstrata

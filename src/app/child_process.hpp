@@ -1,0 +1,20 @@
+#pragma once
+// A program that runs beside this one.
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace railstrata {
+
+/// Starts this very program with other words, all it says going to `log`. It dies with this process, however that ends: nothing computes on unseen. To be called from the main thread. Throws EnvironmentError.
+pid_t start_self(const std::vector<std::string>& words, const std::filesystem::path& log);
+
+/// True once it has ended; `status` is then what waitpid tells.
+bool has_ended(pid_t child, int& status);
+
+/// "killed by signal 9 (Killed)", "exit code 3".
+std::string describe_end(int status);
+
+}  // namespace railstrata

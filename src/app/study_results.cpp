@@ -1,0 +1,221 @@
+#include "app/study_results.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+
+#include "core/faults.hpp"
+#include "io/csv.hpp"
+#include "io/output_file.hpp"
+#include "io/result_folder.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kPart = ".part-";
+
+std::string host_name() {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return host.data();
+}
+
+Json read_json(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return in ? Json::parse(in, nullptr, false) : Json(nullptr);
+}
+
+bool holds(const fs::path& folder, const StudyCase& c) {
+  const Json j = read_json(folder / kStudyFile);
+  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_null() && fs::exists(folder / "summary.json");
+}
+
+fs::path beside(const fs::path& folder, const std::string& ending) { return folder.string() + ending; }
+
+/// The largest values of a section's cells and the depth of their centres: what a picture of the section shows.
+void add_section_maxima(const fs::path& folder, Json& out) {
+  const CsvTable table = read_csv(folder / "rail_longitudinal_section.csv");
+  const std::vector<double> depth = table.column("depth_mm");
+  for (const auto& [name, column] : {std::pair{"von_mises", "von_mises_MPa"}, std::pair{"sigma_1", "sigma_1_MPa"}}) {
+    const std::vector<double> v = table.column(column);
+    const auto k = static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
+    out[fmt::format("section_{}_MPa", name)] = v[k];
+    out[fmt::format("section_{}_depth_mm", name)] = depth[k];
+  }
+}
+
+/// The patch by whole points, without interpolating its edges: every point that carries load, and the length of the longest line of them along x.
+void add_whole_points(const fs::path& folder, Json& out) {
+  const ContactField f = read_result_folder(folder).field;
+  double area = 0, slip = 0;
+  int longest = 0;
+  for (int c = 0; c < f.columns; ++c) {
+    int n = 0;
+    for (int s = 0; s < f.stations; ++s) {
+      const std::size_t k = static_cast<std::size_t>(s) * f.columns + c;
+      if (f.p[k] > 0) ++n, area += f.area[k], slip += f.state[k] == ContactState::slip ? f.area[k] : 0;
+    }
+    longest = std::max(longest, n);
+  }
+  const double spacing = f.stations > 1 ? std::abs(f.x[f.columns] - f.x[0]) : 0;
+  out["whole_points_area_mm2"] = 1e6 * area;
+  out["whole_points_length_mm"] = 1e3 * spacing * longest;
+  out["whole_points_slip_fraction"] = area > 0 ? Json(slip / area) : Json(nullptr);
+  out["slip_over_stick"] = area > slip ? Json(slip / (area - slip)) : Json(nullptr);
+}
+
+/// The largest von Mises stress and principal stress of the rail wherever they are, the surface included, with their depth.
+void add_rail_maxima(const Json& summary, Json& out) {
+  for (const auto& [name, key] : {std::pair{"von_mises", "von_mises_max"}, std::pair{"sigma_1", "sigma1_max"}}) {
+    double best = -std::numeric_limits<double>::infinity(), depth = 0;
+    for (const char* zone : {"surface", "subsurface", "layer", "interface", "matrix"}) {
+      const std::string at = fmt::format("/stress/rail/{}/{}/", zone, key);
+      const double value = column_value({"", (at + "value_Pa").c_str(), 1e-6}, summary);
+      if (std::isfinite(value) && value > best) best = value, depth = column_value({"", (at + "depth_m").c_str(), 1e3}, summary);
+    }
+    if (!std::isfinite(best)) continue;
+    out[fmt::format("rail_{}_MPa", name)] = best;
+    out[fmt::format("rail_{}_depth_mm", name)] = depth;
+  }
+}
+
+Json numbers_of(const fs::path& folder) {
+  Json out = Json::object();
+  add_rail_maxima(read_json(folder / "summary.json"), out);
+  add_section_maxima(folder, out);
+  add_whole_points(folder, out);
+  return out;
+}
+
+std::string study_json(const StudyCase& c, const Json& fault, const Json& numbers) {
+  Json values = Json::object();
+  for (const auto& [key, text] : c.values) values[key] = text;
+  return Json{{"key", c.key}, {"result_version", kResultVersion}, {"engine", c.engine}, {"group", c.group}, {"case", c.name}, {"values", values}, {"fault", fault}, {"numbers", numbers}}.dump(2) + "\n";
+}
+
+/// An old folder makes room for a new one; a reader finds one or the other, and for a moment none.
+void put_in_place(const fs::path& working, const fs::path& place) {
+  const fs::path old = beside(place, fmt::format("{}old-{}-{}", kPart, host_name(), ::getpid()));
+  std::error_code error;
+  if (fs::exists(place)) fs::rename(place, old);
+  fs::rename(working, place);
+  fs::remove_all(old, error);
+}
+
+/// "….part-host-pid" of a process of this machine that is no more.
+bool is_left_behind(const std::string& name) {
+  const auto at = name.find(kPart);
+  if (at == std::string::npos) return false;
+  const std::string tail = name.substr(at), host = "-" + host_name() + "-";
+  const auto before = tail.rfind(host);
+  if (before == std::string::npos) return false;
+  const std::string digits = tail.substr(before + host.size());
+  if (digits.empty() || digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos) return false;
+  return ::kill(std::stoi(digits), 0) != 0 && errno == ESRCH;
+}
+
+}  // namespace
+
+bool is_done(const fs::path& out, const StudyCase& c) { return holds(out / c.folder, c); }
+
+std::string last_failure(const fs::path& out, const StudyCase& c) {
+  const Json j = read_json(beside(out / c.folder, ".failed") / kStudyFile);
+  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_string() ? j["fault"].get<std::string>() : "";
+}
+
+fs::path working_folder(const fs::path& out, const StudyCase& c) { return beside(out / c.folder, fmt::format("{}{}-{}", kPart, host_name(), ::getpid())); }
+
+void keep_result(const fs::path& out, const StudyCase& c, const fs::path& working) {
+  write_whole_file(working / kStudyFile, study_json(c, nullptr, numbers_of(working)));
+  put_in_place(working, out / c.folder);
+  std::error_code error;
+  fs::remove_all(beside(out / c.folder, ".failed"), error);
+}
+
+void keep_failure(const fs::path& out, const StudyCase& c, const fs::path& working, const std::string& reason) {
+  write_whole_file(working / kStudyFile, study_json(c, reason, Json::object()));
+  put_in_place(working, beside(out / c.folder, ".failed"));
+}
+
+void recover(const fs::path& out, const std::vector<StudyCase>& cases) {
+  std::error_code error;
+  for (const StudyCase& c : cases) {
+    const fs::path home = (out / c.folder).parent_path();
+    if (!c.first || !fs::is_directory(home)) continue;
+    std::vector<fs::path> left;
+    for (const auto& entry : fs::directory_iterator(home))
+      if (entry.path().filename().string().starts_with(c.folder.filename().string() + ".") && is_left_behind(entry.path().filename().string())) left.push_back(entry.path());
+    for (const fs::path& folder : left) {
+      if (holds(folder, c) && !is_done(out, c)) put_in_place(folder, out / c.folder);
+      else fs::remove_all(folder, error);
+    }
+  }
+}
+
+std::vector<StudyRow> study_rows(const fs::path& out, const std::vector<StudyCase>& cases) {
+  const std::vector<ResultColumn> columns = result_columns(true);
+  std::vector<StudyRow> rows;
+  for (const StudyCase& c : cases) {
+    StudyRow row{&c, "to do", last_failure(out, c), {}};
+    if (is_done(out, c)) {
+      const Json summary = read_json(out / c.folder / "summary.json"), study = read_json(out / c.folder / kStudyFile);
+      row.state = "done", row.fault = failed_check(summary);
+      for (const ResultColumn& column : columns)
+        if (std::string(column.name) != "wall_s") row.numbers.emplace_back(column.name, column_value(column, summary));
+      for (const auto& [name, value] : study["numbers"].items()) row.numbers.emplace_back(name, value.is_number() ? value.get<double>() : kNotApplicable);
+      row.numbers.emplace_back("wall_s", column_value(columns.back(), summary));
+      row.numbers.emplace_back("threads", column_value({"", "/run/threads", 1}, summary));
+    } else if (!row.fault.empty()) {
+      row.state = "failed";
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<std::string> varied_keys(const std::vector<StudyRow>& rows) {
+  std::vector<std::string> keys;
+  for (const StudyRow& row : rows)
+    for (const auto& [key, text] : row.study_case->values)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  return keys;
+}
+
+void write_study_table(const fs::path& file, const std::vector<std::string>& origin, const std::vector<StudyRow>& rows) {
+  const std::vector<std::string> keys = varied_keys(rows);
+  std::vector<std::string> names;
+  for (const StudyRow& row : rows)
+    for (const auto& [name, value] : row.numbers)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  std::string text;
+  for (const std::string& line : origin) text += "# " + line + '\n';
+  text += "group,case,engine,";
+  for (const std::string& key : keys) text += csv_cell(key) + ',';
+  for (const std::string& name : names) text += name + ',';
+  text += "folder,state,fault\n";
+  for (const StudyRow& row : rows) {
+    const StudyCase& c = *row.study_case;
+    text += c.group + ',' + csv_cell(c.name) + ',' + c.engine + ',';
+    for (const std::string& key : keys) {
+      const auto v = std::find_if(c.values.begin(), c.values.end(), [&](const auto& kv) { return kv.first == key; });
+      text += (v == c.values.end() ? "" : csv_cell(v->second)) + ',';
+    }
+    for (const std::string& name : names) {
+      const auto v = std::find_if(row.numbers.begin(), row.numbers.end(), [&](const auto& nv) { return nv.first == name; });
+      text += (v == row.numbers.end() ? "" : csv_cell(v->second)) + ',';
+    }
+    text += csv_cell(c.folder.generic_string()) + ',' + row.state + ',' + csv_cell(row.fault) + '\n';
+  }
+  write_whole_file(file, text);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,11 @@
+#pragma once
+// A text file a user names.
+#include <filesystem>
+#include <string>
+
+namespace railstrata {
+
+/// The whole file. Throws CaseError with the system's reason; `remedy` says where such files are.
+std::string read_text_file(const std::filesystem::path& file, const std::string& remedy);
+
+}  // namespace railstrata

@@ -1,0 +1,239 @@
+#!/usr/bin/env python3
+"""`study` from outside: what it computes, what it skips, what a kill leaves. usage: study_test.py BINARY SOURCE_DIR"""
+import csv
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import time
+import unittest
+
+from outside import BINARY, TINY, FromOutside, railstrata
+
+SOURCE = pathlib.Path(sys.argv[2])
+BASE, LAYERED = SOURCE / "cases/paper/base.toml", SOURCE / "cases/paper/layer_3mm_2E0.toml"
+# Half-spaces on coarse cells: some hundredths of a second each.
+GRID = f"""
+[study]
+title = "tests"
+base = "{LAYERED}"
+engines = ["bem"]
+cell = "1 mm"
+[[group]]
+name = "grid"
+[group.vary]
+"layer.0.thickness" = ["1 mm", "2 mm"]
+"layer.0.young_ratio" = [1.5, 2, 4]
+"""
+
+
+def table(file):
+    return list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#")))
+
+
+class StudyTest(FromOutside):
+    def setUp(self):
+        super().setUp()
+        self.out = self.folder / "out"
+
+    def study(self, text):
+        file = self.folder / "study.toml"
+        file.write_text(text)
+        return file
+
+    def solve(self, text, *words, code=0):
+        rc, out, err = railstrata("study", self.study(text), "--out", self.out, "--no-report", *words)
+        self.assertEqual(rc, code, err)
+        return err
+
+    def rows(self):
+        return table(self.out / "study.csv")
+
+    def stamps(self):
+        return {str(file.relative_to(self.out)): file.stat().st_mtime_ns for file in self.out.rglob("study.json") if ".part-" not in str(file)}
+
+    def left_behind(self):
+        return [str(file) for file in self.out.rglob("*") if ".part" in file.name]
+
+
+class Cases(StudyTest):
+    def test_its_numbers_are_those_of_bem_and_every_case_has_its_folder(self):
+        self.solve(GRID)
+        rows = self.rows()
+        self.assertEqual([(r["layer.0.thickness"], r["layer.0.young_ratio"]) for r in rows], [(h, e) for h in ("1 mm", "2 mm") for e in ("1.5", "2", "4")])
+        rc, out, err = railstrata("bem", LAYERED, "--cell", "1 mm", "--set", "layer.0.thickness=2 mm", "--set", "layer.0.young_ratio=1.5", "--out", self.folder / "one", "--no-report", "--json")
+        self.assertEqual(rc, 0, err)
+        alone, row = json.loads(out), rows[3]
+        self.assertEqual(float(row["p_max_MPa"]), 1e-6 * alone["contact"]["p_max_Pa"])
+        self.assertEqual(float(row["rail_subsurface_von_mises_MPa"]), 1e-6 * alone["stress"]["rail"]["subsurface"]["von_mises_max"]["value_Pa"])
+        self.assertEqual((self.out / row["folder"] / "patch.csv").read_text().split("\n", 3)[3], (self.folder / "one" / "patch.csv").read_text().split("\n", 3)[3])
+        section = table(self.out / row["folder"] / "rail_longitudinal_section.csv")
+        self.assertAlmostEqual(float(row["section_von_mises_MPa"]), max(float(r["von_mises_MPa"]) for r in section))
+
+    def test_the_same_case_in_two_groups_is_computed_once(self):
+        err = self.solve(GRID + f'[[group]]\nname = "again"\nset = {{ "layer.0.young_ratio" = 2 }}\n[group.vary]\n"layer.0.thickness" = ["2 mm", "3 mm"]\n')
+        self.assertIn("8 cases, 7 to compute", err)
+        rows = self.rows()
+        self.assertEqual(rows[6]["folder"], rows[4]["folder"])
+        self.assertEqual(rows[6]["p_max_MPa"], rows[4]["p_max_MPa"])
+        self.assertEqual(len(self.stamps()), 7)
+
+    def test_both_engines(self):
+        self.case(TINY)
+        self.solve('[study]\nbase = "case.toml"\ncell = "1 mm"\n[[group]]\nname = "wheel"\n', code=1)  # a check of so coarse a rolling fails, and is told
+        fem, bem = self.rows()
+        self.assertEqual([fem["engine"], bem["engine"]], ["fem", "bem"])
+        self.assertIn("check failed", fem["fault"])
+        self.assertAlmostEqual(float(fem["F_z_kN"]) / float(bem["F_z_kN"]), 1, delta=0.1)
+        self.assertIn("2 cases, 0 to compute", self.solve((self.folder / "study.toml").read_text(), code=1))
+        only = self.solve((self.folder / "study.toml").read_text(), "--engine", "bem")
+        self.assertIn("1 cases, 0 to compute", only)
+
+    def test_one_failing_case_leaves_the_others_alone_and_is_tried_again(self):
+        text = GRID + '[[group]]\nname = "bad"\n[group.vary]\n"geometry.gauge" = ["1.7 m", "1.436 m"]\n'
+        err = self.solve(text, code=1)
+        self.assertIn("1 of 8 cases failed", err)
+        rows = self.rows()
+        self.assertEqual([r["state"] for r in rows], ["done"] * 6 + ["failed", "done"])
+        self.assertIn("the wheel misses the rail", rows[6]["fault"])
+        self.assertEqual(rows[6]["p_max_MPa"], "")
+        self.assertTrue((self.out / (rows[6]["folder"] + ".failed") / "log.txt").exists())
+        self.assertIn("8 cases, 1 to compute", self.solve(text, code=1))
+        self.assertIn("7 cases, 0 to compute", self.solve(text.replace('"1.7 m", ', "")))
+
+    def test_shards_share_the_work_and_the_last_has_the_whole_table(self):
+        self.assertIn("6 cases, 2 to compute", self.solve(GRID, "--shard", "1/3"))
+        self.assertEqual([r["state"] for r in self.rows()], ["done", "to do", "to do", "done", "to do", "to do"])
+        first = self.stamps()
+        self.solve(GRID, "--shard", "2/3"), self.solve(GRID, "--shard", "3/3")
+        self.assertEqual([r["state"] for r in self.rows()], ["done"] * 6)
+        self.assertEqual({k: v for k, v in self.stamps().items() if k in first}, first)
+
+    def test_what_decides_a_result_decides_whether_it_is_computed_again(self):
+        self.solve(GRID)
+        before = self.stamps()
+        self.assertIn("6 cases, 0 to compute", self.solve(GRID.replace('title = "tests"', 'title = "other"').replace("1.5, 2", "1.50, 2.0")))
+        self.assertEqual(self.stamps(), before)
+        self.assertIn("6 cases, 6 to compute", self.solve(GRID.replace('cell = "1 mm"', 'cell = "0.9 mm"')))
+        self.assertIn("6 cases, 6 to compute", self.solve(GRID, "--set", "drive.friction_coefficient=0.4"))
+        self.assertIn("9 cases, 9 to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]')))
+        self.assertIn("9 cases, 3 to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]').replace("1.5, 2, 4", "1.5, 2, 5")))
+        self.assertEqual(self.left_behind(), [])
+
+    def test_a_dry_run_lists_and_computes_nothing(self):
+        rc, out, err = railstrata("study", self.study(GRID), "--out", self.out, "--dry-run", "--json")
+        self.assertEqual(rc, 0, err)
+        self.assertEqual([r["state"] for r in json.loads(out)], ["to do"] * 6)
+        self.assertFalse(self.out.exists())
+        self.assertIn("6 cases, 6 to compute", err)
+
+
+class Killed(StudyTest):
+    def start(self, text, *words):
+        return subprocess.Popen([BINARY, "study", self.study(text), "--out", self.out, "--no-report", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def children(self, process):
+        return [int(pid) for pid in pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()]
+
+    def wait_for_a_child(self, process):
+        end = time.monotonic() + 30
+        while time.monotonic() < end and not self.children(process):
+            time.sleep(0.002)
+        return self.children(process)
+
+    def gone(self, pids):
+        end = time.monotonic() + 30
+        while time.monotonic() < end and any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids):
+            time.sleep(0.01)
+        return not any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids)
+
+    def test_kill_9_at_any_moment_neither_redoes_nor_loses_a_case(self):
+        text = GRID.replace('cell = "1 mm"', 'cell = "0.5 mm"')
+        chance, kept = random.Random(5), {}
+        for _ in range(6):
+            process = self.start(text, "--jobs", "2")
+            time.sleep(chance.uniform(0.05, 0.5))
+            children = self.children(process)
+            process.send_signal(signal.SIGKILL)
+            process.communicate()
+            self.assertTrue(self.gone(children), "the cases die with the study")
+            now = self.stamps()
+            self.assertEqual({k: now.get(k) for k in kept}, kept, "a finished case has been lost or done again")
+            kept = now
+            for name in now:
+                folder = (self.out / name).parent
+                json.loads((folder / "summary.json").read_text()), (folder / "patch.csv").read_text()
+        self.solve(text)
+        rows = self.rows()
+        self.assertEqual([r["state"] for r in rows], ["done"] * 6)
+        self.assertEqual({k: v for k, v in self.stamps().items() if k in kept}, kept)
+        self.assertEqual(self.left_behind(), [])
+        uninterrupted = self.folder / "uninterrupted"
+        rc, _, err = railstrata("study", self.folder / "study.toml", "--out", uninterrupted, "--no-report")
+        self.assertEqual(rc, 0, err)
+        skip = {"wall_s"}
+        self.assertEqual([{k: v for k, v in r.items() if k not in skip} for r in rows], [{k: v for k, v in r.items() if k not in skip} for r in table(uninterrupted / "study.csv")])
+
+    def test_a_result_that_was_whole_when_the_study_died_is_taken(self):
+        self.solve(GRID)
+        place = self.out / self.rows()[0]["folder"]
+        dead = subprocess.Popen(["true"])
+        dead.wait()
+        os.rename(place, f"{place}.part-{os.uname().nodename}-{dead.pid}")
+        stamps = {file.stat().st_mtime_ns for file in self.out.rglob("study.json")}
+        self.assertIn("6 cases, 0 to compute", self.solve(GRID))
+        self.assertEqual(set(self.stamps().values()), stamps)
+        self.assertEqual(self.left_behind(), [])
+
+    def test_a_case_that_is_killed_is_a_line_with_its_reason(self):
+        self.case(TINY.replace('positions = ["30 mm"]', 'positions = ["900 mm"]'))
+        process = self.start('[study]\nbase = "case.toml"\nengines = ["fem"]\n[[group]]\nname = "wheel"\n')
+        os.kill(self.wait_for_a_child(process)[0], signal.SIGKILL)
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1)
+        self.assertEqual(self.rows()[0]["fault"], "killed by signal 9 (Killed)")
+
+    def test_ctrl_c_stops_in_time_and_keeps_what_is_there(self):
+        self.case(TINY.replace('positions = ["30 mm"]', 'positions = ["900 mm"]'))
+        text = GRID + '[[group]]\nname = "long"\nbase = "case.toml"\nengines = ["fem"]\n'
+        process = self.start(text, "--jobs", "1")
+        end = time.monotonic() + 60
+        while time.monotonic() < end and len(self.stamps()) < 6:
+            time.sleep(0.02)
+        child = self.wait_for_a_child(process)
+        asked = time.monotonic()
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130, err)
+        self.assertLess(time.monotonic() - asked, 8)
+        self.assertTrue(self.gone(child))
+        self.assertIn("goes on where it was", err)
+        self.assertEqual([r["state"] for r in self.rows()], ["done"] * 6 + ["to do"])
+        self.assertEqual(self.left_behind(), [])
+
+
+class Refused(StudyTest):
+    def test_values_that_cases_refuse_are_told_at_their_place_in_the_study(self):
+        file = self.study(GRID.replace("[1.5, 2, 4]", "[1.5, 2000]").replace('"layer.0.thickness"', '"layer.0.thicknes"'))
+        self.refused(2, ["study", file, "--out", self.out], f"{file}:10:23: error: unknown key layer.0.thicknes", "did you mean thickness?", f"{file}:11:30: error: layer.0.young_ratio = 2000: must be between")
+        self.refused(2, ["study", self.study(GRID + '"layer.1.width" = ["60 mm"]\n'), "--out", self.out], f"{file}:12:20: error: layer.1.width: layer has 1 entries, counted from 0")
+        self.assertFalse(self.out.exists())
+
+    def test_words_that_make_no_sense(self):
+        file = self.study(GRID)
+        self.refused(2, ["study", file, "--shard", "3/2"], "--shard 3/2: is not i/n", "remedy: write --shard 2/8")
+        self.refused(2, ["study", file, "--engine", "fme"], "--engine")
+        self.refused(2, ["study", file, "--group", "gird"], "the study has no such group", "groups: grid")
+        self.refused(2, ["study", self.folder / "none.toml"], "cannot read")
+
+    def test_a_folder_with_other_things_is_left_alone(self):
+        self.out.mkdir()
+        (self.out / "precious").write_text("")
+        self.refused(2, ["study", self.study(GRID), "--out", self.out], "is not empty", "--force")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
