@@ -43,6 +43,8 @@ std::string reason_of(const std::string& log, int status) {
   return WIFEXITED(status) && !last.empty() ? fmt::format("{}: {}", describe_end(status), last) : describe_end(status);
 }
 
+bool has_result(int status) { return WIFEXITED(status) && (WEXITSTATUS(status) == static_cast<int>(ExitCode::ok) || WEXITSTATUS(status) == static_cast<int>(ExitCode::failed_checks)); }
+
 /// How far a case is by the last percentage in its log.
 double fraction_of(const fs::path& log) {
   const std::string text = text_of(log);
@@ -101,17 +103,16 @@ class Pool {
       }
       const Running ended = *r;
       r = running_.erase(r);
-      const bool left_off = *run_.stop && (WIFSIGNALED(status) || WEXITSTATUS(status) == static_cast<int>(ExitCode::interrupted));
-      if (left_off) discard(ended);
+      // once it is asked to stop, a case may end in any way: in the preload with an error
+      if (*run_.stop && !has_result(status)) discard(ended);
       else finish(ended, status);
     }
   }
 
   void finish(const Running& r, int status) {
     const StudyCase& c = *r.study_case;
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     std::string fault;
-    if (code != static_cast<int>(ExitCode::ok) && code != static_cast<int>(ExitCode::failed_checks)) fault = reason_of(text_of(r.folder / "log.txt"), status);
+    if (!has_result(status)) fault = reason_of(text_of(r.folder / "log.txt"), status);
     else if (!text_of(r.folder / "case.toml").ends_with(c.loaded.resolved_toml)) fault = "the base case changed while the study ran: start it again";
     if (fault.empty()) {
       try {
