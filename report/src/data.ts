@@ -89,7 +89,7 @@ export interface Run {
 
 export interface Check {
   name: string;
-  runs: number[]; // one: the run's own; two: the first against the second
+  runs: number[]; // one: the run's own; two: the first against the second; none: over all cases of a study
   judged: boolean; // false: told, not judged
   ok: boolean;
   value: number | null;
@@ -113,7 +113,17 @@ export interface Chart {
   note: string;
   x: string;
   y: string;
-  series: { name: string; x: number[]; y: number[]; markers: boolean }[];
+  series: { name: string; x: number[]; y: number[]; markers: boolean; colour: number; dash: string }[]; // colour: place among the page's; -1: the series' own
+}
+
+/// A row of maps of one quantity, one a run, on one scale.
+export interface Maps {
+  id: string;
+  title: string;
+  note: string;
+  kind: "state" | "von_mises" | "sigma_1";
+  runs: number[];
+  names: string[];
 }
 
 export interface Report {
@@ -123,6 +133,7 @@ export interface Report {
   runs: Run[];
   tables: Table[];
   charts: Chart[];
+  maps: Maps[];
 }
 
 export function unpack(packed: PackedNumbers): (number | null)[] {

@@ -110,9 +110,13 @@ export function frame(figure: Figure): HTMLElement {
   );
 }
 
-export function forget(): void {
-  for (const { plot } of shown.values()) Plotly.purge(plot as never);
-  shown.clear();
+/// Drops the figures inside an element.
+export function forget(inside: HTMLElement): void {
+  for (const [id, { plot }] of shown) {
+    if (!inside.contains(plot)) continue;
+    Plotly.purge(plot as never);
+    shown.delete(id);
+  }
 }
 
 /// Draws everything on the page; `width` for print, else what the frame offers.

@@ -1,5 +1,5 @@
 // The page of `railstrata report`: reads the data the program has put in, builds the parts, draws the figures.
-import type { Report, Run } from "./data";
+import type { Chart, Maps, Report, Run } from "./data";
 import { element, part, table } from "./dom";
 import { drawAll, forget, frame, kDark, kLight, setOrigin, type Figure, type Theme } from "./figures";
 import { linesFigure } from "./lines";
@@ -23,20 +23,39 @@ function applyTheme(): void {
 // ---- parts ---------------------------------------------------------------------------------------------------------------------------------------------------
 const grid = (figures: Figure[]) => element("div", { class: "grid" }, ...figures.map(frame));
 
+/// One row of maps; ids and titles are the row's, whatever the runs are called.
+function mapsRow(m: Maps): HTMLElement[] {
+  const runs = m.runs.map((k) => report.runs[k]);
+  const figures = m.kind === "state" ? patchMaps(runs).filter((f) => f.id.startsWith("map-state-")) : sectionMaps(runs, "rail").filter((f) => f.id.startsWith(`section-rail-longitudinal-${m.kind}-`));
+  return [
+    element("h3", { class: "row" }, m.title),
+    ...(m.note ? [element("p", { class: "note" }, m.note)] : []),
+    grid(figures.map((f, n) => ({ ...f, id: `${m.id}-${n + 1}`, title: m.names[n] }))),
+  ];
+}
+
 function studyParts(): HTMLElement[] {
   const out: HTMLElement[] = [];
   if (report.charts.length)
     out.push(
       part("charts", "Figures", grid(report.charts.map((c) =>
-        linesFigure({ id: c.id, title: c.title, words: c.note ? [c.note] : undefined, labels: [c.x, c.y], names: [c.x, c.y],
-          series: c.series.map((s, n) => ({ name: s.name, x: s.x, y: s.y, markers: s.markers, colour: (t: Theme) => t.series[n % t.series.length], hover: `${c.x} %{x:.4g}<br>${c.y} %{y:.4g}` })) })))),
+        linesFigure({ id: c.id, title: c.title, words: c.note ? [c.note] : undefined, labels: [c.x, c.y], names: [c.x, c.y], window: touched(c),
+          series: c.series.map((s, n) => ({ name: s.name, x: s.x, y: s.y, markers: s.markers && s.x.length < 60, dash: s.dash, colour: (t: Theme) => t.series[(s.colour < 0 ? n : s.colour) % t.series.length], hover: `${c.x} %{x:.4g}<br>${c.y} %{y:.4g}` })) })))),
     );
+  if (report.maps.length) out.push(part("maps", "Maps", ...report.maps.flatMap(mapsRow)));
   if (report.tables.length)
     out.push(part("tables", "Tables", ...report.tables.flatMap((t) => [
-      table(t.title, t.columns, t.rows.map((row) => row.map((v) => (typeof v === "number" ? numberText(v) : v ?? "–"))), { class: "numbers", id: `table-${t.id}` }),
+      table(t.title, t.columns, t.rows.map((row) => row.map((v) => (typeof v === "number" ? numberText(v) : v ?? "–"))), { class: "numbers study", id: `table-${t.id}` }),
       t.note ? element("p", { class: "note" }, t.note) : element("span"),
     ])));
   return out;
+}
+
+/// Of a line through the patch only where it touches, with a little room; everything of a trend.
+function touched(c: Chart): [number, number] | undefined {
+  if (!c.x.startsWith("x, rolling")) return undefined;
+  const x = c.series.flatMap((s) => s.x.filter((_, i) => s.y[i] > 0));
+  return x.length ? [Math.min(...x) - 2, Math.max(...x) + 2] : undefined;
 }
 
 /// Everything about the runs that are looked at: one, or two side by side.
@@ -62,8 +81,8 @@ function runParts(runs: Run[]): HTMLElement[] {
 let looked: Run[] = report.runs.slice(0, 2);
 const stage = element("div", { id: "stage" });
 function showRuns(): void {
-  forget();
-  stage.replaceChildren(tiles(looked[0]), ...studyParts(), ...runParts(looked));
+  forget(stage);
+  stage.replaceChildren(tiles(looked[0]), ...runParts(looked));
   drawAll(theme());
 }
 
@@ -92,7 +111,7 @@ function header(): HTMLElement {
   });
   const run = report.runs[0];
   const where = report.runs.length < 3 && run.engine === "fem" && run.summary.position_m !== null ? `, wheel at ${numberText(1e3 * run.summary.position_m)} mm` : "";
-  const links = [["verdict", "verdict"], ["numbers", "numbers"], ["geometry", "geometry"], ["patch", "patch"], ["stress", "stress"], ...(report.runs.some((r) => r.history) ? [["history", "history"]] : []), ["origin", "origin"]];
+  const links = [["verdict", "verdict"], ...(report.charts.length ? [["charts", "figures"]] : []), ...(report.maps.length ? [["maps", "maps"]] : []), ...(report.tables.length ? [["tables", "tables"]] : []), ["numbers", "numbers"], ["geometry", "geometry"], ["patch", "patch"], ["stress", "stress"], ...(report.runs.some((r) => r.history) ? [["history", "history"]] : []), ["origin", "origin"]];
   return element(
     "header",
     {},
@@ -106,7 +125,7 @@ function header(): HTMLElement {
 setOrigin([`RailStrata ${report.program}: ${report.title}`, ...report.runs.map((r) => `${r.folder} (${engineName(r.engine)})`), "maps and sections are rounded to 1/65534 of their range; the folder's own tables hold every digit"]);
 const licences = document.getElementById("licences") as HTMLTemplateElement | null;
 const footer = element("footer", {}, element("details", {}, element("summary", {}, "Software in this page"), ...(licences ? [licences.content.cloneNode(true)] : [])));
-document.body.replaceChildren(element("main", {}, header(), verdict(report), ...[chooser()].filter((e) => e !== null), stage, footer));
+document.body.replaceChildren(element("main", {}, header(), verdict(report), ...studyParts(), ...[chooser()].filter((e) => e !== null), stage, footer));
 document.documentElement.dataset.theme = isDark() ? "dark" : "light";
 showRuns();
 

@@ -1,5 +1,50 @@
 #include "app/study_page.hpp"
 
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+#include "core/faults.hpp"
+#include "io/output_file.hpp"
+#include "report/study.hpp"
+
 namespace railstrata {
-void add_study_page(const std::filesystem::path&, const LoadedStudy&, const std::vector<StudyRow>&) {}
+namespace {
+
+std::vector<StudyEntry> entries_of(const std::filesystem::path& out, const std::vector<StudyRow>& rows) {
+  std::vector<StudyEntry> entries;
+  for (const StudyRow& r : rows) {
+    const StudyCase& c = *r.study_case;
+    entries.push_back({c.group, c.name, c.engine, r.state, r.fault, out / c.folder, c.values, r.numbers});
+  }
+  return entries;
+}
+
+/// The tables of the page as files, for those who want to go on with them.
+void write_table(const std::filesystem::path& file, const ReportTable& t) {
+  std::string text;
+  for (std::size_t k = 0; k < t.columns.size(); ++k) text += csv_cell(t.columns[k]) + (k + 1 < t.columns.size() ? "," : "\n");
+  for (const auto& row : t.rows)
+    for (std::size_t k = 0; k < row.size(); ++k) text += (row[k].is_number() ? csv_cell(row[k].get<double>()) : row[k].is_string() ? csv_cell(row[k].get<std::string>()) : "") + (k + 1 < row.size() ? "," : "\n");
+  write_whole_file(file, text);
+}
+
+}  // namespace
+
+void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const std::vector<StudyRow>& rows) {
+  if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return;
+  try {
+    const Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
+    const Report report = study_report(study.spec, published, entries_of(out, rows));
+    for (const ReportTable& t : report.tables)
+      if (t.id == "published" || t.id == "claims") write_table(out / (t.id + ".csv"), t);
+    write_whole_file(out / "report.html", report_page(report));
+    spdlog::info("everything on one page: {}", (out / "report.html").string());
+  } catch (const CaseError& e) {
+    spdlog::warn("no report: {}", e.what());
+  } catch (const EnvironmentError& e) {
+    spdlog::warn("no report: {}", e.what());
+  }
+}
+
 }  // namespace railstrata

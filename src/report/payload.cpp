@@ -167,16 +167,17 @@ Json report_payload(const Report& report) {
   Json out;
   out["title"] = report.title;
   out["program"] = version_text();
-  out["checks"] = Json::array(), out["runs"] = Json::array(), out["tables"] = Json::array(), out["charts"] = Json::array();
+  out["checks"] = Json::array(), out["runs"] = Json::array(), out["tables"] = Json::array(), out["charts"] = Json::array(), out["maps"] = Json::array();
   for (const ReportCheck& c : report.checks)
     out["checks"].push_back({{"name", c.name}, {"runs", c.runs}, {"judged", c.judged}, {"ok", c.ok}, {"value", finite(c.value)}, {"limit", finite(c.limit)}, {"note", c.note}});
   for (const ReportRun& run : report.runs) out["runs"].push_back(run_json(run));
   for (const ReportTable& t : report.tables) out["tables"].push_back({{"id", t.id}, {"title", t.title}, {"note", t.note}, {"columns", t.columns}, {"rows", t.rows}});
   for (const ReportChart& c : report.charts) {
     Json series = Json::array();
-    for (const ReportSeries& s : c.series) series.push_back({{"name", s.name}, {"x", numbers(s.x)}, {"y", numbers(s.y)}, {"markers", s.markers}});
+    for (const ReportSeries& s : c.series) series.push_back({{"name", s.name}, {"x", numbers(s.x)}, {"y", numbers(s.y)}, {"markers", s.markers}, {"colour", s.colour}, {"dash", s.dash}});
     out["charts"].push_back({{"id", c.id}, {"title", c.title}, {"note", c.note}, {"x", c.x}, {"y", c.y}, {"series", series}});
   }
+  for (const ReportMaps& m : report.maps) out["maps"].push_back({{"id", m.id}, {"title", m.title}, {"note", m.note}, {"kind", m.kind}, {"runs", m.runs}, {"names", m.names}});
   return out;
 }
 

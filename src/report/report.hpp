@@ -34,7 +34,7 @@ struct ReportRun {
 /// One line of the verdict.
 struct ReportCheck {
   std::string name;
-  std::vector<int> runs;   ///< one: that run's own; two: the first against the second
+  std::vector<int> runs;   ///< one: that run's own; two: the first against the second; none: over all cases of a study
   bool judged = true;      ///< false: told, and no part of the verdict
   bool ok = true;
   double value = 0, limit = 0;
@@ -52,11 +52,21 @@ struct ReportSeries {
   std::string name;
   std::vector<double> x, y;
   bool markers = true;
+  int colour = -1;         ///< place among the page's colours; -1: the series' own
+  std::string dash = "solid";
 };
 struct ReportChart {
   std::string id, title, note;
   std::string x, y;        ///< axes, with units
   std::vector<ReportSeries> series;
+};
+
+/// A row of maps of one quantity, one for each run, on one scale.
+struct ReportMaps {
+  std::string id, title, note;
+  std::string kind;                 ///< "state", "von_mises", "sigma_1"
+  std::vector<int> runs;
+  std::vector<std::string> names;   ///< of the maps
 };
 
 struct Report {
@@ -65,6 +75,7 @@ struct Report {
   std::vector<ReportCheck> checks;
   std::vector<ReportTable> tables;
   std::vector<ReportChart> charts;
+  std::vector<ReportMaps> maps;
 };
 
 /// Reads a folder of `run` or `bem`. A position_<mm> folder takes case, provenance and history from the folder it stands in. Throws CaseError as read_result_folder does.

@@ -309,7 +309,7 @@ class Study(Page):
     def setUpClass(cls):
         table = [{"id": "trend", "title": "Trend", "note": "A note.", "columns": ["layer", "p_max [MPa]"], "rows": [["1 mm", 1101.48], ["2 mm <i>", None]]}]
         chart = [{"id": "fig", "title": "Pressure against thickness", "note": "", "x": "h [mm]", "y": "p_max [MPa]",
-                  "series": [{"name": "2 E0", "x": [0.5, 1, 3], "y": [1090, 1100, 1130], "markers": True}, {"name": "4 E0", "x": [0.5, 1, 3], "y": [1100, 1150, 1250], "markers": True}]}]
+                  "series": [{"name": "2 E0", "x": [0.5, 1, 3], "y": [1090, 1100, 1130], "markers": True, "colour": -1, "dash": "solid"}, {"name": "4 E0", "x": [0.5, 1, 3], "y": [1100, 1150, 1250], "markers": True, "colour": -1, "dash": "solid"}]}]
         page = (RESULTS / "three.html").read_text().replace('"tables":[],"charts":[]', f'"tables":{json.dumps(table)},"charts":{json.dumps(chart)}'.replace("<", "\\u003c"), 1)
         cls.file.write_text(page)
         super().setUpClass()
