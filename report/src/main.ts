@@ -36,6 +36,11 @@ function mapsRow(m: Maps): HTMLElement[] {
 
 function studyParts(): HTMLElement[] {
   const out: HTMLElement[] = [];
+  if (report.tables.length)
+    out.push(part("tables", "Answers", ...report.tables.flatMap((t) => [
+      table(t.title, t.columns, t.rows.map((row) => row.map((v) => (typeof v === "number" ? numberText(v) : v ?? "–"))), { class: "numbers study", id: `table-${t.id}` }),
+      t.note ? element("p", { class: "note" }, t.note) : element("span"),
+    ])));
   if (report.charts.length)
     out.push(
       part("charts", "Figures", grid(report.charts.map((c) =>
@@ -43,11 +48,6 @@ function studyParts(): HTMLElement[] {
           series: c.series.map((s, n) => ({ name: s.name, x: s.x, y: s.y, markers: s.markers && s.x.length < 60, dash: s.dash, colour: (t: Theme) => t.series[(s.colour < 0 ? n : s.colour) % t.series.length], hover: `${c.x} %{x:.4g}<br>${c.y} %{y:.4g}` })) })))),
     );
   if (report.maps.length) out.push(part("maps", "Maps", ...report.maps.flatMap(mapsRow)));
-  if (report.tables.length)
-    out.push(part("tables", "Tables", ...report.tables.flatMap((t) => [
-      table(t.title, t.columns, t.rows.map((row) => row.map((v) => (typeof v === "number" ? numberText(v) : v ?? "–"))), { class: "numbers study", id: `table-${t.id}` }),
-      t.note ? element("p", { class: "note" }, t.note) : element("span"),
-    ])));
   return out;
 }
 
@@ -111,7 +111,7 @@ function header(): HTMLElement {
   });
   const run = report.runs[0];
   const where = report.runs.length < 3 && run.engine === "fem" && run.summary.position_m !== null ? `, wheel at ${numberText(1e3 * run.summary.position_m)} mm` : "";
-  const links = [["verdict", "verdict"], ...(report.charts.length ? [["charts", "figures"]] : []), ...(report.maps.length ? [["maps", "maps"]] : []), ...(report.tables.length ? [["tables", "tables"]] : []), ["numbers", "numbers"], ["geometry", "geometry"], ["patch", "patch"], ["stress", "stress"], ...(report.runs.some((r) => r.history) ? [["history", "history"]] : []), ["origin", "origin"]];
+  const links = [["verdict", "verdict"], ...(report.tables.length ? [["tables", "answers"]] : []), ...(report.charts.length ? [["charts", "figures"]] : []), ...(report.maps.length ? [["maps", "maps"]] : []), ["numbers", "numbers"], ["geometry", "geometry"], ["patch", "patch"], ["stress", "stress"], ...(report.runs.some((r) => r.history) ? [["history", "history"]] : []), ["origin", "origin"]];
   return element(
     "header",
     {},

@@ -81,23 +81,24 @@ ExitCode command_study(const CommandOptions& options) {
   const double cell = cell_size(study.spec.cell);
   static_cast<void>(cell);  // a wrong one is told before the first case
   const Shard shard = parse_shard(options.shard);
-  const std::vector<StudyCase> cases = plan_study(study, options.overrides, options.engine, options.groups);
-  if (cases.empty()) throw CaseError("the study has no such case", "see --dry-run without --engine and --group");
+  const std::vector<StudyCase> cases = plan_study(study, options.overrides);
+  const std::vector<bool> ours = chosen(study, cases, options.engine, options.groups, shard);
   const fs::path out = folder_of(options, study);
   if (options.dry_run) {
-    const std::vector<StudyRow> rows = study_rows(out, cases);
+    const std::vector<StudyRow> all = study_rows(out, cases);
+    std::vector<StudyRow> rows;
+    for (std::size_t k = 0; k < all.size(); ++k)
+      if (ours[k]) rows.push_back(all[k]);
     print_list(rows, options.json);
-    const auto open = std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return r.study_case->first && r.state != "done"; });
-    spdlog::info("{} cases, {} to compute into {}", rows.size(), open, out.string());
+    spdlog::info("{} cases, {} to compute into {}", rows.size(), std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state != "done"; }), out.string());
     return ExitCode::ok;
   }
 
   prepare_study_folder(out, study, options);
   recover(out, cases);
   std::vector<const StudyCase*> to_do;
-  int distinct = 0;
-  for (const StudyCase& c : cases)
-    if (c.first && distinct++ % shard.count == shard.index - 1 && !is_done(out, c)) to_do.push_back(&c);
+  for (std::size_t k = 0; k < cases.size(); ++k)
+    if (ours[k] && !is_done(out, cases[k])) to_do.push_back(&cases[k]);
   std::stable_sort(to_do.begin(), to_do.end(), [](const StudyCase* a, const StudyCase* b) { return a->engine < b->engine; });  // half-spaces first: they tell of mistakes in seconds
 
   StudyRun run;
@@ -105,7 +106,7 @@ ExitCode command_study(const CommandOptions& options) {
   run.jobs = std::clamp(options.jobs > 0 ? options.jobs : options.threads, 1, std::max(1, static_cast<int>(to_do.size())));
   run.threads = std::max(1, options.threads / run.jobs);
   run.stop = &stop_flag();
-  spdlog::info("{}: {} cases, {} to compute, {} at a time with {} thread{} each; results go to {}", study.spec.title, cases.size(), to_do.size(), run.jobs, run.threads, run.threads == 1 ? "" : "s", out.string());
+  spdlog::info("{}: {} cases, {} of them to compute, {} at a time with {} thread{} each; results go to {}", study.spec.title, std::count(ours.begin(), ours.end(), true), to_do.size(), run.jobs, run.threads, run.threads == 1 ? "" : "s", out.string());
   Progress progress("study", spdlog::default_logger()->level() <= spdlog::level::info);
   run.progress = [&](double fraction) { progress.update(fraction); };
   run.ended = [&](const StudyCase& c, const std::string& fault, double seconds, int done) {
@@ -126,8 +127,9 @@ ExitCode command_study(const CommandOptions& options) {
   if (options.report) add_study_page(out, study, rows);
   print_list(rows, options.json);
   spdlog::info("the table is {}", (out / "study.csv").string());
-  const auto faults = std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return !r.fault.empty(); });
-  if (faults > 0) spdlog::warn("{} of {} cases failed or have a failed check: see the last column", faults, rows.size());
+  std::size_t faults = 0;
+  for (std::size_t k = 0; k < rows.size(); ++k) faults += ours[k] && !rows[k].fault.empty();
+  if (faults > 0) spdlog::warn("{} of {} cases failed or have a failed check: see the last column", faults, std::count(ours.begin(), ours.end(), true));
   return faults > 0 ? ExitCode::failed_checks : ExitCode::ok;
 }
 

@@ -70,17 +70,10 @@ std::string result_key(const LoadedCase& loaded, const std::string& engine, cons
   return sha256_of(text);
 }
 
-std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<std::string>& overrides, const std::string& engine, const std::vector<std::string>& groups) {
+std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<std::string>& overrides) {
   std::vector<StudyCase> out;
   std::vector<Diagnostic> faults;
-  for (const std::string& wanted : groups)
-    if (std::none_of(study.spec.groups.begin(), study.spec.groups.end(), [&](const StudyGroup& g) { return g.name == wanted; })) {
-      std::vector<std::string> names;
-      for (const StudyGroup& g : study.spec.groups) names.push_back(g.name);
-      throw CaseError(fmt::format("--group {}: the study has no such group", wanted), fmt::format("groups: {}", fmt::join(names, ", ")));
-    }
   for (const StudyGroup& g : study.spec.groups) {
-    if (!groups.empty() && std::find(groups.begin(), groups.end(), g.name) == groups.end()) continue;
     for (const StudyPoint& point : g.points) {
       StudyCase c;
       c.group = g.name, c.name = name_of(point);
@@ -99,7 +92,6 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
         continue;
       }
       for (const std::string& e : g.engines) {
-        if (!engine.empty() && e != engine) continue;
         c.engine = e;
         c.key = result_key(c.loaded, e, study.spec.cell);
         c.folder = std::filesystem::path(g.name) / folder_name(c.name) / e;
@@ -116,6 +108,22 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
     if (!is_new) c.folder = known->second;
     else if (!taken.insert(c.folder).second) known->second = c.folder = c.folder.parent_path().string() + "-" + c.key.substr(0, 8) + "/" + c.engine;  // "1 mm" and "1_mm"
   }
+  return out;
+}
+
+std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, const std::string& engine, const std::vector<std::string>& groups, const Shard& shard) {
+  for (const std::string& wanted : groups)
+    if (std::none_of(study.spec.groups.begin(), study.spec.groups.end(), [&](const StudyGroup& g) { return g.name == wanted; })) {
+      std::vector<std::string> names;
+      for (const StudyGroup& g : study.spec.groups) names.push_back(g.name);
+      throw CaseError(fmt::format("--group {}: the study has no such group", wanted), fmt::format("groups: {}", fmt::join(names, ", ")));
+    }
+  std::vector<bool> out;
+  std::set<std::string> keys;  // a case may be wanted under the name of a later twin
+  for (const StudyCase& c : cases)
+    if ((engine.empty() || c.engine == engine) && (groups.empty() || std::find(groups.begin(), groups.end(), c.group) != groups.end())) keys.insert(c.key);
+  int n = 0;
+  for (const StudyCase& c : cases) out.push_back(c.first && keys.contains(c.key) && n++ % shard.count == shard.index - 1);
   return out;
 }
 

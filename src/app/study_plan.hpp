@@ -28,14 +28,18 @@ struct StudyCase {
 /// What decides a result: engine, kResultVersion, the resolved case without its title (profile files by their content), and of the half-space engine the cell size.
 std::string result_key(const LoadedCase& loaded, const std::string& engine, const std::string& cell);
 
-/// Every case of the study, in the order of the file, per group and case the engines; `engine` ("" for all) and `groups` (empty for all) leave out the others. `overrides` hold for
-/// all cases. Throws CaseError with every value that a case refuses, at its place in the study file.
-std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<std::string>& overrides, const std::string& engine, const std::vector<std::string>& groups);
+/// Every case of the study, in the order of the file, per group and case the engines. `overrides` hold for all cases. Throws CaseError with every value that a case refuses, at its
+/// place in the study file.
+std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<std::string>& overrides);
 
-/// "2/8": the cases 2, 10, 18, … of those to compute.
+/// "2/8": the cases 2, 10, 18, …
 struct Shard {
   int index = 1, count = 1;
 };
 Shard parse_shard(const std::string& text);
+
+/// What one call of the program is to see to: the cases of an engine ("" for all) and of groups (empty for all), of these every shard.count-th. For each case whether it is meant; of
+/// cases with the same key, the one that is computed counts. Throws CaseError for a group that is not there.
+std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, const std::string& engine, const std::vector<std::string>& groups, const Shard& shard);
 
 }  // namespace railstrata

@@ -276,8 +276,8 @@ Report study_report(const StudySpec& study, const Published& published, const st
   ReportTable pairs{"engines", "Finite elements against half-spaces", "Limits: pressure 4 %, length 6 %, shear 7 %, von Mises stress below the surface 8 % where it lies deeper than an element. ✗: outside. The paper's mesh is told and takes no part in the verdict.",
                     {"case", "largest pressure", "patch length", "largest shear", "von Mises below the surface"}, {}};
   add_verdict(entries, report, pairs);
-  if (!published.numbers.empty()) report.tables.push_back(published_table(published, entries));
   if (!published.claims.empty()) report.tables.push_back(claims_table(published, entries));
+  if (!published.numbers.empty()) report.tables.push_back(published_table(published, entries));
   if (!pairs.rows.empty()) report.tables.push_back(std::move(pairs));
   report.tables.push_back(cases_table(entries));
   return report;

@@ -9,6 +9,7 @@ import signal
 import subprocess
 import sys
 import time
+import tomllib
 import unittest
 
 from outside import BINARY, TINY, FromOutside, railstrata
@@ -75,7 +76,7 @@ class Cases(StudyTest):
 
     def test_the_same_case_in_two_groups_is_computed_once(self):
         err = self.solve(GRID + f'[[group]]\nname = "again"\nset = {{ "layer.0.young_ratio" = 2 }}\n[group.vary]\n"layer.0.thickness" = ["2 mm", "3 mm"]\n')
-        self.assertIn("8 cases, 7 to compute", err)
+        self.assertIn("7 cases, 7 of them to compute", err)
         rows = self.rows()
         self.assertEqual(rows[6]["folder"], rows[4]["folder"])
         self.assertEqual(rows[6]["p_max_MPa"], rows[4]["p_max_MPa"])
@@ -88,9 +89,10 @@ class Cases(StudyTest):
         self.assertEqual([fem["engine"], bem["engine"]], ["fem", "bem"])
         self.assertIn("check failed", fem["fault"])
         self.assertAlmostEqual(float(fem["F_z_kN"]) / float(bem["F_z_kN"]), 1, delta=0.1)
-        self.assertIn("2 cases, 0 to compute", self.solve((self.folder / "study.toml").read_text(), code=1))
+        self.assertIn("2 cases, 0 of them to compute", self.solve((self.folder / "study.toml").read_text(), code=1))
         only = self.solve((self.folder / "study.toml").read_text(), "--engine", "bem")
-        self.assertIn("1 cases, 0 to compute", only)
+        self.assertIn("1 cases, 0 of them to compute", only)
+        self.assertEqual([r["state"] for r in self.rows()], ["done", "done"], "the table is that of the whole study")
 
     def test_one_failing_case_leaves_the_others_alone_and_is_tried_again(self):
         text = GRID + '[[group]]\nname = "bad"\n[group.vary]\n"geometry.gauge" = ["1.7 m", "1.436 m"]\n'
@@ -101,11 +103,11 @@ class Cases(StudyTest):
         self.assertIn("the wheel misses the rail", rows[6]["fault"])
         self.assertEqual(rows[6]["p_max_MPa"], "")
         self.assertTrue((self.out / (rows[6]["folder"] + ".failed") / "log.txt").exists())
-        self.assertIn("8 cases, 1 to compute", self.solve(text, code=1))
-        self.assertIn("7 cases, 0 to compute", self.solve(text.replace('"1.7 m", ', "")))
+        self.assertIn("8 cases, 1 of them to compute", self.solve(text, code=1))
+        self.assertIn("7 cases, 0 of them to compute", self.solve(text.replace('"1.7 m", ', "")))
 
     def test_shards_share_the_work_and_the_last_has_the_whole_table(self):
-        self.assertIn("6 cases, 2 to compute", self.solve(GRID, "--shard", "1/3"))
+        self.assertIn("2 cases, 2 of them to compute", self.solve(GRID, "--shard", "1/3"))
         self.assertEqual([r["state"] for r in self.rows()], ["done", "to do", "to do", "done", "to do", "to do"])
         first = self.stamps()
         self.solve(GRID, "--shard", "2/3"), self.solve(GRID, "--shard", "3/3")
@@ -115,12 +117,12 @@ class Cases(StudyTest):
     def test_what_decides_a_result_decides_whether_it_is_computed_again(self):
         self.solve(GRID)
         before = self.stamps()
-        self.assertIn("6 cases, 0 to compute", self.solve(GRID.replace('title = "tests"', 'title = "other"').replace("1.5, 2", "1.50, 2.0")))
+        self.assertIn("6 cases, 0 of them to compute", self.solve(GRID.replace('title = "tests"', 'title = "other"').replace("1.5, 2", "1.50, 2.0")))
         self.assertEqual(self.stamps(), before)
-        self.assertIn("6 cases, 6 to compute", self.solve(GRID.replace('cell = "1 mm"', 'cell = "0.9 mm"')))
-        self.assertIn("6 cases, 6 to compute", self.solve(GRID, "--set", "drive.friction_coefficient=0.4"))
-        self.assertIn("9 cases, 9 to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]')))
-        self.assertIn("9 cases, 3 to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]').replace("1.5, 2, 4", "1.5, 2, 5")))
+        self.assertIn("6 cases, 6 of them to compute", self.solve(GRID.replace('cell = "1 mm"', 'cell = "0.9 mm"')))
+        self.assertIn("6 cases, 6 of them to compute", self.solve(GRID, "--set", "drive.friction_coefficient=0.4"))
+        self.assertIn("9 cases, 9 of them to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]')))
+        self.assertIn("9 cases, 3 of them to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]').replace("1.5, 2, 4", "1.5, 2, 5")))
         self.assertEqual(self.left_behind(), [])
 
     def test_a_dry_run_lists_and_computes_nothing(self):
@@ -129,6 +131,22 @@ class Cases(StudyTest):
         self.assertEqual([r["state"] for r in json.loads(out)], ["to do"] * 6)
         self.assertFalse(self.out.exists())
         self.assertIn("6 cases, 6 to compute", err)
+
+
+class Paper(FromOutside):
+    def test_every_case_that_the_published_numbers_name_is_in_the_study(self):
+        folder = SOURCE / "cases/paper"
+        rc, out, err = railstrata("study", folder / "study.toml", "--out", self.folder / "none", "--dry-run", "--json")
+        self.assertEqual(rc, 0, err)
+        cases = [(c["engine"], f"{c['group']}/{c['case']}") for c in json.loads(out)]
+        self.assertEqual(len(cases), len(set(cases)))
+        names = {name for _, name in cases} | {"mesh/elements 1"}  # the same case as one of paper_layers
+        published = tomllib.loads((folder / "published.toml").read_text())
+        for entry in published["number"] + published["claim"]:
+            for key in ("given", "against"):
+                self.assertIn(entry.get(key, "mesh/elements 1"), names)
+        grid = [(c["values"].get("layer.0.thickness"), c["values"].get("layer.0.young_ratio")) for c in json.loads(out) if c["group"] == "layers" and c["engine"] == "fem"]
+        self.assertEqual(grid, [(h, e) for h in ("0.2 mm", "0.5 mm", "1 mm", "3 mm", "6 mm") for e in ("1.67", "2", "4")])
 
 
 class Killed(StudyTest):
@@ -184,7 +202,7 @@ class Killed(StudyTest):
         dead.wait()
         os.rename(place, f"{place}.part-{os.uname().nodename}-{dead.pid}")
         stamps = {file.stat().st_mtime_ns for file in self.out.rglob("study.json")}
-        self.assertIn("6 cases, 0 to compute", self.solve(GRID))
+        self.assertIn("6 cases, 0 of them to compute", self.solve(GRID))
         self.assertEqual(set(self.stamps().values()), stamps)
         self.assertEqual(self.left_behind(), [])
 
