@@ -22,7 +22,7 @@ GRID = f"""
 title = "tests"
 base = "{LAYERED}"
 engines = ["bem"]
-cell = "1 mm"
+cell = "1.5 mm"
 [[group]]
 name = "grid"
 [group.vary]
@@ -65,7 +65,7 @@ class Cases(StudyTest):
         self.solve(GRID)
         rows = self.rows()
         self.assertEqual([(r["layer.0.thickness"], r["layer.0.young_ratio"]) for r in rows], [(h, e) for h in ("1 mm", "2 mm") for e in ("1.5", "2", "4")])
-        rc, out, err = railstrata("bem", LAYERED, "--cell", "1 mm", "--set", "layer.0.thickness=2 mm", "--set", "layer.0.young_ratio=1.5", "--out", self.folder / "one", "--no-report", "--json")
+        rc, out, err = railstrata("bem", LAYERED, "--cell", "1.5 mm", "--set", "layer.0.thickness=2 mm", "--set", "layer.0.young_ratio=1.5", "--out", self.folder / "one", "--no-report", "--json")
         self.assertEqual(rc, 0, err)
         alone, row = json.loads(out), rows[3]
         self.assertEqual(float(row["p_max_MPa"]), 1e-6 * alone["contact"]["p_max_Pa"])
@@ -119,7 +119,7 @@ class Cases(StudyTest):
         before = self.stamps()
         self.assertIn("6 cases, 0 of them to compute", self.solve(GRID.replace('title = "tests"', 'title = "other"').replace("1.5, 2", "1.50, 2.0")))
         self.assertEqual(self.stamps(), before)
-        self.assertIn("6 cases, 6 of them to compute", self.solve(GRID.replace('cell = "1 mm"', 'cell = "0.9 mm"')))
+        self.assertIn("6 cases, 6 of them to compute", self.solve(GRID.replace('cell = "1.5 mm"', 'cell = "1.4 mm"')))
         self.assertIn("6 cases, 6 of them to compute", self.solve(GRID, "--set", "drive.friction_coefficient=0.4"))
         self.assertIn("9 cases, 9 of them to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]')))
         self.assertIn("9 cases, 3 of them to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]').replace("1.5, 2, 4", "1.5, 2, 5")))
@@ -169,7 +169,7 @@ class Killed(StudyTest):
         return not any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids)
 
     def test_kill_9_at_any_moment_neither_redoes_nor_loses_a_case(self):
-        text = GRID.replace('cell = "1 mm"', 'cell = "0.5 mm"')
+        text = GRID.replace('cell = "1.5 mm"', 'cell = "0.6 mm"')
         chance, kept = random.Random(5), {}
         for _ in range(6):
             process = self.start(text, "--jobs", "2")

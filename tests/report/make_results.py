@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Result folders for the tests of the report: fem (a wheel on a layered block, 30 mm of rolling), its reference fem/half_space, bem (LMA on CN60 by half-spaces, with two
-layers), old (what folders held before they had sections and geometry). usage: make_results.py BINARY FOLDER"""
+layers), old (what folders held before they had sections and geometry), study (both engines). usage: make_results.py BINARY FOLDER"""
 import pathlib
 import shutil
 import subprocess
@@ -53,6 +53,99 @@ thickness = "1.5 mm"
 young_ratio = 0.8
 """
 
+STUDY = """
+[study]
+title = "a small <i>study</i>"
+base = "layers.toml"
+engines = ["bem"]
+cell = "0.8 mm"
+published = "published.toml"
+[[group]]
+name = "grid"
+[group.vary]
+"layer.0.thickness" = ["0.5 mm", "10 mm"]
+"layer.0.young_ratio" = [1.5, 4]
+[[group]]
+name = "plain"
+base = "plain.toml"
+tags = { "layer.0.young_ratio" = 1 }
+[[group]]
+name = "wheel"
+base = "rolling.toml"
+engines = ["fem", "bem"]
+set = { "run.positions" = ["12 mm"], "mesh.element_size" = "4 mm" }
+[[group]]
+name = "broken"
+base = "plain.toml"
+set = { "geometry.gauge" = "1.7 m" }
+[[figure]]
+id = "lines"
+title = "Shear"
+kind = "centre_line"
+value = "q"
+each = "layer.0.thickness"
+series = "layer.0.young_ratio"
+groups = ["grid", "plain"]
+[[figure]]
+id = "trend"
+title = "Trend"
+kind = "trend"
+value = "p_max_MPa"
+x = "layer.0.thickness"
+series = "layer.0.young_ratio"
+groups = ["grid", "plain"]
+[[figure]]
+id = "states"
+title = "States"
+kind = "map"
+value = "state"
+series = "layer.0.young_ratio"
+groups = ["grid"]
+where = { "layer.0.thickness" = ["10 mm"] }
+[[figure]]
+id = "stress"
+title = "Stress"
+kind = "map"
+value = "von_mises"
+series = "layer.0.young_ratio"
+groups = ["grid"]
+where = { "layer.0.thickness" = ["0.5 mm"] }
+"""
+PUBLISHED = """
+source = "Somebody"
+[[column]]
+name = "rolled"
+engine = "fem"
+[[column]]
+name = "half-space"
+engine = "bem"
+[[number]]
+section = "1"
+quantity = "rise of the pressure"
+value = 3
+unit = "%"
+within = 1000
+column = "p_max_MPa"
+given = "grid/thickness 10 mm, young_ratio 4"
+against = "plain/case"
+[[number]]
+section = "2"
+quantity = "shear"
+value = 1e-3
+unit = "MPa"
+within = 1e-3
+column = "q_max_MPa"
+given = "wheel/case"
+[[claim]]
+section = "3"
+text = "harder is higher"
+kind = "rises"
+column = "p_max_MPa"
+along = "layer.0.young_ratio"
+each = "layer.0.thickness"
+groups = ["grid", "plain"]
+"""
+
 
 def railstrata(*words):
     done = subprocess.run([BINARY, *map(str, words)], capture_output=True, text=True, timeout=240)
@@ -71,3 +164,7 @@ for file in [*(FOLDER / "old").glob("*_section.csv"), FOLDER / "old" / "geometry
     file.unlink(missing_ok=True)
 railstrata("report", FOLDER / "old", "--no-reference", "--quiet")
 railstrata("report", FOLDER / "fem", FOLDER / "bem", FOLDER / "fem" / "half_space", "--out", FOLDER / "three.html", "--quiet")
+(FOLDER / "plain.toml").write_text(HALF_SPACE.split("[[layer]]")[0])
+(FOLDER / "published.toml").write_text(PUBLISHED)
+(FOLDER / "study.toml").write_text(STUDY)
+railstrata("study", FOLDER / "study.toml", "--out", FOLDER / "study", "--quiet")

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The report as a reader meets it: in a browser, from the disk, its numbers held against the files of the result folder. usage: page_test.py BINARY RESULTS"""
+import csv
 import json
 import pathlib
 import re
@@ -329,6 +330,89 @@ class Study(Page):
         self.assertAlmostEqual(self.map_peak("plot-map-p-0")[2], max(read_table(BEM / "patch.csv")["p_MPa"]), delta=0.1)
         self.assertIsNone(self.browser.text("#plot-map-p-1"))
         self.assertEqual(self.first_words + self.browser.console(), [])
+
+
+class WholeStudy(Page):
+    """What `study` writes: figures, maps, answers and verdict over all cases."""
+
+    file = RESULTS / "study" / "report.html"
+
+    def rows(self, group="", engine=""):
+        lines = [line for line in (RESULTS / "study" / "study.csv").read_text().splitlines() if not line.startswith("#")]
+        return [row for row in csv.DictReader(lines) if group in row["group"] and engine in row["engine"]]
+
+    def folder(self, row):
+        return RESULTS / "study" / row["folder"]
+
+    def cells_of(self, table):
+        return self.js("return [...document.querySelectorAll('#table-' + arguments[0] + ' tr')].map(r => [...r.cells].map(c => c.innerText))", table)
+
+    def test_nothing_is_fetched_and_nothing_is_wrong(self):
+        self.assertEqual(self.first_words, [])
+        self.assertEqual([address for address in self.asked if not address.startswith(("data:", "blob:"))], [self.file.as_uri()])
+        self.assertLess(self.file.stat().st_size, 6e6)
+        self.assertEqual(self.browser.text("h1"), "a small <i>study</i>")
+
+    def test_a_chart_for_each_thickness_has_a_line_for_each_stiffness_and_the_plain_case(self):
+        for n, thickness in [(1, "0.5 mm"), (2, "10 mm")]:
+            names = self.js("return document.getElementById(arguments[0]).data.map(t => t.name)", f"plot-lines-{n}")
+            self.assertEqual(names, ["E₁ = E₀, half-space", "E₁ = 1.5 E₀, half-space", "E₁ = 4 E₀, half-space"])
+            wanted = [*self.rows("plain"), *(r for r in self.rows("grid") if r["layer.0.thickness"] == thickness)]
+            for k, row in enumerate(wanted):
+                line, shown = read_table(self.folder(row) / "centre_line.csv"), self.trace(f"plot-lines-{n}", k)
+                for q, qx, qy in zip(shown["y"], line["q_x_MPa"], line["q_y_MPa"], strict=True):
+                    self.assertAlmostEqual(q, (qx * qx + qy * qy) ** 0.5, delta=1e-4 * q + 1e-9)
+
+    def test_the_trend_is_that_of_the_table(self):
+        plain = float(self.rows("plain")[0]["p_max_MPa"])
+        shown = [self.trace("plot-trend", k) for k in range(3)]
+        self.assertEqual([s["x"] for s in shown], [[0.5, 10]] * 3)
+        for s, ratio in zip(shown, ["1", "1.5", "4"]):
+            wanted = [plain, plain] if ratio == "1" else [float(r["p_max_MPa"]) for r in self.rows("grid") if r["layer.0.young_ratio"] == ratio]
+            for a, b in zip(s["y"], wanted, strict=True):
+                self.assertAlmostEqual(a, b, delta=1e-5 * b)
+
+    def test_maps_show_their_cases(self):
+        grid = self.rows("grid")
+        for n, row in enumerate(r for r in grid if r["layer.0.thickness"] == "10 mm"):
+            states = [v for line in self.trace(f"plot-states-{n + 1}")["z"] for v in line]
+            patch = read_table(self.folder(row) / "patch.csv")["state_0separated_1stick_2slip"]
+            self.assertEqual([states.count(s) for s in (1, 2)], [patch.count(s) for s in (1, 2)])
+        for n, row in enumerate(r for r in grid if r["layer.0.thickness"] == "0.5 mm"):
+            self.assertAlmostEqual(self.map_peak(f"plot-stress-{n + 1}")[2], float(row["section_von_mises_MPa"]), delta=0.1)
+            depths = {round(d, 3) for d in self.trace(f"plot-stress-{n + 1}", 1)["y"] if d is not None}
+            self.assertEqual(depths, {0.5, 2.0})
+
+    def test_answers_are_computed_from_the_table(self):
+        rise, shear = self.cells_of("published")[1:]
+        ours = 100 * (float(self.rows("grid")[3]["p_max_MPa"]) / float(self.rows("plain")[0]["p_max_MPa"]) - 1)
+        self.assertEqual(rise[5], "–")
+        self.assertAlmostEqual(number_in(rise[6]), ours, delta=1e-3 * abs(ours))
+        self.assertEqual(rise[8], "agrees (half-spaces alone: no finite element result yet)")
+        for cell, row in zip(shear[5:7], self.rows("wheel")):
+            self.assertAlmostEqual(number_in(cell), float(row["q_max_MPa"]), delta=1e-3 * float(row["q_max_MPa"]))
+        self.assertEqual(shear[8], "not explained")
+        claim = self.cells_of("claims")[1]
+        self.assertEqual(claim[2], "no result yet")
+        lines = [[float(self.rows("plain")[0]["p_max_MPa"])] + [float(r["p_max_MPa"]) for r in self.rows("grid") if r["layer.0.thickness"] == h] for h in ("0.5 mm", "10 mm")]
+        rising = [line == sorted(line) for line in lines]
+        self.assertTrue(claim[3].startswith("confirmed" if all(rising) else "in part" if any(rising) else "not confirmed"), (claim, lines))
+
+    def test_every_case_has_a_line_and_the_failed_one_its_reason(self):
+        cases = self.cells_of("cases")[1:]
+        self.assertEqual(len(cases), len(self.rows()))
+        self.assertRegex(next(c for c in cases if c[0].startswith("broken"))[-1], "^failed: .*misses the rail")
+
+    def test_the_verdict_counts_the_cases_and_names_the_worst(self):
+        rows = self.js("return [...document.querySelectorAll('#verdict tr[data-check]')].map(r => ({name: r.dataset.check, ok: r.dataset.ok === 'true', words: r.cells[4].innerText, value: r.querySelector('.value').innerText}))")
+        traction = next(r for r in rows if r["name"] == "traction_coefficient_reached")
+        checks = [(self.folder(r), k) for r in self.rows() if r["state"] == "done" for k in summary_of(self.folder(r))["checks"] if k["name"] == "traction_coefficient_reached"]
+        self.assertIn(f"{sum(k['ok'] for _, k in checks)} of {len(checks)} cases; the worst: wheel/case, finite elements", traction["words"])
+        self.assertAlmostEqual(number_in(traction["value"]) / 100, max(k["value"] for _, k in checks), delta=5e-3 * max(k["value"] for _, k in checks))
+        fem, bem = (summary_of(self.folder(r))["contact"] for r in self.rows("wheel"))
+        pressure = next(r for r in rows if r["name"] == "p_max")
+        self.assertAlmostEqual(number_in(pressure["value"]) / 100, abs(fem["p_max_Pa"] / bem["p_max_Pa"] - 1), delta=6e-3)
+        self.assertEqual(self.cells_of("engines")[1][0], "wheel/case")
 
 
 class Command(unittest.TestCase):
