@@ -81,14 +81,18 @@ ExitCode command_study(const CommandOptions& options) {
   const double cell = cell_size(study.spec.cell);
   static_cast<void>(cell);  // a wrong one is told before the first case
   const Shard shard = parse_shard(options.shard);
-  const std::vector<StudyCase> cases = plan_study(study, options.overrides);
+  std::vector<StudyCase> cases = plan_study(study, options.overrides);
   const std::vector<bool> ours = chosen(study, cases, options.engine, options.groups, shard);
-  const fs::path out = folder_of(options, study);
-  if (options.dry_run) {
-    const std::vector<StudyRow> all = study_rows(out, cases);
+  const auto only_ours = [&](const std::vector<StudyRow>& all) {
     std::vector<StudyRow> rows;
     for (std::size_t k = 0; k < all.size(); ++k)
       if (ours[k]) rows.push_back(all[k]);
+    return rows;
+  };
+  const fs::path out = folder_of(options, study);
+  if (options.dry_run) {
+    find_results(out, cases);
+    const std::vector<StudyRow> rows = only_ours(study_rows(out, cases));
     print_list(rows, options.json);
     spdlog::info("{} cases, {} to compute into {}", rows.size(), std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state != "done"; }), out.string());
     return ExitCode::ok;
@@ -96,6 +100,7 @@ ExitCode command_study(const CommandOptions& options) {
 
   prepare_study_folder(out, study, options);
   recover(out, cases);
+  find_results(out, cases);
   std::vector<const StudyCase*> to_do;
   for (std::size_t k = 0; k < cases.size(); ++k)
     if (ours[k] && !is_done(out, cases[k])) to_do.push_back(&cases[k]);
@@ -125,7 +130,7 @@ ExitCode command_study(const CommandOptions& options) {
     return ExitCode::interrupted;
   }
   if (options.report) add_study_page(out, study, rows);
-  print_list(rows, options.json);
+  print_list(only_ours(rows), options.json);
   spdlog::info("the table is {}", (out / "study.csv").string());
   std::size_t faults = 0;
   for (std::size_t k = 0; k < rows.size(); ++k) faults += ours[k] && !rows[k].fault.empty();

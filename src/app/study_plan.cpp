@@ -94,19 +94,19 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
       for (const std::string& e : g.engines) {
         c.engine = e;
         c.key = result_key(c.loaded, e, study.spec.cell);
-        c.folder = std::filesystem::path(g.name) / folder_name(c.name) / e;
+        c.own_folder = std::filesystem::path(g.name) / folder_name(c.name) / e;
         out.push_back(c);
       }
     }
   }
   if (!faults.empty()) throw CaseError(std::move(faults));
   std::map<std::string, std::filesystem::path> owner;
-  std::set<std::filesystem::path> taken;
+  std::map<std::filesystem::path, std::string> taken;
   for (StudyCase& c : out) {
-    const auto [known, is_new] = owner.emplace(c.key, c.folder);
-    c.first = is_new;
-    if (!is_new) c.folder = known->second;
-    else if (!taken.insert(c.folder).second) known->second = c.folder = c.folder.parent_path().string() + "-" + c.key.substr(0, 8) + "/" + c.engine;  // "1 mm" and "1_mm"
+    if (const auto [at, is_new] = taken.emplace(c.own_folder, c.key); !is_new && at->second != c.key)  // "1 mm" and "1_mm"
+      c.own_folder = c.own_folder.parent_path().string() + "-" + c.key.substr(0, 8) + "/" + c.engine;
+    const auto [known, is_new] = owner.emplace(c.key, c.own_folder);
+    c.first = is_new, c.folder = known->second;
   }
   return out;
 }

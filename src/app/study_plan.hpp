@@ -20,7 +20,8 @@ struct StudyCase {
   std::vector<std::string> overrides;
   LoadedCase loaded;
   std::string key;                                            ///< SHA-256 of what decides the result
-  std::filesystem::path folder;                               ///< below the study's; shared by cases of the same key
+  std::filesystem::path folder;                               ///< of its result, below the study's; shared by cases of the same key
+  std::filesystem::path own_folder;                           ///< where it would stand if no other case had its key
   bool first = true;                                          ///< false: an earlier case of the list has the same key and is computed for both
   std::string label() const { return group + "/" + name + (engine == "fem" ? " by finite elements" : " by half-spaces"); }
 };

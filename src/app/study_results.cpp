@@ -9,6 +9,7 @@
 #include <cmath>
 #include <csignal>
 #include <fstream>
+#include <map>
 
 #include "core/faults.hpp"
 #include "io/csv.hpp"
@@ -124,6 +125,15 @@ bool is_left_behind(const std::string& name) {
 }
 
 }  // namespace
+
+void find_results(const fs::path& out, std::vector<StudyCase>& cases) {
+  std::map<std::string, fs::path> found;
+  for (const StudyCase& c : cases)
+    for (const fs::path& folder : {c.folder, c.own_folder})
+      if (!found.contains(c.key) && holds(out / folder, c)) found[c.key] = folder;
+  for (StudyCase& c : cases)
+    if (const auto at = found.find(c.key); at != found.end()) c.folder = at->second;
+}
 
 bool is_done(const fs::path& out, const StudyCase& c) { return holds(out / c.folder, c); }
 

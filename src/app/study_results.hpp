@@ -20,6 +20,9 @@ struct StudyRow {
   std::vector<std::pair<std::string, double>> numbers;    ///< columns of the table; empty unless done
 };
 
+/// A result that stands where another case of the same key would put it (the groups have changed their order) is taken from there.
+void find_results(const std::filesystem::path& out, std::vector<StudyCase>& cases);
+
 /// The folder holds the result of this very case.
 bool is_done(const std::filesystem::path& out, const StudyCase& c);
 /// Why the last attempt failed; empty if none did.

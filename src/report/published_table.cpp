@@ -59,7 +59,7 @@ std::string reason(const PublishedNumber& n, const Answers& a, const Answers& ot
   else if (settled || (on_mesh && !std::isfinite(best))) out = "agrees";
   else if (on_mesh) out = fmt::format("mesh artefact: our run on the paper's mesh agrees, the converged answer is {}", number_text(best));
   else {
-    for (const double v : {other.converged, other.half_space, other.paper_mesh})
+    for (const double v : {fem ? other.converged : other.half_space, other.paper_mesh})
       if (out.empty() && std::isfinite(v) && agrees(n, v)) out = fmt::format("other definition: {} gives {}", n.other_is, number_text(v));
     if (out.empty()) out = "not explained";
   }

@@ -1,6 +1,7 @@
 #include "report/study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -160,6 +161,7 @@ void add_maps(const StudyFigure& f, const std::vector<StudyEntry>& entries, Repo
 struct Worst {
   ReportCheck check;
   int held = 0, of = 0;
+  std::vector<std::string> failing;
 };
 
 /// A run without its fields: checks look at numbers and options alone.
@@ -171,11 +173,10 @@ ReportRun for_checks(const StudyEntry& e) {
   return run;
 }
 
-/// One line for each kind of check: how many cases hold it and the worst of them; each case that does not hold it has a line of its own.
+/// One line for each kind of check: how many cases hold it, the worst of them, and who does not.
 void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportTable& pairs) {
   std::map<std::string, Worst> worst;
   std::vector<std::string> order;
-  std::vector<ReportCheck> failed;
   const auto add = [&](ReportCheck c, const std::string& whose) {
     if (!c.judged) return;
     c.runs.clear();
@@ -183,9 +184,9 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
     if (!worst.contains(kind)) order.push_back(kind);
     Worst& w = worst[kind];
     ++w.of, w.held += c.ok;
-    c.note = whose + (c.note.empty() ? "" : "; " + c.note);
+    if (!c.ok) w.failing.push_back(fmt::format("{} ({:.3g})", whose, c.value));
+    c.note = whose;
     if (w.of == 1 || !(c.value <= w.check.value)) w.check = c;
-    if (!c.ok) failed.push_back(c);
   };
   std::set<fs::path> seen;
   std::vector<ReportRun> half_spaces;
@@ -218,10 +219,9 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
   for (const std::string& kind : order) {
     Worst& w = worst[kind];
     w.check.ok = w.held == w.of;
-    w.check.note = fmt::format("{} of {} cases; the worst: {}", w.held, w.of, w.check.note);
+    w.check.note = fmt::format("{} of {} cases; the worst: {}{}{}", w.held, w.of, w.check.note, w.failing.empty() ? "" : "; outside: ", fmt::join(w.failing, ", "));
     report.checks.push_back(w.check);
   }
-  for (ReportCheck& c : failed) report.checks.push_back(std::move(c));
 }
 
 ReportTable cases_table(const std::vector<StudyEntry>& entries) {

@@ -81,6 +81,10 @@ class Cases(StudyTest):
         self.assertEqual(rows[6]["folder"], rows[4]["folder"])
         self.assertEqual(rows[6]["p_max_MPa"], rows[4]["p_max_MPa"])
         self.assertEqual(len(self.stamps()), 7)
+        before = self.stamps()
+        grid = GRID.index("[[group]]")
+        self.assertIn("0 of them to compute", self.solve(GRID[:grid] + '[[group]]\nname = "again"\nset = { "layer.0.young_ratio" = 2 }\n[group.vary]\n"layer.0.thickness" = ["2 mm", "3 mm"]\n' + GRID[grid:]))
+        self.assertEqual(self.stamps(), before, "in another order too")
 
     def test_both_engines(self):
         self.case(TINY)
