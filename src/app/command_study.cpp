@@ -78,8 +78,8 @@ void print_list(const std::vector<StudyRow>& rows, bool json) {
 
 ExitCode command_study(const CommandOptions& options) {
   const LoadedStudy study = study_of(options);
-  const double cell = cell_size(study.spec.cell);
-  static_cast<void>(cell);  // a wrong one is told before the first case
+  cell_size(study.spec.cell);  // what is wrong is told before the first case
+  const Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
   const Shard shard = parse_shard(options.shard);
   std::vector<StudyCase> cases = plan_study(study, options.overrides);
   const std::vector<bool> ours = chosen(study, cases, options.engine, options.groups, shard);
@@ -129,7 +129,7 @@ ExitCode command_study(const CommandOptions& options) {
     spdlog::warn("stopped; the same command goes on where it was");
     return ExitCode::interrupted;
   }
-  if (options.report) add_study_page(out, study, rows);
+  if (options.report) add_study_page(out, study, published, rows);
   print_list(only_ours(rows), options.json);
   spdlog::info("the table is {}", (out / "study.csv").string());
   std::size_t faults = 0;

@@ -31,10 +31,9 @@ void write_table(const std::filesystem::path& file, const ReportTable& t) {
 
 }  // namespace
 
-void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const std::vector<StudyRow>& rows) {
+void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const Published& published, const std::vector<StudyRow>& rows) {
   if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return;
   try {
-    const Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
     const Report report = study_report(study.spec, published, entries_of(out, rows));
     for (const ReportTable& t : report.tables)
       if (t.id == "published" || t.id == "claims") write_table(out / (t.id + ".csv"), t);

@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "app/study_results.hpp"
+#include "io/published.hpp"
 #include "io/study_file.hpp"
 
 namespace railstrata {
 
 /// Writes report.html into the study's folder: its figures, tables and checks over all cases that are done. Failing, it warns: the results are there without it.
-void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const std::vector<StudyRow>& rows);
+void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const Published& published, const std::vector<StudyRow>& rows);
 
 }  // namespace railstrata

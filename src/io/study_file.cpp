@@ -10,6 +10,7 @@
 
 #include "core/nearest_word.hpp"
 #include "io/text_file.hpp"
+#include "io/units.hpp"
 #include "io/variation.hpp"
 
 namespace railstrata {
@@ -59,7 +60,7 @@ class StudyReader {
   void read_study(const toml::table& t) {
     known(t, "study", {"title", "base", "engines", "cell", "set", "published"});
     spec_.title = text(t, "title", source_.file().stem().string());
-    spec_.cell = text(t, "cell", "");
+    spec_.cell = length(t, "cell");
     base_ = file(t, "base");
     spec_.published = file(t, "published");
     engines_ = engines_of(t, {"fem", "bem"});
@@ -253,6 +254,16 @@ class StudyReader {
     if (const auto* words = node->as_string()) return words->get();
     source_.complain_at(place_of(*node), fmt::format("{} = {}: must be a text", key, toml_text(*node)), "put it in quotes");
     return otherwise;
+  }
+
+  std::string length(const toml::table& t, const char* key) {
+    const std::string written = text(t, key, "");
+    try {
+      if (!written.empty()) parse_quantity(written, dimension::kLength);
+    } catch (const UnitError& e) {
+      source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": {}", key, written, e.what()), e.remedy);
+    }
+    return written;
   }
 
   std::vector<std::string> words(const toml::table& t, const char* key) {

@@ -76,20 +76,21 @@ TEST(StudyFile, AGroupWithoutKeysIsOneCaseAndTakesBaseEnginesAndSettingsFromTheS
 }
 
 TEST(StudyFile, EveryMistakeIsToldAtOnceWithPlaceAndRemedy) {
-  EXPECT_EQ(errors("[study]\nbase = \"nowhere.toml\"\nengine = \"fem\"\n[[group]]\nname = \"a b\"\nbase = \"base.toml\"\n[group.vary]\nspeed = [1]\n\"drive.speed\" = \"10 m/s\"\n\"mesh.largest\" = [\"9 mm\", \"9 mm\"]\n"
+  EXPECT_EQ(errors("[study]\nbase = \"nowhere.toml\"\nengine = \"fem\"\ncell = \"1 s\"\n[[group]]\nname = \"a b\"\nbase = \"base.toml\"\n[group.vary]\nspeed = [1]\n\"drive.speed\" = \"10 m/s\"\n\"mesh.largest\" = [\"9 mm\", \"9 mm\"]\n"
                    "[group.zip]\n\"mesh.largest\" = [\"8 mm\"]\n\"mesh.end_length\" = [\"80 mm\", \"90 mm\"]\n[[group]]\nname = \"x\"\nbase = \"base.toml\"\nengines = [\"bme\"]\n[[figure]]\nkind = \"trend\"\ngroups = [\"y\"]\n"),
             (std::vector<std::string>{
                 "2:8: base = \"nowhere.toml\": there is no file " + (kFile.parent_path() / "nowhere.toml").string() + " | name it relative to the study's folder",
                 "3:1: unknown key study.engine | did you mean engines? keys of [study]: title, base, engines, cell, set, published",
-                "5:8: group.name = \"a b\": must be a word of letters, digits, _ - and .: folders bear it | write name = \"layers\"",
-                "8:1: speed names no table of the case | write \"table.key\", e.g. \"drive.speed\" or \"layer.0.thickness\"",
-                "9:17: drive.speed under vary: must be a list of at least one value | write \"drive.speed\" = [\"10 m/s\"], or put a single value into [group.set]",
-                "10:27: mesh.largest has the value \"9 mm\" twice | leave one out",
-                "12:19: mesh.largest is varied twice in this group | name a key once, in vary, zip or case",
-                "13:22: mesh.end_length has 2 values and mesh.largest has 1: what is zipped goes together, value by value | give every key of [group.zip] equally many values, or put it into [group.vary]",
-                "17:11: engines: there is no engine \"bme\" | write engines = [\"fem\", \"bem\"], or one of the two",
-                "18:1: figure \"figure-1\" is a trend and has no x | name the key along its axis: x = \"layer.0.thickness\"",
-                "20:10: figure \"figure-1\": there is no group \"y\" | groups: x"}));
+                "4:8: cell = \"1 s\": \"s\" is not the unit of a length | write a length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)",
+                "6:8: group.name = \"a b\": must be a word of letters, digits, _ - and .: folders bear it | write name = \"layers\"",
+                "9:1: speed names no table of the case | write \"table.key\", e.g. \"drive.speed\" or \"layer.0.thickness\"",
+                "10:17: drive.speed under vary: must be a list of at least one value | write \"drive.speed\" = [\"10 m/s\"], or put a single value into [group.set]",
+                "11:27: mesh.largest has the value \"9 mm\" twice | leave one out",
+                "13:19: mesh.largest is varied twice in this group | name a key once, in vary, zip or case",
+                "14:22: mesh.end_length has 2 values and mesh.largest has 1: what is zipped goes together, value by value | give every key of [group.zip] equally many values, or put it into [group.vary]",
+                "18:11: engines: there is no engine \"bme\" | write engines = [\"fem\", \"bem\"], or one of the two",
+                "19:1: figure \"figure-1\" is a trend and has no x | name the key along its axis: x = \"layer.0.thickness\"",
+                "21:10: figure \"figure-1\": there is no group \"y\" | groups: x"}));
 }
 
 TEST(StudyFile, NoGroupNoTomlNoStudy) {
