@@ -18,7 +18,7 @@ class Reader {
  public:
   Reader(CaseSource& source, const toml::table& t, std::vector<std::string> known) : source_(source), table_(t) {
     for (const auto& [key, node] : t)
-      if (std::find(known.begin(), known.end(), std::string(key.str())) == known.end()) source_.complain_at(place_of(node), fmt::format("unknown key {}", key.str()), "see cases/paper/published.toml for an example");
+      if (std::find(known.begin(), known.end(), std::string(key.str())) == known.end()) source_.complain_at(place_of(node), fmt::format("unknown key {}", key.str()), "see data/paper/published.toml for an example");
   }
   std::string text(const char* key, bool needed = false) {
     const toml::node* n = table_.get(key);

@@ -102,7 +102,7 @@ class Program(FromOutside):
 
     def test_every_shipped_case_is_accepted(self):
         cases = sorted(SOURCE.glob("cases/**/*.toml"))
-        cases = [c for c in cases if not c.name.endswith("expect.toml")]
+        cases = [c for c in cases if not c.name.endswith("expect.toml") and c.name != "study.toml"]  # studies: study_test.py
         self.assertGreaterEqual(len(cases), 4)
         for case in cases:
             rc, _, err = railstrata("check", case, *COARSE)

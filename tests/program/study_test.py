@@ -145,7 +145,7 @@ class Paper(FromOutside):
         cases = [(c["engine"], f"{c['group']}/{c['case']}") for c in json.loads(out)]
         self.assertEqual(len(cases), len(set(cases)))
         names = {name for _, name in cases} | {"mesh/elements 1"}  # the same case as one of paper_layers
-        published = tomllib.loads((folder / "published.toml").read_text())
+        published = tomllib.loads((SOURCE / "data/paper/published.toml").read_text())
         for entry in published["number"] + published["claim"]:
             for key in ("given", "against"):
                 self.assertIn(entry.get(key, "mesh/elements 1"), names)

@@ -142,7 +142,7 @@ TEST(AxisValue, IsTheNumberAndItsUnit) {
 
 TEST(Published, ThePapersFileIsReadAndItsCasesAreInTheStudy) {
   const std::filesystem::path folder = std::filesystem::path(RAILSTRATA_SOURCE_DIR) / "cases/paper";
-  const Published p = load_published(folder / "published.toml");
+  const Published p = load_published(std::filesystem::path(RAILSTRATA_SOURCE_DIR) / "data/paper/published.toml");
   const LoadedStudy study = load_study(folder / "study.toml");
   EXPECT_EQ(p.columns.size(), 3u);
   EXPECT_GT(p.numbers.size(), 25u);
