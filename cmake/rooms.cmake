@@ -25,7 +25,7 @@ set(ROOM_LIBS_halfspace Eigen3::Eigen)
 set(ROOM_LIBS_bem fftw3)
 set(ROOM_LIBS_fem Eigen3::Eigen)
 set(ROOM_LIBS_post Eigen3::Eigen)
-set(ROOM_LIBS_io nlohmann_json::nlohmann_json ZLIB::ZLIB tomlplusplus::tomlplusplus OpenSSL::Crypto)
+set(ROOM_LIBS_io nlohmann_json::nlohmann_json ZLIB::ZLIB tomlplusplus::tomlplusplus OpenSSL::Crypto hdf5::hdf5)
 set(ROOM_LIBS_app spdlog::spdlog CLI11::CLI11)
 
 function(railstrata_rooms)

@@ -24,6 +24,8 @@ class PhaseReport {
  public:
   explicit PhaseReport(bool shown) : shown_(shown) {}
   void operator()(const std::string& phase, double fraction, const std::string& detail) {
+    if (phase == "warning") return spdlog::warn("{}", detail);
+    if (phase == "checkpoint") return spdlog::debug("checkpoint at {}", detail);
     if (phase != phase_) {
       phase_ = phase;
       bar_.reset();
@@ -40,29 +42,70 @@ class PhaseReport {
   std::optional<Progress> bar_;
 };
 
+// A word as a shell takes it.
+std::string shell_word(const std::string& word) {
+  if (word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+=:,@%") == std::string::npos) return word;
+  std::string out = "'";
+  for (char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return out + "'";
+}
+
+// The case of the folder, as it was run.
+LoadedCase case_of_folder(const CommandOptions& options) {
+  if (!options.case_file.empty() || !options.overrides.empty() || !options.out.empty() || options.force)
+    throw CaseError("--resume goes on with the run of a folder as it was begun", "leave out the case, --set, --out and --force; another case is another run");
+  if (!std::filesystem::is_directory(options.resume)) throw CaseError(fmt::format("--resume {}: there is no such folder", options.resume.string()), "name the result folder of a run that was interrupted");
+  if (std::filesystem::exists(options.resume / "summary.json") && !std::filesystem::exists(checkpoint_file(options.resume)) && !std::filesystem::exists(previous_checkpoint_file(options.resume)))
+    throw CaseError(fmt::format("there is nothing to resume: {} holds a finished run", options.resume.string()), "start another with `railstrata run CASE`");
+  return load_case(options.resume / "case.toml");
+}
+
+// Old results must not pass for those of a run that was interrupted.
+void clear_old_results(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {"summary.json", "report.html"}) std::filesystem::remove(folder / name, ignored);
+  remove_checkpoints(folder);
+}
+
 }  // namespace
 
 ExitCode command_run(const CommandOptions& options) {
-  const LoadedCase loaded = load_case_of(options);
-  const std::filesystem::path out = output_folder_of(options, loaded);
-  place(loaded.spec, loaded.folder());  // faults of the input before a folder is made
-  prepare_output_folder(out, options.force);
-  write_origin(out, loaded, options.command_line, options.threads);
-  spdlog::info("{}: results go to {}", loaded.spec.title, out.string());
+  stop_flag();  // from here on a signal is a wish
+  FemRequest request;
+  request.times = {wall_time("--checkpoint-every", options.checkpoint_every), wall_time("--max-time", options.max_time)};
+  const bool resuming = !options.resume.empty();
+  if (!resuming && options.case_file.empty()) throw CaseError("case is required", "name a case file, or go on with an interrupted run: railstrata run --resume FOLDER");
+  const LoadedCase loaded = resuming ? case_of_folder(options) : load_case_of(options);
+  const std::filesystem::path out = resuming ? options.resume : output_folder_of(options, loaded);
+  request.case_sha256 = case_identity(loaded);
+  request.program = version_text();
+  request.provenance = table_origin(loaded);
+  if (resuming) {
+    FoundCheckpoint found = read_checkpoint(out, request.case_sha256);
+    for (const std::string& note : found.notes) spdlog::warn("{}; the checkpoint before it is taken", note);
+    if (found.checkpoint.origin.program != request.program)
+      spdlog::warn("the run was begun by RailStrata {}, this is {}: it goes on, but not with the bits of a run in one go", found.checkpoint.origin.program, request.program);
+    request.provenance = found.checkpoint.origin.provenance;
+    spdlog::info("{}: goes on in {} at x = {:.2f} mm, t = {:.4g} ms", loaded.spec.title, out.string(), 1e3 * found.checkpoint.run.stepper.state.axle.x, 1e3 * found.checkpoint.run.stepper.state.time);
+    request.resume = std::move(found.checkpoint.run);
+  } else {
+    place(loaded.spec, loaded.folder());  // faults of the input before a folder is made
+    prepare_output_folder(out, options.force);
+    clear_old_results(out);
+    write_origin(out, loaded, options.command_line, options.threads);
+    spdlog::info("{}: results go to {}", loaded.spec.title, out.string());
+  }
 
   if (const std::string many = oversubscription(options.threads); !many.empty()) spdlog::warn("{}", many);
   if (const std::string busy = competition(options.threads); !busy.empty()) spdlog::info("{}", busy);
 
-  FemRequest request;
   request.spec = loaded.spec;
   request.case_folder = loaded.folder();
   request.out = out;
-  request.provenance = table_origin(loaded);
   request.commit = commit_text();
   request.threads = options.threads;
   PhaseReport report(spdlog::default_logger()->level() <= spdlog::level::info);
   request.report = std::ref(report);
-  request.stop = &stop_flag();
   const FemOutcome outcome = run_fem(request);
 
   for (const Summary& s : outcome.summaries) {
@@ -70,8 +113,8 @@ ExitCode command_run(const CommandOptions& options) {
     else fmt::print("{}", summary_text(s));
   }
   if (outcome.stopped) {
-    spdlog::warn("stopped before the last wanted position; {} holds the history so far", out.string());
-    return ExitCode::interrupted;
+    spdlog::warn("stopped {}; go on with\n    railstrata run --resume {}", outcome.limit_reached ? "for --max-time" : "on request", shell_word(out.string()));
+    return outcome.limit_reached ? ExitCode::unfinished : ExitCode::interrupted;
   }
   if (options.report) add_report(out, options.threads);
   const bool all_ok = std::all_of(outcome.summaries.begin(), outcome.summaries.end(), all_checks_hold);

@@ -20,6 +20,8 @@ struct CommandOptions {
   std::string cell;                       ///< --cell of the half-space commands: a length; empty: the engine's default
   std::filesystem::path reference;        ///< second folder of `compare`
   std::vector<std::filesystem::path> folders;  ///< of `report`
+  std::filesystem::path resume;           ///< --resume of `run`: a result folder with a checkpoint
+  std::string checkpoint_every = "10 min", max_time = "never";  ///< --checkpoint-every, --max-time of `run`: wall times
   bool report = true;                     ///< --no-report of `run`, `bem` and `study`
   bool reference_solution = true;         ///< --no-reference of `report`
   std::vector<std::string> vary;          ///< --vary of `sweep`

@@ -28,6 +28,13 @@ void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
   write_whole_file(folder / "provenance.json", provenance_json(command_line, loaded.overrides, loaded.inputs, threads));
 }
 
+std::string case_identity(const LoadedCase& loaded) {
+  std::string all = loaded.resolved_toml;
+  for (const std::filesystem::path& file : loaded.inputs)
+    if (std::filesystem::absolute(file) != std::filesystem::absolute(loaded.file)) all += sha256_of_file(file);
+  return sha256_of(all);
+}
+
 std::vector<std::string> table_origin(const LoadedCase& loaded) {
   return {fmt::format("RailStrata {}", version_text()), fmt::format("case: {} ({})", loaded.file.filename().string(), loaded.spec.title),
           "x from the axle in the rolling direction, y towards the field side; tractions act on the rail"};

@@ -39,6 +39,10 @@ void add_no_report(CLI::App& sub, CommandOptions& options) { sub.add_flag("!--no
 
 void add_run(CLI::App& sub, CommandOptions& options) {
   add_case_and_output(sub, options);
+  sub.get_option("case")->required(false);
+  sub.add_option("--resume", options.resume, "Go on with the interrupted run of this result folder: the same bits as in one go")->type_name("FOLDER");
+  sub.add_option("--checkpoint-every", options.checkpoint_every, "Wall time between checkpoints (default: \"10 min\"; 0: only when stopped)");
+  sub.add_option("--max-time", options.max_time, "Stop in time for a batch limit, with a checkpoint: \"110 min\" (exit code 5)");
   add_no_report(sub, options);
 }
 
@@ -109,7 +113,9 @@ constexpr Entry kEntries[] = {
      "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 mm\"\n  railstrata check cases/paper/base.toml --json\n", add_case, command_check},
     {"mesh", "Make the meshes and write them as VTU with a table of their quality", "Examples:\n  railstrata mesh cases/quick --out /tmp/mesh\n", add_case_and_output, command_mesh},
     {"run", "Run a case: static preload, rolling, results",
-     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n  railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n",
+     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n  railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n"
+     "  railstrata run cases/paper/base.toml --max-time \"110 min\"; railstrata run --resume results/base\n\n"
+     "Ctrl-C, SIGTERM: finish the step, write a checkpoint, say how to go on (a second one quits at once). SIGUSR1: write a checkpoint, go on.\n",
      add_run, command_run},
     {"bem", "Solve a case by half-space theory, in about a second: the files and numbers of `run`, no meshes",
      "Examples:\n  railstrata bem cases/paper/base.toml\n  railstrata bem cases/quick --cell \"0.5 mm\" --out results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n",
@@ -181,7 +187,7 @@ int tell(const CaseError& e, bool json) {
 int parse_and_run(const std::vector<std::string>& words, CommandOptions& options) {
   CLI::App app{"RailStrata: rolling contact of a wheel on a layered rail", "railstrata"};
   app.footer("Examples:\n  railstrata check cases/quick\n  railstrata run cases/quick --threads 2\n  railstrata bem cases/quick\n  railstrata run --help\n\nExit codes: 0 done, 1 a check of the result failed, 2 the input is wrong, "
-             "3 the numbers went wrong, 4 the machine could not, 70 a fault of the program, 130 interrupted\n");
+             "3 the numbers went wrong, 4 the machine could not, 5 stopped for --max-time (resume it), 70 a fault of the program, 130 interrupted\n");
   app.set_version_flag("--version", "railstrata " + version_text());
   app.require_subcommand(1);
   app.fallthrough();
@@ -224,6 +230,8 @@ int run_program(int argc, const char* const* argv) {
     return tell(e, options.json);
   } catch (const NumericalError& e) {
     return tell(ExitCode::numerics, e.what());
+  } catch (const Interrupted& e) {
+    return tell(ExitCode::interrupted, e.what());
   } catch (const EnvironmentError& e) {
     return tell(ExitCode::environment, e.what());
   } catch (const std::filesystem::filesystem_error& e) {

@@ -37,9 +37,11 @@ void Progress::clear() {
 
 void Progress::update(double fraction) {
   const auto now = Clock::now();
+  if (first_ < 0) first_ = fraction;
   if (!shown_ || now < next_) return;
   next_ = now + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(30000));
-  const std::string line = progress_bar(what_, fraction, std::chrono::duration<double>(now - start_).count());
+  const double elapsed = std::chrono::duration<double>(now - start_).count();
+  const std::string line = progress_bar(what_, fraction, fraction > first_ ? elapsed * fraction / (fraction - first_) : elapsed);
   fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n");
   std::fflush(stderr);
   drawn_ = true;

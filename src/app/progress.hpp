@@ -27,6 +27,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   std::string what_;
   bool shown_, terminal_, drawn_ = false;
+  double first_ = -1;  // a resumed run does not begin at 0
   Clock::time_point start_ = Clock::now(), next_ = start_;
 };
 

@@ -1,11 +1,13 @@
 #pragma once
 // The finite element run of a case, from the spec to the files of its folder.
-#include <atomic>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/run_control.hpp"
+#include "io/checkpoint_file.hpp"
 #include "model/case_spec.hpp"
 #include "post/summary.hpp"
 
@@ -22,16 +24,21 @@ struct FemRequest {
   std::string commit;
   int threads = 0;
   RunReporter report;
-  const std::atomic<bool>* stop = nullptr;
+  RunTimes times;
+  std::string case_sha256;                ///< names the case in checkpoints
+  std::string program;                    ///< version_text()
+  std::optional<RunState> resume;         ///< from a checkpoint of this folder
 };
 
 struct FemOutcome {
   std::vector<Summary> summaries;         ///< one per wanted position, in order of position; the last one is summary.json
-  bool stopped = false;                   ///< by the stop flag, before the last position: results of the finished positions only
+  bool stopped = false;                   ///< before the last position, with a checkpoint: results of the finished positions only
+  bool limit_reached = false;             ///< that was for RunTimes::limit
 };
 
 /// Writes into request.out: history.csv, and per position (in the folder itself for the last, in position_<mm>/ for the others) summary.json, patch.csv,
-/// centre_line.csv, depth_line.csv, patch.vtp, rail.vtu, wheel.vtu; patch.pvd with its frames. Throws as build_model and run_rolling do.
+/// centre_line.csv, depth_line.csv, patch.vtp, rail.vtu, wheel.vtu; patch.pvd with its frames; checkpoint.h5 while it runs, removed when all results are there. A checkpoint on the way that cannot be written is a warning to
+/// `report`, a last one an error. Throws as build_model and run_rolling do.
 FemOutcome run_fem(const FemRequest& request);
 
 }  // namespace railstrata

@@ -53,6 +53,15 @@ class MortarContact {
   /// Gaps and weights of the chosen nodes at the present positions. The result is reused by the next call.
   const MortarRows& rows(const Field& u_rail, const Field& u_wheel, const AxlePose& pose);
 
+  struct Facet {
+    int column, station;
+    Vec2 correction[4];           ///< tangential (x, y) mismatch of the last step at the Gauss points
+  };
+  /// All that a search remembers of what came before it.
+  const std::vector<Facet>& memory() const { return facets_; }
+  /// To be followed by a search.
+  void recall(std::vector<Facet> memory) { facets_ = std::move(memory); }
+
  private:
   struct Hit {                    // the wheel's surface opposite a rail point
     int column, station;          // facet
@@ -70,10 +79,6 @@ class MortarContact {
   std::vector<double> sin_t_, cos_t_;  // of the wheel's stations
   double cos_psi_ = 1, sin_psi_ = 0;
   std::vector<int> chosen_column_, chosen_station_;
-  struct Facet {
-    int column, station;
-    Vec2 correction[4];           // tangential (x, y) mismatch of the last step at the Gauss points
-  };
   std::vector<Facet> facets_;
   struct GaussHit {
     Hit hit[4];

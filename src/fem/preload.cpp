@@ -43,7 +43,7 @@ class Preload {
       if (!std::isfinite(out.residual)) throw NumericalError("static preload: the residual is not a number");
       if (out.residual < tolerance && (compliant_ || out.penetration < kPenetration * sys_.model.hertz.approach)) break;
       if (step > kMostSteps) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e})", step, out.residual, tolerance));
-      if (stop && *stop) throw NumericalError("static preload: stopped");
+      if (stop && *stop) throw Interrupted("stopped during the static preload: there is nothing to resume yet");
       hold_gaps_shut(r);
       out.cg_iterations += conjugate_gradients(r, load * std::max(kLastStep * tolerance, kForcing * std::min(out.residual, 1.0)));
       advance(r);

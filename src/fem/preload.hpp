@@ -29,7 +29,7 @@ struct PreloadResult {
 /// Called after every Newton step with (relative residual, wanted residual, CG iterations so far).
 using PreloadProgress = std::function<void(double, double, int)>;
 
-/// Throws NumericalError when it does not converge, or `stop` was set.
+/// Throws NumericalError when it does not converge, Interrupted when `stop` was set.
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {}, const std::atomic<bool>* stop = nullptr,
                             const ClusterSizes& clusters = {});
 

@@ -107,6 +107,103 @@ void require_contact(const Stepper& st, double load) {
                                      1e3 * st.state().time, 1e3 * st.position(), 1e-3 * st.forces().z, 1e-3 * load));
 }
 
+std::vector<double> sorted_targets(const RollingSystem& sys) {
+  std::vector<double> targets = sys.model.spec.run.positions;
+  std::sort(targets.begin(), targets.end());
+  return targets;
+}
+
+/// Where samples are wanted, in order of position, and for which of the wanted positions.
+struct Wanted {
+  double position;
+  std::size_t group;
+};
+std::vector<Wanted> wanted_samples(const RollingSystem& sys) {
+  std::vector<Wanted> wanted;
+  std::size_t group = 0;
+  for (double target : sorted_targets(sys)) {
+    for (double x : sample_positions(sys, target)) wanted.push_back({x, group});
+    ++group;
+  }
+  std::stable_sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) { return a.position < b.position; });
+  return wanted;
+}
+
+RollingSample sample_now(const Stepper& st) {
+  RollingSample s = take_sample(st.system(), st.state().u_rail, st.wheel_displacement(), st.state().tractions, {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
+  s.time = st.state().time;
+  s.axle = st.state().axle;
+  s.forces = st.forces();
+  s.creepage = st.creepage();
+  return s;
+}
+
+RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& st, RunState run, Clock::time_point start_time) {
+  const CaseSpec& spec = sys.model.spec;
+  RunResult& out = run.result;
+  out.limits = st.plan().limits;
+  out.dt = st.dt();
+  const double earlier_seconds = out.wall_seconds;
+  const std::vector<Wanted> wanted = wanted_samples(sys);
+  const double end = std::max(sys.model.x_end, wanted.back().position);
+  const int frames = std::max(spec.output.series_frames, 1);
+  auto save = [&] {
+    if (!observer.save) return;
+    out.wall_seconds = earlier_seconds + seconds_since(start_time);
+    out.reached_edge = st.reached_edge();
+    run.stepper = st.memory();
+    observer.save(run);
+    run.stepper = {};
+  };
+
+  while (run.next_sample < wanted.size()) {
+    if (observer.demand && st.can_be_remembered()) {
+      const Demand demand = observer.demand();
+      if (demand != Demand::go_on) save();
+      if (demand == Demand::save_and_stop) {
+        out.stopped = true;
+        break;
+      }
+    }
+    const bool record = st.position() >= run.next_history;
+    if (record) st.want_energy();
+    st.step();
+    require_sound(st, spec.mesh.element_size);
+    require_forward(st);
+    if (record) {
+      run.next_history += spec.run.history_interval;
+      const EnergyBalance now = st.energy();
+      if (!run.started) run.start_energy = now, run.started = true;
+      const HistoryRow row = history_row(st, now, run.start_energy);
+      require_contact(st, sys.model.load);
+      run.largest_closure = std::max(run.largest_closure, std::abs(row.closure));
+      run.largest_energy = std::max({run.largest_energy, now.torque_work, now.strain});
+      out.hourglass_share = std::max(out.hourglass_share, now.hourglass / now.strain);
+      out.run_up_damping_energy = now.damping;
+      out.history.push_back(row);
+      if (observer.history) observer.history(row);
+      if (observer.progress) observer.progress(st.position() / end, row);
+    }
+    if (observer.frame && st.position() >= run.next_frame) {
+      run.next_frame += end / frames;
+      run.frame_times.push_back(st.state().time);
+      observer.frame(sample_now(st));
+    }
+    while (run.next_sample < wanted.size() && st.position() >= wanted[run.next_sample].position) {
+      out.penetration = std::max(out.penetration, st.forces().penetration);
+      out.positions[wanted[run.next_sample].group].samples.push_back(sample_now(st));
+      ++run.next_sample;
+    }
+  }
+  if (out.stopped)  // a position half measured is none
+    while (!out.positions.empty() && out.positions.back().samples.size() < sample_positions(sys, out.positions.back().position).size()) out.positions.pop_back();
+  out.closure = run.largest_energy > 0 ? run.largest_closure / run.largest_energy : 0;
+  out.reached_edge = st.reached_edge();
+  out.steps = st.state().step;
+  out.wall_seconds = earlier_seconds + seconds_since(start_time);
+  return std::move(out);
+}
+
 }  // namespace
 
 RollingSample take_sample(const RollingSystem& sys, const Field& u_rail, const Field& u_wheel, const TractionMemory& tractions, const AxlePose& pose) {
@@ -151,76 +248,17 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
   Stepper st(sys, preload);
   preload.u_rail = preload.u_wheel = Field{};
   out.preload = std::move(preload);
-  out.limits = st.plan().limits;
-  out.dt = st.dt();
+  for (double target : sorted_targets(sys)) out.positions.push_back({target, {}});
+  RunState state;
+  state.result = std::move(out);
+  return roll(sys, observer, st, std::move(state), start_time);
+}
 
-  struct Wanted {
-    double position;
-    std::size_t group;
-  };
-  std::vector<Wanted> wanted;
-  std::vector<double> targets = run.positions;
-  std::sort(targets.begin(), targets.end());
-  for (double target : targets) {
-    out.positions.push_back({target, {}});
-    for (double x : sample_positions(sys, target)) wanted.push_back({x, out.positions.size() - 1});
-  }
-  std::stable_sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) { return a.position < b.position; });
-  const double end = std::max(sys.model.x_end, wanted.back().position);
-
-  std::size_t next_sample = 0;
-  double next_history = 0, next_frame = 0;
-  const int frames = std::max(sys.model.spec.output.series_frames, 1);
-  EnergyBalance start_energy;
-  bool started = false;
-  double largest_closure = 0, largest_energy = 0;
-  while (next_sample < wanted.size()) {
-    const bool record = st.position() >= next_history;
-    if (record) st.want_energy();
-    st.step();
-    require_sound(st, sys.model.spec.mesh.element_size);
-    require_forward(st);
-    if (record) {
-      next_history += run.history_interval;
-      const EnergyBalance now = st.energy();
-      if (!started) start_energy = now, started = true;
-      const HistoryRow row = history_row(st, now, start_energy);
-      require_contact(st, sys.model.load);
-      largest_closure = std::max(largest_closure, std::abs(row.closure));
-      largest_energy = std::max({largest_energy, now.torque_work, now.strain});
-      out.hourglass_share = std::max(out.hourglass_share, now.hourglass / now.strain);
-      out.run_up_damping_energy = now.damping;
-      out.history.push_back(row);
-      if (observer.history) observer.history(row);
-      if (observer.progress) observer.progress(st.position() / end, row);
-      if (observer.stop && *observer.stop) {
-        out.stopped = true;
-        break;
-      }
-    }
-    auto sample = [&] {
-      RollingSample s = take_sample(sys, st.state().u_rail, st.wheel_displacement(), st.state().tractions, {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
-      s.time = st.state().time;
-      s.axle = st.state().axle;
-      s.forces = st.forces();
-      s.creepage = st.creepage();
-      return s;
-    };
-    if (observer.frame && st.position() >= next_frame) {
-      next_frame += end / frames;
-      observer.frame(sample());
-    }
-    while (next_sample < wanted.size() && st.position() >= wanted[next_sample].position) {
-      out.penetration = std::max(out.penetration, st.forces().penetration);
-      out.positions[wanted[next_sample].group].samples.push_back(sample());
-      ++next_sample;
-    }
-  }
-  out.closure = largest_energy > 0 ? largest_closure / largest_energy : 0;
-  out.reached_edge = st.reached_edge();
-  out.steps = st.state().step;
-  out.wall_seconds = seconds_since(start_time);
-  return out;
+RunResult resume_rolling(const RollingSystem& sys, const RunObserver& observer, RunState state) {
+  const auto start_time = Clock::now();
+  Stepper st(sys, std::move(state.stepper));
+  state.stepper = {};
+  return roll(sys, observer, st, std::move(state), start_time);
 }
 
 }  // namespace railstrata

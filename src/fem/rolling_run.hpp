@@ -51,8 +51,23 @@ struct RunResult {
   long steps = 0;
   double dt = 0, wall_seconds = 0, preload_wall_seconds = 0;
   long elements = 0, nodes = 0;
-  bool stopped = false;                     ///< ended early because of the stop flag
+  bool stopped = false;                     ///< ended early on demand
 };
+
+/// A run between two steps: all that is needed to go on with it.
+struct RunState {
+  RunResult result;                         ///< so far; wall_seconds: of all sittings
+  StepperMemory stepper;
+  std::size_t next_sample = 0;
+  double next_history = 0, next_frame = 0;  ///< m, wheel positions
+  std::vector<double> frame_times;          ///< s, of the frames told so far
+  EnergyBalance start_energy;
+  bool started = false;                     ///< start_energy is known
+  double largest_closure = 0, largest_energy = 0;  ///< J
+};
+
+/// What may be asked of a run between two steps.
+enum class Demand { go_on, save, save_and_stop };
 
 /// What the run tells while it runs. Any may be empty.
 struct RunObserver {
@@ -60,11 +75,15 @@ struct RunObserver {
   std::function<void(double fraction, const HistoryRow&)> progress;
   std::function<void(const HistoryRow&)> history;
   std::function<void(const RollingSample&)> frame;   ///< evenly spaced frames, output.series_frames of them
-  const std::atomic<bool>* stop = nullptr;
+  const std::atomic<bool>* stop = nullptr;           ///< of the static preload, which throws Interrupted
+  std::function<Demand()> demand;                    ///< asked every sixteen steps
+  std::function<void(const RunState&)> save;
 };
 
-/// Throws NumericalError (NaN, lost contact, a wheel that stops, no equilibrium) and CaseError (wheel too heavy).
+/// Throws NumericalError (NaN, lost contact, a wheel that stops, no equilibrium), CaseError (wheel too heavy) and Interrupted.
 RunResult run_rolling(const RollingSystem& system, const RunObserver& observer);
+/// Goes on with a run that observer.save was given: result, history and samples have the same bits as those of a run in one go.
+RunResult resume_rolling(const RollingSystem& system, const RunObserver& observer, RunState state);
 
 RollingSample take_sample(const RollingSystem& system, const Field& u_rail, const Field& u_wheel, const TractionMemory& tractions, const AxlePose& pose);
 

@@ -6,6 +6,8 @@
 #include <limits>
 #include <numbers>
 
+#include "core/faults.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -36,13 +38,35 @@ EnergyBalance halfway(const EnergyBalance& before, EnergyBalance now) {
 
 }  // namespace
 
-Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : sys_(system), contact_(system.rail_surface, system.wheel_surface), plan_(system) {
+Stepper::Stepper(const RollingSystem& system) : sys_(system), contact_(system.rail_surface, system.wheel_surface), plan_(system) {
   enforcement_.penalty = sys_.model.spec.contact.method == "penalty";
   enforcement_.penalty_stiffness = sys_.penalty_stiffness;
   enforcement_.friction_coefficient = sys_.model.spec.drive.friction_coefficient;
   dt_ = plan_.limits.chosen;
-  start(preload);
+  prepare();
 }
+
+Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : Stepper(system) { start(preload); }
+
+Stepper::Stepper(const RollingSystem& system, StepperMemory memory) : Stepper(system) {
+  const RollingState& s = memory.state;
+  const auto surface_nodes = static_cast<std::size_t>(sys_.rail_surface.columns) * sys_.rail_surface.stations.nodes();
+  if (s.u_rail.size() != f_rail_.size() || s.v_rail.size() != f_rail_.size() || s.u_wheel.size() != f_wheel_.size() || s.v_wheel.size() != f_wheel_.size() ||
+      s.groups.size() != static_cast<std::size_t>(sys_.model.spec.vehicle.suspension_groups) || s.tractions.all().size() != surface_nodes)
+    throw CaseError("the saved state is that of another mesh", "start the run anew");
+  state_ = std::move(memory.state);
+  balance_ = memory.balance;
+  mean_ = memory.mean;
+  axle_z0_ = memory.axle_z0;
+  reached_edge_ = memory.reached_edge;
+  contact_.recall(std::move(memory.facets));
+  wheel_surface_u_ = state_.u_wheel;
+  frame_.move_to(state_.time);
+}
+
+bool Stepper::can_be_remembered() const { return state_.step % kSearchInterval == 0; }
+
+StepperMemory Stepper::memory() const { return {state_, balance_, mean_, contact_.memory(), axle_z0_, dt_, reached_edge_}; }
 
 void ReferenceFrame::set_step(double dt) {
   const double turn = spin * dt, half = std::sin(0.5 * turn);
@@ -60,6 +84,27 @@ void ReferenceFrame::move_to(double time) {
   sin_psi = std::sin(psi);
 }
 
+// All that does not change during the rolling.
+void Stepper::prepare() {
+  f_rail_ = sys_.rail.solid.layout().field();
+  f_wheel_ = sys_.wheel.solid.layout().field();
+  frame_.speed = sys_.model.spec.drive.speed;
+  frame_.spin = sys_.start_spin;
+  frame_.set_step(dt_);
+  for (const Block& b : sys_.model.wheel.blocks) {
+    cos_node_.emplace_back();
+    sin_node_.emplace_back();
+    for (double t : b.stations.at) cos_node_.back().push_back(std::cos(t)), sin_node_.back().push_back(std::sin(t));
+  }
+  rail_schedule_ = schedule(sys_.rail, sys_.rail_surface, plan_.rail, plan_.rail_steps);
+  wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface, plan_.wheel, plan_.wheel_steps);
+  for (const DeformableBody::Line& l : sys_.wheel.lines) {
+    if (l.component != 0) continue;
+    const double z = sys_.model.wheel.blocks[l.block].section.nodes[l.node].z;
+    for (int j = 0; j < l.count; ++j) free_mass_ += sys_.wheel.mass[l.first + j], free_inertia_ += sys_.wheel.mass[l.first + j] * z * z;
+  }
+}
+
 void Stepper::start(const PreloadResult& preload) {
   const CaseSpec& spec = sys_.model.spec;
   state_.u_rail = preload.u_rail;
@@ -70,17 +115,12 @@ void Stepper::start(const PreloadResult& preload) {
   state_.groups.assign(spec.vehicle.suspension_groups, MassGroup{});
   state_.v_rail = sys_.rail.solid.layout().field();
   state_.v_wheel = sys_.wheel.solid.layout().field();
-  f_rail_ = state_.v_rail;
-  f_wheel_ = state_.v_wheel;
   for (const DeformableBody::Line& l : sys_.rail.lines) {
     const Block& block = sys_.model.rail.blocks[l.block];
     for (int j = 0; j < l.count; ++j)
       state_.v_rail[l.first + j] = -spec.drive.speed * station_derivative(block, l.count, j, [&](int k) { return state_.u_rail[l.first + k]; });
   }
   const double spin = state_.axle.spin;
-  frame_.speed = spec.drive.speed;
-  frame_.spin = spin;
-  frame_.set_step(dt_);
   frame_.move_to(0);
   for (const DeformableBody::Line& l : sys_.wheel.lines) {
     const Block& block = sys_.model.wheel.blocks[l.block];
@@ -88,14 +128,7 @@ void Stepper::start(const PreloadResult& preload) {
       state_.v_wheel[l.first + j] = -spin * station_derivative(block, l.count, j, [&](int k) { return state_.u_wheel[l.first + k]; });
     }
   }
-  for (const Block& b : sys_.model.wheel.blocks) {
-    cos_node_.emplace_back();
-    sin_node_.emplace_back();
-    for (double t : b.stations.at) cos_node_.back().push_back(std::cos(t)), sin_node_.back().push_back(std::sin(t));
-  }
   wheel_surface_u_ = state_.u_wheel;
-  rail_schedule_ = schedule(sys_.rail, sys_.rail_surface, plan_.rail, plan_.rail_steps);
-  wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface, plan_.wheel, plan_.wheel_steps);
 
   Sums all;
   for (const DeformableBody::Line& l : sys_.wheel.lines) {
@@ -104,7 +137,6 @@ void Stepper::start(const PreloadResult& preload) {
     const std::vector<double>& turn = (l.component == 0 ? cos_node_ : sin_node_)[l.block];
     for (int j = 0; j < l.count; ++j) {
       const double m = sys_.wheel.mass[l.first + j], w = state_.v_wheel[l.first + j];
-      if (l.component == 0) free_mass_ += m, free_inertia_ += m * z * z;
       (l.component == 0 ? all.momentum_x : all.momentum_z) += m * w;
       all.angular += m * z * turn[j] * w;
     }

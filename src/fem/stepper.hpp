@@ -71,13 +71,34 @@ struct ContactForces {
   int nodes = 0, sweeps = 0;
 };
 
+/// Mean motion of the wheel's free nodes relative to the reference frame, in its components.
+struct MeanMotion {
+  double x = 0, z = 0, spin = 0;
+};
+
+/// All that a step takes over from the one before, where the contact is searched anew. A stepper that goes on from it computes the same bits as the one that gave it.
+struct StepperMemory {
+  RollingState state;
+  EnergyBalance balance;
+  MeanMotion mean;
+  std::vector<MortarContact::Facet> facets;
+  double axle_z0 = 0;        ///< m, height of the axle at the start of the rolling
+  double dt = 0;             ///< s
+  bool reached_edge = false;
+};
+
 class Stepper {
  public:
   /// Starts from the static solution with the rolling speed; the pattern of deformation travels with the wheel from the first step on:
   /// v_rail = -V du/dx, v_wheel = V e_x + omega x (X - axle) - omega du/dtheta.
   Stepper(const RollingSystem& system, const PreloadResult& preload);
+  /// Goes on where memory() was taken. Throws CaseError if the memory is not that of a system of this size.
+  Stepper(const RollingSystem& system, StepperMemory memory);
 
   void step();
+  /// memory() may be taken now: every sixteen steps.
+  bool can_be_remembered() const;
+  StepperMemory memory() const;
 
   const RollingState& state() const { return state_; }
   /// Of the wheel, model frame, u = x - X.
@@ -111,10 +132,6 @@ class Stepper {
       return *this;
     }
   };
-  /// Mean motion of the wheel's free nodes relative to the reference frame, in its components.
-  struct MeanMotion {
-    double x = 0, z = 0, spin = 0;
-  };
   /// How a body's nodes are updated: as soon as their forces are complete, or after the contact.
   struct Schedule {
     std::vector<std::vector<char>> at_once;      // per block and section node
@@ -125,6 +142,8 @@ class Stepper {
     std::vector<Sums> chain_sums, later_sums, border_sums;
   };
 
+  explicit Stepper(const RollingSystem& system);
+  void prepare();
   void start(const PreloadResult& preload);
   Schedule schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling, const LocalSteps& local) const;
   void chain_tiles(const DeformableBody& body, Schedule& schedule) const;

@@ -55,12 +55,13 @@ void OutputFile::finish() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail();
 }
 
-void write_whole_file(const fs::path& path, std::string_view bytes) {
+void write_whole_file(const fs::path& path, std::string_view bytes, const fs::path& previous) {
   const fs::path temporary = path.string() + ".part" + std::to_string(::getpid());
   try {
     OutputFile file(temporary);
     file.write(bytes);
     file.finish();
+    if (!previous.empty() && ::rename(path.c_str(), previous.c_str()) != 0 && errno != ENOENT) fail_on(path, errno);
     if (::rename(temporary.c_str(), path.c_str()) != 0) fail_on(path, errno);
   } catch (const EnvironmentError& e) {
     ::unlink(temporary.c_str());

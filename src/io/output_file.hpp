@@ -28,6 +28,7 @@ class OutputFile {
 
 /// Writes to a temporary name beside `path`, waits for the disk and renames: a reader, or a crash, finds the old file or the new one, never a part. On failure the
 /// old file is untouched and the temporary one removed. Throws EnvironmentError naming `path`.
-void write_whole_file(const std::filesystem::path& path, std::string_view bytes);
+/// `previous`, if given: the old file is kept under this name.
+void write_whole_file(const std::filesystem::path& path, std::string_view bytes, const std::filesystem::path& previous = {});
 
 }  // namespace railstrata

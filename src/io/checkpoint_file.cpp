@@ -1,0 +1,400 @@
+#include "io/checkpoint_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <hdf5.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <type_traits>
+
+#include "core/faults.hpp"
+#include "io/output_file.hpp"
+#include "io/provenance.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kHeader = 512;  // HDF5 looks for its superblock at 0, 512, 1024, …
+constexpr std::size_t kGrowth = std::size_t{16} << 20;
+
+/// What is wrong with the bytes of a checkpoint.
+struct Damage {
+  std::string what;
+};
+
+hid_t checked(hid_t id, const char* what) {
+  if (id < 0) throw Damage{fmt::format("HDF5 cannot {}", what)};
+  return id;
+}
+
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close, const char* what) : id_(checked(id, what)), close_(close) {}
+  ~Handle() { close_(id_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+/// A file in memory only.
+Handle memory_access() {
+  Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a file in memory");
+  checked(H5Pset_fapl_core(access, kGrowth, 0), "make a file in memory");
+  return Handle(H5Pcopy(access), H5Pclose, "make a file in memory");
+}
+
+// Both archives are told the same names in the same order by describe(): row: one record of numbers; rows: a table of them; numbers: a long array; text; group: a part.
+class Writer {
+ public:
+  static constexpr bool reading = false;
+  explicit Writer(hid_t at) : at_(at) {}
+
+  void text(const char* name, std::string& value) {
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "describe a text");
+    checked(H5Tset_size(type, value.size() + 1), "describe a text");
+    Handle space(H5Screate(H5S_SCALAR), H5Sclose, "describe a text");
+    Handle set(H5Dcreate2(at_, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, "add a text");
+    checked(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()), "write a text");
+  }
+  template <class Array>
+  void numbers(const char* name, Array& values) {
+    write(name, values.data(), {values.size()}, {});
+  }
+  template <class T, class Visit>
+  void rows(const char* name, std::vector<T>& all, Visit&& visit) {
+    T sample{};
+    table(name, sample, all.data(), all.size(), visit);
+  }
+  template <class T, class Visit>
+  void row(const char* name, T& value, Visit&& visit) {
+    table(name, value, &value, 1, visit);
+  }
+  template <class Describe>
+  void group(const std::string& name, Describe&& describe) {
+    Handle group(H5Gcreate2(at_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, "add a group");
+    Writer inner(group);
+    describe(inner);
+  }
+
+ private:
+  template <class T, class Visit>
+  void table(const char* name, T& sample, T* first, std::size_t count, Visit&& visit) {
+    std::vector<std::string> names;
+    visit(sample, [&](const char* column, auto&) { names.emplace_back(column); });
+    std::vector<double> values;
+    values.reserve(count * names.size());
+    for (std::size_t k = 0; k < count; ++k) visit(first[k], [&](const char*, auto& v) { values.push_back(static_cast<double>(v)); });
+    write(name, values.data(), {count, names.size()}, names);
+  }
+  void write(const char* name, const double* values, const std::vector<hsize_t>& size, const std::vector<std::string>& columns) {
+    Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, "describe an array");
+    Handle set(H5Dcreate2(at_, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, "add an array");
+    double none = 0;
+    checked(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values ? values : &none), "write an array");
+    if (columns.empty()) return;
+    const std::string text = fmt::format("{}", fmt::join(columns, ","));
+    Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "describe a text");
+    checked(H5Tset_size(type, text.size() + 1), "describe a text");
+    Handle one(H5Screate(H5S_SCALAR), H5Sclose, "describe a text");
+    Handle attribute(H5Acreate2(set, "columns", type, one, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "add a text");
+    checked(H5Awrite(attribute, type, text.c_str()), "write a text");
+  }
+  hid_t at_;
+};
+
+class Reader {
+ public:
+  static constexpr bool reading = true;
+  explicit Reader(hid_t at) : at_(at) {}
+
+  void text(const char* name, std::string& value) {
+    Handle set(H5Dopen2(at_, name, H5P_DEFAULT), H5Dclose, name);
+    Handle type(H5Dget_type(set), H5Tclose, name);
+    std::string raw(H5Tget_size(type), '\0');
+    checked(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()), name);
+    value = raw.c_str();
+  }
+  template <class Array>
+  void numbers(const char* name, Array& values) {
+    Handle set(H5Dopen2(at_, name, H5P_DEFAULT), H5Dclose, name);
+    values.resize(size_of(set, name, 1)[0]);
+    read(set, name, values.data(), values.empty());
+  }
+  template <class T, class Visit>
+  void rows(const char* name, std::vector<T>& all, Visit&& visit) {
+    T sample{};
+    const auto [values, count] = table(name, sample, visit);
+    all.assign(count, T{});
+    const double* next = values.data();
+    for (T& one : all) take(one, next, visit);
+  }
+  template <class T, class Visit>
+  void row(const char* name, T& value, Visit&& visit) {
+    const auto [values, count] = table(name, value, visit);
+    if (count != 1) throw Damage{fmt::format("{} is not one row", name)};
+    const double* next = values.data();
+    take(value, next, visit);
+  }
+  template <class Describe>
+  void group(const std::string& name, Describe&& describe) {
+    Handle group(H5Gopen2(at_, name.c_str(), H5P_DEFAULT), H5Gclose, name.c_str());
+    Reader inner(group);
+    describe(inner);
+  }
+
+ private:
+  template <class T, class Visit>
+  std::pair<std::vector<double>, std::size_t> table(const char* name, T& sample, Visit&& visit) {
+    Handle set(H5Dopen2(at_, name, H5P_DEFAULT), H5Dclose, name);
+    const std::vector<hsize_t> size = size_of(set, name, 2);
+    std::size_t columns = 0;
+    visit(sample, [&](const char*, auto&) { ++columns; });
+    if (columns != size[1]) throw Damage{fmt::format("{} has {} columns, not {}", name, size[1], columns)};
+    std::vector<double> values(size[0] * size[1]);
+    read(set, name, values.data(), values.empty());
+    return {std::move(values), size[0]};
+  }
+  template <class T, class Visit>
+  static void take(T& to, const double*& next, Visit&& visit) {
+    visit(to, [&](const char*, auto& v) { v = static_cast<std::remove_reference_t<decltype(v)>>(*next++); });
+  }
+  static std::vector<hsize_t> size_of(hid_t set, const char* name, int dimensions) {
+    Handle space(H5Dget_space(set), H5Sclose, name);
+    std::vector<hsize_t> size(dimensions);
+    if (H5Sget_simple_extent_ndims(space) != dimensions) throw Damage{fmt::format("{} is no array of {} dimensions", name, dimensions)};
+    checked(H5Sget_simple_extent_dims(space, size.data(), nullptr), name);
+    return size;
+  }
+  static void read(hid_t set, const char* name, double* values, bool empty) {
+    if (!empty) checked(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
+  }
+  hid_t at_;
+};
+
+constexpr auto visit_vec = [](auto& v, auto&& on) { on("x", v.x), on("y", v.y), on("z", v.z); };
+constexpr auto visit_sym = [](auto& s, auto&& on) { on("xx", s.xx), on("yy", s.yy), on("zz", s.zz), on("xy", s.xy), on("yz", s.yz), on("xz", s.xz); };
+constexpr auto visit_traction = [](auto& t, auto&& on) { on("p", t.p), on("q1", t.q1), on("q2", t.q2), on("slip1", t.slip1), on("slip2", t.slip2); };
+constexpr auto visit_axle = [](auto& a, auto&& on) { on("x", a.x), on("z", a.z), on("psi", a.psi), on("vx", a.vx), on("vz", a.vz), on("spin", a.spin); };
+constexpr auto visit_mass = [](auto& m, auto&& on) { on("z", m.z), on("vz", m.vz); };
+constexpr auto visit_forces = [](auto& f, auto&& on) { on("F_x", f.x), on("F_y", f.y), on("F_z", f.z), on("penetration", f.penetration), on("nodes", f.nodes), on("sweeps", f.sweeps); };
+constexpr auto visit_energy = [](auto& e, auto&& on) {
+  on("kinetic", e.kinetic), on("strain", e.strain), on("hourglass", e.hourglass), on("weight", e.weight), on("spring", e.spring), on("torque_work", e.torque_work), on("friction", e.friction),
+      on("contact_normal", e.contact_normal), on("damping", e.damping), on("absorbed", e.absorbed), on("dashpot", e.dashpot);
+};
+constexpr auto visit_history = [](auto& h, auto&& on) {
+  on("time", h.time), on("position", h.position), on("torque", h.torque), visit_forces(h.forces, on), on("p_max", h.p_max), on("creepage", h.creepage), on("axle_vx", h.axle_vx),
+      on("axle_vz", h.axle_vz), on("spin", h.spin), visit_energy(h.energy, on), on("closure", h.closure);
+};
+constexpr auto visit_facet = [](auto& f, auto&& on) {
+  on("column", f.column), on("station", f.station);
+  for (auto& c : f.correction) on("y", c.y), on("z", c.z);
+};
+
+template <class Archive>
+void describe(Archive& a, StepperMemory& m) {
+  RollingState& s = m.state;
+  a.row("now", m, [](auto& v, auto&& on) {
+    on("time", v.state.time), on("step", v.state.step), on("dt", v.dt), on("axle_z0", v.axle_z0), on("reached_edge", v.reached_edge), on("mean_x", v.mean.x), on("mean_z", v.mean.z),
+        on("mean_spin", v.mean.spin);
+  });
+  a.numbers("u_rail", s.u_rail), a.numbers("v_rail", s.v_rail), a.numbers("u_wheel", s.u_wheel), a.numbers("v_wheel", s.v_wheel);
+  a.row("axle", s.axle, visit_axle);
+  a.rows("suspension", s.groups, visit_mass);
+  a.row("energy", m.balance, visit_energy);
+  a.rows("contact_memory", m.facets, visit_facet);
+  std::vector<int> stations{s.tractions.stations()};
+  a.rows("traction_stations", stations, [](auto& v, auto&& on) { on("stations", v); });
+  std::vector<NodeTraction> tractions = s.tractions.all();
+  a.rows("tractions", tractions, visit_traction);
+  if (Archive::reading) {
+    if (stations.size() != 1 || stations[0] <= 0 || tractions.size() % stations[0] != 0) throw Damage{"the tractions are not a grid"};
+    s.tractions = TractionMemory(static_cast<int>(tractions.size()) / stations[0], stations[0]);
+    s.tractions.all() = std::move(tractions);
+  }
+}
+
+template <class Archive>
+void describe(Archive& a, BandSample& b) {
+  a.row("size", b, [](auto& v, auto&& on) { on("columns", v.columns), on("rows", v.rows), on("stations", v.stations); });
+  a.numbers("along", b.along);
+  a.rows("stress", b.stress, visit_sym);
+  a.rows("displacement", b.displacement, visit_vec);
+}
+
+template <class Archive>
+void describe(Archive& a, RollingSample& s) {
+  a.row("now", s, [](auto& v, auto&& on) { on("time", v.time), on("position", v.position), visit_axle(v.axle, on), visit_forces(v.forces, on), on("creepage", v.creepage); });
+  a.group("rail", [&](auto& inner) { describe(inner, s.rail); });
+  a.group("wheel", [&](auto& inner) { describe(inner, s.wheel); });
+  a.rows("tractions", s.tractions, visit_traction);
+}
+
+template <class Archive, class T, class Describe>
+void each(Archive& a, const char* name, std::vector<T>& all, Describe&& one) {
+  std::vector<std::size_t> count{all.size()};
+  a.group(name, [&](auto& inner) {
+    inner.rows("count", count, [](auto& v, auto&& on) { on("count", v); });
+    if (Archive::reading) all.resize(count.at(0));
+    for (std::size_t k = 0; k < all.size(); ++k) inner.group(fmt::format("{}", k), [&](auto& part) { one(part, all[k]); });
+  });
+}
+
+template <class Archive>
+void describe(Archive& a, RunResult& r) {
+  a.row("preload", r.preload, [](auto& v, auto&& on) {
+    on("axle_z", v.axle_z), on("residual", v.residual), on("penetration", v.penetration), visit_vec(v.contact_force, on), on("newton_steps", v.newton_steps), on("cg_iterations", v.cg_iterations),
+        on("wall_seconds", v.wall_seconds);
+  });
+  a.row("so_far", r, [](auto& v, auto&& on) {
+    on("hourglass_share", v.hourglass_share), on("penetration", v.penetration), on("run_up_damping_energy", v.run_up_damping_energy), on("wall_seconds", v.wall_seconds),
+        on("preload_wall_seconds", v.preload_wall_seconds), on("elements", v.elements), on("nodes", v.nodes);
+  });
+  a.rows("history", r.history, visit_history);
+  each(a, "positions", r.positions, [](auto& part, PositionSamples& p) {
+    part.row("wanted", p, [](auto& v, auto&& on) { on("position", v.position); });
+    each(part, "samples", p.samples, [](auto& inner, RollingSample& s) { describe(inner, s); });
+  });
+}
+
+template <class Archive>
+void describe(Archive& a, CheckpointOrigin& c, RunState& r) {
+  a.text("case_sha256", c.case_sha256);
+  a.text("program", c.program);
+  std::string lines = fmt::format("{}", fmt::join(c.provenance, "\n"));
+  a.text("provenance", lines);
+  if (Archive::reading) {
+    std::istringstream in(lines);
+    for (std::string line; std::getline(in, line);) c.provenance.push_back(line);
+  }
+  a.group("state", [&](auto& inner) { describe(inner, r.stepper); });
+  a.group("result", [&](auto& inner) { describe(inner, r.result); });
+  a.row("progress", r, [](auto& v, auto&& on) {
+    on("next_sample", v.next_sample), on("next_history", v.next_history), on("next_frame", v.next_frame), on("started", v.started), on("largest_closure", v.largest_closure),
+        on("largest_energy", v.largest_energy);
+  });
+  a.row("start_energy", r.start_energy, visit_energy);
+  a.numbers("frame_times", r.frame_times);
+}
+
+std::string header_of(std::string_view image) {
+  std::string text = fmt::format("RailStrata checkpoint\nformat {}\nbytes {}\nsha256 {}\nHDF5 from byte {} on; go on with: railstrata run --resume <this folder>\n", kCheckpointFormat, image.size(),
+                                 sha256_of(image), kHeader);
+  text.resize(kHeader, ' ');
+  text.back() = '\n';
+  return text;
+}
+
+/// Throws Damage unless every byte is as it was written.
+void verify(std::string_view bytes) {
+  constexpr std::string_view kStart = "RailStrata checkpoint\nformat ";
+  if (bytes.empty()) throw Damage{"it is empty"};
+  if (!bytes.starts_with(kStart)) throw Damage{"it does not start as a checkpoint does"};
+  if (bytes.size() <= kHeader) throw Damage{"it is cut off"};
+  const std::string expected = header_of(bytes.substr(kHeader));
+  const auto format = [&](std::string_view text) { return text.substr(kStart.size(), text.find('\n', kStart.size()) - kStart.size()); };
+  if (const std::string_view found = format(bytes.substr(0, kHeader)); found != format(expected))
+    throw Damage{fmt::format("its format is {}, this program's is {}", found.substr(0, 20), kCheckpointFormat)};
+  if (bytes.substr(0, kHeader) != expected) throw Damage{"its checksum does not agree with its bytes: it is cut off or was changed"};
+}
+
+std::string read_bytes(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream bytes;
+  if (!in) throw Damage{std::strerror(errno)};
+  bytes << in.rdbuf();
+  return std::move(bytes).str();
+}
+
+}  // namespace
+
+std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  try {
+    Handle access = memory_access();
+    Handle file(H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "make a file in memory");
+    Writer writer(file);
+    CheckpointOrigin from = origin;
+    describe(writer, from, const_cast<RunState&>(run));  // a Writer changes nothing
+    checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "finish a file");
+    const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+    checked(size, "finish a file");
+    std::string bytes(kHeader + static_cast<std::size_t>(size), '\0');
+    checked(H5Fget_file_image(file, bytes.data() + kHeader, static_cast<std::size_t>(size)), "finish a file");
+    bytes.replace(0, kHeader, header_of(std::string_view(bytes).substr(kHeader)));
+    return bytes;
+  } catch (const Damage& d) {
+    throw EnvironmentError(fmt::format("cannot make a checkpoint: {}", d.what));
+  }
+}
+
+Checkpoint checkpoint_of(std::string_view bytes, const fs::path& file) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  try {
+    verify(bytes);
+    Handle access = memory_access();
+    const std::string_view image = bytes.substr(kHeader);
+    checked(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "read it");  // copied
+    Handle opened(H5Fopen("checkpoint", H5F_ACC_RDONLY, access), H5Fclose, "read it");
+    Checkpoint checkpoint;
+    Reader reader(opened);
+    describe(reader, checkpoint.origin, checkpoint.run);
+    return checkpoint;
+  } catch (const Damage& d) {
+    throw CaseError(fmt::format("this checkpoint is of no use: {}", d.what), "start the run anew with --force, or put a whole copy of the file back", file.string());
+  }
+}
+
+fs::path checkpoint_file(const fs::path& folder) { return folder / "checkpoint.h5"; }
+fs::path previous_checkpoint_file(const fs::path& folder) { return folder / "checkpoint.h5.previous"; }
+
+void write_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, const RunState& run) {
+  write_whole_file(checkpoint_file(folder), checkpoint_bytes(origin, run), previous_checkpoint_file(folder));
+}
+
+FoundCheckpoint read_checkpoint(const fs::path& folder, const std::string& case_sha256) {
+  FoundCheckpoint found;
+  bool any = false;
+  for (const fs::path& file : {checkpoint_file(folder), previous_checkpoint_file(folder)}) {
+    if (!fs::exists(file)) continue;
+    any = true;
+    std::optional<Checkpoint> checkpoint;
+    try {
+      checkpoint = checkpoint_of(read_bytes(file), file);
+    } catch (const Damage& d) {
+      found.notes.push_back(fmt::format("{}: {}", file.string(), d.what));
+    } catch (const CaseError& e) {
+      found.notes.push_back(fmt::format("{}: {}", file.string(), e.diagnostics.front().message));
+    }
+    if (!checkpoint) continue;
+    if (checkpoint->origin.case_sha256 != case_sha256)
+      throw CaseError("this checkpoint belongs to another case: case.toml beside it, or a profile, was changed since", "put the old ones back, or start the new case in a folder of its own", file.string());
+    found.checkpoint = std::move(*checkpoint);
+    return found;
+  }
+  if (!any)
+    throw CaseError(fmt::format("there is nothing to resume in {}: it has no checkpoint", folder.string()),
+                    "start the run anew; runs write a checkpoint every ten minutes (--checkpoint-every) and when they are stopped while rolling");
+  std::vector<Diagnostic> all;
+  for (const std::string& note : found.notes) all.push_back({"", note, ""});
+  all.back().remedy = "start the run anew with --force, or put a whole copy of the file back";
+  throw CaseError(all);
+}
+
+void remove_checkpoints(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().filename().string().starts_with("checkpoint.h5")) fs::remove(entry.path(), ignored);
+}
+
+}  // namespace railstrata

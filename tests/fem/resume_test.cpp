@@ -1,0 +1,99 @@
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/faults.hpp"
+#include "small_rolling.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace fem_checks;
+
+template <class Array>
+bool same_bits(const Array& a, const Array& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(a[0])) == 0;
+}
+
+void roll(Stepper& st, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    if (k % 7 == 0) st.want_energy();
+    st.step();
+  }
+}
+
+// 67 steps in one go against 32, a new stepper from the memory and 35 more; energies asked for at the same steps.
+void expect_same_bits(const CaseSpec& spec) {
+  const RollingSystem system = small_system(spec);
+  const PreloadResult preload = solve_preload(system, 1e-4);
+  Stepper whole(system, preload), first(system, preload);
+  EXPECT_TRUE(first.can_be_remembered());
+  roll(first, 21);
+  EXPECT_FALSE(first.can_be_remembered());
+  while (!first.can_be_remembered()) first.step();
+  Stepper second(system, first.memory());
+  roll(second, 35);
+  roll(whole, 21);
+  for (int k = 21; k < 32; ++k) whole.step();
+  roll(whole, 35);
+  const RollingState &a = whole.state(), &b = second.state();
+  EXPECT_EQ(a.step, 67);
+  EXPECT_EQ(b.step, 67);
+  EXPECT_EQ(a.time, b.time);
+  EXPECT_TRUE(same_bits(a.u_rail, b.u_rail));
+  EXPECT_TRUE(same_bits(a.v_rail, b.v_rail));
+  EXPECT_TRUE(same_bits(a.u_wheel, b.u_wheel));
+  EXPECT_TRUE(same_bits(a.v_wheel, b.v_wheel));
+  EXPECT_TRUE(same_bits(a.tractions.all(), b.tractions.all()));
+  EXPECT_TRUE(same_bits(a.groups, b.groups));
+  EXPECT_EQ(std::memcmp(&a.axle, &b.axle, sizeof a.axle), 0);
+  EXPECT_EQ(whole.energy().total(), second.energy().total());
+  EXPECT_NE(whole.energy().total(), 0);
+}
+
+CaseSpec damped_case() {
+  CaseSpec spec = small_case();
+  spec.run.run_up = 0.02;
+  spec.run.run_up_damping = 2000;
+  spec.drive.torque_ramp = 1e-4;
+  return spec;
+}
+
+CaseSpec layered_case(const char* method) {
+  CaseSpec spec = damped_case();
+  spec.layers.emplace_back();
+  spec.layers.back().thickness = 1e-3;
+  spec.layers.back().width = 0.02;
+  spec.run.time_step_method = method;
+  return spec;
+}
+
+}  // namespace
+
+TEST(Resume, AStepperFromMemoryComputesTheSameBits) { expect_same_bits(damped_case()); }
+
+TEST(Resume, InSinglePrecisionToo) {
+  CaseSpec spec = damped_case();
+  spec.run.precision = "single";
+  expect_same_bits(spec);
+}
+
+TEST(Resume, WithScaledMassesToo) { expect_same_bits(layered_case("mass_scaling")); }
+
+TEST(Resume, WithLocalStepsToo) { expect_same_bits(layered_case("local")); }
+
+TEST(Resume, WithAPenaltyToo) {
+  CaseSpec spec = damped_case();
+  spec.contact.method = "penalty";
+  expect_same_bits(spec);
+}
+
+TEST(Resume, AMemoryOfAnotherMeshIsRefused) {
+  const RollingSystem system = small_system(small_case());
+  Stepper st(system, solve_preload(system, 1e-3));
+  StepperMemory memory = st.memory();
+  memory.state.u_rail.pop_back();
+  EXPECT_THROW(Stepper(system, memory), CaseError);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,137 @@
+#include "io/checkpoint_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+const CheckpointOrigin kOrigin{"a case", "a program", {"one", "two"}};
+
+RunState small_run(double time) {
+  RunState r;
+  r.stepper.state.time = time;
+  r.stepper.state.step = 1'234'567'890'123;
+  r.stepper.state.u_rail = {0.1, -0.0, 5e-324};
+  r.stepper.state.v_wheel = {1.0 / 3};
+  r.stepper.state.tractions = TractionMemory(2, 3);
+  r.stepper.state.tractions.at(1, 2) = {1, 2, 3, 4, 5};
+  r.stepper.state.groups = {{0.5, -0.5}};
+  r.stepper.facets = {{3, 4, {{1, 2}, {3, 4}, {5, 6}, {7, 8}}}};
+  r.stepper.reached_edge = true;
+  r.result.history = {{.time = 1e-3, .position = 0.02, .forces = {.z = 8e4, .nodes = 7}, .energy = {.kinetic = 12}, .closure = -1e-9}};
+  r.result.positions = {{0.3, {RollingSample{}, RollingSample{}}}, {0.4, {}}};
+  r.result.positions[0].samples[1].rail.stress = {{1, 2, 3, 4, 5, 6}};
+  r.result.positions[0].samples[1].rail.along = {0.25};
+  r.next_sample = 2;
+  r.started = true;
+  r.frame_times = {0, 1e-4};
+  return r;
+}
+
+class Checkpoints : public testing::Test {
+ protected:
+  fs::path folder = fs::path(testing::TempDir()) / ("checkpoint_" + std::to_string(::getpid()));
+  void SetUp() override { fs::create_directories(folder); }
+  void TearDown() override { fs::remove_all(folder); }
+  static std::string bytes_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream out;
+    out << in.rdbuf();
+    return out.str();
+  }
+  static void put(const fs::path& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
+  std::string refusal() {
+    try {
+      read_checkpoint(folder, "a case");
+    } catch (const CaseError& e) {
+      return e.what();
+    }
+    return {};
+  }
+};
+
+}  // namespace
+
+TEST_F(Checkpoints, ReadBackWhatWasWritten) {
+  const RunState r = small_run(1e-3);
+  const std::string bytes = checkpoint_bytes(kOrigin, r);
+  const Checkpoint c = checkpoint_of(bytes, "x");
+  EXPECT_EQ(c.origin.provenance, kOrigin.provenance);
+  EXPECT_EQ(c.run.stepper.state.step, r.stepper.state.step);
+  EXPECT_EQ(c.run.stepper.state.u_rail, r.stepper.state.u_rail);
+  EXPECT_TRUE(std::signbit(c.run.stepper.state.u_rail[1]));
+  EXPECT_EQ(c.run.stepper.state.tractions.at(1, 2).slip2, 5);
+  EXPECT_EQ(c.run.stepper.facets[0].correction[3].z, 8);
+  EXPECT_TRUE(c.run.stepper.reached_edge);
+  EXPECT_EQ(c.run.result.history[0].forces.nodes, 7);
+  EXPECT_EQ(c.run.result.positions[0].samples[1].rail.stress[0].xz, 6);
+  EXPECT_TRUE(c.run.result.positions[1].samples.empty());
+  EXPECT_EQ(checkpoint_bytes(c.origin, c.run), bytes);  // nothing of the state is left out of the way back
+}
+
+TEST_F(Checkpoints, EveryFlippedByteIsFound) {
+  std::string bytes = checkpoint_bytes(kOrigin, small_run(1e-3));
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < bytes.size(); ++k) {
+    const char flip = static_cast<char>(1 << k % 8);
+    bytes[k] = static_cast<char>(bytes[k] ^ flip);
+    try {
+      checkpoint_of(bytes, "x");
+    } catch (const CaseError&) {
+      ++found;
+    }
+    bytes[k] = static_cast<char>(bytes[k] ^ flip);
+  }
+  EXPECT_EQ(found, bytes.size());
+  EXPECT_GT(found, 10'000u);
+  std::printf("bytes flipped and found: %zu of %zu\n", found, bytes.size());
+}
+
+TEST_F(Checkpoints, EveryCutIsFound) {
+  const std::string bytes = checkpoint_bytes(kOrigin, small_run(1e-3));
+  for (std::size_t k = 0; k < bytes.size(); k += 97) EXPECT_THROW(checkpoint_of(bytes.substr(0, k), "x"), CaseError) << k;
+  EXPECT_THROW(checkpoint_of(bytes + '\0', "x"), CaseError);
+}
+
+TEST_F(Checkpoints, TheOneBeforeIsKeptAndTakenWhenTheNewestIsDamaged) {
+  EXPECT_NE(refusal().find("it has no checkpoint"), std::string::npos);
+  write_checkpoint(folder, kOrigin, small_run(1));
+  EXPECT_FALSE(fs::exists(previous_checkpoint_file(folder)));
+  write_checkpoint(folder, kOrigin, small_run(2));
+  EXPECT_EQ(read_checkpoint(folder, "a case").checkpoint.run.stepper.state.time, 2);
+  std::string bytes = bytes_of(checkpoint_file(folder));
+  bytes[bytes.size() / 2] ^= 1;
+  put(checkpoint_file(folder), bytes);
+  const FoundCheckpoint found = read_checkpoint(folder, "a case");
+  EXPECT_EQ(found.checkpoint.run.stepper.state.time, 1);
+  ASSERT_EQ(found.notes.size(), 1u);
+  EXPECT_NE(found.notes[0].find("checkpoint.h5: this checkpoint is of no use: its checksum does not agree"), std::string::npos) << found.notes[0];
+  fs::remove(checkpoint_file(folder));  // killed between the two renames
+  EXPECT_EQ(read_checkpoint(folder, "a case").checkpoint.run.stepper.state.time, 1);
+  put(previous_checkpoint_file(folder), "");
+  EXPECT_NE(refusal().find("it is empty"), std::string::npos) << refusal();
+  remove_checkpoints(folder);
+  EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(Checkpoints, ThoseOfAnotherCaseOrFormatAreRefused) {
+  write_checkpoint(folder, {"another case", "a program", {}}, small_run(1));
+  EXPECT_NE(refusal().find("belongs to another case"), std::string::npos);
+  std::string bytes = checkpoint_bytes(kOrigin, small_run(1));
+  bytes.replace(bytes.find("format 1"), 8, "format 7");
+  put(checkpoint_file(folder), bytes);
+  EXPECT_NE(refusal().find("its format is 7, this program's is 1"), std::string::npos) << refusal();
+}
+
+}  // namespace railstrata
