@@ -5,6 +5,7 @@
 
 #include "app/case_estimate.hpp"
 #include "app/commands.hpp"
+#include "app/memory_need.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
 
@@ -65,6 +66,7 @@ ExitCode command_check(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
   const Model model = build_model(loaded.spec, loaded.folder());
   for (const std::string& note : model.placement.notes) spdlog::info("{}", note);
+  require_memory(model);
   const RunEstimate estimate = estimate_run(model);
   if (options.json) {
     fmt::print("{}\n", as_json(model, estimate).dump(2));

@@ -85,6 +85,7 @@ ExitCode command_run(const CommandOptions& options) {
     for (const std::string& note : found.notes) spdlog::warn("{}; the checkpoint before it is taken", note);
     if (found.checkpoint.origin.program != request.program)
       spdlog::warn("the run was begun by RailStrata {}, this is {}: it goes on, but not with the bits of a run in one go", found.checkpoint.origin.program, request.program);
+    remove_abandoned_parts(out);
     request.provenance = found.checkpoint.origin.provenance;
     spdlog::info("{}: goes on in {} at x = {:.2f} mm, t = {:.4g} ms", loaded.spec.title, out.string(), 1e3 * found.checkpoint.run.stepper.state.axle.x, 1e3 * found.checkpoint.run.stepper.state.time);
     request.resume = std::move(found.checkpoint.run);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <regex>
+
 #include "core/faults.hpp"
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
@@ -26,6 +28,15 @@ void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
   write_whole_file(folder / "case.toml", "# Every option of the run; reads back to the same case.\n" + loaded.resolved_toml);
   write_whole_file(folder / "case.original.toml", loaded.source_text);
   write_whole_file(folder / "provenance.json", provenance_json(command_line, loaded.overrides, loaded.inputs, threads));
+}
+
+void remove_abandoned_parts(const std::filesystem::path& folder) {
+  static const std::regex abandoned(R"(.+\.(csv|h5|html|json|pvd|py|toml|vtp|vtu)\.part[0-9]+)");
+  std::error_code ignored;
+  std::vector<std::filesystem::path> found;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, ignored))
+    if (entry.is_regular_file(ignored) && std::regex_match(entry.path().filename().string(), abandoned)) found.push_back(entry.path());
+  for (const auto& file : found) std::filesystem::remove(file, ignored);
 }
 
 std::string case_identity(const LoadedCase& loaded) {

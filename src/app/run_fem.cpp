@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "app/memory_need.hpp"
 #include "app/peak_memory.hpp"
 #include "app/stop_flag.hpp"
 #include "core/faults.hpp"
@@ -99,7 +100,9 @@ FemOutcome run_fem(const FemRequest& request) {
   };
   RunControl control(request.times);
   report("mesh", -1, "");
-  const RollingSystem system(build_model(request.spec, request.case_folder));
+  const Model model = build_model(request.spec, request.case_folder);
+  require_memory(model);
+  const RollingSystem system(model);
   RunningFiles files(system, request);
   if (!request.resume) report("preload", -1, "");
 
@@ -130,6 +133,9 @@ FemOutcome run_fem(const FemRequest& request) {
   const RunResult run = [&] {
     try {
       return request.resume ? resume_rolling(system, observer, *request.resume) : run_rolling(system, observer);
+    } catch (const NumericalError& e) {
+      if (!std::filesystem::exists(checkpoint_file(request.out))) throw;
+      throw NumericalError(fmt::format("{}\n    the last good state is in {}", e.what(), checkpoint_file(request.out).string()));
     } catch (const Interrupted&) {
       if (!control.limit_reached()) throw;
       throw EnvironmentError("the static preload alone takes longer than --max-time allows: there is nothing to resume yet; give the run more time");

@@ -48,6 +48,7 @@ std::string summary_text(const Summary& s) {
     fmt::format_to(to, "  local steps      {:.0f} stages a step in {:.0f} elements: stable step {:.1f} ns instead of {:.1f} ns\n", s.run.local_stages, s.run.fine_elements, 1e9 * s.run.stable_step, 1e9 * s.run.unscaled_step);
   fmt::format_to(to, "  checks\n");
   for (const Check& k : s.checks) fmt::format_to(to, "    {:<6} {:<34} {:10.3g}  (limit {:.3g})\n", k.ok ? "ok" : "FAILED", k.name, k.value, k.limit);
+  for (const Warning& w : s.warnings) fmt::format_to(to, "    warn   {:<34} {:10.3g}  (above {:.3g}): {}\n", w.name, w.value, w.limit, w.text);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "core/faults.hpp"
+#include "fem/guards.hpp"
 
 namespace railstrata {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-constexpr double kLostContact = 0.02;      // of the static load
+constexpr long kStepsBetweenGoodStates = 1024;  // a copy of the state costs less than a step
 
 // Half length of a sample: the patch and the stress field around it.
 double sample_half_length(const RollingSystem& s) { return 1.5 * s.model.hertz.a + 2 * s.model.spec.mesh.element_size; }
@@ -81,32 +82,6 @@ HistoryRow history_row(const Stepper& st, const EnergyBalance& now, const Energy
   return {s.time, st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(), s.axle.vx, s.axle.vz, s.axle.spin, now, now.total() - start.total()};
 }
 
-// Nothing of a sound run moves by an element in one step; false for NaN too.
-bool axle_keeps_pace(const Stepper& st, double element_size) {
-  const AxleMotion& a = st.state().axle;
-  const double travel = st.dt() * std::max(std::abs(a.vx), std::abs(a.vz));
-  return std::isfinite(a.x) && std::isfinite(a.spin) && travel < element_size;
-}
-
-void require_sound(const Stepper& st, double element_size) {
-  if (std::isfinite(st.forces().z) && std::isfinite(st.creepage()) && axle_keeps_pace(st, element_size)) return;
-  const std::string where = st.check_finite();
-  throw NumericalError(fmt::format("the run became unstable at t = {:.4g} ms, x = {:.4g} mm: numbers are no longer finite or beyond all bounds ({}); dt = {:.3g} us\n    try a smaller run.step_safety",
-                                   1e3 * st.state().time, 1e3 * st.position(), where.empty() ? "forces on the axle" : where, 1e6 * st.dt()));
-}
-
-void require_forward(const Stepper& st) {
-  if (st.state().axle.vx <= 0)
-    throw NumericalError(fmt::format("the wheel came to a stand at t = {:.4g} ms, x = {:.4g} mm\n    try a higher drive.speed, less braking by drive.traction_coefficient, or nearer run.positions", 1e3 * st.state().time,
-                                     1e3 * st.position()));
-}
-
-void require_contact(const Stepper& st, double load) {
-  if (st.forces().z < kLostContact * load)
-    throw NumericalError(fmt::format("the wheel lost contact with the rail at t = {:.4g} ms, x = {:.4g} mm (F_z = {:.3g} kN of {:.3g} kN)\n    try a longer run.run_up or more run.run_up_damping",
-                                     1e3 * st.state().time, 1e3 * st.position(), 1e-3 * st.forces().z, 1e-3 * load));
-}
-
 std::vector<double> sorted_targets(const RollingSystem& sys) {
   std::vector<double> targets = sys.model.spec.run.positions;
   std::sort(targets.begin(), targets.end());
@@ -149,6 +124,7 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
   const int frames = std::max(spec.output.series_frames, 1);
   auto save = [&] {
     if (!observer.save) return;
+    require_finite(st);
     out.wall_seconds = earlier_seconds + seconds_since(start_time);
     out.reached_edge = st.reached_edge();
     run.stepper = st.memory();
@@ -156,28 +132,21 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
     run.stepper = {};
   };
 
-  while (run.next_sample < wanted.size()) {
-    if (observer.demand && st.can_be_remembered()) {
-      const Demand demand = observer.demand();
-      if (demand != Demand::go_on) save();
-      if (demand == Demand::save_and_stop) {
-        out.stopped = true;
-        break;
-      }
-    }
+  RunState good;  // of some moment before a guard speaks
+  auto one_step = [&] {
     const bool record = st.position() >= run.next_history;
     if (record) st.want_energy();
     st.step();
-    require_sound(st, spec.mesh.element_size);
+    require_sound(st);
     require_forward(st);
     if (record) {
       run.next_history += spec.run.history_interval;
       const EnergyBalance now = st.energy();
       if (!run.started) run.start_energy = now, run.started = true;
       const HistoryRow row = history_row(st, now, run.start_energy);
-      require_contact(st, sys.model.load);
       run.largest_closure = std::max(run.largest_closure, std::abs(row.closure));
       run.largest_energy = std::max({run.largest_energy, now.torque_work, now.strain});
+      require_within_bounds(st, row, run.largest_energy, out.history.size());
       out.hourglass_share = std::max(out.hourglass_share, now.hourglass / now.strain);
       out.run_up_damping_energy = now.damping;
       out.history.push_back(row);
@@ -194,6 +163,29 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
       out.positions[wanted[run.next_sample].group].samples.push_back(sample_now(st));
       ++run.next_sample;
     }
+  };
+
+  // False when the run is to stop.
+  auto between_steps = [&] {
+    if (!st.can_be_remembered()) return true;
+    const Demand demand = observer.demand ? observer.demand() : Demand::go_on;
+    if (demand != Demand::go_on) save();
+    if (observer.save && st.state().step % kStepsBetweenGoodStates == 0) {
+      require_finite(st);
+      out.wall_seconds = earlier_seconds + seconds_since(start_time);
+      good = run;
+      good.stepper = st.memory();
+    }
+    return demand != Demand::save_and_stop;
+  };
+
+  try {
+    while (!out.stopped && run.next_sample < wanted.size())
+      if (between_steps()) one_step();
+      else out.stopped = true;
+  } catch (const NumericalError&) {
+    if (observer.save && good.stepper.dt > 0) observer.save(good);
+    throw;
   }
   if (out.stopped)  // a position half measured is none
     while (!out.positions.empty() && out.positions.back().samples.size() < sample_positions(sys, out.positions.back().position).size()) out.positions.pop_back();

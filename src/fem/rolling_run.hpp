@@ -77,7 +77,7 @@ struct RunObserver {
   std::function<void(const RollingSample&)> frame;   ///< evenly spaced frames, output.series_frames of them
   const std::atomic<bool>* stop = nullptr;           ///< of the static preload, which throws Interrupted
   std::function<Demand()> demand;                    ///< asked every sixteen steps
-  std::function<void(const RunState&)> save;
+  std::function<void(const RunState&)> save;         ///< on demand, and the last good state before a NumericalError
 };
 
 /// Throws NumericalError (NaN, lost contact, a wheel that stops, no equilibrium), CaseError (wheel too heavy) and Interrupted.

@@ -71,6 +71,8 @@ Json summary_json(const Summary& s) {
                 {"commit", r.commit}};
   out["checks"] = Json::array();
   for (const Check& k : s.checks) out["checks"].push_back({{"name", k.name}, {"ok", k.ok}, {"value", number(k.value)}, {"limit", number(k.limit)}});
+  out["warnings"] = Json::array();
+  for (const Warning& w : s.warnings) out["warnings"].push_back({{"name", w.name}, {"value", number(w.value)}, {"limit", number(w.limit)}, {"text", w.text}});
   return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "post/patch.hpp"
+#include "post/plausibility.hpp"
 
 namespace railstrata {
 namespace {
@@ -87,6 +88,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   s.run.wall_s = r.wall_s;
   s.run.elements = static_cast<long>(r.grid.size());
   s.checks = checks(spec, r, m);
+  s.warnings = implausible(s, spec);
   return s;
 }
 

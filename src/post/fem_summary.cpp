@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "post/plausibility.hpp"
 #include "post/stress_maxima.hpp"
 
 namespace railstrata {
@@ -56,6 +57,7 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
     s.run.element_steps_per_s = static_cast<double>(run.elements) * static_cast<double>(run.steps) / (run.wall_seconds - run.preload_wall_seconds);
   }
   s.checks = checks(sys, run, m);
+  s.warnings = implausible(s, spec);
   return s;
 }
 

@@ -58,6 +58,13 @@ struct Check {
   double value = kNotApplicable, limit = kNotApplicable;
 };
 
+/// A sound result that is not plausible; exit code and checks do not depend on it.
+struct Warning {
+  std::string name;
+  double value = kNotApplicable, limit = kNotApplicable;
+  std::string text;
+};
+
 struct Summary {
   std::string title;
   double position = kNotApplicable;
@@ -66,6 +73,7 @@ struct Summary {
   EnergySummary energy;
   RunSummary run;
   std::vector<Check> checks;
+  std::vector<Warning> warnings;
 };
 
 }  // namespace railstrata

@@ -58,6 +58,15 @@ ReportCheck within(std::string name, std::vector<int> runs, double a, double b, 
   return {std::move(name), std::move(runs), true, value <= limit, value, limit, {}};
 }
 
+void add_warnings(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
+  if (!run.result.summary.contains("warnings") || !run.result.summary["warnings"].is_array()) return;
+  for (const auto& w : run.result.summary["warnings"]) {
+    if (!w.is_object()) continue;
+    const auto number = [&](const char* key) { return w.contains(key) && w[key].is_number() ? w[key].get<double>() : std::numeric_limits<double>::quiet_NaN(); };
+    out.push_back({w.value("name", "warning"), {index}, false, true, number("value"), number("limit"), w.value("text", "")});
+  }
+}
+
 void add_own(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
   if (!run.result.summary.contains("checks") || !run.result.summary["checks"].is_array()) return;
   for (const auto& c : run.result.summary["checks"]) {
@@ -88,6 +97,7 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
   std::vector<ReportCheck> out;
   const int n = static_cast<int>(runs.size());
   for (int i = 0; i < n; ++i) add_own(runs[i], i, out);
+  for (int i = 0; i < n; ++i) add_warnings(runs[i], i, out);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       if (runs[i].result.engine == "fem" && runs[j].result.engine == "bem" && differences(runs[i], runs[j]).empty()) add_pair(runs, i, j, out);

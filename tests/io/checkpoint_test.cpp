@@ -29,7 +29,10 @@ RunState small_run(double time) {
   r.stepper.state.groups = {{0.5, -0.5}};
   r.stepper.facets = {{3, 4, {{1, 2}, {3, 4}, {5, 6}, {7, 8}}}};
   r.stepper.reached_edge = true;
-  r.result.history = {{.time = 1e-3, .position = 0.02, .forces = {.z = 8e4, .nodes = 7}, .energy = {.kinetic = 12}, .closure = -1e-9}};
+  r.result.history.resize(2);
+  r.result.history[0].time = 1e-3;
+  r.result.history[0].forces.nodes = 7;
+  r.result.history[0].energy.kinetic = 12;
   r.result.positions = {{0.3, {RollingSample{}, RollingSample{}}}, {0.4, {}}};
   r.result.positions[0].samples[1].rail.stress = {{1, 2, 3, 4, 5, 6}};
   r.result.positions[0].samples[1].rail.along = {0.25};

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Wrong input, one test each: the whole message and the exit code. usage: bad_input_test.py BINARY"""
+import json
 import os
 import sys
 import unittest
@@ -108,15 +109,33 @@ class DuringTheRun(FromOutside):
 
     def test_numbers_that_grow_beyond_all_bounds(self):
         err = self.breaks_off('vehicle.sprung_mass="1 g"', 'vehicle.suspension_damping="1e8 N s/m"')  # a dashpot far too stiff for its mass and the step
-        self.assertRegex(err, r"^error: the run became unstable at t = [\d.]+ ms, x = -?[\d.]+ mm: numbers are no longer finite or beyond all bounds \(.+\); dt = [\d.]+ us\n    try a smaller run\.step_safety\n$")
+        self.assertRegex(err, r"^error: the run became unstable at t = [\d.]+ ms, x = -?[\d.]+ mm: numbers are no longer finite or beyond all bounds \(.+\); dt = [\d.]+ us\n    try a smaller run\.step_safety\n    the last good state is in .+/out/checkpoint\.h5\n$")
 
     def test_a_wheel_thrown_off_the_rail(self):
         err = self.breaks_off('vehicle.suspension_stiffness="10000 MN/m"', "run.step_safety=1.0")
-        self.assertRegex(err, r"^error: the wheel lost contact with the rail at t = [\d.]+ ms, x = [\d.]+ mm \(F_z = [\d.e-]+ kN of 83\.4 kN\)\n    try a longer run\.run_up or more run\.run_up_damping\n$")
+        self.assertRegex(err, r"^error: the wheel lost contact with the rail at t = [\d.]+ ms, x = [\d.]+ mm \(F_z = [\d.e-]+ kN of 83\.4 kN\)\n    try a longer run\.run_up or more run\.run_up_damping\n    the last good state is in .+/out/checkpoint\.h5\n$")
+
+    def test_a_mesh_that_the_machine_has_no_memory_for_is_refused_beforehand(self):
+        for command in ("check", "run"):
+            words = ["--out", self.folder / "big"] if command == "run" else []
+            self.refused(4, [command, self.case(TINY), "--set", "mesh.element_size=0.05 mm", "--set", "mesh.fine_depth=8 mm", *words], "error: this mesh needs about ", " GB are at hand\n    try a larger mesh.element_size")
+
+    def test_what_is_not_plausible_has_a_name_in_the_summary(self):
+        layer = '[[layer]]\nthickness = "8 mm"\nwidth = "10 mm"\n'
+        rc, out, err = railstrata("run", self.case(TINY + layer), "--threads", "1", "--quiet", "--no-report", "--out", self.folder / "out", "--set", "run.rolling=false", "--set", "geometry.wheel_radius=2 m")
+        self.assertIn(rc, (0, 1), err)
+        summary = json.loads((self.folder / "out" / "summary.json").read_text())
+        names = [w["name"] for w in summary["warnings"]]
+        wide = summary["contact"]["patch_width_m"] > 10e-3
+        self.assertEqual("patch_wider_than_layer" in names, wide)
+        self.assertEqual("von_mises_above_common_rail_yield" in names, max(s["von_mises_max"]["value_Pa"] for s in summary["stress"]["rail"].values() if s and s["von_mises_max"]) > 500e6)
+        self.assertTrue(names)
+        for name in names:
+            self.assertIn(f"warn   {name}", out)
 
     def test_a_wheel_braked_to_a_stand_is_not_waited_for(self):
         err = self.breaks_off('drive.speed="5 mm/s"', "drive.traction_coefficient=-0.2", 'drive.torque_ramp="0 s"')
-        self.assertRegex(err, r"^error: the wheel came to a stand at t = [\d.]+ ms, x = [\d.]+ mm\n    try a higher drive\.speed, less braking by drive\.traction_coefficient, or nearer run\.positions\n$")
+        self.assertRegex(err, r"^error: the wheel came to a stand at t = [\d.]+ ms, x = [\d.]+ mm\n    try a higher drive\.speed, less braking by drive\.traction_coefficient, or nearer run\.positions\n    the last good state is in .+/out/checkpoint\.h5\n$")
 
 
 if __name__ == "__main__":

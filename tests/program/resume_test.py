@@ -45,6 +45,7 @@ def results(folder):
         if name == "provenance.json":
             continue
         out[name] = file.read_bytes()
+        out[name] = out[name].replace(str(folder.resolve()).encode(), b"FOLDER")  # view.py says where it lies
         if file.name == "summary.json":
             summary = json.loads(out[name])
             for key in ("wall_s", "preload_wall_s", "element_steps_per_s", "peak_memory_bytes"):

@@ -1,0 +1,16 @@
+#pragma once
+// Whether a mesh fits into the machine, found before any of its fields is made.
+#include "model/model.hpp"
+
+namespace railstrata {
+
+/// Bytes that a run of the model needs at its peak (the static preload), from its nodes: measured on runs of the shipped cases and rounded up (tests/program/faults_test.py).
+double memory_needed(const Model& model);
+
+/// Bytes that this process may still take: the least of what the system has available, its control group's limit and the limit of its address space.
+double memory_at_hand();
+
+/// Throws EnvironmentError that names both and what to change if the run does not fit.
+void require_memory(const Model& model);
+
+}  // namespace railstrata

@@ -1,0 +1,92 @@
+#include "fem/guards.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "core/faults.hpp"
+#include "small_rolling.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace fem_checks;
+
+// Two cubes of 1 mm side by side along the rail.
+BandSample two_cubes() {
+  BandSample s;
+  s.columns = s.rows = 1;
+  s.stations = 2;
+  s.along = {0, 1e-3, 2e-3};
+  s.displacement.assign(12, Vec3{});
+  return s;
+}
+const std::vector<Vec2> kSection{{0, 0}, {1e-3, 0}, {0, -1e-3}, {1e-3, -1e-3}};
+
+struct Rolling {
+  RollingSystem system = small_system(small_case());
+  Stepper st{system, solve_preload(system, 1e-3)};
+  HistoryRow row{};
+  Rolling() {
+    st.want_energy();
+    st.step();
+    row.forces = st.forces();
+    row.energy = st.energy();
+  }
+  std::string verdict(const GuardLimits& limits = {}) {
+    try {
+      require_within_bounds(st, row, row.energy.strain, 0, limits);
+    } catch (const NumericalError& e) {
+      return e.what();
+    }
+    return "sound";
+  }
+};
+
+}  // namespace
+
+TEST(Guards, AnElementIsInvertedWhenANodePassesThroughTheFacesOppositeIt) {
+  BandSample s = two_cubes();
+  EXPECT_FALSE(inverted_element(s, kSection));
+  s.displacement[8].x = -0.99e-3;
+  EXPECT_FALSE(inverted_element(s, kSection));
+  s.displacement[8].x = -1.5e-3;  // of the last plane: half an element beyond the plane before it
+  const auto worst = inverted_element(s, kSection);
+  ASSERT_TRUE(worst);
+  EXPECT_NEAR(worst->centre.x, 1.5e-3, 1e-12);
+  EXPECT_NEAR(worst->jacobian, -0.5, 1e-9);
+}
+
+TEST(Guards, ASoundRunPassesThemAll) { EXPECT_EQ(Rolling().verdict(), "sound"); }
+
+TEST(Guards, EachSaysWhatWentWrongAndWhatToTry) {
+  Rolling r;
+  const HistoryRow sound = r.row;
+  r.row.forces.z = 0.01 * r.system.model.load;
+  EXPECT_NE(r.verdict().find("the wheel lost contact with the rail at t = "), std::string::npos);
+  r.row = sound;
+  r.row.closure = 0.3 * sound.energy.strain;
+  EXPECT_NE(r.verdict().find("the energy balance drifts"), std::string::npos);
+  r.row.closure = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(r.verdict().find("the energy balance drifts"), std::string::npos);
+  r.row = sound;
+  r.row.forces.penetration = 1.1 * r.system.model.hertz.approach;
+  EXPECT_NE(r.verdict().find("the wheel sinks into the rail"), std::string::npos);
+  r.row = sound;
+  r.row.energy.hourglass = 0.3 * sound.energy.strain;
+  EXPECT_NE(r.verdict().find("hourglass modes hold too much energy at t = "), std::string::npos);
+  EXPECT_NE(r.verdict().find("try mesh.element = \"full\""), std::string::npos);
+}
+
+TEST(Guards, AStateThatIsNotFiniteIsNotKept) {
+  Rolling r;
+  while (!r.st.can_be_remembered()) r.st.step();
+  EXPECT_NO_THROW(require_finite(r.st));
+  StepperMemory memory = r.st.memory();
+  const DeformableBody::Line& line = r.system.rail.lines.back();
+  memory.state.u_rail[line.first] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(require_finite(Stepper(r.system, memory)), NumericalError);
+}
+
+}  // namespace railstrata
