@@ -63,7 +63,7 @@ LoadedCase case_of_folder(const CommandOptions& options) {
 // Old results must not pass for those of a run that was interrupted.
 void clear_old_results(const std::filesystem::path& folder) {
   std::error_code ignored;
-  for (const char* name : {"summary.json", "report.html"}) std::filesystem::remove(folder / name, ignored);
+  for (const char* name : {"history.csv", "patch.pvd", "patch.csv", "report.html", "summary.json"}) std::filesystem::remove(folder / name, ignored);
   remove_checkpoints(folder);
 }
 

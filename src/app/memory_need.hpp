@@ -4,7 +4,7 @@
 
 namespace railstrata {
 
-/// Bytes that a run of the model needs at its peak (the static preload), from its nodes: measured on runs of the shipped cases and rounded up (tests/program/faults_test.py).
+/// Bytes that a run of the model needs at its peak, a checkpoint, from the number of its nodes; rounded up.
 double memory_needed(const Model& model);
 
 /// Bytes that this process may still take: the least of what the system has available, its control group's limit and the limit of its address space.

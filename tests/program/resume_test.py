@@ -17,7 +17,7 @@ from outside import BINARY, TINY, FromOutside, railstrata
 
 KILLS = int(sys.argv[2]) if len(sys.argv) > 2 else 4
 WORDS = ["--threads", "1", "--no-report"]
-TWO = TINY.replace('["30 mm"]', '["20 mm", "40 mm"]').replace('run_up = "0 mm"', 'run_up = "15 mm"')
+TWO = TINY.replace('["30 mm"]', '["12 mm", "24 mm"]').replace('run_up = "0 mm"', 'run_up = "8 mm"')
 
 
 def start(*words, **options):
@@ -103,7 +103,7 @@ class Resume(FromOutside):
         err = self.stop_at(process, 3 * self.rows // 4, (signal.SIGINT,))
         self.assertEqual(process.returncode, 130, err)
         self.assertGreater(rows(self.out), early)
-        self.assertTrue((self.out / "position_20mm" / "summary.json").exists())  # the finished position; the half measured one is not there
+        self.assertTrue((self.out / "position_12mm" / "summary.json").exists())  # the finished position; the half measured one is not there
         self.assertFalse((self.out / "summary.json").exists())
         self.finish()
         self.refused(2, self.resume(), "there is nothing to resume", "holds a finished run")
