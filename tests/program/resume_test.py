@@ -162,7 +162,7 @@ class Resume(FromOutside):
         while rc == 4:  # the preload takes as long as the machine is slow; the rolling takes ten times as long
             limit *= 2
             began = time.monotonic()
-            rc, _, err = railstrata("run", self.case(TWO), *WORDS, "--out", self.out, "--force", "--set", "run.positions=400 mm", "--max-time", f"{limit} s")
+            rc, _, err = railstrata("run", self.case(TWO), *WORDS, "--out", self.out, "--force", "--set", 'run.positions=["400 mm"]', "--max-time", f"{limit} s")
         self.assertEqual(rc, 5, err)
         self.assertLess(time.monotonic() - began, limit + 1)
         self.assertIn(f"stopped for --max-time; go on with\n    railstrata run --resume {self.out}\n", err)
