@@ -43,7 +43,8 @@ inline double orthogonalize(const std::vector<Plane>& basis, std::size_t count, 
 template <class Apply, class Precondition>
 GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative, int max_iterations, GmresSpace& space, int restart = 60) {
   const std::size_t n = b.size();
-  auto& [basis, r, z, w, y] = space;
+  auto& basis = space.basis;  // no structured binding: clang++ 14 does not capture one
+  Plane &r = space.r, &z = space.z, &w = space.w, &y = space.y;
   x.assign(n, 0.0);
   z.resize(n), w.resize(n), y.resize(n);
   r = b;
