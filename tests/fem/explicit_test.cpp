@@ -5,6 +5,7 @@
 
 #include "fem/stable_step.hpp"
 #include "fem/stepper.hpp"
+#include "free_matrix.hpp"
 #include "sample_bodies.hpp"
 
 namespace railstrata {
@@ -12,27 +13,12 @@ namespace {
 
 using namespace fem_checks;
 
-std::vector<std::ptrdiff_t> free_indices(const DeformableBody& body) {
-  std::vector<std::ptrdiff_t> out;
-  for (const DeformableBody::Line& l : body.lines)
-    for (int j = 0; j < l.count; ++j) out.push_back(l.first + j);
-  return out;
-}
-
 // 2 / omega_max of the assembled free degrees of freedom from a dense eigenproblem.
 double dense_stable_step(const DeformableBody& body) {
+  Eigen::MatrixXd k = stiffness_matrix(body);
   const std::vector<std::ptrdiff_t> index = free_indices(body);
-  const auto n = static_cast<Eigen::Index>(index.size());
-  Eigen::MatrixXd k(n, n);
-  Field unit = body.solid.layout().field(), f = unit;
-  for (Eigen::Index c = 0; c < n; ++c) {
-    std::fill(unit.begin(), unit.end(), 0.0);
-    unit[index[c]] = std::sqrt(body.inverse_mass[index[c]]);
-    body.ties.spread(unit, 0, true);
-    body.solid.linear_force(unit, f);
-    body.ties.collect(f);
-    for (Eigen::Index r = 0; r < n; ++r) k(r, c) = std::sqrt(body.inverse_mass[index[r]]) * f[index[r]];
-  }
+  for (Eigen::Index r = 0; r < k.rows(); ++r)
+    for (Eigen::Index c = 0; c < k.cols(); ++c) k(r, c) *= std::sqrt(body.inverse_mass[index[r]] * body.inverse_mass[index[c]]);
   return 2 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
 }
 

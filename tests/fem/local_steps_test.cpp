@@ -31,20 +31,7 @@ DeformableBody block_under_layer() { return {layered_brick(1, 3, 1e-3, 1e-3, wit
 
 // Column by column: K, and M B K of local steps.
 Eigen::MatrixXd dense(const DeformableBody& body, const LocalSteps& local) {
-  const std::vector<std::ptrdiff_t> index = free_indices(body);
-  const auto n = static_cast<Eigen::Index>(index.size());
-  Eigen::MatrixXd out(n, n);
-  Field u = body.solid.layout().field(), f = u;
-  for (Eigen::Index c = 0; c < n; ++c) {
-    std::fill(u.begin(), u.end(), 0.0);
-    u[index[c]] = 1;
-    body.ties.spread(u, 0, true);
-    body.solid.linear_force(u, f);
-    body.ties.collect(f);
-    local.refine_linear(u, f);
-    for (Eigen::Index r = 0; r < n; ++r) out(r, c) = f[index[r]];
-  }
-  return out;
+  return free_matrix(body, [&](const Field& u, Field& f) { local.refine_linear(u, f); });
 }
 
 Eigen::VectorXd masses(const DeformableBody& body) {

@@ -23,8 +23,9 @@ struct Dense {
 Dense dense(const DeformableBody& body, const MassScaling& scaling) {
   Dense d{free_indices(body), {}, {}, {}};
   const auto n = static_cast<Eigen::Index>(d.index.size());
-  d.stiffness = d.mass = d.added = Eigen::MatrixXd::Zero(n, n);
-  Field unit = body.solid.layout().field(), f = unit, other = unit;
+  d.stiffness = stiffness_matrix(body);
+  d.mass = d.added = Eigen::MatrixXd::Zero(n, n);
+  Field unit = body.solid.layout().field(), other = unit;
   for (Eigen::Index c = 0; c < n; ++c) {
     std::fill(unit.begin(), unit.end(), 0.0);
     unit[d.index[c]] = 1;
@@ -35,10 +36,6 @@ Dense dense(const DeformableBody& body, const MassScaling& scaling) {
       other[d.index[r]] = 0;
     }
     d.mass(c, c) = body.mass[d.index[c]];
-    body.ties.spread(unit, 0, true);
-    body.solid.linear_force(unit, f);
-    body.ties.collect(f);
-    for (Eigen::Index r = 0; r < n; ++r) d.stiffness(r, c) = f[d.index[r]];
   }
   return d;
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Bodies with a thin stiff layer, and what the tests of time steps do with them.
-#include "fem/rolling_system.hpp"
+#include "free_matrix.hpp"
 #include "sample_bodies.hpp"
 
 namespace railstrata::fem_checks {
@@ -27,13 +27,6 @@ inline const std::vector<Elastic> kStiffOnSteel{kSteel, elastic(4 * kYoung, 0.3,
 inline const double kWanted = 1e-3 / std::sqrt(kSteel.p_wave_modulus() / kSteel.density);
 
 inline DeformableBody thin_layer() { return {layered_brick(1, 3, 1e-3, 1e-3, kHeights, 2), kStiffOnSteel, {}}; }
-
-inline std::vector<std::ptrdiff_t> free_indices(const DeformableBody& body) {
-  std::vector<std::ptrdiff_t> out;
-  for (const DeformableBody::Line& l : body.lines)
-    for (int j = 0; j < l.count; ++j) out.push_back(l.first + j);
-  return out;
-}
 
 inline Field scattered_forces(const DeformableBody& body, double size) {
   Field f = body.solid.layout().field();
