@@ -1,10 +1,8 @@
 #include "app/study_page.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 
-#include "core/faults.hpp"
+#include "app/write_report.hpp"
 #include "io/output_file.hpp"
 #include "report/study.hpp"
 
@@ -33,17 +31,13 @@ void write_table(const std::filesystem::path& file, const ReportTable& t) {
 
 void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const Published& published, const std::vector<StudyRow>& rows) {
   if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return;
-  try {
+  const std::filesystem::path page = out / "report.html";
+  write_page_or_warn(page, [&] {
     const Report report = study_report(study.spec, published, entries_of(out, rows));
     for (const ReportTable& t : report.tables)
       if (t.id == "published" || t.id == "claims") write_table(out / (t.id + ".csv"), t);
-    write_whole_file(out / "report.html", report_page(report));
-    spdlog::info("everything on one page: {}", (out / "report.html").string());
-  } catch (const CaseError& e) {
-    spdlog::warn("no report: {}", e.what());
-  } catch (const EnvironmentError& e) {
-    spdlog::warn("no report: {}", e.what());
-  }
+    write_whole_file(page, report_page(report));
+  });
 }
 
 }  // namespace railstrata

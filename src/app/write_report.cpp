@@ -79,15 +79,20 @@ void write_report(const fs::path& page, const std::vector<fs::path>& folders, bo
   write_whole_file(page, report_page(report));
 }
 
-void add_report(const fs::path& folder, int threads) {
+void write_page_or_warn(const fs::path& page, const std::function<void()>& write) {
   try {
-    write_report(folder / "report.html", {folder}, true, threads);
-    spdlog::info("everything on one page: {}", (folder / "report.html").string());
+    write();
+    spdlog::info("everything on one page: {}", page.string());
   } catch (const CaseError& e) {
     spdlog::warn("no report: {}", e.what());
   } catch (const EnvironmentError& e) {
     spdlog::warn("no report: {}", e.what());
   }
+}
+
+void add_report(const fs::path& folder, int threads) {
+  const fs::path page = folder / "report.html";
+  write_page_or_warn(page, [&] { write_report(page, {folder}, true, threads); });
 }
 
 }  // namespace railstrata

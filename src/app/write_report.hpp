@@ -1,6 +1,7 @@
 #pragma once
 // From result folders to a report.
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 namespace railstrata {
@@ -15,7 +16,10 @@ std::filesystem::path half_space_reference(const std::filesystem::path& folder, 
 /// Writes the page for these folders; throws CaseError where one is no result, EnvironmentError for the disk. A single finite element result is set against its half-space reference if `reference` says so.
 void write_report(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders, bool reference, int threads);
 
-/// What `run` and `bem` do when they are done: report.html in the folder. Failing, it warns: the results are there without it.
+/// write(), which makes `page`, and tells where it is. Failing, it warns: the results are there without a page.
+void write_page_or_warn(const std::filesystem::path& page, const std::function<void()>& write);
+
+/// What `run` and `bem` do when they are done: report.html in the folder, or a warning.
 void add_report(const std::filesystem::path& folder, int threads);
 
 }  // namespace railstrata

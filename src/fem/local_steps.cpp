@@ -17,6 +17,16 @@ NodeSets no_nodes(const SweptBody& body) {
   return out;
 }
 
+// Takes the masters of the slaves in a set into it; false if they were all there.
+bool add_masters(const SweptBody& body, NodeSets& set) {
+  bool added = false;
+  for (const Tie& t : body.ties)
+    if (set[t.slave_block][t.slave_node])
+      for (int n : {t.master_node0, t.master_node1})
+        if (!set[t.master_block][n]) added = set[t.master_block][n] = true;
+  return added;
+}
+
 double shortest_spacing(const SweptBody& body, const Block& b, double radius) {
   double least = HUGE_VAL;
   for (int e = 0; e + 1 < b.stations.nodes(); ++e) least = std::min(least, b.stations.at[e + 1] - b.stations.at[e]);
@@ -39,13 +49,7 @@ NodeSets fast_nodes(const SweptBody& body, const std::vector<Elastic>& materials
       for (int n : k) out[b][n] = true;
     }
   }
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const Tie& t : body.ties)
-      if (out[t.slave_block][t.slave_node])
-        for (int n : {t.master_node0, t.master_node1})
-          if (!out[t.master_block][n]) changed = out[t.master_block][n] = true;
-  }
+  while (add_masters(body, out)) {}
   return out;
 }
 
@@ -79,11 +83,7 @@ Extract extract(const SweptBody& whole, const NodeSets& moving) {
       if (std::any_of(all[q].begin(), all[q].end(), [&](int n) { return moving[b][n]; })) keep(b, q);
   }
   for (bool changed = true; changed;) {
-    changed = false;
-    for (const Tie& t : whole.ties)
-      if (kept[t.slave_block][t.slave_node])
-        for (int n : {t.master_node0, t.master_node1})
-          if (!kept[t.master_block][n]) changed = kept[t.master_block][n] = true;
+    changed = add_masters(whole, kept);
     for (std::size_t b = 0; b < whole.blocks.size(); ++b)
       for (std::size_t q = 0; q < quads[b].size(); ++q)
         for (int n : whole.blocks[b].section.quads[q])

@@ -250,18 +250,14 @@ void take_in(const double* const (&line)[3], const double* cosine, const double*
 template <SweepKind kind, class Real>
 void give_out(const Real* rows, const double* cosine, const double* sine, int count, double* complete, double* first, double* end) {
   const Real *sx = rows, *sy = sx + Solid::kTile, *sz = sy + Solid::kTile, *dx = sz + Solid::kTile, *dy = dx + Solid::kTile, *dz = dy + Solid::kTile;
-  auto front = [&](int j, double& fx, double& fy, double& fz) {
-    const double a = sx[j] - dx[j], b = sz[j] - dz[j];
-    fy = sy[j] - dy[j];
+  auto in_model = [&](int j, Real x, Real y, Real z, double& fx, double& fy, double& fz) {
+    const double a = x, b = z;
+    fy = y;
     if constexpr (kind == SweepKind::revolve) fx = cosine[j] * a - sine[j] * b, fz = sine[j] * a + cosine[j] * b;
     else fx = a, fz = b;
   };
-  auto behind = [&](int j, double& fx, double& fy, double& fz) {
-    const double a = sx[j] + dx[j], b = sz[j] + dz[j];
-    fy = sy[j] + dy[j];
-    if constexpr (kind == SweepKind::revolve) fx = cosine[j] * a - sine[j] * b, fz = sine[j] * a + cosine[j] * b;
-    else fx = a, fz = b;
-  };
+  auto front = [&](int j, double& fx, double& fy, double& fz) { in_model(j, sx[j] - dx[j], sy[j] - dy[j], sz[j] - dz[j], fx, fy, fz); };
+  auto behind = [&](int j, double& fx, double& fy, double& fz) { in_model(j, sx[j] + dx[j], sy[j] + dy[j], sz[j] + dz[j], fx, fy, fz); };
   front(0, first[0], first[1], first[2]);
   behind(count - 1, end[0], end[1], end[2]);
   double *x = complete, *y = x + Solid::kTile, *z = y + Solid::kTile;

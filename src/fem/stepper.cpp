@@ -169,7 +169,10 @@ Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSur
 void Stepper::chain_tiles(const DeformableBody& body, Schedule& schedule) const {
   constexpr int kChainsPerThread = 6, kSingleTiles = std::numeric_limits<int>::max();
   const Solid& solid = body.solid;
-  schedule.chains = solid.chains(rate_ > 0 || want_energy_ ? kSingleTiles : kChainsPerThread * max_threads());
+  const int wanted = rate_ > 0 || want_energy_ ? kSingleTiles : kChainsPerThread * max_threads();
+  if (wanted == schedule.chains_wanted) return;
+  schedule.chains_wanted = wanted;
+  schedule.chains = solid.chains(wanted);
   schedule.chain_sums.assign(schedule.chains.size(), {});
   schedule.borders.assign(schedule.at_once.size(), {});
   for (const Solid::Chain& c : schedule.chains) schedule.borders[solid.block(c)].push_back(solid.border_plane(c));

@@ -137,6 +137,7 @@ class Stepper {
     std::vector<std::vector<char>> at_once;      // per block and section node
     std::vector<SectionNode> later;              // free nodes that wait
     std::vector<SectionNode> bordered;           // nodes updated at once, but for the border planes
+    int chains_wanted = 0;                       // what chains and borders were made for
     std::vector<Solid::Chain> chains;            // as many as keep the threads busy; single tiles if sums are wanted, whose bits are not to depend on the threads
     std::vector<std::vector<int>> borders;       // per block, border stations
     std::vector<Sums> chain_sums, later_sums, border_sums;
