@@ -37,7 +37,7 @@ RunEstimate estimate_run(const Model& model) {
   RunEstimate e;
   e.limits = StepPlan(system).limits;
   e.steps = std::lround(model.x_end / (model.spec.drive.speed * e.limits.chosen));
-  e.evaluations = 1 + static_cast<double>(e.limits.stages) * static_cast<double>(e.limits.fine_elements) / static_cast<double>(model.rail.elements() + model.wheel.elements());
+  e.evaluations = 1 + 2 * static_cast<double>(e.limits.stages) * static_cast<double>(e.limits.fine_elements) / static_cast<double>(model.rail.elements() + model.wheel.elements());
   e.seconds = kRestOfStep * e.evaluations * static_cast<double>(e.steps) * (force_seconds(system.rail) + force_seconds(system.wheel));
   e.memory_bytes = memory_in_use();
   return e;

@@ -27,12 +27,25 @@ void WheelNumbering::number(const MortarRows& rows, const ContactSurface& wheel,
 
 namespace {
 
+void give(ContactSide& side, std::size_t node, Vec3 impulse) {
+  if (!side.response) {
+    side.velocity[node] += side.inverse_mass[node] * impulse;
+    return;
+  }
+  const ContactSide::Place from = side.places[node];
+  const Vec3 own{from.cos * impulse.x + from.sin * impulse.z, impulse.y, from.cos * impulse.z - from.sin * impulse.x};
+  for (std::size_t n = 0; n < side.places.size(); ++n) {
+    const Vec3 v = side.response->velocity(from.column, side.places[n].column, side.places[n].station - from.station, own);
+    side.velocity[n] += {from.cos * v.x - from.sin * v.z, v.y, from.sin * v.x + from.cos * v.z};
+  }
+}
+
 class Sweeper {
  public:
   Sweeper(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system, TractionMemory& memory)
       : rows_(rows), dt_(dt), options_(options), sys_(system), memory_(memory) {}
 
-  Vec3 relative_velocity(std::size_t r) const { return relative(r, sys_.rail_velocity, sys_.wheel_velocity); }
+  Vec3 relative_velocity(std::size_t r) const { return relative(r, sys_.rail.velocity, sys_.wheel.velocity); }
   Vec3 relative(std::size_t r, const std::vector<Vec3>& rail, const std::vector<Vec3>& wheel) const {
     const ContactRow& row = rows_.rows[r];
     Vec3 w = -rail[r];
@@ -42,17 +55,14 @@ class Sweeper {
   void push(std::size_t r, Vec3 traction) {
     const ContactRow& row = rows_.rows[r];
     const Vec3 impulse = dt_ * row.area * traction;
-    sys_.rail_velocity[r] += sys_.rail_inverse_mass[r] * impulse;
-    for (int k = row.first; k < row.first + row.count; ++k) {
-      const int n = sys_.weight_node[k];
-      sys_.wheel_velocity[n] -= (rows_.weights[k].m * sys_.wheel_inverse_mass[n]) * impulse;
-    }
+    give(sys_.rail, r, impulse);
+    for (int k = row.first; k < row.first + row.count; ++k) give(sys_.wheel, sys_.weight_node[k], -rows_.weights[k].m * impulse);
   }
   // Velocity gained per unit traction.
   double compliance(std::size_t r) const {
     const ContactRow& row = rows_.rows[r];
-    double c = sys_.rail_inverse_mass[r];
-    for (int k = row.first; k < row.first + row.count; ++k) c += rows_.weights[k].m * rows_.weights[k].m * sys_.wheel_inverse_mass[sys_.weight_node[k]];
+    double c = sys_.rail.inverse_mass[r];
+    for (int k = row.first; k < row.first + row.count; ++k) c += rows_.weights[k].m * rows_.weights[k].m * sys_.wheel.inverse_mass[sys_.weight_node[k]];
     return dt_ * row.area * c;
   }
 
@@ -61,7 +71,7 @@ class Sweeper {
     std::vector<double> diagonal(n);
     for (std::size_t r = 0; r < n; ++r) {
       diagonal[r] = compliance(r);
-      if (const NodeTraction& t = node(r); t.p > 0) push(r, traction_vector(t, rows_.rows[r].normal));
+      if (const NodeTraction& t = node(r); t.p > 0 && !sys_.tractions_held) push(r, traction_vector(t, rows_.rows[r].normal));
     }
     for (sys_.sweeps = 0; sys_.sweeps < options_.max_sweeps;) {
       double change = 0;
@@ -76,17 +86,19 @@ class Sweeper {
   }
 
   void penalty() {
+    std::vector<Vec3> held(rows_.rows.size());
     for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
       const ContactRow& row = rows_.rows[r];
       NodeTraction& t = node(r);
-      const Vec3 w = relative(r, sys_.rail_before, sys_.wheel_before);
+      if (sys_.tractions_held) held[r] = traction_vector(t, row.normal);
+      const Vec3 w = relative(r, sys_.rail.before, sys_.wheel.before);
       const TangentFrame f = tangent_frame(row.normal);
       t.p = options_.penalty_stiffness * std::max(0.0, -row.gap);
       t.q1 += options_.penalty_stiffness * dt_ * dot(w, f.t1);
       t.q2 += options_.penalty_stiffness * dt_ * dot(w, f.t2);
       return_to_coulomb_disc(options_.friction_coefficient, t.p, t.q1, t.q2);
     }
-    for (std::size_t r = 0; r < rows_.rows.size(); ++r) push(r, traction_vector(node(r), rows_.rows[r].normal));
+    for (std::size_t r = 0; r < rows_.rows.size(); ++r) push(r, traction_vector(node(r), rows_.rows[r].normal) - held[r]);
   }
 
   void record_slip() {

@@ -9,6 +9,7 @@
 // of the order of the solver's tolerance.
 // penalty: p = k max(0, -g), with a tangential spring of the same stiffness returned to the Coulomb disc; for comparison with codes that do so.
 #include "contact/mortar.hpp"
+#include "contact/surface_response.hpp"
 #include "friction/coulomb.hpp"
 
 namespace railstrata {
@@ -31,13 +32,26 @@ inline Vec3 traction_vector(const NodeTraction& t, Vec3 n) {
   return -t.p * n + t.q1 * f.t1 + t.q2 * f.t2;
 }
 
-/// The velocities the contact works on, gathered for the rows of a step: rail nodes in the order of the rows, wheel nodes each once.
+/// One body's nodes in the contact.
+struct ContactSide {
+  std::vector<Vec3> velocity;                ///< m/s; free on input, final on output
+  std::vector<Vec3> before;                  ///< of the last half step: what a penalty's tangential spring has been stretched by
+  std::vector<double> inverse_mass;          ///< 1/kg; with a response the largest answer of a node to its own impulse
+  const SurfaceResponse* response = nullptr; ///< if nodes answer one another; then also
+  struct Place {
+    int column, station;
+    double cos = 1, sin = 0;                 ///< of the station's frame in the model: x = cos x' - sin z', z = sin x' + cos z'
+  };
+  std::vector<Place> places;
+  void clear() { velocity.clear(), before.clear(), inverse_mass.clear(), places.clear(); }
+};
+
+/// What the contact works on, gathered for the rows of a step: rail nodes in the order of the rows, wheel nodes each once.
 struct ContactSystem {
   std::vector<std::ptrdiff_t> wheel_nodes;    ///< index of component x
   std::vector<int> weight_node;               ///< per weight of the rows, position in wheel_nodes
-  std::vector<Vec3> rail_velocity, wheel_velocity;  ///< free velocities on input, final on output
-  std::vector<Vec3> rail_before, wheel_before;      ///< velocities of the last half step: what a penalty's tangential spring has been stretched by
-  std::vector<double> rail_inverse_mass, wheel_inverse_mass;
+  ContactSide rail, wheel;
+  bool tractions_held = false;                ///< the free velocities have felt the last step's tractions already
   int sweeps = 0;
 };
 

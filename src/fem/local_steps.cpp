@@ -180,55 +180,91 @@ void LocalSteps::set_step(double step, double body_step, double damping) {
 long LocalSteps::fine_elements() const { return part_ ? part_->solid.body().elements() : 0; }
 
 template <class Force>
-void LocalSteps::refine_with(const Field& u, const FrozenAcceleration& frozen, Field& f, Force&& force) const {
-  if (empty() || stages_.count == 1) return;
+void LocalSteps::run_stages(Force&& added_force) const {
   Part& p = *part_;
   const auto lines = static_cast<std::ptrdiff_t>(p.lines.size());
   const double d2 = step_ * step_, first = d2 / (stages_.omega * stages_.delta);
-  const double uniform[3] = {frozen.uniform.x, frozen.uniform.y, frozen.uniform.z};
-  const auto beside = [&](std::ptrdiff_t n, std::ptrdiff_t i) { return uniform[n % 3] + frozen.centrifugal * p.arm[i]; };
   for_each(lines, [&](std::ptrdiff_t n) {
     const Copy& l = p.lines[n];
-    for (int j = 0; j < l.count; ++j) {
-      p.start[l.part + j] = u[l.body + j];
-      const double a = l.free ? beside(n, l.part + j) - p.inverse_mass[l.part + j] * f[l.body + j] : 0.0;
-      p.acceleration[l.part + j] = a;
-      p.before[l.part + j] = 0;
-      p.now[l.part + j] = first * a;
-    }
+    for (std::ptrdiff_t i = l.part; i < l.part + l.count; ++i) p.before[i] = 0, p.now[i] = first * p.acceleration[i];
   });
-  force(p.start, p.frozen);
   for (int k = 1; k < stages_.count; ++k) {
     for_each(lines, [&](std::ptrdiff_t n) {
       const Copy& l = p.lines[n];
-      for (int j = 0; j < l.count; ++j) p.stretched[l.part + j] = l.fine ? p.now[l.part + j] : 0.0;
+      for (std::ptrdiff_t i = l.part; i < l.part + l.count; ++i) p.stretched[i] = l.fine ? p.now[i] : 0.0;
     });
     p.ties.spread(p.stretched, 0, true);
-    for_each(lines, [&](std::ptrdiff_t n) {
-      const Copy& l = p.lines[n];
-      for (int j = 0; j < l.count; ++j) p.moved[l.part + j] = p.start[l.part + j] + p.stretched[l.part + j];
-    });
-    force(p.moved, p.force);
-    for_each(lines, [&](std::ptrdiff_t n) {
-      const Copy& l = p.lines[n];
-      for (int j = 0; j < l.count; ++j) p.force[l.part + j] -= p.frozen[l.part + j];
-    });
+    added_force(p.force);
     p.ties.collect(p.force);
     const double b = stages_.b[k], c = 2 * d2 / stages_.omega * stages_.c[k];
     for_each(lines, [&](std::ptrdiff_t n) {
       const Copy& l = p.lines[n];
-      for (int j = 0; j < l.count; ++j) {
-        const std::ptrdiff_t i = l.part + j;
+      for (std::ptrdiff_t i = l.part; i < l.part + l.count; ++i) {
         const double next = (1 + b) * p.now[i] - b * p.before[i] + c * (p.acceleration[i] - p.inverse_mass[i] * p.force[i]);
         p.before[i] = p.now[i];
         p.now[i] = next;
       }
     });
   }
+}
+
+template <class Force>
+void LocalSteps::refine_with(const Field& u, const FrozenAcceleration& frozen, Field& f, Force&& force) const {
+  if (empty() || stages_.count == 1) return;
+  Part& p = *part_;
+  const auto lines = static_cast<std::ptrdiff_t>(p.lines.size());
+  const double uniform[3] = {frozen.uniform.x, frozen.uniform.y, frozen.uniform.z};
+  const auto beside = [&](std::ptrdiff_t n, std::ptrdiff_t i) { return uniform[n % 3] + frozen.centrifugal * p.arm[i]; };
+  for_each(lines, [&](std::ptrdiff_t n) {
+    const Copy& l = p.lines[n];
+    for (int j = 0; j < l.count; ++j) {
+      p.start[l.part + j] = u[l.body + j];
+      p.acceleration[l.part + j] = l.free ? beside(n, l.part + j) - p.inverse_mass[l.part + j] * f[l.body + j] : 0.0;
+    }
+  });
+  force(p.start, p.frozen);
+  run_stages([&](Field& added) {
+    for_each(lines, [&](std::ptrdiff_t n) {
+      const Copy& l = p.lines[n];
+      for (std::ptrdiff_t i = l.part; i < l.part + l.count; ++i) p.moved[i] = p.start[i] + p.stretched[i];
+    });
+    force(p.moved, added);
+    for_each(lines, [&](std::ptrdiff_t n) {
+      const Copy& l = p.lines[n];
+      for (std::ptrdiff_t i = l.part; i < l.part + l.count; ++i) added[i] -= p.frozen[i];
+    });
+  });
+  const double back = 2 / (step_ * step_);
   for_each(lines, [&](std::ptrdiff_t n) {
     const Copy& l = p.lines[n];
     if (!l.free) return;
-    for (int j = 0; j < l.count; ++j) f[l.body + j] = (beside(n, l.part + j) - 2 / d2 * p.now[l.part + j]) / p.inverse_mass[l.part + j];
+    for (int j = 0; j < l.count; ++j) f[l.body + j] = (beside(n, l.part + j) - back * p.now[l.part + j]) / p.inverse_mass[l.part + j];
+  });
+}
+
+void LocalSteps::add_forces(const std::vector<NodalForce>& forces, Field& f) const {
+  if (empty() || stages_.count == 1) {
+    for (const NodalForce& a : forces) f[a.index] -= a.value;
+    return;
+  }
+  Part& p = *part_;
+  std::fill(p.acceleration.begin(), p.acceleration.end(), 0.0);
+  for (const NodalForce& a : forces) {
+    const auto after = std::upper_bound(p.lines.begin(), p.lines.end(), a.index, [](std::ptrdiff_t index, const Copy& l) { return index < l.body; });
+    const bool inside = after != p.lines.begin() && a.index < std::prev(after)->body + std::prev(after)->count;
+    if (!inside) {
+      f[a.index] -= a.value;
+      continue;
+    }
+    const std::ptrdiff_t i = std::prev(after)->part + (a.index - std::prev(after)->body);
+    p.acceleration[i] += p.inverse_mass[i] * a.value;
+  }
+  run_stages([&](Field& added) { p.solid.linear_force(p.stretched, added); });
+  const double back = 2 / (step_ * step_);
+  for_each(static_cast<std::ptrdiff_t>(p.lines.size()), [&](std::ptrdiff_t n) {
+    const Copy& l = p.lines[n];
+    if (!l.free) return;
+    for (int j = 0; j < l.count; ++j) f[l.body + j] -= back * p.now[l.part + j] / p.inverse_mass[l.part + j];
   });
 }
 
@@ -238,6 +274,44 @@ void LocalSteps::refine(const Field& u, double psi, const FrozenAcceleration& fr
 
 void LocalSteps::refine_linear(const Field& u, Field& f) const {
   refine_with(u, {}, f, [&](Field& x, Field& out) { part_->solid.linear_force(x, out); });
+}
+
+SurfaceResponse surface_response(const DeformableBody& body, const ContactSurface& surface, const LocalSteps& steps) {
+  const ContactBand& band = body.solid.body().contact;
+  bool any = false;
+  for (int column = 0; column < surface.columns; ++column) any = any || steps.acts_on(band.block, column);
+  if (!any) return {};
+  const std::vector<double>& at = surface.stations.at;
+  const int first = static_cast<int>(std::lower_bound(at.begin(), at.end(), band.fine_begin) - at.begin()), last = static_cast<int>(std::upper_bound(at.begin(), at.end(), band.fine_end) - at.begin()) - 1;
+  const int reach = std::min(steps.stages() - 1, (last - first) / 2), apart = 2 * reach + 1, at_once = (last - first + 1) / apart;  // impulses that do not feel one another
+  SurfaceResponse out(surface.columns, reach);
+  struct Push {
+    int column, station;
+    Vec3 axis[3];  // of the station in the model
+  };
+  for (int begin = 0; begin < surface.columns; begin += at_once) {
+    std::vector<Push> pushes;
+    for (int column = begin; column < std::min(begin + at_once, surface.columns); ++column) {
+      const int station = first + reach + (column - begin) * apart;
+      const double angle = surface.kind == SweepKind::revolve ? at[station] : 0, c = std::cos(angle), s = std::sin(angle);
+      pushes.push_back({column, station, {{c, 0, s}, {0, 1, 0}, {-s, 0, c}}});
+    }
+    for (int i = 0; i < 3; ++i) {
+      std::vector<NodalForce> forces;
+      for (const Push& p : pushes)
+        for (const auto& [component, value] : {std::pair{0, p.axis[i].x}, std::pair{1, p.axis[i].y}, std::pair{2, p.axis[i].z}}) forces.push_back({surface.index(p.column, p.station) + component * surface.stride, value});
+      Field f = body.solid.layout().field();
+      steps.add_forces(forces, f);
+      for (const Push& p : pushes)
+        for (int to = 0; to < surface.columns; ++to)
+          for (int distance = -reach; distance <= reach; ++distance) {
+            const std::ptrdiff_t n = surface.index(to, p.station + distance);
+            const Vec3 velocity = -body.inverse_mass[n] * Vec3{f[n], f[n + surface.stride], f[n + 2 * surface.stride]};
+            for (int k = 0; k < 3; ++k) out.entry(p.column, to, distance, k, i) = dot(velocity, p.axis[k]);
+          }
+    }
+  }
+  return out;
 }
 
 }  // namespace railstrata

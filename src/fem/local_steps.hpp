@@ -12,7 +12,10 @@
 // A fast mode, omega D >> 1, keeps its static compliance but oscillates with D^2 lambda anywhere in 2 (1 -+ 1/cosh sqrt(2 nu)): the usual nu = 0.01, enough for
 // stability, leaves [0.02, 3.98] and with it spurious slow modes of forty steps a period that loads of that duration excite (a pulse of 50 steps in a layer: 4 % error);
 // nu = 0.5 leaves [0.7, 3.3] at 15 % more stages and 0.2 % error. Without damping the ends 0 and 4 are touched.
-// Work: p more evaluations of the elements that touch a fine node.
+// Contact: tractions change from step to step, and what the contact asks of the surface at the end of the step must be what the stages then give. They first run with
+// the tractions of the last step; what has to change is found with the stages' own answer to impulses on the surface (surface_response), and runs through them in turn
+// (add_forces). A change of f moves velocities by D B M^-1 f, nothing else.
+// Work: 2 p more evaluations of the elements that touch a fine node.
 #include <optional>
 
 #include "fem/rolling_system.hpp"
@@ -37,6 +40,12 @@ struct FrozenAcceleration {
   double centrifugal = 0;  ///< 1/s²
 };
 
+/// On one component of a node: index into the body's fields.
+struct NodalForce {
+  std::ptrdiff_t index;
+  double value;  ///< N
+};
+
 class LocalSteps {
  public:
   /// No fine nodes.
@@ -58,6 +67,8 @@ class LocalSteps {
   void refine(const Field& u, double psi, const FrozenAcceleration& frozen, Field& f) const;
   /// The same for f = K u.
   void refine_linear(const Field& u, Field& f) const;
+  /// Adds what further forces F [N] give to nodes at rest, -m a_eff: f -= M B M^-1 F. Model frame of a body that is not turned, or any frame that turns with it.
+  void add_forces(const std::vector<NodalForce>& forces, Field& f) const;
   /// True at lines of fine nodes, per block and section node.
   const std::vector<std::vector<bool>>& fine() const { return fine_; }
 
@@ -74,6 +85,9 @@ class LocalSteps {
     Field start, moved, stretched, force, frozen;  // u_n, u_n + P d, P d, forces; forces at u_n
     Field now, before, acceleration, inverse_mass, arm;
   };
+  /// Stages from the accelerations in part_ on; leaves d_p in part_->now. force: what is added to the frozen forces at u_n + P d.
+  template <class Force>
+  void run_stages(Force&& added_force) const;
   template <class Force>
   void refine_with(const Field& u, const FrozenAcceleration& frozen, Field& f, Force&& force) const;
 
@@ -82,5 +96,9 @@ class LocalSteps {
   Stages stages_{1};
   double step_ = 0;
 };
+
+/// How the running surface answers impulses on it, by the stages of local steps: B M^-1 for every surface column and component, among the fine stations, whose spacing is
+/// the same. Stages carry an impulse no further than their number of stations. Empty if no surface node is acted on.
+SurfaceResponse surface_response(const DeformableBody& body, const ContactSurface& surface, const LocalSteps& steps);
 
 }  // namespace railstrata

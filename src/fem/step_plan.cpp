@@ -24,12 +24,6 @@ double wanted_step(const DeformableBody& body, const CaseSpec& spec, double unit
   return units * spec.mesh.element_size / std::sqrt(matrix.p_wave_modulus() / matrix.density);
 }
 
-// Rows in shear answer slower than in compression: masses scaled to the shear wave answer no less than either does within local steps.
-double response_step(const DeformableBody& body, double step) {
-  const Elastic& matrix = body.solid.materials().front();
-  return step * std::sqrt(matrix.mu / matrix.p_wave_modulus());
-}
-
 // A penalty spring k a_A between a rail node and a wheel node of like mass.
 double penalty_step(const RollingSystem& sys, const MassScaling& rail) {
   const ContactSurface& r = sys.rail_surface;
@@ -48,7 +42,7 @@ StepPlan::StepPlan(const RollingSystem& sys) {
   else if (spec.run.time_step_method != "uniform") scale_masses(sys, spec.run.time_step_method == "auto");
   double least = limits.lanczos;
   if (spec.contact.method == "penalty") {
-    limits.contact = penalty_step(sys, rail_response);
+    limits.contact = penalty_step(sys, rail);
     least = 1 / std::sqrt(1 / (least * least) + 1 / (limits.contact * limits.contact));
   }
   limits.chosen = spec.run.step_safety * least;
@@ -68,24 +62,21 @@ void StepPlan::scale_masses(const RollingSystem& sys, bool if_worthwhile) {
     if (!scaling->empty()) limits.scaled_where += (limits.scaled_where.empty() ? "" : ", ") + scaling->report().where;
     limits.lanczos = std::min(limits.lanczos, step);
   }
-  rail_response = rail;
-  wheel_response = wheel;
 }
 
 void StepPlan::refine_steps(const RollingSystem& sys) {
   limits.lanczos = HUGE_VAL;
-  for (const auto& [body, steps, response] : {std::tuple{&sys.rail, &rail_steps, &rail_response}, std::tuple{&sys.wheel, &wheel_steps, &wheel_response}}) {
+  for (const auto& [body, steps] : {std::pair{&sys.rail, &rail_steps}, std::pair{&sys.wheel, &wheel_steps}}) {
     *steps = {*body, solid_options(sys.model.spec), wanted_step(*body, sys.model.spec, 1)};
     limits.lanczos = std::min(limits.lanczos, steps->empty() ? lanczos_stable_step(*body) : lanczos_coarse_step(*body, *steps));
     limits.fine_elements += steps->fine_elements();
-    if (!steps->empty()) *response = {*body, response_step(*body, wanted_step(*body, sys.model.spec, 1))};
   }
 }
 
 // Fine and coarse nodes together may stand a little less than the coarse ones alone.
 void StepPlan::settle_stages(const RollingSystem& sys) {
   constexpr double kEdge = 3.8, kShorter = 0.95;
-  for (const auto& [body, steps, response] : {std::tuple{&sys.rail, &rail_steps, &rail_response}, std::tuple{&sys.wheel, &wheel_steps, &wheel_response}}) {
+  for (const auto& [body, steps] : {std::pair{&sys.rail, &rail_steps}, std::pair{&sys.wheel, &wheel_steps}}) {
     if (steps->empty()) continue;
     const double own = lanczos_stable_step(*body);
     for (;; limits.chosen *= kShorter) {
@@ -94,11 +85,11 @@ void StepPlan::settle_stages(const RollingSystem& sys) {
       if (s.least > 0 && s.largest < kEdge) break;
     }
   }
-  for (const auto& [body, steps, response] : {std::tuple{&sys.rail, &rail_steps, &rail_response}, std::tuple{&sys.wheel, &wheel_steps, &wheel_response}}) {
+  for (const auto& [body, steps, surface, response] : {std::tuple{&sys.rail, &rail_steps, &sys.rail_surface, &rail_response}, std::tuple{&sys.wheel, &wheel_steps, &sys.wheel_surface, &wheel_response}}) {
     if (steps->empty()) continue;
     steps->set_step(limits.chosen, lanczos_stable_step(*body));
     limits.stages = std::max(limits.stages, steps->stages());
-    *response = {*body, response_step(*body, limits.chosen)};
+    *response = surface_response(*body, *surface, *steps);
   }
 }
 

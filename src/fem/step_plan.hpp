@@ -31,8 +31,7 @@ struct StepPlan {
   MassScaling rail, wheel;                    ///< empty: real masses
   LocalSteps rail_steps, wheel_steps;         ///< empty: one step for all
   bool local() const { return !rail_steps.empty() || !wheel_steps.empty(); }
-  /// How surface nodes answer a change of the contact forces within a step: as the scaled masses do. With local steps these stand for the stages.
-  MassScaling rail_response, wheel_response;
+  SurfaceResponse rail_response, wheel_response;  ///< of local steps: how the stages answer a change of the tractions; empty if they do not reach the surface
 
  private:
   void scale_masses(const RollingSystem& system, bool if_worthwhile);

@@ -342,17 +342,51 @@ void Stepper::refine_forces() {
   plan_.wheel_steps.refine(state_.u_wheel, state_.axle.psi - frame_.psi, {{frame_.sin_psi * sys_.gravity, 0, -frame_.cos_psi * sys_.gravity}, frame_.centrifugal}, f_wheel_);
 }
 
-// A force on the rail in a row of the contact, in whose sense the fields of forces are negative.
+// A force [N] of the wheel on the rail in a row of the contact, to the nodes of both bodies; add(is_wheel, index, force on the node).
 template <class Add>
 void Stepper::spread_contact_force(const MortarRows& rows, const ContactRow& row, Vec3 force, Add&& add) {
   const Vec3 turned = frame_.to_frame(force);
-  const double component[3] = {force.x, force.y, force.z}, wheel_component[3] = {turned.x, turned.y, turned.z};
-  for (int i = 0; i < 3; ++i) add(plan_.rail_response, f_rail_, row.rail + i * sys_.rail_surface.stride, -component[i]);
+  const double on_rail[3] = {force.x, force.y, force.z}, on_wheel[3] = {-turned.x, -turned.y, -turned.z};
+  for (int i = 0; i < 3; ++i) add(false, row.rail + i * sys_.rail_surface.stride, on_rail[i]);
   for (int w = row.first; w < row.first + row.count; ++w)
-    for (int i = 0; i < 3; ++i) add(plan_.wheel_response, f_wheel_, rows.weights[w].wheel + i * sys_.wheel_surface.stride, rows.weights[w].m * wheel_component[i]);
+    for (int i = 0; i < 3; ++i) add(true, rows.weights[w].wheel + i * sys_.wheel_surface.stride, rows.weights[w].m * on_wheel[i]);
 }
 
-// Local steps carry the tractions of the last step through their stages; what the contact changes of them is answered at once, by the response masses.
+// Free velocities of the nodes of the contact and how they answer.
+void Stepper::gather_contact(const MortarRows& rows) {
+  ContactSystem& c = contact_system_;
+  const ContactSurface &rail = sys_.rail_surface, &wheel = sys_.wheel_surface;
+  numbering_.number(rows, wheel, c);
+  c.tractions_held = plan_.local();
+  c.rail.clear(), c.wheel.clear();
+  c.rail.response = plan_.rail_response.empty() ? nullptr : &plan_.rail_response;
+  c.wheel.response = plan_.wheel_response.empty() ? nullptr : &plan_.wheel_response;
+  auto velocity = [](const Field& v, std::ptrdiff_t i, int stride) { return Vec3{v[i], v[i + stride], v[i + 2 * stride]}; };
+  for (const ContactRow& r : rows.rows) {
+    c.rail.before.push_back(velocity(state_.v_rail, r.rail, rail.stride));
+    c.rail.velocity.push_back((1 - rate_ * dt_) * c.rail.before.back() + dt_ * free_acceleration(false, r.rail));
+    c.rail.inverse_mass.push_back(c.rail.response ? c.rail.response->own(r.column) : plan_.rail.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
+    if (c.rail.response) c.rail.places.push_back({r.column, r.station});
+  }
+  for (std::ptrdiff_t i : c.wheel_nodes) {
+    const Vec3 arm = wheel_arm(i), w = velocity(state_.v_wheel, i, wheel.stride);
+    c.wheel.before.push_back(Vec3{frame_.speed, 0, 0} + frame_.to_model(frame_.step_back(w + frame_.rigid_rate(arm))));
+    Vec3 a = free_acceleration(true, i);
+    if (rate_ > 0) a -= rate_ * frame_.to_model(frame_.step_back(w - Vec3{mean_.x + mean_.spin * arm.z, 0, mean_.z - mean_.spin * arm.x}));
+    c.wheel.velocity.push_back(c.wheel.before.back() + dt_ * a);
+    if (!c.wheel.response) {
+      c.wheel.inverse_mass.push_back(plan_.wheel.share(i) * sys_.wheel.inverse_mass[i]);
+      continue;
+    }
+    const std::ptrdiff_t k = i - wheel.first_line;
+    const int column = static_cast<int>(k / (3 * wheel.stride)), station = static_cast<int>(k % (3 * wheel.stride));
+    const double cosine = cos_node_[sys_.model.wheel.contact.block][station], sine = sin_node_[sys_.model.wheel.contact.block][station];  // of theta
+    c.wheel.inverse_mass.push_back(c.wheel.response->own(column));
+    c.wheel.places.push_back({column, station, cosine * frame_.cos_psi + sine * frame_.sin_psi, sine * frame_.cos_psi - cosine * frame_.sin_psi});
+  }
+}
+
+// Local steps carry the tractions of the last step through their stages; then what the contact changes of them.
 void Stepper::contact() {
   const double h = sys_.model.spec.mesh.element_size;
   lift_wheel_surface();
@@ -369,65 +403,62 @@ void Stepper::contact() {
     for (NodeTraction& t : state_.tractions.all()) t = {};
     for (std::size_t k = 0; k < kept.size(); ++k) state_.tractions.at(rows.rows[k].column, rows.rows[k].station) = kept[k];
   }
+  auto force_of = [&](const ContactRow& row) { return row.area * traction_vector(state_.tractions.at(row.column, row.station), row.normal); };  // on the rail
 
-  ContactSystem& c = contact_system_;
-  numbering_.number(rows, sys_.wheel_surface, c);
-  const int rs = sys_.rail_surface.stride, ws = sys_.wheel_surface.stride;
-  auto velocity = [](const Field& v, std::ptrdiff_t i, int stride) { return Vec3{v[i], v[i + stride], v[i + 2 * stride]}; };
-  c.rail_velocity.clear(), c.rail_inverse_mass.clear(), c.wheel_velocity.clear(), c.wheel_inverse_mass.clear();
-  c.rail_before.clear(), c.wheel_before.clear();
-  std::vector<Vec3> held(plan_.local() ? rows.rows.size() : 0);
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    const ContactRow& row = rows.rows[k];
-    held[k] = row.area * traction_vector(state_.tractions.at(row.column, row.station), row.normal);
-    spread_contact_force(rows, row, held[k], [](const MassScaling&, Field& f, std::ptrdiff_t i, double force) { f[i] += force; });
+  held_.clear();
+  if (plan_.local()) {
+    for (const ContactRow& row : rows.rows) {
+      held_.push_back(force_of(row));
+      spread_contact_force(rows, row, held_.back(), [&](bool is_wheel, std::ptrdiff_t i, double force) { (is_wheel ? f_wheel_ : f_rail_)[i] -= force; });
+    }
+    refine_forces();
   }
-  refine_forces();
-  for (const ContactRow& r : rows.rows) {
-    c.rail_before.push_back(velocity(state_.v_rail, r.rail, rs));
-    c.rail_velocity.push_back((1 - rate_ * dt_) * c.rail_before.back() + dt_ * free_acceleration(false, r.rail));
-    c.rail_inverse_mass.push_back(plan_.rail_response.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
-  }
-  for (std::ptrdiff_t i : c.wheel_nodes) {
-    const Vec3 arm = wheel_arm(i), w = velocity(state_.v_wheel, i, ws);
-    c.wheel_before.push_back(Vec3{frame_.speed, 0, 0} + frame_.to_model(frame_.step_back(w + frame_.rigid_rate(arm))));
-    Vec3 a = free_acceleration(true, i);
-    if (rate_ > 0) a -= rate_ * frame_.to_model(frame_.step_back(w - Vec3{mean_.x + mean_.spin * arm.z, 0, mean_.z - mean_.spin * arm.x}));
-    c.wheel_velocity.push_back(c.wheel_before.back() + dt_ * a);
-    c.wheel_inverse_mass.push_back(plan_.wheel_response.share(i) * sys_.wheel.inverse_mass[i]);
-  }
-  for (std::size_t k = 0; k < held.size(); ++k) {
-    c.rail_velocity[k] -= (dt_ * c.rail_inverse_mass[k]) * held[k];
-    for (int w = rows.rows[k].first; w < rows.rows[k].first + rows.rows[k].count; ++w)
-      c.wheel_velocity[c.weight_node[w]] += (dt_ * c.wheel_inverse_mass[c.weight_node[w]] * rows.weights[w].m) * held[k];
-  }
+  gather_contact(rows);
+  enforce_contact(rows, dt_, enforcement_, contact_system_, state_.tractions);
+  apply_contact(rows);
 
-  enforce_contact(rows, dt_, enforcement_, c, state_.tractions);
-
+  const ContactSystem& c = contact_system_;
   forces_ = {};
   forces_.sweeps = c.sweeps;
   double friction = 0, normal = 0;
   for (std::size_t k = 0; k < rows.rows.size(); ++k) {
     const ContactRow& row = rows.rows[k];
-    const NodeTraction& t = state_.tractions.at(row.column, row.station);
-    const Vec3 force = row.area * traction_vector(t, row.normal);  // on the rail
-    if (t.p > 0 || !held.empty())
-      spread_contact_force(rows, row, held.empty() ? force : force - held[k], [](const MassScaling& response, Field& f, std::ptrdiff_t i, double part) { response.add_force(f, i, part); });
-    if (t.p <= 0) continue;
-    Vec3 slip = -0.5 * (c.rail_before[k] + c.rail_velocity[k]);  // mean of the step, wheel against rail
+    const double p = state_.tractions.at(row.column, row.station).p;
+    if (p <= 0) continue;
+    const Vec3 force = force_of(row);
+    Vec3 slip = -0.5 * (c.rail.before[k] + c.rail.velocity[k]);  // mean of the step, wheel against rail
     for (int w = row.first; w < row.first + row.count; ++w) {
       const int n = c.weight_node[w];
-      slip += (0.5 * rows.weights[w].m) * (c.wheel_before[n] + c.wheel_velocity[n]);
+      slip += (0.5 * rows.weights[w].m) * (c.wheel.before[n] + c.wheel.velocity[n]);
     }
     forces_.x -= force.x, forces_.y -= force.y, forces_.z -= force.z;
     forces_.penetration = std::max(forces_.penetration, -row.gap);
     ++forces_.nodes;
     const double normal_slip = dot(slip, row.normal);
-    normal += -row.area * t.p * normal_slip;
-    friction += dot(force, slip) + row.area * t.p * normal_slip;
+    normal += -row.area * p * normal_slip;
+    friction += dot(force, slip) + row.area * p * normal_slip;
   }
   balance_.friction += dt_ * friction;
   balance_.contact_normal += dt_ * normal;
+}
+
+// The tractions that were found, to the forces: what local steps hold already taken off and the rest through their stages.
+void Stepper::apply_contact(const MortarRows& rows) {
+  rail_change_.clear(), wheel_change_.clear();
+  for (std::size_t k = 0; k < rows.rows.size(); ++k) {
+    const ContactRow& row = rows.rows[k];
+    const NodeTraction& t = state_.tractions.at(row.column, row.station);
+    if (t.p <= 0 && held_.empty()) continue;
+    const Vec3 force = row.area * traction_vector(t, row.normal), change = held_.empty() ? force : force - held_[k];
+    spread_contact_force(rows, row, change, [&](bool is_wheel, std::ptrdiff_t i, double part) {
+      if (plan_.local()) (is_wheel ? wheel_change_ : rail_change_).push_back({i, part});
+      else if (is_wheel) plan_.wheel.add_force(f_wheel_, i, -part);
+      else plan_.rail.add_force(f_rail_, i, -part);
+    });
+  }
+  if (!plan_.local()) return;
+  plan_.rail_steps.add_forces(rail_change_, f_rail_);
+  plan_.wheel_steps.add_forces(wheel_change_, f_wheel_);
 }
 
 // Update of one section node's stations begin <= j < end; f: forces by station. measured: with run-up damping and sums.

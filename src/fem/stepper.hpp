@@ -150,6 +150,8 @@ class Stepper {
   void chain_tiles(const DeformableBody& body, Schedule& schedule) const;
   void internal_forces();
   void contact();
+  void gather_contact(const MortarRows& rows);
+  void apply_contact(const MortarRows& rows);
   void refine_forces();
   template <class Add>
   void spread_contact_force(const MortarRows& rows, const ContactRow& row, Vec3 force, Add&& add);
@@ -176,6 +178,8 @@ class Stepper {
   WheelNumbering numbering_;
   ContactSystem contact_system_;
   EnforcementOptions enforcement_;
+  std::vector<Vec3> held_;                                // forces of the rows that local steps have felt already
+  std::vector<NodalForce> rail_change_, wheel_change_;
   ContactForces forces_;
   EnergyBalance balance_, recorded_;
   StepPlan plan_;

@@ -28,21 +28,21 @@ struct Impact {
     WheelNumbering numbering;
     numbering.number(rows, surfaces.wheel, before);
     for (std::size_t r = 0; r < rows.rows.size(); ++r) {
-      before.rail_velocity.push_back({0.3 * scatter(3 * r), 0.3 * scatter(3 * r + 1), scatter(3 * r + 2)});
-      before.rail_inverse_mass.push_back(2e5 * (1 + 0.3 * scatter(r)));
+      before.rail.velocity.push_back({0.3 * scatter(3 * r), 0.3 * scatter(3 * r + 1), scatter(3 * r + 2)});
+      before.rail.inverse_mass.push_back(2e5 * (1 + 0.3 * scatter(r)));
     }
     for (std::size_t n = 0; n < before.wheel_nodes.size(); ++n) {
-      before.wheel_velocity.push_back({1 + 2 * scatter(4 * n), scatter(4 * n + 1), -2 + scatter(4 * n + 2)});
-      before.wheel_inverse_mass.push_back(1.2e5 * (1 + 0.3 * scatter(n + 77)));
+      before.wheel.velocity.push_back({1 + 2 * scatter(4 * n), scatter(4 * n + 1), -2 + scatter(4 * n + 2)});
+      before.wheel.inverse_mass.push_back(1.2e5 * (1 + 0.3 * scatter(n + 77)));
     }
-    before.rail_before = before.rail_velocity;
-    before.wheel_before = before.wheel_velocity;
+    before.rail.before = before.rail.velocity;
+    before.wheel.before = before.wheel.velocity;
     after = before;
     enforce_contact(rows, kStep, options, after, memory);
   }
   Vec3 slip(const ContactSystem& s, std::size_t r) const {
-    Vec3 w = -s.rail_velocity[r];
-    for (int k = rows.rows[r].first; k < rows.rows[r].first + rows.rows[r].count; ++k) w += rows.weights[k].m * s.wheel_velocity[s.weight_node[k]];
+    Vec3 w = -s.rail.velocity[r];
+    for (int k = rows.rows[r].first; k < rows.rows[r].first + rows.rows[r].count; ++k) w += rows.weights[k].m * s.wheel.velocity[s.weight_node[k]];
     return w;
   }
   const NodeTraction& traction(std::size_t r) const { return memory.at(rows.rows[r].column, rows.rows[r].station); }
@@ -89,10 +89,10 @@ TEST(Multipliers, KeepLinearMomentum) {
     const Impact c(exact(friction));
     Vec3 change, exchanged;
     for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
-      const Vec3 dp = (1 / c.before.rail_inverse_mass[r]) * (c.after.rail_velocity[r] - c.before.rail_velocity[r]);
+      const Vec3 dp = (1 / c.before.rail.inverse_mass[r]) * (c.after.rail.velocity[r] - c.before.rail.velocity[r]);
       change += dp, exchanged += Vec3{std::abs(dp.x), std::abs(dp.y), std::abs(dp.z)};
     }
-    for (std::size_t n = 0; n < c.before.wheel_nodes.size(); ++n) change += (1 / c.before.wheel_inverse_mass[n]) * (c.after.wheel_velocity[n] - c.before.wheel_velocity[n]);
+    for (std::size_t n = 0; n < c.before.wheel_nodes.size(); ++n) change += (1 / c.before.wheel.inverse_mass[n]) * (c.after.wheel.velocity[n] - c.before.wheel.velocity[n]);
     EXPECT_LT(norm(change), 1e-12 * norm(exchanged));
   }
 }
@@ -103,12 +103,12 @@ TEST(Multipliers, ImpulseIsAreaTimesTractionTimesTheStepOnBothSides) {
   for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
     const ContactRow& row = c.rows.rows[r];
     const Vec3 impulse = (kStep * row.area) * traction_vector(c.traction(r), row.normal);
-    const Vec3 rail = (1 / c.before.rail_inverse_mass[r]) * (c.after.rail_velocity[r] - c.before.rail_velocity[r]);
+    const Vec3 rail = (1 / c.before.rail.inverse_mass[r]) * (c.after.rail.velocity[r] - c.before.rail.velocity[r]);
     EXPECT_LT(norm(rail - impulse), 1e-9 * norm(impulse) + 1e-15);
     for (int k = row.first; k < row.first + row.count; ++k) wheel[c.before.weight_node[k]] -= c.rows.weights[k].m * impulse;
   }
   for (std::size_t n = 0; n < wheel.size(); ++n) {
-    const Vec3 dp = (1 / c.before.wheel_inverse_mass[n]) * (c.after.wheel_velocity[n] - c.before.wheel_velocity[n]);
+    const Vec3 dp = (1 / c.before.wheel.inverse_mass[n]) * (c.after.wheel.velocity[n] - c.before.wheel.velocity[n]);
     EXPECT_LT(norm(dp - wheel[n]), 1e-9 * norm(dp) + 1e-15);
   }
 }
@@ -118,9 +118,9 @@ TEST(Multipliers, TakeKineticEnergyOutOfSurfacesThatDoNotOverlap) {
   for (const ContactRow& row : c.rows.rows) ASSERT_GE(row.gap, 0.0);
   double loss = 0;
   auto energy = [](Vec3 v, double inverse_mass) { return 0.5 * dot(v, v) / inverse_mass; };
-  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) loss += energy(c.before.rail_velocity[r], c.before.rail_inverse_mass[r]) - energy(c.after.rail_velocity[r], c.before.rail_inverse_mass[r]);
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) loss += energy(c.before.rail.velocity[r], c.before.rail.inverse_mass[r]) - energy(c.after.rail.velocity[r], c.before.rail.inverse_mass[r]);
   for (std::size_t n = 0; n < c.before.wheel_nodes.size(); ++n)
-    loss += energy(c.before.wheel_velocity[n], c.before.wheel_inverse_mass[n]) - energy(c.after.wheel_velocity[n], c.before.wheel_inverse_mass[n]);
+    loss += energy(c.before.wheel.velocity[n], c.before.wheel.inverse_mass[n]) - energy(c.after.wheel.velocity[n], c.before.wheel.inverse_mass[n]);
   EXPECT_GT(loss, 0.0);
 }
 
@@ -141,6 +141,74 @@ TEST(Multipliers, AreTheSameWhenTheyStartFromTheSolution) {
   c.after = c.before;
   enforce_contact(c.rows, kStep, exact(), c.after, c.memory);
   for (std::size_t k = 0; k < first.size(); ++k) EXPECT_NEAR(c.memory.all()[k].p, first[k].p, 1e-7 * 1e9);
+}
+
+// Nodes that answer one another: the rail's by a response of exponential reach, positive definite, with normal and tangential motions mixed; the wheel's by masses.
+TEST(Multipliers, SatisfySignoriniCoulombAndTheResponseWhereNodesAnswerOneAnother) {
+  constexpr int kReach = 6;
+  constexpr double kLow = 0.15;
+  const Impact plain(exact(kLow), -2e-6);
+  Impact c(exact(kLow), -2e-6);
+  SurfaceResponse response(c.surfaces.rail.columns, kReach);
+  for (int from = 0; from < c.surfaces.rail.columns; ++from)
+    for (int to = 0; to < c.surfaces.rail.columns; ++to)
+      for (int apart = -kReach; apart <= kReach; ++apart) {
+        const double near = 2e5 * std::pow(-0.15, std::abs(to - from) + std::abs(apart));
+        for (int k = 0; k < 3; ++k) response.entry(from, to, apart, k, k) = near * (k == 2 ? 0.8 : 1);
+        response.entry(from, to, apart, 0, 2) = 0.1 * near * apart;  // antisymmetric in the distance: the whole stays symmetric
+        response.entry(from, to, apart, 2, 0) = -0.1 * near * apart;
+      }
+  c.before.rail.response = &response;
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    c.before.rail.places.push_back({c.rows.rows[r].column, c.rows.rows[r].station});
+    c.before.rail.inverse_mass[r] = response.own(c.rows.rows[r].column);
+  }
+  c.after = c.before;
+  for (NodeTraction& t : c.memory.all()) t = {};
+  enforce_contact(c.rows, kStep, exact(kLow), c.after, c.memory);
+  int pressed = 0, sliding = 0;
+  double difference = 0;
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    const NodeTraction& t = c.traction(r);
+    const double gap = c.rows.rows[r].gap + kStep * dot(c.slip(c.after, r), c.rows.rows[r].normal), q = std::hypot(t.q1, t.q2), slip = std::hypot(t.slip1, t.slip2);
+    EXPECT_GE(gap, -1e-17);
+    EXPECT_LE(q, kLow * t.p * (1 + 1e-12));
+    if (t.p > 0) {
+      ++pressed;
+      EXPECT_NEAR(gap, 0, 1e-16);
+      if (q < 0.999 * kLow * t.p) {
+        EXPECT_LT(slip, 1e-9);
+      } else {
+        ++sliding;
+        EXPECT_NEAR(t.q1 * t.slip1 + t.q2 * t.slip2, q * slip, 1e-6 * q * slip + 1e-9 * q);
+      }
+    }
+    difference = std::max(difference, std::abs(t.p - plain.traction(r).p));
+    Vec3 gained;
+    for (std::size_t k = 0; k < c.rows.rows.size(); ++k) {
+      const ContactRow &from = c.rows.rows[k], &to = c.rows.rows[r];
+      gained += response.velocity(from.column, to.column, to.station - from.station, (kStep * from.area) * traction_vector(c.traction(k), from.normal));
+    }
+    EXPECT_LT(norm(c.after.rail.velocity[r] - c.before.rail.velocity[r] - gained), 1e-9);
+  }
+  EXPECT_GT(pressed, 10);
+  EXPECT_GT(sliding, 4);
+  EXPECT_GT(difference, 1e6);
+}
+
+TEST(Multipliers, ThatWereHeldInTheFreeVelocitiesAreNotGivenTwice) {
+  Impact c(exact());
+  const std::vector<NodeTraction> once = c.memory.all();
+  ContactSystem again = c.before;
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {  // free velocities that have felt these tractions
+    const ContactRow& row = c.rows.rows[r];
+    const Vec3 impulse = (kStep * row.area) * traction_vector(c.traction(r), row.normal);
+    again.rail.velocity[r] += again.rail.inverse_mass[r] * impulse;
+    for (int k = row.first; k < row.first + row.count; ++k) again.wheel.velocity[again.weight_node[k]] -= (c.rows.weights[k].m * again.wheel.inverse_mass[again.weight_node[k]]) * impulse;
+  }
+  again.tractions_held = true;
+  enforce_contact(c.rows, kStep, exact(), again, c.memory);
+  for (std::size_t k = 0; k < once.size(); ++k) EXPECT_NEAR(c.memory.all()[k].p, once[k].p, 1e-7 * 1e9);
 }
 
 TEST(Penalty, PressureIsStiffnessTimesPenetrationAndFrictionStaysOnTheCoulombDisc) {

@@ -167,6 +167,89 @@ TEST_F(LocalStepsTest, AreStableUpToTheCoarseStepAndKeepTheFastModesFromTheEdges
   EXPECT_GT(undamped, 3.999);
 }
 
+// A disc's or a rail's running surface over a thin layer, all stations of one spacing.
+struct LayeredSurface {
+  DeformableBody body;
+  ContactSurface surface;
+  LocalSteps local;
+  static SweptBody mesh(SweepKind kind) {
+    SweptBody mesh = layered_brick(4, 40, 1e-3, 1e-3, with_rows(1), 2);
+    mesh.kind = kind;
+    mesh.contact = {0, 4, 7, {}, {}, 0, 40e-3};
+    Block& block = mesh.blocks[0];
+    if (kind == SweepKind::revolve) {
+      for (Vec2& p : block.section.nodes) p.z = -0.05 - p.z;  // the layer outside
+      for (auto& q : block.section.quads) std::swap(q[1], q[3]);
+      for (double& t : block.stations.at) t = t / 0.05 - 0.3;
+      mesh.contact.fine_begin = -0.3, mesh.contact.fine_end = 0.5;
+    }
+    return mesh;
+  }
+  explicit LayeredSurface(SweepKind kind) : body(mesh(kind), kStiffOnSteel, {}), local(body, {}, kWanted) {
+    const BlockLayout& l = body.solid.layout().blocks[0];
+    surface.kind = kind;
+    surface.columns = 5;
+    surface.stations = body.solid.body().blocks[0].stations;
+    surface.first_line = l.line(0, 0);
+    surface.stride = l.stride;
+    local.set_step(0.7 * kWanted, lanczos_stable_step(body));
+  }
+};
+
+TEST_F(LocalStepsTest, AnswerFurtherForcesAsTheyAnswerThoseOfTheElements) {
+  for (SweepKind kind : {SweepKind::extrude, SweepKind::revolve}) {
+    const LayeredSurface s(kind);
+    ASSERT_GT(s.local.stages(), 5);
+    const Field rest = s.body.solid.layout().field();
+    Field wanted = rest, f = rest;
+    std::vector<NodalForce> forces;
+    std::size_t k = 0;
+    for (std::ptrdiff_t i : free_indices(s.body)) {
+      wanted[i] = -scatter(++k);
+      forces.push_back({i, scatter(k)});
+    }
+    s.local.refine_linear(rest, wanted);
+    s.local.add_forces(forces, f);
+    double largest = 0;
+    for (std::ptrdiff_t i : free_indices(s.body)) largest = std::max(largest, std::abs(wanted[i]));
+    for (std::ptrdiff_t i : free_indices(s.body)) ASSERT_NEAR(f[i], wanted[i], 1e-11 * largest);
+  }
+}
+
+// Velocities of the surface by the response against all stages with all forces at once.
+TEST_F(LocalStepsTest, SurfaceResponseIsWhatTheStagesGive) {
+  for (SweepKind kind : {SweepKind::extrude, SweepKind::revolve}) {
+    const LayeredSurface s(kind);
+    const SurfaceResponse response = surface_response(s.body, s.surface, s.local);
+    EXPECT_EQ(response.reach(), std::min(s.local.stages() - 1, 20));
+    ContactSide side;
+    std::vector<std::ptrdiff_t> index;
+    std::vector<Vec3> impulse;
+    for (int column = 0; column < 5; ++column)
+      for (int station = 18; station < 23; ++station) {
+        index.push_back(s.surface.index(column, station));
+        impulse.push_back({scatter(3 * index.size()), scatter(3 * index.size() + 1), scatter(3 * index.size() + 2)});
+      }
+    std::vector<NodalForce> forces;
+    for (std::size_t n = 0; n < index.size(); ++n)
+      for (const auto& [i, value] : {std::pair{0, impulse[n].x}, std::pair{1, impulse[n].y}, std::pair{2, impulse[n].z}}) forces.push_back({index[n] + i * s.surface.stride, value});
+    Field f = s.body.solid.layout().field();
+    s.local.add_forces(forces, f);
+    for (std::size_t to = 0; to < index.size(); ++to) {
+      Vec3 sum;
+      for (std::size_t from = 0; from < index.size(); ++from) {
+        const auto place = [&](std::size_t n) { return std::pair{static_cast<int>(n / 5), 18 + static_cast<int>(n % 5)}; };
+        const double angle = kind == SweepKind::revolve ? s.surface.stations.at[place(from).second] : 0, c = std::cos(angle), q = std::sin(angle);
+        const Vec3 a = impulse[from], v = response.velocity(place(from).first, place(to).first, place(to).second - place(from).second, {c * a.x + q * a.z, a.y, c * a.z - q * a.x});
+        sum += {c * v.x - q * v.z, v.y, q * v.x + c * v.z};
+      }
+      const std::ptrdiff_t i = index[to];
+      const Vec3 wanted = -s.body.inverse_mass[i] * Vec3{f[i], f[i + s.surface.stride], f[i + 2 * s.surface.stride]};
+      EXPECT_LT(norm(sum - wanted), 1e-8 * response.own(2)) << static_cast<int>(kind) << ' ' << to;
+    }
+  }
+}
+
 // v(n-1/2).M v(n+1/2)/2 + u.M B K u/2, to round-off.
 TEST_F(LocalStepsTest, ConserveTheirEnergy) {
   const DeformableBody body = block_under_layer();
