@@ -122,6 +122,11 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
   const std::vector<Wanted> wanted = wanted_samples(sys);
   const double end = std::max(sys.model.x_end, wanted.back().position);
   const int frames = std::max(spec.output.series_frames, 1);
+  const auto timed = [&](auto&& output) {
+    const auto start = Clock::now();
+    output();
+    out.output_wall_seconds += seconds_since(start);
+  };
   auto save = [&] {
     if (!observer.save) return;
     require_finite(st);
@@ -150,17 +155,19 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
       out.hourglass_share = std::max(out.hourglass_share, now.hourglass / now.strain);
       out.run_up_damping_energy = now.damping;
       out.history.push_back(row);
-      if (observer.history) observer.history(row);
-      if (observer.progress) observer.progress(st.position() / end, row);
+      timed([&] {
+        if (observer.history) observer.history(row);
+        if (observer.progress) observer.progress(st.position() / end, row);
+      });
     }
     if (observer.frame && st.position() >= run.next_frame) {
       run.next_frame += end / frames;
       run.frame_times.push_back(st.state().time);
-      observer.frame(sample_now(st));
+      timed([&] { observer.frame(sample_now(st)); });
     }
     while (run.next_sample < wanted.size() && st.position() >= wanted[run.next_sample].position) {
       out.penetration = std::max(out.penetration, st.forces().penetration);
-      out.positions[wanted[run.next_sample].group].samples.push_back(sample_now(st));
+      timed([&] { out.positions[wanted[run.next_sample].group].samples.push_back(sample_now(st)); });
       ++run.next_sample;
     }
   };
@@ -169,12 +176,14 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
   auto between_steps = [&] {
     if (!st.can_be_remembered()) return true;
     const Demand demand = observer.demand ? observer.demand() : Demand::go_on;
-    if (demand != Demand::go_on) save();
+    if (demand != Demand::go_on) timed(save);
     if (observer.save && st.state().step % kStepsBetweenGoodStates == 0) {
-      require_finite(st);
-      out.wall_seconds = earlier_seconds + seconds_since(start_time);
-      good = run;
-      good.stepper = st.memory();
+      timed([&] {
+        require_finite(st);
+        out.wall_seconds = earlier_seconds + seconds_since(start_time);
+        good = run;
+        good.stepper = st.memory();
+      });
     }
     return demand != Demand::save_and_stop;
   };

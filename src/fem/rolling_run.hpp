@@ -50,6 +50,7 @@ struct RunResult {
   bool reached_edge = false;
   long steps = 0;
   double dt = 0, wall_seconds = 0, preload_wall_seconds = 0;
+  double output_wall_seconds = 0;  ///< of the rolling in this sitting: samples, histories, pictures, checkpoints
   long elements = 0, nodes = 0;
   bool stopped = false;                     ///< ended early on demand
 };

@@ -56,6 +56,7 @@ Json summary_json(const Summary& s) {
   out["run"] = {{"engine", r.engine},
                 {"wall_s", number(r.wall_s)},
                 {"preload_wall_s", number(r.preload_wall_s)},
+                {"output_wall_s", number(r.output_wall_s)},
                 {"elements", r.elements},
                 {"nodes", r.nodes},
                 {"steps", r.steps},

@@ -44,6 +44,7 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   s.run.engine = "fem";
   s.run.wall_s = run.wall_seconds;
   s.run.preload_wall_s = run.preload_wall_seconds;
+  s.run.output_wall_s = run.output_wall_seconds;
   s.run.elements = run.elements;
   s.run.nodes = run.nodes;
   s.run.steps = run.steps;

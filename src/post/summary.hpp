@@ -44,7 +44,7 @@ struct EnergySummary {
 
 struct RunSummary {
   std::string engine, commit;
-  double wall_s = kNotApplicable, preload_wall_s = kNotApplicable, dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
+  double wall_s = kNotApplicable, preload_wall_s = kNotApplicable, output_wall_s = kNotApplicable, dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
   double stable_step = kNotApplicable, unscaled_step = kNotApplicable;  ///< s, with and without selective mass scaling
   double added_mass = kNotApplicable;                                   ///< kg, by selective mass scaling of thin rows; 0: real masses
   double local_stages = kNotApplicable, fine_elements = kNotApplicable; ///< forces of the fine elements are evaluated so often a step; 1, 0: one step for all
