@@ -14,6 +14,7 @@
 #include <string>
 
 #include "core/parallel.hpp"
+#include "core/vectorize.hpp"
 #include "fem/stepper.hpp"
 
 namespace railstrata {
@@ -118,7 +119,7 @@ struct Lines {
     for (int i = 0; i < 3; ++i) {
       double *pu = u.data() + l.line(node, i), *pv = v.data() + l.line(node, i);
       const double* m = inverse_mass.data() + l.line(node, 0);
-#pragma GCC ivdep
+      RAILSTRATA_INDEPENDENT
       for (int j = begin; j < end; ++j) {
         pv[j] -= dt * m[j] * row[i][j];
         pu[j] += dt * pv[j];
@@ -129,12 +130,12 @@ struct Lines {
     const BlockLayout& l = solid.layout().blocks[0];
     solid.begin_forces(u, 0);
     const std::vector<Solid::Chain> chains = solid.chains(6 * max_threads());
-    const Solid::TakeRows take = [&](const Solid::Tile& t, int begin, int node, const double* rows) {
+    const auto take = [&](const Solid::Tile& t, int begin, int node, const double* rows) {
       if (begin == t.first) advance(node, begin, begin + 1, {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
       advance(node, t.first + 1, t.end, {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
       return true;
     };
-    const Solid::ExpectRows expect = [&](const Solid::Tile& t, int node, Prefetch& lines) {
+    const auto expect = [&](const Solid::Tile& t, int node, Prefetch& lines) {
       for (int i = 0; i < 3; ++i) lines.add(&v[l.line(node, i) + t.first]);
       lines.add(&inverse_mass[l.line(node, 0) + t.first]);
     };

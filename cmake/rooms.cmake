@@ -3,6 +3,13 @@
 add_library(railstrata_flags INTERFACE)
 target_include_directories(railstrata_flags INTERFACE ${CMAKE_SOURCE_DIR}/src)
 target_compile_options(railstrata_flags INTERFACE -Wall -Wextra -Wconversion -Wno-sign-conversion -Wshadow -fno-math-errno -ffp-contract=fast)
+if(RAILSTRATA_WERROR)
+  target_compile_options(railstrata_flags INTERFACE -Werror)
+  # What g++ guesses after optimization changes with the processor, the level and the sanitizers: seen as warnings, not as errors.
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(railstrata_flags INTERFACE -Wno-error=maybe-uninitialized -Wno-error=array-bounds -Wno-error=stringop-overflow -Wno-error=restrict)
+  endif()
+endif()
 # Eigen serves set-up work only; its AVX-512 paths draw false warnings from g++ 12 and slow compilation down.
 target_compile_definitions(railstrata_flags INTERFACE EIGEN_DONT_VECTORIZE)
 if(RAILSTRATA_NATIVE)
@@ -13,8 +20,14 @@ if(RAILSTRATA_NATIVE)
   endif()
 endif()
 if(RAILSTRATA_SANITIZE)
-  target_compile_options(railstrata_flags INTERFACE -fsanitize=${RAILSTRATA_SANITIZE} -fno-omit-frame-pointer)
+  # a finding ends the test; the standard library's own asserts see what a sanitizer does not (an index beyond size() and within the capacity)
+  target_compile_options(railstrata_flags INTERFACE -fsanitize=${RAILSTRATA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS)
   target_link_options(railstrata_flags INTERFACE -fsanitize=${RAILSTRATA_SANITIZE})
+endif()
+
+if(RAILSTRATA_COVERAGE)
+  target_compile_options(railstrata_flags INTERFACE --coverage -fprofile-update=atomic)
+  target_link_options(railstrata_flags INTERFACE --coverage)
 endif()
 
 # Third-party libraries each room links. Every room may use fmt; the others stand where they are used.

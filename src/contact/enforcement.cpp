@@ -68,7 +68,8 @@ class Sweeper {
 
   void multipliers() {
     const std::size_t n = rows_.rows.size();
-    std::vector<double> diagonal(n);
+    std::vector<double>& diagonal = sys_.compliance;
+    diagonal.resize(n);
     for (std::size_t r = 0; r < n; ++r) {
       diagonal[r] = compliance(r);
       if (const NodeTraction& t = node(r); t.p > 0 && !sys_.tractions_held) push(r, traction_vector(t, rows_.rows[r].normal));
@@ -86,7 +87,8 @@ class Sweeper {
   }
 
   void penalty() {
-    std::vector<Vec3> held(rows_.rows.size());
+    std::vector<Vec3>& held = sys_.held;
+    held.assign(rows_.rows.size(), Vec3{});
     for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
       const ContactRow& row = rows_.rows[r];
       NodeTraction& t = node(r);

@@ -52,6 +52,9 @@ struct ContactSystem {
   std::vector<int> weight_node;               ///< per weight of the rows, position in wheel_nodes
   ContactSide rail, wheel;
   bool tractions_held = false;                ///< the free velocities have felt the last step's tractions already
+  // memory that one step leaves to the next
+  std::vector<double> compliance;             ///< of the rows, (m/s)/Pa; set by enforce_contact
+  std::vector<Vec3> held;                     ///< tractions of the last step, Pa; penalty only
   int sweeps = 0;
 };
 

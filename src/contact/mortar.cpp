@@ -90,6 +90,19 @@ MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose,
   return h;
 }
 
+// Memory for all nodes of the window, so that nothing grows while the patch moves on.
+void MortarContact::reserve_window() {
+  constexpr std::size_t kWeights = 16;  // of a row, if the wheel's facets are no smaller than the rail's
+  const auto stations = static_cast<std::size_t>(window_stations_) + 4, columns = static_cast<std::size_t>(rail_.columns), nodes = stations * columns;
+  if (nodes <= near_.capacity()) return;
+  for (auto* flags : {&near_, &edge_}) flags->reserve(nodes);
+  for (auto* indices : {&chosen_column_, &chosen_station_, &facet_of_}) indices->reserve(nodes);
+  for (auto* facets : {&facets_, &before_}) facets->reserve(nodes);
+  hits_.reserve(nodes);
+  result_.rows.reserve(nodes);
+  result_.weights.reserve(kWeights * nodes);
+}
+
 void MortarContact::search(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double half_length, double reach) {
   turn_to(pose.psi);
   const auto& at = rail_.stations.at;
@@ -99,8 +112,9 @@ void MortarContact::search(const Field& u_rail, const Field& u_wheel, const Axle
   const int window_last = std::min(static_cast<int>(std::upper_bound(at.begin(), at.end(), centre + half_length) - at.begin()), static_cast<int>(at.size()) - 1);
   window_stations_ = std::max(window_last - window_first_, 0);
   const int inner = rail_.columns - 2;  // the outermost columns are tied to the coarser mesh
-  std::vector<char> near(static_cast<std::size_t>(inner) * window_stations_, 0);
-  std::vector<char> edge(near.size(), 0);
+  reserve_window();
+  near_.assign(static_cast<std::size_t>(inner) * window_stations_, 0);
+  edge_.assign(near_.size(), 0);
   for_each(window_stations_, [&](std::ptrdiff_t w) {
     const int j = window_first_ + static_cast<int>(w);
     for (int c = 1; c <= inner; ++c) {
@@ -109,20 +123,20 @@ void MortarContact::search(const Field& u_rail, const Field& u_wheel, const Axle
       h = opposite(u_wheel, pose, p, {h.offset.x, h.offset.y});
       const double gap = rail_.outward[c].y * h.offset.y + rail_.outward[c].z * h.offset.z;
       const std::size_t k = static_cast<std::size_t>(w) * inner + (c - 1);
-      near[k] = gap < reach && h.inside;
-      edge[k] = gap < 0 && (!h.inside || c == 1 || c == inner || w == 0 || w == window_stations_ - 1);
+      near_[k] = gap < reach && h.inside;
+      edge_[k] = gap < 0 && (!h.inside || c == 1 || c == inner || w == 0 || w == window_stations_ - 1);
     }
   });
-  result_.reached_edge = std::any_of(edge.begin(), edge.end(), [](char e) { return e; });
+  result_.reached_edge = std::any_of(edge_.begin(), edge_.end(), [](char e) { return e; });
   chosen_column_.clear();
   chosen_station_.clear();
-  std::vector<Facet> before = std::move(facets_);
+  std::swap(before_, facets_);
   facets_.clear();
   facet_of_.assign(static_cast<std::size_t>(rail_.columns) * (window_stations_ + 2), -1);
   auto slot = [&](int c, int j) -> int& { return facet_of_[static_cast<std::size_t>(j - window_first_ + 1) * rail_.columns + c]; };
   for (int w = 0; w < window_stations_; ++w)
     for (int c = 1; c <= inner; ++c) {
-      if (!near[static_cast<std::size_t>(w) * inner + (c - 1)]) continue;
+      if (!near_[static_cast<std::size_t>(w) * inner + (c - 1)]) continue;
       const int j = window_first_ + w;
       chosen_column_.push_back(c);
       chosen_station_.push_back(j);
@@ -133,7 +147,7 @@ void MortarContact::search(const Field& u_rail, const Field& u_wheel, const Axle
             facets_.push_back({c + dc, j + dj, {}});
           }
     }
-  for (const Facet& old : before) {  // keep the tangential corrections of facets seen before
+  for (const Facet& old : before_) {  // keep the tangential corrections of facets seen before
     const int j = old.station - window_first_ + 1;
     if (j < 0 || j >= window_stations_ + 2) continue;
     if (const int f = facet_of_[static_cast<std::size_t>(j) * rail_.columns + old.column]; f >= 0) std::copy(old.correction, old.correction + 4, facets_[f].correction);

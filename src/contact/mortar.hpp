@@ -74,6 +74,7 @@ class MortarContact {
   int wheel_station(double theta, double& weight) const;
 
   void turn_to(double psi);
+  void reserve_window();
 
   ContactSurface rail_, wheel_;
   std::vector<double> sin_t_, cos_t_;  // of the wheel's stations
@@ -85,6 +86,8 @@ class MortarContact {
   };
   std::vector<GaussHit> hits_;
   std::vector<int> facet_of_;     // dense map over the search window
+  std::vector<char> near_, edge_;  // of the search, and the facets that it found before
+  std::vector<Facet> before_;
   int window_first_ = 0, window_stations_ = 0;
   MortarRows result_;
   std::vector<double> scratch_;

@@ -206,8 +206,9 @@ void MassScaling::each_edge(Visit&& visit) const {
   });
 }
 
-Field MassScaling::differences(const Field& v) const {
-  Field out(3 * added_.size(), 0.0);
+Field MassScaling::differences(const Field& v, Field reuse) const {
+  Field out = std::move(reuse);
+  out.assign(3 * added_.size(), 0.0);
   each_edge([&](std::ptrdiff_t task, std::ptrdiff_t factor, std::ptrdiff_t here, std::ptrdiff_t below, int stations) {
     double* d = out.data() + 3 * factor + task % 3 * stations;
     for (int j = 0; j < stations; ++j) d[j] = v[here + j] - v[below + j];
@@ -216,7 +217,8 @@ Field MassScaling::differences(const Field& v) const {
 }
 
 double MassScaling::kinetic(const Field& differences_of_v, const Field& w) const {
-  std::vector<double> part(3 * chains_.size(), 0.0);
+  std::vector<double>& part = chain_energy_;
+  part.assign(3 * chains_.size(), 0.0);
   each_edge([&](std::ptrdiff_t task, std::ptrdiff_t factor, std::ptrdiff_t here, std::ptrdiff_t below, int stations) {
     const double* d = differences_of_v.data() + 3 * factor + task % 3 * stations;
     for (int j = 0; j < stations; ++j) part[task] += 0.5 * added_[factor + j] * d[j] * (w[here + j] - w[below + j]);

@@ -34,8 +34,9 @@ class MassScaling {
   void add_force(Field& f, std::ptrdiff_t index, double force) const;
   /// Diagonal of M (M + A)^-1 at such an index: what is left of the velocity that an impulse gives it. Surface nodes do not feel one another within a step.
   double share(std::ptrdiff_t index) const;
-  /// Differences of v across the edges, and the kinetic energy of the added mass 1/2 v^T A w from those of v and from w [J] (v, w: the half steps before and after).
-  Field differences(const Field& v) const;
+  /// Differences of v across the edges (in the memory of `reuse`), and the kinetic energy of the added mass 1/2 v^T A w from those of v and from w [J] (v, w: the half
+  /// steps before and after).
+  Field differences(const Field& v, Field reuse = {}) const;
   double kinetic(const Field& differences_of_v, const Field& w) const;
 
   struct Report {
@@ -69,6 +70,7 @@ class MassScaling {
   std::vector<std::vector<int>> chain_of_;  // per block and section node: the chain that begins there, kNone, or kInside one
   // L D L^T of M + A along a chain: y_k = f_k + g_(k-1) y_(k-1) down, f'_k = p_k y_k + b_k f'_(k+1) up; and f' for a unit force at the first node
   Field added_, forward_, pivot_, backward_, response_;
+  mutable std::vector<double> chain_energy_;
   Report report_;
 };
 

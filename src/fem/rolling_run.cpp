@@ -202,7 +202,7 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
   out.reached_edge = st.reached_edge();
   out.steps = st.state().step;
   out.wall_seconds = earlier_seconds + seconds_since(start_time);
-  return std::move(out);
+  return std::move(run.result);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/vectorize.hpp"
 #include "mesh/sweep_order.hpp"
 
 namespace railstrata {
@@ -229,7 +230,7 @@ template <SweepKind kind, class Real>
 void take_in(const double* const (&line)[3], const double* cosine, const double* sine, int count, Real* rows) {
   const double *x = line[0], *y = line[1], *z = line[2];
   Real *sx = rows, *sy = sx + Solid::kTile, *sz = sy + Solid::kTile, *dx = sz + Solid::kTile, *dy = dx + Solid::kTile, *dz = dy + Solid::kTile;
-#pragma GCC ivdep
+  RAILSTRATA_INDEPENDENT
   for (int j = 0; j < count; ++j) {
     const double a = x[j + 1] + x[j], b = z[j + 1] + z[j], da = x[j + 1] - x[j], db = z[j + 1] - z[j];
     sy[j] = static_cast<Real>(y[j + 1] + y[j]);
@@ -261,7 +262,7 @@ void give_out(const Real* rows, const double* cosine, const double* sine, int co
   front(0, first[0], first[1], first[2]);
   behind(count - 1, end[0], end[1], end[2]);
   double *x = complete, *y = x + Solid::kTile, *z = y + Solid::kTile;
-#pragma GCC ivdep
+  RAILSTRATA_INDEPENDENT
   for (int j = 1; j < count; ++j) {
     double ax, ay, az, bx, by, bz;
     front(j, ax, ay, az);
@@ -358,9 +359,10 @@ void Solid::run_chain(const Chain& chain, const Field& u, Field& f, const TakeRo
   }
 }
 
-std::vector<Solid::Chain> Solid::chains(int at_least) const {
+std::vector<Solid::Chain> Solid::chains(int at_least, std::vector<Chain> reuse) const {
   const int length = std::max(1, static_cast<int>(tiles_.size()) / at_least);
-  std::vector<Chain> out;
+  std::vector<Chain> out = std::move(reuse);
+  out.clear();
   for (std::size_t b = 0; b + 1 < first_tile_.size(); ++b) {
     const int first = first_tile_[b], tiles = first_tile_[b + 1] - first, pieces = (tiles + length - 1) / length;
     for (int k = 0; k < pieces; ++k) out.push_back({first + k * tiles / pieces, first + (k + 1) * tiles / pieces});
@@ -398,10 +400,10 @@ void Solid::end_forces(const std::vector<Chain>& chains, Field& f) const {
 template <bool linear>
 void Solid::forces(Field& u, double psi, Field& f) const {
   begin_forces(u, psi);
-  const std::vector<Chain> all = chains(8 * max_threads());
+  all_chains_ = chains(8 * max_threads(), std::move(all_chains_));
   for_each(
-      static_cast<std::ptrdiff_t>(all.size()), [&](std::ptrdiff_t k) { run_chain<double, linear>(all[k], u, f, nullptr, nullptr); }, true);
-  end_forces(all, f);
+      static_cast<std::ptrdiff_t>(all_chains_.size()), [&](std::ptrdiff_t k) { run_chain<double, linear>(all_chains_[k], u, f, nullptr, nullptr); }, true);
+  end_forces(all_chains_, f);
 }
 
 void Solid::internal_force(Field& u, double psi, Field& f) const { forces<false>(u, psi, f); }
@@ -409,7 +411,8 @@ void Solid::linear_force(Field& u, Field& f) const { forces<true>(u, 0.0, f); }
 
 StrainEnergy Solid::energy(Field& u, double psi) const {
   begin_forces(u, psi);
-  std::vector<StrainEnergy> part(tiles_.size());
+  std::vector<StrainEnergy>& part = tile_energy_;
+  part.assign(tiles_.size(), {});
   for_each(
       static_cast<std::ptrdiff_t>(tiles_.size()),
       [&](std::ptrdiff_t t) {

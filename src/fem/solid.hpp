@@ -5,11 +5,11 @@
 // rows of scratch memory; a finished row is handed over at once, so that it can be used while it is in cache. Tiles may be chained: one waits for the other and completes
 // the node plane between them; forces on the planes between two chains are added up afterwards. No races, and sums that do not depend on the number of threads.
 #include <array>
-#include <functional>
 #include <memory>
 #include <vector>
 
 #include "core/array.hpp"
+#include "core/callable_ref.hpp"
 #include "core/parallel.hpp"
 #include "element/swept_hex.hpp"
 #include "mesh/layout.hpp"
@@ -61,16 +61,16 @@ class Solid {
   struct Chain {
     int first_tile, end_tile;
   };
-  /// At least so many chains if there are as many tiles. The forces are the same to the bit however the tiles are chained.
-  std::vector<Chain> chains(int at_least) const;
+  /// At least so many chains if there are as many tiles, in the memory of `reuse`. The forces are the same to the bit however the tiles are chained.
+  std::vector<Chain> chains(int at_least, std::vector<Chain> reuse = {}) const;
   int border_plane(const Chain& c) const { return tiles_[c.first_tile].first; }
   int block(const Chain& c) const { return tiles_[c.first_tile].block; }
 
   /// Complete internal forces on a node at the stations begin <= j < tile.end: rows[i * kTile + j - tile.first]; begin is the tile's first station or the next. May change
   /// the displacements there. Returns true if it has used them up; otherwise they are stored in f.
-  using TakeRows = std::function<bool(const Tile& tile, int begin, int node, const double* rows)>;
+  using TakeRows = CallableRef<bool(const Tile& tile, int begin, int node, const double* rows)>;
   /// Told of a node some time before its rows are handed over: adds the lines of memory, from the tile's first station, that will be wanted then.
-  using ExpectRows = std::function<void(const Tile& tile, int node, Prefetch& lines)>;
+  using ExpectRows = CallableRef<void(const Tile& tile, int node, Prefetch& lines)>;
 
   void begin_forces(Field& u, double psi) const;
   void chain_forces(const Chain& chain, const Field& u, Field& f, const TakeRows& take, const ExpectRows& expect) const;
@@ -147,6 +147,8 @@ class Solid {
   std::vector<int> first_tile_;               // per block, and one past the end
   std::vector<std::ptrdiff_t> border_;        // per tile, start in the border buffers
   mutable Field border_first_, border_end_;   // forces of a tile on its border planes, [node][component]
+  mutable std::vector<Chain> all_chains_;     // of forces()
+  mutable std::vector<StrainEnergy> tile_energy_;
   Field mass_;
 };
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/faults.hpp"
+#include "core/vectorize.hpp"
 
 namespace railstrata {
 namespace {
@@ -172,9 +173,10 @@ void Stepper::chain_tiles(const DeformableBody& body, Schedule& schedule) const 
   const int wanted = rate_ > 0 || want_energy_ ? kSingleTiles : kChainsPerThread * max_threads();
   if (wanted == schedule.chains_wanted) return;
   schedule.chains_wanted = wanted;
-  schedule.chains = solid.chains(wanted);
+  schedule.chains = solid.chains(wanted, std::move(schedule.chains));
   schedule.chain_sums.assign(schedule.chains.size(), {});
-  schedule.borders.assign(schedule.at_once.size(), {});
+  schedule.borders.resize(schedule.at_once.size());
+  for (std::vector<int>& planes : schedule.borders) planes.clear();
   for (const Solid::Chain& c : schedule.chains) schedule.borders[solid.block(c)].push_back(solid.border_plane(c));
   for (std::size_t b = 0; b < schedule.borders.size(); ++b)
     if (const BlockLayout& l = solid.layout().blocks[b]; !l.closed) schedule.borders[b].push_back(l.elements);
@@ -213,7 +215,7 @@ void Stepper::internal_forces() {
         if (!is_wheel) k -= wheel_chains;
         Schedule& plan = is_wheel ? wheel_schedule_ : rail_schedule_;
         Sums sums;
-        const Solid::TakeRows take = [&](const Solid::Tile& tile, int begin, int node, const double* rows) {
+        const auto take = [&](const Solid::Tile& tile, int begin, int node, const double* rows) {
           if (!fused || !plan.at_once[tile.block][node]) return false;
           const double* const f[3] = {rows - tile.first, rows + Solid::kTile - tile.first, rows + 2 * Solid::kTile - tile.first};
           if (begin == tile.first) advance_node(is_wheel, {tile.block, node}, begin, begin + 1, f, sums);  // the others are aligned to packs
@@ -223,7 +225,7 @@ void Stepper::internal_forces() {
         const Solid& solid = is_wheel ? wheel : rail;
         const Field& v = is_wheel ? state_.v_wheel : state_.v_rail;
         const Field& inverse_mass = (is_wheel ? sys_.wheel : sys_.rail).inverse_mass;
-        const Solid::ExpectRows expect = [&](const Solid::Tile& tile, int node, Prefetch& lines) {
+        const auto expect = [&](const Solid::Tile& tile, int node, Prefetch& lines) {
           if (!plan.at_once[tile.block][node]) return;
           const std::ptrdiff_t x = solid.layout().blocks[tile.block].line(node, 0) + tile.first;
           for (int i = 0; i < 3; ++i) lines.add(&v[x + i * solid.layout().blocks[tile.block].stride]);
@@ -303,9 +305,10 @@ void Stepper::lift_wheel_surface() {
 }
 
 // Velocities relative to the frame's travel, in this step's frame components: of the half step before, or the one after the update. Empty without added mass.
-Field Stepper::wheel_velocity(bool before) const {
-  if (plan_.wheel.empty()) return {};
-  Field out = sys_.wheel.solid.layout().field();
+Field Stepper::wheel_velocity(bool before, Field reuse) const {
+  Field out = std::move(reuse);
+  if (plan_.wheel.empty()) return out;
+  out.assign(state_.v_wheel.size(), 0.0);
   const auto& blocks = sys_.wheel.solid.layout().blocks;
   for (std::size_t b = 0; b < blocks.size(); ++b)
     for (int n = 0; n < blocks[b].nodes; ++n) {
@@ -398,10 +401,10 @@ void Stepper::contact() {
   reached_edge_ = reached_edge_ || rows.reached_edge;
   // nodes that left the neighbourhood of the patch carry nothing
   if (state_.step % kSearchInterval == 0) {
-    std::vector<NodeTraction> kept;
-    for (const ContactRow& r : rows.rows) kept.push_back(state_.tractions.at(r.column, r.station));
+    kept_.clear();
+    for (const ContactRow& r : rows.rows) kept_.push_back(state_.tractions.at(r.column, r.station));
     for (NodeTraction& t : state_.tractions.all()) t = {};
-    for (std::size_t k = 0; k < kept.size(); ++k) state_.tractions.at(rows.rows[k].column, rows.rows[k].station) = kept[k];
+    for (std::size_t k = 0; k < kept_.size(); ++k) state_.tractions.at(rows.rows[k].column, rows.rows[k].station) = kept_[k];
   }
   auto force_of = [&](const ContactRow& row) { return row.area * traction_vector(state_.tractions.at(row.column, row.station), row.normal); };  // on the rail
 
@@ -478,7 +481,7 @@ void Stepper::advance_node(const DeformableBody& body, Field& u, Field& v, Secti
   const double gx = turning ? frame_.sin_psi * sys_.gravity : 0.0, gz = turning ? -frame_.cos_psi * sys_.gravity : -sys_.gravity;
   const MeanMotion mean = mean_;
   double twice_kinetic = 0, power = 0, px = 0, pz = 0, angular = 0;
-#pragma GCC ivdep
+  RAILSTRATA_INDEPENDENT
   for (int j = begin; j < end; ++j) {
     const double m = inverse_mass[j];
     double wx = vx[j], wy = vy[j], wz = vz[j];
@@ -648,15 +651,15 @@ double Stepper::spring_energy() const {
 void Stepper::step() {
   const EnergyBalance before = balance_;
   rate_ = damping_rate();
-  Field rail_before, wheel_before;
   if (want_energy_) {
     const StrainEnergy rail = sys_.rail.solid.energy(state_.u_rail, 0), wheel = sys_.wheel.solid.energy(state_.u_wheel, state_.axle.psi - frame_.psi);
     balance_.strain = rail.strain + wheel.strain;
     balance_.hourglass = rail.hourglass + wheel.hourglass;
     balance_.weight = weight_potential();
     balance_.spring = spring_energy();
-    rail_before = plan_.rail.differences(state_.v_rail);
-    wheel_before = plan_.wheel.differences(wheel_velocity(true));
+    rail_stretch_ = plan_.rail.differences(state_.v_rail, std::move(rail_stretch_));
+    wheel_velocity_ = wheel_velocity(true, std::move(wheel_velocity_));
+    wheel_stretch_ = plan_.wheel.differences(wheel_velocity_, std::move(wheel_stretch_));
   }
   internal_forces();
   plan_.rail.scale(f_rail_);
@@ -666,7 +669,8 @@ void Stepper::step() {
   balance_.damping += dt_ * sums_.damping;
   advance_axle();
   if (want_energy_) {
-    balance_.kinetic = sums_.kinetic + axle_kinetic_ + plan_.rail.kinetic(rail_before, state_.v_rail) + plan_.wheel.kinetic(wheel_before, wheel_velocity(false));
+    wheel_velocity_ = wheel_velocity(false, std::move(wheel_velocity_));
+    balance_.kinetic = sums_.kinetic + axle_kinetic_ + plan_.rail.kinetic(rail_stretch_, state_.v_rail) + plan_.wheel.kinetic(wheel_stretch_, wheel_velocity_);
     recorded_ = halfway(before, balance_);
   }
   state_.time += dt_;

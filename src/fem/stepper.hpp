@@ -162,7 +162,7 @@ class Stepper {
   void expect_borders(bool is_wheel, SectionNode node) const;
   Vec3 wheel_arm(std::ptrdiff_t surface_index) const;
   void lift_wheel_surface();
-  Field wheel_velocity(bool before) const;
+  Field wheel_velocity(bool before, Field reuse) const;
   void take_mean_motion(const Sums& sums);
   void advance_axle();
   Vec3 free_acceleration(bool is_wheel, std::ptrdiff_t surface_index) const;
@@ -191,6 +191,9 @@ class Stepper {
   double axle_z0_ = 0;
   double axle_kinetic_ = 0;
   bool want_energy_ = false, reached_edge_ = false;
+  // memory that one step leaves to the next
+  std::vector<NodeTraction> kept_;
+  Field rail_stretch_, wheel_stretch_, wheel_velocity_;
   double rate_ = 0;                                       // run-up damping of this step
   Sums sums_;                                             // of this step
   MeanMotion mean_;

@@ -24,7 +24,7 @@ Ties::Ties(const SweptBody& body, const BodyLayout& layout) : layout_(layout), k
   auto interpolation = [&](int slave, int master) {
     const auto [known, added] = interpolation_of.emplace(std::pair{slave, master}, static_cast<int>(interpolations_.size()));
     if (!added) return known->second;
-    Interpolation in{slave, master, {}, {}, {}};
+    Interpolation in{slave, master, {}, {}, {}, {}, {}, {}};
     const Stations& from = body.blocks[master].stations;
     const double period = 2 * std::numbers::pi;
     const int n = from.nodes();
@@ -87,7 +87,7 @@ Ties::Ties(const SweptBody& body, const BodyLayout& layout) : layout_(layout), k
 }
 
 void Ties::spread_component(Field& u, int i, double cos_psi, double sin_psi, bool homogeneous) const {
-  std::vector<double> carried;
+  std::vector<double>& carried = carried_[i];
   const bool turning = !homogeneous && kind_ == SweepKind::revolve && i != 1;
   for (const Line& line : lines_) {
     const BlockLayout& from = layout_.blocks[line.master_block];

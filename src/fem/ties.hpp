@@ -4,6 +4,8 @@
 //   x_s = sum_m w_m x_m + R(psi) delta,   delta = X_s - sum_m w_m X_m
 // The offset delta (the sagitta of an arc between two stations) turns with the body, so a rigid motion of any size strains nothing. Forces and masses on a slave go
 // to its masters with the same weights.
+#include <array>
+
 #include "core/array.hpp"
 #include "mesh/layout.hpp"
 
@@ -48,6 +50,7 @@ class Ties {
   std::vector<Interpolation> interpolations_;
   std::vector<double> delta_x_, delta_y_, delta_z_;
   std::vector<std::vector<bool>> slave_;
+  mutable std::array<std::vector<double>, 3> carried_;  // of a line's masters, per component
 };
 
 }  // namespace railstrata

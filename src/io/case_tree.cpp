@@ -27,7 +27,7 @@ std::string shown(const toml::node& node) {
     node.visit([&](const auto& n) { out << n; });
     text = out.str();
   }
-  if (text.size() > 60) text = text.substr(0, 57) + "...";
+  if (text.size() > 60) text.resize(57), text += "...";
   return text;
 }
 

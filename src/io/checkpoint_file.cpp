@@ -123,7 +123,7 @@ class Reader {
     Handle type(H5Dget_type(set), H5Tclose, name);
     std::string raw(H5Tget_size(type), '\0');
     checked(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()), name);
-    value = raw.c_str();
+    value = raw.substr(0, raw.find('\0'));
   }
   template <class Array>
   void numbers(const char* name, Array& values) {

@@ -52,10 +52,9 @@ void append_compressed(std::string& out, std::string_view raw) {
 /// The XML text and, growing beside it, the appended data it points to.
 class Document {
  public:
-  explicit Document(const char* type) {
-    xml_ = fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"{1}\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<{0}>\n", type,
-                       std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
-  }
+  explicit Document(const char* type)
+      : xml_(fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"{1}\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<{0}>\n", type,
+                         std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")) {}
   void line(std::string_view text) {
     xml_ += text;
     xml_ += '\n';
