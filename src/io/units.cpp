@@ -246,7 +246,7 @@ std::string suggest_quantity(std::string_view whole, const Dimension& dimension,
   if (number.empty()) return {};
   for (std::string_view unit : customary(dimension).units) {
     if (unit.empty()) continue;
-    const std::string candidate = fmt::format("{} {}", number, unit);
+    std::string candidate = fmt::format("{} {}", number, unit);
     const double value = parse_quantity(candidate, dimension);
     if (value >= min && value <= max) return candidate;
   }
