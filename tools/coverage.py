@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Which lines and branches of src/ the fast tests run, per room.
 
-usage: coverage.py [--csv docs/reliability/coverage.csv] [--uncovered N] [--counted] [-- ctest's own options]
+usage: coverage.py [--csv docs/reliability/coverage.csv] [--uncovered N] [--rooms contact,fem] [--counted] [-- ctest's own options]
 
 Builds and runs the preset `coverage` and asks gcovr. --counted: the counts of an earlier run are taken as they are. --uncovered N: the N files with most lines that no
-test runs, with these lines. Branches are those a source line decides, without those of exceptions passing through.
+test runs, with these lines. --rooms: only the unit tests of these rooms; nothing is kept. Branches are those a source line decides, without those of exceptions passing through.
 """
 import argparse
 import collections
@@ -19,14 +19,16 @@ import records
 BUILD = records.ROOT / "build-coverage"
 
 
-def measure(jobs, ctest):
+def measure(rooms, jobs, ctest):
+    targets = [word for room in rooms for word in ("--target", f"test_{room}")]
+    chosen = ["-R", f"^({'|'.join(rooms)}):"] if rooms else []
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if subprocess.run(["sh", "-c", "command -v ccache"], capture_output=True).returncode == 0 else []
-    for command in (["cmake", "--preset", "coverage", *launcher], ["cmake", "--build", "--preset", "coverage", "-j", str(jobs)]):
+    for command in (["cmake", "--preset", "coverage", *launcher], ["cmake", "--build", "--preset", "coverage", "-j", str(jobs), *targets]):
         if subprocess.run(command, cwd=records.ROOT, stdout=sys.stderr).returncode:
             sys.exit(4)
     for counts in BUILD.rglob("*.gcda"):
         counts.unlink()
-    return subprocess.run(["ctest", "--preset", "coverage", "-j", str(jobs), "--timeout", "3600", *ctest], cwd=records.ROOT, stdout=sys.stderr).returncode
+    return subprocess.run(["ctest", "--preset", "coverage", "-j", str(jobs), "--timeout", "3600", *chosen, *ctest], cwd=records.ROOT, stdout=sys.stderr).returncode
 
 
 def read(build, jobs):
@@ -41,13 +43,14 @@ def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--csv", help="keep the numbers in this table")
     options.add_argument("--uncovered", type=int, default=0, metavar="N")
+    options.add_argument("--rooms", default="", help="comma between them; default: all fast tests")
     options.add_argument("--counted", action="store_true")
     options.add_argument("--build", type=pathlib.Path, default=BUILD)
     options.add_argument("--jobs", type=int, default=os.cpu_count())
     own = sys.argv[1:]
     ctest = own[own.index("--") + 1:] if "--" in own else []
     given = options.parse_args(own[:own.index("--")] if "--" in own else own)
-    failed = 0 if given.counted else measure(given.jobs, ctest)
+    failed = 0 if given.counted else measure([room for room in given.rooms.split(",") if room], given.jobs, ctest)
     rooms = collections.defaultdict(lambda: [0, 0, 0, 0])
     missed = []
     for file in read(given.build, given.jobs):
@@ -71,7 +74,7 @@ def main():
     for name, lines in sorted(missed, key=lambda m: -len(m[1]))[:given.uncovered]:
         if lines:
             print(f"{name}: {len(lines)} lines not run: {' '.join(map(str, lines))}")
-    if given.csv:
+    if given.csv and not given.rooms and not ctest:
         records.keep(given.csv, ["room"], rows)
     return 1 if failed else 0
 
