@@ -26,10 +26,11 @@ ExitCode command_bem(const CommandOptions& options) {
   summary.run.threads = options.threads;
   summary.run.peak_memory_bytes = peak_memory();
 
-  prepare_output_folder(out, options.force);
+  const FolderHold hold = prepare_output_folder(out, options.force);
+  clear_old_results(out);
   write_origin(out, loaded, options.command_line, options.threads);
-  write_bem_result(out, table_origin(loaded), result, summary);
   write_bem_geometry(out, spec, placement, summary.position);
+  write_bem_result(out, table_origin(loaded), result, summary);
   if (options.json) fmt::print("{}\n", summary_json(summary).dump(2));
   else fmt::print("{}", summary_text(summary));
   spdlog::info("results are in {}", out.string());

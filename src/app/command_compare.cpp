@@ -121,7 +121,7 @@ ExitCode command_compare(const CommandOptions& options) {
   const std::vector<Row> rows = rows_of(a, b);
   const nlohmann::ordered_json json = as_json(a, b, rows, comparison);
 
-  prepare_output_folder(out, options.force);
+  const FolderHold hold = prepare_output_folder(out, options.force);
   const std::vector<std::string> origin{fmt::format("RailStrata {}", version_text()), fmt::format("a: {} ({}); b: {} ({})", a.folder.string(), a.engine, b.folder.string(), b.engine),
                                         "x from the axle in the rolling direction, y towards the field side; q: magnitude of the traction"};
   write_whole_file(out / "compare.json", json.dump(2) + "\n");

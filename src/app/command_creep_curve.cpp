@@ -74,7 +74,7 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   bem.cell = cell_size(options.cell);
   const std::vector<CsvColumn> table = table_of(creep_curve(loaded.spec, place(loaded.spec, loaded.folder()), creepages(options), bem));
 
-  prepare_output_folder(out, options.force);
+  const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   std::vector<std::string> origin = table_origin(loaded);
   origin.back() = "F_x/(f F_z) on the wheel against longitudinal creepage; full: half-space theory with the case's layers; the others: the Hertz ellipse, homogeneous bodies";

@@ -36,7 +36,7 @@ ExitCode command_mesh(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
   const Model model = build_model(loaded.spec, loaded.folder());
   const std::filesystem::path out = output_folder_of(options, loaded);
-  prepare_output_folder(out, options.force);
+  const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   write_body(out / "rail.vtu", model.rail);
   write_body(out / "wheel.vtu", model.wheel);

@@ -60,11 +60,12 @@ LoadedCase case_of_folder(const CommandOptions& options) {
   return load_case(options.resume / "case.toml");
 }
 
-// Old results must not pass for those of a run that was interrupted.
-void clear_old_results(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  for (const char* name : {"history.csv", "patch.pvd", "patch.csv", "report.html", "summary.json"}) std::filesystem::remove(folder / name, ignored);
-  remove_checkpoints(folder);
+std::string resume_command(const std::filesystem::path& folder) { return fmt::format("railstrata run --resume {}", shell_word(folder.string())); }
+
+// What can be done once the machine lets us write again.
+std::string how_to_go_on(const std::filesystem::path& folder) {
+  const bool kept = std::filesystem::exists(checkpoint_file(folder)) || std::filesystem::exists(previous_checkpoint_file(folder));
+  return kept ? fmt::format(", then go on with\n    {}", resume_command(folder)) : std::string(", then start the run again with --force");
 }
 
 }  // namespace
@@ -80,7 +81,9 @@ ExitCode command_run(const CommandOptions& options) {
   request.case_sha256 = case_identity(loaded);
   request.program = version_text();
   request.provenance = table_origin(loaded);
+  std::optional<FolderHold> hold;
   if (resuming) {
+    hold.emplace(out);
     FoundCheckpoint found = read_checkpoint(out, request.case_sha256);
     for (const std::string& note : found.notes) spdlog::warn("{}; the checkpoint before it is taken", note);
     if (found.checkpoint.origin.program != request.program)
@@ -91,7 +94,7 @@ ExitCode command_run(const CommandOptions& options) {
     request.resume = std::move(found.checkpoint.run);
   } else {
     place(loaded.spec, loaded.folder());  // faults of the input before a folder is made
-    prepare_output_folder(out, options.force);
+    hold.emplace(prepare_output_folder(out, options.force));
     clear_old_results(out);
     write_origin(out, loaded, options.command_line, options.threads);
     spdlog::info("{}: results go to {}", loaded.spec.title, out.string());
@@ -107,14 +110,21 @@ ExitCode command_run(const CommandOptions& options) {
   request.threads = options.threads;
   PhaseReport report(spdlog::default_logger()->level() <= spdlog::level::info);
   request.report = std::ref(report);
-  const FemOutcome outcome = run_fem(request);
+  const FemOutcome outcome = [&] {
+    try {
+      return run_fem(request);
+    } catch (EnvironmentError& e) {
+      if (!e.remedy.empty()) e.remedy += how_to_go_on(out);
+      throw;
+    }
+  }();
 
   for (const Summary& s : outcome.summaries) {
     if (options.json) fmt::print("{}\n", summary_json(s).dump(2));
     else fmt::print("{}", summary_text(s));
   }
   if (outcome.stopped) {
-    spdlog::warn("stopped {}; go on with\n    railstrata run --resume {}", outcome.limit_reached ? "for --max-time" : "on request", shell_word(out.string()));
+    spdlog::warn("stopped {}; go on with\n    {}", outcome.limit_reached ? "for --max-time" : "on request", resume_command(out));
     return outcome.limit_reached ? ExitCode::unfinished : ExitCode::interrupted;
   }
   if (options.report) add_report(out, options.threads);

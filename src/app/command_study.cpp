@@ -34,13 +34,14 @@ fs::path folder_of(const CommandOptions& options, const LoadedStudy& study) {
   return fs::path("results") / (file.stem() == "study" ? file.parent_path().filename().string() + "-study" : file.stem().string());
 }
 
-void prepare_study_folder(const fs::path& out, const LoadedStudy& study, const CommandOptions& options) {
-  prepare_output_folder(out, options.force || fs::exists(out / "study.toml"));
+[[nodiscard]] FolderHold prepare_study_folder(const fs::path& out, const LoadedStudy& study, const CommandOptions& options) {
+  FolderHold hold = prepare_output_folder(out, options.force || fs::exists(out / "study.toml"), true);
   write_whole_file(out / "study.toml", study.source_text);
   std::vector<fs::path> inputs{study.file};
   for (const StudyGroup& g : study.spec.groups)
     if (std::find(inputs.begin(), inputs.end(), g.base) == inputs.end()) inputs.push_back(g.base);
   write_whole_file(out / "provenance.json", provenance_json(options.command_line, options.overrides, inputs, options.threads));
+  return hold;
 }
 
 std::vector<std::string> origin_of(const LoadedStudy& study) {
@@ -98,7 +99,7 @@ ExitCode command_study(const CommandOptions& options) {
     return ExitCode::ok;
   }
 
-  prepare_study_folder(out, study, options);
+  const FolderHold hold = prepare_study_folder(out, study, options);
   recover(out, cases);
   find_results(out, cases);
   std::vector<const StudyCase*> to_do;

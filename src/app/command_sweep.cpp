@@ -181,7 +181,7 @@ ExitCode command_sweep(const CommandOptions& options) {
   const std::vector<ResultColumn> columns = result_columns(options.stresses);
 
   const std::filesystem::path out = output_folder_of(options, base, "-sweep");
-  prepare_output_folder(out, options.force);
+  const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, base, options.command_line, options.threads);
   spdlog::info("{} cases; the table grows in {}", cases.size(), (out / "sweep.csv").string());
   SweepTable table(out / "sweep.csv", table_origin(base), keys, columns);

@@ -1,20 +1,39 @@
 #include "app/output_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <regex>
+#include <utility>
 
 #include "core/faults.hpp"
+#include "io/checkpoint_file.hpp"
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
 
 namespace railstrata {
 
-void prepare_output_folder(const std::filesystem::path& folder, bool force) {
+FolderHold::FolderHold(const std::filesystem::path& folder, bool shared) : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0 || ::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(descriptor_);
+  throw CaseError(fmt::format("another railstrata is writing into {}", folder.string()), "wait until it has ended, or choose another folder with --out");
+}
+
+FolderHold::~FolderHold() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+FolderHold::FolderHold(FolderHold&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, bool shared) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
-    throw EnvironmentError(fmt::format("cannot make the output folder {}: {}", folder.string(), error ? error.message() : "a file of this name is in the way"));
+    throw EnvironmentError(fmt::format("cannot make the output folder {}: {}", folder.string(), error ? error.message() : "a file of this name is in the way"), "choose another with --out");
+  FolderHold hold(folder, shared);
   const bool empty = std::filesystem::is_empty(folder, error);
   if (error) throw EnvironmentError(fmt::format("cannot read the output folder {}: {}", folder.string(), error.message()));
   if (!empty && !force)
@@ -22,6 +41,13 @@ void prepare_output_folder(const std::filesystem::path& folder, bool force) {
   const std::filesystem::path probe = folder / ".writable";
   write_whole_file(probe, "");
   std::filesystem::remove(probe, error);
+  return hold;
+}
+
+void clear_old_results(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {"history.csv", "patch.pvd", "patch.csv", "report.html", "summary.json"}) std::filesystem::remove(folder / name, ignored);
+  remove_checkpoints(folder);
 }
 
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded, const std::vector<std::string>& command_line, int threads) {

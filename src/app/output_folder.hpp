@@ -8,8 +8,25 @@
 
 namespace railstrata {
 
-/// Makes the folder and tries to write in it. Throws CaseError when it holds files and `force` is not set, EnvironmentError when it cannot be made or written.
-void prepare_output_folder(const std::filesystem::path& folder, bool force);
+/// Holds a folder for as long as it lives, against every other program that would write there: two runs never mix their files. Ends with the process, however that ends; leaves no file.
+/// Shared: several that know of each other (the shards of a study) may hold it together. On file systems that cannot lock it holds nothing.
+class FolderHold {
+ public:
+  /// Throws CaseError if the folder is held already.
+  explicit FolderHold(const std::filesystem::path& folder, bool shared = false);
+  ~FolderHold();
+  FolderHold(FolderHold&& other) noexcept;
+  FolderHold& operator=(FolderHold&&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// Makes the folder, holds it and tries to write in it. Throws CaseError when it is held or holds files and `force` is not set, EnvironmentError when it cannot be made or written.
+[[nodiscard]] FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, bool shared = false);
+
+/// Removes what would tell of an older result while a new one is on its way: summary, report, tables and pictures that grow, checkpoints.
+void clear_old_results(const std::filesystem::path& folder);
 
 /// case.toml with every option written out, case.original.toml as it was given, provenance.json. Each file is whole or not there.
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded, const std::vector<std::string>& command_line, int threads);

@@ -6,8 +6,13 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <nlohmann/json.hpp>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <new>
+#include <system_error>
+
+#include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "app/processors.hpp"
@@ -222,10 +227,13 @@ int parse_and_run(const std::vector<std::string>& words, CommandOptions& options
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, with a message
   CommandOptions options;
   options.command_line.assign(argv, argv + argc);
   try {
-    return parse_and_run(options.command_line, options);
+    const int code = parse_and_run(options.command_line, options);
+    if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
+    return code;
   } catch (const CaseError& e) {
     return tell(e, options.json);
   } catch (const NumericalError& e) {
@@ -233,8 +241,8 @@ int run_program(int argc, const char* const* argv) {
   } catch (const Interrupted& e) {
     return tell(ExitCode::interrupted, e.what());
   } catch (const EnvironmentError& e) {
-    return tell(ExitCode::environment, e.what());
-  } catch (const std::filesystem::filesystem_error& e) {
+    return tell(ExitCode::environment, e.remedy.empty() ? e.what() : fmt::format("{}\n    remedy: {}", e.what(), e.remedy));
+  } catch (const std::system_error& e) {  // of a file system, or of standard output
     return tell(ExitCode::environment, e.what());
   } catch (const std::bad_alloc&) {
     return tell(ExitCode::environment, "not enough memory; `railstrata check` tells what a case needs");

@@ -8,6 +8,7 @@
 #include "core/faults.hpp"
 #include "fem/rolling_run.hpp"
 #include "io/geometry_json.hpp"
+#include "io/output_file.hpp"
 #include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
@@ -24,7 +25,7 @@ class PatchSeries {
  public:
   /// times: of the frames that an interrupted run has left.
   PatchSeries(const RollingSystem& system, const fs::path& out, const std::vector<double>& times) : system_(system), folder_(out / "patch_series"), series_(out / "patch.pvd") {
-    fs::create_directories(folder_);
+    make_folder(folder_);
     for (double time : times) series_.add(time, next_file());
   }
   void add(const RollingSample& sample) {
@@ -71,7 +72,7 @@ class RunningFiles {
 };
 
 void write_position(const RollingSystem& sys, const MeanContact& mean, const Summary& summary, const fs::path& folder, const std::vector<std::string>& provenance) {
-  fs::create_directories(folder);
+  make_folder(folder);
   write_patch_tables(folder, provenance, mean.field);
   const double contact_y = sys.model.placement.contact.point.y;
   const BandStress rail = band_stress(sys.model.rail, mean.rail, contact_y - sys.model.rail.origin.y);

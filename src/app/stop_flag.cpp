@@ -30,7 +30,6 @@ std::atomic<bool>& stop_flag() {
   static const bool installed = [] {
     std::signal(SIGINT, ask_to_stop);
     std::signal(SIGTERM, ask_to_stop);
-    std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, with a message
     return true;
   }();
   static_cast<void>(installed);

@@ -11,9 +11,12 @@
 #include <fstream>
 #include <map>
 
+#include "app/output_folder.hpp"
 #include "core/faults.hpp"
+#include "io/checkpoint_file.hpp"
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
+#include "io/provenance.hpp"
 #include "io/result_folder.hpp"
 
 namespace railstrata {
@@ -124,6 +127,24 @@ bool is_left_behind(const std::string& name) {
   return ::kill(std::stoi(digits), 0) != 0 && errno == ESRCH;
 }
 
+/// Folders of a case that processes of this machine had begun and that are no more.
+std::vector<fs::path> left_behind(const fs::path& out, const StudyCase& c) {
+  std::vector<fs::path> left;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator((out / c.folder).parent_path(), error))
+    if (const std::string name = entry.path().filename().string(); name.starts_with(c.folder.filename().string() + ".") && is_left_behind(name)) left.push_back(entry.path());
+  return left;
+}
+
+/// Its checkpoint is whole, of this case and of this program: going on gives the bits of a run in one go.
+bool can_go_on(const fs::path& folder, const StudyCase& c) {
+  try {
+    return read_checkpoint(folder, case_identity(c.loaded)).checkpoint.origin.program == version_text();
+  } catch (const CaseError&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 void find_results(const fs::path& out, std::vector<StudyCase>& cases) {
@@ -159,16 +180,35 @@ void keep_failure(const fs::path& out, const StudyCase& c, const fs::path& worki
 void recover(const fs::path& out, const std::vector<StudyCase>& cases) {
   std::error_code error;
   for (const StudyCase& c : cases) {
-    const fs::path home = (out / c.folder).parent_path();
-    if (!c.first || !fs::is_directory(home)) continue;
-    std::vector<fs::path> left;
-    for (const auto& entry : fs::directory_iterator(home))
-      if (entry.path().filename().string().starts_with(c.folder.filename().string() + ".") && is_left_behind(entry.path().filename().string())) left.push_back(entry.path());
-    for (const fs::path& folder : left) {
-      if (holds(folder, c) && !is_done(out, c)) put_in_place(folder, out / c.folder);
-      else fs::remove_all(folder, error);
+    if (!c.first) continue;
+    for (const fs::path& folder : left_behind(out, c)) {
+      if (is_done(out, c) || !(holds(folder, c) || has_checkpoint(folder))) fs::remove_all(folder, error);
+      else if (holds(folder, c)) put_in_place(folder, out / c.folder);
     }
   }
+}
+
+bool has_checkpoint(const fs::path& working) {
+  std::error_code error;
+  return fs::exists(checkpoint_file(working), error) || fs::exists(previous_checkpoint_file(working), error);
+}
+
+bool take_over(const fs::path& out, const StudyCase& c, const fs::path& working) {
+  std::error_code error;
+  fs::remove_all(working, error);
+  bool taken = false;
+  std::vector<fs::path> left = left_behind(out, c);
+  if (const fs::path failed = beside(out / c.folder, ".failed"); has_checkpoint(failed)) left.push_back(failed);  // killed or out of room, most likely; what fails by itself will do so again soon
+  for (const fs::path& folder : left) {
+    if (!taken && has_checkpoint(folder)) {
+      fs::rename(folder, working, error);  // of two studies one succeeds
+      taken = !error && can_go_on(working, c);
+      if (!error && !taken) fs::remove_all(working, error);
+    } else {
+      fs::remove_all(folder, error);
+    }
+  }
+  return taken;
 }
 
 std::vector<StudyRow> study_rows(const fs::path& out, const std::vector<StudyCase>& cases) {

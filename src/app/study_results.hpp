@@ -36,8 +36,15 @@ void keep_result(const std::filesystem::path& out, const StudyCase& c, const std
 /// Keeps what a failed case has left, with its log and reason, as <folder>.failed.
 void keep_failure(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working, const std::string& reason);
 
-/// After a crash: results that were whole and not yet renamed are taken, working folders of dead processes of this machine removed.
+/// After a crash: results that were whole and not yet renamed are taken; working folders of dead processes of this machine are removed, but for those with a checkpoint of a case that
+/// is not done yet.
 void recover(const std::filesystem::path& out, const std::vector<StudyCase>& cases);
+
+/// Makes a working folder that a dead process of this machine, or a failure, has left of this very case, with a checkpoint of this very program, the `working` one; removes the others. False if there is
+/// none: then there is no working folder.
+bool take_over(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working);
+/// The folder of a case that was stopped has a checkpoint to go on from.
+bool has_checkpoint(const std::filesystem::path& working);
 
 /// The table as it stands, in the order of the cases.
 std::vector<StudyRow> study_rows(const std::filesystem::path& out, const std::vector<StudyCase>& cases);

@@ -16,12 +16,14 @@
 #include "app/child_process.hpp"
 #include "app/study_results.hpp"
 #include "core/faults.hpp"
+#include "io/output_file.hpp"
 
 namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+constexpr double kPatience = 20;  // s; batch systems wait about thirty before they kill
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -87,9 +89,9 @@ class Pool {
  private:
   void start(const StudyCase& c) {
     const fs::path folder = working_folder(run_.out, c);
-    fs::remove_all(folder);
-    fs::create_directories(folder);
-    std::vector<std::string> words = case_command(c, run_.cell, run_.threads, folder);
+    const bool begun = c.engine == "fem" && take_over(run_.out, c, folder);
+    if (!begun) make_folder(folder);
+    std::vector<std::string> words = begun ? resume_command(run_.threads, folder) : case_command(c, run_.cell, run_.threads, folder);
     words.insert(words.begin(), "railstrata");
     running_.push_back({&c, start_self(words, folder / "log.txt"), folder, Clock::now()});
   }
@@ -128,15 +130,16 @@ class Pool {
     run_.ended(c, fault, seconds, ++done_);
   }
 
+  /// What a later call cannot go on from.
   void discard(const Running& r) {
     std::error_code error;
-    fs::remove_all(r.folder, error);
+    if (!has_checkpoint(r.folder)) fs::remove_all(r.folder, error);
   }
 
-  /// Those that can end their step do; who has not ended after three seconds is killed. A result that is whole by then is kept.
+  /// Those that can end their step do, with a checkpoint; who has not ended after that time is killed. A result that is whole by then is kept.
   int stop() {
     for (const Running& r : running_) ::kill(r.process, SIGTERM);
-    for (const auto asked = Clock::now(); !running_.empty() && seconds_since(asked) < 3; std::this_thread::sleep_for(std::chrono::milliseconds(20))) collect();
+    for (const auto asked = Clock::now(); !running_.empty() && seconds_since(asked) < kPatience; std::this_thread::sleep_for(std::chrono::milliseconds(20))) collect();
     for (const Running& r : running_) {
       ::kill(r.process, SIGKILL);
       ::waitpid(r.process, nullptr, 0);
@@ -182,6 +185,8 @@ std::vector<std::string> case_command(const StudyCase& c, const std::string& cel
   words.insert(words.end(), {"--out", folder.string(), "--force", "--no-report", "--threads", fmt::format("{}", threads)});
   return words;
 }
+
+std::vector<std::string> resume_command(int threads, const fs::path& folder) { return {"run", "--resume", folder.string(), "--no-report", "--threads", fmt::format("{}", threads)}; }
 
 int run_cases(const StudyRun& run, const std::vector<const StudyCase*>& cases) { return Pool(run, cases).work(); }
 

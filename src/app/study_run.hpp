@@ -21,8 +21,10 @@ struct StudyRun {
 
 /// The words after "railstrata" that compute a case into a folder.
 std::vector<std::string> case_command(const StudyCase& c, const std::string& cell, int threads, const std::filesystem::path& folder);
+/// Those that go on with a finite element case from the checkpoint of its folder.
+std::vector<std::string> resume_command(int threads, const std::filesystem::path& folder);
 
-/// Computes these cases in their order. Returns the number of failures; cases not yet ended when `stop` is set are left for the next time. Throws EnvironmentError for the disk, after
+/// Computes these cases in their order. Returns the number of failures; cases not yet ended when `stop` is set are left for the next time, those by finite elements with a checkpoint to go on from. Throws EnvironmentError for the disk, after
 /// the processes it has started are gone.
 int run_cases(const StudyRun& run, const std::vector<const StudyCase*>& cases);
 

@@ -86,7 +86,7 @@ void write_page_or_warn(const fs::path& page, const std::function<void()>& write
   } catch (const CaseError& e) {
     spdlog::warn("no report: {}", e.what());
   } catch (const EnvironmentError& e) {
-    spdlog::warn("no report: {}", e.what());
+    spdlog::warn("no report: {}{}{}", e.what(), e.remedy.empty() ? "" : "\n    remedy: ", e.remedy);
   }
 }
 

@@ -44,10 +44,11 @@ class NumericalError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The machine cannot do it: disk full, no permission, not enough memory. Exit code 4.
+/// The machine cannot do it: disk full, no permission, not enough memory. Exit code 4. `remedy` says what to do; it may be empty.
 class EnvironmentError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit EnvironmentError(const std::string& message, std::string what_to_do = {}) : std::runtime_error(message), remedy(std::move(what_to_do)) {}
+  std::string remedy;
 };
 
 /// Someone asked to stop before there was anything to keep. Exit code 130.

@@ -309,6 +309,7 @@ void verify(std::string_view bytes) {
 }
 
 std::string read_bytes(const fs::path& file) {
+  if (!fs::is_regular_file(file)) throw Damage{"it is not a file"};  // a pipe would be waited for
   std::ifstream in(file, std::ios::binary);
   std::ostringstream bytes;
   if (!in) throw Damage{std::strerror(errno)};

@@ -14,8 +14,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::string remedy_of(int reason) {
+  switch (reason) {
+    case ENOSPC: return "make room on the disk";
+    case EDQUOT: return "make room within your disk quota";
+    case EFBIG: return "raise the limit on the size of files (ulimit -f)";
+    case EROFS:
+    case EACCES:
+    case EPERM: return "choose a folder that can be written, with --out, or give yourself the permission";
+    default: return "";
+  }
+}
+
 [[noreturn]] void fail_on(const fs::path& path, int reason) {
-  throw EnvironmentError("cannot write " + path.string() + ": " + std::generic_category().message(reason));
+  throw EnvironmentError("cannot write " + path.string() + ": " + std::generic_category().message(reason), remedy_of(reason));
 }
 
 /// A rename is on the disk when its folder is.
@@ -42,10 +54,15 @@ OutputFile::~OutputFile() {
 void OutputFile::fail() const { fail_on(path_, errno); }
 
 void OutputFile::write(std::string_view bytes) {
-  while (!bytes.empty()) {
+  for (off_t written = 0; !bytes.empty();) {
     const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) fail();
+    if (n < 0) {
+      const int reason = errno;
+      if (const off_t end = ::lseek(descriptor_, 0, SEEK_CUR); written > 0 && end >= written) static_cast<void>(::ftruncate(descriptor_, end - written) == 0);  // no part of a row
+      fail_on(path_, reason);
+    }
+    written += n;
     bytes.remove_prefix(static_cast<std::size_t>(n));
   }
 }
@@ -55,19 +72,30 @@ void OutputFile::finish() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail();
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw EnvironmentError("cannot make the folder " + folder.string() + ": " + error.message(), remedy_of(error.value()));
+}
+
 void write_whole_file(const fs::path& path, std::string_view bytes, const fs::path& previous) {
   const fs::path temporary = path.string() + ".part" + std::to_string(::getpid());
   try {
     OutputFile file(temporary);
     file.write(bytes);
     file.finish();
-    if (!previous.empty() && ::rename(path.c_str(), previous.c_str()) != 0 && errno != ENOENT) fail_on(path, errno);
-    if (::rename(temporary.c_str(), path.c_str()) != 0) fail_on(path, errno);
+    const bool kept = !previous.empty() && ::rename(path.c_str(), previous.c_str()) == 0;
+    if (!previous.empty() && !kept && errno != ENOENT) fail_on(path, errno);
+    if (::rename(temporary.c_str(), path.c_str()) != 0) {
+      const int reason = errno;
+      if (kept) ::rename(previous.c_str(), path.c_str());
+      fail_on(path, reason);
+    }
   } catch (const EnvironmentError& e) {
     ::unlink(temporary.c_str());
     std::string text = e.what();
     if (const std::size_t at = text.find(temporary.string()); at != std::string::npos) text.replace(at, temporary.string().size(), path.string());
-    throw EnvironmentError(text);
+    throw EnvironmentError(text, e.remedy);
   }
   sync_folder(path);
 }

@@ -5,7 +5,7 @@
 
 namespace railstrata {
 
-/// A file open for writing. Every failure (disk full, no permission, quota) throws EnvironmentError naming the file and the system's reason.
+/// A file open for writing. Every failure (disk full, no permission, quota) throws EnvironmentError naming the file, the system's reason and the remedy.
 class OutputFile {
  public:
   /// Creates the file or empties it.
@@ -14,7 +14,7 @@ class OutputFile {
   OutputFile(OutputFile&& other) noexcept;
   OutputFile& operator=(OutputFile&&) = delete;
 
-  /// Hands the bytes to the system; a reader sees them at once.
+  /// Hands the bytes to the system; a reader sees them at once. On failure none of them are in the file.
   void write(std::string_view bytes);
   /// Waits until the disk has them, then closes.
   void finish();
@@ -25,6 +25,9 @@ class OutputFile {
   std::filesystem::path path_;
   int descriptor_ = -1;
 };
+
+/// Makes the folder and those above it. Throws EnvironmentError as OutputFile does.
+void make_folder(const std::filesystem::path& folder);
 
 /// Writes to a temporary name beside `path`, waits for the disk and renames: a reader, or a crash, finds the old file or the new one, never a part. On failure the
 /// old file is untouched and the temporary one removed. Throws EnvironmentError naming `path`.

@@ -1,8 +1,11 @@
 """The program as a user meets it: words in, exit code and texts out."""
+import csv
+import json
 import pathlib
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 BINARY = pathlib.Path(sys.argv[1]).resolve()
@@ -33,9 +36,80 @@ run_up = "0 mm"
 """
 
 
-def railstrata(*words, cwd=None):
-    done = subprocess.run([BINARY, *map(str, words)], capture_output=True, text=True, timeout=120, cwd=cwd)
+# Two positions, the first after a run-up.
+TWO = TINY.replace('["30 mm"]', '["12 mm", "24 mm"]').replace('run_up = "0 mm"', 'run_up = "8 mm"')
+
+
+def railstrata(*words, cwd=None, **options):
+    done = subprocess.run([BINARY, *map(str, words)], capture_output=True, text=True, timeout=300, cwd=cwd, **options)
     return done.returncode, done.stdout, done.stderr
+
+
+def start(*words, **options):
+    return subprocess.Popen([BINARY, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+
+
+def wait_for(condition, process):
+    end = time.monotonic() + 250
+    while not condition():
+        if process.poll() is not None or time.monotonic() > end:
+            raise AssertionError(f"waited in vain; {process.poll()}: {process.communicate()[1]}")
+        time.sleep(0.002)
+
+
+def rows(folder):
+    file = folder / "history.csv"
+    return file.read_bytes().count(b"\n") if file.exists() else 0
+
+
+def results(folder):
+    """Every file's bytes; without wall times, memory, threads and where it was run."""
+    out = {}
+    for file in sorted(p for p in folder.rglob("*") if p.is_file()):
+        name = str(file.relative_to(folder))
+        if name in ("provenance.json", "log.txt", "study.json"):
+            continue
+        out[name] = file.read_bytes()
+        out[name] = out[name].replace(str(folder.resolve()).encode(), b"FOLDER")  # view.py says where it lies
+        if file.name == "summary.json":
+            summary = json.loads(out[name])
+            for key in ("wall_s", "preload_wall_s", "output_wall_s", "element_steps_per_s", "peak_memory_bytes", "threads"):
+                del summary["run"][key]
+            out[name] = json.dumps(summary)
+    return out
+
+
+def broken_files(folder):
+    """Files of a result folder that are not whole, by their own format."""
+    def whole(file):
+        text = file.read_bytes()
+        match file.suffix:
+            case ".json":
+                return bool(json.loads(text))
+            case ".csv":
+                table = [line for line in text.decode().splitlines() if not line.startswith("#")]
+                return text.endswith(b"\n") and len({len(row) for row in csv.reader(table)}) == 1
+            case ".vtp" | ".vtu" | ".pvd":
+                return text.rstrip().endswith(b"</VTKFile>")
+            case ".html":
+                return text.rstrip().endswith(b"</html>")
+            case ".toml" | ".py":
+                return text.endswith(b"\n")
+        return file.name in ("checkpoint.h5", "checkpoint.h5.previous")  # a whole one is resumed from; anything else has no business there
+    found = []
+    for file in sorted(p for p in folder.rglob("*") if p.is_file()):
+        try:
+            ok = whole(file)
+        except ValueError:
+            ok = False
+        if not ok:
+            found.append(str(file.relative_to(folder)))
+    return found
+
+
+def fact(promise, **figures):
+    """A line for tools/reliability_table.py: what was seen."""
+    print("RELIABILITY", json.dumps({"fact": promise, **figures}), flush=True)
 
 
 class FromOutside(unittest.TestCase):

@@ -2,7 +2,6 @@
 """Interrupted runs go on with the same bits, however they were interrupted. usage: resume_test.py BINARY [KILLS]
 
 KILLS: how many times the run is killed at a random moment (default 4)."""
-import json
 import pathlib
 import random
 import resource
@@ -13,45 +12,10 @@ import tempfile
 import time
 import unittest
 
-from outside import BINARY, TINY, FromOutside, railstrata
+from outside import TWO, FromOutside, fact, railstrata, results, rows, start, wait_for
 
 KILLS = int(sys.argv[2]) if len(sys.argv) > 2 else 4
 WORDS = ["--threads", "1", "--no-report"]
-TWO = TINY.replace('["30 mm"]', '["12 mm", "24 mm"]').replace('run_up = "0 mm"', 'run_up = "8 mm"')
-
-
-def start(*words, **options):
-    return subprocess.Popen([BINARY, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
-
-
-def wait_for(condition, process):
-    end = time.monotonic() + 100
-    while not condition():
-        if process.poll() is not None or time.monotonic() > end:
-            raise AssertionError(f"waited in vain; {process.poll()}: {process.communicate()[1]}")
-        time.sleep(0.002)
-
-
-def rows(folder):
-    file = folder / "history.csv"
-    return file.read_bytes().count(b"\n") if file.exists() else 0
-
-
-def results(folder):
-    """Every file's bytes; without wall times, memory and where it was run."""
-    out = {}
-    for file in sorted(p for p in folder.rglob("*") if p.is_file()):
-        name = str(file.relative_to(folder))
-        if name == "provenance.json":
-            continue
-        out[name] = file.read_bytes()
-        out[name] = out[name].replace(str(folder.resolve()).encode(), b"FOLDER")  # view.py says where it lies
-        if file.name == "summary.json":
-            summary = json.loads(out[name])
-            for key in ("wall_s", "preload_wall_s", "output_wall_s", "element_steps_per_s", "peak_memory_bytes"):
-                del summary["run"][key]
-            out[name] = json.dumps(summary)
-    return out
 
 
 class Resume(FromOutside):
@@ -152,7 +116,7 @@ class Resume(FromOutside):
         process.communicate()
         self.assertEqual(process.returncode, self.rc)
         self.same_as_whole()
-        print(f"kill -9 at random moments: {kills}, every resumed run equal to one in one go")
+        fact("run_killed", kills=kills, files=len(self.reference))
 
     def test_a_time_limit_is_kept_with_a_checkpoint(self):
         rc, _, err = railstrata("run", self.case(TWO), *WORDS, "--out", self.out, "--max-time", "1 ms")

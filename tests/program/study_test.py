@@ -1,10 +1,14 @@
 #!/usr/bin/env python3
-"""`study` from outside: what it computes, what it skips, what a kill leaves. usage: study_test.py BINARY SOURCE_DIR"""
+"""`study` from outside: what it computes, what it skips, what a kill leaves. usage: study_test.py BINARY SOURCE_DIR [KILLS]
+
+KILLS: how many times a study by finite elements is killed at a random moment (default 4), one by half-spaces half as often again."""
+import contextlib
 import csv
 import json
 import os
 import pathlib
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -12,9 +16,10 @@ import time
 import tomllib
 import unittest
 
-from outside import BINARY, TINY, FromOutside, railstrata
+from outside import BINARY, TINY, FromOutside, broken_files, fact, railstrata, results
 
 SOURCE = pathlib.Path(sys.argv[2])
+KILLS = int(sys.argv[3]) if len(sys.argv) > 3 else 4
 BASE, LAYERED = SOURCE / "cases/paper/base.toml", SOURCE / "cases/paper/layer_3mm_2E0.toml"
 # Half-spaces on coarse cells: some hundredths of a second each.
 GRID = f"""
@@ -154,6 +159,102 @@ class Paper(FromOutside):
 
 
 class Killed(StudyTest):
+    LONG = TINY.replace('positions = ["30 mm"]', 'positions = ["900 mm"]')
+    WHEELS = '[study]\nbase = "case.toml"\nengines = ["fem"]\n[[group]]\nname = "wheel"\n[group.vary]\n"drive.traction_coefficient" = [0.1, 0.2]\n'
+
+    def working(self):
+        return [folder for folder in self.out.rglob("*.part-*") if folder.is_dir()]
+
+    def wait_until_rolling(self):
+        end = time.monotonic() + 60
+        while time.monotonic() < end and not any((folder / "history.csv").exists() for folder in self.working()):
+            time.sleep(0.005)
+
+    def goes_on(self):
+        """The logs of cases that went on from a checkpoint."""
+        return [log for log in self.out.rglob("log.txt") if "goes on in" in log.read_text()]
+
+    def ask_for_checkpoints(self, process):
+        """Of the cases that roll: a signal before that would end them."""
+        for pid in self.children(process):
+            with contextlib.suppress(FileNotFoundError, ProcessLookupError):
+                words = pathlib.Path(f"/proc/{pid}/cmdline").read_text().split("\0")
+                if any((folder / "history.csv").exists() for folder in self.working() if str(folder) in words):
+                    os.kill(pid, signal.SIGUSR1)
+
+    def finite_element_results(self, out):
+        return {str(file.parent.relative_to(out)): results(file.parent) for file in out.rglob("study.json")}
+
+    def uninterrupted(self, text):
+        out = self.folder / "uninterrupted"
+        railstrata("study", self.study(text), "--out", out, "--no-report", "--threads", "2")
+        return self.finite_element_results(out)
+
+    def test_kill_9_of_finite_element_cases_costs_what_they_did_since_their_checkpoints(self):
+        self.case(TINY.replace('positions = ["30 mm"]', 'positions = ["60 mm"]'))
+        expected, chance, kills, resumed = self.uninterrupted(self.WHEELS), random.Random(7), 0, 0
+        while kills < KILLS:
+            process = self.start(self.WHEELS, "--jobs", "2")
+            self.wait_until_rolling()
+            for _ in range(3):
+                time.sleep(chance.uniform(0.01, 0.3))
+                if process.poll() is None:
+                    self.ask_for_checkpoints(process)
+            time.sleep(chance.uniform(0, 0.1))
+            children = self.children(process) if process.poll() is None else []
+            kills += process.poll() is None
+            process.kill(), process.communicate()
+            self.assertTrue(self.gone(children))
+            resumed += len(self.goes_on())
+            for file in self.out.rglob("study.json"):
+                self.assertEqual([name for name in broken_files(file.parent) if name != "log.txt"], [])
+            if not self.working():  # both done before the next kill: once more
+                self.assertEqual(self.finite_element_results(self.out), expected)
+                shutil.rmtree(self.out)
+        self.solve(self.WHEELS, code=1)  # a check of so coarse a rolling fails
+        self.assertTrue(self.goes_on() or resumed, "none went on from a checkpoint")
+        self.assertEqual(self.left_behind(), [])
+        self.assertEqual(self.finite_element_results(self.out), expected)
+        fact("study_fem_killed", kills=kills, resumed=resumed + len(self.goes_on()), cases=len(expected))
+
+    def test_a_checkpoint_of_another_case_or_a_damaged_one_is_not_gone_on_from(self):
+        self.case(TINY.replace('positions = ["30 mm"]', 'positions = ["40 mm"]'))
+        text = self.WHEELS.replace("0.1, 0.2", "0.1")
+        expected = self.uninterrupted(text)
+        for damage in (lambda file: file.write_bytes(file.read_bytes()[:-1]), None):
+            if damage is None:
+                self.case(self.LONG)
+            process = self.start(text)
+            self.wait_until_rolling()
+            process.send_signal(signal.SIGINT)
+            process.communicate()
+            self.assertEqual(process.returncode, 130)
+            if damage:
+                for file in self.out.rglob("checkpoint.h5*"):
+                    damage(file)
+            else:
+                self.case(TINY.replace('positions = ["30 mm"]', 'positions = ["40 mm"]'))
+            self.solve(text, code=1)
+            self.assertEqual(self.goes_on(), [])
+            self.assertEqual(self.left_behind(), [])
+            self.assertEqual(self.finite_element_results(self.out), expected)
+            shutil.rmtree(self.out)
+
+    def test_two_studies_that_start_after_a_kill_do_not_share_a_checkpoint(self):
+        self.case(TINY.replace('positions = ["30 mm"]', 'positions = ["40 mm"]'))
+        text = self.WHEELS.replace("0.1, 0.2", "0.1")
+        expected = self.uninterrupted(text)
+        process = self.start(text)
+        self.wait_until_rolling()
+        process.send_signal(signal.SIGINT)
+        process.communicate()
+        both = [self.start(text), self.start(text)]
+        for process in both:
+            _, err = process.communicate()
+            self.assertEqual(process.returncode, 1, err)
+        self.assertEqual(self.left_behind(), [])
+        self.assertEqual(self.finite_element_results(self.out), expected)
+
     def start(self, text, *words):
         return subprocess.Popen([BINARY, "study", self.study(text), "--out", self.out, "--no-report", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
@@ -175,7 +276,7 @@ class Killed(StudyTest):
     def test_kill_9_at_any_moment_neither_redoes_nor_loses_a_case(self):
         text = GRID.replace('cell = "1.5 mm"', 'cell = "0.6 mm"')
         chance, kept = random.Random(5), {}
-        for _ in range(6):
+        for _ in range(KILLS * 3 // 2):
             process = self.start(text, "--jobs", "2")
             time.sleep(chance.uniform(0.05, 0.5))
             children = self.children(process)
@@ -193,6 +294,7 @@ class Killed(StudyTest):
         self.assertEqual([r["state"] for r in rows], ["done"] * 6)
         self.assertEqual({k: v for k, v in self.stamps().items() if k in kept}, kept)
         self.assertEqual(self.left_behind(), [])
+        fact("study_bem_killed", kills=KILLS * 3 // 2, cases=len(rows))
         uninterrupted = self.folder / "uninterrupted"
         rc, _, err = railstrata("study", self.folder / "study.toml", "--out", uninterrupted, "--no-report")
         self.assertEqual(rc, 0, err)
@@ -219,22 +321,30 @@ class Killed(StudyTest):
         self.assertEqual(self.rows()[0]["fault"], "killed by signal 9 (Killed)")
 
     def test_ctrl_c_stops_in_time_and_keeps_what_is_there(self):
-        self.case(TINY.replace('positions = ["30 mm"]', 'positions = ["900 mm"]'))
+        self.case(self.LONG)
         text = GRID + '[[group]]\nname = "long"\nbase = "case.toml"\nengines = ["fem"]\n'
         process = self.start(text, "--jobs", "1")
         end = time.monotonic() + 60
         while time.monotonic() < end and len(self.stamps()) < 6:
             time.sleep(0.02)
         child = self.wait_for_a_child(process)
+        self.wait_until_rolling()
         asked = time.monotonic()
         process.send_signal(signal.SIGINT)
         _, err = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, err)
-        self.assertLess(time.monotonic() - asked, 8)
+        self.assertLess(time.monotonic() - asked, 20)
         self.assertTrue(self.gone(child))
         self.assertIn("goes on where it was", err)
         self.assertEqual([(r["state"], r["fault"]) for r in self.rows()], [("done", "")] * 6 + [("to do", "")])
-        self.assertEqual(self.left_behind(), [])
+        left, = self.left_behind()
+        self.assertTrue((pathlib.Path(left) / "checkpoint.h5").exists())
+        process = self.start(text, "--jobs", "1")
+        end = time.monotonic() + 60
+        while time.monotonic() < end and not self.goes_on():
+            time.sleep(0.02)
+        process.kill(), process.communicate()
+        self.assertTrue(self.goes_on())
 
 
 class Refused(StudyTest):

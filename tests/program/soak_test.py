@@ -1,0 +1,141 @@
+#!/usr/bin/env python3
+"""A million steps of a small wheel that rolls slowly: energy, memory, and the same bits in many sittings. usage: soak_test.py BINARY [--distance "85 mm"] [--sittings 20] [--record FILE.csv]
+
+Runs soak.toml twice at the same time, once in one go and once interrupted again and again, in turn by SIGTERM and by kill -9. Exits with 0 if the energy balance closes, the memory does not
+grow and every result file is equal. --record adds a line with what was seen."""
+import argparse
+import csv
+import json
+import pathlib
+import signal
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+CASE = HERE / "soak.toml"
+MILLION = 1_000_000
+LEAST_GROWTH = 1 << 20  # bytes; rows of the history and the system's rounding
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("binary", type=pathlib.Path)
+    parser.add_argument("--distance", default="85 mm", help="rolled; the default takes a million steps")
+    parser.add_argument("--sittings", type=int, default=20)
+    parser.add_argument("--record", type=pathlib.Path)
+    return parser.parse_args()
+
+
+def resident(pid):
+    """Bytes of memory a process holds; None when it has none any more."""
+    try:
+        for line in pathlib.Path(f"/proc/{pid}/status").read_text().splitlines():
+            if line.startswith("VmRSS:"):
+                return 1024 * int(line.split()[1])
+    except (FileNotFoundError, ProcessLookupError):
+        pass
+    return None
+
+
+class Run:
+    def __init__(self, binary, distance, out):
+        self.binary, self.out, self.distance, self.memory, self.sittings = binary, out, distance, [], 1
+        self.process = self.start([CASE, "--set", f"run.positions={distance}", "--out", out])
+
+    def start(self, words):
+        return subprocess.Popen([self.binary, "run", *words, "--no-report", "--quiet", "--threads", "1", "--checkpoint-every", "20 s"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def rows(self):
+        """Of the history, as (position / mm)."""
+        file = self.out / "history.csv"
+        lines = file.read_text().splitlines() if file.exists() else []
+        return [float(line.split(",")[1]) for line in lines if line[:1].isdigit() and line.count(",") == lines[-1].count(",") > 3]
+
+    def watch(self):
+        rows, bytes_ = self.rows(), resident(self.process.pid)
+        if rows and bytes_:
+            self.memory.append((rows[-1], bytes_))
+        return rows[-1] if rows else 0
+
+    def interrupt(self):
+        hard = self.sittings % 2 == 0
+        self.process.send_signal(signal.SIGKILL if hard else signal.SIGTERM)
+        err = self.process.communicate()[1]
+        if self.process.returncode in (0, 1):
+            return  # it was just done
+        if self.process.returncode != (-signal.SIGKILL if hard else 130):
+            sys.exit(f"soak: exit code {self.process.returncode}: {err}")
+        self.process = self.start(["--resume", self.out])
+        self.sittings += 1
+
+
+def summary_of(run):
+    err = run.process.communicate()[1]
+    if run.process.returncode not in (0, 1):
+        sys.exit(f"soak: exit code {run.process.returncode}: {err}")
+    return json.loads((run.out / "summary.json").read_text())
+
+
+def drift(out):
+    """Change of the energy balance between the first and the last fifth of the path, over the strain energy."""
+    table = list(csv.DictReader(line for line in (out / "history.csv").read_text().splitlines() if not line.startswith("#")))
+    fifth = len(table) // 5
+    mean = lambda rows, key: statistics.fmean(float(r[key]) for r in rows)
+    return (mean(table[-fifth:], "closure_J") - mean(table[:fifth], "closure_J")) / mean(table, "strain_J")
+
+
+def growth(memory, end):
+    """Median of the memory over the first and the last fifth of the path, without its very ends."""
+    part = lambda low, high: statistics.median(b for x, b in memory if low * end <= x <= high * end)
+    return part(0.05, 0.25), part(0.75, 0.95)
+
+
+def main():
+    options = arguments()
+    sys.argv[1:] = [str(options.binary)]  # outside.py takes the program from there
+    from outside import fact, results
+    end = 1e3 * float(options.distance.split()[0]) / {"mm": 1e3, "m": 1}[options.distance.split()[1]]
+    with tempfile.TemporaryDirectory() as folder:
+        whole = Run(options.binary.resolve(), options.distance, pathlib.Path(folder) / "whole")
+        parts = Run(options.binary.resolve(), options.distance, pathlib.Path(folder) / "parts")
+        while whole.process.poll() is None or parts.process.poll() is None:
+            if whole.process.poll() is None:
+                whole.watch()
+            if parts.process.poll() is None and parts.watch() >= end * parts.sittings / options.sittings and parts.sittings < options.sittings:
+                parts.interrupt()
+            time.sleep(0.2)
+        summary, again = summary_of(whole), summary_of(parts)
+        origin = json.loads((whole.out / "provenance.json").read_text())
+        first, last = growth(whole.memory, end)
+        expected, found = results(whole.out), results(parts.out)
+        different = sorted(name for name in expected.keys() | found.keys() if expected.get(name) != found.get(name))
+        closure = next(c for c in summary["checks"] if c["name"] == "energy_closure")
+        seen = {"steps": summary["run"]["steps"], "elements": summary["run"]["elements"], "sittings": parts.sittings, "files": len(expected), "files_different": len(different), "energy_closure": closure["value"],
+                "energy_drift_over_strain": drift(whole.out), "memory_start_bytes": int(first), "memory_end_bytes": int(last), "commit": origin["commit"] + ("+dirty" if origin["dirty"] else ""),
+                "cpu": origin["cpu"], "compiler": origin["compiler"], "isa": origin["isa"].split(",")[0]}
+    fact("soak", **seen)
+    if options.record:
+        new = not options.record.exists()
+        with options.record.open("a", newline="") as file:
+            writer = csv.DictWriter(file, seen, lineterminator="\n")
+            if new:
+                writer.writeheader()
+            writer.writerow(seen)
+    faults = [f"{name} differs" for name in different]
+    if not closure["ok"]:
+        faults.append("the energy balance does not close")
+    if last - first > LEAST_GROWTH:
+        faults.append(f"the memory grew by {last - first} bytes")
+    if options.distance == "85 mm" and seen["steps"] < MILLION:
+        faults.append(f"{seen['steps']} steps are no million")
+    if again["run"]["steps"] != summary["run"]["steps"]:
+        faults.append("the numbers of steps differ")
+    print("\n".join(faults) or "sound")
+    return len(faults) > 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
