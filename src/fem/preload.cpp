@@ -40,9 +40,9 @@ class Preload {
       out.penetration = penetration();
       out.newton_steps = step;
       if (progress) progress(out.residual, tolerance, out.cg_iterations);
-      if (!std::isfinite(out.residual)) throw NumericalError("static preload: the residual is not a number");
+      if (!std::isfinite(out.residual)) throw NumericalError("static preload: the residual is not a number" + what_to_try());
       if (out.residual < tolerance && (compliant_ || out.penetration < kPenetration * sys_.model.hertz.approach)) break;
-      if (step > kMostSteps) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e})", step, out.residual, tolerance));
+      if (step > kMostSteps) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e}){}", step, out.residual, tolerance, what_to_try()));
       if (stop && *stop) throw Interrupted("stopped during the static preload: there is nothing to resume yet");
       hold_gaps_shut(r);
       out.cg_iterations += conjugate_gradients(r, load * std::max(kLastStep * tolerance, kForcing * std::min(out.residual, 1.0)));
@@ -62,6 +62,12 @@ class Preload {
   }
 
  private:
+  // Nearly always the patch falls between the nodes.
+  std::string what_to_try() const {
+    const Model& m = sys_.model;
+    return fmt::format("\n    try a smaller mesh.element_size, now {:.3g} mm: the patch is about {:.3g} mm by {:.3g} mm", 1e3 * m.spec.mesh.element_size, 2e3 * m.hertz.a, 2e3 * m.hertz.b);
+  }
+
   StaticVector zero() const { return {sys_.rail.solid.layout().field(), sys_.wheel.solid.layout().field(), 0.0}; }
 
   void start_from_overlap() {

@@ -98,12 +98,14 @@ TEST_F(Checkpoints, EveryFlippedByteIsFound) {
   }
   EXPECT_EQ(found, bytes.size());
   EXPECT_GT(found, 10'000u);
-  std::printf("bytes flipped and found: %zu of %zu\n", found, bytes.size());
+  std::printf("RELIABILITY {\"fact\": \"checkpoint_flips\", \"flipped\": %zu, \"found\": %zu}\n", bytes.size(), found);
 }
 
 TEST_F(Checkpoints, EveryCutIsFound) {
   const std::string bytes = checkpoint_bytes(kOrigin, small_run(1e-3));
-  for (std::size_t k = 0; k < bytes.size(); k += 97) EXPECT_THROW(checkpoint_of(bytes.substr(0, k), "x"), CaseError) << k;
+  std::size_t cuts = 0;
+  for (std::size_t k = 0; k < bytes.size(); k += 97, ++cuts) EXPECT_THROW(checkpoint_of(bytes.substr(0, k), "x"), CaseError) << k;
+  if (!HasFailure()) std::printf("RELIABILITY {\"fact\": \"checkpoint_cuts\", \"cut\": %zu, \"found\": %zu}\n", cuts, cuts);
   EXPECT_THROW(checkpoint_of(bytes + '\0', "x"), CaseError);
 }
 

@@ -15,11 +15,11 @@ import tempfile
 import time
 import unittest
 
-from outside import TINY, TWO, FromOutside, broken_files, fact, railstrata, results, rows, start, wait_for
+from outside import SMALL, TINY, FromOutside, broken_files, fact, railstrata, results, rows, start, wait_for
 
 INJECTOR = pathlib.Path(sys.argv[2]).resolve()
 WORDS = ["--threads", "1", "--no-report"]
-ROLLING = TINY.replace('["30 mm"]', '["12 mm"]').replace('window = "8 mm"', 'window = "4 mm"') + '[output]\nseries_frames = 3\n'
+STILL = SMALL.replace("run_up =", "rolling = false\nrun_up =")
 SOON = ["--checkpoint-every", "0.01 s"]
 NO_ROOM = "No space left on device\n    remedy: make room on the disk"
 
@@ -58,9 +58,9 @@ class Faults(FromOutside):
 class FullDisk(Faults):
     def test_at_any_file_of_a_run(self):
         injected = 0
-        for text, wanted in ((TINY.replace("run_up", "rolling = false\nrun_up"), lambda name: "history" not in name), (ROLLING, lambda name: re.search(r"history|patch_series.*(0|2)\.vtp|pvd", name))):
+        for text, wanted in ((STILL, lambda name: "history" not in name), (SMALL, lambda name: re.search(r"history|patch_series.*(0|2)\.vtp|pvd|position_.*summary", name))):
             rc, reference = self.whole(text)
-            files = [*filter(wanted, reference), *(["provenance.json"] if "rolling = false" in text else [])]
+            files = [*filter(wanted, reference), *(["provenance.json"] if text == STILL else [])]
             for name in files:
                 code, _, err = railstrata(*self.run_words(text), "--force", env=with_fault("write", f"/out/{name}", errno.ENOSPC))
                 self.assertEqual(code, 4, f"{name}: {err}")
@@ -88,10 +88,10 @@ class FullDisk(Faults):
         fact("disk_full_bem", injected=len(reference), survived=len(reference))
 
     def test_the_run_goes_on_from_its_checkpoint_when_there_is_room(self):
-        rc, reference = self.whole(ROLLING)
+        rc, reference = self.whole(SMALL)
         faults = (("write", "history.csv", 30), ("write", "rail.vtu", 0), ("fsync", "wheel.vtu", 0), ("rename", "summary.json", 0))
         for call, name, skip in faults:
-            code, _, err = railstrata(*self.run_words(ROLLING), "--force", *SOON, env=with_fault(call, f"/out/{name}", errno.ENOSPC, skip))
+            code, _, err = railstrata(*self.run_words(SMALL), "--force", *SOON, env=with_fault(call, f"/out/{name}", errno.ENOSPC, skip))
             self.assertEqual(code, 4, err)
             self.assertIn(f"error: cannot write {self.out}/{name}: {NO_ROOM}, then go on with\n    railstrata run --resume {self.out}\n", err)
             self.assert_unfinished_and_sound()
@@ -100,10 +100,10 @@ class FullDisk(Faults):
         fact("disk_full_resumed", injected=len(faults), survived=len(faults))
 
     def test_a_checkpoint_that_cannot_be_written_leaves_the_one_before(self):
-        rc, reference = self.whole(ROLLING)
+        rc, reference = self.whole(SMALL)
         faults = [(call, reason, skip) for call, reason in (("write", errno.ENOSPC), ("fsync", errno.EIO), ("rename", errno.EIO), ("open", errno.EDQUOT)) for skip in (0, 3)]
         for call, reason, skip in faults:
-            code, _, err = railstrata(*self.run_words(ROLLING), "--force", *SOON, env=with_fault(call, "/out/checkpoint.h5", reason, skip))
+            code, _, err = railstrata(*self.run_words(SMALL), "--force", *SOON, env=with_fault(call, "/out/checkpoint.h5", reason, skip))
             self.assertEqual(code, rc, err)
             self.assertIn(f"warning: no checkpoint: cannot write {self.out}/checkpoint.h5: {os.strerror(reason)}; the run goes on\n", err)
             self.assert_same(reference)
@@ -160,20 +160,20 @@ def file_system(options):
 
 class SmallFileSystem(Faults):
     def test_a_disk_that_is_really_full(self):
-        rc, reference = self.whole(ROLLING)
+        rc, reference = self.whole(SMALL)
         size = sum(len(content) for content in reference.values())
         survived = 0
         for share in (0.02, 0.3, 0.8):
             with file_system("size=64m") as disk:
                 out, ballast = disk / "out", disk / "ballast"
                 ballast.write_bytes(bytes((64 << 20) - 4096 - int(share * size)))
-                code, _, err = railstrata(*self.run_words(ROLLING, out), "--checkpoint-every", "0.05 s")
+                code, _, err = railstrata(*self.run_words(SMALL, out), "--checkpoint-every", "0.05 s")
                 self.assertEqual(code, 4, err)
                 self.assertRegex(err, f"error: cannot (write|make the folder) {out}/.*: {NO_ROOM}")
                 self.assert_unfinished_and_sound(out)
                 ballast.unlink()
                 resumable = (out / "checkpoint.h5").exists() or (out / "checkpoint.h5.previous").exists()
-                words = ["run", "--resume", out, *WORDS] if resumable else [*self.run_words(ROLLING, out), "--force"]
+                words = ["run", "--resume", out, *WORDS] if resumable else [*self.run_words(SMALL, out), "--force"]
                 self.assertEqual(railstrata(*words)[0], rc)
                 self.assert_same(reference, out)
                 survived += 1
@@ -181,41 +181,42 @@ class SmallFileSystem(Faults):
 
     def test_one_that_can_only_be_read(self):
         with file_system("ro") as disk:
-            self.refused(4, self.run_words(ROLLING, disk / "out"), f"error: cannot make the output folder {disk}/out: Read-only file system\n    remedy: choose another with --out\n")
-            self.refused(4, self.run_words(ROLLING, disk), f"error: cannot write {disk}/.writable: Read-only file system\n    remedy: choose a folder that can be written, with --out")
+            self.refused(4, self.run_words(SMALL, disk / "out"), f"error: cannot make the output folder {disk}/out: Read-only file system\n    remedy: choose another with --out\n")
+            self.refused(4, self.run_words(SMALL, disk), f"error: cannot write {disk}/.writable: Read-only file system\n    remedy: choose a folder that can be written, with --out")
 
 
 class ReadOnly(Faults):
     def test_a_folder_that_cannot_be_written_is_told_before_anything_is_computed(self):
         self.out.mkdir()
-        code, _, err = railstrata(*self.run_words(ROLLING), env=with_fault("open", "/out/", errno.EROFS))
+        code, _, err = railstrata(*self.run_words(SMALL), env=with_fault("open", "/out/", errno.EROFS))
         self.assertEqual(code, 4, err)
         self.assertIn(f"error: cannot write {self.out}/.writable: Read-only file system\n    remedy: choose a folder that can be written, with --out", err)
         self.assertNotIn("meshing", err)
         self.assertEqual(list(self.out.iterdir()), [])
 
     def test_one_that_becomes_so_while_the_run_rolls(self):
-        rc, reference = self.whole(ROLLING)
-        code, _, err = railstrata(*self.run_words(ROLLING), *SOON, env=with_fault("open", "/out/patch", errno.EROFS, 2))
+        rc, reference = self.whole(SMALL)
+        code, _, err = railstrata(*self.run_words(SMALL), *SOON, env=with_fault("open", "/out/patch", errno.EROFS, 2))
         self.assertEqual(code, 4, err)
         self.assertIn("Read-only file system\n    remedy: ", err)
         self.assert_unfinished_and_sound()
         self.assertEqual(railstrata("run", "--resume", self.out, *WORDS)[0], rc)
         self.assert_same(reference)
+        fact("read_only", injected=2, survived=2)
 
 
 class Checkpoints(Faults):
     def interrupted(self):
         """A run stopped on the way, with two checkpoints."""
-        process = start(*self.run_words(TWO), "--checkpoint-every", "0.02 s")
+        process = start(*self.run_words(SMALL), "--checkpoint-every", "0.02 s")
         wait_for((self.out / "checkpoint.h5.previous").exists, process)
         process.send_signal(signal.SIGTERM)
         process.communicate()
         self.assertEqual(process.returncode, 130)
 
     def test_a_second_signal_while_one_is_being_written_leaves_the_one_before(self):
-        rc, reference = self.whole(TWO)
-        process = start(*self.run_words(TWO), "--checkpoint-every", "never", env=with_fault("fsync", "/out/checkpoint.h5", "wait", 1))  # the second takes its time
+        rc, reference = self.whole(SMALL)
+        process = start(*self.run_words(SMALL), "--checkpoint-every", "never", env=with_fault("fsync", "/out/checkpoint.h5", "wait", 1))  # the second takes its time
         wait_for(lambda: rows(self.out) > 10, process)
         process.send_signal(signal.SIGUSR1)
         wait_for((self.out / "checkpoint.h5").exists, process)
@@ -231,9 +232,10 @@ class Checkpoints(Faults):
         self.assertFalse((self.out / "checkpoint.h5.previous").exists())
         self.assertEqual(railstrata("run", "--resume", self.out, *WORDS)[0], rc)
         self.assert_same(reference)
+        fact("second_signal", signals=2)
 
     def test_those_that_cannot_be_read_are_named_and_the_one_before_is_taken(self):
-        rc, reference = self.whole(TWO)
+        rc, reference = self.whole(SMALL)
         self.interrupted()
         newest, previous = self.out / "checkpoint.h5", self.out / "checkpoint.h5.previous"
         good, older = newest.read_bytes(), previous.read_bytes()
@@ -270,19 +272,19 @@ class Checkpoints(Faults):
 
 class TwoAtOnce(Faults):
     def test_two_runs_never_mix_in_one_folder(self):
-        rc, reference = self.whole(TWO)
-        first = start(*self.run_words(TWO))
+        rc, reference = self.whole(SMALL)
+        first = start(*self.run_words(SMALL))
         wait_for((self.out / "provenance.json").exists, first)
         told = f"error: another railstrata is writing into {self.out}\n    remedy: wait until it has ended, or choose another folder with --out\n"
-        for words in ([*self.run_words(TWO), "--force"], ["run", "--resume", self.out], ["bem", self.folder / "case.toml", "--cell", "1.5 mm", "--out", self.out, "--force"]):
+        for words in ([*self.run_words(SMALL), "--force"], ["run", "--resume", self.out], ["bem", self.folder / "case.toml", "--cell", "1.5 mm", "--out", self.out, "--force"]):
             self.refused(2, words, told)
         first.communicate()
         self.assertEqual(first.returncode, rc)
         self.assert_same(reference)
 
     def test_of_many_that_start_together_one_runs(self):
-        rc, reference = self.whole(ROLLING)
-        words = self.run_words(ROLLING)
+        rc, reference = self.whole(SMALL)
+        words = self.run_words(SMALL)
         together = [start(*words) for _ in range(6)]
         told = [process.communicate()[1] for process in together]
         self.assertEqual(sorted(process.returncode for process in together), sorted([rc] + [2] * 5), told)
@@ -290,11 +292,11 @@ class TwoAtOnce(Faults):
         fact("runs_at_once", programs=len(together), ran=1)
 
     def test_a_killed_run_holds_nothing(self):
-        first = start(*self.run_words(TWO))
+        first = start(*self.run_words(SMALL))
         wait_for((self.out / "provenance.json").exists, first)
         first.kill()
         first.communicate()
-        self.assertIn(railstrata(*self.run_words(ROLLING), "--force")[0], (0, 1))
+        self.assertIn(railstrata(*self.run_words(SMALL), "--force")[0], (0, 1))
 
 
 if __name__ == "__main__":

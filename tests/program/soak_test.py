@@ -113,8 +113,8 @@ def main():
         expected, found = results(whole.out), results(parts.out)
         different = sorted(name for name in expected.keys() | found.keys() if expected.get(name) != found.get(name))
         closure = next(c for c in summary["checks"] if c["name"] == "energy_closure")
-        seen = {"steps": summary["run"]["steps"], "elements": summary["run"]["elements"], "sittings": parts.sittings, "files": len(expected), "files_different": len(different), "energy_closure": closure["value"],
-                "energy_drift_over_strain": drift(whole.out), "memory_start_bytes": int(first), "memory_end_bytes": int(last), "commit": origin["commit"] + ("+dirty" if origin["dirty"] else ""),
+        seen = {"steps": summary["run"]["steps"], "elements": summary["run"]["elements"], "sittings": parts.sittings, "files": len(expected), "files_different": len(different), "energy_closure": float(f"{closure['value']:.3g}"),
+                "energy_drift_over_strain": float(f"{drift(whole.out):.3g}"), "memory_start_MB": round(1e-6 * first, 2), "memory_end_MB": round(1e-6 * last, 2), "commit": origin["commit"] + ("+dirty" if origin["dirty"] else ""),
                 "cpu": origin["cpu"], "compiler": origin["compiler"], "isa": origin["isa"].split(",")[0]}
     fact("soak", **seen)
     if options.record:
