@@ -8,6 +8,7 @@ import os
 import pathlib
 import random
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -20,7 +21,7 @@ from outside import SMALL, TINY, FromOutside, broken_files, fact, railstrata, re
 INJECTOR = pathlib.Path(sys.argv[2]).resolve()
 WORDS = ["--threads", "1", "--no-report"]
 STILL = SMALL.replace("run_up =", "rolling = false\nrun_up =")
-SOON = ["--checkpoint-every", "0.01 s"]
+SOON = ["--checkpoint-every", "0.02 s"]
 NO_ROOM = "No space left on device\n    remedy: make room on the disk"
 
 
@@ -89,7 +90,7 @@ class FullDisk(Faults):
 
     def test_the_run_goes_on_from_its_checkpoint_when_there_is_room(self):
         rc, reference = self.whole(SMALL)
-        faults = (("write", "history.csv", 30), ("write", "rail.vtu", 0), ("fsync", "wheel.vtu", 0), ("rename", "summary.json", 0))
+        faults = (("write", "history.csv", 60), ("write", "rail.vtu", 0), ("fsync", "wheel.vtu", 0), ("rename", "summary.json", 0))
         for call, name, skip in faults:
             code, _, err = railstrata(*self.run_words(SMALL), "--force", *SOON, env=with_fault(call, f"/out/{name}", errno.ENOSPC, skip))
             self.assertEqual(code, 4, err)
@@ -101,7 +102,7 @@ class FullDisk(Faults):
 
     def test_a_checkpoint_that_cannot_be_written_leaves_the_one_before(self):
         rc, reference = self.whole(SMALL)
-        faults = [(call, reason, skip) for call, reason in (("write", errno.ENOSPC), ("fsync", errno.EIO), ("rename", errno.EIO), ("open", errno.EDQUOT)) for skip in (0, 3)]
+        faults = [(call, reason, skip) for call, reason in (("write", errno.ENOSPC), ("fsync", errno.EIO), ("rename", errno.EIO), ("open", errno.EDQUOT)) for skip in (0, 1)]
         for call, reason, skip in faults:
             code, _, err = railstrata(*self.run_words(SMALL), "--force", *SOON, env=with_fault(call, "/out/checkpoint.h5", reason, skip))
             self.assertEqual(code, rc, err)
@@ -128,14 +129,12 @@ class FullDisk(Faults):
             code, _, err = railstrata(*words, env=with_fault("write", name, errno.ENOSPC))
             self.assertEqual(code, 1 if name == "patch.csv" else 4, err)
             self.assertIn(text, err)
-            self.assertFalse([f for f in self.out.rglob("summary.json") if ".part" not in str(f)] if name == "patch.csv" else [])
             if name == "patch.csv":
                 self.assertEqual((self.out / "study.csv").read_text().count(NO_ROOM.split("\n")[0]), 2)
             code, _, err = railstrata(*words)
             self.assertEqual(code, 0, err)
             self.assertEqual([str(f) for f in self.out.rglob("*") if ".part" in f.name or ".failed" in f.name], [])
-            for file in [self.out / "study.csv", *self.out.rglob("study.json")]:
-                file.unlink()
+            shutil.rmtree(self.out)
 
     def test_standard_output_that_is_full_is_no_success(self):
         with open("/dev/full", "w") as full:
@@ -245,7 +244,7 @@ class Checkpoints(Faults):
         dice, cuts = random.Random(3), 12
         for length in [0, 1, 511, 512, 513, len(good) - 1, *(dice.randrange(len(good)) for _ in range(cuts - 6))]:
             newest.write_bytes(good[:length])
-            self.refused(2, resume, f"error: {newest}: it", remedy)
+            self.refused(2, resume, f"error: {newest}: this checkpoint is of no use: it", remedy)
         newest.unlink()
         os.mkfifo(newest)  # whoever opens it waits for ever
         self.refused(2, resume, f"error: {newest}: it is not a file", remedy)
@@ -300,4 +299,4 @@ class TwoAtOnce(Faults):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + sys.argv[3:])

@@ -38,7 +38,7 @@ run_up = "0 mm"
 
 # Smaller still, a fifth of the time: the wheel of soak.toml with two positions.
 SMALL = (pathlib.Path(__file__).parent / "soak.toml").read_text()
-for old, new in (("1000 kg", "4000 kg"), ("200 mm/s", "10 m/s"), ('element_size = "2 mm"', 'element_size = "3 mm"'), ('["85 mm"]', '["6 mm", "12 mm"]'), ('run_up = "5 mm"', 'run_up = "2 mm"'), ("0.5 mm", "0.1 mm")):
+for old, new in (("100 mm/s", "10 m/s"), ('["65 mm"]', '["6 mm", "12 mm"]'), ('run_up = "5 mm"', 'run_up = "2 mm"'), ("0.5 mm", "0.1 mm")):
     assert SMALL.count(old) == 1, old
     SMALL = SMALL.replace(old, new)
 
@@ -76,7 +76,8 @@ def results(folder):
         if name in ("provenance.json", "log.txt", "study.json"):
             continue
         out[name] = file.read_bytes()
-        out[name] = out[name].replace(str(folder.resolve()).encode(), b"FOLDER")  # view.py says where it lies
+        for place in (folder.absolute(), folder.resolve()):  # view.py says where it lies
+            out[name] = out[name].replace(str(place).encode(), b"FOLDER")
         if file.name == "summary.json":
             summary = json.loads(out[name])
             for key in ("wall_s", "preload_wall_s", "output_wall_s", "element_steps_per_s", "peak_memory_bytes", "threads"):
@@ -94,7 +95,7 @@ def broken_files(folder):
                 return bool(json.loads(text))
             case ".csv":
                 table = [line for line in text.decode().splitlines() if not line.startswith("#")]
-                return text.endswith(b"\n") and len({len(row) for row in csv.reader(table)}) == 1
+                return text == b"" and file.name == "history.csv" or text.endswith(b"\n") and len({len(row) for row in csv.reader(table)}) == 1  # history.csv grows row by row
             case ".vtp" | ".vtu" | ".pvd":
                 return text.rstrip().endswith(b"</VTKFile>")
             case ".html":
