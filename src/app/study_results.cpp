@@ -18,6 +18,7 @@
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
 #include "io/result_folder.hpp"
+#include "report/view.hpp"
 
 namespace railstrata {
 namespace {
@@ -166,6 +167,10 @@ std::string last_failure(const fs::path& out, const StudyCase& c) {
 fs::path working_folder(const fs::path& out, const StudyCase& c) { return beside(out / c.folder, fmt::format("{}{}-{}", kPart, host_name(), ::getpid())); }
 
 void keep_result(const fs::path& out, const StudyCase& c, const fs::path& working) {
+  std::vector<fs::path> scripts;
+  for (const auto& entry : fs::recursive_directory_iterator(working))
+    if (entry.path().filename() == "view.py") scripts.push_back(entry.path().parent_path());
+  for (const fs::path& folder : scripts) write_view_script(folder, out / c.folder / fs::relative(folder, working));
   write_whole_file(working / kStudyFile, study_json(c, nullptr, numbers_of(working)));
   put_in_place(working, out / c.folder);
   std::error_code error;

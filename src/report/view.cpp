@@ -9,12 +9,12 @@
 
 namespace railstrata {
 
-void write_view_script(const std::filesystem::path& folder) {
-  const std::string place = "WRITTEN_TO = \"\"";
+void write_view_script(const std::filesystem::path& folder, const std::filesystem::path& place) {
+  const std::string blank = "WRITTEN_TO = \"\"";
   std::string script(view_script());
-  const auto at = script.find(place);
+  const auto at = script.find(blank);
   assert(at != std::string::npos);
-  script.replace(at, place.size(), "WRITTEN_TO = " + nlohmann::json(std::filesystem::absolute(folder).lexically_normal().string()).dump());
+  script.replace(at, blank.size(), "WRITTEN_TO = " + nlohmann::json(std::filesystem::absolute(place.empty() ? folder : place).lexically_normal().string()).dump());
   write_whole_file(folder / "view.py", script);
 }
 
