@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <regex>
 
@@ -28,21 +27,20 @@ std::string trimmed(const std::string& text) {
 
 bool looks_numeric(const std::string& text) { return !text.empty() && std::string("0123456789+-.").find(text.front()) != std::string::npos; }
 
-std::vector<Line> read_lines(const std::filesystem::path& file, std::string& comments) {
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file)) throw CaseError("cannot open the profile file", "check the path; it is relative to the case file", file.string());
+std::vector<Line> split_lines(std::string_view all, std::string& comments) {
+  if (all.starts_with("\xEF\xBB\xBF")) all.remove_prefix(3);
   std::vector<Line> lines;
-  std::string text;
   bool rows_begun = false;
-  for (int number = 1; std::getline(in, text); ++number) {
-    if (number == 1 && text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  for (int number = 1; !all.empty(); ++number) {
+    const std::size_t length = std::min(all.find('\n'), all.size());
+    const std::string text(all.substr(0, length));
+    all.remove_prefix(std::min(length + 1, all.size()));
     const std::size_t comment = text.find_first_of("#%!\"");
     if (comment != std::string::npos && !rows_begun) comments += text.substr(comment) + '\n';
     const std::string content = trimmed(text.substr(0, comment));
     rows_begun = rows_begun || looks_numeric(content);
     if (!content.empty()) lines.push_back({number, content});
   }
-  if (in.bad()) throw CaseError("cannot read the profile file", "check that it is a text file", file.string());
   return lines;
 }
 
@@ -79,20 +77,20 @@ std::optional<double> number(const std::string& text) {
 
 }  // namespace
 
-NumberTable read_number_table(const std::filesystem::path& file) {
+NumberTable parse_number_table(std::string_view text, const std::string& name) {
   NumberTable table;
-  const std::vector<Line> lines = read_lines(file, table.heading);
+  const std::vector<Line> lines = split_lines(text, table.heading);
   table.decimal_commas = commas_are_decimal(lines);
   for (const Line& line : lines) {
-    const std::string where = fmt::format("{}:{}", file.string(), line.number);
-    const std::vector<std::string> text = fields(line.text, table.decimal_commas);
-    const std::optional<double> y = text.empty() ? std::nullopt : number(text[0]), z = text.size() < 2 ? std::nullopt : number(text[1]);
+    const std::string where = fmt::format("{}:{}", name, line.number);
+    const std::vector<std::string> words = fields(line.text, table.decimal_commas);
+    const std::optional<double> y = words.empty() ? std::nullopt : number(words[0]), z = words.size() < 2 ? std::nullopt : number(words[1]);
     if ((y && !std::isfinite(*y)) || (z && !std::isfinite(*z))) throw CaseError("'" + line.text + "' is not a finite number", "remove or repair the point", where);
     if (y && z) {
       table.rows.push_back({*y, *z});
       table.lines.push_back(line.number);
-      table.columns = std::max(table.columns, text.size());
-    } else if (table.rows.empty() && (!looks_numeric(line.text) || text.size() == 1)) {
+      table.columns = std::max(table.columns, words.size());
+    } else if (table.rows.empty() && (!looks_numeric(line.text) || words.size() == 1)) {
       table.heading += line.text + '\n';
     } else {
       throw CaseError("'" + line.text + "' is not two numbers", "give two columns, y and z; mark comments with #", where);

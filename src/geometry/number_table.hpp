@@ -1,7 +1,7 @@
 #pragma once
 // Two-column number files as people write them.
-#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/vec.hpp"
@@ -17,7 +17,7 @@ struct NumberTable {
 };
 
 /// Reads blanks, tabs, commas or semicolons between columns; decimal points or commas; comments after # % ! "; header lines before the first row; a lone count
-/// of points before the rows. Throws CaseError with file:line for a line that is not two numbers, NaN and infinities; and for a file that cannot be read.
-NumberTable read_number_table(const std::filesystem::path& file);
+/// of points before the rows. Throws CaseError with name:line for a line that is not two numbers, NaN and infinities.
+NumberTable parse_number_table(std::string_view text, const std::string& name);
 
 }  // namespace railstrata

@@ -7,6 +7,7 @@
 // A curve is walked with y increasing over the running surface; s is the arc length, s = 0 at y = 0.
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/vec.hpp"
@@ -94,6 +95,9 @@ Profile circular_profile(ProfileKind kind, double radius, double half_width = 0.
 /// Reads a two-column file (y z; blanks, tabs, commas or semicolons; # % ! " comments; a header row; decimal commas; mm or metres; z up or down; either side's
 /// orientation). What was detected and flipped is appended to `notes`, one sentence each. Throws CaseError naming the file and line.
 Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes = nullptr);
+
+/// The same from a text; `file` names it in messages.
+Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file, std::vector<std::string>* notes = nullptr);
 
 /// Lower part of a rail section for a head profile, in the rail's profile frame. CN60 has its own; other heads are given CN60's underside, web and foot at
 /// CN60's height, widened towards the end of the head's flank (docs/conventions.md). A flank that ends higher than CN60's (34.06 mm below the crown) is

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <regex>
+#include <sstream>
 
 #include "core/faults.hpp"
 #include "geometry/number_table.hpp"
@@ -38,7 +40,7 @@ Extent extent_z(const std::vector<Vec2>& points) {
 
 class Reading {
  public:
-  Reading(ProfileKind kind, const std::filesystem::path& file) : kind_(kind), file_(file), table_(read_number_table(file)), points_(table_.rows) {}
+  Reading(ProfileKind kind, std::string_view text, const std::filesystem::path& file) : kind_(kind), file_(file), table_(parse_number_table(text, file.string())), points_(table_.rows) {}
 
   Profile profile(std::vector<std::string>* notes) {
     if (points_.size() < 5)
@@ -154,8 +156,19 @@ class Reading {
   std::vector<std::string> notes_;
 };
 
+std::string text_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in || std::filesystem::is_directory(file)) throw CaseError("cannot open the profile file", "check the path; it is relative to the case file", file.string());
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (in.bad()) throw CaseError("cannot read the profile file", "check that it is a text file", file.string());
+  return std::move(text).str();
+}
+
 }  // namespace
 
-Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes) { return Reading(kind, file).profile(notes); }
+Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file, std::vector<std::string>* notes) { return Reading(kind, text, file).profile(notes); }
+
+Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes) { return parse_profile(kind, text_of(file), file, notes); }
 
 }  // namespace railstrata

@@ -319,6 +319,8 @@ std::string read_bytes(const fs::path& file) {
 
 }  // namespace
 
+std::string sealed_checkpoint(std::string_view image) { return header_of(image).append(image); }
+
 std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
@@ -330,10 +332,9 @@ std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run
     checked(H5Fflush(file, H5F_SCOPE_GLOBAL), "finish a file");
     const ssize_t size = H5Fget_file_image(file, nullptr, 0);
     checked(size, "finish a file");
-    std::string bytes(kHeader + static_cast<std::size_t>(size), '\0');
-    checked(H5Fget_file_image(file, bytes.data() + kHeader, static_cast<std::size_t>(size)), "finish a file");
-    bytes.replace(0, kHeader, header_of(std::string_view(bytes).substr(kHeader)));
-    return bytes;
+    std::string image(static_cast<std::size_t>(size), '\0');
+    checked(H5Fget_file_image(file, image.data(), image.size()), "finish a file");
+    return sealed_checkpoint(image);
   } catch (const Damage& d) {
     throw EnvironmentError(fmt::format("cannot make a checkpoint: {}", d.what));
   }

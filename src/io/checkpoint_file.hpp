@@ -29,6 +29,9 @@ struct Checkpoint {
 std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run);
 Checkpoint checkpoint_of(std::string_view bytes, const std::filesystem::path& file);
 
+/// An HDF5 image behind the text of 512 bytes that vouches for it.
+std::string sealed_checkpoint(std::string_view image);
+
 /// checkpoint.h5 of a result folder, and the one before it.
 std::filesystem::path checkpoint_file(const std::filesystem::path& folder);
 std::filesystem::path previous_checkpoint_file(const std::filesystem::path& folder);

@@ -62,8 +62,15 @@ std::vector<double> CsvTable::column(const std::string& name, double unit) const
 }
 
 CsvTable read_csv(const std::filesystem::path& file) {
-  std::ifstream in(file);
+  std::ifstream in(file, std::ios::binary);
   if (!in) refuse(file, 0, "the table cannot be read");
+  std::ostringstream text;
+  text << in.rdbuf();
+  return parse_csv(std::move(text).str(), file);
+}
+
+CsvTable parse_csv(const std::string& text, const std::filesystem::path& file) {
+  std::istringstream in(text);
   CsvTable table{file, {}};
   int number = 0;
   for (std::string line; std::getline(in, line);) {

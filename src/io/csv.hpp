@@ -31,6 +31,9 @@ struct CsvTable {
 /// Throws CaseError with the line if a row is not as many numbers as there are names, or if the file cannot be read.
 CsvTable read_csv(const std::filesystem::path& file);
 
+/// The same from a text; `file` names it in messages.
+CsvTable parse_csv(const std::string& text, const std::filesystem::path& file);
+
 /// A table that grows during a run (history.csv): every row is handed to the system at once, so it can be watched and survives a crash of the program.
 class CsvLog {
  public:

@@ -69,8 +69,7 @@ std::vector<const toml::table*> tables(const toml::table& t, const char* key) {
 
 }  // namespace
 
-Published load_published(const std::filesystem::path& file) {
-  const std::string text = read_text_file(file, "name it in the study: published = \"published.toml\"");
+Published parse_published(const std::string& text, const std::filesystem::path& file) {
   CaseSource source(file, text);
   toml::table document;
   try {
@@ -107,5 +106,7 @@ Published load_published(const std::filesystem::path& file) {
   source.finish();
   return out;
 }
+
+Published load_published(const std::filesystem::path& file) { return parse_published(read_text_file(file, "name it in the study: published = \"published.toml\""), file); }
 
 }  // namespace railstrata

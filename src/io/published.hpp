@@ -41,4 +41,7 @@ struct Published {
 /// Throws CaseError with the place of a mistake.
 Published load_published(const std::filesystem::path& file);
 
+/// The same from a text; `file` names it in messages.
+Published parse_published(const std::string& text, const std::filesystem::path& file);
+
 }  // namespace railstrata

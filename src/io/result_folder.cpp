@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <sstream>
 
 #include "core/faults.hpp"
 #include "io/csv.hpp"
@@ -14,19 +15,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::ifstream open_for_reading(const fs::path& file) {
-  std::ifstream in(file);
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
   if (!in) throw CaseError(fmt::format("{} is not a result folder: it has no {}", file.parent_path().string(), file.filename().string()), "give a folder that `railstrata run` or `railstrata bem` has written");
-  return in;
+  std::ostringstream text;
+  text << in.rdbuf();
+  return std::move(text).str();
 }
 
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
   throw CaseError(what, "write the results anew with `railstrata run` or `railstrata bem`", file.string());
 }
 
-ContactField read_patch(const fs::path& file) {
-  open_for_reading(file);
-  const CsvTable table = read_csv(file);
+ContactField patch_of(const CsvTable& table) {
+  const fs::path& file = table.file;
   ContactField f;
   f.x = table.column("x_mm", 1e-3), f.y = table.column("y_mm", 1e-3), f.z = table.column("z_mm", 1e-3);
   f.area = table.column("area_mm2", 1e-6);
@@ -53,17 +55,17 @@ double ResultFolder::number(const std::string& path) const {
   return summary.contains(at) && summary[at].is_number() ? summary[at].get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
 
-ResultFolder read_result_folder(const fs::path& folder) {
+ResultFolder parse_results(const std::string& summary, const std::string& patch, const fs::path& folder) {
   ResultFolder r;
   r.folder = folder;
-  const fs::path file = folder / "summary.json";
-  std::ifstream in = open_for_reading(file);
-  r.summary = nlohmann::json::parse(in, nullptr, false);
-  if (!r.summary.is_object() || !r.summary.contains("contact")) refuse(file, "this is not a summary");
+  r.summary = nlohmann::json::parse(summary, nullptr, false);
+  if (!r.summary.is_object() || !r.summary.contains("contact")) refuse(folder / "summary.json", "this is not a summary");
   r.title = text_at(r.summary, "/title");
   r.engine = text_at(r.summary, "/run/engine");
-  r.field = read_patch(folder / "patch.csv");
+  r.field = patch_of(parse_csv(patch, folder / "patch.csv"));
   return r;
 }
+
+ResultFolder read_result_folder(const fs::path& folder) { return parse_results(text_of(folder / "summary.json"), text_of(folder / "patch.csv"), folder); }
 
 }  // namespace railstrata

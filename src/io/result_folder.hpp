@@ -22,4 +22,7 @@ struct ResultFolder {
 /// Throws CaseError when the folder is not there, holds no summary.json or patch.csv, or they are not as this program writes them.
 ResultFolder read_result_folder(const std::filesystem::path& folder);
 
+/// The same from the texts of the two files; `folder` names them in messages.
+ResultFolder parse_results(const std::string& summary, const std::string& patch, const std::filesystem::path& folder);
+
 }  // namespace railstrata
