@@ -21,6 +21,8 @@ std::filesystem::path page_of(const CommandOptions& options) {
 ExitCode command_report(const CommandOptions& options) {
   if (options.folders.size() > 1 && options.out.empty()) throw CaseError("a report on several folders needs a place", "name the page with --out, e.g. --out comparison.html");
   const std::filesystem::path page = page_of(options);
+  if (page == options.out && !options.force && std::filesystem::exists(page))
+    throw CaseError(fmt::format("--out {}: there is a file of this name", page.string()), "choose another name, or replace it with --force");
   if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path());
   write_report(page, options.folders, options.reference_solution, options.threads);
   if (options.json) fmt::print("{{\"report\": \"{}\"}}\n", page.generic_string());

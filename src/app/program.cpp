@@ -97,7 +97,8 @@ void add_compare(CLI::App& sub, CommandOptions& options) {
 
 void add_report(CLI::App& sub, CommandOptions& options) {
   sub.add_option("folders", options.folders, "Result folders of `run` or `bem`; the second is drawn beside the first")->required();
-  sub.add_option("-o,--out", options.out, "The page to write (default: report.html in the folder); it is made anew if it is there");
+  sub.add_option("-o,--out", options.out, "The page to write (default: report.html in the folder, made anew if it is there)");
+  sub.add_flag("--force", options.force, "Replace the file that --out names");
   sub.add_flag("!--no-reference", options.reference_solution, "Do not set a finite element result against the half-space solution of its case");
 }
 

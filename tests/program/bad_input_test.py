@@ -86,6 +86,25 @@ class Folders(FromOutside):
         self.refused(2, self.run_into(self.folder / "out"), f"error: the output folder {self.folder}/out is not empty\n    remedy: choose another with --out, or overwrite files of the same name with --force\n")
         self.assertEqual([f.name for f in (self.folder / "out").iterdir()], ["mine.txt"])
 
+    def test_no_command_overwrites_a_file_without_force(self):
+        case, results, out = self.case(TINY), self.folder / "results", self.folder / "out"
+        study = self.folder / "study.toml"
+        study.write_text('[study]\nbase = "case.toml"\nengines = ["bem"]\n[[group]]\nname = "g"\n[group.vary]\n"drive.speed" = ["20 m/s"]\n')
+        rc, _, err = railstrata("bem", case, "--cell", "3 mm", "--out", results, "--no-report")
+        self.assertLessEqual(rc, 1, err)
+        out.mkdir()
+        (out / "case.toml").write_text("mine")
+        (out / "report.html").write_text("mine")
+        commands = [["run", case], ["bem", case], ["mesh", case], ["sweep", case, "--vary", "drive.speed=20 m/s"], ["creep-curve", case, "--points", "2", "--cell", "3 mm"], ["compare", results, results], ["study", study]]
+        for words in commands:
+            with self.subTest(words[0]):
+                self.refused(2, [*words, "--out", out], "is not empty", "--force")
+        self.refused(2, ["report", results, "--out", out / "case.toml"], f"error: --out {out}/case.toml: there is a file of this name\n    remedy: choose another name, or replace it with --force\n")
+        self.assertEqual({f.name: f.read_text() for f in out.iterdir()}, {"case.toml": "mine", "report.html": "mine"})
+        rc, _, err = railstrata("report", results, "--out", out / "report.html", "--force", "--no-reference")
+        self.assertEqual(rc, 0, err)
+        self.assertIn("<html", (out / "report.html").read_text()[:1000])
+
     def test_one_that_cannot_be_made(self):
         (self.folder / "file").write_text("")
         self.refused(4, self.run_into(self.folder / "file" / "out"), f"error: cannot make the output folder {self.folder}/file/out: Not a directory\n")

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+"""Drives the readers by libFuzzer and adds up what was executed.
+
+usage: fuzz.py BUILD [SECONDS] [--runs N] [--reader NAME]... [--merge]
+
+SECONDS: of each reader, 60 if nothing is said; --runs: until results.csv has so many executions of the reader, all runs together. BUILD holds the targets
+(cmake --preset fuzz). What libFuzzer learns stays in BUILD/learned/READER and is taken up again; finds stay in BUILD/finds. Each run adds a line to fuzz/results.csv.
+--merge: puts what was learned into fuzz/corpus, as few inputs as cover the same code.
+
+Exit code: 0 nothing found, 1 a reader broke, 2 the targets are not there.
+"""
+import argparse
+import csv
+import pathlib
+import re
+import resource
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+READERS = ["profile", "case_file", "study_file", "published", "results", "checkpoint"]
+LONGEST = {"profile": 1200, "case_file": 1200, "study_file": 1600, "published": 1400, "results": 1200, "checkpoint": 700}  # bytes of an input
+LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-malloc_limit_mb=512"]
+CHECKS = "address undefined libstdc++ leaks"
+COLUMNS = ["reader", "executions", "seconds", "commit", "checks", "crashes", "hangs", "out_of_memory", "leaks"]
+KINDS = {"crash": "crashes", "timeout": "hangs", "oom": "out_of_memory", "leak": "leaks", "slow": "hangs"}
+RESULTS = ROOT / "fuzz" / "results.csv"
+ONE_CALL = 300  # seconds: a row of the table is lost at most
+
+
+def commit():
+    def git(*words):
+        return subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True).stdout.strip()
+    return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+dirty" if git("status", "--porcelain", "--", "src", "fuzz/*.cpp", "fuzz/*.hpp") else "")
+
+
+def executed(reader):
+    if not RESULTS.exists():
+        return 0
+    with RESULTS.open() as file:
+        return sum(int(row["executions"]) for row in csv.DictReader(file) if row["reader"] == reader)
+
+
+def add_row(row):
+    new = not RESULTS.exists()
+    with RESULTS.open("a", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+        if new:
+            writer.writeheader()
+        writer.writerow(row)
+
+
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def breaks_again(target, find, kind):
+    """A process that someone stopped for a while looks like one that hangs: a find counts when it is one again, by itself."""
+    before = processor_seconds()
+    done = subprocess.run([target, *LIMITS, find], capture_output=True, text=True, errors="replace")
+    return done.returncode != 0 and (kind != "timeout" or processor_seconds() - before > 10)
+
+
+def run_once(target, reader, build, seconds, runs):
+    """One call of libFuzzer: its row of the table, and the finds."""
+    learned, finds = build / "learned" / reader, build / "finds"
+    learned.mkdir(parents=True, exist_ok=True)
+    finds.mkdir(exist_ok=True)
+    before = set(finds.iterdir())
+    begin = time.monotonic()
+    words = [target, *LIMITS, f"-max_len={LONGEST[reader]}", f"-max_total_time={max(1, round(seconds))}", f"-runs={runs}", "-print_final_stats=1", "-reload=0", f"-artifact_prefix={finds}/{reader}-",
+             learned, ROOT / "fuzz" / "corpus" / reader]
+    done = subprocess.run(words, capture_output=True, text=True, errors="replace")
+    row = {"reader": reader, "seconds": round(time.monotonic() - begin), "commit": commit(), "checks": CHECKS, "crashes": 0, "hangs": 0, "out_of_memory": 0, "leaks": 0}
+    counts = [int(n) for n in re.findall(r"number_of_executed_units: (\d+)|^#(\d+)", done.stderr, re.M) for n in n if n]
+    row["executions"] = max(counts, default=0)
+    found = []
+    for find in sorted(set(finds.iterdir()) - before):
+        kind = find.name.removeprefix(reader + "-").split("-")[0]
+        if not breaks_again(target, find, kind):
+            find.unlink()
+            continue
+        row[KINDS.get(kind, "crashes")] += 1
+        found.append(find)
+        (find.parent / (find.name + ".log")).write_text(done.stderr[-20000:])
+    if row["executions"] == 0 and not found:
+        sys.exit(f"{target.name} did not run:\n{done.stderr[-2000:]}")
+    return row, found
+
+
+def fuzz(reader, build, seconds, runs):
+    target, found, total = build / "fuzz" / f"fuzz_{reader}", [], 0
+    end = time.monotonic() + seconds
+    while not found and (executed(reader) < runs if runs else time.monotonic() < end):
+        left = ONE_CALL if runs else min(ONE_CALL, end - time.monotonic())
+        row, found = run_once(target, reader, build, left, runs - executed(reader) if runs else -1)
+        add_row(row)
+        total += row["executions"]
+        print(f"{reader:12} {row['executions']:>10} executions in {row['seconds']} s, {executed(reader)} in all", flush=True)
+    for find in found:
+        print(f"{reader:12} FOUND {find} (and its .log)", flush=True)
+    return found
+
+
+def merge(reader, build):
+    """As few inputs as cover what the kept and the learned ones cover; the kept ones stay."""
+    kept = ROOT / "fuzz" / "corpus" / reader
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([build / "fuzz" / f"fuzz_{reader}", "-merge=1", f"-max_len={LONGEST[reader]}", folder, kept, build / "learned" / reader], check=True, capture_output=True)
+        size = sum(f.stat().st_size for f in kept.iterdir())
+        old = {f.read_bytes() for f in kept.iterdir()}
+        for file in sorted(pathlib.Path(folder).iterdir(), key=lambda f: f.stat().st_size):
+            if size + file.stat().st_size > 45_000:
+                break
+            if file.read_bytes() not in old:
+                shutil.copy(file, kept / file.name[:16])
+                size += file.stat().st_size
+    print(f"{reader:12} {len(list(kept.iterdir()))} kept inputs, {size} bytes")
+
+
+def main():
+    words = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    words.add_argument("build", type=pathlib.Path)
+    words.add_argument("seconds", type=float, nargs="?", default=60)
+    words.add_argument("--runs", type=int, default=0)
+    words.add_argument("--reader", action="append", choices=READERS)
+    words.add_argument("--merge", action="store_true")
+    given = words.parse_args()
+    build, found = given.build.resolve(), []
+    for reader in given.reader or READERS:
+        if not (build / "fuzz" / f"fuzz_{reader}").exists():
+            print(f"there is no {build}/fuzz/fuzz_{reader}: cmake --preset fuzz && cmake --build --preset fuzz", file=sys.stderr)
+            return 2
+        if given.merge:
+            merge(reader, build)
+        else:
+            found += fuzz(reader, build, given.seconds, given.runs)
+    return 1 if found else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
