@@ -183,7 +183,7 @@ int tell(const CaseError& e, bool json) {
   if (json) {
     auto all = nlohmann::ordered_json::array();
     for (const Diagnostic& d : e.diagnostics) all.push_back({{"where", d.where}, {"message", d.message}, {"remedy", d.remedy}});
-    fmt::print("{}\n", nlohmann::ordered_json{{"errors", all}}.dump(2));
+    fmt::print("{}\n", nlohmann::ordered_json{{"errors", all}}.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));  // a wrong file may be in another encoding
   }
   for (const Diagnostic& d : e.diagnostics)
     fmt::print(stderr, "{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message, d.remedy.empty() ? "" : "\n    remedy: " + d.remedy);

@@ -6,7 +6,6 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <regex>
 
 #include "core/faults.hpp"
 
@@ -44,13 +43,34 @@ std::vector<Line> split_lines(std::string_view all, std::string& comments) {
   return lines;
 }
 
+/// "1,5 2": a number with a comma, blanks, another number. (A std::regex would take a stack frame for each character of the line.)
+bool two_with_blanks(std::string_view text) {
+  const auto skip = [&](const char* characters) {
+    const std::size_t n = std::min(text.find_first_not_of(characters), text.size());
+    text.remove_prefix(n);
+    return n;
+  };
+  const auto take = [&](const char* one_of) {
+    const bool there = !text.empty() && std::string_view(one_of).find(text.front()) != std::string_view::npos;
+    if (there) text.remove_prefix(1);
+    return there;
+  };
+  constexpr const char* kDigits = "0123456789";
+  take("+-");
+  skip(kDigits);
+  if (!take(",") || skip(kDigits) == 0) return false;
+  if (take("eE") && (take("+-"), skip(kDigits) == 0)) return false;
+  if (skip(kBlank) == 0) return false;
+  take("+-");
+  return take(kDigits);
+}
+
 /// Commas are decimal when something else separates the columns and no point occurs.
 bool commas_are_decimal(const std::vector<Line>& lines) {
-  static const std::regex two_with_blanks(R"([-+]?[0-9]*,[0-9]+([eE][-+]?[0-9]+)?\s+[-+]?[0-9].*)");
   for (const Line& line : lines) {
     if (!looks_numeric(line.text) || line.text.find(',') == std::string::npos) continue;
     if (line.text.find('.') != std::string::npos) return false;
-    return line.text.find_first_of(";\t") != std::string::npos || std::regex_match(line.text, two_with_blanks);
+    return line.text.find_first_of(";\t") != std::string::npos || two_with_blanks(line.text);
   }
   return false;
 }

@@ -12,7 +12,8 @@
 namespace railstrata {
 namespace {
 
-constexpr double kJoin = 1e-9;  // m
+constexpr double kJoin = 1e-9;           // m
+constexpr double kLongestDetour = 1.25;  // of the curve over the chords between its points; 1.21 where these turn by 120 degrees
 
 /// Signed angle from p0 to p1 about the centre, positive anticlockwise.
 double sweep(const ProfileSegment& g) {
@@ -49,6 +50,10 @@ Profile Profile::from_segments(ProfileKind kind, std::string name, std::vector<P
 Profile Profile::from_points(ProfileKind kind, std::string name, std::vector<Vec2> points) {
   if (const auto defect = find_defect(points)) throw CaseError(name + ": " + defect->message, defect->remedy);
   SmoothingSpline spline = fit_smoothing_spline(points);
+  double chords = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) chords += norm(points[i] - points[i - 1]);
+  if (!(spline.s.back() - spline.s.front() < kLongestDetour * chords))
+    throw CaseError(name + ": the smooth curve through the points swings far out between them", "remove stray points, or give more of them where the curve bends");
   Profile out;
   out.kind_ = kind;
   out.name_ = std::move(name);

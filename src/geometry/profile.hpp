@@ -38,7 +38,8 @@ class Profile {
   /// Rounding noise is estimated from the points and smoothed away (knots half a millimetre apart, wider for noisier points, down to the points' own
   /// spacing where the curve bends sharply); points half a millimetre or more apart are interpolated. The curve leaves no point by more than four times the
   /// noise or 1 nanometre.
-  /// Throws CaseError: fewer than 5 points, total chord length outside 5–500 mm (metre/millimetre mix-up), loops, y = 0 not covered.
+  /// Throws CaseError: fewer than 5 points, total chord length outside 5–500 mm (metre/millimetre mix-up), loops, y = 0 not covered,
+  /// a curve that between its points swings out to more than 1.25 times the length of their chords.
   static Profile from_points(ProfileKind kind, std::string name, std::vector<Vec2> points);
 
   ProfileKind kind() const { return kind_; }

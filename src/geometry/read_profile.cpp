@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 #include <regex>
-#include <sstream>
 
 #include "core/faults.hpp"
 #include "geometry/number_table.hpp"
@@ -14,6 +13,8 @@
 namespace railstrata {
 namespace {
 
+constexpr std::size_t kMostPoints = 20'000;              // all pairs of chords are held against each other
+constexpr std::streamsize kLargestFile = 16 << 20;       // bytes
 constexpr double kShortest = 0.020, kLongest = 0.500;    // m, curve of a listed profile
 constexpr double kSmallestFlange = 0.009;                // m: lower than any flange, higher than any tread's fall
 constexpr double kCrestNear = -0.035, kCrestFar = -0.075;  // m, y of the flange's crest (nominal -0.054 to -0.056)
@@ -45,6 +46,7 @@ class Reading {
   Profile profile(std::vector<std::string>* notes) {
     if (points_.size() < 5)
       fail(fmt::format("{} points are too few for a profile", points_.size()), "give at least 5 points; every 0.1 to 1 mm is usual");
+    if (points_.size() > kMostPoints) fail(fmt::format("{} points are too many for a profile", points_.size()), fmt::format("thin them out to at most {}; every 0.1 to 1 mm is usual", kMostPoints));
     if (table_.decimal_commas) note("Commas were read as decimal commas.");
     if (table_.columns > 2) note(fmt::format("Only the first two of {} columns were used.", table_.columns));
     drop_repeated_points();
@@ -129,13 +131,21 @@ class Reading {
     if (0.5 * (points_.front().z + points_.back().z) > centre->z) flip_z("z was positive down; it was turned up.");
   }
 
+  Profile curve() const {
+    try {
+      return Profile::from_points(kind_, file_.stem().string(), points_);
+    } catch (const CaseError& e) {
+      fail(e.diagnostics.front().message, e.diagnostics.front().remedy);
+    }
+  }
+
   /// The profile with z = 0 at y = 0.
   Profile at_origin() {
-    Profile out = Profile::from_points(kind_, file_.stem().string(), points_);
+    Profile out = curve();
     const double height = out.height(0);
     if (std::abs(height) > 1e-8) {
       for (Vec2& p : points_) p.z -= height;
-      out = Profile::from_points(kind_, file_.stem().string(), points_);
+      out = curve();
     }
     if (std::abs(height) > 1e-6) note(fmt::format("z was shifted by {:.3f} mm so that it is zero at y = 0.", -1e3 * height));
     if (kind_ == ProfileKind::rail && asymmetric(out)) note("The head is not symmetric; its gauge side was taken at y < 0.");
@@ -159,10 +169,12 @@ class Reading {
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file)) throw CaseError("cannot open the profile file", "check the path; it is relative to the case file", file.string());
-  std::ostringstream text;
-  text << in.rdbuf();
+  std::string text(kLargestFile + 1, '\0');
+  in.read(text.data(), kLargestFile + 1);
   if (in.bad()) throw CaseError("cannot read the profile file", "check that it is a text file", file.string());
-  return std::move(text).str();
+  if (in.gcount() > kLargestFile) throw CaseError(fmt::format("this file is larger than {} MiB", kLargestFile >> 20), "a profile is two columns of at most some thousand points", file.string());
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
 }
 
 }  // namespace

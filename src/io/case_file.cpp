@@ -24,8 +24,9 @@ bool is_builtin(ProfileKind kind, const std::string& name) {
 /// A built-in name stays; a file becomes an absolute path, so that the resolved case means the same from any folder.
 void resolve_profile(ProfileKind kind, const char* key, std::string& name, LoadedCase& loaded, CaseSource& source) {
   if (is_builtin(kind, name)) return;
-  const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name).lexically_normal();
-  if (std::filesystem::is_regular_file(file)) {
+  std::error_code error;  // a name too long, a folder that may not be read: no file to us
+  const std::filesystem::path file = name.empty() ? loaded.folder() : std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
+  if (name.find('\0') == std::string::npos && std::filesystem::is_regular_file(file, error)) {
     name = file.string();
     loaded.inputs.push_back(file);
     return;

@@ -6,17 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "core/nearest_word.hpp"
 #include "io/option_table.hpp"
+#include "io/toml_document.hpp"
 
 namespace railstrata {
 namespace {
-
-TextPlace place_of(const toml::source_region& region) {
-  return {static_cast<int>(region.begin.line), static_cast<int>(region.begin.column)};
-}
 
 std::string shown(const toml::node& node) {
   std::string text;
@@ -72,6 +68,7 @@ class TreeReader {
  private:
   struct Multiple {
     const Option* option;
+    std::string key;
     std::size_t index;
     double factor;
   };
@@ -139,7 +136,7 @@ class TreeReader {
   void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, double& target) {
     double value = 0;
     if (!number(option, key, node, value)) return;
-    if (option.multiple_of) multiples_.push_back({&option, index, value});
+    if (option.multiple_of) multiples_.push_back({&option, key, index, value});
     else target = value;
   }
 
@@ -249,7 +246,7 @@ class TreeReader {
         return false;
       }
     } else if (node.is_number()) {
-      value = *node.value<double>();
+      value = number_of(node);
       if (!(option.dimension == dimension::kNumber || option.dimension == dimension::kSlope)) {
         source_.complain(key, fmt::format("{} = {}: a bare number has no unit", key, shown(node)), fmt::format("write {}, in quotes", describe(option.dimension)));
         return false;
@@ -312,7 +309,15 @@ class TreeReader {
 
   /// After everything else, because what they multiply may stand further down.
   void finish_multiples() {
-    for (const Multiple& m : multiples_) *std::get<double*>(m.option->slot(spec_, m.index)) = m.factor * m.option->multiple_of(spec_, m.index);
+    for (const Multiple& m : multiples_) {
+      const Slot slot = m.option->slot(spec_, m.index);
+      const double value = m.factor * m.option->multiple_of(spec_, m.index);
+      for (const OptionTable& table : case_tables())
+        for (const Option& whole : table.options)
+          if (!whole.multiple_of && table.repeated && whole.slot(spec_, m.index) == slot && !whole.range.holds(value))
+            source_.complain(m.key, fmt::format("{} = {}: makes {} {}, which must be {}", m.key, m.factor, whole.key, format_quantity(value, whole.dimension), describe(whole.range, whole.dimension)), "choose a multiple in this range");
+      *std::get<double*>(slot) = value;
+    }
   }
 
   CaseSource& source_;
@@ -325,12 +330,16 @@ class TreeReader {
 }
 
 /// TOML where it is TOML, else a text: quotes may be left out.
-toml::table parse_override_value(const std::string& value) {
+toml::table parse_override_value(const std::string& text, const std::string& value) {
   try {
-    return toml::parse("value = " + value);
+    if (toml::table table = toml::parse("value = " + value); table.size() == 1) return table;
   } catch (const toml::parse_error&) {
-    return toml::table{{"value", value}};
+    try {
+      return toml::parse("value = " + toml_quoted(value));
+    } catch (const toml::parse_error&) {
+    }
   }
+  refuse_override(text, "is not one value in UTF-8");
 }
 
 /// The table named by the parts before the last, made where it is missing; list elements must exist.
@@ -357,12 +366,13 @@ toml::table& descend(toml::table& document, const std::vector<std::string>& part
 void apply_override(toml::table& document, const std::string& text, CaseSource& source) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) refuse_override(text, "is not key=value");
+  if (std::count(text.begin(), text.end(), '.') > kMostDots) refuse_override(text.substr(0, 60) + "...", fmt::format("has more than {} dots", kMostDots));
   const std::string key = text.substr(0, equals);
   std::vector<std::string> parts;
   std::istringstream stream(key);
   for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
   if (parts.size() < 2) refuse_override(text, "names no table");
-  toml::table value = parse_override_value(text.substr(equals + 1));
+  toml::table value = parse_override_value(text, text.substr(equals + 1));
   toml::table& table = descend(document, parts, text);
   value.get("value")->visit([&](auto& node) { table.insert_or_assign(toml::key(parts.back()), node); });
   source.remember_origin(key, "--set " + text);
@@ -371,13 +381,7 @@ void apply_override(toml::table& document, const std::string& text, CaseSource& 
 }  // namespace
 
 CaseSpec read_case_tree(CaseSource& source, const std::vector<std::string>& overrides) {
-  toml::table document;
-  try {
-    document = toml::parse(std::string_view(source.text()));
-  } catch (const toml::parse_error& e) {
-    source.complain_at(place_of(e.source()), fmt::format("this is not TOML: {}", e.description()), "texts stand in quotes, tables in [brackets], one key = value a line");
-    source.finish();
-  }
+  toml::table document = toml_document(source);
   for (const std::string& text : overrides) apply_override(document, text, source);
   CaseSpec spec;
   TreeReader(source, spec).read(document);

@@ -5,8 +5,10 @@
 #include <hdf5.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <type_traits>
@@ -63,8 +65,8 @@ class Writer {
   void text(const char* name, std::string& value) {
     Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "describe a text");
     checked(H5Tset_size(type, value.size() + 1), "describe a text");
-    Handle space(H5Screate(H5S_SCALAR), H5Sclose, "describe a text");
-    Handle set(H5Dcreate2(at_, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, "add a text");
+    Handle space(H5Screate(H5S_SCALAR), H5Sclose, "describe a text"), how = timeless();
+    Handle set(H5Dcreate2(at_, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose, "add a text");
     checked(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.c_str()), "write a text");
   }
   template <class Array>
@@ -98,8 +100,8 @@ class Writer {
     write(name, values.data(), {count, names.size()}, names);
   }
   void write(const char* name, const double* values, const std::vector<hsize_t>& size, const std::vector<std::string>& columns) {
-    Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, "describe an array");
-    Handle set(H5Dcreate2(at_, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose, "add an array");
+    Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, "describe an array"), how = timeless();
+    Handle set(H5Dcreate2(at_, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose, "add an array");
     double none = 0;
     checked(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values ? values : &none), "write an array");
     if (columns.empty()) return;
@@ -110,24 +112,33 @@ class Writer {
     Handle attribute(H5Acreate2(set, "columns", type, one, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, "add a text");
     checked(H5Awrite(attribute, type, text.c_str()), "write a text");
   }
+  /// Without the time of day in it: the same state has the same bytes.
+  static Handle timeless() {
+    const hid_t how = checked(H5Pcreate(H5P_DATASET_CREATE), "describe an array");
+    H5Pset_obj_track_times(how, false);
+    return Handle(how, H5Pclose, "describe an array");
+  }
   hid_t at_;
 };
 
+// Takes only what a Writer writes: arrays in one piece inside the file, no longer than it. Links, filters, other files and other types, which HDF5 would follow, are damage.
 class Reader {
  public:
   static constexpr bool reading = true;
-  explicit Reader(hid_t at) : at_(at) {}
+  /// bytes: of the whole image.
+  Reader(hid_t at, std::size_t bytes) : at_(at), bytes_(bytes) {}
 
   void text(const char* name, std::string& value) {
-    Handle set(H5Dopen2(at_, name, H5P_DEFAULT), H5Dclose, name);
-    Handle type(H5Dget_type(set), H5Tclose, name);
+    const Handle set = open_array(name);
+    const Handle type(H5Dget_type(set), H5Tclose, name), space(H5Dget_space(set), H5Sclose, name);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Sget_simple_extent_type(space) != H5S_SCALAR || H5Tget_size(type) > bytes_) throw Damage{fmt::format("{} is no text", name)};
     std::string raw(H5Tget_size(type), '\0');
     checked(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()), name);
     value = raw.substr(0, raw.find('\0'));
   }
   template <class Array>
   void numbers(const char* name, Array& values) {
-    Handle set(H5Dopen2(at_, name, H5P_DEFAULT), H5Dclose, name);
+    const Handle set = open_array(name);
     values.resize(size_of(set, name, 1)[0]);
     read(set, name, values.data(), values.empty());
   }
@@ -148,15 +159,33 @@ class Reader {
   }
   template <class Describe>
   void group(const std::string& name, Describe&& describe) {
+    require_part_of_file(name.c_str());
     Handle group(H5Gopen2(at_, name.c_str(), H5P_DEFAULT), H5Gclose, name.c_str());
-    Reader inner(group);
+    Reader inner(group, bytes_);
     describe(inner);
+  }
+  /// How many parts a list has cannot be more than the file has bytes.
+  void require_count(const std::vector<std::size_t>& count) const {
+    if (count.size() != 1 || count[0] > bytes_) throw Damage{"a list has no sound count"};
   }
 
  private:
+  void require_part_of_file(const char* name) const {
+    H5L_info_t link;
+    checked(H5Lget_info(at_, name, &link, H5P_DEFAULT), name);
+    if (link.type != H5L_TYPE_HARD) throw Damage{fmt::format("{} is a link", name)};
+  }
+  Handle open_array(const char* name) const {
+    require_part_of_file(name);
+    const hid_t set = checked(H5Dopen2(at_, name, H5P_DEFAULT), name), how = H5Dget_create_plist(set);
+    const bool plain = how >= 0 && H5Pget_layout(how) == H5D_CONTIGUOUS && H5Pget_external_count(how) == 0;
+    if (how >= 0) H5Pclose(how);
+    if (!plain) H5Dclose(set), throw Damage{fmt::format("{} is not stored in one piece", name)};
+    return Handle(set, H5Dclose, name);
+  }
   template <class T, class Visit>
   std::pair<std::vector<double>, std::size_t> table(const char* name, T& sample, Visit&& visit) {
-    Handle set(H5Dopen2(at_, name, H5P_DEFAULT), H5Dclose, name);
+    const Handle set = open_array(name);
     const std::vector<hsize_t> size = size_of(set, name, 2);
     std::size_t columns = 0;
     visit(sample, [&](const char*, auto&) { ++columns; });
@@ -167,19 +196,35 @@ class Reader {
   }
   template <class T, class Visit>
   static void take(T& to, const double*& next, Visit&& visit) {
-    visit(to, [&](const char*, auto& v) { v = static_cast<std::remove_reference_t<decltype(v)>>(*next++); });
+    visit(to, [&](const char* column, auto& v) { v = number_as<std::remove_reference_t<decltype(v)>>(*next++, column); });
   }
-  static std::vector<hsize_t> size_of(hid_t set, const char* name, int dimensions) {
-    Handle space(H5Dget_space(set), H5Sclose, name);
+  /// A whole number must be one, and one that its type holds.
+  template <class T>
+  static T number_as(double value, const char* name) {
+    if constexpr (!std::is_floating_point_v<T>) {
+      const double end = std::ldexp(1.0, std::numeric_limits<T>::digits), begin = std::is_signed_v<T> ? -end : 0.0;
+      if (!(value >= begin && value < end && value == std::floor(value))) throw Damage{fmt::format("{} cannot be {}", name, value)};
+    }
+    return static_cast<T>(value);
+  }
+  std::vector<hsize_t> size_of(hid_t set, const char* name, int dimensions) const {
+    const Handle space(H5Dget_space(set), H5Sclose, name), type(H5Dget_type(set), H5Tclose, name);
     std::vector<hsize_t> size(dimensions);
     if (H5Sget_simple_extent_ndims(space) != dimensions) throw Damage{fmt::format("{} is no array of {} dimensions", name, dimensions)};
+    if (H5Tequal(type, H5T_IEEE_F64LE) <= 0) throw Damage{fmt::format("{} is no array of numbers of 8 bytes", name)};
     checked(H5Sget_simple_extent_dims(space, size.data(), nullptr), name);
+    hsize_t most = bytes_ / sizeof(double);
+    for (const hsize_t n : size) {
+      if (n > most) throw Damage{fmt::format("{} is longer than the file", name)};
+      most = n > 0 ? most / n : most;
+    }
     return size;
   }
   static void read(hid_t set, const char* name, double* values, bool empty) {
     if (!empty) checked(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), name);
   }
   hid_t at_;
+  std::size_t bytes_;
 };
 
 constexpr auto visit_vec = [](auto& v, auto&& on) { on("x", v.x), on("y", v.y), on("z", v.z); };
@@ -245,7 +290,7 @@ void each(Archive& a, const char* name, std::vector<T>& all, Describe&& one) {
   std::vector<std::size_t> count{all.size()};
   a.group(name, [&](auto& inner) {
     inner.rows("count", count, [](auto& v, auto&& on) { on("count", v); });
-    if (Archive::reading) all.resize(count.at(0));
+    if constexpr (Archive::reading) inner.require_count(count), all.resize(count[0]);
     for (std::size_t k = 0; k < all.size(); ++k) inner.group(fmt::format("{}", k), [&](auto& part) { one(part, all[k]); });
   });
 }
@@ -349,7 +394,7 @@ Checkpoint checkpoint_of(std::string_view bytes, const fs::path& file) {
     checked(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "read it");  // copied
     Handle opened(H5Fopen("checkpoint", H5F_ACC_RDONLY, access), H5Fclose, "read it");
     Checkpoint checkpoint;
-    Reader reader(opened);
+    Reader reader(opened, image.size());
     describe(reader, checkpoint.origin, checkpoint.run);
     return checkpoint;
   } catch (const Damage& d) {

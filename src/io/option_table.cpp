@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace railstrata {
 namespace {
@@ -160,8 +159,6 @@ OptionTable output_table() {
 
 Slot title(CaseSpec& spec, std::size_t) { return &spec.title; }
 
-std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
-
 std::string quantity(double value, const Dimension& dimension) {
   const std::string text = format_quantity(value, dimension);
   if (!(dimension == kNumber || dimension == kSlope)) return '"' + text + '"';
@@ -196,13 +193,24 @@ const Option& table_young() {
   return option;
 }
 
+std::string toml_quoted(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') (out += '\\') += c;
+    else if (byte < 0x20 || byte == 0x7F) out += fmt::format("\\u{:04X}", byte);
+    else out += c;
+  }
+  return out + '"';
+}
+
 std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) {
   struct Writer {
     const Option& option;
     std::string operator()(const double* v) const { return quantity(*v, option.dimension); }
     std::string operator()(const int* v) const { return fmt::format("{}", *v); }
     std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
-    std::string operator()(const std::string* v) const { return quoted(*v); }
+    std::string operator()(const std::string* v) const { return toml_quoted(*v); }
     std::string operator()(const std::vector<double>* v) const {
       std::string out;
       for (double x : *v) out += (out.empty() ? "" : ", ") + quantity(x, option.dimension);

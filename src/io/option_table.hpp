@@ -49,6 +49,9 @@ struct OptionTable {
 /// In the order of the reference page and of a resolved case.
 const std::vector<OptionTable>& case_tables();
 
+/// A text in quotes as TOML reads it back; control characters are escaped.
+std::string toml_quoted(std::string_view text);
+
 /// A value as text that the case file's reader turns back into the same value: "2 mm" in quotes, 3, true, ["0.3 m"].
 std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index);
 

@@ -3,16 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "io/case_source.hpp"
 #include "io/text_file.hpp"
+#include "io/toml_document.hpp"
 
 namespace railstrata {
 namespace {
-
-TextPlace place_of(const toml::node& n) { return {static_cast<int>(n.source().begin.line), static_cast<int>(n.source().begin.column)}; }
 
 class Reader {
  public:
@@ -28,8 +27,8 @@ class Reader {
   }
   double number(const char* key, double otherwise, bool needed = false) {
     const toml::node* n = table_.get(key);
-    if (n && n->is_number()) return *n->value<double>();
-    if (n || needed) source_.complain_at(n ? place_of(*n) : place_of(table_), fmt::format("{} must be a number", key), fmt::format("write {} = 1.5", key));
+    if (n && n->is_number() && std::isfinite(number_of(*n))) return number_of(*n);
+    if (n || needed) source_.complain_at(n ? place_of(*n) : place_of(table_), fmt::format("{} must be a finite number", key), fmt::format("write {} = 1.5", key));
     return otherwise;
   }
   bool flag(const char* key) { return table_[key].value_or(false); }
@@ -51,7 +50,7 @@ class Reader {
     if (!n || !n->is_array()) return out;
     for (const toml::node& item : *n->as_array()) {
       if (item.is_string()) out.push_back(item.as_string()->get());
-      else if (item.is_number()) out.push_back(fmt::format("{}", *item.value<double>()));
+      else if (item.is_number()) out.push_back(fmt::format("{}", number_of(item)));
     }
     return out;
   }
@@ -71,13 +70,7 @@ std::vector<const toml::table*> tables(const toml::table& t, const char* key) {
 
 Published parse_published(const std::string& text, const std::filesystem::path& file) {
   CaseSource source(file, text);
-  toml::table document;
-  try {
-    document = toml::parse(std::string_view(text));
-  } catch (const toml::parse_error& e) {
-    source.complain_at({static_cast<int>(e.source().begin.line), static_cast<int>(e.source().begin.column)}, fmt::format("this is not TOML: {}", e.description()), "texts stand in quotes, one key = value a line");
-    source.finish();
-  }
+  const toml::table document = toml_document(source);
   Published out;
   Reader top(source, document, {"source", "column", "number", "claim"});
   out.source = top.text("source");

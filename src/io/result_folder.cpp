@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -34,7 +35,12 @@ ContactField patch_of(const CsvTable& table) {
   f.area = table.column("area_mm2", 1e-6);
   f.p = table.column("p_MPa", 1e6), f.q_x = table.column("q_x_MPa", 1e6), f.q_y = table.column("q_y_MPa", 1e6);
   f.slip_x = table.column("slip_x_mm_s", 1e-3), f.slip_y = table.column("slip_y_mm_s", 1e-3);
-  for (double s : table.column("state_0separated_1stick_2slip")) f.state.push_back(static_cast<ContactState>(std::lround(s)));
+  for (const auto* values : {&f.x, &f.y, &f.z, &f.area, &f.p, &f.q_x, &f.q_y, &f.slip_x, &f.slip_y})
+    if (!std::all_of(values->begin(), values->end(), [](double v) { return std::isfinite(v); })) refuse(file, "a value is not a finite number");
+  for (const double s : table.column("state_0separated_1stick_2slip")) {
+    if (s != 0 && s != 1 && s != 2) refuse(file, fmt::format("there is no contact state {}", s));
+    f.state.push_back(static_cast<ContactState>(static_cast<int>(s)));
+  }
   std::size_t run = 0;
   while (run < f.x.size() && std::abs(f.x[run] - f.x[0]) < 1e-9) ++run;
   if (run < 2 || f.x.size() % run != 0) refuse(file, "the points are not a grid");

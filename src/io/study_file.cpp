@@ -4,32 +4,24 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
-#include <toml++/toml.h>
 
 #include "core/nearest_word.hpp"
+#include "io/option_table.hpp"
 #include "io/text_file.hpp"
+#include "io/toml_document.hpp"
 #include "io/units.hpp"
 #include "io/variation.hpp"
 
 namespace railstrata {
 namespace {
 
-TextPlace place_of(const toml::node& node) { return {static_cast<int>(node.source().begin.line), static_cast<int>(node.source().begin.column)}; }
-TextPlace place_of(const toml::key& key) { return {static_cast<int>(key.source().begin.line), static_cast<int>(key.source().begin.column)}; }
-
 /// On one line, as an override takes it.
 std::string toml_text(const toml::node& node) {
   if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
-  if (const auto* words = node.as_string()) {
-    std::string text = "\"";
-    for (const char c : words->get()) {
-      if (c == '"' || c == '\\') text += '\\';
-      text += c;
-    }
-    return text + '"';
-  }
+  if (const auto* words = node.as_string()) return toml_quoted(words->get());
   if (const auto* list = node.as_array()) {
     std::vector<std::string> items;
     for (const toml::node& item : *list) items.push_back(toml_text(item));
@@ -74,6 +66,8 @@ class StudyReader {
     g.title = text(t, "title", g.name);
     const bool plain = !g.name.empty() && g.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == std::string::npos && g.name[0] != '.' && g.name[0] != '-';
     if (!plain) source_.complain_at(t.contains("name") ? place_of(*t.get("name")) : place_of(t), fmt::format("group.name = \"{}\": must be a word of letters, digits, _ - and .: folders bear it", g.name), "write name = \"layers\"");
+    else if (const std::string end = std::filesystem::path(g.name).extension().string(); end == ".csv" || end == ".html" || end == ".json" || end == ".toml")
+      source_.complain_at(place_of(*t.get("name")), fmt::format("group.name = \"{}\": a file of the study may have this name", g.name), "leave the ending out: folders bear the name");
     else if (!names_.insert(g.name).second) source_.complain_at(place_of(*t.get("name")), fmt::format("there are two groups named \"{}\"", g.name), "give each group its own name");
     g.base = t.contains("base") ? file(t, "base") : base_;
     if (g.base.empty() && !t.contains("base")) source_.complain_at(place_of(t), fmt::format("group \"{}\" has no base case", g.name), "write base = \"case.toml\" in it or in [study]");
@@ -116,7 +110,7 @@ class StudyReader {
       once(key.front());
       std::vector<StudyPoint> one;
       for (const StudyValue& v : key) one.push_back({v});
-      out = product(out, one);
+      out = product(out, one, t);
     }
     const std::vector<std::vector<StudyValue>> zipped = keyed_lists(t, "zip");
     if (!zipped.empty()) {
@@ -130,7 +124,7 @@ class StudyReader {
         }
         for (std::size_t i = 0; i < rows.size(); ++i) rows[i].push_back(key[i]);
       }
-      out = product(out, rows);
+      out = product(out, rows, t);
     }
     std::vector<StudyPoint> listed;
     for (const toml::table* row : tables_at(t, "case")) {
@@ -138,11 +132,17 @@ class StudyReader {
       flatten(*row, "", listed.back());
       if (listed.back().empty()) source_.complain_at(place_of(*row), "this case of the list sets nothing", "write [[group.case]] and key = value below it");
     }
-    return listed.empty() ? out : product(out, listed);
+    return listed.empty() ? out : product(out, listed, t);
   }
 
-  static std::vector<StudyPoint> product(const std::vector<StudyPoint>& a, const std::vector<StudyPoint>& b) {
+  static constexpr std::size_t kMostCases = 100'000;  // of a group
+
+  std::vector<StudyPoint> product(const std::vector<StudyPoint>& a, const std::vector<StudyPoint>& b, const toml::table& group) {
     std::vector<StudyPoint> out;
+    if (a.size() * b.size() > kMostCases) {
+      source_.complain_at(place_of(group), fmt::format("this group has more than {} cases", kMostCases), "vary fewer keys at once, or give fewer values");
+      return a;
+    }
     for (const StudyPoint& left : a)
       for (const StudyPoint& right : b) {
         out.push_back(left);
@@ -259,7 +259,8 @@ class StudyReader {
   std::string length(const toml::table& t, const char* key) {
     const std::string written = text(t, key, "");
     try {
-      if (!written.empty()) parse_quantity(written, dimension::kLength);
+      if (!written.empty() && !(parse_quantity(written, dimension::kLength) > 0 && std::isfinite(parse_quantity(written, dimension::kLength))))
+        source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": must be above 0 mm", key, written), "write a length, e.g. \"0.5 mm\"");
     } catch (const UnitError& e) {
       source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": {}", key, written, e.what()), e.remedy);
     }
@@ -298,8 +299,9 @@ class StudyReader {
     const std::string name = text(t, key, "");
     if (name.empty()) return {};
     std::filesystem::path path = source_.file().parent_path() / name;
-    if (std::filesystem::is_directory(path)) path /= "case.toml";
-    if (std::filesystem::is_regular_file(path)) return path;
+    std::error_code error;  // a name too long, a folder that may not be read: no file to us
+    if (std::filesystem::is_directory(path, error)) path /= "case.toml";
+    if (name.find('\0') == std::string::npos && std::filesystem::is_regular_file(path, error)) return path;
     source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": there is no file {}", key, name, path.string()), "name it relative to the study's folder");
     return {};
   }
@@ -317,14 +319,7 @@ class StudyReader {
 LoadedStudy parse_study(const std::string& text, const std::filesystem::path& file) {
   LoadedStudy loaded{{}, file, text};
   CaseSource source(file, text);
-  toml::table document;
-  try {
-    document = toml::parse(std::string_view(text));
-  } catch (const toml::parse_error& e) {
-    source.complain_at({static_cast<int>(e.source().begin.line), static_cast<int>(e.source().begin.column)}, fmt::format("this is not TOML: {}", e.description()),
-                       "texts stand in quotes, tables in [brackets], one key = value a line");
-    source.finish();
-  }
+  const toml::table document = toml_document(source);
   StudyReader(source, loaded.spec).read(document);
   source.finish();
   return loaded;

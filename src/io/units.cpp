@@ -99,6 +99,8 @@ std::size_t number_length(std::string_view text) {
   return static_cast<std::size_t>(end - text.data());
 }
 
+constexpr int kHugeExponent = 1'000'000;
+
 /// The number times 10^decimals, rounded once.
 double scaled_number(std::string_view number, int decimals) {
   int exponent = 0;
@@ -106,13 +108,14 @@ double scaled_number(std::string_view number, int decimals) {
   if (const auto e = mantissa.find_first_of("eE"); e != std::string_view::npos) {
     std::string_view digits = mantissa.substr(e + 1);
     if (digits.starts_with('+')) digits.remove_prefix(1);
-    std::from_chars(digits.data(), digits.data() + digits.size(), exponent);
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec == std::errc::result_out_of_range) exponent = digits.starts_with('-') ? -kHugeExponent : kHugeExponent;
+    exponent = std::clamp(exponent, -kHugeExponent, kHugeExponent);
     mantissa = mantissa.substr(0, e);
   }
   const std::string text = fmt::format("{}e{}", mantissa, exponent + decimals);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc::result_out_of_range) value = exponent > 0 ? std::numeric_limits<double>::infinity() : 0.0;
+  if (error == std::errc::result_out_of_range) value = std::strtod(text.c_str(), nullptr);  // infinite, or as good as zero
   return value;
 }
 

@@ -202,5 +202,21 @@ TEST_F(ReadProfile, a_missing_file_is_named) {
   }
 }
 
+TEST_F(ReadProfile, a_line_of_a_million_characters_is_a_line) {
+  EXPECT_NE(error_of("1,5 2" + std::string(1'000'000, '0') + "x\n").find("is not two numbers"), std::string::npos);
+  EXPECT_NE(error_of(std::string(1'000'000, 'm') + "\n").find("0 points are too few"), std::string::npos);
+}
+
+TEST_F(ReadProfile, more_points_than_a_profile_can_need_are_refused) {
+  std::string text;
+  for (int i = 0; i <= 20'000; ++i) text += formatted("%.6f %.6f\n", -30 + 3e-3 * i, 0);
+  EXPECT_NE(error_of(text).find("20001 points are too many for a profile\n    remedy: thin them out to at most 20000"), std::string::npos);
+}
+
+TEST_F(ReadProfile, a_stray_point_that_the_curve_swings_out_to_is_refused_with_the_file) {
+  const std::string error = error_of("-3 226\n-24 1.44\n-15 0.64\n-8 8.16\n0 0\n24 1.44\n32 2.56\n");
+  EXPECT_EQ(error, "list.csv: list: the smooth curve through the points swings far out between them\n    remedy: remove stray points, or give more of them where the curve bends");
+}
+
 }  // namespace
 }  // namespace railstrata

@@ -300,5 +300,39 @@ TEST(CaseFile, AMissingFileIsToldByName) {
   }
 }
 
+TEST(CaseFile, ARatioMayNotTakeTheModulusOutOfItsRange) {
+  const std::string error = error_of("[material.rail]\nyoung = \"10000 GPa\"\n[[layer]]\nyoung_ratio = 100\n");
+  EXPECT_NE(error.find("a.toml:4:15: layer.0.young_ratio = 100: makes young 1000000 GPa, which must be between 1 GPa and 10000 GPa"), std::string::npos) << error;
+}
+
+TEST(CaseFile, AWholeNumberThatNoDoubleHoldsIsANumber) {
+  EXPECT_NE(error_of("[drive]\nfriction_coefficient = 9007199254740993\n").find("must be between 0 and 2"), std::string::npos);
+}
+
+TEST(CaseFile, NamesThatNoFileCanHaveAreNoProfiles) {
+  for (const std::string& name : {std::string(), std::string(100'000, 'x'), std::string("a.csv\\u0000b"), std::string("/proc/1/fd/0/x"), std::string("a/../..")})
+    EXPECT_NE(error_of("[geometry]\nrail_profile = \"" + name + "\"\n").find("neither a built-in profile nor a file"), std::string::npos) << name.substr(0, 20);
+}
+
+TEST(CaseFile, ControlCharactersOfATextReadBack) {
+  const LoadedCase loaded = parse_case("[case]\ntitle = \"a\\u007F\\n\\\\ \\\"b\\\" \\t µ\"\n", "a.toml");
+  EXPECT_EQ(loaded.spec.title, "a\x7F\n\\ \"b\" \t µ");
+  EXPECT_EQ(parse_case(loaded.resolved_toml, "a.toml").spec.title, loaded.spec.title);
+}
+
+TEST(CaseFile, KeysNestedBeyondTheStackAreRefused) {
+  std::string key = "a";
+  for (int i = 0; i < 200'000; ++i) key += ".a";
+  for (const std::string& text : {key + " = 1\n", "[" + key + "]\n", "[case]\ntitle = {" + key + " = 1}\n"}) EXPECT_NE(error_of(text).find("this line has more than 100 dots"), std::string::npos);
+  EXPECT_NE(error_of("", {key + "=1"}).find("has more than 100 dots"), std::string::npos);
+  EXPECT_NO_THROW(parse_case("# " + std::string(300, '.') + "\n", "a.toml"));
+}
+
+TEST(Overrides, AreOneValueInUtf8) {
+  EXPECT_NE(error_of("", {"case.title=\xFF"}).find("is not one value in UTF-8"), std::string::npos);
+  EXPECT_NE(error_of("", {"case.title=\"a\"\nother=1"}).find("is not one value in UTF-8"), std::string::npos);
+  EXPECT_EQ(parse_case("", "a.toml", {"case.title=a \"b\" \\c"}).spec.title, "a \"b\" \\c");
+}
+
 }  // namespace
 }  // namespace railstrata

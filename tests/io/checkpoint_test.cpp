@@ -4,10 +4,12 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "core/faults.hpp"
 
@@ -81,6 +83,12 @@ TEST_F(Checkpoints, ReadBackWhatWasWritten) {
   EXPECT_EQ(c.run.result.positions[0].samples[1].rail.stress[0].xz, 6);
   EXPECT_TRUE(c.run.result.positions[1].samples.empty());
   EXPECT_EQ(checkpoint_bytes(c.origin, c.run), bytes);  // nothing of the state is left out of the way back
+}
+
+TEST_F(Checkpoints, TheSameStateHasTheSameBytesASecondLater) {
+  const std::string bytes = checkpoint_bytes(kOrigin, small_run(1e-3));
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  EXPECT_TRUE(checkpoint_bytes(kOrigin, small_run(1e-3)) == bytes);
 }
 
 TEST_F(Checkpoints, EveryFlippedByteIsFound) {

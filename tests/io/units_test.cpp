@@ -89,5 +89,13 @@ TEST(Units, AModulusInMegapascalIsAnsweredWithGigapascal) {
   EXPECT_EQ(suggest_quantity("-3 mm", kLength, 0.1, 1.0), "");
 }
 
+TEST(Units, ExponentsBeyondAllBoundsAreInfiniteOrZeroAndNeverForgotten) {
+  EXPECT_EQ(parse_quantity("1e99999999999 mm", kLength), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(parse_quantity("-2e2147483647 GPa", kPressure), -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(parse_quantity("1e-99999999999 mm", kLength), 0);
+  EXPECT_EQ(parse_quantity("0e99999999999 mm", kLength), 0);
+  EXPECT_EQ(parse_quantity("1" + std::string(400, '0') + " mm", kLength), std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 }  // namespace railstrata

@@ -2,10 +2,11 @@
 """Wrong input, one test each: the whole message and the exit code. usage: bad_input_test.py BINARY"""
 import json
 import os
+import subprocess
 import sys
 import unittest
 
-from outside import TINY, FromOutside, railstrata
+from outside import BINARY, TINY, FromOutside, railstrata
 
 CROWN = [(0.8 * i, -0.0064 * i * i) for i in range(-40, 41)]  # mm
 
@@ -44,6 +45,16 @@ class InTheCase(Refusal):
     def test_a_wheel_that_misses_the_rail(self):
         self.answers('[geometry]\ngauge = "1.7 m"\n', "error: wheel LMA on rail CN60: the wheel misses the rail; its tape circle stands -138.6 mm from the rail's axis",
                      "check lateral_shift, gauge and back_to_back")
+
+
+    def test_an_encoding_that_is_not_utf_8(self):
+        (self.folder / "case.toml").write_bytes(b'[case]\ntitle = "Schie\xdfen"\n')
+        rc, out, err = (done := subprocess.run([BINARY, "check", self.folder / "case.toml", "--json"], capture_output=True, timeout=120)).returncode, done.stdout, done.stderr
+        self.assertEqual(rc, 2, err)
+        self.assertIn("this is not TOML: ", json.loads(out)["errors"][0]["message"])
+
+    def test_a_file_without_end(self):
+        self.refused(2, ["check", "/dev/zero"], "error: /dev/zero is larger than 4 MiB")
 
 
 class InProfiles(Refusal):
