@@ -1,4 +1,4 @@
-// Profile files. First byte: odd for a wheel, else a rail. Then the file.
+// Profile files. First byte: odd for a wheel, else a rail; its half mod 3: columns, Simpack, MiniProf. Then the file.
 #include <algorithm>
 #include <cmath>
 
@@ -35,7 +35,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const ProfileKind kind = data[0] & 1 ? ProfileKind::wheel : ProfileKind::rail;
   const std::string_view text = fuzz::text_of(data + 1, size - 1);
+  static const std::filesystem::path kNames[] = {"profile.csv", "profile.prr", "profile.ban"};
   std::vector<std::string> notes;
-  fuzz::accepts([&] { check(parse_profile(kind, text, "profile.csv", &notes)); });
+  fuzz::accepts([&] { check(parse_profile(kind, text, kNames[data[0] / 2 % 3], &notes)); });
   return 0;
 }

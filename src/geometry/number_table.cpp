@@ -75,36 +75,37 @@ bool commas_are_decimal(const std::vector<Line>& lines) {
   return false;
 }
 
-std::vector<std::string> fields(std::string text, bool decimal_commas) {
-  if (decimal_commas) std::replace(text.begin(), text.end(), ',', '.');
+}  // namespace
+
+std::vector<std::string> words_of(std::string_view line) {
   std::vector<std::string> out;
-  const char* separators = " \t\r;,";
-  for (std::size_t begin = text.find_first_not_of(separators); begin != std::string::npos;) {
-    const std::size_t end = text.find_first_of(separators, begin);
-    out.push_back(text.substr(begin, end - begin));
-    begin = end == std::string::npos ? end : text.find_first_not_of(separators, end);
+  constexpr const char* separators = " \t\r\f\v;,";
+  for (std::size_t begin = line.find_first_not_of(separators); begin != std::string_view::npos;) {
+    const std::size_t end = line.find_first_of(separators, begin);
+    out.emplace_back(line.substr(begin, end - begin));
+    begin = end == std::string_view::npos ? end : line.find_first_not_of(separators, end);
   }
   return out;
 }
 
-std::optional<double> number(const std::string& text) {
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+std::optional<double> number_of(std::string_view word) {
+  if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
-  const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
   return value;
 }
 
-}  // namespace
-
-NumberTable parse_number_table(std::string_view text, const std::string& name) {
+NumberTable parse_number_table(std::string_view all, const std::string& name) {
   NumberTable table;
-  const std::vector<Line> lines = split_lines(text, table.heading);
+  const std::vector<Line> lines = split_lines(all, table.heading);
   table.decimal_commas = commas_are_decimal(lines);
   for (const Line& line : lines) {
     const std::string where = fmt::format("{}:{}", name, line.number);
-    const std::vector<std::string> words = fields(line.text, table.decimal_commas);
-    const std::optional<double> y = words.empty() ? std::nullopt : number(words[0]), z = words.size() < 2 ? std::nullopt : number(words[1]);
+    std::string text = line.text;
+    if (table.decimal_commas) std::replace(text.begin(), text.end(), ',', '.');
+    const std::vector<std::string> words = words_of(text);
+    const std::optional<double> y = words.empty() ? std::nullopt : number_of(words[0]), z = words.size() < 2 ? std::nullopt : number_of(words[1]);
     if ((y && !std::isfinite(*y)) || (z && !std::isfinite(*z))) throw CaseError("'" + line.text + "' is not a finite number", "remove or repair the point", where);
     if (y && z) {
       table.rows.push_back({*y, *z});

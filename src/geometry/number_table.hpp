@@ -1,5 +1,6 @@
 #pragma once
 // Two-column number files as people write them.
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,13 @@ struct NumberTable {
   std::string heading;       ///< comments and header lines before the first row, for a look at the units
   bool decimal_commas = false;
   std::size_t columns = 2;   ///< most columns met; only the first two are kept
+  std::vector<std::string> notes;  ///< what a reader of another program's files has done, one sentence each
 };
+
+/// The words of a line between blanks, commas and semicolons.
+std::vector<std::string> words_of(std::string_view line);
+/// A whole word as a number; none if it is not one.
+std::optional<double> number_of(std::string_view word);
 
 /// Reads blanks, tabs, commas or semicolons between columns; decimal points or commas; comments after # % ! "; header lines before the first row; a lone count
 /// of points before the rows. Throws CaseError with name:line for a line that is not two numbers, NaN and infinities.

@@ -93,7 +93,7 @@ Profile builtin_profile(ProfileKind kind, const std::string& name);
 /// For tests and verification cases.
 Profile circular_profile(ProfileKind kind, double radius, double half_width = 0.030);
 
-/// Reads a two-column file (y z; blanks, tabs, commas or semicolons; # % ! " comments; a header row; decimal commas; mm or metres; z up or down; either side's
+/// Reads a Simpack file (.prr, .prw), a MiniProf file (.ban, .whl) or a two-column file (any other name: y z; blanks, tabs, commas or semicolons; # % ! " comments; a header row; decimal commas; mm or metres; z up or down; either side's
 /// orientation). What was detected and flipped is appended to `notes`, one sentence each. Throws CaseError naming the file and line.
 Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes = nullptr);
 

@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "core/faults.hpp"
+#include "geometry/exchange_profiles.hpp"
 #include "geometry/number_table.hpp"
 #include "geometry/point_defects.hpp"
 #include "geometry/profile.hpp"
@@ -39,9 +40,17 @@ Extent extent_z(const std::vector<Vec2>& points) {
   return extent(points, [](Vec2 p) { return p.z; });
 }
 
+NumberTable table_of(ProfileKind kind, std::string_view text, const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  if (ending == ".prr" || ending == ".prw") return parse_simpack(kind, text, file.string());
+  if (ending == ".ban" || ending == ".whl") return parse_miniprof(text, file.string());
+  return parse_number_table(text, file.string());
+}
+
 class Reading {
  public:
-  Reading(ProfileKind kind, std::string_view text, const std::filesystem::path& file) : kind_(kind), file_(file), table_(parse_number_table(text, file.string())), points_(table_.rows) {}
+  Reading(ProfileKind kind, std::string_view text, const std::filesystem::path& file) : kind_(kind), file_(file), table_(table_of(kind, text, file)), points_(table_.rows), notes_(table_.notes) {}
 
   Profile profile(std::vector<std::string>* notes) {
     if (points_.size() < 5)

@@ -40,8 +40,8 @@ Range above(double min, double max = std::numeric_limits<double>::infinity()) { 
 OptionTable geometry_table() {
   return {"geometry",
           "Profiles, track and wheel",
-          {{"rail_profile", at<&C::geometry, &G::rail_profile>, "A built-in name (see `railstrata info`) or a two-column file, relative to the case file"},
-           {"wheel_profile", at<&C::geometry, &G::wheel_profile>, "A built-in name or a two-column file, relative to the case file"},
+          {{"rail_profile", at<&C::geometry, &G::rail_profile>, "A built-in name (see `railstrata info`) or a file (two columns, Simpack, MiniProf), relative to the case file"},
+           {"wheel_profile", at<&C::geometry, &G::wheel_profile>, "A built-in name or a file (two columns, Simpack, MiniProf), relative to the case file"},
            {"rail_shape", at<&C::geometry, &G::rail_shape>, "Whole rail section, or a block with the profile on top (verification)", {}, {}, {"rail", "block"}},
            {"wheel_shape", at<&C::geometry, &G::wheel_shape>, "Rim, web and hub, or a plain disc (verification)", {}, {}, {"wheel", "disc"}},
            {"gauge", at<&C::geometry, &G::gauge>, "Track gauge between the gauge faces", kLength, {0.5, 2.0}},

@@ -26,14 +26,14 @@ class ReadProfile : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  fs::path written(const std::string& text) {
-    const fs::path file = folder_ / "list.csv";
+  fs::path written(const std::string& text, const char* name = "list.csv") {
+    const fs::path file = folder_ / name;
     std::ofstream(file) << text;
     return file;
   }
-  std::string error_of(const std::string& text, ProfileKind kind = ProfileKind::rail) {
+  std::string error_of(const std::string& text, ProfileKind kind = ProfileKind::rail, const char* name = "list.csv") {
     try {
-      read_profile(kind, written(text));
+      read_profile(kind, written(text, name));
     } catch (const CaseError& e) {
       const std::string what = e.what();
       return what.substr(0, folder_.string().size()) == folder_.string() ? what.substr(folder_.string().size() + 1) : what;
@@ -216,6 +216,54 @@ TEST_F(ReadProfile, more_points_than_a_profile_can_need_are_refused) {
 TEST_F(ReadProfile, a_stray_point_that_the_curve_swings_out_to_is_refused_with_the_file) {
   const std::string error = error_of("-3 226\n-24 1.44\n-15 0.64\n-8 8.16\n0 0\n24 1.44\n32 2.56\n");
   EXPECT_EQ(error, "list.csv: list: the smooth curve through the points swings far out between them\n    remedy: remove stray points, or give more of them where the curve bends");
+}
+
+TEST_F(ReadProfile, a_Simpack_file_is_shifted_cut_mirrored_and_reversed_in_this_order_and_says_so) {
+  const std::string header = "header.begin\n  version = 1\n  type = 1 ! wheel\nheader.end\nspline.begin\n  approx.smooth = 1\n  shift.y = 2\n  shift.z = -1\n  rotate = 0.0\n"
+                             "  bound.y.min = -80\n  bound.y.max = 70\n  bound.z.min = 1\n  bound.z.max = 0\n  mirror.y = 1\n  inversion = 1\n  units.len.f = 1000.\n  point.begin\n    -90 5 1.0\n";
+  const std::string rows = relisted("lma_wheel.csv", [](double y, double z) { return formatted("    %.6f  %.6f 1.0", y - 2, z + 1); });
+  std::vector<std::string> notes;
+  const Profile read = read_profile(ProfileKind::wheel, written(header + rows + "  point.end\nspline.end\n", "wheel.PRW"), &notes);
+  expect_same_curve(read, builtin_profile(ProfileKind::wheel, "LMA"), 5e-3 * mm);
+  for (const char* n : {"Simpack profile of", "shift.y = 2, shift.z = -1 were added.", "1 points were dropped by bound.y.", "mirror.y turned the sign of y.", "inversion reversed", "approx.smooth was not applied.",
+                        "z was positive down; it was turned up.", "the profile was mirrored"})
+    EXPECT_TRUE(mentions(notes, n)) << n;
+  EXPECT_FALSE(mentions(notes, "bound.z"));
+}
+
+TEST_F(ReadProfile, a_Simpack_file_tells_its_unit) {
+  std::vector<std::string> notes;
+  const Profile metres = read_profile(ProfileKind::rail, written("spline.begin\nunits.len.f = 1\npoint.begin\n" + crown("", 1e-3) + "point.end\nspline.end\n", "rail.prr"), &notes);
+  EXPECT_NEAR(metres.height(16 * mm), -2.56 * mm, 1e-6 * mm);
+  EXPECT_TRUE(mentions(notes, "units.len.f = 1: lengths were taken as parts of a metre."));
+  EXPECT_NE(error_of("spline.begin\nunits.len.f = 1000\npoint.begin\n" + crown("", 1e-3) + "point.end\nspline.end\n", ProfileKind::rail, "rail.prr").find("the heading says millimetres"), std::string::npos);
+}
+
+TEST_F(ReadProfile, what_is_wrong_with_a_Simpack_file_is_told_with_its_line) {
+  const std::string list = "point.begin\n" + crown() + "point.end\n";
+  const std::pair<std::string, const char*> wrong[] = {
+      {"header.begin\ntype = 1\nheader.end\n" + list, "rail.prr:2: this Simpack profile is that of a wheel"},
+      {"spline.begin\nrotate = 0.1\n" + list, "rail.prr:2: rotate turns the points"},
+      {"spline.begin\nshift.y = a\n" + list, "rail.prr:2: spline.shift.y = a is not a finite number"},
+      {"spline.begin\nunits.len.f = 0\n" + list, "rail.prr:2: units.len.f must be above 0"},
+      {list + list, "rail.prr:84: there is a second list of points"},
+      {"point.begin\n1 nan\n", "rail.prr:2: '1 nan' is not two finite numbers"},
+      {"1 2\n", "rail.prr:1: '1 2' is no setting"},
+      {"spline.begin\n", "rail.prr: there is no point.begin"},
+  };
+  for (const auto& [text, message] : wrong) EXPECT_EQ(error_of(text, ProfileKind::rail, "rail.prr").find(message), 0u) << error_of(text, ProfileKind::rail, "rail.prr");
+}
+
+TEST_F(ReadProfile, MiniProf_files_new_and_old_are_read_without_their_switched_off_points) {
+  const std::string rows = relisted("lma_wheel.csv", [](double y, double z) { return formatted("%.6f\t%.6f\t0.1\t0.002", -y, -z); });
+  std::vector<std::string> notes;
+  const Profile fresh = read_profile(ProfileKind::wheel, written("ProgramName=MiniProf\r\nDate=24-12-2020\r\n12 3\r\nXYPoints=7\r\nColumnDef=X,Y,A,C\r\nXYPoints=7\r\n\r\n\"80 90\n" + rows, "new.whl"), &notes);
+  const Profile old = read_profile(ProfileKind::wheel, written("MINIPROF 101 148 1994\n12 and more words\n\"a note\"\n\n" + rows, "old.WHL"));
+  expect_same_curve(fresh, builtin_profile(ProfileKind::wheel, "LMA"), 5e-3 * mm);
+  expect_same_curve(old, fresh, 1e-12);
+  for (const char* n : {"MiniProf profile of", "1 points in quotes are switched off.", "XYPoints says 7.", "the profile was mirrored"}) EXPECT_TRUE(mentions(notes, n)) << n;
+  EXPECT_EQ(error_of("ColumnDef=A,X,Y\n\n" + crown(), ProfileKind::rail, "rail.ban").find("rail.ban:1: 'ColumnDef=A,X,Y': the columns do not begin with X,Y"), 0u);
+  EXPECT_EQ(error_of("A=1\n\n1 2\nx 3\n", ProfileKind::rail, "rail.ban").find("rail.ban:4: 'x 3' is not two finite numbers"), 0u);
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST(StudyFile, WhatCannotBeComputedOrNamedIsRefused) {
   EXPECT_EQ(errors(start + group), std::vector<std::string>{"4:8: group.name = \"study.csv\": a file of the study may have this name | leave the ending out: folders bear the name"});
   for (const char* cell : {"nan mm", "inf mm", "0 mm", "-1 mm"})
     EXPECT_EQ(errors(start + "cell = \"" + cell + "\"\n[[group]]\nname = \"g\"\n"), std::vector<std::string>{"3:8: cell = \"" + std::string(cell) + "\": must be above 0 mm | write a length, e.g. \"0.5 mm\""});
-  EXPECT_EQ(errors("[study]\nbase = \"" + std::string(10'000, 'x') + "\"\n[[group]]\nname = \"g\"\n").size(), 1u);
+  EXPECT_EQ(errors("[study]\nbase = \"" + std::string(10'000, 'x') + "\"\n[[group]]\nname = \"g\"\n").at(0).find("2:8: base = \"xxx"), 0u);
 }
 
 TEST(StudyFile, AValueWithControlCharactersStaysOneValue) {
