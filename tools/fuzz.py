@@ -84,6 +84,7 @@ def run_once(target, reader, build, seconds, runs):
     for find in sorted(set(finds.iterdir()) - before):
         kind = find.name.removeprefix(reader + "-").split("-")[0]
         if not breaks_again(target, find, kind):
+            print(f"{reader:12} {find.name} does not break again", flush=True)
             find.unlink()
             continue
         row[KINDS.get(kind, "crashes")] += 1

@@ -105,10 +105,16 @@ NumberTable parse_number_table(std::string_view all, const std::string& name) {
     std::string text = line.text;
     if (table.decimal_commas) std::replace(text.begin(), text.end(), ',', '.');
     const std::vector<std::string> words = words_of(text);
-    const std::optional<double> y = words.empty() ? std::nullopt : number_of(words[0]), z = words.size() < 2 ? std::nullopt : number_of(words[1]);
-    if ((y && !std::isfinite(*y)) || (z && !std::isfinite(*z))) throw CaseError("'" + line.text + "' is not a finite number", "remove or repair the point", where);
-    if (y && z) {
-      table.rows.push_back({*y, *z});
+    double y = 0, z = 0;
+    const auto read = [&](std::size_t column, double& value) {
+      const std::optional<double> number = column < words.size() ? number_of(words[column]) : std::nullopt;
+      value = number.value_or(0);
+      return number.has_value();
+    };
+    const bool has_y = read(0, y), has_z = read(1, z);
+    if (!std::isfinite(y) || !std::isfinite(z)) throw CaseError("'" + line.text + "' is not a finite number", "remove or repair the point", where);
+    if (has_y && has_z) {
+      table.rows.push_back({y, z});
       table.lines.push_back(line.number);
       table.columns = std::max(table.columns, words.size());
     } else if (table.rows.empty() && (!looks_numeric(line.text) || words.size() == 1)) {

@@ -20,6 +20,7 @@ constexpr double kShortest = 0.020, kLongest = 0.500;    // m, curve of a listed
 constexpr double kSmallestFlange = 0.009;                // m: lower than any flange, higher than any tread's fall
 constexpr double kCrestNear = -0.035, kCrestFar = -0.075;  // m, y of the flange's crest (nominal -0.054 to -0.056)
 constexpr double kAxisTolerance = 0.015;                 // m, of the middle of a rail head
+constexpr double kSameHeight = 1e-7;                     // m
 constexpr double kSymmetry = 0.02e-3;                    // m
 
 struct Extent {
@@ -155,6 +156,7 @@ class Reading {
     if (std::abs(height) > 1e-8) {
       for (Vec2& p : points_) p.z -= height;
       out = curve();
+      if (!(std::abs(out.height(0)) < kSameHeight)) fail("the curve passes y = 0 more than once, at different heights", "list the points in the order along the curve, and only its running surface");
     }
     if (std::abs(height) > 1e-6) note(fmt::format("z was shifted by {:.3f} mm so that it is zero at y = 0.", -1e3 * height));
     if (kind_ == ProfileKind::rail && asymmetric(out)) note("The head is not symmetric; its gauge side was taken at y < 0.");

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kHeader = 512;  // HDF5 looks for its superblock at 0, 512, 1024, …
-constexpr std::size_t kGrowth = std::size_t{16} << 20;
+constexpr std::size_t kSlowestGrowth = std::size_t{64} << 10, kFastestGrowth = std::size_t{16} << 20;
 
 /// What is wrong with the bytes of a checkpoint.
 struct Damage {
@@ -49,10 +50,10 @@ class Handle {
   Close close_;
 };
 
-/// A file in memory only.
-Handle memory_access() {
+/// A file in memory only, that grows by so many bytes at a time.
+Handle memory_access(std::size_t growth) {
   Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a file in memory");
-  checked(H5Pset_fapl_core(access, kGrowth, 0), "make a file in memory");
+  checked(H5Pset_fapl_core(access, growth, 0), "make a file in memory");
   return Handle(H5Pcopy(access), H5Pclose, "make a file in memory");
 }
 
@@ -369,7 +370,7 @@ std::string sealed_checkpoint(std::string_view image) { return header_of(image).
 std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
-    Handle access = memory_access();
+    Handle access = memory_access(std::clamp(sizeof(double) * (run.stepper.state.u_rail.size() + run.stepper.state.u_wheel.size()), kSlowestGrowth, kFastestGrowth));
     Handle file(H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "make a file in memory");
     Writer writer(file);
     CheckpointOrigin from = origin;
@@ -389,7 +390,7 @@ Checkpoint checkpoint_of(std::string_view bytes, const fs::path& file) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
     verify(bytes);
-    Handle access = memory_access();
+    Handle access = memory_access(kSlowestGrowth);
     const std::string_view image = bytes.substr(kHeader);
     checked(H5Pset_file_image(access, const_cast<char*>(image.data()), image.size()), "read it");  // copied
     Handle opened(H5Fopen("checkpoint", H5F_ACC_RDONLY, access), H5Fclose, "read it");

@@ -218,6 +218,12 @@ TEST_F(ReadProfile, a_stray_point_that_the_curve_swings_out_to_is_refused_with_t
   EXPECT_EQ(error, "list.csv: list: the smooth curve through the points swings far out between them\n    remedy: remove stray points, or give more of them where the curve bends");
 }
 
+TEST_F(ReadProfile, a_curve_that_passes_the_axis_twice_is_refused_with_the_file) {
+  const std::string error = error_of("-32 -2.56\n-28 -1.902\n0.32 -0.00256\n24 -5.44\n-0.0 0\n4 -0.04\n8 -0.16\n12 -3.06\n16 -0.64\n20 -1\n24 -1.44\n28 -1.96\n32 -2.56\n");
+  EXPECT_EQ(error.find("list.csv"), 0u) << error;
+  EXPECT_NE(error.find("remedy"), std::string::npos);
+}
+
 TEST_F(ReadProfile, a_Simpack_file_is_shifted_cut_mirrored_and_reversed_in_this_order_and_says_so) {
   const std::string header = "header.begin\n  version = 1\n  type = 1 ! wheel\nheader.end\nspline.begin\n  approx.smooth = 1\n  shift.y = 2\n  shift.z = -1\n  rotate = 0.0\n"
                              "  bound.y.min = -80\n  bound.y.max = 70\n  bound.z.min = 1\n  bound.z.max = 0\n  mirror.y = 1\n  inversion = 1\n  units.len.f = 1000.\n  point.begin\n    -90 5 1.0\n";
