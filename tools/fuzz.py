@@ -33,10 +33,10 @@ RESULTS = ROOT / "fuzz" / "results.csv"
 ONE_CALL = 300  # seconds: a row of the table is lost at most
 
 
-def commit():
-    def git(*words):
-        return subprocess.run(["git", "-C", ROOT, *words], capture_output=True, text=True).stdout.strip()
-    return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+dirty" if git("status", "--porcelain", "--", "src", "fuzz/*.cpp", "fuzz/*.hpp") else "")
+def commit(build):
+    """What the targets were built from."""
+    named = re.search(r'info\{"[^"]*", "([^"]*)", (true|false)', (build / "generated" / "build_info.cpp").read_text())
+    return (named[1] or "unknown") + ("+dirty" if named[2] == "true" else "")
 
 
 def executed(reader):
@@ -77,7 +77,7 @@ def run_once(target, reader, build, seconds, runs):
     words = [target, *LIMITS, f"-max_len={LONGEST[reader]}", f"-max_total_time={max(1, round(seconds))}", f"-runs={runs}", "-print_final_stats=1", "-reload=0", f"-artifact_prefix={finds}/{reader}-",
              learned, ROOT / "fuzz" / "corpus" / reader]
     done = subprocess.run(words, capture_output=True, text=True, errors="replace", env=ENVIRONMENT)
-    row = {"reader": reader, "seconds": round(time.monotonic() - begin), "commit": commit(), "checks": CHECKS, "crashes": 0, "hangs": 0, "out_of_memory": 0, "leaks": 0}
+    row = {"reader": reader, "seconds": round(time.monotonic() - begin), "commit": commit(build), "checks": CHECKS, "crashes": 0, "hangs": 0, "out_of_memory": 0, "leaks": 0}
     counts = [int(n) for n in re.findall(r"number_of_executed_units: (\d+)|^#(\d+)", done.stderr, re.M) for n in n if n]
     row["executions"] = max(counts, default=0)
     found = []

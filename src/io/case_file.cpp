@@ -26,14 +26,15 @@ void resolve_profile(ProfileKind kind, const char* key, std::string& name, Loade
   if (is_builtin(kind, name)) return;
   std::error_code error;  // a name too long, a folder that may not be read: no file to us
   const std::filesystem::path file = name.empty() ? loaded.folder() : std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
-  if (name.find('\0') == std::string::npos && std::filesystem::is_regular_file(file, error)) {
+  const bool nameable = !name.empty() && name.find('\0') == std::string::npos;
+  if (nameable && std::filesystem::is_regular_file(file, error)) {
     name = file.string();
     loaded.inputs.push_back(file);
     return;
   }
   const std::vector<std::string> names = builtin_profile_names(kind);
   const std::string near = nearest_word(name, names);
-  source.complain(fmt::format("geometry.{}", key), fmt::format("geometry.{} = \"{}\": neither a built-in profile nor a file (looked for {})", key, name, file.string()),
+  source.complain(fmt::format("geometry.{}", key), fmt::format("geometry.{} = {}: neither a built-in profile nor a file{}", key, toml_quoted(name), nameable ? fmt::format(" (looked for {})", file.string()) : ""),
                   fmt::format("{}built in: {}, arc:R=300 mm", near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near), fmt::join(names, ", ")));
 }
 
