@@ -102,7 +102,7 @@ class Folders(FromOutside):
         study = self.folder / "study.toml"
         study.write_text('[study]\nbase = "case.toml"\nengines = ["bem"]\n[[group]]\nname = "g"\n[group.vary]\n"drive.speed" = ["20 m/s"]\n')
         rc, _, err = railstrata("bem", case, "--cell", "3 mm", "--out", results, "--no-report")
-        self.assertLessEqual(rc, 1, err)
+        self.assertIn(rc, (0, 1), err)
         out.mkdir()
         (out / "case.toml").write_text("mine")
         (out / "report.html").write_text("mine")
