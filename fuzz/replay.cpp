@@ -1,4 +1,4 @@
-// Runs every kept input through a target, then mutations of them: the same ones on every machine. usage: fuzz_<reader> FOLDER [MUTATIONS]
+// Runs every kept input through a target, then mutations of them: the same ones on every machine. usage: [FUZZ_KEEP=FILE] fuzz_<reader> FOLDER [MUTATIONS]
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -43,7 +43,12 @@ Input mutation(Input bytes, std::mt19937& random) {
   return bytes;
 }
 
-void run(const Input& input) { LLVMFuzzerTestOneInput(input.data(), input.size()); }
+/// Keeps the input beside the program while it is at work, if asked to: the one that breaks it stays.
+void run(const Input& input) {
+  static const char* kept = std::getenv("FUZZ_KEEP");
+  if (kept) std::ofstream(kept, std::ios::binary).write(reinterpret_cast<const char*>(input.data()), static_cast<std::streamsize>(input.size()));
+  LLVMFuzzerTestOneInput(input.data(), input.size());
+}
 
 }  // namespace
 
@@ -58,7 +63,7 @@ int main(int argc, char** argv) {
     run(inputs.emplace_back(input_of(file)));
   }
   if (inputs.empty()) return std::fprintf(stderr, "%s holds no inputs\n", argv[1]), 2;
-  const int mutations = argc > 2 ? std::atoi(argv[2]) : 1000;
+  const int mutations = argc > 2 ? std::atoi(argv[2]) : 3000;
   std::mt19937 random(1);
   for (int k = 0; k < mutations; ++k) run(mutation(inputs[static_cast<std::size_t>(k) % inputs.size()], random));
   std::printf("%zu kept inputs, %d mutations\n", inputs.size(), mutations);

@@ -85,7 +85,8 @@ def run_once(target, reader, build, seconds, runs):
         kind = find.name.removeprefix(reader + "-").split("-")[0]
         if not breaks_again(target, find, kind):
             print(f"{reader:12} {find.name} does not break again", flush=True)
-            find.unlink()
+            find.rename(find.with_name("unrepeated-" + find.name))
+            (find.parent / ("unrepeated-" + find.name + ".log")).write_text(done.stderr[-20000:])
             continue
         row[KINDS.get(kind, "crashes")] += 1
         found.append(find)

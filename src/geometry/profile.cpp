@@ -99,8 +99,8 @@ ProfilePoint Profile::at(double s) const {
   return {c.position, t, side * Vec2{-t.z, t.y}, -side * cross(c.d1, c.d2) / (speed * speed * speed)};
 }
 
-double Profile::s_at_y_within(std::size_t piece, double y) const {
-  double lo = s_[piece], hi = s_[piece + 1], s = 0.5 * (lo + hi);
+double Profile::s_at_y_within(std::size_t piece, double y, double lo, double hi) const {
+  double s = 0.5 * (lo + hi);
   for (int i = 0; i < 100 && hi - lo > 0; ++i) {
     const Local c = local(piece, s);
     const double error = c.position.y - y;
@@ -119,7 +119,15 @@ double Profile::s_at_y(double y) const {
   if (y >= y_max()) return graph_end_;
   const auto begin = knot_y_.begin() + static_cast<std::ptrdiff_t>(piece_of(graph_begin_)), end = knot_y_.begin() + static_cast<std::ptrdiff_t>(piece_of(graph_end_));
   const std::size_t piece = static_cast<std::size_t>(std::upper_bound(begin + 1, end + 1, y) - knot_y_.begin()) - 1;
-  return std::clamp(s_at_y_within(piece, y), graph_begin_, graph_end_);
+  return s_at_y_within(piece, y, std::max(s_[piece], graph_begin_), std::min(s_[piece + 1], graph_end_));  // beyond, a piece may fold back
+}
+
+double Profile::turning_of_slope(std::size_t piece, double near, double far) const {
+  if (!segments_.empty()) return far;
+  const double begin = d2_[piece].y, end = d2_[piece + 1].y;
+  if (!(begin * end < 0)) return far;
+  const double s = s_[piece] + (s_[piece + 1] - s_[piece]) * begin / (begin - end);
+  return (s - near) * (s - far) < 0 ? s : far;
 }
 
 double Profile::graph_end(bool towards_field) const {
@@ -127,8 +135,9 @@ double Profile::graph_end(bool towards_field) const {
   for (std::size_t i = piece_of(0.0); i < pieces; towards_field ? ++i : --i) {  // --i past zero wraps and ends the loop
     const double near = i == piece_of(0.0) ? 0.0 : s_[towards_field ? i : i + 1], far = s_[towards_field ? i + 1 : i];
     if (local(i, near).d1.y <= 0) return near;
-    if (local(i, far).d1.y > 0) continue;
-    double good = near, bad = far;
+    const double steepest = turning_of_slope(i, near, far), end = local(i, steepest).d1.y <= 0 ? steepest : far;
+    if (local(i, end).d1.y > 0) continue;
+    double good = near, bad = end;
     for (int k = 0; k < 80; ++k) {
       const double middle = 0.5 * (good + bad);
       (local(i, middle).d1.y > 0 ? good : bad) = middle;
@@ -153,7 +162,7 @@ void Profile::set_origin() {
   if (crossing == pieces)
     throw CaseError(name_ + ": the profile does not cover y = 0",
                     "move the origin to the rail's axis or the wheel's tape circle; y must increase towards the field side");
-  const double zero = s_at_y_within(crossing, 0.0);
+  const double zero = s_at_y_within(crossing, 0.0, s_[crossing], s_[crossing + 1]);
   for (double& s : s_) s -= zero;
   for (std::size_t i = 0; i < s_.size(); ++i) knot_y_.push_back(local(std::min(i, pieces - 1), s_[i]).position.y);
   graph_begin_ = graph_end(false);

@@ -68,8 +68,10 @@ class Profile {
   };
   Local local(std::size_t piece, double s) const;
   std::size_t piece_of(double s) const;
-  double s_at_y_within(std::size_t piece, double y) const;
+  double s_at_y_within(std::size_t piece, double y, double lo, double hi) const;
   double graph_end(bool towards_field) const;
+  /// Where within a spline's piece, from near to far, dy/ds turns: the curve may fold back there between two knots that both run outwards. `far` if nowhere.
+  double turning_of_slope(std::size_t piece, double near, double far) const;
   void set_origin();  // shifts s_ to s(y = 0) = 0 and finds the running surface
 
   ProfileKind kind_ = ProfileKind::rail;
