@@ -165,9 +165,15 @@ class Killed(StudyTest):
     def working(self):
         return [folder for folder in self.out.rglob("*.part-*") if folder.is_dir()]
 
-    def wait_until_rolling(self):
+    def rolling(self, process):
+        """Folders of this study's cases that roll: from then on a signal asks for a checkpoint."""
+        with contextlib.suppress(FileNotFoundError):  # one has just been renamed
+            return [folder for folder in self.working() if folder.name.endswith(f"-{process.pid}") and (folder / "history.csv").exists() and "meshing" in (folder / "log.txt").read_text()]
+        return []
+
+    def wait_until_rolling(self, process):
         end = time.monotonic() + 60
-        while time.monotonic() < end and not any((folder / "history.csv").exists() for folder in self.working()):
+        while time.monotonic() < end and process.poll() is None and not self.rolling(process):
             time.sleep(0.005)
 
     def goes_on(self):
@@ -179,13 +185,13 @@ class Killed(StudyTest):
         for pid in self.children(process):
             with contextlib.suppress(FileNotFoundError, ProcessLookupError):
                 words = pathlib.Path(f"/proc/{pid}/cmdline").read_text().split("\0")
-                if any((folder / "history.csv").exists() for folder in self.working() if str(folder) in words):
+                if any(str(folder) in words for folder in self.rolling(process)):
                     os.kill(pid, signal.SIGUSR1)
 
     def wait_for_a_checkpoint(self, process):
-        self.ask_for_checkpoints(process)
+        self.ask_for_checkpoints(process)  # of cases that have gone on there is one already
         end = time.monotonic() + 60
-        while time.monotonic() < end and process.poll() is None and not any((folder / "checkpoint.h5").exists() for folder in self.working()):
+        while time.monotonic() < end and process.poll() is None and not any((folder / "checkpoint.h5").exists() for folder in self.rolling(process)):
             time.sleep(0.005)
 
     def finite_element_results(self, out):
@@ -209,7 +215,7 @@ class Killed(StudyTest):
         expected, chance, kills, resumed = self.uninterrupted(self.WHEELS), random.Random(7), 0, 0
         while kills < KILLS:
             process = self.start(self.WHEELS, "--jobs", "2")
-            self.wait_until_rolling()
+            self.wait_until_rolling(process)
             self.wait_for_a_checkpoint(process)
             time.sleep(chance.uniform(0, 0.3))
             if process.poll() is None:  # often it dies while it writes the next
@@ -241,7 +247,7 @@ class Killed(StudyTest):
             if damage is None:
                 self.case(self.LONG)
             process = self.start(text)
-            self.wait_until_rolling()
+            self.wait_until_rolling(process)
             self.wait_for_a_checkpoint(process)
             process.send_signal(signal.SIGINT)
             process.communicate()
@@ -262,7 +268,7 @@ class Killed(StudyTest):
         text = self.WHEELS.replace("0.1, 0.2", "0.1")
         expected = self.uninterrupted(text)
         process = self.start(text)
-        self.wait_until_rolling()
+        self.wait_until_rolling(process)
         self.wait_for_a_checkpoint(process)
         process.send_signal(signal.SIGINT)
         process.communicate()
@@ -346,7 +352,7 @@ class Killed(StudyTest):
         while time.monotonic() < end and len(self.stamps()) < 6:
             time.sleep(0.02)
         child = self.wait_for_a_child(process)
-        self.wait_until_rolling()
+        self.wait_until_rolling(process)
         self.wait_for_a_checkpoint(process)
         asked = time.monotonic()
         process.send_signal(signal.SIGINT)
