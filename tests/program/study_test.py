@@ -160,6 +160,7 @@ class Paper(FromOutside):
 
 class Killed(StudyTest):
     LONG = TINY.replace('positions = ["30 mm"]', 'positions = ["900 mm"]')
+    WHEEL = SMALL.replace('["6 mm", "12 mm"]', '["24 mm"]')
     WHEELS = '[study]\nbase = "case.toml"\nengines = ["fem"]\n[[group]]\nname = "wheel"\n[group.vary]\n"drive.traction_coefficient" = [0.1, 0.2]\n'
 
     def working(self):
@@ -211,7 +212,7 @@ class Killed(StudyTest):
         return self.finite_element_results(out)
 
     def test_kill_9_of_finite_element_cases_costs_what_they_did_since_their_checkpoints(self):
-        self.case(SMALL.replace('["6 mm", "12 mm"]', '["24 mm"]'))
+        self.case(self.WHEEL)
         expected, chance, kills, resumed = self.uninterrupted(self.WHEELS), random.Random(7), 0, 0
         while kills < KILLS:
             process = self.start(self.WHEELS, "--jobs", "2")
@@ -240,7 +241,7 @@ class Killed(StudyTest):
         fact("study_fem_killed", kills=kills, resumed=resumed, cases=len(expected))
 
     def test_a_checkpoint_of_another_case_or_a_damaged_one_is_not_gone_on_from(self):
-        self.case(SMALL)
+        self.case(self.WHEEL)
         text = self.WHEELS.replace("0.1, 0.2", "0.1")
         expected = self.uninterrupted(text)
         for damage in (lambda file: file.write_bytes(file.read_bytes()[:-1]), None):
@@ -256,7 +257,7 @@ class Killed(StudyTest):
                 for file in self.out.rglob("checkpoint.h5*"):
                     damage(file)
             else:
-                self.case(SMALL)
+                self.case(self.WHEEL)
             self.solve(text, code=self.rc)
             self.assertEqual(self.goes_on(), [])
             self.assertEqual(self.left_behind(), [])
@@ -264,7 +265,7 @@ class Killed(StudyTest):
             shutil.rmtree(self.out)
 
     def test_two_studies_that_start_after_a_kill_do_not_share_a_checkpoint(self):
-        self.case(SMALL)
+        self.case(self.WHEEL)
         text = self.WHEELS.replace("0.1, 0.2", "0.1")
         expected = self.uninterrupted(text)
         process = self.start(text)
