@@ -207,7 +207,7 @@ class Killed(StudyTest):
 
     def uninterrupted(self, text):
         out = self.folder / "uninterrupted"
-        self.rc, _, err = railstrata("study", self.study(text), "--out", out, "--no-report", "--threads", "2")
+        self.rc, _, err = railstrata("study", self.study(text), "--out", out, "--no-report", "--threads", "1")
         self.assertIn(self.rc, (0, 1), err)  # a check of so coarse a rolling may fail
         return self.finite_element_results(out)
 
@@ -247,7 +247,7 @@ class Killed(StudyTest):
         for damage in (lambda file: file.write_bytes(file.read_bytes()[:-1]), None):
             if damage is None:
                 self.case(self.LONG)
-            process = self.start(text)
+            process = self.start(text, "--threads", "1")
             self.wait_until_rolling(process)
             self.wait_for_a_checkpoint(process)
             process.send_signal(signal.SIGINT)
@@ -258,7 +258,7 @@ class Killed(StudyTest):
                     damage(file)
             else:
                 self.case(self.WHEEL)
-            self.solve(text, code=self.rc)
+            self.solve(text, "--threads", "1", code=self.rc)
             self.assertEqual(self.goes_on(), [])
             self.assertEqual(self.left_behind(), [])
             self.assert_same(expected)
@@ -268,12 +268,12 @@ class Killed(StudyTest):
         self.case(self.WHEEL)
         text = self.WHEELS.replace("0.1, 0.2", "0.1")
         expected = self.uninterrupted(text)
-        process = self.start(text)
+        process = self.start(text, "--threads", "1")
         self.wait_until_rolling(process)
         self.wait_for_a_checkpoint(process)
         process.send_signal(signal.SIGINT)
         process.communicate()
-        both = [self.start(text), self.start(text)]
+        both = [self.start(text, "--threads", "1"), self.start(text, "--threads", "1")]
         for process in both:
             _, err = process.communicate()
             self.assertEqual(process.returncode, self.rc, err)
