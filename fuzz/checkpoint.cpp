@@ -6,9 +6,13 @@
 #include "io/checkpoint_file.hpp"
 
 #include <hdf5.h>
+#include <stdlib.h>  // mkstemp
+#include <unistd.h>
 
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
 #include <limits>
 
 #include "reader.hpp"
@@ -30,6 +34,21 @@ RunState sample_run() {
   r.result.positions = {{0.3, {RollingSample{}}}};
   r.frame_times = {0, 1e-4};
   return r;
+}
+
+/// A file outside the checkpoint, for links and storage that lead there: one of this process, since HDF5 writes to it.
+const std::string& decoy() {
+  static const struct Decoy {
+    std::string path = (std::filesystem::temp_directory_path() / "railstrata-fuzz-XXXXXX").string();
+    Decoy() {
+      const int file = mkstemp(path.data());
+      promise(file >= 0 && write(file, "outside", 7) == 7 && close(file) == 0, "a scratch file can be made");
+    }
+    ~Decoy() { std::remove(path.c_str()); }
+    Decoy(const Decoy&) = delete;
+    Decoy& operator=(const Decoy&) = delete;
+  } file;
+  return file.path;
 }
 
 /// A small checkpoint, and the names of all datasets in it.
@@ -126,7 +145,7 @@ void edit(hid_t file, Bytes& in) {
     return;
   }
   if (what == 4) {
-    H5Lcreate_external(RAILSTRATA_SOURCE_DIR "/README.md", other, file, name, H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external(decoy().c_str(), other, file, name, H5P_DEFAULT, H5P_DEFAULT);
     return;
   }
   std::array<hsize_t, 3> size{};
@@ -145,7 +164,7 @@ void edit(hid_t file, Bytes& in) {
     if (in.next() % 2) H5Pset_deflate(how, 1);
   }
   if (storage == 2) H5Pset_layout(how, H5D_COMPACT);
-  if (storage == 3) H5Pset_external(how, RAILSTRATA_SOURCE_DIR "/README.md", 0, H5F_UNLIMITED);
+  if (storage == 3) H5Pset_external(how, decoy().c_str(), 0, H5F_UNLIMITED);
   if (const hid_t set = H5Dcreate2(file, name, type, space, H5P_DEFAULT, how, H5P_DEFAULT); set >= 0) H5Dclose(set);
   H5Pclose(how);
   H5Tclose(type);

@@ -72,6 +72,9 @@ ResultFolder parse_results(const std::string& summary, const std::string& patch,
   return r;
 }
 
-ResultFolder read_result_folder(const fs::path& folder) { return parse_results(text_of(folder / "summary.json"), text_of(folder / "patch.csv"), folder); }
+ResultFolder read_result_folder(const fs::path& folder) {
+  const std::string summary = text_of(folder / "summary.json");  // the one whose absence is told first
+  return parse_results(summary, text_of(folder / "patch.csv"), folder);
+}
 
 }  // namespace railstrata
