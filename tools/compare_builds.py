@@ -5,7 +5,7 @@ usage: compare_builds.py WORK_DIR [--case CASE] [--set KEY=VALUE ...] [--variant
 
 Builds each variant in WORK_DIR/<name>, runs the case twice with each, with one and two threads, and compares: the two runs must have the same bits in every file, and the numbers may differ from
 those of the first variant by the tolerance only. Exits with 0 if both hold. --record writes the table.
-Example: tools/compare_builds.py /tmp/builds --variant g++-native --variant g++-sse2
+Example: tools/compare_builds.py build-variants --variant g++-native --variant g++-sse2
 """
 import argparse
 import csv

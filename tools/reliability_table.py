@@ -48,7 +48,13 @@ def record(file):
     rows = list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#")))
     if not rows:
         raise LookupError(f"{file} has no line")
-    return types.SimpleNamespace(**{name: Column([r[name] for r in rows]) for name in rows[0]})
+    columns = {name: Column([r[name] for r in rows]) for name in rows[0]}
+    if "reader" in columns:
+        sums = {}
+        for reader, executions in zip(columns["reader"].values, columns["executions"].values):
+            sums[reader] = sums.get(reader, 0) + executions
+        columns["executions"].least_sum_by_reader = min(sums.values())
+    return types.SimpleNamespace(**columns)
 
 
 def known_facts():
