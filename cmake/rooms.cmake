@@ -2,6 +2,7 @@
 
 add_library(railstrata_flags INTERFACE)
 target_include_directories(railstrata_flags INTERFACE ${CMAKE_SOURCE_DIR}/src)
+# -Wsign-conversion, which -Wconversion brings with clang++, stays off: positions are int and ptrdiff_t, containers ask for size_t, and what must not be negative is tested where it is read.
 target_compile_options(railstrata_flags INTERFACE -Wall -Wextra -Wconversion -Wno-sign-conversion -Wshadow -fno-math-errno -ffp-contract=fast)
 if(RAILSTRATA_WERROR)
   target_compile_options(railstrata_flags INTERFACE -Werror)
