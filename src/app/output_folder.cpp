@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <regex>
 #include <utility>
 
 #include "core/faults.hpp"
@@ -57,11 +56,10 @@ void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
 }
 
 void remove_abandoned_parts(const std::filesystem::path& folder) {
-  static const std::regex abandoned(R"(.+\.(csv|h5|html|json|pvd|py|toml|vtp|vtu)\.part[0-9]+)");
   std::error_code ignored;
   std::vector<std::filesystem::path> found;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, ignored))
-    if (entry.is_regular_file(ignored) && std::regex_match(entry.path().filename().string(), abandoned)) found.push_back(entry.path());
+    if (entry.is_regular_file(ignored) && is_abandoned_part(entry.path().filename().string())) found.push_back(entry.path());
   for (const auto& file : found) std::filesystem::remove(file, ignored);
 }
 

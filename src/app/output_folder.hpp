@@ -31,7 +31,7 @@ void clear_old_results(const std::filesystem::path& folder);
 /// case.toml with every option written out, case.original.toml as it was given, provenance.json. Each file is whole or not there.
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded, const std::vector<std::string>& command_line, int threads);
 
-/// Removes what a killed run has left half written: <a result's name>.part<process id>, in the folder and those in it.
+/// Removes what a killed run has left half written: <a result's name>.part-<host>-<process id> of this machine, in the folder and those in it.
 void remove_abandoned_parts(const std::filesystem::path& folder);
 
 /// SHA-256 over the resolved case and the profile files it names: what a checkpoint must agree with.

@@ -1,13 +1,10 @@
 #include "app/study_results.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <fstream>
 #include <map>
 
@@ -25,14 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
-
-constexpr const char* kPart = ".part-";
-
-std::string host_name() {
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
-  return host.data();
-}
 
 Json read_json(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -109,23 +98,11 @@ std::string study_json(const StudyCase& c, const Json& fault, const Json& number
 
 /// An old folder makes room for a new one; a reader finds one or the other, and for a moment none.
 void put_in_place(const fs::path& working, const fs::path& place) {
-  const fs::path old = beside(place, fmt::format("{}old-{}-{}", kPart, host_name(), ::getpid()));
+  const fs::path old = beside(place, ".old" + part_ending());
   std::error_code error;
   if (fs::exists(place)) fs::rename(place, old);
   fs::rename(working, place);
   fs::remove_all(old, error);
-}
-
-/// "….part-host-pid" of a process of this machine that is no more.
-bool is_left_behind(const std::string& name) {
-  const auto at = name.find(kPart);
-  if (at == std::string::npos) return false;
-  const std::string tail = name.substr(at), host = "-" + host_name() + "-";
-  const auto before = tail.rfind(host);
-  if (before == std::string::npos) return false;
-  const std::string digits = tail.substr(before + host.size());
-  if (digits.empty() || digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos) return false;
-  return ::kill(std::stoi(digits), 0) != 0 && errno == ESRCH;
 }
 
 /// Folders of a case that processes of this machine had begun and that are no more.
@@ -133,7 +110,7 @@ std::vector<fs::path> left_behind(const fs::path& out, const StudyCase& c) {
   std::vector<fs::path> left;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator((out / c.folder).parent_path(), error))
-    if (const std::string name = entry.path().filename().string(); name.starts_with(c.folder.filename().string() + ".") && is_left_behind(name)) left.push_back(entry.path());
+    if (const std::string name = entry.path().filename().string(); name.starts_with(c.folder.filename().string() + ".") && is_abandoned_part(name)) left.push_back(entry.path());
   return left;
 }
 
@@ -164,7 +141,7 @@ std::string last_failure(const fs::path& out, const StudyCase& c) {
   return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_string() ? j["fault"].get<std::string>() : "";
 }
 
-fs::path working_folder(const fs::path& out, const StudyCase& c) { return beside(out / c.folder, fmt::format("{}{}-{}", kPart, host_name(), ::getpid())); }
+fs::path working_folder(const fs::path& out, const StudyCase& c) { return beside(out / c.folder, part_ending()); }
 
 void keep_result(const fs::path& out, const StudyCase& c, const fs::path& working) {
   std::vector<fs::path> scripts;
@@ -191,6 +168,10 @@ void recover(const fs::path& out, const std::vector<StudyCase>& cases) {
       else if (holds(folder, c)) put_in_place(folder, out / c.folder);
     }
   }
+  std::vector<fs::path> tables;  // of a study that died while it wrote them
+  for (const auto& entry : fs::directory_iterator(out, error))
+    if (entry.is_regular_file(error) && is_abandoned_part(entry.path().filename().string())) tables.push_back(entry.path());
+  for (const fs::path& file : tables) fs::remove(file, error);
 }
 
 bool has_checkpoint(const fs::path& working) {

@@ -37,7 +37,7 @@ void keep_result(const std::filesystem::path& out, const StudyCase& c, const std
 void keep_failure(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working, const std::string& reason);
 
 /// After a crash: results that were whole and not yet renamed are taken; working folders of dead processes of this machine are removed, but for those with a checkpoint of a case that
-/// is not done yet.
+/// is not done yet; so are tables that such a process had half written.
 void recover(const std::filesystem::path& out, const std::vector<StudyCase>& cases);
 
 /// Makes a working folder that a dead process of this machine, or a failure, has left of this very case, with a checkpoint of this very program, the `working` one; removes the others. False if there is

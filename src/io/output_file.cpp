@@ -1,8 +1,10 @@
 #include "io/output_file.hpp"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -13,6 +15,14 @@ namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kPart = ".part-";
+
+std::string host_name() {
+  std::array<char, 256> host{};
+  gethostname(host.data(), host.size() - 1);
+  return host.data();
+}
 
 std::string remedy_of(int reason) {
   switch (reason) {
@@ -72,6 +82,19 @@ void OutputFile::finish() {
   if (::close(std::exchange(descriptor_, -1)) != 0) fail();
 }
 
+std::string part_ending() { return kPart + host_name() + "-" + std::to_string(::getpid()); }
+
+bool is_abandoned_part(const std::string& name) {
+  const auto at = name.find(kPart);
+  if (at == std::string::npos) return false;
+  const std::string tail = name.substr(at), host = "-" + host_name() + "-";
+  const auto before = tail.rfind(host);
+  if (before == std::string::npos) return false;
+  const std::string digits = tail.substr(before + host.size());
+  if (digits.empty() || digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos) return false;
+  return ::kill(std::stoi(digits), 0) != 0 && errno == ESRCH;
+}
+
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
@@ -79,7 +102,7 @@ void make_folder(const fs::path& folder) {
 }
 
 void write_whole_file(const fs::path& path, std::string_view bytes, const fs::path& previous) {
-  const fs::path temporary = path.string() + ".part" + std::to_string(::getpid());
+  const fs::path temporary = path.string() + part_ending();
   try {
     OutputFile file(temporary);
     file.write(bytes);

@@ -26,6 +26,11 @@ class OutputFile {
   int descriptor_ = -1;
 };
 
+/// ".part-<host>-<process id>": ends the name of a file or folder that this process is still working on.
+std::string part_ending();
+/// The name ends so, and its process, of this machine, is no more.
+bool is_abandoned_part(const std::string& name);
+
 /// Makes the folder and those above it. Throws EnvironmentError as OutputFile does.
 void make_folder(const std::filesystem::path& folder);
 
