@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <tuple>
+#include <vector>
 
 #include "fem/stable_step.hpp"
 
@@ -76,20 +76,26 @@ void StepPlan::refine_steps(const RollingSystem& sys) {
 // Fine and coarse nodes together may stand a little less than the coarse ones alone.
 void StepPlan::settle_stages(const RollingSystem& sys) {
   constexpr double kEdge = 3.8, kShorter = 0.95;
-  for (const auto& [body, steps] : {std::pair{&sys.rail, &rail_steps}, std::pair{&sys.wheel, &wheel_steps}}) {
-    if (steps->empty()) continue;
-    const double own = lanczos_stable_step(*body);
+  struct Part {
+    const DeformableBody& body;
+    LocalSteps& steps;
+    const ContactSurface& surface;
+    SurfaceResponse& response;
+    double own;  // stable step, s
+  };
+  std::vector<Part> parts;
+  if (!rail_steps.empty()) parts.push_back({sys.rail, rail_steps, sys.rail_surface, rail_response, lanczos_stable_step(sys.rail)});
+  if (!wheel_steps.empty()) parts.push_back({sys.wheel, wheel_steps, sys.wheel_surface, wheel_response, lanczos_stable_step(sys.wheel)});
+  for (const Part& p : parts)
     for (;; limits.chosen *= kShorter) {
-      steps->set_step(limits.chosen, own);
-      const StepSpectrum s = lanczos_spectrum(*body, *steps);
+      p.steps.set_step(limits.chosen, p.own);
+      const StepSpectrum s = lanczos_spectrum(p.body, p.steps);
       if (s.least > 0 && s.largest < kEdge) break;
     }
-  }
-  for (const auto& [body, steps, surface, response] : {std::tuple{&sys.rail, &rail_steps, &sys.rail_surface, &rail_response}, std::tuple{&sys.wheel, &wheel_steps, &sys.wheel_surface, &wheel_response}}) {
-    if (steps->empty()) continue;
-    steps->set_step(limits.chosen, lanczos_stable_step(*body));
-    limits.stages = std::max(limits.stages, steps->stages());
-    *response = surface_response(*body, *surface, *steps);
+  for (const Part& p : parts) {
+    p.steps.set_step(limits.chosen, p.own);
+    limits.stages = std::max(limits.stages, p.steps.stages());
+    p.response = surface_response(p.body, p.surface, p.steps);
   }
 }
 

@@ -47,12 +47,7 @@ CaseSpec variant(const std::string& name) {
   if (name == "run_up_damping") spec.run.run_up = 0.02, spec.run.run_up_damping = 2000;
   else if (name == "single_precision") spec.run.precision = "single";
   else if (name == "penalty") spec.contact.method = "penalty";
-  else if (name != "mortar") {
-    spec.layers.emplace_back();
-    spec.layers.back().thickness = 1e-3;
-    spec.layers.back().width = 0.02;
-    spec.run.time_step_method = name;
-  }
+  else if (name != "mortar") spec = thinly_layered(spec, name);
   return spec;
 }
 

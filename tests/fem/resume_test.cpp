@@ -59,15 +59,6 @@ CaseSpec damped_case() {
   return spec;
 }
 
-CaseSpec layered_case(const char* method) {
-  CaseSpec spec = damped_case();
-  spec.layers.emplace_back();
-  spec.layers.back().thickness = 1e-3;
-  spec.layers.back().width = 0.02;
-  spec.run.time_step_method = method;
-  return spec;
-}
-
 }  // namespace
 
 TEST(Resume, AStepperFromMemoryComputesTheSameBits) { expect_same_bits(damped_case()); }
@@ -78,9 +69,9 @@ TEST(Resume, InSinglePrecisionToo) {
   expect_same_bits(spec);
 }
 
-TEST(Resume, WithScaledMassesToo) { expect_same_bits(layered_case("mass_scaling")); }
+TEST(Resume, WithScaledMassesToo) { expect_same_bits(thinly_layered(damped_case(), "mass_scaling")); }
 
-TEST(Resume, WithLocalStepsToo) { expect_same_bits(layered_case("local")); }
+TEST(Resume, WithLocalStepsToo) { expect_same_bits(thinly_layered(damped_case(), "local")); }
 
 TEST(Resume, WithAPenaltyToo) {
   CaseSpec spec = damped_case();

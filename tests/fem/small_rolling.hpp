@@ -27,6 +27,15 @@ inline CaseSpec small_case() {
   return s;
 }
 
+/// With a layer of a millimetre on 4 mm elements.
+inline CaseSpec thinly_layered(CaseSpec s, const std::string& time_step_method) {
+  s.layers.emplace_back();
+  s.layers.back().thickness = 1e-3;
+  s.layers.back().width = 0.02;
+  s.run.time_step_method = time_step_method;
+  return s;
+}
+
 inline RollingSystem small_system(const CaseSpec& spec) { return RollingSystem(build_model(spec, ".")); }
 
 }  // namespace railstrata::fem_checks

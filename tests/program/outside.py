@@ -119,6 +119,22 @@ def fact(promise, **figures):
     print("RELIABILITY", json.dumps({"fact": promise, **figures}), flush=True)
 
 
+def origin(folder):
+    """What a result comes from, in the words of a record."""
+    p = json.loads((folder / "provenance.json").read_text())
+    return {"commit": p["commit"] + ("+dirty" if p["dirty"] else ""), "cpu": p["cpu"], "compiler": p["compiler"], "isa": p["isa"].split(",")[0]}
+
+
+def keep_record(file, seen):
+    """Adds a line to a record, a CSV file of long campaigns."""
+    new = not file.exists()
+    with file.open("a", newline="") as stream:
+        writer = csv.DictWriter(stream, seen, lineterminator="\n")
+        if new:
+            writer.writeheader()
+        writer.writerow(seen)
+
+
 class FromOutside(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 """The quick case again and again, with 1, 2 and 4 threads in turn: every result file has the same bits. usage: repeat_test.py BINARY SOURCE_DIR [--repeats 10] [--set KEY=VALUE ...] [--record FILE.csv]"""
 import argparse
-import csv
 import json
 import pathlib
 import subprocess
@@ -20,7 +19,7 @@ def main():
     parser.add_argument("--record", type=pathlib.Path)
     options = parser.parse_args()
     sys.argv[1:] = [str(options.binary)]  # outside.py takes the program from there
-    from outside import fact, results
+    from outside import fact, keep_record, origin, results
     reference, faults = None, []
     for k in range(options.repeats):
         with tempfile.TemporaryDirectory() as folder:
@@ -29,21 +28,15 @@ def main():
             done = subprocess.run([options.binary.resolve(), *words, *(word for s in options.set for word in ("--set", s))], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
             if done.returncode not in (0, 1):
                 sys.exit(f"repeats: exit code {done.returncode}: {done.stderr}")
-            found, origin = results(out), json.loads((out / "provenance.json").read_text())
+            found, source = results(out), origin(out)
             steps = json.loads((out / "summary.json").read_text())["run"]["steps"]
         reference = reference or found
         faults += [f"repeat {k + 1} with {THREADS[k % len(THREADS)]} threads: {name} differs" for name in sorted(reference.keys() | found.keys()) if reference.get(name) != found.get(name)]
         print(f"repeat {k + 1} of {options.repeats} done", file=sys.stderr, flush=True)
-    seen = {"repeats": options.repeats, "threads": "/".join(map(str, THREADS)), "steps": steps, "files": len(reference), "files_different": len(faults), "set": "; ".join(options.set),
-            "commit": origin["commit"] + ("+dirty" if origin["dirty"] else ""), "cpu": origin["cpu"], "compiler": origin["compiler"], "isa": origin["isa"].split(",")[0]}
+    seen = {"repeats": options.repeats, "threads": "/".join(map(str, THREADS)), "steps": steps, "files": len(reference), "files_different": len(faults), "set": "; ".join(options.set), **source}
     fact("repeats", **seen)
     if options.record:
-        new = not options.record.exists()
-        with options.record.open("a", newline="") as file:
-            writer = csv.DictWriter(file, seen, lineterminator="\n")
-            if new:
-                writer.writeheader()
-            writer.writerow(seen)
+        keep_record(options.record, seen)
     print("\n".join(faults) or "identical")
     return len(faults) > 0
 

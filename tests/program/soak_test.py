@@ -96,7 +96,7 @@ def growth(memory, end):
 def main():
     options = arguments()
     sys.argv[1:] = [str(options.binary)]  # outside.py takes the program from there
-    from outside import fact, results
+    from outside import fact, keep_record, origin, results
     end = 1e3 * float(options.distance.split()[0]) / {"mm": 1e3, "m": 1}[options.distance.split()[1]]
     with tempfile.TemporaryDirectory() as folder:
         whole = Run(options.binary.resolve(), options.distance, pathlib.Path(folder) / "whole")
@@ -108,22 +108,15 @@ def main():
                 parts.interrupt()
             time.sleep(0.2)
         summary, again = summary_of(whole), summary_of(parts)
-        origin = json.loads((whole.out / "provenance.json").read_text())
         first, last = growth(whole.memory, end)
         expected, found = results(whole.out), results(parts.out)
         different = sorted(name for name in expected.keys() | found.keys() if expected.get(name) != found.get(name))
         closure = next(c for c in summary["checks"] if c["name"] == "energy_closure")
         seen = {"steps": summary["run"]["steps"], "elements": summary["run"]["elements"], "sittings": parts.sittings, "files": len(expected), "files_different": len(different), "energy_closure": float(f"{closure['value']:.3g}"),
-                "energy_drift_over_strain": float(f"{drift(whole.out):.3g}"), "memory_start_MB": round(1e-6 * first, 2), "memory_end_MB": round(1e-6 * last, 2), "commit": origin["commit"] + ("+dirty" if origin["dirty"] else ""),
-                "cpu": origin["cpu"], "compiler": origin["compiler"], "isa": origin["isa"].split(",")[0]}
+                "energy_drift_over_strain": float(f"{drift(whole.out):.3g}"), "memory_start_MB": round(1e-6 * first, 2), "memory_end_MB": round(1e-6 * last, 2), **origin(whole.out)}
     fact("soak", **seen)
     if options.record:
-        new = not options.record.exists()
-        with options.record.open("a", newline="") as file:
-            writer = csv.DictWriter(file, seen, lineterminator="\n")
-            if new:
-                writer.writeheader()
-            writer.writerow(seen)
+        keep_record(options.record, seen)
     faults = [f"{name} differs" for name in different]
     if not closure["ok"]:
         faults.append("the energy balance does not close")
