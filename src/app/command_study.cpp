@@ -35,7 +35,7 @@ fs::path folder_of(const CommandOptions& options, const LoadedStudy& study) {
 }
 
 [[nodiscard]] FolderHold prepare_study_folder(const fs::path& out, const LoadedStudy& study, const CommandOptions& options) {
-  FolderHold hold = prepare_output_folder(out, options.force || fs::exists(out / "study.toml"), true);
+  FolderHold hold = prepare_output_folder(out, options.force, "study.toml");
   write_whole_file(out / "study.toml", study.source_text);
   std::vector<fs::path> inputs{study.file};
   for (const StudyGroup& g : study.spec.groups)

@@ -27,17 +27,19 @@ FolderHold::~FolderHold() {
 
 FolderHold::FolderHold(FolderHold&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
-FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, bool shared) {
+FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, const char* shared_mark) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
     throw EnvironmentError(fmt::format("cannot make the output folder {}: {}", folder.string(), error ? error.message() : "a file of this name is in the way"), "choose another with --out");
-  FolderHold hold(folder, shared);
-  const bool empty = std::filesystem::is_empty(folder, error);
+  FolderHold hold(folder, shared_mark != nullptr);
+  bool empty = true;  // but for what others that begin at this moment are still writing, or have left so
+  for (auto entry = std::filesystem::directory_iterator(folder, error); !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) empty = empty && is_part(entry->path().filename().string());
   if (error) throw EnvironmentError(fmt::format("cannot read the output folder {}: {}", folder.string(), error.message()));
-  if (!empty && !force)
+  const bool begun = shared_mark && std::filesystem::exists(folder / shared_mark);  // after the look around: it may have come meanwhile
+  if (!empty && !begun && !force)
     throw CaseError(fmt::format("the output folder {} is not empty", folder.string()), "choose another with --out, or overwrite files of the same name with --force");
-  const std::filesystem::path probe = folder / ".writable";
+  const std::filesystem::path probe = folder / (".writable" + part_ending());
   write_whole_file(probe, "");
   std::filesystem::remove(probe, error);
   return hold;

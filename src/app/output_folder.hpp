@@ -22,8 +22,8 @@ class FolderHold {
   int descriptor_ = -1;
 };
 
-/// Makes the folder, holds it and tries to write in it. Throws CaseError when it is held or holds files and `force` is not set, EnvironmentError when it cannot be made or written.
-[[nodiscard]] FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, bool shared = false);
+/// Makes the folder, holds it and tries to write in it. Several may work in one that holds the file `shared_mark` or is about to. Throws CaseError when it is held or holds files and `force` is not set, EnvironmentError when it cannot be made or written.
+[[nodiscard]] FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, const char* shared_mark = nullptr);
 
 /// Removes what would tell of an older result while a new one is on its way: summary, report, tables and pictures that grow, checkpoints.
 void clear_old_results(const std::filesystem::path& folder);

@@ -96,13 +96,19 @@ std::string study_json(const StudyCase& c, const Json& fault, const Json& number
   return Json{{"key", c.key}, {"result_version", kResultVersion}, {"engine", c.engine}, {"group", c.group}, {"case", c.name}, {"values", values}, {"fault", fault}, {"numbers", numbers}}.dump(2) + "\n";
 }
 
-/// An old folder makes room for a new one; a reader finds one or the other, and for a moment none.
+/// An old folder makes room for a new one; a reader finds one or the other, and for a moment none. Another study that does the same at this moment takes its turn.
 void put_in_place(const fs::path& working, const fs::path& place) {
   const fs::path old = beside(place, ".old" + part_ending());
-  std::error_code error;
-  if (fs::exists(place)) fs::rename(place, old);
-  fs::rename(working, place);
-  fs::remove_all(old, error);
+  std::error_code moved, error, ignored;
+  for (int turn = 0; turn < 1000; ++turn) {
+    fs::rename(place, old, moved);
+    fs::rename(working, place, error);
+    const bool others_came_first = error == std::errc::directory_not_empty || error == std::errc::file_exists;
+    if (!error || others_came_first) fs::remove_all(old, ignored);
+    else if (!moved) fs::rename(old, place, ignored);
+    if (!others_came_first) break;
+  }
+  if (error) throw EnvironmentError(fmt::format("cannot rename {} to {}: {}", working.string(), place.string(), error.message()), "look at both folders, then start the study again");
 }
 
 /// Folders of a case that processes of this machine had begun and that are no more.
@@ -112,6 +118,13 @@ std::vector<fs::path> left_behind(const fs::path& out, const StudyCase& c) {
   for (const auto& entry : fs::directory_iterator((out / c.folder).parent_path(), error))
     if (const std::string name = entry.path().filename().string(); name.starts_with(c.folder.filename().string() + ".") && is_abandoned_part(name)) left.push_back(entry.path());
   return left;
+}
+
+/// The folder is this process's from now on; of two studies one succeeds.
+bool claim(const fs::path& folder, const fs::path& working) {
+  std::error_code error;
+  fs::rename(folder, working, error);
+  return !error;
 }
 
 /// Its checkpoint is whole, of this case and of this program: going on gives the bits of a run in one go.
@@ -149,8 +162,9 @@ void keep_result(const fs::path& out, const StudyCase& c, const fs::path& workin
     if (entry.path().filename() == "view.py") scripts.push_back(entry.path().parent_path());
   for (const fs::path& folder : scripts) write_view_script(folder, out / c.folder / fs::relative(folder, working));
   write_whole_file(working / kStudyFile, study_json(c, nullptr, numbers_of(working)));
-  put_in_place(working, out / c.folder);
   std::error_code error;
+  if (is_done(out, c)) fs::remove_all(working, error);  // another study was faster: the same numbers
+  else put_in_place(working, out / c.folder);
   fs::remove_all(beside(out / c.folder, ".failed"), error);
 }
 
@@ -165,7 +179,7 @@ void recover(const fs::path& out, const std::vector<StudyCase>& cases) {
     if (!c.first) continue;
     for (const fs::path& folder : left_behind(out, c)) {
       if (is_done(out, c) || !(holds(folder, c) || has_checkpoint(folder))) fs::remove_all(folder, error);
-      else if (holds(folder, c)) put_in_place(folder, out / c.folder);
+      else if (holds(folder, c) && claim(folder, working_folder(out, c))) put_in_place(working_folder(out, c), out / c.folder);
     }
   }
   std::vector<fs::path> tables;  // of a study that died while it wrote them
@@ -187,9 +201,9 @@ bool take_over(const fs::path& out, const StudyCase& c, const fs::path& working)
   if (const fs::path failed = beside(out / c.folder, ".failed"); has_checkpoint(failed)) left.push_back(failed);  // killed or out of room, most likely; what fails by itself will do so again soon
   for (const fs::path& folder : left) {
     if (!taken && has_checkpoint(folder)) {
-      fs::rename(folder, working, error);  // of two studies one succeeds
-      taken = !error && can_go_on(working, c);
-      if (!error && !taken) fs::remove_all(working, error);
+      const bool ours = claim(folder, working);
+      taken = ours && can_go_on(working, c);
+      if (ours && !taken) fs::remove_all(working, error);
     } else {
       fs::remove_all(folder, error);
     }

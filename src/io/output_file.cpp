@@ -84,6 +84,8 @@ void OutputFile::finish() {
 
 std::string part_ending() { return kPart + host_name() + "-" + std::to_string(::getpid()); }
 
+bool is_part(const std::string& name) { return name.find(kPart) != std::string::npos; }
+
 bool is_abandoned_part(const std::string& name) {
   const auto at = name.find(kPart);
   if (at == std::string::npos) return false;

@@ -28,6 +28,8 @@ class OutputFile {
 
 /// ".part-<host>-<process id>": ends the name of a file or folder that this process is still working on.
 std::string part_ending();
+/// The name ends so, whoever is or was at work.
+bool is_part(const std::string& name);
 /// The name ends so, and its process, of this machine, is no more.
 bool is_abandoned_part(const std::string& name);
 

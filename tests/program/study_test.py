@@ -123,6 +123,23 @@ class Cases(StudyTest):
         self.assertEqual([r["state"] for r in self.rows()], ["done"] * 6)
         self.assertEqual({k: v for k, v in self.stamps().items() if k in first}, first)
 
+    def test_studies_that_start_at_once_share_a_folder(self):
+        alone = self.folder / "alone"
+        rc, _, err = railstrata("study", self.study(GRID), "--out", alone, "--no-report")
+        self.assertEqual(rc, 0, err)
+        same = {"wall_s", "threads"}
+        for turn in range(5):
+            for shards in ([], [], []), (["--shard", "1/3"], ["--shard", "2/3"], ["--shard", "3/3"]):
+                all_at_once = [subprocess.Popen([BINARY, "study", self.study(GRID), "--out", self.out, "--no-report", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for words in shards]
+                for process in all_at_once:
+                    _, err = process.communicate()
+                    self.assertEqual(process.returncode, 0, err)
+                self.assertEqual(self.left_behind(), [])
+                self.assertEqual(len(self.stamps()), 6)
+                if not shards[0]:
+                    self.assertEqual([{k: v for k, v in r.items() if k not in same} for r in self.rows()], [{k: v for k, v in r.items() if k not in same} for r in table(alone / "study.csv")])
+                shutil.rmtree(self.out)
+
     def test_what_decides_a_result_decides_whether_it_is_computed_again(self):
         self.solve(GRID)
         before = self.stamps()
