@@ -4,7 +4,7 @@
 usage: fuzz.py BUILD [SECONDS] [--runs N] [--reader NAME]... [--merge]
 
 SECONDS: of each reader, 60 if nothing is said; --runs: until results.csv has so many executions of the reader, all runs together. BUILD holds the targets
-(cmake --preset fuzz). What libFuzzer learns stays in BUILD/learned/READER and is taken up again; finds stay in BUILD/finds. Each run adds a line to fuzz/results.csv.
+(cmake --preset fuzz). What libFuzzer learns stays in BUILD/learned/READER and is taken up again; finds stay in BUILD/finds. Each run adds to fuzz/results.csv.
 --merge: puts what was learned into fuzz/corpus, as few inputs as cover the same code.
 
 Exit code: 0 nothing found, 1 a reader broke, 2 the targets are not there.
@@ -28,6 +28,7 @@ LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-malloc_limit_mb=512"]
 ENVIRONMENT = {**os.environ, "ASAN_OPTIONS": "quarantine_size_mb=8:malloc_context_size=8"}  # less paging than the defaults
 CHECKS = "address undefined libstdc++ leaks"
 COLUMNS = ["reader", "executions", "seconds", "commit", "checks", "crashes", "hangs", "out_of_memory", "leaks"]
+COUNTS = ["executions", "seconds", "crashes", "hangs", "out_of_memory", "leaks"]
 KINDS = {"crash": "crashes", "timeout": "hangs", "oom": "out_of_memory", "leak": "leaks", "slow": "hangs"}
 RESULTS = ROOT / "fuzz" / "results.csv"
 ONE_CALL = 300  # seconds: a row of the table is lost at most
@@ -47,12 +48,20 @@ def executed(reader):
 
 
 def add_row(row):
-    new = not RESULTS.exists()
-    with RESULTS.open("a", newline="") as file:
+    """Counts of one reader as one commit has it are one row."""
+    rows = list(csv.DictReader(RESULTS.open())) if RESULTS.exists() else []
+    same = [r for r in rows if all(r[key] == str(row[key]) for key in ("reader", "commit", "checks"))]
+    if same:
+        for key in COUNTS:
+            same[0][key] = int(same[0][key]) + row[key]
+    else:
+        rows.append(row)
+    part = RESULTS.with_suffix(".part")
+    with part.open("w", newline="") as file:
         writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        if new:
-            writer.writeheader()
-        writer.writerow(row)
+        writer.writeheader()
+        writer.writerows(rows)
+    part.replace(RESULTS)
 
 
 def processor_seconds():
