@@ -22,8 +22,8 @@ import tempfile
 import time
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-READERS = ["profile", "case_file", "study_file", "published", "results", "checkpoint"]
-LONGEST = {"profile": 1200, "case_file": 1200, "study_file": 1600, "published": 1400, "results": 1200, "checkpoint": 700}  # bytes of an input
+READERS = ["profile", "case_file", "study_file", "published", "results", "checkpoint", "checkpoint_content"]
+LONGEST = {"profile": 1200, "case_file": 1200, "study_file": 1600, "published": 1400, "results": 1200, "checkpoint": 700, "checkpoint_content": 700}  # bytes of an input
 LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-malloc_limit_mb=512"]
 ENVIRONMENT = {**os.environ, "ASAN_OPTIONS": "quarantine_size_mb=8:malloc_context_size=8"}  # less paging than the defaults
 CHECKS = "address undefined libstdc++ leaks"

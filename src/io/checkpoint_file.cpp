@@ -9,7 +9,10 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <fstream>
+#include <functional>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <sstream>
 #include <type_traits>
@@ -132,7 +135,8 @@ class Reader {
   void text(const char* name, std::string& value) {
     const Handle set = open_array(name);
     const Handle type(H5Dget_type(set), H5Tclose, name), space(H5Dget_space(set), H5Sclose, name);
-    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Sget_simple_extent_type(space) != H5S_SCALAR || H5Tget_size(type) > bytes_) throw Damage{fmt::format("{} is no text", name)};
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Sget_simple_extent_type(space) != H5S_SCALAR || H5Tget_size(type) == 0 || H5Tget_size(type) > bytes_) throw Damage{fmt::format("{} is no text", name)};
+    require_stored(set, name, H5Tget_size(type));
     std::string raw(H5Tget_size(type), '\0');
     checked(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()), name);
     value = raw.substr(0, raw.find('\0'));
@@ -175,6 +179,10 @@ class Reader {
     H5L_info_t link;
     checked(H5Lget_info(at_, name, &link, H5P_DEFAULT), name);
     if (link.type != H5L_TYPE_HARD) throw Damage{fmt::format("{} is a link", name)};
+  }
+  /// What was never written HDF5 would make up.
+  static void require_stored(hid_t set, const char* name, hsize_t bytes) {
+    if (H5Dget_storage_size(set) != bytes) throw Damage{fmt::format("{} is not in the file", name)};
   }
   Handle open_array(const char* name) const {
     require_part_of_file(name);
@@ -219,6 +227,7 @@ class Reader {
       if (n > most) throw Damage{fmt::format("{} is longer than the file", name)};
       most = n > 0 ? most / n : most;
     }
+    require_stored(set, name, std::accumulate(size.begin(), size.end(), hsize_t{sizeof(double)}, std::multiplies<>()));
     return size;
   }
   static void read(hid_t set, const char* name, double* values, bool empty) {
