@@ -4,8 +4,8 @@
 usage: compare_builds.py WORK_DIR [--case CASE] [--set KEY=VALUE ...] [--variant NAME ...] [--jobs 2] [--record FILE.csv]
 
 Builds each variant in WORK_DIR/<name>, runs the case twice with each, with one and two threads, and compares: the two runs must have the same bits in every file, and the numbers may differ from
-those of the first variant by the tolerance only. Exits with 0 if both hold. --record writes the table.
-Example: tools/compare_builds.py build-variants --variant g++-native --variant g++-sse2
+those of the first variant by the tolerance only. Whoever asks for less than the preload does (run.preload_tolerance) compares where its iterations end. Exits with 0 if both hold. --record writes the table.
+Example: tools/compare_builds.py build-variants --set run.preload_tolerance=1e-10 --variant g++-native --variant g++-sse2
 """
 import argparse
 import csv

@@ -20,10 +20,11 @@ StepSpectrum lanczos(const DeformableBody& body, int iterations, Stiffness&& sti
     });
   };
   Field r = body.solid.layout().field(), z = r, q = r, s_q = r, s_before = r;
-  std::uint64_t seed = 0x9E3779B97F4A7C15ull;  // any fixed start will do
+  std::uint64_t seed = 0x9E3779B97F4A7C15ull;  // any fixed start will do; the same for every width of vectors, to which lines are filled up
   for (std::ptrdiff_t i = 0; i < n; ++i) {
+    if (body.inverse_mass[i] == 0) continue;
     seed = seed * 6364136223846793005ull + 1442695040888963407ull;
-    if (body.inverse_mass[i] > 0) r[i] = (static_cast<double>(seed >> 11) * 0x1p-53 - 0.5) * std::sqrt(body.mass[i]);
+    r[i] = (static_cast<double>(seed >> 11) * 0x1p-53 - 0.5) * std::sqrt(body.mass[i]);
   }
   z = r;
   solve(z);
