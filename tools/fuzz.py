@@ -78,10 +78,10 @@ def breaks_again(target, find, kind):
 
 def run_once(target, reader, build, seconds, runs):
     """One call of libFuzzer: its row of the table, and the finds."""
-    learned, finds = build / "learned" / reader, build / "finds"
+    learned, finds = build / "learned" / reader, build / "finds" / reader
     learned.mkdir(parents=True, exist_ok=True)
-    finds.mkdir(exist_ok=True)
-    before = set(finds.iterdir())
+    finds.mkdir(parents=True, exist_ok=True)
+    before = set(finds.iterdir())  # a folder a reader: two may be driven at the same time
     begin = time.monotonic()
     words = [target, *LIMITS, f"-max_len={LONGEST[reader]}", f"-max_total_time={max(1, round(seconds))}", f"-runs={runs}", "-print_final_stats=1", "-reload=0", f"-artifact_prefix={finds}/{reader}-",
              learned, ROOT / "fuzz" / "corpus" / reader]

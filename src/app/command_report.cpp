@@ -11,8 +11,8 @@ namespace railstrata {
 namespace {
 
 std::filesystem::path page_of(const CommandOptions& options) {
-  const std::filesystem::path page = options.out.empty() ? options.folders.front() / "report.html" : options.out;
-  if (std::filesystem::is_directory(page)) return page / "report.html";
+  std::filesystem::path page = options.out.empty() ? options.folders.front() / "report.html" : options.out;
+  if (std::filesystem::is_directory(page)) page /= "report.html";
   return page;
 }
 

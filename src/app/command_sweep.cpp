@@ -53,7 +53,7 @@ std::vector<SweepCase> load_cases(const CommandOptions& options, const LoadedCas
       if (!first_error) first_error = e;
     }
   }
-  if (!any) throw *first_error;
+  if (!any) throw CaseError(*first_error);
   return cases;
 }
 

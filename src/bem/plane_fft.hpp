@@ -60,7 +60,7 @@ class PlaneFft {
   struct Plans;
   /// A plane transformed along y: nx + 1 rows of groups_ * kGroup wave numbers. Planes lie one after the other in a buffer that the calling thread keeps.
   std::size_t plane_size() const { return static_cast<std::size_t>(nx_ + 1) * pitch(); }
-  std::size_t pitch() const { return static_cast<std::size_t>(groups_ * kGroup); }
+  std::size_t pitch() const { return static_cast<std::size_t>(groups_) * kGroup; }
   std::size_t group_size() const { return static_cast<std::size_t>(mx_) * kGroup; }
   Complex* rows_in(const std::vector<const double*>& in, std::size_t planes) const;
   Complex* group_buffer(std::size_t planes) const;

@@ -135,8 +135,6 @@ class StudyReader {
     return listed.empty() ? out : product(out, listed, t);
   }
 
-  static constexpr std::size_t kMostCases = 100'000;  // of a group
-
   std::vector<StudyPoint> product(const std::vector<StudyPoint>& a, const std::vector<StudyPoint>& b, const toml::table& group) {
     std::vector<StudyPoint> out;
     if (a.size() * b.size() > kMostCases) {

@@ -44,6 +44,8 @@ std::vector<VariedKey> parse_vary(const std::vector<std::string>& options) {
 std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>& keys) {
   std::vector<std::vector<std::string>> out(1);
   for (const VariedKey& k : keys) {
+    if (out.size() * k.values.size() > kMostCases)
+      throw CaseError(fmt::format("these are more than {} cases", kMostCases), "vary fewer keys at once, or give fewer values");
     std::vector<std::vector<std::string>> longer;
     for (const auto& head : out)
       for (const std::string& value : k.values) {

@@ -1,5 +1,6 @@
 #pragma once
 // Keys of a case that take several values: what `sweep` gets on its command line and `study` from its file.
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,10 @@ struct VariedKey {
 /// Reads "key=v1,v2,…"; blanks around values do not count. Throws CaseError: no "=", no or an empty value, a key given twice.
 std::vector<VariedKey> parse_vary(const std::vector<std::string>& options);
 
-/// Every combination, the last key changing fastest: per case the value of each key. One empty combination of no keys.
+/// As many combinations as a sweep or a group of a study may have.
+inline constexpr std::size_t kMostCases = 100'000;
+
+/// Every combination, the last key changing fastest: per case the value of each key. One empty combination of no keys. Throws CaseError beyond kMostCases.
 std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>& keys);
 
 }  // namespace railstrata

@@ -35,6 +35,9 @@ TEST(Variation, TheLastKeyChangesFastest) {
   const std::vector<std::vector<std::string>> wanted{{"1", "x"}, {"1", "y"}, {"2", "x"}, {"2", "y"}};
   EXPECT_EQ(combinations({{"a.b", {"1", "2"}}, {"c.d", {"x", "y"}}}), wanted);
   EXPECT_EQ(combinations({}).size(), 1u);
+  const std::vector<std::string> ten(10, "1");
+  EXPECT_EQ(combinations({{"a", ten}, {"b", ten}, {"c", ten}}).size(), 1000u);
+  EXPECT_THROW(combinations({{"a", ten}, {"b", ten}, {"c", ten}, {"d", ten}, {"e", ten}, {"f", {"1", "2"}}}), CaseError);
 }
 
 TEST(StudyFile, AGridIsEveryCombinationInTheOrderOfTheFile) {
