@@ -53,7 +53,8 @@ Stepper::Stepper(const RollingSystem& system, StepperMemory memory) : Stepper(sy
   const RollingState& s = memory.state;
   const auto surface_nodes = static_cast<std::size_t>(sys_.rail_surface.columns) * sys_.rail_surface.stations.nodes();
   if (s.u_rail.size() != f_rail_.size() || s.v_rail.size() != f_rail_.size() || s.u_wheel.size() != f_wheel_.size() || s.v_wheel.size() != f_wheel_.size() ||
-      s.groups.size() != static_cast<std::size_t>(sys_.model.spec.vehicle.suspension_groups) || s.tractions.all().size() != surface_nodes)
+      s.groups.size() != static_cast<std::size_t>(sys_.model.spec.vehicle.suspension_groups) || s.tractions.all().size() != surface_nodes ||
+      s.tractions.stations() != sys_.rail_surface.stations.nodes())
     throw CaseError("the saved state is that of another mesh", "start the run anew");
   state_ = std::move(memory.state);
   balance_ = memory.balance;

@@ -82,9 +82,14 @@ TEST(Resume, WithAPenaltyToo) {
 TEST(Resume, AMemoryOfAnotherMeshIsRefused) {
   const RollingSystem system = small_system(small_case());
   Stepper st(system, solve_preload(system, 1e-3));
-  StepperMemory memory = st.memory();
-  memory.state.u_rail.pop_back();
-  EXPECT_THROW(Stepper(system, memory), CaseError);
+  const StepperMemory whole = st.memory();
+  StepperMemory shorter = whole, turned = whole;
+  shorter.state.u_rail.pop_back();
+  EXPECT_THROW(Stepper(system, shorter), CaseError);
+  const TractionMemory& t = whole.state.tractions;  // as many nodes, another grid
+  turned.state.tractions = TractionMemory(t.stations(), static_cast<int>(t.all().size()) / t.stations());
+  EXPECT_THROW(Stepper(system, turned), CaseError);
+  EXPECT_NO_THROW(Stepper(system, whole));
 }
 
 }  // namespace railstrata
