@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -42,6 +43,26 @@ RunState small_run(double time) {
   r.started = true;
   r.frame_times = {0, 1e-4};
   return r;
+}
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool kOwnHeap = false;  // a sanitizer looks after the memory
+#elif defined(__has_feature)
+constexpr bool kOwnHeap = !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer) && !__has_feature(memory_sanitizer);
+#else
+constexpr bool kOwnHeap = true;
+#endif
+
+/// Bytes that someone holds, and those in the machine's memory that are no file's.
+long held_memory() {
+  const auto heap = mallinfo2();
+  return static_cast<long>(heap.uordblks + heap.hblkhd);
+}
+long resident_memory() {
+  std::ifstream in("/proc/self/status");
+  for (std::string word; in >> word;)
+    if (long kilobytes = 0; word == "RssAnon:" && in >> kilobytes) return 1024 * kilobytes;
+  return 0;
 }
 
 class Checkpoints : public testing::Test {
@@ -89,6 +110,32 @@ TEST_F(Checkpoints, TheSameStateHasTheSameBytesASecondLater) {
   const std::string bytes = checkpoint_bytes(kOrigin, small_run(1e-3));
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
   EXPECT_TRUE(checkpoint_bytes(kOrigin, small_run(1e-3)) == bytes);
+}
+
+// Of the library's blocks for files to come, none fits the history that has grown meanwhile.
+TEST_F(Checkpoints, AGrowingHistoryLeavesNoMemoryBehind) {
+  if (!kOwnHeap) GTEST_SKIP() << "the heap is a sanitizer's";
+  RunState r = small_run(1e-3);
+  r.result.history.reserve(4000);
+  long first = 0;
+  for (int k = 0; k < 100; ++k) {
+    r.result.history.resize(r.result.history.size() + 20);
+    write_checkpoint(folder, kOrigin, r);
+    if (k == 10) first = held_memory();
+  }
+  EXPECT_GT(first, 0);
+  EXPECT_LT(held_memory() - first, 16 << 10);
+}
+
+TEST_F(Checkpoints, TheSystemHasTheMemoryBack) {
+  if (!kOwnHeap) GTEST_SKIP() << "the heap is a sanitizer's";
+  RunState r = small_run(1e-3);
+  write_checkpoint(folder, kOrigin, r);
+  r.stepper.state.u_rail.assign(std::size_t{12} << 17, 1.0);  // 12 MiB, below what malloc gives back by itself
+  const long before = resident_memory();
+  for (int k = 0; k < 3; ++k) write_checkpoint(folder, kOrigin, r);
+  EXPECT_GT(before, 12 << 20);
+  EXPECT_LT(resident_memory() - before, 1 << 20);
 }
 
 TEST_F(Checkpoints, EveryFlippedByteIsFound) {
