@@ -13,9 +13,9 @@
 namespace railstrata {
 namespace {
 
-// Peaks of runs between 50 and 350 thousand nodes: 45 to 70 MB and 270 bytes a node. A checkpoint holds the four fields of the state four times over: the last good
-// state, the one to write, HDF5's image of it and the file's bytes.
-constexpr double kBytesPerNode = 300 + 4 * 96, kBase = 60e6;
+// Peaks of runs between 50 and 350 thousand nodes: 45 to 70 MB and 270 bytes a node. A checkpoint holds the four fields of the state three times over: the last good
+// state, which is the one to write, HDF5's image of it and the file's bytes.
+constexpr double kBytesPerNode = 300 + 3 * 96, kBase = 60e6;
 
 /// A file of one number of bytes; without limit if it says so or is not there.
 double number_in(const char* file) {

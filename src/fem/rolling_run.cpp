@@ -113,6 +113,19 @@ RollingSample sample_now(const Stepper& st) {
   return s;
 }
 
+// The tables of a result only grow: a state of some moment does without them, its own are the first rows and samples of those there are later.
+void swap_tables(RunResult& a, RunResult& b) {
+  a.history.swap(b.history);
+  a.positions.swap(b.positions);
+}
+
+void cut_tables(RunResult& result, std::size_t rows, std::size_t samples, const std::vector<Wanted>& wanted) {
+  std::vector<std::size_t> count(result.positions.size(), 0);
+  for (std::size_t k = 0; k < samples; ++k) ++count[wanted[k].group];
+  for (std::size_t g = 0; g < count.size(); ++g) result.positions[g].samples.resize(count[g]);
+  result.history.resize(rows);
+}
+
 RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& st, RunState run, Clock::time_point start_time) {
   const CaseSpec& spec = sys.model.spec;
   RunResult& out = run.result;
@@ -127,17 +140,28 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
     output();
     out.output_wall_seconds += seconds_since(start);
   };
-  auto save = [&] {
-    if (!observer.save) return;
+  RunState good;  // the last one that was looked at, without tables: saved on demand or when a guard speaks
+  std::size_t good_rows = 0;
+  auto remember = [&] {
     require_finite(st);
     out.wall_seconds = earlier_seconds + seconds_since(start_time);
     out.reached_edge = st.reached_edge();
-    run.stepper = st.memory();
-    observer.save(run);
-    run.stepper = {};
+    good = {};  // one at a time
+    RunResult tables;
+    swap_tables(tables, out);
+    good = run;
+    swap_tables(tables, out);
+    good_rows = out.history.size();
+    good.stepper = st.memory();
+  };
+  auto save = [&] {
+    if (!observer.save) return;
+    remember();
+    swap_tables(good.result, out);
+    observer.save(good);
+    swap_tables(good.result, out);
   };
 
-  RunState good;  // of some moment before a guard speaks
   auto one_step = [&] {
     const bool record = st.position() >= run.next_history;
     if (record) st.want_energy();
@@ -177,14 +201,7 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
     if (!st.can_be_remembered()) return true;
     const Demand demand = observer.demand ? observer.demand() : Demand::go_on;
     if (demand != Demand::go_on) timed(save);
-    if (observer.save && st.state().step % kStepsBetweenGoodStates == 0) {
-      timed([&] {
-        require_finite(st);
-        out.wall_seconds = earlier_seconds + seconds_since(start_time);
-        good = run;
-        good.stepper = st.memory();
-      });
-    }
+    else if (observer.save && st.state().step % kStepsBetweenGoodStates == 0) timed(remember);
     return demand != Demand::save_and_stop;
   };
 
@@ -193,7 +210,11 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
       if (between_steps()) one_step();
       else out.stopped = true;
   } catch (const NumericalError&) {
-    if (observer.save && good.stepper.dt > 0) observer.save(good);
+    if (observer.save && good.stepper.dt > 0) {
+      cut_tables(out, good_rows, good.next_sample, wanted);
+      swap_tables(good.result, out);
+      observer.save(good);
+    }
     throw;
   }
   if (out.stopped)  // a position half measured is none

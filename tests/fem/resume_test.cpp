@@ -79,6 +79,36 @@ TEST(Resume, WithAPenaltyToo) {
   expect_same_bits(spec);
 }
 
+// A guard that speaks in the second window, long after the last good state: what is saved goes on to the bits of a run to which nothing happened.
+TEST(Resume, FromTheLastGoodStateToo) {
+  CaseSpec spec = small_case();
+  spec.drive.speed = 12;
+  spec.run.positions = {5e-3, 10e-3};
+  spec.run.window = 4e-3;
+  const RollingSystem system = small_system(spec);
+  const RunResult expected = run_rolling(system, {});
+  RunState saved;
+  RunObserver observer;
+  observer.save = [&](const RunState& state) { saved = state; };
+  observer.history = [&](const HistoryRow& row) {
+    if (row.position > 10e-3) throw NumericalError("a guard");
+  };
+  EXPECT_THROW(run_rolling(system, observer), NumericalError);
+  ASSERT_EQ(saved.result.positions.size(), 2u);
+  EXPECT_GT(saved.stepper.state.step, 0);
+  EXPECT_LT(saved.result.history.back().position, saved.stepper.state.axle.x);
+  EXPECT_GT(saved.result.history.back().position, saved.stepper.state.axle.x - spec.run.history_interval);
+  EXPECT_EQ(saved.result.positions[0].samples.size() + saved.result.positions[1].samples.size(), saved.next_sample);
+  const RunResult found = resume_rolling(system, {}, std::move(saved));
+  EXPECT_EQ(found.steps, expected.steps);
+  EXPECT_TRUE(same_bits(found.history, expected.history));
+  EXPECT_EQ(found.closure, expected.closure);
+  for (std::size_t p = 0; p < 2; ++p) {
+    ASSERT_EQ(found.positions[p].samples.size(), expected.positions[p].samples.size());
+    for (std::size_t k = 0; k < found.positions[p].samples.size(); ++k) EXPECT_TRUE(same_bits(found.positions[p].samples[k].rail.stress, expected.positions[p].samples[k].rail.stress)) << p << ", " << k;
+  }
+}
+
 TEST(Resume, AMemoryOfAnotherMeshIsRefused) {
   const RollingSystem system = small_system(small_case());
   Stepper st(system, solve_preload(system, 1e-3));
