@@ -104,8 +104,9 @@ TEST(Resume, FromTheLastGoodStateToo) {
   EXPECT_TRUE(same_bits(found.history, expected.history));
   EXPECT_EQ(found.closure, expected.closure);
   for (std::size_t p = 0; p < 2; ++p) {
-    ASSERT_EQ(found.positions[p].samples.size(), expected.positions[p].samples.size());
-    for (std::size_t k = 0; k < found.positions[p].samples.size(); ++k) EXPECT_TRUE(same_bits(found.positions[p].samples[k].rail.stress, expected.positions[p].samples[k].rail.stress)) << p << ", " << k;
+    const auto &a = found.positions[p].samples, &b = expected.positions[p].samples;
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_TRUE(same_bits(a[k].rail.stress, b[k].rail.stress)) << p << ", " << k;
   }
 }
 

@@ -5,9 +5,9 @@ Runs soak.toml twice at the same time, once in one go and once interrupted again
 grow and every result file is equal. --record adds a line with what was seen.
 
 The memory is that of the run in one go, anonymous only (RssAnon): pages of the program and its libraries are files' (RssFile), which come in whenever code runs for the first time and go when the
-system wants; the first checkpoint alone touches 3 MB of HDF5. It counts from the second checkpoint on, when every kind of output has been written once, to where the window of the result begins,
-whose samples are kept by design: the first fifth of that path against the last, by medians, which do not see the moments in which a checkpoint is being made. By design the history alone grows: two
-tables (the run's and that of its last good state) of 200 bytes a row, each up to twice as long as needed: 0.1 MB in 65 mm."""
+system wants; the first checkpoint alone touches 3 MB of HDF5. It counts after the second checkpoint, when every kind of output has been written once, to where the window of the result begins,
+whose samples are kept by design: the first fifth of that path against the last, by medians, which do not see the moments in which a checkpoint is being made. By design the history alone grows: 200
+bytes a row, in a table up to twice as long as needed, 0.05 MB in 65 mm. A checkpoint that leaves one block of the history's size behind is found."""
 import argparse
 import csv
 import json
@@ -23,7 +23,7 @@ import typing
 HERE = pathlib.Path(__file__).resolve().parent
 CASE = HERE / "soak.toml"
 MILLION = 1_000_000
-ROW = 2 * 2 * 200  # bytes of a row of the history
+ROW = 2 * 200  # bytes of a row of the history
 LEAST_GROWTH = 1 << 18  # bytes, beyond the history; the heap's rounding
 WARM = 2  # checkpoints
 WINDOW = 4  # mm before the end: half of that in soak.toml, and a station
