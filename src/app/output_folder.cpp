@@ -15,6 +15,10 @@
 
 namespace railstrata {
 
+namespace {
+constexpr const char* kProbe = ".writable";  // is made and removed: whether a folder can be written
+}
+
 FolderHold::FolderHold(const std::filesystem::path& folder, bool shared) : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0 || ::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(descriptor_);
@@ -34,12 +38,12 @@ FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force
     throw EnvironmentError(fmt::format("cannot make the output folder {}: {}", folder.string(), error ? error.message() : "a file of this name is in the way"), "choose another with --out");
   FolderHold hold(folder, shared_mark != nullptr);
   bool empty = true;  // but for what others that begin at this moment are still writing, or have left so
-  for (auto entry = std::filesystem::directory_iterator(folder, error); !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) empty = empty && is_part(entry->path().filename().string());
+  for (auto entry = std::filesystem::directory_iterator(folder, error); !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) empty = empty && (is_part(entry->path().filename().string()) || entry->path().filename() == kProbe);
   if (error) throw EnvironmentError(fmt::format("cannot read the output folder {}: {}", folder.string(), error.message()));
   const bool begun = shared_mark && std::filesystem::exists(folder / shared_mark);  // after the look around: it may have come meanwhile
   if (!empty && !begun && !force)
     throw CaseError(fmt::format("the output folder {} is not empty", folder.string()), "choose another with --out, or overwrite files of the same name with --force");
-  const std::filesystem::path probe = folder / (".writable" + part_ending());
+  const std::filesystem::path probe = folder / kProbe;
   write_whole_file(probe, "");
   std::filesystem::remove(probe, error);
   return hold;

@@ -40,7 +40,7 @@ std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSp
       return it->op;
     }
   }
-  const auto op = std::make_shared<const InfluenceOperator>(combined_compliance(layered_compliance(wheel), layered_compliance(rail)), g.nx, g.ny, g.dx, g.dy);
+  auto op = std::make_shared<const InfluenceOperator>(combined_compliance(layered_compliance(wheel), layered_compliance(rail)), g.nx, g.ny, g.dx, g.dy);
   const std::lock_guard lock(state_->mutex);
   state_->entries.push_front({wheel, rail, g.nx, g.ny, g.dx, g.dy, op});
   if (state_->entries.size() > State::kEntries) state_->entries.pop_back();

@@ -27,7 +27,7 @@ InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int 
   const auto table = rectangle_influence_table(pair, fft_.mx() / 2 + 1, fft_.my() / 2 + 1, dx, dy);
   using I = RectangleInfluence;
   near_[0] = table[0];
-  near_[1] = table[static_cast<std::size_t>(fft_.my() / 2 + 1)];
+  near_[1] = table[fft_.my() / 2 + 1];
   nn_hat_ = fft_.spectrum(component(table, &I::nn), 1, 1);
   xx_hat_ = fft_.spectrum(component(table, &I::xx), 1, 1);
   xy_hat_ = fft_.spectrum(component(table, &I::xy), -1, -1);
@@ -55,14 +55,14 @@ namespace {
 
 struct ScalarProduct {
   const double* s;
-  void operator()(std::size_t first, int count, Complex** z) const {
+  void operator()(std::size_t first, int count, const PlaneFft::Spectra& z) const {
     for (int k = 0; k < count; ++k) z[0][k] *= s[first + static_cast<std::size_t>(k)];
   }
 };
 
 struct SymmetricProduct {
   const double *xx, *xy, *yy;
-  void operator()(std::size_t first, int count, Complex** z) const {
+  void operator()(std::size_t first, int count, const PlaneFft::Spectra& z) const {
     Complex *a = z[0], *b = z[1];
     for (int k = 0; k < count; ++k) {
       const std::size_t i = first + static_cast<std::size_t>(k);
@@ -95,7 +95,7 @@ void InfluenceOperator::tangential_from_pressure(const double* p, double* u_x, d
     std::fill(u_y, u_y + static_cast<std::ptrdiff_t>(rows) * ny(), 0.0);
     return;
   }
-  fft_.apply({p}, {u_x, u_y}, rows, [this](std::size_t first, int count, Complex** z) {
+  fft_.apply({p}, {u_x, u_y}, rows, [this](std::size_t first, int count, const PlaneFft::Spectra& z) {
     Complex *a = z[0], *b = z[1];
     for (int k = 0; k < count; ++k) {
       const std::size_t i = first + static_cast<std::size_t>(k);
@@ -111,7 +111,7 @@ void InfluenceOperator::normal_from_traction(const double* q_x, const double* q_
     std::fill(closing, closing + static_cast<std::ptrdiff_t>(nx()) * ny(), 0.0);
     return;
   }
-  fft_.apply({q_x, q_y}, {closing}, nx(), [this](std::size_t first, int count, Complex** z) {
+  fft_.apply({q_x, q_y}, {closing}, nx(), [this](std::size_t first, int count, const PlaneFft::Spectra& z) {
     Complex *a = z[0], *b = z[1];
     for (int k = 0; k < count; ++k) {
       const std::size_t i = first + static_cast<std::size_t>(k);

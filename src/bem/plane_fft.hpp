@@ -3,7 +3,6 @@
 //
 // A plane of nx x ny values is padded to mx x my. Only its nx rows are transformed along y, the padding never is; the transforms along x, the product with the kernel
 // and the transforms back are done group by group of columns, in cache.
-#include <cassert>
 #include <complex>
 #include <memory>
 #include <vector>
@@ -33,23 +32,25 @@ class PlaneFft {
   /// are the real or the imaginary part. table[i * (my/2 + 1) + j], i = 0 … mx/2, j = 0 … my/2. Divided by mx my, so that `multiply` needs no scaling.
   std::vector<double> spectrum(const std::vector<double>& table, int parity_x, int parity_y) const;
 
+  /// Entries of several planes' spectra: z[c] points to those of plane c.
+  struct Spectra {
+    std::complex<double>* first;
+    std::size_t apart;
+    std::complex<double>* operator[](std::size_t c) const { return first + c * apart; }
+  };
+
   /// in: planes of nx x ny; out: planes of rows_out x ny (rows_out <= nx + 1). Calls multiply(first, count, z) on `count` = mx consecutive spectrum entries starting at
-  /// index `first`: z[c] holds input c transformed and is to be replaced by output c transformed. There are max(in, out) planes; those without an input hold anything.
+  /// index `first`: z[c] holds input c transformed and is to be replaced by output c transformed (Spectra). There are max(in, out) planes; those without an input hold anything.
   template <class Multiply>
   void apply(const std::vector<const double*>& in, const std::vector<double*>& out, int rows_out, Multiply&& multiply) const {
-    constexpr std::size_t most = 9;
     const std::size_t planes = in.size() > out.size() ? in.size() : out.size();
-    assert(planes <= most);
     Complex* work = rows_in(in, planes);
     for_each_if(threads_pay(), groups_, [&](int group) {
-      Complex* z[most];
-      for (std::size_t c = 0; c < planes; ++c) z[c] = group_buffer(planes) + c * group_size();
-      for (std::size_t c = 0; c < in.size(); ++c) columns_in(work + c * plane_size(), group, z[c]);
-      for (int ky = group * kGroup; ky < (group + 1) * kGroup && ky < width_; ++ky) {
-        multiply(static_cast<std::size_t>(ky) * static_cast<std::size_t>(mx_), mx_, z);
-        for (std::size_t c = 0; c < planes; ++c) z[c] += mx_;
-      }
-      for (std::size_t c = 0; c < out.size(); ++c) columns_out(work + c * plane_size(), group, group_buffer(planes) + c * group_size(), rows_out);
+      const Spectra columns{group_buffer(planes), group_size()};
+      for (std::size_t c = 0; c < in.size(); ++c) columns_in(work + c * plane_size(), group, columns[c]);
+      Spectra z = columns;
+      for (int ky = group * kGroup; ky < (group + 1) * kGroup && ky < width_; ++ky, z.first += mx_) multiply(static_cast<std::size_t>(ky) * static_cast<std::size_t>(mx_), mx_, z);
+      for (std::size_t c = 0; c < out.size(); ++c) columns_out(work + c * plane_size(), group, columns[c], rows_out);
     });
     rows_out_of(work, out, rows_out);
   }

@@ -49,7 +49,7 @@ void convolve(const PlaneFft& fft, const std::vector<const double*>& loads, cons
       for (std::size_t i = 0; i < table.size(); ++i) values[i] = value(table[i], load, s);
       hat[load][s] = fft.spectrum(values, parity[load][s].x, parity[load][s].y);
     }
-  fft.apply(loads, out, fft.nx(), [&](std::size_t first, int count, Complex** z) {
+  fft.apply(loads, out, fft.nx(), [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
     for (int k = 0; k < count; ++k) {
       const Complex load[3] = {z[0][k], z[1][k], z[2][k]};
       for (std::size_t s = 0; s < N; ++s) {
@@ -167,7 +167,7 @@ struct Subsurface::Layered {
     const double scale = 1 / points();
     Planes wide;
     const std::vector<double*> out = pointers(wide, n);
-    fft.apply({spread[0].data(), spread[1].data(), spread[2].data()}, out, nx, [&](std::size_t first, int count, Complex** z) {
+    fft.apply({spread[0].data(), spread[1].data(), spread[2].data()}, out, nx, [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
       const int block = static_cast<int>(first / static_cast<std::size_t>(count));
       std::array<Complex, kStates> value;
       for (int e = 0; e < count; ++e) {
@@ -195,7 +195,7 @@ struct Subsurface::Layered {
     const double w[6] = {-d[1] * d[2] * d345 / 120, d[0] * d[2] * d345 / 24, -d01 * d345 / 12, d012 * d45 / 12, -d012 * d[3] * d[5] / 24, d012 * d[3] * d[4] / 120};
     WaveResponse out;
     for (int l = 0; l < 6; ++l)
-      for (auto m : kResponse) out.*m += w[l] * node[static_cast<std::size_t>(i + l)].*m;
+      for (auto m : kResponse) out.*m += w[l] * node[i + l].*m;
     return out;
   }
 };
