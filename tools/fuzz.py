@@ -81,7 +81,7 @@ def run_once(target, reader, build, seconds, runs):
     learned, finds = build / "learned" / reader, build / "finds" / reader
     learned.mkdir(parents=True, exist_ok=True)
     finds.mkdir(parents=True, exist_ok=True)
-    before = set(finds.iterdir())  # a folder a reader: two may be driven at the same time
+    before = set(finds.glob(f"{reader}-*"))  # a folder a reader: two may be driven at the same time
     begin = time.monotonic()
     words = [target, *LIMITS, f"-max_len={LONGEST[reader]}", f"-max_total_time={max(1, round(seconds))}", f"-runs={runs}", "-print_final_stats=1", "-reload=0", f"-artifact_prefix={finds}/{reader}-",
              learned, ROOT / "fuzz" / "corpus" / reader]
@@ -90,7 +90,7 @@ def run_once(target, reader, build, seconds, runs):
     counts = [int(n) for n in re.findall(r"number_of_executed_units: (\d+)|^#(\d+)", done.stderr, re.M) for n in n if n]
     row["executions"] = max(counts, default=0)
     found = []
-    for find in sorted(set(finds.iterdir()) - before):
+    for find in sorted(set(finds.glob(f"{reader}-*")) - before):
         kind = find.name.removeprefix(reader + "-").split("-")[0]
         if not breaks_again(target, find, kind):
             print(f"{reader:12} {find.name} does not break again", flush=True)
