@@ -127,7 +127,7 @@ QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, co
     r.gx[k] = mean.b(0, k + 4);
     r.gy[k] = mean.b(1, k + 4);
     r.gz[k] = mean.b(2, k + 4);
-    const Vec3 x = corners[static_cast<std::size_t>(k + 4)];
+    const Vec3 x = corners[k + 4];
     r.even_y += 2 * kEtaZeta[k] * x.y;
     r.even_z += 2 * kEtaZeta[k] * x.z;
     r.odd[0] += 2 * kEta[k] * x.x;

@@ -71,7 +71,8 @@ std::vector<double> sample_positions(const RollingSystem& s, double position) {
   const auto& at = s.rail_surface.stations.at;
   const auto near = std::lower_bound(at.begin(), at.end(), position);
   const double spacing = *near - *std::prev(near);
-  const int half = std::max(1, static_cast<int>(std::lround(0.5 * s.model.spec.run.window / spacing)));
+  constexpr double kRounding = 1e-6;  // half a window of two and a half elements is three by every instruction set
+  const int half = std::max(1, static_cast<int>(std::lround(0.5 * s.model.spec.run.window / spacing + kRounding)));
   std::vector<double> out;
   for (int k = -half; k <= half; ++k) out.push_back(position + k * spacing);
   return out;

@@ -28,7 +28,7 @@ Json number_schema(const Option& option) {
 }
 
 Json quantity_schema(const Option& option) {
-  const Json text{{"type", "string"}, {"pattern", "^\\s*[-+]?[0-9.]"}};
+  Json text{{"type", "string"}, {"pattern", "^\\s*[-+]?[0-9.]"}};
   if (option.dimension == dimension::kNumber || option.dimension == dimension::kSlope) return {{"anyOf", {number_schema(option), text}}};
   return text;
 }
