@@ -108,7 +108,7 @@ class TreeReader {
 
   void read_table(const OptionTable& table, const std::string& name, std::size_t index, const toml::table& entries) {
     for (const auto& [key, node] : entries) {
-      const std::string word(key.str()), full = name + "." + word;
+      const std::string word(key.str()), full = fmt::format("{}.{}", name, word);
       const auto option = std::find_if(table.options.begin(), table.options.end(), [&](const Option& o) { return o.key == word; });
       if (option == table.options.end()) {
         source_.remember(full, place_of(key.source()));
@@ -293,9 +293,8 @@ class TreeReader {
   /// Values point at the value, tables and keys set by an override at nothing of the text.
   void remember(const std::string& full, const toml::key& key, const toml::node& node) {
     const TextPlace value = place_of(node.source()), name = place_of(key.source());
-    if (!node.is_table() && value.line > 0) source_.remember(full, value);
-    else if (name.line > 0) source_.remember(full, name);
-    else if (value.line > 0) source_.remember(full, value);
+    const bool by_name = name.line > 0 && (node.is_table() || value.line == 0);
+    if (const TextPlace& at = by_name ? name : value; at.line > 0) source_.remember(full, at);
   }
 
   static const OptionTable* find_table(std::string_view name) {
