@@ -9,7 +9,7 @@
 
 namespace railstrata {
 
-struct ResultFolder {
+struct ResultFolder {  // NOLINT(bugprone-exception-escape): the move of json is declared not to throw, and does not
   std::filesystem::path folder;
   std::string title, engine;
   nlohmann::json summary;  ///< summary.json

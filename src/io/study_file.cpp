@@ -255,7 +255,7 @@ class StudyReader {
   }
 
   std::string length(const toml::table& t, const char* key) {
-    const std::string written = text(t, key, "");
+    std::string written = text(t, key, "");
     try {
       if (!written.empty() && !(parse_quantity(written, dimension::kLength) > 0 && std::isfinite(parse_quantity(written, dimension::kLength))))
         source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": must be above 0 mm", key, written), "write a length, e.g. \"0.5 mm\"");
@@ -286,7 +286,7 @@ class StudyReader {
   }
 
   std::string choice(const toml::table& t, const char* key, const std::vector<std::string>& choices) {
-    const std::string word = text(t, key, "");
+    std::string word = text(t, key, "");
     if (std::find(choices.begin(), choices.end(), word) == choices.end())
       source_.complain_at(t.contains(key) ? place_of(*t.get(key)) : place_of(t), fmt::format("{} = \"{}\": must be one of \"{}\"", key, word, fmt::join(choices, "\", \"")), fmt::format("write {} = \"{}\"", key, choices.front()));
     return word;

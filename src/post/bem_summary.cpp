@@ -38,7 +38,7 @@ StressSummary stress_summary(const SubsurfacePeaks& p) {
 bool reaches_edge(const ContactField& f) {
   for (int s = 0; s < f.stations; ++s)
     for (int c = 0; c < f.columns; ++c)
-      if ((s == 0 || c == 0 || s + 1 == f.stations || c + 1 == f.columns) && f.p[static_cast<std::size_t>(c + f.columns * s)] > 0) return true;
+      if ((s == 0 || c == 0 || s + 1 == f.stations || c + 1 == f.columns) && f.p[c + f.columns * s] > 0) return true;
   return false;
 }
 
