@@ -19,7 +19,7 @@ struct CaseOption {
 };
 
 /// A result folder, read whole. What an older folder has not is empty.
-struct ReportRun {
+struct ReportRun {  // NOLINT(bugprone-exception-escape): as of ResultFolder
   std::string name;                              ///< what the report calls it
   ResultFolder result;                           ///< summary.json, patch.csv
   std::vector<CaseOption> options;               ///< case.toml
