@@ -169,6 +169,8 @@ void Profile::set_origin() {
   graph_end_ = graph_end(true);
   graph_y_begin_ = at(graph_begin_).position.y;
   graph_y_end_ = at(graph_end_).position.y;
+  if (!(graph_y_begin_ <= 0 && graph_y_end_ >= 0 && graph_y_begin_ < graph_y_end_))
+    throw CaseError(name_ + ": the profile turns back at y = 0", "mend the points near y = 0, or smooth them; y must increase towards the field side there");
 }
 
 }  // namespace railstrata
