@@ -40,6 +40,11 @@ def table(file):
     return list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#")))
 
 
+def numbers(rows):
+    """Without how a case was computed, which two studies may do differently."""
+    return [{key: value for key, value in row.items() if key not in ("wall_s", "threads")} for row in rows]
+
+
 class StudyTest(FromOutside):
     def setUp(self):
         super().setUp()
@@ -127,7 +132,6 @@ class Cases(StudyTest):
         alone = self.folder / "alone"
         rc, _, err = railstrata("study", self.study(GRID), "--out", alone, "--no-report")
         self.assertEqual(rc, 0, err)
-        same = {"wall_s", "threads"}
         for turn in range(5):
             for shards in ([], [], []), (["--shard", "1/3"], ["--shard", "2/3"], ["--shard", "3/3"]):
                 all_at_once = [subprocess.Popen([BINARY, "study", self.study(GRID), "--out", self.out, "--no-report", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for words in shards]
@@ -137,7 +141,7 @@ class Cases(StudyTest):
                 self.assertEqual(self.left_behind(), [])
                 self.assertEqual(len(self.stamps()), 6)
                 if not shards[0]:
-                    self.assertEqual([{k: v for k, v in r.items() if k not in same} for r in self.rows()], [{k: v for k, v in r.items() if k not in same} for r in table(alone / "study.csv")])
+                    self.assertEqual(numbers(self.rows()), numbers(table(alone / "study.csv")))
                 shutil.rmtree(self.out)
 
     def test_what_decides_a_result_decides_whether_it_is_computed_again(self):
@@ -340,8 +344,7 @@ class Killed(StudyTest):
         uninterrupted = self.folder / "uninterrupted"
         rc, _, err = railstrata("study", self.folder / "study.toml", "--out", uninterrupted, "--no-report")
         self.assertEqual(rc, 0, err)
-        skip = {"wall_s", "threads"}  # how a case was computed, which two studies may do differently
-        self.assertEqual([{k: v for k, v in r.items() if k not in skip} for r in rows], [{k: v for k, v in r.items() if k not in skip} for r in table(uninterrupted / "study.csv")])
+        self.assertEqual(numbers(rows), numbers(table(uninterrupted / "study.csv")))
 
     def test_a_result_that_was_whole_when_the_study_died_is_taken(self):
         self.solve(GRID)
