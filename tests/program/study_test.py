@@ -16,7 +16,7 @@ import time
 import tomllib
 import unittest
 
-from outside import BINARY, SMALL, TINY, FromOutside, broken_files, fact, railstrata, results
+from outside import BINARY, SMALL, TINY, FromOutside, broken_files, fact, railstrata, results, start
 
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 KILLS = int(sys.argv[3]) if len(sys.argv) > 3 else 4
@@ -51,14 +51,21 @@ class StudyTest(FromOutside):
         self.out = self.folder / "out"
 
     def study(self, text):
-        file = self.folder / "study.toml"
-        file.write_text(text)
-        return file
+        file, new = self.folder / "study.toml", self.folder / "study.toml.new"
+        new.write_text(text)
+        return new.replace(file)  # whole at every moment: a study that has started may still be reading it
 
     def solve(self, text, *words, code=0):
         rc, out, err = railstrata("study", self.study(text), "--out", self.out, "--no-report", *words)
         self.assertEqual(rc, code, err)
         return err
+
+    def start(self, text, *words):
+        return start("study", self.study(text), "--out", self.out, "--no-report", *words)
+
+    def end_well(self, processes, code=0):
+        errors = [process.communicate()[1] for process in processes]  # all of them, so that none outlives a failure
+        self.assertEqual([process.returncode for process in processes], [code] * len(processes), errors)
 
     def rows(self):
         return table(self.out / "study.csv")
@@ -134,10 +141,7 @@ class Cases(StudyTest):
         self.assertEqual(rc, 0, err)
         for turn in range(5):
             for shards in ([], [], []), (["--shard", "1/3"], ["--shard", "2/3"], ["--shard", "3/3"]):
-                all_at_once = [subprocess.Popen([BINARY, "study", self.study(GRID), "--out", self.out, "--no-report", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for words in shards]
-                for process in all_at_once:
-                    _, err = process.communicate()
-                    self.assertEqual(process.returncode, 0, err)
+                self.end_well([self.start(GRID, *words) for words in shards])
                 self.assertEqual(self.left_behind(), [])
                 self.assertEqual(len(self.stamps()), 6)
                 if not shards[0]:
@@ -294,15 +298,9 @@ class Killed(StudyTest):
         self.wait_for_a_checkpoint(process)
         process.send_signal(signal.SIGINT)
         process.communicate()
-        both = [self.start(text, "--threads", "1"), self.start(text, "--threads", "1")]
-        for process in both:
-            _, err = process.communicate()
-            self.assertEqual(process.returncode, self.rc, err)
+        self.end_well([self.start(text, "--threads", "1") for _ in range(2)], code=self.rc)
         self.assertEqual(self.left_behind(), [])
         self.assert_same(expected)
-
-    def start(self, text, *words):
-        return subprocess.Popen([BINARY, "study", self.study(text), "--out", self.out, "--no-report", *words], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def children(self, process):
         return [int(pid) for pid in pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()]
