@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "fem/stable_step.hpp"
 
@@ -40,68 +40,66 @@ double penalty_step(const RollingSystem& sys, const MassScaling& rail) {
 
 }  // namespace
 
+struct StepPlan::Part {
+  const DeformableBody& body;
+  const ContactSurface& surface;
+  BodySteps& steps;
+  double own;  // stable step of the real masses, s
+};
+
 StepPlan::StepPlan(const RollingSystem& sys) {
   const CaseSpec& spec = sys.model.spec;
   find_element_bound(sys, limits);
-  limits.unscaled = limits.lanczos = std::min(lanczos_stable_step(sys.rail), lanczos_stable_step(sys.wheel));
-  if (spec.run.time_step_method == "local") refine_steps(sys);
-  else if (spec.run.time_step_method != "uniform") scale_masses(sys, spec.run.time_step_method == "auto");
+  const std::vector<Part> parts{{sys.rail, sys.rail_surface, rail, lanczos_stable_step(sys.rail)}, {sys.wheel, sys.wheel_surface, wheel, lanczos_stable_step(sys.wheel)}};
+  limits.unscaled = limits.lanczos = std::min(parts[0].own, parts[1].own);
+  if (spec.run.time_step_method == "local") refine_steps(parts, spec);
+  else if (spec.run.time_step_method != "uniform") scale_masses(parts, spec);
   double least = limits.lanczos;
   if (spec.contact.method == "penalty") {
-    limits.contact = penalty_step(sys, rail);
+    limits.contact = penalty_step(sys, rail.scaling);
     least = 1 / std::sqrt(1 / (least * least) + 1 / (limits.contact * limits.contact));
   }
   limits.chosen = rounded_down(spec.run.step_safety * least);
-  if (limits.fine_elements > 0) settle_stages(sys);
+  if (limits.fine_elements > 0) settle_stages(parts);
 }
 
-void StepPlan::scale_masses(const RollingSystem& sys, bool if_worthwhile) {
+void StepPlan::scale_masses(const std::vector<Part>& parts, const CaseSpec& spec) {
   limits.lanczos = HUGE_VAL;
-  for (const auto& [body, scaling] : {std::pair{&sys.rail, &rail}, std::pair{&sys.wheel, &wheel}}) {
-    const double unscaled = lanczos_stable_step(*body);
-    double step = unscaled;
-    *scaling = {*body, wanted_step(*body, sys.model.spec, sys.model.spec.run.mass_scaling_step)};
-    if (!scaling->empty()) step = lanczos_stable_step(*body, *scaling);
-    if (if_worthwhile && step < kWorthwhile * unscaled) *scaling = {}, step = unscaled;
-    limits.added_mass += scaling->report().added_mass;
-    limits.scaled_mass += scaling->report().scaled_mass;
-    if (!scaling->empty()) limits.scaled_where += (limits.scaled_where.empty() ? "" : ", ") + scaling->report().where;
+  for (const auto& [body, surface, steps, own] : parts) {
+    MassScaling& scaling = steps.scaling;
+    scaling = {body, wanted_step(body, spec, spec.run.mass_scaling_step)};
+    double step = scaling.empty() ? own : lanczos_stable_step(body, scaling);
+    if (spec.run.time_step_method == "auto" && step < kWorthwhile * own) scaling = {}, step = own;
+    limits.added_mass += scaling.report().added_mass;
+    limits.scaled_mass += scaling.report().scaled_mass;
+    if (!scaling.empty()) limits.scaled_where += (limits.scaled_where.empty() ? "" : ", ") + scaling.report().where;
     limits.lanczos = std::min(limits.lanczos, step);
   }
 }
 
-void StepPlan::refine_steps(const RollingSystem& sys) {
+void StepPlan::refine_steps(const std::vector<Part>& parts, const CaseSpec& spec) {
   limits.lanczos = HUGE_VAL;
-  for (const auto& [body, steps] : {std::pair{&sys.rail, &rail_steps}, std::pair{&sys.wheel, &wheel_steps}}) {
-    *steps = {*body, solid_options(sys.model.spec), wanted_step(*body, sys.model.spec, 1)};
-    limits.lanczos = std::min(limits.lanczos, steps->empty() ? lanczos_stable_step(*body) : lanczos_coarse_step(*body, *steps));
-    limits.fine_elements += steps->fine_elements();
+  for (const auto& [body, surface, steps, own] : parts) {
+    steps.local = {body, solid_options(spec), wanted_step(body, spec, 1)};
+    limits.lanczos = std::min(limits.lanczos, steps.local.empty() ? own : lanczos_coarse_step(body, steps.local));
+    limits.fine_elements += steps.local.fine_elements();
   }
 }
 
 // Fine and coarse nodes together may stand a little less than the coarse ones alone.
-void StepPlan::settle_stages(const RollingSystem& sys) {
+void StepPlan::settle_stages(const std::vector<Part>& parts) {
   constexpr double kEdge = 3.8, kShorter = 0.95;
-  struct Part {
-    const DeformableBody& body;
-    LocalSteps& steps;
-    const ContactSurface& surface;
-    SurfaceResponse& response;
-    double own;  // stable step, s
-  };
-  std::vector<Part> parts;
-  if (!rail_steps.empty()) parts.push_back({sys.rail, rail_steps, sys.rail_surface, rail_response, lanczos_stable_step(sys.rail)});
-  if (!wheel_steps.empty()) parts.push_back({sys.wheel, wheel_steps, sys.wheel_surface, wheel_response, lanczos_stable_step(sys.wheel)});
-  for (const Part& p : parts)
-    for (;; limits.chosen *= kShorter) {
-      p.steps.set_step(limits.chosen, p.own);
-      const StepSpectrum s = lanczos_spectrum(p.body, p.steps);
+  for (const auto& [body, surface, steps, own] : parts)
+    for (; !steps.local.empty(); limits.chosen *= kShorter) {
+      steps.local.set_step(limits.chosen, own);
+      const StepSpectrum s = lanczos_spectrum(body, steps.local);
       if (s.least > 0 && s.largest < kEdge) break;
     }
-  for (const Part& p : parts) {
-    p.steps.set_step(limits.chosen, p.own);
-    limits.stages = std::max(limits.stages, p.steps.stages());
-    p.response = surface_response(p.body, p.surface, p.steps);
+  for (const auto& [body, surface, steps, own] : parts) {
+    if (steps.local.empty()) continue;
+    steps.local.set_step(limits.chosen, own);
+    limits.stages = std::max(limits.stages, steps.local.stages());
+    steps.response = surface_response(body, surface, steps.local);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Which step a rolling takes and what makes it possible.
 #include <string>
+#include <vector>
 
 #include "fem/local_steps.hpp"
 #include "fem/mass_scaling.hpp"
@@ -20,6 +21,13 @@ struct StepLimits {
   std::string where;
 };
 
+/// How one body's nodes take the plan's step.
+struct BodySteps {
+  MassScaling scaling;       ///< empty: real masses
+  LocalSteps local;          ///< empty: one step for all
+  SurfaceResponse response;  ///< of local steps: how the stages answer a change of the tractions; empty if they do not reach the surface
+};
+
 /// run.time_step_method: `uniform` takes the step of the real masses, `mass_scaling` adds inertia across thin rows (fem/mass_scaling.hpp), `auto` does so for a body
 /// whose step grows by more than the factor kWorthwhile, `local` keeps the real masses and takes inner steps where elements are fast (fem/local_steps.hpp).
 /// The wanted step of thin rows is run.mass_scaling_step times the element size over the matrix's pressure wave speed.
@@ -28,15 +36,14 @@ struct StepPlan {
   explicit StepPlan(const RollingSystem& system);
 
   StepLimits limits;
-  MassScaling rail, wheel;                    ///< empty: real masses
-  LocalSteps rail_steps, wheel_steps;         ///< empty: one step for all
-  bool local() const { return !rail_steps.empty() || !wheel_steps.empty(); }
-  SurfaceResponse rail_response, wheel_response;  ///< of local steps: how the stages answer a change of the tractions; empty if they do not reach the surface
+  BodySteps rail, wheel;
+  bool local() const { return !rail.local.empty() || !wheel.local.empty(); }
 
  private:
-  void scale_masses(const RollingSystem& system, bool if_worthwhile);
-  void refine_steps(const RollingSystem& system);
-  void settle_stages(const RollingSystem& system);
+  struct Part;
+  void scale_masses(const std::vector<Part>& parts, const CaseSpec& spec);
+  void refine_steps(const std::vector<Part>& parts, const CaseSpec& spec);
+  void settle_stages(const std::vector<Part>& parts);
 };
 
 }  // namespace railstrata

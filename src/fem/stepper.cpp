@@ -98,8 +98,8 @@ void Stepper::prepare() {
     sin_node_.emplace_back();
     for (double t : b.stations.at) cos_node_.back().push_back(std::cos(t)), sin_node_.back().push_back(std::sin(t));
   }
-  rail_schedule_ = schedule(sys_.rail, sys_.rail_surface, plan_.rail, plan_.rail_steps);
-  wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface, plan_.wheel, plan_.wheel_steps);
+  rail_schedule_ = schedule(sys_.rail, sys_.rail_surface, plan_.rail);
+  wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface, plan_.wheel);
   for (const DeformableBody::Line& l : sys_.wheel.lines) {
     if (l.component != 0) continue;
     const double z = sys_.model.wheel.blocks[l.block].section.nodes[l.node].z;
@@ -147,7 +147,7 @@ void Stepper::start(const PreloadResult& preload) {
 }
 
 // Nodes on the running surface, at ties, with added mass and those that local steps act on wait for the contact; those that are not free are not updated at all.
-Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling, const LocalSteps& local) const {
+Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSurface& surface, const BodySteps& steps) const {
   Schedule out;
   const SweptBody& mesh = body.solid.body();
   for (const BlockLayout& b : body.solid.layout().blocks) out.at_once.emplace_back(b.nodes, 0);
@@ -159,7 +159,7 @@ Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSur
   for (const Tie& t : mesh.ties) wait(t.master_block, t.master_node0), wait(t.master_block, t.master_node1);
   for (int b = 0; b < static_cast<int>(out.at_once.size()); ++b)
     for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n)
-      if (scaling.acts_on(b, n) || local.acts_on(b, n)) wait(b, n);
+      if (steps.scaling.acts_on(b, n) || steps.local.acts_on(b, n)) wait(b, n);
   for (int b = 0; b < static_cast<int>(out.at_once.size()); ++b)
     for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n)
       if (out.at_once[b][n]) out.bordered.push_back({b, n});
@@ -308,7 +308,7 @@ void Stepper::lift_wheel_surface() {
 // Velocities relative to the frame's travel, in this step's frame components: of the half step before, or the one after the update. Empty without added mass.
 Field Stepper::wheel_velocity(bool before, Field reuse) const {
   Field out = std::move(reuse);
-  if (plan_.wheel.empty()) return out;
+  if (plan_.wheel.scaling.empty()) return out;
   out.assign(state_.v_wheel.size(), 0.0);
   const auto& blocks = sys_.wheel.solid.layout().blocks;
   for (std::size_t b = 0; b < blocks.size(); ++b)
@@ -342,8 +342,8 @@ Field Stepper::wheel_displacement() const {
 
 // Local steps take over all that acts on their nodes, as it stands in the update.
 void Stepper::refine_forces() {
-  plan_.rail_steps.refine(state_.u_rail, 0, {{0, 0, -sys_.gravity}, 0}, f_rail_);
-  plan_.wheel_steps.refine(state_.u_wheel, state_.axle.psi - frame_.psi, {{frame_.sin_psi * sys_.gravity, 0, -frame_.cos_psi * sys_.gravity}, frame_.centrifugal}, f_wheel_);
+  plan_.rail.local.refine(state_.u_rail, 0, {{0, 0, -sys_.gravity}, 0}, f_rail_);
+  plan_.wheel.local.refine(state_.u_wheel, state_.axle.psi - frame_.psi, {{frame_.sin_psi * sys_.gravity, 0, -frame_.cos_psi * sys_.gravity}, frame_.centrifugal}, f_wheel_);
 }
 
 // A force [N] of the wheel on the rail in a row of the contact, to the nodes of both bodies; add(is_wheel, index, force on the node).
@@ -363,13 +363,13 @@ void Stepper::gather_contact(const MortarRows& rows) {
   numbering_.number(rows, wheel, c);
   c.tractions_held = plan_.local();
   c.rail.clear(), c.wheel.clear();
-  c.rail.response = plan_.rail_response.empty() ? nullptr : &plan_.rail_response;
-  c.wheel.response = plan_.wheel_response.empty() ? nullptr : &plan_.wheel_response;
+  c.rail.response = plan_.rail.response.empty() ? nullptr : &plan_.rail.response;
+  c.wheel.response = plan_.wheel.response.empty() ? nullptr : &plan_.wheel.response;
   auto velocity = [](const Field& v, std::ptrdiff_t i, int stride) { return Vec3{v[i], v[i + stride], v[i + 2 * stride]}; };
   for (const ContactRow& r : rows.rows) {
     c.rail.before.push_back(velocity(state_.v_rail, r.rail, rail.stride));
     c.rail.velocity.push_back((1 - rate_ * dt_) * c.rail.before.back() + dt_ * free_acceleration(false, r.rail));
-    c.rail.inverse_mass.push_back(c.rail.response ? c.rail.response->own(r.column) : plan_.rail.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
+    c.rail.inverse_mass.push_back(c.rail.response ? c.rail.response->own(r.column) : plan_.rail.scaling.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
     if (c.rail.response) c.rail.places.push_back({r.column, r.station});
   }
   for (std::ptrdiff_t i : c.wheel_nodes) {
@@ -379,7 +379,7 @@ void Stepper::gather_contact(const MortarRows& rows) {
     if (rate_ > 0) a -= rate_ * frame_.to_model(frame_.step_back(w - Vec3{mean_.x + mean_.spin * arm.z, 0, mean_.z - mean_.spin * arm.x}));
     c.wheel.velocity.push_back(c.wheel.before.back() + dt_ * a);
     if (!c.wheel.response) {
-      c.wheel.inverse_mass.push_back(plan_.wheel.share(i) * sys_.wheel.inverse_mass[i]);
+      c.wheel.inverse_mass.push_back(plan_.wheel.scaling.share(i) * sys_.wheel.inverse_mass[i]);
       continue;
     }
     const std::ptrdiff_t k = i - wheel.first_line;
@@ -456,13 +456,13 @@ void Stepper::apply_contact(const MortarRows& rows) {
     const Vec3 force = row.area * traction_vector(t, row.normal), change = held_.empty() ? force : force - held_[k];
     spread_contact_force(rows, row, change, [&](bool is_wheel, std::ptrdiff_t i, double part) {
       if (plan_.local()) (is_wheel ? wheel_change_ : rail_change_).push_back({i, part});
-      else if (is_wheel) plan_.wheel.add_force(f_wheel_, i, -part);
-      else plan_.rail.add_force(f_rail_, i, -part);
+      else if (is_wheel) plan_.wheel.scaling.add_force(f_wheel_, i, -part);
+      else plan_.rail.scaling.add_force(f_rail_, i, -part);
     });
   }
   if (!plan_.local()) return;
-  plan_.rail_steps.add_forces(rail_change_, f_rail_);
-  plan_.wheel_steps.add_forces(wheel_change_, f_wheel_);
+  plan_.rail.local.add_forces(rail_change_, f_rail_);
+  plan_.wheel.local.add_forces(wheel_change_, f_wheel_);
 }
 
 // Update of one section node's stations begin <= j < end; f: forces by station. measured: with run-up damping and sums.
@@ -658,20 +658,20 @@ void Stepper::step() {
     balance_.hourglass = rail.hourglass + wheel.hourglass;
     balance_.weight = weight_potential();
     balance_.spring = spring_energy();
-    rail_stretch_ = plan_.rail.differences(state_.v_rail, std::move(rail_stretch_));
+    rail_stretch_ = plan_.rail.scaling.differences(state_.v_rail, std::move(rail_stretch_));
     wheel_velocity_ = wheel_velocity(true, std::move(wheel_velocity_));
-    wheel_stretch_ = plan_.wheel.differences(wheel_velocity_, std::move(wheel_stretch_));
+    wheel_stretch_ = plan_.wheel.scaling.differences(wheel_velocity_, std::move(wheel_stretch_));
   }
   internal_forces();
-  plan_.rail.scale(f_rail_);
-  plan_.wheel.scale(f_wheel_);
+  plan_.rail.scaling.scale(f_rail_);
+  plan_.wheel.scaling.scale(f_wheel_);
   contact();
   advance_later();
   balance_.damping += dt_ * sums_.damping;
   advance_axle();
   if (want_energy_) {
     wheel_velocity_ = wheel_velocity(false, std::move(wheel_velocity_));
-    balance_.kinetic = sums_.kinetic + axle_kinetic_ + plan_.rail.kinetic(rail_stretch_, state_.v_rail) + plan_.wheel.kinetic(wheel_stretch_, wheel_velocity_);
+    balance_.kinetic = sums_.kinetic + axle_kinetic_ + plan_.rail.scaling.kinetic(rail_stretch_, state_.v_rail) + plan_.wheel.scaling.kinetic(wheel_stretch_, wheel_velocity_);
     recorded_ = halfway(before, balance_);
   }
   state_.time += dt_;

@@ -146,7 +146,7 @@ class Stepper {
   explicit Stepper(const RollingSystem& system);
   void prepare();
   void start(const PreloadResult& preload);
-  Schedule schedule(const DeformableBody& body, const ContactSurface& surface, const MassScaling& scaling, const LocalSteps& local) const;
+  Schedule schedule(const DeformableBody& body, const ContactSurface& surface, const BodySteps& steps) const;
   void chain_tiles(const DeformableBody& body, Schedule& schedule) const;
   void internal_forces();
   void contact();
