@@ -1,5 +1,7 @@
 #include "geometry/profile.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +15,7 @@ namespace railstrata {
 namespace {
 
 constexpr double kJoin = 1e-9;           // m
+constexpr double kFarthestMiss = 1e-6;    // m
 constexpr double kLongestDetour = 1.25;  // of the curve over the chords between its points; 1.21 where these turn by 120 degrees
 
 /// Signed angle from p0 to p1 about the centre, positive anticlockwise.
@@ -33,6 +36,17 @@ void require_joined(const std::vector<ProfileSegment>& segments) {
   }
 }
 
+void require_following(const std::string& name, const SmoothingSpline& spline, const std::vector<Vec2>& points) {
+  double chords = 0;
+  for (std::size_t i = 1; i < points.size(); ++i) chords += norm(points[i] - points[i - 1]);
+  if (!(spline.s.back() - spline.s.front() < kLongestDetour * chords))
+    throw CaseError(name + ": the smooth curve through the points swings far out between them", "remove stray points, or give more of them where the curve bends");
+  const bool folded = std::adjacent_find(spline.s.begin(), spline.s.end(), [](double a, double b) { return !(b - a > kJoin); }) != spline.s.end();
+  if (folded || !(spline.miss < std::max(2 * spline.tolerance, kFarthestMiss)))
+    throw CaseError(fmt::format("{}: the smooth curve misses the points by {:.3g} mm, for they lie too unevenly", name, 1e3 * spline.miss),
+                    "remove points that nearly repeat their neighbours, or give more of them where they are far apart");
+}
+
 }  // namespace
 
 Profile Profile::from_segments(ProfileKind kind, std::string name, std::vector<ProfileSegment> segments) {
@@ -50,10 +64,7 @@ Profile Profile::from_segments(ProfileKind kind, std::string name, std::vector<P
 Profile Profile::from_points(ProfileKind kind, std::string name, std::vector<Vec2> points) {
   if (const auto defect = find_defect(points)) throw CaseError(name + ": " + defect->message, defect->remedy);
   SmoothingSpline spline = fit_smoothing_spline(points);
-  double chords = 0;
-  for (std::size_t i = 1; i < points.size(); ++i) chords += norm(points[i] - points[i - 1]);
-  if (!(spline.s.back() - spline.s.front() < kLongestDetour * chords))
-    throw CaseError(name + ": the smooth curve through the points swings far out between them", "remove stray points, or give more of them where the curve bends");
+  require_following(name, spline, points);
   Profile out;
   out.kind_ = kind;
   out.name_ = std::move(name);

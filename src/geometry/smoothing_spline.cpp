@@ -197,7 +197,12 @@ SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points) {
       error.push_back(norm(combine(c, k, basis.values(k, t[i])) - points[i]));
     }
     const bool refined = refine(chosen, error, tolerance);
-    if (!refined && round >= 2) return at_knots(basis, c);
+    if (!refined && round >= 2) {
+      SmoothingSpline out = at_knots(basis, c);
+      out.miss = *std::max_element(error.begin(), error.end());
+      out.tolerance = tolerance;
+      return out;
+    }
     t = arc_lengths(basis, c, t);
   }
 }

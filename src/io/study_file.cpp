@@ -139,7 +139,7 @@ class StudyReader {
     std::vector<StudyPoint> out;
     if (a.size() * b.size() > kMostCases) {
       source_.complain_at(place_of(group), fmt::format("this group has more than {} cases", kMostCases), "vary fewer keys at once, or give fewer values");
-      return a;
+      return {};  // nothing more to complain of
     }
     for (const StudyPoint& left : a)
       for (const StudyPoint& right : b) {

@@ -16,7 +16,7 @@ struct VariedKey {
 std::vector<VariedKey> parse_vary(const std::vector<std::string>& options);
 
 /// As many combinations as a sweep or a group of a study may have.
-inline constexpr std::size_t kMostCases = 100'000;
+inline constexpr std::size_t kMostCases = 10'000;
 
 /// Every combination, the last key changing fastest: per case the value of each key. One empty combination of no keys. Throws CaseError beyond kMostCases.
 std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>& keys);

@@ -218,6 +218,12 @@ TEST_F(ReadProfile, a_stray_point_that_the_curve_swings_out_to_is_refused_with_t
   EXPECT_EQ(error, "list.csv: list: the smooth curve through the points swings far out between them\n    remedy: remove stray points, or give more of them where the curve bends");
 }
 
+TEST_F(ReadProfile, points_that_nearly_repeat_each_other_beside_long_gaps_are_refused_with_the_file) {
+  const std::string error = error_of("-24.001 -1.44\n0 0\n0.000002 0.00064\n0.02 0.001\n0.024 0\n20 -1.00048\n");
+  EXPECT_EQ(error.find("list.csv"), 0u) << error;
+  EXPECT_NE(error.find("remedy"), std::string::npos);
+}
+
 TEST_F(ReadProfile, a_curve_that_passes_the_axis_twice_is_refused_with_the_file) {
   const std::string error = error_of("-32 -2.56\n-28 -1.902\n0.32 -0.00256\n24 -5.44\n-0.0 0\n4 -0.04\n8 -0.16\n12 -3.06\n16 -0.64\n20 -1\n24 -1.44\n28 -1.96\n32 -2.56\n");
   EXPECT_EQ(error.find("list.csv"), 0u) << error;
