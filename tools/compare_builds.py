@@ -4,18 +4,19 @@
 usage: compare_builds.py WORK_DIR [--case CASE] [--set KEY=VALUE ...] [--variant NAME ...] [--jobs 2] [--record FILE.csv]
 
 Builds each variant in WORK_DIR/<name>, runs the case twice with each, with one and two threads, and compares: the two runs must have the same bits in every file, and the numbers may differ from
-those of the first variant by the tolerance only. Whoever asks for less than the preload does (run.preload_tolerance) compares where its iterations end. Exits with 0 if both hold. --record writes the table.
+those of the first variant by the tolerance only. Whoever asks for less than the preload does (run.preload_tolerance) compares where its iterations end. Exits with 0 if both hold. --record keeps the rows in the table.
 Example: tools/compare_builds.py build-variants --set run.preload_tolerance=1e-10 --variant g++-native --variant g++-sse2
 """
 import argparse
-import csv
 import json
 import pathlib
 import shutil
 import subprocess
 import sys
 
-SOURCE = pathlib.Path(__file__).resolve().parent.parent
+import records
+
+SOURCE = records.ROOT
 VARIANTS = {  # compiler, instruction set; the first is the reference
     "g++-native": ("g++", None),
     "g++-avx2": ("g++", "-march=x86-64-v3"),
@@ -85,10 +86,7 @@ def main():
         rows.append(row | {"case": options.case.name, "set": "; ".join(options.set), "commit": origin["commit"] + ("+dirty" if origin["dirty"] else ""), "cpu": origin["cpu"]})
         print(", ".join(f"{k} {v}" for k, v in row.items()), flush=True)
     if options.record:
-        with options.record.open("w", newline="") as file:
-            writer = csv.DictWriter(file, rows[0], lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+        records.keep(options.record, ["variant", "case", "set"], rows)
     worst = max(float(r[f"{number}_relative_difference"]) for r in rows for number in NUMBERS)
     different = sum(r["files_different_on_same_path"] for r in rows)
     print(f"largest relative difference {worst:.3g} (tolerance {TOLERANCE:.0e}); files that differ between two runs of one build: {different}")

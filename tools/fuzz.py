@@ -10,7 +10,6 @@ SECONDS: of each reader, 60 if nothing is said; --runs: until results.csv has so
 Exit code: 0 nothing found, 1 a reader broke, 2 the targets are not there.
 """
 import argparse
-import csv
 import os
 import pathlib
 import re
@@ -21,14 +20,14 @@ import sys
 import tempfile
 import time
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+import records
+
+ROOT = records.ROOT
 READERS = ["profile", "case_file", "study_file", "published", "results", "checkpoint", "checkpoint_content"]
 LONGEST = {"profile": 1200, "case_file": 1200, "study_file": 1600, "published": 1400, "results": 1200, "checkpoint": 700, "checkpoint_content": 700}  # bytes of an input
 LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-malloc_limit_mb=512"]
 ENVIRONMENT = {**os.environ, "ASAN_OPTIONS": "quarantine_size_mb=8:malloc_context_size=8"}  # less paging than the defaults
 CHECKS = "address undefined libstdc++ leaks"
-COLUMNS = ["reader", "executions", "seconds", "commit", "checks", "crashes", "hangs", "out_of_memory", "leaks"]
-COUNTS = ["executions", "seconds", "crashes", "hangs", "out_of_memory", "leaks"]
 KINDS = {"crash": "crashes", "timeout": "hangs", "oom": "out_of_memory", "leak": "leaks", "slow": "hangs"}
 RESULTS = ROOT / "fuzz" / "results.csv"
 ONE_CALL = 300  # seconds: a row of the table is lost at most
@@ -41,27 +40,7 @@ def commit(build):
 
 
 def executed(reader):
-    if not RESULTS.exists():
-        return 0
-    with RESULTS.open() as file:
-        return sum(int(row["executions"]) for row in csv.DictReader(file) if row["reader"] == reader)
-
-
-def add_row(row):
-    """Counts of one reader as one commit has it are one row."""
-    rows = list(csv.DictReader(RESULTS.open())) if RESULTS.exists() else []
-    same = [r for r in rows if all(r[key] == str(row[key]) for key in ("reader", "commit", "checks"))]
-    if same:
-        for key in COUNTS:
-            same[0][key] = int(same[0][key]) + row[key]
-    else:
-        rows.append(row)
-    part = RESULTS.with_suffix(".part")
-    with part.open("w", newline="") as file:
-        writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    part.replace(RESULTS)
+    return sum(int(row["executions"]) for row in records.rows_of(RESULTS) if row["reader"] == reader)
 
 
 def processor_seconds():
@@ -86,9 +65,8 @@ def run_once(target, reader, build, seconds, runs):
     words = [target, *LIMITS, f"-max_len={LONGEST[reader]}", f"-max_total_time={max(1, round(seconds))}", f"-runs={runs}", "-print_final_stats=1", "-reload=0", f"-artifact_prefix={finds}/{reader}-",
              learned, ROOT / "fuzz" / "corpus" / reader]
     done = subprocess.run(words, capture_output=True, text=True, errors="replace", env=ENVIRONMENT)
-    row = {"reader": reader, "seconds": round(time.monotonic() - begin), "commit": commit(build), "checks": CHECKS, "crashes": 0, "hangs": 0, "out_of_memory": 0, "leaks": 0}
-    counts = [int(n) for n in re.findall(r"number_of_executed_units: (\d+)|^#(\d+)", done.stderr, re.M) for n in n if n]
-    row["executions"] = max(counts, default=0)
+    executions = max((int(n) for n in re.findall(r"(?:number_of_executed_units: |^#)(\d+)", done.stderr, re.M)), default=0)
+    row = {"reader": reader, "executions": executions, "seconds": round(time.monotonic() - begin), "commit": commit(build), "checks": CHECKS, "crashes": 0, "hangs": 0, "out_of_memory": 0, "leaks": 0}
     found = []
     for find in sorted(set(finds.glob(f"{reader}-*")) - before):
         kind = find.name.removeprefix(reader + "-").split("-")[0]
@@ -111,7 +89,7 @@ def fuzz(reader, build, seconds, runs):
     while not found and (executed(reader) < runs if runs else time.monotonic() < end):
         left = ONE_CALL if runs else min(ONE_CALL, end - time.monotonic())
         row, found = run_once(target, reader, build, left, runs - executed(reader) if runs else -1)
-        add_row(row)
+        records.add(RESULTS, ["reader", "commit", "checks"], row)  # counts of one reader as one commit has it are one row
         total += row["executions"]
         print(f"{reader:12} {row['executions']:>10} executions in {row['seconds']} s, {executed(reader)} in all", flush=True)
     for find in found:

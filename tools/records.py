@@ -1,4 +1,4 @@
-"""Small tables of what a campaign found, kept in docs/reliability/*.csv: one row for each key, with the commit it was found at."""
+"""Small tables of what a campaign found, CSV files with a row for each key and the commit it was found at."""
 import csv
 import pathlib
 import subprocess
@@ -14,19 +14,37 @@ def commit():
     return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+" if git("status", "--porcelain", "--", "src", "tests", "cmake", "CMakeLists.txt") else "")
 
 
-def keep(path, key, rows):
-    """Puts rows (dicts of the same columns) into the table at `path`, in place of those with the same values in the columns `key`."""
-    path = pathlib.Path(path)
-    columns = list(rows[0])
-    kept = []
-    if path.exists():
-        with path.open(newline="") as f:
-            reader = csv.DictReader(f)
-            if reader.fieldnames == columns:
-                kept = list(reader)
-    table = {tuple(str(r[k]) for k in key): r for r in kept + rows}
+def rows_of(path):
+    if not path.exists():
+        return []
+    with path.open(newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def write(path, rows):
+    """The whole table at once: whoever is stopped leaves the one before."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    with path.open("w", newline="") as f:
-        writer = csv.DictWriter(f, columns, lineterminator="\n")
+    part = path.with_suffix(".part")
+    with part.open("w", newline="") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
         writer.writeheader()
-        writer.writerows(table.values())
+        writer.writerows(rows)
+    part.replace(path)
+
+
+def keep(path, key, rows):
+    """Puts rows (dicts of the same columns) into the table at `path`, in place of those with the same values in the columns `key`. A table of other columns begins anew."""
+    path = pathlib.Path(path)
+    kept = [row for row in rows_of(path) if list(row) == list(rows[0])]
+    write(path, list({tuple(str(row[k]) for k in key): row for row in kept + rows}.values()))
+
+
+def add(path, key, row):
+    """Like keep, but what is counted (the numbers in `row`) is added to the row that is there."""
+    path = pathlib.Path(path)
+    rows = rows_of(path)
+    for same in rows:
+        if all(same[k] == str(row[k]) for k in key):
+            same.update({column: int(same[column]) + value for column, value in row.items() if isinstance(value, int)})
+            return write(path, rows)
+    write(path, [*rows, row])

@@ -7,6 +7,7 @@ usage: reliability_table.py collect BUILD [--only WORD]   run the commands (thos
 
 Tests print facts as lines `RELIABILITY {"fact": NAME, ...}`; long campaigns keep records, CSV files with a line each.
 """
+import collections
 import csv
 import datetime
 import json
@@ -32,10 +33,11 @@ def number(text):
 
 
 class Column:
-    """A column of a record, for the words of a promise."""
+    """A column of a record, for the words of a promise: `tests.sum`, `preset[tsan].tests.sum` (of the lines with this cell), `executions.sums_by[reader].min`."""
 
-    def __init__(self, cells):
-        self.values = [number(c) for c in cells]
+    def __init__(self, name, rows):
+        self.name, self.rows = name, rows
+        self.values = [number(r[name]) for r in rows]
         self.last, self.count = self.values[-1], len(self.values)
         self.all = ", ".join(dict.fromkeys(map(str, self.values)))
 
@@ -43,18 +45,35 @@ class Column:
     max = property(lambda self: max(self.values))
     sum = property(lambda self: sum(self.values))
 
+    def __getitem__(self, cell):
+        return of_rows([r for r in self.rows if r[self.name] == cell], f"{self.name} {cell}")
+
+    @property
+    def sums_by(self):
+        return SumsBy(self)
+
+
+class SumsBy:
+    """Sums of a column over the lines that have the same cell in another."""
+
+    def __init__(self, column):
+        self.column = column
+
+    def __getitem__(self, other):
+        sums = collections.Counter()
+        for row, value in zip(self.column.rows, self.column.values):
+            sums[row[other]] += value
+        return Column("sum", [{"sum": value} for value in sums.values()])
+
+
+def of_rows(rows, of_what):
+    if not rows:
+        raise LookupError(f"{of_what} has no line")
+    return types.SimpleNamespace(**{name: Column(name, rows) for name in rows[0]})
+
 
 def record(file):
-    rows = list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#")))
-    if not rows:
-        raise LookupError(f"{file} has no line")
-    columns = {name: Column([r[name] for r in rows]) for name in rows[0]}
-    if "reader" in columns:
-        sums = {}
-        for reader, executions in zip(columns["reader"].values, columns["executions"].values):
-            sums[reader] = sums.get(reader, 0) + executions
-        columns["executions"].least_sum_by_reader = min(sums.values())
-    return types.SimpleNamespace(**columns)
+    return of_rows(list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#"))), file)
 
 
 def known_facts():
