@@ -108,6 +108,7 @@ TEST(StudyFile, WhatCannotBeComputedOrNamedIsRefused) {
   for (const char* key : {"a.a", "a.b", "a.c", "a.d", "a.e", "a.f"}) many += "\"" + std::string(key) + "\" = [1, 2, 3, 4, 5, 6, 7, 8, 9]\n";
   const std::string group = "[[group]]\nname = \"study.csv\"\n", start = "[study]\nbase = \"base.toml\"\n";
   EXPECT_EQ(errors(many), std::vector<std::string>{"3:1: this group has more than 10000 cases | vary fewer keys at once, or give fewer values"});
+  EXPECT_EQ(errors(start + "[[group]]\nname = \"g\"\nbase = \"\"\n"), std::vector<std::string>{"5:8: base = \"\": names no file | name one relative to the study's folder, or leave the key out"});
   EXPECT_EQ(errors(start + group), std::vector<std::string>{"4:8: group.name = \"study.csv\": a file of the study may have this name | leave the ending out: folders bear the name"});
   for (const char* cell : {"nan mm", "inf mm", "0 mm", "-1 mm"})
     EXPECT_EQ(errors(start + "cell = \"" + cell + "\"\n[[group]]\nname = \"g\"\n"), std::vector<std::string>{"3:8: cell = \"" + std::string(cell) + "\": must be above 0 mm | write a length, e.g. \"0.5 mm\""});
