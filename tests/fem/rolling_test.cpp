@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <numbers>
 
+#include "same_bits.hpp"
 #include "small_rolling.hpp"
 
 namespace railstrata {
@@ -101,9 +101,7 @@ TEST(Rolling, SameBitsOnOneTwoAndFourThreads) {
   spec.run.run_up_damping = 2000;
   const RollingSystem system = small_system(spec);
   const PreloadResult preload = solve_preload(system, 1e-5);
-  const int before = max_threads();
-  auto run = [&](int threads) {
-    set_threads(threads);
+  expect_same_bits_on_one_two_and_four_threads([&] {
     Stepper st(system, preload);
     for (int k = 0; k < 60; ++k) st.step();
     const EnergyBalance e = energy_now(st);
@@ -111,14 +109,7 @@ TEST(Rolling, SameBitsOnOneTwoAndFourThreads) {
     for (const auto& [body, u] : {std::pair{&system.rail, &st.state().u_rail}, std::pair{&system.wheel, &st.state().u_wheel}})
       for (const DeformableBody::Line& l : body->lines) bits.insert(bits.end(), u->begin() + l.first, u->begin() + l.first + l.count);
     return bits;
-  };
-  const std::vector<double> one = run(1);
-  for (int threads : {2, 4}) {
-    const std::vector<double> many = run(threads);
-    ASSERT_EQ(many.size(), one.size());
-    EXPECT_EQ(std::memcmp(many.data(), one.data(), one.size() * sizeof(double)), 0) << threads;
-  }
-  set_threads(before);
+  });
 }
 
 // A rigid wheel under the torque M = F (r + I/(m r)) is driven by F = m a. The wheel's inertia swings on the tangential stiffness of its contact with a period of

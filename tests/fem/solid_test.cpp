@@ -4,9 +4,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cstring>
 
 #include "fem/ties.hpp"
+#include "same_bits.hpp"
 #include "sample_bodies.hpp"
 
 namespace railstrata {
@@ -214,11 +214,9 @@ TEST(Solid, DiagonalOfTheStiffnessIsThatOfLinearForce) {
 }
 
 TEST(Solid, ForcesAndEnergyHaveTheSameBitsOnOneTwoAndFourThreads) {
-  const int before = max_threads();
   const Solid solid(coarse_lma_wheel(), {kSteel}, {});
   const Field u = scattered_field(solid, 1e-5);
-  auto run = [&](int threads) {
-    set_threads(threads);
+  expect_same_bits_on_one_two_and_four_threads([&] {
     Field moved = u, f = solid.layout().field();
     solid.internal_force(moved, 0.3, f);
     std::vector<double> bits;
@@ -227,14 +225,7 @@ TEST(Solid, ForcesAndEnergyHaveTheSameBitsOnOneTwoAndFourThreads) {
     const StrainEnergy e = solid.energy(moved, 0.3);
     bits.insert(bits.end(), {e.strain, e.hourglass});
     return bits;
-  };
-  const std::vector<double> one = run(1);
-  for (int threads : {2, 4}) {
-    const std::vector<double> many = run(threads);
-    ASSERT_EQ(many.size(), one.size());
-    EXPECT_EQ(std::memcmp(many.data(), one.data(), one.size() * sizeof(double)), 0) << threads;
-  }
-  set_threads(before);
+  });
 }
 
 TEST(SolidMass, OfASkewedBarIsDensityTimesAreaTimesLength) {

@@ -6,28 +6,18 @@
 #include <cmath>
 #include <numbers>
 
+#include "crossed_cylinders.hpp"
 #include "material/elastic.hpp"
 
 namespace railstrata {
 namespace {
 
+using post_checks::crossed_cylinders;
+
 BemOptions cells(double size) {
   BemOptions options;
   options.cell = size;
   return options;
-}
-
-/// A disc on a rail of the same lateral radius: a circular Hertzian contact.
-CaseSpec crossed_cylinders() {
-  CaseSpec spec;
-  spec.geometry.rail_profile = "arc:R=420 mm";
-  spec.geometry.wheel_profile = "flat";
-  spec.geometry.rail_shape = "block";
-  spec.geometry.wheel_shape = "disc";
-  spec.geometry.wheel_radius = 0.420;
-  spec.geometry.cant = 0;
-  spec.drive.traction_coefficient = spec.drive.friction_coefficient = 0;
-  return spec;
 }
 
 bool holds(const Summary& s, const std::string& name) {

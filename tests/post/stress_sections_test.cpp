@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "crossed_cylinders.hpp"
 #include "material/elastic.hpp"
 #include "mesh/bodies.hpp"
 #include "post/patch.hpp"
@@ -12,18 +13,7 @@
 namespace railstrata {
 namespace {
 
-/// A disc on a rail of the same lateral radius: a circular Hertzian contact.
-CaseSpec crossed_cylinders() {
-  CaseSpec spec;
-  spec.geometry.rail_profile = "arc:R=420 mm";
-  spec.geometry.wheel_profile = "flat";
-  spec.geometry.rail_shape = "block";
-  spec.geometry.wheel_shape = "disc";
-  spec.geometry.wheel_radius = 0.420;
-  spec.geometry.cant = 0;
-  spec.drive.traction_coefficient = spec.drive.friction_coefficient = 0;
-  return spec;
-}
+using post_checks::crossed_cylinders;
 
 /// Borders of the rows: the first begins at the surface.
 std::vector<double> borders(const std::vector<double>& centres) {
