@@ -9,7 +9,8 @@ namespace {
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
 bool starts_with(std::string_view word, std::string_view beginning) {
-  return beginning.size() >= 3 && word.size() >= beginning.size() && edit_distance(word.substr(0, beginning.size()), beginning) == 0;
+  return beginning.size() >= 3 && word.size() >= beginning.size() &&
+         std::equal(beginning.begin(), beginning.end(), word.begin(), [](char a, char b) { return lower(a) == lower(b); });
 }
 
 }  // namespace
@@ -32,8 +33,11 @@ int edit_distance(std::string_view a, std::string_view b) {
 std::string nearest_word(std::string_view typed, const std::vector<std::string>& words) {
   std::string best;
   int least = static_cast<int>(std::max<std::size_t>(typed.size(), 3) / 3) + 1;
-  for (const std::string& word : words)
+  for (const std::string& word : words) {
+    const std::size_t longer = std::max(typed.size(), word.size()) - std::min(typed.size(), word.size());  // so many letters differ at least
+    if (longer >= static_cast<std::size_t>(least)) continue;
     if (const int d = edit_distance(typed, word); d < least) least = d, best = word;
+  }
   if (!best.empty()) return best;
   for (const std::string& word : words)
     if (starts_with(word, typed) || starts_with(typed, word)) return word;

@@ -23,6 +23,8 @@ TEST(NearestWord, OfSeveralTheNearestIsMeant) {
 
 TEST(NearestWord, AWordThatBeginsAnotherIsMeant) { EXPECT_EQ(nearest_word("friction", {"cant", "friction_coefficient"}), "friction_coefficient"); }
 
+TEST(NearestWord, AVeryLongWordCostsNoMoreThanToReadIt) { EXPECT_EQ(nearest_word(std::string(100'000'000, 'x'), {"friction_coefficient"}), ""); }
+
 TEST(NearestWord, AWordUnlikeAllOthersIsNotGuessed) {
   EXPECT_EQ(nearest_word("banana", {"check", "mesh", "info"}), "");
   EXPECT_EQ(nearest_word("x", {}), "");
