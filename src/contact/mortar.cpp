@@ -93,8 +93,9 @@ MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose,
 // Memory for all nodes of the window, so that nothing grows while the patch moves on.
 void MortarContact::reserve_window() {
   constexpr std::size_t kWeights = 16;  // of a row, if the wheel's facets are no smaller than the rail's
-  const auto stations = static_cast<std::size_t>(window_stations_) + 4, columns = static_cast<std::size_t>(rail_.columns), nodes = stations * columns;
-  if (nodes <= near_.capacity()) return;
+  const auto stations = static_cast<std::size_t>(window_stations_) + 2, columns = static_cast<std::size_t>(rail_.columns);
+  if (stations * columns <= near_.capacity()) return;
+  const std::size_t nodes = (stations + 2) * columns;  // a window of one length covers now a station more, now one less
   for (auto* flags : {&near_, &edge_}) flags->reserve(nodes);
   for (auto* indices : {&chosen_column_, &chosen_station_, &facet_of_}) indices->reserve(nodes);
   for (auto* facets : {&facets_, &before_}) facets->reserve(nodes);
