@@ -212,6 +212,17 @@ young_ratio = 2.0
             tables.append([{k: v for k, v in row.items() if k != "wall_s"} for row in table(out / "sweep.csv")])
         self.assertEqual(*tables)
 
+    def test_the_json_of_a_sweep_has_the_tables_rows(self):
+        out = self.folder / "sweep"
+        rc, text, err = railstrata("sweep", BASE, *COARSE, "--vary", "drive.traction_coefficient=0.1,0.7", "--out", out, "--json")
+        self.assertEqual(rc, 1, err)
+        rows = json.loads(text)
+        self.assertEqual([list(row) for row in rows], [list(row) for row in table(out / "sweep.csv")])
+        for row, cells in zip(rows, table(out / "sweep.csv")):
+            self.assertEqual({key: "" if value is None else value for key, value in row.items()}, {key: float(cells[key]) if isinstance(row[key], float | int) else cells[key] for key in row})
+        self.assertIsNone(rows[0]["fault"])
+        self.assertIsNone(rows[1]["p_max_MPa"])
+
     def test_a_failing_case_is_told_in_its_row_and_does_not_stop_the_others(self):
         out = self.folder / "sweep"
         self.refused(1, ["sweep", BASE, *COARSE, "--vary", "drive.traction_coefficient=0.1,0.7", "--vary", "geometry.gauge=1.435 m,1.7 m", "--out", out], "3 of 4 cases failed")

@@ -96,6 +96,10 @@ class Program(FromOutside):
         info = json.loads(railstrata("info", "--json")[1])
         self.assertIn("LMA", info["wheel_profiles"])
         self.assertIn("CN60", info["rail_profiles"])
+        text = railstrata("info")[1]
+        self.assertEqual([line.split()[0] for line in text.splitlines()], list(info))
+        self.assertRegex(text, r"\nwheel_profiles +LMA, ")
+        self.assertRegex(text, r"\nlibraries .*hdf5 \d")
 
     def test_the_schema_is_json(self):
         self.assertIn("geometry", json.loads(railstrata("schema")[1])["properties"])
