@@ -540,18 +540,6 @@ void Stepper::advance_node(bool is_wheel, SectionNode node, int begin, int end, 
   else advance_node<SweepKind::extrude, false>(sys_.rail, state_.u_rail, state_.v_rail, node, begin, end, f, sums);
 }
 
-// A node's values on the border planes lie far apart.
-void Stepper::expect_borders(bool is_wheel, SectionNode node) const {
-  const DeformableBody& body = is_wheel ? sys_.wheel : sys_.rail;
-  const BlockLayout& lay = body.solid.layout().blocks[node.block];
-  const Field *u = is_wheel ? &state_.u_wheel : &state_.u_rail, *v = is_wheel ? &state_.v_wheel : &state_.v_rail, *f = is_wheel ? &f_wheel_ : &f_rail_;
-  Prefetch lines;
-  for (int i = 0; i < 3; ++i)
-    for (const Field* field : {u, v, f}) lines.add(field->data() + lay.line(node.node, i));
-  lines.add(body.inverse_mass.data() + lay.line(node.node, 0));
-  for (int j : (is_wheel ? wheel_schedule_ : rail_schedule_).borders[node.block]) lines.ask(j, j + 1);
-}
-
 // The nodes that waited for the contact, and the border planes of the others.
 void Stepper::advance_later() {
   const auto waiting = [](const Schedule& s) { return static_cast<std::ptrdiff_t>(s.later.size()); };
@@ -572,7 +560,6 @@ void Stepper::advance_later() {
     const double* const f[3] = {line, line + lay.stride, line + 2 * lay.stride};
     Sums sums;
     if (border && !want_energy_) {
-      if (k + 1 < static_cast<std::ptrdiff_t>(plan.bordered.size())) expect_borders(is_wheel, plan.bordered[k + 1]);
       for (int j : plan.borders[node.block]) advance_node(is_wheel, node, j, j + 1, f, sums);
     } else {
       advance_node(is_wheel, node, 0, lay.stations, f, sums);

@@ -159,7 +159,6 @@ class Stepper {
   void advance_node(const DeformableBody& body, Field& u, Field& v, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums) const;
   void advance_node(bool is_wheel, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums);
   void advance_later();
-  void expect_borders(bool is_wheel, SectionNode node) const;
   Vec3 wheel_arm(std::ptrdiff_t surface_index) const;
   void lift_wheel_surface();
   Field wheel_velocity(bool before, Field reuse) const;

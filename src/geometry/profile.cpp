@@ -61,7 +61,7 @@ Profile Profile::from_segments(ProfileKind kind, std::string name, std::vector<P
   return out;
 }
 
-Profile Profile::from_points(ProfileKind kind, std::string name, std::vector<Vec2> points) {
+Profile Profile::from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points) {
   if (const auto defect = find_defect(points)) throw CaseError(name + ": " + defect->message, defect->remedy);
   SmoothingSpline spline = fit_smoothing_spline(points);
   require_following(name, spline, points);

@@ -40,7 +40,7 @@ class Profile {
   /// noise or 1 nanometre.
   /// Throws CaseError: fewer than 5 points, total chord length outside 5–500 mm (metre/millimetre mix-up), loops, y = 0 not covered,
   /// a curve that between its points swings out to more than 1.25 times the length of their chords.
-  static Profile from_points(ProfileKind kind, std::string name, std::vector<Vec2> points);
+  static Profile from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points);
 
   ProfileKind kind() const { return kind_; }
   const std::string& name() const { return name_; }
