@@ -15,7 +15,6 @@ namespace railstrata {
 namespace {
 
 constexpr double kJoin = 1e-9;           // m
-constexpr double kFarthestMiss = 1e-6;    // m
 constexpr double kLongestDetour = 1.25;  // of the curve over the chords between its points; 1.21 where these turn by 120 degrees
 
 /// Signed angle from p0 to p1 about the centre, positive anticlockwise.
@@ -41,10 +40,14 @@ void require_following(const std::string& name, const SmoothingSpline& spline, c
   for (std::size_t i = 1; i < points.size(); ++i) chords += norm(points[i] - points[i - 1]);
   if (!(spline.s.back() - spline.s.front() < kLongestDetour * chords))
     throw CaseError(name + ": the smooth curve through the points swings far out between them", "remove stray points, or give more of them where the curve bends");
-  const bool folded = std::adjacent_find(spline.s.begin(), spline.s.end(), [](double a, double b) { return !(b - a > kJoin); }) != spline.s.end();
-  if (folded || !(spline.miss < std::max(2 * spline.tolerance, kFarthestMiss)))
-    throw CaseError(fmt::format("{}: the smooth curve misses the points by {:.3g} mm, for they lie too unevenly", name, 1e3 * spline.miss),
-                    "remove points that nearly repeat their neighbours, or give more of them where they are far apart");
+  const std::string remedy = "remove points that nearly repeat their neighbours, or give more of them where they are far apart";
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double miss = std::max(spline.miss[i - 1], spline.miss[i]);
+    if (!(miss < std::max(2 * spline.tolerance, norm(points[i] - points[i - 1]))))
+      throw CaseError(fmt::format("{}: the smooth curve misses points {} and {} by more than they lie apart ({:.3g} mm)", name, i, i + 1, 1e3 * miss), remedy);
+  }
+  if (std::adjacent_find(spline.s.begin(), spline.s.end(), [](double a, double b) { return !(b - a > kJoin); }) != spline.s.end())
+    throw CaseError(name + ": the smooth curve through the points has a piece of no length", remedy);
 }
 
 }  // namespace

@@ -199,7 +199,7 @@ SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points) {
     const bool refined = refine(chosen, error, tolerance);
     if (!refined && round >= 2) {
       SmoothingSpline out = at_knots(basis, c);
-      out.miss = *std::max_element(error.begin(), error.end());
+      out.miss = std::move(error);
       out.tolerance = tolerance;
       return out;
     }

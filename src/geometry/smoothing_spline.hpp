@@ -11,11 +11,12 @@
 namespace railstrata {
 
 /// On [s_i, s_{i+1}] the curve is the cubic with positions p and second derivatives d2 given at both ends. Where a few points lie very much closer than others, the equations
-/// of the fit lose their digits: the curve then misses points by more than the tolerance, which is for the caller to refuse.
+/// of the fit lose their digits: the curve then misses points by more than they lie apart, which is for the caller to refuse.
 struct SmoothingSpline {
   std::vector<double> s;
   std::vector<Vec2> p, d2;
-  double miss = 0, tolerance = 0;  ///< largest distance of a point from its place on the curve, and what the points' scatter allows [m]
+  std::vector<double> miss;  ///< distance of each point from its place on the curve [m]
+  double tolerance = 0;      ///< what the points' scatter allows [m]
 };
 
 /// Needs at least 5 points, neighbours distinct. Lengths in metres.
