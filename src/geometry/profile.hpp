@@ -36,10 +36,10 @@ class Profile {
   static Profile from_segments(ProfileKind kind, std::string name, std::vector<ProfileSegment> segments);
   /// Curve through measured or listed points (metres, in the frame above), made C2 in arc length.
   /// Rounding noise is estimated from the points and smoothed away (knots half a millimetre apart, wider for noisier points, down to the points' own
-  /// spacing where the curve bends sharply); points half a millimetre or more apart are interpolated. The curve leaves no point by more than four times the
-  /// noise or 1 nanometre.
+  /// spacing where the curve bends sharply); points half a millimetre or more apart are interpolated. The curve leaves the points by no more than four times the
+  /// noise or 1 nanometre; single stray points among dense ones it may leave further.
   /// Throws CaseError: fewer than 5 points, total chord length outside 5–500 mm (metre/millimetre mix-up), loops, y = 0 not covered,
-  /// a curve that between its points swings out to more than 1.25 times the length of their chords.
+  /// a curve that between its points swings out to more than 1.25 times the length of their chords, or that misses neighbours by more than they lie apart.
   static Profile from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points);
 
   ProfileKind kind() const { return kind_; }
