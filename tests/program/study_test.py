@@ -16,7 +16,7 @@ import time
 import tomllib
 import unittest
 
-from outside import BINARY, SMALL, TINY, FromOutside, broken_files, fact, railstrata, results, start
+from outside import SMALL, TINY, FromOutside, broken_files, fact, railstrata, results, start
 
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 KILLS = int(sys.argv[3]) if len(sys.argv) > 3 else 4
