@@ -24,8 +24,12 @@ class PhaseReport {
  public:
   explicit PhaseReport(bool shown) : shown_(shown) {}
   void operator()(const std::string& phase, double fraction, const std::string& detail) {
-    if (phase == "warning") return spdlog::warn("{}", detail);
-    if (phase == "checkpoint") return spdlog::debug("checkpoint at {}", detail);
+    if (phase == "warning" || phase == "checkpoint") {
+      if (bar_) bar_->clear();
+      if (phase == "warning") spdlog::warn("{}", detail);
+      else spdlog::info("checkpoint at {}", detail);
+      return;
+    }
     if (phase != phase_) {
       phase_ = phase;
       bar_.reset();

@@ -16,11 +16,11 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
 }
 
-std::string progress_bar(const std::string& what, double fraction, double elapsed) {
+std::string progress_bar(const std::string& what, double fraction, double elapsed, double begin) {
   constexpr int kWidth = 30;
-  const double f = std::clamp(fraction, 0.0, 1.0);
+  const double f = std::clamp(fraction, 0.0, 1.0), in_this_time = f - begin;
   const int done = static_cast<int>(f * kWidth);
-  const std::string left = f > 0.005 ? fmt::format("{} left", duration_text(elapsed * (1 - f) / f)) : "";
+  const std::string left = in_this_time > 0.005 ? fmt::format("{} left", duration_text(elapsed * (1 - f) / in_this_time)) : "";
   return fmt::format("{}  [{:#<{}}{:-<{}}] {:3.0f} %  {}", what, "", done, "", kWidth - done, 100 * f, left);
 }
 
@@ -37,11 +37,10 @@ void Progress::clear() {
 
 void Progress::update(double fraction) {
   const auto now = Clock::now();
-  if (first_ < 0) first_ = fraction;
+  if (begin_ < 0) begin_ = fraction;
   if (!shown_ || now < next_) return;
   next_ = now + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(30000));
-  const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const std::string line = progress_bar(what_, fraction, fraction > first_ ? elapsed * fraction / (fraction - first_) : elapsed);
+  const std::string line = progress_bar(what_, fraction, std::chrono::duration<double>(now - start_).count(), begin_);
   fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n");
   std::fflush(stderr);
   drawn_ = true;

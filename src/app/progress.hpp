@@ -8,8 +8,8 @@ namespace railstrata {
 /// "3 s", "2 min 05 s", "1 h 02 min".
 std::string duration_text(double seconds);
 
-/// "rolling  [#####-----]  50 %, 12 s left": fraction in [0, 1], elapsed in seconds.
-std::string progress_bar(const std::string& what, double fraction, double elapsed);
+/// "rolling  [#####-----]  50 %  12 s left": fraction in [0, 1], elapsed: seconds since it was `begin` (a resumed run does not begin at 0).
+std::string progress_bar(const std::string& what, double fraction, double elapsed, double begin = 0);
 
 class Progress {
  public:
@@ -27,7 +27,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   std::string what_;
   bool shown_, terminal_, drawn_ = false;
-  double first_ = -1;  // a resumed run does not begin at 0
+  double begin_ = -1;  // fraction of the first update
   Clock::time_point start_ = Clock::now(), next_ = start_;
 };
 

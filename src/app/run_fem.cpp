@@ -124,7 +124,7 @@ FemOutcome run_fem(const FemRequest& request) {
     const auto start = std::chrono::steady_clock::now();
     try {
       write_checkpoint(request.out, {request.case_sha256, request.program, request.provenance}, state);
-      report("checkpoint", -1, fmt::format("{:.1f} mm", 1e3 * state.stepper.state.axle.x));
+      report("checkpoint", -1, fmt::format("x = {:.2f} mm", 1e3 * state.stepper.state.axle.x));
     } catch (const EnvironmentError& e) {
       if (demand == Demand::save_and_stop) throw;
       report("warning", -1, fmt::format("no checkpoint: {}; the run goes on", e.what()));

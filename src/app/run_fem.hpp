@@ -13,7 +13,8 @@
 
 namespace railstrata {
 
-/// What the caller wants to hear: a phase ("mesh", "preload", "rolling", "results"), how far it is (0..1, negative: unknown) and a line of numbers.
+/// What the caller wants to hear: a phase ("mesh", "preload", "rolling", "results"), how far it is (0..1, negative: unknown) and a line of numbers; or an event on the way
+/// ("checkpoint", "warning") in words.
 using RunReporter = std::function<void(const std::string& phase, double fraction, const std::string& detail)>;
 
 struct FemRequest {

@@ -295,16 +295,17 @@ class StudyReader {
   /// Relative to the study's folder.
   std::filesystem::path file(const toml::table& t, const char* key) {
     const std::string name = text(t, key, "");
-    if (!t.contains(key) || !t.get(key)->is_string()) return {};
+    const toml::node* node = t.get(key);
+    if (!node || !node->is_string()) return {};
     if (name.empty()) {
-      source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"\": names no file", key), "name one relative to the study's folder, or leave the key out");
+      source_.complain_at(place_of(*node), fmt::format("{} = \"\": names no file", key), "name one relative to the study's folder, or leave the key out");
       return {};
     }
     std::filesystem::path path = source_.file().parent_path() / name;
     std::error_code error;  // a name too long, a folder that may not be read: no file to us
     if (std::filesystem::is_directory(path, error)) path /= "case.toml";
     if (name.find('\0') == std::string::npos && std::filesystem::is_regular_file(path, error)) return path;
-    source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": there is no file {}", key, name, path.string()), "name it relative to the study's folder");
+    source_.complain_at(place_of(*node), fmt::format("{} = \"{}\": there is no file {}", key, name, path.string()), "name it relative to the study's folder");
     return {};
   }
 
