@@ -1,6 +1,7 @@
 #include "io/checkpoint_file.hpp"
 
 #include <gtest/gtest.h>
+#include <hdf5.h>
 
 #include <malloc.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <thread>
 
@@ -63,6 +65,23 @@ long resident_memory() {
   for (std::string word; in >> word;)
     if (long kilobytes = 0; word == "RssAnon:" && in >> kilobytes) return 1024 * kilobytes;
   return 0;
+}
+
+/// A checkpoint whose HDF5 part was changed by HDF5, under a checksum that fits.
+std::string edited(const std::string& checkpoint, const std::function<void(hid_t)>& edit) {
+  constexpr std::size_t kText = 512;
+  std::string image = checkpoint.substr(kText);
+  const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+  H5Pset_fapl_core(access, 1 << 16, 0);
+  H5Pset_file_image(access, image.data(), image.size());
+  const hid_t file = H5Fopen("checkpoint", H5F_ACC_RDWR, access);
+  edit(file);
+  H5Fflush(file, H5F_SCOPE_GLOBAL);
+  image.resize(static_cast<std::size_t>(H5Fget_file_image(file, nullptr, 0)));
+  H5Fget_file_image(file, image.data(), image.size());
+  H5Fclose(file);
+  H5Pclose(access);
+  return sealed_checkpoint(image);
 }
 
 class Checkpoints : public testing::Test {
@@ -190,6 +209,51 @@ TEST_F(Checkpoints, TheOneBeforeIsKeptAndTakenWhenTheNewestIsDamaged) {
   EXPECT_NE(refusal().find("it is empty"), std::string::npos) << refusal();
   remove_checkpoints(folder);
   EXPECT_TRUE(fs::is_empty(folder));
+}
+
+TEST_F(Checkpoints, NumbersAreTakenFromThisFileAndAsTheyWereWrittenOnly) {
+  const std::string whole = checkpoint_bytes(kOrigin, small_run(1));
+  const std::vector<double> numbers{0.1, -0.0, 5e-324};  // those that the run has
+  const std::string elsewhere = folder / "numbers";
+  std::ofstream(elsewhere, std::ios::binary).write(reinterpret_cast<const char*>(numbers.data()), 24);
+  /// state/u_rail of this type, stored so.
+  const auto stored = [&](hid_t type, const std::function<void(hid_t how)>& set_how, bool written = true) {
+    return edited(whole, [&](hid_t file) {
+      H5Ldelete(file, "state/u_rail", H5P_DEFAULT);
+      const hsize_t three = 3;
+      const hid_t space = H5Screate_simple(1, &three, nullptr), how = H5Pcreate(H5P_DATASET_CREATE);
+      set_how(how);
+      const hid_t set = H5Dcreate2(file, "state/u_rail", type, space, H5P_DEFAULT, how, H5P_DEFAULT);
+      ASSERT_GE(set, 0);
+      ASSERT_TRUE(!written || H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers.data()) >= 0);
+      H5Dclose(set);
+      H5Pclose(how);
+      H5Sclose(space);
+    });
+  };
+  const auto refused_for = [&](const std::string& bytes) -> std::string {
+    try {
+      checkpoint_of(bytes, "x");
+    } catch (const CaseError& e) {
+      return e.what();
+    }
+    return "taken";
+  };
+  const auto as_usual = [](hid_t) {};
+  const hsize_t chunk = 3;
+  EXPECT_EQ(checkpoint_of(stored(H5T_IEEE_F64LE, as_usual), "x").run.stepper.state.u_rail, small_run(1).stepper.state.u_rail);
+  const std::string apart = "u_rail is not stored in one piece";
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_chunk(how, 1, &chunk); })).find(apart), std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_chunk(how, 1, &chunk), H5Pset_shuffle(how); })).find(apart), std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [](hid_t how) { H5Pset_layout(how, H5D_COMPACT); })).find(apart), std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_external(how, elsewhere.c_str(), 0, 24); })).find(apart), std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, as_usual, false)).find(apart), std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64BE, as_usual)).find("u_rail is no array of numbers of 8 bytes"), std::string::npos);
+  const std::string linked = edited(whole, [&](hid_t file) {
+    H5Ldelete(file, "state/u_rail", H5P_DEFAULT);
+    H5Lcreate_soft("/state/v_wheel", file, "state/u_rail", H5P_DEFAULT, H5P_DEFAULT);
+  });
+  EXPECT_NE(refused_for(linked).find("u_rail is a link"), std::string::npos);
 }
 
 TEST_F(Checkpoints, ThoseOfAnotherCaseOrFormatAreRefused) {
