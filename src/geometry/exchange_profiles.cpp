@@ -89,6 +89,7 @@ class Simpack {
         refuse(fmt::format("'{}' is no setting of a Simpack profile", line), "settings are key = value, points stand between point.begin and point.end", name_, number);
       }
     });
+    if (listing) refuse("the list of points has no point.end: the file is cut off", "put a whole copy of the file back", name_, 0);
     if (!listed) refuse("there is no point.begin in this Simpack profile", "export it from Simpack anew, or give a file of two columns as .csv", name_, 0);
     if (const double type = value("header.type", kind == ProfileKind::wheel); type != (kind == ProfileKind::wheel))
       refuse(fmt::format("this Simpack profile is that of a {}", type == 0 ? "rail" : "wheel"), "give rail_profile a .prr file, wheel_profile a .prw file", name_, settings_["header.type"].line);
@@ -187,7 +188,10 @@ NumberTable parse_miniprof(std::string_view text, const std::string& name) {
   });
   table.notes.push_back(fmt::format("MiniProf profile of {} points.", table.rows.size()));
   if (switched_off > 0) table.notes.push_back(fmt::format("{} points in quotes are switched off.", switched_off));
-  if (announced && *announced != static_cast<double>(table.rows.size())) table.notes.push_back(fmt::format("XYPoints says {}.", *announced));
+  const auto there = static_cast<double>(table.rows.size());
+  if (announced && there + static_cast<double>(switched_off) < *announced)
+    refuse(fmt::format("XYPoints says {}, but there are {} points: the file is cut off", *announced, there), "put a whole copy of the file back, or correct XYPoints if points were taken out by hand", name, 0);
+  if (announced && *announced != there) table.notes.push_back(fmt::format("XYPoints says {}.", *announced));
   table.columns = 2;  // the others are angle, curvature and the like
   return table;
 }

@@ -114,9 +114,11 @@ NumberTable parse_number_table(std::string_view all, const std::string& name) {
     const bool has_y = read(0, y), has_z = read(1, z);
     if (!std::isfinite(y) || !std::isfinite(z)) throw CaseError("'" + line.text + "' is not a finite number", "remove or repair the point", where);
     if (has_y && has_z) {
+      if (!table.rows.empty() && words.size() != table.columns)
+        throw CaseError(fmt::format("'{}' has {} numbers, the lines before it {}", line.text, words.size(), table.columns), "give every point as many columns; mark comments with #", where);
       table.rows.push_back({y, z});
       table.lines.push_back(line.number);
-      table.columns = std::max(table.columns, words.size());
+      table.columns = words.size();
     } else if (table.rows.empty() && (!looks_numeric(line.text) || words.size() == 1)) {
       table.heading += line.text + '\n';
     } else {

@@ -27,6 +27,7 @@ std::string upper(std::string text) {
   return text;
 }
 
+constexpr double kSmallestArc = 5e-3, kLargestArc = 1000;  // m
 constexpr const char* kArcRemedy = "write for example arc:R=300 mm (convex) or arc:R=-450 mm (hollow)";
 
 double arc_radius(const std::string& name) {
@@ -39,7 +40,8 @@ double arc_radius(const std::string& name) {
   std::erase(unit, ' ');
   const double scale = unit == "mm" ? 1e-3 : unit == "m" ? 1.0 : 0.0;
   if (end == name.c_str() + equals + 1 || scale == 0) throw CaseError("cannot read the radius of the profile '" + name + "'", kArcRemedy);
-  if (!(std::abs(value * scale) >= 1e-3)) throw CaseError("the radius of the profile '" + name + "' is below 1 mm", kArcRemedy);
+  if (!(std::abs(value * scale) >= kSmallestArc && std::abs(value * scale) <= kLargestArc))
+    throw CaseError(fmt::format("the radius of the profile '{}' is not between {:g} mm and {:g} m", name, 1e3 * kSmallestArc, kLargestArc), std::string(kArcRemedy) + "; a plane is flat");
   return value * scale;
 }
 

@@ -202,6 +202,11 @@ TEST_F(ReadProfile, a_missing_file_is_named) {
   }
 }
 
+TEST_F(ReadProfile, every_point_has_as_many_columns) {
+  EXPECT_EQ(error_of("-32 -2.56\n-28 7 -1.96\n" + crown()).find("list.csv:2: '-28 7 -1.96' has 3 numbers, the lines before it 2\n    remedy: give every point as many columns"), 0u);
+  EXPECT_EQ(error_of("-32,000.000, -2.56\n-8,000, -0.16\n-900.000, -0.002\n").find("list.csv:3: '-900.000, -0.002' has 2 numbers, the lines before it 3"), 0u);
+}
+
 TEST_F(ReadProfile, a_line_of_a_million_characters_is_a_line) {
   EXPECT_NE(error_of("1,5 2" + std::string(1'000'000, '0') + "x\n").find("is not two numbers"), std::string::npos);
   EXPECT_NE(error_of(std::string(1'000'000, 'm') + "\n").find("0 points are too few"), std::string::npos);
@@ -262,6 +267,7 @@ TEST_F(ReadProfile, what_is_wrong_with_a_Simpack_file_is_told_with_its_line) {
       {"point.begin\n1 nan\n", "rail.prr:2: '1 nan' is not two finite numbers"},
       {"1 2\n", "rail.prr:1: '1 2' is no setting"},
       {"spline.begin\n", "rail.prr: there is no point.begin"},
+      {"point.begin\n" + crown(), "rail.prr: the list of points has no point.end: the file is cut off"},
   };
   for (const auto& [text, message] : wrong) EXPECT_EQ(error_of(text, ProfileKind::rail, "rail.prr").find(message), 0u) << error_of(text, ProfileKind::rail, "rail.prr");
 }
@@ -275,6 +281,7 @@ TEST_F(ReadProfile, MiniProf_files_new_and_old_are_read_without_their_switched_o
   expect_same_curve(old, fresh, 1e-12);
   for (const char* n : {"MiniProf profile of", "1 points in quotes are switched off.", "XYPoints says 7.", "the profile was mirrored"}) EXPECT_TRUE(mentions(notes, n)) << n;
   EXPECT_EQ(error_of("ColumnDef=A,X,Y\n\n" + crown(), ProfileKind::rail, "rail.ban").find("rail.ban:1: 'ColumnDef=A,X,Y': the columns do not begin with X,Y"), 0u);
+  EXPECT_EQ(error_of("XYPoints=83\n\n\"1 2\n" + crown(), ProfileKind::rail, "rail.ban").find("rail.ban: XYPoints says 83, but there are 81 points: the file is cut off"), 0u);
   EXPECT_EQ(error_of("A=1\n\n1 2\nx 3\n", ProfileKind::rail, "rail.ban").find("rail.ban:4: 'x 3' is not two finite numbers"), 0u);
 }
 
