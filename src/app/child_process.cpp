@@ -28,6 +28,7 @@ pid_t start_self(const std::vector<std::string>& words, const std::filesystem::p
     ::dup2(out, STDOUT_FILENO);
     ::dup2(out, STDERR_FILENO);
     if (const int in = ::open("/dev/null", O_RDONLY); in >= 0) ::dup2(in, STDIN_FILENO);
+    ::signal(SIGUSR1, SIG_IGN);  // until it has a handler of its own: the default would end it
     ::execv("/proc/self/exe", argv.data());
     _exit(static_cast<int>(ExitCode::environment));
   }

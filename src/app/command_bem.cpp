@@ -7,7 +7,6 @@
 #include "app/run_bem.hpp"
 #include "app/summary_text.hpp"
 #include "app/write_report.hpp"
-#include "io/summary_json.hpp"
 #include "post/bem_summary.hpp"
 
 namespace railstrata {
@@ -26,13 +25,13 @@ ExitCode command_bem(const CommandOptions& options) {
   summary.run.threads = options.threads;
   summary.run.peak_memory_bytes = peak_memory();
 
+  require_apart(out, loaded);
   const FolderHold hold = prepare_output_folder(out, options.force);
   clear_old_results(out);
   write_origin(out, loaded, options.command_line, options.threads);
   write_bem_geometry(out, spec, placement, summary.position);
   write_bem_result(out, table_origin(loaded), result, summary);
-  if (options.json) fmt::print("{}\n", summary_json(summary).dump(2));
-  else fmt::print("{}", summary_text(summary));
+  print_summary(summary, options.json);
   spdlog::info("results are in {}", out.string());
   if (options.report) add_report(out, options.threads);
   const bool ok = all_checks_hold(summary);

@@ -124,11 +124,12 @@ ExitCode command_compare(const CommandOptions& options) {
   const FolderHold hold = prepare_output_folder(out, options.force);
   const std::vector<std::string> origin{fmt::format("RailStrata {}", version_text()), fmt::format("a: {} ({}); b: {} ({})", a.folder.string(), a.engine, b.folder.string(), b.engine),
                                         "x from the axle in the rolling direction, y towards the field side; q: magnitude of the traction"};
-  write_whole_file(out / "compare.json", json.dump(2) + "\n");
+  const std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  write_whole_file(out / "compare.json", text);
   write_whole_file(out / "compare.csv", csv_text(rows));
   write_fields(out / "fields.csv", origin, comparison);
   write_whole_file(out / "compare.svg", comparison_svg({"A: " + last_name(a.folder) + " (" + a.engine + ")", a.field}, {"B: " + last_name(b.folder) + " (" + b.engine + ")", b.field}, comparison));
-  if (options.json) fmt::print("{}\n", json.dump(2));
+  if (options.json) fmt::print("{}", text);
   else print_table(a, b, rows, comparison);
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 
+#include <nlohmann/json.hpp>
+
 #include "app/commands.hpp"
 #include "app/write_report.hpp"
 #include "core/faults.hpp"
+#include "io/output_file.hpp"
 
 namespace railstrata {
 namespace {
@@ -21,11 +24,13 @@ std::filesystem::path page_of(const CommandOptions& options) {
 ExitCode command_report(const CommandOptions& options) {
   if (options.folders.size() > 1 && options.out.empty()) throw CaseError("a report on several folders needs a place", "name the page with --out, e.g. --out comparison.html");
   const std::filesystem::path page = page_of(options);
-  if (page == options.out && !options.force && std::filesystem::exists(page))
+  if (!options.out.empty() && !options.force && std::filesystem::exists(page))
     throw CaseError(fmt::format("--out {}: there is a file of this name", page.string()), "choose another name, or replace it with --force");
-  if (page.has_parent_path()) std::filesystem::create_directories(page.parent_path());
+  for (const std::filesystem::path& folder : options.folders)
+    if (!std::filesystem::is_directory(folder)) throw CaseError(fmt::format("{} is not a result folder", folder.string()), "give a folder that `railstrata run` or `railstrata bem` has written");
+  if (page.has_parent_path()) make_folder(page.parent_path());
   write_report(page, options.folders, options.reference_solution, options.threads);
-  if (options.json) fmt::print("{{\"report\": \"{}\"}}\n", page.generic_string());
+  if (options.json) fmt::print("{}\n", nlohmann::json{{"report", page.generic_string()}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   spdlog::info("the report is {}", page.string());
   return ExitCode::ok;
 }

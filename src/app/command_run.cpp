@@ -13,7 +13,6 @@
 #include "app/summary_text.hpp"
 #include "app/write_report.hpp"
 #include "io/provenance.hpp"
-#include "io/summary_json.hpp"
 #include "model/model.hpp"
 
 namespace railstrata {
@@ -98,9 +97,12 @@ ExitCode command_run(const CommandOptions& options) {
     request.resume = std::move(found.checkpoint.run);
   } else {
     place(loaded.spec, loaded.folder());  // faults of the input before a folder is made
+    require_apart(out, loaded);
     hold.emplace(prepare_output_folder(out, options.force));
-    clear_old_results(out);
-    write_origin(out, loaded, options.command_line, options.threads);
+    request.begin = [&] {
+      clear_old_results(out);
+      write_origin(out, loaded, options.command_line, options.threads);
+    };
     spdlog::info("{}: results go to {}", loaded.spec.title, out.string());
   }
 
@@ -123,10 +125,7 @@ ExitCode command_run(const CommandOptions& options) {
     }
   }();
 
-  for (const Summary& s : outcome.summaries) {
-    if (options.json) fmt::print("{}\n", summary_json(s).dump(2));
-    else fmt::print("{}", summary_text(s));
-  }
+  for (const Summary& s : outcome.summaries) print_summary(s, options.json);
   if (outcome.stopped) {
     spdlog::warn("stopped {}; go on with\n    {}", outcome.limit_reached ? "for --max-time" : "on request", resume_command(out));
     return outcome.limit_reached ? ExitCode::unfinished : ExitCode::interrupted;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include <nlohmann/json.hpp>
 
@@ -34,13 +35,22 @@ fs::path folder_of(const CommandOptions& options, const LoadedStudy& study) {
   return fs::path("results") / (file.stem() == "study" ? file.parent_path().filename().string() + "-study" : file.stem().string());
 }
 
+/// By what prepare_study_folder writes there first; study.toml is what people call their own files.
+bool is_study_folder(const fs::path& out) {
+  std::ifstream in(out / "provenance.json", std::ios::binary);
+  const auto origin = nlohmann::json::parse(in, nullptr, false);
+  if (!origin.is_object() || !origin.contains("command_line") || !origin["command_line"].is_array()) return false;
+  const auto& words = origin["command_line"];
+  return std::find(words.begin(), words.end(), "study") != words.end();
+}
+
 [[nodiscard]] FolderHold prepare_study_folder(const fs::path& out, const LoadedStudy& study, const CommandOptions& options) {
-  FolderHold hold = prepare_output_folder(out, options.force, "study.toml");
-  write_whole_file(out / "study.toml", study.source_text);
+  FolderHold hold = prepare_output_folder(out, options.force, [&] { return is_study_folder(out); });
   std::vector<fs::path> inputs{study.file};
   for (const StudyGroup& g : study.spec.groups)
     if (std::find(inputs.begin(), inputs.end(), g.base) == inputs.end()) inputs.push_back(g.base);
   write_whole_file(out / "provenance.json", provenance_json(options.command_line, options.overrides, inputs, options.threads));
+  write_whole_file(out / "study.toml", study.source_text);
   return hold;
 }
 
@@ -58,7 +68,7 @@ void print_list(const std::vector<StudyRow>& rows, bool json) {
       all.push_back({{"group", r.study_case->group}, {"case", r.study_case->name}, {"engine", r.study_case->engine}, {"values", values}, {"folder", r.study_case->folder.generic_string()},
                      {"state", r.state}, {"fault", r.fault.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(r.fault)}, {"numbers", numbers}});
     }
-    fmt::print("{}\n", all.dump(2));
+    fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
     return;
   }
   std::size_t width = 4;

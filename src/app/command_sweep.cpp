@@ -16,6 +16,7 @@
 #include "app/run_bem.hpp"
 #include "app/stop_flag.hpp"
 #include "core/parallel.hpp"
+#include "io/csv.hpp"
 #include "io/output_file.hpp"
 #include "io/summary_json.hpp"
 #include "io/variation.hpp"
@@ -78,8 +79,7 @@ class SweepTable {
  public:
   SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin, const std::vector<VariedKey>& keys, std::vector<ResultColumn> columns)
       : file_(file), columns_(std::move(columns)) {
-    std::string head;
-    for (const std::string& line : origin) head += "# " + line + '\n';
+    std::string head = csv_remarks(origin);
     for (const VariedKey& k : keys) head += k.key + ',';
     for (const ResultColumn& c : columns_) head += std::string(c.name) + ',';
     file_.write(head + "fault\n");

@@ -17,7 +17,20 @@ namespace railstrata {
 
 namespace {
 constexpr const char* kProbe = ".writable";  // is made and removed: whether a folder can be written
+
+/// What `run` and `bem` write into a folder or one below it, but for the case and its origin.
+void remove_results(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* name : {"centre_line.csv", "depth_line.csv", "geometry.json", "history.csv", "patch.csv", "patch.pvd", "patch.vtp", "rail.vtu", "rail_cross_section.csv", "rail_longitudinal_section.csv", "rail_surface.vtp",
+                           "report.html", "summary.json", "view.py", "wheel.vtu", "wheel_cross_section.csv", "wheel_longitudinal_section.csv", "wheel_surface.vtp"})
+    std::filesystem::remove(folder / name, ignored);
+  std::vector<std::filesystem::path> frames;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (const std::string name = entry.path().filename().string(); name.starts_with("patch_") && name.ends_with(".vtp")) frames.push_back(entry.path());
+  for (const auto& frame : frames) std::filesystem::remove(frame, ignored);
 }
+
+}  // namespace
 
 FolderHold::FolderHold(const std::filesystem::path& folder, bool shared) : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0 || ::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
@@ -31,17 +44,16 @@ FolderHold::~FolderHold() {
 
 FolderHold::FolderHold(FolderHold&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
-FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, const char* shared_mark) {
+FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, const std::function<bool()>& begun) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder))
     throw EnvironmentError(fmt::format("cannot make the output folder {}: {}", folder.string(), error ? error.message() : "a file of this name is in the way"), "choose another with --out");
-  FolderHold hold(folder, shared_mark != nullptr);
+  FolderHold hold(folder, begun != nullptr);
   bool empty = true;  // but for what others that begin at this moment are still writing, or have left so
   for (auto entry = std::filesystem::directory_iterator(folder, error); !error && entry != std::filesystem::directory_iterator(); entry.increment(error)) empty = empty && (is_part(entry->path().filename().string()) || entry->path().filename() == kProbe);
   if (error) throw EnvironmentError(fmt::format("cannot read the output folder {}: {}", folder.string(), error.message()));
-  const bool begun = shared_mark && std::filesystem::exists(folder / shared_mark);  // after the look around: it may have come meanwhile
-  if (!empty && !begun && !force)
+  if (!empty && !(begun && begun()) && !force)  // asked after the look around: it may have come meanwhile
     throw CaseError(fmt::format("the output folder {} is not empty", folder.string()), "choose another with --out, or overwrite files of the same name with --force");
   const std::filesystem::path probe = folder / kProbe;
   write_whole_file(probe, "");
@@ -50,9 +62,25 @@ FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force
 }
 
 void clear_old_results(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  for (const char* name : {"history.csv", "patch.pvd", "patch.csv", "report.html", "summary.json"}) std::filesystem::remove(folder / name, ignored);
+  remove_results(folder);
   remove_checkpoints(folder);
+  std::error_code ignored;
+  std::vector<std::filesystem::path> parts;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
+    if (const std::string name = entry.path().filename().string(); entry.is_directory(ignored) && (name.starts_with("position_") || name == "half_space" || name == "patch_series")) parts.push_back(entry.path());
+  for (const auto& part : parts) {
+    remove_results(part);
+    if (part.filename() == "half_space")
+      for (const char* name : {"case.toml", "case.original.toml", "provenance.json"}) std::filesystem::remove(part / name, ignored);
+    if (std::filesystem::is_empty(part, ignored)) std::filesystem::remove(part, ignored);
+  }
+}
+
+void require_apart(const std::filesystem::path& folder, const LoadedCase& loaded) {
+  std::error_code ignored;
+  for (const char* name : {"case.toml", "case.original.toml"})
+    if (std::filesystem::equivalent(folder / name, loaded.file, ignored))
+      throw CaseError(fmt::format("the results in {} would replace the case file itself", folder.string()), "choose another folder with --out");
 }
 
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded, const std::vector<std::string>& command_line, int threads) {

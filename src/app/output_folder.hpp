@@ -1,6 +1,7 @@
 #pragma once
 // The folder of a run's results.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,11 +23,16 @@ class FolderHold {
   int descriptor_ = -1;
 };
 
-/// Makes the folder, holds it and tries to write in it. Several may work in one that holds the file `shared_mark` or is about to. Throws CaseError when it is held or holds files and `force` is not set, EnvironmentError when it cannot be made or written.
-[[nodiscard]] FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, const char* shared_mark = nullptr);
+/// Makes the folder, holds it and tries to write in it. With `begun` several may work together in one that it calls theirs, or that is empty. Throws CaseError when it is held or holds files and `force` is not set, EnvironmentError when it
+/// cannot be made or written.
+[[nodiscard]] FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, const std::function<bool()>& begun = {});
 
-/// Removes what would tell of an older result while a new one is on its way: summary, report, tables and pictures that grow, checkpoints.
+/// Removes an older result of `run` or `bem`, so that nothing of it stands beside what is on its way: its tables and pictures, those of its positions and its half-space reference, checkpoints. Other
+/// files stay.
 void clear_old_results(const std::filesystem::path& folder);
+
+/// Throws CaseError if write_origin() would replace the file that the case was read from.
+void require_apart(const std::filesystem::path& folder, const LoadedCase& loaded);
 
 /// case.toml with every option written out, case.original.toml as it was given, provenance.json. Each file is whole or not there.
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded, const std::vector<std::string>& command_line, int threads);

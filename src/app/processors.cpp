@@ -36,7 +36,7 @@ int physical_cores() {
   return std::max(1, static_cast<int>(cores.size()));
 }
 
-int default_threads() { return std::getenv("OMP_NUM_THREADS") != nullptr ? max_threads() : std::min(max_threads(), physical_cores()); }
+int default_threads() { return std::clamp(std::getenv("OMP_NUM_THREADS") != nullptr ? max_threads() : std::min(max_threads(), physical_cores()), 1, kMostThreads); }
 
 std::string oversubscription(int threads) {
   const int processors = std::max(1, static_cast<int>(allowed_processors().size()));

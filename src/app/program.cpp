@@ -6,9 +6,14 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <new>
 #include <system_error>
 
@@ -60,11 +65,16 @@ void add_bem(CLI::App& sub, CommandOptions& options) {
   add_no_report(sub, options);
 }
 
+/// CLI::Range takes what is no number.
+CLI::Validator finite() {
+  return {[](const std::string& text) { return std::isfinite(std::strtod(text.c_str(), nullptr)) ? std::string() : text + " is no finite number"; }, "FINITE"};
+}
+
 void add_creep_curve(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-creep-curve");
   add_cell(sub, options);
-  sub.add_option("--largest", options.largest_creepage, "Largest creepage (default: 0.02)")->check(CLI::Range(1e-6, 0.5));
+  sub.add_option("--largest", options.largest_creepage, "Largest creepage (default: 0.02)")->check(CLI::Range(1e-6, 0.5))->check(finite());
   sub.add_option("--points", options.points, "Creepages, spaced geometrically over two and a half decades (default: 21)")->check(CLI::Range(2, 1000));
 }
 
@@ -174,8 +184,31 @@ void set_up_log(bool quiet, int verbose) {
   spdlog::set_default_logger(logger);
 }
 
+/// Words are written into JSON and TOML files.
+void require_utf8(const std::vector<std::string>& words) {
+  for (const std::string& word : words) {
+    try {
+      nlohmann::json(word).dump();
+    } catch (const nlohmann::json::type_error&) {
+      throw CaseError(fmt::format("\"{}\" is not UTF-8", word), "give files and folders names in UTF-8");
+    }
+  }
+}
+
+/// A launcher may have closed them, and the next file opened would get their number: a table would get the messages. Output that is not there stays an error.
+void occupy_standard_streams() {
+  for (const auto& [stream, flags] : {std::pair{STDIN_FILENO, O_RDONLY}, std::pair{STDOUT_FILENO, O_RDONLY}, std::pair{STDERR_FILENO, O_WRONLY}})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", flags));  // takes the lowest number that is free
+}
+
+/// For messages, which must not fail in their turn.
+void say(FILE* stream, const std::string& text) {
+  std::fputs(text.c_str(), stream);
+  std::fflush(stream);
+}
+
 int tell(ExitCode code, const std::string& text) {
-  fmt::print(stderr, "error: {}\n", text);
+  say(stderr, fmt::format("error: {}\n", text));
   return static_cast<int>(code);
 }
 
@@ -183,10 +216,10 @@ int tell(const CaseError& e, bool json) {
   if (json) {
     auto all = nlohmann::ordered_json::array();
     for (const Diagnostic& d : e.diagnostics) all.push_back({{"where", d.where}, {"message", d.message}, {"remedy", d.remedy}});
-    fmt::print("{}\n", nlohmann::ordered_json{{"errors", all}}.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));  // a wrong file may be in another encoding
+    say(stdout, nlohmann::ordered_json{{"errors", all}}.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");  // a wrong file may be in another encoding
   }
   for (const Diagnostic& d : e.diagnostics)
-    fmt::print(stderr, "{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message, d.remedy.empty() ? "" : "\n    remedy: " + d.remedy);
+    say(stderr, fmt::format("{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message, d.remedy.empty() ? "" : "\n    remedy: " + d.remedy));
   return static_cast<int>(ExitCode::user);
 }
 
@@ -200,7 +233,7 @@ int parse_and_run(const std::vector<std::string>& words, CommandOptions& options
   bool quiet = false;
   int verbose = 0;
   options.threads = default_threads();
-  app.add_option("-j,--threads", options.threads, "Threads (default: OMP_NUM_THREADS, or one a core)")->check(CLI::Range(1, 1024));
+  app.add_option("-j,--threads", options.threads, "Threads (default: OMP_NUM_THREADS, or one a core)")->check(CLI::Range(1, kMostThreads));
   app.add_flag("--json", options.json, "Results on standard output as JSON");
   app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
   app.add_flag("-v,--verbose", verbose, "Say more");
@@ -211,6 +244,7 @@ int parse_and_run(const std::vector<std::string>& words, CommandOptions& options
     e.add_options(*sub, options);
     commands.emplace_back(sub, e.run);
   }
+  require_utf8(words);
   check_command_word(words);
   try {
     std::vector<std::string> reversed(words.rbegin(), words.rend() - 1);
@@ -228,12 +262,15 @@ int parse_and_run(const std::vector<std::string>& words, CommandOptions& options
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
-  std::signal(SIGXFSZ, SIG_IGN);  // a limit on file sizes is an error of the write, with a message
+  occupy_standard_streams();
+  std::signal(SIGUSR1, SIG_IGN);                                           // a wish for a checkpoint where there is none to make
+  for (const int limit : {SIGXFSZ, SIGPIPE}) std::signal(limit, SIG_IGN);  // a limit on file sizes, a reader that is gone: errors of the write, with a message
   CommandOptions options;
   options.command_line.assign(argv, argv + argc);
   try {
     const int code = parse_and_run(options.command_line, options);
     if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
+    if (std::ferror(stdout)) throw std::system_error(EIO, std::generic_category(), "cannot write to standard output");
     return code;
   } catch (const CaseError& e) {
     return tell(e, options.json);

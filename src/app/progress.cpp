@@ -31,7 +31,7 @@ Progress::Progress(std::string what, bool shown) : what_(std::move(what)), shown
 Progress::~Progress() { clear(); }
 
 void Progress::clear() {
-  if (drawn_ && terminal_) fmt::print(stderr, "\r\033[K");
+  if (drawn_ && terminal_) std::fputs("\r\033[K", stderr);
   drawn_ = false;
 }
 
@@ -41,7 +41,7 @@ void Progress::update(double fraction) {
   if (!shown_ || now < next_) return;
   next_ = now + (terminal_ ? std::chrono::milliseconds(200) : std::chrono::milliseconds(30000));
   const std::string line = progress_bar(what_, fraction, std::chrono::duration<double>(now - start_).count(), begin_);
-  fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n");
+  std::fputs(fmt::format("{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n").c_str(), stderr);  // fmt::print would throw where nothing can be written
   std::fflush(stderr);
   drawn_ = true;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/stop_flag.hpp"
 #include "core/faults.hpp"
@@ -14,7 +15,7 @@ double wall_time(const std::string& option, const std::string& text) {
   if (text == "0" || text == "never") return 0;
   try {
     const double seconds = parse_quantity(text, dimension::kTime);
-    if (seconds > 0) return seconds;
+    if (seconds > 0 && std::isfinite(seconds)) return seconds;
     throw CaseError(fmt::format("{} \"{}\" is out of range", option, text), "write a time above zero, e.g. \"10 min\"");
   } catch (const UnitError& e) {
     throw CaseError(fmt::format("{} \"{}\": {}", option, text, e.what()), e.remedy);
@@ -23,7 +24,6 @@ double wall_time(const std::string& option, const std::string& text) {
 
 RunControl::RunControl(const RunTimes& times) : times_(times) {
   stop_flag();
-  take_save_wish();
 }
 
 bool RunControl::out_of_time(double now) const { return times_.limit > 0 && now + 2 * longest_save_ + longest_pause_ + 0.01 * times_.limit >= times_.limit; }

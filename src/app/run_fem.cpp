@@ -25,7 +25,7 @@ class PatchSeries {
  public:
   /// times: of the frames that an interrupted run has left.
   PatchSeries(const RollingSystem& system, const fs::path& out, const std::vector<double>& times) : system_(system), folder_(out / "patch_series"), series_(out / "patch.pvd") {
-    make_folder(folder_);
+    make_folder(folder_, Above::there);
     for (double time : times) series_.add(time, next_file());
   }
   void add(const RollingSample& sample) {
@@ -71,8 +71,10 @@ class RunningFiles {
   std::optional<PatchSeries> series_;
 };
 
+/// Of a position before the last.
+fs::path position_folder(double position) { return fmt::format("position_{:.10g}mm", 1e3 * position); }
+
 void write_position(const RollingSystem& sys, const MeanContact& mean, const Summary& summary, const fs::path& folder, const std::vector<std::string>& provenance) {
-  make_folder(folder);
   write_patch_tables(folder, provenance, mean.field);
   const double contact_y = sys.model.placement.contact.point.y;
   const BandStress rail = band_stress(sys.model.rail, mean.rail, contact_y - sys.model.rail.origin.y);
@@ -104,6 +106,7 @@ FemOutcome run_fem(const FemRequest& request) {
   const Model model = build_model(request.spec, request.case_folder);
   require_memory(model);
   const RollingSystem system(model);
+  if (request.begin) request.begin();
   RunningFiles files(system, request);
   if (!request.resume) report("preload", -1, "");
 
@@ -156,7 +159,9 @@ FemOutcome run_fem(const FemRequest& request) {
     summary.run.threads = request.threads;
     summary.run.peak_memory_bytes = peak_memory();
     const bool last = !run.stopped && k + 1 == run.positions.size();
-    write_position(system, mean, summary, last ? request.out : request.out / fmt::format("position_{:.0f}mm", 1e3 * mean.position), request.provenance);
+    const fs::path folder = last ? request.out : request.out / position_folder(run.positions[k].position);
+    if (!last) make_folder(folder, Above::there);
+    write_position(system, mean, summary, folder, request.provenance);
     outcome.summaries.push_back(std::move(summary));
   }
   if (!run.stopped) remove_checkpoints(request.out);

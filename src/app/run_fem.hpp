@@ -25,6 +25,7 @@ struct FemRequest {
   std::string commit;
   int threads = 0;
   RunReporter report;
+  std::function<void()> begin;            ///< called when mesh and memory are known to do, before the first file is written
   RunTimes times;
   std::string case_sha256;                ///< names the case in checkpoints
   std::string program;                    ///< version_text()

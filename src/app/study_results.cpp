@@ -30,7 +30,7 @@ Json read_json(const fs::path& file) {
 
 bool holds(const fs::path& folder, const StudyCase& c) {
   const Json j = read_json(folder / kStudyFile);
-  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_null() && fs::exists(folder / "summary.json");
+  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_null() && read_json(folder / "summary.json").is_object();
 }
 
 fs::path beside(const fs::path& folder, const std::string& ending) { return folder.string() + ending; }
@@ -246,9 +246,7 @@ void write_study_table(const fs::path& file, const std::vector<std::string>& ori
   for (const StudyRow& row : rows)
     for (const auto& [name, value] : row.numbers)
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  std::string text;
-  for (const std::string& line : origin) text += "# " + line + '\n';
-  text += "group,case,engine,";
+  std::string text = csv_remarks(origin) + "group,case,engine,";
   for (const std::string& key : keys) text += csv_cell(key) + ',';
   for (const std::string& name : names) text += name + ',';
   text += "folder,state,fault\n";

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "app/child_process.hpp"
+#include "app/stop_flag.hpp"
 #include "app/study_results.hpp"
 #include "core/faults.hpp"
 #include "io/output_file.hpp"
@@ -68,6 +69,7 @@ class Pool {
  public:
   Pool(const StudyRun& run, const std::vector<const StudyCase*>& cases) : run_(run), cases_(cases) {
     for (const StudyCase* c : cases) ++left_[c->engine];
+    leave_the_end_to_the_parent();
   }
 
   ~Pool() {
@@ -78,6 +80,7 @@ class Pool {
   int work() {
     while (next_ < cases_.size() || !running_.empty()) {
       if (*run_.stop) return stop();
+      if (take_save_wish()) pass_on(SIGUSR1);
       while (next_ < cases_.size() && static_cast<int>(running_.size()) < run_.jobs) start(*cases_[next_++]);
       collect();
       run_.progress(fraction());
@@ -130,6 +133,10 @@ class Pool {
     run_.ended(c, fault, seconds, ++done_);
   }
 
+  void pass_on(int signal) const {
+    for (const Running& r : running_) ::kill(r.process, signal);
+  }
+
   /// What a later call cannot go on from.
   void discard(const Running& r) {
     std::error_code error;
@@ -138,7 +145,7 @@ class Pool {
 
   /// Those that can end their step do, with a checkpoint; who has not ended after that time is killed. A result that is whole by then is kept.
   int stop() {
-    for (const Running& r : running_) ::kill(r.process, SIGTERM);
+    pass_on(SIGTERM);
     for (const auto asked = Clock::now(); !running_.empty() && seconds_since(asked) < kPatience; std::this_thread::sleep_for(std::chrono::milliseconds(20))) collect();
     for (const Running& r : running_) {
       ::kill(r.process, SIGKILL);

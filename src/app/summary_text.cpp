@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iterator>
 #include <numbers>
+
+#include "io/summary_json.hpp"
 
 namespace railstrata {
 namespace {
@@ -51,6 +54,8 @@ std::string summary_text(const Summary& s) {
   for (const Warning& w : s.warnings) fmt::format_to(to, "    warn   {:<34} {:10.3g}  (above {:.3g}): {}\n", w.name, w.value, w.limit, w.text);
   return out;
 }
+
+void print_summary(const Summary& s, bool json) { std::fputs((json ? summary_json(s).dump(2) + "\n" : summary_text(s)).c_str(), stdout); }
 
 bool all_checks_hold(const Summary& s) {
   return std::all_of(s.checks.begin(), s.checks.end(), [](const Check& k) { return k.ok; });

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
 #include <iterator>
@@ -14,11 +15,7 @@ namespace railstrata {
 namespace {
 
 std::string heading(const std::vector<std::string>& provenance, const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& text : provenance) {
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) out += "# " + line + '\n';
-  }
+  const std::string out = csv_remarks(provenance);
   for (const std::string& name : names)
     if (name.empty() || name.find_first_of(",\"#\r\n") != std::string::npos) throw std::invalid_argument("bad name of a CSV column: '" + name + "'");
   return out + fmt::format("{}\n", fmt::join(names, ","));
@@ -80,6 +77,16 @@ CsvTable parse_csv(const std::string& text, const std::filesystem::path& file) {
     else read_row(line, file, number, table.columns);
   }
   return table;
+}
+
+std::string csv_remarks(const std::vector<std::string>& texts) {
+  std::string out;
+  for (std::string text : texts) {
+    std::replace(text.begin(), text.end(), '\r', '\n');
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) out += "# " + line + '\n';
+  }
+  return out;
 }
 
 void write_csv(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<CsvColumn>& columns) {

@@ -15,6 +15,9 @@ struct CsvColumn {
   std::vector<double> values;
 };
 
+/// Texts as the "# " lines that head a table, one for each of their lines.
+std::string csv_remarks(const std::vector<std::string>& texts);
+
 /// Writes a finished table, whole (io/output_file). provenance: one "# …" line each.
 void write_csv(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<CsvColumn>& columns);
 

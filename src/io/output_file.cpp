@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <array>
@@ -49,9 +50,16 @@ void sync_folder(const fs::path& path) {
   ::close(descriptor);
 }
 
+/// Whoever reads an old file of this name keeps it, and where a link leads nothing is changed.
+int open_anew(const fs::path& path) {
+  struct stat there {};
+  if (::lstat(path.c_str(), &there) == 0 && (S_ISREG(there.st_mode) || S_ISLNK(there.st_mode))) ::unlink(path.c_str());
+  return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+}
+
 }  // namespace
 
-OutputFile::OutputFile(fs::path path) : path_(std::move(path)), descriptor_(::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666)) {
+OutputFile::OutputFile(fs::path path) : path_(std::move(path)), descriptor_(open_anew(path_)) {
   if (descriptor_ < 0) fail();
 }
 
@@ -97,9 +105,9 @@ bool is_abandoned_part(const std::string& name) {
   return ::kill(std::stoi(digits), 0) != 0 && errno == ESRCH;
 }
 
-void make_folder(const fs::path& folder) {
+void make_folder(const fs::path& folder, Above above) {
   std::error_code error;
-  fs::create_directories(folder, error);
+  above == Above::made ? fs::create_directories(folder, error) : fs::create_directory(folder, error);
   if (error) throw EnvironmentError("cannot make the folder " + folder.string() + ": " + error.message(), remedy_of(error.value()));
 }
 

@@ -33,8 +33,10 @@ bool is_part(const std::string& name);
 /// The name ends so, and its process, of this machine, is no more.
 bool is_abandoned_part(const std::string& name);
 
-/// Makes the folder and those above it. Throws EnvironmentError as OutputFile does.
-void make_folder(const std::filesystem::path& folder);
+/// The folders above one that is to be made: made too, or there already (a result's own folder that was moved away is not made anew, for half a result).
+enum class Above { made, there };
+/// Throws EnvironmentError as OutputFile does.
+void make_folder(const std::filesystem::path& folder, Above above = Above::made);
 
 /// Writes to a temporary name beside `path`, waits for the disk and renames: a reader, or a crash, finds the old file or the new one, never a part. On failure the
 /// old file is untouched and the temporary one removed. Throws EnvironmentError naming `path`.

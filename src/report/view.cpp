@@ -14,7 +14,7 @@ void write_view_script(const std::filesystem::path& folder, const std::filesyste
   std::string script(view_script());
   const auto at = script.find(blank);
   assert(at != std::string::npos);
-  script.replace(at, blank.size(), "WRITTEN_TO = " + nlohmann::json(std::filesystem::absolute(place.empty() ? folder : place).lexically_normal().string()).dump());
+  script.replace(at, blank.size(), "WRITTEN_TO = " + nlohmann::json(std::filesystem::absolute(place.empty() ? folder : place).lexically_normal().string()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
   write_whole_file(folder / "view.py", script);
 }
 

@@ -60,8 +60,8 @@ class StudyTest(FromOutside):
         self.assertEqual(rc, code, err)
         return err
 
-    def start(self, text, *words):
-        return start("study", self.study(text), "--out", self.out, "--no-report", *words)
+    def start(self, text, *words, **options):
+        return start("study", self.study(text), "--out", self.out, "--no-report", *words, **options)
 
     def end_well(self, processes, code=0):
         errors = [process.communicate()[1] for process in processes]  # all of them, so that none outlives a failure
@@ -206,16 +206,8 @@ class Killed(StudyTest):
         """The logs of cases that went on from a checkpoint."""
         return [log for log in self.out.rglob("log.txt") if "goes on in" in log.read_text()]
 
-    def ask_for_checkpoints(self, process):
-        """Of the cases that roll: a signal before that would end them."""
-        for pid in self.children(process):
-            with contextlib.suppress(FileNotFoundError, ProcessLookupError):
-                words = pathlib.Path(f"/proc/{pid}/cmdline").read_text().split("\0")
-                if any(str(folder) in words for folder in self.rolling(process)):
-                    os.kill(pid, signal.SIGUSR1)
-
     def wait_for_a_checkpoint(self, process):
-        self.ask_for_checkpoints(process)  # of cases that have gone on there is one already
+        process.send_signal(signal.SIGUSR1)  # a study passes it on; of cases that have gone on there is a checkpoint already
         end = time.monotonic() + 60
         while time.monotonic() < end and process.poll() is None and not any((folder / "checkpoint.h5").exists() for folder in self.rolling(process)):
             time.sleep(0.005)
@@ -245,7 +237,7 @@ class Killed(StudyTest):
             self.wait_for_a_checkpoint(process)
             time.sleep(chance.uniform(0, 0.3))
             if process.poll() is None:  # often it dies while it writes the next
-                self.ask_for_checkpoints(process)
+                process.send_signal(signal.SIGUSR1)
             time.sleep(chance.uniform(0, 0.1))
             children = self.children(process) if process.poll() is None else []
             kills += process.poll() is None
@@ -366,15 +358,16 @@ class Killed(StudyTest):
     def test_ctrl_c_stops_in_time_and_keeps_what_is_there(self):
         self.case(self.LONG)
         text = GRID + '[[group]]\nname = "long"\nbase = "case.toml"\nengines = ["fem"]\n'
-        process = self.start(text, "--jobs", "1")
+        process = self.start(text, "--jobs", "1", start_new_session=True)
         end = time.monotonic() + 60
         while time.monotonic() < end and len(self.stamps()) < 6:
             time.sleep(0.02)
         child = self.wait_for_a_child(process)
         self.wait_until_rolling(process)
-        self.wait_for_a_checkpoint(process)
         asked = time.monotonic()
-        process.send_signal(signal.SIGINT)
+        os.killpg(process.pid, signal.SIGINT)  # a terminal asks all of them, the study its cases once more, a batch system too
+        for pid in child:
+            os.kill(pid, signal.SIGTERM)
         _, err = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130, err)
         self.assertLess(time.monotonic() - asked, 25)
