@@ -6,7 +6,8 @@ namespace railstrata {
 
 LoadedCase load_case_of(const CommandOptions& options) {
   std::filesystem::path file = options.case_file;
-  if (std::filesystem::is_directory(file) && std::filesystem::exists(file / "case.toml")) file /= "case.toml";
+  std::error_code error;  // of a name too long: load_case tells
+  if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error)) file /= "case.toml";
   LoadedCase loaded = load_case(file, options.overrides);
   for (const std::string& note : loaded.notes) spdlog::warn("{}", note);
   return loaded;

@@ -15,8 +15,8 @@ double wall_time(const std::string& option, const std::string& text) {
   if (text == "0" || text == "never") return 0;
   try {
     const double seconds = parse_quantity(text, dimension::kTime);
-    if (seconds > 0 && std::isfinite(seconds)) return seconds;
-    throw CaseError(fmt::format("{} \"{}\" is out of range", option, text), "write a time above zero, e.g. \"10 min\"");
+    if (seconds >= 0 && std::isfinite(seconds)) return seconds;
+    throw CaseError(fmt::format("{} \"{}\" is out of range", option, text), "write a time, e.g. \"10 min\", or 0 for never");
   } catch (const UnitError& e) {
     throw CaseError(fmt::format("{} \"{}\": {}", option, text, e.what()), e.remedy);
   }

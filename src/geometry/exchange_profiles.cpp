@@ -18,6 +18,12 @@ std::string_view trimmed(std::string_view text) {
   return begin == std::string_view::npos ? std::string_view() : text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
+std::string lower(std::string_view text) {
+  std::string out(text);
+  for (char& c : out) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return out;
+}
+
 /// Calls visit(line, number from 1) for every line without the blanks around it.
 template <class Visit>
 void each_line(std::string_view text, Visit&& visit) {
@@ -175,10 +181,11 @@ NumberTable parse_miniprof(std::string_view text, const std::string& name) {
       switched_off += line.front() == '"' && point_of(words_of(line.substr(1))) ? 1 : 0;
       return;
     }
-    if (header && line.find('=') != std::string_view::npos) {
+    if (const std::size_t equals = line.find('='); header && equals != std::string_view::npos) {
       keys = true;
-      if (line.starts_with("XYPoints=")) announced = number_of(trimmed(line.substr(9)));
-      if (line.starts_with("ColumnDef=") && !line.substr(10).starts_with("X,Y"))
+      const std::string key = lower(trimmed(line.substr(0, equals))), value = lower(trimmed(line.substr(equals + 1)));
+      if (key == "xypoints") announced = number_of(value);
+      if (key == "columndef" && !value.starts_with("x,y"))
         refuse(fmt::format("'{}': the columns do not begin with X,Y", line), "export the profile with the columns X and Y first", name, number);
       return;
     }

@@ -42,6 +42,7 @@ Extent extent_z(const std::vector<Vec2>& points) {
 }
 
 NumberTable table_of(ProfileKind kind, std::string_view text, const std::filesystem::path& file) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw CaseError("this profile is in UTF-16", "save it as UTF-8 or plain text", file.string());
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   if (ending == ".prr" || ending == ".prw") return parse_simpack(kind, text, file.string());

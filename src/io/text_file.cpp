@@ -17,7 +17,8 @@ constexpr std::size_t kLargest = std::size_t{4} << 20;  // nobody writes more by
 }  // namespace
 
 std::string read_text_file(const std::filesystem::path& file, const std::string& remedy) {
-  if (std::filesystem::is_directory(file)) throw CaseError(fmt::format("{} is a folder", file.string()), "name the file in it");
+  std::error_code error;  // of a name too long, a folder that may not be looked into: told below
+  if (std::filesystem::is_directory(file, error)) throw CaseError(fmt::format("{} is a folder", file.string()), "name the file in it");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw CaseError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)), remedy);
   std::string text;

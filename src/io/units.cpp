@@ -222,7 +222,9 @@ double parse_quantity(std::string_view whole, const Dimension& expected) {
                                : fmt::format("write {}", describe(expected)));
   const double scaled = scaled_number(number, unit.decimals);
   const double value = unit.factor == 1 ? scaled : scaled * unit.factor;
-  return unit.dimension == dimension::kSlope ? std::tan(value) : value;
+  if (unit.dimension != dimension::kSlope) return value;
+  if (!(std::abs(value) < std::numbers::pi / 2)) throw UnitError("is upright or beyond", fmt::format("write {}", describe(expected)));
+  return std::tan(value);
 }
 
 std::string format_quantity(double value, const Dimension& dimension) {

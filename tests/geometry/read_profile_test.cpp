@@ -202,6 +202,10 @@ TEST_F(ReadProfile, a_missing_file_is_named) {
   }
 }
 
+TEST_F(ReadProfile, another_encoding_is_named) {
+  EXPECT_EQ(error_of(std::string("\xFF\xFE-\0" "3\0" "2\0", 8)).find("list.csv: this profile is in UTF-16\n    remedy: save it as UTF-8"), 0u);
+}
+
 TEST_F(ReadProfile, every_point_has_as_many_columns) {
   EXPECT_EQ(error_of("-32 -2.56\n-28 7 -1.96\n" + crown()).find("list.csv:2: '-28 7 -1.96' has 3 numbers, the lines before it 2\n    remedy: give every point as many columns"), 0u);
   EXPECT_EQ(error_of("-32,000.000, -2.56\n-8,000, -0.16\n-900.000, -0.002\n").find("list.csv:3: '-900.000, -0.002' has 2 numbers, the lines before it 3"), 0u);
@@ -281,6 +285,8 @@ TEST_F(ReadProfile, MiniProf_files_new_and_old_are_read_without_their_switched_o
   expect_same_curve(old, fresh, 1e-12);
   for (const char* n : {"MiniProf profile of", "1 points in quotes are switched off.", "XYPoints says 7.", "the profile was mirrored"}) EXPECT_TRUE(mentions(notes, n)) << n;
   EXPECT_EQ(error_of("ColumnDef=A,X,Y\n\n" + crown(), ProfileKind::rail, "rail.ban").find("rail.ban:1: 'ColumnDef=A,X,Y': the columns do not begin with X,Y"), 0u);
+  for (const char* spelling : {"ColumnDef = A,X,Y\n\n", "columndef=Y,X\n\n"}) EXPECT_NE(error_of(spelling + crown(), ProfileKind::rail, "rail.ban").find("the columns do not begin with X,Y"), std::string::npos) << spelling;
+  EXPECT_EQ(error_of("ColumnDef= X,Y\n\n" + crown(), ProfileKind::rail, "rail.ban"), "accepted");
   EXPECT_EQ(error_of("XYPoints=83\n\n\"1 2\n" + crown(), ProfileKind::rail, "rail.ban").find("rail.ban: XYPoints says 83, but there are 81 points: the file is cut off"), 0u);
   EXPECT_EQ(error_of("A=1\n\n1 2\nx 3\n", ProfileKind::rail, "rail.ban").find("rail.ban:4: 'x 3' is not two finite numbers"), 0u);
 }

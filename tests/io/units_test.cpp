@@ -32,6 +32,7 @@ TEST(Units, HundredKilometresPerHourAreTheirSiValueToRoundOff) {
   EXPECT_DOUBLE_EQ(parse_quantity("100 km/h", kSpeed), 100e3 / 3600);
   EXPECT_DOUBLE_EQ(parse_quantity("23 mrad", kSlope), std::tan(0.023));
   EXPECT_DOUBLE_EQ(parse_quantity("45 deg", kSlope), 1.0);
+  for (const char* upright : {"90 deg", "-181 deg", "1.6 rad"}) EXPECT_THROW(parse_quantity(upright, kSlope), UnitError) << upright;
 }
 
 TEST(Units, WhatIsShownReadsBackToTheSameBits) {

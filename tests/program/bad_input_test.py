@@ -53,6 +53,9 @@ class InTheCase(Refusal):
         self.assertEqual(rc, 2, err)
         self.assertIn("this is not TOML: ", json.loads(out)["errors"][0]["message"])
 
+    def test_a_name_too_long(self):
+        self.refused(2, ["check", "a" * 5000], "File name too long")
+
     def test_a_file_without_end(self):
         self.refused(2, ["check", "/dev/zero"], "error: /dev/zero is larger than 4 MiB")
 
