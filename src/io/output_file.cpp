@@ -30,6 +30,7 @@ std::string remedy_of(int reason) {
     case ENOSPC: return "make room on the disk";
     case EDQUOT: return "make room within your disk quota";
     case EFBIG: return "raise the limit on the size of files (ulimit -f)";
+    case ENOENT: return "leave the folder where it is while results are written into it";
     case EROFS:
     case EACCES:
     case EPERM: return "choose a folder that can be written, with --out, or give yourself the permission";

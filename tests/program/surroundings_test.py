@@ -120,6 +120,7 @@ class Folders(Surroundings):
         self.out.rename(self.folder / "moved")
         err = process.communicate()[1]
         self.assertEqual(process.returncode, 4, err)
+        self.assertRegex(err, f"error: cannot write {self.out}/.*: No such file or directory\n    remedy: leave the folder where it is")
         self.assertFalse(self.out.exists())
 
     def test_the_case_file_itself_is_never_replaced(self):
