@@ -67,10 +67,10 @@ void clear_old_results(const std::filesystem::path& folder) {
   std::error_code ignored;
   std::vector<std::filesystem::path> parts;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (const std::string name = entry.path().filename().string(); entry.is_directory(ignored) && (name.starts_with("position_") || name == "half_space" || name == "patch_series")) parts.push_back(entry.path());
+    if (const std::string name = entry.path().filename().string(); entry.is_directory(ignored) && (name.starts_with(kPositionFolder) || name == kReferenceFolder || name == kSeriesFolder)) parts.push_back(entry.path());
   for (const auto& part : parts) {
     remove_results(part);
-    if (part.filename() == "half_space")
+    if (part.filename() == kReferenceFolder)
       for (const char* name : {"case.toml", "case.original.toml", "provenance.json"}) std::filesystem::remove(part / name, ignored);
     if (std::filesystem::is_empty(part, ignored)) std::filesystem::remove(part, ignored);
   }

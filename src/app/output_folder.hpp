@@ -9,6 +9,9 @@
 
 namespace railstrata {
 
+/// Folders within that of a result: its half-space reference, the patch during the rolling, positions before the last ("position_170mm").
+inline constexpr const char *kReferenceFolder = "half_space", *kSeriesFolder = "patch_series", *kPositionFolder = "position_";
+
 /// Holds a folder for as long as it lives, against every other program that would write there: two runs never mix their files. Ends with the process, however that ends; leaves no file.
 /// Shared: several that know of each other (the shards of a study) may hold it together. On file systems that cannot lock it holds nothing.
 class FolderHold {

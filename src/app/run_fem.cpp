@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "app/memory_need.hpp"
+#include "app/output_folder.hpp"
 #include "app/peak_memory.hpp"
 #include "app/stop_flag.hpp"
 #include "core/faults.hpp"
@@ -24,7 +25,7 @@ namespace fs = std::filesystem;
 class PatchSeries {
  public:
   /// times: of the frames that an interrupted run has left.
-  PatchSeries(const RollingSystem& system, const fs::path& out, const std::vector<double>& times) : system_(system), folder_(out / "patch_series"), series_(out / "patch.pvd") {
+  PatchSeries(const RollingSystem& system, const fs::path& out, const std::vector<double>& times) : system_(system), folder_(out / kSeriesFolder), series_(out / "patch.pvd") {
     make_folder(folder_, Above::there);
     for (double time : times) series_.add(time, next_file());
   }
@@ -72,7 +73,7 @@ class RunningFiles {
 };
 
 /// Of a position before the last.
-fs::path position_folder(double position) { return fmt::format("position_{:.10g}mm", 1e3 * position); }
+fs::path position_folder(double position) { return fmt::format("{}{:.10g}mm", kPositionFolder, 1e3 * position); }
 
 void write_position(const RollingSystem& sys, const MeanContact& mean, const Summary& summary, const fs::path& folder, const std::vector<std::string>& provenance) {
   write_patch_tables(folder, provenance, mean.field);

@@ -53,7 +53,7 @@ std::string title_of(const std::vector<ReportRun>& runs) {
 
 fs::path half_space_reference(const fs::path& folder, int threads) {
   const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
-  const fs::path home = full.filename().string().starts_with("position_") ? full.parent_path() : full;
+  const fs::path home = full.filename().string().starts_with(kPositionFolder) ? full.parent_path() : full;
   fs::path out = home / kReferenceFolder;
   if (fs::exists(out / "summary.json") && same_text(home / "case.toml", out / "case.toml")) return out;
   try {

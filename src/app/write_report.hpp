@@ -6,9 +6,6 @@
 
 namespace railstrata {
 
-/// Folder of the half-space solution beside a finite element result.
-inline constexpr const char* kReferenceFolder = "half_space";
-
 /// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that holds this case already. Of several positions each has the
 /// one of the run's folder. Returns the folder; empty, with a warning that says why, where the case or its profiles cannot be read any more or theory has no answer.
 std::filesystem::path half_space_reference(const std::filesystem::path& folder, int threads);
