@@ -93,8 +93,9 @@ class Folders(Surroundings):
 
     def test_force_replaces_nothing_before_the_new_case_is_known_to_do(self):
         before = self.stopped_run()
-        for setting, code in (('vehicle.wheel_mass="1 g"', 2), ("mesh.element_size=\"0.05 mm\"", 4)):
-            rc, _, err = railstrata("run", self.case(SMALL), *WORDS, "--out", self.out, "--force", "--set", setting)
+        too_large = ["--set", "mesh.element_size=0.05 mm", "--set", "mesh.fine_depth=8 mm"]
+        for settings, code in ((["--set", "vehicle.wheel_mass=1 g"], 2), (too_large, 4)):
+            rc, _, err = railstrata("run", self.case(TWO), *WORDS, "--out", self.out, "--force", *settings)
             self.assertEqual(rc, code, err)
             self.assertEqual(results(self.out), before)
 
