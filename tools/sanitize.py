@@ -11,6 +11,7 @@ Exit code: 0 clean, 1 a finding or a failed test, 4 the build failed.
 import argparse
 import os
 import re
+import shlex
 import subprocess
 import sys
 import xml.etree.ElementTree as xml
@@ -61,7 +62,7 @@ def main():
         print(f"{preset} ({PRESETS[preset]}): {numbers['tests']} tests, {numbers['failed']} failed, {numbers['skipped']} skipped, {numbers['findings']} findings")
         worst = max(worst, 1 if numbers["failed"] or numbers["findings"] or numbers["tests"] == 0 else 0)
         if given.csv:
-            scope, command = " ".join([*rooms, *ctest]) or "all fast tests", " ".join(["./railstrata sanitize", preset, *(["--rooms", given.rooms] if rooms else []), *(["--", *ctest] if ctest else [])])
+            scope, command = " ".join([*rooms, *ctest]) or "all fast tests", " ".join(["./railstrata sanitize", preset, *(["--rooms", given.rooms] if rooms else []), *(["--", *map(shlex.quote, ctest)] if ctest else [])])
             records.keep(given.csv, ["preset", "tests_of"], [{"preset": preset, "sanitizers": PRESETS[preset], "tests_of": scope, **numbers, "commit": records.commit(), "command": command}])
     return worst
 
