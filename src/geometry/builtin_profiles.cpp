@@ -121,7 +121,7 @@ Profile s1002_wheel() {
   double y = begin;
   for (; end - y > 0.5 * chord; y = march(y, end, chord)) points.push_back(from_drawing(y, s1002_height_mm(y)));
   points.push_back(from_drawing(end, s1002_height_mm(end)));
-  return Profile::from_points(ProfileKind::wheel, "S1002", std::move(points));
+  return Profile::from_points(ProfileKind::wheel, "S1002", points);
 }
 
 Profile lma_wheel() { return Profile::from_segments(ProfileKind::wheel, "LMA", segments(kLma)); }
