@@ -11,6 +11,7 @@
 #include "io/result_folder.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
+#include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
 #include "post/compare.hpp"
@@ -124,7 +125,7 @@ ExitCode command_compare(const CommandOptions& options) {
   const FolderHold hold = prepare_output_folder(out, options.force);
   const std::vector<std::string> origin{fmt::format("RailStrata {}", version_text()), fmt::format("a: {} ({}); b: {} ({})", a.folder.string(), a.engine, b.folder.string(), b.engine),
                                         "x from the axle in the rolling direction, y towards the field side; q: magnitude of the traction"};
-  const std::string text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  const std::string text = json_text(json, 2) + "\n";
   write_whole_file(out / "compare.json", text);
   write_whole_file(out / "compare.csv", csv_text(rows));
   write_fields(out / "fields.csv", origin, comparison);

@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/write_report.hpp"
 #include "core/faults.hpp"
+#include "io/json_text.hpp"
 #include "io/output_file.hpp"
 
 namespace railstrata {
@@ -30,7 +31,7 @@ ExitCode command_report(const CommandOptions& options) {
     if (!std::filesystem::is_directory(folder)) throw CaseError(fmt::format("{} is not a result folder", folder.string()), "give a folder that `railstrata run` or `railstrata bem` has written");
   if (page.has_parent_path()) make_folder(page.parent_path());
   write_report(page, options.folders, options.reference_solution, options.threads);
-  if (options.json) fmt::print("{}\n", nlohmann::json{{"report", page.generic_string()}}.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (options.json) fmt::print("{}\n", json_text(nlohmann::json{{"report", page.generic_string()}}));
   spdlog::info("the report is {}", page.string());
   return ExitCode::ok;
 }

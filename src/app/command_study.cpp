@@ -15,6 +15,7 @@
 #include "app/study_page.hpp"
 #include "app/study_results.hpp"
 #include "app/study_run.hpp"
+#include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
 
@@ -68,7 +69,7 @@ void print_list(const std::vector<StudyRow>& rows, bool json) {
       all.push_back({{"group", r.study_case->group}, {"case", r.study_case->name}, {"engine", r.study_case->engine}, {"values", values}, {"folder", r.study_case->folder.generic_string()},
                      {"state", r.state}, {"fault", r.fault.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(r.fault)}, {"numbers", numbers}});
     }
-    fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(all, 2));
     return;
   }
   std::size_t width = 4;

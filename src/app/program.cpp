@@ -23,6 +23,7 @@
 #include "app/processors.hpp"
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
+#include "io/json_text.hpp"
 #include "io/provenance.hpp"
 
 namespace railstrata {
@@ -216,7 +217,7 @@ int tell(const CaseError& e, bool json) {
   if (json) {
     auto all = nlohmann::ordered_json::array();
     for (const Diagnostic& d : e.diagnostics) all.push_back({{"where", d.where}, {"message", d.message}, {"remedy", d.remedy}});
-    say(stdout, nlohmann::ordered_json{{"errors", all}}.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");  // a wrong file may be in another encoding
+    say(stdout, json_text(nlohmann::ordered_json{{"errors", all}}, 2) + "\n");
   }
   for (const Diagnostic& d : e.diagnostics)
     say(stderr, fmt::format("{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message, d.remedy.empty() ? "" : "\n    remedy: " + d.remedy));

@@ -19,6 +19,7 @@
 
 #include "core/faults.hpp"
 #include "core/simd.hpp"
+#include "io/json_text.hpp"
 
 namespace railstrata {
 
@@ -102,7 +103,7 @@ std::string provenance_json(const std::vector<std::string>& command_line, const 
                  {"overrides", overrides},
                  {"inputs", files},
                  {"time_utc", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
-  return all.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";  // the folder that we are in may be in another encoding
+  return json_text(all, 2) + "\n";
 }
 
 }  // namespace railstrata

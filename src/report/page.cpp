@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "io/json_text.hpp"
 #include "io/provenance.hpp"
 #include "report/assets.hpp"
 #include "report/base64.hpp"
@@ -48,7 +49,7 @@ std::string report_page(const Report& report) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"RailStrata {}\">\n<title>{}</title>\n<style>{}</style>\n</head>\n"
       "<body>\n<noscript>This page draws its figures with a script of its own; allow scripts to see it.</noscript>\n"
       "<script type=\"application/json\" id=\"data\">{}</script>\n<template id=\"licences\"><pre>{}</pre></template>\n<script>{}</script>\n</body>\n</html>\n",
-      policy, version_text(), escaped(report.title), report_style(), without_tags(report_payload(report).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace)), escaped(report_licences()), report_script());
+      policy, version_text(), escaped(report.title), report_style(), without_tags(json_text(report_payload(report))), escaped(report_licences()), report_script());
 }
 
 }  // namespace railstrata

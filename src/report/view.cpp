@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "report/assets.hpp"
 
@@ -14,7 +15,7 @@ void write_view_script(const std::filesystem::path& folder, const std::filesyste
   std::string script(view_script());
   const auto at = script.find(blank);
   assert(at != std::string::npos);
-  script.replace(at, blank.size(), "WRITTEN_TO = " + nlohmann::json(std::filesystem::absolute(place.empty() ? folder : place).lexically_normal().string()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  script.replace(at, blank.size(), "WRITTEN_TO = " + json_text(nlohmann::json(std::filesystem::absolute(place.empty() ? folder : place).lexically_normal().string())));
   write_whole_file(folder / "view.py", script);
 }
 
