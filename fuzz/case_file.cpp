@@ -1,11 +1,11 @@
 // Case files, and the overrides of the command line: the file, then after a byte 1 an override a line.
-#include "io/case_file.hpp"
+#include "case/case_file.hpp"
 
 #include <algorithm>
 #include <sstream>
 
-#include "io/option_table.hpp"
-#include "io/variation.hpp"
+#include "case/option_table.hpp"
+#include "study/variation.hpp"
 #include "reader.hpp"
 
 using namespace railstrata;

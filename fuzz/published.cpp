@@ -1,5 +1,5 @@
 // Tables of published numbers.
-#include "io/published.hpp"
+#include "study/published.hpp"
 
 #include <cmath>
 

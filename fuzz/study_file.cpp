@@ -1,10 +1,10 @@
 // Study files. Base cases are looked for beside the study: case.toml of cases/quick.
-#include "io/study_file.hpp"
+#include "study/study_file.hpp"
 
 #include <cmath>
 
-#include "io/case_file.hpp"
-#include "io/units.hpp"
+#include "case/case_file.hpp"
+#include "case/units.hpp"
 #include "reader.hpp"
 
 using namespace railstrata;

@@ -2,11 +2,11 @@
 #include <spdlog/spdlog.h>
 
 #include "app/commands.hpp"
-#include "app/output_folder.hpp"
-#include "app/peak_memory.hpp"
-#include "app/run_bem.hpp"
+#include "runs/output_folder.hpp"
+#include "runs/peak_memory.hpp"
+#include "runs/run_bem.hpp"
 #include "app/summary_text.hpp"
-#include "app/write_report.hpp"
+#include "runs/write_report.hpp"
 #include "post/bem_summary.hpp"
 
 namespace railstrata {

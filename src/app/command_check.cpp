@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/case_estimate.hpp"
+#include "runs/case_estimate.hpp"
 #include "app/commands.hpp"
-#include "app/memory_need.hpp"
+#include "runs/memory_need.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
 

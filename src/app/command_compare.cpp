@@ -7,7 +7,7 @@
 
 #include "app/commands.hpp"
 #include "app/comparison_picture.hpp"
-#include "app/output_folder.hpp"
+#include "runs/output_folder.hpp"
 #include "io/result_folder.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
-#include "app/output_folder.hpp"
-#include "app/run_bem.hpp"
+#include "runs/output_folder.hpp"
+#include "runs/run_bem.hpp"
 #include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"

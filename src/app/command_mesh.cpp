@@ -4,7 +4,7 @@
 
 #include "app/commands.hpp"
 #include "app/mesh_report.hpp"
-#include "app/output_folder.hpp"
+#include "runs/output_folder.hpp"
 #include "io/vtk.hpp"
 #include "mesh/unstructured.hpp"
 

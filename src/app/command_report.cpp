@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
-#include "app/write_report.hpp"
+#include "runs/write_report.hpp"
 #include "core/faults.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"

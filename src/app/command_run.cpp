@@ -5,13 +5,13 @@
 #include <optional>
 
 #include "app/commands.hpp"
-#include "app/output_folder.hpp"
+#include "runs/output_folder.hpp"
 #include "app/processors.hpp"
 #include "app/progress.hpp"
-#include "app/run_fem.hpp"
-#include "app/stop_flag.hpp"
+#include "runs/run_fem.hpp"
+#include "runs/stop_flag.hpp"
 #include "app/summary_text.hpp"
-#include "app/write_report.hpp"
+#include "runs/write_report.hpp"
 #include "io/provenance.hpp"
 #include "model/model.hpp"
 

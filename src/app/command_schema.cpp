@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "app/commands.hpp"
-#include "io/case_schema.hpp"
+#include "case/case_schema.hpp"
 
 namespace railstrata {
 

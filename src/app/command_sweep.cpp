@@ -10,16 +10,16 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
-#include "app/output_folder.hpp"
+#include "runs/output_folder.hpp"
 #include "app/progress.hpp"
-#include "app/result_columns.hpp"
-#include "app/run_bem.hpp"
-#include "app/stop_flag.hpp"
+#include "study/result_columns.hpp"
+#include "runs/run_bem.hpp"
+#include "runs/stop_flag.hpp"
 #include "core/parallel.hpp"
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
 #include "io/summary_json.hpp"
-#include "io/variation.hpp"
+#include "study/variation.hpp"
 #include "post/bem_summary.hpp"
 
 namespace railstrata {

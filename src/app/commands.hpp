@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/faults.hpp"
-#include "io/case_file.hpp"
+#include "case/case_file.hpp"
 
 namespace railstrata {
 

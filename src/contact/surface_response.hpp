@@ -1,5 +1,5 @@
 #pragma once
-// How the surface nodes of a swept body answer one another's impulses within a step, where they are not simply masses (fem/local_steps.hpp).
+// How the surface nodes of a swept body answer one another's impulses within a step, where they are not simply masses (body/local_steps.hpp).
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>

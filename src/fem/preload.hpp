@@ -10,7 +10,7 @@
 #include <atomic>
 #include <functional>
 
-#include "fem/cluster_sizes.hpp"
+#include "body/cluster_sizes.hpp"
 #include "fem/rolling_system.hpp"
 
 namespace railstrata {

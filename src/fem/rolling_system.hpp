@@ -6,31 +6,14 @@
 // other wheel of the set and the bearings hold it). It has what the given wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius.
 // Suspension: groups of a spring and a dashpot with a share of the sprung mass each, vertical, around the axle's (non-rotating) box. In x the sprung mass rides along
 // with the axle if the case says so.
+#include "body/deformable_body.hpp"
 #include "contact/enforcement.hpp"
-#include "fem/solid.hpp"
-#include "fem/ties.hpp"
 #include "model/model.hpp"
 
 namespace railstrata {
 
 /// Elements and precision that a case asks for.
 SolidOptions solid_options(const CaseSpec& spec);
-
-/// A deformable body with its constraints and lumped inertia.
-struct DeformableBody {
-  Solid solid;
-  Ties ties;
-  Field mass;          ///< of the free nodes; slaves, fixed and rigid nodes have zero
-  Field inverse_mass;  ///< zero likewise
-  /// Lines of free nodes: one component of one section node at all stations.
-  struct Line {
-    std::ptrdiff_t first;
-    int count, component, block, node;
-  };
-  std::vector<Line> lines;
-
-  DeformableBody(const SweptBody& mesh, const std::vector<Elastic>& materials, const SolidOptions& options);
-};
 
 /// A node on the rigid axle: index of component x in the wheel's fields, arm from the axle's centre in the undeformed wheel.
 struct BoreNode {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fem/stable_step.hpp"
+#include "body/stable_step.hpp"
 
 namespace railstrata {
 namespace {

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "fem/local_steps.hpp"
-#include "fem/mass_scaling.hpp"
+#include "body/local_steps.hpp"
+#include "body/mass_scaling.hpp"
 
 namespace railstrata {
 
@@ -28,8 +28,8 @@ struct BodySteps {
   SurfaceResponse response;  ///< of local steps: how the stages answer a change of the tractions; empty if they do not reach the surface
 };
 
-/// run.time_step_method: `uniform` takes the step of the real masses, `mass_scaling` adds inertia across thin rows (fem/mass_scaling.hpp), `auto` does so for a body
-/// whose step grows by more than the factor kWorthwhile, `local` keeps the real masses and takes inner steps where elements are fast (fem/local_steps.hpp).
+/// run.time_step_method: `uniform` takes the step of the real masses, `mass_scaling` adds inertia across thin rows (body/mass_scaling.hpp), `auto` does so for a body
+/// whose step grows by more than the factor kWorthwhile, `local` keeps the real masses and takes inner steps where elements are fast (body/local_steps.hpp).
 /// The wanted step of thin rows is run.mass_scaling_step times the element size over the matrix's pressure wave speed.
 struct StepPlan {
   static constexpr double kWorthwhile = 1.2;

@@ -5,7 +5,7 @@
 // z is counted from static equilibrium, where the springs carry the weight.
 #include <vector>
 
-#include "model/case_spec.hpp"
+#include "case/case_spec.hpp"
 
 namespace railstrata {
 

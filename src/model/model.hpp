@@ -8,7 +8,7 @@
 #include "halfspace/hertz.hpp"
 #include "material/elastic.hpp"
 #include "mesh/bodies.hpp"
-#include "model/case_spec.hpp"
+#include "case/case_spec.hpp"
 
 namespace railstrata {
 

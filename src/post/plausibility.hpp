@@ -2,7 +2,7 @@
 // Results that were computed soundly and yet say that the case leaves what its model can mean.
 #include <vector>
 
-#include "model/case_spec.hpp"
+#include "case/case_spec.hpp"
 #include "post/summary.hpp"
 
 namespace railstrata {

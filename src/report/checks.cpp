@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-#include "io/units.hpp"
+#include "case/units.hpp"
 #include "report/report.hpp"
 
 namespace railstrata {

@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-#include "app/stop_flag.hpp"
+#include "runs/stop_flag.hpp"
 
 namespace railstrata {
 namespace {

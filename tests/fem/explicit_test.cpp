@@ -3,10 +3,10 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "fem/stable_step.hpp"
+#include "body/stable_step.hpp"
 #include "fem/stepper.hpp"
-#include "free_matrix.hpp"
-#include "sample_bodies.hpp"
+#include "tests/body/free_matrix.hpp"
+#include "tests/body/sample_bodies.hpp"
 
 namespace railstrata {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "sample_bodies.hpp"
+#include "tests/body/sample_bodies.hpp"
 #include "small_rolling.hpp"
 
 namespace railstrata {

@@ -1,16 +1,16 @@
 // Selective mass scaling of thin rows: against dense algebra, closed forms and the unscaled body.
-#include "fem/mass_scaling.hpp"
+#include "body/mass_scaling.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
 #include <cstring>
 
-#include "fem/stable_step.hpp"
+#include "body/stable_step.hpp"
 #include "fem/stepper.hpp"
-#include "same_bits.hpp"
+#include "tests/body/same_bits.hpp"
 #include "small_rolling.hpp"
-#include "thin_layer.hpp"
+#include "tests/body/thin_layer.hpp"
 
 namespace railstrata {
 namespace {

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "fem/aggregates.hpp"
-#include "sample_bodies.hpp"
+#include "body/aggregates.hpp"
+#include "tests/body/sample_bodies.hpp"
 #include "small_rolling.hpp"
 
 namespace railstrata {

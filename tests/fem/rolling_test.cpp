@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "same_bits.hpp"
+#include "tests/body/same_bits.hpp"
 #include "small_rolling.hpp"
 
 namespace railstrata {

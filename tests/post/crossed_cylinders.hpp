@@ -1,5 +1,5 @@
 #pragma once
-#include "model/case_spec.hpp"
+#include "case/case_spec.hpp"
 
 namespace railstrata::post_checks {
 

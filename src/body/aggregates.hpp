@@ -1,0 +1,69 @@
+#pragma once
+// A body cut into clusters of nodes for the coarse space of the static solver: clusters of section nodes times groups of stations, block by block.
+// Clusters are small near the contact and grow with the distance from it, where the solution is smooth.
+//
+// Each cluster moves as a rigid body, u = t + w x (X - X_c)/l, in a basis that is orthonormal over its free nodes (clusters on a line or in a point have fewer than six). [VanekMandelBrezina1996]
+// Every cluster is worked on by one thread in a fixed order, so results do not depend on the number of threads.
+#include <Eigen/Core>
+
+#include "body/cluster_sizes.hpp"
+#include "body/deformable_body.hpp"
+
+namespace railstrata {
+
+class Aggregates {
+ public:
+  Aggregates(const DeformableBody& body, Vec2 contact, const ClusterSizes& sizes);
+
+  int clusters() const { return static_cast<int>(cluster_.size()); }
+  int modes() const { return modes_; }                                ///< of all clusters
+  int first_mode(int cluster) const { return cluster_[cluster].first_mode; }
+  int mode_count(int cluster) const { return cluster_[cluster].count; }
+  int cluster_of(int block, int node, int station) const;             ///< -1: constrained
+
+  /// out = P^T f, out of length modes().
+  void restrict_to(const Field& f, double* out) const;
+  /// u += P c
+  void prolong(const double* c, Field& u) const;
+  /// Row of P of one displacement component of a free node: values of the modes of its cluster.
+  Eigen::Matrix<double, 6, 1> modes_at(int block, int node, int station, int component) const;
+
+  /// Clusters that share an element, directly or through hanging nodes; [cluster] -> sorted list with the cluster itself. `held` are clusters next to held nodes.
+  struct Neighbours {
+    std::vector<std::vector<int>> of;
+    std::vector<int> held;
+  };
+  Neighbours neighbours() const;
+
+ private:
+  struct Cluster {
+    int block, section, first_station, stations, first_mode, count;
+    Vec3 centre;
+    double length;
+    Eigen::Matrix<double, 6, 6> basis;  // coefficients of (t, w) of the modes, by columns
+  };
+  struct BlockCut {
+    std::vector<std::vector<int>> section;  // clusters of section nodes
+    std::vector<int> section_of;            // per section node, -1: constrained
+    std::vector<int> group_of;              // per station
+    std::vector<int> group_first;           // and one past the end
+    int first_cluster = 0;
+  };
+  void cut_section(int block, std::vector<int> nodes, Vec2 contact, const ClusterSizes& sizes);
+  void cut_stations(int block, double radius, const ClusterSizes& sizes);
+  void add_cluster(int block, int section, int group);
+  Eigen::Matrix<double, 3, 6> rigid_modes(const Cluster& c, int node, int station) const;
+
+  Vec3 arm(const BlockLayout& l, int node, int station) const {
+    const double* a = arm_.data() + l.line(node, 0) + station;
+    return {a[0], a[l.stride], a[2 * l.stride]};
+  }
+
+  const DeformableBody& body_;
+  std::vector<BlockCut> cut_;
+  Field arm_;  // X - X_c of the free nodes
+  std::vector<Cluster> cluster_;
+  int modes_ = 0;
+};
+
+}  // namespace railstrata

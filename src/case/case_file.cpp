@@ -1,0 +1,77 @@
+#include "case/case_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/nearest_word.hpp"
+#include "geometry/profile.hpp"
+#include "case/case_rules.hpp"
+#include "case/case_source.hpp"
+#include "case/case_tree.hpp"
+#include "case/option_table.hpp"
+#include "case/text_file.hpp"
+
+namespace railstrata {
+namespace {
+
+bool is_builtin(ProfileKind kind, const std::string& name) {
+  if (name.starts_with("arc:")) return true;
+  for (const std::string& known : builtin_profile_names(kind))
+    if (edit_distance(known, name) == 0) return true;
+  return false;
+}
+
+/// A built-in name stays; a file becomes an absolute path, so that the resolved case means the same from any folder.
+void resolve_profile(ProfileKind kind, const char* key, std::string& name, LoadedCase& loaded, CaseSource& source) {
+  if (is_builtin(kind, name)) return;
+  std::error_code error;  // a name too long, a folder that may not be read: no file to us
+  const std::filesystem::path file = name.empty() ? loaded.folder() : std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
+  const bool nameable = !name.empty() && name.find('\0') == std::string::npos;
+  if (nameable && std::filesystem::is_regular_file(file, error)) {
+    name = file.string();
+    loaded.inputs.push_back(file);
+    return;
+  }
+  const std::vector<std::string> names = builtin_profile_names(kind);
+  const std::string near = nearest_word(name, names);
+  source.complain(fmt::format("geometry.{}", key), fmt::format("geometry.{} = {}: neither a built-in profile nor a file{}", key, toml_quoted(name), nameable ? fmt::format(" (looked for {})", file.string()) : ""),
+                  fmt::format("{}built in: {}, arc:R=300 mm", near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near), fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+LoadedCase parse_case(const std::string& text, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  LoadedCase loaded;
+  loaded.file = file;
+  loaded.source_text = text;
+  loaded.overrides = overrides;
+  CaseSource source(file, text);
+  loaded.spec = read_case_tree(source, overrides);
+  resolve_profile(ProfileKind::rail, "rail_profile", loaded.spec.geometry.rail_profile, loaded, source);
+  resolve_profile(ProfileKind::wheel, "wheel_profile", loaded.spec.geometry.wheel_profile, loaded, source);
+  check_case_rules(loaded.spec, source);
+  source.finish();
+  loaded.resolved_toml = resolved_case(loaded.spec);
+  loaded.notes = idle_settings(loaded.spec);
+  return loaded;
+}
+
+LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+  LoadedCase loaded = parse_case(read_text_file(file, "shipped cases stand in cases/, e.g. cases/quick/case.toml"), file, overrides);
+  loaded.inputs.insert(loaded.inputs.begin(), file);
+  return loaded;
+}
+
+std::string resolved_case(const CaseSpec& given) {
+  CaseSpec spec = given;
+  std::string out;
+  for (const OptionTable& table : case_tables())
+    for (std::size_t i = 0; i < (table.repeated ? spec.layers.size() : 1); ++i) {
+      out += fmt::format(fmt::runtime(table.repeated ? "{}[[{}]]\n" : "{}[{}]\n"), out.empty() ? "" : "\n", table.name);
+      for (const Option& option : table.options)
+        if (!option.multiple_of && (!option.applies || option.applies(spec, i))) out += fmt::format("{} = {}\n", option.key, toml_value(option, spec, i));
+    }
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,62 @@
+#include "case/case_source.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace railstrata {
+
+CaseSource::CaseSource(std::filesystem::path file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
+  std::istringstream stream(text_);
+  for (std::string line; std::getline(stream, line);) {
+    if (line.ends_with('\r')) line.pop_back();
+    lines_.push_back(line);
+  }
+}
+
+std::string CaseSource::caret_lines(TextPlace place) const {
+  if (place.line < 1 || place.line > static_cast<int>(lines_.size())) return {};
+  const std::string& line = lines_[place.line - 1];
+  std::string indent;
+  for (int i = 0; i + 1 < place.column && i < static_cast<int>(line.size()); ++i)
+    if ((line[i] & 0xC0) != 0x80) indent += line[i] == '\t' ? '\t' : ' ';
+  return fmt::format("\n{:5} | {}\n      | {}^", place.line, line, indent);
+}
+
+void CaseSource::complain_at(TextPlace place, const std::string& message, const std::string& remedy) {
+  found_.push_back({place, {fmt::format("{}:{}:{}", file_.string(), place.line, place.column), message + caret_lines(place), remedy}});
+}
+
+bool CaseSource::sound(std::initializer_list<std::string_view> keys) const {
+  return std::none_of(unsound_.begin(), unsound_.end(), [&](const std::string& bad) {
+    return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return bad.starts_with(key) && (bad.size() == key.size() || bad[key.size()] == '.'); });
+  });
+}
+
+void CaseSource::complain(const std::string& key, const std::string& message, const std::string& remedy) {
+  unsound_.push_back(key);
+  for (std::string at = key;; at.resize(at.rfind('.'))) {
+    if (const auto origin = origins_.find(at); origin != origins_.end()) {
+      found_.push_back({{std::numeric_limits<int>::max(), 0}, {origin->second, message, remedy}});
+      return;
+    }
+    if (const auto place = places_.find(at); place != places_.end()) return complain_at(place->second, message, remedy);
+    if (at.find('.') == std::string::npos) break;
+  }
+  found_.push_back({{}, {file_.string(), message, remedy}});
+}
+
+void CaseSource::finish() const {
+  if (found_.empty()) return;
+  std::vector<Found> sorted = found_;
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Found& a, const Found& b) {
+    return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+  });
+  std::vector<Diagnostic> all;
+  for (Found& f : sorted) all.push_back(std::move(f.diagnostic));
+  throw CaseError(std::move(all));
+}
+
+}  // namespace railstrata

@@ -1,0 +1,390 @@
+#include "case/case_tree.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "core/nearest_word.hpp"
+#include "case/option_table.hpp"
+#include "case/toml_document.hpp"
+
+namespace railstrata {
+namespace {
+
+std::string shown(const toml::node& node) {
+  std::string text;
+  if (const auto* words = node.as_string()) text = '"' + words->get() + '"';
+  else if (const auto* number = node.as_floating_point()) text = fmt::format("{}", number->get());
+  else {
+    std::ostringstream out;
+    node.visit([&](const auto& n) { out << n; });
+    text = out.str();
+  }
+  if (text.size() > 60) text.resize(57), text += "...";
+  return text;
+}
+
+std::string_view kind(const toml::node& node) {
+  if (node.is_table()) return "a table";
+  if (node.is_array_of_tables()) return "a list of tables";
+  if (node.is_array()) return "a list";
+  if (node.is_string()) return "a text";
+  if (node.is_boolean()) return "true or false";
+  return node.is_number() ? "a number" : "a date or time";
+}
+
+/// What the value of an option must look like, with an example.
+std::string wanted(const Option& option) {
+  struct Say {
+    const Option& option;
+    std::string operator()(const double*) const { return describe(option.dimension); }
+    std::string operator()(const int*) const { return "a whole number"; }
+    std::string operator()(const bool*) const { return "true or false"; }
+    std::string operator()(const std::string*) const {
+      return option.choices.empty() ? "a text in quotes" : fmt::format("one of \"{}\"", fmt::join(option.choices, "\", \""));
+    }
+    std::string operator()(const std::vector<double>*) const { return "a list, e.g. [\"0.1 m\", \"0.3 m\"]"; }
+    std::string operator()(const std::vector<ModulusPoint>*) const { return "a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]"; }
+  };
+  CaseSpec any;
+  any.layers.resize(1);
+  return std::visit(Say{option}, option.slot(any, 0));
+}
+
+class TreeReader {
+  static constexpr double kThinnestStep = 1e-6;  // m, of depth in a table of moduli
+
+ public:
+  TreeReader(CaseSource& source, CaseSpec& spec) : source_(source), spec_(spec) {}
+
+  void read(const toml::table& document) {
+    for (const auto& [key, node] : document) read_top(std::string(key.str()), key, node);
+    finish_multiples();
+  }
+
+ private:
+  struct Multiple {
+    const Option* option;
+    std::string key;
+    std::size_t index;
+    double factor;
+  };
+
+  void read_top(const std::string& name, const toml::key& key, const toml::node& node) {
+    remember(name, key, node);
+    if (const OptionTable* table = find_table(name)) return table->repeated ? read_list(*table, node) : read_node(*table, name, node);
+    if (!is_group(name)) return unknown_table(name, name);
+    const toml::table* group = node.as_table();
+    if (!group) return source_.complain(name, fmt::format("{} must be a table", name), fmt::format("write [{}.rail] above its keys", name));
+    for (const auto& [inner, child] : *group) {
+      const std::string full = name + "." + std::string(inner.str());
+      remember(full, inner, child);
+      if (const OptionTable* table = find_table(full)) read_node(*table, full, child);
+      else unknown_table(full, full);
+    }
+  }
+
+  void read_node(const OptionTable& table, const std::string& name, const toml::node& node) {
+    if (const toml::table* t = node.as_table()) return read_table(table, name, 0, *t);
+    source_.complain(name, fmt::format("{} = {}: must be a table", name, shown(node)), fmt::format("write [{}] above its keys", name));
+  }
+
+  void read_list(const OptionTable& table, const toml::node& node) {
+    const toml::array* list = node.as_array();
+    const bool fits = list && std::all_of(list->begin(), list->end(), [](const toml::node& n) { return n.is_table(); });
+    if (!fits) return source_.complain(std::string(table.name), fmt::format("{} must be a list of tables", table.name), fmt::format("write [[{}]] with two brackets", table.name));
+    spec_.layers.resize(list->size());
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const std::string name = fmt::format("{}.{}", table.name, i);
+      source_.remember(name, place_of((*list)[i].source()));
+      const toml::table& entry = *(*list)[i].as_table();
+      read_table(table, name, i, entry);
+      check_modulus(name, entry);
+    }
+  }
+
+  void read_table(const OptionTable& table, const std::string& name, std::size_t index, const toml::table& entries) {
+    for (const auto& [key, node] : entries) {
+      const std::string word(key.str()), full = fmt::format("{}.{}", name, word);
+      const auto option = std::find_if(table.options.begin(), table.options.end(), [&](const Option& o) { return o.key == word; });
+      if (option == table.options.end()) {
+        source_.remember(full, place_of(key.source()));
+        unknown_key(table, full, word);
+        continue;
+      }
+      remember(full, key, node);
+      read_value(*option, full, index, node);
+    }
+  }
+
+  /// A layer's stiffness is its whole point: no silent default.
+  void check_modulus(const std::string& name, const toml::table& entry) {
+    const bool young = entry.contains("young"), ratio = entry.contains("young_ratio"), table = entry.contains("young_table");
+    if (young && ratio) source_.complain(name + ".young_ratio", fmt::format("{} has both young and young_ratio", name), "keep one of them");
+    if ((young || ratio) && table) source_.complain(name + ".young_table", fmt::format("{} has both young_table and {}", name, young ? "young" : "young_ratio"), "keep one of them");
+    if (table && entry.contains("thickness")) source_.complain(name + ".thickness", fmt::format("{} has both young_table and thickness", name), "leave thickness out: the layer ends at the table's last depth");
+    if (!young && !ratio && !table) source_.complain(name, fmt::format("{} has no modulus", name), "add young = \"420 GPa\", or young_ratio = 2.0 for twice the body's");
+  }
+
+  void read_value(const Option& option, const std::string& key, std::size_t index, const toml::node& node) {
+    std::visit([&](auto* target) { assign(option, key, index, node, *target); }, option.slot(spec_, index));
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, double& target) {
+    double value = 0;
+    if (!number(option, key, node, value)) return;
+    if (option.multiple_of) multiples_.push_back({&option, key, index, value});
+    else target = value;
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, int& target) {
+    const auto value = node.value_exact<int64_t>();
+    if (!value) return mismatch(option, key, node);
+    if (!option.range.holds(static_cast<double>(*value))) return out_of_range(option, key, shown(node), "");
+    target = static_cast<int>(*value);
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, bool& target) {
+    const auto value = node.value_exact<bool>();
+    if (!value) return mismatch(option, key, node);
+    target = *value;
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, std::string& target) {
+    const auto value = node.value_exact<std::string>();
+    if (!value) return mismatch(option, key, node);
+    if (!option.choices.empty() && std::find(option.choices.begin(), option.choices.end(), *value) == option.choices.end()) {
+      const std::string near = nearest_word(*value, {option.choices.begin(), option.choices.end()});
+      return source_.complain(key, fmt::format("{} = \"{}\": must be {}", key, *value, wanted(option)),
+                              near.empty() ? fmt::format("write {} = \"{}\"", option.key, option.choices.front()) : fmt::format("did you mean \"{}\"?", near));
+    }
+    target = *value;
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, std::vector<double>& target) {
+    const toml::array* list = node.as_array();
+    if (!list) return mismatch(option, key, node);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const std::string item = fmt::format("{}.{}", key, i);
+      remember_place(item, (*list)[i]);
+      double value = 0;
+      if (number(option, item, (*list)[i], value)) values.push_back(value);
+    }
+    if (list->empty()) source_.complain(key, fmt::format("{} = []: needs at least one value", key), fmt::format("write {}", wanted(option)));
+    target = values;
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, std::vector<ModulusPoint>& target) {
+    const toml::array* list = node.as_array();
+    if (!list) return mismatch(option, key, node);
+    std::vector<ModulusPoint> rows;
+    bool sound = true;
+    for (std::size_t i = 0; i < list->size(); ++i) {
+      const std::string item = fmt::format("{}.{}", key, i);
+      const toml::node& row = (*list)[i];
+      remember_place(item, row);
+      const toml::array* pair = row.as_array();
+      if (!pair || pair->size() != 2) {
+        source_.complain(item, fmt::format("{}: must be a depth and a modulus", item), "write [\"3 mm\", \"210 GPa\"]");
+        sound = false;
+        continue;
+      }
+      ModulusPoint point;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const std::string part = fmt::format("{}.{}", item, k);
+        remember_place(part, (*pair)[k]);
+        sound &= number(k == 0 ? table_depth() : table_young(), part, (*pair)[k], k == 0 ? point.depth : point.young);
+      }
+      rows.push_back(point);
+    }
+    if (sound && fits(option, key, rows)) take_table(spec_.layers.at(index), rows);
+    target = rows;
+  }
+
+  /// From the top down, at least two rows, as thick as a layer may be.
+  bool fits(const Option& option, const std::string& key, const std::vector<ModulusPoint>& rows) {
+    const auto refuse = [&](const std::string& at, const std::string& what, const std::string& remedy) {
+      source_.complain(at, what, remedy);
+      return false;
+    };
+    if (rows.size() < 2) return refuse(key, fmt::format("{}: needs at least two rows", key), fmt::format("write {}", wanted(option)));
+    if (rows.front().depth != 0) return refuse(key + ".0", fmt::format("{}: the first depth must be 0 mm, the layer's top", key), "begin with the modulus at the top");
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      if (!(rows[i].depth - rows[i - 1].depth >= kThinnestStep))
+        return refuse(fmt::format("{}.{}", key, i), fmt::format("{}: depths must increase, by {} at least", key, format_quantity(kThinnestStep, dimension::kLength)), "sort the rows by depth; for a jump write two layers");
+    const OptionTable& table = *find_table("layer");
+    const auto thickness = std::find_if(table.options.begin(), table.options.end(), [](const Option& o) { return o.key == "thickness"; });
+    if (!thickness->range.holds(rows.back().depth))
+      return refuse(fmt::format("{}.{}", key, rows.size() - 1), fmt::format("{}: the last depth, the layer's thickness, must be {}", key, describe(thickness->range, thickness->dimension)), "choose depths in this range");
+    return true;
+  }
+
+  static void take_table(LayerSpec& layer, const std::vector<ModulusPoint>& rows) {
+    double area = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i) area += 0.5 * (rows[i].young + rows[i - 1].young) * (rows[i].depth - rows[i - 1].depth);
+    layer.thickness = rows.back().depth;
+    layer.material.young = area / layer.thickness;
+  }
+
+  void remember_place(const std::string& item, const toml::node& node) {
+    if (const TextPlace place = place_of(node.source()); place.line > 0) source_.remember(item, place);
+  }
+
+  bool number(const Option& option, const std::string& key, const toml::node& node, double& out) {
+    double value = 0;
+    std::string text;
+    if (const auto written = node.value_exact<std::string>()) {
+      text = *written;
+      try {
+        value = parse_quantity(text, option.dimension);
+      } catch (const UnitError& e) {
+        source_.complain(key, fmt::format("{} = \"{}\": {}", key, text, e.what()), e.remedy);
+        return false;
+      }
+    } else if (node.is_number()) {
+      value = number_of(node);
+      if (!(option.dimension == dimension::kNumber || option.dimension == dimension::kSlope)) {
+        source_.complain(key, fmt::format("{} = {}: a bare number has no unit", key, shown(node)), fmt::format("write {}, in quotes", describe(option.dimension)));
+        return false;
+      }
+    } else {
+      mismatch(option, key, node);
+      return false;
+    }
+    if (!std::isfinite(value) || !option.range.holds(value)) {
+      out_of_range(option, key, shown(node), text);
+      return false;
+    }
+    out = value;
+    return true;
+  }
+
+  void mismatch(const Option& option, const std::string& key, const toml::node& node) {
+    source_.complain(key, fmt::format("{} = {}: is {}, must be {}", key, shown(node), kind(node), wanted(option)), fmt::format("write {}", wanted(option)));
+  }
+
+  void out_of_range(const Option& option, const std::string& key, const std::string& value, const std::string& quantity) {
+    const std::string instead = quantity.empty() ? "" : suggest_quantity(quantity, option.dimension, option.range.min, option.range.max);
+    const std::string allowed = describe(option.range, option.dimension);
+    source_.complain(key, fmt::format("{} = {}: must be {}", key, value, allowed.empty() ? "finite" : allowed),
+                     instead.empty() ? "choose a value in this range" : fmt::format("did you mean \"{}\"?", instead));
+  }
+
+  void unknown_key(const OptionTable& table, const std::string& full, const std::string& key) {
+    std::vector<std::string> keys;
+    for (const Option& o : table.options) keys.emplace_back(o.key);
+    const std::string near = nearest_word(key, keys);
+    source_.complain(full, fmt::format("unknown key {}", full),
+                     fmt::format("{}keys of [{}]: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near), table.name, fmt::join(keys, ", ")));
+  }
+
+  void unknown_table(const std::string& full, const std::string& name) {
+    std::vector<std::string> names;
+    for (const OptionTable& t : case_tables()) names.emplace_back(t.name);
+    const std::string near = nearest_word(name, names);
+    source_.complain(full, fmt::format("unknown table or key {}", full),
+                     fmt::format("{}tables: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(names, ", ")));
+  }
+
+  /// Values point at the value, tables and keys set by an override at nothing of the text.
+  void remember(const std::string& full, const toml::key& key, const toml::node& node) {
+    const TextPlace value = place_of(node.source()), name = place_of(key.source());
+    const bool by_name = name.line > 0 && (node.is_table() || value.line == 0);
+    if (const TextPlace& at = by_name ? name : value; at.line > 0) source_.remember(full, at);
+  }
+
+  static const OptionTable* find_table(std::string_view name) {
+    for (const OptionTable& t : case_tables())
+      if (t.name == name) return &t;
+    return nullptr;
+  }
+  static bool is_group(const std::string& name) {
+    return std::any_of(case_tables().begin(), case_tables().end(), [&](const OptionTable& t) { return t.name.starts_with(name + "."); });
+  }
+
+  /// After everything else, because what they multiply may stand further down.
+  void finish_multiples() {
+    for (const Multiple& m : multiples_) {
+      const Slot slot = m.option->slot(spec_, m.index);
+      const double value = m.factor * m.option->multiple_of(spec_, m.index);
+      for (const OptionTable& table : case_tables())
+        for (const Option& whole : table.options)
+          if (!whole.multiple_of && table.repeated && whole.slot(spec_, m.index) == slot && !whole.range.holds(value))
+            source_.complain(m.key, fmt::format("{} = {}: makes {} {}, which must be {}", m.key, m.factor, whole.key, format_quantity(value, whole.dimension), describe(whole.range, whole.dimension)), "choose a multiple in this range");
+      *std::get<double*>(slot) = value;
+    }
+  }
+
+  CaseSource& source_;
+  CaseSpec& spec_;
+  std::vector<Multiple> multiples_;
+};
+
+[[noreturn]] void refuse_override(const std::string& text, const std::string& why) {
+  throw CaseError(fmt::format("--set {}: {}", text, why), "write --set table.key=value, e.g. --set mesh.element_size=\"2 mm\" or --set layer.0.thickness=\"0.5 mm\"");
+}
+
+/// TOML where it is TOML, else a text: quotes may be left out.
+toml::table parse_override_value(const std::string& text, const std::string& value) {
+  try {
+    if (toml::table table = toml::parse("value = " + value); table.size() == 1) return table;
+  } catch (const toml::parse_error&) {
+    try {
+      return toml::parse("value = " + toml_quoted(value));
+    } catch (const toml::parse_error&) {
+    }
+  }
+  refuse_override(text, "is not one value in UTF-8");
+}
+
+/// The table named by the parts before the last, made where it is missing; list elements must exist.
+toml::table& descend(toml::table& document, const std::vector<std::string>& parts, const std::string& text) {
+  toml::table* table = &document;
+  for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
+    if (!table->contains(parts[i])) table->insert(parts[i], toml::table{});
+    toml::node& node = *table->get(parts[i]);
+    if (toml::array* list = node.as_array()) {
+      ++i;
+      const bool digits = i + 1 < parts.size() && !parts[i].empty() && parts[i].size() < 6 && parts[i].find_first_not_of("0123456789") == std::string::npos;
+      const std::size_t index = digits ? std::stoul(parts[i]) : list->size();
+      if (index >= list->size() || !(*list)[index].is_table()) refuse_override(text, fmt::format("{} has {} entries, counted from 0", parts[i - 1], list->size()));
+      table = (*list)[index].as_table();
+    } else if (node.is_table()) {
+      table = node.as_table();
+    } else {
+      refuse_override(text, fmt::format("{} is not a table", parts[i]));
+    }
+  }
+  return *table;
+}
+
+void apply_override(toml::table& document, const std::string& text, CaseSource& source) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) refuse_override(text, "is not key=value");
+  if (std::count(text.begin(), text.end(), '.') > kMostDots) refuse_override(text.substr(0, 60) + "...", fmt::format("has more than {} dots", kMostDots));
+  const std::string key = text.substr(0, equals);
+  std::vector<std::string> parts;
+  std::istringstream stream(key);
+  for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
+  if (parts.size() < 2) refuse_override(text, "names no table");
+  toml::table value = parse_override_value(text, text.substr(equals + 1));
+  toml::table& table = descend(document, parts, text);
+  value.get("value")->visit([&](auto& node) { table.insert_or_assign(toml::key(parts.back()), node); });
+  source.remember_origin(key, "--set " + text);
+}
+
+}  // namespace
+
+CaseSpec read_case_tree(CaseSource& source, const std::vector<std::string>& overrides) {
+  toml::table document = toml_document(source);
+  for (const std::string& text : overrides) apply_override(document, text, source);
+  CaseSpec spec;
+  TreeReader(source, spec).read(document);
+  return spec;
+}
+
+}  // namespace railstrata

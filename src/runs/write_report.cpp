@@ -1,0 +1,99 @@
+#include "runs/write_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+
+#include "runs/output_folder.hpp"
+#include "runs/peak_memory.hpp"
+#include "runs/run_bem.hpp"
+#include "core/faults.hpp"
+#include "case/case_file.hpp"
+#include "io/output_file.hpp"
+#include "post/bem_summary.hpp"
+#include "report/report.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+void solve_reference(const fs::path& case_file, const fs::path& folder, int threads) {
+  const LoadedCase loaded = load_case(case_file);
+  const CaseSpec spec = half_space_case(loaded.spec);
+  const Placement placement = place(spec, loaded.folder());
+  const BemResult result = solve_bem(spec, placement);
+  Summary summary = bem_summary(spec, result);
+  summary.run.commit = commit_text();
+  summary.run.threads = threads;
+  summary.run.peak_memory_bytes = peak_memory();
+  fs::create_directories(folder);
+  write_origin(folder, loaded, {"railstrata", "bem", case_file.string(), "--out", folder.string()}, threads);
+  write_bem_geometry(folder, spec, placement, summary.position);
+  write_bem_result(folder, table_origin(loaded), result, summary);
+}
+
+bool same_text(const fs::path& a, const fs::path& b) {
+  std::ifstream left(a, std::ios::binary), right(b, std::ios::binary);
+  return left && right && std::equal(std::istreambuf_iterator<char>(left), {}, std::istreambuf_iterator<char>(right), {});
+}
+
+std::string title_of(const std::vector<ReportRun>& runs) {
+  std::vector<std::string> titles;
+  for (const ReportRun& run : runs)
+    if (std::find(titles.begin(), titles.end(), run.result.title) == titles.end()) titles.push_back(run.result.title);
+  return titles.size() <= 2 ? fmt::format("{}", fmt::join(titles, " against ")) : fmt::format("{} and {} more", titles[0], titles.size() - 1);
+}
+
+}  // namespace
+
+fs::path half_space_reference(const fs::path& folder, int threads) {
+  const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
+  const fs::path home = full.filename().string().starts_with(kPositionFolder) ? full.parent_path() : full;
+  fs::path out = home / kReferenceFolder;
+  if (fs::exists(out / "summary.json") && same_text(home / "case.toml", out / "case.toml")) return out;
+  try {
+    solve_reference(home / "case.toml", out, threads);
+    return out;
+  } catch (const CaseError& e) {
+    spdlog::warn("no half-space reference: {}", e.what());
+  } catch (const NumericalError& e) {
+    spdlog::warn("no half-space reference: {}", e.what());
+  }
+  return {};
+}
+
+void write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference, int threads) {
+  Report report;
+  for (const fs::path& folder : folders) report.runs.push_back(read_report_run(folder));
+  if (reference && report.runs.size() == 1 && report.runs[0].result.engine == "fem")
+    if (const fs::path beside = half_space_reference(folders[0], threads); !beside.empty()) {
+      report.runs.push_back(read_report_run(beside));
+      report.runs[1].name = report.runs[0].name;
+    }
+  report.title = title_of(report.runs);
+  report.checks = report_checks(report.runs);
+  write_whole_file(page, report_page(report));
+}
+
+void write_page_or_warn(const fs::path& page, const std::function<void()>& write) {
+  try {
+    write();
+    spdlog::info("everything on one page: {}", page.string());
+  } catch (const CaseError& e) {
+    spdlog::warn("no report: {}", e.what());
+  } catch (const EnvironmentError& e) {
+    spdlog::warn("no report: {}{}{}", e.what(), e.remedy.empty() ? "" : "\n    remedy: ", e.remedy);
+  }
+}
+
+void add_report(const fs::path& folder, int threads) {
+  const fs::path page = folder / "report.html";
+  write_page_or_warn(page, [&] { write_report(page, {folder}, true, threads); });
+}
+
+}  // namespace railstrata

@@ -1,0 +1,269 @@
+#include "study/study_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <fstream>
+#include <map>
+
+#include "runs/output_folder.hpp"
+#include "core/faults.hpp"
+#include "io/checkpoint_file.hpp"
+#include "io/csv.hpp"
+#include "io/output_file.hpp"
+#include "io/provenance.hpp"
+#include "io/result_folder.hpp"
+#include "report/view.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+Json read_json(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return in ? Json::parse(in, nullptr, false) : Json(nullptr);
+}
+
+bool holds(const fs::path& folder, const StudyCase& c) {
+  const Json j = read_json(folder / kStudyFile);
+  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_null() && read_json(folder / "summary.json").is_object();
+}
+
+fs::path beside(const fs::path& folder, const std::string& ending) { return folder.string() + ending; }
+
+/// The largest values of a section's cells and the depth of their centres: what a picture of the section shows.
+void add_section_maxima(const fs::path& folder, Json& out) {
+  const CsvTable table = read_csv(folder / "rail_longitudinal_section.csv");
+  const std::vector<double> depth = table.column("depth_mm");
+  for (const auto& [name, column] : {std::pair{"von_mises", "von_mises_MPa"}, std::pair{"sigma_1", "sigma_1_MPa"}}) {
+    const std::vector<double> v = table.column(column);
+    const auto k = static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
+    out[fmt::format("section_{}_MPa", name)] = v[k];
+    out[fmt::format("section_{}_depth_mm", name)] = depth[k];
+  }
+}
+
+/// The patch by whole points, without interpolating its edges: every point that carries load, and the length of the longest line of them along x.
+void add_whole_points(const fs::path& folder, Json& out) {
+  const ContactField f = read_result_folder(folder).field;
+  double area = 0, slip = 0;
+  int longest = 0;
+  for (int c = 0; c < f.columns; ++c) {
+    int n = 0;
+    for (int s = 0; s < f.stations; ++s) {
+      const std::size_t k = static_cast<std::size_t>(s) * f.columns + c;
+      if (f.p[k] > 0) ++n, area += f.area[k], slip += f.state[k] == ContactState::slip ? f.area[k] : 0;
+    }
+    longest = std::max(longest, n);
+  }
+  const double spacing = f.stations > 1 ? std::abs(f.x[f.columns] - f.x[0]) : 0;
+  out["whole_points_area_mm2"] = 1e6 * area;
+  out["whole_points_length_mm"] = 1e3 * spacing * longest;
+  out["whole_points_slip_fraction"] = area > 0 ? Json(slip / area) : Json(nullptr);
+  out["slip_over_stick"] = area > slip ? Json(slip / (area - slip)) : Json(nullptr);
+}
+
+/// The largest von Mises stress and principal stress of the rail wherever they are, the surface included, with their depth.
+void add_rail_maxima(const Json& summary, Json& out) {
+  for (const auto& [name, key] : {std::pair{"von_mises", "von_mises_max"}, std::pair{"sigma_1", "sigma1_max"}}) {
+    double best = -std::numeric_limits<double>::infinity(), depth = 0;
+    for (const char* zone : {"surface", "subsurface", "layer", "interface", "matrix"}) {
+      const std::string at = fmt::format("/stress/rail/{}/{}/", zone, key);
+      const double value = column_value({"", (at + "value_Pa").c_str(), 1e-6}, summary);
+      if (std::isfinite(value) && value > best) best = value, depth = column_value({"", (at + "depth_m").c_str(), 1e3}, summary);
+    }
+    if (!std::isfinite(best)) continue;
+    out[fmt::format("rail_{}_MPa", name)] = best;
+    out[fmt::format("rail_{}_depth_mm", name)] = depth;
+  }
+}
+
+Json numbers_of(const fs::path& folder) {
+  Json out = Json::object();
+  add_rail_maxima(read_json(folder / "summary.json"), out);
+  add_section_maxima(folder, out);
+  add_whole_points(folder, out);
+  return out;
+}
+
+std::string study_json(const StudyCase& c, const Json& fault, const Json& numbers) {
+  Json values = Json::object();
+  for (const auto& [key, text] : c.values) values[key] = text;
+  return Json{{"key", c.key}, {"result_version", kResultVersion}, {"engine", c.engine}, {"group", c.group}, {"case", c.name}, {"values", values}, {"fault", fault}, {"numbers", numbers}}.dump(2) + "\n";
+}
+
+/// An old folder makes room for a new one; a reader finds one or the other, and for a moment none. Another study that does the same at this moment takes its turn.
+void put_in_place(const fs::path& working, const fs::path& place) {
+  const fs::path old = beside(place, ".old" + part_ending());
+  std::error_code moved, error, ignored;
+  for (int turn = 0; turn < 1000; ++turn) {
+    fs::rename(place, old, moved);
+    fs::rename(working, place, error);
+    const bool others_came_first = error == std::errc::directory_not_empty || error == std::errc::file_exists;
+    if (!error || others_came_first) fs::remove_all(old, ignored);
+    else if (!moved) fs::rename(old, place, ignored);
+    if (!others_came_first) break;
+  }
+  if (error) throw EnvironmentError(fmt::format("cannot rename {} to {}: {}", working.string(), place.string(), error.message()), "look at both folders, then start the study again");
+}
+
+/// Folders of a case that processes of this machine had begun and that are no more.
+std::vector<fs::path> left_behind(const fs::path& out, const StudyCase& c) {
+  std::vector<fs::path> left;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator((out / c.folder).parent_path(), error))
+    if (const std::string name = entry.path().filename().string(); name.starts_with(c.folder.filename().string() + ".") && is_abandoned_part(name)) left.push_back(entry.path());
+  return left;
+}
+
+/// The folder is this process's from now on; of two studies one succeeds.
+bool claim(const fs::path& folder, const fs::path& working) {
+  std::error_code error;
+  fs::rename(folder, working, error);
+  return !error;
+}
+
+/// Its checkpoint is whole, of this case and of this program: going on gives the bits of a run in one go.
+bool can_go_on(const fs::path& folder, const StudyCase& c) {
+  try {
+    return read_checkpoint(folder, case_identity(c.loaded)).checkpoint.origin.program == version_text();
+  } catch (const CaseError&) {
+    return false;
+  }
+}
+
+}  // namespace
+
+void find_results(const fs::path& out, std::vector<StudyCase>& cases) {
+  std::map<std::string, fs::path> found;
+  for (const StudyCase& c : cases)
+    for (const fs::path& folder : {c.folder, c.own_folder})
+      if (!found.contains(c.key) && holds(out / folder, c)) found[c.key] = folder;
+  for (StudyCase& c : cases)
+    if (const auto at = found.find(c.key); at != found.end()) c.folder = at->second;
+}
+
+bool is_done(const fs::path& out, const StudyCase& c) { return holds(out / c.folder, c); }
+
+std::string last_failure(const fs::path& out, const StudyCase& c) {
+  const Json j = read_json(beside(out / c.folder, ".failed") / kStudyFile);
+  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_string() ? j["fault"].get<std::string>() : "";
+}
+
+fs::path working_folder(const fs::path& out, const StudyCase& c) { return beside(out / c.folder, part_ending()); }
+
+void keep_result(const fs::path& out, const StudyCase& c, const fs::path& working) {
+  std::vector<fs::path> scripts;
+  for (const auto& entry : fs::recursive_directory_iterator(working))
+    if (entry.path().filename() == "view.py") scripts.push_back(entry.path().parent_path());
+  for (const fs::path& folder : scripts) write_view_script(folder, out / c.folder / fs::relative(folder, working));
+  write_whole_file(working / kStudyFile, study_json(c, nullptr, numbers_of(working)));
+  std::error_code error;
+  if (is_done(out, c)) fs::remove_all(working, error);  // another study was faster: the same numbers
+  else put_in_place(working, out / c.folder);
+  fs::remove_all(beside(out / c.folder, ".failed"), error);
+}
+
+void keep_failure(const fs::path& out, const StudyCase& c, const fs::path& working, const std::string& reason) {
+  write_whole_file(working / kStudyFile, study_json(c, reason, Json::object()));
+  put_in_place(working, beside(out / c.folder, ".failed"));
+}
+
+void recover(const fs::path& out, const std::vector<StudyCase>& cases) {
+  std::error_code error;
+  for (const StudyCase& c : cases) {
+    if (!c.first) continue;
+    for (const fs::path& folder : left_behind(out, c)) {
+      if (is_done(out, c) || !(holds(folder, c) || has_checkpoint(folder))) fs::remove_all(folder, error);
+      else if (holds(folder, c) && claim(folder, working_folder(out, c))) put_in_place(working_folder(out, c), out / c.folder);
+    }
+  }
+  std::vector<fs::path> tables;  // of a study that died while it wrote them
+  for (const auto& entry : fs::directory_iterator(out, error))
+    if (entry.is_regular_file(error) && is_abandoned_part(entry.path().filename().string())) tables.push_back(entry.path());
+  for (const fs::path& file : tables) fs::remove(file, error);
+}
+
+bool has_checkpoint(const fs::path& working) {
+  std::error_code error;
+  return fs::exists(checkpoint_file(working), error) || fs::exists(previous_checkpoint_file(working), error);
+}
+
+bool take_over(const fs::path& out, const StudyCase& c, const fs::path& working) {
+  std::error_code error;
+  fs::remove_all(working, error);
+  bool taken = false;
+  std::vector<fs::path> left = left_behind(out, c);
+  if (const fs::path failed = beside(out / c.folder, ".failed"); has_checkpoint(failed)) left.push_back(failed);  // killed or out of room, most likely; what fails by itself will do so again soon
+  for (const fs::path& folder : left) {
+    if (!taken && has_checkpoint(folder)) {
+      const bool ours = claim(folder, working);
+      taken = ours && can_go_on(working, c);
+      if (ours && !taken) fs::remove_all(working, error);
+    } else {
+      fs::remove_all(folder, error);
+    }
+  }
+  return taken;
+}
+
+std::vector<StudyRow> study_rows(const fs::path& out, const std::vector<StudyCase>& cases) {
+  const std::vector<ResultColumn> columns = result_columns(true);
+  std::vector<StudyRow> rows;
+  for (const StudyCase& c : cases) {
+    StudyRow row{&c, "to do", last_failure(out, c), {}};
+    if (is_done(out, c)) {
+      const Json summary = read_json(out / c.folder / "summary.json"), study = read_json(out / c.folder / kStudyFile);
+      row.state = "done", row.fault = failed_check(summary);
+      for (const ResultColumn& column : columns)
+        if (std::string(column.name) != "wall_s") row.numbers.emplace_back(column.name, column_value(column, summary));
+      for (const auto& [name, value] : study["numbers"].items()) row.numbers.emplace_back(name, value.is_number() ? value.get<double>() : kNotApplicable);
+      row.numbers.emplace_back("wall_s", column_value(columns.back(), summary));
+      row.numbers.emplace_back("threads", column_value({"", "/run/threads", 1}, summary));
+    } else if (!row.fault.empty()) {
+      row.state = "failed";
+    }
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<std::string> varied_keys(const std::vector<StudyRow>& rows) {
+  std::vector<std::string> keys;
+  for (const StudyRow& row : rows)
+    for (const auto& [key, text] : row.study_case->values)
+      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  return keys;
+}
+
+void write_study_table(const fs::path& file, const std::vector<std::string>& origin, const std::vector<StudyRow>& rows) {
+  const std::vector<std::string> keys = varied_keys(rows);
+  std::vector<std::string> names;
+  for (const StudyRow& row : rows)
+    for (const auto& [name, value] : row.numbers)
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  std::string text = csv_remarks(origin) + "group,case,engine,";
+  for (const std::string& key : keys) text += csv_cell(key) + ',';
+  for (const std::string& name : names) text += name + ',';
+  text += "folder,state,fault\n";
+  for (const StudyRow& row : rows) {
+    const StudyCase& c = *row.study_case;
+    text += c.group + ',' + csv_cell(c.name) + ',' + c.engine + ',';
+    for (const std::string& key : keys) {
+      const auto v = std::find_if(c.values.begin(), c.values.end(), [&](const auto& kv) { return kv.first == key; });
+      text += (v == c.values.end() ? "" : csv_cell(v->second)) + ',';
+    }
+    for (const std::string& name : names) {
+      const auto v = std::find_if(row.numbers.begin(), row.numbers.end(), [&](const auto& nv) { return nv.first == name; });
+      text += (v == row.numbers.end() ? "" : csv_cell(v->second)) + ',';
+    }
+    text += csv_cell(c.folder.generic_string()) + ',' + row.state + ',' + csv_cell(row.fault) + '\n';
+  }
+  write_whole_file(file, text);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,60 @@
+#include "study/variation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr const char* kHowTo = "write --vary key=value,value, for example --vary layer.0.young_ratio=0.5,1,2";
+
+std::string trimmed(const std::string& text) {
+  const auto begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
+}
+
+VariedKey parse_one(const std::string& text) {
+  const auto equals = text.find('=');
+  if (equals == std::string::npos || trimmed(text.substr(0, equals)).empty()) throw CaseError(fmt::format("--vary \"{}\" names no key", text), kHowTo);
+  VariedKey out{trimmed(text.substr(0, equals)), {}};
+  for (std::size_t begin = equals + 1; begin <= text.size();) {
+    const auto comma = std::min(text.find(',', begin), text.size());
+    out.values.push_back(trimmed(text.substr(begin, comma - begin)));
+    if (out.values.back().empty()) throw CaseError(fmt::format("--vary \"{}\" has an empty value", text), kHowTo);
+    begin = comma + 1;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<VariedKey> parse_vary(const std::vector<std::string>& options) {
+  std::vector<VariedKey> out;
+  for (const std::string& text : options) {
+    out.push_back(parse_one(text));
+    for (std::size_t k = 0; k + 1 < out.size(); ++k)
+      if (out[k].key == out.back().key) throw CaseError(fmt::format("--vary names {} twice", out[k].key), "give all values of a key in one --vary");
+  }
+  return out;
+}
+
+std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>& keys) {
+  std::vector<std::vector<std::string>> out(1);
+  for (const VariedKey& k : keys) {
+    if (out.size() * k.values.size() > kMostCases)
+      throw CaseError(fmt::format("these are more than {} cases", kMostCases), "vary fewer keys at once, or give fewer values");
+    std::vector<std::vector<std::string>> longer;
+    for (const auto& head : out)
+      for (const std::string& value : k.values) {
+        longer.push_back(head);
+        longer.back().push_back(value);
+      }
+    out = std::move(longer);
+  }
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,102 @@
+#include "case/units.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace railstrata {
+namespace {
+
+using namespace dimension;
+
+struct Written {
+  const char* text;
+  Dimension dimension;
+  double si;
+};
+
+TEST(Units, EveryWayOfWritingGivesTheVeryDoubleOfItsSiLiteral) {
+  const Written all[] = {
+      {"210 GPa", kPressure, 210e9},       {"0.2 mm", kLength, 0.2e-3},          {"27.78 m/s", kSpeed, 27.78},         {"8000 kg", kMass, 8000},
+      {"0.95 MN/m", kStiffness, 0.95e6},   {"10.4 kN s/m", kDamping, 10.4e3},    {"10.4 kN·s/m", kDamping, 10.4e3},    {"10.4 kN*s/m", kDamping, 10.4e3},
+      {"7800 kg/m^3", kDensity, 7800},     {"7800 kg/m³", kDensity, 7800},       {"7.8 g/cm^3", kDensity, 7.8e3},      {"1.5 ms", kTime, 1.5e-3},
+      {"9.81 m/s^2", kAcceleration, 9.81}, {"2000 1/s", kRate, 2000},            {"2 kHz", kRate, 2000},               {"1:40", kSlope, 1.0 / 40},
+      {"0.025", kSlope, 0.025},            {"20 %", kNumber, 0.2},               {"0.2", kNumber, 0.2},                {"50 µm", kLength, 50e-6},
+      {"50um", kLength, 50e-6},            {"+3.5e2 mm", kLength, 0.35},         {"-1.5 mm", kLength, -1.5e-3},        {" 8 t ", kMass, 8000},
+      {"2.5 %", kSlope, 0.025},            {"1 : 20", kSlope, 0.05}};
+  for (const Written& w : all) EXPECT_EQ(parse_quantity(w.text, w.dimension), w.si) << w.text;
+}
+
+TEST(Units, HundredKilometresPerHourAreTheirSiValueToRoundOff) {
+  EXPECT_DOUBLE_EQ(parse_quantity("100 km/h", kSpeed), 100e3 / 3600);
+  EXPECT_DOUBLE_EQ(parse_quantity("23 mrad", kSlope), std::tan(0.023));
+  EXPECT_DOUBLE_EQ(parse_quantity("45 deg", kSlope), 1.0);
+  for (const char* upright : {"90 deg", "-181 deg", "1.6 rad"}) EXPECT_THROW(parse_quantity(upright, kSlope), UnitError) << upright;
+}
+
+TEST(Units, WhatIsShownReadsBackToTheSameBits) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> exponent(-9, 12);
+  for (const Dimension& d : {kNumber, kLength, kMass, kTime, kSpeed, kRate, kAcceleration, kPressure, kDensity, kStiffness, kDamping, kSlope})
+    for (int i = 0; i < 500; ++i) {
+      const double value = std::pow(10.0, exponent(random));
+      EXPECT_EQ(parse_quantity(format_quantity(value, d), d), value) << format_quantity(value, d);
+    }
+}
+
+TEST(Units, ValuesAreShownInTheCustomaryUnit) {
+  EXPECT_EQ(format_quantity(0.2e-3, kLength), "0.2 mm");
+  EXPECT_EQ(format_quantity(1.435, kLength), "1435 mm");
+  EXPECT_EQ(format_quantity(210e9, kPressure), "210 GPa");
+  EXPECT_EQ(format_quantity(10.4e3, kDamping), "10.4 kN s/m");
+  EXPECT_EQ(format_quantity(0.025, kSlope), "0.025");
+  EXPECT_EQ(format_quantity(0, kLength), "0 mm");
+}
+
+struct Refused {
+  const char* text;
+  Dimension dimension;
+  const char *rule, *remedy;
+};
+
+TEST(Units, EveryBadTextIsRefusedWithItsRuleAndRemedy) {
+  const Refused all[] = {
+      {"0.2", kLength, "has no unit", "write a length, e.g. \"0.2 mm\""},
+      {"210 GPa", kLength, "\"GPa\" is not the unit of a length", "write a length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)"},
+      {"210 gpa", kPressure, "unknown unit \"gpa\"", "did you mean GPa?"},
+      {"3 furlong", kLength, "unknown unit \"furlong\"", "units are SI symbols with prefixes, e.g. GPa, mm, km/h, kN s/m, kg/m^3"},
+      {"thick", kLength, "does not start with a number", "write a length, e.g. \"0.2 mm\""},
+      {"", kLength, "does not start with a number", "write a length, e.g. \"0.2 mm\""},
+      {"10 N/m s", kDamping, "the unit \"N/m s\" is ambiguous", "put the divided unit last, e.g. \"kN s/m\""},
+      {"9.81 m/s/s", kAcceleration, "the unit \"m/s/s\" has two solidi", "write one, e.g. \"m/s^2\""},
+      {"2 mm", kNumber, "\"mm\" is not the unit of a number", "write a number, e.g. 0.2"},
+      {"1:0", kSlope, "unknown unit \":0\"", "units are SI symbols with prefixes, e.g. GPa, mm, km/h, kN s/m, kg/m^3"},
+      {"5 m/", kSpeed, "unknown unit \"m/\"", "did you mean mm?"}};
+  for (const Refused& r : all) {
+    try {
+      parse_quantity(r.text, r.dimension);
+      ADD_FAILURE() << "accepted: " << r.text;
+    } catch (const UnitError& e) {
+      EXPECT_STREQ(e.what(), r.rule);
+      EXPECT_EQ(e.remedy, r.remedy);
+    }
+  }
+}
+
+TEST(Units, AModulusInMegapascalIsAnsweredWithGigapascal) {
+  EXPECT_EQ(suggest_quantity("210 MPa", kPressure, 1e9, 2000e9), "210 GPa");
+  EXPECT_EQ(suggest_quantity("430 m", kLength, 0.1, 1.0), "430 mm");
+  EXPECT_EQ(suggest_quantity("-3 mm", kLength, 0.1, 1.0), "");
+}
+
+TEST(Units, ExponentsBeyondAllBoundsAreInfiniteOrZeroAndNeverForgotten) {
+  EXPECT_EQ(parse_quantity("1e99999999999 mm", kLength), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(parse_quantity("-2e2147483647 GPa", kPressure), -std::numeric_limits<double>::infinity());
+  EXPECT_EQ(parse_quantity("1e-99999999999 mm", kLength), 0);
+  EXPECT_EQ(parse_quantity("0e99999999999 mm", kLength), 0);
+  EXPECT_EQ(parse_quantity("1" + std::string(400, '0') + " mm", kLength), std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace railstrata
