@@ -1,7 +1,9 @@
-// Times of the half-space engine on the reference ellipse (tests/data/reference): 84954.6 N, E 210 GPa, circle of radius 6.144 mm, f 0.5.
+// Times of the half-space engine on the reference ellipse (tests/data/reference): 84954.6 N, E 210 GPa, circle of
+// radius 6.144 mm, f 0.5.
 //
-// Every line gives the best time of its repetitions (CPU time of one thread, wall time where there are two: the machine may be shared) and where they exist the time it
-// must not exceed, and CONTACT's own CPU time on the same problem and cells; ratios above 1 are in this program's favour.
+// Every line gives the best time of its repetitions (CPU time of one thread, wall time where there are two: the machine
+// may be shared) and where they exist the time it must not exceed, and CONTACT's own CPU time on the same problem and
+// cells; ratios above 1 are in this program's favour.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -23,7 +25,8 @@ const HalfSpaceMaterial kSteel{210e9, 0.3};
 
 /// Size of the cells [m] that puts so many of them into the contact; the first four are CONTACT's.
 double cell_of(long cells) {
-  static const std::map<long, double> known{{489, 0.5e-3}, {1901, 0.25e-3}, {7645, 0.125e-3}, {30429, 0.0625e-3}, {121581, 0.03125e-3}};
+  static const std::map<long, double> known{
+      {489, 0.5e-3}, {1901, 0.25e-3}, {7645, 0.125e-3}, {30429, 0.0625e-3}, {121581, 0.03125e-3}};
   const auto it = known.find(cells);
   return it != known.end() ? it->second : kRadius * std::sqrt(3.141592653589793 / static_cast<double>(cells));
 }
@@ -34,10 +37,12 @@ struct Problem {
   RollingContact contact;  // steady rolling with F_x = 0.4 of friction
   explicit Problem(double cell, const LayeredHalfSpace& rail = {{}, kSteel}, double half = kRadius)
       : grid(centred_grid(static_cast<int>(half / cell) + 1, static_cast<int>(half / cell) + 1, cell, cell)),
-        influence(combined_compliance(homogeneous_compliance(kSteel), layered_compliance(rail)), grid.nx, grid.ny, cell, cell) {
+        influence(combined_compliance(homogeneous_compliance(kSteel), layered_compliance(rail)), grid.nx, grid.ny, cell,
+                  cell) {
     contact.gap.resize(grid.size());
     for (int i = 0; i < grid.nx; ++i)
-      for (int j = 0; j < grid.ny; ++j) contact.gap[grid.index(i, j)] = kCurvature * (grid.x(i) * grid.x(i) + grid.y(j) * grid.y(j));
+      for (int j = 0; j < grid.ny; ++j)
+        contact.gap[grid.index(i, j)] = kCurvature * (grid.x(i) * grid.x(i) + grid.y(j) * grid.y(j));
     contact.target.load = kLoad;
     contact.friction = kFriction;
     contact.x.force = -0.4 * kFriction * kLoad;
@@ -52,14 +57,18 @@ struct Problem {
   }
 };
 
-double cells_in_contact(const Plane& p) { return static_cast<double>(std::count_if(p.begin(), p.end(), [](double v) { return v > 0; })); }
+double cells_in_contact(const Plane& p) {
+  return static_cast<double>(std::count_if(p.begin(), p.end(), [](double v) { return v > 0; }));
+}
 
 double cpu_seconds() {
   timespec t;
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
-double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 template <class Clock, class Work>
 double seconds_of(Clock&& clock, Work&& work) {
@@ -76,8 +85,14 @@ struct Scale {
 void report(benchmark::State& state, double seconds, double cells, Scale scale) {
   state.counters["ms"] = 1e3 * seconds;
   if (cells > 0) state.counters["cells"] = cells;
-  if (scale.limit > 0) state.counters["limit_ms"] = 1e3 * scale.limit, state.counters["limit/this"] = scale.limit / seconds;
-  if (scale.contact > 0) state.counters["CONTACT_ms"] = 1e3 * scale.contact, state.counters["CONTACT/this"] = scale.contact / seconds;
+  if (scale.limit > 0) {
+    state.counters["limit_ms"] = 1e3 * scale.limit;
+    state.counters["limit/this"] = scale.limit / seconds;
+  }
+  if (scale.contact > 0) {
+    state.counters["CONTACT_ms"] = 1e3 * scale.contact;
+    state.counters["CONTACT/this"] = scale.contact / seconds;
+  }
 }
 /// A ratio that has a bound: `passed` is above 1 when it is kept.
 void report_ratio(benchmark::State& state, double value, double bound, bool at_most) {
@@ -108,15 +123,24 @@ void normal(benchmark::State& state) {
   const Problem p(cell_of(state.range(0)));
   NormalSolution s;
   const double t = best_of(state, [&] { s = p.normal(); });
-  report(state, t, cells_in_contact(s.pressure), scale_of({{489, {0, .006}}, {1901, {0, .014}}, {7645, {0, .047}}, {12900, {.1, 0}}, {30429, {0, .24}}, {50800, {.6, 0}}}, state.range(0)));
+  report(state, t, cells_in_contact(s.pressure),
+         scale_of({{489, {0, .006}},
+                   {1901, {0, .014}},
+                   {7645, {0, .047}},
+                   {12900, {.1, 0}},
+                   {30429, {0, .24}},
+                   {50800, {.6, 0}}},
+                  state.range(0)));
 }
 
 void steady_force_given(benchmark::State& state) {
   set_threads(1);
   const Problem p(cell_of(state.range(0)));
   const NormalSolution n = p.normal();
-  const double t = best_of(state, [&] { benchmark::DoNotOptimize(solve_tangential(p.influence, p.grid, p.tangential(n))); });
-  report(state, t, cells_in_contact(n.pressure), scale_of({{489, {0, .144}}, {1901, {.08, .87}}, {7645, {.4, 5.9}}, {30429, {3, 0}}}, state.range(0)));
+  const double t =
+      best_of(state, [&] { benchmark::DoNotOptimize(solve_tangential(p.influence, p.grid, p.tangential(n))); });
+  report(state, t, cells_in_contact(n.pressure),
+         scale_of({{489, {0, .144}}, {1901, {.08, .87}}, {7645, {.4, 5.9}}, {30429, {3, 0}}}, state.range(0)));
 }
 
 void steady_creepage_given(benchmark::State& state) {
@@ -126,7 +150,8 @@ void steady_creepage_given(benchmark::State& state) {
   TangentialProblem given = p.tangential(n);
   given.x = {-1.48e-3, {}};
   const double t = best_of(state, [&] { benchmark::DoNotOptimize(solve_tangential(p.influence, p.grid, given)); });
-  report(state, t, cells_in_contact(n.pressure), scale_of({{489, {0, .033}}, {1901, {0, .19}}, {7645, {0, 1.2}}, {30429, {0, 21.9}}}, state.range(0)));
+  report(state, t, cells_in_contact(n.pressure),
+         scale_of({{489, {0, .033}}, {1901, {0, .19}}, {7645, {0, 1.2}}, {30429, {0, 21.9}}}, state.range(0)));
 }
 
 void shift_and_ten_steps(benchmark::State& state) {
@@ -143,10 +168,12 @@ void shift_and_ten_steps(benchmark::State& state) {
     }
     benchmark::DoNotOptimize(s);
   });
-  report(state, t, cells_in_contact(n.pressure), scale_of({{489, {0, .23}}, {1901, {0, .62}}, {7645, {0, 4.1}}}, state.range(0)));
+  report(state, t, cells_in_contact(n.pressure),
+         scale_of({{489, {0, .23}}, {1901, {0, .62}}, {7645, {0, 4.1}}}, state.range(0)));
 }
 
-/// Slope of ln(time) over ln(cells), normal problem and steady rolling, force given, 489 to 121,581 cells: least squares.
+/// Slope of ln(time) over ln(cells), normal problem and steady rolling, force given, 489 to 121,581 cells: least
+/// squares.
 void slope_of_cost_over_cells(benchmark::State& state) {
   set_threads(1);
   double slope = 0;
@@ -155,7 +182,8 @@ void slope_of_cost_over_cells(benchmark::State& state) {
     for (long cells : {489, 1901, 7645, 30429, 121581}) {
       const Problem p(cell_of(cells));
       double best = 1e99;
-      for (int i = 0; i < (cells < 10000 ? 20 : 3); ++i) best = std::min(best, seconds_of(cpu_seconds, [&] { solve_rolling(p.influence, p.grid, p.contact); }));
+      for (int i = 0; i < (cells < 10000 ? 20 : 3); ++i)
+        best = std::min(best, seconds_of(cpu_seconds, [&] { solve_rolling(p.influence, p.grid, p.contact); }));
       const double u = std::log(static_cast<double>(cells)), v = std::log(best);
       n += 1, x += u, y += v, xx += u * u, xy += u * v;
     }
@@ -165,14 +193,16 @@ void slope_of_cost_over_cells(benchmark::State& state) {
   report_ratio(state, slope, 1.25, true);
 }
 
-/// The paper's sixteen layers on the reference problem over the same problem without a layer, normal and tangential together, equal grids. Soft layers widen the patch,
-/// to 1.5 times the twin's cells under 4 mm of a quarter of the modulus.
+/// The paper's sixteen layers on the reference problem over the same problem without a layer, normal and tangential
+/// together, equal grids. Soft layers widen the patch, to 1.5 times the twin's cells under 4 mm of a quarter of the
+/// modulus.
 void layered_over_homogeneous_twin(benchmark::State& state) {
   set_threads(1);
   const double cell = cell_of(7645), half = 7.6e-3;
   const auto time_of = [&](const Problem& p) {
     double best = 1e99;
-    for (int i = 0; i < 5; ++i) best = std::min(best, seconds_of(cpu_seconds, [&] { solve_rolling(p.influence, p.grid, p.contact); }));
+    for (int i = 0; i < 5; ++i)
+      best = std::min(best, seconds_of(cpu_seconds, [&] { solve_rolling(p.influence, p.grid, p.contact); }));
     return best;
   };
   double worst = 0, mean = 0;
@@ -195,7 +225,8 @@ void influence_of_a_new_layer_256(benchmark::State& state) {
   set_threads(1);
   const LayeredHalfSpace rail{{{1e-3, {840e9, 0.3}}}, kSteel};
   const double t = best_of(state, [&] {
-    benchmark::DoNotOptimize(InfluenceOperator(combined_compliance(homogeneous_compliance(kSteel), layered_compliance(rail)), 256, 256, 0.25e-3, 0.25e-3));
+    benchmark::DoNotOptimize(InfluenceOperator(
+        combined_compliance(homogeneous_compliance(kSteel), layered_compliance(rail)), 256, 256, 0.25e-3, 0.25e-3));
   });
   report(state, t, 0, {.3, 0});
 }
@@ -229,26 +260,32 @@ void two_threads_over_one(benchmark::State& state) {
   state.counters["ms"] = 1e3 * best[1];
 }
 
-/// The sixteen cases of the paper with the maxima under the surface, 0.25 mm cells, side by side on two threads: wall time.
+/// The sixteen cases of the paper with the maxima under the surface, 0.25 mm cells, side by side on two threads: wall
+/// time.
 void sixteen_layered_cases(benchmark::State& state) {
   set_threads(2);
   double best = 1e99;
   for (auto _ : state) {
     const double t = seconds_of(wall_seconds, [] {
       InfluenceCache cache;
-      for_each(16, [&](std::ptrdiff_t i) {
-        CaseSpec spec;
-        spec.geometry.lateral_shift = 1.5e-3;
-        LayerSpec layer;
-        layer.thickness = 1e-3 * static_cast<double>(1 + i % 4);
-        layer.material.young = spec.rail_material.young * std::pow(2.0, i / 8 ? i / 4 - 1 : i / 4 - 2);  // a quarter, a half, twice, four times
-        spec.layers = {layer};
-        BemOptions options;
-        options.cell = 0.25e-3;
-        options.cache = &cache;
-        const BemResult r = solve_bem(spec, place(spec, {}), options);
-        benchmark::DoNotOptimize(rail_interior(r).peaks(layer.thickness + 12e-3));
-      }, true);
+      for_each(
+          16,
+          [&](std::ptrdiff_t i) {
+            CaseSpec spec;
+            spec.geometry.lateral_shift = 1.5e-3;
+            LayerSpec layer;
+            layer.thickness = 1e-3 * static_cast<double>(1 + i % 4);
+            layer.material.young =
+                spec.rail_material.young *
+                std::pow(2.0, i / 8 ? i / 4 - 1 : i / 4 - 2);  // a quarter, a half, twice, four times
+            spec.layers = {layer};
+            BemOptions options;
+            options.cell = 0.25e-3;
+            options.cache = &cache;
+            const BemResult r = solve_bem(spec, place(spec, {}), options);
+            benchmark::DoNotOptimize(rail_interior(r).peaks(layer.thickness + 12e-3));
+          },
+          true);
     });
     state.SetIterationTime(t);
     best = std::min(best, t);

@@ -1,7 +1,9 @@
-// Explicit steps against what the machine can do: fused multiply-adds and memory traffic are measured in the same run, and every rate is given with its share of both.
+// Explicit steps against what the machine can do: fused multiply-adds and memory traffic are measured in the same run,
+// and every rate is given with its share of both.
 //
-// Arithmetic and traffic of one element-step, counted from the law (src/element/swept_hex.hpp) and the update: see kFlops and kBytes. The traffic is the least possible,
-// with every nodal value moved once; what a run really moves is more where tiles do not stay in cache.
+// Arithmetic and traffic of one element-step, counted from the law (src/element/swept_hex.hpp) and the update: see
+// kFlops and kBytes. The traffic is the least possible, with every nodal value moved once; what a run really moves is
+// more where tiles do not stay in cache.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -20,10 +22,12 @@
 namespace railstrata {
 namespace {
 
-constexpr double kFlops[2] = {534, 568};  // extruded, revolved: kinematics 129, stress 98, hourglass 136, forces 156, per node sums and differences 15; frames 34
+constexpr double kFlops[2] = {534, 568};  // extruded, revolved: kinematics 129, stress 98, hourglass 136, forces 156,
+                                          // per node sums and differences 15; frames 34
 constexpr double kBytes = 104;            // u and v read and written, 1/m read, 24 + 24 + 24 + 24 + 8
 
-// -- the machine ------------------------------------------------------------------------------------------------------------------------------------------
+// -- the machine
+// ------------------------------------------------------------------------------------------------------------------------------------------
 
 /// N dependent chains of fused multiply-adds, every link in a register (an array of packs would be kept in memory).
 template <class P, int N>
@@ -78,18 +82,25 @@ void memory_traffic(benchmark::State& state) {
       for (std::ptrdiff_t i = 4096 * piece; i < 4096 * (piece + 1); ++i)
         for (int k = 0; k < 3; ++k) u[k][i] += m[i] * (u[k + 3][i] += m[i]);
     });
-  state.counters["GB/s"] = benchmark::Counter(static_cast<double>(state.iterations() * nodes) * kBytes * 1e-9, benchmark::Counter::kIsRate);
+  state.counters["GB/s"] =
+      benchmark::Counter(static_cast<double>(state.iterations() * nodes) * kBytes * 1e-9, benchmark::Counter::kIsRate);
 }
 BENCHMARK(memory_traffic)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-// -- swept lines without contact --------------------------------------------------------------------------------------------------------------------------
+// -- swept lines without contact
+// --------------------------------------------------------------------------------------------------------------------------
 
 struct Lines {
   Solid solid;
   Field u, v, f, inverse_mass;
-  Lines(SweepKind kind, Precision precision, int columns, int rows, int stations, bool random = false) : solid(body(kind, columns, rows, stations, random), {elastic(210e9, 0.3, 7800)}, {ElementKind::full, 0.05, precision}) {
+  Lines(SweepKind kind, Precision precision, int columns, int rows, int stations, bool random = false)
+      : solid(body(kind, columns, rows, stations, random), {elastic(210e9, 0.3, 7800)},
+              {ElementKind::full, 0.05, precision}) {
     u = v = f = inverse_mass = solid.layout().field();
-    for (std::size_t i = 0; i < u.size(); ++i) inverse_mass[i] = solid.mass()[i] > 0 ? 1 / solid.mass()[i] : 0, v[i] = 1e-3 * std::sin(static_cast<double>(i));
+    for (std::size_t i = 0; i < u.size(); ++i) {
+      inverse_mass[i] = solid.mass()[i] > 0 ? 1 / solid.mass()[i] : 0;
+      v[i] = 1e-3 * std::sin(static_cast<double>(i));
+    }
   }
   /// random: nodes and quadrilaterals of the section numbered by chance.
   static SweptBody body(SweepKind kind, int columns, int rows, int stations, bool random) {
@@ -131,19 +142,26 @@ struct Lines {
     solid.begin_forces(u, 0);
     const std::vector<Solid::Chain> chains = solid.chains(6 * max_threads());
     const auto take = [&](const Solid::Tile& t, int begin, int node, const double* rows) {
-      if (begin == t.first) advance(node, begin, begin + 1, {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
-      advance(node, t.first + 1, t.end, {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
+      if (begin == t.first)
+        advance(node, begin, begin + 1,
+                {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
+      advance(node, t.first + 1, t.end,
+              {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
       return true;
     };
     const auto expect = [&](const Solid::Tile& t, int node, Prefetch& lines) {
       for (int i = 0; i < 3; ++i) lines.add(&v[l.line(node, i) + t.first]);
       lines.add(&inverse_mass[l.line(node, 0) + t.first]);
     };
-    for_each(static_cast<std::ptrdiff_t>(chains.size()), [&](std::ptrdiff_t k) { solid.chain_forces(chains[k], u, f, take, expect); }, true);
+    for_each(
+        static_cast<std::ptrdiff_t>(chains.size()),
+        [&](std::ptrdiff_t k) { solid.chain_forces(chains[k], u, f, take, expect); }, true);
     solid.end_forces(chains, f);
     for_each(l.nodes, [&](std::ptrdiff_t n) {
-      const double* row[3] = {f.data() + l.line(static_cast<int>(n), 0), f.data() + l.line(static_cast<int>(n), 1), f.data() + l.line(static_cast<int>(n), 2)};
-      for (const Solid::Chain& c : chains) advance(static_cast<int>(n), solid.border_plane(c), solid.border_plane(c) + 1, {row[0], row[1], row[2]});
+      const double* row[3] = {f.data() + l.line(static_cast<int>(n), 0), f.data() + l.line(static_cast<int>(n), 1),
+                              f.data() + l.line(static_cast<int>(n), 2)};
+      for (const Solid::Chain& c : chains)
+        advance(static_cast<int>(n), solid.border_plane(c), solid.border_plane(c) + 1, {row[0], row[1], row[2]});
       advance(static_cast<int>(n), l.stations - 1, l.stations, {row[0], row[1], row[2]});
     });
   }
@@ -176,7 +194,8 @@ BENCHMARK(swept_lines<SweepKind::extrude, Precision::single_precision>)->Apply(s
 BENCHMARK(swept_lines<SweepKind::revolve, Precision::double_precision>)->Apply(sizes);
 BENCHMARK(swept_lines<SweepKind::revolve, Precision::single_precision>)->Apply(sizes);
 
-// -- whole steps of a case --------------------------------------------------------------------------------------------------------------------------------
+// -- whole steps of a case
+// --------------------------------------------------------------------------------------------------------------------------------
 
 /// Most memory the process has had since forget_peak(): VmHWM of /proc/self/status.
 double peak_bytes() {
@@ -189,12 +208,14 @@ double peak_bytes() {
 }
 void forget_peak() { std::ofstream("/proc/self/clear_refs") << 5; }
 
-/// The paper's base case, elements of `millimetres`, after the run-up damping has gone: contact, suspension, ties, absorbers.
+/// The paper's base case, elements of `millimetres`, after the run-up damping has gone: contact, suspension, ties,
+/// absorbers.
 struct Rolling {
   RollingSystem system;
   std::unique_ptr<Stepper> stepper;
   double preload_seconds = 0, peak = 0;
-  Rolling(double millimetres, const char* precision, double layer = 0) : system(build_model(spec(millimetres, precision, layer), ".")) {
+  Rolling(double millimetres, const char* precision, double layer = 0)
+      : system(build_model(spec(millimetres, precision, layer), ".")) {
     const PreloadResult preload = solve_preload(system, 1e-2);
     preload_seconds = preload.wall_seconds;
     stepper = std::make_unique<Stepper>(system, preload);
@@ -236,7 +257,8 @@ Rolling& rolling(double millimetres, bool single) {
   return *latest;
 }
 
-/// Arguments: threads, element size in hundredths of a millimetre, single precision. One history row in 50 steps, as a run at 100 km/h has with 0.2 mm between rows.
+/// Arguments: threads, element size in hundredths of a millimetre, single precision. One history row in 50 steps, as a
+/// run at 100 km/h has with 0.2 mm between rows.
 void whole_steps(benchmark::State& state) {
   set_threads(2);
   Rolling& r = rolling(0.01 * static_cast<double>(state.range(1)), state.range(2) != 0);
@@ -253,9 +275,14 @@ void whole_steps(benchmark::State& state) {
   state.counters["peak bytes/element"] = r.peak / elements;
   state.counters["preload_s(1e-2)"] = r.preload_seconds;
 }
-BENCHMARK(whole_steps)->ArgNames({"threads", "h/0.01mm", "single"})->ArgsProduct({{1, 2}, {200, 100, 67, 50}, {0, 1}})->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(whole_steps)
+    ->ArgNames({"threads", "h/0.01mm", "single"})
+    ->ArgsProduct({{1, 2}, {200, 100, 67, 50}, {0, 1}})
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
-/// Wall time to roll a millimetre with a layer of 4 E0 over that without one: two threads, 1 mm elements, steps taken in turn, best of each. Argument: thickness in micrometres.
+/// Wall time to roll a millimetre with a layer of 4 E0 over that without one: two threads, 1 mm elements, steps taken
+/// in turn, best of each. Argument: thickness in micrometres.
 void layer_over_base(benchmark::State& state) {
   set_threads(2);
   Rolling& base = rolling(1, false);
@@ -267,11 +294,13 @@ void layer_over_base(benchmark::State& state) {
       for (int k = 0; k < 2; ++k) {
         const auto begin = std::chrono::steady_clock::now();
         for (int i = 0; i < 20; ++i) both[k]->stepper->step();
-        best[k] = std::min(best[k], std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 20);
+        best[k] =
+            std::min(best[k], std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / 20);
       }
     state.SetIterationTime(best[1]);
   }
-  const double ratio = best[1] / layered.stepper->dt() / (best[0] / base.stepper->dt()), bound = state.range(0) < 1000 ? 3 : 2;
+  const double ratio = best[1] / layered.stepper->dt() / (best[0] / base.stepper->dt()),
+               bound = state.range(0) < 1000 ? 3 : 2;
   state.counters["ms"] = 1e3 * best[1];
   state.counters["ratio"] = ratio;
   state.counters["bound"] = bound;

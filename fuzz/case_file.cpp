@@ -5,8 +5,8 @@
 #include <sstream>
 
 #include "case/option_table.hpp"
-#include "study/variation.hpp"
 #include "reader.hpp"
+#include "study/variation.hpp"
 
 using namespace railstrata;
 using fuzz::promise;
@@ -18,12 +18,17 @@ struct InBounds {
   bool operator()(const double* v) const { return option.range.holds(*v); }
   bool operator()(const int* v) const { return option.range.holds(*v); }
   bool operator()(const bool*) const { return true; }
-  bool operator()(const std::string* v) const { return option.choices.empty() || std::find(option.choices.begin(), option.choices.end(), *v) != option.choices.end(); }
+  bool operator()(const std::string* v) const {
+    return option.choices.empty() ||
+           std::find(option.choices.begin(), option.choices.end(), *v) != option.choices.end();
+  }
   bool operator()(const std::vector<double>* v) const {
     return !v->empty() && std::all_of(v->begin(), v->end(), [&](double x) { return option.range.holds(x); });
   }
   bool operator()(const std::vector<ModulusPoint>* v) const {
-    return std::all_of(v->begin(), v->end(), [](const ModulusPoint& p) { return table_depth().range.holds(p.depth) && table_young().range.holds(p.young); });
+    return std::all_of(v->begin(), v->end(), [](const ModulusPoint& p) {
+      return table_depth().range.holds(p.depth) && table_young().range.holds(p.young);
+    });
   }
 };
 
@@ -36,7 +41,9 @@ void each_option(CaseSpec& spec, Visit&& visit) {
 }
 
 void check(LoadedCase& loaded) {
-  each_option(loaded.spec, [&](const Option& option, std::size_t i) { promise(std::visit(InBounds{option}, option.slot(loaded.spec, i)), "an accepted case is within its bounds"); });
+  each_option(loaded.spec, [&](const Option& option, std::size_t i) {
+    promise(std::visit(InBounds{option}, option.slot(loaded.spec, i)), "an accepted case is within its bounds");
+  });
   LoadedCase again = parse_case(loaded.resolved_toml, loaded.file);
   promise(again.spec.layers.size() == loaded.spec.layers.size(), "the resolved case has the same layers");
   each_option(loaded.spec, [&](const Option& option, std::size_t i) {
@@ -56,7 +63,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (std::string line; std::getline(lines, line);) overrides.push_back(line);
 
   LoadedCase loaded;
-  const bool accepted = fuzz::accepts([&] { loaded = parse_case(std::string(all.substr(0, cut)), "case.toml", overrides); });
+  const bool accepted =
+      fuzz::accepts([&] { loaded = parse_case(std::string(all.substr(0, cut)), "case.toml", overrides); });
   try {
     if (accepted) check(loaded);
   } catch (const CaseError&) {

@@ -1,4 +1,5 @@
-// Checkpoints as damage leaves them. First byte even: the file follows; odd: changes (place, place, value) of the bytes of a whole checkpoint.
+// Checkpoints as damage leaves them. First byte even: the file follows; odd: changes (place, place, value) of the bytes
+// of a whole checkpoint.
 #include "checkpoint_sample.hpp"
 #include "reader.hpp"
 

@@ -1,5 +1,6 @@
-// What stands in a checkpoint, under a checksum that fits, so that HDF5 reads it. First byte even: changes (place, place, value) of the bytes of its HDF5 part; odd: changes
-// made by HDF5 (see edit()): all that the reader asks of HDF5.
+// What stands in a checkpoint, under a checksum that fits, so that HDF5 reads it. First byte even: changes (place,
+// place, value) of the bytes of its HDF5 part; odd: changes made by HDF5 (see edit()): all that the reader asks of
+// HDF5.
 #include <hdf5.h>
 #include <stdlib.h>  // mkstemp
 #include <unistd.h>
@@ -17,7 +18,8 @@ using namespace railstrata;
 using fuzz::Bytes;
 using fuzz::promise;
 
-/// HDF5 itself loses object headers of forged files, and keeps much for the next: what counts is that the reader leaves nothing open (see leaves_nothing_open()).
+/// HDF5 itself loses object headers of forged files, and keeps much for the next: what counts is that the reader leaves
+/// nothing open (see leaves_nothing_open()).
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
 
 namespace {
@@ -61,12 +63,13 @@ const Base& base() {
   static const Base made = [] {
     Base b;
     const hid_t file = open_image(b.image, H5F_ACC_RDONLY);
-    H5Ovisit2(file, H5_INDEX_NAME, H5_ITER_INC,
-              [](hid_t, const char* name, const H5O_info_t*, void* names) {
-                if (name[0] != '.') static_cast<std::vector<std::string>*>(names)->emplace_back(name);
-                return herr_t{0};
-              },
-              &b.names, H5O_INFO_BASIC);
+    H5Ovisit2(
+        file, H5_INDEX_NAME, H5_ITER_INC,
+        [](hid_t, const char* name, const H5O_info_t*, void* names) {
+          if (name[0] != '.') static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+          return herr_t{0};
+        },
+        &b.names, H5O_INFO_BASIC);
     H5Fclose(file);
     return b;
   }();
@@ -74,13 +77,30 @@ const Base& base() {
 }
 
 double odd_number(unsigned byte) {
-  constexpr std::array kOdd{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(), -1.0, -0.5, 0.0, 0.5, 1.0, 2.0, 3.0, 1e5, 2147483648.0, -2147483649.0, 4294967296.0, 9.3e18, -9.3e18, 1.9e19, 1e300};
+  constexpr std::array kOdd{std::numeric_limits<double>::quiet_NaN(),
+                            std::numeric_limits<double>::infinity(),
+                            -1.0,
+                            -0.5,
+                            0.0,
+                            0.5,
+                            1.0,
+                            2.0,
+                            3.0,
+                            1e5,
+                            2147483648.0,
+                            -2147483649.0,
+                            4294967296.0,
+                            9.3e18,
+                            -9.3e18,
+                            1.9e19,
+                            1e300};
   return byte < kOdd.size() ? kOdd[byte] : static_cast<double>(byte) - 128;
 }
 
 hsize_t odd_size(unsigned byte) { return byte < 200 ? byte % 20 : hsize_t{1} << (byte - 200) % 64; }
 
-/// One change of what stands in the file: another value, shape, type or storage of an array, a link elsewhere, nothing at all.
+/// One change of what stands in the file: another value, shape, type or storage of an array, a link elsewhere, nothing
+/// at all.
 void edit(hid_t file, Bytes& in) {
   const std::vector<std::string>& names = base().names;
   const unsigned what = in.next() % 8;
@@ -117,9 +137,14 @@ void edit(hid_t file, Bytes& in) {
   std::array<hsize_t, 3> size{};
   const int rank = static_cast<int>(in.next() % 4);
   for (hsize_t& n : size) n = odd_size(in.next());
-  const hid_t space = rank == 0 ? H5Screate(in.next() % 2 ? H5S_NULL : H5S_SCALAR) : H5Screate_simple(rank, size.data(), nullptr);
+  const hid_t space =
+      rank == 0 ? H5Screate(in.next() % 2 ? H5S_NULL : H5S_SCALAR) : H5Screate_simple(rank, size.data(), nullptr);
   const unsigned kind = in.next() % 5;
-  const hid_t type = kind == 0 ? H5Tcopy(H5T_C_S1) : H5Tcopy(kind == 1 ? H5T_IEEE_F64LE : kind == 2 ? H5T_STD_I32LE : kind == 3 ? H5T_C_S1 : H5T_IEEE_F32BE);
+  const hid_t type = kind == 0 ? H5Tcopy(H5T_C_S1)
+                               : H5Tcopy(kind == 1   ? H5T_IEEE_F64LE
+                                         : kind == 2 ? H5T_STD_I32LE
+                                         : kind == 3 ? H5T_C_S1
+                                                     : H5T_IEEE_F32BE);
   if (kind == 0) H5Tset_size(type, H5T_VARIABLE);
   if (kind == 3) H5Tset_size(type, std::max<std::size_t>(1, odd_size(in.next())));
   const hid_t how = H5Pcreate(H5P_DATASET_CREATE);
@@ -161,7 +186,8 @@ void check(const Checkpoint& c) {
 void leaves_nothing_open() {
   static const auto open = [] {
     hsize_t all = 0;
-    for (const H5I_type_t kind : {H5I_FILE, H5I_GROUP, H5I_DATATYPE, H5I_DATASPACE, H5I_DATASET, H5I_ATTR, H5I_GENPROP_LST}) {
+    for (const H5I_type_t kind :
+         {H5I_FILE, H5I_GROUP, H5I_DATATYPE, H5I_DATASPACE, H5I_DATASET, H5I_ATTR, H5I_GENPROP_LST}) {
       hsize_t n = 0;
       H5Inmembers(kind, &n);
       all += n;
@@ -174,7 +200,8 @@ void leaves_nothing_open() {
 
 }  // namespace
 
-// HDF5 asks the heap for what a forged file says; where the system's heap would refuse, the sanitizers' are to refuse too, and not to end the program.
+// HDF5 asks the heap for what a forged file says; where the system's heap would refuse, the sanitizers' are to refuse
+// too, and not to end the program.
 extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1"; }
 extern "C" const char* __tsan_default_options() { return "allocator_may_return_null=1"; }
 

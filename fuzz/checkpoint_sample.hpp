@@ -19,7 +19,9 @@ inline RunState sample_run() {
   return r;
 }
 
-inline std::string sample_checkpoint() { return checkpoint_bytes({"a case", "a program", {"one", "two"}}, sample_run()); }
+inline std::string sample_checkpoint() {
+  return checkpoint_bytes({"a case", "a program", {"one", "two"}}, sample_run());
+}
 
 /// Bytes one after the other; 0 when there are no more.
 class Bytes {

@@ -23,7 +23,8 @@ void check(const Profile& p) {
   for (int i = 0; i <= n; ++i) {
     const ProfilePoint at = p.at(i == n ? p.s_max() : p.s_min() + (p.s_max() - p.s_min()) * i / n);
     promise(finite(at.position) && finite(at.tangent) && std::isfinite(at.curvature), "points are finite");
-    promise(std::abs(norm(at.tangent) - 1) < 1e-9 && std::abs(dot(at.tangent, at.outward)) < 1e-9, "tangent and normal are unit vectors");
+    promise(std::abs(norm(at.tangent) - 1) < 1e-9 && std::abs(dot(at.tangent, at.outward)) < 1e-9,
+            "tangent and normal are unit vectors");
     const double y = p.y_min() + (p.y_max() - p.y_min()) * i / n;
     promise(std::abs(p.at(p.s_at_y(y)).position.y - y) < 1e-6, "the running surface is a graph over y");
   }

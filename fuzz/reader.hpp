@@ -19,7 +19,8 @@ inline void promise(bool kept, const char* what) {
   std::abort();
 }
 
-/// Whether the reader took the input. It may refuse with a CaseError that says something; any other exception is a find.
+/// Whether the reader took the input. It may refuse with a CaseError that says something; any other exception is a
+/// find.
 template <class Read>
 bool accepts(Read&& read) {
   try {
@@ -37,6 +38,8 @@ bool accepts(Read&& read) {
   }
 }
 
-inline std::string_view text_of(const std::uint8_t* data, std::size_t size) { return {reinterpret_cast<const char*>(data), size}; }
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
 
 }  // namespace railstrata::fuzz

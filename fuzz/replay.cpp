@@ -1,4 +1,5 @@
-// Runs every kept input through a target, then mutations of them: the same ones on every machine. usage: [FUZZ_KEEP=FILE] fuzz_<reader> FOLDER [MUTATIONS]
+// Runs every kept input through a target, then mutations of them: the same ones on every machine. usage:
+// [FUZZ_KEEP=FILE] fuzz_<reader> FOLDER [MUTATIONS]
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -22,7 +23,8 @@ Input mutation(Input bytes, std::mt19937& random) {
   const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % std::max<std::size_t>(n, 1)); };
   for (std::size_t changes = 1 + below(4); changes > 0 && !bytes.empty(); --changes) {
     const std::size_t begin = below(bytes.size()), length = 1 + below(std::min<std::size_t>(bytes.size() - begin, 40));
-    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(begin), last = first + static_cast<std::ptrdiff_t>(length);
+    const auto first = bytes.begin() + static_cast<std::ptrdiff_t>(begin),
+               last = first + static_cast<std::ptrdiff_t>(length);
     switch (below(4)) {
       case 0:
         *first = static_cast<std::uint8_t>(*first ^ (1u << below(8)));
@@ -46,7 +48,9 @@ Input mutation(Input bytes, std::mt19937& random) {
 /// Keeps the input beside the program while it is at work, if asked to: the one that breaks it stays.
 void run(const Input& input) {
   static const char* kept = std::getenv("FUZZ_KEEP");
-  if (kept) std::ofstream(kept, std::ios::binary).write(reinterpret_cast<const char*>(input.data()), static_cast<std::streamsize>(input.size()));
+  if (kept)
+    std::ofstream(kept, std::ios::binary)
+        .write(reinterpret_cast<const char*>(input.data()), static_cast<std::streamsize>(input.size()));
   LLVMFuzzerTestOneInput(input.data(), input.size());
 }
 

@@ -18,7 +18,9 @@ void check(const ResultFolder& r) {
     for (const double v : *values) promise(std::isfinite(v), "values are finite");
   }
   promise(f.state.size() == n, "every point has a state");
-  for (const ContactState s : f.state) promise(s == ContactState::separated || s == ContactState::stick || s == ContactState::slip, "states are known ones");
+  for (const ContactState s : f.state)
+    promise(s == ContactState::separated || s == ContactState::stick || s == ContactState::slip,
+            "states are known ones");
   for (const char* path : {"/contact/p_max_Pa", "/run/wall_seconds", "/checks/0/value", ""}) r.number(path);
 }
 
@@ -27,6 +29,9 @@ void check(const ResultFolder& r) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string_view all = fuzz::text_of(data, size);
   const std::size_t cut = std::min(all.find('\1'), all.size());
-  fuzz::accepts([&] { check(parse_results(std::string(all.substr(0, cut)), std::string(all.substr(std::min(cut + 1, all.size()))), "folder")); });
+  fuzz::accepts([&] {
+    check(parse_results(std::string(all.substr(0, cut)), std::string(all.substr(std::min(cut + 1, all.size()))),
+                        "folder"));
+  });
   return 0;
 }

@@ -19,7 +19,8 @@ void check(const LoadedStudy& loaded) {
     promise(std::isfinite(cell) && cell > 0, "the cell is a length");
   }
   for (const StudyGroup& g : loaded.spec.groups) {
-    promise(!g.name.empty() && g.name[0] != '.' && g.name.find('/') == std::string::npos, "a group's name is a folder below the study's");
+    promise(!g.name.empty() && g.name[0] != '.' && g.name.find('/') == std::string::npos,
+            "a group's name is a folder below the study's");
     promise(std::filesystem::is_regular_file(g.base), "a group's base case is a file");
     promise(!g.points.empty() && !g.engines.empty(), "a group has cases and engines");
     std::vector<std::string> overrides;
@@ -33,6 +34,9 @@ void check(const LoadedStudy& loaded) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   LoadedStudy loaded;
-  if (fuzz::accepts([&] { loaded = parse_study(std::string(fuzz::text_of(data, size)), RAILSTRATA_SOURCE_DIR "/cases/quick/study.toml"); })) check(loaded);
+  if (fuzz::accepts([&] {
+        loaded = parse_study(std::string(fuzz::text_of(data, size)), RAILSTRATA_SOURCE_DIR "/cases/quick/study.toml");
+      }))
+    check(loaded);
   return 0;
 }

@@ -7,13 +7,15 @@ namespace railstrata {
 LoadedCase load_case_of(const CommandOptions& options) {
   std::filesystem::path file = options.case_file;
   std::error_code error;  // of a name too long: load_case tells
-  if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error)) file /= "case.toml";
+  if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error))
+    file /= "case.toml";
   LoadedCase loaded = load_case(file, options.overrides);
   for (const std::string& note : loaded.notes) spdlog::warn("{}", note);
   return loaded;
 }
 
-std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix) {
+std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,
+                                       const std::string& suffix) {
   if (!options.out.empty()) return options.out;
   const std::filesystem::path file = std::filesystem::absolute(loaded.file).lexically_normal();
   const std::filesystem::path name = file.stem() == "case" ? file.parent_path().filename() : file.stem();

@@ -2,12 +2,12 @@
 #include <spdlog/spdlog.h>
 
 #include "app/commands.hpp"
+#include "app/summary_text.hpp"
+#include "post/bem_summary.hpp"
 #include "runs/output_folder.hpp"
 #include "runs/peak_memory.hpp"
 #include "runs/run_bem.hpp"
-#include "app/summary_text.hpp"
 #include "runs/write_report.hpp"
-#include "post/bem_summary.hpp"
 
 namespace railstrata {
 

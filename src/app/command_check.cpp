@@ -3,11 +3,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "runs/case_estimate.hpp"
 #include "app/commands.hpp"
-#include "runs/memory_need.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
+#include "runs/case_estimate.hpp"
+#include "runs/memory_need.hpp"
 
 namespace railstrata {
 namespace {
@@ -15,26 +15,39 @@ namespace {
 void print_geometry(const Model& m) {
   const RigidContact& c = m.placement.contact;
   fmt::print("profiles       {} on {}\n", m.placement.wheel.name(), m.placement.rail.name());
-  fmt::print("contact point  y = {:.3f} mm, z = {:.3f} mm; on the wheel at y = {:.3f} mm\n", 1e3 * c.point.y, 1e3 * c.point.z, 1e3 * (c.point.y - c.wheel_offset_y));
+  fmt::print("contact point  y = {:.3f} mm, z = {:.3f} mm; on the wheel at y = {:.3f} mm\n", 1e3 * c.point.y,
+             1e3 * c.point.z, 1e3 * (c.point.y - c.wheel_offset_y));
   fmt::print("contact angle  {:.2f} mrad; rolling radius {:.3f} mm\n", 1e3 * c.angle, 1e3 * c.rolling_radius);
   fmt::print("static load    {:.3f} kN\n", 1e-3 * m.load);
-  fmt::print("Hertz estimate a = {:.2f} mm, b = {:.2f} mm, p0 = {:.0f} MPa (local curvatures only)\n", 1e3 * m.hertz.a, 1e3 * m.hertz.b, 1e-6 * m.hertz.p0);
+  fmt::print("Hertz estimate a = {:.2f} mm, b = {:.2f} mm, p0 = {:.0f} MPa (local curvatures only)\n", 1e3 * m.hertz.a,
+             1e3 * m.hertz.b, 1e-6 * m.hertz.p0);
 }
 
 void print_layers(const Model& m) {
   for (const LayerSpec& l : m.spec.layers) {
-    const std::string young = l.graded() ? fmt::format("{:.4g} to {:.4g}", 1e-9 * l.young_table.front().young, 1e-9 * l.young_table.back().young) : fmt::format("{:.4g}", 1e-9 * l.material.young);
-    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa\n", l.name, l.on, 1e3 * l.thickness, 1e3 * l.width, young);
+    const std::string young = l.graded() ? fmt::format("{:.4g} to {:.4g}", 1e-9 * l.young_table.front().young,
+                                                       1e-9 * l.young_table.back().young)
+                                         : fmt::format("{:.4g}", 1e-9 * l.material.young);
+    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa\n", l.name, l.on,
+               1e3 * l.thickness, 1e3 * l.width, young);
   }
 }
 
 void print_estimate(const Model& m, const RunEstimate& e) {
-  fmt::print("mesh           {} elements, {} nodes\n", m.rail.elements() + m.wheel.elements(), m.rail.nodes() + m.wheel.nodes());
-  fmt::print("stable step    {:.2f} ns (single elements {:.2f} ns, limited by {}); steps of {:.2f} ns\n", 1e9 * e.limits.lanczos, 1e9 * e.limits.element, e.limits.where, 1e9 * e.limits.chosen);
+  fmt::print("mesh           {} elements, {} nodes\n", m.rail.elements() + m.wheel.elements(),
+             m.rail.nodes() + m.wheel.nodes());
+  fmt::print("stable step    {:.2f} ns (single elements {:.2f} ns, limited by {}); steps of {:.2f} ns\n",
+             1e9 * e.limits.lanczos, 1e9 * e.limits.element, e.limits.where, 1e9 * e.limits.chosen);
   if (e.limits.added_mass > 0)
-    fmt::print("mass scaling   {:.3f} kg against stretching across thin rows, on {:.3f} kg of {}; the step without it {:.2f} ns\n", e.limits.added_mass, e.limits.scaled_mass, e.limits.scaled_where, 1e9 * e.limits.unscaled);
+    fmt::print(
+        "mass scaling   {:.3f} kg against stretching across thin rows, on {:.3f} kg of {}; the step without it {:.2f} "
+        "ns\n",
+        e.limits.added_mass, e.limits.scaled_mass, e.limits.scaled_where, 1e9 * e.limits.unscaled);
   if (e.limits.fine_elements > 0)
-    fmt::print("local steps    {} stages a step in {} elements, {:.1f} times the force evaluations of one step; the step without them {:.2f} ns\n", e.limits.stages, e.limits.fine_elements, e.evaluations, 1e9 * e.limits.unscaled);
+    fmt::print(
+        "local steps    {} stages a step in {} elements, {:.1f} times the force evaluations of one step; the step "
+        "without them {:.2f} ns\n",
+        e.limits.stages, e.limits.fine_elements, e.evaluations, 1e9 * e.limits.unscaled);
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
 }
@@ -42,7 +55,12 @@ void print_estimate(const Model& m, const RunEstimate& e) {
 nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
   const RigidContact& c = m.placement.contact;
   return {{"title", m.spec.title},
-          {"contact", {{"y_m", c.point.y}, {"z_m", c.point.z}, {"wheel_y_m", c.point.y - c.wheel_offset_y}, {"angle_rad", c.angle}, {"rolling_radius_m", c.rolling_radius}}},
+          {"contact",
+           {{"y_m", c.point.y},
+            {"z_m", c.point.z},
+            {"wheel_y_m", c.point.y - c.wheel_offset_y},
+            {"angle_rad", c.angle},
+            {"rolling_radius_m", c.rolling_radius}}},
           {"load_N", m.load},
           {"hertz", {{"a_m", m.hertz.a}, {"b_m", m.hertz.b}, {"p0_Pa", m.hertz.p0}}},
           {"elements", m.rail.elements() + m.wheel.elements()},

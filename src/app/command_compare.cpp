@@ -7,14 +7,14 @@
 
 #include "app/commands.hpp"
 #include "app/comparison_picture.hpp"
-#include "runs/output_folder.hpp"
-#include "io/result_folder.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
+#include "io/result_folder.hpp"
 #include "post/compare.hpp"
+#include "runs/output_folder.hpp"
 
 namespace railstrata {
 namespace {
@@ -39,9 +39,11 @@ constexpr Quantity kQuantities[] = {
     {"lateral force in contact plane", "kN", "lateral_force_N", "/contact/lateral_force_N", 1e-3},
     {"creepage x", "1e-3", "creepage_x", "/contact/creepage_x", 1e3},
     {"spin", "1/m", "spin_per_m", "/contact/spin_per_m", 1},
-    {"rail von Mises below surface", "MPa", "rail_subsurface_von_mises_Pa", "/stress/rail/subsurface/von_mises_max/value_Pa", 1e-6},
+    {"rail von Mises below surface", "MPa", "rail_subsurface_von_mises_Pa",
+     "/stress/rail/subsurface/von_mises_max/value_Pa", 1e-6},
     {"its depth", "mm", "rail_subsurface_von_mises_depth_m", "/stress/rail/subsurface/von_mises_max/depth_m", 1e3},
-    {"rail von Mises at surface", "MPa", "rail_surface_von_mises_Pa", "/stress/rail/surface/von_mises_max/value_Pa", 1e-6},
+    {"rail von Mises at surface", "MPa", "rail_surface_von_mises_Pa", "/stress/rail/surface/von_mises_max/value_Pa",
+     1e-6},
 };
 
 struct Row {
@@ -56,31 +58,47 @@ std::vector<Row> rows_of(const ResultFolder& a, const ResultFolder& b) {
   return rows;
 }
 
-std::string number(double v, const char* format) { return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "-"; }
+std::string number(double v, const char* format) {
+  return std::isfinite(v) ? fmt::format(fmt::runtime(format), v) : "-";
+}
 
 void print_table(const ResultFolder& a, const ResultFolder& b, const std::vector<Row>& rows, const FieldComparison& g) {
-  fmt::print("A  {} ({}): {}\nB  {} ({}): {}\n\n", a.folder.string(), a.engine, a.title, b.folder.string(), b.engine, b.title);
+  fmt::print("A  {} ({}): {}\nB  {} ({}): {}\n\n", a.folder.string(), a.engine, a.title, b.folder.string(), b.engine,
+             b.title);
   fmt::print("  {:<36} {:>12} {:>12} {:>12}\n", "", "A", "B", "(A-B)/|B|");
   for (const Row& r : rows) {
     const Quantity& q = r.quantity;
-    fmt::print("  {:<36} {:>12} {:>12} {:>12}\n", fmt::format("{}{}{}", q.name, *q.unit ? ", " : "", q.unit), number(q.scale * r.a, "{:.4g}"), number(q.scale * r.b, "{:.4g}"),
+    fmt::print("  {:<36} {:>12} {:>12} {:>12}\n", fmt::format("{}{}{}", q.name, *q.unit ? ", " : "", q.unit),
+               number(q.scale * r.a, "{:.4g}"), number(q.scale * r.b, "{:.4g}"),
                number(100 * r.relative(), "{:+.2f} %"));
   }
   const auto field = [](const char* name, const FieldDifference& d) {
-    if (std::isfinite(d.rms)) fmt::print("  {:<4} over the patch: rms {:.2f} %, largest {:.2f} % of B's maximum, at x {:+.2f}, y {:+.2f} mm\n", name, 100 * d.rms, 100 * d.largest, 1e3 * d.x, 1e3 * d.y);
+    if (std::isfinite(d.rms))
+      fmt::print("  {:<4} over the patch: rms {:.2f} %, largest {:.2f} % of B's maximum, at x {:+.2f}, y {:+.2f} mm\n",
+                 name, 100 * d.rms, 100 * d.largest, 1e3 * d.x, 1e3 * d.y);
   };
   fmt::print("\n");
   field("p", g.p);
   field("|q|", g.q);
 }
 
-nlohmann::ordered_json value(double v) { return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); }
+nlohmann::ordered_json value(double v) {
+  return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
+}
 
-nlohmann::ordered_json as_json(const ResultFolder& a, const ResultFolder& b, const std::vector<Row>& rows, const FieldComparison& g) {
-  const auto side = [](const ResultFolder& r) { return nlohmann::ordered_json{{"folder", r.folder.string()}, {"engine", r.engine}, {"title", r.title}}; };
-  const auto field = [](const FieldDifference& d) { return nlohmann::ordered_json{{"rms_relative", value(d.rms)}, {"largest_relative", value(d.largest)}, {"x_m", d.x}, {"y_m", d.y}}; };
+nlohmann::ordered_json as_json(const ResultFolder& a, const ResultFolder& b, const std::vector<Row>& rows,
+                               const FieldComparison& g) {
+  const auto side = [](const ResultFolder& r) {
+    return nlohmann::ordered_json{{"folder", r.folder.string()}, {"engine", r.engine}, {"title", r.title}};
+  };
+  const auto field = [](const FieldDifference& d) {
+    return nlohmann::ordered_json{
+        {"rms_relative", value(d.rms)}, {"largest_relative", value(d.largest)}, {"x_m", d.x}, {"y_m", d.y}};
+  };
   nlohmann::ordered_json out{{"a", side(a)}, {"b", side(b)}};
-  for (const Row& r : rows) out["numbers"][r.quantity.key] = {{"a", value(r.a)}, {"b", value(r.b)}, {"relative_difference", value(r.relative())}};
+  for (const Row& r : rows)
+    out["numbers"][r.quantity.key] = {
+        {"a", value(r.a)}, {"b", value(r.b)}, {"relative_difference", value(r.relative())}};
   out["fields"] = {{"pressure", field(g.p)}, {"traction", field(g.q)}};
   return out;
 }
@@ -89,15 +107,18 @@ std::string csv_text(const std::vector<Row>& rows) {
   std::string out = "quantity,unit,a,b,relative_difference\n";
   for (const Row& r : rows) {
     const Quantity& q = r.quantity;
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n", q.name, q.unit, q.scale * r.a, q.scale * r.b, r.relative());
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n", q.name, q.unit, q.scale * r.a, q.scale * r.b,
+                   r.relative());
   }
   return out;
 }
 
 void write_fields(const fs::path& file, const std::vector<std::string>& origin, const FieldComparison& g) {
-  std::vector<CsvColumn> table{{"x_mm", {}}, {"y_mm", {}}, {"p_a_MPa", {}}, {"p_b_MPa", {}}, {"q_a_MPa", {}}, {"q_b_MPa", {}}};
+  std::vector<CsvColumn> table{{"x_mm", {}},    {"y_mm", {}},    {"p_a_MPa", {}},
+                               {"p_b_MPa", {}}, {"q_a_MPa", {}}, {"q_b_MPa", {}}};
   for (std::size_t k = 0; k < g.p_a.size(); ++k) {
-    const double row[] = {1e3 * g.x[k / g.y.size()], 1e3 * g.y[k % g.y.size()], 1e-6 * g.p_a[k], 1e-6 * g.p_b[k], 1e-6 * g.q_a[k], 1e-6 * g.q_b[k]};
+    const double row[] = {1e3 * g.x[k / g.y.size()], 1e3 * g.y[k % g.y.size()], 1e-6 * g.p_a[k],
+                          1e-6 * g.p_b[k],           1e-6 * g.q_a[k],           1e-6 * g.q_b[k]};
     for (std::size_t c = 0; c < table.size(); ++c) table[c].values.push_back(row[c]);
   }
   write_csv(file, origin, table);
@@ -107,31 +128,42 @@ FieldComparison compare_fields_of(const ResultFolder& a, const ResultFolder& b) 
   try {
     return compare_fields(a.field, b.field);
   } catch (const std::invalid_argument& e) {
-    throw CaseError(fmt::format("{} and {} cannot be compared: {}", a.folder.string(), b.folder.string(), e.what()), "compare folders that `railstrata run` or `railstrata bem` has written");
+    throw CaseError(fmt::format("{} and {} cannot be compared: {}", a.folder.string(), b.folder.string(), e.what()),
+                    "compare folders that `railstrata run` or `railstrata bem` has written");
   }
 }
 
-std::string last_name(const fs::path& folder) { return fs::absolute(folder / "").lexically_normal().parent_path().filename().string(); }
+std::string last_name(const fs::path& folder) {
+  return fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
+}
 
 }  // namespace
 
 ExitCode command_compare(const CommandOptions& options) {
   const ResultFolder a = read_result_folder(options.case_file), b = read_result_folder(options.reference);
-  const fs::path out = options.out.empty() ? fs::path("results") / fmt::format("{}-against-{}", last_name(a.folder), last_name(b.folder)) : options.out;
+  const fs::path out =
+      options.out.empty() ? fs::path("results") / fmt::format("{}-against-{}", last_name(a.folder), last_name(b.folder))
+                          : options.out;
   const FieldComparison comparison = compare_fields_of(a, b);
   const std::vector<Row> rows = rows_of(a, b);
   const nlohmann::ordered_json json = as_json(a, b, rows, comparison);
 
   const FolderHold hold = prepare_output_folder(out, options.force);
-  const std::vector<std::string> origin{fmt::format("RailStrata {}", version_text()), fmt::format("a: {} ({}); b: {} ({})", a.folder.string(), a.engine, b.folder.string(), b.engine),
-                                        "x from the axle in the rolling direction, y towards the field side; q: magnitude of the traction"};
+  const std::vector<std::string> origin{
+      fmt::format("RailStrata {}", version_text()),
+      fmt::format("a: {} ({}); b: {} ({})", a.folder.string(), a.engine, b.folder.string(), b.engine),
+      "x from the axle in the rolling direction, y towards the field side; q: magnitude of the traction"};
   const std::string text = json_text(json, 2) + "\n";
   write_whole_file(out / "compare.json", text);
   write_whole_file(out / "compare.csv", csv_text(rows));
   write_fields(out / "fields.csv", origin, comparison);
-  write_whole_file(out / "compare.svg", comparison_svg({"A: " + last_name(a.folder) + " (" + a.engine + ")", a.field}, {"B: " + last_name(b.folder) + " (" + b.engine + ")", b.field}, comparison));
-  if (options.json) fmt::print("{}", text);
-  else print_table(a, b, rows, comparison);
+  write_whole_file(out / "compare.svg",
+                   comparison_svg({"A: " + last_name(a.folder) + " (" + a.engine + ")", a.field},
+                                  {"B: " + last_name(b.folder) + " (" + b.engine + ")", b.field}, comparison));
+  if (options.json)
+    fmt::print("{}", text);
+  else
+    print_table(a, b, rows, comparison);
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
 }

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
-#include "runs/output_folder.hpp"
-#include "runs/run_bem.hpp"
 #include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
+#include "runs/output_folder.hpp"
+#include "runs/run_bem.hpp"
 
 namespace railstrata {
 namespace {
@@ -20,7 +20,9 @@ constexpr double kDecades = 2.5;
 // Creepages of a driving wheel: negative.
 std::vector<double> creepages(const CommandOptions& options) {
   std::vector<double> out;
-  for (int i = 0; i < options.points; ++i) out.push_back(-options.largest_creepage * std::pow(10.0, -kDecades * (options.points - 1 - i) / (options.points - 1)));
+  for (int i = 0; i < options.points; ++i)
+    out.push_back(-options.largest_creepage *
+                  std::pow(10.0, -kDecades * (options.points - 1 - i) / (options.points - 1)));
   return out;
 }
 
@@ -52,8 +54,10 @@ void print_table(const std::vector<CsvColumn>& table) {
   fmt::print("\n");
   for (std::size_t i = 0; i < table.front().values.size(); ++i) {
     for (const CsvColumn& c : table) {
-      if (&c == &table.front()) fmt::print("{:>12.3e}", c.values[i]);
-      else fmt::print("{:>{}.4f}", c.values[i], c.name.size() > 10 ? 20 : 12);
+      if (&c == &table.front())
+        fmt::print("{:>12.3e}", c.values[i]);
+      else
+        fmt::print("{:>{}.4f}", c.values[i], c.name.size() > 10 ? 20 : 12);
     }
     fmt::print("\n");
   }
@@ -72,15 +76,20 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   const std::filesystem::path out = output_folder_of(options, loaded, "-creep-curve");
   BemOptions bem;
   bem.cell = cell_size(options.cell);
-  const std::vector<CsvColumn> table = table_of(creep_curve(loaded.spec, place(loaded.spec, loaded.folder()), creepages(options), bem));
+  const std::vector<CsvColumn> table =
+      table_of(creep_curve(loaded.spec, place(loaded.spec, loaded.folder()), creepages(options), bem));
 
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   std::vector<std::string> origin = table_origin(loaded);
-  origin.back() = "F_x/(f F_z) on the wheel against longitudinal creepage; full: half-space theory with the case's layers; the others: the Hertz ellipse, homogeneous bodies";
+  origin.back() =
+      "F_x/(f F_z) on the wheel against longitudinal creepage; full: half-space theory with the case's layers; the "
+      "others: the Hertz ellipse, homogeneous bodies";
   write_csv(out / "creep_curve.csv", origin, table);
-  if (options.json) fmt::print("{}\n", as_json(loaded.spec.title, table).dump(2));
-  else print_table(table);
+  if (options.json)
+    fmt::print("{}\n", as_json(loaded.spec.title, table).dump(2));
+  else
+    print_table(table);
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
 }

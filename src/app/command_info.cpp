@@ -19,7 +19,8 @@ void print_text(const nlohmann::ordered_json& info) {
     if (value.is_array()) text = fmt::format("{}", fmt::join(value.get<std::vector<std::string>>(), ", "));
     if (value.is_object()) {
       text.clear();
-      for (const auto& [name, version] : value.items()) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version.get<std::string>());
+      for (const auto& [name, version] : value.items())
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, version.get<std::string>());
     }
     fmt::print("{:<16} {}\n", key, text);
   }
@@ -43,8 +44,10 @@ ExitCode command_info(const CommandOptions& options) {
                                     {"cores", std::thread::hardware_concurrency()},
                                     {"threads", max_threads()},
                                     {"libraries", libraries}};
-  if (options.json) fmt::print("{}\n", info.dump(2));
-  else print_text(info);
+  if (options.json)
+    fmt::print("{}\n", info.dump(2));
+  else
+    print_text(info);
   return ExitCode::ok;
 }
 

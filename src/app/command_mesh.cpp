@@ -4,9 +4,9 @@
 
 #include "app/commands.hpp"
 #include "app/mesh_report.hpp"
-#include "runs/output_folder.hpp"
 #include "io/vtk.hpp"
 #include "mesh/unstructured.hpp"
+#include "runs/output_folder.hpp"
 
 namespace railstrata {
 namespace {
@@ -25,8 +25,13 @@ void write_body(const std::filesystem::path& file, const SweptBody& body) {
 nlohmann::ordered_json as_json(const std::vector<MeshRow>& rows) {
   auto out = nlohmann::ordered_json::array();
   for (const MeshRow& r : rows)
-    out.push_back({{"body", r.body}, {"block", r.quality.block}, {"elements", r.quality.elements}, {"scaled_jacobian_min", r.quality.scaled_jacobian_min},
-                   {"aspect_max", r.quality.aspect_max}, {"edge_min_m", r.quality.edge_min}, {"edge_over_wave_speed_s", r.step}});
+    out.push_back({{"body", r.body},
+                   {"block", r.quality.block},
+                   {"elements", r.quality.elements},
+                   {"scaled_jacobian_min", r.quality.scaled_jacobian_min},
+                   {"aspect_max", r.quality.aspect_max},
+                   {"edge_min_m", r.quality.edge_min},
+                   {"edge_over_wave_speed_s", r.step}});
   return out;
 }
 
@@ -41,8 +46,10 @@ ExitCode command_mesh(const CommandOptions& options) {
   write_body(out / "rail.vtu", model.rail);
   write_body(out / "wheel.vtu", model.wheel);
   const std::vector<MeshRow> rows = mesh_rows(model);
-  if (options.json) fmt::print("{}\n", as_json(rows).dump(2));
-  else fmt::print("{}\nrail.vtu and wheel.vtu are in {}\n", mesh_table(rows), out.string());
+  if (options.json)
+    fmt::print("{}\n", as_json(rows).dump(2));
+  else
+    fmt::print("{}\nrail.vtu and wheel.vtu are in {}\n", mesh_table(rows), out.string());
   return ExitCode::ok;
 }
 

@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
-#include "runs/write_report.hpp"
 #include "core/faults.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
+#include "runs/write_report.hpp"
 
 namespace railstrata {
 namespace {
@@ -23,12 +23,17 @@ std::filesystem::path page_of(const CommandOptions& options) {
 }  // namespace
 
 ExitCode command_report(const CommandOptions& options) {
-  if (options.folders.size() > 1 && options.out.empty()) throw CaseError("a report on several folders needs a place", "name the page with --out, e.g. --out comparison.html");
+  if (options.folders.size() > 1 && options.out.empty())
+    throw CaseError("a report on several folders needs a place",
+                    "name the page with --out, e.g. --out comparison.html");
   const std::filesystem::path page = page_of(options);
   if (!options.out.empty() && !options.force && std::filesystem::exists(page))
-    throw CaseError(fmt::format("--out {}: there is a file of this name", page.string()), "choose another name, or replace it with --force");
+    throw CaseError(fmt::format("--out {}: there is a file of this name", page.string()),
+                    "choose another name, or replace it with --force");
   for (const std::filesystem::path& folder : options.folders)
-    if (!std::filesystem::is_directory(folder)) throw CaseError(fmt::format("{} is not a result folder", folder.string()), "give a folder that `railstrata run` or `railstrata bem` has written");
+    if (!std::filesystem::is_directory(folder))
+      throw CaseError(fmt::format("{} is not a result folder", folder.string()),
+                      "give a folder that `railstrata run` or `railstrata bem` has written");
   if (page.has_parent_path()) make_folder(page.parent_path());
   write_report(page, options.folders, options.reference_solution, options.threads);
   if (options.json) fmt::print("{}\n", json_text(nlohmann::json{{"report", page.generic_string()}}));

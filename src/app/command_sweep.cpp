@@ -10,17 +10,17 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
-#include "runs/output_folder.hpp"
 #include "app/progress.hpp"
-#include "study/result_columns.hpp"
-#include "runs/run_bem.hpp"
-#include "runs/stop_flag.hpp"
 #include "core/parallel.hpp"
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
 #include "io/summary_json.hpp"
-#include "study/variation.hpp"
 #include "post/bem_summary.hpp"
+#include "runs/output_folder.hpp"
+#include "runs/run_bem.hpp"
+#include "runs/stop_flag.hpp"
+#include "study/result_columns.hpp"
+#include "study/variation.hpp"
 
 namespace railstrata {
 namespace {
@@ -29,16 +29,20 @@ struct SweepCase {
   std::vector<std::string> values;
   std::optional<LoadedCase> loaded;
   nlohmann::ordered_json summary;  ///< null: there is none
-  std::string fault;   ///< empty: all is well
+  std::string fault;               ///< empty: all is well
   bool done = false;
 };
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
-std::string fault_of(const CaseError& e) { return e.diagnostics.empty() ? first_line(e.what()) : first_line(e.diagnostics.front().message); }
+std::string fault_of(const CaseError& e) {
+  return e.diagnostics.empty() ? first_line(e.what()) : first_line(e.diagnostics.front().message);
+}
 
-/// Cases whose values are refused carry the fault; if all are, the first one's error goes to the user: a key that does not exist, most likely.
-std::vector<SweepCase> load_cases(const CommandOptions& options, const LoadedCase& base, const std::vector<VariedKey>& keys) {
+/// Cases whose values are refused carry the fault; if all are, the first one's error goes to the user: a key that does
+/// not exist, most likely.
+std::vector<SweepCase> load_cases(const CommandOptions& options, const LoadedCase& base,
+                                  const std::vector<VariedKey>& keys) {
   std::vector<SweepCase> cases;
   std::optional<CaseError> first_error;
   bool any = false;
@@ -77,7 +81,8 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
 /// sweep.csv, which grows in the order of the cases, whatever the order in which they end.
 class SweepTable {
  public:
-  SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin, const std::vector<VariedKey>& keys, std::vector<ResultColumn> columns)
+  SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin,
+             const std::vector<VariedKey>& keys, std::vector<ResultColumn> columns)
       : file_(file), columns_(std::move(columns)) {
     std::string head = csv_remarks(origin);
     for (const VariedKey& k : keys) head += k.key + ',';
@@ -108,22 +113,27 @@ void solve_all(std::vector<SweepCase>& cases, const BemOptions& bem, bool stress
   Progress progress("sweep", shown);
   std::mutex writing;
   std::exception_ptr failure;
-  for_each(static_cast<std::ptrdiff_t>(cases.size()), [&](std::ptrdiff_t i) {
-    SweepCase& c = cases[static_cast<std::size_t>(i)];
-    if (stop_flag()) return;
-    solve(c, bem, stresses);
-    const std::lock_guard lock(writing);
-    c.done = true;
-    try {
-      progress.update(static_cast<double>(table.add_done(cases)) / static_cast<double>(cases.size()));
-    } catch (...) {
-      failure = std::current_exception();
-    }
-  }, true);
+  for_each(
+      static_cast<std::ptrdiff_t>(cases.size()),
+      [&](std::ptrdiff_t i) {
+        SweepCase& c = cases[static_cast<std::size_t>(i)];
+        if (stop_flag()) return;
+        solve(c, bem, stresses);
+        const std::lock_guard lock(writing);
+        c.done = true;
+        try {
+          progress.update(static_cast<double>(table.add_done(cases)) / static_cast<double>(cases.size()));
+        } catch (...) {
+          failure = std::current_exception();
+        }
+      },
+      true);
   if (failure) std::rethrow_exception(failure);
 }
 
-std::string cell_text(double v, int width, int digits) { return std::isfinite(v) ? fmt::format("  {:>{}.{}f}", v, width, digits) : fmt::format("  {:>{}}", "-", width); }
+std::string cell_text(double v, int width, int digits) {
+  return std::isfinite(v) ? fmt::format("  {:>{}.{}f}", v, width, digits) : fmt::format("  {:>{}}", "-", width);
+}
 
 /// What the terminal shows of a case.
 struct Shown {
@@ -131,8 +141,11 @@ struct Shown {
   double factor;
   int width, digits;
 };
-constexpr Shown kShown[] = {{"p_max MPa", "/contact/p_max_Pa", 1e-6, 9, 1}, {"q_max MPa", "/contact/q_max_Pa", 1e-6, 9, 1}, {"area mm²", "/contact/patch_area_m2", 1e6, 8, 1},
-                            {"slip %", "/contact/slip_area_fraction", 100, 6, 1}, {"creep 1e-3", "/contact/creepage_x", 1e3, 10, 3}};
+constexpr Shown kShown[] = {{"p_max MPa", "/contact/p_max_Pa", 1e-6, 9, 1},
+                            {"q_max MPa", "/contact/q_max_Pa", 1e-6, 9, 1},
+                            {"area mm²", "/contact/patch_area_m2", 1e6, 8, 1},
+                            {"slip %", "/contact/slip_area_fraction", 100, 6, 1},
+                            {"creep 1e-3", "/contact/creepage_x", 1e3, 10, 3}};
 
 void print_table(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys) {
   std::vector<std::size_t> width;
@@ -147,12 +160,14 @@ void print_table(const std::vector<SweepCase>& cases, const std::vector<VariedKe
     if (!c.done) continue;
     for (std::size_t k = 0; k < keys.size(); ++k) fmt::print("{:<{}}  ", c.values[k], width[k]);
     if (!c.summary.is_null())
-      for (const Shown& s : kShown) fmt::print("{}", cell_text(column_value({s.heading, s.path, s.factor}, c.summary), s.width, s.digits));
+      for (const Shown& s : kShown)
+        fmt::print("{}", cell_text(column_value({s.heading, s.path, s.factor}, c.summary), s.width, s.digits));
     fmt::print("{}\n", c.fault.empty() ? "" : "  " + c.fault);
   }
 }
 
-nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys, const std::vector<ResultColumn>& columns) {
+nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys,
+                               const std::vector<ResultColumn>& columns) {
   auto out = nlohmann::ordered_json::array();
   for (const SweepCase& c : cases) {
     if (!c.done) continue;
@@ -187,8 +202,10 @@ ExitCode command_sweep(const CommandOptions& options) {
   SweepTable table(out / "sweep.csv", table_origin(base), keys, columns);
   solve_all(cases, bem, options.stresses, table, spdlog::default_logger()->level() <= spdlog::level::info);
 
-  if (options.json) fmt::print("{}\n", as_json(cases, keys, columns).dump(2));
-  else print_table(cases, keys);
+  if (options.json)
+    fmt::print("{}\n", as_json(cases, keys, columns).dump(2));
+  else
+    print_table(cases, keys);
   if (stop_flag()) {
     spdlog::warn("stopped; {} holds the first cases", (out / "sweep.csv").string());
     return ExitCode::interrupted;

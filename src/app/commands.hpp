@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "core/faults.hpp"
 #include "case/case_file.hpp"
+#include "core/faults.hpp"
 
 namespace railstrata {
 
@@ -20,19 +20,19 @@ struct CommandOptions {
   std::string cell;                       ///< --cell of the half-space commands: a length; empty: the engine's default
   std::filesystem::path reference;        ///< second folder of `compare`
   std::vector<std::filesystem::path> folders;  ///< of `report`
-  std::filesystem::path resume;           ///< --resume of `run`: a result folder with a checkpoint
+  std::filesystem::path resume;                ///< --resume of `run`: a result folder with a checkpoint
   std::string checkpoint_every = "10 min", max_time = "never";  ///< --checkpoint-every, --max-time of `run`: wall times
-  bool report = true;                     ///< --no-report of `run`, `bem` and `study`
-  bool reference_solution = true;         ///< --no-reference of `report`
-  std::vector<std::string> vary;          ///< --vary of `sweep`
-  bool stresses = false;                  ///< --stresses of `sweep`
-  double largest_creepage = 0.02;         ///< --largest of `creep-curve`
-  int points = 21;                        ///< --points of `creep-curve`
-  int jobs = 0;                           ///< --jobs of `study`; 0: as many as threads
-  std::string shard = "1/1";              ///< --shard of `study`
-  std::string engine;                     ///< --engine of `study`; empty: all
-  std::vector<std::string> groups;        ///< --group of `study`; empty: all
-  bool dry_run = false;                   ///< --dry-run of `study`
+  bool report = true;                                           ///< --no-report of `run`, `bem` and `study`
+  bool reference_solution = true;                               ///< --no-reference of `report`
+  std::vector<std::string> vary;                                ///< --vary of `sweep`
+  bool stresses = false;                                        ///< --stresses of `sweep`
+  double largest_creepage = 0.02;                               ///< --largest of `creep-curve`
+  int points = 21;                                              ///< --points of `creep-curve`
+  int jobs = 0;                                                 ///< --jobs of `study`; 0: as many as threads
+  std::string shard = "1/1";                                    ///< --shard of `study`
+  std::string engine;                                           ///< --engine of `study`; empty: all
+  std::vector<std::string> groups;                              ///< --group of `study`; empty: all
+  bool dry_run = false;                                         ///< --dry-run of `study`
   int threads = 1;
   std::vector<std::string> command_line;
 };
@@ -53,6 +53,7 @@ ExitCode command_info(const CommandOptions& options);
 LoadedCase load_case_of(const CommandOptions& options);
 
 /// --out, or results/<case name><suffix>.
-std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix = {});
+std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,
+                                       const std::string& suffix = {});
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #pragma once
-// Two results side by side as one SVG: pressure and traction along the centre lines, maps of both pressures and of their difference.
+// Two results side by side as one SVG: pressure and traction along the centre lines, maps of both pressures and of
+// their difference.
 #include <string>
 
 #include "contact/contact_field.hpp"

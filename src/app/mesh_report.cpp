@@ -32,11 +32,14 @@ std::vector<MeshRow> mesh_rows(const Model& model) {
 }
 
 std::string mesh_table(const std::vector<MeshRow>& rows) {
-  std::string out = fmt::format("{:<6} {:<14} {:>10} {:>12} {:>10} {:>12} {:>12}\n", "body", "block", "elements", "Jacobian", "aspect", "edge/mm", "edge/c/ns");
-  const auto limiting = std::min_element(rows.begin(), rows.end(), [](const MeshRow& a, const MeshRow& b) { return a.step < b.step; });
+  std::string out = fmt::format("{:<6} {:<14} {:>10} {:>12} {:>10} {:>12} {:>12}\n", "body", "block", "elements",
+                                "Jacobian", "aspect", "edge/mm", "edge/c/ns");
+  const auto limiting =
+      std::min_element(rows.begin(), rows.end(), [](const MeshRow& a, const MeshRow& b) { return a.step < b.step; });
   for (auto row = rows.begin(); row != rows.end(); ++row)
-    out += fmt::format("{:<6} {:<14} {:>10} {:>12.3f} {:>10.1f} {:>12.4f} {:>12.2f}{}\n", row->body, row->quality.block, row->quality.elements, row->quality.scaled_jacobian_min,
-                       row->quality.aspect_max, 1e3 * row->quality.edge_min, 1e9 * row->step, row == limiting ? "  limits the step" : "");
+    out += fmt::format("{:<6} {:<14} {:>10} {:>12.3f} {:>10.1f} {:>12.4f} {:>12.2f}{}\n", row->body, row->quality.block,
+                       row->quality.elements, row->quality.scaled_jacobian_min, row->quality.aspect_max,
+                       1e3 * row->quality.edge_min, 1e9 * row->step, row == limiting ? "  limits the step" : "");
   return out;
 }
 

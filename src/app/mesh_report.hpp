@@ -11,7 +11,8 @@ namespace railstrata {
 struct MeshRow {
   std::string body;
   BlockQuality quality;
-  double step = 0;      ///< s, smallest edge over the fastest wave speed of the body's materials: a bound that shows which block limits the step
+  double step = 0;  ///< s, smallest edge over the fastest wave speed of the body's materials: a bound that shows which
+                    ///< block limits the step
 };
 
 /// One row per block of both bodies.

@@ -36,11 +36,17 @@ int physical_cores() {
   return std::max(1, static_cast<int>(cores.size()));
 }
 
-int default_threads() { return std::clamp(std::getenv("OMP_NUM_THREADS") != nullptr ? max_threads() : std::min(max_threads(), physical_cores()), 1, kMostThreads); }
+int default_threads() {
+  return std::clamp(
+      std::getenv("OMP_NUM_THREADS") != nullptr ? max_threads() : std::min(max_threads(), physical_cores()), 1,
+      kMostThreads);
+}
 
 std::string oversubscription(int threads) {
   const int processors = std::max(1, static_cast<int>(allowed_processors().size()));
-  if (threads > processors) return fmt::format("{} threads share {} processor{}: fewer would be faster, see --threads", threads, processors, processors == 1 ? "" : "s");
+  if (threads > processors)
+    return fmt::format("{} threads share {} processor{}: fewer would be faster, see --threads", threads, processors,
+                       processors == 1 ? "" : "s");
   return {};
 }
 
@@ -49,7 +55,10 @@ std::string competition(int threads) {
   double load = 0;
   if (std::ifstream file("/proc/loadavg"); !(file >> load)) return {};
   if (load + threads > 1.5 * processors)
-    return fmt::format("other programs keep {:.1f} of {} processors busy (mean of the last minute): this will take longer than on a free machine", std::min(load, 1.0 * processors), processors);
+    return fmt::format(
+        "other programs keep {:.1f} of {} processors busy (mean of the last minute): this will take longer than on a "
+        "free machine",
+        std::min(load, 1.0 * processors), processors);
   return {};
 }
 

@@ -4,7 +4,8 @@
 
 namespace railstrata {
 
-/// Cores this process may run on, two hardware threads of one core counted once; at least 1. They share their arithmetic units: a second one on a core wins nothing here.
+/// Cores this process may run on, two hardware threads of one core counted once; at least 1. They share their
+/// arithmetic units: a second one on a core wins nothing here.
 int physical_cores();
 inline constexpr int kMostThreads = 1024;
 
@@ -12,7 +13,8 @@ inline constexpr int kMostThreads = 1024;
 int default_threads();
 /// What is wrong with so many threads here: more of them than processors. Empty if nothing is.
 std::string oversubscription(int threads);
-/// Whether other programs keep the processors busy that `threads` threads are about to use (load average of the last minute). Empty if they do not.
+/// Whether other programs keep the processors busy that `threads` threads are about to use (load average of the last
+/// minute). Empty if they do not.
 std::string competition(int threads);
 
 }  // namespace railstrata

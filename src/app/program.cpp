@@ -1,10 +1,10 @@
 #include "app/program.hpp"
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -33,7 +33,8 @@ using Command = ExitCode (*)(const CommandOptions&);
 
 void add_case(CLI::App& sub, CommandOptions& options) {
   sub.add_option("case", options.case_file, "Case file, or a folder with case.toml")->required();
-  sub.add_option("--set", options.overrides, "Override a key: --set mesh.element_size=\"2 mm\" (repeatable)")->allow_extra_args(false);
+  sub.add_option("--set", options.overrides, "Override a key: --set mesh.element_size=\"2 mm\" (repeatable)")
+      ->allow_extra_args(false);
 }
 
 void add_output(CLI::App& sub, CommandOptions& options, const char* preset) {
@@ -46,18 +47,26 @@ void add_case_and_output(CLI::App& sub, CommandOptions& options) {
   add_output(sub, options, "results/<case name>");
 }
 
-void add_no_report(CLI::App& sub, CommandOptions& options) { sub.add_flag("!--no-report", options.report, "Do not write report.html"); }
+void add_no_report(CLI::App& sub, CommandOptions& options) {
+  sub.add_flag("!--no-report", options.report, "Do not write report.html");
+}
 
 void add_run(CLI::App& sub, CommandOptions& options) {
   add_case_and_output(sub, options);
   sub.get_option("case")->required(false);
-  sub.add_option("--resume", options.resume, "Go on with the interrupted run of this result folder: the same bits as in one go")->type_name("FOLDER");
-  sub.add_option("--checkpoint-every", options.checkpoint_every, "Wall time between checkpoints (default: \"10 min\"; 0: only when stopped)");
-  sub.add_option("--max-time", options.max_time, "Stop in time for a batch limit, with a checkpoint: \"110 min\" (exit code 5)");
+  sub.add_option("--resume", options.resume,
+                 "Go on with the interrupted run of this result folder: the same bits as in one go")
+      ->type_name("FOLDER");
+  sub.add_option("--checkpoint-every", options.checkpoint_every,
+                 "Wall time between checkpoints (default: \"10 min\"; 0: only when stopped)");
+  sub.add_option("--max-time", options.max_time,
+                 "Stop in time for a batch limit, with a checkpoint: \"110 min\" (exit code 5)");
   add_no_report(sub, options);
 }
 
-void add_cell(CLI::App& sub, CommandOptions& options) { sub.add_option("--cell", options.cell, "Cells of the potential contact area (default: \"0.25 mm\")"); }
+void add_cell(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("--cell", options.cell, "Cells of the potential contact area (default: \"0.25 mm\")");
+}
 
 void add_bem(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
@@ -68,34 +77,50 @@ void add_bem(CLI::App& sub, CommandOptions& options) {
 
 /// CLI::Range takes what is no number.
 CLI::Validator finite() {
-  return {[](const std::string& text) { return std::isfinite(std::strtod(text.c_str(), nullptr)) ? std::string() : text + " is no finite number"; }, "FINITE"};
+  return {[](const std::string& text) {
+            return std::isfinite(std::strtod(text.c_str(), nullptr)) ? std::string() : text + " is no finite number";
+          },
+          "FINITE"};
 }
 
 void add_creep_curve(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-creep-curve");
   add_cell(sub, options);
-  sub.add_option("--largest", options.largest_creepage, "Largest creepage (default: 0.02)")->check(CLI::Range(1e-6, 0.5))->check(finite());
-  sub.add_option("--points", options.points, "Creepages, spaced geometrically over two and a half decades (default: 21)")->check(CLI::Range(2, 1000));
+  sub.add_option("--largest", options.largest_creepage, "Largest creepage (default: 0.02)")
+      ->check(CLI::Range(1e-6, 0.5))
+      ->check(finite());
+  sub.add_option("--points", options.points,
+                 "Creepages, spaced geometrically over two and a half decades (default: 21)")
+      ->check(CLI::Range(2, 1000));
 }
 
 void add_sweep(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-sweep");
   add_cell(sub, options);
-  sub.add_option("--vary", options.vary, "A key and its values: --vary layer.0.young_ratio=0.5,1,2 (repeatable: every combination is solved)")->allow_extra_args(false)->required();
+  sub.add_option("--vary", options.vary,
+                 "A key and its values: --vary layer.0.young_ratio=0.5,1,2 (repeatable: every combination is solved)")
+      ->allow_extra_args(false)
+      ->required();
   sub.add_flag("--stresses", options.stresses, "Largest stresses in the rail too (takes longer than the contact)");
 }
 
 void add_study(CLI::App& sub, CommandOptions& options) {
   sub.add_option("study", options.case_file, "Study file, or a folder with study.toml")->required();
-  sub.add_option("--set", options.overrides, "Override a key in all cases: --set mesh.element_size=\"2 mm\" (repeatable)")->allow_extra_args(false);
-  sub.add_option("-o,--out", options.out, "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
+  sub.add_option("--set", options.overrides,
+                 "Override a key in all cases: --set mesh.element_size=\"2 mm\" (repeatable)")
+      ->allow_extra_args(false);
+  sub.add_option(
+      "-o,--out", options.out,
+      "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
   sub.add_flag("--force", options.force, "Write into a folder that is not empty and holds no study");
-  sub.add_option("--jobs", options.jobs, "Cases at a time; they share the threads (default: one thread a case)")->check(CLI::Range(1, 1024));
+  sub.add_option("--jobs", options.jobs, "Cases at a time; they share the threads (default: one thread a case)")
+      ->check(CLI::Range(1, 1024));
   sub.add_option("--engine", options.engine, "Only the cases of one engine")->check(CLI::IsMember({"fem", "bem"}));
   sub.add_option("--group", options.groups, "Only the cases of this group (repeatable)")->allow_extra_args(false);
-  sub.add_option("--shard", options.shard, "i/n: compute every n-th case from the i-th on, for n machines that share the folder");
+  sub.add_option("--shard", options.shard,
+                 "i/n: compute every n-th case from the i-th on, for n machines that share the folder");
   sub.add_flag("--dry-run", options.dry_run, "List the cases and what is done of them; compute nothing");
   add_no_report(sub, options);
 }
@@ -107,10 +132,13 @@ void add_compare(CLI::App& sub, CommandOptions& options) {
 }
 
 void add_report(CLI::App& sub, CommandOptions& options) {
-  sub.add_option("folders", options.folders, "Result folders of `run` or `bem`; the second is drawn beside the first")->required();
-  sub.add_option("-o,--out", options.out, "The page to write (default: report.html in the folder, made anew if it is there)");
+  sub.add_option("folders", options.folders, "Result folders of `run` or `bem`; the second is drawn beside the first")
+      ->required();
+  sub.add_option("-o,--out", options.out,
+                 "The page to write (default: report.html in the folder, made anew if it is there)");
   sub.add_flag("--force", options.force, "Replace the file that --out names");
-  sub.add_flag("!--no-reference", options.reference_solution, "Do not set a finite element result against the half-space solution of its case");
+  sub.add_flag("!--no-reference", options.reference_solution,
+               "Do not set a finite element result against the half-space solution of its case");
 }
 
 void add_schema(CLI::App& sub, CommandOptions& options) {
@@ -127,34 +155,55 @@ struct Entry {
 };
 constexpr Entry kEntries[] = {
     {"check", "Read a case and tell what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
-     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 mm\"\n  railstrata check cases/paper/base.toml --json\n", add_case, command_check},
-    {"mesh", "Make the meshes and write them as VTU with a table of their quality", "Examples:\n  railstrata mesh cases/quick --out /tmp/mesh\n", add_case_and_output, command_mesh},
+     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 "
+     "mm\"\n  railstrata check cases/paper/base.toml --json\n",
+     add_case, command_check},
+    {"mesh", "Make the meshes and write them as VTU with a table of their quality",
+     "Examples:\n  railstrata mesh cases/quick --out /tmp/mesh\n", add_case_and_output, command_mesh},
     {"run", "Run a case: static preload, rolling, results",
-     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n  railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n"
+     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n "
+     " railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n"
      "  railstrata run cases/paper/base.toml --max-time \"110 min\"; railstrata run --resume results/base\n\n"
-     "Ctrl-C, SIGTERM: finish the step, write a checkpoint, say how to go on (a second one quits at once). SIGUSR1: write a checkpoint, go on.\n",
+     "Ctrl-C, SIGTERM: finish the step, write a checkpoint, say how to go on (a second one quits at once). SIGUSR1: "
+     "write a checkpoint, go on.\n",
      add_run, command_run},
     {"bem", "Solve a case by half-space theory, in about a second: the files and numbers of `run`, no meshes",
-     "Examples:\n  railstrata bem cases/paper/base.toml\n  railstrata bem cases/quick --cell \"0.5 mm\" --out results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n",
+     "Examples:\n  railstrata bem cases/paper/base.toml\n  railstrata bem cases/quick --cell \"0.5 mm\" --out "
+     "results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n",
      add_bem, command_bem},
     {"compare", "Two results, of either engine, on one grid: a table, the differences of the fields, a picture",
-     "Examples:\n  railstrata compare results/quick results/quick-bem\n  railstrata compare results/thin results/thick --out results/thin-against-thick\n", add_compare, command_compare},
+     "Examples:\n  railstrata compare results/quick results/quick-bem\n  railstrata compare results/thin results/thick "
+     "--out results/thin-against-thick\n",
+     add_compare, command_compare},
     {"creep-curve", "Force against creepage by the full half-space theory and by the fast ones",
-     "Examples:\n  railstrata creep-curve cases/paper/base.toml\n  railstrata creep-curve cases/quick --largest 0.01 --points 11 --cell \"0.5 mm\" --out results/creep\n", add_creep_curve,
-     command_creep_curve},
+     "Examples:\n  railstrata creep-curve cases/paper/base.toml\n  railstrata creep-curve cases/quick --largest 0.01 "
+     "--points 11 --cell \"0.5 mm\" --out results/creep\n",
+     add_creep_curve, command_creep_curve},
     {"sweep", "Half-space solutions over every combination of values, one table out",
-     "Examples:\n  railstrata sweep cases/paper/layer_3mm_2E0.toml --vary layer.0.thickness=\"1 mm,2 mm,3 mm\" --vary layer.0.young_ratio=0.5,1,2\n"
-     "  railstrata sweep cases/paper/base.toml --vary drive.traction_coefficient=0.1,0.2,0.3 --stresses --out results/traction\n",
+     "Examples:\n  railstrata sweep cases/paper/layer_3mm_2E0.toml --vary layer.0.thickness=\"1 mm,2 mm,3 mm\" --vary "
+     "layer.0.young_ratio=0.5,1,2\n"
+     "  railstrata sweep cases/paper/base.toml --vary drive.traction_coefficient=0.1,0.2,0.3 --stresses --out "
+     "results/traction\n",
      add_sweep, command_sweep},
-    {"study", "Many cases from one file, by both engines, several at a time; goes on where it stopped; a table and a page over all of them",
-     "Examples:\n  railstrata study cases/paper/study.toml --dry-run\n  railstrata study cases/paper/study.toml --engine bem --out results/study\n  railstrata study cases/paper/study.toml --out results/study --jobs 2 "
-     "--threads 2\n  railstrata study cases/paper/study.toml --out /shared/study --shard 3/8     # one of eight machines\n",
+    {"study",
+     "Many cases from one file, by both engines, several at a time; goes on where it stopped; a table and a page over "
+     "all of them",
+     "Examples:\n  railstrata study cases/paper/study.toml --dry-run\n  railstrata study cases/paper/study.toml "
+     "--engine bem --out results/study\n  railstrata study cases/paper/study.toml --out results/study --jobs 2 "
+     "--threads 2\n  railstrata study cases/paper/study.toml --out /shared/study --shard 3/8     # one of eight "
+     "machines\n",
      add_study, command_study},
-    {"report", "One page on a result, or on several side by side: verdict, patch, stresses, history; opens in any browser, without a network",
-     "Examples:\n  railstrata report results/quick\n  railstrata report results/thin results/thick --out thin-thick.html\n", add_report, command_report},
-    {"schema", "Print the JSON schema of case files for editors, or their reference page", "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n",
-     add_schema, command_schema},
-    {"info", "Built-in profiles, compiler, instruction set, libraries, threads", "Examples:\n  railstrata info\n  railstrata info --json\n", add_nothing, command_info},
+    {"report",
+     "One page on a result, or on several side by side: verdict, patch, stresses, history; opens in any browser, "
+     "without a network",
+     "Examples:\n  railstrata report results/quick\n  railstrata report results/thin results/thick --out "
+     "thin-thick.html\n",
+     add_report, command_report},
+    {"schema", "Print the JSON schema of case files for editors, or their reference page",
+     "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n", add_schema,
+     command_schema},
+    {"info", "Built-in profiles, compiler, instruction set, libraries, threads",
+     "Examples:\n  railstrata info\n  railstrata info --json\n", add_nothing, command_info},
 };
 
 std::vector<std::string> command_names() {
@@ -174,7 +223,9 @@ void check_command_word(const std::vector<std::string>& words) {
     const std::vector<std::string> names = command_names();
     if (std::find(names.begin(), names.end(), words[i]) != names.end()) return;
     const std::string near = nearest_word(words[i], names);
-    throw CaseError(fmt::format("unknown command \"{}\"", words[i]), fmt::format("{}commands: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(names, ", ")));
+    throw CaseError(fmt::format("unknown command \"{}\"", words[i]),
+                    fmt::format("{}commands: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
+                                fmt::join(names, ", ")));
   }
 }
 
@@ -196,10 +247,13 @@ void require_utf8(const std::vector<std::string>& words) {
   }
 }
 
-/// A launcher may have closed them, and the next file opened would get their number: a table would get the messages. Output that is not there stays an error.
+/// A launcher may have closed them, and the next file opened would get their number: a table would get the messages.
+/// Output that is not there stays an error.
 void occupy_standard_streams() {
-  for (const auto& [stream, flags] : {std::pair{STDIN_FILENO, O_RDONLY}, std::pair{STDOUT_FILENO, O_RDONLY}, std::pair{STDERR_FILENO, O_WRONLY}})
-    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF) static_cast<void>(::open("/dev/null", flags));  // takes the lowest number that is free
+  for (const auto& [stream, flags] :
+       {std::pair{STDIN_FILENO, O_RDONLY}, std::pair{STDOUT_FILENO, O_RDONLY}, std::pair{STDERR_FILENO, O_WRONLY}})
+    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
+      static_cast<void>(::open("/dev/null", flags));  // takes the lowest number that is free
 }
 
 /// For messages, which must not fail in their turn.
@@ -216,25 +270,32 @@ int tell(ExitCode code, const std::string& text) {
 int tell(const CaseError& e, bool json) {
   if (json) {
     auto all = nlohmann::ordered_json::array();
-    for (const Diagnostic& d : e.diagnostics) all.push_back({{"where", d.where}, {"message", d.message}, {"remedy", d.remedy}});
+    for (const Diagnostic& d : e.diagnostics)
+      all.push_back({{"where", d.where}, {"message", d.message}, {"remedy", d.remedy}});
     say(stdout, json_text(nlohmann::ordered_json{{"errors", all}}, 2) + "\n");
   }
   for (const Diagnostic& d : e.diagnostics)
-    say(stderr, fmt::format("{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message, d.remedy.empty() ? "" : "\n    remedy: " + d.remedy));
+    say(stderr, fmt::format("{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message,
+                            d.remedy.empty() ? "" : "\n    remedy: " + d.remedy));
   return static_cast<int>(ExitCode::user);
 }
 
 int parse_and_run(const std::vector<std::string>& words, CommandOptions& options) {
   CLI::App app{"RailStrata: rolling contact of a wheel on a layered rail", "railstrata"};
-  app.footer("Examples:\n  railstrata check cases/quick\n  railstrata run cases/quick --threads 2\n  railstrata bem cases/quick\n  railstrata run --help\n\nExit codes: 0 done, 1 a check of the result failed, 2 the input is wrong, "
-             "3 the numbers went wrong, 4 the machine could not, 5 stopped for --max-time (resume it), 70 a fault of the program, 130 interrupted\n");
+  app.footer(
+      "Examples:\n  railstrata check cases/quick\n  railstrata run cases/quick --threads 2\n  railstrata bem "
+      "cases/quick\n  railstrata run --help\n\nExit codes: 0 done, 1 a check of the result failed, 2 the input is "
+      "wrong, "
+      "3 the numbers went wrong, 4 the machine could not, 5 stopped for --max-time (resume it), 70 a fault of the "
+      "program, 130 interrupted\n");
   app.set_version_flag("--version", "railstrata " + version_text());
   app.require_subcommand(1);
   app.fallthrough();
   bool quiet = false;
   int verbose = 0;
   options.threads = default_threads();
-  app.add_option("-j,--threads", options.threads, "Threads (default: OMP_NUM_THREADS, or one a core)")->check(CLI::Range(1, kMostThreads));
+  app.add_option("-j,--threads", options.threads, "Threads (default: OMP_NUM_THREADS, or one a core)")
+      ->check(CLI::Range(1, kMostThreads));
   app.add_flag("--json", options.json, "Results on standard output as JSON");
   app.add_flag("-q,--quiet", quiet, "Only warnings and errors");
   app.add_flag("-v,--verbose", verbose, "Say more");
@@ -264,13 +325,15 @@ int parse_and_run(const std::vector<std::string>& words, CommandOptions& options
 
 int run_program(int argc, const char* const* argv) {
   occupy_standard_streams();
-  std::signal(SIGUSR1, SIG_IGN);                                           // a wish for a checkpoint where there is none to make
-  for (const int limit : {SIGXFSZ, SIGPIPE}) std::signal(limit, SIG_IGN);  // a limit on file sizes, a reader that is gone: errors of the write, with a message
+  std::signal(SIGUSR1, SIG_IGN);  // a wish for a checkpoint where there is none to make
+  for (const int limit : {SIGXFSZ, SIGPIPE})
+    std::signal(limit, SIG_IGN);  // a limit on file sizes, a reader that is gone: errors of the write, with a message
   CommandOptions options;
   options.command_line.assign(argv, argv + argc);
   try {
     const int code = parse_and_run(options.command_line, options);
-    if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
+    if (std::fflush(stdout) != 0)
+      throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
     if (std::ferror(stdout)) throw std::system_error(EIO, std::generic_category(), "cannot write to standard output");
     return code;
   } catch (const CaseError& e) {
@@ -280,13 +343,15 @@ int run_program(int argc, const char* const* argv) {
   } catch (const Interrupted& e) {
     return tell(ExitCode::interrupted, e.what());
   } catch (const EnvironmentError& e) {
-    return tell(ExitCode::environment, e.remedy.empty() ? e.what() : fmt::format("{}\n    remedy: {}", e.what(), e.remedy));
+    return tell(ExitCode::environment,
+                e.remedy.empty() ? e.what() : fmt::format("{}\n    remedy: {}", e.what(), e.remedy));
   } catch (const std::system_error& e) {  // of a file system, or of standard output
     return tell(ExitCode::environment, e.what());
   } catch (const std::bad_alloc&) {
     return tell(ExitCode::environment, "not enough memory; `railstrata check` tells what a case needs");
   } catch (const std::exception& e) {
-    return tell(ExitCode::internal, fmt::format("{} (a fault of the program: please report it with the case file)", e.what()));
+    return tell(ExitCode::internal,
+                fmt::format("{} (a fault of the program: please report it with the case file)", e.what()));
   }
 }
 

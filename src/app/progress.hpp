@@ -8,7 +8,8 @@ namespace railstrata {
 /// "3 s", "2 min 05 s", "1 h 02 min".
 std::string duration_text(double seconds);
 
-/// "rolling  [#####-----]  50 %  12 s left": fraction in [0, 1], elapsed: seconds since it was `begin` (a resumed run does not begin at 0).
+/// "rolling  [#####-----]  50 %  12 s left": fraction in [0, 1], elapsed: seconds since it was `begin` (a resumed run
+/// does not begin at 0).
 std::string progress_bar(const std::string& what, double fraction, double elapsed, double begin = 0);
 
 class Progress {

@@ -16,7 +16,9 @@ HalfSpaceMaterial half_space(const MaterialSpec& m) { return {m.young, m.poisson
 PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const HertzContact estimate = hertz_estimate(spec, placement.contact);
   const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
-  const auto cells = [&](double semi_axis) { return static_cast<int>(std::min(std::ceil(1.15 * semi_axis / options.cell) + 2, static_cast<double>(most))); };
+  const auto cells = [&](double semi_axis) {
+    return static_cast<int>(std::min(std::ceil(1.15 * semi_axis / options.cell) + 2, static_cast<double>(most)));
+  };
   return centred_grid(cells(estimate.a), cells(estimate.b), options.cell, options.cell);
 }
 
@@ -35,27 +37,34 @@ Touches touches(const PatchGrid& g, const Plane& pressure) {
   return out;
 }
 
-void fit_grid(const Placement& placement, double normal, const BemOptions& options, InfluenceCache& cache, CasePatch& patch) {
+void fit_grid(const Placement& placement, double normal, const BemOptions& options, InfluenceCache& cache,
+              CasePatch& patch) {
   const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
   for (int grown = 0;; ++grown) {
     PatchGrid& g = patch.grid;
     patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, g);
     patch.influence = cache.get(patch.wheel, patch.rail, g);
-    const NormalSolution s = solve_normal(*patch.influence, g, patch.profile.gap, {.load = normal, .approach = {}}, options.rolling.normal);
+    const NormalSolution s =
+        solve_normal(*patch.influence, g, patch.profile.gap, {.load = normal, .approach = {}}, options.rolling.normal);
     const Touches edge = touches(g, s.pressure);
     if (!edge.x && !edge.y) {
-      if (grown > 0) patch.notes.push_back(fmt::format("the potential contact area was grown to {:.1f} mm x {:.1f} mm", 1e3 * g.nx * g.dx, 1e3 * g.ny * g.dy));
+      if (grown > 0)
+        patch.notes.push_back(fmt::format("the potential contact area was grown to {:.1f} mm x {:.1f} mm",
+                                          1e3 * g.nx * g.dx, 1e3 * g.ny * g.dy));
       return;
     }
-    const int half_x = edge.x ? std::min(g.nx * 7 / 10 + 1, most) : g.nx / 2, half_y = edge.y ? std::min(g.ny * 7 / 10 + 1, most) : g.ny / 2;
+    const int half_x = edge.x ? std::min(g.nx * 7 / 10 + 1, most) : g.nx / 2,
+              half_y = edge.y ? std::min(g.ny * 7 / 10 + 1, most) : g.ny / 2;
     if (half_x == g.nx / 2 && half_y == g.ny / 2)
-      throw CaseError(fmt::format("the load of {:.1f} kN flattens the whole potential contact area of {:.0f} mm", 1e-3 * normal, 1e3 * options.largest_patch),
+      throw CaseError(fmt::format("the load of {:.1f} kN flattens the whole potential contact area of {:.0f} mm",
+                                  1e-3 * normal, 1e3 * options.largest_patch),
                       "check the load, the profiles and the moduli; half-space theory no longer applies");
     g = centred_grid(half_x, half_y, options.cell, options.cell);
   }
 }
 
-/// Rigid slip of the wheel's surface beyond creepage: it turns with its local radius. The spin part is given apart (its lateral slip).
+/// Rigid slip of the wheel's surface beyond creepage: it turns with its local radius. The spin part is given apart (its
+/// lateral slip).
 Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidContact& contact, double spin) {
   Plane slip(g.size());
   for (int i = 0; i < g.nx; ++i)
@@ -77,14 +86,17 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body) {
       continue;
     }
     std::vector<GradedPoint> table;
-    for (const ModulusPoint& point : layer.young_table) table.push_back({point.depth, {point.young, layer.material.poisson}});
+    for (const ModulusPoint& point : layer.young_table)
+      table.push_back({point.depth, {point.young, layer.material.poisson}});
     const std::vector<HalfSpaceLayer> cuts = cut_into_layers(table, layer.grading_tolerance);
     out.layers.insert(out.layers.end(), cuts.begin(), cuts.end());
   }
   return out;
 }
 
-double normal_load(double weight, double lateral, const RigidContact& contact) { return (weight + lateral * std::sin(contact.angle)) / std::cos(contact.angle); }
+double normal_load(double weight, double lateral, const RigidContact& contact) {
+  return (weight + lateral * std::sin(contact.angle)) / std::cos(contact.angle);
+}
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double normal) {
   CasePatch patch;

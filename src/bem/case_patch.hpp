@@ -11,15 +11,18 @@ struct CasePatch {
   PatchGrid grid;
   ProfileGap profile;
   std::shared_ptr<const InfluenceOperator> influence;
-  RollingContact contact;          ///< gap, load, friction, spin and rigid slip of the geometry; creepages and forces are left to the caller
+  RollingContact contact;  ///< gap, load, friction, spin and rigid slip of the geometry; creepages and forces are left
+                           ///< to the caller
   LayeredHalfSpace wheel, rail;
   std::vector<std::string> notes;
 };
 
-/// The normal force [N] that bears the weight G together with a lateral force T_y on the rail, in the contact plane at the angle delta: N cos(delta) - T_y sin(delta) = G.
+/// The normal force [N] that bears the weight G together with a lateral force T_y on the rail, in the contact plane at
+/// the angle delta: N cos(delta) - T_y sin(delta) = G.
 double normal_load(double weight, double lateral, const RigidContact& contact);
 
-/// Places the grid and grows it until the frictionless patch under the normal load [N], with a ring to spare, lies inside. Throws CaseError as solve_bem.
+/// Places the grid and grows it until the frictionless patch under the normal load [N], with a ring to spare, lies
+/// inside. Throws CaseError as solve_bem.
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double normal);
 
 }  // namespace railstrata

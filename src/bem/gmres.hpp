@@ -18,35 +18,47 @@ struct GmresSpace {
   Plane r, z, w, y;
 };
 
-/// Takes out of w its parts along basis[0 … count-1] (orthonormal) and adds them to `parts`. Returns |w|² left. Two sweeps: classical Gram–Schmidt.
+/// Takes out of w its parts along basis[0 … count-1] (orthonormal) and adds them to `parts`. Returns |w|² left. Two
+/// sweeps: classical Gram–Schmidt.
 inline double orthogonalize(const std::vector<Plane>& basis, std::size_t count, Plane& w, std::vector<double>& parts) {
   const std::size_t n = w.size();
   std::vector<double> dots(pieces_of(n) * count), squares(pieces_of(n));
-  for_pieces(n, [&](std::size_t k, std::size_t begin, std::size_t end) {
-    for (std::size_t i = 0; i < count; ++i) dots[k * count + i] = sum_of(begin, end, [&](std::size_t j) { return basis[i][j] * w[j]; });
-  }, count);
+  for_pieces(
+      n,
+      [&](std::size_t k, std::size_t begin, std::size_t end) {
+        for (std::size_t i = 0; i < count; ++i)
+          dots[k * count + i] = sum_of(begin, end, [&](std::size_t j) { return basis[i][j] * w[j]; });
+      },
+      count);
   std::vector<double> h(count, 0.0);
   for (std::size_t k = 0; k < pieces_of(n); ++k)
     for (std::size_t i = 0; i < count; ++i) h[i] += dots[k * count + i];
-  for_pieces(n, [&](std::size_t k, std::size_t begin, std::size_t end) {
-    for (std::size_t i = 0; i < count; ++i)
-      for (std::size_t j = begin; j < end; ++j) w[j] -= h[i] * basis[i][j];
-    squares[k] = sum_of(begin, end, [&](std::size_t j) { return w[j] * w[j]; });
-  }, count);
+  for_pieces(
+      n,
+      [&](std::size_t k, std::size_t begin, std::size_t end) {
+        for (std::size_t i = 0; i < count; ++i)
+          for (std::size_t j = begin; j < end; ++j) w[j] -= h[i] * basis[i][j];
+        squares[k] = sum_of(begin, end, [&](std::size_t j) { return w[j] * w[j]; });
+      },
+      count);
   for (std::size_t i = 0; i < count; ++i) parts[i] += h[i];
   double left = 0;
   for (double s : squares) left += s;
   return left;
 }
 
-/// Solves A x = b from x = 0 to |b - A x| <= relative |b| or max_iterations. apply(in, out) and precondition(in, out) act on whole vectors.
+/// Solves A x = b from x = 0 to |b - A x| <= relative |b| or max_iterations. apply(in, out) and precondition(in, out)
+/// act on whole vectors.
 template <class Apply, class Precondition>
-GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative, int max_iterations, GmresSpace& space, int restart = 60) {
+GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative,
+                  int max_iterations, GmresSpace& space, int restart = 60) {
   const std::size_t n = b.size();
   auto& basis = space.basis;  // no structured binding: clang++ 14 does not capture one
   Plane &r = space.r, &z = space.z, &w = space.w, &y = space.y;
   x.assign(n, 0.0);
-  z.resize(n), w.resize(n), y.resize(n);
+  z.resize(n);
+  w.resize(n);
+  y.resize(n);
   r = b;
   const double norm_b = std::sqrt(dot(b, b));
   GmresResult result{0, norm_b};
@@ -61,7 +73,8 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
     std::vector<double> cosine, sine, g{result.residual};
     Plane& first = vector(0);
     for_cells(n, [&](std::size_t i) { first[i] = r[i] / result.residual; });
-    while (static_cast<int>(h.size()) < restart && result.iterations < max_iterations && std::abs(g.back()) > relative * norm_b) {
+    while (static_cast<int>(h.size()) < restart && result.iterations < max_iterations &&
+           std::abs(g.back()) > relative * norm_b) {
       const std::size_t k = h.size();
       precondition(basis[k], z);
       apply(z, w);
@@ -69,7 +82,8 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
       std::vector<double> column(k + 2);
       double square = orthogonalize(basis, k + 1, w, column), along = 0;
       for (double c : column) along += c * c;
-      if (square < 1e-4 * along) square = orthogonalize(basis, k + 1, w, column);  // little was left: once more against round-off
+      if (square < 1e-4 * along)
+        square = orthogonalize(basis, k + 1, w, column);  // little was left: once more against round-off
       column[k + 1] = std::sqrt(square);
       Plane& next = vector(k + 1);
       const double scale = square > 0 ? 1 / column[k + 1] : 0.0;
@@ -93,11 +107,14 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
       for (std::size_t j = i + 1; j < h.size(); ++j) c[i] -= h[j][i] * c[j];
       c[i] /= h[i][i];
     }
-    for_pieces(n, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t j = begin; j < end; ++j) y[j] = 0;
-      for (std::size_t i = 0; i < c.size(); ++i)
-        for (std::size_t j = begin; j < end; ++j) y[j] += c[i] * basis[i][j];
-    }, c.size());
+    for_pieces(
+        n,
+        [&](std::size_t, std::size_t begin, std::size_t end) {
+          for (std::size_t j = begin; j < end; ++j) y[j] = 0;
+          for (std::size_t i = 0; i < c.size(); ++i)
+            for (std::size_t j = begin; j < end; ++j) y[j] += c[i] * basis[i][j];
+        },
+        c.size());
     precondition(y, z);
     add_scaled(x, 1, z);
     result.residual = std::abs(g.back());

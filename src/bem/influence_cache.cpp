@@ -31,16 +31,20 @@ struct InfluenceCache::State {
 InfluenceCache::InfluenceCache() : state_(std::make_unique<State>()) {}
 InfluenceCache::~InfluenceCache() = default;
 
-std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail, const PatchGrid& g) {
+std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSpace& wheel,
+                                                             const LayeredHalfSpace& rail, const PatchGrid& g) {
   {
     const std::lock_guard lock(state_->mutex);
     for (auto it = state_->entries.begin(); it != state_->entries.end(); ++it) {
-      if (it->nx != g.nx || it->ny != g.ny || it->dx != g.dx || it->dy != g.dy || !same(it->wheel, wheel) || !same(it->rail, rail)) continue;
+      if (it->nx != g.nx || it->ny != g.ny || it->dx != g.dx || it->dy != g.dy || !same(it->wheel, wheel) ||
+          !same(it->rail, rail))
+        continue;
       state_->entries.splice(state_->entries.begin(), state_->entries, it);
       return it->op;
     }
   }
-  auto op = std::make_shared<const InfluenceOperator>(combined_compliance(layered_compliance(wheel), layered_compliance(rail)), g.nx, g.ny, g.dx, g.dy);
+  auto op = std::make_shared<const InfluenceOperator>(
+      combined_compliance(layered_compliance(wheel), layered_compliance(rail)), g.nx, g.ny, g.dx, g.dy);
   const std::lock_guard lock(state_->mutex);
   state_->entries.push_front({wheel, rail, g.nx, g.ny, g.dx, g.dy, op});
   if (state_->entries.size() > State::kEntries) state_->entries.pop_back();

@@ -17,13 +17,17 @@ std::vector<double> component(const std::vector<RectangleInfluence>& table, doub
 
 bool couples_at_all(const SurfaceCompliance& pair) {
   double rz = 0, zz = 0;
-  for (const ComplianceImage& image : pair) rz = std::max(rz, std::abs(image.c.rz)), zz = std::max(zz, std::abs(image.c.zz));
+  for (const ComplianceImage& image : pair) {
+    rz = std::max(rz, std::abs(image.c.rz));
+    zz = std::max(zz, std::abs(image.c.zz));
+  }
   return rz > 1e-12 * zz;
 }
 
 }  // namespace
 
-InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy) : fft_(nx, ny), dx_(dx), dy_(dy) {
+InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy)
+    : fft_(nx, ny), dx_(dx), dy_(dy) {
   const auto table = rectangle_influence_table(pair, fft_.mx() / 2 + 1, fft_.my() / 2 + 1, dx, dy);
   using I = RectangleInfluence;
   near_[0] = table[0];
@@ -77,9 +81,13 @@ Complex times_i(Complex z) { return {-z.imag(), z.real()}; }
 
 }  // namespace
 
-void InfluenceOperator::normal(const double* p, double* closing) const { fft_.apply({p}, {closing}, nx(), ScalarProduct{nn_hat_.data()}); }
+void InfluenceOperator::normal(const double* p, double* closing) const {
+  fft_.apply({p}, {closing}, nx(), ScalarProduct{nn_hat_.data()});
+}
 
-void InfluenceOperator::precondition_normal(const double* closing, double* p) const { fft_.apply({closing}, {p}, nx(), ScalarProduct{inv_nn_.data()}); }
+void InfluenceOperator::precondition_normal(const double* closing, double* p) const {
+  fft_.apply({closing}, {p}, nx(), ScalarProduct{inv_nn_.data()});
+}
 
 void InfluenceOperator::tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const {
   fft_.apply({q_x, q_y}, {u_x, u_y}, rows, SymmetricProduct{xx_hat_.data(), xy_hat_.data(), yy_hat_.data()});

@@ -1,5 +1,6 @@
 #pragma once
-// Displacements of the contacting surfaces from tractions on a grid, by convolution; and approximate inverses that precondition the solvers.
+// Displacements of the contacting surfaces from tractions on a grid, by convolution; and approximate inverses that
+// precondition the solvers.
 #include <memory>
 #include <vector>
 
@@ -9,8 +10,9 @@
 
 namespace railstrata {
 
-/// Linear operator of a pair of bodies (combined_compliance) on nx x ny cells of dx x dy. All planes have index j + ny i. Tractions Pa, displacements m.
-/// Costs: one plane in and out about 0.16 ms for 100 x 100 cells on one core. Const members may be called from several threads at once.
+/// Linear operator of a pair of bodies (combined_compliance) on nx x ny cells of dx x dy. All planes have index j + ny
+/// i. Tractions Pa, displacements m. Costs: one plane in and out about 0.16 ms for 100 x 100 cells on one core. Const
+/// members may be called from several threads at once.
 class InfluenceOperator {
  public:
   InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy);

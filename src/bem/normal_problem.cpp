@@ -14,8 +14,22 @@ namespace {
 
 class ActiveSetSolver {
  public:
-  ActiveSetSolver(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap, NormalTarget target, const NormalOptions& options)
-      : influence_(influence), grid_(grid), gap_(gap), target_(target), options_(options), n_(grid.size()), p_(n_, 0.0), closing_(n_), residual_(n_), z_(n_), d_(n_), Ad_(n_), ones_(n_), active_(n_, 0) {}
+  ActiveSetSolver(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap, NormalTarget target,
+                  const NormalOptions& options)
+      : influence_(influence),
+        grid_(grid),
+        gap_(gap),
+        target_(target),
+        options_(options),
+        n_(grid.size()),
+        p_(n_, 0.0),
+        closing_(n_),
+        residual_(n_),
+        z_(n_),
+        d_(n_),
+        Ad_(n_),
+        ones_(n_),
+        active_(n_, 0) {}
 
   NormalSolution solve(const Plane& start) {
     if (start.empty())
@@ -31,7 +45,8 @@ class ActiveSetSolver {
       if (changed == 0 && left <= options_.tolerance * scale) return solution();
       reduce = changed == 0 ? 1e-4 : changed < 8 ? 1e-3 : 1e-2;
     }
-    throw NumericalError("the normal contact problem did not converge; the gap may be flat or wildly rough on the scale of a cell");
+    throw NumericalError(
+        "the normal contact problem did not converge; the gap may be flat or wildly rough on the scale of a cell");
   }
 
  private:
@@ -41,7 +56,8 @@ class ActiveSetSolver {
   void first_guess() {
     const double lowest = *std::min_element(gap_.begin(), gap_.end());
     if (!load_given()) {
-      if (*target_.approach <= lowest) throw CaseError("the bodies do not touch at this approach", "increase the approach or the load");
+      if (*target_.approach <= lowest)
+        throw CaseError("the bodies do not touch at this approach", "increase the approach or the load");
       set_pressure(lowest + 0.5 * (*target_.approach - lowest));
       influence_.normal(p_.data(), closing_.data());
       scale_by(p_, (*target_.approach - lowest) / *std::max_element(closing_.begin(), closing_.end()));
@@ -55,7 +71,8 @@ class ActiveSetSolver {
       ++iterations_;
       const double mirror = mirroring_of_the_gap();
       if (!(std::abs(mirror - 1) > 0.1)) return;
-      level = lowest + (level - lowest) * std::clamp(std::pow(mirror, 0.6), 0.2, 5.0);  // ~ level^(-3/2) on a half-space, level^-2 on a mattress
+      level = lowest + (level - lowest) * std::clamp(std::pow(mirror, 0.6), 0.2,
+                                                     5.0);  // ~ level^(-3/2) on a half-space, level^-2 on a mattress
     }
   }
 
@@ -64,7 +81,8 @@ class ActiveSetSolver {
     if (sum(p_) == 0) p_[static_cast<std::size_t>(std::min_element(gap_.begin(), gap_.end()) - gap_.begin())] = 1;
   }
 
-  /// Where a Hertz circle of the same area closes twice the level, its compliance taken from that of one cell (a square of side s: 1.122 s/E*).
+  /// Where a Hertz circle of the same area closes twice the level, its compliance taken from that of one cell (a square
+  /// of side s: 1.122 s/E*).
   double level_of_a_half_space(double lowest) const {
     const double compliance = influence_.of_one_cell(0).nn / (1.122 * std::sqrt(grid_.cell_area()));
     Plane sorted = gap_;
@@ -83,14 +101,18 @@ class ActiveSetSolver {
   double mirroring_of_the_gap() const {
     double n = 0, gap = 0, closing = 0, both = 0, square = 0;
     for (std::size_t i = 0; i < n_; ++i)
-      if (p_[i] > 0) n += 1, gap += gap_[i], closing += closing_[i], both += gap_[i] * closing_[i], square += gap_[i] * gap_[i];
+      if (p_[i] > 0)
+        n += 1, gap += gap_[i], closing += closing_[i], both += gap_[i] * closing_[i], square += gap_[i] * gap_[i];
     return (gap * closing - n * both) / (n * square - gap * gap);
   }
 
   double gap_range() const {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < n_; ++i)
-      if (active_[i]) low = std::min(low, gap_[i]), high = std::max(high, gap_[i]);
+      if (active_[i]) {
+        low = std::min(low, gap_[i]);
+        high = std::max(high, gap_[i]);
+      }
     return std::max(high - low, 1e-3 * std::abs(approach_ - low));
   }
 
@@ -113,19 +135,28 @@ class ActiveSetSolver {
     std::vector<Part> part(pieces_of(n_));
     Part all;
     if (load_given()) {
-      for_pieces(n_, [&](std::size_t k, std::size_t begin, std::size_t end) {
-        part[k].sum = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? gap_[i] + closing_[i] : 0.0; });
-        part[k].count = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? 1.0 : 0.0; });
-      }, 2);
-      for (const Part& p : part) all.sum += p.sum, all.count += p.count;
+      for_pieces(
+          n_,
+          [&](std::size_t k, std::size_t begin, std::size_t end) {
+            part[k].sum = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? gap_[i] + closing_[i] : 0.0; });
+            part[k].count = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? 1.0 : 0.0; });
+          },
+          2);
+      for (const Part& p : part) {
+        all.sum += p.sum;
+        all.count += p.count;
+      }
     }
     approach_ = load_given() ? all.sum / all.count : *target_.approach;
-    for_pieces(n_, [&](std::size_t k, std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        residual_[i] = active_[i] ? approach_ - gap_[i] - closing_[i] : 0.0;
-        part[k].largest = std::max(part[k].largest, std::abs(residual_[i]));
-      }
-    }, 2);
+    for_pieces(
+        n_,
+        [&](std::size_t k, std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            residual_[i] = active_[i] ? approach_ - gap_[i] - closing_[i] : 0.0;
+            part[k].largest = std::max(part[k].largest, std::abs(residual_[i]));
+          }
+        },
+        2);
     for (const Part& p : part) all.largest = std::max(all.largest, p.largest);
     return all.largest;
   }
@@ -152,7 +183,8 @@ class ActiveSetSolver {
       influence_.normal(d_.data(), Ad_.data());
       ++iterations_;
       const double alpha = rho / dot(d_, Ad_);
-      for_cells(n_, [&](std::size_t i) { p_[i] += alpha * d_[i], closing_[i] += alpha * Ad_[i]; }, 2);
+      for_cells(
+          n_, [&](std::size_t i) { p_[i] += alpha * d_[i], closing_[i] += alpha * Ad_[i]; }, 2);
       left = compute_residual();
     }
     return left;
@@ -171,7 +203,8 @@ class ActiveSetSolver {
         active_[i] = 1;
       }
     }
-    if (std::none_of(active_.begin(), active_.end(), [](unsigned char a) { return a; })) throw CaseError("the bodies do not touch", "increase the approach or the load");
+    if (std::none_of(active_.begin(), active_.end(), [](unsigned char a) { return a; }))
+      throw CaseError("the bodies do not touch", "increase the approach or the load");
     return changed;
   }
 
@@ -183,7 +216,8 @@ class ActiveSetSolver {
     s.iterations = iterations_;
     for (int i = 0; i < grid_.nx; ++i)
       for (int j = 0; j < grid_.ny; ++j)
-        if ((i == 0 || j == 0 || i == grid_.nx - 1 || j == grid_.ny - 1) && p_[grid_.index(i, j)] > 0) s.touches_edge = true;
+        if ((i == 0 || j == 0 || i == grid_.nx - 1 || j == grid_.ny - 1) && p_[grid_.index(i, j)] > 0)
+          s.touches_edge = true;
     return s;
   }
 
@@ -201,9 +235,11 @@ class ActiveSetSolver {
 
 }  // namespace
 
-NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap, NormalTarget target, const NormalOptions& options, const Plane& start) {
+NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap,
+                            NormalTarget target, const NormalOptions& options, const Plane& start) {
   assert(target.load.has_value() != target.approach.has_value());
-  if (target.load && !(*target.load > 0)) throw CaseError("the load must press the bodies together", "give a positive load");
+  if (target.load && !(*target.load > 0))
+    throw CaseError("the load must press the bodies together", "give a positive load");
   return ActiveSetSolver(influence, grid, gap, target, options).solve(start);
 }
 

@@ -2,8 +2,8 @@
 // The frictionless (normal) contact problem on a grid of cells.
 //
 //   gap(x, y) - approach + closing(p) >= 0,  p >= 0,  one of them zero in every cell,
-// for a given load F = ∑ p dA or a given approach. Solved by an active-set iteration whose linear problems are projected conjugate gradients with an FFT
-// preconditioner. [PolonskyKeer1999, Vollebregt2014]
+// for a given load F = ∑ p dA or a given approach. Solved by an active-set iteration whose linear problems are
+// projected conjugate gradients with an FFT preconditioner. [PolonskyKeer1999, Vollebregt2014]
 #include <optional>
 
 #include "bem/influence_operator.hpp"
@@ -18,21 +18,23 @@ struct NormalTarget {
 };
 
 struct NormalOptions {
-  double tolerance = 1e-7;  ///< largest violation of the contact conditions, relative to the range of the gap over the patch
+  double tolerance =
+      1e-7;  ///< largest violation of the contact conditions, relative to the range of the gap over the patch
   int max_outer = 200;
 };
 
 struct NormalSolution {
-  Plane pressure;        ///< Pa
-  double approach = 0;   ///< m
-  double load = 0;       ///< N
-  int iterations = 0;    ///< products with the influence operator
+  Plane pressure;             ///< Pa
+  double approach = 0;        ///< m
+  double load = 0;            ///< N
+  int iterations = 0;         ///< products with the influence operator
   bool touches_edge = false;  ///< a cell of the outermost ring carries pressure: the grid is too small
 };
 
-/// gap: undeformed distance of the bodies in each cell [m], any origin; closing of a tangential traction (dissimilar bodies) is added to it by the caller.
-/// start: pressure of a similar problem, or empty. Throws NumericalError when the iteration does not end.
-NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap, NormalTarget target, const NormalOptions& options = {},
-                            const Plane& start = {});
+/// gap: undeformed distance of the bodies in each cell [m], any origin; closing of a tangential traction (dissimilar
+/// bodies) is added to it by the caller. start: pressure of a similar problem, or empty. Throws NumericalError when the
+/// iteration does not end.
+NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap,
+                            NormalTarget target, const NormalOptions& options = {}, const Plane& start = {});
 
 }  // namespace railstrata

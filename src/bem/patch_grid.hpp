@@ -5,14 +5,17 @@
 
 namespace railstrata {
 
-/// nx x ny cells of size dx x dy; cell (i, j) is centred at (x0 + i dx, y0 + j dy) and has index j + ny i (y fastest, as in ContactField). Metres.
+/// nx x ny cells of size dx x dy; cell (i, j) is centred at (x0 + i dx, y0 + j dy) and has index j + ny i (y fastest,
+/// as in ContactField). Metres.
 struct PatchGrid {
   int nx = 0, ny = 0;
   double dx = 0, dy = 0;
   double x0 = 0, y0 = 0;
 
   std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
-  std::size_t index(int i, int j) const { return static_cast<std::size_t>(i) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(j); }
+  std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(ny) + static_cast<std::size_t>(j);
+  }
   double x(int i) const { return x0 + i * dx; }
   double y(int j) const { return y0 + j * dy; }
   double cell_area() const { return dx * dy; }

@@ -19,7 +19,8 @@ void for_each_if(bool threads, std::ptrdiff_t n, Kernel&& kernel) {
   for (std::ptrdiff_t i = 0; i < n; ++i) kernel(static_cast<int>(i));
 }
 
-/// kernel(piece, begin, end) for fixed pieces of [0, n), shared between threads; an index stands for so many values of work.
+/// kernel(piece, begin, end) for fixed pieces of [0, n), shared between threads; an index stands for so many values of
+/// work.
 constexpr std::size_t kPiece = 4096;
 inline std::size_t pieces_of(std::size_t n) { return (n + kPiece - 1) / kPiece; }
 template <class Kernel>

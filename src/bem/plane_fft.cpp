@@ -14,9 +14,11 @@ std::mutex& planner() {  // FFTW's planner is not thread-safe
   return m;
 }
 
-/// Smallest length >= n among those that FFTW's estimated plans transform well: about 1.2 ns a point where their neighbours, with more threes, take 2 to 3.
+/// Smallest length >= n among those that FFTW's estimated plans transform well: about 1.2 ns a point where their
+/// neighbours, with more threes, take 2 to 3.
 int good_size(int n) {
-  for (int length : {8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 56, 64, 72, 80, 96, 100, 112, 120, 128, 140, 160, 200, 224, 240, 256, 280, 320, 400, 448, 512, 640, 768, 800, 896, 960, 1024})
+  for (int length : {8,   10,  12,  14,  16,  20,  24,  28,  32,  40,  48,  56,  64,  72,  80,  96,  100, 112, 120,
+                     128, 140, 160, 200, 224, 240, 256, 280, 320, 400, 448, 512, 640, 768, 800, 896, 960, 1024})
     if (length >= n) return length;
   for (int m = n + (n & 1);; m += 2) {
     int r = m;
@@ -55,16 +57,25 @@ struct PlaneFft::Plans {
 };
 
 PlaneFft::PlaneFft(int nx, int ny)
-    : nx_(nx), ny_(ny), mx_(good_size(2 * nx + 1)), my_(good_size(2 * ny)), width_(my_ / 2 + 1), groups_((width_ + kGroup - 1) / kGroup), plans_(std::make_unique<Plans>()) {
+    : nx_(nx),
+      ny_(ny),
+      mx_(good_size(2 * nx + 1)),
+      my_(good_size(2 * ny)),
+      width_(my_ / 2 + 1),
+      groups_((width_ + kGroup - 1) / kGroup),
+      plans_(std::make_unique<Plans>()) {
   const std::lock_guard lock(planner());
   Complex *z = scratch<0>(std::max(group_size(), static_cast<std::size_t>(width_))), *y = scratch<1>(group_size());
   double* r = reinterpret_cast<double*>(scratch<2>(static_cast<std::size_t>(width_)));
   constexpr unsigned flags = FFTW_ESTIMATE;  // measured plans would differ from run to run in the last bits
   plans_->row_forward = fftw_plan_dft_r2c_1d(my_, r, raw(z), flags);
   plans_->row_backward = fftw_plan_dft_c2r_1d(my_, raw(z), r, flags);
-  const int n[] = {mx_};  // columns one after the other and from one place to another: two to three times as fast as side by side in place
-  plans_->columns_forward = fftw_plan_many_dft(1, n, kGroup, raw(y), nullptr, 1, mx_, raw(z), nullptr, 1, mx_, FFTW_FORWARD, flags);
-  plans_->columns_backward = fftw_plan_many_dft(1, n, kGroup, raw(z), nullptr, 1, mx_, raw(y), nullptr, 1, mx_, FFTW_BACKWARD, flags);
+  const int n[] = {mx_};  // columns one after the other and from one place to another: two to three times as fast as
+                          // side by side in place
+  plans_->columns_forward =
+      fftw_plan_many_dft(1, n, kGroup, raw(y), nullptr, 1, mx_, raw(z), nullptr, 1, mx_, FFTW_FORWARD, flags);
+  plans_->columns_backward =
+      fftw_plan_many_dft(1, n, kGroup, raw(z), nullptr, 1, mx_, raw(y), nullptr, 1, mx_, FFTW_BACKWARD, flags);
 }
 
 PlaneFft::~PlaneFft() = default;

@@ -1,8 +1,9 @@
 #pragma once
-// Convolution of zero-padded planes by FFT (FFTW), threads over rows and groups of columns, the same bits for any number of threads.
+// Convolution of zero-padded planes by FFT (FFTW), threads over rows and groups of columns, the same bits for any
+// number of threads.
 //
-// A plane of nx x ny values is padded to mx x my. Only its nx rows are transformed along y, the padding never is; the transforms along x, the product with the kernel
-// and the transforms back are done group by group of columns, in cache.
+// A plane of nx x ny values is padded to mx x my. Only its nx rows are transformed along y, the padding never is; the
+// transforms along x, the product with the kernel and the transforms back are done group by group of columns, in cache.
 #include <complex>
 #include <memory>
 #include <vector>
@@ -28,8 +29,9 @@ class PlaneFft {
   /// Values of one kernel's spectrum: index ky mx + kx, ky = 0 … my/2.
   std::size_t spectrum_size() const { return static_cast<std::size_t>(width_) * static_cast<std::size_t>(mx_); }
 
-  /// Symmetry of a kernel given for offsets >= 0: +1 even, -1 odd in x and in y. Even total parity gives a real spectrum, odd an imaginary one; the returned numbers
-  /// are the real or the imaginary part. table[i * (my/2 + 1) + j], i = 0 … mx/2, j = 0 … my/2. Divided by mx my, so that `multiply` needs no scaling.
+  /// Symmetry of a kernel given for offsets >= 0: +1 even, -1 odd in x and in y. Even total parity gives a real
+  /// spectrum, odd an imaginary one; the returned numbers are the real or the imaginary part. table[i * (my/2 + 1) +
+  /// j], i = 0 … mx/2, j = 0 … my/2. Divided by mx my, so that `multiply` needs no scaling.
   std::vector<double> spectrum(const std::vector<double>& table, int parity_x, int parity_y) const;
 
   /// Entries of several planes' spectra: z[c] points to those of plane c.
@@ -39,17 +41,20 @@ class PlaneFft {
     std::complex<double>* operator[](std::size_t c) const { return first + c * apart; }
   };
 
-  /// in: planes of nx x ny; out: planes of rows_out x ny (rows_out <= nx + 1). Calls multiply(first, count, z) on `count` = mx consecutive spectrum entries starting at
-  /// index `first`: z[c] holds input c transformed and is to be replaced by output c transformed (Spectra). There are max(in, out) planes; those without an input hold anything.
+  /// in: planes of nx x ny; out: planes of rows_out x ny (rows_out <= nx + 1). Calls multiply(first, count, z) on
+  /// `count` = mx consecutive spectrum entries starting at index `first`: z[c] holds input c transformed and is to be
+  /// replaced by output c transformed (Spectra). There are max(in, out) planes; those without an input hold anything.
   template <class Multiply>
-  void apply(const std::vector<const double*>& in, const std::vector<double*>& out, int rows_out, Multiply&& multiply) const {
+  void apply(const std::vector<const double*>& in, const std::vector<double*>& out, int rows_out,
+             Multiply&& multiply) const {
     const std::size_t planes = in.size() > out.size() ? in.size() : out.size();
     Complex* work = rows_in(in, planes);
     for_each_if(threads_pay(), groups_, [&](int group) {
       const Spectra columns{group_buffer(planes), group_size()};
       for (std::size_t c = 0; c < in.size(); ++c) columns_in(work + c * plane_size(), group, columns[c]);
       Spectra z = columns;
-      for (int ky = group * kGroup; ky < (group + 1) * kGroup && ky < width_; ++ky, z.first += mx_) multiply(static_cast<std::size_t>(ky) * static_cast<std::size_t>(mx_), mx_, z);
+      for (int ky = group * kGroup; ky < (group + 1) * kGroup && ky < width_; ++ky, z.first += mx_)
+        multiply(static_cast<std::size_t>(ky) * static_cast<std::size_t>(mx_), mx_, z);
       for (std::size_t c = 0; c < out.size(); ++c) columns_out(work + c * plane_size(), group, columns[c], rows_out);
     });
     rows_out_of(work, out, rows_out);
@@ -59,7 +64,8 @@ class PlaneFft {
   using Complex = std::complex<double>;
   static constexpr int kGroup = 4;  // columns copied side by side: a cache line
   struct Plans;
-  /// A plane transformed along y: nx + 1 rows of groups_ * kGroup wave numbers. Planes lie one after the other in a buffer that the calling thread keeps.
+  /// A plane transformed along y: nx + 1 rows of groups_ * kGroup wave numbers. Planes lie one after the other in a
+  /// buffer that the calling thread keeps.
   std::size_t plane_size() const { return static_cast<std::size_t>(nx_ + 1) * pitch(); }
   std::size_t pitch() const { return static_cast<std::size_t>(groups_) * kGroup; }
   std::size_t group_size() const { return static_cast<std::size_t>(mx_) * kGroup; }

@@ -11,7 +11,8 @@ namespace {
 /// Axes of the contact plane: t along the common tangent, w along the normal from the rail to the wheel.
 struct PlaneAxes {
   Vec2 origin, tangent, normal;
-  explicit PlaneAxes(const RigidContact& c) : origin(c.point), tangent{std::cos(c.angle), std::sin(c.angle)}, normal{-tangent.z, tangent.y} {}
+  explicit PlaneAxes(const RigidContact& c)
+      : origin(c.point), tangent{std::cos(c.angle), std::sin(c.angle)}, normal{-tangent.z, tangent.y} {}
 };
 
 /// A point of a section curve and its derivative along the profile's arc length, in the contact plane's axes.
@@ -37,9 +38,11 @@ struct WheelCurve {
   PlaneAxes axes;
   PlanePoint at(double s, double x) const {
     const ProfilePoint p = profile.at(s);
-    const double r = contact.axle_height - contact.wheel_offset_z - p.position.z, below = std::sqrt(std::max(0.0, (r - x) * (r + x)));
+    const double r = contact.axle_height - contact.wheel_offset_z - p.position.z,
+                 below = std::sqrt(std::max(0.0, (r - x) * (r + x)));
     const Vec2 d = Vec2{contact.wheel_offset_y + p.position.y, contact.axle_height - below} - axes.origin;
-    return {dot(d, axes.tangent), dot(d, axes.normal), p.tangent.y * axes.tangent.y + r / below * p.tangent.z * axes.tangent.z};
+    return {dot(d, axes.tangent), dot(d, axes.normal),
+            p.tangent.y * axes.tangent.y + r / below * p.tangent.z * axes.tangent.z};
   }
 };
 
@@ -51,9 +54,11 @@ struct Found {
 template <class Curve>
 class HeightOverPlane {
  public:
-  HeightOverPlane(const Curve& curve, double contact_s) : curve_(curve), contact_s_(contact_s), low_(end(-1)), high_(end(1)) {}
+  HeightOverPlane(const Curve& curve, double contact_s)
+      : curve_(curve), contact_s_(contact_s), low_(end(-1)), high_(end(1)) {}
 
-  /// At (x, t), by Newton's method kept inside the facing part; nothing where that has ended. guess: arc length to start from.
+  /// At (x, t), by Newton's method kept inside the facing part; nothing where that has ended. guess: arc length to
+  /// start from.
   std::optional<Found> at(double x, double t, double guess) const {
     double low = low_, high = high_, s = std::clamp(guess, low, high);
     if (t < curve_.at(low, x).t || t > curve_.at(high, x).t) return {};
@@ -85,7 +90,8 @@ class HeightOverPlane {
 
 }  // namespace
 
-ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& contact, const PatchGrid& grid) {
+ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                       const RigidContact& contact, const PatchGrid& grid) {
   const PlaneAxes axes(contact);
   const RailCurve rail_curve{rail, track, axes};
   const WheelCurve wheel_curve{wheel, contact, axes};
@@ -94,7 +100,8 @@ ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeo
   ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size())};
   for_each_if(threads_pay_for(grid.size()), grid.ny, [&](int j) {
     const double t = grid.y(j);
-    const auto on_rail = rail_height.at(0, t, contact.rail_s + t), under_axle = wheel_height.at(0, t, contact.wheel_s + t);
+    const auto on_rail = rail_height.at(0, t, contact.rail_s + t),
+               under_axle = wheel_height.at(0, t, contact.wheel_s + t);
     for (int i = 0; i < grid.nx; ++i) {
       const double x = grid.x(i);
       const auto on_wheel = under_axle ? wheel_height.at(x, t, under_axle->s) : under_axle;

@@ -1,8 +1,9 @@
 #pragma once
 // The undeformed gap of a wheel of revolution on an extruded rail, measured along the normal of the contact plane.
 //
-// Contact frame: origin at the rigid contact point, x rolling direction, y along the common tangent (rising by the contact angle to the field side), n from the rail to
-// the wheel. The wheel is its profile turned about the axle, so its curvature along x and the change of rolling radius across the patch are exact.
+// Contact frame: origin at the rigid contact point, x rolling direction, y along the common tangent (rising by the
+// contact angle to the field side), n from the rail to the wheel. The wheel is its profile turned about the axle, so
+// its curvature along x and the change of rolling radius across the patch are exact.
 #include "bem/patch_grid.hpp"
 #include "bem/plane_algebra.hpp"
 #include "geometry/placement.hpp"
@@ -11,12 +12,15 @@
 namespace railstrata {
 
 struct ProfileGap {
-  Plane gap;          ///< m, >= 0 up to round-off at small contact angles (the wheel is lowered along z); where a profile has ended or turned away: kNoSurface
+  Plane gap;  ///< m, >= 0 up to round-off at small contact angles (the wheel is lowered along z); where a profile has
+              ///< ended or turned away: kNoSurface
   Plane rail_height;  ///< m, the rail's surface above the contact plane
-  Plane radius;       ///< m, distance from the axle of the middle between the two surfaces: what the deformed interface rolls on
+  Plane radius;       ///< m, distance from the axle of the middle between the two surfaces: what the deformed interface
+                      ///< rolls on
   static constexpr double kNoSurface = 0.05;
 };
 
-ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& contact, const PatchGrid& grid);
+ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                       const RigidContact& contact, const PatchGrid& grid);
 
 }  // namespace railstrata

@@ -12,10 +12,12 @@ namespace {
 /// Rail minus wheel on the grid and one row of cells ahead of it.
 struct Displacement {
   Plane x, y;
-  Displacement(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure) : x(grid.size() + row(grid)), y(x.size()) {
+  Displacement(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure)
+      : x(grid.size() + row(grid)), y(x.size()) {
     influence.tangential_from_pressure(pressure.data(), x.data(), y.data(), grid.nx + 1);
   }
-  Displacement(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& s) : Displacement(influence, grid, s.normal.pressure) {
+  Displacement(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& s)
+      : Displacement(influence, grid, s.normal.pressure) {
     Plane qx(x.size()), qy(x.size());
     influence.tangential(s.tangential.q_x.data(), s.tangential.q_y.data(), qx.data(), qy.data(), grid.nx + 1);
     add_scaled(x, 1, qx);
@@ -24,8 +26,10 @@ struct Displacement {
   static std::size_t row(const PatchGrid& grid) { return static_cast<std::size_t>(grid.ny); }
 };
 
-/// What the tangential problem sees of the displacement by pressure: rigid slip in steady rolling, else a part of the history.
-void add_displacement_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure, TangentialProblem& t) {
+/// What the tangential problem sees of the displacement by pressure: rigid slip in steady rolling, else a part of the
+/// history.
+void add_displacement_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure,
+                                  TangentialProblem& t) {
   const Displacement u(influence, grid, pressure);
   const std::size_t n = grid.size(), row = Displacement::row(grid);
   const bool steady = t.kind == RollingKind::steady;
@@ -38,14 +42,18 @@ void add_displacement_by_pressure(const InfluenceOperator& influence, const Patc
   }
 }
 
-TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact, const Plane& pressure) {
-  TangentialProblem t{contact.kind, pressure, contact.x, contact.y, contact.spin, contact.extra_x, contact.extra_y, contact.step, contact.before_x, contact.before_y};
-  for (std::size_t i = 0; i < t.bound.size(); ++i) t.bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
+TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
+                                  const RollingContact& contact, const Plane& pressure) {
+  TangentialProblem t{contact.kind,    pressure,        contact.x,    contact.y,        contact.spin,
+                      contact.extra_x, contact.extra_y, contact.step, contact.before_x, contact.before_y};
+  for (std::size_t i = 0; i < t.bound.size(); ++i)
+    t.bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
   if (influence.couples()) add_displacement_by_pressure(influence, grid, pressure, t);
   return t;
 }
 
-Plane gap_closed_by_traction(const InfluenceOperator& influence, const RollingContact& contact, const TangentialSolution& s) {
+Plane gap_closed_by_traction(const InfluenceOperator& influence, const RollingContact& contact,
+                             const TangentialSolution& s) {
   Plane gap(contact.gap.size());
   influence.normal_from_traction(s.q_x.data(), s.q_y.data(), gap.data());
   add_scaled(gap, 1, contact.gap);
@@ -54,7 +62,10 @@ Plane gap_closed_by_traction(const InfluenceOperator& influence, const RollingCo
 
 double largest_change(const Plane& a, const Plane& b) {
   double change = 0, peak = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) change = std::max(change, std::abs(a[i] - b[i])), peak = std::max(peak, b[i]);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    change = std::max(change, std::abs(a[i] - b[i]));
+    peak = std::max(peak, b[i]);
+  }
   return change / peak;
 }
 
@@ -65,18 +76,25 @@ void replace(Solution& old, Solution next) {
   old = std::move(next);
 }
 
-RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact, const RollingOptions& options, const RollingSolution* start) {
-  constexpr double kFirst = 0.3;           // a third of the tangential solution is enough to see the pressure move
-  constexpr double kSharper = 0.03;        // of the last change of the pressure: how well the next pressure is known
-  constexpr double kGapPerPressure = 0.01; // a small deviation of the gap, over its range, is a hundredfold one of the pressure in single cells
-  constexpr int kOneStepTurns = 30;        // after these, a turn is taken to its end
+RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
+                              const RollingOptions& options, const RollingSolution* start) {
+  constexpr double kFirst = 0.3;     // a third of the tangential solution is enough to see the pressure move
+  constexpr double kSharper = 0.03;  // of the last change of the pressure: how well the next pressure is known
+  constexpr double kGapPerPressure =
+      0.01;  // a small deviation of the gap, over its range, is a hundredfold one of the pressure in single cells
+  constexpr int kOneStepTurns = 30;  // after these, a turn is taken to its end
   RollingSolution s;
-  if (start) s.tangential = start->tangential, s.tangential.iterations = 0;
+  if (start) {
+    s.tangential = start->tangential;
+    s.tangential.iterations = 0;
+  }
   double change = kFirst;
   const auto pressure = [&](const Plane& from) {
     NormalOptions close_enough = options.normal;
     close_enough.tolerance = std::max(close_enough.tolerance, kGapPerPressure * kSharper * change);
-    return solve_normal(influence, grid, from.empty() ? contact.gap : gap_closed_by_traction(influence, contact, s.tangential), contact.target, close_enough, from);
+    return solve_normal(influence, grid,
+                        from.empty() ? contact.gap : gap_closed_by_traction(influence, contact, s.tangential),
+                        contact.target, close_enough, from);
   };
   s.normal = pressure(start ? start->normal.pressure : Plane{});
   for (s.turns = 1; s.turns <= options.max_turns; ++s.turns) {
@@ -84,9 +102,14 @@ RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGri
     TangentialOptions further = options.tangential;
     if (!settled) {
       further.tolerance = std::max(further.tolerance, change);
-      if (!first && s.turns < kOneStepTurns) further.max_outer = 1, further.partial = true;
+      if (!first && s.turns < kOneStepTurns) {
+        further.max_outer = 1;
+        further.partial = true;
+      }
     }
-    replace(s.tangential, solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), further, first ? nullptr : &s.tangential));
+    replace(s.tangential,
+            solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), further,
+                             first ? nullptr : &s.tangential));
     if (settled) return s;
     NormalSolution next = pressure(s.normal.pressure);
     change = std::max(kSharper * change, largest_change(next.pressure, s.normal.pressure));
@@ -97,15 +120,19 @@ RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGri
 
 }  // namespace
 
-RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact, const RollingOptions& options, const RollingSolution* start) {
+RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
+                              const RollingOptions& options, const RollingSolution* start) {
   if (influence.couples()) return solve_in_turn(influence, grid, contact, options, start);
   RollingSolution s;
-  s.normal = solve_normal(influence, grid, contact.gap, contact.target, options.normal, start ? start->normal.pressure : Plane{});
-  s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), options.tangential, start ? &start->tangential : nullptr);
+  s.normal = solve_normal(influence, grid, contact.gap, contact.target, options.normal,
+                          start ? start->normal.pressure : Plane{});
+  s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure),
+                                  options.tangential, start ? &start->tangential : nullptr);
   return s;
 }
 
-void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before, RollingContact& contact) {
+void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,
+                      RollingContact& contact) {
   const Displacement u(influence, grid, before);
   const auto row = static_cast<std::ptrdiff_t>(Displacement::row(grid));
   contact.kind = RollingKind::transient;
@@ -114,7 +141,8 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   contact.before_y.assign(u.y.begin() + row, u.y.end());
 }
 
-void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before, RollingContact& contact) {
+void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,
+              RollingContact& contact) {
   const Displacement u(influence, grid, before);
   const auto row = static_cast<std::ptrdiff_t>(Displacement::row(grid));
   contact.kind = RollingKind::shift;

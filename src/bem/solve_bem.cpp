@@ -15,14 +15,17 @@ namespace railstrata {
 namespace {
 
 void check_friction(const CaseSpec& spec, double load, double normal) {
-  const double wanted = std::abs(spec.drive.traction_coefficient) * load, available = spec.drive.friction_coefficient * normal;
+  const double wanted = std::abs(spec.drive.traction_coefficient) * load,
+               available = spec.drive.friction_coefficient * normal;
   if (wanted > 0 && wanted >= available)
-    throw CaseError(fmt::format("a traction coefficient of {:g} needs {:.0f} N of friction, a friction coefficient of {:g} gives at most {:.0f} N", spec.drive.traction_coefficient, wanted,
-                                spec.drive.friction_coefficient, available),
+    throw CaseError(fmt::format("a traction coefficient of {:g} needs {:.0f} N of friction, a friction coefficient of "
+                                "{:g} gives at most {:.0f} N",
+                                spec.drive.traction_coefficient, wanted, spec.drive.friction_coefficient, available),
                     "lower drive.traction_coefficient or raise drive.friction_coefficient");
 }
 
-void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidContact& contact, double speed, ContactField& field) {
+void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidContact& contact, double speed,
+                ContactField& field) {
   const PatchGrid& g = patch.grid;
   field.resize(g.ny, g.nx);
   const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
@@ -64,7 +67,8 @@ void fill_totals(const RollingSolution& s, double speed, BemResult& r) {
     r.q_max = std::max(r.q_max, std::hypot(r.field.q_x[k], r.field.q_y[k]));
     if (r.field.p[k] > 0) {
       r.patch_area += r.field.area[k];
-      if (r.field.state[k] == ContactState::separated) r.field.state[k] = ContactState::slip;  // contact without friction
+      if (r.field.state[k] == ContactState::separated)
+        r.field.state[k] = ContactState::slip;  // contact without friction
     }
   }
 }
@@ -75,8 +79,10 @@ struct LoadedPatch {
   int turns = 1;
 };
 
-/// Seeks the normal force by secants: lateral friction carries a share of the weight that grows with the contact angle, and itself depends on the normal force.
-LoadedPatch bear_the_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double weight) {
+/// Seeks the normal force by secants: lateral friction carries a share of the weight that grows with the contact angle,
+/// and itself depends on the normal force.
+LoadedPatch bear_the_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                            double weight) {
   constexpr double kTolerance = 1e-5;
   constexpr int kMostTurns = 20;
   const RigidContact& contact = placement.contact;
@@ -103,9 +109,13 @@ LoadedPatch bear_the_weight(const CaseSpec& spec, const Placement& placement, co
     if (std::abs(excess) <= kTolerance * weight) return out;
     if (out.turns > 1) slope = (excess - previous_excess) / (normal - previous_normal);
     if (!(slope > 0.02 * cosine) || out.turns == kMostTurns)
-      throw CaseError(fmt::format("no normal force balances the weight at a contact angle of {:.1f} degrees: friction wedges the wheel", std::abs(contact.angle) * 180 / std::numbers::pi),
-                      "lower drive.friction_coefficient, or check lateral_shift and the profiles");
-    previous_normal = normal, previous_excess = excess;
+      throw CaseError(
+          fmt::format(
+              "no normal force balances the weight at a contact angle of {:.1f} degrees: friction wedges the wheel",
+              std::abs(contact.angle) * 180 / std::numbers::pi),
+          "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+    previous_normal = normal;
+    previous_excess = excess;
     normal -= excess / slope;
   }
 }

@@ -1,10 +1,11 @@
 #pragma once
 // The half-space solution of a case: the same case file the finite elements run, answered by Kalker's method.
 //
-// What it takes of a case: profiles and track, wheel radius, moduli, layers (unbounded sideways), load G = (wheel + sprung mass) g as the vertical force, friction and
-// traction coefficients. Steady rolling: F_x = traction_coefficient G on the wheel, no lateral creepage, spin and the variation of the rolling radius across the patch
-// from the geometry. The normal force is such that normal and lateral force together bear the load. What it has not: inertia, the bodies' shape outside the patch, the
-// layer's edges.
+// What it takes of a case: profiles and track, wheel radius, moduli, layers (unbounded sideways), load G = (wheel +
+// sprung mass) g as the vertical force, friction and traction coefficients. Steady rolling: F_x = traction_coefficient
+// G on the wheel, no lateral creepage, spin and the variation of the rolling radius across the patch from the geometry.
+// The normal force is such that normal and lateral force together bear the load. What it has not: inertia, the bodies'
+// shape outside the patch, the layer's edges.
 #include <memory>
 #include <string>
 #include <vector>
@@ -22,7 +23,8 @@ class InfluenceCache {
  public:
   InfluenceCache();
   ~InfluenceCache();
-  std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail, const PatchGrid& grid);
+  std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail,
+                                               const PatchGrid& grid);
 
  private:
   struct State;
@@ -30,38 +32,43 @@ class InfluenceCache {
 };
 
 struct BemOptions {
-  double cell = 0.25e-3;               ///< m
-  double largest_patch = 60e-3;        ///< m, of the potential contact area, per direction
+  double cell = 0.25e-3;         ///< m
+  double largest_patch = 60e-3;  ///< m, of the potential contact area, per direction
   RollingOptions rolling;
   InfluenceCache* cache = nullptr;
 };
 
 struct BemResult {
   ContactField field;
-  PatchGrid grid;                       ///< contact frame: x rolling, y along the common tangent, origin at the rigid contact point
+  PatchGrid grid;  ///< contact frame: x rolling, y along the common tangent, origin at the rigid contact point
   RigidContact contact;
   LayeredHalfSpace wheel, rail;
-  double p_max = 0, q_max = 0;          ///< Pa, of the cells
-  double F_x = 0, F_y = 0, F_z = 0;     ///< N, on the rail, model frame (z up: F_z < 0), pressure and friction together
-  double normal_force = 0, tangential_y = 0;  ///< N, contact frame: the pressure's resultant; the lateral friction's on the rail
-  double moment = 0;                    ///< N m about the contact normal, on the rail
-  double approach = 0;                  ///< m
-  double creepage_x = 0, creepage_y = 0, spin = 0;  ///< rigid slip of the wheel over the rail / V; a driving wheel has creepage_x < 0
-  double patch_area = 0, slip_area = 0; ///< m², of the cells
-  double dissipation = 0;               ///< W
-  int turns = 1, iterations = 0;        ///< turns of pressure against friction, of the last normal load
-  int load_turns = 1;                   ///< normal loads tried until the vertical force was the weight
+  double p_max = 0, q_max = 0;       ///< Pa, of the cells
+  double F_x = 0, F_y = 0, F_z = 0;  ///< N, on the rail, model frame (z up: F_z < 0), pressure and friction together
+  double normal_force = 0,
+         tangential_y = 0;  ///< N, contact frame: the pressure's resultant; the lateral friction's on the rail
+  double moment = 0;        ///< N m about the contact normal, on the rail
+  double approach = 0;      ///< m
+  double creepage_x = 0, creepage_y = 0,
+         spin = 0;  ///< rigid slip of the wheel over the rail / V; a driving wheel has creepage_x < 0
+  double patch_area = 0, slip_area = 0;  ///< m², of the cells
+  double dissipation = 0;                ///< W
+  int turns = 1, iterations = 0;         ///< turns of pressure against friction, of the last normal load
+  int load_turns = 1;                    ///< normal loads tried until the vertical force was the weight
   double wall_s = 0;
-  std::vector<std::string> notes;       ///< what the user should know: a grown grid, …
+  std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
 };
 
-/// Layers of one body ("rail" or "wheel") from the case, from the surface down; a graded one cut to its grading_tolerance.
+/// Layers of one body ("rail" or "wheel") from the case, from the surface down; a graded one cut to its
+/// grading_tolerance.
 LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body);
 
-/// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears the weight whatever the normal force (a wedged wheel).
+/// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears
+/// the weight whatever the normal force (a wedged wheel).
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {});
 
-/// The stresses inside the rail or the wheel of a result. Axes x rolling, y along the common tangent, z into the body (rail: down, wheel: up).
+/// The stresses inside the rail or the wheel of a result. Axes x rolling, y along the common tangent, z into the body
+/// (rail: down, wheel: up).
 Subsurface rail_interior(const BemResult& result);
 Subsurface wheel_interior(const BemResult& result);
 

@@ -15,7 +15,9 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr std::size_t kStates = 6;
-constexpr std::array<double InteriorState::*, kStates> kState{&InteriorState::e_xx, &InteriorState::e_yy, &InteriorState::e_xy, &InteriorState::s_xz, &InteriorState::s_yz, &InteriorState::s_zz};
+constexpr std::array<double InteriorState::*, kStates> kState{&InteriorState::e_xx, &InteriorState::e_yy,
+                                                              &InteriorState::e_xy, &InteriorState::s_xz,
+                                                              &InteriorState::s_yz, &InteriorState::s_zz};
 /// Parities in x and y under p, q_x, q_y: of the states, and of the displacements.
 struct Parity {
   int x, y;
@@ -24,7 +26,8 @@ constexpr Parity kParity[3][kStates] = {{{1, 1}, {1, 1}, {-1, -1}, {-1, 1}, {1, 
                                         {{-1, 1}, {-1, 1}, {1, -1}, {1, 1}, {-1, -1}, {-1, 1}},
                                         {{1, -1}, {1, -1}, {-1, 1}, {-1, -1}, {1, 1}, {1, -1}}};
 constexpr std::array<double Vec3::*, 3> kAxis{&Vec3::x, &Vec3::y, &Vec3::z};
-constexpr Parity kDisplacementParity[3][3] = {{{-1, 1}, {1, -1}, {1, 1}}, {{1, 1}, {-1, -1}, {-1, 1}}, {{-1, -1}, {1, 1}, {1, -1}}};
+constexpr Parity kDisplacementParity[3][3] = {
+    {{-1, 1}, {1, -1}, {1, 1}}, {{1, 1}, {-1, -1}, {-1, 1}}, {{-1, -1}, {1, 1}, {1, -1}}};
 
 std::array<Plane*, kStates> planes_of(StatePlane& s) { return {&s.e_xx, &s.e_yy, &s.e_xy, &s.s_xz, &s.s_yz, &s.s_zz}; }
 std::array<Plane*, 3> planes_of(DisplacementPlane& u) { return {&u.u_x, &u.u_y, &u.u_z}; }
@@ -41,7 +44,8 @@ std::vector<double*> pointers(Planes& s, std::size_t n) {
 
 /// Loads (p, q_x, q_y) with the table of their influences at offsets from a cell: value(entry, load, quantity).
 template <std::size_t N, class Table, class Value>
-void convolve(const PlaneFft& fft, const std::vector<const double*>& loads, const Table& table, const Parity (&parity)[3][N], const std::vector<double*>& out, Value&& value) {
+void convolve(const PlaneFft& fft, const std::vector<const double*>& loads, const Table& table,
+              const Parity (&parity)[3][N], const std::vector<double*>& out, Value&& value) {
   Plane hat[3][N];
   Plane values(table.size());
   for (std::size_t load = 0; load < 3; ++load)
@@ -64,12 +68,14 @@ void convolve(const PlaneFft& fft, const std::vector<const double*>& loads, cons
   });
 }
 
-/// The state under unit surface loads at one wave number and depth, in the axes of the wave: displacements times k, tractions; see layer_waves.hpp for U, W, T, S, V, Q.
+/// The state under unit surface loads at one wave number and depth, in the axes of the wave: displacements times k,
+/// tractions; see layer_waves.hpp for U, W, T, S, V, Q.
 struct WaveResponse {
   double kU_p = 0, kW_p = 0, T_p = 0, S_p = 0, kU_q = 0, kW_q = 0, T_q = 0, S_q = 0, kV = 0, Q = 0;
 };
-constexpr std::array<double WaveResponse::*, 10> kResponse{&WaveResponse::kU_p, &WaveResponse::kW_p, &WaveResponse::T_p, &WaveResponse::S_p, &WaveResponse::kU_q,
-                                                           &WaveResponse::kW_q, &WaveResponse::T_q,  &WaveResponse::S_q, &WaveResponse::kV,  &WaveResponse::Q};
+constexpr std::array<double WaveResponse::*, 10> kResponse{
+    &WaveResponse::kU_p, &WaveResponse::kW_p, &WaveResponse::T_p, &WaveResponse::S_p, &WaveResponse::kU_q,
+    &WaveResponse::kW_q, &WaveResponse::T_q,  &WaveResponse::S_q, &WaveResponse::kV,  &WaveResponse::Q};
 
 WaveResponse response(const LayerWaves& waves, double depth) {
   const WaveState top = waves.state(0, 0), s = waves.state(depth);
@@ -98,7 +104,10 @@ struct Subsurface::Layered {
   }
 
   Layered(const LayeredHalfSpace& body, const PatchGrid& g, double extents)
-      : fft(static_cast<int>(period(body, g, extents) / (2 * g.dx)), static_cast<int>(period(body, g, extents) / (2 * g.dy))), unit_x(2 * std::numbers::pi / (fft.mx() * g.dx)), unit_y(2 * std::numbers::pi / (fft.my() * g.dy)) {
+      : fft(static_cast<int>(period(body, g, extents) / (2 * g.dx)),
+            static_cast<int>(period(body, g, extents) / (2 * g.dy))),
+        unit_x(2 * std::numbers::pi / (fft.mx() * g.dx)),
+        unit_y(2 * std::numbers::pi / (fft.my() * g.dy)) {
     const double low = 1e-3 * std::min(unit_x, unit_y), high = std::numbers::pi * std::hypot(1 / g.dx, 1 / g.dy) * 1.01;
     log_low = std::log(low);
     log_step = (std::log(high) - log_low) / (kNodes - 1);
@@ -125,21 +134,26 @@ struct Subsurface::Layered {
   struct Means {
     WaveResponse x, y;
   };
-  /// The FFT's sum over wave numbers instead of an integral is the pull of the periodic images, nearly uniform over the patch. It is the difference of sum and integral at
-  /// low wave numbers (a Gaussian cuts off the rest); given with the opposite sign to the mean k = 0, which the sum leaves free, it takes the images away.
-  /// Of the responses over k^power: 0 for strains and tractions, 1 for displacements.
+  /// The FFT's sum over wave numbers instead of an integral is the pull of the periodic images, nearly uniform over the
+  /// patch. It is the difference of sum and integral at low wave numbers (a Gaussian cuts off the rest); given with the
+  /// opposite sign to the mean k = 0, which the sum leaves free, it takes the images away. Of the responses over
+  /// k^power: 0 for strains and tractions, 1 for displacements.
   Means mean(const std::vector<WaveResponse>& node, int power = 0) const {
     const double unit = std::sqrt(unit_x * unit_y), cut = 4 * unit;
     const auto add = [&](double weight_x, double weight_y, double k, Means& to) {
       const WaveResponse w = between(node, k);
       const double weight = std::exp(-k * k / (cut * cut)) / (power == 0 ? 1.0 : k);
-      for (auto m : kResponse) to.x.*m += weight_x * weight * w.*m, to.y.*m += weight_y * weight * w.*m;
+      for (auto m : kResponse) {
+        to.x.*m += weight_x * weight * w.*m;
+        to.y.*m += weight_y * weight * w.*m;
+      }
     };
     Means out;
     constexpr int reach = 20;
     for (int i = 0; i <= reach; ++i)
       for (int j = i == 0 ? 1 : 0; j <= reach; ++j) {  // one quadrant stands for four
-        const double kx = i * unit_x, ky = j * unit_y, k2 = kx * kx + ky * ky, count = (i == 0 ? 1.0 : 2.0) * (j == 0 ? 1.0 : 2.0);
+        const double kx = i * unit_x, ky = j * unit_y, k2 = kx * kx + ky * ky,
+                     count = (i == 0 ? 1.0 : 2.0) * (j == 0 ? 1.0 : 2.0);
         add(-count * kx * kx / k2, -count * ky * ky / k2, std::sqrt(k2), out);
       }
     constexpr double step = 0.02;  // of ln k; ∫ pi k² f dln k each
@@ -150,49 +164,60 @@ struct Subsurface::Layered {
     return out;
   }
 
-  /// Adds to planes of the grid what the layers change. wave(P, X, Y, cx, cy, k, response, z): the quantities z under loads (P, X, Y) of the wave vector k (cx, cy);
-  /// zero(P, X, Y, z): of the mean.
+  /// Adds to planes of the grid what the layers change. wave(P, X, Y, cx, cy, k, response, z): the quantities z under
+  /// loads (P, X, Y) of the wave vector k (cx, cy); zero(P, X, Y, z): of the mean.
   template <class Planes, class Wave, class Zero>
-  void add(const PatchGrid& grid, const std::array<const Plane*, 3>& loads, const std::vector<WaveResponse>& node, Planes& to, Wave&& wave, Zero&& zero) const {
+  void add(const PatchGrid& grid, const std::array<const Plane*, 3>& loads, const std::vector<WaveResponse>& node,
+           Planes& to, Wave&& wave, Zero&& zero) const {
     const int nx = grid.nx, ny = grid.ny, mx = fft.mx(), my = fft.my();
     const std::size_t pitch = static_cast<std::size_t>(fft.ny()), n = static_cast<std::size_t>(fft.nx()) * pitch;
     Plane spread[3];
     for (std::size_t l = 0; l < 3; ++l) {
       spread[l].assign(n, 0.0);
       for (int i = 0; i < nx; ++i)
-        std::copy_n(loads[l]->begin() + static_cast<std::ptrdiff_t>(grid.index(i, 0)), ny, spread[l].begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * pitch));
+        std::copy_n(loads[l]->begin() + static_cast<std::ptrdiff_t>(grid.index(i, 0)), ny,
+                    spread[l].begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * pitch));
     }
-    // the loads are steps, one a cell, as in the closed form: their transform is that of the values times sin(k d/2)/(k d/2)
+    // the loads are steps, one a cell, as in the closed form: their transform is that of the values times sin(k d/2)/(k
+    // d/2)
     const auto step = [](double half) { return half == 0 ? 1.0 : std::sin(half) / half; };
     const double scale = 1 / points();
     Planes wide;
     const std::vector<double*> out = pointers(wide, n);
-    fft.apply({spread[0].data(), spread[1].data(), spread[2].data()}, out, nx, [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
-      const int block = static_cast<int>(first / static_cast<std::size_t>(count));
-      std::array<Complex, kStates> value;
-      for (int e = 0; e < count; ++e) {
-        const int i = e / PlaneFft::kBlock, j = block * PlaneFft::kBlock + e % PlaneFft::kBlock;
-        const double kx = unit_x * (2 * i < mx ? i : i - mx), ky = unit_y * j, k = std::hypot(kx, ky);
-        const double weight = scale * step(0.5 * kx * grid.dx) * step(0.5 * ky * grid.dy);
-        const Complex P = weight * z[0][e], X = weight * z[1][e], Y = weight * z[2][e];
-        if (k == 0) zero(P, X, Y, value);
-        else if (2 * i == mx || 2 * j >= my) value.fill(0);  // the highest waves have no direction
-        else wave(P, X, Y, kx / k, ky / k, k, between(node, k), value);
-        for (std::size_t s = 0; s < out.size(); ++s) z[s][e] = value[s];
-      }
-    });
+    fft.apply({spread[0].data(), spread[1].data(), spread[2].data()}, out, nx,
+              [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
+                const int block = static_cast<int>(first / static_cast<std::size_t>(count));
+                std::array<Complex, kStates> value;
+                for (int e = 0; e < count; ++e) {
+                  const int i = e / PlaneFft::kBlock, j = block * PlaneFft::kBlock + e % PlaneFft::kBlock;
+                  const double kx = unit_x * (2 * i < mx ? i : i - mx), ky = unit_y * j, k = std::hypot(kx, ky);
+                  const double weight = scale * step(0.5 * kx * grid.dx) * step(0.5 * ky * grid.dy);
+                  const Complex P = weight * z[0][e], X = weight * z[1][e], Y = weight * z[2][e];
+                  if (k == 0)
+                    zero(P, X, Y, value);
+                  else if (2 * i == mx || 2 * j >= my)
+                    value.fill(0);  // the highest waves have no direction
+                  else
+                    wave(P, X, Y, kx / k, ky / k, k, between(node, k), value);
+                  for (std::size_t s = 0; s < out.size(); ++s) z[s][e] = value[s];
+                }
+              });
     const auto target = planes_of(to), from = planes_of(wide);
     for (std::size_t s = 0; s < target.size(); ++s)
       for (int i = 0; i < nx; ++i)
-        for (int j = 0; j < ny; ++j) (*target[s])[grid.index(i, j)] += (*from[s])[static_cast<std::size_t>(i) * pitch + static_cast<std::size_t>(j)];
+        for (int j = 0; j < ny; ++j)
+          (*target[s])[grid.index(i, j)] +=
+              (*from[s])[static_cast<std::size_t>(i) * pitch + static_cast<std::size_t>(j)];
   }
 
   /// Polynomial of the fifth order through the six nodes around k.
   WaveResponse between(const std::vector<WaveResponse>& node, double k) const {
     const double s = (std::log(k) - log_low) / log_step;
     const int i = std::clamp(static_cast<int>(s) - 2, 0, kNodes - 6);
-    const double t = s - i, d[6] = {t, t - 1, t - 2, t - 3, t - 4, t - 5}, d01 = d[0] * d[1], d45 = d[4] * d[5], d012 = d01 * d[2], d345 = d[3] * d45;
-    const double w[6] = {-d[1] * d[2] * d345 / 120, d[0] * d[2] * d345 / 24, -d01 * d345 / 12, d012 * d45 / 12, -d012 * d[3] * d[5] / 24, d012 * d[3] * d[4] / 120};
+    const double t = s - i, d[6] = {t, t - 1, t - 2, t - 3, t - 4, t - 5}, d01 = d[0] * d[1], d45 = d[4] * d[5],
+                 d012 = d01 * d[2], d345 = d[3] * d45;
+    const double w[6] = {-d[1] * d[2] * d345 / 120, d[0] * d[2] * d345 / 24,  -d01 * d345 / 12,
+                         d012 * d45 / 12,           -d012 * d[3] * d[5] / 24, d012 * d[3] * d[4] / 120};
     WaveResponse out;
     for (int l = 0; l < 6; ++l)
       for (auto m : kResponse) out.*m += w[l] * node[i + l].*m;
@@ -200,7 +225,8 @@ struct Subsurface::Layered {
   }
 };
 
-Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y, double period)
+Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y,
+                       double period)
     : body_(body), grid_(grid), p_(std::move(p)), q_x_(std::move(q_x)), q_y_(std::move(q_y)), period_(period) {
   if (!body_.layers.empty()) layered_ = std::make_unique<Layered>(body_, grid_, period_);
 }
@@ -211,8 +237,10 @@ StatePlane Subsurface::plane(double depth) const {
   StatePlane out;
   out.depth = depth;
   const PlaneFft fft(grid_.nx, grid_.ny);
-  const auto table = rectangle_interior_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
-  convolve(fft, {p_.data(), q_x_.data(), q_y_.data()}, table, kParity, pointers(out, grid_.size()), [](const InteriorInfluence& t, std::size_t load, std::size_t s) { return t[load].*kState[s]; });
+  const auto table =
+      rectangle_interior_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
+  convolve(fft, {p_.data(), q_x_.data(), q_y_.data()}, table, kParity, pointers(out, grid_.size()),
+           [](const InteriorInfluence& t, std::size_t load, std::size_t s) { return t[load].*kState[s]; });
   straighten_steps(depth, out);
   if (layered_) add_layer_difference(depth, out);
   return out;
@@ -222,7 +250,8 @@ DisplacementPlane Subsurface::displacement(double depth) const {
   DisplacementPlane out;
   out.depth = depth;
   const PlaneFft fft(grid_.nx, grid_.ny);
-  const auto table = rectangle_displacement_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
+  const auto table =
+      rectangle_displacement_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
   convolve(fft, {p_.data(), q_x_.data(), q_y_.data()}, table, kDisplacementParity, pointers(out, grid_.size()),
            [](const InteriorDisplacement& t, std::size_t load, std::size_t axis) { return t[load].*kAxis[axis]; });
   if (layered_) add_layer_difference(depth, out);
@@ -230,14 +259,17 @@ DisplacementPlane Subsurface::displacement(double depth) const {
 }
 
 void Subsurface::straighten_steps(double depth, StatePlane& out) const {
-  // Tractions constant in each cell differ from linear ones by a sawtooth, whose waves k = 2 pi n/dx reach the cell's middle with the sum of (-1)^n/n exp(-k z) …
+  // Tractions constant in each cell differ from linear ones by a sawtooth, whose waves k = 2 pi n/dx reach the cell's
+  // middle with the sum of (-1)^n/n exp(-k z) …
   const double G = body_.substrate.shear(), nu = body_.substrate.poisson;
   struct Tooth {
     double normal_strain, shear_strain, s_zz;  // per unit slope of the traction
   };
   const auto tooth = [&](double d) {
     const double r = std::exp(-2 * std::numbers::pi * depth / d), alternating = std::log1p(r), once = r / (1 + r);
-    return Tooth{d / (2 * std::numbers::pi * G) * (2 * (1 - nu) * alternating - 2 * std::numbers::pi * depth / d * once), d / (2 * std::numbers::pi * G) * alternating, 2 * depth * once};
+    return Tooth{
+        d / (2 * std::numbers::pi * G) * (2 * (1 - nu) * alternating - 2 * std::numbers::pi * depth / d * once),
+        d / (2 * std::numbers::pi * G) * alternating, 2 * depth * once};
   };
   const Tooth tx = tooth(grid_.dx), ty = tooth(grid_.dy);
   for (int i = 1; i + 1 < grid_.nx; ++i)
@@ -255,15 +287,26 @@ void Subsurface::straighten_steps(double depth, StatePlane& out) const {
 void Subsurface::add_layer_difference(double depth, StatePlane& out) const {
   const std::vector<WaveResponse> node = layered_->nodes(depth);
   const Layered::Means mean = layered_->mean(node);
-  const auto wave = [](Complex P, Complex X, Complex Y, double cx, double cy, double, const WaveResponse& w, std::array<Complex, kStates>& z) {
+  const auto wave = [](Complex P, Complex X, Complex Y, double cx, double cy, double, const WaveResponse& w,
+                       std::array<Complex, kStates>& z) {
     const Complex I(0, 1), along = -I * (cx * X + cy * Y), across = cx * Y - cy * X;
     const Complex kU = w.kU_p * P + w.kU_q * along, T = w.T_p * P + w.T_q * along, S = w.S_p * P + w.S_q * along;
     const Complex kV = w.kV * across, Q = w.Q * across;
     // u = i k^ U + k^⊥ V with k^⊥ = (-cy, cx); strains i k u, tractions i k^ T + k^⊥ Q
-    z = {-cx * cx * kU - I * cx * cy * kV, -cy * cy * kU + I * cx * cy * kV, -cx * cy * kU + 0.5 * I * (cx * cx - cy * cy) * kV, I * cx * T - cy * Q, I * cy * T + cx * Q, S};
+    z = {-cx * cx * kU - I * cx * cy * kV,
+         -cy * cy * kU + I * cx * cy * kV,
+         -cx * cy * kU + 0.5 * I * (cx * cx - cy * cy) * kV,
+         I * cx * T - cy * Q,
+         I * cy * T + cx * Q,
+         S};
   };
   const auto zero = [&](Complex P, Complex X, Complex Y, std::array<Complex, kStates>& z) {
-    z = {-mean.x.kU_p * P, -mean.y.kU_p * P, 0, (mean.x.T_q + mean.y.Q) * X, (mean.y.T_q + mean.x.Q) * Y, (mean.x.S_p + mean.y.S_p) * P};
+    z = {-mean.x.kU_p * P,
+         -mean.y.kU_p * P,
+         0,
+         (mean.x.T_q + mean.y.Q) * X,
+         (mean.y.T_q + mean.x.Q) * Y,
+         (mean.x.S_p + mean.y.S_p) * P};
   };
   layered_->add(grid_, {&p_, &q_x_, &q_y_}, node, out, wave, zero);
 }
@@ -271,7 +314,8 @@ void Subsurface::add_layer_difference(double depth, StatePlane& out) const {
 void Subsurface::add_layer_difference(double depth, DisplacementPlane& out) const {
   const std::vector<WaveResponse> node = layered_->nodes(depth);
   const Layered::Means mean = layered_->mean(node, 1), slope = layered_->mean(node);
-  const auto wave = [](Complex P, Complex X, Complex Y, double cx, double cy, double k, const WaveResponse& w, std::array<Complex, kStates>& z) {
+  const auto wave = [](Complex P, Complex X, Complex Y, double cx, double cy, double k, const WaveResponse& w,
+                       std::array<Complex, kStates>& z) {
     const Complex I(0, 1), along = -I * (cx * X + cy * Y), across = cx * Y - cy * X;
     const Complex U = (w.kU_p * P + w.kU_q * along) / k, W = (w.kW_p * P + w.kW_q * along) / k, V = w.kV * across / k;
     z = {I * cx * U - cy * V, I * cy * U + cx * V, W};
@@ -286,7 +330,10 @@ void Subsurface::add_layer_difference(double depth, DisplacementPlane& out) cons
     for (int j = 0; j < grid_.ny; ++j) {
       const std::size_t k = grid_.index(i, j);
       p += p_[k], px += p_[k] * grid_.x(i), py += p_[k] * grid_.y(j);
-      qx += q_x_[k], qx_x += q_x_[k] * grid_.x(i), qy += q_y_[k], qy_y += q_y_[k] * grid_.y(j);
+      qx += q_x_[k];
+      qx_x += q_x_[k] * grid_.x(i);
+      qy += q_y_[k];
+      qy_y += q_y_[k] * grid_.y(j);
     }
   const double share = 1 / layered_->points();
   for (int i = 0; i < grid_.nx; ++i)
@@ -308,13 +355,16 @@ HalfSpaceMaterial Subsurface::material_at(double depth, bool below_interface) co
   return body_.substrate;
 }
 
-Sym3 Subsurface::stress(const StatePlane& plane, std::size_t k, bool below_interface) const { return stress_of(plane.at(k), material_at(plane.depth, below_interface)); }
+Sym3 Subsurface::stress(const StatePlane& plane, std::size_t k, bool below_interface) const {
+  return stress_of(plane.at(k), material_at(plane.depth, below_interface));
+}
 
 namespace {
 
 /// Cubic through four points at 0, 1, 2, 3.
 std::array<double, 4> cubic_weights(double t) {
-  return {-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2, t * (t - 1) * (t - 2) / 6};
+  return {-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2,
+          t * (t - 1) * (t - 2) / 6};
 }
 
 /// The sixteen cells around a point of the plan with their weights.
@@ -323,7 +373,8 @@ struct Around {
   std::array<double, 4> x, y;
   Around(const PatchGrid& g, const Vec3& at) {
     const double u = (at.x - g.x0) / g.dx, v = (at.y - g.y0) / g.dy;
-    const int i = std::clamp(static_cast<int>(std::floor(u)) - 1, 0, g.nx - 4), j = std::clamp(static_cast<int>(std::floor(v)) - 1, 0, g.ny - 4);
+    const int i = std::clamp(static_cast<int>(std::floor(u)) - 1, 0, g.nx - 4),
+              j = std::clamp(static_cast<int>(std::floor(v)) - 1, 0, g.ny - 4);
     first = g.index(i, j);
     x = cubic_weights(u - i), y = cubic_weights(v - j);
   }
@@ -342,11 +393,13 @@ bool covers(const PatchGrid& g, const Vec3& at) {
 }  // namespace
 
 Subsurface Subsurface::widened(int more_x, int more_y) const {
-  PatchGrid g{grid_.nx + 2 * more_x, grid_.ny + 2 * more_y, grid_.dx, grid_.dy, grid_.x0 - more_x * grid_.dx, grid_.y0 - more_y * grid_.dy};
+  PatchGrid g{grid_.nx + 2 * more_x,        grid_.ny + 2 * more_y,       grid_.dx, grid_.dy,
+              grid_.x0 - more_x * grid_.dx, grid_.y0 - more_y * grid_.dy};
   const auto padded = [&](const Plane& v) {
     Plane wide(g.size(), 0.0);
     for (int i = 0; i < grid_.nx; ++i)
-      std::copy_n(v.begin() + static_cast<std::ptrdiff_t>(grid_.index(i, 0)), grid_.ny, wide.begin() + static_cast<std::ptrdiff_t>(g.index(i + more_x, more_y)));
+      std::copy_n(v.begin() + static_cast<std::ptrdiff_t>(grid_.index(i, 0)), grid_.ny,
+                  wide.begin() + static_cast<std::ptrdiff_t>(g.index(i + more_x, more_y)));
     return wide;
   };
   return {body_, g, padded(p_), padded(q_x_), padded(q_y_), period_};
@@ -358,9 +411,12 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
   for (const Vec3& p : points) {
     if (!(p.z >= 0)) throw std::out_of_range("Subsurface::at: a point above the surface");
     if (covers(grid_, p)) continue;
-    const double x = std::max(grid_.x0 - p.x, p.x - grid_.x(grid_.nx - 1)) / grid_.dx, y = std::max(grid_.y0 - p.y, p.y - grid_.y(grid_.ny - 1)) / grid_.dy;
-    if (!((grid_.nx + 2 * std::max(x, 0.0)) * (grid_.ny + 2 * std::max(y, 0.0)) < kMostCells)) throw std::out_of_range("Subsurface::at: a point too far away for cells of this size");
-    more_x = std::max(more_x, static_cast<int>(std::ceil(x)) + 2), more_y = std::max(more_y, static_cast<int>(std::ceil(y)) + 2);
+    const double x = std::max(grid_.x0 - p.x, p.x - grid_.x(grid_.nx - 1)) / grid_.dx,
+                 y = std::max(grid_.y0 - p.y, p.y - grid_.y(grid_.ny - 1)) / grid_.dy;
+    if (!((grid_.nx + 2 * std::max(x, 0.0)) * (grid_.ny + 2 * std::max(y, 0.0)) < kMostCells))
+      throw std::out_of_range("Subsurface::at: a point too far away for cells of this size");
+    more_x = std::max(more_x, static_cast<int>(std::ceil(x)) + 2);
+    more_y = std::max(more_y, static_cast<int>(std::ceil(y)) + 2);
   }
   if (more_x > 0 || more_y > 0) return widened(std::max(more_x, 0), std::max(more_y, 0)).at(points, below_interface);
 
@@ -376,7 +432,8 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
     const Around near(grid_, p);
     const auto of = [&](const Plane& v) { return near.of(grid_, v); };
     out[k].displacement = {of(u.u_x), of(u.u_y), of(u.u_z)};
-    out[k].stress = stress_of({of(s.e_xx), of(s.e_yy), of(s.e_xy), of(s.s_xz), of(s.s_yz), of(s.s_zz)}, material_at(p.z, below_interface));
+    out[k].stress = stress_of({of(s.e_xx), of(s.e_yy), of(s.e_xy), of(s.s_xz), of(s.s_yz), of(s.s_zz)},
+                              material_at(p.z, below_interface));
   }
   return out;
 }
@@ -453,15 +510,18 @@ class PeakSearch {
       const auto value = [&](std::size_t i) { return (at(depth[i], depth[i] == top).*which).value; };
       for (std::size_t i = 1; i < depth.size(); ++i)
         if (value(i) > value(m)) m = i;
-      if (m == 0 || m + 1 == depth.size()) {  // at the end of the zone: halve the end interval, the peak may hide inside
+      if (m == 0 ||
+          m + 1 == depth.size()) {  // at the end of the zone: halve the end interval, the peak may hide inside
         const double inner = m == 0 ? 0.5 * (depth[0] + depth[1]) : 0.5 * (depth[m] + depth[m - 1]);
         if (std::abs(inner - depth[m]) < 0.05 * grid_.dx) return;
         depth.insert(m == 0 ? depth.begin() + 1 : depth.end() - 1, inner);
         keep_larger(best, at(inner, false));
         continue;
       }
-      const double a = depth[m - 1], b = depth[m], c = depth[m + 1], fa = value(m - 1), fb = value(m), fc = value(m + 1);
-      const double numerator = (b - a) * (b - a) * (fb - fc) - (b - c) * (b - c) * (fb - fa), denominator = (b - a) * (fb - fc) - (b - c) * (fb - fa);
+      const double a = depth[m - 1], b = depth[m], c = depth[m + 1], fa = value(m - 1), fb = value(m),
+                   fc = value(m + 1);
+      const double numerator = (b - a) * (b - a) * (fb - fc) - (b - c) * (b - c) * (fb - fa),
+                   denominator = (b - a) * (fb - fc) - (b - c) * (fb - fa);
       const double next = denominator != 0 ? b - 0.5 * numerator / denominator : b;
       if (!(next > a && next < c) || std::abs(next - b) < 0.01 * grid_.dx) return;
       keep_larger(best, at(next, false));

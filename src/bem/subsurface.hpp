@@ -1,8 +1,9 @@
 #pragma once
 // Displacements and stresses inside one body under the tractions of its contact.
 //
-// On a plane at any depth, by convolution: the closed form of a homogeneous half-space of the substrate's material, plus for layers the difference of the Fourier-domain
-// solutions (layer_waves.hpp), which dies out away from the patch, so that the periodic images of its grid do not reach back.
+// On a plane at any depth, by convolution: the closed form of a homogeneous half-space of the substrate's material,
+// plus for layers the difference of the Fourier-domain solutions (layer_waves.hpp), which dies out away from the patch,
+// so that the periodic images of its grid do not reach back.
 #include <map>
 #include <memory>
 #include <string>
@@ -16,7 +17,8 @@
 
 namespace railstrata {
 
-/// The state (halfspace/interior.hpp) in every cell of the grid at one depth. Axes: x rolling, y lateral, z into the body.
+/// The state (halfspace/interior.hpp) in every cell of the grid at one depth. Axes: x rolling, y lateral, z into the
+/// body.
 struct StatePlane {
   double depth = 0;
   Plane e_xx, e_yy, e_xy, s_xz, s_yz, s_zz;
@@ -35,28 +37,32 @@ struct InteriorPoint {
 };
 
 struct StressPeak {
-  double value = 0;        ///< Pa
-  double x = 0, y = 0;     ///< m, in the grid's frame
-  double depth = 0;        ///< m
+  double value = 0;     ///< Pa
+  double x = 0, y = 0;  ///< m, in the grid's frame
+  double depth = 0;     ///< m
 };
 struct ZonePeaks {
   StressPeak von_mises, sigma1;
 };
 
-/// Maxima by zone. Depths are refined by golden section to 1 % of the cell, positions in plan by parabolas through neighbouring cells.
+/// Maxima by zone. Depths are refined by golden section to 1 % of the cell, positions in plan by parabolas through
+/// neighbouring cells.
 struct SubsurfacePeaks {
-  ZonePeaks surface;                 ///< depth 0, the material at the surface
-  ZonePeaks subsurface;              ///< below half a cell, whatever the material
-  std::vector<ZonePeaks> layers;     ///< inside each layer (a graded one with all its cuts), from the surface (excluded) to its bottom
-  std::vector<ZonePeaks> above_interface, below_interface;  ///< the two sides of each interface; the cuts of a graded layer are none
-  ZonePeaks matrix;                  ///< the substrate; of a homogeneous body as `subsurface`
+  ZonePeaks surface;     ///< depth 0, the material at the surface
+  ZonePeaks subsurface;  ///< below half a cell, whatever the material
+  std::vector<ZonePeaks>
+      layers;  ///< inside each layer (a graded one with all its cuts), from the surface (excluded) to its bottom
+  std::vector<ZonePeaks> above_interface,
+      below_interface;  ///< the two sides of each interface; the cuts of a graded layer are none
+  ZonePeaks matrix;     ///< the substrate; of a homogeneous body as `subsurface`
 };
 
 class Subsurface {
  public:
-  /// p, q_x, q_y act on the body in its own axes: for the rail z is down and q as in ContactField; for the wheel z is up and q changes sign.
-  /// period: distance of the periodic images of what layers change, in extents of the grid. Their mean pull is taken out; its variation over the patch leaves some 1e-5 of the
-  /// largest pressure, which falls with the fourth power of the period. The cost grows with its square.
+  /// p, q_x, q_y act on the body in its own axes: for the rail z is down and q as in ContactField; for the wheel z is
+  /// up and q changes sign. period: distance of the periodic images of what layers change, in extents of the grid.
+  /// Their mean pull is taken out; its variation over the patch leaves some 1e-5 of the largest pressure, which falls
+  /// with the fourth power of the period. The cost grows with its square.
   Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y, double period = 4);
   ~Subsurface();
 
@@ -66,9 +72,10 @@ class Subsurface {
   Sym3 stress(const StatePlane& plane, std::size_t k, bool below_interface = false) const;
   /// The material at a depth, of a graded layer its own there.
   HalfSpaceMaterial material_at(double depth, bool below_interface = false) const;
-  /// Displacements and stresses at any points (x, y, depth >= 0) [m], in the order given: bicubic between cells, on a wider grid where points lie outside. A plane is
-  /// computed per depth: give points of a depth together. On an interface the stresses of the layer above, or below if asked.
-  /// Throws std::out_of_range for a point above the surface or more than about a thousand cells away.
+  /// Displacements and stresses at any points (x, y, depth >= 0) [m], in the order given: bicubic between cells, on a
+  /// wider grid where points lie outside. A plane is computed per depth: give points of a depth together. On an
+  /// interface the stresses of the layer above, or below if asked. Throws std::out_of_range for a point above the
+  /// surface or more than about a thousand cells away.
   std::vector<InteriorPoint> at(const std::vector<Vec3>& points, bool below_interface = false) const;
 
   /// deepest: how far down to look [m].

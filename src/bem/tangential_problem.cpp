@@ -11,18 +11,34 @@ namespace railstrata {
 
 namespace {
 
-constexpr unsigned char kOutside = 0, kStick = 1, kSlip = 2, kLoosened = 3;  // loosened: stuck before the Newton step, over the bound after it
-constexpr double kCoarse = 0.1;  // of the linear systems, while sets still change
+constexpr unsigned char kOutside = 0, kStick = 1, kSlip = 2,
+                        kLoosened = 3;  // loosened: stuck before the Newton step, over the bound after it
+constexpr double kCoarse = 0.1;         // of the linear systems, while sets still change
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-/// Vectors of the Newton system hold the planes x and y one after the other, then one entry for each direction whose force is given.
+/// Vectors of the Newton system hold the planes x and y one after the other, then one entry for each direction whose
+/// force is given.
 class Solver {
  public:
-  Solver(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options)
-      : A_(influence), grid_(grid), problem_(problem), options_(options), n_(grid.size()), ahead_(static_cast<std::size_t>(grid.ny)),
-        q_(2 * n_, 0.0), slip_(2 * n_), rigid_(2 * n_), normal_(2 * n_, 0.0), diagonal_(n_, 0.0), history_(2 * n_, 0.0),
-        integral_(2 * n_), set_(n_, kOutside), u_(2 * (n_ + ahead_)), over_(1 / step_length()) {
+  Solver(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem,
+         const TangentialOptions& options)
+      : A_(influence),
+        grid_(grid),
+        problem_(problem),
+        options_(options),
+        n_(grid.size()),
+        ahead_(static_cast<std::size_t>(grid.ny)),
+        q_(2 * n_, 0.0),
+        slip_(2 * n_),
+        rigid_(2 * n_),
+        normal_(2 * n_, 0.0),
+        diagonal_(n_, 0.0),
+        history_(2 * n_, 0.0),
+        integral_(2 * n_),
+        set_(n_, kOutside),
+        u_(2 * (n_ + ahead_)),
+        over_(1 / step_length()) {
     if (problem.x.force) directions_.push_back(0);
     if (problem.y.force) directions_.push_back(1);
     creepage_[0] = problem.x.creepage;
@@ -54,10 +70,15 @@ class Solver {
 
  private:
   bool steady() const { return problem_.kind == RollingKind::steady; }
-  double step_length() const { return problem_.kind == RollingKind::transient ? problem_.step : problem_.kind == RollingKind::shift ? 1.0 : grid_.dx; }
+  double step_length() const {
+    return problem_.kind == RollingKind::transient ? problem_.step
+           : problem_.kind == RollingKind::shift   ? 1.0
+                                                   : grid_.dx;
+  }
 
   void fill_fixed_slip() {
-    // The spin's lateral slip is taken a sixth of a step ahead: between the cell and the middle of the step this cancels most of the leading edge's discretisation error.
+    // The spin's lateral slip is taken a sixth of a step ahead: between the cell and the middle of the step this
+    // cancels most of the leading edge's discretisation error.
     const double ahead = problem_.kind == RollingKind::shift ? 0.0 : step_length() / 6;
     for (int i = 0; i < grid_.nx; ++i)
       for (int j = 0; j < grid_.ny; ++j) {
@@ -71,9 +92,11 @@ class Solver {
 
   void check_forces() {
     available_ = sum(problem_.bound);
-    const double available = available_ * grid_.cell_area(), wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
+    const double available = available_ * grid_.cell_area(),
+                 wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
     if (wanted >= available && wanted > 0)
-      throw CaseError("friction cannot carry the tangential force: " + std::to_string(wanted) + " N of at most " + std::to_string(available) + " N",
+      throw CaseError("friction cannot carry the tangential force: " + std::to_string(wanted) + " N of at most " +
+                          std::to_string(available) + " N",
                       "lower the traction or raise the friction coefficient");
   }
 
@@ -91,7 +114,8 @@ class Solver {
     if (problem_.y.force) creepage_[1] = start.creepage_y;
   }
 
-  /// Cells that have come into contact since: as if alone. Left without traction they would mislead the first Newton step.
+  /// Cells that have come into contact since: as if alone. Left without traction they would mislead the first Newton
+  /// step.
   bool fill_new_cells(const TangentialSolution& start) {
     bool any = false;
     for (std::size_t i = 0; i < n_; ++i) {
@@ -114,7 +138,9 @@ class Solver {
 
   /// L in at cell i, after elastic_displacement(in).
   double L_x(std::size_t i) const { return (u_[i] - (steady() ? u_[i + ahead_] : 0.0)) * over_; }
-  double L_y(std::size_t i) const { return (u_[n_ + ahead_ + i] - (steady() ? u_[n_ + ahead_ + i + ahead_] : 0.0)) * over_; }
+  double L_y(std::size_t i) const {
+    return (u_[n_ + ahead_ + i] - (steady() ? u_[n_ + ahead_ + i + ahead_] : 0.0)) * over_;
+  }
   void elastic_displacement(const double* in) {
     A_.tangential(in, in + n_, u_.data(), u_.data() + n_ + ahead_, steady() ? grid_.nx + 1 : grid_.nx);
     ++iterations_;
@@ -138,18 +164,23 @@ class Solver {
         n_,
         [&](std::size_t k, std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) kernel(i);
-          part[k] = {sum_of(begin, end, [&](std::size_t i) { return pair[i]; }), sum_of(begin, end, [&](std::size_t i) { return pair[n_ + i]; })};
+          part[k] = {sum_of(begin, end, [&](std::size_t i) { return pair[i]; }),
+                     sum_of(begin, end, [&](std::size_t i) { return pair[n_ + i]; })};
         },
         2);
     Vec2 total{0, 0};
-    for (const Vec2& p : part) total[0] += p[0], total[1] += p[1];
+    for (const Vec2& p : part) {
+      total[0] += p[0];
+      total[1] += p[1];
+    }
     return total;
   }
 
   /// What a given force lacks, over the area of a cell.
   double missing_force(int direction) const {
     const double* q = q_.data() + (direction ? n_ : 0);
-    return (direction ? *problem_.y.force : *problem_.x.force) / grid_.cell_area() - ordered_sum_of(n_, [&](std::size_t i) { return q[i]; });
+    return (direction ? *problem_.y.force : *problem_.x.force) / grid_.cell_area() -
+           ordered_sum_of(n_, [&](std::size_t i) { return q[i]; });
   }
 
   /// Unit traction direction and the stabilising diagonal (s·n)/g of slipping cells.
@@ -185,7 +216,8 @@ class Solver {
       project(i, right_side_[i], right_side_[n_ + i]);
     });
     for (std::size_t c = 0; c < m; ++c) right_side_[2 * n_ + c] = force_row_ * missing_force(directions_[c]);
-    gmres([&](const Plane& in, Plane& out) { newton_product(in, out); }, [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, accuracy, 120, space_);
+    gmres([&](const Plane& in, Plane& out) { newton_product(in, out); },
+          [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, accuracy, 120, space_);
   }
 
   void newton_product(const Plane& in, Plane& out) {
@@ -205,7 +237,8 @@ class Solver {
 
   /// Approximate inverse of the first block. Returns the sums of the result.
   Vec2 precondition_block(const double* in, double* out) {
-    if (steady()) integrate_from_leading_edge(in);
+    if (steady())
+      integrate_from_leading_edge(in);
     else
       for_both([&](std::size_t i) {
         const double step = set_[i] == kStick ? step_length() : 0.0;
@@ -230,7 +263,8 @@ class Solver {
         for (int j = s * strip; j < std::min(grid_.ny, (s + 1) * strip); ++j) {
           const std::size_t k = grid_.index(i, j);
           const bool sticks = set_[k] == kStick, continues = sticks && i + 1 < grid_.nx && set_[k + ahead_] == kStick;
-          for (std::size_t c : {k, n_ + k}) integral_[c] = sticks ? grid_.dx * r[c] + (continues ? integral_[c + ahead_] : 0.0) : 0.0;
+          for (std::size_t c : {k, n_ + k})
+            integral_[c] = sticks ? grid_.dx * r[c] + (continues ? integral_[c + ahead_] : 0.0) : 0.0;
         }
     });
   }
@@ -291,7 +325,8 @@ class Solver {
         set_[i] = kSlip;
         return 1;
       }
-      if (set_[i] != kSlip || slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i] >= -1e-9 * scale_ * problem_.bound[i]) return 0;
+      if (set_[i] != kSlip || slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i] >= -1e-9 * scale_ * problem_.bound[i])
+        return 0;
       set_[i] = kStick;
       return 1;
     }));
@@ -310,8 +345,11 @@ class Solver {
             if (set_[i] == kOutside) continue;
             const double x = rigid_[i] + creepage_[0], y = rigid_[n_ + i] + creepage_[1], g = problem_.bound[i];
             const double across = (slip_[i] * q_[n_ + i] - slip_[n_ + i] * q_[i]) / g;
-            part[k].rigid = std::max({part[k].rigid, x * x + y * y, 1e-4 * (history_[i] * history_[i] + history_[n_ + i] * history_[n_ + i])});
-            part[k].wrong = std::max(part[k].wrong, set_[i] == kStick ? slip_[i] * slip_[i] + slip_[n_ + i] * slip_[n_ + i] : across * across);
+            part[k].rigid = std::max({part[k].rigid, x * x + y * y,
+                                      1e-4 * (history_[i] * history_[i] + history_[n_ + i] * history_[n_ + i])});
+            part[k].wrong =
+                std::max(part[k].wrong,
+                         set_[i] == kStick ? slip_[i] * slip_[i] + slip_[n_ + i] * slip_[n_ + i] : across * across);
           }
         },
         2);
@@ -368,20 +406,23 @@ class Solver {
   double border_force_[2][2] = {{1, 0}, {0, 1}};
   GmresSpace space_;
   double creepage_[2] = {0, 0};
-  double scale_ = 0;          // largest rigid slip
-  double available_ = 0;      // friction over the area of a cell
-  double self_ = 0;           // L of one cell on itself
+  double scale_ = 0;      // largest rigid slip
+  double available_ = 0;  // friction over the area of a cell
+  double self_ = 0;       // L of one cell on itself
   double force_row_ = 1;
   int outer_ = 0, iterations_ = 0;
 };
 
 }  // namespace
 
-TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options, const TangentialSolution* start) {
+TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid,
+                                    const TangentialProblem& problem, const TangentialOptions& options,
+                                    const TangentialSolution* start) {
   return Solver(influence, grid, problem, options).solve(start);
 }
 
-void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before, TangentialProblem& problem) {
+void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
+                      TangentialProblem& problem) {
   const std::size_t n = grid.size(), row = static_cast<std::size_t>(grid.ny);
   Plane ux(n + row), uy(n + row);
   influence.tangential(before.q_x.data(), before.q_y.data(), ux.data(), uy.data(), grid.nx + 1);
@@ -391,7 +432,8 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   problem.before_y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
 }
 
-void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before, TangentialProblem& problem) {
+void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
+              TangentialProblem& problem) {
   problem.kind = RollingKind::shift;
   problem.before_x.resize(grid.size());
   problem.before_y.resize(grid.size());

@@ -1,14 +1,18 @@
 #pragma once
-// The frictional (tangential) contact problem for a given pressure: Kalker's theory on a grid of cells. [Kalker1990 ch. 4, Vollebregt2014]
+// The frictional (tangential) contact problem for a given pressure: Kalker's theory on a grid of cells. [Kalker1990 ch.
+// 4, Vollebregt2014]
 //
-// In every cell of the patch, with the relative slip s = (velocity of the wheel's surface over the rail's)/V and the bound g = f p,
+// In every cell of the patch, with the relative slip s = (velocity of the wheel's surface over the rail's)/V and the
+// bound g = f p,
 //   |q| <= g;   |q| < g: s = 0 (stick);   s != 0: q = g s/|s| (slip),        q acts on the rail,
 //   s = w - L q + history,   w = (xi - phi y, eta + phi x) the rigid slip, u = rail minus wheel displacement by q:
 //   steady rolling     L q = (u(x) - u(x + dx))/dx         (particles enter at the leading edge, x large)
 //   transient rolling  L q = u(x)/dq, history = u_before(x + dq)/dq, one step of rolled distance dq
-//   shift              L q = u(x), history = u_before(x), s and w are distances [m], no rolling: one increment of a load that may come and go.
-// Solved by an active-set Newton method: unknown are both components in stick and the direction in slip; each linear system by GMRES with FFT products. L has a positive
-// semi-definite symmetric part, and slip along the traction adds a positive diagonal, so every linear system is solvable.
+//   shift              L q = u(x), history = u_before(x), s and w are distances [m], no rolling: one increment of a
+//   load that may come and go.
+// Solved by an active-set Newton method: unknown are both components in stick and the direction in slip; each linear
+// system by GMRES with FFT products. L has a positive semi-definite symmetric part, and slip along the traction adds a
+// positive diagonal, so every linear system is solvable.
 #include <optional>
 
 #include "bem/influence_operator.hpp"
@@ -20,7 +24,8 @@ namespace railstrata {
 
 enum class RollingKind { steady, transient, shift };
 
-/// Each direction is governed by its creepage (rigid slip of the wheel over the rail / V; for a shift the distance) or by its force on the rail [N].
+/// Each direction is governed by its creepage (rigid slip of the wheel over the rail / V; for a shift the distance) or
+/// by its force on the rail [N].
 struct CreepOrForce {
   double creepage = 0;
   std::optional<double> force;
@@ -28,18 +33,21 @@ struct CreepOrForce {
 
 struct TangentialProblem {
   RollingKind kind = RollingKind::steady;
-  Plane bound;                 ///< f p in each cell [Pa]; 0 outside the patch
+  Plane bound;  ///< f p in each cell [Pa]; 0 outside the patch
   CreepOrForce x, y;
-  double spin = 0;             ///< 1/m
-  Plane extra_x, extra_y;      ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies; empty: none
-  double step = 0;             ///< rolled distance dq [m]: transient only
-  Plane before_x, before_y;    ///< transient: rail minus wheel displacement of the state before, at (x + dq, y); shift: at (x, y); empty: none
+  double spin = 0;  ///< 1/m
+  Plane extra_x,
+      extra_y;      ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies; empty: none
+  double step = 0;  ///< rolled distance dq [m]: transient only
+  Plane before_x, before_y;  ///< transient: rail minus wheel displacement of the state before, at (x + dq, y); shift:
+                             ///< at (x, y); empty: none
 };
 
 struct TangentialOptions {
-  double tolerance = 1e-5;  ///< of the slip conditions, relative to the largest rigid slip (history counts with a hundredth), and of a given force, relative to friction
+  double tolerance = 1e-5;  ///< of the slip conditions, relative to the largest rigid slip (history counts with a
+                            ///< hundredth), and of a given force, relative to friction
   int max_outer = 80;
-  bool partial = false;     ///< true: after max_outer steps what was reached is the answer, not an error
+  bool partial = false;  ///< true: after max_outer steps what was reached is the answer, not an error
 };
 
 struct TangentialSolution {
@@ -47,20 +55,27 @@ struct TangentialSolution {
   Plane slip_x, slip_y;  ///< relative to V (shift: m)
   std::vector<ContactState> state;
   double creepage_x = 0, creepage_y = 0;
-  double force_x = 0, force_y = 0;  ///< N, on the rail
-  double moment = 0;                ///< N m about the normal at the grid's origin, on the rail
-  double dissipation = 0;           ///< ∑ q·s dA: friction power over V [N]; shift: work [J]
+  double force_x = 0, force_y = 0;       ///< N, on the rail
+  double moment = 0;                     ///< N m about the normal at the grid's origin, on the rail
+  double dissipation = 0;                ///< ∑ q·s dA: friction power over V [N]; shift: work [J]
   double stick_area = 0, slip_area = 0;  ///< m²
-  int outer_iterations = 0, iterations = 0;  ///< active sets; products with the influence operator and its preconditioner
+  int outer_iterations = 0,
+      iterations = 0;  ///< active sets; products with the influence operator and its preconditioner
 };
 
-/// start: traction of a similar problem, or null; taken as it is where it solves this problem too. Throws CaseError for a force that friction cannot carry, NumericalError if the iteration does not end.
-TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem, const TangentialOptions& options = {},
+/// start: traction of a similar problem, or null; taken as it is where it solves this problem too. Throws CaseError for
+/// a force that friction cannot carry, NumericalError if the iteration does not end.
+TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid,
+                                    const TangentialProblem& problem, const TangentialOptions& options = {},
                                     const TangentialSolution* start = nullptr);
 
-/// Makes `problem` the transient step in which the wheel rolls on by one cell (dx) from the state `before`, at the same pressure.
-void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before, TangentialProblem& problem);
-/// Makes `problem` the next increment of a shift from the state `before`: creepages are further distances, forces the new totals.
-void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before, TangentialProblem& problem);
+/// Makes `problem` the transient step in which the wheel rolls on by one cell (dx) from the state `before`, at the same
+/// pressure.
+void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
+                      TangentialProblem& problem);
+/// Makes `problem` the next increment of a shift from the state `before`: creepages are further distances, forces the
+/// new totals.
+void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
+              TangentialProblem& problem);
 
 }  // namespace railstrata

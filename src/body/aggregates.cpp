@@ -16,7 +16,8 @@ using Modes = Eigen::Matrix<double, 3, 6>;
 
 }  // namespace
 
-Aggregates::Aggregates(const DeformableBody& body, Vec2 contact, const ClusterSizes& sizes) : body_(body), cut_(body.solid.body().blocks.size()), arm_(body.solid.layout().field()) {
+Aggregates::Aggregates(const DeformableBody& body, Vec2 contact, const ClusterSizes& sizes)
+    : body_(body), cut_(body.solid.body().blocks.size()), arm_(body.solid.layout().field()) {
   const SweptBody& mesh = body.solid.body();
   std::vector<std::vector<int>> free(cut_.size());
   for (const DeformableBody::Line& l : body.lines)
@@ -51,7 +52,8 @@ void Aggregates::cut_section(int block, std::vector<int> nodes, Vec2 contact, co
   }
   const bool lateral = extent.y >= extent.z;
   const double middle = lateral ? 0.5 * (low.y + high.y) : 0.5 * (low.z + high.z);
-  const auto upper = std::stable_partition(nodes.begin(), nodes.end(), [&](int n) { return (lateral ? at[n].y : at[n].z) < middle; });
+  const auto upper =
+      std::stable_partition(nodes.begin(), nodes.end(), [&](int n) { return (lateral ? at[n].y : at[n].z) < middle; });
   cut_section(block, {nodes.begin(), upper}, contact, sizes);
   cut_section(block, {upper, nodes.end()}, contact, sizes);
 }
@@ -109,7 +111,9 @@ void Aggregates::add_cluster(int block, int section, int group) {
   visit([&](int n, int j) {
     const Vec3 r = body_.solid.reference_position(block, n, j) - c.centre;
     double* a = arm_.data() + lay.line(n, 0) + j;
-    a[0] = r.x, a[lay.stride] = r.y, a[2 * lay.stride] = r.z;
+    a[0] = r.x;
+    a[lay.stride] = r.y;
+    a[2 * lay.stride] = r.z;
     radius2 = std::max(radius2, dot(r, r));
   });
   if (radius2 > kOnePoint) c.length = std::sqrt(radius2);
@@ -120,7 +124,8 @@ void Aggregates::add_cluster(int block, int section, int group) {
   });
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(gram);
   for (int k = 0; k < 6; ++k)
-    if (eigen.eigenvalues()[k] > kDependent * eigen.eigenvalues()[5]) c.basis.col(c.count++) = eigen.eigenvectors().col(k) / std::sqrt(eigen.eigenvalues()[k]);
+    if (eigen.eigenvalues()[k] > kDependent * eigen.eigenvalues()[5])
+      c.basis.col(c.count++) = eigen.eigenvectors().col(k) / std::sqrt(eigen.eigenvalues()[k]);
   modes_ += c.count;
   cluster_.push_back(c);
 }
@@ -128,7 +133,9 @@ void Aggregates::add_cluster(int block, int section, int group) {
 int Aggregates::cluster_of(int block, int node, int station) const {
   const BlockCut& cut = cut_[block];
   const int section = cut.section_of[node];
-  return section < 0 ? -1 : cut.first_cluster + section * (static_cast<int>(cut.group_first.size()) - 1) + cut.group_of[station];
+  return section < 0
+             ? -1
+             : cut.first_cluster + section * (static_cast<int>(cut.group_first.size()) - 1) + cut.group_of[station];
 }
 
 void Aggregates::restrict_to(const Field& f, double* out) const {
@@ -161,7 +168,8 @@ void Aggregates::prolong(const double* coefficients, Field& u) const {
       [&](std::ptrdiff_t i) {
         const Cluster& c = cluster_[i];
         const BlockLayout& l = lay.blocks[c.block];
-        const Eigen::Matrix<double, 6, 1> all = c.basis.leftCols(c.count) * Eigen::Map<const Eigen::VectorXd>(coefficients + c.first_mode, c.count);
+        const Eigen::Matrix<double, 6, 1> all =
+            c.basis.leftCols(c.count) * Eigen::Map<const Eigen::VectorXd>(coefficients + c.first_mode, c.count);
         const Vec3 shift{all[0], all[1], all[2]}, turn = (1 / c.length) * Vec3{all[3], all[4], all[5]};
         for (int n : cut_[c.block].section[c.section]) {
           double* x = u.data() + l.line(n, 0);
@@ -187,7 +195,8 @@ Aggregates::Neighbours Aggregates::neighbours() const {
   for (const Tie& t : mesh.ties) tie_of[{t.slave_block, t.slave_node}] = &t;
   constexpr int kHeld = -1;
   // Clusters that carry a node; a slave's are those of its masters at the stations on either side.
-  std::function<void(int, int, int, std::vector<int>&)> carriers = [&](int block, int node, int station, std::vector<int>& out) {
+  std::function<void(int, int, int, std::vector<int>&)> carriers = [&](int block, int node, int station,
+                                                                       std::vector<int>& out) {
     if (!body_.ties.is_slave(block, node)) {
       out.push_back(cluster_of(block, node, station));
       return;
@@ -199,7 +208,9 @@ Aggregates::Neighbours Aggregates::neighbours() const {
       const double period = 2 * std::acos(-1.0);
       at -= period * std::floor((at - from.at.front()) / period);
     }
-    const int left = std::clamp(static_cast<int>(std::upper_bound(from.at.begin(), from.at.end(), at) - from.at.begin()) - 1, 0, from.nodes() - 1);
+    const int left =
+        std::clamp(static_cast<int>(std::upper_bound(from.at.begin(), from.at.end(), at) - from.at.begin()) - 1, 0,
+                   from.nodes() - 1);
     for (int k : {left - 1, left, left + 1}) {  // one more than needed: rounding may choose either side
       const int j = from.closed ? (k + from.nodes()) % from.nodes() : std::clamp(k, 0, from.nodes() - 1);
       carriers(t.master_block, t.master_node0, j, out);

@@ -1,9 +1,11 @@
 #pragma once
-// A body cut into clusters of nodes for the coarse space of the static solver: clusters of section nodes times groups of stations, block by block.
-// Clusters are small near the contact and grow with the distance from it, where the solution is smooth.
+// A body cut into clusters of nodes for the coarse space of the static solver: clusters of section nodes times groups
+// of stations, block by block. Clusters are small near the contact and grow with the distance from it, where the
+// solution is smooth.
 //
-// Each cluster moves as a rigid body, u = t + w x (X - X_c)/l, in a basis that is orthonormal over its free nodes (clusters on a line or in a point have fewer than six). [VanekMandelBrezina1996]
-// Every cluster is worked on by one thread in a fixed order, so results do not depend on the number of threads.
+// Each cluster moves as a rigid body, u = t + w x (X - X_c)/l, in a basis that is orthonormal over its free nodes
+// (clusters on a line or in a point have fewer than six). [VanekMandelBrezina1996] Every cluster is worked on by one
+// thread in a fixed order, so results do not depend on the number of threads.
 #include <Eigen/Core>
 
 #include "body/cluster_sizes.hpp"
@@ -16,10 +18,10 @@ class Aggregates {
   Aggregates(const DeformableBody& body, Vec2 contact, const ClusterSizes& sizes);
 
   int clusters() const { return static_cast<int>(cluster_.size()); }
-  int modes() const { return modes_; }                                ///< of all clusters
+  int modes() const { return modes_; }  ///< of all clusters
   int first_mode(int cluster) const { return cluster_[cluster].first_mode; }
   int mode_count(int cluster) const { return cluster_[cluster].count; }
-  int cluster_of(int block, int node, int station) const;             ///< -1: constrained
+  int cluster_of(int block, int node, int station) const;  ///< -1: constrained
 
   /// out = P^T f, out of length modes().
   void restrict_to(const Field& f, double* out) const;
@@ -28,7 +30,8 @@ class Aggregates {
   /// Row of P of one displacement component of a free node: values of the modes of its cluster.
   Eigen::Matrix<double, 6, 1> modes_at(int block, int node, int station, int component) const;
 
-  /// Clusters that share an element, directly or through hanging nodes; [cluster] -> sorted list with the cluster itself. `held` are clusters next to held nodes.
+  /// Clusters that share an element, directly or through hanging nodes; [cluster] -> sorted list with the cluster
+  /// itself. `held` are clusters next to held nodes.
   struct Neighbours {
     std::vector<std::vector<int>> of;
     std::vector<int> held;

@@ -4,7 +4,8 @@
 
 namespace railstrata {
 
-DeformableBody::DeformableBody(const SweptBody& mesh, const std::vector<Elastic>& materials, const SolidOptions& options)
+DeformableBody::DeformableBody(const SweptBody& mesh, const std::vector<Elastic>& materials,
+                               const SolidOptions& options)
     : solid(mesh, materials, options), ties(mesh, solid.layout()), mass(solid.mass()) {
   ties.collect(mass);
   const BodyLayout& lay = solid.layout();

@@ -33,7 +33,8 @@ double shortest_spacing(const SweptBody& body, const Block& b, double radius) {
   return body.kind == SweepKind::revolve ? radius * least : least;
 }
 
-// Nodes of quadrilaterals that a pressure wave crosses in less than `step` over the slack, and the masters of those that are carried.
+// Nodes of quadrilaterals that a pressure wave crosses in less than `step` over the slack, and the masters of those
+// that are carried.
 NodeSets fast_nodes(const SweptBody& body, const std::vector<Elastic>& materials, double step) {
   NodeSets out = no_nodes(body);
   for (std::size_t b = 0; b < body.blocks.size(); ++b) {
@@ -49,7 +50,8 @@ NodeSets fast_nodes(const SweptBody& body, const std::vector<Elastic>& materials
       for (int n : k) out[b][n] = true;
     }
   }
-  while (add_masters(body, out)) {}
+  while (add_masters(body, out)) {
+  }
   return out;
 }
 
@@ -58,7 +60,9 @@ NodeSets moving_nodes(const SweptBody& body, NodeSets fine) {
   for (bool changed = true; changed;) {
     changed = false;
     for (const Tie& t : body.ties)
-      if (!fine[t.slave_block][t.slave_node] && (fine[t.master_block][t.master_node0] || fine[t.master_block][t.master_node1])) changed = fine[t.slave_block][t.slave_node] = true;
+      if (!fine[t.slave_block][t.slave_node] &&
+          (fine[t.master_block][t.master_node0] || fine[t.master_block][t.master_node1]))
+        changed = fine[t.slave_block][t.slave_node] = true;
   }
   return fine;
 }
@@ -68,7 +72,8 @@ struct Extract {
   std::vector<std::vector<std::pair<int, int>>> of;  // per block and node of the part: block and node of the whole
 };
 
-// The quadrilaterals that touch a moving node, their nodes and the masters of these; a master that would stand alone brings a quadrilateral, whose forces do not change.
+// The quadrilaterals that touch a moving node, their nodes and the masters of these; a master that would stand alone
+// brings a quadrilateral, whose forces do not change.
 Extract extract(const SweptBody& whole, const NodeSets& moving) {
   NodeSets kept = no_nodes(whole), covered = kept;
   std::vector<std::vector<bool>> quads;
@@ -87,7 +92,10 @@ Extract extract(const SweptBody& whole, const NodeSets& moving) {
     for (std::size_t b = 0; b < whole.blocks.size(); ++b)
       for (std::size_t q = 0; q < quads[b].size(); ++q)
         for (int n : whole.blocks[b].section.quads[q])
-          if (kept[b][n] && !covered[b][n]) keep(b, q), changed = true;
+          if (kept[b][n] && !covered[b][n]) {
+            keep(b, q);
+            changed = true;
+          }
   }
   Extract out;
   out.body.name = whole.name;
@@ -120,14 +128,16 @@ Extract extract(const SweptBody& whole, const NodeSets& moving) {
   }
   for (const Tie& t : whole.ties)
     if (kept[t.slave_block][t.slave_node])
-      out.body.ties.push_back({block_of[t.slave_block], node_of[t.slave_block][t.slave_node], block_of[t.master_block], node_of[t.master_block][t.master_node0],
-                               node_of[t.master_block][t.master_node1], t.weight1});
+      out.body.ties.push_back({block_of[t.slave_block], node_of[t.slave_block][t.slave_node], block_of[t.master_block],
+                               node_of[t.master_block][t.master_node0], node_of[t.master_block][t.master_node1],
+                               t.weight1});
   return out;
 }
 
 }  // namespace
 
-Stages::Stages(int count_, double damping) : count(count_), delta(1 + damping / (static_cast<double>(count_) * count_)), omega(0), b(count_), c(count_) {
+Stages::Stages(int count_, double damping)
+    : count(count_), delta(1 + damping / (static_cast<double>(count_) * count_)), omega(0), b(count_), c(count_) {
   // T_k and T_k' at delta, upwards
   std::vector<double> t{1, delta}, slope{0, 1};
   for (int k = 1; k < count; ++k) {
@@ -135,7 +145,10 @@ Stages::Stages(int count_, double damping) : count(count_), delta(1 + damping / 
     slope.push_back(2 * t[k] + 2 * delta * slope[k] - slope[k - 1]);
   }
   omega = 2 * slope[count] / t[count];
-  for (int k = 1; k < count; ++k) b[k] = t[k - 1] / t[k + 1], c[k] = t[k] / t[k + 1];
+  for (int k = 1; k < count; ++k) {
+    b[k] = t[k - 1] / t[k + 1];
+    c[k] = t[k] / t[k + 1];
+  }
 }
 
 LocalSteps::LocalSteps(const DeformableBody& body, const SolidOptions& options, double wanted_step) {
@@ -157,14 +170,16 @@ LocalSteps::LocalSteps(const DeformableBody& body, const SolidOptions& options, 
     for (std::size_t n = 0; n < part.of[b].size(); ++n)
       for (int i = 0; i < 3; ++i) {
         const auto [block, node] = part.of[b][n];
-        const Copy line{from.blocks[block].line(node, i), to.blocks[b].line(static_cast<int>(n), i), to.blocks[b].stations, body.inverse_mass[from.blocks[block].line(node, i)] > 0,
+        const Copy line{from.blocks[block].line(node, i), to.blocks[b].line(static_cast<int>(n), i),
+                        to.blocks[b].stations, body.inverse_mass[from.blocks[block].line(node, i)] > 0,
                         fine_[block][node]};
         part_->lines.push_back(line);
         std::copy_n(body.inverse_mass.begin() + line.body, line.count, part_->inverse_mass.begin() + line.part);
         acts_on_[block][node] = line.free;
         if (whole.kind == SweepKind::revolve && i != 1)
           for (int j = 0; j < line.count; ++j) {
-            const Vec3 arm = swept_point(whole.kind, {}, whole.blocks[block].section.nodes[node], whole.blocks[block].stations.at[j]);
+            const Vec3 arm = swept_point(whole.kind, {}, whole.blocks[block].section.nodes[node],
+                                         whole.blocks[block].stations.at[j]);
             part_->arm[line.part + j] = i == 0 ? arm.x : arm.z;
           }
       }
@@ -186,7 +201,10 @@ void LocalSteps::run_stages(Force&& added_force) const {
   const double d2 = step_ * step_, first = d2 / (stages_.omega * stages_.delta);
   for_each(lines, [&](std::ptrdiff_t n) {
     const Copy& l = p.lines[n];
-    for (std::ptrdiff_t i = l.part; i < l.part + l.count; ++i) p.before[i] = 0, p.now[i] = first * p.acceleration[i];
+    for (std::ptrdiff_t i = l.part; i < l.part + l.count; ++i) {
+      p.before[i] = 0;
+      p.now[i] = first * p.acceleration[i];
+    }
   });
   for (int k = 1; k < stages_.count; ++k) {
     for_each(lines, [&](std::ptrdiff_t n) {
@@ -200,7 +218,8 @@ void LocalSteps::run_stages(Force&& added_force) const {
     for_each(lines, [&](std::ptrdiff_t n) {
       const Copy& l = p.lines[n];
       for (std::ptrdiff_t i = l.part; i < l.part + l.count; ++i) {
-        const double next = (1 + b) * p.now[i] - b * p.before[i] + c * (p.acceleration[i] - p.inverse_mass[i] * p.force[i]);
+        const double next =
+            (1 + b) * p.now[i] - b * p.before[i] + c * (p.acceleration[i] - p.inverse_mass[i] * p.force[i]);
         p.before[i] = p.now[i];
         p.now[i] = next;
       }
@@ -214,7 +233,9 @@ void LocalSteps::refine_with(const Field& u, const FrozenAcceleration& frozen, F
   Part& p = *part_;
   const auto lines = static_cast<std::ptrdiff_t>(p.lines.size());
   const double uniform[3] = {frozen.uniform.x, frozen.uniform.y, frozen.uniform.z};
-  const auto beside = [&](std::ptrdiff_t n, std::ptrdiff_t i) { return uniform[n % 3] + frozen.centrifugal * p.arm[i]; };
+  const auto beside = [&](std::ptrdiff_t n, std::ptrdiff_t i) {
+    return uniform[n % 3] + frozen.centrifugal * p.arm[i];
+  };
   for_each(lines, [&](std::ptrdiff_t n) {
     const Copy& l = p.lines[n];
     for (int j = 0; j < l.count; ++j) {
@@ -238,7 +259,8 @@ void LocalSteps::refine_with(const Field& u, const FrozenAcceleration& frozen, F
   for_each(lines, [&](std::ptrdiff_t n) {
     const Copy& l = p.lines[n];
     if (!l.free) return;
-    for (int j = 0; j < l.count; ++j) f[l.body + j] = (beside(n, l.part + j) - back * p.now[l.part + j]) / p.inverse_mass[l.part + j];
+    for (int j = 0; j < l.count; ++j)
+      f[l.body + j] = (beside(n, l.part + j) - back * p.now[l.part + j]) / p.inverse_mass[l.part + j];
   });
 }
 
@@ -250,7 +272,8 @@ void LocalSteps::add_forces(const std::vector<NodalForce>& forces, Field& f) con
   Part& p = *part_;
   std::fill(p.acceleration.begin(), p.acceleration.end(), 0.0);
   for (const NodalForce& a : forces) {
-    const auto after = std::upper_bound(p.lines.begin(), p.lines.end(), a.index, [](std::ptrdiff_t index, const Copy& l) { return index < l.body; });
+    const auto after = std::upper_bound(p.lines.begin(), p.lines.end(), a.index,
+                                        [](std::ptrdiff_t index, const Copy& l) { return index < l.body; });
     const bool inside = after != p.lines.begin() && a.index < std::prev(after)->body + std::prev(after)->count;
     if (!inside) {
       f[a.index] -= a.value;
@@ -282,8 +305,10 @@ SurfaceResponse surface_response(const DeformableBody& body, const ContactSurfac
   for (int column = 0; column < surface.columns; ++column) any = any || steps.acts_on(band.block, column);
   if (!any) return {};
   const std::vector<double>& at = surface.stations.at;
-  const int first = static_cast<int>(std::lower_bound(at.begin(), at.end(), band.fine_begin) - at.begin()), last = static_cast<int>(std::upper_bound(at.begin(), at.end(), band.fine_end) - at.begin()) - 1;
-  const int reach = std::min(steps.stages() - 1, (last - first) / 2), apart = 2 * reach + 1, at_once = (last - first + 1) / apart;  // impulses that do not feel one another
+  const int first = static_cast<int>(std::lower_bound(at.begin(), at.end(), band.fine_begin) - at.begin()),
+            last = static_cast<int>(std::upper_bound(at.begin(), at.end(), band.fine_end) - at.begin()) - 1;
+  const int reach = std::min(steps.stages() - 1, (last - first) / 2), apart = 2 * reach + 1,
+            at_once = (last - first + 1) / apart;  // impulses that do not feel one another
   SurfaceResponse out(surface.columns, reach);
   struct Push {
     int column, station;
@@ -293,13 +318,16 @@ SurfaceResponse surface_response(const DeformableBody& body, const ContactSurfac
     std::vector<Push> pushes;
     for (int column = begin; column < std::min(begin + at_once, surface.columns); ++column) {
       const int station = first + reach + (column - begin) * apart;
-      const double angle = surface.kind == SweepKind::revolve ? at[station] : 0, c = std::cos(angle), s = std::sin(angle);
+      const double angle = surface.kind == SweepKind::revolve ? at[station] : 0, c = std::cos(angle),
+                   s = std::sin(angle);
       pushes.push_back({column, station, {{c, 0, s}, {0, 1, 0}, {-s, 0, c}}});
     }
     for (int i = 0; i < 3; ++i) {
       std::vector<NodalForce> forces;
       for (const Push& p : pushes)
-        for (const auto& [component, value] : {std::pair{0, p.axis[i].x}, std::pair{1, p.axis[i].y}, std::pair{2, p.axis[i].z}}) forces.push_back({surface.index(p.column, p.station) + component * surface.stride, value});
+        for (const auto& [component, value] :
+             {std::pair{0, p.axis[i].x}, std::pair{1, p.axis[i].y}, std::pair{2, p.axis[i].z}})
+          forces.push_back({surface.index(p.column, p.station) + component * surface.stride, value});
       Field f = body.solid.layout().field();
       steps.add_forces(forces, f);
       for (const Push& p : pushes)

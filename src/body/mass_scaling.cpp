@@ -9,8 +9,10 @@
 namespace railstrata {
 namespace {
 
-constexpr double kSlack = 1.2;  // rows that miss the wanted step by less are left alone: an unlayered mesh stays as it is
-constexpr double kThin = 0.85;  // of an element's width: what is higher has modes along the row that are as fast as those across it
+constexpr double kSlack =
+    1.2;  // rows that miss the wanted step by less are left alone: an unlayered mesh stays as it is
+constexpr double kThin =
+    0.85;  // of an element's width: what is higher has modes along the row that are as fast as those across it
 
 constexpr int kNone = -1, kInside = -2;
 
@@ -19,7 +21,8 @@ double edge_length(const Section& s, int a, int b) { return norm(s.nodes[a] - s.
 }  // namespace
 
 // Added mass of all edges across thin rows of a block.
-MassScaling::Edges MassScaling::thin_edges(const SweptBody& body, int block, const std::vector<Elastic>& materials, double wanted_step) {
+MassScaling::Edges MassScaling::thin_edges(const SweptBody& body, int block, const std::vector<Elastic>& materials,
+                                           double wanted_step) {
   const Block& b = body.blocks[block];
   const Section& s = b.section;
   const int elements = b.stations.elements(), stations = b.stations.nodes();
@@ -29,12 +32,15 @@ MassScaling::Edges MassScaling::thin_edges(const SweptBody& body, int block, con
     const Elastic& m = materials[s.quad_material[q]];
     const double area = 0.5 * cross(s.nodes[k[2]] - s.nodes[k[0]], s.nodes[k[3]] - s.nodes[k[1]]);
     for (int side : {0, 1}) {  // edges (side, side + 1) and the one opposite run across the row
-      const double width = 0.5 * (edge_length(s, k[side + 1], k[(side + 2) % 4]) + edge_length(s, k[(side + 3) % 4], k[side]));
-      const double height = area / width, excess = std::pow(wanted_step / height, 2) * m.p_wave_modulus() / m.density - 1;
+      const double width =
+          0.5 * (edge_length(s, k[side + 1], k[(side + 2) % 4]) + edge_length(s, k[(side + 3) % 4], k[side]));
+      const double height = area / width,
+                   excess = std::pow(wanted_step / height, 2) * m.p_wave_modulus() / m.density - 1;
       if (height > kThin * width || excess < kSlack * kSlack - 1) continue;
       const std::array<Vec2, 4> corners{s.nodes[k[0]], s.nodes[k[1]], s.nodes[k[2]], s.nodes[k[3]]};
       for (int e = 0; e < elements; ++e) {
-        const double t0 = b.stations.at[e], t1 = e + 1 < stations ? b.stations.at[e + 1] : b.stations.at[0] + 2 * std::numbers::pi;
+        const double t0 = b.stations.at[e],
+                     t1 = e + 1 < stations ? b.stations.at[e + 1] : b.stations.at[0] + 2 * std::numbers::pi;
         const auto mass = corner_masses(body.kind, corners, sweep_scale(body.kind, t1 - t0), m.density);
         for (const auto& [i, j] : {std::pair{side, side + 1}, std::pair{side + 2, (side + 3) % 4}}) {
           Edge& edge = edges[std::minmax(k[i], k[j])];
@@ -96,12 +102,15 @@ MassScaling::MassScaling(const DeformableBody& body, double wanted_step) : layou
     for (auto& [ends, edge] : edges)
       for (int j = 0; j < lay.stations; ++j) {
         // a node that carries slaves is heavier than its own elements, and so is what its edges need
-        const auto share = [&](int node) { return body.mass[lay.line(node, 0) + j] / body.solid.mass()[lay.line(node, 0) + j]; };
+        const auto share = [&](int node) {
+          return body.mass[lay.line(node, 0) + j] / body.solid.mass()[lay.line(node, 0) + j];
+        };
         edge.added[j] *= std::max(share(ends.first), share(ends.second));
       }
     const std::vector<std::vector<int>> found = paths(edges, lay.nodes);
     for (const std::vector<int>& path : found) add_chain(b, path, edges, body.mass);
-    if (!found.empty()) report_.where += fmt::format("{}{} {}", report_.where.empty() ? "" : ", ", mesh.name, mesh.blocks[b].name);
+    if (!found.empty())
+      report_.where += fmt::format("{}{} {}", report_.where.empty() ? "" : ", ", mesh.name, mesh.blocks[b].name);
   }
 }
 
@@ -144,9 +153,12 @@ void MassScaling::scale(Field& f) const {
   for_each(static_cast<std::ptrdiff_t>(chains_.size()) * 3, [&](std::ptrdiff_t task) {
     const Chain& chain = chains_[task / 3];
     const BlockLayout& lay = layout_.blocks[chain.block];
-    const int component = static_cast<int>(task % 3), last = static_cast<int>(chain.nodes.size()) - 1, stations = chain.stations;
+    const int component = static_cast<int>(task % 3), last = static_cast<int>(chain.nodes.size()) - 1,
+              stations = chain.stations;
     const auto line = [&](int k) { return f.data() + lay.line(chain.nodes[k], component); };
-    const auto factor = [&](const Field& of, int k) { return of.data() + chain.factor + static_cast<std::ptrdiff_t>(k) * stations; };
+    const auto factor = [&](const Field& of, int k) {
+      return of.data() + chain.factor + static_cast<std::ptrdiff_t>(k) * stations;
+    };
     for (int k = 0; k < last; ++k) {
       const double *g = factor(forward_, k), *y = line(k);
       double* below = line(k + 1);
@@ -202,7 +214,8 @@ void MassScaling::each_edge(Visit&& visit) const {
     const BlockLayout& lay = layout_.blocks[chain.block];
     const int component = static_cast<int>(task % 3);
     for (std::size_t k = 0; k + 1 < chain.nodes.size(); ++k)
-      visit(task, chain.factor + static_cast<std::ptrdiff_t>(k) * chain.stations, lay.line(chain.nodes[k], component), lay.line(chain.nodes[k + 1], component), chain.stations);
+      visit(task, chain.factor + static_cast<std::ptrdiff_t>(k) * chain.stations, lay.line(chain.nodes[k], component),
+            lay.line(chain.nodes[k + 1], component), chain.stations);
   });
 }
 

@@ -1,9 +1,12 @@
 #pragma once
-// A meshed elastic body ready for computing: reference data of its elements, masses, internal forces, energies and stresses.
+// A meshed elastic body ready for computing: reference data of its elements, masses, internal forces, energies and
+// stresses.
 //
-// Work is split into tiles of stations. A tile goes through its quadrilaterals one by one (mesh/sweep_order.hpp) and keeps the forces of the nodes that are not complete yet in a few
-// rows of scratch memory; a finished row is handed over at once, so that it can be used while it is in cache. Tiles may be chained: one waits for the other and completes
-// the node plane between them; forces on the planes between two chains are added up afterwards. No races, and sums that do not depend on the number of threads.
+// Work is split into tiles of stations. A tile goes through its quadrilaterals one by one (mesh/sweep_order.hpp) and
+// keeps the forces of the nodes that are not complete yet in a few rows of scratch memory; a finished row is handed
+// over at once, so that it can be used while it is in cache. Tiles may be chained: one waits for the other and
+// completes the node plane between them; forces on the planes between two chains are added up afterwards. No races, and
+// sums that do not depend on the number of threads.
 #include <array>
 #include <memory>
 #include <vector>
@@ -16,8 +19,8 @@
 
 namespace railstrata {
 
-/// Of the element's arithmetic in tile_forces; nodal values are kept in double precision. `single` wants displacements that are small against the body: relative to a
-/// frame that moves with it.
+/// Of the element's arithmetic in tile_forces; nodal values are kept in double precision. `single` wants displacements
+/// that are small against the body: relative to a frame that moves with it.
 enum class Precision { double_precision, single_precision };
 
 struct SolidOptions {
@@ -43,8 +46,8 @@ class Solid {
   const Field& mass() const { return mass_; }
   double total_mass() const;
 
-  /// f = internal forces at displacement u (model frame, u = x - X); psi: rigid rotation of the body about its axle, positive when rolling forward.
-  /// Ghosts of u are refreshed; padding of f is not defined. Always in double precision.
+  /// f = internal forces at displacement u (model frame, u = x - X); psi: rigid rotation of the body about its axle,
+  /// positive when rolling forward. Ghosts of u are refreshed; padding of f is not defined. Always in double precision.
   void internal_force(Field& u, double psi, Field& f) const;
   /// f = K u, K the stiffness of the undeformed body.
   void linear_force(Field& u, Field& f) const;
@@ -52,24 +55,29 @@ class Solid {
   /// Adds the diagonal of K to d (cleared first).
   void stiffness_diagonal(Field& d) const;
 
-  // -- internal forces in pieces: begin_forces, every chain once (in parallel if wanted), end_forces -------------------------------------------------------
+  // -- internal forces in pieces: begin_forces, every chain once (in parallel if wanted), end_forces
+  // -------------------------------------------------------
   static constexpr int kTile = 64;  ///< elements along the sweep; a multiple of every pack width
   struct Tile {
     int block, first, end;  ///< owns the stations first <= j < end
   };
-  /// Tiles first_tile <= t < end_tile of one block, one after the other: only the first one's first station is a border plane, complete after end_forces.
+  /// Tiles first_tile <= t < end_tile of one block, one after the other: only the first one's first station is a border
+  /// plane, complete after end_forces.
   struct Chain {
     int first_tile, end_tile;
   };
-  /// At least so many chains if there are as many tiles, in the memory of `reuse`. The forces are the same to the bit however the tiles are chained.
+  /// At least so many chains if there are as many tiles, in the memory of `reuse`. The forces are the same to the bit
+  /// however the tiles are chained.
   std::vector<Chain> chains(int at_least, std::vector<Chain> reuse = {}) const;
   int border_plane(const Chain& c) const { return tiles_[c.first_tile].first; }
   int block(const Chain& c) const { return tiles_[c.first_tile].block; }
 
-  /// Complete internal forces on a node at the stations begin <= j < tile.end: rows[i * kTile + j - tile.first]; begin is the tile's first station or the next. May change
-  /// the displacements there. Returns true if it has used them up; otherwise they are stored in f.
+  /// Complete internal forces on a node at the stations begin <= j < tile.end: rows[i * kTile + j - tile.first]; begin
+  /// is the tile's first station or the next. May change the displacements there. Returns true if it has used them up;
+  /// otherwise they are stored in f.
   using TakeRows = CallableRef<bool(const Tile& tile, int begin, int node, const double* rows)>;
-  /// Told of a node some time before its rows are handed over: adds the lines of memory, from the tile's first station, that will be wanted then.
+  /// Told of a node some time before its rows are handed over: adds the lines of memory, from the tile's first station,
+  /// that will be wanted then.
   using ExpectRows = CallableRef<void(const Tile& tile, int node, Prefetch& lines)>;
 
   void begin_forces(Field& u, double psi) const;
@@ -79,7 +87,8 @@ class Solid {
 
   /// Cauchy stress at the centre of an element, model frame [Pa].
   Sym3 stress(const Field& u, int block, int quad, int station) const;
-  /// Displacement gradient du_i/dX_j at the centre, X in the element's own frame, u in the model frame: columns along the sweep, lateral, up.
+  /// Displacement gradient du_i/dX_j at the centre, X in the element's own frame, u in the model frame: columns along
+  /// the sweep, lateral, up.
   std::array<Vec3, 3> displacement_gradient(const Field& u, int block, int quad, int station) const;
   /// Position of a node in the undeformed body, model frame.
   Vec3 reference_position(int block, int node, int station) const;
@@ -94,7 +103,8 @@ class Solid {
  private:
   template <class Real>
   using Line = std::vector<Real, CacheLineAllocator<Real>>;
-  /// What the element law reads: by quadrilateral, by hourglass class and quadrilateral, by station (padded with zeros).
+  /// What the element law reads: by quadrilateral, by hourglass class and quadrilateral, by station (padded with
+  /// zeros).
   template <class Real>
   struct KernelData {
     std::vector<QuadReferenceOf<Real>> quads;
@@ -103,8 +113,8 @@ class Solid {
     template <class T, class Load>
     StationScale<T> scale(int element, Load&& read) const;
   };
-  /// Elements along the sweep have their own spacing and share the hourglass stiffness of their group: where the mesh is graded that of its shortest
-  /// element (a stiffer one would shorten the stable step).
+  /// Elements along the sweep have their own spacing and share the hourglass stiffness of their group: where the mesh
+  /// is graded that of its shortest element (a stiffer one would shorten the stable step).
   struct SpacingClass {
     double spacing;
     int hourglass;
@@ -112,14 +122,15 @@ class Solid {
   };
   struct BlockData {
     KernelData<double> kernel;
-    KernelData<float> single;                    // empty in double precision
-    std::vector<int> hourglass_class;            // per group of elements
+    KernelData<float> single;          // empty in double precision
+    std::vector<int> hourglass_class;  // per group of elements
     std::vector<SpacingClass> classes;
-    std::vector<int> element_class;              // per element, index into classes
-    Field theta, cos_q, sin_q, cos_r, sin_r;     // of the element centres; Q and R of the element law (element/swept_hex.hpp)
-    std::vector<int> order;                      // in which a tile goes through the quadrilaterals
+    std::vector<int> element_class;  // per element, index into classes
+    Field theta, cos_q, sin_q, cos_r,
+        sin_r;               // of the element centres; Q and R of the element law (element/swept_hex.hpp)
+    std::vector<int> order;  // in which a tile goes through the quadrilaterals
     // scratch rows: a node has its own from the first quadrilateral that touches it to the last
-    std::vector<int> slot;                       // per node
+    std::vector<int> slot;                         // per node
     std::vector<std::array<char, 4>> fresh, done;  // per quadrilateral: corners touched for the first, the last time
     int slots = 0;
   };
@@ -144,10 +155,10 @@ class Solid {
   mutable std::vector<BlockData> data_;
   mutable BodyTurn<double> turn_;
   std::vector<Tile> tiles_;
-  std::vector<int> first_tile_;               // per block, and one past the end
-  std::vector<std::ptrdiff_t> border_;        // per tile, start in the border buffers
-  mutable Field border_first_, border_end_;   // forces of a tile on its border planes, [node][component]
-  mutable std::vector<Chain> all_chains_;     // of forces()
+  std::vector<int> first_tile_;              // per block, and one past the end
+  std::vector<std::ptrdiff_t> border_;       // per tile, start in the border buffers
+  mutable Field border_first_, border_end_;  // forces of a tile on its border planes, [node][component]
+  mutable std::vector<Chain> all_chains_;    // of forces()
   mutable std::vector<StrainEnergy> tile_energy_;
   Field mass_;
 };

@@ -8,7 +8,8 @@ namespace railstrata {
 namespace {
 
 // Lanczos on S^-1 K in the inner product of S, which needs S^-1 alone: residuals r = S z are kept beside the vectors z.
-// stiffness: w = K q on free nodes, q may be spread to slaves; solve: z = S^-1 r in place, zero at nodes that do not take part.
+// stiffness: w = K q on free nodes, q may be spread to slaves; solve: z = S^-1 r in place, zero at nodes that do not
+// take part.
 template <class Stiffness, class Solve>
 StepSpectrum lanczos(const DeformableBody& body, int iterations, Stiffness&& stiffness, Solve&& solve) {
   const auto n = static_cast<std::ptrdiff_t>(body.inverse_mass.size());
@@ -20,7 +21,8 @@ StepSpectrum lanczos(const DeformableBody& body, int iterations, Stiffness&& sti
     });
   };
   Field r = body.solid.layout().field(), z = r, q = r, s_q = r, s_before = r;
-  std::uint64_t seed = 0x9E3779B97F4A7C15ull;  // any fixed start will do; the same for every width of vectors, to which lines are filled up
+  std::uint64_t seed = 0x9E3779B97F4A7C15ull;  // any fixed start will do; the same for every width of vectors, to which
+                                               // lines are filled up
   for (std::ptrdiff_t i = 0; i < n; ++i) {
     if (body.inverse_mass[i] == 0) continue;
     seed = seed * 6364136223846793005ull + 1442695040888963407ull;
@@ -33,7 +35,10 @@ StepSpectrum lanczos(const DeformableBody& body, int iterations, Stiffness&& sti
   int k = 0;
   for (; k < iterations && norm > 0; ++k) {
     s_before.swap(s_q);
-    for (std::ptrdiff_t i = 0; i < n; ++i) q[i] = z[i] / norm, s_q[i] = r[i] / norm;
+    for (std::ptrdiff_t i = 0; i < n; ++i) {
+      q[i] = z[i] / norm;
+      s_q[i] = r[i] / norm;
+    }
     stiffness(q, r);
     alpha[k] = dot(r, q);
     for (std::ptrdiff_t i = 0; i < n; ++i) r[i] -= alpha[k] * s_q[i] + (k > 0 ? norm : 0) * s_before[i];
@@ -67,15 +72,21 @@ double lanczos_stable_step(const DeformableBody& body, const MassScaling& scalin
     scaling.scale(f);
     divide_by_mass(body, f);
   };
-  return 2 / std::sqrt(lanczos(body, iterations, [&](Field& q, Field& w) { stiffness_of(body, q, w); }, solve).largest);
+  return 2 / std::sqrt(lanczos(
+                           body, iterations, [&](Field& q, Field& w) { stiffness_of(body, q, w); }, solve)
+                           .largest);
 }
 
 double lanczos_coarse_step(const DeformableBody& body, const LocalSteps& local, int iterations) {
   Field coarse = body.inverse_mass;
   for (const DeformableBody::Line& l : body.lines)
     if (local.fine()[l.block][l.node]) std::fill_n(coarse.begin() + l.first, l.count, 0.0);
-  const auto solve = [&](Field& f) { for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) { f[i] *= coarse[i]; }); };
-  return 2 / std::sqrt(lanczos(body, iterations, [&](Field& q, Field& w) { stiffness_of(body, q, w); }, solve).largest);
+  const auto solve = [&](Field& f) {
+    for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) { f[i] *= coarse[i]; });
+  };
+  return 2 / std::sqrt(lanczos(
+                           body, iterations, [&](Field& q, Field& w) { stiffness_of(body, q, w); }, solve)
+                           .largest);
 }
 
 StepSpectrum lanczos_spectrum(const DeformableBody& body, const LocalSteps& local, int iterations) {

@@ -16,13 +16,15 @@ Ties::Ties(const SweptBody& body, const BodyLayout& layout) : layout_(layout), k
   std::map<std::pair<int, int>, int> tie_of;  // (block, node) -> tie
   for (int t = 0; t < static_cast<int>(body.ties.size()); ++t) {
     const Tie& tie = body.ties[t];
-    if (!tie_of.emplace(std::pair{tie.slave_block, tie.slave_node}, t).second) throw std::logic_error("a section node is tied twice");
+    if (!tie_of.emplace(std::pair{tie.slave_block, tie.slave_node}, t).second)
+      throw std::logic_error("a section node is tied twice");
     slave_[tie.slave_block][tie.slave_node] = true;
   }
 
   std::map<std::pair<int, int>, int> interpolation_of;
   auto interpolation = [&](int slave, int master) {
-    const auto [known, added] = interpolation_of.emplace(std::pair{slave, master}, static_cast<int>(interpolations_.size()));
+    const auto [known, added] =
+        interpolation_of.emplace(std::pair{slave, master}, static_cast<int>(interpolations_.size()));
     if (!added) return known->second;
     Interpolation in{slave, master, {}, {}, {}, {}, {}, {}};
     const Stations& from = body.blocks[master].stations;
@@ -66,16 +68,28 @@ Ties::Ties(const SweptBody& body, const BodyLayout& layout) : layout_(layout), k
     const Tie& tie = body.ties[t];
     for (int node : {tie.master_node0, tie.master_node1})
       if (const auto known = tie_of.find({tie.master_block, node}); known != tie_of.end()) visit(known->second);
-    Line line{tie.slave_block, tie.slave_node, tie.master_block, tie.master_node0, tie.master_node1, tie.weight1, interpolation(tie.slave_block, tie.master_block), 0};
+    Line line{tie.slave_block,
+              tie.slave_node,
+              tie.master_block,
+              tie.master_node0,
+              tie.master_node1,
+              tie.weight1,
+              interpolation(tie.slave_block, tie.master_block),
+              0};
     line.delta = static_cast<std::ptrdiff_t>(delta_x_.size());
     const Interpolation& in = interpolations_[line.interpolation];
     const Block& slave = body.blocks[tie.slave_block];
     const Block& master = body.blocks[tie.master_block];
     for (std::size_t j = 0; j < in.left.size(); ++j) {
-      auto at = [&](int node, int station) { return swept_point(body.kind, {}, master.section.nodes[node], master.stations.at[station]); };
-      auto between = [&](int node) { return (1 - in.weight[j]) * at(node, in.left[j]) + in.weight[j] * at(node, in.right[j]); };
+      auto at = [&](int node, int station) {
+        return swept_point(body.kind, {}, master.section.nodes[node], master.stations.at[station]);
+      };
+      auto between = [&](int node) {
+        return (1 - in.weight[j]) * at(node, in.left[j]) + in.weight[j] * at(node, in.right[j]);
+      };
       const Vec3 carried = (1 - tie.weight1) * between(tie.master_node0) + tie.weight1 * between(tie.master_node1);
-      const Vec3 delta = swept_point(body.kind, {}, slave.section.nodes[tie.slave_node], slave.stations.at[j]) - carried;
+      const Vec3 delta =
+          swept_point(body.kind, {}, slave.section.nodes[tie.slave_node], slave.stations.at[j]) - carried;
       delta_x_.push_back(delta.x);
       delta_y_.push_back(delta.y);
       delta_z_.push_back(delta.z);
@@ -98,7 +112,8 @@ void Ties::spread_component(Field& u, int i, double cos_psi, double sin_psi, boo
     const Interpolation& in = interpolations_[line.interpolation];
     double* out = u.data() + layout_.blocks[line.slave_block].line(line.slave_node, i);
     const int n = static_cast<int>(in.left.size());
-    for (int j = 0; j < n; ++j) out[j] = carried[in.left[j]] + in.weight[j] * (carried[in.right[j]] - carried[in.left[j]]);
+    for (int j = 0; j < n; ++j)
+      out[j] = carried[in.left[j]] + in.weight[j] * (carried[in.right[j]] - carried[in.left[j]]);
     if (turning) {  // (R(psi) - I) delta; psi turns z towards x
       const double* dx = delta_x_.data() + line.delta;
       const double* dz = delta_z_.data() + line.delta;
@@ -141,7 +156,8 @@ double Ties::collect_component(Field& f, int i, double cos_psi, double sin_psi) 
 
 void Ties::spread(Field& u, double psi, bool homogeneous) const {
   const double c = std::cos(psi), s = std::sin(psi);
-  for_each(3, [&](std::ptrdiff_t i) { spread_component(u, static_cast<int>(i), c, s, homogeneous); }, true);
+  for_each(
+      3, [&](std::ptrdiff_t i) { spread_component(u, static_cast<int>(i), c, s, homogeneous); }, true);
 }
 
 void Ties::collect(Field& f) const { collect_turning(f, 0); }
@@ -149,7 +165,8 @@ void Ties::collect(Field& f) const { collect_turning(f, 0); }
 double Ties::collect_turning(Field& f, double psi) const {
   const double c = std::cos(psi), s = std::sin(psi);
   double moment[3];
-  for_each(3, [&](std::ptrdiff_t i) { moment[i] = collect_component(f, static_cast<int>(i), c, s); }, true);
+  for_each(
+      3, [&](std::ptrdiff_t i) { moment[i] = collect_component(f, static_cast<int>(i), c, s); }, true);
   return moment[0] + moment[1] + moment[2];
 }
 

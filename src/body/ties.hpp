@@ -2,8 +2,8 @@
 // Hanging nodes: lines of slave nodes carried by lines of master nodes (mesh/swept.hpp, Tie).
 //
 //   x_s = sum_m w_m x_m + R(psi) delta,   delta = X_s - sum_m w_m X_m
-// The offset delta (the sagitta of an arc between two stations) turns with the body, so a rigid motion of any size strains nothing. Forces and masses on a slave go
-// to its masters with the same weights.
+// The offset delta (the sagitta of an arc between two stations) turns with the body, so a rigid motion of any size
+// strains nothing. Forces and masses on a slave go to its masters with the same weights.
 #include <array>
 
 #include "core/array.hpp"
@@ -15,12 +15,13 @@ class Ties {
  public:
   Ties(const SweptBody& body, const BodyLayout& layout);
 
-  /// Sets the displacements of all slaves from their masters. homogeneous: without the offsets (increments, search directions).
+  /// Sets the displacements of all slaves from their masters. homogeneous: without the offsets (increments, search
+  /// directions).
   void spread(Field& u, double psi, bool homogeneous = false) const;
   /// Adds what stands at the slaves (forces, masses) to their masters and clears it at the slaves.
   void collect(Field& f) const;
-  /// The same for forces on a body turned by psi. Returns what the offsets hand to the rotation itself, sum f_s . d(R delta)/dpsi [N m]: without it the work of the
-  /// forces on the slaves is not that of the collected ones.
+  /// The same for forces on a body turned by psi. Returns what the offsets hand to the rotation itself, sum f_s . d(R
+  /// delta)/dpsi [N m]: without it the work of the forces on the slaves is not that of the collected ones.
   double collect_turning(Field& f, double psi) const;
 
   /// One component (0, 1, 2) of spread and collect_turning, for callers that run them in parallel.
@@ -40,7 +41,8 @@ class Ties {
     int slave_block, master_block;
     std::vector<int> left, right;
     std::vector<double> weight;  // of right
-    // the transposed: master station i gets the slaves' values share[k] * at station from[k], first[i] <= k < first[i + 1]
+    // the transposed: master station i gets the slaves' values share[k] * at station from[k], first[i] <= k < first[i +
+    // 1]
     std::vector<int> first, from;
     std::vector<double> share;
   };

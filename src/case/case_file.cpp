@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "core/nearest_word.hpp"
-#include "geometry/profile.hpp"
 #include "case/case_rules.hpp"
 #include "case/case_source.hpp"
 #include "case/case_tree.hpp"
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
+#include "core/nearest_word.hpp"
+#include "geometry/profile.hpp"
 
 namespace railstrata {
 namespace {
@@ -25,7 +25,8 @@ bool is_builtin(ProfileKind kind, const std::string& name) {
 void resolve_profile(ProfileKind kind, const char* key, std::string& name, LoadedCase& loaded, CaseSource& source) {
   if (is_builtin(kind, name)) return;
   std::error_code error;  // a name too long, a folder that may not be read: no file to us
-  const std::filesystem::path file = name.empty() ? loaded.folder() : std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
+  const std::filesystem::path file =
+      name.empty() ? loaded.folder() : std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
   const bool nameable = !name.empty() && name.find('\0') == std::string::npos;
   if (nameable && std::filesystem::is_regular_file(file, error)) {
     name = file.string();
@@ -34,13 +35,17 @@ void resolve_profile(ProfileKind kind, const char* key, std::string& name, Loade
   }
   const std::vector<std::string> names = builtin_profile_names(kind);
   const std::string near = nearest_word(name, names);
-  source.complain(fmt::format("geometry.{}", key), fmt::format("geometry.{} = {}: neither a built-in profile nor a file{}", key, toml_quoted(name), nameable ? fmt::format(" (looked for {})", file.string()) : ""),
-                  fmt::format("{}built in: {}, arc:R=300 mm", near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near), fmt::join(names, ", ")));
+  source.complain(fmt::format("geometry.{}", key),
+                  fmt::format("geometry.{} = {}: neither a built-in profile nor a file{}", key, toml_quoted(name),
+                              nameable ? fmt::format(" (looked for {})", file.string()) : ""),
+                  fmt::format("{}built in: {}, arc:R=300 mm",
+                              near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near), fmt::join(names, ", ")));
 }
 
 }  // namespace
 
-LoadedCase parse_case(const std::string& text, const std::filesystem::path& file, const std::vector<std::string>& overrides) {
+LoadedCase parse_case(const std::string& text, const std::filesystem::path& file,
+                      const std::vector<std::string>& overrides) {
   LoadedCase loaded;
   loaded.file = file;
   loaded.source_text = text;
@@ -57,7 +62,8 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
 }
 
 LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides) {
-  LoadedCase loaded = parse_case(read_text_file(file, "shipped cases stand in cases/, e.g. cases/quick/case.toml"), file, overrides);
+  LoadedCase loaded =
+      parse_case(read_text_file(file, "shipped cases stand in cases/, e.g. cases/quick/case.toml"), file, overrides);
   loaded.inputs.insert(loaded.inputs.begin(), file);
   return loaded;
 }
@@ -69,7 +75,8 @@ std::string resolved_case(const CaseSpec& given) {
     for (std::size_t i = 0; i < (table.repeated ? spec.layers.size() : 1); ++i) {
       out += fmt::format(fmt::runtime(table.repeated ? "{}[[{}]]\n" : "{}[{}]\n"), out.empty() ? "" : "\n", table.name);
       for (const Option& option : table.options)
-        if (!option.multiple_of && (!option.applies || option.applies(spec, i))) out += fmt::format("{} = {}\n", option.key, toml_value(option, spec, i));
+        if (!option.multiple_of && (!option.applies || option.applies(spec, i)))
+          out += fmt::format("{} = {}\n", option.key, toml_value(option, spec, i));
     }
   return out;
 }

@@ -10,22 +10,23 @@ namespace railstrata {
 
 struct LoadedCase {
   CaseSpec spec;
-  std::filesystem::path file;                  ///< as given
-  std::string source_text;                     ///< the file as it was read
-  std::vector<std::string> overrides;          ///< "key=value", as given
-  std::string resolved_toml;                   ///< every option with its value: reads back to the same spec, bit for bit
-  std::vector<std::string> notes;              ///< what is allowed and yet worth saying
-  std::vector<std::filesystem::path> inputs;   ///< every file that went in: the case and the profile files
+  std::filesystem::path file;                 ///< as given
+  std::string source_text;                    ///< the file as it was read
+  std::vector<std::string> overrides;         ///< "key=value", as given
+  std::string resolved_toml;                  ///< every option with its value: reads back to the same spec, bit for bit
+  std::vector<std::string> notes;             ///< what is allowed and yet worth saying
+  std::vector<std::filesystem::path> inputs;  ///< every file that went in: the case and the profile files
   /// Folder against which relative profile names are understood.
   std::filesystem::path folder() const { return file.parent_path(); }
 };
 
-/// Reads, applies the overrides ("mesh.element_size=2 mm", "layer.0.thickness=0.5 mm"; quotes may be left out), checks units, ranges and what options ask of
-/// each other. Profile files are looked for, not read. Throws CaseError.
+/// Reads, applies the overrides ("mesh.element_size=2 mm", "layer.0.thickness=0.5 mm"; quotes may be left out), checks
+/// units, ranges and what options ask of each other. Profile files are looked for, not read. Throws CaseError.
 LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
 /// The same from a text; `file` names it in messages and gives the folder of relative profile names.
-LoadedCase parse_case(const std::string& text, const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
+LoadedCase parse_case(const std::string& text, const std::filesystem::path& file,
+                      const std::vector<std::string>& overrides = {});
 
 /// The spec as a case file with every option written out.
 std::string resolved_case(const CaseSpec& spec);

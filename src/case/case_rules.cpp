@@ -17,39 +17,58 @@ std::string length(double value) { return format_quantity(std::round(value / kNa
 
 void check_drive(const CaseSpec& spec, CaseSource& source) {
   const DriveSpec& d = spec.drive;
-  if (spec.run.rolling && source.sound({"drive.traction_coefficient", "drive.friction_coefficient"}) && d.traction_coefficient != 0 &&
-      !(std::abs(d.traction_coefficient) < d.friction_coefficient))
+  if (spec.run.rolling && source.sound({"drive.traction_coefficient", "drive.friction_coefficient"}) &&
+      d.traction_coefficient != 0 && !(std::abs(d.traction_coefficient) < d.friction_coefficient))
     source.complain("drive.traction_coefficient",
-                    fmt::format("drive.traction_coefficient = {}: must be below drive.friction_coefficient = {}", d.traction_coefficient, d.friction_coefficient),
+                    fmt::format("drive.traction_coefficient = {}: must be below drive.friction_coefficient = {}",
+                                d.traction_coefficient, d.friction_coefficient),
                     "the wheel would slide: lower the traction or raise the friction");
 }
 
 void check_path(const RunSpec& run, CaseSource& source) {
   if (!run.rolling || run.positions.empty() || !source.sound({"run.positions", "run.run_up", "run.window"})) return;
   if (!std::is_sorted(run.positions.begin(), run.positions.end(), std::less_equal<>()))
-    source.complain("run.positions", "run.positions must increase", "list each wheel position once, the smallest first");
+    source.complain("run.positions", "run.positions must increase",
+                    "list each wheel position once, the smallest first");
   const double first = *std::min_element(run.positions.begin(), run.positions.end());
   const double needed = run.run_up + 0.5 * run.window;
   if (first < needed - kNanometre)
-    source.complain("run.positions", fmt::format("run.positions: {} is not yet beyond the run-up ({}) and half the window ({})", length(first), length(run.run_up), length(0.5 * run.window)),
+    source.complain("run.positions",
+                    fmt::format("run.positions: {} is not yet beyond the run-up ({}) and half the window ({})",
+                                length(first), length(run.run_up), length(0.5 * run.window)),
                     fmt::format("start at {} or later, or shorten run.run_up or run.window", length(needed)));
 }
 
 void check_wheel(const GeometrySpec& g, CaseSource& source) {
-  if (!source.sound({"geometry.wheel_radius", "geometry.rim_thickness", "geometry.hub_radius", "geometry.bore_radius"})) return;
+  if (!source.sound({"geometry.wheel_radius", "geometry.rim_thickness", "geometry.hub_radius", "geometry.bore_radius"}))
+    return;
   const double rim_inside = g.wheel_radius - g.rim_thickness;
   if (g.wheel_shape == "disc") {
-    if (!(g.bore_radius < g.wheel_radius)) source.complain("geometry.bore_radius", fmt::format("geometry.bore_radius = {}: must be below wheel_radius = {}", length(g.bore_radius), length(g.wheel_radius)), "make the bore smaller");
+    if (!(g.bore_radius < g.wheel_radius))
+      source.complain("geometry.bore_radius",
+                      fmt::format("geometry.bore_radius = {}: must be below wheel_radius = {}", length(g.bore_radius),
+                                  length(g.wheel_radius)),
+                      "make the bore smaller");
     return;
   }
-  if (!(g.bore_radius < g.hub_radius)) source.complain("geometry.bore_radius", fmt::format("geometry.bore_radius = {}: must be below hub_radius = {}", length(g.bore_radius), length(g.hub_radius)), "make the bore smaller or the hub larger");
+  if (!(g.bore_radius < g.hub_radius))
+    source.complain("geometry.bore_radius",
+                    fmt::format("geometry.bore_radius = {}: must be below hub_radius = {}", length(g.bore_radius),
+                                length(g.hub_radius)),
+                    "make the bore smaller or the hub larger");
   if (!(g.hub_radius < rim_inside))
-    source.complain("geometry.hub_radius", fmt::format("geometry.hub_radius = {}: must be below wheel_radius - rim_thickness = {}", length(g.hub_radius), length(rim_inside)), "make the hub or the rim smaller");
+    source.complain("geometry.hub_radius",
+                    fmt::format("geometry.hub_radius = {}: must be below wheel_radius - rim_thickness = {}",
+                                length(g.hub_radius), length(rim_inside)),
+                    "make the hub or the rim smaller");
 }
 
 void check_mesh(const MeshSpec& m, CaseSource& source) {
   const auto at_least = [&](const char* key, double value, double least, const char* why) {
-    if (value < least && source.sound({fmt::format("mesh.{}", key), "mesh.element_size"})) source.complain(fmt::format("mesh.{}", key), fmt::format("mesh.{} = {}: must be at least {} ({})", key, length(value), length(least), why), "make it larger, or mesh.element_size smaller");
+    if (value < least && source.sound({fmt::format("mesh.{}", key), "mesh.element_size"}))
+      source.complain(fmt::format("mesh.{}", key),
+                      fmt::format("mesh.{} = {}: must be at least {} ({})", key, length(value), length(least), why),
+                      "make it larger, or mesh.element_size smaller");
   };
   at_least("fine_width", m.fine_width, 4 * m.element_size, "four elements");
   at_least("fine_depth", m.fine_depth, m.element_size, "one element");
@@ -60,7 +79,9 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
   for (std::size_t i = 0; i < spec.layers.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (spec.layers[i].name == spec.layers[j].name && spec.layers[i].on == spec.layers[j].on)
-        source.complain(fmt::format("layer.{}.name", i), fmt::format("layer.{}.name = \"{}\": another layer of the {} has this name", i, spec.layers[i].name, spec.layers[i].on),
+        source.complain(fmt::format("layer.{}.name", i),
+                        fmt::format("layer.{}.name = \"{}\": another layer of the {} has this name", i,
+                                    spec.layers[i].name, spec.layers[i].on),
                         "give every layer a name of its own");
 }
 
@@ -80,12 +101,17 @@ std::vector<std::string> idle_settings(const CaseSpec& spec) {
   const auto idle = [&](bool set, const char* key, const char* when) {
     if (set) notes.push_back(fmt::format("{} has no effect: it needs {}", key, when));
   };
-  idle(spec.contact.method != "penalty" && spec.contact.penalty_scale != defaults.contact.penalty_scale, "contact.penalty_scale", "contact.method = \"penalty\"");
-  idle(spec.mesh.element != "one_point" && spec.mesh.hourglass_coefficient != defaults.mesh.hourglass_coefficient, "mesh.hourglass_coefficient", "mesh.element = \"one_point\"");
+  idle(spec.contact.method != "penalty" && spec.contact.penalty_scale != defaults.contact.penalty_scale,
+       "contact.penalty_scale", "contact.method = \"penalty\"");
+  idle(spec.mesh.element != "one_point" && spec.mesh.hourglass_coefficient != defaults.mesh.hourglass_coefficient,
+       "mesh.hourglass_coefficient", "mesh.element = \"one_point\"");
   for (std::size_t i = 0; i < spec.layers.size(); ++i)
-    idle(!spec.layers[i].graded() && spec.layers[i].grading_tolerance != LayerSpec{}.grading_tolerance, fmt::format("layer.{}.grading_tolerance", i).c_str(), "a young_table");
-  idle(spec.geometry.rail_shape != "block" && spec.geometry.block_width != defaults.geometry.block_width, "geometry.block_width", "geometry.rail_shape = \"block\"");
-  idle(spec.geometry.rail_shape != "block" && spec.geometry.block_height != defaults.geometry.block_height, "geometry.block_height", "geometry.rail_shape = \"block\"");
+    idle(!spec.layers[i].graded() && spec.layers[i].grading_tolerance != LayerSpec{}.grading_tolerance,
+         fmt::format("layer.{}.grading_tolerance", i).c_str(), "a young_table");
+  idle(spec.geometry.rail_shape != "block" && spec.geometry.block_width != defaults.geometry.block_width,
+       "geometry.block_width", "geometry.rail_shape = \"block\"");
+  idle(spec.geometry.rail_shape != "block" && spec.geometry.block_height != defaults.geometry.block_height,
+       "geometry.block_height", "geometry.rail_shape = \"block\"");
   return notes;
 }
 

@@ -29,7 +29,8 @@ Json number_schema(const Option& option) {
 
 Json quantity_schema(const Option& option) {
   Json text{{"type", "string"}, {"pattern", "^\\s*[-+]?[0-9.]"}};
-  if (option.dimension == dimension::kNumber || option.dimension == dimension::kSlope) return {{"anyOf", {number_schema(option), text}}};
+  if (option.dimension == dimension::kNumber || option.dimension == dimension::kSlope)
+    return {{"anyOf", {number_schema(option), text}}};
   return text;
 }
 
@@ -48,13 +49,18 @@ struct TypeSchema {
     return s;
   }
   Json operator()(const std::vector<ModulusPoint>*) const {
-    return {{"type", "array"}, {"minItems", 2}, {"items", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", {{"type", "string"}}}}}};
+    return {{"type", "array"},
+            {"minItems", 2},
+            {"items", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", {{"type", "string"}}}}}};
   }
-  Json operator()(const std::vector<double>*) const { return {{"type", "array"}, {"minItems", 1}, {"items", quantity_schema(option)}}; }
+  Json operator()(const std::vector<double>*) const {
+    return {{"type", "array"}, {"minItems", 1}, {"items", quantity_schema(option)}};
+  }
 };
 
 std::string allowed(const Option& option) {
-  return option.choices.empty() ? describe(option.range, option.dimension) : fmt::format("`{}`", fmt::join(option.choices, "`, `"));
+  return option.choices.empty() ? describe(option.range, option.dimension)
+                                : fmt::format("`{}`", fmt::join(option.choices, "`, `"));
 }
 
 /// A layer's modulus has no default: it must be said.
@@ -66,13 +72,15 @@ Json option_schema(const OptionTable& table, const Option& option, CaseSpec& spe
   Json s = std::visit(TypeSchema{option}, option.slot(spec, 0));
   const std::string range = option.choices.empty() ? allowed(option) : "";
   const std::string value = default_text(table, option, spec);
-  s["description"] = fmt::format("{}{}. Default: {}", option.doc, range.empty() ? "" : "; " + range, value.empty() ? "none" : value);
+  s["description"] =
+      fmt::format("{}{}. Default: {}", option.doc, range.empty() ? "" : "; " + range, value.empty() ? "none" : value);
   return s;
 }
 
 Json table_schema(const OptionTable& table, CaseSpec& spec) {
   Json s{{"type", "object"}, {"description", table.doc}, {"additionalProperties", false}};
-  for (const Option& option : table.options) s["properties"][std::string(option.key)] = option_schema(table, option, spec);
+  for (const Option& option : table.options)
+    s["properties"][std::string(option.key)] = option_schema(table, option, spec);
   if (table.repeated) return {{"type", "array"}, {"description", table.doc}, {"items", s}};
   return s;
 }
@@ -81,7 +89,10 @@ Json table_schema(const OptionTable& table, CaseSpec& spec) {
 
 std::string case_json_schema() {
   CaseSpec spec = example_spec();
-  Json root{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", "RailStrata case"}, {"type", "object"}, {"additionalProperties", false}};
+  Json root{{"$schema", "http://json-schema.org/draft-07/schema#"},
+            {"title", "RailStrata case"},
+            {"type", "object"},
+            {"additionalProperties", false}};
   for (const OptionTable& table : case_tables()) {
     const std::string name(table.name);
     const auto dot = name.find('.');
@@ -101,15 +112,21 @@ std::string case_reference_markdown() {
   CaseSpec spec = example_spec();
   std::string out =
       "# Case file reference\n\n"
-      "<!-- Written by `railstrata schema --markdown` from src/case/option_table.cpp; a test holds this page against the program. -->\n\n"
-      "A case is a TOML file. Every key has a default, so a case says only what differs. A value with a dimension is a text with its unit\n"
-      "(`\"210 GPa\"`, `\"0.2 mm\"`, `\"100 km/h\"`, `\"10.4 kN s/m\"`); inclinations are written `\"1:40\"`, `\"25 mrad\"` or as a bare tangent; plain\n"
-      "numbers may be given in per cent (`\"20 %\"`). `--set table.key=value` overrides a key on the command line, `--set layer.0.key=value` one of the first layer.\n";
+      "<!-- Written by `railstrata schema --markdown` from src/case/option_table.cpp; a test holds this page against "
+      "the program. -->\n\n"
+      "A case is a TOML file. Every key has a default, so a case says only what differs. A value with a dimension is a "
+      "text with its unit\n"
+      "(`\"210 GPa\"`, `\"0.2 mm\"`, `\"100 km/h\"`, `\"10.4 kN s/m\"`); inclinations are written `\"1:40\"`, `\"25 "
+      "mrad\"` or as a bare tangent; plain\n"
+      "numbers may be given in per cent (`\"20 %\"`). `--set table.key=value` overrides a key on the command line, "
+      "`--set layer.0.key=value` one of the first layer.\n";
   for (const OptionTable& table : case_tables()) {
-    out += fmt::format("\n## {}{}{}\n\n{}.\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n", table.repeated ? "[[" : "[", table.name, table.repeated ? "]]" : "]", table.doc);
+    out += fmt::format("\n## {}{}{}\n\n{}.\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n",
+                       table.repeated ? "[[" : "[", table.name, table.repeated ? "]]" : "]", table.doc);
     for (const Option& option : table.options) {
       const std::string value = default_text(table, option, spec);
-      out += fmt::format("| `{}` | {} | {} | {} |\n", option.key, value.empty() ? value : "`" + value + "`", allowed(option), option.doc);
+      out += fmt::format("| `{}` | {} | {} | {} |\n", option.key, value.empty() ? value : "`" + value + "`",
+                         allowed(option), option.doc);
     }
   }
   return out;

@@ -26,12 +26,16 @@ std::string CaseSource::caret_lines(TextPlace place) const {
 }
 
 void CaseSource::complain_at(TextPlace place, const std::string& message, const std::string& remedy) {
-  found_.push_back({place, {fmt::format("{}:{}:{}", file_.string(), place.line, place.column), message + caret_lines(place), remedy}});
+  found_.push_back(
+      {place,
+       {fmt::format("{}:{}:{}", file_.string(), place.line, place.column), message + caret_lines(place), remedy}});
 }
 
 bool CaseSource::sound(std::initializer_list<std::string_view> keys) const {
   return std::none_of(unsound_.begin(), unsound_.end(), [&](const std::string& bad) {
-    return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) { return bad.starts_with(key) && (bad.size() == key.size() || bad[key.size()] == '.'); });
+    return std::any_of(keys.begin(), keys.end(), [&](std::string_view key) {
+      return bad.starts_with(key) && (bad.size() == key.size() || bad[key.size()] == '.');
+    });
   });
 }
 

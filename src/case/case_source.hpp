@@ -23,17 +23,20 @@ class CaseSource {
   const std::string& text() const { return text_; }
   const std::filesystem::path& file() const { return file_; }
 
-  /// Where the value of a key stands ("geometry.gauge", "layer.0.young"). `origin` names a value that came from elsewhere ("--set …").
+  /// Where the value of a key stands ("geometry.gauge", "layer.0.young"). `origin` names a value that came from
+  /// elsewhere ("--set …").
   void remember(const std::string& key, TextPlace place) { places_[key] = place; }
   void remember_origin(const std::string& key, std::string origin) { origins_[key] = std::move(origin); }
 
-  /// Records an error at a key, or at the nearest table above it that the file has. `message` is followed by the source line and a caret.
+  /// Records an error at a key, or at the nearest table above it that the file has. `message` is followed by the source
+  /// line and a caret.
   void complain(const std::string& key, const std::string& message, const std::string& remedy);
   /// Records an error at a place of the text.
   void complain_at(TextPlace place, const std::string& message, const std::string& remedy);
   /// Throws CaseError with everything recorded, in the order of the file; overrides last.
   void finish() const;
-  /// No error stands at these keys (or inside them): a rule between options speaks only about values that were understood.
+  /// No error stands at these keys (or inside them): a rule between options speaks only about values that were
+  /// understood.
   bool sound(std::initializer_list<std::string_view> keys) const;
 
  private:

@@ -1,21 +1,23 @@
 #pragma once
-// What a case file says, in SI units, with every default. io/case_file reads it; the option tables there give names, units, ranges and documentation.
+// What a case file says, in SI units, with every default. io/case_file reads it; the option tables there give names,
+// units, ranges and documentation.
 #include <string>
 #include <vector>
 
 namespace railstrata {
 
 struct GeometrySpec {
-  std::string rail_profile = "CN60";    ///< a built-in name or a file
+  std::string rail_profile = "CN60";  ///< a built-in name or a file
   std::string wheel_profile = "LMA";
-  std::string rail_shape = "rail";      ///< rail | block
-  std::string wheel_shape = "wheel";    ///< wheel | disc
+  std::string rail_shape = "rail";    ///< rail | block
+  std::string wheel_shape = "wheel";  ///< wheel | disc
   double gauge = 1.435, gauge_depth = 0.016, back_to_back = 1.353, flange_back_to_tape = 0.070;
-  double cant = 0.025;                  ///< tangent (1:40)
+  double cant = 0.025;  ///< tangent (1:40)
   double lateral_shift = 0.0;
   double wheel_radius = 0.430;
   double block_width = 0.06, block_height = 0.06;
-  double rim_thickness = 0.060, web_thickness = 0.030, web_offset = 0.0, hub_radius = 0.135, hub_width = 0.17, bore_radius = 0.095;
+  double rim_thickness = 0.060, web_thickness = 0.030, web_offset = 0.0, hub_radius = 0.135, hub_width = 0.17,
+         bore_radius = 0.095;
 };
 
 struct MaterialSpec {
@@ -30,13 +32,14 @@ struct ModulusPoint {
 
 struct LayerSpec {
   std::string name = "layer";
-  std::string on = "rail";              ///< rail | wheel
-  double thickness = 1e-3;              ///< of a graded layer: its table's last depth
+  std::string on = "rail";  ///< rail | wheel
+  double thickness = 1e-3;  ///< of a graded layer: its table's last depth
   double width = 0.060;
-  MaterialSpec material;                ///< young of a graded layer: the mean over its depth
+  MaterialSpec material;                  ///< young of a graded layer: the mean over its depth
   std::vector<ModulusPoint> young_table;  ///< a modulus that varies with depth, from 0 down; empty: uniform
-  double grading_tolerance = 0.05;      ///< half-space engine: largest relative change of the modulus within one of the layers that a graded one is cut into
-  int elements = 0;                     ///< through the thickness; 0 = chosen
+  double grading_tolerance = 0.05;  ///< half-space engine: largest relative change of the modulus within one of the
+                                    ///< layers that a graded one is cut into
+  int elements = 0;                 ///< through the thickness; 0 = chosen
   bool graded() const { return !young_table.empty(); }
 };
 
@@ -45,48 +48,53 @@ struct VehicleSpec {
   double suspension_stiffness = 0.95e6, suspension_damping = 10.4e3;
   int suspension_groups = 8;
   double gravity = 9.81;
-  bool couple_sprung_mass = true;       ///< the sprung mass rides along with the axle in x (else it only moves vertically and does not add inertia to it)
+  bool couple_sprung_mass = true;  ///< the sprung mass rides along with the axle in x (else it only moves vertically
+                                   ///< and does not add inertia to it)
 };
 
 struct DriveSpec {
   double speed = 27.78;
-  double traction_coefficient = 0.2;    ///< F_T / G, the paper's mu
-  double friction_coefficient = 0.5;    ///< the paper's f
-  double torque_ramp = 4e-3;            ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
-  double creepage_start = 0.0;          ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
+  double traction_coefficient = 0.2;  ///< F_T / G, the paper's mu
+  double friction_coefficient = 0.5;  ///< the paper's f
+  double torque_ramp = 4e-3;          ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
+  double creepage_start = 0.0;        ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
 };
 
 struct MeshSpec {
   double element_size = 1e-3, fine_width = 24e-3, fine_depth = 8e-3, largest = 12e-3;
   int coarse_ratio = 3;
-  std::string element = "full";         ///< full (locking-free, fully integrated) | one_point (with scaled hourglass stiffness)
+  std::string element =
+      "full";  ///< full (locking-free, fully integrated) | one_point (with scaled hourglass stiffness)
   double hourglass_coefficient = 0.05;  ///< one_point only: kappa of the Flanagan–Belytschko stiffness
   double end_length = 0.12;
   bool elements_through_layer_one = false;  ///< the paper's mesh: one element through every layer
 };
 
 struct ContactSpec {
-  std::string method = "mortar";        ///< mortar (zero penetration at each step) | penalty
-  double penalty_scale = 0.1;           ///< penalty only: k = scale * K A / V of the rail's surface elements
+  std::string method = "mortar";  ///< mortar (zero penetration at each step) | penalty
+  double penalty_scale = 0.1;     ///< penalty only: k = scale * K A / V of the rail's surface elements
 };
 
 struct RunSpec {
   std::vector<double> positions = {0.3};  ///< wheel positions at which results are wanted, m
-  double window = 0.010;                ///< m of rolling, centred on each position, over which results are averaged
-  double run_up = 0.12;                 ///< m of rolling over which the run-up damping fades to zero
-  double run_up_damping = 2000.0;       ///< 1/s, mass-proportional damping of vibration at the start
-  double step_safety = 0.9;             ///< of the stable step
-  std::string time_step_method = "auto";  ///< auto | uniform | mass_scaling | local: how thin layers are kept from shortening the step (fem/step_plan.hpp)
-  double mass_scaling_step = 1.0;       ///< wanted step of thin rows of elements, in element sizes over the matrix's pressure wave speed
-  std::string precision = "double";     ///< double | single: of the element arithmetic while rolling; nodal values and the static preload stay double
-  double preload_tolerance = 1e-6;      ///< relative residual of the static equilibrium
-  double history_interval = 0.2e-3;     ///< m of rolling between rows of history.csv
-  bool rolling = true;                  ///< false: stop after the static preload
+  double window = 0.010;                  ///< m of rolling, centred on each position, over which results are averaged
+  double run_up = 0.12;                   ///< m of rolling over which the run-up damping fades to zero
+  double run_up_damping = 2000.0;         ///< 1/s, mass-proportional damping of vibration at the start
+  double step_safety = 0.9;               ///< of the stable step
+  std::string time_step_method = "auto";  ///< auto | uniform | mass_scaling | local: how thin layers are kept from
+                                          ///< shortening the step (fem/step_plan.hpp)
+  double mass_scaling_step =
+      1.0;  ///< wanted step of thin rows of elements, in element sizes over the matrix's pressure wave speed
+  std::string precision = "double";  ///< double | single: of the element arithmetic while rolling; nodal values and the
+                                     ///< static preload stay double
+  double preload_tolerance = 1e-6;   ///< relative residual of the static equilibrium
+  double history_interval = 0.2e-3;  ///< m of rolling between rows of history.csv
+  bool rolling = true;               ///< false: stop after the static preload
 };
 
 struct OutputSpec {
-  bool volume = true;                   ///< VTU of the fine zone
-  bool patch_series = true;             ///< VTP series of the patch during the rolling, PVD
+  bool volume = true;        ///< VTU of the fine zone
+  bool patch_series = true;  ///< VTP series of the patch during the rolling, PVD
   int series_frames = 30;
 };
 

@@ -7,23 +7,28 @@
 #include <cmath>
 #include <sstream>
 
-#include "core/nearest_word.hpp"
 #include "case/option_table.hpp"
 #include "case/toml_document.hpp"
+#include "core/nearest_word.hpp"
 
 namespace railstrata {
 namespace {
 
 std::string shown(const toml::node& node) {
   std::string text;
-  if (const auto* words = node.as_string()) text = '"' + words->get() + '"';
-  else if (const auto* number = node.as_floating_point()) text = fmt::format("{}", number->get());
+  if (const auto* words = node.as_string())
+    text = '"' + words->get() + '"';
+  else if (const auto* number = node.as_floating_point())
+    text = fmt::format("{}", number->get());
   else {
     std::ostringstream out;
     node.visit([&](const auto& n) { out << n; });
     text = out.str();
   }
-  if (text.size() > 60) text.resize(57), text += "...";
+  if (text.size() > 60) {
+    text.resize(57);
+    text += "...";
+  }
   return text;
 }
 
@@ -44,10 +49,13 @@ std::string wanted(const Option& option) {
     std::string operator()(const int*) const { return "a whole number"; }
     std::string operator()(const bool*) const { return "true or false"; }
     std::string operator()(const std::string*) const {
-      return option.choices.empty() ? "a text in quotes" : fmt::format("one of \"{}\"", fmt::join(option.choices, "\", \""));
+      return option.choices.empty() ? "a text in quotes"
+                                    : fmt::format("one of \"{}\"", fmt::join(option.choices, "\", \""));
     }
     std::string operator()(const std::vector<double>*) const { return "a list, e.g. [\"0.1 m\", \"0.3 m\"]"; }
-    std::string operator()(const std::vector<ModulusPoint>*) const { return "a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]"; }
+    std::string operator()(const std::vector<ModulusPoint>*) const {
+      return "a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]";
+    }
   };
   CaseSpec any;
   any.layers.resize(1);
@@ -75,27 +83,35 @@ class TreeReader {
 
   void read_top(const std::string& name, const toml::key& key, const toml::node& node) {
     remember(name, key, node);
-    if (const OptionTable* table = find_table(name)) return table->repeated ? read_list(*table, node) : read_node(*table, name, node);
+    if (const OptionTable* table = find_table(name))
+      return table->repeated ? read_list(*table, node) : read_node(*table, name, node);
     if (!is_group(name)) return unknown_table(name, name);
     const toml::table* group = node.as_table();
-    if (!group) return source_.complain(name, fmt::format("{} must be a table", name), fmt::format("write [{}.rail] above its keys", name));
+    if (!group)
+      return source_.complain(name, fmt::format("{} must be a table", name),
+                              fmt::format("write [{}.rail] above its keys", name));
     for (const auto& [inner, child] : *group) {
       const std::string full = name + "." + std::string(inner.str());
       remember(full, inner, child);
-      if (const OptionTable* table = find_table(full)) read_node(*table, full, child);
-      else unknown_table(full, full);
+      if (const OptionTable* table = find_table(full))
+        read_node(*table, full, child);
+      else
+        unknown_table(full, full);
     }
   }
 
   void read_node(const OptionTable& table, const std::string& name, const toml::node& node) {
     if (const toml::table* t = node.as_table()) return read_table(table, name, 0, *t);
-    source_.complain(name, fmt::format("{} = {}: must be a table", name, shown(node)), fmt::format("write [{}] above its keys", name));
+    source_.complain(name, fmt::format("{} = {}: must be a table", name, shown(node)),
+                     fmt::format("write [{}] above its keys", name));
   }
 
   void read_list(const OptionTable& table, const toml::node& node) {
     const toml::array* list = node.as_array();
     const bool fits = list && std::all_of(list->begin(), list->end(), [](const toml::node& n) { return n.is_table(); });
-    if (!fits) return source_.complain(std::string(table.name), fmt::format("{} must be a list of tables", table.name), fmt::format("write [[{}]] with two brackets", table.name));
+    if (!fits)
+      return source_.complain(std::string(table.name), fmt::format("{} must be a list of tables", table.name),
+                              fmt::format("write [[{}]] with two brackets", table.name));
     spec_.layers.resize(list->size());
     for (std::size_t i = 0; i < list->size(); ++i) {
       const std::string name = fmt::format("{}.{}", table.name, i);
@@ -109,7 +125,8 @@ class TreeReader {
   void read_table(const OptionTable& table, const std::string& name, std::size_t index, const toml::table& entries) {
     for (const auto& [key, node] : entries) {
       const std::string word(key.str()), full = fmt::format("{}.{}", name, word);
-      const auto option = std::find_if(table.options.begin(), table.options.end(), [&](const Option& o) { return o.key == word; });
+      const auto option =
+          std::find_if(table.options.begin(), table.options.end(), [&](const Option& o) { return o.key == word; });
       if (option == table.options.end()) {
         source_.remember(full, place_of(key.source()));
         unknown_key(table, full, word);
@@ -122,11 +139,21 @@ class TreeReader {
 
   /// A layer's stiffness is its whole point: no silent default.
   void check_modulus(const std::string& name, const toml::table& entry) {
-    const bool young = entry.contains("young"), ratio = entry.contains("young_ratio"), table = entry.contains("young_table");
-    if (young && ratio) source_.complain(name + ".young_ratio", fmt::format("{} has both young and young_ratio", name), "keep one of them");
-    if ((young || ratio) && table) source_.complain(name + ".young_table", fmt::format("{} has both young_table and {}", name, young ? "young" : "young_ratio"), "keep one of them");
-    if (table && entry.contains("thickness")) source_.complain(name + ".thickness", fmt::format("{} has both young_table and thickness", name), "leave thickness out: the layer ends at the table's last depth");
-    if (!young && !ratio && !table) source_.complain(name, fmt::format("{} has no modulus", name), "add young = \"420 GPa\", or young_ratio = 2.0 for twice the body's");
+    const bool young = entry.contains("young"), ratio = entry.contains("young_ratio"),
+               table = entry.contains("young_table");
+    if (young && ratio)
+      source_.complain(name + ".young_ratio", fmt::format("{} has both young and young_ratio", name),
+                       "keep one of them");
+    if ((young || ratio) && table)
+      source_.complain(name + ".young_table",
+                       fmt::format("{} has both young_table and {}", name, young ? "young" : "young_ratio"),
+                       "keep one of them");
+    if (table && entry.contains("thickness"))
+      source_.complain(name + ".thickness", fmt::format("{} has both young_table and thickness", name),
+                       "leave thickness out: the layer ends at the table's last depth");
+    if (!young && !ratio && !table)
+      source_.complain(name, fmt::format("{} has no modulus", name),
+                       "add young = \"420 GPa\", or young_ratio = 2.0 for twice the body's");
   }
 
   void read_value(const Option& option, const std::string& key, std::size_t index, const toml::node& node) {
@@ -136,8 +163,10 @@ class TreeReader {
   void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, double& target) {
     double value = 0;
     if (!number(option, key, node, value)) return;
-    if (option.multiple_of) multiples_.push_back({&option, key, index, value});
-    else target = value;
+    if (option.multiple_of)
+      multiples_.push_back({&option, key, index, value});
+    else
+      target = value;
   }
 
   void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, int& target) {
@@ -156,15 +185,18 @@ class TreeReader {
   void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, std::string& target) {
     const auto value = node.value_exact<std::string>();
     if (!value) return mismatch(option, key, node);
-    if (!option.choices.empty() && std::find(option.choices.begin(), option.choices.end(), *value) == option.choices.end()) {
+    if (!option.choices.empty() &&
+        std::find(option.choices.begin(), option.choices.end(), *value) == option.choices.end()) {
       const std::string near = nearest_word(*value, {option.choices.begin(), option.choices.end()});
       return source_.complain(key, fmt::format("{} = \"{}\": must be {}", key, *value, wanted(option)),
-                              near.empty() ? fmt::format("write {} = \"{}\"", option.key, option.choices.front()) : fmt::format("did you mean \"{}\"?", near));
+                              near.empty() ? fmt::format("write {} = \"{}\"", option.key, option.choices.front())
+                                           : fmt::format("did you mean \"{}\"?", near));
     }
     target = *value;
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, std::vector<double>& target) {
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node,
+              std::vector<double>& target) {
     const toml::array* list = node.as_array();
     if (!list) return mismatch(option, key, node);
     std::vector<double> values;
@@ -174,11 +206,14 @@ class TreeReader {
       double value = 0;
       if (number(option, item, (*list)[i], value)) values.push_back(value);
     }
-    if (list->empty()) source_.complain(key, fmt::format("{} = []: needs at least one value", key), fmt::format("write {}", wanted(option)));
+    if (list->empty())
+      source_.complain(key, fmt::format("{} = []: needs at least one value", key),
+                       fmt::format("write {}", wanted(option)));
     target = values;
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, std::vector<ModulusPoint>& target) {
+  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node,
+              std::vector<ModulusPoint>& target) {
     const toml::array* list = node.as_array();
     if (!list) return mismatch(option, key, node);
     std::vector<ModulusPoint> rows;
@@ -211,21 +246,32 @@ class TreeReader {
       source_.complain(at, what, remedy);
       return false;
     };
-    if (rows.size() < 2) return refuse(key, fmt::format("{}: needs at least two rows", key), fmt::format("write {}", wanted(option)));
-    if (rows.front().depth != 0) return refuse(key + ".0", fmt::format("{}: the first depth must be 0 mm, the layer's top", key), "begin with the modulus at the top");
+    if (rows.size() < 2)
+      return refuse(key, fmt::format("{}: needs at least two rows", key), fmt::format("write {}", wanted(option)));
+    if (rows.front().depth != 0)
+      return refuse(key + ".0", fmt::format("{}: the first depth must be 0 mm, the layer's top", key),
+                    "begin with the modulus at the top");
     for (std::size_t i = 1; i < rows.size(); ++i)
       if (!(rows[i].depth - rows[i - 1].depth >= kThinnestStep))
-        return refuse(fmt::format("{}.{}", key, i), fmt::format("{}: depths must increase, by {} at least", key, format_quantity(kThinnestStep, dimension::kLength)), "sort the rows by depth; for a jump write two layers");
+        return refuse(fmt::format("{}.{}", key, i),
+                      fmt::format("{}: depths must increase, by {} at least", key,
+                                  format_quantity(kThinnestStep, dimension::kLength)),
+                      "sort the rows by depth; for a jump write two layers");
     const OptionTable& table = *find_table("layer");
-    const auto thickness = std::find_if(table.options.begin(), table.options.end(), [](const Option& o) { return o.key == "thickness"; });
+    const auto thickness =
+        std::find_if(table.options.begin(), table.options.end(), [](const Option& o) { return o.key == "thickness"; });
     if (!thickness->range.holds(rows.back().depth))
-      return refuse(fmt::format("{}.{}", key, rows.size() - 1), fmt::format("{}: the last depth, the layer's thickness, must be {}", key, describe(thickness->range, thickness->dimension)), "choose depths in this range");
+      return refuse(fmt::format("{}.{}", key, rows.size() - 1),
+                    fmt::format("{}: the last depth, the layer's thickness, must be {}", key,
+                                describe(thickness->range, thickness->dimension)),
+                    "choose depths in this range");
     return true;
   }
 
   static void take_table(LayerSpec& layer, const std::vector<ModulusPoint>& rows) {
     double area = 0;
-    for (std::size_t i = 1; i < rows.size(); ++i) area += 0.5 * (rows[i].young + rows[i - 1].young) * (rows[i].depth - rows[i - 1].depth);
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      area += 0.5 * (rows[i].young + rows[i - 1].young) * (rows[i].depth - rows[i - 1].depth);
     layer.thickness = rows.back().depth;
     layer.material.young = area / layer.thickness;
   }
@@ -248,7 +294,8 @@ class TreeReader {
     } else if (node.is_number()) {
       value = number_of(node);
       if (!(option.dimension == dimension::kNumber || option.dimension == dimension::kSlope)) {
-        source_.complain(key, fmt::format("{} = {}: a bare number has no unit", key, shown(node)), fmt::format("write {}, in quotes", describe(option.dimension)));
+        source_.complain(key, fmt::format("{} = {}: a bare number has no unit", key, shown(node)),
+                         fmt::format("write {}, in quotes", describe(option.dimension)));
         return false;
       }
     } else {
@@ -264,11 +311,14 @@ class TreeReader {
   }
 
   void mismatch(const Option& option, const std::string& key, const toml::node& node) {
-    source_.complain(key, fmt::format("{} = {}: is {}, must be {}", key, shown(node), kind(node), wanted(option)), fmt::format("write {}", wanted(option)));
+    source_.complain(key, fmt::format("{} = {}: is {}, must be {}", key, shown(node), kind(node), wanted(option)),
+                     fmt::format("write {}", wanted(option)));
   }
 
-  void out_of_range(const Option& option, const std::string& key, const std::string& value, const std::string& quantity) {
-    const std::string instead = quantity.empty() ? "" : suggest_quantity(quantity, option.dimension, option.range.min, option.range.max);
+  void out_of_range(const Option& option, const std::string& key, const std::string& value,
+                    const std::string& quantity) {
+    const std::string instead =
+        quantity.empty() ? "" : suggest_quantity(quantity, option.dimension, option.range.min, option.range.max);
     const std::string allowed = describe(option.range, option.dimension);
     source_.complain(key, fmt::format("{} = {}: must be {}", key, value, allowed.empty() ? "finite" : allowed),
                      instead.empty() ? "choose a value in this range" : fmt::format("did you mean \"{}\"?", instead));
@@ -279,7 +329,8 @@ class TreeReader {
     for (const Option& o : table.options) keys.emplace_back(o.key);
     const std::string near = nearest_word(key, keys);
     source_.complain(full, fmt::format("unknown key {}", full),
-                     fmt::format("{}keys of [{}]: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near), table.name, fmt::join(keys, ", ")));
+                     fmt::format("{}keys of [{}]: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
+                                 table.name, fmt::join(keys, ", ")));
   }
 
   void unknown_table(const std::string& full, const std::string& name) {
@@ -287,7 +338,8 @@ class TreeReader {
     for (const OptionTable& t : case_tables()) names.emplace_back(t.name);
     const std::string near = nearest_word(name, names);
     source_.complain(full, fmt::format("unknown table or key {}", full),
-                     fmt::format("{}tables: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(names, ", ")));
+                     fmt::format("{}tables: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
+                                 fmt::join(names, ", ")));
   }
 
   /// Values point at the value, tables and keys set by an override at nothing of the text.
@@ -303,7 +355,8 @@ class TreeReader {
     return nullptr;
   }
   static bool is_group(const std::string& name) {
-    return std::any_of(case_tables().begin(), case_tables().end(), [&](const OptionTable& t) { return t.name.starts_with(name + "."); });
+    return std::any_of(case_tables().begin(), case_tables().end(),
+                       [&](const OptionTable& t) { return t.name.starts_with(name + "."); });
   }
 
   /// After everything else, because what they multiply may stand further down.
@@ -314,7 +367,11 @@ class TreeReader {
       for (const OptionTable& table : case_tables())
         for (const Option& whole : table.options)
           if (!whole.multiple_of && table.repeated && whole.slot(spec_, m.index) == slot && !whole.range.holds(value))
-            source_.complain(m.key, fmt::format("{} = {}: makes {} {}, which must be {}", m.key, m.factor, whole.key, format_quantity(value, whole.dimension), describe(whole.range, whole.dimension)), "choose a multiple in this range");
+            source_.complain(
+                m.key,
+                fmt::format("{} = {}: makes {} {}, which must be {}", m.key, m.factor, whole.key,
+                            format_quantity(value, whole.dimension), describe(whole.range, whole.dimension)),
+                "choose a multiple in this range");
       *std::get<double*>(slot) = value;
     }
   }
@@ -325,7 +382,9 @@ class TreeReader {
 };
 
 [[noreturn]] void refuse_override(const std::string& text, const std::string& why) {
-  throw CaseError(fmt::format("--set {}: {}", text, why), "write --set table.key=value, e.g. --set mesh.element_size=\"2 mm\" or --set layer.0.thickness=\"0.5 mm\"");
+  throw CaseError(
+      fmt::format("--set {}: {}", text, why),
+      "write --set table.key=value, e.g. --set mesh.element_size=\"2 mm\" or --set layer.0.thickness=\"0.5 mm\"");
 }
 
 /// TOML where it is TOML, else a text: quotes may be left out.
@@ -349,9 +408,11 @@ toml::table& descend(toml::table& document, const std::vector<std::string>& part
     toml::node& node = *table->get(parts[i]);
     if (toml::array* list = node.as_array()) {
       ++i;
-      const bool digits = i + 1 < parts.size() && !parts[i].empty() && parts[i].size() < 6 && parts[i].find_first_not_of("0123456789") == std::string::npos;
+      const bool digits = i + 1 < parts.size() && !parts[i].empty() && parts[i].size() < 6 &&
+                          parts[i].find_first_not_of("0123456789") == std::string::npos;
       const std::size_t index = digits ? std::stoul(parts[i]) : list->size();
-      if (index >= list->size() || !(*list)[index].is_table()) refuse_override(text, fmt::format("{} has {} entries, counted from 0", parts[i - 1], list->size()));
+      if (index >= list->size() || !(*list)[index].is_table())
+        refuse_override(text, fmt::format("{} has {} entries, counted from 0", parts[i - 1], list->size()));
       table = (*list)[index].as_table();
     } else if (node.is_table()) {
       table = node.as_table();
@@ -365,7 +426,8 @@ toml::table& descend(toml::table& document, const std::vector<std::string>& part
 void apply_override(toml::table& document, const std::string& text, CaseSource& source) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) refuse_override(text, "is not key=value");
-  if (std::count(text.begin(), text.end(), '.') > kMostDots) refuse_override(text.substr(0, 60) + "...", fmt::format("has more than {} dots", kMostDots));
+  if (std::count(text.begin(), text.end(), '.') > kMostDots)
+    refuse_override(text.substr(0, 60) + "...", fmt::format("has more than {} dots", kMostDots));
   const std::string key = text.substr(0, equals);
   std::vector<std::string> parts;
   std::istringstream stream(key);

@@ -8,8 +8,9 @@
 
 namespace railstrata {
 
-/// Fills the spec; everything that is wrong with keys, types, units and ranges is recorded in `source`, which afterwards also knows where each key stands.
-/// Throws CaseError at once when the text is no TOML or an override cannot be understood.
+/// Fills the spec; everything that is wrong with keys, types, units and ranges is recorded in `source`, which
+/// afterwards also knows where each key stands. Throws CaseError at once when the text is no TOML or an override cannot
+/// be understood.
 CaseSpec read_case_tree(CaseSource& source, const std::vector<std::string>& overrides);
 
 }  // namespace railstrata

@@ -24,7 +24,7 @@ Slot at(CaseSpec& spec, std::size_t) {
 }
 template <auto... Path>
 Slot layer(CaseSpec& spec, std::size_t index) {
-  return &(spec.layers.at(index).* ... .*Path);
+  return &(spec.layers.at(index).*....*Path);
 }
 
 double matrix_modulus(const CaseSpec& spec, std::size_t index) {
@@ -40,28 +40,78 @@ Range above(double min, double max = std::numeric_limits<double>::infinity()) { 
 OptionTable geometry_table() {
   return {"geometry",
           "Profiles, track and wheel",
-          {{"rail_profile", at<&C::geometry, &G::rail_profile>, "A built-in name (see `railstrata info`) or a file (two columns, Simpack, MiniProf), relative to the case file"},
-           {"wheel_profile", at<&C::geometry, &G::wheel_profile>, "A built-in name or a file (two columns, Simpack, MiniProf), relative to the case file"},
-           {"rail_shape", at<&C::geometry, &G::rail_shape>, "Whole rail section, or a block with the profile on top (verification)", {}, {}, {"rail", "block"}},
-           {"wheel_shape", at<&C::geometry, &G::wheel_shape>, "Rim, web and hub, or a plain disc (verification)", {}, {}, {"wheel", "disc"}},
+          {{"rail_profile", at<&C::geometry, &G::rail_profile>,
+            "A built-in name (see `railstrata info`) or a file (two columns, Simpack, MiniProf), relative to the case "
+            "file"},
+           {"wheel_profile", at<&C::geometry, &G::wheel_profile>,
+            "A built-in name or a file (two columns, Simpack, MiniProf), relative to the case file"},
+           {"rail_shape",
+            at<&C::geometry, &G::rail_shape>,
+            "Whole rail section, or a block with the profile on top (verification)",
+            {},
+            {},
+            {"rail", "block"}},
+           {"wheel_shape",
+            at<&C::geometry, &G::wheel_shape>,
+            "Rim, web and hub, or a plain disc (verification)",
+            {},
+            {},
+            {"wheel", "disc"}},
            {"gauge", at<&C::geometry, &G::gauge>, "Track gauge between the gauge faces", kLength, {0.5, 2.0}},
-           {"gauge_depth", at<&C::geometry, &G::gauge_depth>, "Depth below the top of the rail at which the gauge is measured", kLength, {1 * kMilli, 50 * kMilli}},
-           {"back_to_back", at<&C::geometry, &G::back_to_back>, "Distance between the inner faces of the two wheels", kLength, {0.4, 2.0}},
-           {"flange_back_to_tape", at<&C::geometry, &G::flange_back_to_tape>, "Distance from the flange back to the tape circle", kLength, {10 * kMilli, 200 * kMilli}},
-           {"cant", at<&C::geometry, &G::cant>, "Inclination of the rail towards the track centre (a tangent)", kSlope, {-0.2, 0.2}},
-           {"lateral_shift", at<&C::geometry, &G::lateral_shift>, "Of the wheel, positive to the field side", kLength, {-0.05, 0.05}},
+           {"gauge_depth",
+            at<&C::geometry, &G::gauge_depth>,
+            "Depth below the top of the rail at which the gauge is measured",
+            kLength,
+            {1 * kMilli, 50 * kMilli}},
+           {"back_to_back",
+            at<&C::geometry, &G::back_to_back>,
+            "Distance between the inner faces of the two wheels",
+            kLength,
+            {0.4, 2.0}},
+           {"flange_back_to_tape",
+            at<&C::geometry, &G::flange_back_to_tape>,
+            "Distance from the flange back to the tape circle",
+            kLength,
+            {10 * kMilli, 200 * kMilli}},
+           {"cant",
+            at<&C::geometry, &G::cant>,
+            "Inclination of the rail towards the track centre (a tangent)",
+            kSlope,
+            {-0.2, 0.2}},
+           {"lateral_shift",
+            at<&C::geometry, &G::lateral_shift>,
+            "Of the wheel, positive to the field side",
+            kLength,
+            {-0.05, 0.05}},
            {"wheel_radius", at<&C::geometry, &G::wheel_radius>, "At the tape circle", kLength, {0.05, 2.0}},
-           {"block_width", at<&C::geometry, &G::block_width>, "rail_shape = \"block\": width of the block", kLength, {kMilli, 2.0}},
-           {"block_height", at<&C::geometry, &G::block_height>, "rail_shape = \"block\": height of the block", kLength, {kMilli, 2.0}},
-           {"rim_thickness", at<&C::geometry, &G::rim_thickness>, "From the tape circle to the inner face of the rim", kLength, {5 * kMilli, 0.5}},
+           {"block_width",
+            at<&C::geometry, &G::block_width>,
+            "rail_shape = \"block\": width of the block",
+            kLength,
+            {kMilli, 2.0}},
+           {"block_height",
+            at<&C::geometry, &G::block_height>,
+            "rail_shape = \"block\": height of the block",
+            kLength,
+            {kMilli, 2.0}},
+           {"rim_thickness",
+            at<&C::geometry, &G::rim_thickness>,
+            "From the tape circle to the inner face of the rim",
+            kLength,
+            {5 * kMilli, 0.5}},
            {"web_thickness", at<&C::geometry, &G::web_thickness>, "Of the wheel's plate", kLength, {5 * kMilli, 0.2}},
-           {"web_offset", at<&C::geometry, &G::web_offset>, "Lateral position of the plate's middle from the tape circle", kLength, {-0.07, 0.07}},
+           {"web_offset",
+            at<&C::geometry, &G::web_offset>,
+            "Lateral position of the plate's middle from the tape circle",
+            kLength,
+            {-0.07, 0.07}},
            {"hub_radius", at<&C::geometry, &G::hub_radius>, "Outer radius of the hub", kLength, {0.01, 1.0}},
            {"hub_width", at<&C::geometry, &G::hub_width>, "Lateral width of the hub", kLength, {0.01, 0.5}},
            {"bore_radius", at<&C::geometry, &G::bore_radius>, "Radius of the axle seat", kLength, {0.005, 1.0}}}};
 }
 
-const Range kYoung{1e9, 1e13}, kPoisson{0.0, 0.495}, kDensityRange{100, 30000}, kLayerThickness{0.05 * kMilli, 10 * kMilli};
+const Range kYoung{1e9, 1e13}, kPoisson{0.0, 0.495}, kDensityRange{100, 30000},
+    kLayerThickness{0.05 * kMilli, 10 * kMilli};
 
 template <auto Member>
 OptionTable material_table(std::string_view name, std::string_view doc) {
@@ -74,79 +124,190 @@ OptionTable material_table(std::string_view name, std::string_view doc) {
 
 OptionTable layer_table() {
   return {"layer",
-          "A bonded layer; the first of a body is its surface, the next lies below it. Each needs one of young, young_ratio and young_table",
+          "A bonded layer; the first of a body is its surface, the next lies below it. Each needs one of young, "
+          "young_ratio and young_table",
           {{"name", layer<&L::name>, "What results call the layer"},
            {"on", layer<&L::on>, "The body that carries the layer", {}, {}, {"rail", "wheel"}},
-           {"thickness", layer<&L::thickness>, "Along the normal of the surface; a young_table tells it itself", kLength, kLayerThickness, {}, nullptr, uniform},
+           {"thickness",
+            layer<&L::thickness>,
+            "Along the normal of the surface; a young_table tells it itself",
+            kLength,
+            kLayerThickness,
+            {},
+            nullptr,
+            uniform},
            {"width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength, {kMilli, 0.2}},
            {"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung, {}, nullptr, uniform},
-           {"young_ratio", layer<&L::material, &M::young>, "Young's modulus as a multiple of the carrying body's", kNumber, {0.01, 100}, {}, matrix_modulus},
-           {"young_table", layer<&L::young_table>, "A modulus that varies with depth: depths below the layer's top and moduli, linear between", {}, {}, {}, nullptr, graded},
-           {"grading_tolerance", layer<&L::grading_tolerance>, "young_table, half-space engine: largest relative change of the modulus within a sub-layer", kNumber, {1e-3, 1.0}},
+           {"young_ratio",
+            layer<&L::material, &M::young>,
+            "Young's modulus as a multiple of the carrying body's",
+            kNumber,
+            {0.01, 100},
+            {},
+            matrix_modulus},
+           {"young_table",
+            layer<&L::young_table>,
+            "A modulus that varies with depth: depths below the layer's top and moduli, linear between",
+            {},
+            {},
+            {},
+            nullptr,
+            graded},
+           {"grading_tolerance",
+            layer<&L::grading_tolerance>,
+            "young_table, half-space engine: largest relative change of the modulus within a sub-layer",
+            kNumber,
+            {1e-3, 1.0}},
            {"poisson", layer<&L::material, &M::poisson>, "Poisson's ratio", kNumber, kPoisson},
            {"density", layer<&L::material, &M::density>, "Mass density", kDensity, kDensityRange},
-           {"elements", layer<&L::elements>, "Through the thickness; 0 chooses (height at most 1 mm, at least 2, at least 3 from 3 mm on). Of a young_table each row of elements has the mean modulus over its height",
-            kNumber, {0, 50}}},
+           {"elements",
+            layer<&L::elements>,
+            "Through the thickness; 0 chooses (height at most 1 mm, at least 2, at least 3 from 3 mm on). Of a "
+            "young_table each row of elements has the mean modulus over its height",
+            kNumber,
+            {0, 50}}},
           true};
 }
 
 OptionTable vehicle_table() {
-  return {"vehicle",
-          "Masses and primary suspension of one wheel",
-          {{"wheel_mass", at<&C::vehicle, &V::wheel_mass>, "Mass of the wheel with its share of the axle", kMass, above(0, 1e5)},
-           {"sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6}},
-           {"suspension_stiffness", at<&C::vehicle, &V::suspension_stiffness>, "Of all groups together", kStiffness, {0, 1e10}},
-           {"suspension_damping", at<&C::vehicle, &V::suspension_damping>, "Of all groups together", kDamping, {0, 1e8}},
-           {"suspension_groups", at<&C::vehicle, &V::suspension_groups>, "Spring and dashpot groups around the axle", kNumber, {1, 64}},
-           {"gravity", at<&C::vehicle, &V::gravity>, "Acceleration of gravity", kAcceleration, above(0, 100)},
-           {"couple_sprung_mass", at<&C::vehicle, &V::couple_sprung_mass>, "The sprung mass rides along with the axle lengthwise and adds its inertia to it"}}};
+  return {
+      "vehicle",
+      "Masses and primary suspension of one wheel",
+      {{"wheel_mass", at<&C::vehicle, &V::wheel_mass>, "Mass of the wheel with its share of the axle", kMass,
+        above(0, 1e5)},
+       {"sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6}},
+       {"suspension_stiffness",
+        at<&C::vehicle, &V::suspension_stiffness>,
+        "Of all groups together",
+        kStiffness,
+        {0, 1e10}},
+       {"suspension_damping", at<&C::vehicle, &V::suspension_damping>, "Of all groups together", kDamping, {0, 1e8}},
+       {"suspension_groups",
+        at<&C::vehicle, &V::suspension_groups>,
+        "Spring and dashpot groups around the axle",
+        kNumber,
+        {1, 64}},
+       {"gravity", at<&C::vehicle, &V::gravity>, "Acceleration of gravity", kAcceleration, above(0, 100)},
+       {"couple_sprung_mass", at<&C::vehicle, &V::couple_sprung_mass>,
+        "The sprung mass rides along with the axle lengthwise and adds its inertia to it"}}};
 }
 
 OptionTable drive_table() {
   return {"drive",
           "Speed, traction and friction",
           {{"speed", at<&C::drive, &D::speed>, "Rolling speed", kSpeed, above(0, 200)},
-           {"traction_coefficient", at<&C::drive, &D::traction_coefficient>, "Wanted F_T / G; positive drives, negative brakes", kNumber, {-1, 1}},
+           {"traction_coefficient",
+            at<&C::drive, &D::traction_coefficient>,
+            "Wanted F_T / G; positive drives, negative brakes",
+            kNumber,
+            {-1, 1}},
            {"friction_coefficient", at<&C::drive, &D::friction_coefficient>, "Coulomb's coefficient", kNumber, {0, 2}},
            {"torque_ramp", at<&C::drive, &D::torque_ramp>, "Smooth rise of the torque at the start", kTime, {0, 1}},
-           {"creepage_start", at<&C::drive, &D::creepage_start>, "Longitudinal creepage at the start, (V - omega r) / V: negative drives", kNumber, {-0.1, 0.1}}}};
+           {"creepage_start",
+            at<&C::drive, &D::creepage_start>,
+            "Longitudinal creepage at the start, (V - omega r) / V: negative drives",
+            kNumber,
+            {-0.1, 0.1}}}};
 }
 
 OptionTable mesh_table() {
   return {"mesh",
           "Element sizes",
-          {{"element_size", at<&C::mesh, &H::element_size>, "Edge length at the running surfaces and in the studied subsurface", kLength, {0.05 * kMilli, 20 * kMilli}},
-           {"fine_width", at<&C::mesh, &H::fine_width>, "Lateral width of the fine cap, centred on the contact point", kLength, {kMilli, 0.1}},
+          {{"element_size",
+            at<&C::mesh, &H::element_size>,
+            "Edge length at the running surfaces and in the studied subsurface",
+            kLength,
+            {0.05 * kMilli, 20 * kMilli}},
+           {"fine_width",
+            at<&C::mesh, &H::fine_width>,
+            "Lateral width of the fine cap, centred on the contact point",
+            kLength,
+            {kMilli, 0.1}},
            {"fine_depth", at<&C::mesh, &H::fine_depth>, "Depth of the fine cap", kLength, {0.5 * kMilli, 0.05}},
            {"largest", at<&C::mesh, &H::largest>, "Largest edge far from the contact", kLength, {kMilli, 0.2}},
-           {"coarse_ratio", at<&C::mesh, &H::coarse_ratio>, "Spacing along the path outside the cap, in element sizes", kNumber, {1, 20}},
-           {"element", at<&C::mesh, &H::element>, "Fully integrated without locking, or one point with hourglass stiffness", {}, {}, {"full", "one_point"}},
-           {"hourglass_coefficient", at<&C::mesh, &H::hourglass_coefficient>, "element = \"one_point\": scale of the hourglass stiffness", kNumber, {0, 1}},
+           {"coarse_ratio",
+            at<&C::mesh, &H::coarse_ratio>,
+            "Spacing along the path outside the cap, in element sizes",
+            kNumber,
+            {1, 20}},
+           {"element",
+            at<&C::mesh, &H::element>,
+            "Fully integrated without locking, or one point with hourglass stiffness",
+            {},
+            {},
+            {"full", "one_point"}},
+           {"hourglass_coefficient",
+            at<&C::mesh, &H::hourglass_coefficient>,
+            "element = \"one_point\": scale of the hourglass stiffness",
+            kNumber,
+            {0, 1}},
            {"end_length", at<&C::mesh, &H::end_length>, "Rail beyond both ends of the fine range", kLength, {0, 5}},
-           {"elements_through_layer_one", at<&C::mesh, &H::elements_through_layer_one>, "One element through every layer, as in the reference paper"}}};
+           {"elements_through_layer_one", at<&C::mesh, &H::elements_through_layer_one>,
+            "One element through every layer, as in the reference paper"}}};
 }
 
 OptionTable contact_table() {
-  return {"contact",
-          "Enforcement of the contact",
-          {{"method", at<&C::contact, &ContactSpec::method>, "No penetration at the end of each step, or penalty springs", {}, {}, {"mortar", "penalty"}},
-           {"penalty_scale", at<&C::contact, &ContactSpec::penalty_scale>, "method = \"penalty\": stiffness in units of K A / V of the rail's surface elements", kNumber, above(0, 100)}}};
+  return {
+      "contact",
+      "Enforcement of the contact",
+      {{"method",
+        at<&C::contact, &ContactSpec::method>,
+        "No penetration at the end of each step, or penalty springs",
+        {},
+        {},
+        {"mortar", "penalty"}},
+       {"penalty_scale", at<&C::contact, &ContactSpec::penalty_scale>,
+        "method = \"penalty\": stiffness in units of K A / V of the rail's surface elements", kNumber, above(0, 100)}}};
 }
 
 OptionTable run_table() {
-  return {"run",
-          "Path, damping and steps",
-          {{"positions", at<&C::run, &R::positions>, "Wheel positions at which results are wanted, increasing", kLength, {0, 20}},
-           {"window", at<&C::run, &R::window>, "Rolling distance, centred on each position, over which results are averaged", kLength, {0, 1}},
-           {"run_up", at<&C::run, &R::run_up>, "Rolling distance over which the run-up damping fades to zero", kLength, {0, 10}},
-           {"run_up_damping", at<&C::run, &R::run_up_damping>, "Mass-proportional damping of vibration at the start", kRate, {0, 1e6}},
-           {"step_safety", at<&C::run, &R::step_safety>, "Time step as a share of the stable one", kNumber, above(0, 1)},
-           {"time_step_method", at<&C::run, &R::time_step_method>, "Thin layers: selective mass scaling, the short step of the real masses, or inner steps for the thin rows alone; auto scales where the step grows by more than a fifth", {}, {}, {"auto", "uniform", "mass_scaling", "local"}},
-           {"mass_scaling_step", at<&C::run, &R::mass_scaling_step>, "Mass scaling: step it aims at, in element sizes over the matrix's pressure wave speed", kNumber, above(0, 10)},
-           {"precision", at<&C::run, &R::precision>, "Element arithmetic while rolling; nodal values and the static preload are always double", {}, {}, {"double", "single"}},
-           {"preload_tolerance", at<&C::run, &R::preload_tolerance>, "Relative residual of the static equilibrium", kNumber, {1e-13, 0.1}},
-           {"history_interval", at<&C::run, &R::history_interval>, "Rolling distance between rows of history.csv", kLength, above(0, 1)},
-           {"rolling", at<&C::run, &R::rolling>, "false stops after the static preload"}}};
+  return {
+      "run",
+      "Path, damping and steps",
+      {{"positions",
+        at<&C::run, &R::positions>,
+        "Wheel positions at which results are wanted, increasing",
+        kLength,
+        {0, 20}},
+       {"window",
+        at<&C::run, &R::window>,
+        "Rolling distance, centred on each position, over which results are averaged",
+        kLength,
+        {0, 1}},
+       {"run_up",
+        at<&C::run, &R::run_up>,
+        "Rolling distance over which the run-up damping fades to zero",
+        kLength,
+        {0, 10}},
+       {"run_up_damping",
+        at<&C::run, &R::run_up_damping>,
+        "Mass-proportional damping of vibration at the start",
+        kRate,
+        {0, 1e6}},
+       {"step_safety", at<&C::run, &R::step_safety>, "Time step as a share of the stable one", kNumber, above(0, 1)},
+       {"time_step_method",
+        at<&C::run, &R::time_step_method>,
+        "Thin layers: selective mass scaling, the short step of the real masses, or inner steps for the thin rows "
+        "alone; auto scales where the step grows by more than a fifth",
+        {},
+        {},
+        {"auto", "uniform", "mass_scaling", "local"}},
+       {"mass_scaling_step", at<&C::run, &R::mass_scaling_step>,
+        "Mass scaling: step it aims at, in element sizes over the matrix's pressure wave speed", kNumber, above(0, 10)},
+       {"precision",
+        at<&C::run, &R::precision>,
+        "Element arithmetic while rolling; nodal values and the static preload are always double",
+        {},
+        {},
+        {"double", "single"}},
+       {"preload_tolerance",
+        at<&C::run, &R::preload_tolerance>,
+        "Relative residual of the static equilibrium",
+        kNumber,
+        {1e-13, 0.1}},
+       {"history_interval", at<&C::run, &R::history_interval>, "Rolling distance between rows of history.csv", kLength,
+        above(0, 1)},
+       {"rolling", at<&C::run, &R::rolling>, "false stops after the static preload"}}};
 }
 
 OptionTable output_table() {
@@ -197,9 +358,12 @@ std::string toml_quoted(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') (out += '\\') += c;
-    else if (byte < 0x20 || byte == 0x7F) out += fmt::format("\\u{:04X}", byte);
-    else out += c;
+    if (c == '"' || c == '\\')
+      (out += '\\') += c;
+    else if (byte < 0x20 || byte == 0x7F)
+      out += fmt::format("\\u{:04X}", byte);
+    else
+      out += c;
   }
   return out + '"';
 }
@@ -218,7 +382,9 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
     }
     std::string operator()(const std::vector<ModulusPoint>* v) const {
       std::string out;
-      for (const ModulusPoint& p : *v) out += fmt::format("{}[{}, {}]", out.empty() ? "" : ", ", quantity(p.depth, kLength), quantity(p.young, kPressure));
+      for (const ModulusPoint& p : *v)
+        out += fmt::format("{}[{}, {}]", out.empty() ? "" : ", ", quantity(p.depth, kLength),
+                           quantity(p.young, kPressure));
       return "[" + out + "]";
     }
   };
@@ -228,7 +394,8 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
 std::string describe(const Range& range, const Dimension& dimension) {
   const bool low = std::isfinite(range.min), high = std::isfinite(range.max);
   const auto show = [&](double v) { return format_quantity(v, dimension); };
-  if (low && range.open) return fmt::format("above {}{}", show(range.min), high ? fmt::format(" and at most {}", show(range.max)) : "");
+  if (low && range.open)
+    return fmt::format("above {}{}", show(range.min), high ? fmt::format(" and at most {}", show(range.max)) : "");
   if (low && high) return fmt::format("between {} and {}", show(range.min), show(range.max));
   if (low) return fmt::format("at least {}", show(range.min));
   return high ? fmt::format("at most {}", show(range.max)) : "";

@@ -1,18 +1,20 @@
 #pragma once
-// The keys of a case file: one table per option struct of case/case_spec.hpp. The reader, the range check, "did you mean", the resolved case, the JSON schema
-// and the reference page all come from these tables, so that a new option is one member in case_spec.hpp and one row here.
+// The keys of a case file: one table per option struct of case/case_spec.hpp. The reader, the range check, "did you
+// mean", the resolved case, the JSON schema and the reference page all come from these tables, so that a new option is
+// one member in case_spec.hpp and one row here.
 #include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "case/units.hpp"
 #include "case/case_spec.hpp"
+#include "case/units.hpp"
 
 namespace railstrata {
 
-/// Where an option lives in a case, by type. A double or a list of doubles is a quantity of the option's dimension, in SI; a table of moduli has rows of a depth and a modulus.
+/// Where an option lives in a case, by type. A double or a list of doubles is a quantity of the option's dimension, in
+/// SI; a table of moduli has rows of a depth and a modulus.
 using Slot = std::variant<double*, int*, bool*, std::string*, std::vector<double>*, std::vector<ModulusPoint>*>;
 
 /// Allowed values of a number, ends included unless `open` (then min itself is refused).
@@ -28,10 +30,12 @@ struct Option {
   std::string_view doc;                        ///< one line, as on the reference page
   Dimension dimension{};
   Range range{};
-  std::vector<std::string_view> choices{};     ///< of a word
-  /// Set for a second way of giving the slot of another option: the number written is a multiple of this (young_ratio of the body's modulus).
+  std::vector<std::string_view> choices{};  ///< of a word
+  /// Set for a second way of giving the slot of another option: the number written is a multiple of this (young_ratio
+  /// of the body's modulus).
   double (*multiple_of)(const CaseSpec&, std::size_t index) = nullptr;
-  /// Set for an option that only some cases have (the thickness of a layer, unless a table tells it): whether this case does. Else the resolved case leaves it out.
+  /// Set for an option that only some cases have (the thickness of a layer, unless a table tells it): whether this case
+  /// does. Else the resolved case leaves it out.
   bool (*applies)(const CaseSpec&, std::size_t index) = nullptr;
 };
 
@@ -40,10 +44,10 @@ const Option& table_depth();
 const Option& table_young();
 
 struct OptionTable {
-  std::string_view name;      ///< "geometry", "material.rail", "layer"
+  std::string_view name;  ///< "geometry", "material.rail", "layer"
   std::string_view doc;
   std::vector<Option> options;
-  bool repeated = false;      ///< [[name]], any number of times
+  bool repeated = false;  ///< [[name]], any number of times
 };
 
 /// In the order of the reference page and of a resolved case.

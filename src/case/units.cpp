@@ -31,14 +31,21 @@ struct Symbol {
 };
 
 const std::array kSymbols{
-    Symbol{"kg", {1, 0, dimension::kMass}, false},          Symbol{"g", {1, -3, dimension::kMass}, true},
-    Symbol{"t", {1, 3, dimension::kMass}, false},           Symbol{"m", {1, 0, dimension::kLength}, true},
-    Symbol{"s", {1, 0, dimension::kTime}, true},            Symbol{"min", {60, 0, dimension::kTime}, false},
-    Symbol{"h", {3600, 0, dimension::kTime}, false},        Symbol{"N", {1, 0, {1, 1, -2, 0}}, true},
-    Symbol{"Pa", {1, 0, dimension::kPressure}, true},       Symbol{"Hz", {1, 0, dimension::kRate}, true},
-    Symbol{"rad", {1, 0, dimension::kSlope}, true},         Symbol{"deg", {std::numbers::pi / 180, 0, dimension::kSlope}, false},
+    Symbol{"kg", {1, 0, dimension::kMass}, false},
+    Symbol{"g", {1, -3, dimension::kMass}, true},
+    Symbol{"t", {1, 3, dimension::kMass}, false},
+    Symbol{"m", {1, 0, dimension::kLength}, true},
+    Symbol{"s", {1, 0, dimension::kTime}, true},
+    Symbol{"min", {60, 0, dimension::kTime}, false},
+    Symbol{"h", {3600, 0, dimension::kTime}, false},
+    Symbol{"N", {1, 0, {1, 1, -2, 0}}, true},
+    Symbol{"Pa", {1, 0, dimension::kPressure}, true},
+    Symbol{"Hz", {1, 0, dimension::kRate}, true},
+    Symbol{"rad", {1, 0, dimension::kSlope}, true},
+    Symbol{"deg", {std::numbers::pi / 180, 0, dimension::kSlope}, false},
     Symbol{"°", {std::numbers::pi / 180, 0, dimension::kSlope}, false},
-    Symbol{"%", {1, -2, dimension::kNumber}, false},        Symbol{"1", {1, 0, dimension::kNumber}, false},
+    Symbol{"%", {1, -2, dimension::kNumber}, false},
+    Symbol{"1", {1, 0, dimension::kNumber}, false},
 };
 
 struct Prefix {
@@ -108,14 +115,16 @@ double scaled_number(std::string_view number, int decimals) {
   if (const auto e = mantissa.find_first_of("eE"); e != std::string_view::npos) {
     std::string_view digits = mantissa.substr(e + 1);
     if (digits.starts_with('+')) digits.remove_prefix(1);
-    if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec == std::errc::result_out_of_range) exponent = digits.starts_with('-') ? -kHugeExponent : kHugeExponent;
+    if (std::from_chars(digits.data(), digits.data() + digits.size(), exponent).ec == std::errc::result_out_of_range)
+      exponent = digits.starts_with('-') ? -kHugeExponent : kHugeExponent;
     exponent = std::clamp(exponent, -kHugeExponent, kHugeExponent);
     mantissa = mantissa.substr(0, e);
   }
   const std::string text = fmt::format("{}e{}", mantissa, exponent + decimals);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc::result_out_of_range) value = std::strtod(text.c_str(), nullptr);  // infinite, or as good as zero
+  if (error == std::errc::result_out_of_range)
+    value = std::strtod(text.c_str(), nullptr);  // infinite, or as good as zero
   return value;
 }
 
@@ -125,7 +134,8 @@ std::optional<Unit> find_symbol(std::string_view text) {
   for (const Prefix& p : kPrefixes) {
     if (!text.starts_with(p.text)) continue;
     for (const Symbol& s : kSymbols)
-      if (s.takes_prefix && s.text == text.substr(p.text.size())) return Unit{s.unit.factor, s.unit.decimals + p.decimals, s.unit.dimension};
+      if (s.takes_prefix && s.text == text.substr(p.text.size()))
+        return Unit{s.unit.factor, s.unit.decimals + p.decimals, s.unit.dimension};
   }
   return std::nullopt;
 }
@@ -140,8 +150,9 @@ std::vector<std::string> known_units() {
 
 UnitError unknown_unit(std::string_view unit) {
   const std::string near = nearest_word(unit, known_units());
-  return UnitError(fmt::format("unknown unit \"{}\"", unit), near.empty() ? "units are SI symbols with prefixes, e.g. GPa, mm, km/h, kN s/m, kg/m^3"
-                                                                         : fmt::format("did you mean {}?", near));
+  return UnitError(fmt::format("unknown unit \"{}\"", unit),
+                   near.empty() ? "units are SI symbols with prefixes, e.g. GPa, mm, km/h, kN s/m, kg/m^3"
+                                : fmt::format("did you mean {}?", near));
 }
 
 void multiply(Unit& total, const Unit& u, int power) {
@@ -172,9 +183,14 @@ Unit parse_unit(std::string_view whole) {
     std::size_t cut = rest.size();
     std::string_view separator;
     for (std::string_view s : kSeparators)
-      if (const auto at = rest.find(s); at < cut) cut = at, separator = s;
+      if (const auto at = rest.find(s); at < cut) {
+        cut = at;
+        separator = s;
+      }
     if (std::string_view symbol = rest.substr(0, cut); !symbol.empty()) {
-      if (after_solidus && !divide) throw UnitError(fmt::format("the unit \"{}\" is ambiguous", whole), "put the divided unit last, e.g. \"kN s/m\"");
+      if (after_solidus && !divide)
+        throw UnitError(fmt::format("the unit \"{}\" is ambiguous", whole),
+                        "put the divided unit last, e.g. \"kN s/m\"");
       const int power = take_power(symbol);
       const auto unit = find_symbol(symbol);
       if (!unit) throw unknown_unit(whole);
@@ -182,7 +198,8 @@ Unit parse_unit(std::string_view whole) {
       divide = false;
     }
     if (separator == "/") {
-      if (after_solidus) throw UnitError(fmt::format("the unit \"{}\" has two solidi", whole), "write one, e.g. \"m/s^2\"");
+      if (after_solidus)
+        throw UnitError(fmt::format("the unit \"{}\" has two solidi", whole), "write one, e.g. \"m/s^2\"");
       divide = after_solidus = true;
     }
     rest.remove_prefix(std::min(rest.size(), cut + separator.size()));
@@ -195,7 +212,8 @@ std::optional<double> parse_ratio(std::string_view text) {
   const auto colon = text.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
   const std::string_view up = trim(text.substr(0, colon)), along = trim(text.substr(colon + 1));
-  if (up.empty() || along.empty() || number_length(up) != up.size() || number_length(along) != along.size()) return std::nullopt;
+  if (up.empty() || along.empty() || number_length(up) != up.size() || number_length(along) != along.size())
+    return std::nullopt;
   const double run = scaled_number(along, 0);
   if (run == 0) return std::nullopt;
   return scaled_number(up, 0) / run;
@@ -217,13 +235,15 @@ double parse_quantity(std::string_view whole, const Dimension& expected) {
   }
   const Unit unit = parse_unit(unit_text);
   if (unit.dimension != expected && !(expected == dimension::kSlope && unit.dimension == dimension::kNumber))
-    throw UnitError(fmt::format("\"{}\" is not the unit of {}", unit_text, customary(expected).noun),
-                    needs_unit ? fmt::format("write {} (units: {})", describe(expected), quoted_list(customary(expected).units))
-                               : fmt::format("write {}", describe(expected)));
+    throw UnitError(
+        fmt::format("\"{}\" is not the unit of {}", unit_text, customary(expected).noun),
+        needs_unit ? fmt::format("write {} (units: {})", describe(expected), quoted_list(customary(expected).units))
+                   : fmt::format("write {}", describe(expected)));
   const double scaled = scaled_number(number, unit.decimals);
   const double value = unit.factor == 1 ? scaled : scaled * unit.factor;
   if (unit.dimension != dimension::kSlope) return value;
-  if (!(std::abs(value) < std::numbers::pi / 2)) throw UnitError("is upright or beyond", fmt::format("write {}", describe(expected)));
+  if (!(std::abs(value) < std::numbers::pi / 2))
+    throw UnitError("is upright or beyond", fmt::format("write {}", describe(expected)));
   return std::tan(value);
 }
 
@@ -235,7 +255,8 @@ std::string format_quantity(double value, const Dimension& dimension) {
   const auto end = std::to_chars(buffer.begin(), buffer.end(), value, std::chars_format::scientific).ptr;
   const std::string_view shortest(buffer.data(), end);
   const auto e = shortest.find('e');
-  const std::string moved = fmt::format("{}e{}", shortest.substr(0, e), std::atoi(shortest.data() + e + 1) - parse_unit(shown).decimals);
+  const std::string moved =
+      fmt::format("{}e{}", shortest.substr(0, e), std::atoi(shortest.data() + e + 1) - parse_unit(shown).decimals);
   const std::string plain = fmt::format("{} {}", std::strtod(moved.c_str(), nullptr), shown);
   return parse_quantity(plain, dimension) == value ? plain : fmt::format("{} {}", moved, shown);
 }

@@ -1,11 +1,11 @@
 #pragma once
 // Quantities as people write them: "210 GPa", "0.2 mm", "100 km/h", "10.4 kN s/m", "7800 kg/m³", "1:40", "20 %".
 //
-// A text is a decimal number and a unit: symbols with SI prefixes, multiplied by a blank, * or ·, at most one / before the last
-// symbol, powers as ^3 or ³. Its value is rounded once: "0.2 mm" is exactly the double 0.2e-3.
+// A text is a decimal number and a unit: symbols with SI prefixes, multiplied by a blank, * or ·, at most one / before
+// the last symbol, powers as ^3 or ³. Its value is rounded once: "0.2 mm" is exactly the double 0.2e-3.
+#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <stdexcept>
 
 namespace railstrata {
 
@@ -16,9 +16,11 @@ struct Dimension {
 };
 
 namespace dimension {
-inline constexpr Dimension kNumber{}, kLength{0, 1, 0, 0}, kMass{1, 0, 0, 0}, kTime{0, 0, 1, 0}, kSpeed{0, 1, -1, 0}, kRate{0, 0, -1, 0},
-    kAcceleration{0, 1, -2, 0}, kPressure{1, -1, -2, 0}, kDensity{1, -3, 0, 0}, kStiffness{1, 0, -2, 0}, kDamping{1, 0, -1, 0},
-    kSlope{0, 0, 0, 1};  ///< an inclination, kept as its tangent; written "1:40", "25 mrad", "1.4 deg" or as the bare tangent
+inline constexpr Dimension kNumber{}, kLength{0, 1, 0, 0}, kMass{1, 0, 0, 0}, kTime{0, 0, 1, 0}, kSpeed{0, 1, -1, 0},
+    kRate{0, 0, -1, 0}, kAcceleration{0, 1, -2, 0}, kPressure{1, -1, -2, 0}, kDensity{1, -3, 0, 0},
+    kStiffness{1, 0, -2, 0}, kDamping{1, 0, -1, 0},
+    kSlope{0, 0, 0,
+           1};  ///< an inclination, kept as its tangent; written "1:40", "25 mrad", "1.4 deg" or as the bare tangent
 }
 
 /// What is wrong with the text of a quantity, and what to write instead.
@@ -30,13 +32,15 @@ struct UnitError : std::runtime_error {
 /// Value in SI units. Throws UnitError: no number, no unit, unknown unit, another dimension than `expected`.
 double parse_quantity(std::string_view text, const Dimension& expected);
 
-/// The shortest text in the customary unit of the dimension (mm, GPa, m/s, …) that parse_quantity reads back to the very same double.
+/// The shortest text in the customary unit of the dimension (mm, GPa, m/s, …) that parse_quantity reads back to the
+/// very same double.
 std::string format_quantity(double value, const Dimension& dimension);
 
 /// "a length, e.g. \"0.2 mm\"": for messages, schema and reference page.
 std::string describe(const Dimension& dimension);
 
-/// A text like `text` with another prefix or unit of the same dimension whose value lies in [min, max] ("210 MPa" -> "210 GPa"); empty if there is none.
+/// A text like `text` with another prefix or unit of the same dimension whose value lies in [min, max] ("210 MPa" ->
+/// "210 GPa"); empty if there is none.
 std::string suggest_quantity(std::string_view text, const Dimension& dimension, double min, double max);
 
 }  // namespace railstrata

@@ -9,17 +9,18 @@ namespace railstrata {
 
 enum class ContactState : std::uint8_t { separated = 0, stick = 1, slip = 2 };
 
-/// A contact solution on a grid of points of the rail's surface. Tractions act ON THE RAIL; p >= 0 in compression. x is measured from the wheel's axle in the rolling
-/// direction (leading edge x > 0), y in the model frame. Index i = column + columns * station; columns run with y, stations with x.
-/// A driving wheel pulls the rail backwards: q_x < 0. Slip is the velocity of the wheel's surface relative to the rail's, m/s.
+/// A contact solution on a grid of points of the rail's surface. Tractions act ON THE RAIL; p >= 0 in compression. x is
+/// measured from the wheel's axle in the rolling direction (leading edge x > 0), y in the model frame. Index i = column
+/// + columns * station; columns run with y, stations with x. A driving wheel pulls the rail backwards: q_x < 0. Slip is
+/// the velocity of the wheel's surface relative to the rail's, m/s.
 struct ContactField {
   int columns = 0, stations = 0;
-  std::vector<double> x, y, z;        ///< m, position of the points (z: model frame)
-  std::vector<double> area;           ///< m², of the surface each point stands for
-  std::vector<double> p, q_x, q_y;    ///< Pa
-  std::vector<double> slip_x, slip_y; ///< m/s
+  std::vector<double> x, y, z;         ///< m, position of the points (z: model frame)
+  std::vector<double> area;            ///< m², of the surface each point stands for
+  std::vector<double> p, q_x, q_y;     ///< Pa
+  std::vector<double> slip_x, slip_y;  ///< m/s
   std::vector<ContactState> state;
-  double p_noise = 0;                 ///< Pa, points with p below this count as separated in areas and ratios
+  double p_noise = 0;  ///< Pa, points with p below this count as separated in areas and ratios
 
   int size() const { return columns * stations; }
   void resize(int columns_, int stations_) {

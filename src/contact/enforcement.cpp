@@ -35,14 +35,16 @@ void give(ContactSide& side, std::size_t node, Vec3 impulse) {
   const ContactSide::Place from = side.places[node];
   const Vec3 own{from.cos * impulse.x + from.sin * impulse.z, impulse.y, from.cos * impulse.z - from.sin * impulse.x};
   for (std::size_t n = 0; n < side.places.size(); ++n) {
-    const Vec3 v = side.response->velocity(from.column, side.places[n].column, side.places[n].station - from.station, own);
+    const Vec3 v =
+        side.response->velocity(from.column, side.places[n].column, side.places[n].station - from.station, own);
     side.velocity[n] += {from.cos * v.x - from.sin * v.z, v.y, from.sin * v.x + from.cos * v.z};
   }
 }
 
 class Sweeper {
  public:
-  Sweeper(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system, TractionMemory& memory)
+  Sweeper(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
+          TractionMemory& memory)
       : rows_(rows), dt_(dt), options_(options), sys_(system), memory_(memory) {}
 
   Vec3 relative_velocity(std::size_t r) const { return relative(r, sys_.rail.velocity, sys_.wheel.velocity); }
@@ -56,13 +58,15 @@ class Sweeper {
     const ContactRow& row = rows_.rows[r];
     const Vec3 impulse = dt_ * row.area * traction;
     give(sys_.rail, r, impulse);
-    for (int k = row.first; k < row.first + row.count; ++k) give(sys_.wheel, sys_.weight_node[k], -rows_.weights[k].m * impulse);
+    for (int k = row.first; k < row.first + row.count; ++k)
+      give(sys_.wheel, sys_.weight_node[k], -rows_.weights[k].m * impulse);
   }
   // Velocity gained per unit traction.
   double compliance(std::size_t r) const {
     const ContactRow& row = rows_.rows[r];
     double c = sys_.rail.inverse_mass[r];
-    for (int k = row.first; k < row.first + row.count; ++k) c += rows_.weights[k].m * rows_.weights[k].m * sys_.wheel.inverse_mass[sys_.weight_node[k]];
+    for (int k = row.first; k < row.first + row.count; ++k)
+      c += rows_.weights[k].m * rows_.weights[k].m * sys_.wheel.inverse_mass[sys_.weight_node[k]];
     return dt_ * row.area * c;
   }
 
@@ -72,7 +76,8 @@ class Sweeper {
     diagonal.resize(n);
     for (std::size_t r = 0; r < n; ++r) {
       diagonal[r] = compliance(r);
-      if (const NodeTraction& t = node(r); t.p > 0 && !sys_.tractions_held) push(r, traction_vector(t, rows_.rows[r].normal));
+      if (const NodeTraction& t = node(r); t.p > 0 && !sys_.tractions_held)
+        push(r, traction_vector(t, rows_.rows[r].normal));
     }
     for (sys_.sweeps = 0; sys_.sweeps < options_.max_sweeps;) {
       double change = 0;
@@ -100,7 +105,8 @@ class Sweeper {
       t.q2 += options_.penalty_stiffness * dt_ * dot(w, f.t2);
       return_to_coulomb_disc(options_.friction_coefficient, t.p, t.q1, t.q2);
     }
-    for (std::size_t r = 0; r < rows_.rows.size(); ++r) push(r, traction_vector(node(r), rows_.rows[r].normal) - held[r]);
+    for (std::size_t r = 0; r < rows_.rows.size(); ++r)
+      push(r, traction_vector(node(r), rows_.rows[r].normal) - held[r]);
   }
 
   void record_slip() {
@@ -128,7 +134,9 @@ class Sweeper {
     next.q2 += dot(w, f.t2) / diagonal;
     return_to_coulomb_disc(options_.friction_coefficient, next.p, next.q1, next.q2);
     NodeTraction step = next;
-    step.p -= t.p, step.q1 -= t.q1, step.q2 -= t.q2;
+    step.p -= t.p;
+    step.q1 -= t.q1;
+    step.q2 -= t.q2;
     const Vec3 change = traction_vector(step, row.normal);
     push(r, change);
     t = next;
@@ -144,10 +152,13 @@ class Sweeper {
 
 }  // namespace
 
-void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system, TractionMemory& memory) {
+void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
+                     TractionMemory& memory) {
   Sweeper sweeper(rows, dt, options, system, memory);
-  if (options.penalty) sweeper.penalty();
-  else sweeper.multipliers();
+  if (options.penalty)
+    sweeper.penalty();
+  else
+    sweeper.multipliers();
   sweeper.record_slip();
 }
 

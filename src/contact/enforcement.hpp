@@ -1,23 +1,24 @@
 #pragma once
 // Contact forces of one explicit step.
 //
-// mortar (default): Lagrange multipliers found so that at the END of the step no chosen node penetrates and no sticking node slides (forward-increment multipliers
-// [CarpenterTaylorKatona1991]):
-//   g_A + dt w_A . n_A >= 0,  p_A >= 0,  one of them zero;     w_tA = 0 with |q_A| < f p_A (stick)  or  q_A = f p_A w_tA/|w_tA| (slip)
-//   w = w_free - dt (M m_w^-1 M^T a + m_r^-1 a) tau
-// solved by projected block Gauss–Seidel sweeps from the last step's tractions. It adds no stiffness, so it does not lower the stable step, and leaves a penetration
-// of the order of the solver's tolerance.
-// penalty: p = k max(0, -g), with a tangential spring of the same stiffness returned to the Coulomb disc; for comparison with codes that do so.
+// mortar (default): Lagrange multipliers found so that at the END of the step no chosen node penetrates and no sticking
+// node slides (forward-increment multipliers [CarpenterTaylorKatona1991]):
+//   g_A + dt w_A . n_A >= 0,  p_A >= 0,  one of them zero;     w_tA = 0 with |q_A| < f p_A (stick)  or  q_A = f p_A
+//   w_tA/|w_tA| (slip) w = w_free - dt (M m_w^-1 M^T a + m_r^-1 a) tau
+// solved by projected block Gauss–Seidel sweeps from the last step's tractions. It adds no stiffness, so it does not
+// lower the stable step, and leaves a penetration of the order of the solver's tolerance. penalty: p = k max(0, -g),
+// with a tangential spring of the same stiffness returned to the Coulomb disc; for comparison with codes that do so.
 #include "contact/mortar.hpp"
 #include "contact/surface_response.hpp"
 #include "friction/coulomb.hpp"
 
 namespace railstrata {
 
-/// What a rail node remembers from step to step: traction on the rail in its own frame (normal into the rail, rolling direction, lateral) and slip velocity.
+/// What a rail node remembers from step to step: traction on the rail in its own frame (normal into the rail, rolling
+/// direction, lateral) and slip velocity.
 struct NodeTraction {
-  double p = 0, q1 = 0, q2 = 0;          ///< Pa
-  double slip1 = 0, slip2 = 0;           ///< m/s, wheel relative to rail, mean of the step
+  double p = 0, q1 = 0, q2 = 0;  ///< Pa
+  double slip1 = 0, slip2 = 0;   ///< m/s, wheel relative to rail, mean of the step
 };
 
 /// Unit vectors of the contact plane at a rail node with the normal n = (0, n_y, n_z).
@@ -34,27 +35,28 @@ inline Vec3 traction_vector(const NodeTraction& t, Vec3 n) {
 
 /// One body's nodes in the contact.
 struct ContactSide {
-  std::vector<Vec3> velocity;                ///< m/s; free on input, final on output
-  std::vector<Vec3> before;                  ///< of the last half step: what a penalty's tangential spring has been stretched by
-  std::vector<double> inverse_mass;          ///< 1/kg; with a response the largest answer of a node to its own impulse
-  const SurfaceResponse* response = nullptr; ///< if nodes answer one another; then also
+  std::vector<Vec3> velocity;  ///< m/s; free on input, final on output
+  std::vector<Vec3> before;    ///< of the last half step: what a penalty's tangential spring has been stretched by
+  std::vector<double> inverse_mass;           ///< 1/kg; with a response the largest answer of a node to its own impulse
+  const SurfaceResponse* response = nullptr;  ///< if nodes answer one another; then also
   struct Place {
     int column, station;
-    double cos = 1, sin = 0;                 ///< of the station's frame in the model: x = cos x' - sin z', z = sin x' + cos z'
+    double cos = 1, sin = 0;  ///< of the station's frame in the model: x = cos x' - sin z', z = sin x' + cos z'
   };
   std::vector<Place> places;
   void clear() { velocity.clear(), before.clear(), inverse_mass.clear(), places.clear(); }
 };
 
-/// What the contact works on, gathered for the rows of a step: rail nodes in the order of the rows, wheel nodes each once.
+/// What the contact works on, gathered for the rows of a step: rail nodes in the order of the rows, wheel nodes each
+/// once.
 struct ContactSystem {
-  std::vector<std::ptrdiff_t> wheel_nodes;    ///< index of component x
-  std::vector<int> weight_node;               ///< per weight of the rows, position in wheel_nodes
+  std::vector<std::ptrdiff_t> wheel_nodes;  ///< index of component x
+  std::vector<int> weight_node;             ///< per weight of the rows, position in wheel_nodes
   ContactSide rail, wheel;
-  bool tractions_held = false;                ///< the free velocities have felt the last step's tractions already
+  bool tractions_held = false;  ///< the free velocities have felt the last step's tractions already
   // memory that one step leaves to the next
-  std::vector<double> compliance;             ///< of the rows, (m/s)/Pa; set by enforce_contact
-  std::vector<Vec3> held;                     ///< tractions of the last step, Pa; penalty only
+  std::vector<double> compliance;  ///< of the rows, (m/s)/Pa; set by enforce_contact
+  std::vector<Vec3> held;          ///< tractions of the last step, Pa; penalty only
   int sweeps = 0;
 };
 
@@ -70,9 +72,12 @@ class WheelNumbering {
 /// Tractions of the rail's surface nodes, [column * stations + station].
 class TractionMemory {
  public:
-  TractionMemory(int columns, int stations) : stations_(stations), node_(static_cast<std::size_t>(columns) * stations) {}
+  TractionMemory(int columns, int stations)
+      : stations_(stations), node_(static_cast<std::size_t>(columns) * stations) {}
   NodeTraction& at(int column, int station) { return node_[static_cast<std::size_t>(column) * stations_ + station]; }
-  const NodeTraction& at(int column, int station) const { return node_[static_cast<std::size_t>(column) * stations_ + station]; }
+  const NodeTraction& at(int column, int station) const {
+    return node_[static_cast<std::size_t>(column) * stations_ + station];
+  }
   std::vector<NodeTraction>& all() { return node_; }
   const std::vector<NodeTraction>& all() const { return node_; }
   int stations() const { return stations_; }
@@ -84,13 +89,15 @@ class TractionMemory {
 
 struct EnforcementOptions {
   bool penalty = false;
-  double penalty_stiffness = 0;    ///< Pa/m, penalty only
+  double penalty_stiffness = 0;  ///< Pa/m, penalty only
   double friction_coefficient = 0;
-  double tolerance = 1e-11;        ///< m, change of a relative displacement per step at which the sweeps stop
+  double tolerance = 1e-11;  ///< m, change of a relative displacement per step at which the sweeps stop
   int max_sweeps = 100;
 };
 
-/// Finds the tractions of the rows and the velocities after the step. Nodes of `memory` that are not among the rows must be zero.
-void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system, TractionMemory& memory);
+/// Finds the tractions of the rows and the velocities after the step. Nodes of `memory` that are not among the rows
+/// must be zero.
+void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
+                     TractionMemory& memory);
 
 }  // namespace railstrata

@@ -17,7 +17,8 @@ double dual(int side, double t) { return side ? 3 * t - 1 : 2 - 3 * t; }
 
 }  // namespace
 
-MortarContact::MortarContact(ContactSurface rail, ContactSurface wheel) : rail_(std::move(rail)), wheel_(std::move(wheel)) {
+MortarContact::MortarContact(ContactSurface rail, ContactSurface wheel)
+    : rail_(std::move(rail)), wheel_(std::move(wheel)) {
   for (double t : wheel_.stations.at) {
     sin_t_.push_back(std::sin(t));
     cos_t_.push_back(std::cos(t));
@@ -33,10 +34,13 @@ Vec3 MortarContact::rail_point(const Field& u, int c, int j, double wy, double w
   const Vec2 a = rail_.node[c], b = rail_.node[c + 1], sag = rail_.sagitta[c];
   const double bulge = 4 * wy * (1 - wy);
   const double x = (1 - wx) * rail_.stations.at[j] + wx * rail_.stations.at[j + 1];
-  Vec3 p{rail_.origin.x + x, rail_.origin.y + (1 - wy) * a.y + wy * b.y + bulge * sag.y, rail_.origin.z + (1 - wy) * a.z + wy * b.z + bulge * sag.z};
+  Vec3 p{rail_.origin.x + x, rail_.origin.y + (1 - wy) * a.y + wy * b.y + bulge * sag.y,
+         rail_.origin.z + (1 - wy) * a.z + wy * b.z + bulge * sag.z};
   const std::ptrdiff_t i0 = rail_.index(c, j), i1 = rail_.index(c + 1, j);
   const int s = rail_.stride;
-  auto at = [&](std::ptrdiff_t k) { return (1 - wy) * ((1 - wx) * u[i0 + k] + wx * u[i0 + k + 1]) + wy * ((1 - wx) * u[i1 + k] + wx * u[i1 + k + 1]); };
+  auto at = [&](std::ptrdiff_t k) {
+    return (1 - wy) * ((1 - wx) * u[i0 + k] + wx * u[i0 + k + 1]) + wy * ((1 - wx) * u[i1 + k] + wx * u[i1 + k + 1]);
+  };
   p.x += at(0);
   p.y += at(s);
   p.z += at(2 * s);
@@ -47,7 +51,8 @@ int MortarContact::wheel_station(double theta, double& weight) const {
   const auto& at = wheel_.stations.at;
   if (!std::isfinite(theta)) return weight = 0, 0;  // the driver's check of the numbers will tell
   theta -= kPeriod * std::floor((theta - at.front()) / kPeriod);
-  const int j = std::max(static_cast<int>(std::upper_bound(at.begin(), at.end(), theta) - at.begin()) - 1, 0);  // round-off may leave theta below the first station
+  const int j = std::max(static_cast<int>(std::upper_bound(at.begin(), at.end(), theta) - at.begin()) - 1,
+                         0);  // round-off may leave theta below the first station
   const double next = j + 1 < static_cast<int>(at.size()) ? at[j + 1] : at.front() + kPeriod;
   weight = (theta - at[j]) / (next - at[j]);
   return j;
@@ -57,10 +62,12 @@ MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose,
   Hit h{};
   const Vec3 arm{p.x - wheel_.origin.x - pose.x, p.y - wheel_.origin.y, p.z - wheel_.origin.z - pose.z};
   const double radius = std::sqrt(arm.x * arm.x + arm.z * arm.z);
-  const double theta = std::atan2(arm.x, -arm.z) + pose.psi - correction.y / radius;  // correction: (y, x) mismatch, see rows()
+  const double theta =
+      std::atan2(arm.x, -arm.z) + pose.psi - correction.y / radius;  // correction: (y, x) mismatch, see rows()
   h.station = wheel_station(theta, h.weight_t);
   const double y = arm.y - correction.z;
-  const auto above = std::upper_bound(wheel_.node.begin(), wheel_.node.end(), y, [](double v, Vec2 n) { return v < n.y; });
+  const auto above =
+      std::upper_bound(wheel_.node.begin(), wheel_.node.end(), y, [](double v, Vec2 n) { return v < n.y; });
   h.column = static_cast<int>(above - wheel_.node.begin()) - 1;
   h.inside = h.column >= 1 && h.column < wheel_.columns - 2;
   h.column = std::clamp(h.column, 0, wheel_.columns - 2);
@@ -68,12 +75,15 @@ MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose,
   h.weight_y = (y - a.y) / (b.y - a.y);
 
   const int next = h.station + 1 < wheel_.stations.nodes() ? h.station + 1 : 0;
-  const double t0 = wheel_.stations.at[h.station], t1 = next ? wheel_.stations.at[next] : wheel_.stations.at[0] + kPeriod;
+  const double t0 = wheel_.stations.at[h.station],
+               t1 = next ? wheel_.stations.at[next] : wheel_.stations.at[0] + kPeriod;
   const double wy = h.weight_y, wt = h.weight_t, bulge = 4 * wy * (1 - wy);
-  // exact undeformed point, turned and moved with the axle, plus what the nodal displacements add to the rigid motion of the chord
+  // exact undeformed point, turned and moved with the axle, plus what the nodal displacements add to the rigid motion
+  // of the chord
   const Vec2 section{(1 - wy) * a.y + wy * b.y + bulge * sag.y, (1 - wy) * a.z + wy * b.z + bulge * sag.z};
   const double angle = t0 + wt * (t1 - t0) - pose.psi;
-  Vec3 x{wheel_.origin.x - section.z * std::sin(angle), wheel_.origin.y + section.y, wheel_.origin.z + section.z * std::cos(angle)};
+  Vec3 x{wheel_.origin.x - section.z * std::sin(angle), wheel_.origin.y + section.y,
+         wheel_.origin.z + section.z * std::cos(angle)};
   const double weights[4] = {(1 - wy) * (1 - wt), wy * (1 - wt), (1 - wy) * wt, wy * wt};
   Vec2 chord{};  // (x, z) of the interpolated undeformed nodes, relative to the axle
   for (int n = 0; n < 4; ++n) {
@@ -93,7 +103,8 @@ MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose,
 // Memory for all nodes of the window, so that nothing grows while the patch moves on.
 void MortarContact::reserve_window() {
   constexpr std::size_t kWeights = 16;  // of a row, if the wheel's facets are no smaller than the rail's
-  const auto stations = static_cast<std::size_t>(window_stations_) + 2, columns = static_cast<std::size_t>(rail_.columns);
+  const auto stations = static_cast<std::size_t>(window_stations_) + 2,
+             columns = static_cast<std::size_t>(rail_.columns);
   if (stations * columns <= near_.capacity()) return;
   const std::size_t nodes = (stations + 2) * columns;  // a window of one length covers now a station more, now one less
   for (auto* flags : {&near_, &edge_}) flags->reserve(nodes);
@@ -104,13 +115,16 @@ void MortarContact::reserve_window() {
   result_.weights.reserve(kWeights * nodes);
 }
 
-void MortarContact::search(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double half_length, double reach) {
+void MortarContact::search(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double half_length,
+                           double reach) {
   turn_to(pose.psi);
   const auto& at = rail_.stations.at;
   const double centre = wheel_.origin.x + pose.x - rail_.origin.x;
   window_first_ = static_cast<int>(std::lower_bound(at.begin(), at.end(), centre - half_length) - at.begin());
   window_first_ = std::max(window_first_, 1);
-  const int window_last = std::min(static_cast<int>(std::upper_bound(at.begin(), at.end(), centre + half_length) - at.begin()), static_cast<int>(at.size()) - 1);
+  const int window_last =
+      std::min(static_cast<int>(std::upper_bound(at.begin(), at.end(), centre + half_length) - at.begin()),
+               static_cast<int>(at.size()) - 1);
   window_stations_ = std::max(window_last - window_first_, 0);
   const int inner = rail_.columns - 2;  // the outermost columns are tied to the coarser mesh
   reserve_window();
@@ -134,7 +148,9 @@ void MortarContact::search(const Field& u_rail, const Field& u_wheel, const Axle
   std::swap(before_, facets_);
   facets_.clear();
   facet_of_.assign(static_cast<std::size_t>(rail_.columns) * (window_stations_ + 2), -1);
-  auto slot = [&](int c, int j) -> int& { return facet_of_[static_cast<std::size_t>(j - window_first_ + 1) * rail_.columns + c]; };
+  auto slot = [&](int c, int j) -> int& {
+    return facet_of_[static_cast<std::size_t>(j - window_first_ + 1) * rail_.columns + c];
+  };
   for (int w = 0; w < window_stations_; ++w)
     for (int c = 1; c <= inner; ++c) {
       if (!near_[static_cast<std::size_t>(w) * inner + (c - 1)]) continue;
@@ -151,13 +167,15 @@ void MortarContact::search(const Field& u_rail, const Field& u_wheel, const Axle
   for (const Facet& old : before_) {  // keep the tangential corrections of facets seen before
     const int j = old.station - window_first_ + 1;
     if (j < 0 || j >= window_stations_ + 2) continue;
-    if (const int f = facet_of_[static_cast<std::size_t>(j) * rail_.columns + old.column]; f >= 0) std::copy(old.correction, old.correction + 4, facets_[f].correction);
+    if (const int f = facet_of_[static_cast<std::size_t>(j) * rail_.columns + old.column]; f >= 0)
+      std::copy(old.correction, old.correction + 4, facets_[f].correction);
   }
   for_each(static_cast<std::ptrdiff_t>(facets_.size()), [&](std::ptrdiff_t f) {
     for (int g = 0; g < 4; ++g) {
       Vec2& correction = facets_[f].correction[g];
       if (correction.y != 0 || correction.z != 0) continue;
-      const Hit h = opposite(u_wheel, pose, rail_point(u_rail, facets_[f].column, facets_[f].station, kPoint[g % 2], kPoint[g / 2]), {});
+      const Hit h = opposite(
+          u_wheel, pose, rail_point(u_rail, facets_[f].column, facets_[f].station, kPoint[g % 2], kPoint[g / 2]), {});
       correction = {h.offset.x, h.offset.y};
     }
   });
@@ -170,7 +188,8 @@ const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel,
     Facet& facet = facets_[f];
     for (int g = 0; g < 4; ++g) {
       Hit& h = hits_[f].hit[g];
-      h = opposite(u_wheel, pose, rail_point(u_rail, facet.column, facet.station, kPoint[g % 2], kPoint[g / 2]), facet.correction[g]);
+      h = opposite(u_wheel, pose, rail_point(u_rail, facet.column, facet.station, kPoint[g % 2], kPoint[g / 2]),
+                   facet.correction[g]);
       facet.correction[g] = facet.correction[g] + Vec2{h.offset.x, h.offset.y};
     }
   });
@@ -179,8 +198,16 @@ const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel,
   const int wheel_stations = wheel_.stations.nodes();
   for (std::size_t r = 0; r < chosen_column_.size(); ++r) {
     const int c = chosen_column_[r], j = chosen_station_[r];
-    ContactRow row{c, j, rail_.index(c, j), static_cast<int>(result_.weights.size()), 0, 0, 0, {0, rail_.outward[c].y, rail_.outward[c].z}};
-    const int facet[4] = {facet_of_[static_cast<std::size_t>(j - window_first_) * rail_.columns + c - 1], facet_of_[static_cast<std::size_t>(j - window_first_) * rail_.columns + c],
+    ContactRow row{c,
+                   j,
+                   rail_.index(c, j),
+                   static_cast<int>(result_.weights.size()),
+                   0,
+                   0,
+                   0,
+                   {0, rail_.outward[c].y, rail_.outward[c].z}};
+    const int facet[4] = {facet_of_[static_cast<std::size_t>(j - window_first_) * rail_.columns + c - 1],
+                          facet_of_[static_cast<std::size_t>(j - window_first_) * rail_.columns + c],
                           facet_of_[static_cast<std::size_t>(j - window_first_ + 1) * rail_.columns + c - 1],
                           facet_of_[static_cast<std::size_t>(j - window_first_ + 1) * rail_.columns + c]};
     // window of wheel nodes touched by the four facets, stations counted from the first one met (rings close)
@@ -194,8 +221,10 @@ const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel,
     };
     for (int f : facet)
       for (const Hit& h : hits_[f].hit) {
-        column_lo = std::min(column_lo, h.column), column_hi = std::max(column_hi, h.column + 1);
-        lo = std::min(lo, relative(h.station)), hi = std::max(hi, relative(h.station) + 1);
+        column_lo = std::min(column_lo, h.column);
+        column_hi = std::max(column_hi, h.column + 1);
+        lo = std::min(lo, relative(h.station));
+        hi = std::max(hi, relative(h.station) + 1);
       }
     const int nc = column_hi - column_lo + 1, nt = hi - lo + 1;
     scratch_.assign(static_cast<std::size_t>(nc) * nt, 0.0);
@@ -203,7 +232,8 @@ const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel,
     for (int q = 0; q < 4; ++q) {  // the node is corner (1,1), (0,1), (1,0), (0,0) of its four facets
       const int side_y = q % 2 ? 0 : 1, side_x = q / 2 ? 0 : 1;
       const Facet& fa = facets_[facet[q]];
-      const double facet_area = rail_.width[fa.column] * (rail_.stations.at[fa.station + 1] - rail_.stations.at[fa.station]);
+      const double facet_area =
+          rail_.width[fa.column] * (rail_.stations.at[fa.station + 1] - rail_.stations.at[fa.station]);
       for (int g = 0; g < 4; ++g) {
         const Hit& h = hits_[facet[q]].hit[g];
         const double ty = kPoint[g % 2], tx = kPoint[g / 2];
@@ -220,7 +250,8 @@ const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel,
     for (int t = 0; t < nt; ++t) {
       const int station = ((anchor + lo + t) % wheel_stations + wheel_stations) % wheel_stations;
       for (int n = 0; n < nc; ++n)
-        if (const double m = scratch_[static_cast<std::size_t>(t) * nc + n]; m != 0) result_.weights.push_back({wheel_.index(column_lo + n, station), m / area});
+        if (const double m = scratch_[static_cast<std::size_t>(t) * nc + n]; m != 0)
+          result_.weights.push_back({wheel_.index(column_lo + n, station), m / area});
     }
     row.count = static_cast<int>(result_.weights.size()) - row.first;
     row.area = area;

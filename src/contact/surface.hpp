@@ -1,5 +1,6 @@
 #pragma once
-// The running surface of a swept body as the contact sees it: the top nodes of the contact band, with the exact profile between them.
+// The running surface of a swept body as the contact sees it: the top nodes of the contact band, with the exact profile
+// between them.
 #include <functional>
 
 #include "mesh/layout.hpp"
@@ -16,16 +17,18 @@ using SectionCurve = std::function<SectionPoint(double s)>;
 struct ContactSurface {
   SweepKind kind = SweepKind::extrude;
   Vec3 origin;
-  int columns = 0;                 ///< nodes across
+  int columns = 0;  ///< nodes across
   Stations stations;
-  std::vector<Vec2> node;          ///< section coordinates of the surface nodes, y increasing
-  std::vector<Vec2> outward;       ///< unit normals there
-  std::vector<Vec2> sagitta;       ///< exact mid-facet point minus the chord's middle, columns - 1
-  std::vector<double> s;           ///< profile arc length of the nodes
-  std::vector<double> width;       ///< arc length of the facets, columns - 1
-  std::ptrdiff_t first_line = 0;   ///< layout line of node 0, component 0
-  int stride = 0;                  ///< between components; nodes are 3 strides apart
-  std::ptrdiff_t index(int column, int station) const { return first_line + static_cast<std::ptrdiff_t>(column) * 3 * stride + station; }
+  std::vector<Vec2> node;         ///< section coordinates of the surface nodes, y increasing
+  std::vector<Vec2> outward;      ///< unit normals there
+  std::vector<Vec2> sagitta;      ///< exact mid-facet point minus the chord's middle, columns - 1
+  std::vector<double> s;          ///< profile arc length of the nodes
+  std::vector<double> width;      ///< arc length of the facets, columns - 1
+  std::ptrdiff_t first_line = 0;  ///< layout line of node 0, component 0
+  int stride = 0;                 ///< between components; nodes are 3 strides apart
+  std::ptrdiff_t index(int column, int station) const {
+    return first_line + static_cast<std::ptrdiff_t>(column) * 3 * stride + station;
+  }
 };
 
 ContactSurface contact_surface(const SweptBody& body, const BodyLayout& layout, const SectionCurve& curve);

@@ -1,5 +1,6 @@
 #pragma once
-// How the surface nodes of a swept body answer one another's impulses within a step, where they are not simply masses (body/local_steps.hpp).
+// How the surface nodes of a swept body answer one another's impulses within a step, where they are not simply masses
+// (body/local_steps.hpp).
 #include <algorithm>
 #include <cstddef>
 #include <cstdlib>
@@ -9,21 +10,27 @@
 
 namespace railstrata {
 
-/// Velocity [m/s] of node (to, station + apart) per unit impulse [N s] on node (from, station): 3 x 3 numbers in 1/kg by row, rows the components of the velocity, columns
-/// those of the impulse, both in the frame of the station that is pushed. The same at all stations; nothing beyond `reach` of them.
+/// Velocity [m/s] of node (to, station + apart) per unit impulse [N s] on node (from, station): 3 x 3 numbers in 1/kg
+/// by row, rows the components of the velocity, columns those of the impulse, both in the frame of the station that is
+/// pushed. The same at all stations; nothing beyond `reach` of them.
 class SurfaceResponse {
  public:
   /// Every node answers for itself, by its mass.
   SurfaceResponse() = default;
-  SurfaceResponse(int columns, int reach) : columns_(columns), reach_(reach), blocks_(static_cast<std::size_t>(columns) * columns * (2 * reach + 1) * 9) {}
+  SurfaceResponse(int columns, int reach)
+      : columns_(columns), reach_(reach), blocks_(static_cast<std::size_t>(columns) * columns * (2 * reach + 1) * 9) {}
 
   bool empty() const { return blocks_.empty(); }
   int reach() const { return reach_; }
-  double& entry(int from, int to, int apart, int velocity, int impulse) { return blocks_[place(from, to, apart) + 3 * velocity + impulse]; }
+  double& entry(int from, int to, int apart, int velocity, int impulse) {
+    return blocks_[place(from, to, apart) + 3 * velocity + impulse];
+  }
   Vec3 velocity(int from, int to, int apart, Vec3 impulse) const {
     if (std::abs(apart) > reach_) return {};
     const double* b = blocks_.data() + place(from, to, apart);
-    return {b[0] * impulse.x + b[1] * impulse.y + b[2] * impulse.z, b[3] * impulse.x + b[4] * impulse.y + b[5] * impulse.z, b[6] * impulse.x + b[7] * impulse.y + b[8] * impulse.z};
+    return {b[0] * impulse.x + b[1] * impulse.y + b[2] * impulse.z,
+            b[3] * impulse.x + b[4] * impulse.y + b[5] * impulse.z,
+            b[6] * impulse.x + b[7] * impulse.y + b[8] * impulse.z};
   }
   /// The largest of the three answers of a node to its own impulse [1/kg].
   double own(int column) const {
@@ -32,7 +39,9 @@ class SurfaceResponse {
   }
 
  private:
-  std::size_t place(int from, int to, int apart) const { return ((static_cast<std::size_t>(from) * columns_ + to) * (2 * reach_ + 1) + (apart + reach_)) * 9; }
+  std::size_t place(int from, int to, int apart) const {
+    return ((static_cast<std::size_t>(from) * columns_ + to) * (2 * reach_ + 1) + (apart + reach_)) * 9;
+  }
   int columns_ = 0, reach_ = 0;
   std::vector<double> blocks_;
 };

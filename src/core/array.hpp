@@ -16,7 +16,9 @@ struct CacheLineAllocator {
   explicit CacheLineAllocator(const CacheLineAllocator<U>&) {}
   T* allocate(std::size_t n) {
     T* p = static_cast<T*>(::operator new(n * sizeof(T), alignment(n)));
-    if (n * sizeof(T) >= kHugePage) madvise(p, n * sizeof(T), MADV_HUGEPAGE);  // a sweep over the lines of a body meets a new page with nearly every one; only a wish
+    if (n * sizeof(T) >= kHugePage)
+      madvise(p, n * sizeof(T),
+              MADV_HUGEPAGE);  // a sweep over the lines of a body meets a new page with nearly every one; only a wish
     return p;
   }
   void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
@@ -24,13 +26,16 @@ struct CacheLineAllocator {
 
  private:
   static constexpr std::size_t kHugePage = std::size_t{2} << 20;
-  static constexpr std::align_val_t alignment(std::size_t n) { return std::align_val_t{n * sizeof(T) >= kHugePage ? kHugePage : 64}; }
+  static constexpr std::align_val_t alignment(std::size_t n) {
+    return std::align_val_t{n * sizeof(T) >= kHugePage ? kHugePage : 64};
+  }
 };
 
 /// One number per degree of freedom (or per station); how it is indexed is told by mesh/layout.hpp.
 using Field = std::vector<double, CacheLineAllocator<double>>;
 
-/// Lines of memory that will be wanted soon. They are asked for in pieces, between other work: a burst of requests would wait for the few that a core can have open.
+/// Lines of memory that will be wanted soon. They are asked for in pieces, between other work: a burst of requests
+/// would wait for the few that a core can have open.
 class Prefetch {
  public:
   void clear() { count_ = 0; }

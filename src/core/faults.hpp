@@ -7,7 +7,16 @@
 namespace railstrata {
 
 /// Exit codes of the program (docs/conventions.md).
-enum class ExitCode : int { ok = 0, failed_checks = 1, user = 2, numerics = 3, environment = 4, unfinished = 5, internal = 70, interrupted = 130 };
+enum class ExitCode : int {
+  ok = 0,
+  failed_checks = 1,
+  user = 2,
+  numerics = 3,
+  environment = 4,
+  unfinished = 5,
+  internal = 70,
+  interrupted = 130
+};
 
 /// Something the user wrote is wrong: a case file, a profile, a command line. Exit code 2.
 /// `where` is "file:line:column" as far as it is known, `remedy` says what to do.
@@ -44,10 +53,12 @@ class NumericalError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The machine cannot do it: disk full, no permission, not enough memory. Exit code 4. `remedy` says what to do; it may be empty.
+/// The machine cannot do it: disk full, no permission, not enough memory. Exit code 4. `remedy` says what to do; it may
+/// be empty.
 class EnvironmentError : public std::runtime_error {
  public:
-  explicit EnvironmentError(const std::string& message, std::string what_to_do = {}) : std::runtime_error(message), remedy(std::move(what_to_do)) {}
+  explicit EnvironmentError(const std::string& message, std::string what_to_do = {})
+      : std::runtime_error(message), remedy(std::move(what_to_do)) {}
   std::string remedy;
 };
 

@@ -6,10 +6,12 @@
 
 namespace railstrata {
 
-/// Least number of inserted, deleted, replaced or swapped neighbouring letters between two words, capitals aside (optimal string alignment).
+/// Least number of inserted, deleted, replaced or swapped neighbouring letters between two words, capitals aside
+/// (optimal string alignment).
 int edit_distance(std::string_view a, std::string_view b);
 
-/// The word nearest to `typed` when it is near enough to be meant (at most a third of its letters differ, or one starts with the other); empty otherwise.
+/// The word nearest to `typed` when it is near enough to be meant (at most a third of its letters differ, or one starts
+/// with the other); empty otherwise.
 std::string nearest_word(std::string_view typed, const std::vector<std::string>& words);
 
 }  // namespace railstrata

@@ -19,7 +19,8 @@ void for_each(std::ptrdiff_t n, Kernel&& kernel, bool uneven = false) {
   }
 }
 
-/// Sum of kernel(begin, end) over fixed pieces of [0, n), added in the order of the pieces: the same bits for any number of threads.
+/// Sum of kernel(begin, end) over fixed pieces of [0, n), added in the order of the pieces: the same bits for any
+/// number of threads.
 template <class Kernel>
 double ordered_sum(std::ptrdiff_t n, Kernel&& kernel) {
   constexpr std::ptrdiff_t piece = 8192;

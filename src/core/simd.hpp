@@ -1,12 +1,13 @@
 #pragma once
-// The SIMD pack: a vector as wide as the machine's registers, with + - * / and mixed scalar operations from the compiler's vector extension.
-// Laws are templates on the number type and take a scalar or a pack alike.
+// The SIMD pack: a vector as wide as the machine's registers, with + - * / and mixed scalar operations from the
+// compiler's vector extension. Laws are templates on the number type and take a scalar or a pack alike.
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
 #include <utility>
 
-/// In front of a short loop of a law: packs stay in registers only if the compiler takes the loop apart, and it shies away from long bodies.
+/// In front of a short loop of a law: packs stay in registers only if the compiler takes the loop apart, and it shies
+/// away from long bodies.
 #define RAILSTRATA_UNROLL _Pragma("GCC unroll 16")
 
 namespace railstrata {
@@ -56,7 +57,10 @@ inline void store(float* p, PackOf<float> v) { std::memcpy(p, &v, sizeof v); }
 template <class P>
 inline P halves(P lower, P upper) {
   constexpr int lanes = static_cast<int>(sizeof(P) / sizeof(lower[0]));
-  return [&]<int... I>(std::integer_sequence<int, I...>) { return __builtin_shufflevector(lower, upper, (I < lanes / 2 ? I : lanes + I)...); }(std::make_integer_sequence<int, lanes>{});
+  return [&]<int... I>(std::integer_sequence<int, I...>) {
+    return __builtin_shufflevector(lower, upper, (I < lanes / 2 ? I : lanes + I)...);
+  }
+  (std::make_integer_sequence<int, lanes>{});
 }
 
 /// n rounded up to whole packs of doubles.

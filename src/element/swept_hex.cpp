@@ -62,17 +62,25 @@ MeanGradients mean_gradients(const std::array<Vec3, 8>& corners) {
 // Strain rows xx, yy, zz, 2xy, 2yz, 2xz of one gradient vector acting on a vector amplitude.
 Eigen::Matrix<double, 6, 3> strain_rows(const Eigen::Vector3d& g) {
   Eigen::Matrix<double, 6, 3> b = Eigen::Matrix<double, 6, 3>::Zero();
-  b(0, 0) = g(0), b(1, 1) = g(1), b(2, 2) = g(2);
-  b(3, 0) = g(1), b(3, 1) = g(0);
-  b(4, 1) = g(2), b(4, 2) = g(1);
-  b(5, 0) = g(2), b(5, 2) = g(0);
+  b(0, 0) = g(0);
+  b(1, 1) = g(1);
+  b(2, 2) = g(2);
+  b(3, 0) = g(1);
+  b(3, 1) = g(0);
+  b(4, 1) = g(2);
+  b(4, 2) = g(1);
+  b(5, 0) = g(2);
+  b(5, 2) = g(0);
   return b;
 }
 
 Eigen::Matrix<double, 6, 6> elasticity(const Elastic& m) {
   Eigen::Matrix<double, 6, 6> c = Eigen::Matrix<double, 6, 6>::Zero();
   c.topLeftCorner<3, 3>().setConstant(m.lambda);
-  for (int i = 0; i < 3; ++i) c(i, i) += 2 * m.mu, c(i + 3, i + 3) = m.mu;
+  for (int i = 0; i < 3; ++i) {
+    c(i, i) += 2 * m.mu;
+    c(i + 3, i + 3) = m.mu;
+  }
   return c;
 }
 
@@ -151,10 +159,12 @@ Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const E
     const Gradients g = j.inverse() * natural;
     Matrix6x24 b;
     for (int a = 0; a < 8; ++a) b.middleCols<3>(3 * a) = strain_rows(g.col(a));
-    // Taylor's correction: gradients of the bubbles 1 - xi^2 with the centre's Jacobian, so that their mean over the element vanishes.
+    // Taylor's correction: gradients of the bubbles 1 - xi^2 with the centre's Jacobian, so that their mean over the
+    // element vanishes.
     Eigen::Matrix<double, 6, 9> m;
     const double bubbles[3] = {-2 * xi, -2 * eta, -2 * zeta};
-    for (int n = 0; n < 3; ++n) m.middleCols<3>(3 * n) = strain_rows(Eigen::Vector3d(j0_inverse.col(n) * (bubbles[n] * det0 / det)));
+    for (int n = 0; n < 3; ++n)
+      m.middleCols<3>(3 * n) = strain_rows(Eigen::Vector3d(j0_inverse.col(n) * (bubbles[n] * det0 / det)));
     kuu += det * b.transpose() * c * b;
     kau += det * m.transpose() * c * b;
     kaa += det * m.transpose() * c * m;
@@ -162,18 +172,21 @@ Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const E
   return kuu - kau.transpose() * kaa.ldlt().solve(kau);
 }
 
-HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material, ElementKind element, double kappa) {
+HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale,
+                                       const Elastic& material, ElementKind element, double kappa) {
   const std::array<Vec3, 8> corners = local_corners(kind, quad, scale);
   const MeanGradients mean = mean_gradients(corners);
   Eigen::Matrix<double, 12, 12> k;
   if (element == ElementKind::one_point) {
-    k = Eigen::Matrix<double, 12, 12>::Identity() * (kappa * material.p_wave_modulus() * mean.volume * mean.b.squaredNorm() / 8);
+    k = Eigen::Matrix<double, 12, 12>::Identity() *
+        (kappa * material.p_wave_modulus() * mean.volume * mean.b.squaredNorm() / 8);
   } else {
     const Eigen::Matrix<double, 8, 4> h = hourglass_patterns();
     const Eigen::Matrix<double, 8, 3> x = positions(corners);
     const Eigen::Matrix<double, 8, 4> gamma = h - mean.b.transpose() * (x.transpose() * h);
     const Eigen::Matrix<double, 8, 4> phi = h - x * (mean.b * h);
-    const Eigen::Matrix4d amplitude = (gamma.transpose() * phi).inverse();  // phi * amplitude has unit hourglass amplitudes
+    const Eigen::Matrix4d amplitude =
+        (gamma.transpose() * phi).inverse();  // phi * amplitude has unit hourglass amplitudes
     const Eigen::Matrix<double, 8, 4> unit = phi * amplitude;
     Eigen::Matrix<double, 24, 12> modes = Eigen::Matrix<double, 24, 12>::Zero();
     for (int l = 0; l < 4; ++l)
@@ -185,7 +198,8 @@ HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>
   int e = 0;
   auto pack = [&](const auto& order) {
     for (std::size_t i = 0; i < order.size(); ++i)
-      for (std::size_t j = i; j < order.size(); ++j) out[static_cast<std::size_t>(e++)] = k(3 * order[i][0] + order[i][1], 3 * order[j][0] + order[j][1]);
+      for (std::size_t j = i; j < order.size(); ++j)
+        out[static_cast<std::size_t>(e++)] = k(3 * order[i][0] + order[i][1], 3 * order[j][0] + order[j][1]);
   };
   pack(kEvenOrder);
   pack(kOddOrder);
@@ -197,20 +211,23 @@ std::array<double, 4> corner_masses(SweepKind kind, const std::array<Vec2, 4>& q
   std::array<double, 4> mass{};
   for_gauss_points([&](double xi, double eta, double zeta) {
     const double det = jacobian(corners, natural_gradients(xi, eta, zeta)).determinant();
-    for (int k = 0; k < 4; ++k) mass[static_cast<std::size_t>(k)] += 0.5 * density * det * 0.25 * (1 + kEta[k] * eta) * (1 + kZeta[k] * zeta);
+    for (int k = 0; k < 4; ++k)
+      mass[static_cast<std::size_t>(k)] += 0.5 * density * det * 0.25 * (1 + kEta[k] * eta) * (1 + kZeta[k] * zeta);
   });
   return mass;
 }
 
 Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const HourglassStiffness& hourglass) {
-  StationScale<double> st{1 / scale.sigma, 1 / scale.c, scale.c, scale.sigma * scale.c, scale.sigma, scale.sigma, scale.c};
+  StationScale<double> st{1 / scale.sigma, 1 / scale.c, scale.c, scale.sigma * scale.c,
+                          scale.sigma,     scale.sigma, scale.c};
   Matrix24 k;
   for (int column = 0; column < 24; ++column) {
     const int a = column / 3;
-    auto kin = element_kinematics<SweepKind::revolve, double>(ref, st, [&](int c, int i, double& sum, double& difference) {
-      sum = c == a % 4 && i == column % 3 ? 1.0 : 0.0;
-      difference = a < 4 ? -sum : sum;
-    });
+    auto kin =
+        element_kinematics<SweepKind::revolve, double>(ref, st, [&](int c, int i, double& sum, double& difference) {
+          sum = c == a % 4 && i == column % 3 ? 1.0 : 0.0;
+          difference = a < 4 ? -sum : sum;
+        });
     const auto stress = linear_stress(ref, kin);
     hourglass_forces([&](int e) { return hourglass[static_cast<std::size_t>(e)]; }, kin);
     element_forces(ref, st, stress, kin, [&](int c, int i, auto&& add) {
@@ -223,7 +240,8 @@ Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const Hour
   return k;
 }
 
-double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material, const HourglassStiffness& hourglass) {
+double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material,
+                           const HourglassStiffness& hourglass) {
   const Matrix24 k = linear_stiffness(quad_reference(kind, quad, material), scale, hourglass);
   const std::array<double, 4> mass = corner_masses(kind, quad, scale, material.density);
   Eigen::Matrix<double, 24, 1> root;

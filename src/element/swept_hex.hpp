@@ -1,22 +1,28 @@
 #pragma once
 // The 8-node hexahedron of a swept mesh.
 //
-// An element is a quadrilateral (corners k = 0..3, section coordinates y_k, z_k) carried over one station spacing. In its own frame (1 along the sweep, 2 lateral,
-// 3 up) the corners stand at (-+ a_k, y_k, b_k) with, for a spacing D,
+// An element is a quadrilateral (corners k = 0..3, section coordinates y_k, z_k) carried over one station spacing. In
+// its own frame (1 along the sweep, 2 lateral, 3 up) the corners stand at (-+ a_k, y_k, b_k) with, for a spacing D,
 //   extrude: a_k = sigma,        b_k = z_k,    sigma = D/2,      c = 1
 //   revolve: a_k = -z_k sigma,   b_k = z_k c,  sigma = sin(D/2), c = cos(D/2).
-// So all elements of a quadrilateral are affine images of one reference shape (sigma = c = 1): gradients are shared, two numbers a station scale them.
+// So all elements of a quadrilateral are affine images of one reference shape (sigma = c = 1): gradients are shared,
+// two numbers a station scale them.
 //
 // Total Lagrangian, one-point mean gradients [FlanaganBelytschko1981], with a stiffness for the 12 hourglass modes:
-//   F = Q + H,  H_i = sum_a u_a b_ai,   E = (F^T F - I)/2,   S = lambda tr E + 2 mu E,   f_a = V F S b_a + sum_l gamma_la R K_lm R^T q_m,   q_l = sum_a gamma_la u_a.
-// Q turns the element's frame into the model frame (F's left index is the model frame's, its right index the element's own), R is Q turned by the body's rigid
-// rotation. b is the exact volume mean of the shape gradients and gamma_l = h_l - sum_i (h_l . X_i) b_i, so that rigid motion of any size gives no force.
-// The law works in the carried frame, R's: displacements come as R^T u, forces are given as R^T f, and F becomes T + R^T H with T = R^T Q, the same for all elements.
+//   F = Q + H,  H_i = sum_a u_a b_ai,   E = (F^T F - I)/2,   S = lambda tr E + 2 mu E,   f_a = V F S b_a + sum_l
+//   gamma_la R K_lm R^T q_m,   q_l = sum_a gamma_la u_a.
+// Q turns the element's frame into the model frame (F's left index is the model frame's, its right index the element's
+// own), R is Q turned by the body's rigid rotation. b is the exact volume mean of the shape gradients and gamma_l = h_l
+// - sum_i (h_l . X_i) b_i, so that rigid motion of any size gives no force. The law works in the carried frame, R's:
+// displacements come as R^T u, forces are given as R^T f, and F becomes T + R^T H with T = R^T Q, the same for all
+// elements.
 //
-// K (12 x 12) makes the element: with K = Phi^T K_full Phi (Phi: the displacement modes that have no mean gradient) the linear element is *identical* to the fully
-// integrated one that K_full comes from, at the cost of one stress point. Two kinds:
-//   full       Taylor–Wilson incompatible modes, 2x2x2 Gauss points: neither shear nor volumetric locking [TaylorBeresfordWilson1976]
-//   one_point  K = kappa (lambda + 2 mu) V (b:b)/8 I, the stiffness hourglass control of explicit codes [FlanaganBelytschko1981]
+// K (12 x 12) makes the element: with K = Phi^T K_full Phi (Phi: the displacement modes that have no mean gradient) the
+// linear element is *identical* to the fully integrated one that K_full comes from, at the cost of one stress point.
+// Two kinds:
+//   full       Taylor–Wilson incompatible modes, 2x2x2 Gauss points: neither shear nor volumetric locking
+//   [TaylorBeresfordWilson1976] one_point  K = kappa (lambda + 2 mu) V (b:b)/8 I, the stiffness hourglass control of
+//   explicit codes [FlanaganBelytschko1981]
 // By the mirror symmetry of the element K falls apart into a 5x5 (even) and a 7x7 (odd) block: 43 numbers.
 #include <Eigen/Dense>
 #include <array>
@@ -36,8 +42,8 @@ template <class Real>
 struct QuadReferenceOf {
   Real gx[4], gy[4], gz[4];  ///< mean gradients of the corners at +a (at -a: gx changes sign)
   Real volume;
-  Real even_y, even_z;       ///< h_even . Y, h_even . Z
-  Real odd[3];               ///< h_m . A for the patterns eta, zeta, eta zeta
+  Real even_y, even_z;  ///< h_even . Y, h_even . Z
+  Real odd[3];          ///< h_m . A for the patterns eta, zeta, eta zeta
   Real lambda, mu;
 };
 using QuadReference = QuadReferenceOf<double>;
@@ -54,21 +60,26 @@ enum class ElementKind { full, one_point };
 std::array<Vec3, 8> local_corners(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale);
 
 QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material);
-HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material, ElementKind element, double kappa);
+HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale,
+                                       const Elastic& material, ElementKind element, double kappa);
 
 /// Row-sum lumped masses of the eight corners, kg; corner k at -a and at +a have the same.
 std::array<double, 4> corner_masses(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, double density);
 
 using Matrix24 = Eigen::Matrix<double, 24, 24>;
-/// Linear stiffness of the element in its own frame (dof 3 a + i, corners as in local_corners), from the reference data the solver uses.
+/// Linear stiffness of the element in its own frame (dof 3 a + i, corners as in local_corners), from the reference data
+/// the solver uses.
 Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const HourglassStiffness& hourglass);
 /// Stiffness of the fully integrated incompatible-mode element, condensed: what `full` must reproduce.
 Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const Elastic& material);
 
-/// 2 / omega_max of the free element with lumped mass: a lower bound of the whole mesh's stable step [Hughes2000 ch. 9].
-double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material, const HourglassStiffness& hourglass);
+/// 2 / omega_max of the free element with lumped mass: a lower bound of the whole mesh's stable step [Hughes2000 ch.
+/// 9].
+double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material,
+                           const HourglassStiffness& hourglass);
 
-// ---- the law ---------------------------------------------------------------------------------------------------------------------------------------------
+// ---- the law
+// ---------------------------------------------------------------------------------------------------------------------------------------------
 
 /// Signs of the section patterns eta, zeta, eta zeta at the corners.
 inline constexpr double kEta[4] = {-1, 1, 1, -1}, kZeta[4] = {-1, -1, 1, 1}, kEtaZeta[4] = {1, -1, 1, -1};
@@ -76,12 +87,13 @@ inline constexpr double kEta[4] = {-1, 1, 1, -1}, kZeta[4] = {-1, -1, 1, 1}, kEt
 /// Per station (one lane each). A padding lane has all zero.
 template <class T>
 struct StationScale {
-  T inv_sigma, inv_c;    ///< of the gradients
-  T v1, v2, v3;          ///< volume factors: c, sigma c, sigma (V b = reference volume x factor x reference gradient)
+  T inv_sigma, inv_c;  ///< of the gradients
+  T v1, v2, v3;        ///< volume factors: c, sigma c, sigma (V b = reference volume x factor x reference gradient)
   T sigma, c;
 };
 
-/// T: the carried frame -> the element's own, turned back by the body's rigid rotation psi; positive when rolling forward.
+/// T: the carried frame -> the element's own, turned back by the body's rigid rotation psi; positive when rolling
+/// forward.
 template <class Real>
 struct BodyTurn {
   Real c = 1, s = 0;  ///< cos psi, sin psi
@@ -117,13 +129,15 @@ inline void symmetric_product(const Entry& k, int first, const T (&x)[N], T (&y)
 /// Displacement gradient columns and hourglass amplitudes.
 template <class T>
 struct ElementKinematics {
-  T h1[3], h2[3], h3[3];            ///< H columns: derivative along the sweep, lateral, up; components in the carried frame
-  T even[3], odd[3][3];             ///< q: pattern eta zeta of the sums; patterns eta, zeta, eta zeta of the differences
+  T h1[3], h2[3], h3[3];  ///< H columns: derivative along the sweep, lateral, up; components in the carried frame
+  T even[3], odd[3][3];   ///< q: pattern eta zeta of the sums; patterns eta, zeta, eta zeta of the differences
 };
 
-/// corner(k, i, sum, difference) gives component i of the displacements at +a_k plus and minus that at -a_k. One component at a time, so that few registers are alive.
+/// corner(k, i, sum, difference) gives component i of the displacements at +a_k plus and minus that at -a_k. One
+/// component at a time, so that few registers are alive.
 template <SweepKind kind = SweepKind::revolve, class T, class Real, class Corner>
-inline ElementKinematics<T> element_kinematics(const QuadReferenceOf<Real>& r, const StationScale<T>& st, Corner&& corner) {
+inline ElementKinematics<T> element_kinematics(const QuadReferenceOf<Real>& r, const StationScale<T>& st,
+                                               Corner&& corner) {
   ElementKinematics<T> k;
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
@@ -134,7 +148,10 @@ inline ElementKinematics<T> element_kinematics(const QuadReferenceOf<Real>& r, c
     k.h2[i] = r.gy[0] * s[0] + r.gy[1] * s[1] + r.gy[2] * s[2] + r.gy[3] * s[3];
     k.h3[i] = r.gz[0] * s[0] + r.gz[1] * s[1] + r.gz[2] * s[2] + r.gz[3] * s[3];
     T arm_z = T{} + r.even_z;
-    if constexpr (kind == SweepKind::revolve) k.h3[i] *= st.inv_c, arm_z *= st.c;
+    if constexpr (kind == SweepKind::revolve) {
+      k.h3[i] *= st.inv_c;
+      arm_z *= st.c;
+    }
     const T d10 = d[1] - d[0], d23 = d[2] - d[3], d10s = d[1] + d[0], d23s = d[2] + d[3];
     const T arm = k.h1[i] * st.sigma;
     k.even[i] = (s[0] - s[1]) + (s[2] - s[3]) - r.even_y * k.h2[i] - arm_z * k.h3[i];
@@ -148,19 +165,27 @@ inline ElementKinematics<T> element_kinematics(const QuadReferenceOf<Real>& r, c
 /// Second Piola–Kirchhoff stress in the element's frame and the first one's columns in the carried frame (P = F S).
 template <class T>
 struct ElementStress {
-  T s[6];               ///< 11, 22, 33, 12, 23, 13
+  T s[6];  ///< 11, 22, 33, 12, 23, 13
   T p1[3], p2[3], p3[3];
   T strain[6];
 };
 
 /// Exact (geometrically non-linear) response.
 template <SweepKind kind = SweepKind::revolve, class T, class Real>
-inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, BodyTurn<Real> turn, const ElementKinematics<T>& k) {
+inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, BodyTurn<Real> turn,
+                                         const ElementKinematics<T>& k) {
   ElementStress<T> out;
   const Real one = 1, half = Real(0.5);
   T f1[3] = {k.h1[0], k.h1[1], k.h1[2]}, f2[3] = {k.h2[0], one + k.h2[1], k.h2[2]}, f3[3] = {k.h3[0], k.h3[1], k.h3[2]};
-  if constexpr (kind == SweepKind::revolve) f1[0] += turn.c, f1[2] += turn.s, f3[0] -= turn.s, f3[2] += turn.c;
-  else f1[0] += one, f3[2] += one;
+  if constexpr (kind == SweepKind::revolve) {
+    f1[0] += turn.c;
+    f1[2] += turn.s;
+    f3[0] -= turn.s;
+    f3[2] += turn.c;
+  } else {
+    f1[0] += one;
+    f3[2] += one;
+  }
   auto dot3 = [](const T(&a)[3], const T(&b)[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; };
   out.strain[0] = half * (dot3(f1, f1) - one);
   out.strain[1] = half * (dot3(f2, f2) - one);
@@ -179,24 +204,34 @@ inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, BodyTur
   return out;
 }
 
-/// Small strains about the undeformed body (T = 1): the tangent of nonlinear_stress at u = 0, used by the static solver.
+/// Small strains about the undeformed body (T = 1): the tangent of nonlinear_stress at u = 0, used by the static
+/// solver.
 template <class T, class Real>
 inline ElementStress<T> linear_stress(const QuadReferenceOf<Real>& r, const ElementKinematics<T>& k) {
   ElementStress<T> out;
-  out.strain[0] = k.h1[0], out.strain[1] = k.h2[1], out.strain[2] = k.h3[2];
+  out.strain[0] = k.h1[0];
+  out.strain[1] = k.h2[1];
+  out.strain[2] = k.h3[2];
   const Real half = Real(0.5);
   out.strain[3] = half * (k.h1[1] + k.h2[0]);
   out.strain[4] = half * (k.h2[2] + k.h3[1]);
   out.strain[5] = half * (k.h1[2] + k.h3[0]);
   elastic_stress(r.lambda, r.mu, out.strain, out.s);
   const T(&s)[6] = out.s;
-  out.p1[0] = s[0], out.p1[1] = s[3], out.p1[2] = s[5];
-  out.p2[0] = s[3], out.p2[1] = s[1], out.p2[2] = s[4];
-  out.p3[0] = s[5], out.p3[1] = s[4], out.p3[2] = s[2];
+  out.p1[0] = s[0];
+  out.p1[1] = s[3];
+  out.p1[2] = s[5];
+  out.p2[0] = s[3];
+  out.p2[1] = s[1];
+  out.p2[2] = s[4];
+  out.p3[0] = s[5];
+  out.p3[1] = s[4];
+  out.p3[2] = s[2];
   return out;
 }
 
-/// Generalised hourglass forces K q in place of q; returns the hourglass energy q.Kq / 2. `entry(e)` gives the e-th number of HourglassStiffness.
+/// Generalised hourglass forces K q in place of q; returns the hourglass energy q.Kq / 2. `entry(e)` gives the e-th
+/// number of HourglassStiffness.
 template <class T, class Entry>
 inline T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
   const T a[5] = {k.even[1], k.even[2], k.odd[0][0], k.odd[1][0], k.odd[2][0]};
@@ -210,15 +245,23 @@ inline T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
   for (int i = 0; i < 5; ++i) twice_energy += a[i] * ka[i];
   RAILSTRATA_UNROLL
   for (int i = 0; i < 7; ++i) twice_energy += b[i] * kb[i];
-  k.even[0] = kb[0], k.even[1] = ka[0], k.even[2] = ka[1];
+  k.even[0] = kb[0];
+  k.even[1] = ka[0];
+  k.even[2] = ka[1];
   RAILSTRATA_UNROLL
-  for (int m = 0; m < 3; ++m) k.odd[m][0] = ka[2 + m], k.odd[m][1] = kb[1 + 2 * m], k.odd[m][2] = kb[2 + 2 * m];
+  for (int m = 0; m < 3; ++m) {
+    k.odd[m][0] = ka[2 + m];
+    k.odd[m][1] = kb[1 + 2 * m];
+    k.odd[m][2] = kb[2 + 2 * m];
+  }
   return twice_energy * ScalarOf<T>(0.5);
 }
 
-/// Nodal internal forces s - d at -a_k and s + d at +a_k: change(k, i, add) calls add(s, d), which adds to their component i. `k` holds generalised hourglass forces.
+/// Nodal internal forces s - d at -a_k and s + d at +a_k: change(k, i, add) calls add(s, d), which adds to their
+/// component i. `k` holds generalised hourglass forces.
 template <class T, class Real, class Change>
-inline void element_forces(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementStress<T>& stress, const ElementKinematics<T>& k, Change&& change) {
+inline void element_forces(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementStress<T>& stress,
+                           const ElementKinematics<T>& k, Change&& change) {
   const T v1 = r.volume * st.v1, v2 = r.volume * st.v2, v3 = r.volume * st.v3;
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {

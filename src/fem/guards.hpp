@@ -1,6 +1,7 @@
 #pragma once
-// What a run must keep to while it rolls, looked at a hundred or so steps apart. A run that leaves these bounds computes nothing of use any more and ends with a
-// NumericalError that says what, where and what to try. They are wide: results are judged by the far narrower checks of the summary.
+// What a run must keep to while it rolls, looked at a hundred or so steps apart. A run that leaves these bounds
+// computes nothing of use any more and ends with a NumericalError that says what, where and what to try. They are wide:
+// results are judged by the far narrower checks of the summary.
 #include <optional>
 
 #include "fem/rolling_run.hpp"
@@ -8,21 +9,22 @@
 namespace railstrata {
 
 struct GuardLimits {
-  double lost_contact = 0.02;        ///< least F_z over the static load
-  double energy_drift = 0.25;        ///< largest |change of the energy balance| over the largest of torque work and strain energy
-  double penetration = 1.0;          ///< largest over the Hertzian approach
-  double hourglass_share = 0.25;     ///< largest hourglass over strain energy
-  int rows_between_shapes = 8;       ///< rows of history.csv between two looks at the elements' shapes
+  double lost_contact = 0.02;  ///< least F_z over the static load
+  double energy_drift =
+      0.25;  ///< largest |change of the energy balance| over the largest of torque work and strain energy
+  double penetration = 1.0;       ///< largest over the Hertzian approach
+  double hourglass_share = 0.25;  ///< largest hourglass over strain energy
+  int rows_between_shapes = 8;    ///< rows of history.csv between two looks at the elements' shapes
 };
 
 /// An element of a contact band that is turned inside out.
 struct InvertedElement {
-  Vec3 centre;                       ///< m; x from the axle, y and z in the body's section
-  double jacobian = 0;               ///< least of its corners, over that of the undeformed element
+  Vec3 centre;          ///< m; x from the axle, y and z in the body's section
+  double jacobian = 0;  ///< least of its corners, over that of the undeformed element
 };
 
-/// The worst element of a sample whose Jacobian determinant is not positive in some corner, with the nodes where they are. section: y and z of the band's nodes
-/// [row * (columns + 1) + column].
+/// The worst element of a sample whose Jacobian determinant is not positive in some corner, with the nodes where they
+/// are. section: y and z of the band's nodes [row * (columns + 1) + column].
 std::optional<InvertedElement> inverted_element(const BandSample& sample, const std::vector<Vec2>& section);
 
 /// Numbers that are no longer finite, or an axle that moves by an element in one step. Called after every step.
@@ -31,7 +33,9 @@ void require_sound(const Stepper& stepper);
 void require_finite(const Stepper& stepper);
 /// A wheel that no longer rolls forward. Called after every step.
 void require_forward(const Stepper& stepper);
-/// All others, at a row of the history. largest_energy: of torque work and strain energy so far [J]; row_number: from 0.
-void require_within_bounds(const Stepper& stepper, const HistoryRow& row, double largest_energy, std::size_t row_number, const GuardLimits& limits = {});
+/// All others, at a row of the history. largest_energy: of torque work and strain energy so far [J]; row_number: from
+/// 0.
+void require_within_bounds(const Stepper& stepper, const HistoryRow& row, double largest_energy, std::size_t row_number,
+                           const GuardLimits& limits = {});
 
 }  // namespace railstrata

@@ -12,20 +12,25 @@ namespace railstrata {
 namespace {
 
 constexpr double kPenetration = 1e-4;         // of the Hertzian approach
-constexpr double kVirtualPenetration = 0.55;  // of the approach: rigid profiles pushed so far into one another overlap in about the patch [PiotrowskiKik2008]
-constexpr double kPenaltyScale = 1000.0;      // springs of a linear step, of a surface element's stiffness: penetrations of nanometres
-constexpr double kForcing = 0.02;             // of the residual, left over by a linear step
-constexpr double kLastStep = 0.3;             // of the tolerance, likewise
+constexpr double kVirtualPenetration = 0.55;  // of the approach: rigid profiles pushed so far into one another overlap
+                                              // in about the patch [PiotrowskiKik2008]
+constexpr double kPenaltyScale =
+    1000.0;  // springs of a linear step, of a surface element's stiffness: penetrations of nanometres
+constexpr double kForcing = 0.02;  // of the residual, left over by a linear step
+constexpr double kLastStep = 0.3;  // of the tolerance, likewise
 constexpr int kMostSteps = 60, kMostIterations = 5000;
 
 class Preload {
  public:
   Preload(const RollingSystem& system, const ClusterSizes& clusters)
-      : sys_(system), contact_(system.rail_surface, system.wheel_surface), tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()),
+      : sys_(system),
+        contact_(system.rail_surface, system.wheel_surface),
+        tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()),
         preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero()) {
     compliant_ = sys_.model.spec.contact.method == "penalty";
-    element_stiffness_ = compliant_ ? sys_.penalty_stiffness : young(sys_.model.rail_materials.front()) / sys_.model.spec.mesh.element_size;
+    element_stiffness_ = compliant_ ? sys_.penalty_stiffness
+                                    : young(sys_.model.rail_materials.front()) / sys_.model.spec.mesh.element_size;
     penalty_ = compliant_ ? sys_.penalty_stiffness : kPenaltyScale * element_stiffness_;
   }
 
@@ -40,12 +45,17 @@ class Preload {
       out.penetration = penetration();
       out.newton_steps = step;
       if (progress) progress(out.residual, tolerance, out.cg_iterations);
-      if (!std::isfinite(out.residual)) throw NumericalError("static preload: the residual is not a number" + what_to_try());
+      if (!std::isfinite(out.residual))
+        throw NumericalError("static preload: the residual is not a number" + what_to_try());
       if (out.residual < tolerance && (compliant_ || out.penetration < kPenetration * sys_.model.hertz.approach)) break;
-      if (step > kMostSteps) throw NumericalError(fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e}){}", step, out.residual, tolerance, what_to_try()));
+      if (step > kMostSteps)
+        throw NumericalError(
+            fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e}){}", step,
+                        out.residual, tolerance, what_to_try()));
       if (stop && *stop) throw Interrupted("stopped during the static preload: there is nothing to resume yet");
       hold_gaps_shut(r);
-      out.cg_iterations += conjugate_gradients(r, load * std::max(kLastStep * tolerance, kForcing * std::min(out.residual, 1.0)));
+      out.cg_iterations +=
+          conjugate_gradients(r, load * std::max(kLastStep * tolerance, kForcing * std::min(out.residual, 1.0)));
       advance(r);
     }
     out.u_rail = u_.rail;
@@ -65,7 +75,9 @@ class Preload {
   // Nearly always the patch falls between the nodes.
   std::string what_to_try() const {
     const Model& m = sys_.model;
-    return fmt::format("\n    try a smaller mesh.element_size, now {:.3g} mm: the patch is about {:.3g} mm by {:.3g} mm", 1e3 * m.spec.mesh.element_size, 2e3 * m.hertz.a, 2e3 * m.hertz.b);
+    return fmt::format(
+        "\n    try a smaller mesh.element_size, now {:.3g} mm: the patch is about {:.3g} mm by {:.3g} mm",
+        1e3 * m.spec.mesh.element_size, 2e3 * m.hertz.a, 2e3 * m.hertz.b);
   }
 
   StaticVector zero() const { return {sys_.rail.solid.layout().field(), sys_.wheel.solid.layout().field(), 0.0}; }
@@ -95,7 +107,8 @@ class Preload {
       const double z = block.section.nodes[l.node].z;
       for (int j = 0; j < l.count; ++j) {
         const double t = block.stations.at[j];
-        f.wheel[l.first + j] += spin2 * sys_.wheel.mass[l.first + j] * (l.component == 0 ? -z * std::sin(t) : z * std::cos(t));
+        f.wheel[l.first + j] +=
+            spin2 * sys_.wheel.mass[l.first + j] * (l.component == 0 ? -z * std::sin(t) : z * std::cos(t));
       }
     }
     f.axle = -g * (sys_.axle.mass_z + sys_.model.spec.vehicle.sprung_mass);
@@ -138,7 +151,8 @@ class Preload {
     sys_.wheel.ties.spread(step.wheel, 0, true);
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
-      if (active_[k] && !compliant_) tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = spring_[k] - penalty_ * gap_change(k, step);
+      if (active_[k] && !compliant_)
+        tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = spring_[k] - penalty_ * gap_change(k, step);
     add(u_, 1.0, step);
     sys_.apply_constraints(u_.rail, u_.wheel, {0, u_.axle, 0});
   }
@@ -156,7 +170,8 @@ class Preload {
     for (int i = 0; i < 3; ++i) {
       const double force = row.area * p * n[i];
       rail[row.rail + i * sys_.rail_surface.stride] -= force;
-      for (int w = row.first; w < row.first + row.count; ++w) wheel[rows_->weights[w].wheel + i * sys_.wheel_surface.stride] += rows_->weights[w].m * force;
+      for (int w = row.first; w < row.first + row.count; ++w)
+        wheel[rows_->weights[w].wheel + i * sys_.wheel_surface.stride] += rows_->weights[w].m * force;
     }
   }
 
@@ -222,7 +237,8 @@ class Preload {
     double g = 0;
     for (int i = 0; i < 3; ++i) {
       double w = -x.rail[row.rail + i * sys_.rail_surface.stride];
-      for (int j = row.first; j < row.first + row.count; ++j) w += rows_->weights[j].m * x.wheel[rows_->weights[j].wheel + i * sys_.wheel_surface.stride];
+      for (int j = row.first; j < row.first + row.count; ++j)
+        w += rows_->weights[j].m * x.wheel[rows_->weights[j].wheel + i * sys_.wheel_surface.stride];
       g += n[i] * w;
     }
     return g;
@@ -253,7 +269,7 @@ class Preload {
   TractionMemory tractions_;
   StaticPreconditioner preconditioner_;
   StaticVector u_;
-  bool compliant_ = false;  // penalty contact: its springs are the contact, there are no multipliers
+  bool compliant_ = false;        // penalty contact: its springs are the contact, there are no multipliers
   double element_stiffness_ = 0;  // Pa/m, weighs gaps against pressures where a node is to open or close
   double penalty_ = 0;            // Pa/m, of the springs in a linear step
   const MortarRows* rows_ = nullptr;
@@ -263,7 +279,8 @@ class Preload {
 
 }  // namespace
 
-PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress, const std::atomic<bool>* stop, const ClusterSizes& clusters) {
+PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress,
+                            const std::atomic<bool>* stop, const ClusterSizes& clusters) {
   const auto start = std::chrono::steady_clock::now();
   PreloadResult result = Preload(system, clusters).solve(tolerance, progress, stop);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -1,12 +1,14 @@
 #pragma once
-// Equilibrium before the rolling: gravity, the centrifugal forces of the wheel's starting spin (they widen the rim by some 10 um, a tenth of the approach: a wheel set
-// spinning without them rings), frictionless contact.
+// Equilibrium before the rolling: gravity, the centrifugal forces of the wheel's starting spin (they widen the rim by
+// some 10 um, a tenth of the approach: a wheel set spinning without them rings), frictionless contact.
 //
-// Unknown: the displacements of both bodies, the axle's height and the pressures. A primal-dual active set: a node is in contact where p - c g > 0 (c: stiffness of a
-// surface element); a step solves the equilibrium of the undeformed bodies' stiffness with the gaps of these nodes held shut by springs a thousand times stiffer than an
-// element, whose pressures are the next p, and opens and closes nodes by it until residual and penetration are met [HueberWohlmuth2005]. The linear systems are solved by
-// conjugate gradients with the explicit solver's element kernel as the operator and two levels of preconditioning (fem/static_preconditioner.hpp), never more
-// exactly than the next step can use. Nothing but the coarse level is assembled.
+// Unknown: the displacements of both bodies, the axle's height and the pressures. A primal-dual active set: a node is
+// in contact where p - c g > 0 (c: stiffness of a surface element); a step solves the equilibrium of the undeformed
+// bodies' stiffness with the gaps of these nodes held shut by springs a thousand times stiffer than an element, whose
+// pressures are the next p, and opens and closes nodes by it until residual and penetration are met
+// [HueberWohlmuth2005]. The linear systems are solved by conjugate gradients with the explicit solver's element kernel
+// as the operator and two levels of preconditioning (fem/static_preconditioner.hpp), never more exactly than the next
+// step can use. Nothing but the coarse level is assembled.
 #include <atomic>
 #include <functional>
 
@@ -17,11 +19,11 @@ namespace railstrata {
 
 struct PreloadResult {
   Field u_rail, u_wheel;
-  double axle_z = 0;                  ///< m, displacement of the axle from the rigid contact position, negative: down
+  double axle_z = 0;  ///< m, displacement of the axle from the rigid contact position, negative: down
   TractionMemory tractions{0, 0};
-  double residual = 0;                ///< |r| / |load vector|
-  double penetration = 0;             ///< m, largest of the nodes in contact
-  Vec3 contact_force;                 ///< N, on the wheel
+  double residual = 0;                      ///< |r| / |load vector|
+  double penetration = 0;                   ///< m, largest of the nodes in contact
+  Vec3 contact_force;                       ///< N, on the wheel
   int newton_steps = 0, cg_iterations = 0;  ///< steps: evaluations of the exact residual
   double wall_seconds = 0;
 };
@@ -30,7 +32,7 @@ struct PreloadResult {
 using PreloadProgress = std::function<void(double, double, int)>;
 
 /// Throws NumericalError when it does not converge, Interrupted when `stop` was set.
-PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {}, const std::atomic<bool>* stop = nullptr,
-                            const ClusterSizes& clusters = {});
+PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {},
+                            const std::atomic<bool>* stop = nullptr, const ClusterSizes& clusters = {});
 
 }  // namespace railstrata

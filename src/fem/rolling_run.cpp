@@ -21,18 +21,22 @@ constexpr long kStepsBetweenGoodStates = 1024;  // a copy of the state costs les
 // Half length of a sample: the patch and the stress field around it.
 double sample_half_length(const RollingSystem& s) { return 1.5 * s.model.hertz.a + 2 * s.model.spec.mesh.element_size; }
 
-BandSample band_sample(const Solid& solid, const ContactBand& band, const Field& u, double centre, double radius, const AxlePose& pose, double half_length) {
+BandSample band_sample(const Solid& solid, const ContactBand& band, const Field& u, double centre, double radius,
+                       const AxlePose& pose, double half_length) {
   const Block& block = solid.body().blocks[band.block];
   const BlockLayout& lay = solid.layout().blocks[band.block];
   const auto& at = block.stations.at;
   const double period = block.stations.closed ? 2 * std::numbers::pi : 0;
   const int n = lay.stations;
   auto wrapped = [&](int j) { return ((j % n) + n) % n; };
-  auto coordinate = [&](int j) { return block.stations.closed ? at[wrapped(j)] + period * std::floor(static_cast<double>(j) / n) : at[j]; };
+  auto coordinate = [&](int j) {
+    return block.stations.closed ? at[wrapped(j)] + period * std::floor(static_cast<double>(j) / n) : at[j];
+  };
   if (period > 0) centre -= period * std::floor((centre - at.front()) / period);
   int middle = static_cast<int>(std::lower_bound(at.begin(), at.end(), centre) - at.begin());
   if (middle > 0 && (middle >= n || centre - at[middle - 1] < at[middle] - centre)) --middle;
-  // The same number of stations on either side whatever the exact position, so that samples can be averaged station by station.
+  // The same number of stations on either side whatever the exact position, so that samples can be averaged station by
+  // station.
   const int reach = static_cast<int>(std::ceil(half_length / radius / (coordinate(middle + 1) - coordinate(middle))));
   const int first = block.stations.closed ? middle - reach : std::max(middle - reach, 0);
   const int last = block.stations.closed ? middle + reach : std::min(middle + reach, lay.elements);
@@ -43,7 +47,8 @@ BandSample band_sample(const Solid& solid, const ContactBand& band, const Field&
   s.stations = last - first;
   for (int j = first; j <= last; ++j) s.along.push_back(radius * (coordinate(j) - centre));
   for (int j = first; j < last; ++j)
-    for (int q = 0; q < band.rows * band.columns; ++q) s.stress.push_back(solid.stress(u, band.block, q, block.stations.closed ? wrapped(j) : j));
+    for (int q = 0; q < band.rows * band.columns; ++q)
+      s.stress.push_back(solid.stress(u, band.block, q, block.stations.closed ? wrapped(j) : j));
   const bool turning = solid.body().kind == SweepKind::revolve;
   const double c = std::cos(pose.psi), sn = std::sin(pose.psi);
   for (int j = first; j <= last; ++j)
@@ -66,7 +71,8 @@ double largest_pressure(const TractionMemory& t) {
   return p;
 }
 
-// The wheel positions at which a wanted position is sampled: every rail station of the window, so that samples fall on the same points of the mesh.
+// The wheel positions at which a wanted position is sampled: every rail station of the window, so that samples fall on
+// the same points of the mesh.
 std::vector<double> sample_positions(const RollingSystem& s, double position) {
   const auto& at = s.rail_surface.stations.at;
   const auto near = std::lower_bound(at.begin(), at.end(), position);
@@ -80,7 +86,8 @@ std::vector<double> sample_positions(const RollingSystem& s, double position) {
 
 HistoryRow history_row(const Stepper& st, const EnergyBalance& now, const EnergyBalance& start) {
   const RollingState& s = st.state();
-  return {s.time, st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(), s.axle.vx, s.axle.vz, s.axle.spin, now, now.total() - start.total()};
+  return {s.time,    st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(),
+          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total()};
 }
 
 std::vector<double> sorted_targets(const RollingSystem& sys) {
@@ -101,12 +108,14 @@ std::vector<Wanted> wanted_samples(const RollingSystem& sys) {
     for (double x : sample_positions(sys, target)) wanted.push_back({x, group});
     ++group;
   }
-  std::stable_sort(wanted.begin(), wanted.end(), [](const Wanted& a, const Wanted& b) { return a.position < b.position; });
+  std::stable_sort(wanted.begin(), wanted.end(),
+                   [](const Wanted& a, const Wanted& b) { return a.position < b.position; });
   return wanted;
 }
 
 RollingSample sample_now(const Stepper& st) {
-  RollingSample s = take_sample(st.system(), st.state().u_rail, st.wheel_displacement(), st.state().tractions, {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
+  RollingSample s = take_sample(st.system(), st.state().u_rail, st.wheel_displacement(), st.state().tractions,
+                                {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
   s.time = st.state().time;
   s.axle = st.state().axle;
   s.forces = st.forces();
@@ -114,7 +123,8 @@ RollingSample sample_now(const Stepper& st) {
   return s;
 }
 
-// The tables of a result only grow: a state of some moment does without them, its own are the first rows and samples of those there are later.
+// The tables of a result only grow: a state of some moment does without them, its own are the first rows and samples of
+// those there are later.
 void swap_tables(RunResult& a, RunResult& b) {
   a.history.swap(b.history);
   a.positions.swap(b.positions);
@@ -127,7 +137,8 @@ void cut_tables(RunResult& result, std::size_t rows, std::size_t samples, const 
   result.history.resize(rows);
 }
 
-RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& st, RunState run, Clock::time_point start_time) {
+RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& st, RunState run,
+               Clock::time_point start_time) {
   const CaseSpec& spec = sys.model.spec;
   RunResult& out = run.result;
   out.limits = st.plan().limits;
@@ -172,7 +183,10 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
     if (record) {
       run.next_history += spec.run.history_interval;
       const EnergyBalance now = st.energy();
-      if (!run.started) run.start_energy = now, run.started = true;
+      if (!run.started) {
+        run.start_energy = now;
+        run.started = true;
+      }
       const HistoryRow row = history_row(st, now, run.start_energy);
       run.largest_closure = std::max(run.largest_closure, std::abs(row.closure));
       run.largest_energy = std::max({run.largest_energy, now.torque_work, now.strain});
@@ -201,15 +215,19 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
   auto between_steps = [&] {
     if (!st.can_be_remembered()) return true;
     const Demand demand = observer.demand ? observer.demand() : Demand::go_on;
-    if (demand != Demand::go_on) timed(save);
-    else if (observer.save && st.state().step % kStepsBetweenGoodStates == 0) timed(remember);
+    if (demand != Demand::go_on)
+      timed(save);
+    else if (observer.save && st.state().step % kStepsBetweenGoodStates == 0)
+      timed(remember);
     return demand != Demand::save_and_stop;
   };
 
   try {
     while (!out.stopped && run.next_sample < wanted.size())
-      if (between_steps()) one_step();
-      else out.stopped = true;
+      if (between_steps())
+        one_step();
+      else
+        out.stopped = true;
   } catch (const NumericalError&) {
     if (observer.save && good.stepper.dt > 0) {
       cut_tables(out, good_rows, good.next_sample, wanted);
@@ -219,7 +237,9 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
     throw;
   }
   if (out.stopped)  // a position half measured is none
-    while (!out.positions.empty() && out.positions.back().samples.size() < sample_positions(sys, out.positions.back().position).size()) out.positions.pop_back();
+    while (!out.positions.empty() &&
+           out.positions.back().samples.size() < sample_positions(sys, out.positions.back().position).size())
+      out.positions.pop_back();
   out.closure = run.largest_energy > 0 ? run.largest_closure / run.largest_energy : 0;
   out.reached_edge = st.reached_edge();
   out.steps = st.state().step;
@@ -229,14 +249,16 @@ RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& s
 
 }  // namespace
 
-RollingSample take_sample(const RollingSystem& sys, const Field& u_rail, const Field& u_wheel, const TractionMemory& tractions, const AxlePose& pose) {
+RollingSample take_sample(const RollingSystem& sys, const Field& u_rail, const Field& u_wheel,
+                          const TractionMemory& tractions, const AxlePose& pose) {
   RollingSample out;
   const double half = sample_half_length(sys);
   out.position = pose.x;
   out.rail = band_sample(sys.rail.solid, sys.model.rail.contact, u_rail, pose.x, 1.0, {}, half);
   out.wheel = band_sample(sys.wheel.solid, sys.model.wheel.contact, u_wheel, pose.psi, sys.rolling_radius, pose, half);
   const auto& at = sys.rail_surface.stations.at;
-  const int first = static_cast<int>(std::lower_bound(at.begin(), at.end(), out.rail.along.front() + pose.x - 1e-9) - at.begin());
+  const int first =
+      static_cast<int>(std::lower_bound(at.begin(), at.end(), out.rail.along.front() + pose.x - 1e-9) - at.begin());
   for (int j = first; j <= first + out.rail.stations; ++j)
     for (int c = 0; c < sys.rail_surface.columns; ++c) out.tractions.push_back(tractions.at(c, j));
   return out;
@@ -252,7 +274,8 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
   out.preload_wall_seconds = preload.wall_seconds;
 
   if (!run.rolling) {
-    PositionSamples still{0.0, {take_sample(sys, preload.u_rail, preload.u_wheel, preload.tractions, {0, preload.axle_z, 0})}};
+    PositionSamples still{
+        0.0, {take_sample(sys, preload.u_rail, preload.u_wheel, preload.tractions, {0, preload.axle_z, 0})}};
     still.samples.front().axle.z = preload.axle_z;
     const Vec3 force = preload.contact_force;
     still.samples.front().forces = {.x = force.x, .y = force.y, .z = force.z, .penetration = preload.penetration};

@@ -9,7 +9,8 @@
 namespace railstrata {
 
 SolidOptions solid_options(const CaseSpec& spec) {
-  return {spec.mesh.element == "one_point" ? ElementKind::one_point : ElementKind::full, spec.mesh.hourglass_coefficient,
+  return {spec.mesh.element == "one_point" ? ElementKind::one_point : ElementKind::full,
+          spec.mesh.hourglass_coefficient,
           spec.run.precision == "single" ? Precision::single_precision : Precision::double_precision};
 }
 
@@ -34,7 +35,8 @@ std::vector<EndDashpot> end_absorbers(const DeformableBody& rail) {
     const std::vector<double> area = nodal_areas(rail.solid.body().blocks[b].section);
     for (std::size_t n = 0; n < area.size(); ++n)
       for (int i = 0; i < 3; ++i)
-        for (int j : {0, lay.blocks[b].stations - 1}) coefficient[lay.blocks[b].line(static_cast<int>(n), i) + j] = area[n] * (i == 0 ? normal : tangential);
+        for (int j : {0, lay.blocks[b].stations - 1})
+          coefficient[lay.blocks[b].line(static_cast<int>(n), i) + j] = area[n] * (i == 0 ? normal : tangential);
   }
   rail.ties.collect(coefficient);
   std::vector<EndDashpot> out;
@@ -43,7 +45,8 @@ std::vector<EndDashpot> end_absorbers(const DeformableBody& rail) {
   return out;
 }
 
-// A penalty rule of explicit codes, k = scale K A / V with the bulk modulus K of the rail's surface elements (A / V = 1 / height).
+// A penalty rule of explicit codes, k = scale K A / V with the bulk modulus K of the rail's surface elements (A / V = 1
+// / height).
 double penalty_rule(const Model& model) {
   const Elastic& m = model.rail_materials[model.rail_materials.size() > 1 ? 1 : 0];
   const auto& depth = model.rail.contact.depth;
@@ -61,8 +64,10 @@ RollingSystem::RollingSystem(const Model& m)
   const VehicleSpec& v = m.spec.vehicle;
   const double meshed = wheel.solid.total_mass(), added = v.wheel_mass - meshed;
   if (added < 0)
-    throw CaseError(fmt::format("vehicle.wheel_mass = {:.1f} kg is less than the meshed wheel alone weighs ({:.1f} kg)", v.wheel_mass, meshed),
-                    "give the mass of wheel and axle share together, or make the wheel lighter (geometry.web_thickness, rim_thickness, hub_radius)");
+    throw CaseError(fmt::format("vehicle.wheel_mass = {:.1f} kg is less than the meshed wheel alone weighs ({:.1f} kg)",
+                                v.wheel_mass, meshed),
+                    "give the mass of wheel and axle share together, or make the wheel lighter "
+                    "(geometry.web_thickness, rim_thickness, hub_radius)");
   const BodyLayout& lay = wheel.solid.layout();
   axle.mass_z = added;
   axle.inertia = 0.5 * added * m.spec.geometry.bore_radius * m.spec.geometry.bore_radius;
@@ -75,7 +80,8 @@ RollingSystem::RollingSystem(const Model& m)
       axle.inertia += wheel.mass[index] * (arm.x * arm.x + arm.z * arm.z);
     }
   for (const SectionNode& n : m.wheel.held)
-    for (int i = 0; i < 3; ++i) std::fill_n(wheel.mass.begin() + lay.blocks[n.block].line(n.node, i), lay.blocks[n.block].stations, 0.0);
+    for (int i = 0; i < 3; ++i)
+      std::fill_n(wheel.mass.begin() + lay.blocks[n.block].line(n.node, i), lay.blocks[n.block].stations, 0.0);
   for (const SectionNode& n : m.rail.held)
     for (int i = 0; i < 3; ++i) {
       const BlockLayout& b = rail.solid.layout().blocks[n.block];
@@ -96,8 +102,12 @@ RollingSystem::RollingSystem(const Model& m)
   torque = traction * (rolling_radius + spin_inertia / (travel_mass * rolling_radius));
 
   absorbers = end_absorbers(rail);
-  rail_surface = contact_surface(m.rail, rail.solid.layout(), [&](double s) { return SectionPoint{m.rail_section_point(s), m.rail_section_normal(s)}; });
-  wheel_surface = contact_surface(m.wheel, wheel.solid.layout(), [&](double s) { return SectionPoint{m.wheel_section_point(s), m.wheel_section_normal(s)}; });
+  rail_surface = contact_surface(m.rail, rail.solid.layout(), [&](double s) {
+    return SectionPoint{m.rail_section_point(s), m.rail_section_normal(s)};
+  });
+  wheel_surface = contact_surface(m.wheel, wheel.solid.layout(), [&](double s) {
+    return SectionPoint{m.wheel_section_point(s), m.wheel_section_normal(s)};
+  });
   penalty_stiffness = penalty_rule(m);
 }
 
@@ -110,8 +120,10 @@ void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxleP
   }
   for_each(6, [&](std::ptrdiff_t k) {
     const int component = static_cast<int>(k % 3);
-    if (k < 3) wheel.ties.spread_component(u_wheel, component, c, s, false);
-    else rail.ties.spread_component(u_rail, component, 1, 0, false);
+    if (k < 3)
+      wheel.ties.spread_component(u_wheel, component, c, s, false);
+    else
+      rail.ties.spread_component(u_rail, component, 1, 0, false);
   });
 }
 

@@ -1,11 +1,12 @@
 #pragma once
-// The mechanical system of a case, ready for computing and constant: two elastic bodies, the rigid axle that carries the wheel's bore, the suspension and its masses,
-// the track's support, and the contact surfaces.
+// The mechanical system of a case, ready for computing and constant: two elastic bodies, the rigid axle that carries
+// the wheel's bore, the suspension and its masses, the track's support, and the contact surfaces.
 //
-// Axle: a rigid body in the bore with the degrees of freedom x, z and the spin psi (positive rolling forward, about +y); it does not move laterally or tilt (the
-// other wheel of the set and the bearings hold it). It has what the given wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius.
-// Suspension: groups of a spring and a dashpot with a share of the sprung mass each, vertical, around the axle's (non-rotating) box. In x the sprung mass rides along
-// with the axle if the case says so.
+// Axle: a rigid body in the bore with the degrees of freedom x, z and the spin psi (positive rolling forward, about
+// +y); it does not move laterally or tilt (the other wheel of the set and the bearings hold it). It has what the given
+// wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius. Suspension: groups of a spring and a
+// dashpot with a share of the sprung mass each, vertical, around the axle's (non-rotating) box. In x the sprung mass
+// rides along with the axle if the case says so.
 #include "body/deformable_body.hpp"
 #include "contact/enforcement.hpp"
 #include "model/model.hpp"
@@ -15,7 +16,8 @@ namespace railstrata {
 /// Elements and precision that a case asks for.
 SolidOptions solid_options(const CaseSpec& spec);
 
-/// A node on the rigid axle: index of component x in the wheel's fields, arm from the axle's centre in the undeformed wheel.
+/// A node on the rigid axle: index of component x in the wheel's fields, arm from the axle's centre in the undeformed
+/// wheel.
 struct BoreNode {
   std::ptrdiff_t index;
   int stride;
@@ -23,9 +25,9 @@ struct BoreNode {
 };
 
 struct Axle {
-  double mass_z = 0;       ///< kg, of the axle and the bore's nodes
-  double mass_x = 0;       ///< the same plus the sprung mass when it rides along
-  double inertia = 0;      ///< kg m², about the axle, of axle and bore
+  double mass_z = 0;   ///< kg, of the axle and the bore's nodes
+  double mass_x = 0;   ///< the same plus the sprung mass when it rides along
+  double inertia = 0;  ///< kg m², about the axle, of axle and bore
   std::vector<BoreNode> bore;
 };
 
@@ -45,10 +47,11 @@ struct RollingSystem {
   ContactSurface rail_surface, wheel_surface;
   double gravity = 0;
   double rolling_radius = 0;
-  double spin_inertia = 0;    ///< kg m², of everything that turns
-  double travel_mass = 0;     ///< kg, of everything that moves along x
-  double start_spin = 0;      ///< rad/s, at the start of the rolling: V (1 - creepage)/r; 0 for a static case
-  double torque = 0;          ///< N m, steady: gives the wanted F_T with the inertia of the accelerated wheel, M = F_T (r + I/(m r))
+  double spin_inertia = 0;  ///< kg m², of everything that turns
+  double travel_mass = 0;   ///< kg, of everything that moves along x
+  double start_spin = 0;    ///< rad/s, at the start of the rolling: V (1 - creepage)/r; 0 for a static case
+  double torque =
+      0;  ///< N m, steady: gives the wanted F_T with the inertia of the accelerated wheel, M = F_T (r + I/(m r))
   double penalty_stiffness = 0;  ///< Pa/m, of the penalty method
 
   /// Moves the bore's nodes with the axle and the slaves with their masters; u_wheel and pose in the same frame.

@@ -34,7 +34,8 @@ Vec2 contact_in_section(const ContactSurface& s) { return s.node[s.columns / 2];
 
 }  // namespace
 
-StaticPreconditioner::StaticPreconditioner(const RollingSystem& system, const ClusterSizes& sizes, const Operator& stiffness)
+StaticPreconditioner::StaticPreconditioner(const RollingSystem& system, const ClusterSizes& sizes,
+                                           const Operator& stiffness)
     : sys_(system),
       rail_(system.rail, contact_in_section(system.rail_surface), sizes),
       wheel_(system.wheel, contact_in_section(system.wheel_surface), sizes),
@@ -69,7 +70,8 @@ void StaticPreconditioner::probe(const Operator& stiffness) {
     int offset;
     Field StaticVector::*field;
   };
-  Part parts[2] = {{rail_, rail_.neighbours(), {}, 0, &StaticVector::rail}, {wheel_, wheel_.neighbours(), {}, rail_.modes(), &StaticVector::wheel}};
+  Part parts[2] = {{rail_, rail_.neighbours(), {}, 0, &StaticVector::rail},
+                   {wheel_, wheel_.neighbours(), {}, rail_.modes(), &StaticVector::wheel}};
   for (Part& p : parts) p.classes = colour(p.neighbours);
   const std::size_t colours = std::max(parts[0].classes.size(), parts[1].classes.size());
   std::vector<double> c;
@@ -132,7 +134,8 @@ void StaticPreconditioner::gather_gaps(const MortarRows& rows, const std::vector
     for (int i = 0; i < 3; ++i) {
       if (n[i] == 0) continue;
       g.entry.push_back({false, row.rail + i * sys_.rail_surface.stride, -n[i]});
-      for (int w = row.first; w < row.first + row.count; ++w) g.entry.push_back({true, rows.weights[w].wheel + i * sys_.wheel_surface.stride, n[i] * rows.weights[w].m});
+      for (int w = row.first; w < row.first + row.count; ++w)
+        g.entry.push_back({true, rows.weights[w].wheel + i * sys_.wheel_surface.stride, n[i] * rows.weights[w].m});
     }
     gaps_.push_back(std::move(g));
   }
@@ -152,7 +155,8 @@ void StaticPreconditioner::factorise_gaps() {
   for (int k = 0; k < n; ++k)
     for (const Entry& e : gaps_[k].entry) {
       const double flexibility = e.wheel ? inverse_.wheel[e.index] : inverse_.rail[e.index];
-      const auto column = std::lower_bound(columns.begin(), columns.end(), e.wheel ? rail + e.index : e.index) - columns.begin();
+      const auto column =
+          std::lower_bound(columns.begin(), columns.end(), e.wheel ? rail + e.index : e.index) - columns.begin();
       entries.emplace_back(k, static_cast<int>(column), e.value * std::sqrt(flexibility));
     }
   SparseMatrix g(n, static_cast<int>(columns.size()));
@@ -160,7 +164,8 @@ void StaticPreconditioner::factorise_gaps() {
   SparseMatrix s = g * SparseMatrix(g.transpose());
   for (int k = 0; k < n; ++k) s.coeffRef(k, k) += 1 / gaps_[k].stiffness;
   gap_factor_.compute(s);
-  if (gap_factor_.info() != Eigen::Success) throw NumericalError("static preload: the contact's flexibility is not positive definite");
+  if (gap_factor_.info() != Eigen::Success)
+    throw NumericalError("static preload: the contact's flexibility is not positive definite");
 }
 
 // G P of one row, scaled so that its square is the row's stiffness.
@@ -172,7 +177,8 @@ std::vector<Eigen::Triplet<double>> StaticPreconditioner::coarse_row(const GapRo
     const Aggregates& a = e.wheel ? wheel_ : rail_;
     const int block = (e.wheel ? sys_.model.wheel : sys_.model.rail).contact.block;
     const std::ptrdiff_t place = e.index - s.first_line, line = place / s.stride;
-    const int node = static_cast<int>(line / 3), component = static_cast<int>(line % 3), station = static_cast<int>(place % s.stride);
+    const int node = static_cast<int>(line / 3), component = static_cast<int>(line % 3),
+              station = static_cast<int>(place % s.stride);
     const int cluster = a.cluster_of(block, node, station);
     if (cluster < 0) continue;
     const auto modes = a.modes_at(block, node, station, component);
@@ -194,7 +200,8 @@ void StaticPreconditioner::factorise_coarse() {
   const SparseMatrix contact = SparseMatrix(g.transpose()) * g;
   const SparseMatrix all = stiffness + SparseMatrix(contact.triangularView<Eigen::Lower>());
   coarse_factor_.compute(all);
-  if (coarse_factor_.info() != Eigen::Success) throw NumericalError("static preload: the coarse stiffness is not positive definite: wheel and rail do not touch");
+  if (coarse_factor_.info() != Eigen::Success)
+    throw NumericalError("static preload: the coarse stiffness is not positive definite: wheel and rail do not touch");
 }
 
 void StaticPreconditioner::apply(const StaticVector& r, StaticVector& z) const {
@@ -213,8 +220,10 @@ void StaticPreconditioner::apply(const StaticVector& r, StaticVector& z) const {
     const Eigen::VectorXd force = gap_factor_.solve(gap);
     for (int k = 0; k < gap.size(); ++k)
       for (const Entry& e : gaps_[k].entry) {
-        if (e.wheel) z.wheel[e.index] -= inverse_.wheel[e.index] * e.value * force[k];
-        else z.rail[e.index] -= inverse_.rail[e.index] * e.value * force[k];
+        if (e.wheel)
+          z.wheel[e.index] -= inverse_.wheel[e.index] * e.value * force[k];
+        else
+          z.rail[e.index] -= inverse_.rail[e.index] * e.value * force[k];
       }
   }
   Eigen::VectorXd c(size_);

@@ -1,12 +1,14 @@
 #pragma once
-// Two-level additive preconditioner of the static problem A = K + G^T W G (K: both elastic bodies and the axle, G: gaps of the rows in contact, W = penalty x area):
+// Two-level additive preconditioner of the static problem A = K + G^T W G (K: both elastic bodies and the axle, G: gaps
+// of the rows in contact, W = penalty x area):
 //
 //   M^-1 = (D + G^T W G)^-1 + P (P^T A P)^-1 P^T
 //
-// D is the diagonal of K; the contact's stiffness enters the first term exactly, through the small sparse matrix W^-1 + G D^-1 G^T (Sherman, Morrison, Woodbury), so that
-// a stiff penalty costs no iterations. P holds the rigid-body modes of clusters of nodes (body/aggregates.hpp) and the axle's height: the long waves and the nearly free
-// motion of the wheel on its contact, which a diagonal alone needs thousands of iterations for. P^T K P is found by applying K to the modes of many clusters that do
-// not touch at once.
+// D is the diagonal of K; the contact's stiffness enters the first term exactly, through the small sparse matrix W^-1 +
+// G D^-1 G^T (Sherman, Morrison, Woodbury), so that a stiff penalty costs no iterations. P holds the rigid-body modes
+// of clusters of nodes (body/aggregates.hpp) and the axle's height: the long waves and the nearly free motion of the
+// wheel on its contact, which a diagonal alone needs thousands of iterations for. P^T K P is found by applying K to the
+// modes of many clusters that do not touch at once.
 #include <Eigen/SparseCholesky>
 #include <functional>
 

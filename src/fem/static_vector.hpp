@@ -1,5 +1,6 @@
 #pragma once
-// A vector of the static problem: displacements (or forces) of both bodies and of the axle's height. Constrained entries and padding are zero wherever sums are taken.
+// A vector of the static problem: displacements (or forces) of both bodies and of the axle's height. Constrained
+// entries and padding are zero wherever sums are taken.
 #include "core/array.hpp"
 #include "core/parallel.hpp"
 
@@ -18,7 +19,9 @@ inline double dot(const Field& a, const Field& b) {
     return sum;
   });
 }
-inline double dot(const StaticVector& a, const StaticVector& b) { return dot(a.rail, b.rail) + dot(a.wheel, b.wheel) + a.axle * b.axle; }
+inline double dot(const StaticVector& a, const StaticVector& b) {
+  return dot(a.rail, b.rail) + dot(a.wheel, b.wheel) + a.axle * b.axle;
+}
 
 /// y += s x
 inline void add(Field& y, double s, const Field& x) {

@@ -24,7 +24,8 @@ double wanted_step(const DeformableBody& body, const CaseSpec& spec, double unit
   return units * spec.mesh.element_size / std::sqrt(matrix.p_wave_modulus() / matrix.density);
 }
 
-// To six digits: an estimate by Lanczos steps tells compilers apart in the ninth, and with another step samples are taken elsewhere.
+// To six digits: an estimate by Lanczos steps tells compilers apart in the ninth, and with another step samples are
+// taken elsewhere.
 double rounded_down(double step) {
   const double unit = std::pow(10.0, std::floor(std::log10(step)) - 5);
   return unit * std::floor(step / unit);
@@ -35,7 +36,8 @@ double penalty_step(const RollingSystem& sys, const MassScaling& rail) {
   const ContactSurface& r = sys.rail_surface;
   const int c = r.columns / 2, j = r.stations.nodes() / 2;
   const double area = r.width[c] * (r.stations.at[j + 1] - r.stations.at[j]);
-  return 2 / std::sqrt(2 * sys.penalty_stiffness * area * sys.rail.inverse_mass[r.index(c, j)] * rail.share(r.index(c, j)));
+  return 2 /
+         std::sqrt(2 * sys.penalty_stiffness * area * sys.rail.inverse_mass[r.index(c, j)] * rail.share(r.index(c, j)));
 }
 
 }  // namespace
@@ -50,10 +52,13 @@ struct StepPlan::Part {
 StepPlan::StepPlan(const RollingSystem& sys) {
   const CaseSpec& spec = sys.model.spec;
   find_element_bound(sys, limits);
-  const std::vector<Part> parts{{sys.rail, sys.rail_surface, rail, lanczos_stable_step(sys.rail)}, {sys.wheel, sys.wheel_surface, wheel, lanczos_stable_step(sys.wheel)}};
+  const std::vector<Part> parts{{sys.rail, sys.rail_surface, rail, lanczos_stable_step(sys.rail)},
+                                {sys.wheel, sys.wheel_surface, wheel, lanczos_stable_step(sys.wheel)}};
   limits.unscaled = limits.lanczos = std::min(parts[0].own, parts[1].own);
-  if (spec.run.time_step_method == "local") refine_steps(parts, spec);
-  else if (spec.run.time_step_method != "uniform") scale_masses(parts, spec);
+  if (spec.run.time_step_method == "local")
+    refine_steps(parts, spec);
+  else if (spec.run.time_step_method != "uniform")
+    scale_masses(parts, spec);
   double least = limits.lanczos;
   if (spec.contact.method == "penalty") {
     limits.contact = penalty_step(sys, rail.scaling);

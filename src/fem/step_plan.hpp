@@ -8,16 +8,18 @@
 
 namespace railstrata {
 
-/// What limits the step [s]: 2/omega_max of the assembled bodies by Lanczos, the bound from single elements and where that is smallest, the contact (penalty only).
+/// What limits the step [s]: 2/omega_max of the assembled bodies by Lanczos, the bound from single elements and where
+/// that is smallest, the contact (penalty only).
 struct StepLimits {
-  double lanczos = 0;    ///< with the added mass, or of the nodes that local steps leave coarse
-  double unscaled = 0;   ///< of the real masses with one step for all
+  double lanczos = 0;   ///< with the added mass, or of the nodes that local steps leave coarse
+  double unscaled = 0;  ///< of the real masses with one step for all
   double element = 0, contact = 0;
-  double chosen = 0;     ///< the step taken: run.step_safety times the least
-  double added_mass = 0, scaled_mass = 0;  ///< kg, by selective mass scaling and of the nodes it acts on; 0: real masses
-  int stages = 1;          ///< of local steps
-  long fine_elements = 0;  ///< evaluated in every stage
-  std::string scaled_where;                ///< blocks with added mass: "rail cap, rail gauge shell"
+  double chosen = 0;  ///< the step taken: run.step_safety times the least
+  double added_mass = 0,
+         scaled_mass = 0;    ///< kg, by selective mass scaling and of the nodes it acts on; 0: real masses
+  int stages = 1;            ///< of local steps
+  long fine_elements = 0;    ///< evaluated in every stage
+  std::string scaled_where;  ///< blocks with added mass: "rail cap, rail gauge shell"
   std::string where;
 };
 
@@ -25,12 +27,14 @@ struct StepLimits {
 struct BodySteps {
   MassScaling scaling;       ///< empty: real masses
   LocalSteps local;          ///< empty: one step for all
-  SurfaceResponse response;  ///< of local steps: how the stages answer a change of the tractions; empty if they do not reach the surface
+  SurfaceResponse response;  ///< of local steps: how the stages answer a change of the tractions; empty if they do not
+                             ///< reach the surface
 };
 
-/// run.time_step_method: `uniform` takes the step of the real masses, `mass_scaling` adds inertia across thin rows (body/mass_scaling.hpp), `auto` does so for a body
-/// whose step grows by more than the factor kWorthwhile, `local` keeps the real masses and takes inner steps where elements are fast (body/local_steps.hpp).
-/// The wanted step of thin rows is run.mass_scaling_step times the element size over the matrix's pressure wave speed.
+/// run.time_step_method: `uniform` takes the step of the real masses, `mass_scaling` adds inertia across thin rows
+/// (body/mass_scaling.hpp), `auto` does so for a body whose step grows by more than the factor kWorthwhile, `local`
+/// keeps the real masses and takes inner steps where elements are fast (body/local_steps.hpp). The wanted step of thin
+/// rows is run.mass_scaling_step times the element size over the matrix's pressure wave speed.
 struct StepPlan {
   static constexpr double kWorthwhile = 1.2;
   explicit StepPlan(const RollingSystem& system);

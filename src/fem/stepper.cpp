@@ -33,13 +33,15 @@ double station_derivative(const Block& block, int stations, int j, F&& value) {
 // Work and losses are summed over whole steps; the moment between two steps has half of the one that follows.
 EnergyBalance halfway(const EnergyBalance& before, EnergyBalance now) {
   using E = EnergyBalance;
-  for (double E::*sum : {&E::torque_work, &E::friction, &E::contact_normal, &E::damping, &E::absorbed, &E::dashpot}) now.*sum = 0.5 * (before.*sum + now.*sum);
+  for (double E::*sum : {&E::torque_work, &E::friction, &E::contact_normal, &E::damping, &E::absorbed, &E::dashpot})
+    now.*sum = 0.5 * (before.*sum + now.*sum);
   return now;
 }
 
 }  // namespace
 
-Stepper::Stepper(const RollingSystem& system) : sys_(system), contact_(system.rail_surface, system.wheel_surface), plan_(system) {
+Stepper::Stepper(const RollingSystem& system)
+    : sys_(system), contact_(system.rail_surface, system.wheel_surface), plan_(system) {
   enforcement_.penalty = sys_.model.spec.contact.method == "penalty";
   enforcement_.penalty_stiffness = sys_.penalty_stiffness;
   enforcement_.friction_coefficient = sys_.model.spec.drive.friction_coefficient;
@@ -52,9 +54,10 @@ Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : St
 Stepper::Stepper(const RollingSystem& system, StepperMemory memory) : Stepper(system) {
   const RollingState& s = memory.state;
   const auto surface_nodes = static_cast<std::size_t>(sys_.rail_surface.columns) * sys_.rail_surface.stations.nodes();
-  if (s.u_rail.size() != f_rail_.size() || s.v_rail.size() != f_rail_.size() || s.u_wheel.size() != f_wheel_.size() || s.v_wheel.size() != f_wheel_.size() ||
-      s.groups.size() != static_cast<std::size_t>(sys_.model.spec.vehicle.suspension_groups) || s.tractions.all().size() != surface_nodes ||
-      s.tractions.stations() != sys_.rail_surface.stations.nodes())
+  if (s.u_rail.size() != f_rail_.size() || s.v_rail.size() != f_rail_.size() || s.u_wheel.size() != f_wheel_.size() ||
+      s.v_wheel.size() != f_wheel_.size() ||
+      s.groups.size() != static_cast<std::size_t>(sys_.model.spec.vehicle.suspension_groups) ||
+      s.tractions.all().size() != surface_nodes || s.tractions.stations() != sys_.rail_surface.stations.nodes())
     throw CaseError("the saved state is that of another mesh", "start the run anew");
   state_ = std::move(memory.state);
   balance_ = memory.balance;
@@ -68,7 +71,9 @@ Stepper::Stepper(const RollingSystem& system, StepperMemory memory) : Stepper(sy
 
 bool Stepper::can_be_remembered() const { return state_.step % kSearchInterval == 0; }
 
-StepperMemory Stepper::memory() const { return {state_, balance_, mean_, contact_.memory(), axle_z0_, dt_, reached_edge_}; }
+StepperMemory Stepper::memory() const {
+  return {state_, balance_, mean_, contact_.memory(), axle_z0_, dt_, reached_edge_};
+}
 
 void ReferenceFrame::set_step(double dt) {
   const double turn = spin * dt, half = std::sin(0.5 * turn);
@@ -96,14 +101,20 @@ void Stepper::prepare() {
   for (const Block& b : sys_.model.wheel.blocks) {
     cos_node_.emplace_back();
     sin_node_.emplace_back();
-    for (double t : b.stations.at) cos_node_.back().push_back(std::cos(t)), sin_node_.back().push_back(std::sin(t));
+    for (double t : b.stations.at) {
+      cos_node_.back().push_back(std::cos(t));
+      sin_node_.back().push_back(std::sin(t));
+    }
   }
   rail_schedule_ = schedule(sys_.rail, sys_.rail_surface, plan_.rail);
   wheel_schedule_ = schedule(sys_.wheel, sys_.wheel_surface, plan_.wheel);
   for (const DeformableBody::Line& l : sys_.wheel.lines) {
     if (l.component != 0) continue;
     const double z = sys_.model.wheel.blocks[l.block].section.nodes[l.node].z;
-    for (int j = 0; j < l.count; ++j) free_mass_ += sys_.wheel.mass[l.first + j], free_inertia_ += sys_.wheel.mass[l.first + j] * z * z;
+    for (int j = 0; j < l.count; ++j) {
+      free_mass_ += sys_.wheel.mass[l.first + j];
+      free_inertia_ += sys_.wheel.mass[l.first + j] * z * z;
+    }
   }
 }
 
@@ -120,14 +131,16 @@ void Stepper::start(const PreloadResult& preload) {
   for (const DeformableBody::Line& l : sys_.rail.lines) {
     const Block& block = sys_.model.rail.blocks[l.block];
     for (int j = 0; j < l.count; ++j)
-      state_.v_rail[l.first + j] = -spec.drive.speed * station_derivative(block, l.count, j, [&](int k) { return state_.u_rail[l.first + k]; });
+      state_.v_rail[l.first + j] =
+          -spec.drive.speed * station_derivative(block, l.count, j, [&](int k) { return state_.u_rail[l.first + k]; });
   }
   const double spin = state_.axle.spin;
   frame_.move_to(0);
   for (const DeformableBody::Line& l : sys_.wheel.lines) {
     const Block& block = sys_.model.wheel.blocks[l.block];
     for (int j = 0; j < l.count; ++j) {
-      state_.v_wheel[l.first + j] = -spin * station_derivative(block, l.count, j, [&](int k) { return state_.u_wheel[l.first + k]; });
+      state_.v_wheel[l.first + j] =
+          -spin * station_derivative(block, l.count, j, [&](int k) { return state_.u_wheel[l.first + k]; });
     }
   }
   wheel_surface_u_ = state_.u_wheel;
@@ -146,8 +159,10 @@ void Stepper::start(const PreloadResult& preload) {
   take_mean_motion(all);
 }
 
-// Nodes on the running surface, at ties, with added mass and those that local steps act on wait for the contact; those that are not free are not updated at all.
-Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSurface& surface, const BodySteps& steps) const {
+// Nodes on the running surface, at ties, with added mass and those that local steps act on wait for the contact; those
+// that are not free are not updated at all.
+Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSurface& surface,
+                                    const BodySteps& steps) const {
   Schedule out;
   const SweptBody& mesh = body.solid.body();
   for (const BlockLayout& b : body.solid.layout().blocks) out.at_once.emplace_back(b.nodes, 0);
@@ -156,7 +171,10 @@ Stepper::Schedule Stepper::schedule(const DeformableBody& body, const ContactSur
     if (out.at_once[block][node]) out.later.push_back({block, node}), out.at_once[block][node] = 0;
   };
   for (int c = 0; c < surface.columns; ++c) wait(mesh.contact.block, c);
-  for (const Tie& t : mesh.ties) wait(t.master_block, t.master_node0), wait(t.master_block, t.master_node1);
+  for (const Tie& t : mesh.ties) {
+    wait(t.master_block, t.master_node0);
+    wait(t.master_block, t.master_node1);
+  }
   for (int b = 0; b < static_cast<int>(out.at_once.size()); ++b)
     for (int n = 0; n < static_cast<int>(out.at_once[b].size()); ++n)
       if (steps.scaling.acts_on(b, n) || steps.local.acts_on(b, n)) wait(b, n);
@@ -208,7 +226,8 @@ void Stepper::internal_forces() {
   chain_tiles(sys_.rail, rail_schedule_);
   chain_tiles(sys_.wheel, wheel_schedule_);
   const bool fused = !want_energy_;
-  const std::ptrdiff_t wheel_chains = static_cast<std::ptrdiff_t>(wheel_schedule_.chains.size()), rail_chains = static_cast<std::ptrdiff_t>(rail_schedule_.chains.size());
+  const std::ptrdiff_t wheel_chains = static_cast<std::ptrdiff_t>(wheel_schedule_.chains.size()),
+                       rail_chains = static_cast<std::ptrdiff_t>(rail_schedule_.chains.size());
   for_each(
       wheel_chains + rail_chains,
       [&](std::ptrdiff_t k) {
@@ -218,8 +237,10 @@ void Stepper::internal_forces() {
         Sums sums;
         const auto take = [&](const Solid::Tile& tile, int begin, int node, const double* rows) {
           if (!fused || !plan.at_once[tile.block][node]) return false;
-          const double* const f[3] = {rows - tile.first, rows + Solid::kTile - tile.first, rows + 2 * Solid::kTile - tile.first};
-          if (begin == tile.first) advance_node(is_wheel, {tile.block, node}, begin, begin + 1, f, sums);  // the others are aligned to packs
+          const double* const f[3] = {rows - tile.first, rows + Solid::kTile - tile.first,
+                                      rows + 2 * Solid::kTile - tile.first};
+          if (begin == tile.first)
+            advance_node(is_wheel, {tile.block, node}, begin, begin + 1, f, sums);  // the others are aligned to packs
           advance_node(is_wheel, {tile.block, node}, tile.first + 1, tile.end, f, sums);
           return true;
         };
@@ -232,7 +253,8 @@ void Stepper::internal_forces() {
           for (int i = 0; i < 3; ++i) lines.add(&v[x + i * solid.layout().blocks[tile.block].stride]);
           lines.add(&inverse_mass[x]);
         };
-        solid.chain_forces(plan.chains[k], is_wheel ? state_.u_wheel : state_.u_rail, is_wheel ? f_wheel_ : f_rail_, take, expect);
+        solid.chain_forces(plan.chains[k], is_wheel ? state_.u_wheel : state_.u_rail, is_wheel ? f_wheel_ : f_rail_,
+                           take, expect);
         plan.chain_sums[k] = sums;
       },
       true);
@@ -242,7 +264,8 @@ void Stepper::internal_forces() {
   double moment[6];  // what the ties' offsets hand to the rotation
   for_each(6, [&](std::ptrdiff_t k) {
     const int component = static_cast<int>(k % 3);
-    moment[k] = k < 3 ? sys_.wheel.ties.collect_component(f_wheel_, component, c, s) : sys_.rail.ties.collect_component(f_rail_, component, 1, 0);
+    moment[k] = k < 3 ? sys_.wheel.ties.collect_component(f_wheel_, component, c, s)
+                      : sys_.rail.ties.collect_component(f_rail_, component, 1, 0);
   });
   double absorbed = 0;
   for (const EndDashpot& d : sys_.absorbers) {
@@ -297,7 +320,8 @@ void Stepper::lift_wheel_surface() {
     const std::ptrdiff_t x = surface.index(column, 0), y = x + surface.stride, z = y + surface.stride;
     const double radius = surface.node[column].z;
     for (int j = 0; j < stations; ++j) {
-      const double ax = -radius * sine[j], az = radius * cosine[j], px = ax + state_.u_wheel[x + j], pz = az + state_.u_wheel[z + j];
+      const double ax = -radius * sine[j], az = radius * cosine[j], px = ax + state_.u_wheel[x + j],
+                   pz = az + state_.u_wheel[z + j];
       wheel_surface_u_[x + j] = frame_.x + c * px + s * pz - ax;
       wheel_surface_u_[y + j] = state_.u_wheel[y + j];
       wheel_surface_u_[z + j] = c * pz - s * px - az;
@@ -305,7 +329,8 @@ void Stepper::lift_wheel_surface() {
   }
 }
 
-// Velocities relative to the frame's travel, in this step's frame components: of the half step before, or the one after the update. Empty without added mass.
+// Velocities relative to the frame's travel, in this step's frame components: of the half step before, or the one after
+// the update. Empty without added mass.
 Field Stepper::wheel_velocity(bool before, Field reuse) const {
   Field out = std::move(reuse);
   if (plan_.wheel.scaling.empty()) return out;
@@ -316,9 +341,12 @@ Field Stepper::wheel_velocity(bool before, Field reuse) const {
       const std::ptrdiff_t x = blocks[b].line(n, 0), y = blocks[b].line(n, 1), z = blocks[b].line(n, 2);
       const double radius = sys_.model.wheel.blocks[b].section.nodes[n].z;
       for (int j = 0; j < blocks[b].stations; ++j) {
-        const Vec3 w = Vec3{state_.v_wheel[x + j], state_.v_wheel[y + j], state_.v_wheel[z + j]} + frame_.rigid_rate({-radius * sin_node_[b][j], 0, radius * cos_node_[b][j]});
+        const Vec3 w = Vec3{state_.v_wheel[x + j], state_.v_wheel[y + j], state_.v_wheel[z + j]} +
+                       frame_.rigid_rate({-radius * sin_node_[b][j], 0, radius * cos_node_[b][j]});
         const Vec3 v = before ? frame_.step_back(w) : w;
-        out[x + j] = v.x, out[y + j] = v.y, out[z + j] = v.z;
+        out[x + j] = v.x;
+        out[y + j] = v.y;
+        out[z + j] = v.z;
       }
     }
   return out;
@@ -333,8 +361,12 @@ Field Stepper::wheel_displacement() const {
       const double radius = sys_.model.wheel.blocks[b].section.nodes[n].z;
       for (int j = 0; j < blocks[b].stations; ++j) {
         const Vec3 arm{-radius * sin_node_[b][j], 0, radius * cos_node_[b][j]};
-        const Vec3 u = Vec3{frame_.x, 0, 0} + frame_.to_model(arm + Vec3{state_.u_wheel[x + j], state_.u_wheel[y + j], state_.u_wheel[z + j]}) - arm;
-        out[x + j] = u.x, out[y + j] = u.y, out[z + j] = u.z;
+        const Vec3 u =
+            Vec3{frame_.x, 0, 0} +
+            frame_.to_model(arm + Vec3{state_.u_wheel[x + j], state_.u_wheel[y + j], state_.u_wheel[z + j]}) - arm;
+        out[x + j] = u.x;
+        out[y + j] = u.y;
+        out[z + j] = u.z;
       }
     }
   return out;
@@ -343,17 +375,21 @@ Field Stepper::wheel_displacement() const {
 // Local steps take over all that acts on their nodes, as it stands in the update.
 void Stepper::refine_forces() {
   plan_.rail.local.refine(state_.u_rail, 0, {{0, 0, -sys_.gravity}, 0}, f_rail_);
-  plan_.wheel.local.refine(state_.u_wheel, state_.axle.psi - frame_.psi, {{frame_.sin_psi * sys_.gravity, 0, -frame_.cos_psi * sys_.gravity}, frame_.centrifugal}, f_wheel_);
+  plan_.wheel.local.refine(state_.u_wheel, state_.axle.psi - frame_.psi,
+                           {{frame_.sin_psi * sys_.gravity, 0, -frame_.cos_psi * sys_.gravity}, frame_.centrifugal},
+                           f_wheel_);
 }
 
-// A force [N] of the wheel on the rail in a row of the contact, to the nodes of both bodies; add(is_wheel, index, force on the node).
+// A force [N] of the wheel on the rail in a row of the contact, to the nodes of both bodies; add(is_wheel, index, force
+// on the node).
 template <class Add>
 void Stepper::spread_contact_force(const MortarRows& rows, const ContactRow& row, Vec3 force, Add&& add) {
   const Vec3 turned = frame_.to_frame(force);
   const double on_rail[3] = {force.x, force.y, force.z}, on_wheel[3] = {-turned.x, -turned.y, -turned.z};
   for (int i = 0; i < 3; ++i) add(false, row.rail + i * sys_.rail_surface.stride, on_rail[i]);
   for (int w = row.first; w < row.first + row.count; ++w)
-    for (int i = 0; i < 3; ++i) add(true, rows.weights[w].wheel + i * sys_.wheel_surface.stride, rows.weights[w].m * on_wheel[i]);
+    for (int i = 0; i < 3; ++i)
+      add(true, rows.weights[w].wheel + i * sys_.wheel_surface.stride, rows.weights[w].m * on_wheel[i]);
 }
 
 // Free velocities of the nodes of the contact and how they answer.
@@ -362,21 +398,27 @@ void Stepper::gather_contact(const MortarRows& rows) {
   const ContactSurface &rail = sys_.rail_surface, &wheel = sys_.wheel_surface;
   numbering_.number(rows, wheel, c);
   c.tractions_held = plan_.local();
-  c.rail.clear(), c.wheel.clear();
+  c.rail.clear();
+  c.wheel.clear();
   c.rail.response = plan_.rail.response.empty() ? nullptr : &plan_.rail.response;
   c.wheel.response = plan_.wheel.response.empty() ? nullptr : &plan_.wheel.response;
-  auto velocity = [](const Field& v, std::ptrdiff_t i, int stride) { return Vec3{v[i], v[i + stride], v[i + 2 * stride]}; };
+  auto velocity = [](const Field& v, std::ptrdiff_t i, int stride) {
+    return Vec3{v[i], v[i + stride], v[i + 2 * stride]};
+  };
   for (const ContactRow& r : rows.rows) {
     c.rail.before.push_back(velocity(state_.v_rail, r.rail, rail.stride));
     c.rail.velocity.push_back((1 - rate_ * dt_) * c.rail.before.back() + dt_ * free_acceleration(false, r.rail));
-    c.rail.inverse_mass.push_back(c.rail.response ? c.rail.response->own(r.column) : plan_.rail.scaling.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
+    c.rail.inverse_mass.push_back(c.rail.response ? c.rail.response->own(r.column)
+                                                  : plan_.rail.scaling.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
     if (c.rail.response) c.rail.places.push_back({r.column, r.station});
   }
   for (std::ptrdiff_t i : c.wheel_nodes) {
     const Vec3 arm = wheel_arm(i), w = velocity(state_.v_wheel, i, wheel.stride);
     c.wheel.before.push_back(Vec3{frame_.speed, 0, 0} + frame_.to_model(frame_.step_back(w + frame_.rigid_rate(arm))));
     Vec3 a = free_acceleration(true, i);
-    if (rate_ > 0) a -= rate_ * frame_.to_model(frame_.step_back(w - Vec3{mean_.x + mean_.spin * arm.z, 0, mean_.z - mean_.spin * arm.x}));
+    if (rate_ > 0)
+      a -= rate_ *
+           frame_.to_model(frame_.step_back(w - Vec3{mean_.x + mean_.spin * arm.z, 0, mean_.z - mean_.spin * arm.x}));
     c.wheel.velocity.push_back(c.wheel.before.back() + dt_ * a);
     if (!c.wheel.response) {
       c.wheel.inverse_mass.push_back(plan_.wheel.scaling.share(i) * sys_.wheel.inverse_mass[i]);
@@ -384,9 +426,11 @@ void Stepper::gather_contact(const MortarRows& rows) {
     }
     const std::ptrdiff_t k = i - wheel.first_line;
     const int column = static_cast<int>(k / (3 * wheel.stride)), station = static_cast<int>(k % (3 * wheel.stride));
-    const double cosine = cos_node_[sys_.model.wheel.contact.block][station], sine = sin_node_[sys_.model.wheel.contact.block][station];  // of theta
+    const double cosine = cos_node_[sys_.model.wheel.contact.block][station],
+                 sine = sin_node_[sys_.model.wheel.contact.block][station];  // of theta
     c.wheel.inverse_mass.push_back(c.wheel.response->own(column));
-    c.wheel.places.push_back({column, station, cosine * frame_.cos_psi + sine * frame_.sin_psi, sine * frame_.cos_psi - cosine * frame_.sin_psi});
+    c.wheel.places.push_back({column, station, cosine * frame_.cos_psi + sine * frame_.sin_psi,
+                              sine * frame_.cos_psi - cosine * frame_.sin_psi});
   }
 }
 
@@ -405,15 +449,20 @@ void Stepper::contact() {
     kept_.clear();
     for (const ContactRow& r : rows.rows) kept_.push_back(state_.tractions.at(r.column, r.station));
     for (NodeTraction& t : state_.tractions.all()) t = {};
-    for (std::size_t k = 0; k < kept_.size(); ++k) state_.tractions.at(rows.rows[k].column, rows.rows[k].station) = kept_[k];
+    for (std::size_t k = 0; k < kept_.size(); ++k)
+      state_.tractions.at(rows.rows[k].column, rows.rows[k].station) = kept_[k];
   }
-  auto force_of = [&](const ContactRow& row) { return row.area * traction_vector(state_.tractions.at(row.column, row.station), row.normal); };  // on the rail
+  auto force_of = [&](const ContactRow& row) {
+    return row.area * traction_vector(state_.tractions.at(row.column, row.station), row.normal);
+  };  // on the rail
 
   held_.clear();
   if (plan_.local()) {
     for (const ContactRow& row : rows.rows) {
       held_.push_back(force_of(row));
-      spread_contact_force(rows, row, held_.back(), [&](bool is_wheel, std::ptrdiff_t i, double force) { (is_wheel ? f_wheel_ : f_rail_)[i] -= force; });
+      spread_contact_force(rows, row, held_.back(), [&](bool is_wheel, std::ptrdiff_t i, double force) {
+        (is_wheel ? f_wheel_ : f_rail_)[i] -= force;
+      });
     }
     refine_forces();
   }
@@ -435,7 +484,9 @@ void Stepper::contact() {
       const int n = c.weight_node[w];
       slip += (0.5 * rows.weights[w].m) * (c.wheel.before[n] + c.wheel.velocity[n]);
     }
-    forces_.x -= force.x, forces_.y -= force.y, forces_.z -= force.z;
+    forces_.x -= force.x;
+    forces_.y -= force.y;
+    forces_.z -= force.z;
     forces_.penetration = std::max(forces_.penetration, -row.gap);
     ++forces_.nodes;
     const double normal_slip = dot(slip, row.normal);
@@ -446,18 +497,23 @@ void Stepper::contact() {
   balance_.contact_normal += dt_ * normal;
 }
 
-// The tractions that were found, to the forces: what local steps hold already taken off and the rest through their stages.
+// The tractions that were found, to the forces: what local steps hold already taken off and the rest through their
+// stages.
 void Stepper::apply_contact(const MortarRows& rows) {
-  rail_change_.clear(), wheel_change_.clear();
+  rail_change_.clear();
+  wheel_change_.clear();
   for (std::size_t k = 0; k < rows.rows.size(); ++k) {
     const ContactRow& row = rows.rows[k];
     const NodeTraction& t = state_.tractions.at(row.column, row.station);
     if (t.p <= 0 && held_.empty()) continue;
     const Vec3 force = row.area * traction_vector(t, row.normal), change = held_.empty() ? force : force - held_[k];
     spread_contact_force(rows, row, change, [&](bool is_wheel, std::ptrdiff_t i, double part) {
-      if (plan_.local()) (is_wheel ? wheel_change_ : rail_change_).push_back({i, part});
-      else if (is_wheel) plan_.wheel.scaling.add_force(f_wheel_, i, -part);
-      else plan_.rail.scaling.add_force(f_rail_, i, -part);
+      if (plan_.local())
+        (is_wheel ? wheel_change_ : rail_change_).push_back({i, part});
+      else if (is_wheel)
+        plan_.wheel.scaling.add_force(f_wheel_, i, -part);
+      else
+        plan_.rail.scaling.add_force(f_rail_, i, -part);
     });
   }
   if (!plan_.local()) return;
@@ -467,11 +523,13 @@ void Stepper::apply_contact(const MortarRows& rows) {
 
 // Update of one section node's stations begin <= j < end; f: forces by station. measured: with run-up damping and sums.
 template <SweepKind kind, bool measured>
-void Stepper::advance_node(const DeformableBody& body, Field& u, Field& v, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums) const {
+void Stepper::advance_node(const DeformableBody& body, Field& u, Field& v, SectionNode node, int begin, int end,
+                           const double* const (&f)[3], Sums& sums) const {
   constexpr bool turning = kind == SweepKind::revolve;
   const BlockLayout& lay = body.solid.layout().blocks[node.block];
   const std::ptrdiff_t x = lay.line(node.node, 0), y = x + lay.stride, z = y + lay.stride;
-  double *ux = u.data() + x, *uy = u.data() + y, *uz = u.data() + z, *vx = v.data() + x, *vy = v.data() + y, *vz = v.data() + z;
+  double *ux = u.data() + x, *uy = u.data() + y, *uz = u.data() + z, *vx = v.data() + x, *vy = v.data() + y,
+         *vz = v.data() + z;
   const double *fx = f[0], *fy = f[1], *fz = f[2];
   const double* inverse_mass = body.inverse_mass.data() + x;
   const double* cosine = turning ? cos_node_[node.block].data() : nullptr;
@@ -479,7 +537,8 @@ void Stepper::advance_node(const DeformableBody& body, Field& u, Field& v, Secti
   const double radius = turning ? body.solid.body().blocks[node.block].section.nodes[node.node].z : 0.0;
   const double dt = dt_, rate = rate_, cd = frame_.cos_step, sd = frame_.sin_step;
   const double push = turning ? frame_.centrifugal * radius : 0.0;
-  const double gx = turning ? frame_.sin_psi * sys_.gravity : 0.0, gz = turning ? -frame_.cos_psi * sys_.gravity : -sys_.gravity;
+  const double gx = turning ? frame_.sin_psi * sys_.gravity : 0.0,
+               gz = turning ? -frame_.cos_psi * sys_.gravity : -sys_.gravity;
   const MeanMotion mean = mean_;
   double twice_kinetic = 0, power = 0, px = 0, pz = 0, angular = 0;
   RAILSTRATA_INDEPENDENT
@@ -487,23 +546,39 @@ void Stepper::advance_node(const DeformableBody& body, Field& u, Field& v, Secti
     const double m = inverse_mass[j];
     double wx = vx[j], wy = vy[j], wz = vz[j];
     double ax = gx - m * fx[j], ay = -m * fy[j], az = gz - m * fz[j];
-    if constexpr (turning) ax -= push * sine[j], az += push * cosine[j];
+    if constexpr (turning) {
+      ax -= push * sine[j];
+      az += push * cosine[j];
+    }
     [[maybe_unused]] double rx = 0, ry = 0, rz = 0;  // what the run-up damping takes off
     if constexpr (measured) {
-      rx = rate * wx, ry = rate * wy, rz = rate * wz;
-      if constexpr (turning) rx -= rate * (mean.x + mean.spin * radius * cosine[j]), rz -= rate * (mean.z + mean.spin * radius * sine[j]);
+      rx = rate * wx;
+      ry = rate * wy;
+      rz = rate * wz;
+      if constexpr (turning) {
+        rx -= rate * (mean.x + mean.spin * radius * cosine[j]);
+        rz -= rate * (mean.z + mean.spin * radius * sine[j]);
+      }
     }
     double bx = wx, bz = wz;  // before, in the frame of this step
     if constexpr (turning) {
-      bx = cd * wx - sd * wz, bz = sd * wx + cd * wz;
+      bx = cd * wx - sd * wz;
+      bz = sd * wx + cd * wz;
       if constexpr (measured) {
         const double r = rx;
-        rx = cd * r - sd * rz, rz = sd * r + cd * rz;
+        rx = cd * r - sd * rz;
+        rz = sd * r + cd * rz;
       }
     }
-    if constexpr (measured) ax -= rx, ay -= ry, az -= rz;
+    if constexpr (measured) {
+      ax -= rx;
+      ay -= ry;
+      az -= rz;
+    }
     const double qx = bx + dt * ax, qy = wy + dt * ay, qz = bz + dt * az;
-    vx[j] = qx, vy[j] = qy, vz[j] = qz;
+    vx[j] = qx;
+    vy[j] = qy;
+    vz[j] = qz;
     const double dx = ux[j] + dt * qx, dz = uz[j] + dt * qz;
     uy[j] += dt * qy;
     if constexpr (turning) {
@@ -518,11 +593,15 @@ void Stepper::advance_node(const DeformableBody& body, Field& u, Field& v, Secti
       double before_x = bx, before_z = bz, after_x = qx, after_z = qz;
       if constexpr (turning) {  // to velocities in the model frame, components of this step's frame
         const double armx = -radius * sine[j], armz = radius * cosine[j];
-        const double slope_x = frame_.slope_cos * armx + frame_.slope_sin * armz, slope_z = frame_.slope_cos * armz - frame_.slope_sin * armx;
+        const double slope_x = frame_.slope_cos * armx + frame_.slope_sin * armz,
+                     slope_z = frame_.slope_cos * armz - frame_.slope_sin * armx;
         const double travel_x = frame_.cos_psi * frame_.speed, travel_z = frame_.sin_psi * frame_.speed;
-        before_x += cd * slope_x - sd * slope_z + travel_x, before_z += sd * slope_x + cd * slope_z + travel_z;
-        after_x += slope_x + travel_x, after_z += slope_z + travel_z;
-        px += mass * qx, pz += mass * qz;
+        before_x += cd * slope_x - sd * slope_z + travel_x;
+        before_z += sd * slope_x + cd * slope_z + travel_z;
+        after_x += slope_x + travel_x;
+        after_z += slope_z + travel_z;
+        px += mass * qx;
+        pz += mass * qz;
         angular += mass * radius * (cosine[j] * qx + sine[j] * qz);
       }
       twice_kinetic += mass * (before_x * after_x + wy * qy + before_z * after_z);
@@ -532,20 +611,25 @@ void Stepper::advance_node(const DeformableBody& body, Field& u, Field& v, Secti
   if constexpr (measured) sums += {0.5 * twice_kinetic, power, px, pz, angular};
 }
 
-void Stepper::advance_node(bool is_wheel, SectionNode node, int begin, int end, const double* const (&f)[3], Sums& sums) {
+void Stepper::advance_node(bool is_wheel, SectionNode node, int begin, int end, const double* const (&f)[3],
+                           Sums& sums) {
   const bool measured = rate_ > 0 || want_energy_;
-  if (is_wheel && measured) advance_node<SweepKind::revolve, true>(sys_.wheel, state_.u_wheel, state_.v_wheel, node, begin, end, f, sums);
-  else if (is_wheel) advance_node<SweepKind::revolve, false>(sys_.wheel, state_.u_wheel, state_.v_wheel, node, begin, end, f, sums);
-  else if (measured) advance_node<SweepKind::extrude, true>(sys_.rail, state_.u_rail, state_.v_rail, node, begin, end, f, sums);
-  else advance_node<SweepKind::extrude, false>(sys_.rail, state_.u_rail, state_.v_rail, node, begin, end, f, sums);
+  if (is_wheel && measured)
+    advance_node<SweepKind::revolve, true>(sys_.wheel, state_.u_wheel, state_.v_wheel, node, begin, end, f, sums);
+  else if (is_wheel)
+    advance_node<SweepKind::revolve, false>(sys_.wheel, state_.u_wheel, state_.v_wheel, node, begin, end, f, sums);
+  else if (measured)
+    advance_node<SweepKind::extrude, true>(sys_.rail, state_.u_rail, state_.v_rail, node, begin, end, f, sums);
+  else
+    advance_node<SweepKind::extrude, false>(sys_.rail, state_.u_rail, state_.v_rail, node, begin, end, f, sums);
 }
 
 // The nodes that waited for the contact, and the border planes of the others.
 void Stepper::advance_later() {
   const auto waiting = [](const Schedule& s) { return static_cast<std::ptrdiff_t>(s.later.size()); };
   const auto bordered = [](const Schedule& s) { return static_cast<std::ptrdiff_t>(s.bordered.size()); };
-  const std::ptrdiff_t wheel_later = waiting(wheel_schedule_), wheel_all = wheel_later + bordered(wheel_schedule_), rail_later = waiting(rail_schedule_),
-                       rail_all = rail_later + bordered(rail_schedule_);
+  const std::ptrdiff_t wheel_later = waiting(wheel_schedule_), wheel_all = wheel_later + bordered(wheel_schedule_),
+                       rail_later = waiting(rail_schedule_), rail_all = rail_later + bordered(rail_schedule_);
   for_each(wheel_all + rail_all, [&](std::ptrdiff_t k) {
     const bool is_wheel = k < wheel_all;
     if (!is_wheel) k -= wheel_all;
@@ -604,7 +688,8 @@ void Stepper::advance_axle() {
   a.psi += dt_ * a.spin;
   balance_.torque_work += dt_ * moment * 0.5 * (spin + a.spin);
   balance_.damping += dt_ * rate * sys_.axle.mass_z * vz * 0.5 * (vz + a.vz);
-  axle_kinetic_ = 0.5 * (sys_.axle.mass_x * vx * a.vx + sys_.axle.mass_z * vz * a.vz + sys_.axle.inertia * spin * a.spin);
+  axle_kinetic_ =
+      0.5 * (sys_.axle.mass_x * vx * a.vx + sys_.axle.mass_z * vz * a.vz + sys_.axle.inertia * spin * a.spin);
   const double share = v.sprung_mass / static_cast<double>(state_.groups.size());
   for (const MassGroup& m : state_.groups) axle_kinetic_ += 0.5 * share * m.vz * m.vz;
 }
@@ -618,7 +703,8 @@ double Stepper::weight_potential() const {
     if (l.component == 1) continue;
     const double z = sys_.model.wheel.blocks[l.block].section.nodes[l.node].z;
     for (int j = 0; j < l.count; ++j) {
-      const double arm = l.component == 0 ? -z * sin_node_[l.block][j] : z * cos_node_[l.block][j], at = arm + state_.u_wheel[l.first + j];
+      const double arm = l.component == 0 ? -z * sin_node_[l.block][j] : z * cos_node_[l.block][j],
+                   at = arm + state_.u_wheel[l.first + j];
       sum += sys_.wheel.mass[l.first + j] * (l.component == 0 ? -frame_.sin_psi * at : frame_.cos_psi * at - arm);
     }
   }
@@ -640,7 +726,8 @@ void Stepper::step() {
   const EnergyBalance before = balance_;
   rate_ = damping_rate();
   if (want_energy_) {
-    const StrainEnergy rail = sys_.rail.solid.energy(state_.u_rail, 0), wheel = sys_.wheel.solid.energy(state_.u_wheel, state_.axle.psi - frame_.psi);
+    const StrainEnergy rail = sys_.rail.solid.energy(state_.u_rail, 0),
+                       wheel = sys_.wheel.solid.energy(state_.u_wheel, state_.axle.psi - frame_.psi);
     balance_.strain = rail.strain + wheel.strain;
     balance_.hourglass = rail.hourglass + wheel.hourglass;
     balance_.weight = weight_potential();
@@ -658,7 +745,8 @@ void Stepper::step() {
   advance_axle();
   if (want_energy_) {
     wheel_velocity_ = wheel_velocity(false, std::move(wheel_velocity_));
-    balance_.kinetic = sums_.kinetic + axle_kinetic_ + plan_.rail.scaling.kinetic(rail_stretch_, state_.v_rail) + plan_.wheel.scaling.kinetic(wheel_stretch_, wheel_velocity_);
+    balance_.kinetic = sums_.kinetic + axle_kinetic_ + plan_.rail.scaling.kinetic(rail_stretch_, state_.v_rail) +
+                       plan_.wheel.scaling.kinetic(wheel_stretch_, wheel_velocity_);
     recorded_ = halfway(before, balance_);
   }
   state_.time += dt_;
@@ -674,7 +762,8 @@ std::string Stepper::check_finite() const {
       for (int j = 0; j < l.count; ++j)
         if (!std::isfinite(u[l.first + j])) {
           const Vec3 x = body.solid.reference_position(l.block, l.node, j);
-          return fmt::format("{} {}, node near x = {:.1f} mm, y = {:.1f} mm, z = {:.1f} mm", body.solid.body().name, body.solid.body().blocks[l.block].name, 1e3 * x.x, 1e3 * x.y, 1e3 * x.z);
+          return fmt::format("{} {}, node near x = {:.1f} mm, y = {:.1f} mm, z = {:.1f} mm", body.solid.body().name,
+                             body.solid.body().blocks[l.block].name, 1e3 * x.x, 1e3 * x.y, 1e3 * x.z);
         }
     return {};
   };

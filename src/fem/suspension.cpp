@@ -2,8 +2,10 @@
 
 namespace railstrata {
 
-SuspensionForce step_suspension(const VehicleSpec& v, double axle_z, double axle_vz, double dt, std::vector<MassGroup>& groups) {
-  const double share = 1.0 / static_cast<double>(groups.size()), k = v.suspension_stiffness * share, c = v.suspension_damping * share;
+SuspensionForce step_suspension(const VehicleSpec& v, double axle_z, double axle_vz, double dt,
+                                std::vector<MassGroup>& groups) {
+  const double share = 1.0 / static_cast<double>(groups.size()), k = v.suspension_stiffness * share,
+               c = v.suspension_damping * share;
   SuspensionForce out;
   for (MassGroup& m : groups) {
     const double closing = axle_vz - m.vz, force = k * (axle_z - m.z) + c * closing;

@@ -1,5 +1,6 @@
 #pragma once
-// Primary suspension: groups of a spring and a dashpot, each carrying its share of the sprung mass, vertical, on the axle's non-rotating box.
+// Primary suspension: groups of a spring and a dashpot, each carrying its share of the sprung mass, vertical, on the
+// axle's non-rotating box.
 //
 //   m z'' = k (z_axle - z) + c (z_axle' - z'),   shares of the whole: m / n, k / n, c / n
 // z is counted from static equilibrium, where the springs carry the weight.
@@ -10,15 +11,16 @@
 namespace railstrata {
 
 struct MassGroup {
-  double z = 0, vz = 0;             ///< m, displacement; m/s, half-step velocity of a share of the sprung mass
+  double z = 0, vz = 0;  ///< m, displacement; m/s, half-step velocity of a share of the sprung mass
 };
 
 struct SuspensionForce {
-  double on_masses = 0;             ///< N, upwards on all groups together; the axle gets the opposite
-  double dashpot_power = 0;         ///< W
+  double on_masses = 0;      ///< N, upwards on all groups together; the axle gets the opposite
+  double dashpot_power = 0;  ///< W
 };
 
 /// One central-difference step of the groups; axle_z from static equilibrium [m], axle_vz its half-step velocity [m/s].
-SuspensionForce step_suspension(const VehicleSpec& vehicle, double axle_z, double axle_vz, double dt, std::vector<MassGroup>& groups);
+SuspensionForce step_suspension(const VehicleSpec& vehicle, double axle_z, double axle_vz, double dt,
+                                std::vector<MassGroup>& groups);
 
 }  // namespace railstrata

@@ -56,7 +56,8 @@ std::vector<ProfileSegment> segments(std::span<const DrawnSegment> drawn) {
   std::vector<ProfileSegment> out;
   for (std::size_t i = 0; i + 1 < drawn.size(); ++i) {
     const DrawnSegment &a = drawn[i], &b = drawn[i + 1];
-    out.push_back({from_drawing(a.y, a.z), from_drawing(b.y, b.z), from_drawing(a.centre_y, a.centre_z), 1e-3 * a.radius});
+    out.push_back(
+        {from_drawing(a.y, a.z), from_drawing(b.y, b.z), from_drawing(a.centre_y, a.centre_z), 1e-3 * a.radius});
   }
   return out;
 }
@@ -66,7 +67,8 @@ constexpr Vec2 mirrored(Vec2 p) { return {-p.y, p.z}; }
 Profile symmetric_rail(const char* name, std::span<const DrawnSegment> half) {
   const std::vector<ProfileSegment> field = segments(half);
   std::vector<ProfileSegment> all;
-  for (auto g = field.rbegin(); g != field.rend(); ++g) all.push_back({mirrored(g->p1), mirrored(g->p0), mirrored(g->centre), g->radius});
+  for (auto g = field.rbegin(); g != field.rend(); ++g)
+    all.push_back({mirrored(g->p1), mirrored(g->p0), mirrored(g->centre), g->radius});
   all.insert(all.end(), field.begin(), field.end());
   return Profile::from_segments(ProfileKind::rail, name, std::move(all));
 }
@@ -81,12 +83,22 @@ double circle(double y, double centre_y, double centre_z, double radius, double 
   return centre_z + side * std::sqrt(std::max(0.0, radius * radius - (y - centre_y) * (y - centre_y)));
 }
 
-constexpr double kZoneB[] = {0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8, 5.309217349e-15, -5.957839843e-12, 2.646656573e-13};
-constexpr double kZoneC[] = {-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1, -4.169739389e-3, -4.687195829e-5, -2.252755540e-7};
+constexpr double kZoneB[] = {0.0,
+                             -3.358537058e-2,
+                             1.565681624e-3,
+                             -2.810427944e-5,
+                             5.844240864e-8,
+                             -1.562379023e-8,
+                             5.309217349e-15,
+                             -5.957839843e-12,
+                             2.646656573e-13};
+constexpr double kZoneC[] = {-4.320221063e3,  -1.038384026e3,  -1.065501873e2,  -6.051367875,
+                             -2.054332446e-1, -4.169739389e-3, -4.687195829e-5, -2.252755540e-7};
 
 /// Zone C as published ends 3.7e-5 mm below zone B and 1.2e-4 mm below zone D; a straight line added closes both steps.
 double closing_zone_c(double y) {
-  const double at_b = polynomial(kZoneB, -26.0) - polynomial(kZoneC, -26.0), at_d = circle(-35.0, -26.210665, 16.446, 13.0, -1) - polynomial(kZoneC, -35.0);
+  const double at_b = polynomial(kZoneB, -26.0) - polynomial(kZoneC, -26.0),
+               at_d = circle(-35.0, -26.210665, 16.446, 13.0, -1) - polynomial(kZoneC, -35.0);
   return at_b + (at_d - at_b) * (y + 26.0) / -9.0;
 }
 

@@ -13,9 +13,9 @@ Profile cn60_rail();
 Profile uic60_rail();
 Profile uic54_rail();
 
-/// The S1002 formulas themselves: height [mm], positive towards the flange's crest, of the lateral coordinate y [mm] in [-70, 60]. Zones A…H of UIC 510-2;
-/// as published,
-/// zone C (y from -35 to -26) misses its neighbours by up to 1.2e-4 mm; a straight line added to it closes the curve.
+/// The S1002 formulas themselves: height [mm], positive towards the flange's crest, of the lateral coordinate y [mm] in
+/// [-70, 60]. Zones A…H of UIC 510-2; as published, zone C (y from -35 to -26) misses its neighbours by up to 1.2e-4
+/// mm; a straight line added to it closes the curve.
 double s1002_height_mm(double y);
 
 }  // namespace railstrata

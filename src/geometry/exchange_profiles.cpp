@@ -15,7 +15,8 @@ constexpr const char* kBlank = " \t\r\f\v";
 
 std::string_view trimmed(std::string_view text) {
   const std::size_t begin = text.find_first_not_of(kBlank);
-  return begin == std::string_view::npos ? std::string_view() : text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
+  return begin == std::string_view::npos ? std::string_view()
+                                         : text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
 std::string lower(std::string_view text) {
@@ -86,30 +87,39 @@ class Simpack {
       } else if (listing) {
         add_point(table_, line, number, name_);
       } else if (const std::size_t equals = line.find('='); equals != std::string_view::npos) {
-        settings_[section + std::string(trimmed(line.substr(0, equals)))] = {std::string(trimmed(line.substr(equals + 1))), number};
+        settings_[section + std::string(trimmed(line.substr(0, equals)))] = {
+            std::string(trimmed(line.substr(equals + 1))), number};
       } else if (line.ends_with(".begin")) {
         section = std::string(line.substr(0, line.size() - 5));
       } else if (line.ends_with(".end")) {
         section.clear();
       } else {
-        refuse(fmt::format("'{}' is no setting of a Simpack profile", line), "settings are key = value, points stand between point.begin and point.end", name_, number);
+        refuse(fmt::format("'{}' is no setting of a Simpack profile", line),
+               "settings are key = value, points stand between point.begin and point.end", name_, number);
       }
     });
-    if (listing) refuse("the list of points has no point.end: the file is cut off", "put a whole copy of the file back", name_, 0);
-    if (!listed) refuse("there is no point.begin in this Simpack profile", "export it from Simpack anew, or give a file of two columns as .csv", name_, 0);
+    if (listing)
+      refuse("the list of points has no point.end: the file is cut off", "put a whole copy of the file back", name_, 0);
+    if (!listed)
+      refuse("there is no point.begin in this Simpack profile",
+             "export it from Simpack anew, or give a file of two columns as .csv", name_, 0);
     if (const double type = value("header.type", kind == ProfileKind::wheel); type != (kind == ProfileKind::wheel))
-      refuse(fmt::format("this Simpack profile is that of a {}", type == 0 ? "rail" : "wheel"), "give rail_profile a .prr file, wheel_profile a .prw file", name_, settings_["header.type"].line);
+      refuse(fmt::format("this Simpack profile is that of a {}", type == 0 ? "rail" : "wheel"),
+             "give rail_profile a .prr file, wheel_profile a .prw file", name_, settings_["header.type"].line);
   }
 
   NumberTable points() {
     note(fmt::format("Simpack profile of {} points.", table_.rows.size()));
     if (const double least = value("spline.point.dist.min", 0); least > 0)
-      note_dropped(keep_points(table_, [&](Vec2 p, const Vec2* last) { return !last || norm(p - *last) >= least; }), "point.dist.min");
+      note_dropped(keep_points(table_, [&](Vec2 p, const Vec2* last) { return !last || norm(p - *last) >= least; }),
+                   "point.dist.min");
     if (const Vec2 shift{value("spline.shift.y", 0), value("spline.shift.z", 0)}; shift.y != 0 || shift.z != 0) {
       for (Vec2& p : table_.rows) p = p + shift;
       note(fmt::format("shift.y = {}, shift.z = {} were added.", shift.y, shift.z));
     }
-    if (value("spline.rotate", 0) != 0) refuse("rotate turns the points of this Simpack profile", "turn the points themselves and set rotate = 0", name_, settings_["spline.rotate"].line);
+    if (value("spline.rotate", 0) != 0)
+      refuse("rotate turns the points of this Simpack profile", "turn the points themselves and set rotate = 0", name_,
+             settings_["spline.rotate"].line);
     bound("y", [](Vec2 p) { return p.y; });
     bound("z", [](Vec2 p) { return p.z; });
     const double y = mirror("y"), z = mirror("z");
@@ -120,7 +130,9 @@ class Simpack {
       note("inversion reversed the order of the points.");
     }
     const double per_metre = value("spline.units.len.f", 1000);
-    if (!(per_metre > 0)) refuse("units.len.f must be above 0", "1000 for millimetres, 1 for metres", name_, settings_["spline.units.len.f"].line);
+    if (!(per_metre > 0))
+      refuse("units.len.f must be above 0", "1000 for millimetres, 1 for metres", name_,
+             settings_["spline.units.len.f"].line);
     for (Vec2& p : table_.rows) p = (1000 / per_metre) * p;
     if (per_metre != 1000) note(fmt::format("units.len.f = {}: lengths were taken as parts of a metre.", per_metre));
     table_.heading = "mm";
@@ -139,13 +151,17 @@ class Simpack {
     const auto found = settings_.find(key);
     if (found == settings_.end()) return otherwise;
     const std::optional<double> number = number_of(found->second.text);
-    if (!number || !std::isfinite(*number)) refuse(fmt::format("{} = {} is not a finite number", key, found->second.text), "repair the setting", name_, found->second.line);
+    if (!number || !std::isfinite(*number))
+      refuse(fmt::format("{} = {} is not a finite number", key, found->second.text), "repair the setting", name_,
+             found->second.line);
     return *number;
   }
   template <class Component>
   void bound(const std::string& axis, Component component) {
     const double min = value("spline.bound." + axis + ".min", 0), max = value("spline.bound." + axis + ".max", 0);
-    if (min < max) note_dropped(keep_points(table_, [&](Vec2 p, const Vec2*) { return component(p) >= min && component(p) <= max; }), "bound." + axis);
+    if (min < max)
+      note_dropped(keep_points(table_, [&](Vec2 p, const Vec2*) { return component(p) >= min && component(p) <= max; }),
+                   "bound." + axis);
   }
   double mirror(const std::string& axis) {
     if (value("spline.mirror." + axis, 0) == 0) return 1;
@@ -164,7 +180,9 @@ class Simpack {
 
 }  // namespace
 
-NumberTable parse_simpack(ProfileKind kind, std::string_view text, const std::string& name) { return Simpack(kind, text, name).points(); }
+NumberTable parse_simpack(ProfileKind kind, std::string_view text, const std::string& name) {
+  return Simpack(kind, text, name).points();
+}
 
 NumberTable parse_miniprof(std::string_view text, const std::string& name) {
   NumberTable table;
@@ -186,7 +204,8 @@ NumberTable parse_miniprof(std::string_view text, const std::string& name) {
       const std::string key = lower(trimmed(line.substr(0, equals))), value = lower(trimmed(line.substr(equals + 1)));
       if (key == "xypoints") announced = number_of(value);
       if (key == "columndef" && !value.starts_with("x,y"))
-        refuse(fmt::format("'{}': the columns do not begin with X,Y", line), "export the profile with the columns X and Y first", name, number);
+        refuse(fmt::format("'{}': the columns do not begin with X,Y", line),
+               "export the profile with the columns X and Y first", name, number);
       return;
     }
     if (header && (keys || !point_of(words_of(line)))) return;
@@ -197,7 +216,8 @@ NumberTable parse_miniprof(std::string_view text, const std::string& name) {
   if (switched_off > 0) table.notes.push_back(fmt::format("{} points in quotes are switched off.", switched_off));
   const auto there = static_cast<double>(table.rows.size());
   if (announced && there + static_cast<double>(switched_off) < *announced)
-    refuse(fmt::format("XYPoints says {}, but there are {} points: the file is cut off", *announced, there), "put a whole copy of the file back, or correct XYPoints if points were taken out by hand", name, 0);
+    refuse(fmt::format("XYPoints says {}, but there are {} points: the file is cut off", *announced, there),
+           "put a whole copy of the file back, or correct XYPoints if points were taken out by hand", name, 0);
   if (announced && *announced != there) table.notes.push_back(fmt::format("XYPoints says {}.", *announced));
   table.columns = 2;  // the others are angle, curvature and the like
   return table;

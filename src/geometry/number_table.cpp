@@ -24,7 +24,9 @@ std::string trimmed(const std::string& text) {
   return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
 }
 
-bool looks_numeric(const std::string& text) { return !text.empty() && std::string("0123456789+-.").find(text.front()) != std::string::npos; }
+bool looks_numeric(const std::string& text) {
+  return !text.empty() && std::string("0123456789+-.").find(text.front()) != std::string::npos;
+}
 
 std::vector<Line> split_lines(std::string_view all, std::string& comments) {
   if (all.starts_with("\xEF\xBB\xBF")) all.remove_prefix(3);
@@ -43,7 +45,8 @@ std::vector<Line> split_lines(std::string_view all, std::string& comments) {
   return lines;
 }
 
-/// "1,5 2": a number with a comma, blanks, another number. (A std::regex would take a stack frame for each character of the line.)
+/// "1,5 2": a number with a comma, blanks, another number. (A std::regex would take a stack frame for each character of
+/// the line.)
 bool two_with_blanks(std::string_view text) {
   const auto skip = [&](const char* characters) {
     const std::size_t n = std::min(text.find_first_not_of(characters), text.size());
@@ -112,17 +115,21 @@ NumberTable parse_number_table(std::string_view all, const std::string& name) {
       return number.has_value();
     };
     const bool has_y = read(0, y), has_z = read(1, z);
-    if (!std::isfinite(y) || !std::isfinite(z)) throw CaseError("'" + line.text + "' is not a finite number", "remove or repair the point", where);
+    if (!std::isfinite(y) || !std::isfinite(z))
+      throw CaseError("'" + line.text + "' is not a finite number", "remove or repair the point", where);
     if (has_y && has_z) {
       if (!table.rows.empty() && words.size() != table.columns)
-        throw CaseError(fmt::format("'{}' has {} numbers, the lines before it {}", line.text, words.size(), table.columns), "give every point as many columns; mark comments with #", where);
+        throw CaseError(
+            fmt::format("'{}' has {} numbers, the lines before it {}", line.text, words.size(), table.columns),
+            "give every point as many columns; mark comments with #", where);
       table.rows.push_back({y, z});
       table.lines.push_back(line.number);
       table.columns = words.size();
     } else if (table.rows.empty() && (!looks_numeric(line.text) || words.size() == 1)) {
       table.heading += line.text + '\n';
     } else {
-      throw CaseError("'" + line.text + "' is not two numbers", "give two columns, y and z; mark comments with #", where);
+      throw CaseError("'" + line.text + "' is not two numbers", "give two columns, y and z; mark comments with #",
+                      where);
     }
   }
   return table;

@@ -11,10 +11,10 @@ namespace railstrata {
 
 struct NumberTable {
   std::vector<Vec2> rows;
-  std::vector<int> lines;    ///< of each row, from 1
-  std::string heading;       ///< comments and header lines before the first row, for a look at the units
+  std::vector<int> lines;  ///< of each row, from 1
+  std::string heading;     ///< comments and header lines before the first row, for a look at the units
   bool decimal_commas = false;
-  std::size_t columns = 2;   ///< columns of every row; only the first two are kept
+  std::size_t columns = 2;         ///< columns of every row; only the first two are kept
   std::vector<std::string> notes;  ///< what a reader of another program's files has done, one sentence each
 };
 
@@ -23,8 +23,9 @@ std::vector<std::string> words_of(std::string_view line);
 /// A whole word as a number; none if it is not one.
 std::optional<double> number_of(std::string_view word);
 
-/// Reads blanks, tabs, commas or semicolons between columns; decimal points or commas; comments after # % ! "; header lines before the first row; a lone count
-/// of points before the rows. Throws CaseError with name:line for a line that is not two numbers, another count of columns, NaN and infinities.
+/// Reads blanks, tabs, commas or semicolons between columns; decimal points or commas; comments after # % ! "; header
+/// lines before the first row; a lone count of points before the rows. Throws CaseError with name:line for a line that
+/// is not two numbers, another count of columns, NaN and infinities.
 NumberTable parse_number_table(std::string_view text, const std::string& name);
 
 }  // namespace railstrata

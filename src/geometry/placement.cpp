@@ -25,7 +25,12 @@ Vec2 turn(Vec2 p, double tangent) {
 class Gap {
  public:
   Gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track, double offset_y)
-      : wheel_(wheel), rail_(rail), track_(track), offset_y_(offset_y), wheel_begin_(wheel.y_min()), wheel_end_(wheel.y_max()) {}
+      : wheel_(wheel),
+        rail_(rail),
+        track_(track),
+        offset_y_(offset_y),
+        wheel_begin_(wheel.y_min()),
+        wheel_end_(wheel.y_max()) {}
 
   double wheel_y(double s) const { return rail_to_model(track_, rail_.at(s).position).y - offset_y_; }
   bool faces_wheel(double s) const {
@@ -44,7 +49,8 @@ class Gap {
   double offset_y_, wheel_begin_, wheel_end_;
 };
 
-/// y of the gauge face in the model frame: where the rail, canted, passes the gauge depth below its highest point, on the gauge side.
+/// y of the gauge face in the model frame: where the rail, canted, passes the gauge depth below its highest point, on
+/// the gauge side.
 double gauge_face(const Profile& rail, const TrackGeometry& track) {
   const auto at = [&](double s) { return rail_to_model(track, rail.at(s).position); };
   double top = -std::numeric_limits<double>::infinity(), top_s = 0;
@@ -58,9 +64,11 @@ double gauge_face(const Profile& rail, const TrackGeometry& track) {
   const double wanted = top - track.gauge_depth;
   double above = top_s, below = rail.s_min();
   if (at(below).z > wanted)
-    throw CaseError(fmt::format("the rail profile {} ends {:.1f} mm below its top on the gauge side, above the gauge depth of {:.1f} mm", rail.name(),
-                                1e3 * (top - at(below).z), 1e3 * track.gauge_depth),
-                    "give a profile that reaches further down the gauge face, or a smaller gauge_depth");
+    throw CaseError(
+        fmt::format(
+            "the rail profile {} ends {:.1f} mm below its top on the gauge side, above the gauge depth of {:.1f} mm",
+            rail.name(), 1e3 * (top - at(below).z), 1e3 * track.gauge_depth),
+        "give a profile that reaches further down the gauge face, or a smaller gauge_depth");
   for (int i = 0; i < 80; ++i) {
     const double middle = 0.5 * (above + below);
     (at(middle).z > wanted ? above : below) = middle;
@@ -70,7 +78,8 @@ double gauge_face(const Profile& rail, const TrackGeometry& track) {
 
 double lateral_offset(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
   if (wheel.primitive() || rail.primitive()) return track.lateral_shift;
-  const double tape_circle = 0.5 * track.back_to_back + track.flange_back_to_tape, rail_axis = 0.5 * track.gauge - gauge_face(rail, track);
+  const double tape_circle = 0.5 * track.back_to_back + track.flange_back_to_tape,
+               rail_axis = 0.5 * track.gauge - gauge_face(rail, track);
   return tape_circle - rail_axis + track.lateral_shift;
 }
 
@@ -119,13 +128,17 @@ double first_contact(const Gap& gap, const Samples& samples) {
     if (samples.gap[i] > lowest + kCandidate) continue;
     const double before = samples.gap[i == 0 ? 0 : i - 1], after = samples.gap[i == last ? last : i + 1];
     if (samples.gap[i] > before || samples.gap[i] > after) continue;
-    if (i == 0 || i == last) consider(samples.s[i]);
-    else consider(refine(gap, samples.s[i - 1], samples.s[i], samples.s[i + 1]));
+    if (i == 0 || i == last)
+      consider(samples.s[i]);
+    else
+      consider(refine(gap, samples.s[i - 1], samples.s[i], samples.s[i + 1]));
   }
   return best_s;
 }
 
-std::string pair_name(const Profile& wheel, const Profile& rail) { return fmt::format("wheel {} on rail {}", wheel.name(), rail.name()); }
+std::string pair_name(const Profile& wheel, const Profile& rail) {
+  return fmt::format("wheel {} on rail {}", wheel.name(), rail.name());
+}
 
 }  // namespace
 
@@ -137,11 +150,13 @@ RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackG
   const Gap gap(wheel, rail, track, offset_y);
   const Samples samples = sample_overlap(gap, rail);
   if (samples.s.size() < 3)
-    throw CaseError(fmt::format("{}: the wheel misses the rail; its tape circle stands {:.1f} mm from the rail's axis", pair_name(wheel, rail), 1e3 * offset_y),
+    throw CaseError(fmt::format("{}: the wheel misses the rail; its tape circle stands {:.1f} mm from the rail's axis",
+                                pair_name(wheel, rail), 1e3 * offset_y),
                     "check lateral_shift, gauge and back_to_back");
   const double s = first_contact(gap, samples);
   if (s - samples.s.front() < kSearchStep || samples.s.back() - s < kSearchStep)
-    throw CaseError(fmt::format("{}: the contact lies at the end of a profile, at wheel y = {:.2f} mm", pair_name(wheel, rail), 1e3 * gap.wheel_y(s)),
+    throw CaseError(fmt::format("{}: the contact lies at the end of a profile, at wheel y = {:.2f} mm",
+                                pair_name(wheel, rail), 1e3 * gap.wheel_y(s)),
                     "check lateral_shift, gauge, back_to_back and cant, or give profiles that reach further");
 
   const ProfilePoint r = rail.at(s);
@@ -158,7 +173,8 @@ RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackG
   out.rolling_radius = track.wheel_radius - w.position.z;
   out.curvature_wheel_lateral = w.curvature;
   out.curvature_rail_lateral = r.curvature;
-  out.curvature_rolling = std::cos(out.angle) / out.rolling_radius;  // Meusnier: the parallel's plane is not normal to the surface
+  out.curvature_rolling =
+      std::cos(out.angle) / out.rolling_radius;  // Meusnier: the parallel's plane is not normal to the surface
   return out;
 }
 

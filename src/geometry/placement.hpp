@@ -1,46 +1,49 @@
 #pragma once
 // Where the wheel stands on the rail: track gauge, cant, lateral shift, and the rigid first contact point.
 //
-// Model frame: x rolling direction, y lateral, positive to the field side (a left-hand wheel, so that x, y, z is right-handed), z up.
-// Its origin is the crown point of the (canted) rail in the plane of the wheel's start.
+// Model frame: x rolling direction, y lateral, positive to the field side (a left-hand wheel, so that x, y, z is
+// right-handed), z up. Its origin is the crown point of the (canted) rail in the plane of the wheel's start.
 #include "geometry/profile.hpp"
 
 namespace railstrata {
 
 /// Inputs of the placement. All lengths in metres.
 struct TrackGeometry {
-  double gauge = 1.435;            ///< between the gauge faces
-  double gauge_depth = 0.016;      ///< below the top of the canted rail, where the gauge is measured
-  double back_to_back = 1.353;     ///< between the wheels' inner faces
+  double gauge = 1.435;                ///< between the gauge faces
+  double gauge_depth = 0.016;          ///< below the top of the canted rail, where the gauge is measured
+  double back_to_back = 1.353;         ///< between the wheels' inner faces
   double flange_back_to_tape = 0.070;  ///< from the flange back to the tape circle
-  double cant = 1.0 / 40.0;        ///< tangent of the rail's inclination towards the track centre
-  double lateral_shift = 0.0;      ///< of the wheel to the field side
-  double wheel_radius = 0.430;     ///< nominal, at the tape circle
+  double cant = 1.0 / 40.0;            ///< tangent of the rail's inclination towards the track centre
+  double lateral_shift = 0.0;          ///< of the wheel to the field side
+  double wheel_radius = 0.430;         ///< nominal, at the tape circle
 };
 
 /// The wheel just touching the rail.
 struct RigidContact {
-  double wheel_offset_y = 0;    ///< y of the tape circle in the model frame
-  double wheel_offset_z = 0;    ///< height of the tape-circle tread point (profile origin) in the model frame, at contact
-  double axle_height = 0;       ///< z of the axle = wheel_offset_z + wheel_radius
+  double wheel_offset_y = 0;  ///< y of the tape circle in the model frame
+  double wheel_offset_z = 0;  ///< height of the tape-circle tread point (profile origin) in the model frame, at contact
+  double axle_height = 0;     ///< z of the axle = wheel_offset_z + wheel_radius
   double rail_s = 0, wheel_s = 0;  ///< arc lengths of the contact point on both profiles
-  Vec2 point;                   ///< contact point, model frame
-  double angle = 0;             ///< contact angle [rad]: inclination of the common tangent to the y axis, positive when rising to the field side
-  double rolling_radius = 0;    ///< distance of the contact point from the axle
-  double curvature_wheel_lateral = 0, curvature_rail_lateral = 0;  ///< of the profiles at the contact, 1/m, convex positive
-  double curvature_rolling = 0;  ///< of the wheel across them, cos(angle) / rolling_radius [1/m]
+  Vec2 point;                      ///< contact point, model frame
+  double angle = 0;  ///< contact angle [rad]: inclination of the common tangent to the y axis, positive when rising to
+                     ///< the field side
+  double rolling_radius = 0;  ///< distance of the contact point from the axle
+  double curvature_wheel_lateral = 0,
+         curvature_rail_lateral = 0;  ///< of the profiles at the contact, 1/m, convex positive
+  double curvature_rolling = 0;       ///< of the wheel across them, cos(angle) / rolling_radius [1/m]
 };
 
 /// Rail profile frame -> model frame (rotation by atan(cant)) and back.
 Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point);
 Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point);
 
-/// Lowers the wheel vertically until it touches: the smallest vertical gap over the rail's whole running surface, found to 1e-9 m where the contact is a
-/// single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. Yaw is zero, so the contact lies below the axle.
-/// The tape circle stands at back_to_back / 2 + flange_back_to_tape from the track's centre, the gauge face (gauge_depth below the highest point of the canted
-/// rail) at gauge / 2, and lateral_shift moves the wheel from there. A plane or arc (Profile::primitive) has neither flange nor gauge face: with one in the pair
-/// the tape circle stands over the rail's axis, moved by lateral_shift.
-/// Throws CaseError if the wheel misses the rail, touches at the end of a profile, or the rail's profile ends above the gauge depth.
+/// Lowers the wheel vertically until it touches: the smallest vertical gap over the rail's whole running surface, found
+/// to 1e-9 m where the contact is a single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. Yaw
+/// is zero, so the contact lies below the axle. The tape circle stands at back_to_back / 2 + flange_back_to_tape from
+/// the track's centre, the gauge face (gauge_depth below the highest point of the canted rail) at gauge / 2, and
+/// lateral_shift moves the wheel from there. A plane or arc (Profile::primitive) has neither flange nor gauge face:
+/// with one in the pair the tape circle stands over the rail's axis, moved by lateral_shift. Throws CaseError if the
+/// wheel misses the rail, touches at the end of a profile, or the rail's profile ends above the gauge depth.
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track);
 
 }  // namespace railstrata

@@ -20,16 +20,19 @@ bool crosses(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 
 PointDefect loop(std::size_t first, std::size_t second) {
   return {second, fmt::format("the curve crosses itself: point {} meets point {}", second + 1, first + 1),
-          "a profile is one open curve walked once from end to end: remove the loop, or cut a closed outline down to its running surface"};
+          "a profile is one open curve walked once from end to end: remove the loop, or cut a closed outline down to "
+          "its running surface"};
 }
 
 std::optional<PointDefect> bad_neighbours(const std::vector<Vec2>& p) {
   for (std::size_t i = 1; i < p.size(); ++i) {
-    if (norm(p[i] - p[i - 1]) < kCloseness) return PointDefect{i, fmt::format("point {} repeats the one before", i + 1), "remove one of them"};
+    if (norm(p[i] - p[i - 1]) < kCloseness)
+      return PointDefect{i, fmt::format("point {} repeats the one before", i + 1), "remove one of them"};
     if (i < 2) continue;
     const Vec2 before = p[i - 1] - p[i - 2], after = p[i] - p[i - 1];
     if (dot(before, after) < kSharpestTurn * norm(before) * norm(after))
-      return PointDefect{i, fmt::format("the curve turns back on itself at point {}", i), "list the points in the order along the curve, without loops"};
+      return PointDefect{i, fmt::format("the curve turns back on itself at point {}", i),
+                         "list the points in the order along the curve, without loops"};
   }
   return std::nullopt;
 }
@@ -45,7 +48,8 @@ std::optional<PointDefect> self_crossing(const std::vector<Vec2>& p) {
 
 std::optional<PointDefect> find_defect(const std::vector<Vec2>& points) {
   if (points.size() < 5)
-    return PointDefect{0, fmt::format("{} points are too few for a profile", points.size()), "give at least 5 points; every 0.1 to 1 mm is usual"};
+    return PointDefect{0, fmt::format("{} points are too few for a profile", points.size()),
+                       "give at least 5 points; every 0.1 to 1 mm is usual"};
   double length = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!std::isfinite(points[i].y) || !std::isfinite(points[i].z))
@@ -53,8 +57,9 @@ std::optional<PointDefect> find_defect(const std::vector<Vec2>& points) {
     if (i > 0) length += norm(points[i] - points[i - 1]);
   }
   if (length < kShortest || length > kLongest)
-    return PointDefect{0, fmt::format("the curve is {:.4g} m long; a wheel or rail profile measures between 5 and 500 mm", length),
-                       "check the unit: metres and millimetres may be mixed up"};
+    return PointDefect{
+        0, fmt::format("the curve is {:.4g} m long; a wheel or rail profile measures between 5 and 500 mm", length),
+        "check the unit: metres and millimetres may be mixed up"};
   if (auto defect = bad_neighbours(points)) return defect;
   return self_crossing(points);
 }

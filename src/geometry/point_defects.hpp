@@ -13,7 +13,8 @@ struct PointDefect {
   std::string message, remedy;
 };
 
-/// The first defect of a list of points in metres: too few, not a number, repeated, length outside 5–500 mm, turning back on itself, crossing itself.
+/// The first defect of a list of points in metres: too few, not a number, repeated, length outside 5–500 mm, turning
+/// back on itself, crossing itself.
 std::optional<PointDefect> find_defect(const std::vector<Vec2>& points);
 
 }  // namespace railstrata

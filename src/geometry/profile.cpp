@@ -14,8 +14,9 @@
 namespace railstrata {
 namespace {
 
-constexpr double kJoin = 1e-9;           // m
-constexpr double kLongestDetour = 1.25;  // of the curve over the chords between its points; 1.21 where these turn by 120 degrees
+constexpr double kJoin = 1e-9;  // m
+constexpr double kLongestDetour =
+    1.25;  // of the curve over the chords between its points; 1.21 where these turn by 120 degrees
 
 /// Signed angle from p0 to p1 about the centre, positive anticlockwise.
 double sweep(const ProfileSegment& g) {
@@ -30,7 +31,8 @@ void require_joined(const std::vector<ProfileSegment>& segments) {
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const ProfileSegment& g = segments[i];
     if (i > 0 && norm(g.p0 - segments[i - 1].p1) > kJoin) throw std::invalid_argument("profile segments do not join");
-    if (g.radius > 0 && (std::abs(norm(g.p0 - g.centre) - g.radius) > kJoin || std::abs(norm(g.p1 - g.centre) - g.radius) > kJoin))
+    if (g.radius > 0 &&
+        (std::abs(norm(g.p0 - g.centre) - g.radius) > kJoin || std::abs(norm(g.p1 - g.centre) - g.radius) > kJoin))
       throw std::invalid_argument("the ends of an arc are not on its circle");
   }
 }
@@ -39,14 +41,20 @@ void require_following(const std::string& name, const SmoothingSpline& spline, c
   double chords = 0;
   for (std::size_t i = 1; i < points.size(); ++i) chords += norm(points[i] - points[i - 1]);
   if (!(spline.s.back() - spline.s.front() < kLongestDetour * chords))
-    throw CaseError(name + ": the smooth curve through the points swings far out between them", "remove stray points, or give more of them where the curve bends");
-  const std::string remedy = "remove points that nearly repeat their neighbours, or give more of them where they are far apart";
+    throw CaseError(name + ": the smooth curve through the points swings far out between them",
+                    "remove stray points, or give more of them where the curve bends");
+  const std::string remedy =
+      "remove points that nearly repeat their neighbours, or give more of them where they are far apart";
   for (std::size_t i = 1; i < points.size(); ++i) {
     const double miss = std::max(spline.miss[i - 1], spline.miss[i]);
     if (!(miss < std::max(2 * spline.tolerance, norm(points[i] - points[i - 1]))))
-      throw CaseError(fmt::format("{}: the smooth curve misses points {} and {} by more than they lie apart ({:.3g} mm)", name, i, i + 1, 1e3 * miss), remedy);
+      throw CaseError(
+          fmt::format("{}: the smooth curve misses points {} and {} by more than they lie apart ({:.3g} mm)", name, i,
+                      i + 1, 1e3 * miss),
+          remedy);
   }
-  if (std::adjacent_find(spline.s.begin(), spline.s.end(), [](double a, double b) { return !(b - a > kJoin); }) != spline.s.end())
+  if (std::adjacent_find(spline.s.begin(), spline.s.end(), [](double a, double b) { return !(b - a > kJoin); }) !=
+      spline.s.end())
     throw CaseError(name + ": the smooth curve through the points has a piece of no length", remedy);
 }
 
@@ -102,11 +110,13 @@ Profile::Local Profile::local(std::size_t i, double s) const {
   }
   const double a = (s_[i + 1] - s) / h, b = (s - s_[i]) / h;
   return {a * p_[i] + b * p_[i + 1] + (h * h / 6) * ((a * a * a - a) * d2_[i] + (b * b * b - b) * d2_[i + 1]),
-          (1 / h) * (p_[i + 1] - p_[i]) + (h / 6) * ((1 - 3 * a * a) * d2_[i] + (3 * b * b - 1) * d2_[i + 1]), a * d2_[i] + b * d2_[i + 1]};
+          (1 / h) * (p_[i + 1] - p_[i]) + (h / 6) * ((1 - 3 * a * a) * d2_[i] + (3 * b * b - 1) * d2_[i + 1]),
+          a * d2_[i] + b * d2_[i + 1]};
 }
 
 ProfilePoint Profile::at(double s) const {
-  if (!(s >= s_min() - kJoin && s <= s_max() + kJoin)) throw std::out_of_range(name_ + ": arc length outside the profile");
+  if (!(s >= s_min() - kJoin && s <= s_max() + kJoin))
+    throw std::out_of_range(name_ + ": arc length outside the profile");
   const Local c = local(piece_of(s), s);
   const double speed = norm(c.d1), side = kind_ == ProfileKind::rail ? 1.0 : -1.0;
   const Vec2 t = (1 / speed) * c.d1;
@@ -128,12 +138,15 @@ double Profile::s_at_y_within(std::size_t piece, double y, double lo, double hi)
 }
 
 double Profile::s_at_y(double y) const {
-  if (!(y >= y_min() - kJoin && y <= y_max() + kJoin)) throw std::out_of_range(name_ + ": no running surface at this lateral coordinate");
+  if (!(y >= y_min() - kJoin && y <= y_max() + kJoin))
+    throw std::out_of_range(name_ + ": no running surface at this lateral coordinate");
   if (y <= y_min()) return graph_begin_;
   if (y >= y_max()) return graph_end_;
-  const auto begin = knot_y_.begin() + static_cast<std::ptrdiff_t>(piece_of(graph_begin_)), end = knot_y_.begin() + static_cast<std::ptrdiff_t>(piece_of(graph_end_));
+  const auto begin = knot_y_.begin() + static_cast<std::ptrdiff_t>(piece_of(graph_begin_)),
+             end = knot_y_.begin() + static_cast<std::ptrdiff_t>(piece_of(graph_end_));
   const std::size_t piece = static_cast<std::size_t>(std::upper_bound(begin + 1, end + 1, y) - knot_y_.begin()) - 1;
-  return s_at_y_within(piece, y, std::max(s_[piece], graph_begin_), std::min(s_[piece + 1], graph_end_));  // beyond, a piece may fold back
+  return s_at_y_within(piece, y, std::max(s_[piece], graph_begin_),
+                       std::min(s_[piece + 1], graph_end_));  // beyond, a piece may fold back
 }
 
 double Profile::turning_of_slope(std::size_t piece, double near, double far) const {
@@ -174,8 +187,9 @@ void Profile::set_origin() {
     }
   }
   if (crossing == pieces)
-    throw CaseError(name_ + ": the profile does not cover y = 0",
-                    "move the origin to the rail's axis or the wheel's tape circle; y must increase towards the field side");
+    throw CaseError(
+        name_ + ": the profile does not cover y = 0",
+        "move the origin to the rail's axis or the wheel's tape circle; y must increase towards the field side");
   const double zero = s_at_y_within(crossing, 0.0, s_[crossing], s_[crossing + 1]);
   for (double& s : s_) s -= zero;
   for (std::size_t i = 0; i < s_.size(); ++i) knot_y_.push_back(local(std::min(i, pieces - 1), s_[i]).position.y);
@@ -184,7 +198,8 @@ void Profile::set_origin() {
   graph_y_begin_ = at(graph_begin_).position.y;
   graph_y_end_ = at(graph_end_).position.y;
   if (!(graph_y_begin_ <= 0 && graph_y_end_ >= 0 && graph_y_begin_ < graph_y_end_))
-    throw CaseError(name_ + ": the profile turns back at y = 0", "mend the points near y = 0, or smooth them; y must increase towards the field side there");
+    throw CaseError(name_ + ": the profile turns back at y = 0",
+                    "mend the points near y = 0, or smooth them; y must increase towards the field side there");
 }
 
 }  // namespace railstrata

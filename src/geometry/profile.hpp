@@ -1,9 +1,11 @@
 #pragma once
 // Wheel and rail profiles: plane curves in the section plane.
 //
-// Frame of a profile (docs/conventions.md): y lateral, positive to the FIELD side (flange / gauge side negative); z UP; metres.
+// Frame of a profile (docs/conventions.md): y lateral, positive to the FIELD side (flange / gauge side negative); z UP;
+// metres.
 //   rail : origin at the crown on the rail's axis, not canted; the material lies below the curve.
-//   wheel: origin on the tread at the tape circle; z points to the axle; the material lies above the curve; the flange has z < 0.
+//   wheel: origin on the tread at the tape circle; z points to the axle; the material lies above the curve; the flange
+//   has z < 0.
 // A curve is walked with y increasing over the running surface; s is the arc length, s = 0 at y = 0.
 #include <filesystem>
 #include <string>
@@ -32,14 +34,16 @@ struct ProfilePoint {
 
 class Profile {
  public:
-  /// Exact curve of lines and arcs (each less than half a turn), in metres. Throws std::invalid_argument if they do not join.
+  /// Exact curve of lines and arcs (each less than half a turn), in metres. Throws std::invalid_argument if they do not
+  /// join.
   static Profile from_segments(ProfileKind kind, std::string name, std::vector<ProfileSegment> segments);
   /// Curve through measured or listed points (metres, in the frame above), made C2 in arc length.
-  /// Rounding noise is estimated from the points and smoothed away (knots half a millimetre apart, wider for noisier points, down to the points' own
-  /// spacing where the curve bends sharply); points half a millimetre or more apart are interpolated. The curve leaves the points by no more than four times the
-  /// noise or 1 nanometre; single stray points among dense ones it may leave further.
-  /// Throws CaseError: fewer than 5 points, total chord length outside 5–500 mm (metre/millimetre mix-up), loops, y = 0 not covered,
-  /// a curve that between its points swings out to more than 1.25 times the length of their chords, or that misses neighbours by more than they lie apart.
+  /// Rounding noise is estimated from the points and smoothed away (knots half a millimetre apart, wider for noisier
+  /// points, down to the points' own spacing where the curve bends sharply); points half a millimetre or more apart are
+  /// interpolated. The curve leaves the points by no more than four times the noise or 1 nanometre; single stray points
+  /// among dense ones it may leave further. Throws CaseError: fewer than 5 points, total chord length outside 5–500 mm
+  /// (metre/millimetre mix-up), loops, y = 0 not covered, a curve that between its points swings out to more than 1.25
+  /// times the length of their chords, or that misses neighbours by more than they lie apart.
   static Profile from_points(ProfileKind kind, std::string name, const std::vector<Vec2>& points);
 
   ProfileKind kind() const { return kind_; }
@@ -52,13 +56,16 @@ class Profile {
   double s_at_y(double y) const;
   /// Height of the running surface, z(y).
   double height(double y) const { return at(s_at_y(y)).position.z; }
-  double y_min() const { return graph_y_begin_; }  ///< of the running surface (the part around s = 0 where the curve is a graph over y)
+  double y_min() const {
+    return graph_y_begin_;
+  }  ///< of the running surface (the part around s = 0 where the curve is a graph over y)
   double y_max() const { return graph_y_end_; }
   /// Arc lengths where pieces join: ends of the segments, or the spline's knots. Increasing; first s_min, last s_max.
   const std::vector<double>& knots() const { return s_; }
   /// The exact curve; empty for a point profile.
   const std::vector<ProfileSegment>& segments() const { return segments_; }
-  /// True for a plane or a single arc (circular_profile): it has no flange or gauge face, and place_wheel centres the pair.
+  /// True for a plane or a single arc (circular_profile): it has no flange or gauge face, and place_wheel centres the
+  /// pair.
   bool primitive() const { return primitive_; }
 
  private:
@@ -70,7 +77,8 @@ class Profile {
   std::size_t piece_of(double s) const;
   double s_at_y_within(std::size_t piece, double y, double lo, double hi) const;
   double graph_end(bool towards_field) const;
-  /// Where within a spline's piece, from near to far, dy/ds turns: the curve may fold back there between two knots that both run outwards. `far` if nowhere.
+  /// Where within a spline's piece, from near to far, dy/ds turns: the curve may fold back there between two knots that
+  /// both run outwards. `far` if nowhere.
   double turning_of_slope(std::size_t piece, double near, double far) const;
   void set_origin();  // shifts s_ to s(y = 0) = 0 and finds the running surface
 
@@ -78,52 +86,59 @@ class Profile {
   std::string name_;
   bool primitive_ = false;
   std::vector<ProfileSegment> segments_;
-  std::vector<double> s_;                 // knots (segment ends, or spline knots)
-  std::vector<Vec2> p_, d2_;              // point profiles: positions and second derivatives of the cubic spline in s
-  std::vector<double> knot_y_;            // lateral coordinates of the knots
-  double graph_begin_ = 0, graph_end_ = 0;      // arc lengths of y_min and y_max
+  std::vector<double> s_;                   // knots (segment ends, or spline knots)
+  std::vector<Vec2> p_, d2_;                // point profiles: positions and second derivatives of the cubic spline in s
+  std::vector<double> knot_y_;              // lateral coordinates of the knots
+  double graph_begin_ = 0, graph_end_ = 0;  // arc lengths of y_min and y_max
   double graph_y_begin_ = 0, graph_y_end_ = 0;
 };
 
 /// Names accepted by builtin_profile: LMA, S1002 (wheel); CN60, UIC60, UIC54 (rail); "flat" (both).
 std::vector<std::string> builtin_profile_names(ProfileKind kind);
-/// A profile shipped inside the program. Besides the names above it understands "arc:R=300 mm" (also m; positive convex, negative hollow), see
-/// circular_profile. Throws CaseError with the nearest name.
+/// A profile shipped inside the program. Besides the names above it understands "arc:R=300 mm" (also m; positive
+/// convex, negative hollow), see circular_profile. Throws CaseError with the nearest name.
 Profile builtin_profile(ProfileKind kind, const std::string& name);
 
-/// An arc of the given radius [m] (convex positive, hollow negative, infinite: a plane) with y from -half_width to half_width, tangent horizontal at y = 0.
-/// For tests and verification cases.
+/// An arc of the given radius [m] (convex positive, hollow negative, infinite: a plane) with y from -half_width to
+/// half_width, tangent horizontal at y = 0. For tests and verification cases.
 Profile circular_profile(ProfileKind kind, double radius, double half_width = 0.030);
 
-/// Reads a Simpack file (.prr, .prw), a MiniProf file (.ban, .whl) or a two-column file (any other name: y z; blanks, tabs, commas or semicolons; # % ! " comments; a header row; decimal commas; mm or metres; z up or down; either side's
-/// orientation). What was detected and flipped is appended to `notes`, one sentence each. Throws CaseError naming the file and line.
+/// Reads a Simpack file (.prr, .prw), a MiniProf file (.ban, .whl) or a two-column file (any other name: y z; blanks,
+/// tabs, commas or semicolons; # % ! " comments; a header row; decimal commas; mm or metres; z up or down; either
+/// side's orientation). What was detected and flipped is appended to `notes`, one sentence each. Throws CaseError
+/// naming the file and line.
 Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes = nullptr);
 
 /// The same from a text; `file` names it in messages.
-Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file, std::vector<std::string>* notes = nullptr);
+Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file,
+                      std::vector<std::string>* notes = nullptr);
 
-/// Lower part of a rail section for a head profile, in the rail's profile frame. CN60 has its own; other heads are given CN60's underside, web and foot at
-/// CN60's height, widened towards the end of the head's flank (docs/conventions.md). A flank that ends higher than CN60's (34.06 mm below the crown) is
-/// continued straight. Throws CaseError for a head without flanks (a plane, an arc, a list that ends on the running surface).
+/// Lower part of a rail section for a head profile, in the rail's profile frame. CN60 has its own; other heads are
+/// given CN60's underside, web and foot at CN60's height, widened towards the end of the head's flank
+/// (docs/conventions.md). A flank that ends higher than CN60's (34.06 mm below the crown) is continued straight. Throws
+/// CaseError for a head without flanks (a plane, an arc, a list that ends on the running surface).
 ///
-/// Every list includes both its ends and begins where the one before ends; arcs are drawn with a sagitta of 2 micrometres. Neighbouring parts meet at the
-/// 45-degree points of the two web fillets (R12 below the head, R20 above the foot), so that each can be mapped by a mesh.
+/// Every list includes both its ends and begins where the one before ends; arcs are drawn with a sagitta of 2
+/// micrometres. Neighbouring parts meet at the 45-degree points of the two web fillets (R12 below the head, R20 above
+/// the foot), so that each can be mapped by a mesh.
 struct RailOutline {
-  // Right half (y >= 0); the left half is its mirror image (for measured profiles the head is taken as it is and only the lower part mirrored).
-  double flank_y = 0, flank_z = 0;                  ///< where the head's flank ends and the underside begins
-  std::vector<Vec2> underside;                      ///< from the flank's end to the web, z decreasing
-  std::vector<Vec2> web;                            ///< from the underside's end down to the foot's top
-  std::vector<Vec2> foot_top;                       ///< from the web's end out to the toe (largest y)
-  std::vector<Vec2> toe;                            ///< from there down to the base
-  double base_z = 0;                                ///< bottom of the foot
+  // Right half (y >= 0); the left half is its mirror image (for measured profiles the head is taken as it is and only
+  // the lower part mirrored).
+  double flank_y = 0, flank_z = 0;  ///< where the head's flank ends and the underside begins
+  std::vector<Vec2> underside;      ///< from the flank's end to the web, z decreasing
+  std::vector<Vec2> web;            ///< from the underside's end down to the foot's top
+  std::vector<Vec2> foot_top;       ///< from the web's end out to the toe (largest y)
+  std::vector<Vec2> toe;            ///< from there down to the base
+  double base_z = 0;                ///< bottom of the foot
 };
 RailOutline rail_outline(const Profile& head);
 
-/// The whole section as a closed polygon, walked anticlockwise seen from +x (y to the right, z up); the last point is not the first again.
+/// The whole section as a closed polygon, walked anticlockwise seen from +x (y to the right, z up); the last point is
+/// not the first again.
 std::vector<Vec2> outline_polygon(const Profile& head, const RailOutline& outline);
 
-/// Area [m²], centroid height above the lowest point [m], second moments about the horizontal and vertical axes through the centroid [m⁴] of a closed polygon
-/// walked anticlockwise.
+/// Area [m²], centroid height above the lowest point [m], second moments about the horizontal and vertical axes through
+/// the centroid [m⁴] of a closed polygon walked anticlockwise.
 struct SectionProperties {
   double area, centroid_height, i_horizontal, i_vertical;
 };

@@ -39,9 +39,12 @@ double arc_radius(const std::string& name) {
   std::string unit = end;
   std::erase(unit, ' ');
   const double scale = unit == "mm" ? 1e-3 : unit == "m" ? 1.0 : 0.0;
-  if (end == name.c_str() + equals + 1 || scale == 0) throw CaseError("cannot read the radius of the profile '" + name + "'", kArcRemedy);
+  if (end == name.c_str() + equals + 1 || scale == 0)
+    throw CaseError("cannot read the radius of the profile '" + name + "'", kArcRemedy);
   if (!(std::abs(value * scale) >= kSmallestArc && std::abs(value * scale) <= kLargestArc))
-    throw CaseError(fmt::format("the radius of the profile '{}' is not between {:g} mm and {:g} m", name, 1e3 * kSmallestArc, kLargestArc), std::string(kArcRemedy) + "; a plane is flat");
+    throw CaseError(fmt::format("the radius of the profile '{}' is not between {:g} mm and {:g} m", name,
+                                1e3 * kSmallestArc, kLargestArc),
+                    std::string(kArcRemedy) + "; a plane is flat");
   return value * scale;
 }
 
@@ -62,19 +65,25 @@ Profile builtin_profile(ProfileKind kind, const std::string& name) {
 
   const std::vector<std::string> names = builtin_profile_names(kind);
   const std::string near = nearest_word(name, names);
-  throw CaseError(fmt::format("there is no built-in {} profile '{}'", kind == ProfileKind::wheel ? "wheel" : "rail", name),
-                  fmt::format("{}Known: {}, arc:R=300 mm; or give a file", near.empty() ? "" : fmt::format("did you mean '{}'? ", near), fmt::join(names, ", ")));
+  throw CaseError(
+      fmt::format("there is no built-in {} profile '{}'", kind == ProfileKind::wheel ? "wheel" : "rail", name),
+      fmt::format("{}Known: {}, arc:R=300 mm; or give a file",
+                  near.empty() ? "" : fmt::format("did you mean '{}'? ", near), fmt::join(names, ", ")));
 }
 
 Profile circular_profile(ProfileKind kind, double radius, double half_width) {
-  if (!(half_width > 0) || !(std::abs(radius) > 0)) throw CaseError("an arc profile needs a radius and a width", kArcRemedy);
+  if (!(half_width > 0) || !(std::abs(radius) > 0))
+    throw CaseError("an arc profile needs a radius and a width", kArcRemedy);
   const bool plane = std::isinf(radius);
   const double r = std::abs(radius), w = plane ? half_width : std::min(half_width, 0.7 * r);
   const double body = kind == ProfileKind::rail ? -1.0 : 1.0;  // side of the material
   const double towards_centre = body * std::copysign(1.0, radius);
-  const auto on_arc = [&](double y) { return Vec2{y, plane ? 0.0 : towards_centre * (y * y / (r + std::sqrt(r * r - y * y)))}; };
+  const auto on_arc = [&](double y) {
+    return Vec2{y, plane ? 0.0 : towards_centre * (y * y / (r + std::sqrt(r * r - y * y)))};
+  };
   ProfileSegment g{on_arc(-w), on_arc(w), {0, plane ? 0.0 : towards_centre * r}, plane ? 0.0 : r};
-  Profile out = Profile::from_segments(kind, plane ? std::string("flat") : fmt::format("arc:R={:g} mm", 1e3 * radius), {g});
+  Profile out =
+      Profile::from_segments(kind, plane ? std::string("flat") : fmt::format("arc:R={:g} mm", 1e3 * radius), {g});
   out.primitive_ = true;
   return out;
 }

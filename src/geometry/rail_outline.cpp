@@ -16,18 +16,25 @@ constexpr double kDegree = M_PI / 180;
 constexpr Vec2 mm(double y, double z) { return {1e-3 * y, -1e-3 * z}; }
 constexpr Vec2 kFlankEnd = mm(36.39278664727267, 34.05573294545356);
 constexpr Vec2 kHeadCorner = mm(33.396529630639144, 34.20554579628524);  // centre of R3
-constexpr Vec2 kUndersideBegin = mm(34.345212928689655, 37.051595690436784), kUndersideEnd = mm(18.891640108631478, 42.202786630456174);
+constexpr Vec2 kUndersideBegin = mm(34.345212928689655, 37.051595690436784),
+               kUndersideEnd = mm(18.891640108631478, 42.202786630456174);
 constexpr Vec2 kHeadFillet = mm(22.686373300833534, 53.58698620706234);  // R12
-constexpr Vec2 kWebBegin = mm(10.761725052405666, 52.24431567738385), kWebEnd = mm(10.19742027146441, 136.42263019456968);
-constexpr Vec2 kWebCentre = mm(408.25, 97.0);                             // R400
-constexpr Vec2 kFootFillet = mm(30.100049257891172, 134.4514986848412);   // R20
-constexpr Vec2 kFootBegin = mm(23.775493937554412, 153.42516464585148), kFootBreakBegin = mm(41.72984620668091, 159.4099487355603);
-constexpr Vec2 kFootBreak = mm(54.37895684735443, 121.46261681353975);    // R40
-constexpr Vec2 kFootBreakEnd = mm(49.96169580436056, 161.2179662004845), kFootEnd = mm(71.44172610429939, 163.60463623381105);
-constexpr Vec2 kToeTop = mm(71.0, 167.58017117250552);                    // centre of R4
-constexpr Vec2 kToeBegin = mm(75.0, 167.58017117250552), kToeEnd = mm(75.0, 174.0), kToeBottom = mm(73.0, 174.0), kBaseEnd = mm(73.0, 176.0);
+constexpr Vec2 kWebBegin = mm(10.761725052405666, 52.24431567738385),
+               kWebEnd = mm(10.19742027146441, 136.42263019456968);
+constexpr Vec2 kWebCentre = mm(408.25, 97.0);                            // R400
+constexpr Vec2 kFootFillet = mm(30.100049257891172, 134.4514986848412);  // R20
+constexpr Vec2 kFootBegin = mm(23.775493937554412, 153.42516464585148),
+               kFootBreakBegin = mm(41.72984620668091, 159.4099487355603);
+constexpr Vec2 kFootBreak = mm(54.37895684735443, 121.46261681353975);  // R40
+constexpr Vec2 kFootBreakEnd = mm(49.96169580436056, 161.2179662004845),
+               kFootEnd = mm(71.44172610429939, 163.60463623381105);
+constexpr Vec2 kToeTop = mm(71.0, 167.58017117250552);  // centre of R4
+constexpr Vec2 kToeBegin = mm(75.0, 167.58017117250552), kToeEnd = mm(75.0, 174.0), kToeBottom = mm(73.0, 174.0),
+               kBaseEnd = mm(73.0, 176.0);
 
-Vec2 at_angle(Vec2 centre, double radius, double degrees) { return centre + radius * Vec2{std::cos(degrees * kDegree), std::sin(degrees * kDegree)}; }
+Vec2 at_angle(Vec2 centre, double radius, double degrees) {
+  return centre + radius * Vec2{std::cos(degrees * kDegree), std::sin(degrees * kDegree)};
+}
 
 /// Appends the shorter arc about the centre from the list's last point to `end`.
 void arc_to(std::vector<Vec2>& line, Vec2 centre, Vec2 end) {
@@ -51,9 +58,11 @@ void widen(std::vector<Vec2>& underside, double by) {
 double flank_end_y(const Profile& head) {
   const ProfilePoint end = head.at(head.s_at_y(head.y_max()));
   if (head.primitive() || std::abs(end.tangent.z) < std::abs(end.tangent.y))
-    throw CaseError(fmt::format("the rail profile {} has no flanks: it ends {:.1f} mm below the crown", head.name(), -1e3 * end.position.z),
+    throw CaseError(fmt::format("the rail profile {} has no flanks: it ends {:.1f} mm below the crown", head.name(),
+                                -1e3 * end.position.z),
                     "give a head profile that reaches down its sides, or use rail_shape = \"block\"");
-  if (end.position.z > kFlankEnd.z) return end.position.y + end.tangent.y * (kFlankEnd.z - end.position.z) / end.tangent.z;
+  if (end.position.z > kFlankEnd.z)
+    return end.position.y + end.tangent.y * (kFlankEnd.z - end.position.z) / end.tangent.z;
   double above = 0, below = head.y_max();
   for (int i = 0; i < 60; ++i) {
     const double middle = 0.5 * (above + below);

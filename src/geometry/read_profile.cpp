@@ -14,14 +14,14 @@
 namespace railstrata {
 namespace {
 
-constexpr std::size_t kMostPoints = 20'000;              // all pairs of chords are held against each other
-constexpr std::streamsize kLargestFile = 16 << 20;       // bytes
-constexpr double kShortest = 0.020, kLongest = 0.500;    // m, curve of a listed profile
-constexpr double kSmallestFlange = 0.009;                // m: lower than any flange, higher than any tread's fall
+constexpr std::size_t kMostPoints = 20'000;                // all pairs of chords are held against each other
+constexpr std::streamsize kLargestFile = 16 << 20;         // bytes
+constexpr double kShortest = 0.020, kLongest = 0.500;      // m, curve of a listed profile
+constexpr double kSmallestFlange = 0.009;                  // m: lower than any flange, higher than any tread's fall
 constexpr double kCrestNear = -0.035, kCrestFar = -0.075;  // m, y of the flange's crest (nominal -0.054 to -0.056)
-constexpr double kAxisTolerance = 0.015;                 // m, of the middle of a rail head
-constexpr double kSameHeight = 1e-7;                     // m
-constexpr double kSymmetry = 0.02e-3;                    // m
+constexpr double kAxisTolerance = 0.015;                   // m, of the middle of a rail head
+constexpr double kSameHeight = 1e-7;                       // m
+constexpr double kSymmetry = 0.02e-3;                      // m
 
 struct Extent {
   double lo = 0, hi = 0;
@@ -42,7 +42,8 @@ Extent extent_z(const std::vector<Vec2>& points) {
 }
 
 NumberTable table_of(ProfileKind kind, std::string_view text, const std::filesystem::path& file) {
-  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw CaseError("this profile is in UTF-16", "save it as UTF-8 or plain text", file.string());
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
+    throw CaseError("this profile is in UTF-16", "save it as UTF-8 or plain text", file.string());
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   if (ending == ".prr" || ending == ".prw") return parse_simpack(kind, text, file.string());
@@ -52,12 +53,16 @@ NumberTable table_of(ProfileKind kind, std::string_view text, const std::filesys
 
 class Reading {
  public:
-  Reading(ProfileKind kind, std::string_view text, const std::filesystem::path& file) : kind_(kind), file_(file), table_(table_of(kind, text, file)), points_(table_.rows), notes_(table_.notes) {}
+  Reading(ProfileKind kind, std::string_view text, const std::filesystem::path& file)
+      : kind_(kind), file_(file), table_(table_of(kind, text, file)), points_(table_.rows), notes_(table_.notes) {}
 
   Profile profile(std::vector<std::string>* notes) {
     if (points_.size() < 5)
-      fail(fmt::format("{} points are too few for a profile", points_.size()), "give at least 5 points; every 0.1 to 1 mm is usual");
-    if (points_.size() > kMostPoints) fail(fmt::format("{} points are too many for a profile", points_.size()), fmt::format("thin them out to at most {}; every 0.1 to 1 mm is usual", kMostPoints));
+      fail(fmt::format("{} points are too few for a profile", points_.size()),
+           "give at least 5 points; every 0.1 to 1 mm is usual");
+    if (points_.size() > kMostPoints)
+      fail(fmt::format("{} points are too many for a profile", points_.size()),
+           fmt::format("thin them out to at most {}; every 0.1 to 1 mm is usual", kMostPoints));
     if (table_.decimal_commas) note("Commas were read as decimal commas.");
     if (table_.columns > 2) note(fmt::format("Only the first two of {} columns were used.", table_.columns));
     drop_repeated_points();
@@ -93,17 +98,24 @@ class Reading {
   void to_metres() {
     const double y = extent_y(points_).size(), z = extent_z(points_).size();
     if ((z > 0 && z < 5e-4 * y) || y < 2e-2 * z)
-      fail(fmt::format("y spans {:.4g} and z spans {:.4g}: the columns seem to be in different units", y, z), "give both columns in millimetres or both in metres");
+      fail(fmt::format("y spans {:.4g} and z spans {:.4g}: the columns seem to be in different units", y, z),
+           "give both columns in millimetres or both in metres");
     double length = 0;
     for (std::size_t i = 1; i < points_.size(); ++i) length += norm(points_[i] - points_[i - 1]);
-    const bool metres = length >= kShortest && length <= kLongest, millimetres = length >= 1e3 * kShortest && length <= 1e3 * kLongest;
+    const bool metres = length >= kShortest && length <= kLongest,
+               millimetres = length >= 1e3 * kShortest && length <= 1e3 * kLongest;
     if (!metres && !millimetres)
-      fail(fmt::format("the curve is {:.4g} long, which fits a profile neither in millimetres (20 to 500) nor in metres (0.02 to 0.5)", length),
+      fail(fmt::format("the curve is {:.4g} long, which fits a profile neither in millimetres (20 to 500) nor in "
+                       "metres (0.02 to 0.5)",
+                       length),
            "give y and z in millimetres or metres");
-    static const std::regex says_mm(R"((^|[^A-Za-z])mm([^A-Za-z]|$))"), says_m(R"([\[\(_]m([\]\)\s,;]|$)|\bmet(re|er)s?\b)");
-    const bool claims_mm = std::regex_search(table_.heading, says_mm), claims_m = std::regex_search(table_.heading, says_m);
+    static const std::regex says_mm(R"((^|[^A-Za-z])mm([^A-Za-z]|$))"),
+        says_m(R"([\[\(_]m([\]\)\s,;]|$)|\bmet(re|er)s?\b)");
+    const bool claims_mm = std::regex_search(table_.heading, says_mm),
+               claims_m = std::regex_search(table_.heading, says_m);
     if (claims_mm != claims_m && claims_mm != millimetres)
-      fail(fmt::format("the heading says {}, but the curve would then be {:.4g} m long", claims_mm ? "millimetres" : "metres", claims_mm ? 1e-3 * length : length),
+      fail(fmt::format("the heading says {}, but the curve would then be {:.4g} m long",
+                       claims_mm ? "millimetres" : "metres", claims_mm ? 1e-3 * length : length),
            "correct the heading or the numbers");
     if (metres) note("The numbers were taken as metres.");
     for (Vec2& p : points_) p = (metres ? 1.0 : 1e-3) * p;
@@ -115,7 +127,8 @@ class Reading {
   }
 
   void orient_wheel() {
-    const auto nearest = std::min_element(points_.begin(), points_.end(), [](Vec2 a, Vec2 b) { return std::abs(a.y) < std::abs(b.y); });
+    const auto nearest =
+        std::min_element(points_.begin(), points_.end(), [](Vec2 a, Vec2 b) { return std::abs(a.y) < std::abs(b.y); });
     const double tread = nearest->z, above = extent_z(points_).hi - tread, below = tread - extent_z(points_).lo;
     if (std::max(above, below) < kSmallestFlange) {
       note("No flange was found; y was taken as positive to the field side and z as positive up.");
@@ -125,7 +138,8 @@ class Reading {
     const Vec2 crest = *std::min_element(points_.begin(), points_.end(), [](Vec2 a, Vec2 b) { return a.z < b.z; });
     const double crest_y = -std::abs(crest.y);
     if (crest_y > kCrestNear || crest_y < kCrestFar)
-      fail(fmt::format("the flange's crest stands at y = {:.2f} mm; from the tape circle it should be about 55 mm away", 1e3 * crest.y),
+      fail(fmt::format("the flange's crest stands at y = {:.2f} mm; from the tape circle it should be about 55 mm away",
+                       1e3 * crest.y),
            "put y = 0 at the tape circle, 70 mm from the flange back");
     if (crest.y > 0) {
       for (Vec2& p : points_) p.y = -p.y;
@@ -137,8 +151,11 @@ class Reading {
     const Extent y = extent_y(points_);
     const double middle = 0.5 * (y.lo + y.hi);
     if (std::abs(middle) > kAxisTolerance)
-      fail(fmt::format("the middle of the rail head stands at y = {:.2f} mm", 1e3 * middle), "put y = 0 on the rail's axis");
-    const auto centre = std::min_element(points_.begin(), points_.end(), [&](Vec2 a, Vec2 b) { return std::abs(a.y - middle) < std::abs(b.y - middle); });
+      fail(fmt::format("the middle of the rail head stands at y = {:.2f} mm", 1e3 * middle),
+           "put y = 0 on the rail's axis");
+    const auto centre = std::min_element(points_.begin(), points_.end(), [&](Vec2 a, Vec2 b) {
+      return std::abs(a.y - middle) < std::abs(b.y - middle);
+    });
     if (0.5 * (points_.front().z + points_.back().z) > centre->z) flip_z("z was positive down; it was turned up.");
   }
 
@@ -157,10 +174,14 @@ class Reading {
     if (std::abs(height) > 1e-8) {
       for (Vec2& p : points_) p.z -= height;
       out = curve();
-      if (!(std::abs(out.height(0)) < kSameHeight)) fail("the curve passes y = 0 more than once, at different heights", "list the points in the order along the curve, and only its running surface");
+      if (!(std::abs(out.height(0)) < kSameHeight))
+        fail("the curve passes y = 0 more than once, at different heights",
+             "list the points in the order along the curve, and only its running surface");
     }
-    if (std::abs(height) > 1e-6) note(fmt::format("z was shifted by {:.3f} mm so that it is zero at y = 0.", -1e3 * height));
-    if (kind_ == ProfileKind::rail && asymmetric(out)) note("The head is not symmetric; its gauge side was taken at y < 0.");
+    if (std::abs(height) > 1e-6)
+      note(fmt::format("z was shifted by {:.3f} mm so that it is zero at y = 0.", -1e3 * height));
+    if (kind_ == ProfileKind::rail && asymmetric(out))
+      note("The head is not symmetric; its gauge side was taken at y < 0.");
     return out;
   }
 
@@ -180,19 +201,27 @@ class Reading {
 
 std::string text_of(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file)) throw CaseError("cannot open the profile file", "check the path; it is relative to the case file", file.string());
+  if (!in || std::filesystem::is_directory(file))
+    throw CaseError("cannot open the profile file", "check the path; it is relative to the case file", file.string());
   std::string text(kLargestFile + 1, '\0');
   in.read(text.data(), kLargestFile + 1);
   if (in.bad()) throw CaseError("cannot read the profile file", "check that it is a text file", file.string());
-  if (in.gcount() > kLargestFile) throw CaseError(fmt::format("this file is larger than {} MiB", kLargestFile >> 20), "a profile is two columns of at most some thousand points", file.string());
+  if (in.gcount() > kLargestFile)
+    throw CaseError(fmt::format("this file is larger than {} MiB", kLargestFile >> 20),
+                    "a profile is two columns of at most some thousand points", file.string());
   text.resize(static_cast<std::size_t>(in.gcount()));
   return text;
 }
 
 }  // namespace
 
-Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file, std::vector<std::string>* notes) { return Reading(kind, text, file).profile(notes); }
+Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file,
+                      std::vector<std::string>* notes) {
+  return Reading(kind, text, file).profile(notes);
+}
 
-Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes) { return parse_profile(kind, text_of(file), file, notes); }
+Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes) {
+  return parse_profile(kind, text_of(file), file, notes);
+}
 
 }  // namespace railstrata

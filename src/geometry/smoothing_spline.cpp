@@ -43,7 +43,8 @@ class Basis {
       for (int j = 3 - degree; j <= 3; ++j) {
         const int i = j - 3;  // B_i starts at k[i]
         const double width0 = k[i + degree] - k[i], width1 = k[i + degree + 1] - k[i + 1];
-        const double left = width0 > 0 && j > 3 - degree ? b[j] / width0 : 0.0, right = width1 > 0 && j < 3 ? b[j + 1] / width1 : 0.0;
+        const double left = width0 > 0 && j > 3 - degree ? b[j] / width0 : 0.0,
+                     right = width1 > 0 && j < 3 ? b[j + 1] / width1 : 0.0;
         b[j] = differentiate ? degree * (left - right) : (t - k[i]) * left + (k[i + degree + 1] - t) * right;
       }
     }
@@ -66,7 +67,8 @@ void add_row(Rows& rows, int row, int first, const std::array<double, 4>& values
 void add_end_rows(Rows& rows, const Basis& basis, int row) {
   for (const int knot : {1, basis.intervals() - 1}) {
     const double h = basis.knot(knot + 1) - basis.knot(knot - 1), scale = kEndWeight * h * h * h / 48;
-    const double before = 0.5 * (basis.knot(knot - 1) + basis.knot(knot)), after = 0.5 * (basis.knot(knot) + basis.knot(knot + 1));
+    const double before = 0.5 * (basis.knot(knot - 1) + basis.knot(knot)),
+                 after = 0.5 * (basis.knot(knot) + basis.knot(knot + 1));
     add_row(rows, row, knot, basis.values(knot, after, 3), scale);
     add_row(rows, row, knot - 1, basis.values(knot - 1, before, 3), -scale);
     ++row;
@@ -183,7 +185,8 @@ double estimated_noise(const std::vector<Vec2>& points) {
 
 SmoothingSpline fit_smoothing_spline(const std::vector<Vec2>& points) {
   std::vector<double> t = chord_lengths(points);
-  const bool dense = t.back() / static_cast<double>(t.size() - 1) < kClosestKnots;  // else the shape between points would be taken for noise
+  const bool dense = t.back() / static_cast<double>(t.size() - 1) <
+                     kClosestKnots;  // else the shape between points would be taken for noise
   const double noise = dense ? estimated_noise(points) : 0.0, tolerance = std::max(4 * noise, kSmallestTolerance);
   const double wanted = std::clamp(std::sqrt(10 * noise / kCurvatureNoise), kClosestKnots, kWidestKnots);
   const double spacing = dense ? std::min(wanted, t.back() / 5) : 0.0;

@@ -8,7 +8,8 @@ namespace railstrata {
 
 namespace {
 
-/// Double primitives in (x, y) at one corner of the Green's functions (times 2 pi) of exp(-k d)/k, i k^x …, k^x k^x …, k^x k^y …, with R² = x² + y² + d²:
+/// Double primitives in (x, y) at one corner of the Green's functions (times 2 pi) of exp(-k d)/k, i k^x …, k^x k^x …,
+/// k^x k^y …, with R² = x² + y² + d²:
 ///   1/R,  x/(R (R + d)),  y/(R (R + d)),  and -d²/dx² , -d²/dxdy of d ln(R + d) - R.
 RectangleInfluence corner(const ComplianceImage& image, double x, double y) {
   const double d = image.depth, R = std::sqrt(x * x + y * y + d * d);
@@ -32,7 +33,12 @@ RectangleInfluence corner(const ComplianceImage& image, double x, double y) {
 }
 
 RectangleInfluence& operator+=(RectangleInfluence& a, const RectangleInfluence& b) {
-  a.nn += b.nn, a.xx += b.xx, a.xy += b.xy, a.yy += b.yy, a.nx += b.nx, a.ny += b.ny;
+  a.nn += b.nn;
+  a.xx += b.xx;
+  a.xy += b.xy;
+  a.yy += b.yy;
+  a.nx += b.nx;
+  a.ny += b.ny;
   return a;
 }
 
@@ -42,7 +48,8 @@ RectangleInfluence corner_sum(const SurfaceCompliance& compliance, double x, dou
   return sum;
 }
 
-RectangleInfluence difference(const RectangleInfluence& pp, const RectangleInfluence& mp, const RectangleInfluence& pm, const RectangleInfluence& mm) {
+RectangleInfluence difference(const RectangleInfluence& pp, const RectangleInfluence& mp, const RectangleInfluence& pm,
+                              const RectangleInfluence& mm) {
   constexpr double s = 1 / (2 * std::numbers::pi);
   const auto four = [&](auto member) { return s * ((pp.*member - mp.*member) - (pm.*member - mm.*member)); };
   using I = RectangleInfluence;
@@ -74,14 +81,17 @@ SurfaceCompliance combined_compliance(const SurfaceCompliance& wheel, const Surf
 
 RectangleInfluence rectangle_influence(const SurfaceCompliance& compliance, double x, double y, double dx, double dy) {
   const double x1 = x - dx / 2, x2 = x + dx / 2, y1 = y - dy / 2, y2 = y + dy / 2;
-  return difference(corner_sum(compliance, x2, y2), corner_sum(compliance, x1, y2), corner_sum(compliance, x2, y1), corner_sum(compliance, x1, y1));
+  return difference(corner_sum(compliance, x2, y2), corner_sum(compliance, x1, y2), corner_sum(compliance, x2, y1),
+                    corner_sum(compliance, x1, y1));
 }
 
-std::vector<RectangleInfluence> rectangle_influence_table(const SurfaceCompliance& compliance, int nx, int ny, double dx, double dy) {
+std::vector<RectangleInfluence> rectangle_influence_table(const SurfaceCompliance& compliance, int nx, int ny,
+                                                          double dx, double dy) {
   const auto width = static_cast<std::size_t>(ny) + 1;
   std::vector<RectangleInfluence> lower(width), upper(width);
   const auto fill = [&](std::vector<RectangleInfluence>& row, int i) {
-    for (std::size_t j = 0; j < width; ++j) row[j] = corner_sum(compliance, (i - 0.5) * dx, (static_cast<double>(j) - 0.5) * dy);
+    for (std::size_t j = 0; j < width; ++j)
+      row[j] = corner_sum(compliance, (i - 0.5) * dx, (static_cast<double>(j) - 0.5) * dy);
   };
   std::vector<RectangleInfluence> table(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
   fill(upper, 0);
@@ -90,7 +100,8 @@ std::vector<RectangleInfluence> rectangle_influence_table(const SurfaceComplianc
     fill(upper, i + 1);
     for (int j = 0; j < ny; ++j) {
       const auto k = static_cast<std::size_t>(j);
-      table[static_cast<std::size_t>(i) * static_cast<std::size_t>(ny) + k] = difference(upper[k + 1], lower[k + 1], upper[k], lower[k]);
+      table[static_cast<std::size_t>(i) * static_cast<std::size_t>(ny) + k] =
+          difference(upper[k + 1], lower[k + 1], upper[k], lower[k]);
     }
   }
   return table;

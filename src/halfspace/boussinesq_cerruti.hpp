@@ -1,12 +1,14 @@
 #pragma once
 // Surface displacements under tractions spread evenly over a rectangle.
 //
-// One body: depth z' points into it, p presses it (along z'), q = (q_x, q_y) acts on it. Any transversely isotropic-in-plan half-space (homogeneous or layered) has
-// four scalar compliances of the wave number k = |k| [1/m]; with k^ = k/|k| and for tractions ~ exp(i k·x)
+// One body: depth z' points into it, p presses it (along z'), q = (q_x, q_y) acts on it. Any transversely
+// isotropic-in-plan half-space (homogeneous or layered) has four scalar compliances of the wave number k = |k| [1/m];
+// with k^ = k/|k| and for tractions ~ exp(i k·x)
 //   u_z' = zz(k)/k p  - i (k^·q) rz(k)/k            (u_z' positive into the body)
 //   u    = i k^ rz(k)/k p + k^ (k^·q) rr(k)/k + (q - k^ (k^·q)) tt(k)/k.
-// Homogeneous: zz = rr = (1 - nu)/G, rz = (1 - 2 nu)/(2G), tt = 1/G: Boussinesq's and Cerruti's solutions. [Johnson1985 sec. 3.2, 3.6; Love1929]
-// Layered: sums of exp(-k d): "images" at depths d, see layered.hpp. Each image has a closed rectangle integral, so there is no periodic grid and no truncation.
+// Homogeneous: zz = rr = (1 - nu)/G, rz = (1 - 2 nu)/(2G), tt = 1/G: Boussinesq's and Cerruti's solutions. [Johnson1985
+// sec. 3.2, 3.6; Love1929] Layered: sums of exp(-k d): "images" at depths d, see layered.hpp. Each image has a closed
+// rectangle integral, so there is no periodic grid and no truncation.
 #include <vector>
 
 #include "halfspace/hertz.hpp"
@@ -29,19 +31,23 @@ using SurfaceCompliance = std::vector<ComplianceImage>;
 SurfaceCompliance homogeneous_compliance(const HalfSpaceMaterial& material);
 
 /// Two bodies pressed together. p >= 0 presses both, q acts on the rail and -q on the wheel; then
-///   closing  = u_z'(rail) + u_z'(wheel) = nn p + n x q_x + n y q_y,   rail minus wheel: u_x = xx q_x + xy q_y + xn p, …
+///   closing  = u_z'(rail) + u_z'(wheel) = nn p + n x q_x + n y q_y,   rail minus wheel: u_x = xx q_x + xy q_y + xn p,
+///   …
 /// where the coupling rz is the rail's minus the wheel's: it vanishes for equal bodies.
 SurfaceCompliance combined_compliance(const SurfaceCompliance& wheel, const SurfaceCompliance& rail);
 
-/// Displacement at an offset from the centre of a rectangle under unit traction, m/Pa. Symmetric: yx = xy; antisymmetric: xn = -nx, yn = -ny.
+/// Displacement at an offset from the centre of a rectangle under unit traction, m/Pa. Symmetric: yx = xy;
+/// antisymmetric: xn = -nx, yn = -ny.
 struct RectangleInfluence {
   double nn = 0, xx = 0, xy = 0, yy = 0;
   double nx = 0, ny = 0;  ///< closing caused by q_x, q_y
 };
 RectangleInfluence rectangle_influence(const SurfaceCompliance& compliance, double x, double y, double dx, double dy);
 
-/// The same for offsets (i dx, j dy), i = 0 … nx-1, j = 0 … ny-1 (index j + ny i); other signs follow from the symmetries nn, xx, yy even in x and y,
-/// xy odd in both, nx odd in x, ny odd in y. Shares the corners between neighbours: about four times cheaper than rectangle_influence in a loop.
-std::vector<RectangleInfluence> rectangle_influence_table(const SurfaceCompliance& compliance, int nx, int ny, double dx, double dy);
+/// The same for offsets (i dx, j dy), i = 0 … nx-1, j = 0 … ny-1 (index j + ny i); other signs follow from the
+/// symmetries nn, xx, yy even in x and y, xy odd in both, nx odd in x, ny odd in y. Shares the corners between
+/// neighbours: about four times cheaper than rectangle_influence in a loop.
+std::vector<RectangleInfluence> rectangle_influence_table(const SurfaceCompliance& compliance, int nx, int ny,
+                                                          double dx, double dy);
 
 }  // namespace railstrata

@@ -14,16 +14,76 @@ namespace {
 
 constexpr std::size_t kRatios = 19;
 /// [Kalker1990 table E.3]: axis ratios a/b, then C11, C22, C23 for nu = 0, 1/4, 1/2.
-constexpr std::array<double, kRatios> kRatio{0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1, 1.0 / 0.9, 1.0 / 0.8, 1.0 / 0.7, 1.0 / 0.6, 2, 2.5, 1.0 / 0.3, 5, 10};
+constexpr std::array<double, kRatios> kRatio{0.1, 0.2, 0.3,       0.4,       0.5,       0.6,       0.7,
+                                             0.8, 0.9, 1,         1.0 / 0.9, 1.0 / 0.8, 1.0 / 0.7, 1.0 / 0.6,
+                                             2,   2.5, 1.0 / 0.3, 5,         10};
 constexpr std::array<std::array<CreepCoefficients, kRatios>, 3> kTable{{
-    {{{2.51, 2.51, 0.334}, {2.59, 2.59, 0.483}, {2.68, 2.68, 0.607}, {2.78, 2.78, 0.72}, {2.88, 2.88, 0.827}, {2.98, 2.98, 0.93}, {3.09, 3.09, 1.03}, {3.19, 3.19, 1.13}, {3.29, 3.29, 1.23}, {3.4, 3.4, 1.33}, {3.51, 3.51, 1.44}, {3.65, 3.65, 1.58}, {3.82, 3.82, 1.76}, {4.06, 4.06, 2.01}, {4.37, 4.37, 2.35}, {4.84, 4.84, 2.88}, {5.57, 5.57, 3.79}, {6.96, 6.96, 5.72}, {10.7, 10.7, 12.2}}},
-    {{{3.31, 2.52, 0.473}, {3.37, 2.63, 0.603}, {3.44, 2.75, 0.715}, {3.53, 2.88, 0.823}, {3.62, 3.01, 0.929}, {3.72, 3.14, 1.03}, {3.81, 3.28, 1.14}, {3.91, 3.41, 1.25}, {4.01, 3.54, 1.36}, {4.12, 3.67, 1.47}, {4.22, 3.81, 1.59}, {4.36, 3.99, 1.75}, {4.54, 4.21, 1.95}, {4.78, 4.5, 2.23}, {5.1, 4.9, 2.62}, {5.57, 5.48, 3.24}, {6.34, 6.4, 4.32}, {7.78, 8.14, 6.63}, {11.7, 12.8, 14.6}}},
-    {{{4.85, 2.53, 0.731}, {4.81, 2.66, 0.809}, {4.8, 2.81, 0.889}, {4.82, 2.98, 0.977}, {4.83, 3.14, 1.07}, {4.91, 3.31, 1.18}, {4.97, 3.48, 1.29}, {5.05, 3.65, 1.4}, {5.12, 3.82, 1.51}, {5.2, 3.98, 1.63}, {5.3, 4.16, 1.77}, {5.42, 4.39, 1.94}, {5.58, 4.67, 2.18}, {5.8, 5.04, 2.5}, {6.11, 5.56, 2.96}, {6.57, 6.31, 3.7}, {7.34, 7.51, 5.01}, {8.82, 9.79, 7.89}, {12.9, 16, 18}}},
+    {{{2.51, 2.51, 0.334},
+      {2.59, 2.59, 0.483},
+      {2.68, 2.68, 0.607},
+      {2.78, 2.78, 0.72},
+      {2.88, 2.88, 0.827},
+      {2.98, 2.98, 0.93},
+      {3.09, 3.09, 1.03},
+      {3.19, 3.19, 1.13},
+      {3.29, 3.29, 1.23},
+      {3.4, 3.4, 1.33},
+      {3.51, 3.51, 1.44},
+      {3.65, 3.65, 1.58},
+      {3.82, 3.82, 1.76},
+      {4.06, 4.06, 2.01},
+      {4.37, 4.37, 2.35},
+      {4.84, 4.84, 2.88},
+      {5.57, 5.57, 3.79},
+      {6.96, 6.96, 5.72},
+      {10.7, 10.7, 12.2}}},
+    {{{3.31, 2.52, 0.473},
+      {3.37, 2.63, 0.603},
+      {3.44, 2.75, 0.715},
+      {3.53, 2.88, 0.823},
+      {3.62, 3.01, 0.929},
+      {3.72, 3.14, 1.03},
+      {3.81, 3.28, 1.14},
+      {3.91, 3.41, 1.25},
+      {4.01, 3.54, 1.36},
+      {4.12, 3.67, 1.47},
+      {4.22, 3.81, 1.59},
+      {4.36, 3.99, 1.75},
+      {4.54, 4.21, 1.95},
+      {4.78, 4.5, 2.23},
+      {5.1, 4.9, 2.62},
+      {5.57, 5.48, 3.24},
+      {6.34, 6.4, 4.32},
+      {7.78, 8.14, 6.63},
+      {11.7, 12.8, 14.6}}},
+    {{{4.85, 2.53, 0.731},
+      {4.81, 2.66, 0.809},
+      {4.8, 2.81, 0.889},
+      {4.82, 2.98, 0.977},
+      {4.83, 3.14, 1.07},
+      {4.91, 3.31, 1.18},
+      {4.97, 3.48, 1.29},
+      {5.05, 3.65, 1.4},
+      {5.12, 3.82, 1.51},
+      {5.2, 3.98, 1.63},
+      {5.3, 4.16, 1.77},
+      {5.42, 4.39, 1.94},
+      {5.58, 4.67, 2.18},
+      {5.8, 5.04, 2.5},
+      {6.11, 5.56, 2.96},
+      {6.57, 6.31, 3.7},
+      {7.34, 7.51, 5.01},
+      {8.82, 9.79, 7.89},
+      {12.9, 16, 18}}},
 }};
 
 CreepCoefficients weighted(const std::array<CreepCoefficients, 3>& c, const std::array<double, 3>& w) {
   CreepCoefficients s;
-  for (std::size_t i = 0; i < 3; ++i) s.c11 += w[i] * c[i].c11, s.c22 += w[i] * c[i].c22, s.c23 += w[i] * c[i].c23;
+  for (std::size_t i = 0; i < 3; ++i) {
+    s.c11 += w[i] * c[i].c11;
+    s.c22 += w[i] * c[i].c22;
+    s.c23 += w[i] * c[i].c23;
+  }
   return s;
 }
 
@@ -31,7 +91,8 @@ CreepCoefficients weighted(const std::array<CreepCoefficients, 3>& c, const std:
 
 CreepCoefficients kalker_coefficients(double a_over_b, double poisson) {
   const double ratio = std::clamp(a_over_b, kRatio.front(), kRatio.back());
-  std::size_t i = static_cast<std::size_t>(std::upper_bound(kRatio.begin() + 1, kRatio.end() - 1, ratio) - kRatio.begin()) - 1;
+  std::size_t i =
+      static_cast<std::size_t>(std::upper_bound(kRatio.begin() + 1, kRatio.end() - 1, ratio) - kRatio.begin()) - 1;
   // the coefficients go with b/a above one and with a/b below: interpolate in whichever is bounded
   const auto coordinate = [](double r) { return r <= 1 ? r : 2 - 1 / r; };
   const double t = (coordinate(ratio) - coordinate(kRatio[i])) / (coordinate(kRatio[i + 1]) - coordinate(kRatio[i]));
@@ -39,12 +100,14 @@ CreepCoefficients kalker_coefficients(double a_over_b, double poisson) {
   std::array<CreepCoefficients, 3> at_nu;
   for (std::size_t v = 0; v < 3; ++v) {
     const CreepCoefficients &low = kTable[v][i], &high = kTable[v][i + 1];
-    at_nu[v] = {low.c11 + t * (high.c11 - low.c11), low.c22 + t * (high.c22 - low.c22), low.c23 + t * (high.c23 - low.c23)};
+    at_nu[v] = {low.c11 + t * (high.c11 - low.c11), low.c22 + t * (high.c22 - low.c22),
+                low.c23 + t * (high.c23 - low.c23)};
   }
   return weighted(at_nu, {(n - 1) * (n - 2) / 2, -n * (n - 2), n * (n - 1) / 2});
 }
 
-RollingEllipse rolling_ellipse(const HertzContact& contact, double friction, const HalfSpaceMaterial& wheel, const HalfSpaceMaterial& rail) {
+RollingEllipse rolling_ellipse(const HertzContact& contact, double friction, const HalfSpaceMaterial& wheel,
+                               const HalfSpaceMaterial& rail) {
   const double soft_wheel = 1 / wheel.shear(), soft_rail = 1 / rail.shear(), shear = 2 / (soft_wheel + soft_rail);
   const double poisson = shear * (wheel.poisson * soft_wheel + rail.poisson * soft_rail) / 2;
   return {contact, friction, shear, kalker_coefficients(contact.a / contact.b, poisson)};
@@ -52,7 +115,8 @@ RollingEllipse rolling_ellipse(const HertzContact& contact, double friction, con
 
 CreepForce linear_theory(const RollingEllipse& e, const Creepage& c) {
   const double area = e.contact.a * e.contact.b, G = e.shear;
-  return {G * area * e.coefficient.c11 * c.x, G * area * (e.coefficient.c22 * c.y + std::sqrt(area) * e.coefficient.c23 * c.spin)};
+  return {G * area * e.coefficient.c11 * c.x,
+          G * area * (e.coefficient.c22 * c.y + std::sqrt(area) * e.coefficient.c23 * c.spin)};
 }
 
 CreepForce vermeulen_johnson(const RollingEllipse& e, const Creepage& c) {
@@ -75,14 +139,16 @@ CreepForce polach(const RollingEllipse& e, const Creepage& c) {
   const double narrow = 1 + 6.3 * (1 - std::exp(-a / b));
   const double epsilon_s = 8.0 / 3 * G * b * std::sqrt(a * b) * e.coefficient.c23 / bound * std::abs(side) / narrow;
   const double delta = (epsilon_s * epsilon_s - 1) / (epsilon_s * epsilon_s + 1);
-  const double moment = epsilon_s * (delta * delta * delta / 3 - delta * delta / 2 + 1.0 / 6) - std::sqrt(std::pow(1 - delta * delta, 3)) / 3;
+  const double moment = epsilon_s * (delta * delta * delta / 3 - delta * delta / 2 + 1.0 / 6) -
+                        std::sqrt(std::pow(1 - delta * delta, 3)) / 3;
   const double by_spin = -9.0 / 16 * a * bound * moment * narrow * c.spin / total;
   return {force * c.x / total, force * c.y / total + by_spin};
 }
 
 CreepForce fastsim(const RollingEllipse& e, const Creepage& c, int strips, int slices) {
   const double a = e.contact.a, b = e.contact.b, G = e.shear;
-  const double L1 = 8 * a / (3 * e.coefficient.c11 * G), L2 = 8 * a / (3 * e.coefficient.c22 * G), L3 = std::numbers::pi * a * a / (4 * e.coefficient.c23 * G * std::sqrt(a * b));
+  const double L1 = 8 * a / (3 * e.coefficient.c11 * G), L2 = 8 * a / (3 * e.coefficient.c22 * G),
+               L3 = std::numbers::pi * a * a / (4 * e.coefficient.c23 * G * std::sqrt(a * b));
   const double bound0 = e.friction * 2 * e.contact.load / (std::numbers::pi * a * b);
   CreepForce force;
   const double dy = 2 * b / strips;
@@ -95,7 +161,10 @@ CreepForce fastsim(const RollingEllipse& e, const Creepage& c, int strips, int s
       qx += step * (c.x / L1 - c.spin * y / L3);
       qy += step * (c.y / L2 + c.spin * (x + 0.5 * step) / L3);
       const double bound = bound0 * (1 - x * x / (a * a) - y * y / (b * b)), size = std::hypot(qx, qy);
-      if (size > bound) qx *= bound / size, qy *= bound / size;
+      if (size > bound) {
+        qx *= bound / size;
+        qy *= bound / size;
+      }
       force.x += qx * dx * dy;
       force.y += qy * dx * dy;
       force.moment += (x * qy - y * qx) * dx * dy;

@@ -1,8 +1,9 @@
 #pragma once
-// Fast theories of rolling contact on a Hertz ellipse: creepages in, forces out, in microseconds. Baselines for the boundary element solution.
+// Fast theories of rolling contact on a Hertz ellipse: creepages in, forces out, in microseconds. Baselines for the
+// boundary element solution.
 //
-// Creepage (xi, eta, phi): rigid slip of the wheel over the rail / V: (xi - phi y, eta + phi x); forces act on the rail, along the creepage. a is the semi-axis in the
-// rolling direction.
+// Creepage (xi, eta, phi): rigid slip of the wheel over the rail / V: (xi - phi y, eta + phi x); forces act on the
+// rail, along the creepage. a is the semi-axis in the rolling direction.
 #include "halfspace/hertz.hpp"
 
 namespace railstrata {
@@ -16,7 +17,8 @@ struct CreepForce {
   double moment = 0;    ///< N m; 0 where the theory has none
 };
 
-/// C11, C22, C23 of Kalker's linear theory for equal bodies. [Kalker1990 table E.3] a/b in [0.1, 10] (clamped), nu in [0, 1/2].
+/// C11, C22, C23 of Kalker's linear theory for equal bodies. [Kalker1990 table E.3] a/b in [0.1, 10] (clamped), nu in
+/// [0, 1/2].
 struct CreepCoefficients {
   double c11 = 0, c22 = 0, c23 = 0;
 };
@@ -28,12 +30,14 @@ struct RollingEllipse {
   double friction = 0, shear = 0;
   CreepCoefficients coefficient;
 };
-RollingEllipse rolling_ellipse(const HertzContact& contact, double friction, const HalfSpaceMaterial& wheel, const HalfSpaceMaterial& rail);
+RollingEllipse rolling_ellipse(const HertzContact& contact, double friction, const HalfSpaceMaterial& wheel,
+                               const HalfSpaceMaterial& rail);
 
 /// F_x = G c² C11 xi, F_y = G c² (C22 eta + c C23 phi), c² = a b; valid for small creepage. [Kalker1990]
 CreepForce linear_theory(const RollingEllipse& ellipse, const Creepage& creepage);
 
-/// The cubic law of Vermeulen and Johnson on the resultant of the linear theory (which adds spin). [VermeulenJohnson1964, ShenHedrickElkins1983]
+/// The cubic law of Vermeulen and Johnson on the resultant of the linear theory (which adds spin).
+/// [VermeulenJohnson1964, ShenHedrickElkins1983]
 CreepForce vermeulen_johnson(const RollingEllipse& ellipse, const Creepage& creepage);
 
 /// Polach's formula with its spin term. [Polach2000]

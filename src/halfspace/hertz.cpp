@@ -9,7 +9,8 @@ namespace railstrata {
 
 namespace {
 
-/// B = (E - k'²K)/k² and D = (K - E)/k² of modulus k, in terms of the axis ratio k' = minor/major. Series near the circle, where the quotients cancel.
+/// B = (E - k'²K)/k² and D = (K - E)/k² of modulus k, in terms of the axis ratio k' = minor/major. Series near the
+/// circle, where the quotients cancel.
 struct EllipticBD {
   double B, D;
 };
@@ -38,7 +39,8 @@ double axis_ratio_of(double ratio) {
     const double f = std::log(curvature_ratio(std::exp(t)) / ratio);
     (f > 0 ? high : low) = t;
     constexpr double step = 1e-5;
-    const double slope = (std::log(curvature_ratio(std::exp(t - step))) - std::log(curvature_ratio(std::exp(t)))) / -step;
+    const double slope =
+        (std::log(curvature_ratio(std::exp(t - step))) - std::log(curvature_ratio(std::exp(t)))) / -step;
     const double next = t - f / slope;
     if (std::abs(next - t) < 1e-15) return std::exp(next < 0 ? next : 0.0);
     t = next;
@@ -58,14 +60,16 @@ double HertzContact::pressure(double x, double y) const {
 }
 
 HertzContact hertz_contact(double A, double B, double contact_modulus, double load) {
-  if (!(A > 0 && B > 0 && contact_modulus > 0 && load >= 0)) throw std::invalid_argument("hertz_contact: A, B and the contact modulus must be positive, the load not negative");
+  if (!(A > 0 && B > 0 && contact_modulus > 0 && load >= 0))
+    throw std::invalid_argument("hertz_contact: A, B and the contact modulus must be positive, the load not negative");
   if (load == 0) return {};
   const bool x_is_major = A <= B;
   const double along_major = x_is_major ? A : B, along_minor = x_is_major ? B : A;
   const double g = axis_ratio_of(along_major / along_minor);
   const EllipticBD e = elliptic_bd(g);
   // p0 = 3 F/(2 pi a b) in A = (p0/E*) (b/a²) D
-  const double major = std::cbrt(3 * load * e.D / (2 * std::numbers::pi * contact_modulus * along_major)), minor = g * major;
+  const double major = std::cbrt(3 * load * e.D / (2 * std::numbers::pi * contact_modulus * along_major)),
+               minor = g * major;
   HertzContact c;
   c.p0 = 3 * load / (2 * std::numbers::pi * major * minor);
   c.approach = c.p0 / contact_modulus * minor * (e.B + e.D);

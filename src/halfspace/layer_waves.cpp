@@ -27,13 +27,15 @@ WaveState growing(double G, double kappa, double k_eta) {
 LayerWaves::LayerWaves(const LayeredHalfSpace& body, double k) : k_(k) {
   double top = 0;
   const auto add = [&](double thickness, const HalfSpaceMaterial& m) {
-    parts_.push_back({top, thickness, m.shear(), 3 - 4 * m.poisson, Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Identity(), 0, 1});
+    parts_.push_back(
+        {top, thickness, m.shear(), 3 - 4 * m.poisson, Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Identity(), 0, 1});
     top += thickness;
   };
   for (const HalfSpaceLayer& layer : body.layers) add(layer.thickness, layer.material);
   add(0, body.substrate);
 
-  // From the substrate up: the field at the top of what lies below, per unit decaying wave there, fixes the reflection at the bottom of the layer above.
+  // From the substrate up: the field at the top of what lies below, per unit decaying wave there, fixes the reflection
+  // at the bottom of the layer above.
   std::vector<Eigen::Matrix2d> transmitted(parts_.size());
   std::vector<double> shear_transmitted(parts_.size());
   for (std::size_t l = parts_.size() - 1; l-- > 0;) {

@@ -1,5 +1,6 @@
 #pragma once
-// The waves of a layered half-space at one wave number: the part of layered.hpp that surface compliances and interior stresses share.
+// The waves of a layered half-space at one wave number: the part of layered.hpp that surface compliances and interior
+// stresses share.
 #include <Eigen/Core>
 #include <vector>
 
@@ -7,8 +8,9 @@
 
 namespace railstrata {
 
-/// State (U, W, T/k, S/k) at a depth, for fields u_x' = i U e^{ikx'}, u_z = W e^{ikx'}, sigma_x'z = i T e^{ikx'}, sigma_zz = S e^{ikx'}; x' along the wave vector,
-/// z into the body. Columns: per unit amplitude of the two surface waves.
+/// State (U, W, T/k, S/k) at a depth, for fields u_x' = i U e^{ikx'}, u_z = W e^{ikx'}, sigma_x'z = i T e^{ikx'},
+/// sigma_zz = S e^{ikx'}; x' along the wave vector, z into the body. Columns: per unit amplitude of the two surface
+/// waves.
 using WaveState = Eigen::Matrix<double, 4, 2>;
 /// State (V, Q/k) of the shear wave across x': u_y' = V e^{ikx'}, sigma_y'z = Q e^{ikx'}.
 using ShearState = Eigen::Vector2d;
@@ -25,8 +27,8 @@ class LayerWaves {
 
  private:
   struct Part {
-    double top, thickness, shear, kappa;       // thickness 0: the substrate
-    Eigen::Matrix2d reflection, amplitude;     // growing from decaying waves; decaying waves from those of the surface
+    double top, thickness, shear, kappa;    // thickness 0: the substrate
+    Eigen::Matrix2d reflection, amplitude;  // growing from decaying waves; decaying waves from those of the surface
     double shear_reflection, shear_amplitude;
   };
   double k_;

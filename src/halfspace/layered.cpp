@@ -14,8 +14,9 @@ namespace railstrata {
 CompliancePoint layered_compliance_at(const LayeredHalfSpace& body, double k) {
   const LayerWaves waves(body, k);
   const WaveState s = waves.state(0, 0);
-  const Eigen::Matrix2d displacement = s.topRows<2>();                             // U, W
-  const Eigen::Matrix2d by_traction = -displacement * s.bottomRows<2>().inverse();  // columns: tangential (T), normal (S)
+  const Eigen::Matrix2d displacement = s.topRows<2>();  // U, W
+  const Eigen::Matrix2d by_traction =
+      -displacement * s.bottomRows<2>().inverse();  // columns: tangential (T), normal (S)
   const ShearState t = waves.shear_state(0, 0);
   return {by_traction(1, 1), 0.5 * (by_traction(0, 1) + by_traction(1, 0)), by_traction(0, 0), -t[0] / t[1]};
 }
@@ -51,7 +52,9 @@ Samples sample(const LayeredHalfSpace& body, double k_low, double k_high, int n)
   return s;
 }
 
-Eigen::MatrixXd exponentials(const Eigen::VectorXd& k, const Eigen::VectorXd& depth) { return (-(k * depth.transpose())).array().exp().matrix(); }
+Eigen::MatrixXd exponentials(const Eigen::VectorXd& k, const Eigen::VectorXd& depth) {
+  return (-(k * depth.transpose())).array().exp().matrix();
+}
 
 /// Depths nearest, nearest ratio, nearest ratio², … of `count` images.
 struct DepthLadder {
@@ -68,8 +71,10 @@ struct DepthLadder {
 std::vector<DepthLadder> ladders(double nearest, double total) {
   std::vector<DepthLadder> all;
   for (double farthest : {20.0, 100.0, 400.0, 2000.0})
-    for (double ratio : {2.2, 1.9, 1.7, 1.5, 1.35, 1.25, 1.18, 1.12}) all.push_back({nearest, ratio, 1 + static_cast<int>(std::log(farthest * total / nearest) / std::log(ratio))});
-  std::stable_sort(all.begin(), all.end(), [](const DepthLadder& a, const DepthLadder& b) { return a.count < b.count; });
+    for (double ratio : {2.2, 1.9, 1.7, 1.5, 1.35, 1.25, 1.18, 1.12})
+      all.push_back({nearest, ratio, 1 + static_cast<int>(std::log(farthest * total / nearest) / std::log(ratio))});
+  std::stable_sort(all.begin(), all.end(),
+                   [](const DepthLadder& a, const DepthLadder& b) { return a.count < b.count; });
   return all;
 }
 
@@ -79,7 +84,10 @@ SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double toler
   const LayeredHalfSpace body = merged(given);
   if (body.layers.empty()) return homogeneous_compliance(body.substrate);
   double total = 0, thinnest = body.layers.front().thickness;
-  for (const HalfSpaceLayer& l : body.layers) total += l.thickness, thinnest = std::min(thinnest, l.thickness);
+  for (const HalfSpaceLayer& l : body.layers) {
+    total += l.thickness;
+    thinnest = std::min(thinnest, l.thickness);
+  }
 
   SurfaceCompliance out = homogeneous_compliance(body.layers.front().material);
   const Four top = four(out[0].c);
@@ -95,14 +103,18 @@ SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double toler
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
     qr.setThreshold(1e-15);
     qr.compute(weight.asDiagonal() * exponentials(fit.k, depth));
-    const Eigen::Matrix<double, Eigen::Dynamic, 4> coefficient = qr.solve(weight.asDiagonal() * (fit.c.rowwise() - top));
-    const Eigen::Matrix<double, Eigen::Dynamic, 4> deviation = (check.c.rowwise() - top) - exponentials(check.k, depth) * coefficient;
+    const Eigen::Matrix<double, Eigen::Dynamic, 4> coefficient =
+        qr.solve(weight.asDiagonal() * (fit.c.rowwise() - top));
+    const Eigen::Matrix<double, Eigen::Dynamic, 4> deviation =
+        (check.c.rowwise() - top) - exponentials(check.k, depth) * coefficient;
     best = std::min(best, deviation.cwiseQuotient(size).cwiseAbs().maxCoeff());
     if (best > tolerance) continue;
-    for (int j = 0; j < depth.size(); ++j) out.push_back({depth[j], {coefficient(j, 0), coefficient(j, 1), coefficient(j, 2), coefficient(j, 3)}});
+    for (int j = 0; j < depth.size(); ++j)
+      out.push_back({depth[j], {coefficient(j, 0), coefficient(j, 1), coefficient(j, 2), coefficient(j, 3)}});
     return out;
   }
-  throw NumericalError("the compliance of the layer stack could be represented only to a relative deviation of " + std::to_string(best));
+  throw NumericalError("the compliance of the layer stack could be represented only to a relative deviation of " +
+                       std::to_string(best));
 }
 
 std::vector<LayerExtent> layer_extents(const LayeredHalfSpace& body) {
@@ -111,8 +123,10 @@ std::vector<LayerExtent> layer_extents(const LayeredHalfSpace& body) {
   bool goes_on = false;
   for (const HalfSpaceLayer& layer : body.layers) {
     const double bottom = top + layer.thickness;
-    if (goes_on) out.back().bottom = bottom;
-    else out.push_back({top, bottom});
+    if (goes_on)
+      out.back().bottom = bottom;
+    else
+      out.push_back({top, bottom});
     goes_on = layer.continues;
     top = bottom;
   }
@@ -120,22 +134,30 @@ std::vector<LayerExtent> layer_extents(const LayeredHalfSpace& body) {
 }
 
 std::vector<HalfSpaceLayer> cut_into_layers(const std::vector<GradedPoint>& table, double tolerance) {
-  if (table.size() < 2 || table.front().depth != 0) throw CaseError("a graded modulus needs at least two depths, the first 0", "add rows to the table");
+  if (table.size() < 2 || table.front().depth != 0)
+    throw CaseError("a graded modulus needs at least two depths, the first 0", "add rows to the table");
   std::vector<HalfSpaceLayer> layers;
   for (std::size_t i = 0; i + 1 < table.size(); ++i) {
     const GradedPoint &a = table[i], &b = table[i + 1];
     if (!(b.depth > a.depth)) throw CaseError("the depths of a graded modulus must increase", "sort the rows by depth");
     const double ratio = b.material.young / a.material.young, height = b.depth - a.depth;
-    const double young_slope = (b.material.young - a.material.young) / height, poisson_slope = (b.material.poisson - a.material.poisson) / height;
-    const int pieces = std::max({1, static_cast<int>(std::ceil(std::abs(std::log(ratio)) / std::log1p(tolerance) - 1e-9)),
-                                 static_cast<int>(std::ceil(std::abs(b.material.poisson - a.material.poisson) / tolerance - 1e-9))});
+    const double young_slope = (b.material.young - a.material.young) / height,
+                 poisson_slope = (b.material.poisson - a.material.poisson) / height;
+    const int pieces =
+        std::max({1, static_cast<int>(std::ceil(std::abs(std::log(ratio)) / std::log1p(tolerance) - 1e-9)),
+                  static_cast<int>(std::ceil(std::abs(b.material.poisson - a.material.poisson) / tolerance - 1e-9))});
     // equal steps of ln E
-    const auto border = [&](int j) { return std::abs(ratio - 1) < 1e-9 ? static_cast<double>(j) / pieces : (std::pow(ratio, static_cast<double>(j) / pieces) - 1) / (ratio - 1); };
+    const auto border = [&](int j) {
+      return std::abs(ratio - 1) < 1e-9 ? static_cast<double>(j) / pieces
+                                        : (std::pow(ratio, static_cast<double>(j) / pieces) - 1) / (ratio - 1);
+    };
     for (int j = 0; j < pieces; ++j) {
       const double t = 0.5 * (border(j) + border(j + 1));
       layers.push_back({height * (border(j + 1) - border(j)),
                         {a.material.young + t * height * young_slope, a.material.poisson + t * height * poisson_slope},
-                        true, young_slope, poisson_slope});
+                        true,
+                        young_slope,
+                        poisson_slope});
     }
   }
   layers.back().continues = false;

@@ -1,9 +1,10 @@
 #pragma once
 // A half-space of bonded elastic layers.
 //
-// In the Fourier domain every layer carries two decaying and two growing waves in depth; the growing ones are measured from the layer's bottom, so that no exponential
-// exceeds one, and are found from the interface below as reflections of the decaying ones (a recursion from the substrate up). Any thickness, any modulus ratio, also
-// Poisson's ratio 1/2. [ChenEngel1972]
+// In the Fourier domain every layer carries two decaying and two growing waves in depth; the growing ones are measured
+// from the layer's bottom, so that no exponential exceeds one, and are found from the interface below as reflections of
+// the decaying ones (a recursion from the substrate up). Any thickness, any modulus ratio, also Poisson's ratio 1/2.
+// [ChenEngel1972]
 #include <vector>
 
 #include "halfspace/boussinesq_cerruti.hpp"
@@ -14,7 +15,8 @@ struct HalfSpaceLayer {
   double thickness = 0;  ///< m
   HalfSpaceMaterial material;
   bool continues = false;  ///< one cut of a graded layer that goes on below: its bottom is no interface
-  double young_slope = 0, poisson_slope = 0;  ///< of the graded material within the cut, 1/m of depth; `material` is its mean
+  double young_slope = 0,
+         poisson_slope = 0;  ///< of the graded material within the cut, 1/m of depth; `material` is its mean
   /// The graded material at a depth below the cut's top.
   HalfSpaceMaterial local(double depth) const {
     const double from_middle = depth - 0.5 * thickness;
@@ -37,20 +39,22 @@ std::vector<LayerExtent> layer_extents(const LayeredHalfSpace& body);
 /// The four surface compliances at wave number k > 0 [1/m], times k [1/Pa] (boussinesq_cerruti.hpp).
 CompliancePoint layered_compliance_at(const LayeredHalfSpace& body, double k);
 
-/// The surface compliance as the top material's closed form plus images at depths spread geometrically over the scales of the stack, fitted to layered_compliance_at.
-/// `tolerance`: largest deviation of zz, rr, tt relative to themselves and of rz relative to
-/// sqrt(zz rr), at any wave number; throws NumericalError if it cannot be met.
+/// The surface compliance as the top material's closed form plus images at depths spread geometrically over the scales
+/// of the stack, fitted to layered_compliance_at. `tolerance`: largest deviation of zz, rr, tt relative to themselves
+/// and of rz relative to sqrt(zz rr), at any wave number; throws NumericalError if it cannot be met.
 SurfaceCompliance layered_compliance(const LayeredHalfSpace& body, double tolerance = 1e-6);
 
-/// A modulus that varies with depth, given as a table with increasing depths from 0 (linear between, the substrate below the last).
+/// A modulus that varies with depth, given as a table with increasing depths from 0 (linear between, the substrate
+/// below the last).
 struct GradedPoint {
   double depth = 0;
   HalfSpaceMaterial material;
 };
-/// Cuts the table into layers of constant modulus (its mean over the layer) so that within each the modulus changes by at most the factor 1 + tolerance (Poisson's
-/// ratio by about the tolerance). Displacements, strains in plan and tractions that vary slowly over a layer err with the square of the tolerance, and so do all stresses that
-/// are taken with the local modulus. All but the last layer continue below.
-/// Throws CaseError for fewer than two rows, a first depth other than 0 and depths that do not increase.
+/// Cuts the table into layers of constant modulus (its mean over the layer) so that within each the modulus changes by
+/// at most the factor 1 + tolerance (Poisson's ratio by about the tolerance). Displacements, strains in plan and
+/// tractions that vary slowly over a layer err with the square of the tolerance, and so do all stresses that are taken
+/// with the local modulus. All but the last layer continue below. Throws CaseError for fewer than two rows, a first
+/// depth other than 0 and depths that do not increase.
 std::vector<HalfSpaceLayer> cut_into_layers(const std::vector<GradedPoint>& table, double tolerance = 0.02);
 
 }  // namespace railstrata

@@ -60,7 +60,8 @@ Handle memory_access(std::size_t growth) {
   return Handle(H5Pcopy(access), H5Pclose, "make a file in memory");
 }
 
-// Both archives are told the same names in the same order by describe(): row: one record of numbers; rows: a table of them; numbers: a long array; text; group: a part.
+// Both archives are told the same names in the same order by describe(): row: one record of numbers; rows: a table of
+// them; numbers: a long array; text; group: a part.
 class Writer {
  public:
   static constexpr bool reading = false;
@@ -100,11 +101,14 @@ class Writer {
     visit(sample, [&](const char* column, auto&) { names.emplace_back(column); });
     std::vector<double> values;
     values.reserve(count * names.size());
-    for (std::size_t k = 0; k < count; ++k) visit(first[k], [&](const char*, auto& v) { values.push_back(static_cast<double>(v)); });
+    for (std::size_t k = 0; k < count; ++k)
+      visit(first[k], [&](const char*, auto& v) { values.push_back(static_cast<double>(v)); });
     write(name, values.data(), {count, names.size()}, names);
   }
-  void write(const char* name, const double* values, const std::vector<hsize_t>& size, const std::vector<std::string>& columns) {
-    Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, "describe an array"), how = timeless();
+  void write(const char* name, const double* values, const std::vector<hsize_t>& size,
+             const std::vector<std::string>& columns) {
+    Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose, "describe an array"),
+        how = timeless();
     Handle set(H5Dcreate2(at_, name, H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose, "add an array");
     double none = 0;
     checked(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values ? values : &none), "write an array");
@@ -125,7 +129,8 @@ class Writer {
   hid_t at_;
 };
 
-// Takes only what a Writer writes: arrays in one piece inside the file, no longer than it. Links, filters, other files and other types, which HDF5 would follow, are damage.
+// Takes only what a Writer writes: arrays in one piece inside the file, no longer than it. Links, filters, other files
+// and other types, which HDF5 would follow, are damage.
 class Reader {
  public:
   static constexpr bool reading = true;
@@ -135,7 +140,9 @@ class Reader {
   void text(const char* name, std::string& value) {
     const Handle set = open_array(name);
     const Handle type(H5Dget_type(set), H5Tclose, name), space(H5Dget_space(set), H5Sclose, name);
-    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || H5Sget_simple_extent_type(space) != H5S_SCALAR || H5Tget_size(type) == 0 || H5Tget_size(type) > bytes_) throw Damage{fmt::format("{} is no text", name)};
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 ||
+        H5Sget_simple_extent_type(space) != H5S_SCALAR || H5Tget_size(type) == 0 || H5Tget_size(type) > bytes_)
+      throw Damage{fmt::format("{} is no text", name)};
     require_stored(set, name, H5Tget_size(type));
     std::string raw(H5Tget_size(type), '\0');
     checked(H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, raw.data()), name);
@@ -180,9 +187,11 @@ class Reader {
     checked(H5Lget_info(at_, name, &link, H5P_DEFAULT), name);
     if (link.type != H5L_TYPE_HARD) throw Damage{fmt::format("{} is a link", name)};
   }
-  /// What was never written HDF5 would make up; only what stands in one piece in this file has an offset: no chunks, which may be filtered, and no file elsewhere.
+  /// What was never written HDF5 would make up; only what stands in one piece in this file has an offset: no chunks,
+  /// which may be filtered, and no file elsewhere.
   static void require_stored(hid_t set, const char* name, hsize_t bytes) {
-    if (H5Dget_storage_size(set) != bytes || (bytes > 0 && H5Dget_offset(set) == HADDR_UNDEF)) throw Damage{fmt::format("{} is not stored in one piece", name)};
+    if (H5Dget_storage_size(set) != bytes || (bytes > 0 && H5Dget_offset(set) == HADDR_UNDEF))
+      throw Damage{fmt::format("{} is not stored in one piece", name)};
   }
   Handle open_array(const char* name) const {
     require_part_of_file(name);
@@ -201,21 +210,24 @@ class Reader {
   }
   template <class T, class Visit>
   static void take(T& to, const double*& next, Visit&& visit) {
-    visit(to, [&](const char* column, auto& v) { v = number_as<std::remove_reference_t<decltype(v)>>(*next++, column); });
+    visit(to,
+          [&](const char* column, auto& v) { v = number_as<std::remove_reference_t<decltype(v)>>(*next++, column); });
   }
   /// A whole number must be one, and one that its type holds.
   template <class T>
   static T number_as(double value, const char* name) {
     if constexpr (!std::is_floating_point_v<T>) {
       const double end = std::ldexp(1.0, std::numeric_limits<T>::digits), begin = std::is_signed_v<T> ? -end : 0.0;
-      if (!(value >= begin && value < end && value == std::floor(value))) throw Damage{fmt::format("{} cannot be {}", name, value)};
+      if (!(value >= begin && value < end && value == std::floor(value)))
+        throw Damage{fmt::format("{} cannot be {}", name, value)};
     }
     return static_cast<T>(value);
   }
   std::vector<hsize_t> size_of(hid_t set, const char* name, int dimensions) const {
     const Handle space(H5Dget_space(set), H5Sclose, name), type(H5Dget_type(set), H5Tclose, name);
     std::vector<hsize_t> size(dimensions);
-    if (H5Sget_simple_extent_ndims(space) != dimensions) throw Damage{fmt::format("{} is no array of {} dimensions", name, dimensions)};
+    if (H5Sget_simple_extent_ndims(space) != dimensions)
+      throw Damage{fmt::format("{} is no array of {} dimensions", name, dimensions)};
     if (H5Tequal(type, H5T_IEEE_F64LE) <= 0) throw Damage{fmt::format("{} is no array of numbers of 8 bytes", name)};
     checked(H5Sget_simple_extent_dims(space, size.data(), nullptr), name);
     hsize_t most = bytes_ / sizeof(double);
@@ -234,32 +246,90 @@ class Reader {
 };
 
 constexpr auto visit_vec = [](auto& v, auto&& on) { on("x", v.x), on("y", v.y), on("z", v.z); };
-constexpr auto visit_sym = [](auto& s, auto&& on) { on("xx", s.xx), on("yy", s.yy), on("zz", s.zz), on("xy", s.xy), on("yz", s.yz), on("xz", s.xz); };
-constexpr auto visit_traction = [](auto& t, auto&& on) { on("p", t.p), on("q1", t.q1), on("q2", t.q2), on("slip1", t.slip1), on("slip2", t.slip2); };
-constexpr auto visit_axle = [](auto& a, auto&& on) { on("x", a.x), on("z", a.z), on("psi", a.psi), on("vx", a.vx), on("vz", a.vz), on("spin", a.spin); };
+constexpr auto visit_sym = [](auto& s, auto&& on) {
+  on("xx", s.xx);
+  on("yy", s.yy);
+  on("zz", s.zz);
+  on("xy", s.xy);
+  on("yz", s.yz);
+  on("xz", s.xz);
+};
+constexpr auto visit_traction = [](auto& t, auto&& on) {
+  on("p", t.p);
+  on("q1", t.q1);
+  on("q2", t.q2);
+  on("slip1", t.slip1);
+  on("slip2", t.slip2);
+};
+constexpr auto visit_axle = [](auto& a, auto&& on) {
+  on("x", a.x);
+  on("z", a.z);
+  on("psi", a.psi);
+  on("vx", a.vx);
+  on("vz", a.vz);
+  on("spin", a.spin);
+};
 constexpr auto visit_mass = [](auto& m, auto&& on) { on("z", m.z), on("vz", m.vz); };
-constexpr auto visit_forces = [](auto& f, auto&& on) { on("F_x", f.x), on("F_y", f.y), on("F_z", f.z), on("penetration", f.penetration), on("nodes", f.nodes), on("sweeps", f.sweeps); };
+constexpr auto visit_forces = [](auto& f, auto&& on) {
+  on("F_x", f.x);
+  on("F_y", f.y);
+  on("F_z", f.z);
+  on("penetration", f.penetration);
+  on("nodes", f.nodes);
+  on("sweeps", f.sweeps);
+};
 constexpr auto visit_energy = [](auto& e, auto&& on) {
-  on("kinetic", e.kinetic), on("strain", e.strain), on("hourglass", e.hourglass), on("weight", e.weight), on("spring", e.spring), on("torque_work", e.torque_work), on("friction", e.friction),
-      on("contact_normal", e.contact_normal), on("damping", e.damping), on("absorbed", e.absorbed), on("dashpot", e.dashpot);
+  on("kinetic", e.kinetic);
+  on("strain", e.strain);
+  on("hourglass", e.hourglass);
+  on("weight", e.weight);
+  on("spring", e.spring);
+  on("torque_work", e.torque_work);
+  on("friction", e.friction);
+  on("contact_normal", e.contact_normal);
+  on("damping", e.damping);
+  on("absorbed", e.absorbed);
+  on("dashpot", e.dashpot);
 };
 constexpr auto visit_history = [](auto& h, auto&& on) {
-  on("time", h.time), on("position", h.position), on("torque", h.torque), visit_forces(h.forces, on), on("p_max", h.p_max), on("creepage", h.creepage), on("axle_vx", h.axle_vx),
-      on("axle_vz", h.axle_vz), on("spin", h.spin), visit_energy(h.energy, on), on("closure", h.closure);
+  on("time", h.time);
+  on("position", h.position);
+  on("torque", h.torque);
+  visit_forces(h.forces, on);
+  on("p_max", h.p_max);
+  on("creepage", h.creepage);
+  on("axle_vx", h.axle_vx);
+  on("axle_vz", h.axle_vz);
+  on("spin", h.spin);
+  visit_energy(h.energy, on);
+  on("closure", h.closure);
 };
 constexpr auto visit_facet = [](auto& f, auto&& on) {
-  on("column", f.column), on("station", f.station);
-  for (auto& c : f.correction) on("y", c.y), on("z", c.z);
+  on("column", f.column);
+  on("station", f.station);
+  for (auto& c : f.correction) {
+    on("y", c.y);
+    on("z", c.z);
+  }
 };
 
 template <class Archive>
 void describe(Archive& a, StepperMemory& m) {
   RollingState& s = m.state;
   a.row("now", m, [](auto& v, auto&& on) {
-    on("time", v.state.time), on("step", v.state.step), on("dt", v.dt), on("axle_z0", v.axle_z0), on("reached_edge", v.reached_edge), on("mean_x", v.mean.x), on("mean_z", v.mean.z),
-        on("mean_spin", v.mean.spin);
+    on("time", v.state.time);
+    on("step", v.state.step);
+    on("dt", v.dt);
+    on("axle_z0", v.axle_z0);
+    on("reached_edge", v.reached_edge);
+    on("mean_x", v.mean.x);
+    on("mean_z", v.mean.z);
+    on("mean_spin", v.mean.spin);
   });
-  a.numbers("u_rail", s.u_rail), a.numbers("v_rail", s.v_rail), a.numbers("u_wheel", s.u_wheel), a.numbers("v_wheel", s.v_wheel);
+  a.numbers("u_rail", s.u_rail);
+  a.numbers("v_rail", s.v_rail);
+  a.numbers("u_wheel", s.u_wheel);
+  a.numbers("v_wheel", s.v_wheel);
   a.row("axle", s.axle, visit_axle);
   a.rows("suspension", s.groups, visit_mass);
   a.row("energy", m.balance, visit_energy);
@@ -269,7 +339,8 @@ void describe(Archive& a, StepperMemory& m) {
   std::vector<NodeTraction> tractions = s.tractions.all();
   a.rows("tractions", tractions, visit_traction);
   if (Archive::reading) {
-    if (stations.size() != 1 || stations[0] <= 0 || tractions.size() % stations[0] != 0) throw Damage{"the tractions are not a grid"};
+    if (stations.size() != 1 || stations[0] <= 0 || tractions.size() % stations[0] != 0)
+      throw Damage{"the tractions are not a grid"};
     s.tractions = TractionMemory(static_cast<int>(tractions.size()) / stations[0], stations[0]);
     s.tractions.all() = std::move(tractions);
   }
@@ -277,7 +348,8 @@ void describe(Archive& a, StepperMemory& m) {
 
 template <class Archive>
 void describe(Archive& a, BandSample& b) {
-  a.row("size", b, [](auto& v, auto&& on) { on("columns", v.columns), on("rows", v.rows), on("stations", v.stations); });
+  a.row("size", b,
+        [](auto& v, auto&& on) { on("columns", v.columns), on("rows", v.rows), on("stations", v.stations); });
   a.numbers("along", b.along);
   a.rows("stress", b.stress, visit_sym);
   a.rows("displacement", b.displacement, visit_vec);
@@ -285,7 +357,13 @@ void describe(Archive& a, BandSample& b) {
 
 template <class Archive>
 void describe(Archive& a, RollingSample& s) {
-  a.row("now", s, [](auto& v, auto&& on) { on("time", v.time), on("position", v.position), visit_axle(v.axle, on), visit_forces(v.forces, on), on("creepage", v.creepage); });
+  a.row("now", s, [](auto& v, auto&& on) {
+    on("time", v.time);
+    on("position", v.position);
+    visit_axle(v.axle, on);
+    visit_forces(v.forces, on);
+    on("creepage", v.creepage);
+  });
   a.group("rail", [&](auto& inner) { describe(inner, s.rail); });
   a.group("wheel", [&](auto& inner) { describe(inner, s.wheel); });
   a.rows("tractions", s.tractions, visit_traction);
@@ -296,20 +374,34 @@ void each(Archive& a, const char* name, std::vector<T>& all, Describe&& one) {
   std::vector<std::size_t> count{all.size()};
   a.group(name, [&](auto& inner) {
     inner.rows("count", count, [](auto& v, auto&& on) { on("count", v); });
-    if constexpr (Archive::reading) inner.require_count(count), all.resize(count[0]);
-    for (std::size_t k = 0; k < all.size(); ++k) inner.group(fmt::format("{}", k), [&](auto& part) { one(part, all[k]); });
+    if constexpr (Archive::reading) {
+      inner.require_count(count);
+      all.resize(count[0]);
+    }
+    for (std::size_t k = 0; k < all.size(); ++k)
+      inner.group(fmt::format("{}", k), [&](auto& part) { one(part, all[k]); });
   });
 }
 
 template <class Archive>
 void describe(Archive& a, RunResult& r) {
   a.row("preload", r.preload, [](auto& v, auto&& on) {
-    on("axle_z", v.axle_z), on("residual", v.residual), on("penetration", v.penetration), visit_vec(v.contact_force, on), on("newton_steps", v.newton_steps), on("cg_iterations", v.cg_iterations),
-        on("wall_seconds", v.wall_seconds);
+    on("axle_z", v.axle_z);
+    on("residual", v.residual);
+    on("penetration", v.penetration);
+    visit_vec(v.contact_force, on);
+    on("newton_steps", v.newton_steps);
+    on("cg_iterations", v.cg_iterations);
+    on("wall_seconds", v.wall_seconds);
   });
   a.row("so_far", r, [](auto& v, auto&& on) {
-    on("hourglass_share", v.hourglass_share), on("penetration", v.penetration), on("run_up_damping_energy", v.run_up_damping_energy), on("wall_seconds", v.wall_seconds),
-        on("preload_wall_seconds", v.preload_wall_seconds), on("elements", v.elements), on("nodes", v.nodes);
+    on("hourglass_share", v.hourglass_share);
+    on("penetration", v.penetration);
+    on("run_up_damping_energy", v.run_up_damping_energy);
+    on("wall_seconds", v.wall_seconds);
+    on("preload_wall_seconds", v.preload_wall_seconds);
+    on("elements", v.elements);
+    on("nodes", v.nodes);
   });
   a.rows("history", r.history, visit_history);
   each(a, "positions", r.positions, [](auto& part, PositionSamples& p) {
@@ -331,8 +423,12 @@ void describe(Archive& a, CheckpointOrigin& c, RunState& r) {
   a.group("state", [&](auto& inner) { describe(inner, r.stepper); });
   a.group("result", [&](auto& inner) { describe(inner, r.result); });
   a.row("progress", r, [](auto& v, auto&& on) {
-    on("next_sample", v.next_sample), on("next_history", v.next_history), on("next_frame", v.next_frame), on("started", v.started), on("largest_closure", v.largest_closure),
-        on("largest_energy", v.largest_energy);
+    on("next_sample", v.next_sample);
+    on("next_history", v.next_history);
+    on("next_frame", v.next_frame);
+    on("started", v.started);
+    on("largest_closure", v.largest_closure);
+    on("largest_energy", v.largest_energy);
   });
   a.row("start_energy", r.start_energy, visit_energy);
   a.numbers("frame_times", r.frame_times);
@@ -340,8 +436,10 @@ void describe(Archive& a, CheckpointOrigin& c, RunState& r) {
 
 /// The first kHeader bytes of a file with this image.
 std::string header_of(std::string_view image) {
-  std::string text = fmt::format("RailStrata checkpoint\nformat {}\nbytes {}\nsha256 {}\nHDF5 from byte {} on; go on with: railstrata run --resume <this folder>\n", kCheckpointFormat, image.size(),
-                                 sha256_of(image), kHeader);
+  std::string text = fmt::format(
+      "RailStrata checkpoint\nformat {}\nbytes {}\nsha256 {}\nHDF5 from byte {} on; go on with: railstrata run "
+      "--resume <this folder>\n",
+      kCheckpointFormat, image.size(), sha256_of(image), kHeader);
   text.resize(kHeader, ' ');
   text.back() = '\n';
   return text;
@@ -354,14 +452,18 @@ void verify(std::string_view bytes) {
   if (!bytes.starts_with(kStart)) throw Damage{"it does not start as a checkpoint does"};
   if (bytes.size() <= kHeader) throw Damage{"it is cut off"};
   const std::string expected = header_of(bytes.substr(kHeader));
-  const auto format = [&](std::string_view text) { return text.substr(kStart.size(), text.find('\n', kStart.size()) - kStart.size()); };
+  const auto format = [&](std::string_view text) {
+    return text.substr(kStart.size(), text.find('\n', kStart.size()) - kStart.size());
+  };
   if (const std::string_view found = format(bytes.substr(0, kHeader)); found != format(expected))
     throw Damage{fmt::format("its format is {}, this program's is {}", found.substr(0, 20), kCheckpointFormat)};
-  if (bytes.substr(0, kHeader) != expected) throw Damage{"its checksum does not agree with its bytes: it is cut off or was changed"};
+  if (bytes.substr(0, kHeader) != expected)
+    throw Damage{"its checksum does not agree with its bytes: it is cut off or was changed"};
 }
 
-/// Gives free memory back to the system where it is left. HDF5 keeps up to 16 MiB of blocks for files to come, though those of a history that grows fit no later file, and malloc twice the
-/// largest block that it has seen, up to 64 MiB: both until the end of the run.
+/// Gives free memory back to the system where it is left. HDF5 keeps up to 16 MiB of blocks for files to come, though
+/// those of a history that grows fit no later file, and malloc twice the largest block that it has seen, up to 64 MiB:
+/// both until the end of the run.
 struct GivesMemoryBack {
   ~GivesMemoryBack() {
     H5garbage_collect();
@@ -385,7 +487,9 @@ std::string sealed_checkpoint(std::string_view image) { return header_of(image).
 std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
-    Handle access = memory_access(std::clamp(sizeof(double) * (run.stepper.state.u_rail.size() + run.stepper.state.u_wheel.size()), kSlowestGrowth, kFastestGrowth));
+    Handle access =
+        memory_access(std::clamp(sizeof(double) * (run.stepper.state.u_rail.size() + run.stepper.state.u_wheel.size()),
+                                 kSlowestGrowth, kFastestGrowth));
     Handle file(H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "make a file in memory");
     Writer writer(file);
     CheckpointOrigin from = origin;
@@ -415,7 +519,8 @@ Checkpoint checkpoint_of(std::string_view bytes, const fs::path& file) {
     describe(reader, checkpoint.origin, checkpoint.run);
     return checkpoint;
   } catch (const Damage& d) {
-    throw CaseError(fmt::format("this checkpoint is of no use: {}", d.what), "start the run anew with --force, or put a whole copy of the file back", file.string());
+    throw CaseError(fmt::format("this checkpoint is of no use: {}", d.what),
+                    "start the run anew with --force, or put a whole copy of the file back", file.string());
   }
 }
 
@@ -444,13 +549,15 @@ FoundCheckpoint read_checkpoint(const fs::path& folder, const std::string& case_
     }
     if (!checkpoint) continue;
     if (checkpoint->origin.case_sha256 != case_sha256)
-      throw CaseError("this checkpoint belongs to another case: case.toml beside it, or a profile, was changed since", "put the old ones back, or start the new case in a folder of its own", file.string());
+      throw CaseError("this checkpoint belongs to another case: case.toml beside it, or a profile, was changed since",
+                      "put the old ones back, or start the new case in a folder of its own", file.string());
     found.checkpoint = std::move(*checkpoint);
     return found;
   }
   if (!any)
     throw CaseError(fmt::format("there is nothing to resume in {}: it has no checkpoint", folder.string()),
-                    "start the run anew; runs write a checkpoint every ten minutes (--checkpoint-every) and when they are stopped while rolling");
+                    "start the run anew; runs write a checkpoint every ten minutes (--checkpoint-every) and when they "
+                    "are stopped while rolling");
   std::vector<Diagnostic> all;
   for (const std::string& note : found.notes) all.push_back({"", note, ""});
   all.back().remedy = "start the run anew with --force, or put a whole copy of the file back";

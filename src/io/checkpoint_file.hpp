@@ -1,9 +1,10 @@
 #pragma once
 // Checkpoints of a run: a RunState with what its result files need, as one HDF5 file that h5py and h5dump open.
 //
-// The file begins with a block of 512 bytes for people and for the check ("RailStrata checkpoint", format, SHA-256 of all that follows), which HDF5 skips. Every byte of
-// the file is covered. HDF5 works in memory only: the bytes reach the disk as those of any other result do (io/output_file), under a new name that is renamed when the
-// disk has them, so readers that hold the old file open keep it and no lock stands in the way.
+// The file begins with a block of 512 bytes for people and for the check ("RailStrata checkpoint", format, SHA-256 of
+// all that follows), which HDF5 skips. Every byte of the file is covered. HDF5 works in memory only: the bytes reach
+// the disk as those of any other result do (io/output_file), under a new name that is renamed when the disk has them,
+// so readers that hold the old file open keep it and no lock stands in the way.
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -36,12 +37,13 @@ std::string sealed_checkpoint(std::string_view image);
 std::filesystem::path checkpoint_file(const std::filesystem::path& folder);
 std::filesystem::path previous_checkpoint_file(const std::filesystem::path& folder);
 
-/// Writes checkpoint.h5; the one that was there becomes checkpoint.h5.previous. Throws EnvironmentError, and leaves the old ones as they were.
+/// Writes checkpoint.h5; the one that was there becomes checkpoint.h5.previous. Throws EnvironmentError, and leaves the
+/// old ones as they were.
 void write_checkpoint(const std::filesystem::path& folder, const CheckpointOrigin& origin, const RunState& run);
 
 struct FoundCheckpoint {
   Checkpoint checkpoint;
-  std::vector<std::string> notes;       ///< what was wrong with a newer one
+  std::vector<std::string> notes;  ///< what was wrong with a newer one
 };
 
 /// The newest whole checkpoint of the folder. Throws CaseError if there is none, or if it belongs to another case.

@@ -17,19 +17,23 @@ namespace {
 std::string heading(const std::vector<std::string>& provenance, const std::vector<std::string>& names) {
   const std::string out = csv_remarks(provenance);
   for (const std::string& name : names)
-    if (name.empty() || name.find_first_of(",\"#\r\n") != std::string::npos) throw std::invalid_argument("bad name of a CSV column: '" + name + "'");
+    if (name.empty() || name.find_first_of(",\"#\r\n") != std::string::npos)
+      throw std::invalid_argument("bad name of a CSV column: '" + name + "'");
   return out + fmt::format("{}\n", fmt::join(names, ","));
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& what) {
-  throw CaseError(what, "write the results anew with `railstrata run` or `railstrata bem`", line > 0 ? fmt::format("{}:{}", file.string(), line) : file.string());
+  throw CaseError(what, "write the results anew with `railstrata run` or `railstrata bem`",
+                  line > 0 ? fmt::format("{}:{}", file.string(), line) : file.string());
 }
 
 std::vector<CsvColumn> columns_named(const std::string& line) {
   std::vector<CsvColumn> columns(1);
   for (char c : line) {
-    if (c == ',') columns.emplace_back();
-    else if (c != '\r') columns.back().name += c;
+    if (c == ',')
+      columns.emplace_back();
+    else if (c != '\r')
+      columns.back().name += c;
   }
   return columns;
 }
@@ -40,7 +44,8 @@ void read_row(const std::string& text, const std::filesystem::path& file, int li
     double value = 0;
     const auto [next, error] = std::from_chars(at, end, value);
     const bool last = k + 1 == columns.size();
-    if (error != std::errc{} || (last ? next != end && *next != '\r' : next == end || *next != ',')) refuse(file, line, fmt::format("a row of {} numbers is expected", columns.size()));
+    if (error != std::errc{} || (last ? next != end && *next != '\r' : next == end || *next != ','))
+      refuse(file, line, fmt::format("a row of {} numbers is expected", columns.size()));
     columns[k].values.push_back(value);
     at = last ? next : next + 1;
   }
@@ -73,8 +78,10 @@ CsvTable parse_csv(const std::string& text, const std::filesystem::path& file) {
   for (std::string line; std::getline(in, line);) {
     ++number;
     if (line.empty() || line[0] == '#') continue;
-    if (table.columns.empty()) table.columns = columns_named(line);
-    else read_row(line, file, number, table.columns);
+    if (table.columns.empty())
+      table.columns = columns_named(line);
+    else
+      read_row(line, file, number, table.columns);
   }
   return table;
 }
@@ -89,7 +96,8 @@ std::string csv_remarks(const std::vector<std::string>& texts) {
   return out;
 }
 
-void write_csv(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<CsvColumn>& columns) {
+void write_csv(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+               const std::vector<CsvColumn>& columns) {
   std::vector<std::string> names;
   for (const CsvColumn& c : columns) names.push_back(c.name);
   std::string text = heading(provenance, names);
@@ -97,17 +105,20 @@ void write_csv(const std::filesystem::path& file, const std::vector<std::string>
   for (const CsvColumn& c : columns)
     if (c.values.size() != rows) throw std::invalid_argument("CSV column '" + c.name + "' is not as long as the first");
   for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t j = 0; j < columns.size(); ++j) fmt::format_to(std::back_inserter(text), "{}{}", columns[j].values[i], j + 1 < columns.size() ? ',' : '\n');
+    for (std::size_t j = 0; j < columns.size(); ++j)
+      fmt::format_to(std::back_inserter(text), "{}{}", columns[j].values[i], j + 1 < columns.size() ? ',' : '\n');
   write_whole_file(file, text);
 }
 
-CsvLog::CsvLog(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<std::string>& names)
+CsvLog::CsvLog(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+               const std::vector<std::string>& names)
     : file_(file), columns_(names.size()) {
   file_.write(heading(provenance, names));
 }
 
 void CsvLog::add(std::span<const double> row) {
-  if (row.size() != columns_) throw std::invalid_argument("a CSV row has another number of values than there are columns");
+  if (row.size() != columns_)
+    throw std::invalid_argument("a CSV row has another number of values than there are columns");
   file_.write(fmt::format("{}\n", fmt::join(row, ",")));
 }
 

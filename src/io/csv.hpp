@@ -1,6 +1,7 @@
 #pragma once
-// Tables as text: "#" lines that say where the numbers come from, one header row of names with units, then rows of numbers with a decimal point that read back
-// to the same doubles. Errors: EnvironmentError for the disk, std::invalid_argument for columns of unequal length or names with commas.
+// Tables as text: "#" lines that say where the numbers come from, one header row of names with units, then rows of
+// numbers with a decimal point that read back to the same doubles. Errors: EnvironmentError for the disk,
+// std::invalid_argument for columns of unequal length or names with commas.
 #include <filesystem>
 #include <span>
 #include <string>
@@ -19,7 +20,8 @@ struct CsvColumn {
 std::string csv_remarks(const std::vector<std::string>& texts);
 
 /// Writes a finished table, whole (io/output_file). provenance: one "# …" line each.
-void write_csv(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<CsvColumn>& columns);
+void write_csv(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+               const std::vector<CsvColumn>& columns);
 
 /// A table read back: what write_csv and CsvLog have written.
 struct CsvTable {
@@ -37,10 +39,12 @@ CsvTable read_csv(const std::filesystem::path& file);
 /// The same from a text; `file` names it in messages.
 CsvTable parse_csv(const std::string& text, const std::filesystem::path& file);
 
-/// A table that grows during a run (history.csv): every row is handed to the system at once, so it can be watched and survives a crash of the program.
+/// A table that grows during a run (history.csv): every row is handed to the system at once, so it can be watched and
+/// survives a crash of the program.
 class CsvLog {
  public:
-  CsvLog(const std::filesystem::path& file, const std::vector<std::string>& provenance, const std::vector<std::string>& names);
+  CsvLog(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+         const std::vector<std::string>& names);
   /// One value per column.
   void add(std::span<const double> row);
   void add(std::initializer_list<double> row) { add(std::span<const double>(row.begin(), row.size())); }

@@ -15,7 +15,8 @@ constexpr double kSpacing = 0.5e-3, kReach = 80e-3;
 /// Points of a profile, `depth` below its surface, in the model frame; `half_width`: of the profile's own y.
 template <class ToModel>
 Json curve(const Profile& profile, double contact_s, double depth, double half_width, ToModel&& to_model) {
-  const double begin = std::max(profile.s_min(), contact_s - kReach), end = std::min(profile.s_max(), contact_s + kReach);
+  const double begin = std::max(profile.s_min(), contact_s - kReach),
+               end = std::min(profile.s_max(), contact_s + kReach);
   const int pieces = static_cast<int>(std::ceil((end - begin) / kSpacing));
   Json points = Json::array();
   for (int k = 0; k <= pieces; ++k) {
@@ -55,18 +56,23 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement) {
     const bool on_rail = l.on == "rail";
     double& depth = on_rail ? rail_depth : wheel_depth;
     depth += l.thickness;
-    out["layers"].push_back({{"name", l.name},
-                             {"on", l.on},
-                             {"thickness_m", l.thickness},
-                             {"width_m", l.width},
-                             {"young_Pa", l.material.young},
-                             {"young_ratio", l.material.young / (on_rail ? spec.rail_material : spec.wheel_material).young},
-                             {"bottom_m", on_rail ? curve(placement.rail, c.rail_s, depth, 0.5 * l.width, rail) : curve(placement.wheel, c.wheel_s, depth, 0.5 * l.width, wheel)}});
-    for (const ModulusPoint& point : l.young_table) out["layers"].back()["young_table"].push_back({point.depth, point.young});
+    out["layers"].push_back(
+        {{"name", l.name},
+         {"on", l.on},
+         {"thickness_m", l.thickness},
+         {"width_m", l.width},
+         {"young_Pa", l.material.young},
+         {"young_ratio", l.material.young / (on_rail ? spec.rail_material : spec.wheel_material).young},
+         {"bottom_m", on_rail ? curve(placement.rail, c.rail_s, depth, 0.5 * l.width, rail)
+                              : curve(placement.wheel, c.wheel_s, depth, 0.5 * l.width, wheel)}});
+    for (const ModulusPoint& point : l.young_table)
+      out["layers"].back()["young_table"].push_back({point.depth, point.young});
   }
   return out;
 }
 
-void write_geometry(const std::filesystem::path& file, const CaseSpec& spec, const Placement& placement) { write_whole_file(file, geometry_json(spec, placement).dump() + "\n"); }
+void write_geometry(const std::filesystem::path& file, const CaseSpec& spec, const Placement& placement) {
+  write_whole_file(file, geometry_json(spec, placement).dump() + "\n");
+}
 
 }  // namespace railstrata

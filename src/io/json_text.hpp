@@ -4,7 +4,8 @@
 
 namespace railstrata {
 
-/// indent < 0: on one line. Names of files and folders, and what a wrong input holds, may be in another encoding: what is not UTF-8 is replaced by U+FFFD.
+/// indent < 0: on one line. Names of files and folders, and what a wrong input holds, may be in another encoding: what
+/// is not UTF-8 is replaced by U+FFFD.
 template <class Json>
 std::string json_text(const Json& json, int indent = -1) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);

@@ -27,19 +27,26 @@ std::string host_name() {
 
 std::string remedy_of(int reason) {
   switch (reason) {
-    case ENOSPC: return "make room on the disk";
-    case EDQUOT: return "make room within your disk quota";
-    case EFBIG: return "raise the limit on the size of files (ulimit -f)";
-    case ENOENT: return "leave the folder where it is while results are written into it";
+    case ENOSPC:
+      return "make room on the disk";
+    case EDQUOT:
+      return "make room within your disk quota";
+    case EFBIG:
+      return "raise the limit on the size of files (ulimit -f)";
+    case ENOENT:
+      return "leave the folder where it is while results are written into it";
     case EROFS:
     case EACCES:
-    case EPERM: return "choose a folder that can be written, with --out, or give yourself the permission";
-    default: return "";
+    case EPERM:
+      return "choose a folder that can be written, with --out, or give yourself the permission";
+    default:
+      return "";
   }
 }
 
 [[noreturn]] void fail_on(const fs::path& path, int reason) {
-  throw EnvironmentError("cannot write " + path.string() + ": " + std::generic_category().message(reason), remedy_of(reason));
+  throw EnvironmentError("cannot write " + path.string() + ": " + std::generic_category().message(reason),
+                         remedy_of(reason));
 }
 
 /// A rename is on the disk when its folder is.
@@ -64,7 +71,8 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)), descriptor_(open
   if (descriptor_ < 0) fail();
 }
 
-OutputFile::OutputFile(OutputFile&& other) noexcept : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 OutputFile::~OutputFile() {
   if (descriptor_ >= 0) ::close(descriptor_);
@@ -78,7 +86,8 @@ void OutputFile::write(std::string_view bytes) {
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) {
       const int reason = errno;
-      if (const off_t end = ::lseek(descriptor_, 0, SEEK_CUR); written > 0 && end >= written) static_cast<void>(::ftruncate(descriptor_, end - written) == 0);  // no part of a row
+      if (const off_t end = ::lseek(descriptor_, 0, SEEK_CUR); written > 0 && end >= written)
+        static_cast<void>(::ftruncate(descriptor_, end - written) == 0);  // no part of a row
       fail_on(path_, reason);
     }
     written += n;
@@ -109,7 +118,9 @@ bool is_abandoned_part(const std::string& name) {
 void make_folder(const fs::path& folder, Above above) {
   std::error_code error;
   above == Above::made ? fs::create_directories(folder, error) : fs::create_directory(folder, error);
-  if (error) throw EnvironmentError("cannot make the folder " + folder.string() + ": " + error.message(), remedy_of(error.value()));
+  if (error)
+    throw EnvironmentError("cannot make the folder " + folder.string() + ": " + error.message(),
+                           remedy_of(error.value()));
 }
 
 void write_whole_file(const fs::path& path, std::string_view bytes, const fs::path& previous) {
@@ -128,7 +139,8 @@ void write_whole_file(const fs::path& path, std::string_view bytes, const fs::pa
   } catch (const EnvironmentError& e) {
     ::unlink(temporary.c_str());
     std::string text = e.what();
-    if (const std::size_t at = text.find(temporary.string()); at != std::string::npos) text.replace(at, temporary.string().size(), path.string());
+    if (const std::size_t at = text.find(temporary.string()); at != std::string::npos)
+      text.replace(at, temporary.string().size(), path.string());
     throw EnvironmentError(text, e.remedy);
   }
   sync_folder(path);

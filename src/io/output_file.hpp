@@ -5,7 +5,8 @@
 
 namespace railstrata {
 
-/// A file open for writing. Every failure (disk full, no permission, quota) throws EnvironmentError naming the file, the system's reason and the remedy.
+/// A file open for writing. Every failure (disk full, no permission, quota) throws EnvironmentError naming the file,
+/// the system's reason and the remedy.
 class OutputFile {
  public:
   /// Creates the file or empties it.
@@ -33,14 +34,16 @@ bool is_part(const std::string& name);
 /// The name ends so, and its process, of this machine, is no more.
 bool is_abandoned_part(const std::string& name);
 
-/// The folders above one that is to be made: made too, or there already (a result's own folder that was moved away is not made anew, for half a result).
+/// The folders above one that is to be made: made too, or there already (a result's own folder that was moved away is
+/// not made anew, for half a result).
 enum class Above { made, there };
 /// Throws EnvironmentError as OutputFile does.
 void make_folder(const std::filesystem::path& folder, Above above = Above::made);
 
-/// Writes to a temporary name beside `path`, waits for the disk and renames: a reader, or a crash, finds the old file or the new one, never a part. On failure the
-/// old file is untouched and the temporary one removed. Throws EnvironmentError naming `path`.
-/// `previous`, if given: the old file is kept under this name.
-void write_whole_file(const std::filesystem::path& path, std::string_view bytes, const std::filesystem::path& previous = {});
+/// Writes to a temporary name beside `path`, waits for the disk and renames: a reader, or a crash, finds the old file
+/// or the new one, never a part. On failure the old file is untouched and the temporary one removed. Throws
+/// EnvironmentError naming `path`. `previous`, if given: the old file is kept under this name.
+void write_whole_file(const std::filesystem::path& path, std::string_view bytes,
+                      const std::filesystem::path& previous = {});
 
 }  // namespace railstrata

@@ -12,10 +12,12 @@ constexpr double kSpacing = 1e-3, kReach = 80e-3, kHalfLength = 0.1;
 constexpr int kStations = 21, kAngles = 181;
 
 std::vector<Vec2> outline(const Profile& profile, double contact_s) {
-  const double begin = std::max(profile.s_min(), contact_s - kReach), end = std::min(profile.s_max(), contact_s + kReach);
+  const double begin = std::max(profile.s_min(), contact_s - kReach),
+               end = std::min(profile.s_max(), contact_s + kReach);
   const int pieces = static_cast<int>(std::ceil((end - begin) / kSpacing));
   std::vector<Vec2> out;
-  for (int k = 0; k <= pieces; ++k) out.push_back(profile.at(k == pieces ? end : begin + (end - begin) * k / pieces).position);
+  for (int k = 0; k <= pieces; ++k)
+    out.push_back(profile.at(k == pieces ? end : begin + (end - begin) * k / pieces).position);
   return out;
 }
 
@@ -25,7 +27,8 @@ VtkQuads swept(const std::vector<Vec2>& line, int stations, const std::function<
   for (int s = 0; s < stations; ++s)
     for (const Vec2& p : line) mesh.points.push_back(at(p, s));
   for (long long s = 0; s + 1 < stations; ++s)
-    for (long long k = 0; k + 1 < n; ++k) mesh.cells.push_back({s * n + k, (s + 1) * n + k, (s + 1) * n + k + 1, s * n + k + 1});
+    for (long long k = 0; k + 1 < n; ++k)
+      mesh.cells.push_back({s * n + k, (s + 1) * n + k, (s + 1) * n + k + 1, s * n + k + 1});
   return mesh;
 }
 

@@ -7,7 +7,8 @@
 
 namespace railstrata {
 
-/// The rail's profile over 200 mm below the wheel, and the wheel's turned all the way round its axle; undeformed, model frame, wheel's axle at wheel_x [m].
+/// The rail's profile over 200 mm below the wheel, and the wheel's turned all the way round its axle; undeformed, model
+/// frame, wheel's axle at wheel_x [m].
 VtkQuads rail_surface(const Placement& placement, double wheel_x);
 VtkQuads wheel_surface(const Placement& placement, double wheel_x);
 

@@ -8,6 +8,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
+#include <toml++/toml.h>
 #include <array>
 #include <ctime>
 #include <fstream>
@@ -15,7 +16,6 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
-#include <toml++/toml.h>
 
 #include "core/faults.hpp"
 #include "core/simd.hpp"
@@ -30,12 +30,13 @@ std::string version_text() {
 
 std::vector<std::pair<std::string, std::string>> library_versions() {
   const auto dotted = [](int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); };
-  return {{"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-          {"hdf5", dotted(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
-          {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
-          {"openssl", OpenSSL_version(OPENSSL_VERSION_STRING)},
-          {"toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
-          {"zlib", zlibVersion()}};
+  return {
+      {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
+      {"hdf5", dotted(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
+      {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
+      {"openssl", OpenSSL_version(OPENSSL_VERSION_STRING)},
+      {"toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
+      {"zlib", zlibVersion()}};
 }
 
 std::string compiled_isa() {
@@ -64,7 +65,8 @@ std::string cpu_name() {
 std::string sha256_of(std::string_view bytes) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1) throw EnvironmentError("libcrypto has no SHA-256");
+  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
+    throw EnvironmentError("libcrypto has no SHA-256");
   std::string out;
   for (unsigned int i = 0; i < length; ++i) out += fmt::format("{:02x}", digest[i]);
   return out;
@@ -78,12 +80,15 @@ std::string sha256_of_file(const std::filesystem::path& file) {
   return sha256_of(bytes.str());
 }
 
-std::string provenance_json(const std::vector<std::string>& command_line, const std::vector<std::string>& overrides, const std::vector<std::filesystem::path>& inputs, int threads) {
+std::string provenance_json(const std::vector<std::string>& command_line, const std::vector<std::string>& overrides,
+                            const std::vector<std::filesystem::path>& inputs, int threads) {
   using Json = nlohmann::ordered_json;
   const BuildInfo& build = build_info();
   Json libraries, files = Json::array();
   for (const auto& [name, version] : library_versions()) libraries[name] = version;
-  for (const auto& file : inputs) files.push_back({{"file", std::filesystem::absolute(file).lexically_normal().string()}, {"sha256", sha256_of_file(file)}});
+  for (const auto& file : inputs)
+    files.push_back(
+        {{"file", std::filesystem::absolute(file).lexically_normal().string()}, {"sha256", sha256_of_file(file)}});
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
   const Json all{{"program", "RailStrata"},

@@ -31,7 +31,9 @@ std::string cpu_name();
 std::string sha256_of(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& file);
 
-/// The text of provenance.json: program, build, machine, threads, command line, overrides, time (UTC, ISO 8601) and the SHA-256 of every input file.
-std::string provenance_json(const std::vector<std::string>& command_line, const std::vector<std::string>& overrides, const std::vector<std::filesystem::path>& inputs, int threads);
+/// The text of provenance.json: program, build, machine, threads, command line, overrides, time (UTC, ISO 8601) and the
+/// SHA-256 of every input file.
+std::string provenance_json(const std::vector<std::string>& command_line, const std::vector<std::string>& overrides,
+                            const std::vector<std::filesystem::path>& inputs, int threads);
 
 }  // namespace railstrata

@@ -33,28 +33,44 @@ void push(std::vector<float>& out, const Sym3& s) {
   for (double v : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) out.push_back(static_cast<float>(kMega * v));
 }
 
-void write_section(const std::filesystem::path& file, const std::vector<std::string>& provenance, const StressSection& section, bool longitudinal) {
-  const char* names[] = {"x_mm", "y_mm", "depth_mm", "sigma_xx_MPa", "sigma_yy_MPa", "sigma_zz_MPa", "sigma_xy_MPa", "sigma_yz_MPa", "sigma_xz_MPa", "von_mises_MPa", "sigma_1_MPa", "material"};
+void write_section(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                   const StressSection& section, bool longitudinal) {
+  const char* names[] = {"x_mm",         "y_mm",          "depth_mm",     "sigma_xx_MPa",
+                         "sigma_yy_MPa", "sigma_zz_MPa",  "sigma_xy_MPa", "sigma_yz_MPa",
+                         "sigma_xz_MPa", "von_mises_MPa", "sigma_1_MPa",  "material"};
   std::vector<CsvColumn> columns;
   for (const char* n : names) columns.push_back({n, {}});
   for (std::size_t i = 0; i < section.stress.size(); ++i) {
     const Sym3& s = section.stress[i];
     const double along = section.along[i % section.along.size()], depth = section.depth[i / section.along.size()];
-    const double row[] = {kMilli * (longitudinal ? along : section.at), kMilli * (longitudinal ? section.at : along), kMilli * depth, kMega * s.xx, kMega * s.yy, kMega * s.zz,
-                          kMega * s.xy, kMega * s.yz, kMega * s.xz, kMega * von_mises(s), kMega * principal_stresses(s).x, static_cast<double>(section.material[i])};
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(k < 3 ? std::round(1e6 * row[k]) / 1e6 : std::round(1e3 * row[k]) / 1e3);
+    const double row[] = {kMilli * (longitudinal ? along : section.at),
+                          kMilli * (longitudinal ? section.at : along),
+                          kMilli * depth,
+                          kMega * s.xx,
+                          kMega * s.yy,
+                          kMega * s.zz,
+                          kMega * s.xy,
+                          kMega * s.yz,
+                          kMega * s.xz,
+                          kMega * von_mises(s),
+                          kMega * principal_stresses(s).x,
+                          static_cast<double>(section.material[i])};
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      columns[k].values.push_back(k < 3 ? std::round(1e6 * row[k]) / 1e6 : std::round(1e3 * row[k]) / 1e3);
   }
   write_csv(file, provenance, columns);
 }
 
 }  // namespace
 
-void write_sections(const std::filesystem::path& folder, const std::string& body, const std::vector<std::string>& provenance, const StressSections& sections) {
+void write_sections(const std::filesystem::path& folder, const std::string& body,
+                    const std::vector<std::string>& provenance, const StressSections& sections) {
   write_section(folder / (body + "_longitudinal_section.csv"), provenance, sections.longitudinal, true);
   write_section(folder / (body + "_cross_section.csv"), provenance, sections.cross, false);
 }
 
-void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance, const ContactField& f) {
+void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                        const ContactField& f) {
   write_csv(folder / "patch.csv", provenance,
             {{"x_mm", scaled(f.x, kMilli)},
              {"y_mm", scaled(f.y, kMilli)},
@@ -68,18 +84,35 @@ void write_patch_tables(const std::filesystem::path& folder, const std::vector<s
              {"state_0separated_1stick_2slip", state_numbers(f)}});
   const CentreLine line = centre_line(f);
   write_csv(folder / "centre_line.csv", provenance,
-            {{"x_mm", scaled(line.x, kMilli)}, {"p_MPa", scaled(line.p, kMega)}, {"q_x_MPa", scaled(line.q_x, kMega)}, {"q_y_MPa", scaled(line.q_y, kMega)}, {"slip_x_mm_s", scaled(line.slip_x, kMilli)}});
+            {{"x_mm", scaled(line.x, kMilli)},
+             {"p_MPa", scaled(line.p, kMega)},
+             {"q_x_MPa", scaled(line.q_x, kMega)},
+             {"q_y_MPa", scaled(line.q_y, kMega)},
+             {"slip_x_mm_s", scaled(line.slip_x, kMilli)}});
 }
 
-void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance, const DepthLine& line) {
-  const char* names[] = {"depth_mm", "sigma_xx_MPa", "sigma_yy_MPa", "sigma_zz_MPa", "sigma_xy_MPa", "sigma_yz_MPa", "sigma_xz_MPa", "von_mises_MPa", "sigma_1_MPa", "sigma_2_MPa", "sigma_3_MPa", "material"};
+void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                      const DepthLine& line) {
+  const char* names[] = {"depth_mm",     "sigma_xx_MPa", "sigma_yy_MPa", "sigma_zz_MPa",
+                         "sigma_xy_MPa", "sigma_yz_MPa", "sigma_xz_MPa", "von_mises_MPa",
+                         "sigma_1_MPa",  "sigma_2_MPa",  "sigma_3_MPa",  "material"};
   std::vector<CsvColumn> columns;
   for (const char* n : names) columns.push_back({n, {}});
   for (std::size_t i = 0; i < line.depth.size(); ++i) {
     const Sym3& s = line.stress[i];
     const Vec3 p = principal_stresses(s);
-    const double row[] = {kMilli * line.depth[i], kMega * s.xx,          kMega * s.yy, kMega * s.zz, kMega * s.xy, kMega * s.yz,
-                          kMega * s.xz,           kMega * von_mises(s), kMega * p.x,  kMega * p.y,  kMega * p.z,  static_cast<double>(line.material[i])};
+    const double row[] = {kMilli * line.depth[i],
+                          kMega * s.xx,
+                          kMega * s.yy,
+                          kMega * s.zz,
+                          kMega * s.xy,
+                          kMega * s.yz,
+                          kMega * s.xz,
+                          kMega * von_mises(s),
+                          kMega * p.x,
+                          kMega * p.y,
+                          kMega * p.z,
+                          static_cast<double>(line.material[i])};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
   write_csv(file, provenance, columns);
@@ -100,7 +133,10 @@ VtkQuads patch_mesh(const ContactField& f, double wheel_x) {
       const long long a = s * f.columns + c;
       mesh.cells.push_back({a, a + f.columns, a + f.columns + 1, a + 1});
     }
-  mesh.point_fields = {{"pressure_MPa", 1, to_floats(f.p, kMega)}, {"traction_MPa", 3, traction}, {"slip_velocity_mm_s", 3, slip}, {"state", 1, state}};
+  mesh.point_fields = {{"pressure_MPa", 1, to_floats(f.p, kMega)},
+                       {"traction_MPa", 3, traction},
+                       {"slip_velocity_mm_s", 3, slip},
+                       {"state", 1, state}};
   return mesh;
 }
 
@@ -131,7 +167,8 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
       for (int c = 0; c < band.columns; ++c) {
         const long long a = static_cast<long long>(s) * per_station;
         const auto& q = section.quads[static_cast<std::size_t>(r) * band.columns + c];
-        mesh.cells.push_back({a + q[0], a + q[1], a + q[2], a + q[3], a + per_station + q[0], a + per_station + q[1], a + per_station + q[2], a + per_station + q[3]});
+        mesh.cells.push_back({a + q[0], a + q[1], a + q[2], a + q[3], a + per_station + q[0], a + per_station + q[1],
+                              a + per_station + q[2], a + per_station + q[3]});
         const Sym3 value = b.at(c, r, s);
         push(stress, value);
         equivalent.push_back(static_cast<float>(kMega * von_mises(value)));
@@ -147,21 +184,70 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
         }
       }
   std::vector<float> smooth;
-  for (std::size_t n = 0; n < sum.size(); ++n) smooth.push_back(static_cast<float>(kMega * von_mises((1.0 / std::max(count[n], 1)) * sum[n])));
+  for (std::size_t n = 0; n < sum.size(); ++n)
+    smooth.push_back(static_cast<float>(kMega * von_mises((1.0 / std::max(count[n], 1)) * sum[n])));
   mesh.point_fields = {{"displacement_mm", 3, displacement}, {"von_mises_smooth_MPa", 1, smooth}};
-  mesh.cell_fields = {{"stress_MPa", 6, stress}, {"von_mises_MPa", 1, equivalent}, {"sigma1_MPa", 1, principal}, {"material", 1, material}};
+  mesh.cell_fields = {{"stress_MPa", 6, stress},
+                      {"von_mises_MPa", 1, equivalent},
+                      {"sigma1_MPa", 1, principal},
+                      {"material", 1, material}};
   return mesh;
 }
 
 HistoryLog::HistoryLog(const std::filesystem::path& file, const std::vector<std::string>& provenance)
-    : log_(file, provenance, {"time_ms",         "position_mm",  "torque_N_m",      "F_x_N",          "F_y_N",      "F_z_N",       "p_max_MPa",        "creepage",         "penetration_um",
-                              "contact_nodes",   "axle_vx_m_s",  "axle_vz_m_s",     "spin_rad_s",     "kinetic_J",  "strain_J",    "hourglass_J",      "weight_J",         "spring_J",
-                              "torque_work_J",   "friction_J",   "contact_normal_J", "run_up_damping_J", "absorbed_J", "dashpot_J",  "closure_J"}) {}
+    : log_(file, provenance, {"time_ms",
+                              "position_mm",
+                              "torque_N_m",
+                              "F_x_N",
+                              "F_y_N",
+                              "F_z_N",
+                              "p_max_MPa",
+                              "creepage",
+                              "penetration_um",
+                              "contact_nodes",
+                              "axle_vx_m_s",
+                              "axle_vz_m_s",
+                              "spin_rad_s",
+                              "kinetic_J",
+                              "strain_J",
+                              "hourglass_J",
+                              "weight_J",
+                              "spring_J",
+                              "torque_work_J",
+                              "friction_J",
+                              "contact_normal_J",
+                              "run_up_damping_J",
+                              "absorbed_J",
+                              "dashpot_J",
+                              "closure_J"}) {}
 
 void HistoryLog::add(const HistoryRow& r) {
   const EnergyBalance& e = r.energy;
-  log_.add({1e3 * r.time, kMilli * r.position, r.torque, r.forces.x, r.forces.y, r.forces.z, kMega * r.p_max, r.creepage, 1e6 * r.forces.penetration, static_cast<double>(r.forces.nodes), r.axle_vx,
-            r.axle_vz, r.spin, e.kinetic, e.strain, e.hourglass, e.weight, e.spring, e.torque_work, e.friction, e.contact_normal, e.damping, e.absorbed, e.dashpot, r.closure});
+  log_.add({1e3 * r.time,
+            kMilli * r.position,
+            r.torque,
+            r.forces.x,
+            r.forces.y,
+            r.forces.z,
+            kMega * r.p_max,
+            r.creepage,
+            1e6 * r.forces.penetration,
+            static_cast<double>(r.forces.nodes),
+            r.axle_vx,
+            r.axle_vz,
+            r.spin,
+            e.kinetic,
+            e.strain,
+            e.hourglass,
+            e.weight,
+            e.spring,
+            e.torque_work,
+            e.friction,
+            e.contact_normal,
+            e.damping,
+            e.absorbed,
+            e.dashpot,
+            r.closure});
 }
 
 }  // namespace railstrata

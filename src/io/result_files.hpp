@@ -1,5 +1,6 @@
 #pragma once
-// The files of a result folder: tables for people and scripts, VTK files for pictures. Millimetres and MPa in what people read; every column names its unit.
+// The files of a result folder: tables for people and scripts, VTK files for pictures. Millimetres and MPa in what
+// people read; every column names its unit.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -13,20 +14,25 @@
 namespace railstrata {
 
 /// patch.csv: every point of the field; centre_line.csv: along the rolling direction through the largest pressure.
-void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance, const ContactField& field);
+void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                        const ContactField& field);
 
 /// depth_line.csv: the six stresses, von Mises and the principal stresses against depth.
-void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance, const DepthLine& line);
+void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                      const DepthLine& line);
 
-/// <body>_longitudinal_section.csv (plane y = const) and <body>_cross_section.csv (plane x = const): cell centres x, y, depth, the six stresses to 1e-3 MPa, von Mises,
-/// the largest principal stress and the material; rows of one depth together, from the surface down.
-void write_sections(const std::filesystem::path& folder, const std::string& body, const std::vector<std::string>& provenance, const StressSections& sections);
+/// <body>_longitudinal_section.csv (plane y = const) and <body>_cross_section.csv (plane x = const): cell centres x, y,
+/// depth, the six stresses to 1e-3 MPa, von Mises, the largest principal stress and the material; rows of one depth
+/// together, from the surface down.
+void write_sections(const std::filesystem::path& folder, const std::string& body,
+                    const std::vector<std::string>& provenance, const StressSections& sections);
 
 /// The patch as quadrilaterals with pressure_MPa, traction_MPa, slip_velocity_mm_s, state.
 VtkQuads patch_mesh(const ContactField& field, double wheel_x);
 
-/// A body's contact band around the wheel: nodes displaced by displacement_mm (a point field, not applied to the points), cell fields stress_MPa, von_mises_MPa,
-/// sigma1_MPa, material; the same stresses averaged to the points within each material, for smooth pictures (von_mises_smooth_MPa).
+/// A body's contact band around the wheel: nodes displaced by displacement_mm (a point field, not applied to the
+/// points), cell fields stress_MPa, von_mises_MPa, sigma1_MPa, material; the same stresses averaged to the points
+/// within each material, for smooth pictures (von_mises_smooth_MPa).
 VtkHexahedra band_mesh(const BandStress& band, double wheel_x);
 
 /// history.csv, a row at a time.

@@ -18,7 +18,10 @@ namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw CaseError(fmt::format("{} is not a result folder: it has no {}", file.parent_path().string(), file.filename().string()), "give a folder that `railstrata run` or `railstrata bem` has written");
+  if (!in)
+    throw CaseError(
+        fmt::format("{} is not a result folder: it has no {}", file.parent_path().string(), file.filename().string()),
+        "give a folder that `railstrata run` or `railstrata bem` has written");
   std::ostringstream text;
   text << in.rdbuf();
   return std::move(text).str();
@@ -31,12 +34,18 @@ std::string text_of(const fs::path& file) {
 ContactField patch_of(const CsvTable& table) {
   const fs::path& file = table.file;
   ContactField f;
-  f.x = table.column("x_mm", 1e-3), f.y = table.column("y_mm", 1e-3), f.z = table.column("z_mm", 1e-3);
+  f.x = table.column("x_mm", 1e-3);
+  f.y = table.column("y_mm", 1e-3);
+  f.z = table.column("z_mm", 1e-3);
   f.area = table.column("area_mm2", 1e-6);
-  f.p = table.column("p_MPa", 1e6), f.q_x = table.column("q_x_MPa", 1e6), f.q_y = table.column("q_y_MPa", 1e6);
-  f.slip_x = table.column("slip_x_mm_s", 1e-3), f.slip_y = table.column("slip_y_mm_s", 1e-3);
+  f.p = table.column("p_MPa", 1e6);
+  f.q_x = table.column("q_x_MPa", 1e6);
+  f.q_y = table.column("q_y_MPa", 1e6);
+  f.slip_x = table.column("slip_x_mm_s", 1e-3);
+  f.slip_y = table.column("slip_y_mm_s", 1e-3);
   for (const auto* values : {&f.x, &f.y, &f.z, &f.area, &f.p, &f.q_x, &f.q_y, &f.slip_x, &f.slip_y})
-    if (!std::all_of(values->begin(), values->end(), [](double v) { return std::isfinite(v); })) refuse(file, "a value is not a finite number");
+    if (!std::all_of(values->begin(), values->end(), [](double v) { return std::isfinite(v); }))
+      refuse(file, "a value is not a finite number");
   for (const double s : table.column("state_0separated_1stick_2slip")) {
     if (s != 0 && s != 1 && s != 2) refuse(file, fmt::format("there is no contact state {}", s));
     f.state.push_back(static_cast<ContactState>(static_cast<int>(s)));
@@ -58,14 +67,16 @@ std::string text_at(const nlohmann::json& summary, const std::string& path) {
 
 double ResultFolder::number(const std::string& path) const {
   const nlohmann::json::json_pointer at(path);
-  return summary.contains(at) && summary[at].is_number() ? summary[at].get<double>() : std::numeric_limits<double>::quiet_NaN();
+  return summary.contains(at) && summary[at].is_number() ? summary[at].get<double>()
+                                                         : std::numeric_limits<double>::quiet_NaN();
 }
 
 ResultFolder parse_results(const std::string& summary, const std::string& patch, const fs::path& folder) {
   ResultFolder r;
   r.folder = folder;
   r.summary = nlohmann::json::parse(summary, nullptr, false);
-  if (!r.summary.is_object() || !r.summary.contains("contact")) refuse(folder / "summary.json", "this is not a summary");
+  if (!r.summary.is_object() || !r.summary.contains("contact"))
+    refuse(folder / "summary.json", "this is not a summary");
   r.title = text_at(r.summary, "/title");
   r.engine = text_at(r.summary, "/run/engine");
   r.field = patch_of(parse_csv(patch, folder / "patch.csv"));

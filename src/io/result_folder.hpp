@@ -19,7 +19,8 @@ struct ResultFolder {  // NOLINT(bugprone-exception-escape): the move of json is
   double number(const std::string& path) const;
 };
 
-/// Throws CaseError when the folder is not there, holds no summary.json or patch.csv, or they are not as this program writes them.
+/// Throws CaseError when the folder is not there, holds no summary.json or patch.csv, or they are not as this program
+/// writes them.
 ResultFolder read_result_folder(const std::filesystem::path& folder);
 
 /// The same from the texts of the two files; `folder` names them in messages.

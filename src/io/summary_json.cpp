@@ -22,7 +22,11 @@ Json pair(const std::optional<StressPair>& p) {
 }
 
 Json stress(const StressSummary& s) {
-  return {{"surface", pair(s.surface)}, {"subsurface", pair(s.subsurface)}, {"layer", pair(s.layer)}, {"interface", pair(s.interface)}, {"matrix", pair(s.matrix)}};
+  return {{"surface", pair(s.surface)},
+          {"subsurface", pair(s.subsurface)},
+          {"layer", pair(s.layer)},
+          {"interface", pair(s.interface)},
+          {"matrix", pair(s.matrix)}};
 }
 
 }  // namespace
@@ -71,12 +75,17 @@ Json summary_json(const Summary& s) {
                 {"peak_memory_bytes", number(r.peak_memory_bytes)},
                 {"commit", r.commit}};
   out["checks"] = Json::array();
-  for (const Check& k : s.checks) out["checks"].push_back({{"name", k.name}, {"ok", k.ok}, {"value", number(k.value)}, {"limit", number(k.limit)}});
+  for (const Check& k : s.checks)
+    out["checks"].push_back({{"name", k.name}, {"ok", k.ok}, {"value", number(k.value)}, {"limit", number(k.limit)}});
   out["warnings"] = Json::array();
-  for (const Warning& w : s.warnings) out["warnings"].push_back({{"name", w.name}, {"value", number(w.value)}, {"limit", number(w.limit)}, {"text", w.text}});
+  for (const Warning& w : s.warnings)
+    out["warnings"].push_back(
+        {{"name", w.name}, {"value", number(w.value)}, {"limit", number(w.limit)}, {"text", w.text}});
   return out;
 }
 
-void write_summary(const std::filesystem::path& file, const Summary& summary) { write_whole_file(file, summary_json(summary).dump(2) + "\n"); }
+void write_summary(const std::filesystem::path& file, const Summary& summary) {
+  write_whole_file(file, summary_json(summary).dump(2) + "\n");
+}
 
 }  // namespace railstrata

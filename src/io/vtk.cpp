@@ -22,11 +22,16 @@ constexpr std::uint8_t kHexahedron = 12;
 
 template <class T>
 constexpr const char* type_name() {
-  if constexpr (std::is_same_v<T, float>) return "Float32";
-  else if constexpr (std::is_same_v<T, double>) return "Float64";
-  else if constexpr (std::is_same_v<T, std::int32_t>) return "Int32";
-  else if constexpr (std::is_same_v<T, std::int64_t>) return "Int64";
-  else return "UInt8";
+  if constexpr (std::is_same_v<T, float>)
+    return "Float32";
+  else if constexpr (std::is_same_v<T, double>)
+    return "Float64";
+  else if constexpr (std::is_same_v<T, std::int32_t>)
+    return "Int32";
+  else if constexpr (std::is_same_v<T, std::int64_t>)
+    return "Int64";
+  else
+    return "UInt8";
 }
 
 template <class T>
@@ -41,7 +46,9 @@ void append_compressed(std::string& out, std::string_view raw) {
   for (std::size_t begin = 0; begin < raw.size(); begin += kBlock) {
     const std::string_view block = raw.substr(begin, kBlock);
     uLongf size = buffer.size();
-    if (compress2(reinterpret_cast<Bytef*>(buffer.data()), &size, reinterpret_cast<const Bytef*>(block.data()), block.size(), kLevel) != Z_OK) throw std::bad_alloc();
+    if (compress2(reinterpret_cast<Bytef*>(buffer.data()), &size, reinterpret_cast<const Bytef*>(block.data()),
+                  block.size(), kLevel) != Z_OK)
+      throw std::bad_alloc();
     header.push_back(size);
     blocks.append(buffer.data(), size);
   }
@@ -53,17 +60,22 @@ void append_compressed(std::string& out, std::string_view raw) {
 class Document {
  public:
   explicit Document(const char* type)
-      : xml_(fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"{1}\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<{0}>\n", type,
-                         std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")) {}
+      : xml_(fmt::format("<?xml version=\"1.0\"?>\n<VTKFile type=\"{0}\" version=\"1.0\" byte_order=\"{1}\" "
+                         "header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<{0}>\n",
+                         type, std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian")) {}
   void line(std::string_view text) {
     xml_ += text;
     xml_ += '\n';
   }
   template <class T>
-  void array(const std::string& name, int components, std::span<const T> values, const std::vector<std::string>& component_names = {}) {
+  void array(const std::string& name, int components, std::span<const T> values,
+             const std::vector<std::string>& component_names = {}) {
     std::string labels;
-    for (std::size_t i = 0; i < component_names.size(); ++i) labels += fmt::format(" ComponentName{}=\"{}\"", i, component_names[i]);
-    line(fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" offset=\"{}\"/>", type_name<T>(), name, components, labels, appended_.size()));
+    for (std::size_t i = 0; i < component_names.size(); ++i)
+      labels += fmt::format(" ComponentName{}=\"{}\"", i, component_names[i]);
+    line(fmt::format(
+        "<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\"{} format=\"appended\" offset=\"{}\"/>",
+        type_name<T>(), name, components, labels, appended_.size()));
     append_compressed(appended_, {reinterpret_cast<const char*>(values.data()), values.size_bytes()});
   }
   std::string finished(const char* type) {
@@ -78,7 +90,10 @@ class Document {
 };
 
 bool plain(const std::string& name) {
-  const auto ok = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; };
+  const auto ok = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-' ||
+           c == '.';
+  };
   return !name.empty() && std::all_of(name.begin(), name.end(), ok);
 }
 
@@ -94,14 +109,16 @@ void add_fields(Document& document, const char* section, const std::vector<VtkFi
   for (const VtkField& field : fields) {
     const std::vector<std::string> labels = component_names(field);
     if (!plain(field.name) || !std::all_of(labels.begin(), labels.end(), plain))
-      throw std::invalid_argument("VTK array name '" + field.name + "': letters, digits and _ - . only, in its components' names too");
+      throw std::invalid_argument("VTK array name '" + field.name +
+                                  "': letters, digits and _ - . only, in its components' names too");
     if (!labels.empty() && labels.size() != static_cast<std::size_t>(field.components))
       throw std::invalid_argument("VTK array '" + field.name + "' names another number of components than it has");
     std::visit(
         [&](const auto& values) {
           using T = typename std::decay_t<decltype(values)>::value_type;
           if (field.components < 1 || values.size() != count * static_cast<std::size_t>(field.components))
-            throw std::invalid_argument(fmt::format("VTK array '{}' has {} values for {} x {}", field.name, values.size(), count, field.components));
+            throw std::invalid_argument(fmt::format("VTK array '{}' has {} values for {} x {}", field.name,
+                                                    values.size(), count, field.components));
           document.array<T>(field.name, field.components, values, labels);
         },
         field.values);
@@ -121,7 +138,8 @@ void add_cells(Document& document, const VtkMesh<Corners>& mesh) {
   std::vector<std::int64_t> connectivity, offsets;
   for (const auto& cell : mesh.cells) {
     for (const long long node : cell) {
-      if (node < 0 || node >= static_cast<long long>(mesh.points.size())) throw std::invalid_argument("a VTK cell names a point that does not exist");
+      if (node < 0 || node >= static_cast<long long>(mesh.points.size()))
+        throw std::invalid_argument("a VTK cell names a point that does not exist");
       connectivity.push_back(node);
     }
     offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
@@ -140,10 +158,14 @@ void add_data(Document& document, const VtkMesh<Corners>& mesh) {
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '"') out += "&quot;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += c;
   }
   return out;
 }
@@ -152,7 +174,8 @@ std::string escaped(std::string_view text) {
 
 void write_vtu(const std::filesystem::path& file, const VtkHexahedra& mesh) {
   Document document("UnstructuredGrid");
-  document.line(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", mesh.points.size(), mesh.cells.size()));
+  document.line(
+      fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">", mesh.points.size(), mesh.cells.size()));
   add_data(document, mesh);
   document.line("<Cells>");
   add_cells(document, mesh);
@@ -164,7 +187,9 @@ void write_vtu(const std::filesystem::path& file, const VtkHexahedra& mesh) {
 
 void write_vtp(const std::filesystem::path& file, const VtkQuads& mesh) {
   Document document("PolyData");
-  document.line(fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">", mesh.points.size(), mesh.cells.size()));
+  document.line(fmt::format(
+      "<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">",
+      mesh.points.size(), mesh.cells.size()));
   add_data(document, mesh);
   document.line("<Polys>");
   add_cells(document, mesh);
@@ -173,9 +198,12 @@ void write_vtp(const std::filesystem::path& file, const VtkQuads& mesh) {
 }
 
 void PvdSeries::add(double time, const std::filesystem::path& frame) {
-  const std::string relative = std::filesystem::absolute(frame).lexically_proximate(std::filesystem::absolute(file_).parent_path()).generic_string();
+  const std::string relative = std::filesystem::absolute(frame)
+                                   .lexically_proximate(std::filesystem::absolute(file_).parent_path())
+                                   .generic_string();
   entries_ += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, escaped(relative));
-  write_whole_file(file_, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" + entries_ + "</Collection>\n</VTKFile>\n");
+  write_whole_file(file_, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" +
+                              entries_ + "</Collection>\n</VTKFile>\n");
 }
 
 }  // namespace railstrata

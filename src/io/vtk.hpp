@@ -1,6 +1,7 @@
 #pragma once
-// Results for ParaView and VTK: XML files with appended raw data, UInt64 headers and zlib blocks (VTK 9.1, ParaView 5.11 and meshio read them).
-// Every file is written whole (io/output_file). Errors: EnvironmentError for the disk, std::invalid_argument for arrays that do not fit or bad names.
+// Results for ParaView and VTK: XML files with appended raw data, UInt64 headers and zlib blocks (VTK 9.1,
+// ParaView 5.11 and meshio read them). Every file is written whole (io/output_file). Errors: EnvironmentError for the
+// disk, std::invalid_argument for arrays that do not fit or bad names.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -12,8 +13,9 @@
 
 namespace railstrata {
 
-/// An array over points or cells. Names carry the unit and neither blanks nor brackets: pressure_MPa, stress_MPa, slip_velocity_mm_s, state.
-/// values: components of one point after the other. Symmetric tensors have 6 components in VTK's order XX YY ZZ XY YZ XZ (that of Sym3).
+/// An array over points or cells. Names carry the unit and neither blanks nor brackets: pressure_MPa, stress_MPa,
+/// slip_velocity_mm_s, state. values: components of one point after the other. Symmetric tensors have 6 components in
+/// VTK's order XX YY ZZ XY YZ XZ (that of Sym3).
 struct VtkField {
   std::string name;
   int components = 1;
@@ -36,11 +38,13 @@ void write_vtu(const std::filesystem::path& file, const VtkHexahedra& mesh);
 /// Surface: polygonal data of quadrilaterals (.vtp).
 void write_vtp(const std::filesystem::path& file, const VtkQuads& mesh);
 
-/// A time series (.pvd) of .vtu or .vtp files. The collection is rewritten after each frame, so it can be opened while the run goes on.
+/// A time series (.pvd) of .vtu or .vtp files. The collection is rewritten after each frame, so it can be opened while
+/// the run goes on.
 class PvdSeries {
  public:
   explicit PvdSeries(std::filesystem::path file) : file_(std::move(file)) {}
-  /// Adds a frame that has been written; `frame` is stored relative to the collection's folder. time in seconds, or whatever the frames are ordered by.
+  /// Adds a frame that has been written; `frame` is stored relative to the collection's folder. time in seconds, or
+  /// whatever the frames are ordered by.
   void add(double time, const std::filesystem::path& frame);
 
  private:

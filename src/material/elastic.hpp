@@ -22,8 +22,8 @@ inline Elastic elastic(double young, double poisson, double density) {
 inline double young(const Elastic& m) { return m.mu * (3 * m.lambda + 2 * m.mu) / (m.lambda + m.mu); }
 inline double poisson(const Elastic& m) { return m.lambda / (2 * (m.lambda + m.mu)); }
 
-/// Stress from strain, S = lambda tr(E) I + 2 mu E; components xx, yy, zz, xy, yz, xz. With E the Green strain and S the second Piola–Kirchhoff stress this is the
-/// St. Venant–Kirchhoff law. [SimoHughes1998]
+/// Stress from strain, S = lambda tr(E) I + 2 mu E; components xx, yy, zz, xy, yz, xz. With E the Green strain and S
+/// the second Piola–Kirchhoff stress this is the St. Venant–Kirchhoff law. [SimoHughes1998]
 template <class T, class Real>
 inline void elastic_stress(Real lambda, Real mu, const T (&strain)[6], T (&stress)[6]) {
   const T pressure = lambda * (strain[0] + strain[1] + strain[2]);

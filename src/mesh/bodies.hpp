@@ -6,11 +6,13 @@
 
 namespace railstrata {
 
-/// One bonded layer, from the surface down. elements = 0: chosen (height at most 1 mm and at most the element size, at least 2; at least 3 from 3 mm on).
+/// One bonded layer, from the surface down. elements = 0: chosen (height at most 1 mm and at most the element size, at
+/// least 2; at least 3 from 3 mm on).
 struct LayerMesh {
   std::string name;
   double thickness = 0;  ///< m, along the surface normal, 0.05 mm … 10 mm
-  double width = 0.060;  ///< m, lateral extent, centred on the body's profile origin; clipped to the band that carries it
+  double width =
+      0.060;  ///< m, lateral extent, centred on the body's profile origin; clipped to the band that carries it
   int elements = 0;
   bool continues = false;  ///< a row of a graded layer that goes on below: no interface
 };
@@ -20,43 +22,50 @@ int layer_rows(const LayerMesh& layer, double h);
 
 /// Sizes shared by both bodies, metres.
 struct MeshSizes {
-  double element = 1e-3;       ///< h: edge length at the running surface and in the studied subsurface
-  double fine_width = 24e-3;   ///< lateral width of the fine cap, centred on the contact point
-  double fine_depth = 8e-3;    ///< depth of the fine cap (made deeper where the layers ask for it, at most the band that fits)
-  int coarse_ratio = 3;        ///< station spacing of the rest in the fine range / h
-  double largest = 12e-3;      ///< largest element edge far from the contact
+  double element = 1e-3;      ///< h: edge length at the running surface and in the studied subsurface
+  double fine_width = 24e-3;  ///< lateral width of the fine cap, centred on the contact point
+  double fine_depth =
+      8e-3;  ///< depth of the fine cap (made deeper where the layers ask for it, at most the band that fits)
+  int coarse_ratio = 3;    ///< station spacing of the rest in the fine range / h
+  double largest = 12e-3;  ///< largest element edge far from the contact
 };
 
 enum class RailShape { rail, block };
 enum class WheelShape { wheel, disc };
 
-/// Rail: section from its profile (head, web, foot on the base) or a rectangular block under the profile; extruded from x_begin - end_length to x_end + end_length,
-/// stations of spacing h between x_begin and x_end in the cap, coarse_ratio * h in the rest, growing outside. Section in the model frame (canted), origin (0,0,0).
+/// Rail: section from its profile (head, web, foot on the base) or a rectangular block under the profile; extruded from
+/// x_begin - end_length to x_end + end_length, stations of spacing h between x_begin and x_end in the cap, coarse_ratio
+/// * h in the rest, growing outside. Section in the model frame (canted), origin (0,0,0).
 struct RailMeshSpec {
   RailShape shape = RailShape::rail;
-  double contact_s = 0;        ///< profile arc length of the contact point: centre of the fine cap
+  double contact_s = 0;  ///< profile arc length of the contact point: centre of the fine cap
   double x_begin = 0, x_end = 0;
   double end_length = 0.12;
   double block_width = 0.06, block_height = 0.06;  ///< shape block only
   std::vector<LayerMesh> layers;
 };
-SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const RailMeshSpec& spec, const MeshSizes& sizes);
+SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const RailMeshSpec& spec,
+                    const MeshSizes& sizes);
 
-/// Wheel: full ring of rim, web and hub (or a disc: rim of constant inner radius down to the bore) revolved about the axle. Angles theta = arc / rolling radius;
-/// cap stations of spacing h between theta_begin and theta_end, growing outside; the web and hub have their own, coarser stations so that the bore does not limit
-/// the time step. Section coordinates relative to the axle; origin = axle centre in the model frame.
+/// Wheel: full ring of rim, web and hub (or a disc: rim of constant inner radius down to the bore) revolved about the
+/// axle. Angles theta = arc / rolling radius; cap stations of spacing h between theta_begin and theta_end, growing
+/// outside; the web and hub have their own, coarser stations so that the bore does not limit the time step. Section
+/// coordinates relative to the axle; origin = axle centre in the model frame.
 struct WheelMeshSpec {
   WheelShape shape = WheelShape::wheel;
   double contact_s = 0;
   double theta_begin = 0, theta_end = 0;
-  double rim_thickness = 0.060;   ///< tape circle to the rim's inner face
-  double web_thickness = 0.030, web_offset = 0.0;  ///< plate thickness and lateral position of its middle (tape circle = 0)
+  double rim_thickness = 0.060;  ///< tape circle to the rim's inner face
+  double web_thickness = 0.030,
+         web_offset = 0.0;  ///< plate thickness and lateral position of its middle (tape circle = 0)
   double hub_radius = 0.135, hub_width = 0.17, bore_radius = 0.095;
   std::vector<LayerMesh> layers;
 };
-SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, const WheelMeshSpec& spec, const MeshSizes& sizes);
+SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, const WheelMeshSpec& spec,
+                     const MeshSizes& sizes);
 
-/// A plain brick for tests: columns x rows x stations elements of size dx, dy, dz, one block, contact band on top (z = 0), base held.
+/// A plain brick for tests: columns x rows x stations elements of size dx, dy, dz, one block, contact band on top (z =
+/// 0), base held.
 SweptBody mesh_brick(int columns, int rows, int stations, double dx, double dy, double dz);
 
 }  // namespace railstrata

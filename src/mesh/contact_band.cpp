@@ -58,7 +58,8 @@ Vec2 column_direction(const Profile& profile, double s, Vec2 normal) {
   constexpr double kKink = 1e-3;  // rad
   const auto& knots = profile.knots();
   Vec2 direction = normal;
-  for (auto k = std::upper_bound(knots.begin(), knots.end(), s - kKinkHalfWidth); k != knots.end() && *k < s + kKinkHalfWidth; ++k) {
+  for (auto k = std::upper_bound(knots.begin(), knots.end(), s - kKinkHalfWidth);
+       k != knots.end() && *k < s + kKinkHalfWidth; ++k) {
     if (k == knots.begin() || k + 1 == knots.end()) continue;
     const Vec2 before = profile.at(*k - 1e-9).outward, after = profile.at(*k).outward;
     if (norm(after - before) < kKink) continue;
@@ -75,7 +76,8 @@ double inclination(const Profile& profile, double s) {
 
 }  // namespace
 
-BandRows band_rows(const std::vector<LayerMesh>& layers, double h, double fine_depth, double limit, const char* carrier) {
+BandRows band_rows(const std::vector<LayerMesh>& layers, double h, double fine_depth, double limit,
+                   const char* carrier) {
   BandRows rows{{0.0}, {}};
   double above = h;
   for (std::size_t k = 0; k < layers.size(); ++k) {
@@ -87,7 +89,8 @@ BandRows band_rows(const std::vector<LayerMesh>& layers, double h, double fine_d
   }
   const double layered = rows.depth.back();
   if (layered > limit + 1e-9)
-    throw CaseError(fmt::format("layer thicker than the {}: {:g} mm of layers, the {} carries {:.2f} mm", carrier, 1e3 * layered, carrier, 1e3 * limit),
+    throw CaseError(fmt::format("layer thicker than the {}: {:g} mm of layers, the {} carries {:.2f} mm", carrier,
+                                1e3 * layered, carrier, 1e3 * limit),
                     "make the layers thinner");
 
   const double bottom = std::min(limit, std::max(fine_depth, layers.empty() ? h : layered + std::max(2 * h, above)));
@@ -104,7 +107,9 @@ BandRows merged_rows(const BandRows& rows, double height) {
   BandRows out{{0.0}, {}};
   for (int r = 0; r < rows.count(); ++r) {
     const bool last = r + 1 == rows.count();
-    if (!last && rows.material[r + 1] == rows.material[r] && rows.depth[r + 2] - out.depth.back() <= height * (1 + 1e-9)) continue;
+    if (!last && rows.material[r + 1] == rows.material[r] &&
+        rows.depth[r + 2] - out.depth.back() <= height * (1 + 1e-9))
+      continue;
     out.depth.push_back(rows.depth[r + 1]);
     out.material.push_back(rows.material[r]);
   }
@@ -117,7 +122,9 @@ std::pair<double, double> running_range(const Profile& profile, double angle) {
   double low = middle, high = middle;
   while (low - kStep > profile.s_min() && inclination(profile, low - kStep) < angle) low -= kStep;
   while (high + kStep < profile.s_max() && inclination(profile, high + kStep) < angle) high += kStep;
-  const auto jumps = [&](double a, double b) { return std::abs(inclination(profile, a) - inclination(profile, b)) > 0.1; };
+  const auto jumps = [&](double a, double b) {
+    return std::abs(inclination(profile, a) - inclination(profile, b)) > 0.1;
+  };
   if (low - kStep > profile.s_min() && jumps(low, low - kStep)) low += kKinkHalfWidth;
   if (high + kStep < profile.s_max() && jumps(high, high + kStep)) high -= kKinkHalfWidth;
   return {low, high};
@@ -134,16 +141,20 @@ double smallest_convex_radius(const Profile& profile, double s0, double s1) {
   return radius;
 }
 
-std::vector<double> fine_columns(double contact_s, double h, double fine_width, std::pair<double, double> range, const char* body) {
+std::vector<double> fine_columns(double contact_s, double h, double fine_width, std::pair<double, double> range,
+                                 const char* body) {
   const int n = std::max(2, static_cast<int>(std::lround(fine_width / h)));
   const double width = n * h, available = range.second - range.first;
   if (width > available)
-    throw CaseError(fmt::format("fine width larger than the running surface: {:g} mm on {:.1f} mm of the {}", 1e3 * width, 1e3 * available, body),
+    throw CaseError(fmt::format("fine width larger than the running surface: {:g} mm on {:.1f} mm of the {}",
+                                1e3 * width, 1e3 * available, body),
                     "reduce the mesh's fine_width");
   if (contact_s - range.first < 0.25 * width || range.second - contact_s < 0.25 * width)
-    throw CaseError(fmt::format("contact point too close to the end of the {}'s running surface: s = {:.2f} mm of {:.2f} … {:.2f} mm", body, 1e3 * contact_s,
-                                1e3 * range.first, 1e3 * range.second),
-                    "reduce the lateral shift or the mesh's fine_width");
+    throw CaseError(
+        fmt::format(
+            "contact point too close to the end of the {}'s running surface: s = {:.2f} mm of {:.2f} … {:.2f} mm", body,
+            1e3 * contact_s, 1e3 * range.first, 1e3 * range.second),
+        "reduce the lateral shift or the mesh's fine_width");
   const double begin = std::clamp(contact_s - 0.5 * width, range.first, range.second - width);
   std::vector<double> s;
   for (int c = 0; c <= n; ++c) s.push_back(begin + c * h);
@@ -155,7 +166,8 @@ std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerM
   for (const LayerMesh& layer : layers) {
     const double available = profile.y_max() - profile.y_min();
     if (layer.width > available)
-      throw CaseError(fmt::format("layer width larger than the {}: {:g} mm, the {} is {:.1f} mm wide", carrier, 1e3 * layer.width, carrier, 1e3 * available),
+      throw CaseError(fmt::format("layer width larger than the {}: {:g} mm, the {} is {:.1f} mm wide", carrier,
+                                  1e3 * layer.width, carrier, 1e3 * available),
                       "reduce the layer's width");
     for (double y : {-0.5 * layer.width, 0.5 * layer.width})
       if (y > profile.y_min() && y < profile.y_max()) s.push_back(profile.s_at_y(y));
@@ -174,7 +186,8 @@ int material_at(const BandRows& rows, int row, double y, const std::vector<Layer
   return layer > 0 && std::abs(y) < 0.5 * layers[layer - 1].width ? layer : 0;
 }
 
-std::vector<NodeLine> add_band(Section& section, const Profile& profile, const std::vector<double>& s, const BandRows& rows, const std::vector<LayerMesh>& layers) {
+std::vector<NodeLine> add_band(Section& section, const Profile& profile, const std::vector<double>& s,
+                               const BandRows& rows, const std::vector<LayerMesh>& layers) {
   std::vector<NodeLine> grid;
   for (double depth : rows.depth) {
     std::vector<Vec2> points;
@@ -185,7 +198,8 @@ std::vector<NodeLine> add_band(Section& section, const Profile& profile, const s
   for (int r = 0; r < rows.count(); ++r)
     for (std::size_t c = 0; c + 1 < s.size(); ++c) {
       const int top0 = grid[r][c], top1 = grid[r][c + 1], deep0 = grid[r + 1][c], deep1 = grid[r + 1][c + 1];
-      section.quads.push_back(material_below ? std::array{deep0, deep1, top1, top0} : std::array{top0, top1, deep1, deep0});
+      section.quads.push_back(material_below ? std::array{deep0, deep1, top1, top0}
+                                             : std::array{top0, top1, deep1, deep0});
       section.quad_material.push_back(material_at(rows, r, profile.at(0.5 * (s[c] + s[c + 1])).position.y, layers));
     }
   return grid;

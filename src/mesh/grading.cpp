@@ -38,7 +38,8 @@ std::vector<double> growing_spacings(double length, double first, double ratio, 
 }
 
 bool snap_interior(std::vector<double>& points, double value) {
-  const auto nearest = std::min_element(points.begin(), points.end(), [&](double p, double q) { return std::abs(p - value) < std::abs(q - value); });
+  const auto nearest = std::min_element(points.begin(), points.end(),
+                                        [&](double p, double q) { return std::abs(p - value) < std::abs(q - value); });
   if (nearest == points.begin() || nearest == points.end() - 1) return false;
   const double a = points.front(), b = points.back(), old = *nearest;
   for (double& p : points) p = p <= old ? a + (p - a) * (value - a) / (old - a) : b - (b - p) * (b - value) / (b - old);
@@ -48,7 +49,9 @@ bool snap_interior(std::vector<double>& points, double value) {
 
 namespace {
 
-int coarse_steps(double begin, double end, double coarse) { return std::max(1, static_cast<int>(std::ceil((end - begin) / coarse - 1e-6))); }
+int coarse_steps(double begin, double end, double coarse) {
+  return std::max(1, static_cast<int>(std::ceil((end - begin) / coarse - 1e-6)));
+}
 
 void append_run(StationPair& stations, const std::vector<double>& spacings) {
   double at = stations.fine.back();

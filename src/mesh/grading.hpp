@@ -1,27 +1,33 @@
 #pragma once
-// Grading along a line: where the nodes between two points stand when the wanted size varies. All lengths in one unit of the caller's choice.
+// Grading along a line: where the nodes between two points stand when the wanted size varies. All lengths in one unit
+// of the caller's choice.
 #include <functional>
 #include <vector>
 
 namespace railstrata {
 
-/// Points from a to b (both included, a < b) whose spacing follows size(x): the integral of dx / size(x) is divided evenly. At least one interval.
+/// Points from a to b (both included, a < b) whose spacing follows size(x): the integral of dx / size(x) is divided
+/// evenly. At least one interval.
 std::vector<double> graded_points(double a, double b, const std::function<double(double)>& size);
 
-/// Spacings that fill `length`: first * ratio, first * ratio^2, … up to `largest`, then equal ones. Few distinct values, so that few element classes arise.
+/// Spacings that fill `length`: first * ratio, first * ratio^2, … up to `largest`, then equal ones. Few distinct
+/// values, so that few element classes arise.
 std::vector<double> growing_spacings(double length, double first, double ratio, double largest);
 
-/// Moves the interior point nearest to `value` onto it and stretches the two sides linearly; the ends stay. False (nothing moved) when an end is nearest.
+/// Moves the interior point nearest to `value` onto it and stretches the two sides linearly; the ends stay. False
+/// (nothing moved) when an end is nearest.
 bool snap_interior(std::vector<double>& points, double value);
 
-/// Stations of the blocks of a body: the fine ones of the contact band, the coarse ones of the rest (a subset), and the range of fine spacing reached.
+/// Stations of the blocks of a body: the fine ones of the contact band, the coarse ones of the rest (a subset), and the
+/// range of fine spacing reached.
 struct StationPair {
   std::vector<double> fine, coarse;
   double fine_begin = 0, fine_end = 0;
 };
 inline constexpr double kStationGrowth = 1.3;
 
-/// Spacing `step` on [begin, end], the end moved outward to a whole number of coarse steps (ratio * step); outside, over end_length on both sides, growing spacings.
+/// Spacing `step` on [begin, end], the end moved outward to a whole number of coarse steps (ratio * step); outside,
+/// over end_length on both sides, growing spacings.
 StationPair extruded_stations(double begin, double end, double step, int ratio, double end_length, double largest);
 /// The same closed round a ring of 2 pi; the first station is `begin`, the last one lies below begin + 2 pi.
 StationPair ring_stations(double begin, double end, double step, int ratio, double largest);

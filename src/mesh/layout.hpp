@@ -1,6 +1,7 @@
 #pragma once
-// Where the values of a nodal vector field stand in memory: for every block [section node][component][station], stations contiguous and padded to whole packs, so
-// that lines of elements load their corners as plain vectors. A closed ring keeps a ghost of station 0 behind its last station. Padding is zero.
+// Where the values of a nodal vector field stand in memory: for every block [section node][component][station],
+// stations contiguous and padded to whole packs, so that lines of elements load their corners as plain vectors. A
+// closed ring keeps a ghost of station 0 behind its last station. Padding is zero.
 #include "core/array.hpp"
 #include "core/simd.hpp"
 #include "mesh/swept.hpp"
@@ -14,7 +15,9 @@ struct BlockLayout {
   int stations = 0;  ///< without ghost
   int elements = 0;  ///< along the sweep
   bool closed = false;
-  std::ptrdiff_t line(int node, int component) const { return offset + (static_cast<std::ptrdiff_t>(node) * 3 + component) * stride; }
+  std::ptrdiff_t line(int node, int component) const {
+    return offset + (static_cast<std::ptrdiff_t>(node) * 3 + component) * stride;
+  }
 };
 
 struct BodyLayout {

@@ -1,5 +1,6 @@
 #pragma once
-// The U-shaped section around and below the fine cap: wheel rim, disc and rail block. Surface rows beside the cap, then rows down to a flat floor.
+// The U-shaped section around and below the fine cap: wheel rim, disc and rail block. Surface rows beside the cap, then
+// rows down to a flat floor.
 #include <functional>
 #include <string>
 
@@ -8,36 +9,41 @@
 
 namespace railstrata {
 
-inline constexpr double kColumnStart = 1.2;   ///< first column beside the fine ones / h
-inline constexpr double kColumnSlope = 0.33;  ///< growth of the column size per distance: neighbours differ by a factor of at most 1.4
+inline constexpr double kColumnStart = 1.2;  ///< first column beside the fine ones / h
+inline constexpr double kColumnSlope =
+    0.33;  ///< growth of the column size per distance: neighbours differ by a factor of at most 1.4
 inline constexpr double kLargestAspect = 20;  ///< of the far elements, longest edge / h
 
 /// Station spacing far from the contact.
 double far_spacing(const MeshSizes& sizes);
-/// Element size under a band of the given depth: what the stress needs there, at least coarse_ratio * h, at most half the largest.
+/// Element size under a band of the given depth: what the stress needs there, at least coarse_ratio * h, at most half
+/// the largest.
 double under_band_size(const MeshSizes& sizes, double depth);
 /// Largest height of the rows beside the cap.
 double side_row_height(const MeshSizes& sizes, double depth);
 /// Number of intervals of about `size` in `length`, at least one.
 std::size_t intervals_of(double length, double size);
-/// intervals + 1 of the columns (all of them if there are fewer), the first and last kept, about evenly spaced at the given depth.
-std::vector<double> column_subset(const Profile& profile, const std::vector<double>& s, double depth, std::size_t intervals);
+/// intervals + 1 of the columns (all of them if there are fewer), the first and last kept, about evenly spaced at the
+/// given depth.
+std::vector<double> column_subset(const Profile& profile, const std::vector<double>& s, double depth,
+                                  std::size_t intervals);
 /// Length of the polyline of the columns' points at a depth.
 double length_at_depth(const Profile& profile, const std::vector<double>& s, double depth);
 
 /// What differs between the bodies, in the profile frame (z may run either way).
 struct OffsetFrameSpec {
-  std::string name, carrier;                       ///< of the block, in messages
-  std::pair<double, double> fine_range;            ///< arc lengths the fine columns keep within
-  std::pair<double, double> tread_range;           ///< arc lengths with columns along the normals
-  double band_limit = 0;                           ///< deepest band
-  double floor = 0;                                ///< z of the flat inner boundary
-  bool layered_ends = false;                       ///< do layers continue beyond the tread range?
-  /// Surface beyond the tread columns, which end at s: from the section's left corner to s / from s to the right corner, s itself excluded.
+  std::string name, carrier;              ///< of the block, in messages
+  std::pair<double, double> fine_range;   ///< arc lengths the fine columns keep within
+  std::pair<double, double> tread_range;  ///< arc lengths with columns along the normals
+  double band_limit = 0;                  ///< deepest band
+  double floor = 0;                       ///< z of the flat inner boundary
+  bool layered_ends = false;              ///< do layers continue beyond the tread range?
+  /// Surface beyond the tread columns, which end at s: from the section's left corner to s / from s to the right
+  /// corner, s itself excluded.
   std::function<std::vector<Vec2>(double s)> left_top, right_top;
   /// The section's sides beside the rows of the band, from its corners down: one point per row.
-  std::function<std::vector<Vec2>(const std::vector<double>& depth)> left_side, right_side;
-  std::vector<double> floor_breaks;                ///< y at which the floor must have a node
+  std::function<std::vector<Vec2>(const std::vector<double>&depth)> left_side, right_side;
+  std::vector<double> floor_breaks;  ///< y at which the floor must have a node
 };
 
 struct FrameNodes {
@@ -46,7 +52,8 @@ struct FrameNodes {
 };
 
 /// Appends the cap (contact band) and the frame to the body, tied, and fills body.contact.
-FrameNodes add_offset_frame(SweptBody& body, const Profile& profile, double contact_s, const std::vector<LayerMesh>& layers, const MeshSizes& sizes,
-                            const OffsetFrameSpec& spec, Stations cap_stations, Stations frame_stations, const StationPair& range);
+FrameNodes add_offset_frame(SweptBody& body, const Profile& profile, double contact_s,
+                            const std::vector<LayerMesh>& layers, const MeshSizes& sizes, const OffsetFrameSpec& spec,
+                            Stations cap_stations, Stations frame_stations, const StationPair& range);
 
 }  // namespace railstrata

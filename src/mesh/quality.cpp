@@ -15,7 +15,8 @@ ElementQuality measure(const std::array<Vec3, 8>& x) {
   ElementQuality q;
   for (int i = 0; i < 8; ++i) {
     const int face = i & 4, next = face + (i + 1) % 4, previous = face + (i + 3) % 4, across = i ^ 4;
-    const Vec3 a = x[face == 0 ? next : previous] - x[i], b = x[face == 0 ? previous : next] - x[i], c = x[across] - x[i];
+    const Vec3 a = x[face == 0 ? next : previous] - x[i], b = x[face == 0 ? previous : next] - x[i],
+               c = x[across] - x[i];
     const double la = norm(a), lb = norm(b), lc = norm(c);
     q.scaled_jacobian = std::min(q.scaled_jacobian, dot(cross(a, b), c) / (la * lb * lc));
     q.longest = std::max({q.longest, la, lb, lc});
@@ -34,7 +35,8 @@ std::vector<int> distinct_stations(const Stations& stations) {
   std::vector<int> out;
   for (int j = 0; j < stations.elements(); ++j) {
     const double d = spacing(stations, j);
-    if (std::none_of(out.begin(), out.end(), [&](int k) { return std::abs(spacing(stations, k) - d) < 1e-9 * d; })) out.push_back(j);
+    if (std::none_of(out.begin(), out.end(), [&](int k) { return std::abs(spacing(stations, k) - d) < 1e-9 * d; }))
+      out.push_back(j);
   }
   return out;
 }

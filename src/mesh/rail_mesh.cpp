@@ -15,9 +15,10 @@ namespace railstrata {
 namespace {
 
 constexpr double kCornerAngle = std::numbers::pi / 4;
-constexpr double kFlankDepth = 22e-3;     // of the band's ends below the crown
-constexpr double kBandOfRadius = 0.85;    // deepest band / smallest head radius: the columns of the corner keep a seventh of their width
-constexpr double kArcPerColumn = 0.46;    // rad, of the smallest radius
+constexpr double kFlankDepth = 22e-3;  // of the band's ends below the crown
+constexpr double kBandOfRadius =
+    0.85;  // deepest band / smallest head radius: the columns of the corner keep a seventh of their width
+constexpr double kArcPerColumn = 0.46;  // rad, of the smallest radius
 
 /// Columns of the band beside the fine ones on one side, as distances from the fine columns' edge.
 struct SideColumns {
@@ -31,8 +32,10 @@ SideColumns side_columns(double to_corner, double to_end, double h, double large
     if (std::abs(e - to_corner) < 0.6 * size(to_corner)) to_corner = e;
   SideColumns out;
   std::vector<double> upper{0.0};
-  if (to_corner > 0.5 * h) upper = graded_points(0, to_corner, size);
-  else to_corner = 0;
+  if (to_corner > 0.5 * h)
+    upper = graded_points(0, to_corner, size);
+  else
+    to_corner = 0;
   std::vector<double> lower = graded_points(to_corner, to_end, size);
   while (lower.size() < 3) lower.insert(lower.begin() + 1, 0.5 * (lower[0] + lower[1]));
   for (double e : edges) {
@@ -68,7 +71,8 @@ RailBand rail_band(const Profile& profile, const RailMeshSpec& spec, const MeshS
   const double h = sizes.element;
   const std::pair corners = running_range(profile, kCornerAngle);
   band.fine = fine_columns(spec.contact_s, h, sizes.fine_width, corners, "rail");
-  const double begin = flank_end(profile, corners.first, profile.s_min()), end = flank_end(profile, corners.second, profile.s_max());
+  const double begin = flank_end(profile, corners.first, profile.s_min()),
+               end = flank_end(profile, corners.second, profile.s_max());
   const double radius = smallest_convex_radius(profile, begin, end);
   band.rows = band_rows(spec.layers, h, sizes.fine_depth, kBandOfRadius * radius, "head");
   const double depth = band.rows.depth.back();
@@ -92,11 +96,17 @@ RailBand rail_band(const Profile& profile, const RailMeshSpec& spec, const MeshS
 
 HeadBoundary head_boundary(const Profile& profile, const RailBand& band) {
   const double depth = band.rows.depth.back();
-  const std::size_t left_corner = band.left_side.distance.size() - 1 - band.left_side.corner, right_corner = band.right_side.corner;
-  const std::vector<double> left_flank(band.left.begin(), band.left.begin() + left_corner + 1), left_top(band.left.begin() + left_corner, band.left.end());
-  const std::vector<double> right_top(band.right.begin(), band.right.begin() + right_corner + 1), right_flank(band.right.begin() + right_corner, band.right.end());
-  const auto wanted = [&](const std::vector<double>& s) { return intervals_of(length_at_depth(profile, s, depth), band.element); };
-  const std::size_t flank = std::min({std::max<std::size_t>(2, wanted(right_flank)), left_flank.size() - 1, right_flank.size() - 1});
+  const std::size_t left_corner = band.left_side.distance.size() - 1 - band.left_side.corner,
+                    right_corner = band.right_side.corner;
+  const std::vector<double> left_flank(band.left.begin(), band.left.begin() + left_corner + 1),
+      left_top(band.left.begin() + left_corner, band.left.end());
+  const std::vector<double> right_top(band.right.begin(), band.right.begin() + right_corner + 1),
+      right_flank(band.right.begin() + right_corner, band.right.end());
+  const auto wanted = [&](const std::vector<double>& s) {
+    return intervals_of(length_at_depth(profile, s, depth), band.element);
+  };
+  const std::size_t flank =
+      std::min({std::max<std::size_t>(2, wanted(right_flank)), left_flank.size() - 1, right_flank.size() - 1});
 
   std::vector<double> s{band.left.front()};
   const auto append = [&](const std::vector<double>& part, std::size_t intervals) {
@@ -115,8 +125,10 @@ HeadBoundary head_boundary(const Profile& profile, const RailBand& band) {
   out.right_corner = s.size() - 1 - flank;
   out.left_flank = profile.at(band.left.front()).position;
   out.right_flank = profile.at(band.right.back()).position;
-  if (out.under_band[out.right_corner].z - out.under_band.back().z < 2e-3 || out.under_band[out.left_corner].z - out.under_band.front().z < 2e-3)
-    throw CaseError(fmt::format("the rail profile '{}' ends too high on its flanks", profile.name()), "give it down to 20 mm below the crown, or use rail_shape = \"block\"");
+  if (out.under_band[out.right_corner].z - out.under_band.back().z < 2e-3 ||
+      out.under_band[out.left_corner].z - out.under_band.front().z < 2e-3)
+    throw CaseError(fmt::format("the rail profile '{}' ends too high on its flanks", profile.name()),
+                    "give it down to 20 mm below the crown, or use rail_shape = \"block\"");
   return out;
 }
 
@@ -125,8 +137,9 @@ struct BandBlock {
   std::vector<NodeLine> rows;
 };
 
-BandBlock band_block(const char* name, const Profile& profile, const std::vector<double>& s, const BandRows& rows, const std::vector<LayerMesh>& layers,
-                     const std::vector<Vec2>& seat, const std::vector<double>& stations) {
+BandBlock band_block(const char* name, const Profile& profile, const std::vector<double>& s, const BandRows& rows,
+                     const std::vector<LayerMesh>& layers, const std::vector<Vec2>& seat,
+                     const std::vector<double>& stations) {
   BandBlock out{{name, {}, {stations, false}}, {}};
   out.rows = add_band(out.block.section, profile, s, rows, layers);
   seat_on_line(out.block.section, out.rows, seat);
@@ -135,7 +148,8 @@ BandBlock band_block(const char* name, const Profile& profile, const std::vector
 
 enum RailBlock { kCap, kLeftShell, kRightShell, kHead, kFoot };
 
-void tie_rail(SweptBody& body, const BandBlock& cap, const BandBlock& left, const BandBlock& right, const HeadSection& head, const FootSection& foot) {
+void tie_rail(SweptBody& body, const BandBlock& cap, const BandBlock& left, const BandBlock& right,
+              const HeadSection& head, const FootSection& foot) {
   NodeLine cap_left = column_of(cap.rows, 0), cap_right = column_of(cap.rows, cap.rows[0].size() - 1);
   cap_left.pop_back();
   cap_right.pop_back();
@@ -154,27 +168,41 @@ void tie_rail(SweptBody& body, const BandBlock& cap, const BandBlock& left, cons
   tie_to_line(body, kHead, head.web_line, kFoot, foot.web_line);
 }
 
-void fill_rail(SweptBody& body, const Profile& profile, const RailMeshSpec& spec, const MeshSizes& sizes, const StationPair& stations) {
+void fill_rail(SweptBody& body, const Profile& profile, const RailMeshSpec& spec, const MeshSizes& sizes,
+               const StationPair& stations) {
   const RailBand band = rail_band(profile, spec, sizes);
   const HeadBoundary boundary = head_boundary(profile, band);
   const LowerOutline lower = lower_outline(rail_outline(profile));
   HeadSection head = head_section(boundary, lower, band.element);
   FootSection foot = foot_section(lower, sizes.largest);
   BandBlock cap = band_block("cap", profile, band.fine, band.rows, spec.layers, boundary.under_band, stations.fine);
-  BandBlock left = band_block("gauge shell", profile, band.left, band.side_rows, spec.layers, boundary.under_band, stations.coarse);
-  BandBlock right = band_block("field shell", profile, band.right, band.side_rows, spec.layers, boundary.under_band, stations.coarse);
+  BandBlock left =
+      band_block("gauge shell", profile, band.left, band.side_rows, spec.layers, boundary.under_band, stations.coarse);
+  BandBlock right =
+      band_block("field shell", profile, band.right, band.side_rows, spec.layers, boundary.under_band, stations.coarse);
 
-  body.contact = {kCap, static_cast<int>(band.fine.size()) - 1, band.rows.count(), band.fine, band.rows.depth, stations.fine_begin, stations.fine_end};
-  body.blocks = {cap.block, left.block, right.block, {"head", head.section, {stations.coarse, false}},
+  body.contact = {kCap,
+                  static_cast<int>(band.fine.size()) - 1,
+                  band.rows.count(),
+                  band.fine,
+                  band.rows.depth,
+                  stations.fine_begin,
+                  stations.fine_end};
+  body.blocks = {cap.block,
+                 left.block,
+                 right.block,
+                 {"head", head.section, {stations.coarse, false}},
                  {"foot", foot.section, {thinned(stations.coarse, sizes.largest), false}}};
   tie_rail(body, cap, left, right, head, foot);
   for (int node : foot.base) body.held.push_back({kFoot, node});
 }
 
-void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spec, const MeshSizes& sizes, const StationPair& stations) {
+void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spec, const MeshSizes& sizes,
+                const StationPair& stations) {
   const double half = 0.5 * spec.block_width;
   if (half > std::min(-profile.y_min(), profile.y_max()))
-    throw CaseError(fmt::format("rail block wider than the rail's profile: {:g} mm", 1e3 * spec.block_width), "reduce block_width");
+    throw CaseError(fmt::format("rail block wider than the rail's profile: {:g} mm", 1e3 * spec.block_width),
+                    "reduce block_width");
   const double low = profile.s_at_y(-half), high = profile.s_at_y(half);
   const double end = std::max(4e-3, sizes.element);
 
@@ -198,21 +226,26 @@ void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spe
   frame.right_top = [&](double) { return std::vector<Vec2>{profile.at(high).position}; };
   frame.left_side = side(low, -half);
   frame.right_side = side(high, half);
-  const FrameNodes nodes = add_offset_frame(body, profile, spec.contact_s, spec.layers, sizes, frame, {stations.fine, false}, {stations.coarse, false}, stations);
+  const FrameNodes nodes = add_offset_frame(body, profile, spec.contact_s, spec.layers, sizes, frame,
+                                            {stations.fine, false}, {stations.coarse, false}, stations);
   for (int node : nodes.floor) body.held.push_back({nodes.block, node});
 }
 
 }  // namespace
 
-SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const RailMeshSpec& spec, const MeshSizes& sizes) {
+SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const RailMeshSpec& spec,
+                    const MeshSizes& sizes) {
   SweptBody body;
   body.name = "rail";
   body.kind = SweepKind::extrude;
   body.materials = material_names(spec.layers);
   body.material_layer = material_layers(spec.layers);
-  const StationPair stations = extruded_stations(spec.x_begin, spec.x_end, sizes.element, sizes.coarse_ratio, spec.end_length, far_spacing(sizes));
-  if (spec.shape == RailShape::rail) fill_rail(body, profile, spec, sizes, stations);
-  else fill_block(body, profile, spec, sizes, stations);
+  const StationPair stations = extruded_stations(spec.x_begin, spec.x_end, sizes.element, sizes.coarse_ratio,
+                                                 spec.end_length, far_spacing(sizes));
+  if (spec.shape == RailShape::rail)
+    fill_rail(body, profile, spec, sizes, stations);
+  else
+    fill_block(body, profile, spec, sizes, stations);
   for (Block& block : body.blocks)
     for (Vec2& p : block.section.nodes) p = rail_to_model(track, p);
   return body;

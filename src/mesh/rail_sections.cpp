@@ -29,7 +29,9 @@ NodeLine line_along(Section& section, int from, const std::vector<Vec2>& polylin
   return line;
 }
 
-int intervals_for(double length, double size, int least) { return std::max(least, static_cast<int>(std::lround(length / size))); }
+int intervals_for(double length, double size, int least) {
+  return std::max(least, static_cast<int>(std::lround(length / size)));
+}
 
 }  // namespace
 
@@ -39,19 +41,26 @@ LowerOutline lower_outline(const RailOutline& outline) {
     for (Vec2 p : *part)
       if (norm(p - line.back()) > 1e-9) line.push_back(p);
 
-  const auto steep = [&](std::size_t i) { return std::abs(line[i + 1].z - line[i].z) > std::abs(line[i + 1].y - line[i].y); };
-  const auto narrowest = static_cast<std::size_t>(std::min_element(line.begin(), line.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; }) - line.begin());
+  const auto steep = [&](std::size_t i) {
+    return std::abs(line[i + 1].z - line[i].z) > std::abs(line[i + 1].y - line[i].y);
+  };
+  const auto narrowest = static_cast<std::size_t>(
+      std::min_element(line.begin(), line.end(), [](Vec2 a, Vec2 b) { return a.y < b.y; }) - line.begin());
   std::size_t corner = 0, web_begin = narrowest, web_end = narrowest, toe = line.size() - 1;
   while (web_begin > 0 && steep(web_begin - 1)) --web_begin;
   while (web_end + 1 < line.size() && steep(web_end)) ++web_end;
   while (corner < web_begin && steep(corner)) ++corner;
   while (toe > web_end && steep(toe - 1)) --toe;
   if (corner >= web_begin || web_begin >= web_end || web_end >= toe)
-    throw CaseError("the rail's outline has no head, web and foot", "use a rail profile that reaches down the flanks, or rail_shape = \"block\"");
+    throw CaseError("the rail's outline has no head, web and foot",
+                    "use a rail profile that reaches down the flanks, or rail_shape = \"block\"");
 
-  const auto part = [&](std::size_t a, std::size_t b) { return std::vector<Vec2>(line.begin() + a, line.begin() + b + 1); };
+  const auto part = [&](std::size_t a, std::size_t b) {
+    return std::vector<Vec2>(line.begin() + a, line.begin() + b + 1);
+  };
   LowerOutline out{part(corner, web_begin), part(web_begin, web_end), part(web_end, toe), part(toe, line.size() - 1)};
-  if (norm(out.toe.back() - Vec2{out.toe.back().y, outline.base_z}) > 1e-9) out.toe.push_back({out.toe.back().y, outline.base_z});
+  if (norm(out.toe.back() - Vec2{out.toe.back().y, outline.base_z}) > 1e-9)
+    out.toe.push_back({out.toe.back().y, outline.base_z});
   return out;
 }
 
@@ -75,62 +84,82 @@ HeadSection head_section(const HeadBoundary& boundary, const LowerOutline& lower
   outer_left = std::max(outer_left, 1);
   outer_right = std::max(outer_right, 1);
   const int middle = columns - outer_left - outer_right;
-  if (middle < 1) throw CaseError("the mesh of the rail's head has no columns left for the web", "reduce the mesh's largest element");
+  if (middle < 1)
+    throw CaseError("the mesh of the rail's head has no columns left for the web", "reduce the mesh's largest element");
 
-  const double width = end_right.y - end_left.y, left_f = (-split - end_left.y) / width, right_f = (split - end_left.y) / width;
+  const double width = end_right.y - end_left.y, left_f = (-split - end_left.y) / width,
+               right_f = (split - end_left.y) / width;
   std::vector<double> fractions;
   for (int i = 1; i < columns; ++i) {
-    if (i <= outer_left) fractions.push_back(left_f * i / outer_left);
-    else if (i < outer_left + middle) fractions.push_back(left_f + (right_f - left_f) * (i - outer_left) / middle);
-    else fractions.push_back(right_f + (1 - right_f) * (i - outer_left - middle) / outer_right);
+    if (i <= outer_left)
+      fractions.push_back(left_f * i / outer_left);
+    else if (i < outer_left + middle)
+      fractions.push_back(left_f + (right_f - left_f) * (i - outer_left) / middle);
+    else
+      fractions.push_back(right_f + (1 - right_f) * (i - outer_left - middle) / outer_right);
   }
   const NodeLine level = add_straight(section, under.front(), under.back(), fractions);
-  add_patch(section, level, NodeLine(under.begin() + a, under.begin() + b + 1), NodeLine(under.begin(), under.begin() + a + 1),
-            reversed(NodeLine(under.begin() + b, under.end())));
+  add_patch(section, level, NodeLine(under.begin() + a, under.begin() + b + 1),
+            NodeLine(under.begin(), under.begin() + a + 1), reversed(NodeLine(under.begin() + b, under.end())));
 
   const int face = intervals_for(norm(boundary.left_flank - end_left), element, 2);
-  const int left_flank = add_nodes(section, {boundary.left_flank}).front(), right_flank = add_nodes(section, {boundary.right_flank}).front();
+  const int left_flank = add_nodes(section, {boundary.left_flank}).front(),
+            right_flank = add_nodes(section, {boundary.right_flank}).front();
   out.left_face = add_straight(section, left_flank, under.front(), face);
   out.right_face = add_straight(section, right_flank, under.back(), face);
 
-  const int left_corner = add_nodes(section, {mirror(lower.underside.front())}).front(), right_corner = add_nodes(section, {lower.underside.front()}).front();
-  const int left_fillet = add_nodes(section, {mirror(fillet)}).front(), right_fillet = add_nodes(section, {fillet}).front();
-  const NodeLine left_under = line_along(section, left_corner, mirrored(lower.underside), left_fillet, face + outer_left);
+  const int left_corner = add_nodes(section, {mirror(lower.underside.front())}).front(),
+            right_corner = add_nodes(section, {lower.underside.front()}).front();
+  const int left_fillet = add_nodes(section, {mirror(fillet)}).front(),
+            right_fillet = add_nodes(section, {fillet}).front();
+  const NodeLine left_under =
+      line_along(section, left_corner, mirrored(lower.underside), left_fillet, face + outer_left);
   const NodeLine right_under = line_along(section, right_corner, lower.underside, right_fillet, face + outer_right);
   out.web_line = add_straight(section, left_fillet, right_fillet, middle);
 
   const int rows = intervals_for(end_left.z - fillet.z, 1.6 * element, 3);
-  const NodeLine west = add_straight(section, left_corner, left_flank, rows), east = add_straight(section, right_corner, right_flank, rows);
-  add_patch(section, joined(joined(left_under, out.web_line), reversed(right_under)), joined(joined(out.left_face, level), reversed(out.right_face)), west, east);
+  const NodeLine west = add_straight(section, left_corner, left_flank, rows),
+                 east = add_straight(section, right_corner, right_flank, rows);
+  add_patch(section, joined(joined(left_under, out.web_line), reversed(right_under)),
+            joined(joined(out.left_face, level), reversed(out.right_face)), west, east);
   return out;
 }
 
 FootSection foot_section(const LowerOutline& lower, double largest) {
   FootSection out;
   Section& section = out.section;
-  const Vec2 top = lower.web.front(), fillet = lower.web.back(), toe_top = lower.toe.front(), toe_bottom = lower.toe.back();
-  const int columns = intervals_for(2 * top.y, 0.6 * largest, 2), web_rows = intervals_for(polyline_length(lower.web), largest, 3);
-  const int side_columns = intervals_for(toe_bottom.y - fillet.y, largest, 2), foot_rows = intervals_for(fillet.z - toe_bottom.z, 0.75 * largest, 2);
+  const Vec2 top = lower.web.front(), fillet = lower.web.back(), toe_top = lower.toe.front(),
+             toe_bottom = lower.toe.back();
+  const int columns = intervals_for(2 * top.y, 0.6 * largest, 2),
+            web_rows = intervals_for(polyline_length(lower.web), largest, 3);
+  const int side_columns = intervals_for(toe_bottom.y - fillet.y, largest, 2),
+            foot_rows = intervals_for(fillet.z - toe_bottom.z, 0.75 * largest, 2);
 
   const auto node = [&](Vec2 p) { return add_nodes(section, {p}).front(); };
-  const int top_left = node(mirror(top)), top_right = node(top), fillet_left = node(mirror(fillet)), fillet_right = node(fillet);
+  const int top_left = node(mirror(top)), top_right = node(top), fillet_left = node(mirror(fillet)),
+            fillet_right = node(fillet);
   out.web_line = add_straight(section, top_left, top_right, columns);
   const NodeLine web_bottom = add_straight(section, fillet_left, fillet_right, columns);
-  add_patch(section, web_bottom, out.web_line, reversed(line_along(section, top_left, mirrored(lower.web), fillet_left, web_rows)),
+  add_patch(section, web_bottom, out.web_line,
+            reversed(line_along(section, top_left, mirrored(lower.web), fillet_left, web_rows)),
             reversed(line_along(section, top_right, lower.web, fillet_right, web_rows)));
 
   const double base_y = 1.25 * fillet.y, base_z = toe_bottom.z;
   const int base_left = node({-base_y, base_z}), base_right = node({base_y, base_z});
   const NodeLine base_middle = add_straight(section, base_left, base_right, columns);
-  const NodeLine inner_left = add_straight(section, base_left, fillet_left, foot_rows), inner_right = add_straight(section, base_right, fillet_right, foot_rows);
+  const NodeLine inner_left = add_straight(section, base_left, fillet_left, foot_rows),
+                 inner_right = add_straight(section, base_right, fillet_right, foot_rows);
   add_patch(section, base_middle, web_bottom, inner_left, inner_right);
 
-  const int toe_left = node(mirror(toe_top)), toe_right = node(toe_top), corner_left = node(mirror(toe_bottom)), corner_right = node(toe_bottom);
+  const int toe_left = node(mirror(toe_top)), toe_right = node(toe_top), corner_left = node(mirror(toe_bottom)),
+            corner_right = node(toe_bottom);
   const NodeLine side_left = reversed(line_along(section, toe_left, mirrored(lower.toe), corner_left, foot_rows));
   const NodeLine side_right = reversed(line_along(section, toe_right, lower.toe, corner_right, foot_rows));
-  const NodeLine surface_left = reversed(line_along(section, fillet_left, mirrored(lower.foot_top), toe_left, side_columns));
+  const NodeLine surface_left =
+      reversed(line_along(section, fillet_left, mirrored(lower.foot_top), toe_left, side_columns));
   const NodeLine surface_right = line_along(section, fillet_right, lower.foot_top, toe_right, side_columns);
-  const NodeLine bottom_left = add_straight(section, corner_left, base_left, side_columns), bottom_right = add_straight(section, base_right, corner_right, side_columns);
+  const NodeLine bottom_left = add_straight(section, corner_left, base_left, side_columns),
+                 bottom_right = add_straight(section, base_right, corner_right, side_columns);
   add_patch(section, bottom_left, surface_left, side_left, inner_left);
   add_patch(section, bottom_right, surface_right, inner_right, side_right);
   out.base = joined(joined(bottom_left, base_middle), bottom_right);

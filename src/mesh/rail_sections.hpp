@@ -17,14 +17,16 @@ LowerOutline lower_outline(const RailOutline& outline);
 /// Head below the band, down to the line across the web's top.
 struct HeadSection {
   Section section;
-  NodeLine under_band;           ///< left to right along the band's bottom
+  NodeLine under_band;             ///< left to right along the band's bottom
   NodeLine left_face, right_face;  ///< under the band's two ends, from the flank inward
-  NodeLine web_line;             ///< left to right between the 45° points
+  NodeLine web_line;               ///< left to right between the 45° points
 };
-/// Boundary of the head's core: points along the band's bottom from one end face to the other, the two at which its corners stand, and the band's end points on the flanks.
+/// Boundary of the head's core: points along the band's bottom from one end face to the other, the two at which its
+/// corners stand, and the band's end points on the flanks.
 struct HeadBoundary {
   std::vector<Vec2> under_band;
-  std::size_t left_corner = 0, right_corner = 0;  ///< left_corner intervals on the left side, as many right of right_corner
+  std::size_t left_corner = 0,
+              right_corner = 0;  ///< left_corner intervals on the left side, as many right of right_corner
   Vec2 left_flank, right_flank;
 };
 HeadSection head_section(const HeadBoundary& boundary, const LowerOutline& lower, double element);

@@ -10,13 +10,15 @@ namespace {
 
 std::vector<double> arc_fractions(const Section& section, const NodeLine& line) {
   std::vector<double> out{0.0};
-  for (std::size_t i = 1; i < line.size(); ++i) out.push_back(out.back() + norm(section.nodes[line[i]] - section.nodes[line[i - 1]]));
+  for (std::size_t i = 1; i < line.size(); ++i)
+    out.push_back(out.back() + norm(section.nodes[line[i]] - section.nodes[line[i - 1]]));
   for (double& f : out) f /= out.back() > 0 ? out.back() : 1.0;
   return out;
 }
 
 double signed_area(const Section& section, const NodeLine& south, const NodeLine& north) {
-  const Vec2 a = section.nodes[south.front()], b = section.nodes[south.back()], c = section.nodes[north.back()], d = section.nodes[north.front()];
+  const Vec2 a = section.nodes[south.front()], b = section.nodes[south.back()], c = section.nodes[north.back()],
+             d = section.nodes[north.front()];
   return cross(c - a, d - b);
 }
 
@@ -31,11 +33,14 @@ NodeLine add_nodes(Section& section, const std::vector<Vec2>& points) {
   return line;
 }
 
-std::vector<NodeLine> add_patch(Section& section, const NodeLine& south, const NodeLine& north, const NodeLine& west, const NodeLine& east) {
+std::vector<NodeLine> add_patch(Section& section, const NodeLine& south, const NodeLine& north, const NodeLine& west,
+                                const NodeLine& east) {
   assert(south.size() == north.size() && west.size() == east.size());
-  assert(south.front() == west.front() && south.back() == east.front() && north.front() == west.back() && north.back() == east.back());
+  assert(south.front() == west.front() && south.back() == east.front() && north.front() == west.back() &&
+         north.back() == east.back());
   const std::size_t n = south.size() - 1, m = west.size() - 1;
-  const auto fs = arc_fractions(section, south), fn = arc_fractions(section, north), fw = arc_fractions(section, west), fe = arc_fractions(section, east);
+  const auto fs = arc_fractions(section, south), fn = arc_fractions(section, north), fw = arc_fractions(section, west),
+             fe = arc_fractions(section, east);
   const auto at = [&](int node) { return section.nodes[node]; };
   const Vec2 sw = at(south.front()), se = at(south.back()), nw = at(north.front()), ne = at(north.back());
 
@@ -98,7 +103,8 @@ std::vector<Vec2> resampled(const std::vector<Vec2>& polyline, int intervals) {
       walked += norm(polyline[k] - polyline[k - 1]);
       ++k;
     }
-    out.push_back(polyline[k - 1] + ((wanted - walked) / norm(polyline[k] - polyline[k - 1])) * (polyline[k] - polyline[k - 1]));
+    out.push_back(polyline[k - 1] +
+                  ((wanted - walked) / norm(polyline[k] - polyline[k - 1])) * (polyline[k] - polyline[k - 1]));
   }
   out.push_back(polyline.back());
   return out;

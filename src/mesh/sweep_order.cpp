@@ -14,15 +14,24 @@ std::vector<int> greedy_order(const Section& section) {
   for (int q = 0; q < count; ++q)
     for (int n : quads[q]) at_node[n].push_back(q);
   std::vector<char> open(section.nodes.size(), 0), ordered(quads.size(), 0), waits(quads.size(), 0);
-  auto new_nodes = [&](int q) { return static_cast<int>(std::count_if(quads[q].begin(), quads[q].end(), [&](int n) { return !open[n]; })); };
-  auto shared = [&](int q, int p) { return static_cast<int>(std::count_if(quads[q].begin(), quads[q].end(), [&](int n) { return std::find(quads[p].begin(), quads[p].end(), n) != quads[p].end(); })); };
+  auto new_nodes = [&](int q) {
+    return static_cast<int>(std::count_if(quads[q].begin(), quads[q].end(), [&](int n) { return !open[n]; }));
+  };
+  auto shared = [&](int q, int p) {
+    return static_cast<int>(std::count_if(quads[q].begin(), quads[q].end(), [&](int n) {
+      return std::find(quads[p].begin(), quads[p].end(), n) != quads[p].end();
+    }));
+  };
   auto loneliest = [&] {  // the least busy corner of what is left
     int best = -1, least = 0;
     for (int q = 0; q < count; ++q) {
       if (ordered[q]) continue;
       int busy = 0;
       for (int n : quads[q]) busy += static_cast<int>(at_node[n].size());
-      if (best < 0 || busy < least) best = q, least = busy;
+      if (best < 0 || busy < least) {
+        best = q;
+        least = busy;
+      }
     }
     return best;
   };
@@ -44,7 +53,10 @@ std::vector<int> greedy_order(const Section& section) {
     for (int n : quads[next]) {
       open[n] = 1;
       for (int q : at_node[n])
-        if (!ordered[q] && !waits[q]) waits[q] = 1, waiting.push_back(q);
+        if (!ordered[q] && !waits[q]) {
+          waits[q] = 1;
+          waiting.push_back(q);
+        }
     }
   }
   return order;
@@ -60,7 +72,10 @@ int widest_front(const Section& section, const std::vector<int>& order) {
   int now = 0, widest = 0;
   for (int q : order) {
     for (int n : section.quads[q]) {
-      if (!open[n]) open[n] = 1, ++now;
+      if (!open[n]) {
+        open[n] = 1;
+        ++now;
+      }
       if (--left[n] == 0) --now;
     }
     widest = std::max(widest, now);

@@ -1,11 +1,15 @@
 #pragma once
-// Swept hexahedral meshes: a plane section of quadrilaterals carried along a list of stations. A rail is extruded along x, a wheel revolved about its axle.
-// Everything the solver knows of a mesh is here; how wheel and rail sections are made is in rail_mesh and wheel_mesh.
+// Swept hexahedral meshes: a plane section of quadrilaterals carried along a list of stations. A rail is extruded along
+// x, a wheel revolved about its axle. Everything the solver knows of a mesh is here; how wheel and rail sections are
+// made is in rail_mesh and wheel_mesh.
 //
-// Section coordinates are (y, z), y lateral, z up. A body has an origin in the model frame; a node of section point (y, z) at station t stands at
+// Section coordinates are (y, z), y lateral, z up. A body has an origin in the model frame; a node of section point (y,
+// z) at station t stands at
 //   extrude (t = x [m])      origin + (t, y, z)
-//   revolve (t = theta [rad]) origin + (-z sin t, y, z cos t),  z < 0: minus the distance to the axle; t = 0 is the lowest point, t > 0 in front of it (x > 0).
-// Elements between stations j and j+1 are congruent for equal station spacing: the solver keeps one set of reference data per quadrilateral.
+//   revolve (t = theta [rad]) origin + (-z sin t, y, z cos t),  z < 0: minus the distance to the axle; t = 0 is the
+//   lowest point, t > 0 in front of it (x > 0).
+// Elements between stations j and j+1 are congruent for equal station spacing: the solver keeps one set of reference
+// data per quadrilateral.
 #include <array>
 #include <string>
 #include <vector>
@@ -21,7 +25,8 @@ struct Section {
   std::vector<int> quad_material;  ///< index into SweptBody::materials
 };
 
-/// Sweep coordinates of the node planes, increasing. closed: the last element joins the last station to the first (a full ring, period 2 pi).
+/// Sweep coordinates of the node planes, increasing. closed: the last element joins the last station to the first (a
+/// full ring, period 2 pi).
 struct Stations {
   std::vector<double> at;
   bool closed = false;
@@ -37,20 +42,21 @@ struct Block {
 };
 
 /// Hanging nodes: all nodes of one section node of a finer block are carried by a line of a coarser one,
-/// u_slave(t) = (1 - w) u(master_node0, t) + w u(master_node1, t), with linear interpolation between the master block's stations around t.
+/// u_slave(t) = (1 - w) u(master_node0, t) + w u(master_node1, t), with linear interpolation between the master block's
+/// stations around t.
 struct Tie {
   int slave_block = 0, slave_node = 0;
   int master_block = 0, master_node0 = 0, master_node1 = 0;
   double weight1 = 0;
 };
 
-/// The block that carries the running surface is a structured grid: node (column c, row r) has index r * (columns + 1) + c, quadrilateral (c, r) index
-/// r * columns + c; row 0 of nodes lies on the surface, columns run with increasing y.
+/// The block that carries the running surface is a structured grid: node (column c, row r) has index r * (columns + 1)
+/// + c, quadrilateral (c, r) index r * columns + c; row 0 of nodes lies on the surface, columns run with increasing y.
 struct ContactBand {
   int block = 0;
-  int columns = 0, rows = 0;    ///< elements
-  std::vector<double> s;        ///< profile arc length of the columns + 1 surface nodes
-  std::vector<double> depth;    ///< of the rows + 1 node rows below the surface, along the surface normal
+  int columns = 0, rows = 0;            ///< elements
+  std::vector<double> s;                ///< profile arc length of the columns + 1 surface nodes
+  std::vector<double> depth;            ///< of the rows + 1 node rows below the surface, along the surface normal
   double fine_begin = 0, fine_end = 0;  ///< sweep coordinates between which the stations have the fine spacing
 };
 
@@ -64,14 +70,18 @@ struct SweptBody {
   std::string name;  ///< "rail", "wheel"
   SweepKind kind = SweepKind::extrude;
   Vec3 origin;
-  std::vector<Block> blocks;             ///< masters and slaves in any order; a tie's slave is never master of a cycle
+  std::vector<Block> blocks;  ///< masters and slaves in any order; a tie's slave is never master of a cycle
   std::vector<Tie> ties;
   ContactBand contact;
-  std::vector<SectionNode> held;         ///< rail: nodes of the foot's base (fixed); wheel: nodes of the bore (carried by the rigid axle)
-  std::vector<std::string> materials;    ///< names; 0 is the matrix, then the layers from the surface down
-  std::vector<int> material_layer;       ///< of each material: 0 the matrix, k the k-th layer; the rows of a graded layer share theirs. Empty: every material is a layer
+  std::vector<SectionNode>
+      held;  ///< rail: nodes of the foot's base (fixed); wheel: nodes of the bore (carried by the rigid axle)
+  std::vector<std::string> materials;  ///< names; 0 is the matrix, then the layers from the surface down
+  std::vector<int> material_layer;     ///< of each material: 0 the matrix, k the k-th layer; the rows of a graded layer
+                                       ///< share theirs. Empty: every material is a layer
 
-  int layer_of(int material) const { return material_layer.empty() ? material : material_layer[static_cast<std::size_t>(material)]; }
+  int layer_of(int material) const {
+    return material_layer.empty() ? material : material_layer[static_cast<std::size_t>(material)];
+  }
 
   long elements() const {
     long n = 0;

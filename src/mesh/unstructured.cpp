@@ -8,7 +8,8 @@ namespace {
 
 void append_block(HexMesh& mesh, const SweptBody& body, int index) {
   const Block& block = body.blocks[index];
-  const auto first = static_cast<long long>(mesh.points.size()), per_station = static_cast<long long>(block.section.nodes.size());
+  const auto first = static_cast<long long>(mesh.points.size()),
+             per_station = static_cast<long long>(block.section.nodes.size());
   for (double t : block.stations.at)
     for (Vec2 p : block.section.nodes) mesh.points.push_back(swept_point(body.kind, body.origin, p, t));
 
@@ -17,7 +18,8 @@ void append_block(HexMesh& mesh, const SweptBody& body, int index) {
     const long long here = first + j * per_station, there = first + (j + 1) % block.stations.nodes() * per_station;
     for (int q = 0; q < quads; ++q) {
       const std::array<int, 4>& n = block.section.quads[q];
-      mesh.cells.push_back({here + n[0], here + n[1], here + n[2], here + n[3], there + n[0], there + n[1], there + n[2], there + n[3]});
+      mesh.cells.push_back(
+          {here + n[0], here + n[1], here + n[2], here + n[3], there + n[0], there + n[1], there + n[2], there + n[3]});
       mesh.material.push_back(block.section.quad_material[q]);
       mesh.block.push_back(index);
       mesh.scaled_jacobian.push_back(static_cast<float>(scaled_jacobian(element_corners(body, block, q, j))));

@@ -16,7 +16,7 @@ namespace {
 constexpr double kFineAngle = std::numbers::pi / 4;   // steepest place of the fine columns
 constexpr double kTreadAngle = std::numbers::pi / 6;  // steepest place of columns along the normals
 constexpr double kFlangeChord = 8e-3;                 // a third of a radian on the flange tip's arcs
-constexpr double kFarOfLargest = 1.5;                 // far stations of the ring: only its smooth deformation is carried there
+constexpr double kFarOfLargest = 1.5;  // far stations of the ring: only its smooth deformation is carried there
 
 /// Where the section's left corner stands: the flange's crest, the profile's end without a flange.
 double left_corner(const Profile& profile, double tread_end) {
@@ -47,14 +47,16 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
   OffsetFrameSpec frame;
   frame.name = "rim";
   frame.carrier = "rim";
-  const double end = std::max({5e-3, sizes.element, 0.5 * sizes.fine_depth}), chord = std::min(kFlangeChord, 0.75 * sizes.largest);
+  const double end = std::max({5e-3, sizes.element, 0.5 * sizes.fine_depth}),
+               chord = std::min(kFlangeChord, 0.75 * sizes.largest);
   const auto within = [&](double angle) {
     const std::pair range = running_range(profile, angle);
     return std::pair{std::max(range.first, profile.s_min() + end), std::min(range.second, profile.s_max() - end)};
   };
   frame.fine_range = within(kFineAngle);
   frame.tread_range = within(kTreadAngle);
-  frame.band_limit = std::min(0.4 * spec.rim_thickness, 0.85 * smallest_convex_radius(profile, frame.tread_range.first, frame.tread_range.second));
+  frame.band_limit = std::min(0.4 * spec.rim_thickness, 0.85 * smallest_convex_radius(profile, frame.tread_range.first,
+                                                                                      frame.tread_range.second));
   frame.floor = spec.rim_thickness;
 
   const std::pair tread = frame.tread_range;
@@ -71,7 +73,8 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
   };
   const auto side = [&profile](double s, double profile_end, double tread_end) {
     return [&profile, s, profile_end, tread_end](const std::vector<double>& depth) {
-      const double z = std::max(profile.at(profile_end).position.z + 0.75 * depth.back(), offset_point(profile, tread_end, depth.back()).z);
+      const double z = std::max(profile.at(profile_end).position.z + 0.75 * depth.back(),
+                                offset_point(profile, tread_end, depth.back()).z);
       return side_points(profile, s, profile_end, z, depth.size());
     };
   };
@@ -80,7 +83,9 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
   return frame;
 }
 
-int intervals(double length, double size, int least) { return std::max(least, static_cast<int>(std::lround(length / size))); }
+int intervals(double length, double size, int least) {
+  return std::max(least, static_cast<int>(std::lround(length / size)));
+}
 
 struct WebSection {
   Section section;
@@ -88,13 +93,15 @@ struct WebSection {
 };
 
 /// Plate and hub in the profile frame (z towards the axle), the plate between the lateral positions y0 and y1.
-WebSection web_section(double y0, double y1, double top_z, double hub_z, double bore_z, double hub_width, const MeshSizes& sizes) {
+WebSection web_section(double y0, double y1, double top_z, double hub_z, double bore_z, double hub_width,
+                       const MeshSizes& sizes) {
   WebSection out;
   Section& section = out.section;
   const auto node = [&](double y, double z) { return add_nodes(section, {{y, z}}).front(); };
   const bool hub = hub_width > y1 - y0 && hub_z < bore_z;
   const double plate_end = hub ? hub_z : bore_z, size = 1.5 * sizes.largest;
-  const int columns = intervals(y1 - y0, hub ? 0.7 * sizes.largest : size, 2), rows = intervals(plate_end - top_z, size, 2);
+  const int columns = intervals(y1 - y0, hub ? 0.7 * sizes.largest : size, 2),
+            rows = intervals(plate_end - top_z, size, 2);
   const int a = node(y0, top_z), b = node(y1, top_z), c = node(y1, plate_end), d = node(y0, plate_end);
   out.top = add_straight(section, a, b, columns);
   const NodeLine bottom = add_straight(section, d, c, columns);
@@ -102,15 +109,21 @@ WebSection web_section(double y0, double y1, double top_z, double hub_z, double 
   out.bore = bottom;
   if (!hub) return out;
 
-  const int depth = intervals(bore_z - hub_z, sizes.largest, 2), overhang = intervals(0.5 * (hub_width - y1 + y0), size, 2);
+  const int depth = intervals(bore_z - hub_z, sizes.largest, 2),
+            overhang = intervals(0.5 * (hub_width - y1 + y0), size, 2);
   const double middle = 0.5 * (y0 + y1);
-  const int l0 = node(middle - 0.5 * hub_width, hub_z), l1 = node(middle - 0.5 * hub_width, bore_z), r0 = node(middle + 0.5 * hub_width, hub_z),
-            r1 = node(middle + 0.5 * hub_width, bore_z), m0 = node(y0, bore_z), m1 = node(y1, bore_z);
+  const int l0 = node(middle - 0.5 * hub_width, hub_z), l1 = node(middle - 0.5 * hub_width, bore_z),
+            r0 = node(middle + 0.5 * hub_width, hub_z), r1 = node(middle + 0.5 * hub_width, bore_z),
+            m0 = node(y0, bore_z), m1 = node(y1, bore_z);
   const NodeLine under_left = add_straight(section, d, m0, depth), under_right = add_straight(section, c, m1, depth);
-  const NodeLine bore_left = add_straight(section, l1, m0, overhang), bore_middle = add_straight(section, m0, m1, columns), bore_right = add_straight(section, m1, r1, overhang);
+  const NodeLine bore_left = add_straight(section, l1, m0, overhang),
+                 bore_middle = add_straight(section, m0, m1, columns),
+                 bore_right = add_straight(section, m1, r1, overhang);
   add_patch(section, bottom, bore_middle, under_left, under_right);
-  add_patch(section, add_straight(section, l0, d, overhang), bore_left, add_straight(section, l0, l1, depth), under_left);
-  add_patch(section, add_straight(section, c, r0, overhang), bore_right, under_right, add_straight(section, r0, r1, depth));
+  add_patch(section, add_straight(section, l0, d, overhang), bore_left, add_straight(section, l0, l1, depth),
+            under_left);
+  add_patch(section, add_straight(section, c, r0, overhang), bore_right, under_right,
+            add_straight(section, r0, r1, depth));
   out.bore = joined(joined(bore_left, bore_middle), bore_right);
   return out;
 }
@@ -126,13 +139,15 @@ void check_radii(double wheel_radius, const WheelMeshSpec& spec) {
   const double inner = wheel_radius - spec.rim_thickness;
   const double below = spec.shape == WheelShape::wheel ? spec.hub_radius : spec.bore_radius;
   if (spec.bore_radius <= 0 || below < spec.bore_radius || inner <= below)
-    throw CaseError(fmt::format("wheel radii out of order: rim inside {:g} mm, hub {:g} mm, bore {:g} mm", 1e3 * inner, 1e3 * spec.hub_radius, 1e3 * spec.bore_radius),
+    throw CaseError(fmt::format("wheel radii out of order: rim inside {:g} mm, hub {:g} mm, bore {:g} mm", 1e3 * inner,
+                                1e3 * spec.hub_radius, 1e3 * spec.bore_radius),
                     "keep wheel_radius - rim_thickness > hub_radius > bore_radius > 0");
 }
 
 }  // namespace
 
-SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, const WheelMeshSpec& spec, const MeshSizes& sizes) {
+SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, const WheelMeshSpec& spec,
+                     const MeshSizes& sizes) {
   check_radii(wheel_radius, spec);
   SweptBody body;
   body.name = "wheel";
@@ -143,19 +158,26 @@ SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, con
 
   const double left = profile.at(profile.s_min()).position.y, right = profile.at(profile.s_max()).position.y;
   const bool disc = spec.shape == WheelShape::disc;
-  const double y0 = disc ? left : spec.web_offset - 0.5 * spec.web_thickness, y1 = disc ? right : spec.web_offset + 0.5 * spec.web_thickness;
-  if (y0 < left || y1 > right) throw CaseError("the wheel's web is wider than its rim", "reduce web_thickness or web_offset");
+  const double y0 = disc ? left : spec.web_offset - 0.5 * spec.web_thickness,
+               y1 = disc ? right : spec.web_offset + 0.5 * spec.web_thickness;
+  if (y0 < left || y1 > right)
+    throw CaseError("the wheel's web is wider than its rim", "reduce web_thickness or web_offset");
 
   const double rolling_radius = wheel_radius - profile.at(spec.contact_s).position.z;
-  const double far = std::min(kFarOfLargest * sizes.largest, std::max(kLargestAspect * sizes.element, sizes.coarse_ratio * sizes.element));
-  const StationPair ring = ring_stations(spec.theta_begin, spec.theta_end, sizes.element / rolling_radius, sizes.coarse_ratio, far / rolling_radius);
+  const double far = std::min(kFarOfLargest * sizes.largest,
+                              std::max(kLargestAspect * sizes.element, sizes.coarse_ratio * sizes.element));
+  const StationPair ring = ring_stations(spec.theta_begin, spec.theta_end, sizes.element / rolling_radius,
+                                         sizes.coarse_ratio, far / rolling_radius);
   OffsetFrameSpec frame = rim_frame(profile, spec, sizes);
   if (!disc) frame.floor_breaks = {y0, y1};
-  const FrameNodes rim = add_offset_frame(body, profile, spec.contact_s, spec.layers, sizes, frame, {ring.fine, true}, {ring.coarse, true}, ring);
+  const FrameNodes rim = add_offset_frame(body, profile, spec.contact_s, spec.layers, sizes, frame, {ring.fine, true},
+                                          {ring.coarse, true}, ring);
 
-  WebSection web = web_section(y0, y1, spec.rim_thickness, wheel_radius - spec.hub_radius, wheel_radius - spec.bore_radius, disc ? 0 : spec.hub_width, sizes);
+  WebSection web = web_section(y0, y1, spec.rim_thickness, wheel_radius - spec.hub_radius,
+                               wheel_radius - spec.bore_radius, disc ? 0 : spec.hub_width, sizes);
   const int web_block = static_cast<int>(body.blocks.size());
-  body.blocks.push_back({"web", web.section, uniform_ring(spec.theta_begin, wheel_radius - spec.rim_thickness, 2 * sizes.largest)});
+  body.blocks.push_back(
+      {"web", web.section, uniform_ring(spec.theta_begin, wheel_radius - spec.rim_thickness, 2 * sizes.largest)});
   NodeLine carried;
   for (int node : rim.floor) {
     const double y = body.blocks[rim.block].section.nodes[node].y;

@@ -10,17 +10,21 @@
 namespace railstrata {
 namespace {
 
-Profile find_profile(ProfileKind kind, const std::string& name, const std::filesystem::path& folder, std::vector<std::string>& notes) {
+Profile find_profile(ProfileKind kind, const std::string& name, const std::filesystem::path& folder,
+                     std::vector<std::string>& notes) {
   std::filesystem::path file = name;
   if (file.is_relative()) file = folder / file;
-  if (file.has_extension() && (file.extension() == ".csv" || file.extension() == ".txt" || file.extension() == ".dat" || std::filesystem::exists(file)))
+  if (file.has_extension() && (file.extension() == ".csv" || file.extension() == ".txt" || file.extension() == ".dat" ||
+                               std::filesystem::exists(file)))
     return read_profile(kind, file, &notes);
   return builtin_profile(kind, name);
 }
 
 Elastic to_elastic(const MaterialSpec& m) { return elastic(m.young, m.poisson, m.density); }
 
-LayerMesh mesh_of(const CaseSpec& spec, const LayerSpec& l) { return {l.name, l.thickness, l.width, spec.mesh.elements_through_layer_one ? 1 : l.elements}; }
+LayerMesh mesh_of(const CaseSpec& spec, const LayerSpec& l) {
+  return {l.name, l.thickness, l.width, spec.mesh.elements_through_layer_one ? 1 : l.elements};
+}
 
 /// Mean modulus of a table between two depths.
 double mean_young(const std::vector<ModulusPoint>& table, double top, double bottom) {
@@ -28,7 +32,8 @@ double mean_young(const std::vector<ModulusPoint>& table, double top, double bot
   for (std::size_t i = 1; i < table.size(); ++i) {
     const ModulusPoint &a = table[i - 1], &b = table[i];
     const double from = std::max(top, a.depth), to = std::min(bottom, b.depth);
-    if (from < to) area += (to - from) * (a.young + (b.young - a.young) * (0.5 * (from + to) - a.depth) / (b.depth - a.depth));
+    if (from < to)
+      area += (to - from) * (a.young + (b.young - a.young) * (0.5 * (from + to) - a.depth) / (b.depth - a.depth));
   }
   return area / (bottom - top);
 }
@@ -69,8 +74,10 @@ std::vector<Elastic> materials_of(const CaseSpec& spec, const std::string& body,
   return out;
 }
 
-std::vector<Elastic> materials_at_surface(const CaseSpec& spec, const std::string& body, std::vector<Elastic> materials) {
-  const auto top = std::find_if(spec.layers.begin(), spec.layers.end(), [&](const LayerSpec& l) { return l.on == body; });
+std::vector<Elastic> materials_at_surface(const CaseSpec& spec, const std::string& body,
+                                          std::vector<Elastic> materials) {
+  const auto top =
+      std::find_if(spec.layers.begin(), spec.layers.end(), [&](const LayerSpec& l) { return l.on == body; });
   if (top != spec.layers.end() && top->graded()) {
     MaterialSpec material = top->material;
     material.young = top->young_table.front().young;
@@ -79,7 +86,8 @@ std::vector<Elastic> materials_at_surface(const CaseSpec& spec, const std::strin
   return materials;
 }
 
-// Middle of the lateral strip in which the undeformed profiles are closer than `closeness`: the patch may lie to one side of the first point of contact.
+// Middle of the lateral strip in which the undeformed profiles are closer than `closeness`: the patch may lie to one
+// side of the first point of contact.
 struct StripMiddle {
   double rail_s, wheel_s;
 };
@@ -106,21 +114,35 @@ Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
   std::vector<std::string> notes;
   Profile wheel = find_profile(ProfileKind::wheel, g.wheel_profile, folder, notes);
   Profile rail = find_profile(ProfileKind::rail, g.rail_profile, folder, notes);
-  TrackGeometry track{g.gauge, g.gauge_depth, g.back_to_back, g.flange_back_to_tape, g.cant, g.lateral_shift, g.wheel_radius};
+  TrackGeometry track{g.gauge, g.gauge_depth,   g.back_to_back, g.flange_back_to_tape,
+                      g.cant,  g.lateral_shift, g.wheel_radius};
   const RigidContact contact = place_wheel(wheel, rail, track);
   return {std::move(wheel), std::move(rail), track, contact, std::move(notes)};
 }
 
-double static_load(const CaseSpec& spec) { return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity; }
+double static_load(const CaseSpec& spec) {
+  return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
+}
 
 HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
   const double lateral = c.curvature_wheel_lateral + c.curvature_rail_lateral;
-  const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson}, {spec.rail_material.young, spec.rail_material.poisson});
+  const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
+                                         {spec.rail_material.young, spec.rail_material.poisson});
   return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, static_load(spec));
 }
 
 Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
-  Model m{spec, place(spec, folder), {}, {}, materials_of(spec, "rail", spec.rail_material), materials_of(spec, "wheel", spec.wheel_material), {}, {}, static_load(spec), {}, 0};
+  Model m{spec,
+          place(spec, folder),
+          {},
+          {},
+          materials_of(spec, "rail", spec.rail_material),
+          materials_of(spec, "wheel", spec.wheel_material),
+          {},
+          {},
+          static_load(spec),
+          {},
+          0};
   m.rail_at_surface = materials_at_surface(spec, "rail", m.rail_materials);
   m.wheel_at_surface = materials_at_surface(spec, "wheel", m.wheel_materials);
   const RigidContact& contact = m.placement.contact;
@@ -129,7 +151,8 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   m.x_end = spec.run.rolling ? last + 0.5 * spec.run.window : 0.0;
   // The fine range holds the patch and room for its search at both ends of the path.
   const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size;
-  const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio, spec.mesh.largest};
+  const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio,
+                        spec.mesh.largest};
 
   const StripMiddle strip = strip_middle(m.placement, m.hertz.approach);
 
@@ -157,7 +180,8 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   wheel.hub_width = g.hub_width;
   wheel.bore_radius = g.bore_radius;
   wheel.layers = layers_on(spec, "wheel");
-  m.wheel = mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);
+  m.wheel =
+      mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);
   return m;
 }
 

@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <optional>
 
+#include "case/case_spec.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile.hpp"
 #include "halfspace/hertz.hpp"
 #include "material/elastic.hpp"
 #include "mesh/bodies.hpp"
-#include "case/case_spec.hpp"
 
 namespace railstrata {
 
@@ -17,7 +17,7 @@ struct Placement {
   Profile wheel, rail;
   TrackGeometry track;
   RigidContact contact;
-  std::vector<std::string> notes;   ///< what the profile readers detected and flipped
+  std::vector<std::string> notes;  ///< what the profile readers detected and flipped
 };
 
 /// Built-in names are tried first, then files relative to `folder`. Throws CaseError.
@@ -33,11 +33,13 @@ struct Model {
   CaseSpec spec;
   Placement placement;
   SweptBody rail, wheel;
-  std::vector<Elastic> rail_materials, wheel_materials;  ///< matrix, then layers from the surface down; a graded layer as its rows of elements
-  std::vector<Elastic> rail_at_surface, wheel_at_surface;  ///< the same as they are at the running surface: the top row of a graded layer has the table's first modulus
-  double load = 0;                ///< G, N
+  std::vector<Elastic> rail_materials,
+      wheel_materials;  ///< matrix, then layers from the surface down; a graded layer as its rows of elements
+  std::vector<Elastic> rail_at_surface, wheel_at_surface;  ///< the same as they are at the running surface: the top row
+                                                           ///< of a graded layer has the table's first modulus
+  double load = 0;                                         ///< G, N
   HertzContact hertz;
-  double x_end = 0;               ///< wheel position at which the run ends, m
+  double x_end = 0;  ///< wheel position at which the run ends, m
   /// Section curves of the running surfaces in section coordinates of the bodies.
   Vec2 rail_section_point(double s) const { return rail_to_model(placement.track, placement.rail.at(s).position); }
   Vec2 rail_section_normal(double s) const { return rail_to_model(placement.track, placement.rail.at(s).outward); }

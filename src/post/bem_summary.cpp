@@ -43,11 +43,14 @@ bool reaches_edge(const ContactField& f) {
 }
 
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchMeasures& m) {
-  const auto at_most = [](std::string name, double value, double limit) { return Check{std::move(name), value <= limit, value, limit}; };
+  const auto at_most = [](std::string name, double value, double limit) {
+    return Check{std::move(name), value <= limit, value, limit};
+  };
   const double load = static_load(spec);
   std::vector<Check> out{at_most("F_z_relative_to_weight", std::abs(-r.F_z / load - 1), 1e-4)};
   if (spec.drive.friction_coefficient > 0 && spec.drive.traction_coefficient != 0)
-    out.push_back(at_most("traction_coefficient_reached", std::abs(m.force_x / load / spec.drive.traction_coefficient - 1), 1e-3));
+    out.push_back(at_most("traction_coefficient_reached",
+                          std::abs(m.force_x / load / spec.drive.traction_coefficient - 1), 1e-3));
   out.push_back(at_most("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0, 0));
   return out;
 }
@@ -55,10 +58,17 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchM
 /// From the rail's own axes (y along the common tangent, z down) to the model frame.
 Sym3 in_model_frame(const Sym3& s, double angle) {
   const double c = std::cos(angle), n = std::sin(angle), yz = -s.yz, xz = -s.xz;
-  return {s.xx, c * c * s.yy - 2 * c * n * yz + n * n * s.zz, n * n * s.yy + 2 * c * n * yz + c * c * s.zz, c * s.xy - n * xz, c * n * (s.yy - s.zz) + (c * c - n * n) * yz, n * s.xy + c * xz};
+  return {s.xx,
+          c * c * s.yy - 2 * c * n * yz + n * n * s.zz,
+          n * n * s.yy + 2 * c * n * yz + c * c * s.zz,
+          c * s.xy - n * xz,
+          c * n * (s.yy - s.zz) + (c * c - n * n) * yz,
+          n * s.xy + c * xz};
 }
 
-int cell(double at, double first, double size, int count) { return std::clamp(static_cast<int>(std::lround((at - first) / size)), 0, count - 1); }
+int cell(double at, double first, double size, int count) {
+  return std::clamp(static_cast<int>(std::lround((at - first) / size)), 0, count - 1);
+}
 
 }  // namespace
 
@@ -75,14 +85,21 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   const PatchMeasures m = measure_patch(r.field);
   const bool friction = spec.drive.friction_coefficient > 0;
   ContactSummary& c = s.contact;
-  c.p_max = m.p_max, c.q_max = m.q_max;
-  c.patch_length = m.length, c.patch_width = m.width, c.patch_area = m.area;
-  c.F_x = 0.0 - r.F_x, c.F_y = 0.0 - r.F_y, c.F_z = 0.0 - r.F_z;
+  c.p_max = m.p_max;
+  c.q_max = m.q_max;
+  c.patch_length = m.length;
+  c.patch_width = m.width;
+  c.patch_area = m.area;
+  c.F_x = 0.0 - r.F_x;
+  c.F_y = 0.0 - r.F_y;
+  c.F_z = 0.0 - r.F_z;
   turn_into_contact_plane(c, r.contact.angle);
   c.approach = r.approach;
   if (friction) {
     c.slip_area_fraction = m.slip_area_fraction;
-    c.creepage_x = r.creepage_x, c.creepage_y = r.creepage_y, c.spin_per_m = r.spin;
+    c.creepage_x = r.creepage_x;
+    c.creepage_y = r.creepage_y;
+    c.spin_per_m = r.spin;
   }
   s.run.engine = "bem";
   s.run.wall_s = r.wall_s;
@@ -92,9 +109,13 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   return s;
 }
 
-StressSummary bem_rail_stress(const BemResult& r, const ContactSummary& contact) { return stress_summary(rail_interior(r).peaks(depth_of_interest(r.rail, contact))); }
+StressSummary bem_rail_stress(const BemResult& r, const ContactSummary& contact) {
+  return stress_summary(rail_interior(r).peaks(depth_of_interest(r.rail, contact)));
+}
 
-StressSummary bem_wheel_stress(const BemResult& r, const ContactSummary& contact) { return stress_summary(wheel_interior(r).peaks(depth_of_interest(r.wheel, contact))); }
+StressSummary bem_wheel_stress(const BemResult& r, const ContactSummary& contact) {
+  return stress_summary(wheel_interior(r).peaks(depth_of_interest(r.wheel, contact)));
+}
 
 Summary bem_summary(const CaseSpec& spec, const BemResult& r) {
   Summary s = bem_contact_summary(spec, r);
@@ -108,7 +129,8 @@ DepthLine rail_depth_line(const BemResult& r, double x, double y, double deepest
   const PatchGrid& g = r.grid;
   const int i = cell(x, g.x0, g.dx, g.nx), j = cell(y, g.y0, g.dy, g.ny);
   DepthLine line;
-  line.x = g.x(i), line.y = g.y(j);
+  line.x = g.x(i);
+  line.y = g.y(j);
   const auto add = [&](const StatePlane& plane, bool below, int material) {
     line.depth.push_back(plane.depth);
     line.stress.push_back(in_model_frame(interior.stress(plane, g.index(i, j), below), r.contact.angle));
@@ -116,7 +138,8 @@ DepthLine rail_depth_line(const BemResult& r, double x, double y, double deepest
   };
   const auto zone = [&](double top, double bottom, int material) {
     const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / g.dx)), 2, 60);
-    for (int k = 0; k <= pieces; ++k) add(interior.plane(k == pieces ? bottom : top + (bottom - top) * k / pieces), k == 0, material);
+    for (int k = 0; k <= pieces; ++k)
+      add(interior.plane(k == pieces ? bottom : top + (bottom - top) * k / pieces), k == 0, material);
   };
   double top = 0;
   int material = 0;

@@ -6,14 +6,16 @@
 
 namespace railstrata {
 
-/// How far below the surface stresses are looked for, m: under all layers by the longer side of the patch (the largest von Mises stress of any Hertzian ellipse lies
-/// above 0.4 of it).
+/// How far below the surface stresses are looked for, m: under all layers by the longer side of the patch (the largest
+/// von Mises stress of any Hertzian ellipse lies above 0.4 of it).
 double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact);
 
-/// Contact, stresses of both bodies and checks; commit, threads and peak memory are the program's to add. run.elements counts the cells of the grid.
-/// Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface` starts half a cell below the surface; `interface` takes either side.
-/// NaN: penetration and scatter; without friction also slip area and creepages. Steady rolling is the same everywhere: position is the case's last one, of a static case 0.
-/// Checks (limits): F_z against G (0.01 %), F_x/G against the wanted traction coefficient (0.1 %), the patch inside the grid.
+/// Contact, stresses of both bodies and checks; commit, threads and peak memory are the program's to add. run.elements
+/// counts the cells of the grid. Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface`
+/// starts half a cell below the surface; `interface` takes either side. NaN: penetration and scatter; without friction
+/// also slip area and creepages. Steady rolling is the same everywhere: position is the case's last one, of a static
+/// case 0. Checks (limits): F_z against G (0.01 %), F_x/G against the wanted traction coefficient (0.1 %), the patch
+/// inside the grid.
 Summary bem_summary(const CaseSpec& spec, const BemResult& result);
 
 /// Contact and checks alone, without the stresses, which cost more than the contact itself.
@@ -23,8 +25,8 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& result);
 StressSummary bem_rail_stress(const BemResult& result, const ContactSummary& contact);
 StressSummary bem_wheel_stress(const BemResult& result, const ContactSummary& contact);
 
-/// The rail's stress below the cell nearest to (x, y), model axes, from the surface to `deepest`; at an interface a row for either side. Material: 0 the matrix, k the
-/// k-th layer.
+/// The rail's stress below the cell nearest to (x, y), model axes, from the surface to `deepest`; at an interface a row
+/// for either side. Material: 0 the matrix, k the k-th layer.
 DepthLine rail_depth_line(const BemResult& result, double x, double y, double deepest);
 
 }  // namespace railstrata

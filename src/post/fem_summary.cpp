@@ -16,7 +16,8 @@ std::vector<Check> checks(const RollingSystem& sys, const RunResult& run, const 
   out.push_back(at_most("preload_residual", run.preload.residual, spec.run.preload_tolerance));
   out.push_back(at_most("F_z_relative_to_weight", std::abs(m.F_z / sys.model.load - 1), 5e-3));
   if (spec.run.rolling && spec.drive.traction_coefficient > 0)
-    out.push_back(at_most("traction_coefficient_reached", std::abs(m.F_x / m.F_z / spec.drive.traction_coefficient - 1), 1e-2));
+    out.push_back(
+        at_most("traction_coefficient_reached", std::abs(m.F_x / m.F_z / spec.drive.traction_coefficient - 1), 1e-2));
   out.push_back(at_most("penetration_over_approach", run.penetration / sys.model.hertz.approach, 1e-2));
   if (spec.run.rolling) {
     out.push_back(at_most("energy_closure", run.closure, 1e-2));
@@ -34,10 +35,24 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   const CaseSpec& spec = sys.model.spec;
   s.title = spec.title;
   s.position = m.position;
-  s.contact = {m.patch.p_max, m.patch.q_max, m.patch.length, m.patch.width, m.patch.area, m.patch.slip_area_fraction, m.F_x, m.F_y, m.F_z, m.creepage, 0.0, m.spin_per_m, -run.preload.axle_z,
-               run.penetration, m.p_max_scatter};
+  s.contact = {m.patch.p_max,
+               m.patch.q_max,
+               m.patch.length,
+               m.patch.width,
+               m.patch.area,
+               m.patch.slip_area_fraction,
+               m.F_x,
+               m.F_y,
+               m.F_z,
+               m.creepage,
+               0.0,
+               m.spin_per_m,
+               -run.preload.axle_z,
+               run.penetration,
+               m.p_max_scatter};
   turn_into_contact_plane(s.contact, sys.model.placement.contact.angle);
-  if (!spec.run.rolling) s.contact.creepage_x = s.contact.creepage_y = s.contact.spin_per_m = s.contact.p_max_scatter = kNotApplicable;
+  if (!spec.run.rolling)
+    s.contact.creepage_x = s.contact.creepage_y = s.contact.spin_per_m = s.contact.p_max_scatter = kNotApplicable;
   s.rail = rail_stress_summary(sys, m);
   s.wheel = wheel_stress_summary(sys, m);
   s.energy = {spec.run.rolling ? run.closure : kNotApplicable, run.hourglass_share};
@@ -55,7 +70,8 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
     s.run.added_mass = run.limits.added_mass;
     s.run.local_stages = run.limits.stages;
     s.run.fine_elements = static_cast<double>(run.limits.fine_elements);
-    s.run.element_steps_per_s = static_cast<double>(run.elements) * static_cast<double>(run.steps) / (run.wall_seconds - run.preload_wall_seconds);
+    s.run.element_steps_per_s = static_cast<double>(run.elements) * static_cast<double>(run.steps) /
+                                (run.wall_seconds - run.preload_wall_seconds);
   }
   s.checks = checks(sys, run, m);
   s.warnings = implausible(s, spec);

@@ -8,15 +8,18 @@
 namespace railstrata {
 namespace {
 
-constexpr double kNoise = 0.025;      // of p_max: points below are left out of areas and ratios
+constexpr double kNoise = 0.025;         // of p_max: points below are left out of areas and ratios
 constexpr double kSlipFraction = 0.999;  // of the friction limit
 
 void set_states(ContactField& f, double friction) {
   const double p_max = f.p.empty() ? 0 : *std::max_element(f.p.begin(), f.p.end());
   f.p_noise = kNoise * p_max;
   for (int i = 0; i < f.size(); ++i) {
-    if (f.p[i] <= 0) f.state[i] = ContactState::separated;
-    else f.state[i] = std::hypot(f.q_x[i], f.q_y[i]) >= kSlipFraction * friction * f.p[i] ? ContactState::slip : ContactState::stick;
+    if (f.p[i] <= 0)
+      f.state[i] = ContactState::separated;
+    else
+      f.state[i] = std::hypot(f.q_x[i], f.q_y[i]) >= kSlipFraction * friction * f.p[i] ? ContactState::slip
+                                                                                       : ContactState::stick;
   }
 }
 
@@ -38,7 +41,9 @@ ContactField contact_field(const RollingSystem& sys, const RollingSample& s) {
   ContactField f;
   const ContactSurface& surface = sys.rail_surface;
   f.resize(surface.columns, s.rail.stations + 1);
-  auto tributary = [](auto&& width, int i, int n) { return 0.5 * ((i > 0 ? width(i - 1) : 0.0) + (i + 1 < n ? width(i) : 0.0)); };
+  auto tributary = [](auto&& width, int i, int n) {
+    return 0.5 * ((i > 0 ? width(i - 1) : 0.0) + (i + 1 < n ? width(i) : 0.0));
+  };
   for (int j = 0; j < f.stations; ++j)
     for (int c = 0; c < f.columns; ++c) {
       const std::size_t i = static_cast<std::size_t>(j) * f.columns + c;
@@ -46,8 +51,13 @@ ContactField contact_field(const RollingSystem& sys, const RollingSample& s) {
       f.x[i] = s.rail.along[j];
       f.y[i] = surface.origin.y + surface.node[c].y;
       f.z[i] = surface.origin.z + surface.node[c].z;
-      f.area[i] = tributary([&](int k) { return surface.width[k]; }, c, f.columns) * tributary([&](int k) { return s.rail.along[k + 1] - s.rail.along[k]; }, j, f.stations);
-      f.p[i] = t.p, f.q_x[i] = t.q1, f.q_y[i] = t.q2, f.slip_x[i] = t.slip1, f.slip_y[i] = t.slip2;
+      f.area[i] = tributary([&](int k) { return surface.width[k]; }, c, f.columns) *
+                  tributary([&](int k) { return s.rail.along[k + 1] - s.rail.along[k]; }, j, f.stations);
+      f.p[i] = t.p;
+      f.q_x[i] = t.q1;
+      f.q_y[i] = t.q2;
+      f.slip_x[i] = t.slip1;
+      f.slip_y[i] = t.slip2;
     }
   set_states(f, sys.model.spec.drive.friction_coefficient);
   return f;
@@ -63,17 +73,26 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
   for (const RollingSample& s : group.samples) {
     const ContactField f = contact_field(sys, s);
     const PatchMeasures patch = measure_patch(f);
-    p_sum += patch.p_max, p_square += patch.p_max * patch.p_max, slip += weight * patch.slip_area_fraction;
+    p_sum += patch.p_max;
+    p_square += patch.p_max * patch.p_max;
+    slip += weight * patch.slip_area_fraction;
     if (m.field.size() == 0) {
       m.field = f;
-      for (auto* a : {&m.field.x, &m.field.p, &m.field.q_x, &m.field.q_y, &m.field.slip_x, &m.field.slip_y}) std::fill(a->begin(), a->end(), 0.0);
+      for (auto* a : {&m.field.x, &m.field.p, &m.field.q_x, &m.field.q_y, &m.field.slip_x, &m.field.slip_y})
+        std::fill(a->begin(), a->end(), 0.0);
     }
     if (f.size() != m.field.size()) throw NumericalError("samples of different size");
     for (int i = 0; i < f.size(); ++i) {
-      m.field.x[i] += weight * f.x[i], m.field.p[i] += weight * f.p[i], m.field.q_x[i] += weight * f.q_x[i], m.field.q_y[i] += weight * f.q_y[i];
-      m.field.slip_x[i] += weight * f.slip_x[i], m.field.slip_y[i] += weight * f.slip_y[i];
+      m.field.x[i] += weight * f.x[i];
+      m.field.p[i] += weight * f.p[i];
+      m.field.q_x[i] += weight * f.q_x[i];
+      m.field.q_y[i] += weight * f.q_y[i];
+      m.field.slip_x[i] += weight * f.slip_x[i];
+      m.field.slip_y[i] += weight * f.slip_y[i];
     }
-    m.F_x += weight * s.forces.x, m.F_y += weight * s.forces.y, m.F_z += weight * s.forces.z;
+    m.F_x += weight * s.forces.x;
+    m.F_y += weight * s.forces.y;
+    m.F_z += weight * s.forces.z;
     m.creepage += weight * s.creepage;
     m.axle_z += weight * s.axle.z;
     if (s.axle.vx > 0) m.spin_per_m -= weight * s.axle.spin / s.axle.vx * std::sin(sys.model.placement.contact.angle);

@@ -15,14 +15,16 @@ using Measure = double (*)(const Sym3&);
 
 int layer_of(const BandStress& b, int column, int row) {
   const ContactBand& band = b.body->contact;
-  return b.body->layer_of(b.body->blocks[band.block].section.quad_material[static_cast<std::size_t>(row) * band.columns + column]);
+  return b.body->layer_of(
+      b.body->blocks[band.block].section.quad_material[static_cast<std::size_t>(row) * band.columns + column]);
 }
 
 void offer(StressMaximum& best, double value, double x, double y, double depth) {
   if (std::isnan(best.value) || value > best.value) best = {value, x, y, depth};
 }
 
-// Largest value over the centres that `wanted` accepts, refined by parabolas in depth and along the rail where the neighbours are accepted too.
+// Largest value over the centres that `wanted` accepts, refined by parabolas in depth and along the rail where the
+// neighbours are accepted too.
 StressMaximum largest(const BandStress& b, Measure measure, const std::function<bool(int column, int row)>& wanted) {
   StressMaximum best;
   int bc = 0, br = 0, bs = 0;
@@ -33,7 +35,9 @@ StressMaximum largest(const BandStress& b, Measure measure, const std::function<
         const double value = measure(b.at(c, r, s));
         if (std::isnan(best.value) || value > best.value) {
           best = {value, b.x(s), b.centre_y[c] - b.contact_y, b.centre_depth[r]};
-          bc = c, br = r, bs = s;
+          bc = c;
+          br = r;
+          bs = s;
         }
       }
   if (std::isnan(best.value)) return best;
@@ -46,13 +50,17 @@ StressMaximum largest(const BandStress& b, Measure measure, const std::function<
   };
   const double top = best.value;
   if (br > 0 && br + 1 < b.sample.rows && wanted(bc, br - 1) && wanted(bc, br + 1))
-    refine(b.centre_depth[br - 1], measure(b.at(bc, br - 1, bs)), b.centre_depth[br], top, b.centre_depth[br + 1], measure(b.at(bc, br + 1, bs)), best.depth);
+    refine(b.centre_depth[br - 1], measure(b.at(bc, br - 1, bs)), b.centre_depth[br], top, b.centre_depth[br + 1],
+           measure(b.at(bc, br + 1, bs)), best.depth);
   if (bs > 0 && bs + 1 < b.sample.stations)
-    refine(b.x(bs - 1), measure(b.at(bc, br, bs - 1)), b.x(bs), top, b.x(bs + 1), measure(b.at(bc, br, bs + 1)), best.x);
+    refine(b.x(bs - 1), measure(b.at(bc, br, bs - 1)), b.x(bs), top, b.x(bs + 1), measure(b.at(bc, br, bs + 1)),
+           best.x);
   return best;
 }
 
-StressPair largest_pair(const BandStress& b, const std::function<bool(int, int)>& wanted) { return {largest(b, von_mises, wanted), largest(b, largest_principal, wanted)}; }
+StressPair largest_pair(const BandStress& b, const std::function<bool(int, int)>& wanted) {
+  return {largest(b, von_mises, wanted), largest(b, largest_principal, wanted)};
+}
 
 Sym3 extrapolate(const Sym3& near, const Sym3& far, double d_near, double d_far, double d) {
   const double t = (d - d_near) / (d_near - d_far);
@@ -100,34 +108,47 @@ BandStress band_stress(const SweptBody& body, BandSample sample, double contact_
   return b;
 }
 
-Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12, Vec3 traction) {
+Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12,
+                    Vec3 traction) {
   const double e = young(material), nu = poisson(material), snn = dot(traction, n);
-  const double s11 = e / (1 - nu * nu) * (e11 + nu * e22) + nu / (1 - nu) * snn, s22 = e / (1 - nu * nu) * (e22 + nu * e11) + nu / (1 - nu) * snn;
+  const double s11 = e / (1 - nu * nu) * (e11 + nu * e22) + nu / (1 - nu) * snn,
+               s22 = e / (1 - nu * nu) * (e22 + nu * e11) + nu / (1 - nu) * snn;
   auto dyad = [](Vec3 a, Vec3 b) {  // (ab + ba)/2
-    return Sym3{a.x * b.x, a.y * b.y, a.z * b.z, 0.5 * (a.x * b.y + a.y * b.x), 0.5 * (a.y * b.z + a.z * b.y), 0.5 * (a.x * b.z + a.z * b.x)};
+    return Sym3{a.x * b.x,
+                a.y * b.y,
+                a.z * b.z,
+                0.5 * (a.x * b.y + a.y * b.x),
+                0.5 * (a.y * b.z + a.z * b.y),
+                0.5 * (a.x * b.z + a.z * b.x)};
   };
-  return s11 * dyad(t1, t1) + s22 * dyad(t2, t2) + snn * dyad(n, n) + (2 * material.mu * g12) * dyad(t1, t2) + (2 * dot(traction, t1)) * dyad(t1, n) + (2 * dot(traction, t2)) * dyad(t2, n);
+  return s11 * dyad(t1, t1) + s22 * dyad(t2, t2) + snn * dyad(n, n) + (2 * material.mu * g12) * dyad(t1, t2) +
+         (2 * dot(traction, t1)) * dyad(t1, n) + (2 * dot(traction, t2)) * dyad(t2, n);
 }
 
 namespace {
 
 // Recovery at the inner surface nodes of a sample; `traction(column, station)` acts on this body.
 template <class Traction>
-std::vector<Sym3> recover_surface(const ContactSurface& surface, const BandSample& sample, const SweptBody& body, const std::vector<Elastic>& materials, double radius, Traction&& traction) {
-  const int columns = sample.columns + 1, stations = sample.stations + 1, nodes_per_station = columns * (sample.rows + 1);
+std::vector<Sym3> recover_surface(const ContactSurface& surface, const BandSample& sample, const SweptBody& body,
+                                  const std::vector<Elastic>& materials, double radius, Traction&& traction) {
+  const int columns = sample.columns + 1, stations = sample.stations + 1,
+            nodes_per_station = columns * (sample.rows + 1);
   const auto& quad_material = body.blocks[body.contact.block].section.quad_material;
   std::vector<Sym3> out(static_cast<std::size_t>(columns) * stations);
   auto u = [&](int c, int j) { return sample.displacement[static_cast<std::size_t>(j) * nodes_per_station + c]; };
   for (int j = 1; j + 1 < stations; ++j)
     for (int c = 1; c + 1 < columns; ++c) {
-      const double angle = radius > 0 ? sample.along[j] / radius : 0;  // of the section plane against the vertical below the axle
+      const double angle =
+          radius > 0 ? sample.along[j] / radius : 0;  // of the section plane against the vertical below the axle
       const Vec3 t1{std::cos(angle), 0, std::sin(angle)};
-      const Vec3 n{-surface.outward[c].z * std::sin(angle), surface.outward[c].y, surface.outward[c].z * std::cos(angle)};
+      const Vec3 n{-surface.outward[c].z * std::sin(angle), surface.outward[c].y,
+                   surface.outward[c].z * std::cos(angle)};
       const Vec3 t2 = cross(n, t1);
-      const double along = sample.along[j + 1] - sample.along[j - 1], across = (t2.y > 0 ? 1 : -1) * (surface.width[c - 1] + surface.width[c]);
+      const double along = sample.along[j + 1] - sample.along[j - 1],
+                   across = (t2.y > 0 ? 1 : -1) * (surface.width[c - 1] + surface.width[c]);
       const Vec3 d1 = (1 / along) * (u(c, j + 1) - u(c, j - 1)), d2 = (1 / across) * (u(c + 1, j) - u(c - 1, j));
-      out[static_cast<std::size_t>(j) * columns + c] =
-          surface_stress(materials[quad_material[c]], n, t1, t2, dot(d1, t1), dot(d2, t2), dot(d1, t2) + dot(d2, t1), traction(c, j));
+      out[static_cast<std::size_t>(j) * columns + c] = surface_stress(
+          materials[quad_material[c]], n, t1, t2, dot(d1, t1), dot(d2, t2), dot(d1, t2) + dot(d2, t1), traction(c, j));
     }
   return out;
 }
@@ -150,7 +171,8 @@ Vec3 traction_at(const ContactField& f, const ContactSurface& rail, double x, do
   return t;
 }
 
-StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sample, const ContactSurface& surface, double contact_y) {
+StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sample, const ContactSurface& surface,
+                          double contact_y) {
   StressPair best;
   const int columns = sample.columns + 1;
   for (int j = 1; j < sample.stations; ++j)
@@ -169,14 +191,17 @@ std::vector<Sym3> rail_surface_stress(const RollingSystem& sys, const MeanContac
   const ContactField& f = m.field;
   return recover_surface(sys.rail_surface, m.rail, sys.model.rail, sys.model.rail_at_surface, 0, [&](int c, int j) {
     const int i = j * f.columns + c;
-    return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0}, {0, sys.rail_surface.outward[c].y, sys.rail_surface.outward[c].z});
+    return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0},
+                           {0, sys.rail_surface.outward[c].y, sys.rail_surface.outward[c].z});
   });
 }
 
 std::vector<Sym3> wheel_surface_stress(const RollingSystem& sys, const MeanContact& m) {
-  return recover_surface(sys.wheel_surface, m.wheel, sys.model.wheel, sys.model.wheel_at_surface, sys.rolling_radius, [&](int c, int j) {
-    return -traction_at(m.field, sys.rail_surface, m.wheel.along[j], sys.wheel_surface.origin.y + sys.wheel_surface.node[c].y);
-  });
+  return recover_surface(sys.wheel_surface, m.wheel, sys.model.wheel, sys.model.wheel_at_surface, sys.rolling_radius,
+                         [&](int c, int j) {
+                           return -traction_at(m.field, sys.rail_surface, m.wheel.along[j],
+                                               sys.wheel_surface.origin.y + sys.wheel_surface.node[c].y);
+                         });
 }
 
 StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m) {
@@ -184,15 +209,18 @@ StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m
   const double contact_y = sys.model.placement.contact.point.y - sys.model.rail.origin.y;
   const BandStress b = band_stress(sys.model.rail, m.rail, contact_y);
   below_surface(b, sys.model.spec.mesh.element_size, sys.model.rail_materials.size() > 1, out);
-  out.surface = surface_maxima(rail_surface_stress(sys, m), m.rail, sys.rail_surface, sys.model.placement.contact.point.y);
+  out.surface =
+      surface_maxima(rail_surface_stress(sys, m), m.rail, sys.rail_surface, sys.model.placement.contact.point.y);
   return out;
 }
 
 StressSummary wheel_stress_summary(const RollingSystem& sys, const MeanContact& m) {
   StressSummary out;
   const double contact_y = sys.model.placement.contact.point.y - sys.model.wheel.origin.y;
-  below_surface(band_stress(sys.model.wheel, m.wheel, contact_y), sys.model.spec.mesh.element_size, sys.model.wheel_materials.size() > 1, out);
-  out.surface = surface_maxima(wheel_surface_stress(sys, m), m.wheel, sys.wheel_surface, sys.model.placement.contact.point.y);
+  below_surface(band_stress(sys.model.wheel, m.wheel, contact_y), sys.model.spec.mesh.element_size,
+                sys.model.wheel_materials.size() > 1, out);
+  out.surface =
+      surface_maxima(wheel_surface_stress(sys, m), m.wheel, sys.wheel_surface, sys.model.placement.contact.point.y);
   return out;
 }
 

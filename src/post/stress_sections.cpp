@@ -38,23 +38,30 @@ std::vector<Row> rows_of(const LayeredHalfSpace& body, double cell, double deepe
 /// About the x axis, from axes whose y lies along the common tangent to the model frame's.
 Sym3 turned(const Sym3& s, double angle) {
   const double c = std::cos(angle), n = std::sin(angle);
-  return {s.xx, c * c * s.yy - 2 * c * n * s.yz + n * n * s.zz, n * n * s.yy + 2 * c * n * s.yz + c * c * s.zz, c * s.xy - n * s.xz, c * n * (s.yy - s.zz) + (c * c - n * n) * s.yz,
+  return {s.xx,
+          c * c * s.yy - 2 * c * n * s.yz + n * n * s.zz,
+          n * n * s.yy + 2 * c * n * s.yz + c * c * s.zz,
+          c * s.xy - n * s.xz,
+          c * n * (s.yy - s.zz) + (c * c - n * n) * s.yz,
           n * s.xy + c * s.xz};
 }
 
-StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& body, const Subsurface& interior, double z_up, double x, double y, double deepest) {
+StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& body, const Subsurface& interior,
+                                 double z_up, double x, double y, double deepest) {
   const PatchGrid& g = r.grid;
   StressSections out;
   StressSection &along = out.longitudinal, &across = out.cross;
   for (int i = 0; i < g.nx; ++i) along.along.push_back(g.x(i));
   for (int j = 0; j < g.ny; ++j) across.along.push_back(r.contact.point.y + g.y(j) * std::cos(r.contact.angle));
   const int i0 = nearest(along.along, x), j0 = nearest(across.along, y);
-  along.at = across.along[j0], across.at = along.along[i0];
+  along.at = across.along[j0];
+  across.at = along.along[i0];
   for (const Row& row : rows_of(body, g.dx, deepest)) {
     const StatePlane plane = interior.plane(row.depth);
     const auto add = [&](StressSection& section, std::size_t k) {
       Sym3 s = interior.stress(plane, k);
-      s.yz *= z_up, s.xz *= z_up;
+      s.yz *= z_up;
+      s.xz *= z_up;
       section.stress.push_back(turned(s, r.contact.angle));
       section.material.push_back(row.material);
     };
@@ -76,7 +83,8 @@ StressSections band_sections(const BandStress& b, double x, double y) {
   for (int s = 0; s < b.sample.stations; ++s) along.along.push_back(b.x(s));
   for (double t : b.centre_y) across.along.push_back(b.body->origin.y + t);
   const int station = nearest(along.along, x), column = nearest(across.along, y);
-  along.at = across.along[column], across.at = along.along[station];
+  along.at = across.along[column];
+  across.at = along.along[station];
   along.depth = across.depth = b.centre_depth;
   for (int r = 0; r < b.sample.rows; ++r) {
     const auto add = [&](StressSection& section, int c, int s) {
@@ -89,7 +97,11 @@ StressSections band_sections(const BandStress& b, double x, double y) {
   return out;
 }
 
-StressSections rail_sections(const BemResult& r, double x, double y, double deepest) { return interior_sections(r, r.rail, rail_interior(r), -1, x, y, deepest); }
-StressSections wheel_sections(const BemResult& r, double x, double y, double deepest) { return interior_sections(r, r.wheel, wheel_interior(r), 1, x, y, deepest); }
+StressSections rail_sections(const BemResult& r, double x, double y, double deepest) {
+  return interior_sections(r, r.rail, rail_interior(r), -1, x, y, deepest);
+}
+StressSections wheel_sections(const BemResult& r, double x, double y, double deepest) {
+  return interior_sections(r, r.wheel, wheel_interior(r), 1, x, y, deepest);
+}
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #pragma once
-// Plane cuts through the stress of a body, for pictures: the longitudinal section through the patch's centre line and a cross section. The same from both engines.
+// Plane cuts through the stress of a body, for pictures: the longitudinal section through the patch's centre line and a
+// cross section. The same from both engines.
 #include <vector>
 
 #include "bem/solve_bem.hpp"
@@ -8,23 +9,26 @@
 
 namespace railstrata {
 
-/// Stresses at the centres of the cells of a section, index along + along.size() * row. Rows go down from the surface along its normal; the first begins at the surface
-/// and a material ends where a row does, so the rows' borders follow from their centres.
+/// Stresses at the centres of the cells of a section, index along + along.size() * row. Rows go down from the surface
+/// along its normal; the first begins at the surface and a material ends where a row does, so the rows' borders follow
+/// from their centres.
 struct StressSection {
-  double at = 0;                   ///< m, where the plane stands: y in the model frame (longitudinal) or x from the axle (cross)
-  std::vector<double> along;       ///< m, x from the axle (longitudinal) or y in the model frame (cross)
-  std::vector<double> depth;       ///< m, below the surface along its normal
-  std::vector<Sym3> stress;        ///< Pa, model frame
-  std::vector<int> material;       ///< 0: matrix, then the layers from the surface down
+  double at = 0;  ///< m, where the plane stands: y in the model frame (longitudinal) or x from the axle (cross)
+  std::vector<double> along;  ///< m, x from the axle (longitudinal) or y in the model frame (cross)
+  std::vector<double> depth;  ///< m, below the surface along its normal
+  std::vector<Sym3> stress;   ///< Pa, model frame
+  std::vector<int> material;  ///< 0: matrix, then the layers from the surface down
 };
 struct StressSections {
   StressSection longitudinal, cross;
 };
 
-/// Through the elements of a contact band nearest to x (from the axle) and y (model frame); values are the elements' own, not smoothed.
+/// Through the elements of a contact band nearest to x (from the axle) and y (model frame); values are the elements'
+/// own, not smoothed.
 StressSections band_sections(const BandStress& band, double x, double y);
 
-/// Through the cells nearest to x and y of a half-space result. Rows are a cell high at the surface and grow by 6 % each to `deepest`; a layer has at least 3.
+/// Through the cells nearest to x and y of a half-space result. Rows are a cell high at the surface and grow by 6 %
+/// each to `deepest`; a layer has at least 3.
 StressSections rail_sections(const BemResult& result, double x, double y, double deepest);
 StressSections wheel_sections(const BemResult& result, double x, double y, double deepest);
 

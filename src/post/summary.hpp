@@ -1,5 +1,6 @@
 #pragma once
-// The numbers of a result, the same for both engines: what summary.json holds. SI units; a number that does not apply is NaN (null in the file).
+// The numbers of a result, the same for both engines: what summary.json holds. SI units; a number that does not apply
+// is NaN (null in the file).
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,22 +13,28 @@ inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN(
 
 struct ContactSummary {
   double p_max = kNotApplicable, q_max = kNotApplicable;
-  double patch_length = kNotApplicable, patch_width = kNotApplicable, patch_area = kNotApplicable, slip_area_fraction = kNotApplicable;
-  double F_x = kNotApplicable, F_y = kNotApplicable, F_z = kNotApplicable;  ///< N, on the wheel, model frame: pressure and friction of the whole contact together
+  double patch_length = kNotApplicable, patch_width = kNotApplicable, patch_area = kNotApplicable,
+         slip_area_fraction = kNotApplicable;
+  double F_x = kNotApplicable, F_y = kNotApplicable,
+         F_z = kNotApplicable;  ///< N, on the wheel, model frame: pressure and friction of the whole contact together
   double creepage_x = kNotApplicable, creepage_y = kNotApplicable, spin_per_m = kNotApplicable;
   double approach = kNotApplicable, penetration_max = kNotApplicable, p_max_scatter = kNotApplicable;
-  double contact_angle = kNotApplicable;                                    ///< rad, of the common tangent at the rigid contact point
-  double normal_force = kNotApplicable, lateral_force = kNotApplicable;     ///< N, on the wheel: (F_y, F_z) along the contact plane's normal and along its lateral tangent
+  double contact_angle = kNotApplicable;  ///< rad, of the common tangent at the rigid contact point
+  double normal_force = kNotApplicable,
+         lateral_force = kNotApplicable;  ///< N, on the wheel: (F_y, F_z) along the contact plane's normal and along
+                                          ///< its lateral tangent
 };
 
-/// normal_force = F_z cos(angle) - F_y sin(angle), lateral_force = F_y cos(angle) + F_z sin(angle): of the half-space engine the pressure's and the lateral friction's resultants.
+/// normal_force = F_z cos(angle) - F_y sin(angle), lateral_force = F_y cos(angle) + F_z sin(angle): of the half-space
+/// engine the pressure's and the lateral friction's resultants.
 inline void turn_into_contact_plane(ContactSummary& c, double angle) {
   c.contact_angle = angle;
   c.normal_force = c.F_z * std::cos(angle) - c.F_y * std::sin(angle);
   c.lateral_force = c.F_y * std::cos(angle) + c.F_z * std::sin(angle);
 }
 
-/// x from the axle in the rolling direction, y from the rigid contact point towards the field side, depth below the surface along its normal.
+/// x from the axle in the rolling direction, y from the rigid contact point towards the field side, depth below the
+/// surface along its normal.
 struct StressMaximum {
   double value = kNotApplicable, x = kNotApplicable, y = kNotApplicable, depth = kNotApplicable;
 };
@@ -44,10 +51,13 @@ struct EnergySummary {
 
 struct RunSummary {
   std::string engine, commit;
-  double wall_s = kNotApplicable, preload_wall_s = kNotApplicable, output_wall_s = kNotApplicable, dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
+  double wall_s = kNotApplicable, preload_wall_s = kNotApplicable, output_wall_s = kNotApplicable,
+         dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
   double stable_step = kNotApplicable, unscaled_step = kNotApplicable;  ///< s, with and without selective mass scaling
-  double added_mass = kNotApplicable;                                   ///< kg, by selective mass scaling of thin rows; 0: real masses
-  double local_stages = kNotApplicable, fine_elements = kNotApplicable; ///< forces of the fine elements are evaluated so often a step; 1, 0: one step for all
+  double added_mass = kNotApplicable;  ///< kg, by selective mass scaling of thin rows; 0: real masses
+  double local_stages = kNotApplicable,
+         fine_elements =
+             kNotApplicable;  ///< forces of the fine elements are evaluated so often a step; 1, 0: one step for all
   long elements = 0, nodes = 0, steps = 0;
   int threads = 0;
 };

@@ -14,7 +14,8 @@ namespace {
 
 /// What tells how a case is computed, not what it is.
 bool is_numerical(const CaseOption& o) {
-  static const std::set<std::string> tables{"case", "mesh", "contact", "output"}, keys{"layer.elements", "drive.torque_ramp", "drive.creepage_start"};
+  static const std::set<std::string> tables{"case", "mesh", "contact", "output"},
+      keys{"layer.elements", "drive.torque_ramp", "drive.creepage_start"};
   if (tables.contains(o.table)) return true;
   if (o.table == "run") return o.key != "rolling";
   return keys.contains(o.table.substr(0, o.table.find('.')) + "." + o.key);
@@ -24,9 +25,12 @@ bool is_numerical(const CaseOption& o) {
 std::vector<std::string> differences(const ReportRun& a, const ReportRun& b) {
   std::vector<std::string> out;
   for (const CaseOption& o : a.options)
-    if (!is_numerical(o) && b.option(o.table, o.key) != o.value) out.push_back(fmt::format("{}.{}: {}, {}", o.table, o.key, o.value, b.option(o.table, o.key).empty() ? "none" : b.option(o.table, o.key)));
+    if (!is_numerical(o) && b.option(o.table, o.key) != o.value)
+      out.push_back(fmt::format("{}.{}: {}, {}", o.table, o.key, o.value,
+                                b.option(o.table, o.key).empty() ? "none" : b.option(o.table, o.key)));
   for (const CaseOption& o : b.options)
-    if (!is_numerical(o) && a.option(o.table, o.key).empty() && !o.value.empty()) out.push_back(fmt::format("{}.{}: none, {}", o.table, o.key, o.value));
+    if (!is_numerical(o) && a.option(o.table, o.key).empty() && !o.value.empty())
+      out.push_back(fmt::format("{}.{}: none, {}", o.table, o.key, o.value));
   return out;
 }
 
@@ -54,7 +58,8 @@ double element_size(const ReportRun& run) {
 
 ReportCheck within(std::string name, std::vector<int> runs, double a, double b, double limit) {
   const double value = std::abs(a / b - 1);
-  if (!std::isfinite(value)) return {std::move(name), std::move(runs), false, true, value, limit, "one of the two has no such number"};
+  if (!std::isfinite(value))
+    return {std::move(name), std::move(runs), false, true, value, limit, "one of the two has no such number"};
   return {std::move(name), std::move(runs), true, value <= limit, value, limit, {}};
 }
 
@@ -62,8 +67,11 @@ void add_warnings(const ReportRun& run, int index, std::vector<ReportCheck>& out
   if (!run.result.summary.contains("warnings") || !run.result.summary["warnings"].is_array()) return;
   for (const auto& w : run.result.summary["warnings"]) {
     if (!w.is_object()) continue;
-    const auto number = [&](const char* key) { return w.contains(key) && w[key].is_number() ? w[key].get<double>() : std::numeric_limits<double>::quiet_NaN(); };
-    out.push_back({w.value("name", "warning"), {index}, false, true, number("value"), number("limit"), w.value("text", "")});
+    const auto number = [&](const char* key) {
+      return w.contains(key) && w[key].is_number() ? w[key].get<double>() : std::numeric_limits<double>::quiet_NaN();
+    };
+    out.push_back(
+        {w.value("name", "warning"), {index}, false, true, number("value"), number("limit"), w.value("text", "")});
   }
 }
 
@@ -71,8 +79,11 @@ void add_own(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
   if (!run.result.summary.contains("checks") || !run.result.summary["checks"].is_array()) return;
   for (const auto& c : run.result.summary["checks"]) {
     if (!c.is_object()) continue;
-    const auto number = [&](const char* key) { return c.contains(key) && c[key].is_number() ? c[key].get<double>() : std::numeric_limits<double>::quiet_NaN(); };
-    out.push_back({c.value("name", "check"), {index}, true, c.value("ok", false), number("value"), number("limit"), {}});
+    const auto number = [&](const char* key) {
+      return c.contains(key) && c[key].is_number() ? c[key].get<double>() : std::numeric_limits<double>::quiet_NaN();
+    };
+    out.push_back(
+        {c.value("name", "check"), {index}, true, c.value("ok", false), number("value"), number("limit"), {}});
   }
 }
 
@@ -80,13 +91,17 @@ void add_pair(const std::vector<ReportRun>& runs, int fem, int bem, std::vector<
   const ResultFolder &a = runs[fem].result, &b = runs[bem].result;
   const std::vector<int> both{fem, bem};
   out.push_back(within("p_max", both, a.number("/contact/p_max_Pa"), b.number("/contact/p_max_Pa"), 0.04));
-  out.push_back(within("patch_length", both, a.number("/contact/patch_length_m"), b.number("/contact/patch_length_m"), 0.06));
-  if (b.number("/contact/q_max_Pa") > 0) out.push_back(within("q_max", both, a.number("/contact/q_max_Pa"), b.number("/contact/q_max_Pa"), 0.07));
+  out.push_back(
+      within("patch_length", both, a.number("/contact/patch_length_m"), b.number("/contact/patch_length_m"), 0.06));
+  if (b.number("/contact/q_max_Pa") > 0)
+    out.push_back(within("q_max", both, a.number("/contact/q_max_Pa"), b.number("/contact/q_max_Pa"), 0.07));
   const Place ours = von_mises_below_surface(runs[fem]), theirs = von_mises_below_surface(runs[bem]);
   ReportCheck stress = within("von_mises_below_surface", both, ours.value, theirs.value, 0.08);
   if (const double h = element_size(runs[fem]); stress.judged && theirs.depth <= h) {
     stress.judged = false;
-    stress.note = fmt::format("not judged: the half-space's largest lies {:.2f} mm deep, within an element of {:.2f} mm", 1e3 * theirs.depth, 1e3 * h);
+    stress.note =
+        fmt::format("not judged: the half-space's largest lies {:.2f} mm deep, within an element of {:.2f} mm",
+                    1e3 * theirs.depth, 1e3 * h);
   }
   out.push_back(std::move(stress));
 }
@@ -100,12 +115,18 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
   for (int i = 0; i < n; ++i) add_warnings(runs[i], i, out);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
-      if (runs[i].result.engine == "fem" && runs[j].result.engine == "bem" && differences(runs[i], runs[j]).empty()) add_pair(runs, i, j, out);
+      if (runs[i].result.engine == "fem" && runs[j].result.engine == "bem" && differences(runs[i], runs[j]).empty())
+        add_pair(runs, i, j, out);
   if (n == 2)
     if (std::vector<std::string> d = differences(runs[0], runs[1]); !d.empty()) {
       const std::size_t shown = std::min<std::size_t>(d.size(), 12), left = d.size() - shown;
       d.resize(shown);
-      out.push_back({"cases_differ", {0, 1}, false, true, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN(),
+      out.push_back({"cases_differ",
+                     {0, 1},
+                     false,
+                     true,
+                     std::numeric_limits<double>::quiet_NaN(),
+                     std::numeric_limits<double>::quiet_NaN(),
                      fmt::format("{}{}", fmt::join(d, "; "), left ? fmt::format("; and {} more", left) : "")});
     }
   return out;

@@ -12,9 +12,12 @@ namespace {
 std::string escaped(std::string_view text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else out += c;
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else
+      out += c;
   }
   return out;
 }
@@ -23,8 +26,10 @@ std::string escaped(std::string_view text) {
 std::string without_tags(const std::string& json) {
   std::string out;
   for (const char c : json) {
-    if (c == '<') out += "\\u003c";
-    else out += c;
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
   }
   return out;
 }
@@ -40,16 +45,22 @@ std::string source_hash(std::string_view text) {
 }  // namespace
 
 std::string report_page(const Report& report) {
-  // Plotly makes an empty style element and fills it rule by rule: the empty text has a hash too; and it sets style attributes, which can do no more than look.
-  // Maps and saved pictures are data and blob addresses of the page itself.
-  const std::string policy = fmt::format("default-src 'none'; script-src {}; style-src {} {}; style-src-attr 'unsafe-inline'; img-src data: blob:; base-uri 'none'; form-action 'none'", source_hash(report_script()),
-                                         source_hash(report_style()), source_hash(""));
+  // Plotly makes an empty style element and fills it rule by rule: the empty text has a hash too; and it sets style
+  // attributes, which can do no more than look. Maps and saved pictures are data and blob addresses of the page itself.
+  const std::string policy = fmt::format(
+      "default-src 'none'; script-src {}; style-src {} {}; style-src-attr 'unsafe-inline'; img-src data: blob:; "
+      "base-uri 'none'; form-action 'none'",
+      source_hash(report_script()), source_hash(report_style()), source_hash(""));
   return fmt::format(
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" content=\"RailStrata {}\">\n<title>{}</title>\n<style>{}</style>\n</head>\n"
+      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
+      "http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" "
+      "content=\"RailStrata {}\">\n<title>{}</title>\n<style>{}</style>\n</head>\n"
       "<body>\n<noscript>This page draws its figures with a script of its own; allow scripts to see it.</noscript>\n"
-      "<script type=\"application/json\" id=\"data\">{}</script>\n<template id=\"licences\"><pre>{}</pre></template>\n<script>{}</script>\n</body>\n</html>\n",
-      policy, version_text(), escaped(report.title), report_style(), without_tags(json_text(report_payload(report))), escaped(report_licences()), report_script());
+      "<script type=\"application/json\" id=\"data\">{}</script>\n<template "
+      "id=\"licences\"><pre>{}</pre></template>\n<script>{}</script>\n</body>\n</html>\n",
+      policy, version_text(), escaped(report.title), report_style(), without_tags(json_text(report_payload(report))),
+      escaped(report_licences()), report_script());
 }
 
 }  // namespace railstrata

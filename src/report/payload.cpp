@@ -31,11 +31,16 @@ Json numbers(const std::vector<double>& values, double factor = 1) {
 Json packed(const std::vector<double>& values) {
   double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
   for (double v : values)
-    if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+    if (std::isfinite(v)) {
+      low = std::min(low, v);
+      high = std::max(high, v);
+    }
   if (low > high) low = high = 0;
   std::string bytes;
   for (double v : values) {
-    const auto k = std::isfinite(v) ? static_cast<std::uint16_t>(high > low ? std::lround((v - low) / (high - low) * 65534) : 0) : std::uint16_t{65535};
+    const auto k = std::isfinite(v)
+                       ? static_cast<std::uint16_t>(high > low ? std::lround((v - low) / (high - low) * 65534) : 0)
+                       : std::uint16_t{65535};
     bytes += static_cast<char>(k & 0xFF);
     bytes += static_cast<char>(k >> 8);
   }
@@ -70,16 +75,22 @@ Range touching(int n, Coordinate&& at, Touches&& touches) {
 
 Json patch(const ContactField& f) {
   const auto at = [&](int s, int c) { return static_cast<std::size_t>(s) * f.columns + c; };
-  const auto station_touches = [&](int s) { return std::any_of(f.p.begin() + at(s, 0), f.p.begin() + at(s, 0) + f.columns, [](double p) { return p > 0; }); };
+  const auto station_touches = [&](int s) {
+    return std::any_of(f.p.begin() + at(s, 0), f.p.begin() + at(s, 0) + f.columns, [](double p) { return p > 0; });
+  };
   const auto column_touches = [&](int c) {
     for (int s = 0; s < f.stations; ++s)
       if (f.p[at(s, c)] > 0) return true;
     return false;
   };
-  const Range sr = touching(f.stations, [&](int s) { return f.x[at(s, 0)]; }, station_touches), cr = touching(f.columns, [&](int c) { return f.y[c]; }, column_touches);
+  const Range sr = touching(
+                  f.stations, [&](int s) { return f.x[at(s, 0)]; }, station_touches),
+              cr = touching(
+                  f.columns, [&](int c) { return f.y[c]; }, column_touches);
   const std::vector<int> stations = thinned(sr.first, sr.last), columns = thinned(cr.first, cr.last);
   Json out;
-  out["x"] = Json::array(), out["y"] = Json::array();
+  out["x"] = Json::array();
+  out["y"] = Json::array();
   for (int s : stations) out["x"].push_back(number(kMilli * f.x[at(s, 0)]));
   for (int c : columns) out["y"].push_back(number(kMilli * f.y[c]));
   const auto values = [&](const std::vector<double>& all, double factor) {
@@ -88,8 +99,11 @@ Json patch(const ContactField& f) {
       for (int c : columns) v.push_back(factor * all[at(s, c)]);
     return packed(v);
   };
-  out["p"] = values(f.p, kMega), out["q_x"] = values(f.q_x, kMega), out["q_y"] = values(f.q_y, kMega);
-  out["slip_x"] = values(f.slip_x, kMilli), out["slip_y"] = values(f.slip_y, kMilli);
+  out["p"] = values(f.p, kMega);
+  out["q_x"] = values(f.q_x, kMega);
+  out["q_y"] = values(f.q_y, kMega);
+  out["slip_x"] = values(f.slip_x, kMilli);
+  out["slip_y"] = values(f.slip_y, kMilli);
   std::string state;
   for (int s : stations)
     for (int c : columns) state += static_cast<char>('0' + static_cast<int>(f.state[at(s, c)]));
@@ -99,7 +113,11 @@ Json patch(const ContactField& f) {
 
 Json centre(const ContactField& field) {
   const CentreLine line = centre_line(field);
-  return {{"x_mm", numbers(line.x, kMilli)}, {"p_MPa", numbers(line.p, kMega)}, {"q_x_MPa", numbers(line.q_x, kMega)}, {"q_y_MPa", numbers(line.q_y, kMega)}, {"y", Json::array({number(kMilli * line.y)})}};
+  return {{"x_mm", numbers(line.x, kMilli)},
+          {"p_MPa", numbers(line.p, kMega)},
+          {"q_x_MPa", numbers(line.q_x, kMega)},
+          {"q_y_MPa", numbers(line.q_y, kMega)},
+          {"y", Json::array({number(kMilli * line.y)})}};
 }
 
 Json columns(const std::optional<CsvTable>& table) {
@@ -115,10 +133,13 @@ Json columns(const std::optional<CsvTable>& table) {
 }
 
 Json section(const CsvTable& table, bool longitudinal) {
-  const std::vector<double> x = table.column("x_mm"), y = table.column("y_mm"), depth = table.column("depth_mm"), material = table.column("material");
+  const std::vector<double> x = table.column("x_mm"), y = table.column("y_mm"), depth = table.column("depth_mm"),
+                            material = table.column("material");
   std::size_t width = 0;
   while (width < depth.size() && depth[width] == depth[0]) ++width;
-  if (width < 2 || depth.size() % width != 0 || depth.size() < 2 * width) throw CaseError("the rows are not a section", "write the results anew with `railstrata run` or `railstrata bem`", table.file.string());
+  if (width < 2 || depth.size() % width != 0 || depth.size() < 2 * width)
+    throw CaseError("the rows are not a section", "write the results anew with `railstrata run` or `railstrata bem`",
+                    table.file.string());
   const std::vector<double>& along = longitudinal ? x : y;
   std::vector<double> rows;
   for (std::size_t i = 0; i < depth.size(); i += width) rows.push_back(depth[i]);
@@ -135,8 +156,10 @@ Json section(const CsvTable& table, bool longitudinal) {
 Json sections(const ReportRun& run) {
   Json out = Json::object();
   for (const char* body : {"rail", "wheel"}) {
-    const auto along = run.sections.find(std::string(body) + "_longitudinal"), across = run.sections.find(std::string(body) + "_cross");
-    if (along != run.sections.end() && across != run.sections.end()) out[body] = {{"longitudinal", section(along->second, true)}, {"cross", section(across->second, false)}};
+    const auto along = run.sections.find(std::string(body) + "_longitudinal"),
+               across = run.sections.find(std::string(body) + "_cross");
+    if (along != run.sections.end() && across != run.sections.end())
+      out[body] = {{"longitudinal", section(along->second, true)}, {"cross", section(across->second, false)}};
   }
   return out;
 }
@@ -167,17 +190,38 @@ Json report_payload(const Report& report) {
   Json out;
   out["title"] = report.title;
   out["program"] = version_text();
-  out["checks"] = Json::array(), out["runs"] = Json::array(), out["tables"] = Json::array(), out["charts"] = Json::array(), out["maps"] = Json::array();
+  out["checks"] = Json::array();
+  out["runs"] = Json::array();
+  out["tables"] = Json::array();
+  out["charts"] = Json::array();
+  out["maps"] = Json::array();
   for (const ReportCheck& c : report.checks)
-    out["checks"].push_back({{"name", c.name}, {"runs", c.runs}, {"judged", c.judged}, {"ok", c.ok}, {"value", finite(c.value)}, {"limit", finite(c.limit)}, {"note", c.note}});
+    out["checks"].push_back({{"name", c.name},
+                             {"runs", c.runs},
+                             {"judged", c.judged},
+                             {"ok", c.ok},
+                             {"value", finite(c.value)},
+                             {"limit", finite(c.limit)},
+                             {"note", c.note}});
   for (const ReportRun& run : report.runs) out["runs"].push_back(run_json(run));
-  for (const ReportTable& t : report.tables) out["tables"].push_back({{"id", t.id}, {"title", t.title}, {"note", t.note}, {"columns", t.columns}, {"rows", t.rows}});
+  for (const ReportTable& t : report.tables)
+    out["tables"].push_back(
+        {{"id", t.id}, {"title", t.title}, {"note", t.note}, {"columns", t.columns}, {"rows", t.rows}});
   for (const ReportChart& c : report.charts) {
     Json series = Json::array();
-    for (const ReportSeries& s : c.series) series.push_back({{"name", s.name}, {"x", numbers(s.x)}, {"y", numbers(s.y)}, {"markers", s.markers}, {"colour", s.colour}, {"dash", s.dash}});
-    out["charts"].push_back({{"id", c.id}, {"title", c.title}, {"note", c.note}, {"x", c.x}, {"y", c.y}, {"series", series}});
+    for (const ReportSeries& s : c.series)
+      series.push_back({{"name", s.name},
+                        {"x", numbers(s.x)},
+                        {"y", numbers(s.y)},
+                        {"markers", s.markers},
+                        {"colour", s.colour},
+                        {"dash", s.dash}});
+    out["charts"].push_back(
+        {{"id", c.id}, {"title", c.title}, {"note", c.note}, {"x", c.x}, {"y", c.y}, {"series", series}});
   }
-  for (const ReportMaps& m : report.maps) out["maps"].push_back({{"id", m.id}, {"title", m.title}, {"note", m.note}, {"kind", m.kind}, {"runs", m.runs}, {"names", m.names}});
+  for (const ReportMaps& m : report.maps)
+    out["maps"].push_back(
+        {{"id", m.id}, {"title", m.title}, {"note", m.note}, {"kind", m.kind}, {"runs", m.runs}, {"names", m.names}});
   return out;
 }
 

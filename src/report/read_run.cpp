@@ -15,7 +15,8 @@ namespace fs = std::filesystem;
 fs::path file_of(const fs::path& folder, const std::string& name) {
   if (fs::exists(folder / name)) return folder / name;
   const fs::path full = fs::absolute(folder).lexically_normal();
-  if (full.filename().string().starts_with("position_") && fs::exists(full.parent_path() / name)) return full.parent_path() / name;
+  if (full.filename().string().starts_with("position_") && fs::exists(full.parent_path() / name))
+    return full.parent_path() / name;
   return {};
 }
 
@@ -29,7 +30,9 @@ std::string text_of(const fs::path& file) {
 nlohmann::ordered_json json_of(const fs::path& file) {
   if (file.empty()) return nullptr;
   nlohmann::ordered_json out = nlohmann::ordered_json::parse(text_of(file), nullptr, false);
-  if (!out.is_object()) throw CaseError("this is not a JSON object", "write the results anew with `railstrata run` or `railstrata bem`", file.string());
+  if (!out.is_object())
+    throw CaseError("this is not a JSON object", "write the results anew with `railstrata run` or `railstrata bem`",
+                    file.string());
   return out;
 }
 
@@ -39,7 +42,9 @@ std::string trimmed(std::string text) {
   return text;
 }
 
-std::string unquoted(const std::string& text) { return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text; }
+std::string unquoted(const std::string& text) {
+  return text.size() >= 2 && text.front() == '"' && text.back() == '"' ? text.substr(1, text.size() - 2) : text;
+}
 
 /// The resolved case has a line for each option: "[table]", "[[layer]]", "key = value".
 std::vector<CaseOption> options_of(const std::string& text) {
@@ -50,9 +55,12 @@ std::vector<CaseOption> options_of(const std::string& text) {
   for (std::string line; std::getline(lines, line);) {
     line = trimmed(line);
     if (line.empty() || line[0] == '#') continue;
-    if (line.starts_with("[[")) table = fmt::format("layer.{}", layers++);
-    else if (line[0] == '[') table = line.substr(1, line.find(']') - 1);
-    else if (const auto equals = line.find('='); equals != std::string::npos) out.push_back({table, trimmed(line.substr(0, equals)), unquoted(trimmed(line.substr(equals + 1)))});
+    if (line.starts_with("[["))
+      table = fmt::format("layer.{}", layers++);
+    else if (line[0] == '[')
+      table = line.substr(1, line.find(']') - 1);
+    else if (const auto equals = line.find('='); equals != std::string::npos)
+      out.push_back({table, trimmed(line.substr(0, equals)), unquoted(trimmed(line.substr(equals + 1)))});
   }
   return out;
 }
@@ -82,7 +90,8 @@ ReportRun read_report_run(const fs::path& folder) {
   run.depth_line = table_of(file_of(folder, "depth_line.csv"));
   run.history = table_of(file_of(folder, "history.csv"));
   for (const char* name : {"rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"})
-    if (auto table = table_of(file_of(folder, std::string(name) + "_section.csv"))) run.sections.emplace(name, std::move(*table));
+    if (auto table = table_of(file_of(folder, std::string(name) + "_section.csv")))
+      run.sections.emplace(name, std::move(*table));
   return run;
 }
 

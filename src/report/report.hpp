@@ -1,5 +1,6 @@
 #pragma once
-// What a report shows: a list of runs, the checks that say whether to trust them, and for a study tables and charts over all of them.
+// What a report shows: a list of runs, the checks that say whether to trust them, and for a study tables and charts
+// over all of them.
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -19,13 +20,13 @@ struct CaseOption {
 };
 
 /// A result folder, read whole. What an older folder has not is empty.
-struct ReportRun {  // NOLINT(bugprone-exception-escape): as of ResultFolder
-  std::string name;                              ///< what the report calls it
-  ResultFolder result;                           ///< summary.json, patch.csv
-  std::vector<CaseOption> options;               ///< case.toml
-  nlohmann::ordered_json provenance, geometry;   ///< provenance.json, geometry.json
+struct ReportRun {                              // NOLINT(bugprone-exception-escape): as of ResultFolder
+  std::string name;                             ///< what the report calls it
+  ResultFolder result;                          ///< summary.json, patch.csv
+  std::vector<CaseOption> options;              ///< case.toml
+  nlohmann::ordered_json provenance, geometry;  ///< provenance.json, geometry.json
   std::optional<CsvTable> depth_line, history;
-  std::map<std::string, CsvTable> sections;      ///< "rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"
+  std::map<std::string, CsvTable> sections;  ///< "rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"
 
   /// The value of an option as the case writes it; empty if it is not there.
   std::string option(const std::string& table, const std::string& key) const;
@@ -34,8 +35,8 @@ struct ReportRun {  // NOLINT(bugprone-exception-escape): as of ResultFolder
 /// One line of the verdict.
 struct ReportCheck {
   std::string name;
-  std::vector<int> runs;   ///< one: that run's own; two: the first against the second; none: over all cases of a study
-  bool judged = true;      ///< false: told, and no part of the verdict
+  std::vector<int> runs;  ///< one: that run's own; two: the first against the second; none: over all cases of a study
+  bool judged = true;     ///< false: told, and no part of the verdict
   bool ok = true;
   double value = 0, limit = 0;
   std::string note;
@@ -52,21 +53,21 @@ struct ReportSeries {
   std::string name;
   std::vector<double> x, y;
   bool markers = true;
-  int colour = -1;         ///< place among the page's colours; -1: the series' own
+  int colour = -1;  ///< place among the page's colours; -1: the series' own
   std::string dash = "solid";
 };
 struct ReportChart {
   std::string id, title, note;
-  std::string x, y;        ///< axes, with units
+  std::string x, y;  ///< axes, with units
   std::vector<ReportSeries> series;
 };
 
 /// A row of maps of one quantity, one for each run, on one scale.
 struct ReportMaps {
   std::string id, title, note;
-  std::string kind;                 ///< "state", "von_mises", "sigma_1"
+  std::string kind;  ///< "state", "von_mises", "sigma_1"
   std::vector<int> runs;
-  std::vector<std::string> names;   ///< of the maps
+  std::vector<std::string> names;  ///< of the maps
 };
 
 struct Report {
@@ -78,17 +79,21 @@ struct Report {
   std::vector<ReportMaps> maps;
 };
 
-/// Reads a folder of `run` or `bem`. A position_<mm> folder takes case, provenance and history from the folder it stands in. Throws CaseError as read_result_folder does.
+/// Reads a folder of `run` or `bem`. A position_<mm> folder takes case, provenance and history from the folder it
+/// stands in. Throws CaseError as read_result_folder does.
 ReportRun read_report_run(const std::filesystem::path& folder);
 
-/// What the runs say of themselves, and every finite element run against a half-space run of the same case (limits: p_max 4 %, patch length 6 %, q_max 7 %, largest von
-/// Mises stress below the rail's surface 8 % where it lies deeper than an element). Of two runs of different cases it is told which options differ.
+/// What the runs say of themselves, and every finite element run against a half-space run of the same case (limits:
+/// p_max 4 %, patch length 6 %, q_max 7 %, largest von Mises stress below the rail's surface 8 % where it lies deeper
+/// than an element). Of two runs of different cases it is told which options differ.
 std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs);
 
-/// The report as JSON, as report/src/data.ts reads it. Lines have six digits; maps and sections are packed to 16 bits a number and thinned to 300 points a side.
+/// The report as JSON, as report/src/data.ts reads it. Lines have six digits; maps and sections are packed to 16 bits a
+/// number and thinned to 300 points a side.
 nlohmann::ordered_json report_payload(const Report& report);
 
-/// The page: one file without any reference outside it. Scripts and styles run by their hashes alone (Content-Security-Policy).
+/// The page: one file without any reference outside it. Scripts and styles run by their hashes alone
+/// (Content-Security-Policy).
 std::string report_page(const Report& report);
 
 }  // namespace railstrata

@@ -15,7 +15,10 @@ void write_view_script(const std::filesystem::path& folder, const std::filesyste
   std::string script(view_script());
   const auto at = script.find(blank);
   assert(at != std::string::npos);
-  script.replace(at, blank.size(), "WRITTEN_TO = " + json_text(nlohmann::json(std::filesystem::absolute(place.empty() ? folder : place).lexically_normal().string())));
+  script.replace(
+      at, blank.size(),
+      "WRITTEN_TO = " + json_text(nlohmann::json(
+                            std::filesystem::absolute(place.empty() ? folder : place).lexically_normal().string())));
   write_whole_file(folder / "view.py", script);
 }
 

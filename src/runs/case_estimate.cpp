@@ -10,7 +10,8 @@
 namespace railstrata {
 namespace {
 
-/// Seconds of one evaluation of the internal forces of a body: the best of a quarter of a second, because other programs may hold the cores.
+/// Seconds of one evaluation of the internal forces of a body: the best of a quarter of a second, because other
+/// programs may hold the cores.
 double force_seconds(const DeformableBody& body) {
   Field u(body.mass.size(), 0.0), f(body.mass.size(), 0.0);
   double best = 1e9;
@@ -37,8 +38,10 @@ RunEstimate estimate_run(const Model& model) {
   RunEstimate e;
   e.limits = StepPlan(system).limits;
   e.steps = std::lround(model.x_end / (model.spec.drive.speed * e.limits.chosen));
-  e.evaluations = 1 + 2 * static_cast<double>(e.limits.stages) * static_cast<double>(e.limits.fine_elements) / static_cast<double>(model.rail.elements() + model.wheel.elements());
-  e.seconds = kRestOfStep * e.evaluations * static_cast<double>(e.steps) * (force_seconds(system.rail) + force_seconds(system.wheel));
+  e.evaluations = 1 + 2 * static_cast<double>(e.limits.stages) * static_cast<double>(e.limits.fine_elements) /
+                          static_cast<double>(model.rail.elements() + model.wheel.elements());
+  e.seconds = kRestOfStep * e.evaluations * static_cast<double>(e.steps) *
+              (force_seconds(system.rail) + force_seconds(system.wheel));
   e.memory_bytes = memory_in_use();
   return e;
 }

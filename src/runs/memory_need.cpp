@@ -13,8 +13,9 @@
 namespace railstrata {
 namespace {
 
-// Peaks of runs between 50 and 350 thousand nodes: 45 to 70 MB and 270 bytes a node. A checkpoint holds the four fields of the state three times over: the last good
-// state, which is the one to write, HDF5's image of it and the file's bytes.
+// Peaks of runs between 50 and 350 thousand nodes: 45 to 70 MB and 270 bytes a node. A checkpoint holds the four fields
+// of the state three times over: the last good state, which is the one to write, HDF5's image of it and the file's
+// bytes.
 constexpr double kBytesPerNode = 300 + 3 * 96, kBase = 60e6;
 
 /// A file of one number of bytes; without limit if it says so or is not there.
@@ -33,21 +34,27 @@ double available_in_system() {
 
 }  // namespace
 
-double memory_needed(const Model& model) { return kBase + kBytesPerNode * static_cast<double>(model.rail.nodes() + model.wheel.nodes()); }
+double memory_needed(const Model& model) {
+  return kBase + kBytesPerNode * static_cast<double>(model.rail.nodes() + model.wheel.nodes());
+}
 
 double memory_at_hand() {
   rlimit limit{};
   getrlimit(RLIMIT_AS, &limit);
   const double address_space = limit.rlim_cur == RLIM_INFINITY ? HUGE_VAL : static_cast<double>(limit.rlim_cur);
-  const double group = number_in("/sys/fs/cgroup/memory.max") - (std::ifstream("/sys/fs/cgroup/memory.current") ? number_in("/sys/fs/cgroup/memory.current") : 0);
+  const double group =
+      number_in("/sys/fs/cgroup/memory.max") -
+      (std::ifstream("/sys/fs/cgroup/memory.current") ? number_in("/sys/fs/cgroup/memory.current") : 0);
   return std::min({available_in_system(), group, address_space});
 }
 
 void require_memory(const Model& model) {
   const double needed = memory_needed(model), at_hand = memory_at_hand();
   if (needed <= at_hand) return;
-  throw EnvironmentError(fmt::format("this mesh needs about {:.3g} GB of memory ({:.3g} million nodes), {:.3g} GB are at hand\n    try a larger mesh.element_size or mesh.coarse_ratio, or a shorter path (run.positions)",
-                                     1e-9 * needed, 1e-6 * static_cast<double>(model.rail.nodes() + model.wheel.nodes()), 1e-9 * at_hand));
+  throw EnvironmentError(
+      fmt::format("this mesh needs about {:.3g} GB of memory ({:.3g} million nodes), {:.3g} GB are at hand\n    try a "
+                  "larger mesh.element_size or mesh.coarse_ratio, or a shorter path (run.positions)",
+                  1e-9 * needed, 1e-6 * static_cast<double>(model.rail.nodes() + model.wheel.nodes()), 1e-9 * at_hand));
 }
 
 }  // namespace railstrata

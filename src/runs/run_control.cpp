@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "runs/stop_flag.hpp"
-#include "core/faults.hpp"
 #include "case/units.hpp"
+#include "core/faults.hpp"
+#include "runs/stop_flag.hpp"
 
 namespace railstrata {
 
@@ -16,17 +16,18 @@ double wall_time(const std::string& option, const std::string& text) {
   try {
     const double seconds = parse_quantity(text, dimension::kTime);
     if (seconds >= 0 && std::isfinite(seconds)) return seconds;
-    throw CaseError(fmt::format("{} \"{}\" is out of range", option, text), "write a time, e.g. \"10 min\", or 0 for never");
+    throw CaseError(fmt::format("{} \"{}\" is out of range", option, text),
+                    "write a time, e.g. \"10 min\", or 0 for never");
   } catch (const UnitError& e) {
     throw CaseError(fmt::format("{} \"{}\": {}", option, text, e.what()), e.remedy);
   }
 }
 
-RunControl::RunControl(const RunTimes& times) : times_(times) {
-  stop_flag();
-}
+RunControl::RunControl(const RunTimes& times) : times_(times) { stop_flag(); }
 
-bool RunControl::out_of_time(double now) const { return times_.limit > 0 && now + 2 * longest_save_ + longest_pause_ + 0.01 * times_.limit >= times_.limit; }
+bool RunControl::out_of_time(double now) const {
+  return times_.limit > 0 && now + 2 * longest_save_ + longest_pause_ + 0.01 * times_.limit >= times_.limit;
+}
 
 Demand RunControl::demand() {
   const double now = elapsed();

@@ -21,8 +21,8 @@ class RunControl {
   /// The clock starts here. Installs the signals' handlers.
   explicit RunControl(const RunTimes& times);
 
-  /// What is asked of the run now. A limit is kept by stopping early: what is left must do for twice the longest checkpoint, the longest pause between two calls and
-  /// one part in a hundred of the limit.
+  /// What is asked of the run now. A limit is kept by stopping early: what is left must do for twice the longest
+  /// checkpoint, the longest pause between two calls and one part in a hundred of the limit.
   Demand demand();
   /// A checkpoint took so long [s].
   void saved(double seconds);

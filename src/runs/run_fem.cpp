@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "runs/memory_need.hpp"
-#include "runs/output_folder.hpp"
-#include "runs/peak_memory.hpp"
-#include "runs/stop_flag.hpp"
 #include "core/faults.hpp"
 #include "fem/rolling_run.hpp"
 #include "io/geometry_json.hpp"
@@ -15,6 +11,10 @@
 #include "io/summary_json.hpp"
 #include "post/fem_summary.hpp"
 #include "report/view.hpp"
+#include "runs/memory_need.hpp"
+#include "runs/output_folder.hpp"
+#include "runs/peak_memory.hpp"
+#include "runs/stop_flag.hpp"
 
 namespace railstrata {
 namespace {
@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 class PatchSeries {
  public:
   /// times: of the frames that an interrupted run has left.
-  PatchSeries(const RollingSystem& system, const fs::path& out, const std::vector<double>& times) : system_(system), folder_(out / kSeriesFolder), series_(out / "patch.pvd") {
+  PatchSeries(const RollingSystem& system, const fs::path& out, const std::vector<double>& times)
+      : system_(system), folder_(out / kSeriesFolder), series_(out / "patch.pvd") {
     make_folder(folder_, Above::there);
     for (double time : times) series_.add(time, next_file());
   }
@@ -75,7 +76,8 @@ class RunningFiles {
 /// Of a position before the last.
 fs::path position_folder(double position) { return fmt::format("{}{:.10g}mm", kPositionFolder, 1e3 * position); }
 
-void write_position(const RollingSystem& sys, const MeanContact& mean, const Summary& summary, const fs::path& folder, const std::vector<std::string>& provenance) {
+void write_position(const RollingSystem& sys, const MeanContact& mean, const Summary& summary, const fs::path& folder,
+                    const std::vector<std::string>& provenance) {
   write_patch_tables(folder, provenance, mean.field);
   const double contact_y = sys.model.placement.contact.point.y;
   const BandStress rail = band_stress(sys.model.rail, mean.rail, contact_y - sys.model.rail.origin.y);
@@ -119,7 +121,9 @@ FemOutcome run_fem(const FemRequest& request) {
   };
   observer.history = [&](const HistoryRow& row) { files.add(row); };
   observer.progress = [&](double fraction, const HistoryRow& row) {
-    report("rolling", fraction, fmt::format("x {:.1f} mm, F_z {:.2f} kN, F_x/F_z {:.3f}, p_max {:.0f} MPa", 1e3 * row.position, 1e-3 * row.forces.z, row.forces.x / row.forces.z, 1e-6 * row.p_max));
+    report("rolling", fraction,
+           fmt::format("x {:.1f} mm, F_z {:.2f} kN, F_x/F_z {:.3f}, p_max {:.0f} MPa", 1e3 * row.position,
+                       1e-3 * row.forces.z, row.forces.x / row.forces.z, 1e-6 * row.p_max));
   };
   if (files.wants_series()) observer.frame = [&](const RollingSample& sample) { files.add(sample); };
   Demand demand = Demand::go_on;
@@ -140,10 +144,13 @@ FemOutcome run_fem(const FemRequest& request) {
       return request.resume ? resume_rolling(system, observer, *request.resume) : run_rolling(system, observer);
     } catch (const NumericalError& e) {
       if (!std::filesystem::exists(checkpoint_file(request.out))) throw;
-      throw NumericalError(fmt::format("{}\n    the last good state is in {}", e.what(), checkpoint_file(request.out).string()));
+      throw NumericalError(
+          fmt::format("{}\n    the last good state is in {}", e.what(), checkpoint_file(request.out).string()));
     } catch (const Interrupted&) {
       if (!control.limit_reached()) throw;
-      throw EnvironmentError("the static preload alone takes longer than --max-time allows: there is nothing to resume yet; give the run more time");
+      throw EnvironmentError(
+          "the static preload alone takes longer than --max-time allows: there is nothing to resume yet; give the run "
+          "more time");
     }
   }();
 

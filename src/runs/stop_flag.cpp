@@ -25,9 +25,7 @@ void ask_to_save(int) { save_asked = true; }
 
 void leave_the_end_to_the_parent() { setenv(kPatient, "1", 1); }
 
-bool take_save_wish() {
-  return save_asked.load(std::memory_order_relaxed) && save_asked.exchange(false);
-}
+bool take_save_wish() { return save_asked.load(std::memory_order_relaxed) && save_asked.exchange(false); }
 
 std::atomic<bool>& stop_flag() {
   static const bool installed = [] {

@@ -8,14 +8,14 @@
 #include <fstream>
 #include <iterator>
 
-#include "runs/output_folder.hpp"
-#include "runs/peak_memory.hpp"
-#include "runs/run_bem.hpp"
-#include "core/faults.hpp"
 #include "case/case_file.hpp"
+#include "core/faults.hpp"
 #include "io/output_file.hpp"
 #include "post/bem_summary.hpp"
 #include "report/report.hpp"
+#include "runs/output_folder.hpp"
+#include "runs/peak_memory.hpp"
+#include "runs/run_bem.hpp"
 
 namespace railstrata {
 namespace {
@@ -39,14 +39,16 @@ void solve_reference(const fs::path& case_file, const fs::path& folder, int thre
 
 bool same_text(const fs::path& a, const fs::path& b) {
   std::ifstream left(a, std::ios::binary), right(b, std::ios::binary);
-  return left && right && std::equal(std::istreambuf_iterator<char>(left), {}, std::istreambuf_iterator<char>(right), {});
+  return left && right &&
+         std::equal(std::istreambuf_iterator<char>(left), {}, std::istreambuf_iterator<char>(right), {});
 }
 
 std::string title_of(const std::vector<ReportRun>& runs) {
   std::vector<std::string> titles;
   for (const ReportRun& run : runs)
     if (std::find(titles.begin(), titles.end(), run.result.title) == titles.end()) titles.push_back(run.result.title);
-  return titles.size() <= 2 ? fmt::format("{}", fmt::join(titles, " against ")) : fmt::format("{} and {} more", titles[0], titles.size() - 1);
+  return titles.size() <= 2 ? fmt::format("{}", fmt::join(titles, " against "))
+                            : fmt::format("{} and {} more", titles[0], titles.size() - 1);
 }
 
 }  // namespace

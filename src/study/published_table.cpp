@@ -14,24 +14,35 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-const StudyEntry* entry_at(const std::vector<StudyEntry>& entries, const std::string& given, const std::string& engine) {
+const StudyEntry* entry_at(const std::vector<StudyEntry>& entries, const std::string& given,
+                           const std::string& engine) {
   const auto slash = given.find('/');
   for (const StudyEntry& e : entries)
-    if (e.engine == engine && e.group == given.substr(0, slash) && (slash == std::string::npos || e.name == given.substr(slash + 1))) return &e;
+    if (e.engine == engine && e.group == given.substr(0, slash) &&
+        (slash == std::string::npos || e.name == given.substr(slash + 1)))
+      return &e;
   return nullptr;
 }
 
-/// The case a column of the comparison takes for `given`: the twin on its own mesh, if the study has that group, else the case itself.
+/// The case a column of the comparison takes for `given`: the twin on its own mesh, if the study has that group, else
+/// the case itself.
 const StudyEntry* answer(const std::vector<StudyEntry>& entries, const AnswerColumn& column, const std::string& given) {
-  if (const StudyEntry* twin = column.prefix.empty() ? nullptr : entry_at(entries, column.prefix + given, column.engine)) return twin;
+  if (const StudyEntry* twin =
+          column.prefix.empty() ? nullptr : entry_at(entries, column.prefix + given, column.engine))
+    return twin;
   return entry_at(entries, given, column.engine);
 }
 
-double number_of(const StudyEntry* e, const std::string& column) { return e && e->done() ? e->number(column) : kNothing; }
+double number_of(const StudyEntry* e, const std::string& column) {
+  return e && e->done() ? e->number(column) : kNothing;
+}
 
-double ours(const PublishedNumber& n, const std::string& column, const AnswerColumn& where, const std::vector<StudyEntry>& entries) {
+double ours(const PublishedNumber& n, const std::string& column, const AnswerColumn& where,
+            const std::vector<StudyEntry>& entries) {
   const double a = number_of(answer(entries, where, n.given), column);
-  if (n.engines) return where.engine == "bem" ? kNothing : 100 * std::abs(a / number_of(entry_at(entries, n.given, "bem"), column) - 1);
+  if (n.engines)
+    return where.engine == "bem" ? kNothing
+                                 : 100 * std::abs(a / number_of(entry_at(entries, n.given, "bem"), column) - 1);
   if (!n.against.empty()) return 100 * (a / number_of(answer(entries, where, n.against), column) - 1);
   return n.factor * a;
 }
@@ -54,26 +65,38 @@ std::string reason(const PublishedNumber& n, const Answers& a, const Answers& ot
   const bool fem = std::isfinite(a.converged) || std::isfinite(a.paper_mesh);
   std::string out;
   if (!std::isfinite(best) && !std::isfinite(a.paper_mesh)) return "no result yet";
-  const bool settled = std::isfinite(best) && agrees(n, best), on_mesh = std::isfinite(a.paper_mesh) && agrees(n, a.paper_mesh);
-  if (settled && std::isfinite(a.paper_mesh) && !on_mesh) out = fmt::format("agrees when converged; on the paper's mesh ours gives {}", number_text(a.paper_mesh));
-  else if (settled || (on_mesh && !std::isfinite(best))) out = "agrees";
-  else if (on_mesh) out = fmt::format("mesh artefact: our run on the paper's mesh agrees, the converged answer is {}", number_text(best));
+  const bool settled = std::isfinite(best) && agrees(n, best),
+             on_mesh = std::isfinite(a.paper_mesh) && agrees(n, a.paper_mesh);
+  if (settled && std::isfinite(a.paper_mesh) && !on_mesh)
+    out = fmt::format("agrees when converged; on the paper's mesh ours gives {}", number_text(a.paper_mesh));
+  else if (settled || (on_mesh && !std::isfinite(best)))
+    out = "agrees";
+  else if (on_mesh)
+    out =
+        fmt::format("mesh artefact: our run on the paper's mesh agrees, the converged answer is {}", number_text(best));
   else {
     for (const double v : {fem ? other.converged : other.half_space, other.paper_mesh})
-      if (out.empty() && std::isfinite(v) && agrees(n, v)) out = fmt::format("other definition: {} gives {}", n.other_is, number_text(v));
+      if (out.empty() && std::isfinite(v) && agrees(n, v))
+        out = fmt::format("other definition: {} gives {}", n.other_is, number_text(v));
     if (out.empty()) out = "not explained";
   }
-  if (!fem) out += " (half-spaces alone: no finite element result yet)";
-  else if (!std::isfinite(a.converged) && n.only.empty()) out += " (no converged finite element result yet)";
+  if (!fem)
+    out += " (half-spaces alone: no finite element result yet)";
+  else if (!std::isfinite(a.converged) && n.only.empty())
+    out += " (no converged finite element result yet)";
   return n.note.empty() ? out : out + ". " + n.note;
 }
 
 /// A name that no column finds is a mistake of the file, not a result that is missing.
-bool is_known(const std::vector<AnswerColumn>& columns, const std::vector<StudyEntry>& entries, const std::string& given) {
-  return given.empty() || std::any_of(columns.begin(), columns.end(), [&](const AnswerColumn& c) { return answer(entries, c, given) != nullptr; });
+bool is_known(const std::vector<AnswerColumn>& columns, const std::vector<StudyEntry>& entries,
+              const std::string& given) {
+  return given.empty() || std::any_of(columns.begin(), columns.end(),
+                                      [&](const AnswerColumn& c) { return answer(entries, c, given) != nullptr; });
 }
 
-std::string given_text(const PublishedNumber& n) { return n.against.empty() ? n.given : fmt::format("{} against {}", n.given, n.against); }
+std::string given_text(const PublishedNumber& n) {
+  return n.against.empty() ? n.given : fmt::format("{} against {}", n.given, n.against);
+}
 
 // ---- statements
 struct Point {
@@ -90,20 +113,28 @@ bool passes(const StudyEntry& e, const std::map<std::string, std::vector<std::st
   return true;
 }
 
-/// Lines of a statement: for each value of `each`, the numbers along `along` in its order. A case without `each` belongs to every line.
-std::map<double, std::pair<std::string, std::vector<Point>>> lines_of(const PublishedClaim& c, const AnswerColumn& column, const std::vector<StudyEntry>& entries) {
+/// Lines of a statement: for each value of `each`, the numbers along `along` in its order. A case without `each`
+/// belongs to every line.
+std::map<double, std::pair<std::string, std::vector<Point>>> lines_of(const PublishedClaim& c,
+                                                                      const AnswerColumn& column,
+                                                                      const std::vector<StudyEntry>& entries) {
   const auto wanted = [&](const StudyEntry& e) {
-    const bool twin = !column.prefix.empty() && std::any_of(c.groups.begin(), c.groups.end(), [&](const std::string& g) { return e.group == column.prefix + g; });
+    const bool twin =
+        !column.prefix.empty() && std::any_of(c.groups.begin(), c.groups.end(),
+                                              [&](const std::string& g) { return e.group == column.prefix + g; });
     const bool own = column.prefix.empty() && std::find(c.groups.begin(), c.groups.end(), e.group) != c.groups.end();
     return e.engine == column.engine && (twin || own) && e.done() && passes(e, c.where) && !e.value(c.along).empty();
   };
   std::map<double, std::pair<std::string, std::vector<Point>>> lines;
   for (const StudyEntry& e : entries)
-    if (wanted(e) && (c.each.empty() || !e.value(c.each).empty())) lines[c.each.empty() ? 0 : axis_value(e.value(c.each)).first].first = c.each.empty() ? "" : e.value(c.each);
+    if (wanted(e) && (c.each.empty() || !e.value(c.each).empty()))
+      lines[c.each.empty() ? 0 : axis_value(e.value(c.each)).first].first = c.each.empty() ? "" : e.value(c.each);
   for (auto& [at, line] : lines) {
     for (const StudyEntry& e : entries)
-      if (wanted(e) && (c.each.empty() || e.value(c.each).empty() || e.value(c.each) == line.first)) line.second.push_back({axis_value(e.value(c.along)).first, e.value(c.along), c.factor * e.number(c.column)});
-    std::stable_sort(line.second.begin(), line.second.end(), [](const Point& a, const Point& b) { return a.along < b.along; });
+      if (wanted(e) && (c.each.empty() || e.value(c.each).empty() || e.value(c.each) == line.first))
+        line.second.push_back({axis_value(e.value(c.along)).first, e.value(c.along), c.factor * e.number(c.column)});
+    std::stable_sort(line.second.begin(), line.second.end(),
+                     [](const Point& a, const Point& b) { return a.along < b.along; });
   }
   return lines;
 }
@@ -118,7 +149,9 @@ bool holds(const std::string& kind, const std::vector<Point>& p) {
   };
   if (kind == "rises") return all(0, p.size() - 1, rising);
   if (kind == "falls") return all(0, p.size() - 1, falling);
-  const auto lowest = static_cast<std::size_t>(std::min_element(p.begin(), p.end(), [](const Point& a, const Point& b) { return a.value < b.value; }) - p.begin());
+  const auto lowest = static_cast<std::size_t>(
+      std::min_element(p.begin(), p.end(), [](const Point& a, const Point& b) { return a.value < b.value; }) -
+      p.begin());
   return lowest > 0 && lowest + 1 < p.size() && all(0, lowest, falling) && all(lowest, p.size() - 1, rising);
 }
 
@@ -134,7 +167,8 @@ std::string claim_cell(const PublishedClaim& c, const AnswerColumn& column, cons
     const double v = c.factor * number_of(answer(entries, column, c.given), c.column);
     if (!std::isfinite(v)) return "no result yet";
     const bool ok = c.kind == "above" ? v > c.limit : v < c.limit;
-    return fmt::format("{}: {}{} ({} {}{})", ok ? "confirmed" : "not confirmed", number_text(v), unit, c.kind, number_text(c.limit), unit);
+    return fmt::format("{}: {}{} ({} {}{})", ok ? "confirmed" : "not confirmed", number_text(v), unit, c.kind,
+                       number_text(c.limit), unit);
   }
   const auto lines = lines_of(c, column, entries);
   std::vector<std::string> good, bad;
@@ -151,33 +185,56 @@ std::string claim_cell(const PublishedClaim& c, const AnswerColumn& column, cons
 }  // namespace
 
 ReportTable published_table(const Published& published, const std::vector<StudyEntry>& entries) {
-  ReportTable table{"published", fmt::format("The paper's numbers [{}]", published.source), "", {"section", "quantity", "case", "unit", "paper"}, {}};
+  ReportTable table{"published",
+                    fmt::format("The paper's numbers [{}]", published.source),
+                    "",
+                    {"section", "quantity", "case", "unit", "paper"},
+                    {}};
   for (const AnswerColumn& c : published.columns) table.columns.push_back(c.name);
   table.columns.insert(table.columns.end(), {"difference", "reason"});
   for (const PublishedNumber& n : published.numbers) {
     Answers a, other;
-    std::vector<nlohmann::ordered_json> row{n.section, n.quantity, given_text(n), n.unit, fmt::format("{}{}", n.bound.empty() ? "" : n.bound + " ", n.value)};
+    std::vector<nlohmann::ordered_json> row{n.section, n.quantity, given_text(n), n.unit,
+                                            fmt::format("{}{}", n.bound.empty() ? "" : n.bound + " ", n.value)};
     for (const AnswerColumn& c : published.columns) {
       const bool fits = n.only.empty() || std::find(n.only.begin(), n.only.end(), c.name) != n.only.end();
       const double v = fits ? ours(n, n.column, c, entries) : kNothing;
-      double Answers::*slot = c.engine == "bem" ? &Answers::half_space : c.prefix.empty() ? &Answers::converged : &Answers::paper_mesh;
+      double Answers::*slot = c.engine == "bem"  ? &Answers::half_space
+                              : c.prefix.empty() ? &Answers::converged
+                                                 : &Answers::paper_mesh;
       a.*slot = v;
       if (fits && !n.other.empty()) other.*slot = ours(n, n.other, c, entries);
       row.push_back(std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr));
     }
-    const double best = std::isfinite(a.converged) ? a.converged : std::isfinite(a.half_space) ? a.half_space : a.paper_mesh;
+    const double best = std::isfinite(a.converged)    ? a.converged
+                        : std::isfinite(a.half_space) ? a.half_space
+                                                      : a.paper_mesh;
     const bool percent = n.unit == "%";
-    row.push_back(std::isfinite(best) && n.bound.empty() ? nlohmann::ordered_json(percent || n.value == 0 ? fmt::format("{:+.1f} {}", best - n.value, percent ? "points" : n.unit) : fmt::format("{:+.1f} %", 100 * (best / n.value - 1))) : nlohmann::ordered_json(nullptr));
-    row.push_back(is_known(published.columns, entries, n.given) && is_known(published.columns, entries, n.against) ? reason(n, a, other) : "the study has no such case");
+    row.push_back(
+        std::isfinite(best) && n.bound.empty()
+            ? nlohmann::ordered_json(percent || n.value == 0
+                                         ? fmt::format("{:+.1f} {}", best - n.value, percent ? "points" : n.unit)
+                                         : fmt::format("{:+.1f} %", 100 * (best / n.value - 1)))
+            : nlohmann::ordered_json(nullptr));
+    row.push_back(is_known(published.columns, entries, n.given) && is_known(published.columns, entries, n.against)
+                      ? reason(n, a, other)
+                      : "the study has no such case");
     table.rows.push_back(std::move(row));
   }
-  table.note = "Difference: the converged finite element answer from the paper's number, or the half-space's where there is none yet. The reason follows from the runs: it agrees within the tolerance that "
-               "published.toml states for the number; or our run on the paper's mesh agrees and the converged one does not; or another definition agrees; or it is not explained. Nothing is tuned.";
+  table.note =
+      "Difference: the converged finite element answer from the paper's number, or the half-space's where there is "
+      "none yet. The reason follows from the runs: it agrees within the tolerance that "
+      "published.toml states for the number; or our run on the paper's mesh agrees and the converged one does not; or "
+      "another definition agrees; or it is not explained. Nothing is tuned.";
   return table;
 }
 
 ReportTable claims_table(const Published& published, const std::vector<StudyEntry>& entries) {
-  ReportTable table{"claims", "The paper's conclusions", "Every statement as a test of the numbers, in the order of stiffness or thickness.", {"section", "statement"}, {}};
+  ReportTable table{"claims",
+                    "The paper's conclusions",
+                    "Every statement as a test of the numbers, in the order of stiffness or thickness.",
+                    {"section", "statement"},
+                    {}};
   for (const AnswerColumn& c : published.columns) table.columns.push_back(c.name);
   for (const PublishedClaim& claim : published.claims) {
     std::vector<nlohmann::ordered_json> row{claim.section, claim.text};

@@ -22,14 +22,15 @@ constexpr ResultColumn kContact[] = {{"p_max_MPa", "/contact/p_max_Pa", 1e-6},
                                      {"creepage_x", "/contact/creepage_x", 1},
                                      {"spin_per_m", "/contact/spin_per_m", 1},
                                      {"approach_um", "/contact/approach_m", 1e6}};
-constexpr ResultColumn kStress[] = {{"rail_surface_von_mises_MPa", "/stress/rail/surface/von_mises_max/value_Pa", 1e-6},
-                                    {"rail_surface_sigma_1_MPa", "/stress/rail/surface/sigma1_max/value_Pa", 1e-6},
-                                    {"rail_subsurface_von_mises_MPa", "/stress/rail/subsurface/von_mises_max/value_Pa", 1e-6},
-                                    {"rail_subsurface_von_mises_depth_mm", "/stress/rail/subsurface/von_mises_max/depth_m", 1e3},
-                                    {"rail_layer_von_mises_MPa", "/stress/rail/layer/von_mises_max/value_Pa", 1e-6},
-                                    {"rail_layer_sigma_1_MPa", "/stress/rail/layer/sigma1_max/value_Pa", 1e-6},
-                                    {"rail_interface_von_mises_MPa", "/stress/rail/interface/von_mises_max/value_Pa", 1e-6},
-                                    {"rail_matrix_von_mises_MPa", "/stress/rail/matrix/von_mises_max/value_Pa", 1e-6}};
+constexpr ResultColumn kStress[] = {
+    {"rail_surface_von_mises_MPa", "/stress/rail/surface/von_mises_max/value_Pa", 1e-6},
+    {"rail_surface_sigma_1_MPa", "/stress/rail/surface/sigma1_max/value_Pa", 1e-6},
+    {"rail_subsurface_von_mises_MPa", "/stress/rail/subsurface/von_mises_max/value_Pa", 1e-6},
+    {"rail_subsurface_von_mises_depth_mm", "/stress/rail/subsurface/von_mises_max/depth_m", 1e3},
+    {"rail_layer_von_mises_MPa", "/stress/rail/layer/von_mises_max/value_Pa", 1e-6},
+    {"rail_layer_sigma_1_MPa", "/stress/rail/layer/sigma1_max/value_Pa", 1e-6},
+    {"rail_interface_von_mises_MPa", "/stress/rail/interface/von_mises_max/value_Pa", 1e-6},
+    {"rail_matrix_von_mises_MPa", "/stress/rail/matrix/von_mises_max/value_Pa", 1e-6}};
 constexpr ResultColumn kWall{"wall_s", "/run/wall_s", 1};
 
 }  // namespace

@@ -8,11 +8,11 @@
 #include <set>
 #include <sstream>
 
-#include "core/nearest_word.hpp"
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
 #include "case/toml_document.hpp"
 #include "case/units.hpp"
+#include "core/nearest_word.hpp"
 #include "study/variation.hpp"
 
 namespace railstrata {
@@ -40,12 +40,16 @@ class StudyReader {
 
   void read(const toml::table& document) {
     known(document, "", {"study", "group", "figure"});
-    if (const toml::table* study = table_at(document, "study", "[study]")) read_study(*study);
-    else if (!document.contains("study")) source_.complain_at({1, 1}, "there is no [study]", "begin with [study] and base = \"case.toml\" below it");
+    if (const toml::table* study = table_at(document, "study", "[study]"))
+      read_study(*study);
+    else if (!document.contains("study"))
+      source_.complain_at({1, 1}, "there is no [study]", "begin with [study] and base = \"case.toml\" below it");
     for (const toml::table* t : tables_at(document, "group")) read_group(*t);
     for (const toml::table* t : tables_at(document, "figure")) read_figure(*t);
     if (spec_.groups.empty() && !document.contains("group"))
-      source_.complain_at({1, 1}, "the study has no [[group]] of cases", "write [[group]], name = \"layers\", and below it [group.vary] with \"layer.0.thickness\" = [\"1 mm\", \"2 mm\"]");
+      source_.complain_at({1, 1}, "the study has no [[group]] of cases",
+                          "write [[group]], name = \"layers\", and below it [group.vary] with \"layer.0.thickness\" = "
+                          "[\"1 mm\", \"2 mm\"]");
   }
 
  private:
@@ -64,13 +68,27 @@ class StudyReader {
     StudyGroup g;
     g.name = text(t, "name", "");
     g.title = text(t, "title", g.name);
-    const bool plain = !g.name.empty() && g.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") == std::string::npos && g.name[0] != '.' && g.name[0] != '-';
-    if (!plain) source_.complain_at(t.contains("name") ? place_of(*t.get("name")) : place_of(t), fmt::format("group.name = \"{}\": must be a word of letters, digits, _ - and .: folders bear it", g.name), "write name = \"layers\"");
-    else if (const std::string end = std::filesystem::path(g.name).extension().string(); end == ".csv" || end == ".html" || end == ".json" || end == ".toml")
-      source_.complain_at(place_of(*t.get("name")), fmt::format("group.name = \"{}\": a file of the study may have this name", g.name), "leave the ending out: folders bear the name");
-    else if (!names_.insert(g.name).second) source_.complain_at(place_of(*t.get("name")), fmt::format("there are two groups named \"{}\"", g.name), "give each group its own name");
+    const bool plain = !g.name.empty() &&
+                       g.name.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.") ==
+                           std::string::npos &&
+                       g.name[0] != '.' && g.name[0] != '-';
+    if (!plain)
+      source_.complain_at(
+          t.contains("name") ? place_of(*t.get("name")) : place_of(t),
+          fmt::format("group.name = \"{}\": must be a word of letters, digits, _ - and .: folders bear it", g.name),
+          "write name = \"layers\"");
+    else if (const std::string end = std::filesystem::path(g.name).extension().string();
+             end == ".csv" || end == ".html" || end == ".json" || end == ".toml")
+      source_.complain_at(place_of(*t.get("name")),
+                          fmt::format("group.name = \"{}\": a file of the study may have this name", g.name),
+                          "leave the ending out: folders bear the name");
+    else if (!names_.insert(g.name).second)
+      source_.complain_at(place_of(*t.get("name")), fmt::format("there are two groups named \"{}\"", g.name),
+                          "give each group its own name");
     g.base = t.contains("base") ? file(t, "base") : base_;
-    if (g.base.empty() && !t.contains("base")) source_.complain_at(place_of(t), fmt::format("group \"{}\" has no base case", g.name), "write base = \"case.toml\" in it or in [study]");
+    if (g.base.empty() && !t.contains("base"))
+      source_.complain_at(place_of(t), fmt::format("group \"{}\" has no base case", g.name),
+                          "write base = \"case.toml\" in it or in [study]");
     g.engines = engines_of(t, engines_);
     g.set = set_;
     for (const StudyValue& v : values_at(t, "set")) put(g.set, v);
@@ -83,16 +101,26 @@ class StudyReader {
     known(t, "figure", {"id", "title", "note", "kind", "value", "each", "series", "x", "groups", "engines", "where"});
     StudyFigure f;
     f.id = text(t, "id", fmt::format("figure-{}", spec_.figures.size() + 1));
-    f.title = text(t, "title", f.id), f.note = text(t, "note", "");
+    f.title = text(t, "title", f.id);
+    f.note = text(t, "note", "");
     f.kind = choice(t, "kind", {"centre_line", "trend", "map"});
-    if (f.kind == "centre_line") f.value = choice(t, "value", {"p", "q"});
-    else if (f.kind == "map") f.value = choice(t, "value", {"state", "von_mises", "sigma_1"});
-    else f.value = text(t, "value", "p_max_MPa");
-    f.each = text(t, "each", ""), f.series = text(t, "series", ""), f.x = text(t, "x", "");
-    if (f.kind == "trend" && f.x.empty()) source_.complain_at(place_of(t), fmt::format("figure \"{}\" is a trend and has no x", f.id), "name the key along its axis: x = \"layer.0.thickness\"");
+    if (f.kind == "centre_line")
+      f.value = choice(t, "value", {"p", "q"});
+    else if (f.kind == "map")
+      f.value = choice(t, "value", {"state", "von_mises", "sigma_1"});
+    else
+      f.value = text(t, "value", "p_max_MPa");
+    f.each = text(t, "each", "");
+    f.series = text(t, "series", "");
+    f.x = text(t, "x", "");
+    if (f.kind == "trend" && f.x.empty())
+      source_.complain_at(place_of(t), fmt::format("figure \"{}\" is a trend and has no x", f.id),
+                          "name the key along its axis: x = \"layer.0.thickness\"");
     f.groups = words(t, "groups");
     for (const std::string& g : f.groups)
-      if (!names_.contains(g)) source_.complain_at(place_of(*t.get("groups")), fmt::format("figure \"{}\": there is no group \"{}\"", f.id, g), fmt::format("groups: {}", fmt::join(names_, ", ")));
+      if (!names_.contains(g))
+        source_.complain_at(place_of(*t.get("groups")), fmt::format("figure \"{}\": there is no group \"{}\"", f.id, g),
+                            fmt::format("groups: {}", fmt::join(names_, ", ")));
     if (f.groups.empty()) f.groups.assign(names_.begin(), names_.end());
     f.engines = engines_of(t, engines_);
     for (const VariedKey& k : lists_at(t, "where")) f.where[k.key] = k.values;
@@ -104,7 +132,9 @@ class StudyReader {
     std::vector<StudyPoint> out(1);
     std::set<std::string> seen;
     const auto once = [&](const StudyValue& v) {
-      if (!seen.insert(v.key).second) source_.complain_at(v.place, fmt::format("{} is varied twice in this group", v.key), "name a key once, in vary, zip or case");
+      if (!seen.insert(v.key).second)
+        source_.complain_at(v.place, fmt::format("{} is varied twice in this group", v.key),
+                            "name a key once, in vary, zip or case");
     };
     for (const auto& key : keyed_lists(t, "vary")) {
       once(key.front());
@@ -118,8 +148,11 @@ class StudyReader {
       for (const auto& key : zipped) {
         once(key.front());
         if (key.size() != rows.size()) {
-          source_.complain_at(key.front().place, fmt::format("{} has {} values and {} has {}: what is zipped goes together, value by value", key.front().key, key.size(), zipped.front().front().key, rows.size()),
-                              "give every key of [group.zip] equally many values, or put it into [group.vary]");
+          source_.complain_at(
+              key.front().place,
+              fmt::format("{} has {} values and {} has {}: what is zipped goes together, value by value",
+                          key.front().key, key.size(), zipped.front().front().key, rows.size()),
+              "give every key of [group.zip] equally many values, or put it into [group.vary]");
           continue;
         }
         for (std::size_t i = 0; i < rows.size(); ++i) rows[i].push_back(key[i]);
@@ -130,15 +163,19 @@ class StudyReader {
     for (const toml::table* row : tables_at(t, "case")) {
       listed.emplace_back();
       flatten(*row, "", listed.back());
-      if (listed.back().empty()) source_.complain_at(place_of(*row), "this case of the list sets nothing", "write [[group.case]] and key = value below it");
+      if (listed.back().empty())
+        source_.complain_at(place_of(*row), "this case of the list sets nothing",
+                            "write [[group.case]] and key = value below it");
     }
     return listed.empty() ? out : product(out, listed, t);
   }
 
-  std::vector<StudyPoint> product(const std::vector<StudyPoint>& a, const std::vector<StudyPoint>& b, const toml::table& group) {
+  std::vector<StudyPoint> product(const std::vector<StudyPoint>& a, const std::vector<StudyPoint>& b,
+                                  const toml::table& group) {
     std::vector<StudyPoint> out;
     if (a.size() * b.size() > kMostCases) {
-      source_.complain_at(place_of(group), fmt::format("this group has more than {} cases", kMostCases), "vary fewer keys at once, or give fewer values");
+      source_.complain_at(place_of(group), fmt::format("this group has more than {} cases", kMostCases),
+                          "vary fewer keys at once, or give fewer values");
       return {};  // nothing more to complain of
     }
     for (const StudyPoint& left : a)
@@ -151,8 +188,10 @@ class StudyReader {
 
   static void put(StudyPoint& values, const StudyValue& v) {
     const auto same = std::find_if(values.begin(), values.end(), [&](const StudyValue& w) { return w.key == v.key; });
-    if (same == values.end()) values.push_back(v);
-    else *same = v;
+    if (same == values.end())
+      values.push_back(v);
+    else
+      *same = v;
   }
 
   // ---- pieces of the text
@@ -161,12 +200,16 @@ class StudyReader {
   void each_key(const toml::table& t, const std::string& prefix, Leaf&& leaf) {
     std::vector<std::pair<const toml::key*, const toml::node*>> ordered;
     for (const auto& [key, node] : t) ordered.emplace_back(&key, &node);
-    const auto at = [](const auto& e) { return std::pair(e.first->source().begin.line, e.first->source().begin.column); };
+    const auto at = [](const auto& e) {
+      return std::pair(e.first->source().begin.line, e.first->source().begin.column);
+    };
     std::stable_sort(ordered.begin(), ordered.end(), [&](const auto& a, const auto& b) { return at(a) < at(b); });
     for (const auto& [key, node] : ordered) {
       const std::string full = prefix.empty() ? std::string(key->str()) : prefix + "." + std::string(key->str());
-      if (const toml::table* inner = node->as_table()) each_key(*inner, full, leaf);
-      else leaf(full, *key, *node);
+      if (const toml::table* inner = node->as_table())
+        each_key(*inner, full, leaf);
+      else
+        leaf(full, *key, *node);
     }
   }
 
@@ -178,7 +221,8 @@ class StudyReader {
 
   bool check_key(const std::string& full, const toml::key& key) {
     if (full.find('.') != std::string::npos) return true;
-    source_.complain_at(place_of(key), fmt::format("{} names no table of the case", full), "write \"table.key\", e.g. \"drive.speed\" or \"layer.0.thickness\"");
+    source_.complain_at(place_of(key), fmt::format("{} names no table of the case", full),
+                        "write \"table.key\", e.g. \"drive.speed\" or \"layer.0.thickness\"");
     return false;
   }
 
@@ -195,18 +239,25 @@ class StudyReader {
     each_key(*inner, "", [&](const std::string& full, const toml::key& key, const toml::node& node) {
       if (!check_key(full, key)) return;
       const toml::array* list = node.as_array();
-      if (!list || list->empty()) return source_.complain_at(place_of(node), fmt::format("{} under {}: must be a list of at least one value", full, name), fmt::format("write \"{}\" = [{}], or put a single value into [group.set]", full, plain_example(node)));
+      if (!list || list->empty())
+        return source_.complain_at(
+            place_of(node), fmt::format("{} under {}: must be a list of at least one value", full, name),
+            fmt::format("write \"{}\" = [{}], or put a single value into [group.set]", full, plain_example(node)));
       std::vector<StudyValue> values;
       for (const toml::node& item : *list) values.push_back({full, plain_text(item), toml_text(item), place_of(item)});
       for (std::size_t i = 0; i < values.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
-          if (values[i].toml == values[j].toml) source_.complain_at(values[i].place, fmt::format("{} has the value {} twice", full, values[i].toml), "leave one out");
+          if (values[i].toml == values[j].toml)
+            source_.complain_at(values[i].place, fmt::format("{} has the value {} twice", full, values[i].toml),
+                                "leave one out");
       out.push_back(std::move(values));
     });
     return out;
   }
 
-  static std::string plain_example(const toml::node& node) { return node.is_array() ? "value, value" : toml_text(node); }
+  static std::string plain_example(const toml::node& node) {
+    return node.is_array() ? "value, value" : toml_text(node);
+  }
 
   std::vector<VariedKey> lists_at(const toml::table& t, const char* name) {
     std::vector<VariedKey> out;
@@ -222,15 +273,19 @@ class StudyReader {
       const std::string word(key.str());
       if (std::find(keys.begin(), keys.end(), word) != keys.end()) continue;
       const std::string near = nearest_word(word, keys);
-      source_.complain_at(place_of(key), fmt::format("unknown key {}{}{}", name, name.empty() ? "" : ".", word), fmt::format("{}{}: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
-                          name.empty() ? "tables of a study" : fmt::format("keys of [{}]", name), fmt::join(keys, ", ")));
+      source_.complain_at(
+          place_of(key), fmt::format("unknown key {}{}{}", name, name.empty() ? "" : ".", word),
+          fmt::format("{}{}: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
+                      name.empty() ? "tables of a study" : fmt::format("keys of [{}]", name), fmt::join(keys, ", ")));
     }
   }
 
   const toml::table* table_at(const toml::table& t, const char* key, const std::string& remedy) {
     const toml::node* node = t.get(key);
     if (!node) return nullptr;
-    if (!node->is_table()) source_.complain_at(place_of(*node), fmt::format("{} must be a table", key), fmt::format("write {} above its keys", remedy));
+    if (!node->is_table())
+      source_.complain_at(place_of(*node), fmt::format("{} must be a table", key),
+                          fmt::format("write {} above its keys", remedy));
     return node->as_table();
   }
 
@@ -242,7 +297,9 @@ class StudyReader {
     if (list)
       for (const toml::node& item : *list)
         if (const toml::table* inner = item.as_table()) out.push_back(inner);
-    if (!list || out.size() != list->size()) source_.complain_at(place_of(*node), fmt::format("{} must be a list of tables", key), fmt::format("write [[{}]] with two brackets", key));
+    if (!list || out.size() != list->size())
+      source_.complain_at(place_of(*node), fmt::format("{} must be a list of tables", key),
+                          fmt::format("write [[{}]] with two brackets", key));
     return out;
   }
 
@@ -250,15 +307,18 @@ class StudyReader {
     const toml::node* node = t.get(key);
     if (!node) return otherwise;
     if (const auto* words = node->as_string()) return words->get();
-    source_.complain_at(place_of(*node), fmt::format("{} = {}: must be a text", key, toml_text(*node)), "put it in quotes");
+    source_.complain_at(place_of(*node), fmt::format("{} = {}: must be a text", key, toml_text(*node)),
+                        "put it in quotes");
     return otherwise;
   }
 
   std::string length(const toml::table& t, const char* key) {
     std::string written = text(t, key, "");
     try {
-      if (!written.empty() && !(parse_quantity(written, dimension::kLength) > 0 && std::isfinite(parse_quantity(written, dimension::kLength))))
-        source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": must be above 0 mm", key, written), "write a length, e.g. \"0.5 mm\"");
+      if (!written.empty() && !(parse_quantity(written, dimension::kLength) > 0 &&
+                                std::isfinite(parse_quantity(written, dimension::kLength))))
+        source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": must be above 0 mm", key, written),
+                            "write a length, e.g. \"0.5 mm\"");
     } catch (const UnitError& e) {
       source_.complain_at(place_of(*t.get(key)), fmt::format("{} = \"{}\": {}", key, written, e.what()), e.remedy);
     }
@@ -273,7 +333,9 @@ class StudyReader {
     if (list)
       for (const toml::node& item : *list)
         if (const auto* word = item.as_string()) out.push_back(word->get());
-    if (!list || out.size() != list->size() || out.empty()) source_.complain_at(place_of(*node), fmt::format("{} must be a list of texts", key), fmt::format("write {} = [\"…\"]", key));
+    if (!list || out.size() != list->size() || out.empty())
+      source_.complain_at(place_of(*node), fmt::format("{} must be a list of texts", key),
+                          fmt::format("write {} = [\"…\"]", key));
     return out;
   }
 
@@ -281,14 +343,18 @@ class StudyReader {
     if (!t.contains("engines")) return otherwise;
     std::vector<std::string> out = words(t, "engines");
     for (const std::string& e : out)
-      if (e != "fem" && e != "bem") source_.complain_at(place_of(*t.get("engines")), fmt::format("engines: there is no engine \"{}\"", e), "write engines = [\"fem\", \"bem\"], or one of the two");
+      if (e != "fem" && e != "bem")
+        source_.complain_at(place_of(*t.get("engines")), fmt::format("engines: there is no engine \"{}\"", e),
+                            "write engines = [\"fem\", \"bem\"], or one of the two");
     return out;
   }
 
   std::string choice(const toml::table& t, const char* key, const std::vector<std::string>& choices) {
     std::string word = text(t, key, "");
     if (std::find(choices.begin(), choices.end(), word) == choices.end())
-      source_.complain_at(t.contains(key) ? place_of(*t.get(key)) : place_of(t), fmt::format("{} = \"{}\": must be one of \"{}\"", key, word, fmt::join(choices, "\", \"")), fmt::format("write {} = \"{}\"", key, choices.front()));
+      source_.complain_at(t.contains(key) ? place_of(*t.get(key)) : place_of(t),
+                          fmt::format("{} = \"{}\": must be one of \"{}\"", key, word, fmt::join(choices, "\", \"")),
+                          fmt::format("write {} = \"{}\"", key, choices.front()));
     return word;
   }
 
@@ -298,14 +364,16 @@ class StudyReader {
     const toml::node* node = t.get(key);
     if (!node || !node->is_string()) return {};
     if (name.empty()) {
-      source_.complain_at(place_of(*node), fmt::format("{} = \"\": names no file", key), "name one relative to the study's folder, or leave the key out");
+      source_.complain_at(place_of(*node), fmt::format("{} = \"\": names no file", key),
+                          "name one relative to the study's folder, or leave the key out");
       return {};
     }
     std::filesystem::path path = source_.file().parent_path() / name;
     std::error_code error;  // a name too long, a folder that may not be read: no file to us
     if (std::filesystem::is_directory(path, error)) path /= "case.toml";
     if (name.find('\0') == std::string::npos && std::filesystem::is_regular_file(path, error)) return path;
-    source_.complain_at(place_of(*node), fmt::format("{} = \"{}\": there is no file {}", key, name, path.string()), "name it relative to the study's folder");
+    source_.complain_at(place_of(*node), fmt::format("{} = \"{}\": there is no file {}", key, name, path.string()),
+                        "name it relative to the study's folder");
     return {};
   }
 
@@ -328,6 +396,8 @@ LoadedStudy parse_study(const std::string& text, const std::filesystem::path& fi
   return loaded;
 }
 
-LoadedStudy load_study(const std::filesystem::path& file) { return parse_study(read_text_file(file, "shipped studies stand in cases/, e.g. cases/paper/study.toml"), file); }
+LoadedStudy load_study(const std::filesystem::path& file) {
+  return parse_study(read_text_file(file, "shipped studies stand in cases/, e.g. cases/paper/study.toml"), file);
+}
 
 }  // namespace railstrata

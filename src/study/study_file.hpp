@@ -1,5 +1,6 @@
 #pragma once
-// A study file (TOML): cases that come from varying keys of a base case, in named groups, and what is drawn of them. docs/study.md explains it to users.
+// A study file (TOML): cases that come from varying keys of a base case, in named groups, and what is drawn of them.
+// docs/study.md explains it to users.
 #include <filesystem>
 #include <map>
 #include <string>
@@ -20,25 +21,26 @@ using StudyPoint = std::vector<StudyValue>;
 
 struct StudyGroup {
   std::string name, title;
-  std::filesystem::path base;         ///< case file, as it can be opened
-  std::vector<std::string> engines;   ///< "fem", "bem"
-  StudyPoint set, tags;               ///< the same for all cases; tags are told and not set
-  std::vector<StudyPoint> points;     ///< vary x zip x case, in this order, the last changing fastest
+  std::filesystem::path base;        ///< case file, as it can be opened
+  std::vector<std::string> engines;  ///< "fem", "bem"
+  StudyPoint set, tags;              ///< the same for all cases; tags are told and not set
+  std::vector<StudyPoint> points;    ///< vary x zip x case, in this order, the last changing fastest
 };
 
-/// A figure over the cases of some groups: one chart (or row of maps) for each value of `each`, one line (or map) for each value of `series`. A case without such a key
-/// stands in every chart.
+/// A figure over the cases of some groups: one chart (or row of maps) for each value of `each`, one line (or map) for
+/// each value of `series`. A case without such a key stands in every chart.
 struct StudyFigure {
   std::string id, title, note, kind;  ///< "centre_line", "trend", "map"
-  std::string value;                  ///< centre_line: "p", "q"; trend: a column of the table; map: "state", "von_mises", "sigma_1"
-  std::string each, series, x;        ///< keys; x: of a trend
+  std::string value;  ///< centre_line: "p", "q"; trend: a column of the table; map: "state", "von_mises", "sigma_1"
+  std::string each, series, x;  ///< keys; x: of a trend
   std::vector<std::string> groups, engines;
-  std::map<std::string, std::vector<std::string>> where;  ///< only cases whose key has one of these values; those without the key pass
+  std::map<std::string, std::vector<std::string>>
+      where;  ///< only cases whose key has one of these values; those without the key pass
 };
 
 struct StudySpec {
-  std::string title, cell;            ///< cell: of the half-space engine; empty: its default
-  std::filesystem::path published;    ///< file of published numbers to compare with; empty: none
+  std::string title, cell;          ///< cell: of the half-space engine; empty: its default
+  std::filesystem::path published;  ///< file of published numbers to compare with; empty: none
   std::vector<StudyGroup> groups;
   std::vector<StudyFigure> figures;
 };
@@ -49,7 +51,8 @@ struct LoadedStudy {
   std::string source_text;
 };
 
-/// Reads and checks a study file; base cases are looked for, not read. Throws CaseError with every mistake, each with its place and a remedy.
+/// Reads and checks a study file; base cases are looked for, not read. Throws CaseError with every mistake, each with
+/// its place and a remedy.
 LoadedStudy load_study(const std::filesystem::path& file);
 LoadedStudy parse_study(const std::string& text, const std::filesystem::path& file);
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "runs/write_report.hpp"
 #include "io/output_file.hpp"
+#include "runs/write_report.hpp"
 #include "study/study_report.hpp"
 
 namespace railstrata {
@@ -21,15 +21,21 @@ std::vector<StudyEntry> entries_of(const std::filesystem::path& out, const std::
 /// The tables of the page as files, for those who want to go on with them.
 void write_table(const std::filesystem::path& file, const ReportTable& t) {
   std::string text;
-  for (std::size_t k = 0; k < t.columns.size(); ++k) text += csv_cell(t.columns[k]) + (k + 1 < t.columns.size() ? "," : "\n");
+  for (std::size_t k = 0; k < t.columns.size(); ++k)
+    text += csv_cell(t.columns[k]) + (k + 1 < t.columns.size() ? "," : "\n");
   for (const auto& row : t.rows)
-    for (std::size_t k = 0; k < row.size(); ++k) text += (row[k].is_number() ? csv_cell(row[k].get<double>()) : row[k].is_string() ? csv_cell(row[k].get<std::string>()) : "") + (k + 1 < row.size() ? "," : "\n");
+    for (std::size_t k = 0; k < row.size(); ++k)
+      text += (row[k].is_number()   ? csv_cell(row[k].get<double>())
+               : row[k].is_string() ? csv_cell(row[k].get<std::string>())
+                                    : "") +
+              (k + 1 < row.size() ? "," : "\n");
   write_whole_file(file, text);
 }
 
 }  // namespace
 
-void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const Published& published, const std::vector<StudyRow>& rows) {
+void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const Published& published,
+                    const std::vector<StudyRow>& rows) {
   if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return;
   const std::filesystem::path page = out / "report.html";
   write_page_or_warn(page, [&] {

@@ -19,13 +19,15 @@ std::string last_part(const std::string& key) { return key.substr(key.rfind('.')
 
 /// The last part of a key, or all of it where two keys of the group end alike.
 std::string short_name(const std::string& key, const StudyPoint& point) {
-  const auto alike = std::count_if(point.begin(), point.end(), [&](const StudyValue& v) { return last_part(v.key) == last_part(key); });
+  const auto alike = std::count_if(point.begin(), point.end(),
+                                   [&](const StudyValue& v) { return last_part(v.key) == last_part(key); });
   return alike > 1 ? key : last_part(key);
 }
 
 std::string name_of(const StudyPoint& point) {
   std::string out;
-  for (const StudyValue& v : point) out += fmt::format("{}{} {}", out.empty() ? "" : ", ", short_name(v.key, point), v.text);
+  for (const StudyValue& v : point)
+    out += fmt::format("{}{} {}", out.empty() ? "" : ", ", short_name(v.key, point), v.text);
   return out.empty() ? "case" : out;
 }
 
@@ -33,25 +35,32 @@ std::string name_of(const StudyPoint& point) {
 std::string folder_name(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
-    if (plain) out += c;
-    else if (!out.empty() && out.back() != '_') out += '_';
+    const bool plain =
+        (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
+    if (plain)
+      out += c;
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
   }
   while (!out.empty() && (out.back() == '_' || out.back() == '.')) out.pop_back();
   return out;
 }
 
 /// An error at an override becomes one at the value's place in the study.
-void add_placed(const CaseError& e, const LoadedStudy& study, const std::vector<const StudyValue*>& values, const std::vector<std::string>& texts, std::vector<Diagnostic>& out) {
+void add_placed(const CaseError& e, const LoadedStudy& study, const std::vector<const StudyValue*>& values,
+                const std::vector<std::string>& texts, std::vector<Diagnostic>& out) {
   for (Diagnostic d : e.diagnostics) {
     for (std::size_t k = 0; k < values.size(); ++k) {
       const std::string said = "--set " + texts[k];
       if (d.where != said && !d.message.starts_with(said + ":")) continue;
       if (d.message.starts_with(said + ":")) d.message = values[k]->key + d.message.substr(said.size());
       d.where = fmt::format("{}:{}:{}", study.file.string(), values[k]->place.line, values[k]->place.column);
-      d.remedy = d.remedy.starts_with("write --set") ? "write the key as \"table.key\", or \"layer.0.key\" for the first layer of the base case" : d.remedy;
+      d.remedy = d.remedy.starts_with("write --set")
+                     ? "write the key as \"table.key\", or \"layer.0.key\" for the first layer of the base case"
+                     : d.remedy;
     }
-    const auto same = std::find_if(out.begin(), out.end(), [&](const Diagnostic& o) { return o.where == d.where && o.message == d.message; });
+    const auto same = std::find_if(out.begin(), out.end(),
+                                   [&](const Diagnostic& o) { return o.where == d.where && o.message == d.message; });
     if (same == out.end()) out.push_back(std::move(d));
   }
 }
@@ -65,7 +74,8 @@ std::string result_key(const LoadedCase& loaded, const std::string& engine, cons
     if (!line.starts_with("title = ")) text += line + '\n';
   for (const std::filesystem::path& file : loaded.inputs) {
     if (file == loaded.file) continue;
-    for (std::size_t at = 0; (at = text.find(file.string(), at)) != std::string::npos;) text.replace(at, file.string().size(), sha256_of_file(file));
+    for (std::size_t at = 0; (at = text.find(file.string(), at)) != std::string::npos;)
+      text.replace(at, file.string().size(), sha256_of_file(file));
   }
   return sha256_of(text);
 }
@@ -76,10 +86,14 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
   for (const StudyGroup& g : study.spec.groups) {
     for (const StudyPoint& point : g.points) {
       StudyCase c;
-      c.group = g.name, c.name = name_of(point);
+      c.group = g.name;
+      c.name = name_of(point);
       std::vector<const StudyValue*> values;
       for (const StudyPoint* part : {&g.set, &point})
-        for (const StudyValue& v : *part) values.push_back(&v), c.overrides.push_back(v.key + "=" + v.toml);
+        for (const StudyValue& v : *part) {
+          values.push_back(&v);
+          c.overrides.push_back(v.key + "=" + v.toml);
+        }
       const std::vector<std::string> texts = c.overrides;
       c.overrides.insert(c.overrides.end(), overrides.begin(), overrides.end());
       c.overrides.push_back(fmt::format("case.title=\"{}: {}\"", g.name, c.name));
@@ -103,27 +117,35 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
   std::map<std::string, std::filesystem::path> owner;
   std::map<std::filesystem::path, std::string> taken;
   for (StudyCase& c : out) {
-    if (const auto [at, is_new] = taken.emplace(c.own_folder, c.key); !is_new && at->second != c.key)  // "1 mm" and "1_mm"
+    if (const auto [at, is_new] = taken.emplace(c.own_folder, c.key);
+        !is_new && at->second != c.key)  // "1 mm" and "1_mm"
       c.own_folder = c.own_folder.parent_path().string() + "-" + c.key.substr(0, 8) + "/" + c.engine;
     const auto [known, is_new] = owner.emplace(c.key, c.own_folder);
-    c.first = is_new, c.folder = known->second;
+    c.first = is_new;
+    c.folder = known->second;
   }
   return out;
 }
 
-std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, const std::string& engine, const std::vector<std::string>& groups, const Shard& shard) {
+std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, const std::string& engine,
+                         const std::vector<std::string>& groups, const Shard& shard) {
   for (const std::string& wanted : groups)
-    if (std::none_of(study.spec.groups.begin(), study.spec.groups.end(), [&](const StudyGroup& g) { return g.name == wanted; })) {
+    if (std::none_of(study.spec.groups.begin(), study.spec.groups.end(),
+                     [&](const StudyGroup& g) { return g.name == wanted; })) {
       std::vector<std::string> names;
       for (const StudyGroup& g : study.spec.groups) names.push_back(g.name);
-      throw CaseError(fmt::format("--group {}: the study has no such group", wanted), fmt::format("groups: {}", fmt::join(names, ", ")));
+      throw CaseError(fmt::format("--group {}: the study has no such group", wanted),
+                      fmt::format("groups: {}", fmt::join(names, ", ")));
     }
   std::vector<bool> out;
   std::set<std::string> keys;  // a case may be wanted under the name of a later twin
   for (const StudyCase& c : cases)
-    if ((engine.empty() || c.engine == engine) && (groups.empty() || std::find(groups.begin(), groups.end(), c.group) != groups.end())) keys.insert(c.key);
+    if ((engine.empty() || c.engine == engine) &&
+        (groups.empty() || std::find(groups.begin(), groups.end(), c.group) != groups.end()))
+      keys.insert(c.key);
   int n = 0;
-  for (const StudyCase& c : cases) out.push_back(c.first && keys.contains(c.key) && n++ % shard.count == shard.index - 1);
+  for (const StudyCase& c : cases)
+    out.push_back(c.first && keys.contains(c.key) && n++ % shard.count == shard.index - 1);
   return out;
 }
 
@@ -132,9 +154,11 @@ Shard parse_shard(const std::string& text) {
   const char *at = text.data(), *end = at + text.size();
   const auto index = std::from_chars(at, end, s.index);
   const bool slash = index.ec == std::errc{} && index.ptr != end && *index.ptr == '/';
-  const auto count = slash ? std::from_chars(index.ptr + 1, end, s.count) : std::from_chars_result{end, std::errc::invalid_argument};
+  const auto count =
+      slash ? std::from_chars(index.ptr + 1, end, s.count) : std::from_chars_result{end, std::errc::invalid_argument};
   if (count.ec != std::errc{} || count.ptr != end || s.count < 1 || s.index < 1 || s.index > s.count)
-    throw CaseError(fmt::format("--shard {}: is not i/n with 1 ≤ i ≤ n", text), "write --shard 2/8 for the second of eight parts");
+    throw CaseError(fmt::format("--shard {}: is not i/n with 1 ≤ i ≤ n", text),
+                    "write --shard 2/8 for the second of eight parts");
   return s;
 }
 

@@ -24,7 +24,10 @@ std::string last_part(const std::string& key) { return key.substr(key.rfind('.')
 
 /// What a key is called on an axis.
 std::string key_name(const std::string& key) {
-  static const std::map<std::string, std::string> names{{"layer.0.thickness", "thickness h"}, {"layer.0.young_ratio", "E₁/E₀"}, {"drive.traction_coefficient", "F_T/G"}, {"layer.0.elements", "elements through the layer"}};
+  static const std::map<std::string, std::string> names{{"layer.0.thickness", "thickness h"},
+                                                        {"layer.0.young_ratio", "E₁/E₀"},
+                                                        {"drive.traction_coefficient", "F_T/G"},
+                                                        {"layer.0.elements", "elements through the layer"}};
   const auto known = names.find(key);
   if (known != names.end()) return known->second;
   std::string out = last_part(key);
@@ -51,19 +54,25 @@ std::string column_name(const std::string& column) {
   return name;
 }
 
-bool one_of(const std::vector<std::string>& all, const std::string& word) { return std::find(all.begin(), all.end(), word) != all.end(); }
+bool one_of(const std::vector<std::string>& all, const std::string& word) {
+  return std::find(all.begin(), all.end(), word) != all.end();
+}
 
 bool belongs(const StudyFigure& f, const StudyEntry& e) {
   if (!one_of(f.groups, e.group) || !one_of(f.engines, e.engine)) return false;
-  return std::all_of(f.where.begin(), f.where.end(), [&](const auto& kv) { return e.value(kv.first).empty() || one_of(kv.second, e.value(kv.first)); });
+  return std::all_of(f.where.begin(), f.where.end(),
+                     [&](const auto& kv) { return e.value(kv.first).empty() || one_of(kv.second, e.value(kv.first)); });
 }
 
 /// The values of a key among entries, by their numbers, each once; {""} for no key.
 std::vector<std::string> values_of(const std::string& key, const std::vector<const StudyEntry*>& entries) {
   std::vector<std::string> out;
   for (const StudyEntry* e : entries)
-    if (const std::string v = key.empty() ? "" : e->value(key); !one_of(out, v) && (key.empty() || !v.empty())) out.push_back(v);
-  std::stable_sort(out.begin(), out.end(), [](const std::string& a, const std::string& b) { return axis_value(a).first < axis_value(b).first; });
+    if (const std::string v = key.empty() ? "" : e->value(key); !one_of(out, v) && (key.empty() || !v.empty()))
+      out.push_back(v);
+  std::stable_sort(out.begin(), out.end(), [](const std::string& a, const std::string& b) {
+    return axis_value(a).first < axis_value(b).first;
+  });
   return out;
 }
 
@@ -74,15 +83,20 @@ struct Line {
   std::string name;
 };
 
-std::vector<Line> lines_of(const StudyFigure& f, const std::vector<const StudyEntry*>& members, const std::string& each) {
+std::vector<Line> lines_of(const StudyFigure& f, const std::vector<const StudyEntry*>& members,
+                           const std::string& each) {
   const std::vector<std::string> series = values_of(f.series, members);
   std::vector<Line> out;
   for (const std::string& engine : f.engines)
     for (std::size_t k = 0; k < series.size(); ++k)
       for (const StudyEntry* e : members) {
         const std::string at = f.each.empty() ? "" : e->value(f.each);
-        if (e->engine != engine || !e->done() || (!at.empty() && at != each) || (!f.series.empty() && e->value(f.series) != series[k])) continue;
-        out.push_back({e, static_cast<int>(k), f.series.empty() ? engine_word(engine) : fmt::format("{}, {}", value_name(f.series, series[k]), engine_word(engine))});
+        if (e->engine != engine || !e->done() || (!at.empty() && at != each) ||
+            (!f.series.empty() && e->value(f.series) != series[k]))
+          continue;
+        out.push_back({e, static_cast<int>(k),
+                       f.series.empty() ? engine_word(engine)
+                                        : fmt::format("{}, {}", value_name(f.series, series[k]), engine_word(engine))});
       }
   return out;
 }
@@ -94,16 +108,28 @@ std::vector<const StudyEntry*> members_of(const StudyFigure& f, const std::vecto
   return out;
 }
 
-std::string chart_title(const StudyFigure& f, const std::string& each) { return each.empty() ? f.title : fmt::format("{}, {} {}", f.title, key_name(f.each), each); }
+std::string chart_title(const StudyFigure& f, const std::string& each) {
+  return each.empty() ? f.title : fmt::format("{}, {} {}", f.title, key_name(f.each), each);
+}
 
 void add_centre_lines(const StudyFigure& f, const std::vector<StudyEntry>& entries, Report& report) {
   const std::vector<const StudyEntry*> members = members_of(f, entries);
   const std::vector<std::string> panels = values_of(f.each, members);
   for (std::size_t n = 0; n < panels.size(); ++n) {
-    ReportChart chart{panels.size() > 1 ? fmt::format("{}-{}", f.id, n + 1) : f.id, chart_title(f, panels[n]), f.note, "x, rolling direction [mm]", f.value == "p" ? "p [MPa]" : "|q| [MPa]", {}};
+    ReportChart chart{panels.size() > 1 ? fmt::format("{}-{}", f.id, n + 1) : f.id,
+                      chart_title(f, panels[n]),
+                      f.note,
+                      "x, rolling direction [mm]",
+                      f.value == "p" ? "p [MPa]" : "|q| [MPa]",
+                      {}};
     for (const Line& line : lines_of(f, members, panels[n])) {
       const CsvTable table = read_csv(line.entry->folder / "centre_line.csv");
-      ReportSeries s{line.name, table.column("x_mm"), table.column("p_MPa"), line.entry->engine == "fem", f.series.empty() ? (line.entry->engine == "fem" ? 0 : 1) : line.place, line.entry->engine == "fem" ? "solid" : "dash"};
+      ReportSeries s{line.name,
+                     table.column("x_mm"),
+                     table.column("p_MPa"),
+                     line.entry->engine == "fem",
+                     f.series.empty() ? (line.entry->engine == "fem" ? 0 : 1) : line.place,
+                     line.entry->engine == "fem" ? "solid" : "dash"};
       if (f.value == "q") {
         const std::vector<double> qx = table.column("q_x_MPa"), qy = table.column("q_y_MPa");
         for (std::size_t i = 0; i < s.y.size(); ++i) s.y[i] = std::hypot(qx[i], qy[i]);
@@ -120,20 +146,34 @@ void add_trend(const StudyFigure& f, const std::vector<StudyEntry>& entries, Rep
   if (xs.empty()) return;
   const std::string unit = axis_value(xs.front()).second;
   for (const std::string& panel : values_of(f.each, members)) {
-    ReportChart chart{panel.empty() ? f.id : fmt::format("{}-{}", f.id, panel), chart_title(f, panel), f.note, fmt::format("{}{}", key_name(f.x), unit.empty() ? "" : fmt::format(" [{}]", unit)), column_name(f.value), {}};
+    ReportChart chart{panel.empty() ? f.id : fmt::format("{}-{}", f.id, panel),
+                      chart_title(f, panel),
+                      f.note,
+                      fmt::format("{}{}", key_name(f.x), unit.empty() ? "" : fmt::format(" [{}]", unit)),
+                      column_name(f.value),
+                      {}};
     for (const Line& line : lines_of(f, members, panel)) {
       const double y = line.entry->number(f.value);
-      if (chart.series.empty() || chart.series.back().name != line.name) chart.series.push_back({line.name, {}, {}, true, line.place, line.entry->engine == "fem" ? "solid" : "dash"});
+      if (chart.series.empty() || chart.series.back().name != line.name)
+        chart.series.push_back({line.name, {}, {}, true, line.place, line.entry->engine == "fem" ? "solid" : "dash"});
       ReportSeries& s = chart.series.back();
-      if (const std::string at = line.entry->value(f.x); !at.empty()) s.x.push_back(axis_value(at).first), s.y.push_back(y);
-      else
-        for (const std::string& x : {xs.front(), xs.back()}) s.x.push_back(axis_value(x).first), s.y.push_back(y);  // the same at any x
+      if (const std::string at = line.entry->value(f.x); !at.empty()) {
+        s.x.push_back(axis_value(at).first);
+        s.y.push_back(y);
+      } else
+        for (const std::string& x : {xs.front(), xs.back()}) {
+          s.x.push_back(axis_value(x).first);
+          s.y.push_back(y);  // the same at any x
+        }
     }
     for (ReportSeries& s : chart.series) {
       std::vector<std::pair<double, double>> points;
       for (std::size_t i = 0; i < s.x.size(); ++i) points.emplace_back(s.x[i], s.y[i]);
       std::sort(points.begin(), points.end());
-      for (std::size_t i = 0; i < points.size(); ++i) s.x[i] = points[i].first, s.y[i] = points[i].second;
+      for (std::size_t i = 0; i < points.size(); ++i) {
+        s.x[i] = points[i].first;
+        s.y[i] = points[i].second;
+      }
     }
     if (!chart.series.empty()) report.charts.push_back(std::move(chart));
   }
@@ -151,8 +191,12 @@ int run_of(const StudyEntry& e, Report& report) {
 void add_maps(const StudyFigure& f, const std::vector<StudyEntry>& entries, Report& report) {
   const std::vector<const StudyEntry*> members = members_of(f, entries);
   for (const std::string& panel : values_of(f.each, members)) {
-    ReportMaps maps{panel.empty() ? f.id : fmt::format("{}-{}", f.id, panel), chart_title(f, panel), f.note, f.value, {}, {}};
-    for (const Line& line : lines_of(f, members, panel)) maps.runs.push_back(run_of(*line.entry, report)), maps.names.push_back(line.name);
+    ReportMaps maps{
+        panel.empty() ? f.id : fmt::format("{}-{}", f.id, panel), chart_title(f, panel), f.note, f.value, {}, {}};
+    for (const Line& line : lines_of(f, members, panel)) {
+      maps.runs.push_back(run_of(*line.entry, report));
+      maps.names.push_back(line.name);
+    }
     if (!maps.runs.empty()) report.maps.push_back(std::move(maps));
   }
 }
@@ -169,7 +213,8 @@ ReportRun for_checks(const StudyEntry& e) {
   ReportRun run = read_report_run(e.folder);
   run.result.field = {};
   run.sections.clear();
-  run.depth_line.reset(), run.history.reset();
+  run.depth_line.reset();
+  run.history.reset();
   return run;
 }
 
@@ -183,7 +228,8 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
     const std::string kind = c.name;
     if (!worst.contains(kind)) order.push_back(kind);
     Worst& w = worst[kind];
-    ++w.of, w.held += c.ok;
+    ++w.of;
+    w.held += c.ok;
     if (!c.ok) w.failing.push_back(fmt::format("{} ({:.3g})", whose, c.value));
     c.note = whose;
     if (w.of == 1 || !(c.value <= w.check.value)) w.check = c;
@@ -208,7 +254,8 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
       }
     std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name};
     for (const ReportCheck& c : checks) {
-      if (c.runs.size() == 1 && c.runs[0] == 0) add(c, fmt::format("{}/{}, {}", e.group, e.name, engine_word(e.engine)));
+      if (c.runs.size() == 1 && c.runs[0] == 0)
+        add(c, fmt::format("{}/{}, {}", e.group, e.name, engine_word(e.engine)));
       if (c.runs.size() != 2 || c.name == "cases_differ") continue;
       // on a coarser mesh than it takes nothing is promised: the paper's mesh is told, not judged
       if (!both[0].option("mesh", "element").starts_with("one_point")) add(c, fmt::format("{}/{}", e.group, e.name));
@@ -219,18 +266,33 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
   for (const std::string& kind : order) {
     Worst& w = worst[kind];
     w.check.ok = w.held == w.of;
-    w.check.note = fmt::format("{} of {} cases; the worst: {}{}{}", w.held, w.of, w.check.note, w.failing.empty() ? "" : "; outside: ", fmt::join(w.failing, ", "));
+    w.check.note = fmt::format("{} of {} cases; the worst: {}{}{}", w.held, w.of, w.check.note,
+                               w.failing.empty() ? "" : "; outside: ", fmt::join(w.failing, ", "));
     report.checks.push_back(w.check);
   }
 }
 
 ReportTable cases_table(const std::vector<StudyEntry>& entries) {
-  ReportTable t{"cases", "All cases", "study.csv has every column.", {"case", "engine", "p max [MPa]", "q max [MPa]", "length [mm]", "width [mm]", "area [mm²]", "slip area [%]", "creepage [10⁻³]", "von Mises, rail [MPa]", "at depth [mm]",
-                "σ₁ on the section [MPa]", "at depth [mm]", "state"}, {}};
+  ReportTable t{"cases",
+                "All cases",
+                "study.csv has every column.",
+                {"case", "engine", "p max [MPa]", "q max [MPa]", "length [mm]", "width [mm]", "area [mm²]",
+                 "slip area [%]", "creepage [10⁻³]", "von Mises, rail [MPa]", "at depth [mm]",
+                 "σ₁ on the section [MPa]", "at depth [mm]", "state"},
+                {}};
   for (const StudyEntry& e : entries) {
     std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name, engine_word(e.engine)};
-    for (const auto& [column, factor] : std::vector<std::pair<const char*, double>>{{"p_max_MPa", 1}, {"q_max_MPa", 1}, {"patch_length_mm", 1}, {"patch_width_mm", 1}, {"patch_area_mm2", 1}, {"slip_area_fraction", 100},
-                                      {"creepage_x", 1e3}, {"rail_von_mises_MPa", 1}, {"rail_von_mises_depth_mm", 1}, {"section_sigma_1_MPa", 1}, {"section_sigma_1_depth_mm", 1}}) {
+    for (const auto& [column, factor] : std::vector<std::pair<const char*, double>>{{"p_max_MPa", 1},
+                                                                                    {"q_max_MPa", 1},
+                                                                                    {"patch_length_mm", 1},
+                                                                                    {"patch_width_mm", 1},
+                                                                                    {"patch_area_mm2", 1},
+                                                                                    {"slip_area_fraction", 100},
+                                                                                    {"creepage_x", 1e3},
+                                                                                    {"rail_von_mises_MPa", 1},
+                                                                                    {"rail_von_mises_depth_mm", 1},
+                                                                                    {"section_sigma_1_MPa", 1},
+                                                                                    {"section_sigma_1_depth_mm", 1}}) {
       const double v = factor * e.number(column);
       row.push_back(std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr));
     }
@@ -267,14 +329,21 @@ Report study_report(const StudySpec& study, const Published& published, const st
   Report report;
   report.title = study.title;
   for (const StudyFigure& f : study.figures) {
-    if (f.kind == "centre_line") add_centre_lines(f, entries, report);
-    else if (f.kind == "trend") add_trend(f, entries, report);
-    else add_maps(f, entries, report);
+    if (f.kind == "centre_line")
+      add_centre_lines(f, entries, report);
+    else if (f.kind == "trend")
+      add_trend(f, entries, report);
+    else
+      add_maps(f, entries, report);
   }
   for (const StudyEntry& e : entries)  // something to look at, whatever the figures ask for
     if (report.runs.empty() && e.done()) run_of(e, report);
-  ReportTable pairs{"engines", "Finite elements against half-spaces", "Limits: pressure 4 %, length 6 %, shear 7 %, von Mises stress below the surface 8 % where it lies deeper than an element. ✗: outside. The paper's mesh is told and takes no part in the verdict.",
-                    {"case", "largest pressure", "patch length", "largest shear", "von Mises below the surface"}, {}};
+  ReportTable pairs{"engines",
+                    "Finite elements against half-spaces",
+                    "Limits: pressure 4 %, length 6 %, shear 7 %, von Mises stress below the surface 8 % where it lies "
+                    "deeper than an element. ✗: outside. The paper's mesh is told and takes no part in the verdict.",
+                    {"case", "largest pressure", "patch length", "largest shear", "von Mises below the surface"},
+                    {}};
   add_verdict(entries, report, pairs);
   if (!published.claims.empty()) report.tables.push_back(claims_table(published, entries));
   if (!published.numbers.empty()) report.tables.push_back(published_table(published, entries));

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <map>
 
-#include "runs/output_folder.hpp"
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/csv.hpp"
@@ -16,6 +15,7 @@
 #include "io/provenance.hpp"
 #include "io/result_folder.hpp"
 #include "report/view.hpp"
+#include "runs/output_folder.hpp"
 
 namespace railstrata {
 namespace {
@@ -30,7 +30,8 @@ Json read_json(const fs::path& file) {
 
 bool holds(const fs::path& folder, const StudyCase& c) {
   const Json j = read_json(folder / kStudyFile);
-  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_null() && read_json(folder / "summary.json").is_object();
+  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_null() &&
+         read_json(folder / "summary.json").is_object();
 }
 
 fs::path beside(const fs::path& folder, const std::string& ending) { return folder.string() + ending; }
@@ -47,7 +48,8 @@ void add_section_maxima(const fs::path& folder, Json& out) {
   }
 }
 
-/// The patch by whole points, without interpolating its edges: every point that carries load, and the length of the longest line of them along x.
+/// The patch by whole points, without interpolating its edges: every point that carries load, and the length of the
+/// longest line of them along x.
 void add_whole_points(const fs::path& folder, Json& out) {
   const ContactField f = read_result_folder(folder).field;
   double area = 0, slip = 0;
@@ -56,7 +58,11 @@ void add_whole_points(const fs::path& folder, Json& out) {
     int n = 0;
     for (int s = 0; s < f.stations; ++s) {
       const std::size_t k = static_cast<std::size_t>(s) * f.columns + c;
-      if (f.p[k] > 0) ++n, area += f.area[k], slip += f.state[k] == ContactState::slip ? f.area[k] : 0;
+      if (f.p[k] > 0) {
+        ++n;
+        area += f.area[k];
+        slip += f.state[k] == ContactState::slip ? f.area[k] : 0;
+      }
     }
     longest = std::max(longest, n);
   }
@@ -67,14 +73,16 @@ void add_whole_points(const fs::path& folder, Json& out) {
   out["slip_over_stick"] = area > slip ? Json(slip / (area - slip)) : Json(nullptr);
 }
 
-/// The largest von Mises stress and principal stress of the rail wherever they are, the surface included, with their depth.
+/// The largest von Mises stress and principal stress of the rail wherever they are, the surface included, with their
+/// depth.
 void add_rail_maxima(const Json& summary, Json& out) {
   for (const auto& [name, key] : {std::pair{"von_mises", "von_mises_max"}, std::pair{"sigma_1", "sigma1_max"}}) {
     double best = -std::numeric_limits<double>::infinity(), depth = 0;
     for (const char* zone : {"surface", "subsurface", "layer", "interface", "matrix"}) {
       const std::string at = fmt::format("/stress/rail/{}/{}/", zone, key);
       const double value = column_value({"", (at + "value_Pa").c_str(), 1e-6}, summary);
-      if (std::isfinite(value) && value > best) best = value, depth = column_value({"", (at + "depth_m").c_str(), 1e3}, summary);
+      if (std::isfinite(value) && value > best)
+        best = value, depth = column_value({"", (at + "depth_m").c_str(), 1e3}, summary);
     }
     if (!std::isfinite(best)) continue;
     out[fmt::format("rail_{}_MPa", name)] = best;
@@ -93,10 +101,16 @@ Json numbers_of(const fs::path& folder) {
 std::string study_json(const StudyCase& c, const Json& fault, const Json& numbers) {
   Json values = Json::object();
   for (const auto& [key, text] : c.values) values[key] = text;
-  return Json{{"key", c.key}, {"result_version", kResultVersion}, {"engine", c.engine}, {"group", c.group}, {"case", c.name}, {"values", values}, {"fault", fault}, {"numbers", numbers}}.dump(2) + "\n";
+  return Json{{"key", c.key},       {"result_version", kResultVersion},
+              {"engine", c.engine}, {"group", c.group},
+              {"case", c.name},     {"values", values},
+              {"fault", fault},     {"numbers", numbers}}
+             .dump(2) +
+         "\n";
 }
 
-/// An old folder makes room for a new one; a reader finds one or the other, and for a moment none. Another study that does the same at this moment takes its turn.
+/// An old folder makes room for a new one; a reader finds one or the other, and for a moment none. Another study that
+/// does the same at this moment takes its turn.
 void put_in_place(const fs::path& working, const fs::path& place) {
   const fs::path old = beside(place, ".old" + part_ending());
   std::error_code moved, error, ignored;
@@ -104,11 +118,15 @@ void put_in_place(const fs::path& working, const fs::path& place) {
     fs::rename(place, old, moved);
     fs::rename(working, place, error);
     const bool others_came_first = error == std::errc::directory_not_empty || error == std::errc::file_exists;
-    if (!error || others_came_first) fs::remove_all(old, ignored);
-    else if (!moved) fs::rename(old, place, ignored);
+    if (!error || others_came_first)
+      fs::remove_all(old, ignored);
+    else if (!moved)
+      fs::rename(old, place, ignored);
     if (!others_came_first) break;
   }
-  if (error) throw EnvironmentError(fmt::format("cannot rename {} to {}: {}", working.string(), place.string(), error.message()), "look at both folders, then start the study again");
+  if (error)
+    throw EnvironmentError(fmt::format("cannot rename {} to {}: {}", working.string(), place.string(), error.message()),
+                           "look at both folders, then start the study again");
 }
 
 /// Folders of a case that processes of this machine had begun and that are no more.
@@ -116,7 +134,9 @@ std::vector<fs::path> left_behind(const fs::path& out, const StudyCase& c) {
   std::vector<fs::path> left;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator((out / c.folder).parent_path(), error))
-    if (const std::string name = entry.path().filename().string(); name.starts_with(c.folder.filename().string() + ".") && is_abandoned_part(name)) left.push_back(entry.path());
+    if (const std::string name = entry.path().filename().string();
+        name.starts_with(c.folder.filename().string() + ".") && is_abandoned_part(name))
+      left.push_back(entry.path());
   return left;
 }
 
@@ -151,7 +171,9 @@ bool is_done(const fs::path& out, const StudyCase& c) { return holds(out / c.fol
 
 std::string last_failure(const fs::path& out, const StudyCase& c) {
   const Json j = read_json(beside(out / c.folder, ".failed") / kStudyFile);
-  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_string() ? j["fault"].get<std::string>() : "";
+  return j.is_object() && j.value("key", "") == c.key && j.contains("fault") && j["fault"].is_string()
+             ? j["fault"].get<std::string>()
+             : "";
 }
 
 fs::path working_folder(const fs::path& out, const StudyCase& c) { return beside(out / c.folder, part_ending()); }
@@ -163,8 +185,10 @@ void keep_result(const fs::path& out, const StudyCase& c, const fs::path& workin
   for (const fs::path& folder : scripts) write_view_script(folder, out / c.folder / fs::relative(folder, working));
   write_whole_file(working / kStudyFile, study_json(c, nullptr, numbers_of(working)));
   std::error_code error;
-  if (is_done(out, c)) fs::remove_all(working, error);  // another study was faster: the same numbers
-  else put_in_place(working, out / c.folder);
+  if (is_done(out, c))
+    fs::remove_all(working, error);  // another study was faster: the same numbers
+  else
+    put_in_place(working, out / c.folder);
   fs::remove_all(beside(out / c.folder, ".failed"), error);
 }
 
@@ -178,13 +202,16 @@ void recover(const fs::path& out, const std::vector<StudyCase>& cases) {
   for (const StudyCase& c : cases) {
     if (!c.first) continue;
     for (const fs::path& folder : left_behind(out, c)) {
-      if (is_done(out, c) || !(holds(folder, c) || has_checkpoint(folder))) fs::remove_all(folder, error);
-      else if (holds(folder, c) && claim(folder, working_folder(out, c))) put_in_place(working_folder(out, c), out / c.folder);
+      if (is_done(out, c) || !(holds(folder, c) || has_checkpoint(folder)))
+        fs::remove_all(folder, error);
+      else if (holds(folder, c) && claim(folder, working_folder(out, c)))
+        put_in_place(working_folder(out, c), out / c.folder);
     }
   }
   std::vector<fs::path> tables;  // of a study that died while it wrote them
   for (const auto& entry : fs::directory_iterator(out, error))
-    if (entry.is_regular_file(error) && is_abandoned_part(entry.path().filename().string())) tables.push_back(entry.path());
+    if (entry.is_regular_file(error) && is_abandoned_part(entry.path().filename().string()))
+      tables.push_back(entry.path());
   for (const fs::path& file : tables) fs::remove(file, error);
 }
 
@@ -198,7 +225,8 @@ bool take_over(const fs::path& out, const StudyCase& c, const fs::path& working)
   fs::remove_all(working, error);
   bool taken = false;
   std::vector<fs::path> left = left_behind(out, c);
-  if (const fs::path failed = beside(out / c.folder, ".failed"); has_checkpoint(failed)) left.push_back(failed);  // killed or out of room, most likely; what fails by itself will do so again soon
+  if (const fs::path failed = beside(out / c.folder, ".failed"); has_checkpoint(failed))
+    left.push_back(failed);  // killed or out of room, most likely; what fails by itself will do so again soon
   for (const fs::path& folder : left) {
     if (!taken && has_checkpoint(folder)) {
       const bool ours = claim(folder, working);
@@ -218,10 +246,12 @@ std::vector<StudyRow> study_rows(const fs::path& out, const std::vector<StudyCas
     StudyRow row{&c, "to do", last_failure(out, c), {}};
     if (is_done(out, c)) {
       const Json summary = read_json(out / c.folder / "summary.json"), study = read_json(out / c.folder / kStudyFile);
-      row.state = "done", row.fault = failed_check(summary);
+      row.state = "done";
+      row.fault = failed_check(summary);
       for (const ResultColumn& column : columns)
         if (std::string(column.name) != "wall_s") row.numbers.emplace_back(column.name, column_value(column, summary));
-      for (const auto& [name, value] : study["numbers"].items()) row.numbers.emplace_back(name, value.is_number() ? value.get<double>() : kNotApplicable);
+      for (const auto& [name, value] : study["numbers"].items())
+        row.numbers.emplace_back(name, value.is_number() ? value.get<double>() : kNotApplicable);
       row.numbers.emplace_back("wall_s", column_value(columns.back(), summary));
       row.numbers.emplace_back("threads", column_value({"", "/run/threads", 1}, summary));
     } else if (!row.fault.empty()) {
@@ -240,7 +270,8 @@ std::vector<std::string> varied_keys(const std::vector<StudyRow>& rows) {
   return keys;
 }
 
-void write_study_table(const fs::path& file, const std::vector<std::string>& origin, const std::vector<StudyRow>& rows) {
+void write_study_table(const fs::path& file, const std::vector<std::string>& origin,
+                       const std::vector<StudyRow>& rows) {
   const std::vector<std::string> keys = varied_keys(rows);
   std::vector<std::string> names;
   for (const StudyRow& row : rows)
@@ -258,7 +289,8 @@ void write_study_table(const fs::path& file, const std::vector<std::string>& ori
       text += (v == c.values.end() ? "" : csv_cell(v->second)) + ',';
     }
     for (const std::string& name : names) {
-      const auto v = std::find_if(row.numbers.begin(), row.numbers.end(), [&](const auto& nv) { return nv.first == name; });
+      const auto v =
+          std::find_if(row.numbers.begin(), row.numbers.end(), [&](const auto& nv) { return nv.first == name; });
       text += (v == row.numbers.end() ? "" : csv_cell(v->second)) + ',';
     }
     text += csv_cell(c.folder.generic_string()) + ',' + row.state + ',' + csv_cell(row.fault) + '\n';

@@ -15,12 +15,13 @@ inline constexpr const char* kStudyFile = "study.json";
 /// A line of the study's table.
 struct StudyRow {
   const StudyCase* study_case = nullptr;
-  std::string state;                                      ///< "done", "failed", "to do"
-  std::string fault;                                      ///< of a failed case its reason; of a result the check that fails
-  std::vector<std::pair<std::string, double>> numbers;    ///< columns of the table; empty unless done
+  std::string state;  ///< "done", "failed", "to do"
+  std::string fault;  ///< of a failed case its reason; of a result the check that fails
+  std::vector<std::pair<std::string, double>> numbers;  ///< columns of the table; empty unless done
 };
 
-/// A result that stands where another case of the same key would put it (the groups have changed their order) is taken from there.
+/// A result that stands where another case of the same key would put it (the groups have changed their order) is taken
+/// from there.
 void find_results(const std::filesystem::path& out, std::vector<StudyCase>& cases);
 
 /// The folder holds the result of this very case.
@@ -31,17 +32,21 @@ std::string last_failure(const std::filesystem::path& out, const StudyCase& c);
 /// The working folder of a case while it is computed, this process' own.
 std::filesystem::path working_folder(const std::filesystem::path& out, const StudyCase& c);
 
-/// Takes the working folder for the result: writes study.json into it and renames it into place as the last act, so that a result is there whole or not at all.
+/// Takes the working folder for the result: writes study.json into it and renames it into place as the last act, so
+/// that a result is there whole or not at all.
 void keep_result(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working);
 /// Keeps what a failed case has left, with its log and reason, as <folder>.failed.
-void keep_failure(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working, const std::string& reason);
+void keep_failure(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working,
+                  const std::string& reason);
 
-/// After a crash: results that were whole and not yet renamed are taken; working folders of dead processes of this machine are removed, but for those with a checkpoint of a case that
-/// is not done yet; so are tables that such a process had half written.
+/// After a crash: results that were whole and not yet renamed are taken; working folders of dead processes of this
+/// machine are removed, but for those with a checkpoint of a case that is not done yet; so are tables that such a
+/// process had half written.
 void recover(const std::filesystem::path& out, const std::vector<StudyCase>& cases);
 
-/// Makes a working folder that a dead process of this machine, or a failure, has left of this very case, with a checkpoint of this very program, the `working` one; removes the others. False if there is
-/// none: then there is no working folder.
+/// Makes a working folder that a dead process of this machine, or a failure, has left of this very case, with a
+/// checkpoint of this very program, the `working` one; removes the others. False if there is none: then there is no
+/// working folder.
 bool take_over(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working);
 /// The folder of a case that was stopped has a checkpoint to go on from.
 bool has_checkpoint(const std::filesystem::path& working);
@@ -50,7 +55,8 @@ bool has_checkpoint(const std::filesystem::path& working);
 std::vector<StudyRow> study_rows(const std::filesystem::path& out, const std::vector<StudyCase>& cases);
 
 /// study.csv: group, case, engine, the keys varied, the numbers with units in their names, folder, state, fault.
-void write_study_table(const std::filesystem::path& file, const std::vector<std::string>& origin, const std::vector<StudyRow>& rows);
+void write_study_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                       const std::vector<StudyRow>& rows);
 
 /// The keys that any case varies, in the order of the file.
 std::vector<std::string> varied_keys(const std::vector<StudyRow>& rows);

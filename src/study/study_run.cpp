@@ -13,11 +13,11 @@
 #include <sstream>
 #include <thread>
 
-#include "study/child_process.hpp"
-#include "runs/stop_flag.hpp"
-#include "study/study_results.hpp"
 #include "core/faults.hpp"
 #include "io/output_file.hpp"
+#include "runs/stop_flag.hpp"
+#include "study/child_process.hpp"
+#include "study/study_results.hpp"
 
 namespace railstrata {
 namespace {
@@ -46,7 +46,10 @@ std::string reason_of(const std::string& log, int status) {
   return WIFEXITED(status) && !last.empty() ? fmt::format("{}: {}", describe_end(status), last) : describe_end(status);
 }
 
-bool has_result(int status) { return WIFEXITED(status) && (WEXITSTATUS(status) == static_cast<int>(ExitCode::ok) || WEXITSTATUS(status) == static_cast<int>(ExitCode::failed_checks)); }
+bool has_result(int status) {
+  return WIFEXITED(status) && (WEXITSTATUS(status) == static_cast<int>(ExitCode::ok) ||
+                               WEXITSTATUS(status) == static_cast<int>(ExitCode::failed_checks));
+}
 
 /// How far a case is by the last percentage in its log.
 double fraction_of(const fs::path& log) {
@@ -94,7 +97,8 @@ class Pool {
     const fs::path folder = working_folder(run_.out, c);
     const bool begun = c.engine == "fem" && take_over(run_.out, c, folder);
     if (!begun) make_folder(folder);
-    std::vector<std::string> words = begun ? resume_command(run_.threads, folder) : case_command(c, run_.cell, run_.threads, folder);
+    std::vector<std::string> words =
+        begun ? resume_command(run_.threads, folder) : case_command(c, run_.cell, run_.threads, folder);
     words.insert(words.begin(), "railstrata");
     running_.push_back({&c, start_self(words, folder / "log.txt"), folder, Clock::now()});
   }
@@ -109,16 +113,20 @@ class Pool {
       const Running ended = *r;
       r = running_.erase(r);
       // once it is asked to stop, a case may end in any way: in the preload with an error
-      if (*run_.stop && !has_result(status)) discard(ended);
-      else finish(ended, status);
+      if (*run_.stop && !has_result(status))
+        discard(ended);
+      else
+        finish(ended, status);
     }
   }
 
   void finish(const Running& r, int status) {
     const StudyCase& c = *r.study_case;
     std::string fault;
-    if (!has_result(status)) fault = reason_of(text_of(r.folder / "log.txt"), status);
-    else if (!text_of(r.folder / "case.toml").ends_with(c.loaded.resolved_toml)) fault = "the base case changed while the study ran: start it again";
+    if (!has_result(status))
+      fault = reason_of(text_of(r.folder / "log.txt"), status);
+    else if (!text_of(r.folder / "case.toml").ends_with(c.loaded.resolved_toml))
+      fault = "the base case changed while the study ran: start it again";
     if (fault.empty()) {
       try {
         keep_result(run_.out, c, r.folder);
@@ -126,10 +134,15 @@ class Pool {
         fault = fmt::format("its result cannot be read: {}", e.diagnostics.front().message);
       }
     }
-    if (!fault.empty()) keep_failure(run_.out, c, r.folder, fault), ++failures_;
+    if (!fault.empty()) {
+      keep_failure(run_.out, c, r.folder, fault);
+      ++failures_;
+    }
     const double seconds = seconds_since(r.start);
     Spent& s = spent_[c.engine];
-    s.seconds += seconds, ++s.cases, --left_[c.engine];
+    s.seconds += seconds;
+    ++s.cases;
+    --left_[c.engine];
     run_.ended(c, fault, seconds, ++done_);
   }
 
@@ -143,10 +156,13 @@ class Pool {
     if (!has_checkpoint(r.folder)) fs::remove_all(r.folder, error);
   }
 
-  /// Those that can end their step do, with a checkpoint; who has not ended after that time is killed. A result that is whole by then is kept.
+  /// Those that can end their step do, with a checkpoint; who has not ended after that time is killed. A result that is
+  /// whole by then is kept.
   int stop() {
     pass_on(SIGTERM);
-    for (const auto asked = Clock::now(); !running_.empty() && seconds_since(asked) < kPatience; std::this_thread::sleep_for(std::chrono::milliseconds(20))) collect();
+    for (const auto asked = Clock::now(); !running_.empty() && seconds_since(asked) < kPatience;
+         std::this_thread::sleep_for(std::chrono::milliseconds(20)))
+      collect();
     for (const Running& r : running_) {
       ::kill(r.process, SIGKILL);
       ::waitpid(r.process, nullptr, 0);
@@ -156,13 +172,17 @@ class Pool {
     return failures_;
   }
 
-  /// A case counts as its engine's cases have taken so far; before one has ended, as half-spaces usually compare with finite elements.
+  /// A case counts as its engine's cases have taken so far; before one has ended, as half-spaces usually compare with
+  /// finite elements.
   double fraction() const {
     double done = 0, all = 0;
     for (const auto& [engine, left] : left_) {
       const auto s = spent_.find(engine);
       const double each = s == spent_.end() ? (engine == "fem" ? 600.0 : 2.0) : s->second.seconds / s->second.cases;
-      if (s != spent_.end()) done += s->second.seconds, all += s->second.seconds;
+      if (s != spent_.end()) {
+        done += s->second.seconds;
+        all += s->second.seconds;
+      }
       all += each * left;
       for (const Running& r : running_)
         if (r.study_case->engine == engine) done += each * fraction_of(r.folder / "log.txt");
@@ -185,15 +205,19 @@ class Pool {
 
 }  // namespace
 
-std::vector<std::string> case_command(const StudyCase& c, const std::string& cell, int threads, const fs::path& folder) {
+std::vector<std::string> case_command(const StudyCase& c, const std::string& cell, int threads,
+                                      const fs::path& folder) {
   std::vector<std::string> words{c.engine == "fem" ? "run" : "bem", c.loaded.file.string()};
   for (const std::string& o : c.overrides) words.insert(words.end(), {"--set", o});
   if (c.engine == "bem" && !cell.empty()) words.insert(words.end(), {"--cell", cell});
-  words.insert(words.end(), {"--out", folder.string(), "--force", "--no-report", "--threads", fmt::format("{}", threads)});
+  words.insert(words.end(),
+               {"--out", folder.string(), "--force", "--no-report", "--threads", fmt::format("{}", threads)});
   return words;
 }
 
-std::vector<std::string> resume_command(int threads, const fs::path& folder) { return {"run", "--resume", folder.string(), "--no-report", "--threads", fmt::format("{}", threads)}; }
+std::vector<std::string> resume_command(int threads, const fs::path& folder) {
+  return {"run", "--resume", folder.string(), "--no-report", "--threads", fmt::format("{}", threads)};
+}
 
 int run_cases(const StudyRun& run, const std::vector<const StudyCase*>& cases) { return Pool(run, cases).work(); }
 

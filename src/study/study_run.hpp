@@ -1,6 +1,7 @@
 #pragma once
-// Runs the cases of a study, several at a time, each in a process of its own: a case that crashes or is killed takes nothing with it, its memory is given back, and what it
-// does is what `run` and `bem` do, so that any line of the table can be had again by hand.
+// Runs the cases of a study, several at a time, each in a process of its own: a case that crashes or is killed takes
+// nothing with it, its memory is given back, and what it does is what `run` and `bem` do, so that any line of the table
+// can be had again by hand.
 #include <atomic>
 #include <filesystem>
 #include <functional>
@@ -12,20 +13,23 @@ namespace railstrata {
 
 struct StudyRun {
   std::filesystem::path out;
-  std::string cell;                        ///< of the half-space engine
-  int jobs = 1, threads = 1;               ///< cases at a time; threads of each
+  std::string cell;           ///< of the half-space engine
+  int jobs = 1, threads = 1;  ///< cases at a time; threads of each
   const std::atomic<bool>* stop = nullptr;
-  std::function<void(double fraction)> progress;                                                    ///< of the work of this call
-  std::function<void(const StudyCase&, const std::string& fault, double seconds, int done)> ended;  ///< a case has ended; fault: empty if it has a result
+  std::function<void(double fraction)> progress;  ///< of the work of this call
+  std::function<void(const StudyCase&, const std::string& fault, double seconds, int done)>
+      ended;  ///< a case has ended; fault: empty if it has a result
 };
 
 /// The words after "railstrata" that compute a case into a folder.
-std::vector<std::string> case_command(const StudyCase& c, const std::string& cell, int threads, const std::filesystem::path& folder);
+std::vector<std::string> case_command(const StudyCase& c, const std::string& cell, int threads,
+                                      const std::filesystem::path& folder);
 /// Those that go on with a finite element case from the checkpoint of its folder.
 std::vector<std::string> resume_command(int threads, const std::filesystem::path& folder);
 
-/// Computes these cases in their order. Returns the number of failures; cases not yet ended when `stop` is set are left for the next time, those by finite elements with a checkpoint to go on from. Throws EnvironmentError for the disk, after
-/// the processes it has started are gone.
+/// Computes these cases in their order. Returns the number of failures; cases not yet ended when `stop` is set are left
+/// for the next time, those by finite elements with a checkpoint to go on from. Throws EnvironmentError for the disk,
+/// after the processes it has started are gone.
 int run_cases(const StudyRun& run, const std::vector<const StudyCase*>& cases);
 
 }  // namespace railstrata

@@ -18,7 +18,8 @@ std::string trimmed(const std::string& text) {
 
 VariedKey parse_one(const std::string& text) {
   const auto equals = text.find('=');
-  if (equals == std::string::npos || trimmed(text.substr(0, equals)).empty()) throw CaseError(fmt::format("--vary \"{}\" names no key", text), kHowTo);
+  if (equals == std::string::npos || trimmed(text.substr(0, equals)).empty())
+    throw CaseError(fmt::format("--vary \"{}\" names no key", text), kHowTo);
   VariedKey out{trimmed(text.substr(0, equals)), {}};
   for (std::size_t begin = equals + 1; begin <= text.size();) {
     const auto comma = std::min(text.find(',', begin), text.size());
@@ -36,7 +37,8 @@ std::vector<VariedKey> parse_vary(const std::vector<std::string>& options) {
   for (const std::string& text : options) {
     out.push_back(parse_one(text));
     for (std::size_t k = 0; k + 1 < out.size(); ++k)
-      if (out[k].key == out.back().key) throw CaseError(fmt::format("--vary names {} twice", out[k].key), "give all values of a key in one --vary");
+      if (out[k].key == out.back().key)
+        throw CaseError(fmt::format("--vary names {} twice", out[k].key), "give all values of a key in one --vary");
   }
   return out;
 }
@@ -45,7 +47,8 @@ std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>&
   std::vector<std::vector<std::string>> out(1);
   for (const VariedKey& k : keys) {
     if (out.size() * k.values.size() > kMostCases)
-      throw CaseError(fmt::format("these are more than {} cases", kMostCases), "vary fewer keys at once, or give fewer values");
+      throw CaseError(fmt::format("these are more than {} cases", kMostCases),
+                      "vary fewer keys at once, or give fewer values");
     std::vector<std::vector<std::string>> longer;
     for (const auto& head : out)
       for (const std::string& value : k.values) {

@@ -12,13 +12,15 @@ struct VariedKey {
   std::vector<std::string> values;
 };
 
-/// Reads "key=v1,v2,…"; blanks around values do not count. Throws CaseError: no "=", no or an empty value, a key given twice.
+/// Reads "key=v1,v2,…"; blanks around values do not count. Throws CaseError: no "=", no or an empty value, a key given
+/// twice.
 std::vector<VariedKey> parse_vary(const std::vector<std::string>& options);
 
 /// As many combinations as a sweep or a group of a study may have.
 inline constexpr std::size_t kMostCases = 10'000;
 
-/// Every combination, the last key changing fastest: per case the value of each key. One empty combination of no keys. Throws CaseError beyond kMostCases.
+/// Every combination, the last key changing fastest: per case the value of each key. One empty combination of no keys.
+/// Throws CaseError beyond kMostCases.
 std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>& keys);
 
 }  // namespace railstrata

@@ -19,19 +19,22 @@ TEST(Progress, DurationsAreToldInTheTwoUnitsThatMatter) {
 TEST(Progress, TheTimeLeftIsTheTimeSpentScaledByWhatIsLeft) {
   EXPECT_EQ(progress_bar("rolling", 0.25, 10), "rolling  [#######-----------------------]  25 %  30 s left");
   EXPECT_EQ(progress_bar("rolling", 0, 10), "rolling  [------------------------------]   0 %  ");
-  EXPECT_EQ(progress_bar("rolling", 0.75, 10, 0.5), "rolling  [######################--------]  75 %  10 s left");  // a run that was resumed
+  EXPECT_EQ(progress_bar("rolling", 0.75, 10, 0.5),
+            "rolling  [######################--------]  75 %  10 s left");  // a run that was resumed
   EXPECT_EQ(progress_bar("rolling", 0.5, 0.1, 0.5), "rolling  [###############---------------]  50 %  ");
   EXPECT_EQ(progress_bar("rolling", 1.2, 10), "rolling  [##############################] 100 %  0 s left");
 }
 
 TEST(StopFlag, TheFirstSignalAsksAndTheSecondEndsTheProgramWith130) {
   EXPECT_FALSE(stop_flag());
-  EXPECT_EXIT({
-    std::raise(SIGTERM);
-    if (!stop_flag()) std::exit(1);
-    std::raise(SIGINT);
-    std::exit(2);
-  }, testing::ExitedWithCode(130), "");
+  EXPECT_EXIT(
+      {
+        std::raise(SIGTERM);
+        if (!stop_flag()) std::exit(1);
+        std::raise(SIGINT);
+        std::exit(2);
+      },
+      testing::ExitedWithCode(130), "");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The solver over its whole range: every traction from none to full slide, axis ratios 0.1 to 10, equal, dissimilar and layered bodies, uniform and local friction.
+// The solver over its whole range: every traction from none to full slide, axis ratios 0.1 to 10, equal, dissimilar and
+// layered bodies, uniform and local friction.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -29,7 +30,8 @@ struct Patch {
   double slope;  // of the surface under full friction: the size of a large creepage
   Patch(const Bodies& bodies, double axis_ratio)
       : grid(centred_grid(10, 10, 5e-3 * std::sqrt(axis_ratio) / 7, 5e-3 / std::sqrt(axis_ratio) / 7)),
-        influence(combined_compliance(homogeneous_compliance(kSteel), layered_compliance(bodies.rail)), grid.nx, grid.ny, grid.dx, grid.dy) {
+        influence(combined_compliance(homogeneous_compliance(kSteel), layered_compliance(bodies.rail)), grid.nx,
+                  grid.ny, grid.dx, grid.dy) {
     const double modulus = contact_modulus(kSteel, bodies.rail.substrate);
     const HertzGap gap = hertz_gap(7 * grid.dx, 7 * grid.dy, modulus, kLoad);
     slope = bodies.friction * hertz_contact(gap.A, gap.B, modulus, kLoad).p0 / modulus;
@@ -41,13 +43,17 @@ struct Patch {
   void friction_field() {
     contact.local_friction.resize(grid.size());
     for (int i = 0; i < grid.nx; ++i)
-      for (int j = 0; j < grid.ny; ++j) contact.local_friction[grid.index(i, j)] = contact.friction * std::max(0.0, 1.2 * (j + 0.5) / grid.ny - 0.2);
+      for (int j = 0; j < grid.ny; ++j)
+        contact.local_friction[grid.index(i, j)] = contact.friction * std::max(0.0, 1.2 * (j + 0.5) / grid.ny - 0.2);
   }
-  /// Friction the converged pressure can give (dissimilar bodies shift it); with a field it depends a little on the traction.
+  /// Friction the converged pressure can give (dissimilar bodies shift it); with a field it depends a little on the
+  /// traction.
   double available() const {
     const NormalSolution s = solve_normal(influence, grid, contact.gap, contact.target);
     double f = 0;
-    for (std::size_t k = 0; k < grid.size(); ++k) f += s.pressure[k] * grid.cell_area() * (contact.local_friction.empty() ? contact.friction : contact.local_friction[k]);
+    for (std::size_t k = 0; k < grid.size(); ++k)
+      f += s.pressure[k] * grid.cell_area() *
+           (contact.local_friction.empty() ? contact.friction : contact.local_friction[k]);
     return f;
   }
 };
@@ -60,11 +66,13 @@ void expect_contact(const Patch& p, const RollingContact& c, const RollingSoluti
   double rigid = 0;
   for (std::size_t k = 0; k < p.grid.size(); ++k) rigid = std::max(rigid, std::hypot(t.slip_x[k], t.slip_y[k]));
   for (std::size_t k = 0; k < p.grid.size(); ++k) {
-    const double g = (c.local_friction.empty() ? c.friction : c.local_friction[k]) * s.normal.pressure[k], q = std::hypot(t.q_x[k], t.q_y[k]), slip = std::hypot(t.slip_x[k], t.slip_y[k]);
+    const double g = (c.local_friction.empty() ? c.friction : c.local_friction[k]) * s.normal.pressure[k],
+                 q = std::hypot(t.q_x[k], t.q_y[k]), slip = std::hypot(t.slip_x[k], t.slip_y[k]);
     ASSERT_GE(s.normal.pressure[k], 0) << what;
     ASSERT_LE(q, g * (1 + 1e-9) + 1e-3) << what;
     if (slip > 1e-3 * rigid && g > 0) {
-      ASSERT_GE(t.q_x[k] * t.slip_x[k] + t.q_y[k] * t.slip_y[k], 0.99 * g * slip) << what << ": slip along the traction, which is f p";
+      ASSERT_GE(t.q_x[k] * t.slip_x[k] + t.q_y[k] * t.slip_y[k], 0.99 * g * slip)
+          << what << ": slip along the traction, which is f p";
     }
   }
   if (c.x.force) {
@@ -78,7 +86,8 @@ void expect_contact(const Patch& p, const RollingContact& c, const RollingSoluti
 class ContactOf : public testing::TestWithParam<Bodies> {
  protected:
   /// Forces along x, along y and across.
-  void expect_convergence(const Patch& p, RollingKind kind, std::initializer_list<double> levels, const std::string& what) const {
+  void expect_convergence(const Patch& p, RollingKind kind, std::initializer_list<double> levels,
+                          const std::string& what) const {
     const double available = p.available();
     for (double level : levels)
       for (double angle : {0.0, 0.5, 0.7}) {  // times pi
@@ -97,10 +106,13 @@ TEST_P(ContactOf, ConvergesForEveryTractionAndAxisRatio) {
     const std::string what = "a/b " + std::to_string(ratio);
     Patch p(GetParam(), ratio);
     expect_convergence(p, RollingKind::steady, {0.0, 1e-3, 0.1, 0.5, 0.9, 0.99, 0.9999}, what);
-    if (ratio != 0.3 && ratio != 3) expect_convergence(p, RollingKind::shift, {0.0, 0.1, 0.5, 0.9, 0.9999}, what + " shift");
+    if (ratio != 0.3 && ratio != 3)
+      expect_convergence(p, RollingKind::shift, {0.0, 0.1, 0.5, 0.9, 0.9999}, what + " shift");
     for (double level : {1e-3, 0.1, 1.0, 100.0}) {
       RollingContact c = p.contact;
-      c.x.creepage = level * p.slope, c.y.creepage = -0.5 * level * p.slope, c.spin = 10 * level * p.slope;
+      c.x.creepage = level * p.slope;
+      c.y.creepage = -0.5 * level * p.slope;
+      c.spin = 10 * level * p.slope;
       const RollingSolution s = solve_rolling(p.influence, p.grid, c);
       expect_contact(p, c, s, what + " creepage " + std::to_string(level));
       if (level > 10) {
@@ -112,8 +124,11 @@ TEST_P(ContactOf, ConvergesForEveryTractionAndAxisRatio) {
   }
 }
 INSTANTIATE_TEST_SUITE_P(Bodies, ContactOf,
-                         testing::Values(Bodies{"equal", {{}, kSteel}, 0.4}, Bodies{"dissimilar", {{}, {100e9, 0.15}}, 0.4}, Bodies{"strongly coupled", {{}, {2.1e9, 0.1}}, 1.0},
-                                         Bodies{"stiff layer", {{{1e-3, {840e9, 0.3}}}, kSteel}, 0.4}, Bodies{"soft layer", {{{1e-3, {52.5e9, 0.3}}}, kSteel}, 0.4}),
+                         testing::Values(Bodies{"equal", {{}, kSteel}, 0.4},
+                                         Bodies{"dissimilar", {{}, {100e9, 0.15}}, 0.4},
+                                         Bodies{"strongly coupled", {{}, {2.1e9, 0.1}}, 1.0},
+                                         Bodies{"stiff layer", {{{1e-3, {840e9, 0.3}}}, kSteel}, 0.4},
+                                         Bodies{"soft layer", {{{1e-3, {52.5e9, 0.3}}}, kSteel}, 0.4}),
                          [](const auto& body) {
                            std::string name = body.param.name;
                            for (char& c : name)

@@ -1,4 +1,5 @@
-// The boundary element solution in the limit of small creepage against Kalker's table, and the fast theories against it.
+// The boundary element solution in the limit of small creepage against Kalker's table, and the fast theories against
+// it.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +12,8 @@
 namespace railstrata {
 namespace {
 
-/// C11, C22, C23 on n cells along each semi-axis, with c² = a b from the area of the cells: their staircase is as large as it is.
+/// C11, C22, C23 on n cells along each semi-axis, with c² = a b from the area of the cells: their staircase is as large
+/// as it is.
 CreepCoefficients coefficients(double a_over_b, double nu, int n) {
   const HalfSpaceMaterial body{200e9, nu};
   const double a = 5e-3 * std::sqrt(a_over_b), b = 5e-3 / std::sqrt(a_over_b);
@@ -22,14 +24,18 @@ CreepCoefficients coefficients(double a_over_b, double nu, int n) {
   double area = 0;
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j)
-      if (std::hypot(g.x(i) / a, g.y(j) / b) < 1 - 1e-9) p.bound[g.index(i, j)] = 1e15, area += g.cell_area();  // no slip anywhere
+      if (std::hypot(g.x(i) / a, g.y(j) / b) < 1 - 1e-9) {
+        p.bound[g.index(i, j)] = 1e15;
+        area += g.cell_area();  // no slip anywhere
+      }
   p.x.creepage = p.y.creepage = 1e-4;
   const TangentialSolution creep = solve_tangential(op, g, p);
   p.x.creepage = p.y.creepage = 0;
   p.spin = 0.01;
   const TangentialSolution spin = solve_tangential(op, g, p);
   const double G = body.shear(), c2 = area / std::numbers::pi;
-  return {creep.force_x / (G * c2 * 1e-4), creep.force_y / (G * c2 * 1e-4), spin.force_y / (G * c2 * std::sqrt(c2) * 0.01)};
+  return {creep.force_x / (G * c2 * 1e-4), creep.force_y / (G * c2 * 1e-4),
+          spin.force_y / (G * c2 * std::sqrt(c2) * 0.01)};
 }
 
 /// The error is of first order in the cell.
@@ -51,7 +57,8 @@ TEST_P(CreepCoefficientsOfKalker, AreMetWithinOnePercentAfterExtrapolation) {
     const CreepCoefficients c = extrapolated(ratio, nu, 20);
     EXPECT_NEAR(c.c11 / r.at("C11"), 1, 0.01) << ratio << ' ' << nu;
     EXPECT_NEAR(c.c23 / r.at("C23"), 1, 0.01) << ratio << ' ' << nu;
-    // Two of the 171 lie 1.2 and 1.1 % above the printed digits on every grid up to 256 cells along each axis: 12.96 for 12.8, 16.18 for 16.0. Within 1 % of what rounds to them.
+    // Two of the 171 lie 1.2 and 1.1 % above the printed digits on every grid up to 256 cells along each axis: 12.96
+    // for 12.8, 16.18 for 16.0. Within 1 % of what rounds to them.
     const bool beyond = ratio == 10 && nu > 0;
     EXPECT_NEAR(c.c22, r.at("C22"), 0.01 * r.at("C22") + (beyond ? rounding(r.at("C22")) : 0)) << ratio << ' ' << nu;
     ++rows;

@@ -11,7 +11,9 @@ namespace railstrata {
 
 inline const HalfSpaceMaterial kSteel{210e9, 0.3};
 
-inline SurfaceCompliance pair_of(const HalfSpaceMaterial& wheel, const HalfSpaceMaterial& rail) { return combined_compliance(homogeneous_compliance(wheel), homogeneous_compliance(rail)); }
+inline SurfaceCompliance pair_of(const HalfSpaceMaterial& wheel, const HalfSpaceMaterial& rail) {
+  return combined_compliance(homogeneous_compliance(wheel), homogeneous_compliance(rail));
+}
 
 inline Plane quadratic_gap(const PatchGrid& g, double A, double B) {
   Plane gap(g.size());
@@ -23,7 +25,9 @@ inline Plane quadratic_gap(const PatchGrid& g, double A, double B) {
 inline double peak(const Plane& v) { return *std::max_element(v.begin(), v.end()); }
 
 /// Grid with a cell centre at the origin around an ellipse, one ring of spare cells.
-inline PatchGrid grid_around(double a, double b, double dx, double dy) { return centred_grid(static_cast<int>(a / dx) + 1, static_cast<int>(b / dy) + 1, dx, dy); }
+inline PatchGrid grid_around(double a, double b, double dx, double dy) {
+  return centred_grid(static_cast<int>(a / dx) + 1, static_cast<int>(b / dy) + 1, dx, dy);
+}
 
 /// A solved normal problem of the reference cases: 84954.6 N, steel on steel.
 struct ReferenceContact {
@@ -33,7 +37,9 @@ struct ReferenceContact {
   InfluenceOperator influence;
   NormalSolution normal;
   ReferenceContact(double A, double B, double dx)
-      : hertz(hertz_contact(A, B, contact_modulus(kSteel, kSteel), kLoad)), grid(grid_around(hertz.a, hertz.b, dx, dx)), influence(pair_of(kSteel, kSteel), grid.nx, grid.ny, dx, dx),
+      : hertz(hertz_contact(A, B, contact_modulus(kSteel, kSteel), kLoad)),
+        grid(grid_around(hertz.a, hertz.b, dx, dx)),
+        influence(pair_of(kSteel, kSteel), grid.nx, grid.ny, dx, dx),
         normal(solve_normal(influence, grid, quadratic_gap(grid, A, B), {.load = kLoad, .approach = {}})) {}
   TangentialProblem rolling() const {
     TangentialProblem p;

@@ -30,7 +30,8 @@ struct WheelOn {
   InfluenceOperator influence;
   HertzGap gap;
   explicit WheelOn(const LayeredHalfSpace& rail)
-      : influence(combined_compliance(homogeneous_compliance(kSteel), layered_compliance(rail)), grid.nx, grid.ny, grid.dx, grid.dy),
+      : influence(combined_compliance(homogeneous_compliance(kSteel), layered_compliance(rail)), grid.nx, grid.ny,
+                  grid.dx, grid.dy),
         gap(hertz_gap(6e-3, 4e-3, contact_modulus(kSteel, rail.substrate), kLoad)) {}
   RollingContact contact() const {
     RollingContact c;
@@ -54,9 +55,11 @@ struct WheelOn {
     return s;
   }
 };
-const LayeredHalfSpace kSoftRail{{}, {100e9, 0.15}}, kStiffLayer{{{1e-3, {840e9, 0.3}}}, kSteel}, kSoftLayer{{{1e-3, {52.5e9, 0.3}}}, kSteel};
+const LayeredHalfSpace kSoftRail{{}, {100e9, 0.15}}, kStiffLayer{{{1e-3, {840e9, 0.3}}}, kSteel},
+    kSoftLayer{{{1e-3, {52.5e9, 0.3}}}, kSteel};
 
-// Exact for nu = 0 like Cattaneo's solution: what is taken back slips with 2 f against the state before. [Johnson1985 sec. 7.4]
+// Exact for nu = 0 like Cattaneo's solution: what is taken back slips with 2 f against the state before. [Johnson1985
+// sec. 7.4]
 TEST(Shift, ThereAndBackFollowsMindlinsAndDeresiewiczsLoop) {
   const HalfSpaceMaterial body{200e9, 0.0};
   const double P = 6e4, f = 0.3, top = 0.8 * f * P, d = 0.2e-3;
@@ -86,8 +89,10 @@ TEST(Shift, ThereAndBackFollowsMindlinsAndDeresiewiczsLoop) {
     for (int i = 0; i < g.nx; ++i)
       for (int j = 0; j < g.ny; ++j) {
         const double r = std::hypot(g.x(i), g.y(j));
-        if (r > hertz.a - 3 * d || std::abs(r - there.stick_radius) < 3 * d || std::abs(r - back.stick_radius) < 3 * d) continue;
-        const double exact = sign * (cattaneo_traction(hertz, f, there.stick_radius, r) - 2 * cattaneo_traction(hertz, f, back.stick_radius, r));
+        if (r > hertz.a - 3 * d || std::abs(r - there.stick_radius) < 3 * d || std::abs(r - back.stick_radius) < 3 * d)
+          continue;
+        const double exact = sign * (cattaneo_traction(hertz, f, there.stick_radius, r) -
+                                     2 * cattaneo_traction(hertz, f, back.stick_radius, r));
         worst = std::max(worst, std::abs(s.tangential.q_y[g.index(i, j)] - exact));
       }
     EXPECT_LT(worst, 2e-3 * f * hertz.p0) << force / top;
@@ -113,12 +118,18 @@ TEST_P(TransientRollingOfCoupledBodies, ArrivesAtTheSteadyStateForForcesCreepage
   for (const auto& drive : drives) {
     RollingContact c = w.contact();
     drive(c);
-    const RollingSolution steady = solve_rolling(w.influence, w.grid, c), near = w.roll(c, 32), there = w.roll_on(c, near, 64);
+    const RollingSolution steady = solve_rolling(w.influence, w.grid, c), near = w.roll(c, 32),
+                          there = w.roll_on(c, near, 64);
     const double q = w.kFriction * peak(steady.normal.pressure);
-    EXPECT_LT(largest_difference(there.tangential, steady.tangential), 0.1 * largest_difference(near.tangential, steady.tangential)) << which;
+    EXPECT_LT(largest_difference(there.tangential, steady.tangential),
+              0.1 * largest_difference(near.tangential, steady.tangential))
+        << which;
     EXPECT_LT(largest_difference(there.tangential, steady.tangential), 2e-3 * q) << which;
-    EXPECT_LT(largest_difference(there.normal.pressure, steady.normal.pressure), 1e-4 * peak(steady.normal.pressure)) << which;
-    EXPECT_GT(largest_difference(near.normal.pressure, solve_normal(w.influence, w.grid, c.gap, c.target).pressure), 1e-3 * peak(steady.normal.pressure)) << "coupling is felt";
+    EXPECT_LT(largest_difference(there.normal.pressure, steady.normal.pressure), 1e-4 * peak(steady.normal.pressure))
+        << which;
+    EXPECT_GT(largest_difference(near.normal.pressure, solve_normal(w.influence, w.grid, c.gap, c.target).pressure),
+              1e-3 * peak(steady.normal.pressure))
+        << "coupling is felt";
     if (c.x.force) {
       EXPECT_NEAR(there.tangential.force_x, *c.x.force, 1e-5 * half) << which;
       EXPECT_NEAR(there.tangential.creepage_x, steady.tangential.creepage_x, 1e-6) << which;
@@ -135,9 +146,12 @@ INSTANTIATE_TEST_SUITE_P(Pair, TransientRollingOfCoupledBodies, testing::Values(
 TEST(TransientRolling, OfCoupledBodiesTurnsIntoItsMirrorImageWithTheLateralForceAndTheSpin) {
   const WheelOn w(kSoftRail);
   RollingContact c = w.contact();
-  c.x.force = -4e3, c.y.force = 5e3, c.spin = 0.1;
+  c.x.force = -4e3;
+  c.y.force = 5e3;
+  c.spin = 0.1;
   const RollingSolution left = w.roll(c, 8);
-  c.y.force = -5e3, c.spin = -0.1;
+  c.y.force = -5e3;
+  c.spin = -0.1;
   const RollingSolution right = w.roll(c, 8);
   EXPECT_NEAR(left.tangential.creepage_y, -right.tangential.creepage_y, 1e-7);
   for (int i = 0; i < w.grid.nx; ++i)
@@ -155,7 +169,9 @@ TEST(TransientRolling, OnALayerOfTheRailsOwnSteelIsThatOnTheBareRail) {
   ASSERT_FALSE(bare.influence.couples());
   ASSERT_TRUE(layered.influence.couples());
   RollingContact c = bare.contact();
-  c.x.force = -6e3, c.y.force = 3e3, c.spin = 0.05;
+  c.x.force = -6e3;
+  c.y.force = 3e3;
+  c.spin = 0.05;
   const RollingSolution a = bare.roll(c, 10), b = layered.roll(c, 10);
   EXPECT_LT(largest_difference(a.normal.pressure, b.normal.pressure), 1e-5 * peak(a.normal.pressure));
   EXPECT_LT(largest_difference(a.tangential, b.tangential), 1e-4 * peak(a.normal.pressure));
@@ -166,7 +182,8 @@ TEST(TransientRolling, OnAThickLayerIsThatOnAHalfSpaceOfItsMaterial) {
   const HalfSpaceMaterial stiff{420e9, 0.2};
   const LayeredHalfSpace thick{{{20.0, stiff}}, kSteel};  // 3000 times the patch
   const WheelOn a({{}, stiff});
-  const InfluenceOperator on_layer(combined_compliance(homogeneous_compliance(kSteel), layered_compliance(thick)), a.grid.nx, a.grid.ny, a.grid.dx, a.grid.dy);
+  const InfluenceOperator on_layer(combined_compliance(homogeneous_compliance(kSteel), layered_compliance(thick)),
+                                   a.grid.nx, a.grid.ny, a.grid.dx, a.grid.dy);
   RollingContact c = a.contact();
   c.kind = RollingKind::shift;
   c.x.force = -8e3;
@@ -178,8 +195,10 @@ TEST(TransientRolling, OnAThickLayerIsThatOnAHalfSpaceOfItsMaterial) {
     on_half_space = solve_rolling(a.influence, a.grid, c, {}, &on_half_space);
     on_thick = solve_rolling(on_layer, a.grid, d, {}, &on_thick);
   }
-  EXPECT_LT(largest_difference(on_half_space.normal.pressure, on_thick.normal.pressure), 1e-4 * peak(on_half_space.normal.pressure));
-  EXPECT_LT(largest_difference(on_half_space.tangential, on_thick.tangential), 1e-4 * peak(on_half_space.normal.pressure));
+  EXPECT_LT(largest_difference(on_half_space.normal.pressure, on_thick.normal.pressure),
+            1e-4 * peak(on_half_space.normal.pressure));
+  EXPECT_LT(largest_difference(on_half_space.tangential, on_thick.tangential),
+            1e-4 * peak(on_half_space.normal.pressure));
 }
 
 }  // namespace

@@ -14,7 +14,8 @@ namespace railstrata {
 namespace {
 
 TEST(InfluenceOperator, EqualsDirectSummationForEveryComponent) {
-  const SurfaceCompliance pair = combined_compliance(homogeneous_compliance({1, 0.1}), homogeneous_compliance({2, 0.45}));
+  const SurfaceCompliance pair =
+      combined_compliance(homogeneous_compliance({1, 0.1}), homogeneous_compliance({2, 0.45}));
   const int nx = 7, ny = 10;
   const double dx = 0.3, dy = 0.2;
   const InfluenceOperator op(pair, nx, ny, dx, dy);
@@ -35,8 +36,12 @@ TEST(InfluenceOperator, EqualsDirectSummationForEveryComponent) {
         for (int l = 0; l < ny; ++l) {
           const auto c = static_cast<std::size_t>(l + ny * k);
           const RectangleInfluence a = rectangle_influence(pair, (i - k) * dx, (j - l) * dy, dx, dy);
-          sn += a.nn * p[c], sx += a.xx * qx[c] + a.xy * qy[c], sy += a.xy * qx[c] + a.yy * qy[c];
-          st += a.nx * qx[c] + a.ny * qy[c], px -= a.nx * p[c], py -= a.ny * p[c];
+          sn += a.nn * p[c];
+          sx += a.xx * qx[c] + a.xy * qy[c];
+          sy += a.xy * qx[c] + a.yy * qy[c];
+          st += a.nx * qx[c] + a.ny * qy[c];
+          px -= a.nx * p[c];
+          py -= a.ny * p[c];
         }
       const auto c = static_cast<std::size_t>(j + ny * i);
       if (i < nx) {
@@ -75,11 +80,14 @@ TEST(NormalProblem, MeetsContactCellForCellOnTheCircle) {
     double dx, p_max, approach;
     int cells;
   };
-  for (const Row r : {Row{1e-3, 1076.15847297e6, 0.0898027331686e-3, 121}, Row{0.5e-3, 1074.78250351e6, 0.0898450979144e-3, 489}, Row{0.25e-3, 1074.62875675e6, 0.08987096239e-3, 1901}}) {
+  for (const Row r :
+       {Row{1e-3, 1076.15847297e6, 0.0898027331686e-3, 121}, Row{0.5e-3, 1074.78250351e6, 0.0898450979144e-3, 489},
+        Row{0.25e-3, 1074.62875675e6, 0.08987096239e-3, 1901}}) {
     const int half = static_cast<int>(7e-3 / r.dx);
     const PatchGrid g = centred_grid(half, half, r.dx, r.dx);
     const InfluenceOperator op(pair_of(kSteel, kSteel), g.nx, g.ny, g.dx, g.dy);
-    const NormalSolution s = solve_normal(op, g, quadratic_gap(g, 1000.0 / 840, 1000.0 / 840), {.load = 84954.6, .approach = {}});
+    const NormalSolution s =
+        solve_normal(op, g, quadratic_gap(g, 1000.0 / 840, 1000.0 / 840), {.load = 84954.6, .approach = {}});
     EXPECT_NEAR(peak(s.pressure) / r.p_max, 1, 1e-5);
     EXPECT_NEAR(s.approach / r.approach, 1, 1e-5);
     EXPECT_EQ(std::count_if(s.pressure.begin(), s.pressure.end(), [](double p) { return p > 0; }), r.cells);
@@ -116,8 +124,10 @@ TEST(NormalProblem, RigidSphereOnACoatedHalfSpaceMeetsTheTableWithin15Percent) {
     const InfluenceOperator op(layered_compliance(body), g.nx, g.ny, d, d);
     const NormalSolution s = solve_normal(op, g, quadratic_gap(g, 0.5 / R, 0.5 / R), {.load = F, .approach = {}});
     const auto cells = std::count_if(s.pressure.begin(), s.pressure.end(), [](double p) { return p > 0; });
-    EXPECT_NEAR(peak(s.pressure) / hertz.p0 / r.at("p0_over_pH"), 1, 0.015) << r.at("h_over_aH") << ' ' << r.at("E1_over_E0");
-    EXPECT_NEAR(std::sqrt(static_cast<double>(cells) / 3.141592653589793) * d / hertz.a / r.at("a_over_aH"), 1, 0.015) << r.at("h_over_aH") << ' ' << r.at("E1_over_E0");
+    EXPECT_NEAR(peak(s.pressure) / hertz.p0 / r.at("p0_over_pH"), 1, 0.015)
+        << r.at("h_over_aH") << ' ' << r.at("E1_over_E0");
+    EXPECT_NEAR(std::sqrt(static_cast<double>(cells) / 3.141592653589793) * d / hertz.a / r.at("a_over_aH"), 1, 0.015)
+        << r.at("h_over_aH") << ' ' << r.at("E1_over_E0");
   }
 }
 

@@ -24,7 +24,8 @@ TEST(ProfileGap, LmaOnCn60TouchesAtTheOriginAndIsSymmetricInX) {
   EXPECT_NEAR(gap.gap[g.index(40, 20)] / (0.01 * 0.01 / (2 * 0.43)), 1, 2e-3);
 }
 
-// Two arcs of radius R touching under the angle asin(shift/2R): along the normal of the contact plane their gap is 2 (R - sqrt(R² - t²)).
+// Two arcs of radius R touching under the angle asin(shift/2R): along the normal of the contact plane their gap is 2 (R
+// - sqrt(R² - t²)).
 TEST(ProfileGap, OfTwoArcsIsThatOfTwoCirclesUnderAnyContactAngle) {
   const double R = 30e-3;
   const Profile wheel = circular_profile(ProfileKind::wheel, R), rail = circular_profile(ProfileKind::rail, R);
@@ -62,7 +63,8 @@ TEST(ProfileGap, WhereAProfileEndsThereIsNoSurface) {
   }
 }
 
-// notes of the project: half-space solution of the exact profiles, E = 210 GPa, nu = 0.3, 84.95 kN, wheel radius 430 mm.
+// notes of the project: half-space solution of the exact profiles, E = 210 GPa, nu = 0.3, 84.95 kN, wheel radius 430
+// mm.
 TEST(ProfileGap, LmaOnCn60PeakPressureAtFourLateralShifts) {
   const Profile wheel = builtin_profile(ProfileKind::wheel, "LMA"), rail = builtin_profile(ProfileKind::rail, "CN60");
   const SurfaceCompliance pair = combined_compliance(homogeneous_compliance(kSteel), homogeneous_compliance(kSteel));
@@ -74,7 +76,9 @@ TEST(ProfileGap, LmaOnCn60PeakPressureAtFourLateralShifts) {
     track.lateral_shift = r.shift;
     const PatchGrid g = centred_grid(32, 64, 0.25e-3, 0.25e-3);
     const InfluenceOperator op(pair, g.nx, g.ny, g.dx, g.dy);
-    const NormalSolution s = solve_normal(op, g, profile_gap(wheel, rail, track, place_wheel(wheel, rail, track), g).gap, {.load = 8660 * 9.81, .approach = {}});
+    const NormalSolution s =
+        solve_normal(op, g, profile_gap(wheel, rail, track, place_wheel(wheel, rail, track), g).gap,
+                     {.load = 8660 * 9.81, .approach = {}});
     EXPECT_FALSE(s.touches_edge);
     EXPECT_NEAR(*std::max_element(s.pressure.begin(), s.pressure.end()) / r.p_max, 1, 0.007) << r.shift;
   }

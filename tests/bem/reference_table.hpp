@@ -32,7 +32,8 @@ inline std::vector<ReferenceRow> reference_table(const std::string& file) {
     }
     ReferenceRow row{cells[0], {}};
     for (std::size_t i = 0; i < header.size(); ++i) {
-      const bool number = i < cells.size() && !cells[i].empty() && std::string("0123456789+-.").find(cells[i][0]) != std::string::npos;
+      const bool number =
+          i < cells.size() && !cells[i].empty() && std::string("0123456789+-.").find(cells[i][0]) != std::string::npos;
       row.value[header[i]] = number ? std::stod(cells[i]) : std::numeric_limits<double>::quiet_NaN();
     }
     rows.push_back(std::move(row));

@@ -60,15 +60,19 @@ TEST(RollingContact, FreeRollingOfDissimilarBodiesSlipsAndChangesThePressure) {
   RollingContact free = d.contact();
   free.friction = 0;
   const RollingSolution smooth = solve_rolling(d.influence, d.grid, free);
-  EXPECT_NEAR(peak(smooth.normal.pressure) / hertz_contact(d.gap.A, d.gap.B, contact_modulus(d.wheel, d.rail), d.load).p0, 1, 2e-3);
+  EXPECT_NEAR(
+      peak(smooth.normal.pressure) / hertz_contact(d.gap.A, d.gap.B, contact_modulus(d.wheel, d.rail), d.load).p0, 1,
+      2e-3);
   EXPECT_EQ(largest_traction(smooth.tangential), 0);
 }
 
 TEST(RollingContact, SwappingTheBodiesTurnsTheCouplingRound) {
-  // mirror the pair: the wheel's tractions are the negatives of the rail's, so the lateral force by coupling alone keeps its size
+  // mirror the pair: the wheel's tractions are the negatives of the rail's, so the lateral force by coupling alone
+  // keeps its size
   const Dissimilar d;
   const InfluenceOperator swapped(pair_of(d.rail, d.wheel), d.grid.nx, d.grid.ny, d.grid.dx, d.grid.dy);
-  const RollingSolution a = solve_rolling(d.influence, d.grid, d.contact()), b = solve_rolling(swapped, d.grid, d.contact());
+  const RollingSolution a = solve_rolling(d.influence, d.grid, d.contact()),
+                        b = solve_rolling(swapped, d.grid, d.contact());
   for (std::size_t k = 0; k < d.grid.size(); ++k) {
     EXPECT_NEAR(a.normal.pressure[k], b.normal.pressure[k], 1e-4 * peak(a.normal.pressure));
     EXPECT_NEAR(a.tangential.q_x[k], -b.tangential.q_x[k], 1e-4 * peak(a.normal.pressure));
@@ -84,7 +88,8 @@ TEST(RollingContact, LocalFrictionBoundsEachCell) {
     for (int j = 0; j < d.grid.ny / 2; ++j) c.local_friction[d.grid.index(i, j)] = 0.1;  // one side wet
   c.x.creepage = -0.05;
   const RollingSolution s = solve_rolling(influence, d.grid, c);
-  for (std::size_t k = 0; k < d.grid.size(); ++k) EXPECT_NEAR(std::hypot(s.tangential.q_x[k], s.tangential.q_y[k]), c.local_friction[k] * s.normal.pressure[k], 1e3);
+  for (std::size_t k = 0; k < d.grid.size(); ++k)
+    EXPECT_NEAR(std::hypot(s.tangential.q_x[k], s.tangential.q_y[k]), c.local_friction[k] * s.normal.pressure[k], 1e3);
   EXPECT_GT(std::abs(s.tangential.moment), 1.0);
 }
 

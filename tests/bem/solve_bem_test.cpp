@@ -16,7 +16,8 @@ CaseSpec paper_base() {
   return spec;
 }
 
-// Half-space solution of the exact profiles (project notes): 1074 MPa; slip area about 0.23–0.26 of the patch; creepage 1.3–1.6e-3.
+// Half-space solution of the exact profiles (project notes): 1074 MPa; slip area about 0.23–0.26 of the patch;
+// creepage 1.3–1.6e-3.
 TEST(SolveBem, PaperBaseCase) {
   const CaseSpec spec = paper_base();
   const BemResult r = solve_bem(spec, place(spec, {}));
@@ -32,7 +33,8 @@ TEST(SolveBem, PaperBaseCase) {
   EXPECT_NEAR(sum, r.normal_force, 1e-6 * sum);
 }
 
-// Towards the flange the contact plane stands steep and lateral friction carries part of the weight: the normal force gives way until both together bear it.
+// Towards the flange the contact plane stands steep and lateral friction carries part of the weight: the normal force
+// gives way until both together bear it.
 TEST(SolveBem, NormalAndLateralForceTogetherBearTheWeightAtSteepContactAngles) {
   BemOptions options;
   options.cell = 0.5e-3;
@@ -65,7 +67,8 @@ TEST(SolveBem, StiffLayerRaisesThePeakPressureAndSoftLayerLowersIt) {
   EXPECT_GT(stiff, 1.05 * bare);
   EXPECT_LT(soft, 0.95 * bare);
   spec.layers[0].material.young = 210e9;
-  EXPECT_NEAR(solve_bem(spec, place(spec, {})).p_max / bare, 1, 1e-9) << "a layer of the rail's own steel changes nothing";
+  EXPECT_NEAR(solve_bem(spec, place(spec, {})).p_max / bare, 1, 1e-9)
+      << "a layer of the rail's own steel changes nothing";
 }
 
 LayerSpec layer_on(const std::string& body, double thickness, double young) {
@@ -85,8 +88,11 @@ TEST(SolveBem, LayersOfEitherBodyGiveTheSamePressureWithoutFriction) {
   const BemResult rail = solve_bem(spec, place(spec, {}), options);
   spec.layers = {layer_on("wheel", 1e-3, 420e9), layer_on("wheel", 2e-3, 100e9)};
   const BemResult wheel = solve_bem(spec, place(spec, {}), options);
-  for (std::size_t k = 0; k < rail.field.p.size(); ++k) ASSERT_NEAR(rail.field.p[k], wheel.field.p[k], 1e-8 * rail.p_max);
-  EXPECT_NEAR(rail_interior(rail).peaks(8e-3).layers.at(1).von_mises.value / wheel_interior(wheel).peaks(8e-3).layers.at(1).von_mises.value, 1, 1e-6);
+  for (std::size_t k = 0; k < rail.field.p.size(); ++k)
+    ASSERT_NEAR(rail.field.p[k], wheel.field.p[k], 1e-8 * rail.p_max);
+  EXPECT_NEAR(rail_interior(rail).peaks(8e-3).layers.at(1).von_mises.value /
+                  wheel_interior(wheel).peaks(8e-3).layers.at(1).von_mises.value,
+              1, 1e-6);
   spec.layers.push_back(layer_on("rail", 1e-3, 420e9));
   EXPECT_GT(solve_bem(spec, place(spec, {}), options).p_max, wheel.p_max);
 }
@@ -190,7 +196,8 @@ TEST(SolveBem, CachedInfluenceGivesTheSameBits) {
   InfluenceCache cache;
   BemOptions options;
   options.cache = &cache;
-  const BemResult a = solve_bem(spec, place(spec, {}), options), b = solve_bem(spec, place(spec, {}), options), c = solve_bem(spec, place(spec, {}));
+  const BemResult a = solve_bem(spec, place(spec, {}), options), b = solve_bem(spec, place(spec, {}), options),
+                  c = solve_bem(spec, place(spec, {}));
   EXPECT_EQ(a.field.p, b.field.p);
   EXPECT_EQ(a.field.q_x, b.field.q_x);
   EXPECT_EQ(a.field.q_x, c.field.q_x);

@@ -13,7 +13,8 @@
 namespace railstrata {
 namespace {
 
-// Same cells, same unknowns: the two programs agree far below the discretisation error, in the number of slipping cells exactly.
+// Same cells, same unknowns: the two programs agree far below the discretisation error, in the number of slipping cells
+// exactly.
 TEST(SteadyRolling, MeetsContactOnCircleAndEllipseForForceCreepageAndSpin) {
   int compared = 0;
   for (const ReferenceRow& r : reference_table("half_space.csv")) {
@@ -35,7 +36,8 @@ TEST(SteadyRolling, MeetsContactOnCircleAndEllipseForForceCreepageAndSpin) {
     EXPECT_NEAR(s.force_y, -r.at("FY_N"), 1e-5 * c.kLoad) << r.name;
     EXPECT_NEAR(s.moment, -1e-3 * r.at("MZ_Nmm"), 1e-7 * c.kLoad) << r.name;
     EXPECT_NEAR(largest_traction(s) / (1e6 * r.at("tau_max_MPa")), 1, 1e-4) << r.name;
-    EXPECT_EQ(std::count(s.state.begin(), s.state.end(), ContactState::slip), static_cast<long>(r.at("slip_cells"))) << r.name;
+    EXPECT_EQ(std::count(s.state.begin(), s.state.end(), ContactState::slip), static_cast<long>(r.at("slip_cells")))
+        << r.name;
     ++compared;
   }
   EXPECT_EQ(compared, 22);
@@ -44,7 +46,8 @@ TEST(SteadyRolling, MeetsContactOnCircleAndEllipseForForceCreepageAndSpin) {
 void expect_line(const std::string& file, const PatchGrid& g, const NormalSolution& n, const TangentialSolution& s) {
   int compared = 0;
   for (const ReferenceRow& r : reference_table(file)) {
-    const int i = static_cast<int>(std::lround((1e-3 * r.at("x_mm") - g.x0) / g.dx)), j = static_cast<int>(std::lround((1e-3 * r.at("y_mm") - g.y0) / g.dy));
+    const int i = static_cast<int>(std::lround((1e-3 * r.at("x_mm") - g.x0) / g.dx)),
+              j = static_cast<int>(std::lround((1e-3 * r.at("y_mm") - g.y0) / g.dy));
     if (i < 0 || j < 0 || i >= g.nx || j >= g.ny) continue;
     const std::size_t k = g.index(i, j);
     EXPECT_NEAR(n.pressure[k], 1e6 * r.at("pn_MPa"), 1e4);
@@ -60,11 +63,14 @@ TEST(SteadyRolling, LinesThroughThePatchMeetContactTo005MPa) {
   const ReferenceContact coarse(1000.0 / 840, 1000.0 / 840, 0.5e-3), fine(1000.0 / 840, 1000.0 / 840, 0.25e-3);
   TangentialProblem p = coarse.rolling();
   p.x.force = -0.4 * coarse.kFriction * coarse.kLoad;
-  expect_line("circ_fx0.4_dx0.5_y0.csv", coarse.grid, coarse.normal, solve_tangential(coarse.influence, coarse.grid, p));
+  expect_line("circ_fx0.4_dx0.5_y0.csv", coarse.grid, coarse.normal,
+              solve_tangential(coarse.influence, coarse.grid, p));
   p = fine.rolling();
   p.spin = 0.6;
   expect_line("circ_cr3_dx0.25_x0.csv", fine.grid, fine.normal, solve_tangential(fine.influence, fine.grid, p));
-  p.x.creepage = -1e-3, p.y.creepage = 5e-4, p.spin = 0.12;
+  p.x.creepage = -1e-3;
+  p.y.creepage = 5e-4;
+  p.spin = 0.12;
   expect_line("circ_cr1_dx0.25_y0.csv", fine.grid, fine.normal, solve_tangential(fine.influence, fine.grid, p));
 }
 
@@ -76,13 +82,16 @@ TEST(TransientRolling, ShiftThenRollingAtConstantForceMeetsContactStepByStep) {
   p.x.force = -0.4 * c.kFriction * c.kLoad;
   TangentialSolution s = solve_tangential(c.influence, c.grid, p);
   EXPECT_NEAR(s.creepage_x / (1e-3 * table[0].at("creep_x_or_shift_mm")), 1, 1e-4);
-  EXPECT_EQ(std::count(s.state.begin(), s.state.end(), ContactState::slip), static_cast<long>(table[0].at("slip_cells")));
+  EXPECT_EQ(std::count(s.state.begin(), s.state.end(), ContactState::slip),
+            static_cast<long>(table[0].at("slip_cells")));
   for (std::size_t step = 1; step < table.size(); ++step) {
     roll_on_one_cell(c.influence, c.grid, s, p);
     s = solve_tangential(c.influence, c.grid, p, {}, &s);
     EXPECT_NEAR(s.creepage_x / table[step].at("creep_x_or_shift_mm"), 1, 2e-4) << step;
     EXPECT_NEAR(largest_traction(s) / (1e6 * table[step].at("tau_max_MPa")), 1, 5e-5) << step;
-    EXPECT_EQ(std::count(s.state.begin(), s.state.end(), ContactState::slip), static_cast<long>(table[step].at("slip_cells"))) << step;
+    EXPECT_EQ(std::count(s.state.begin(), s.state.end(), ContactState::slip),
+              static_cast<long>(table[step].at("slip_cells")))
+        << step;
   }
 }
 

@@ -98,11 +98,13 @@ TEST_F(LocalStepsTest, GiveASymmetricOperatorThatIsTheStiffnessAwayFromTheFineNo
   EXPECT_GT(far, 0);
 }
 
-// The upper block is fine, its hanging nodes are carried by a line of the lower one: x.(M B K y) = y.(M B K x), and stable.
+// The upper block is fine, its hanging nodes are carried by a line of the lower one: x.(M B K y) = y.(M B K x), and
+// stable.
 TEST_F(LocalStepsTest, StaySymmetricAndStableAcrossTies) {
   for (SweepKind kind : {SweepKind::extrude, SweepKind::revolve}) {
     const DeformableBody body(tied_body(kind), {kSteel}, {});
-    const double size = kind == SweepKind::extrude ? 4e-3 : 6e-3, wave = std::sqrt(kSteel.p_wave_modulus() / kSteel.density);
+    const double size = kind == SweepKind::extrude ? 4e-3 : 6e-3,
+                 wave = std::sqrt(kSteel.p_wave_modulus() / kSteel.density);
     LocalSteps local(body, {}, 1.4 * size / wave);
     ASSERT_GT(local.fine_elements(), 0);
     ASSERT_LT(local.fine_elements(), body.solid.body().elements());
@@ -135,7 +137,8 @@ TEST_F(LocalStepsTest, StaySymmetricAndStableAcrossTies) {
   }
 }
 
-// Stable at the step of the coarse nodes alone. Damping keeps the fast modes within 2 (1 -+ 1/cosh sqrt(2 nu)); without it they come to the edges of stability.
+// Stable at the step of the coarse nodes alone. Damping keeps the fast modes within 2 (1 -+ 1/cosh sqrt(2 nu)); without
+// it they come to the edges of stability.
 TEST_F(LocalStepsTest, AreStableUpToTheCoarseStepAndKeepTheFastModesFromTheEdges) {
   const DeformableBody body = block_under_layer();
   LocalSteps local(body, {}, kWanted);
@@ -145,7 +148,9 @@ TEST_F(LocalStepsTest, AreStableUpToTheCoarseStepAndKeepTheFastModesFromTheEdges
   auto largest = [&](double share, double damping, double& least) {
     local.set_step(share * coarse, own, damping);
     const Eigen::MatrixXd effective = root.asDiagonal() * dense(body, local) * root.asDiagonal();
-    const Eigen::VectorXd values = local.step() * local.step() * Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (effective + effective.transpose())).eigenvalues();
+    const Eigen::VectorXd values =
+        local.step() * local.step() *
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (effective + effective.transpose())).eigenvalues();
     least = values.minCoeff();
     return values.maxCoeff();
   };
@@ -154,7 +159,8 @@ TEST_F(LocalStepsTest, AreStableUpToTheCoarseStepAndKeepTheFastModesFromTheEdges
   for (double share = 0.2; share < 0.96; share += 0.15) {
     double least = 0, least_undamped = 0;
     const double high = largest(share, kStageDamping, least);
-    EXPECT_LT(high, std::max(1.01 * edge, 4 * share * share + 0.05)) << share;  // the coarse nodes' own modes: 4 (D / coarse step)^2
+    EXPECT_LT(high, std::max(1.01 * edge, 4 * share * share + 0.05))
+        << share;  // the coarse nodes' own modes: 4 (D / coarse step)^2
     EXPECT_GT(least, 0.0) << share;
     undamped = std::max(undamped, largest(share, 0.0, least_undamped));
     const StepSpectrum by_lanczos = [&] {
@@ -181,7 +187,8 @@ struct LayeredSurface {
       for (Vec2& p : block.section.nodes) p.z = -0.05 - p.z;  // the layer outside
       for (auto& q : block.section.quads) std::swap(q[1], q[3]);
       for (double& t : block.stations.at) t = t / 0.05 - 0.3;
-      mesh.contact.fine_begin = -0.3, mesh.contact.fine_end = 0.5;
+      mesh.contact.fine_begin = -0.3;
+      mesh.contact.fine_end = 0.5;
     }
     return mesh;
   }
@@ -232,15 +239,22 @@ TEST_F(LocalStepsTest, SurfaceResponseIsWhatTheStagesGive) {
       }
     std::vector<NodalForce> forces;
     for (std::size_t n = 0; n < index.size(); ++n)
-      for (const auto& [i, value] : {std::pair{0, impulse[n].x}, std::pair{1, impulse[n].y}, std::pair{2, impulse[n].z}}) forces.push_back({index[n] + i * s.surface.stride, value});
+      for (const auto& [i, value] :
+           {std::pair{0, impulse[n].x}, std::pair{1, impulse[n].y}, std::pair{2, impulse[n].z}})
+        forces.push_back({index[n] + i * s.surface.stride, value});
     Field f = s.body.solid.layout().field();
     s.local.add_forces(forces, f);
     for (std::size_t to = 0; to < index.size(); ++to) {
       Vec3 sum;
       for (std::size_t from = 0; from < index.size(); ++from) {
-        const auto place = [&](std::size_t n) { return std::pair{static_cast<int>(n / 5), 18 + static_cast<int>(n % 5)}; };
-        const double angle = kind == SweepKind::revolve ? s.surface.stations.at[place(from).second] : 0, c = std::cos(angle), q = std::sin(angle);
-        const Vec3 a = impulse[from], v = response.velocity(place(from).first, place(to).first, place(to).second - place(from).second, {c * a.x + q * a.z, a.y, c * a.z - q * a.x});
+        const auto place = [&](std::size_t n) {
+          return std::pair{static_cast<int>(n / 5), 18 + static_cast<int>(n % 5)};
+        };
+        const double angle = kind == SweepKind::revolve ? s.surface.stations.at[place(from).second] : 0,
+                     c = std::cos(angle), q = std::sin(angle);
+        const Vec3 a = impulse[from],
+                   v = response.velocity(place(from).first, place(to).first, place(to).second - place(from).second,
+                                         {c * a.x + q * a.z, a.y, c * a.z - q * a.x});
         sum += {c * v.x - q * v.z, v.y, q * v.x + c * v.z};
       }
       const std::ptrdiff_t i = index[to];
@@ -273,7 +287,8 @@ TEST_F(LocalStepsTest, ConserveTheirEnergy) {
   for (int s = 0; s < 2000; ++s) ASSERT_NEAR(step(), start, 1e-9 * start) << s;
 }
 
-// Against one short step for the whole body: what leaves the layer has the second order error of central differences and no more.
+// Against one short step for the whole body: what leaves the layer has the second order error of central differences
+// and no more.
 TEST_F(LocalStepsTest, APulsePassesThroughTheLayerAsWithOneShortStep) {
   const std::vector<double> heights = with_rows(60);
   const Elastic soft = elastic(kYoung, 0.0, 7800), stiff = elastic(4 * kYoung, 0.0, 7800);
@@ -292,19 +307,25 @@ TEST_F(LocalStepsTest, APulsePassesThroughTheLayerAsWithOneShortStep) {
     std::vector<double> strain;
     for (int s = 0; s < steps; ++s) {
       body.solid.linear_force(u, f);
-      const double t = s * dt, pressure = t < kPulse ? 0.5 * kPressure * (1 - std::cos(2 * std::numbers::pi * t / kPulse)) : 0;
+      const double t = s * dt,
+                   pressure = t < kPulse ? 0.5 * kPressure * (1 - std::cos(2 * std::numbers::pi * t / kPulse)) : 0;
       for (int node : {0, 1})
         for (int j : {0, 1}) f[l.line(node, 2) + j] += 0.25 * pressure * kSide * kSide;
       if (locally) local.refine_linear(u, f);
       for (const DeformableBody::Line& line : body.lines)
         if (line.component == 2)
-          for (int j = 0; j < line.count; ++j) v[line.first + j] -= dt * body.inverse_mass[line.first + j] * f[line.first + j], u[line.first + j] += dt * v[line.first + j];
+          for (int j = 0; j < line.count; ++j) {
+            v[line.first + j] -= dt * body.inverse_mass[line.first + j] * f[line.first + j];
+            u[line.first + j] += dt * v[line.first + j];
+          }
       if ((s + 1) % (steps / kSamples)) continue;
-      for (int row : {0, 1, 3, 20}) strain.push_back((u[l.line(2 * row, 2)] - u[l.line(2 * row + 2, 2)]) / heights[row]);
+      for (int row : {0, 1, 3, 20})
+        strain.push_back((u[l.line(2 * row, 2)] - u[l.line(2 * row + 2, 2)]) / heights[row]);
     }
     return strain;
   };
-  const std::vector<double> exact = run(0.2 * own, false), one = run(0.9 * coarse, true), half = run(0.45 * coarse, true);
+  const std::vector<double> exact = run(0.2 * own, false), one = run(0.9 * coarse, true),
+                            half = run(0.45 * coarse, true);
   double error_one[2] = {}, error_half[2] = {}, largest = 0;  // in the fine rows; far below
   for (std::size_t i = 0; i < exact.size(); ++i) {
     const int below = i % 4 == 3;

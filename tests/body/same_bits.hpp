@@ -17,7 +17,8 @@ void expect_same_bits_on_one_two_and_four_threads(Run run) {
   for (int threads : {2, 4}) {
     set_threads(threads);
     const auto many = run();
-    EXPECT_TRUE(many.size() == one.size() && std::memcmp(many.data(), one.data(), one.size() * sizeof(double)) == 0) << threads;
+    EXPECT_TRUE(many.size() == one.size() && std::memcmp(many.data(), one.data(), one.size() * sizeof(double)) == 0)
+        << threads;
   }
   set_threads(before);
 }

@@ -12,15 +12,18 @@ inline const Elastic kSteel = elastic(210e9, 0.3, 7800);
 inline constexpr double kYoung = 210e9;
 
 /// A fixed sequence of numbers in [-1, 1) without pattern.
-inline double scatter(std::size_t i) { return 2 * std::fmod(0.6180339887498949 * static_cast<double>(i * i + 7 * i + 1), 1.0) - 1; }
+inline double scatter(std::size_t i) {
+  return 2 * std::fmod(0.6180339887498949 * static_cast<double>(i * i + 7 * i + 1), 1.0) - 1;
+}
 
 /// Moves every node of a section by up to `size`.
 inline void distort(Section& section, double size) {
-  for (std::size_t n = 0; n < section.nodes.size(); ++n) section.nodes[n] = section.nodes[n] + size * Vec2{scatter(2 * n), scatter(2 * n + 1)};
+  for (std::size_t n = 0; n < section.nodes.size(); ++n)
+    section.nodes[n] = section.nodes[n] + size * Vec2{scatter(2 * n), scatter(2 * n + 1)};
 }
 
-/// 5 x 4 quadrilaterals of about 1 cm, all skewed, along 70 elements of unequal spacing: more than a tile, spacings mixed within a pack.
-/// Revolved: radii from 5 to 9 cm, over half a turn or the whole ring.
+/// 5 x 4 quadrilaterals of about 1 cm, all skewed, along 70 elements of unequal spacing: more than a tile, spacings
+/// mixed within a pack. Revolved: radii from 5 to 9 cm, over half a turn or the whole ring.
 inline SweptBody distorted_body(SweepKind kind, bool ring = false) {
   constexpr int kElements = 70;
   SweptBody body = mesh_brick(5, 4, kElements, 1e-2, 1e-2, 1e-2);
@@ -30,7 +33,10 @@ inline SweptBody distorted_body(SweepKind kind, bool ring = false) {
   distort(block.section, 2e-3);
   std::vector<double> at{0.0};
   for (int e = 0; e < kElements; ++e) at.push_back(at.back() + 1 + 0.25 * (e / 3 % 3));
-  const double whole = kind == SweepKind::extrude ? 0.7 : ring ? 2 * std::numbers::pi : std::numbers::pi, scale = whole / at.back();
+  const double whole = kind == SweepKind::extrude ? 0.7
+                       : ring                     ? 2 * std::numbers::pi
+                                                  : std::numbers::pi,
+               scale = whole / at.back();
   for (double& t : at) t *= scale;
   if (ring) at.pop_back();
   block.stations = {at, ring};
@@ -39,10 +45,12 @@ inline SweptBody distorted_body(SweepKind kind, bool ring = false) {
   return body;
 }
 
-/// A fine block tied onto a coarse one along a plane; section nodes off the plane are skewed. Extruded: three times finer across and along. Revolved: twice finer
-/// across, same stations (otherwise the two polygons of a ring would not meet in a plane).
+/// A fine block tied onto a coarse one along a plane; section nodes off the plane are skewed. Extruded: three times
+/// finer across and along. Revolved: twice finer across, same stations (otherwise the two polygons of a ring would not
+/// meet in a plane).
 inline SweptBody tied_body(SweepKind kind) {
-  const int ratio = kind == SweepKind::extrude ? 3 : 2, along = kind == SweepKind::extrude ? 3 : 1, columns = 4, rows = 3, stations = 12;
+  const int ratio = kind == SweepKind::extrude ? 3 : 2, along = kind == SweepKind::extrude ? 3 : 1, columns = 4,
+            rows = 3, stations = 12;
   const double size = 12e-3, fine = size / ratio, spacing = kind == SweepKind::extrude ? size : 0.1;
   SweptBody body = mesh_brick(columns * ratio, rows, stations * along, spacing / along, fine, fine);
   SweptBody lower = mesh_brick(columns, rows, stations, spacing, size, size);
@@ -52,8 +60,10 @@ inline SweptBody tied_body(SweepKind kind) {
   Section& lower_section = lower.blocks[0].section;
   for (Vec2& p : lower_section.nodes) p.z -= rows * fine;
   const int hanging = rows * (columns * ratio + 1);
-  for (int n = 0; n < hanging; ++n) upper_section.nodes[n] = upper_section.nodes[n] + 0.2 * fine * Vec2{scatter(2 * n), scatter(2 * n + 1)};
-  for (std::size_t n = columns + 1; n < lower_section.nodes.size(); ++n) lower_section.nodes[n] = lower_section.nodes[n] + 0.2 * size * Vec2{scatter(2 * n), scatter(2 * n + 1)};
+  for (int n = 0; n < hanging; ++n)
+    upper_section.nodes[n] = upper_section.nodes[n] + 0.2 * fine * Vec2{scatter(2 * n), scatter(2 * n + 1)};
+  for (std::size_t n = columns + 1; n < lower_section.nodes.size(); ++n)
+    lower_section.nodes[n] = lower_section.nodes[n] + 0.2 * size * Vec2{scatter(2 * n), scatter(2 * n + 1)};
   if (kind == SweepKind::revolve)
     for (Section* s : {&upper_section, &lower_section})
       for (Vec2& p : s->nodes) p.z -= 0.1;
@@ -72,7 +82,8 @@ inline SweptBody coarse_lma_wheel() {
   WheelMeshSpec spec;
   spec.theta_begin = -0.05;
   spec.theta_end = 0.05;
-  return mesh_wheel(builtin_profile(ProfileKind::wheel, "LMA"), 0.430, {0, 0, 0.430}, spec, {4e-3, 24e-3, 8e-3, 3, 16e-3});
+  return mesh_wheel(builtin_profile(ProfileKind::wheel, "LMA"), 0.430, {0, 0, 0.430}, spec,
+                    {4e-3, 24e-3, 8e-3, 3, 16e-3});
 }
 
 /// u = f(X) at all nodes.
@@ -110,7 +121,8 @@ inline double nodal_dot(const BodyLayout& layout, const Field& a, const Field& b
   return sum;
 }
 
-/// Displacement of a rigid rotation by psi (rolling forward: z turns towards x) about the axle at `centre`, and a translation.
+/// Displacement of a rigid rotation by psi (rolling forward: z turns towards x) about the axle at `centre`, and a
+/// translation.
 inline Vec3 rigid_displacement(Vec3 x, Vec3 centre, double psi, Vec3 translation) {
   const Vec3 r = x - centre;
   const double c = std::cos(psi) - 1, s = std::sin(psi);

@@ -27,14 +27,15 @@ Eigen::Matrix3d finite_gradient() {
 }
 
 Eigen::Matrix3d cauchy_of(const Eigen::Matrix3d& gradient) {
-  const Eigen::Matrix3d f = gradient + Eigen::Matrix3d::Identity(), e = 0.5 * (f.transpose() * f - Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d f = gradient + Eigen::Matrix3d::Identity(),
+                        e = 0.5 * (f.transpose() * f - Eigen::Matrix3d::Identity());
   const Eigen::Matrix3d s = kSteel.lambda * e.trace() * Eigen::Matrix3d::Identity() + 2 * kSteel.mu * e;
   return f * s * f.transpose() / f.determinant();
 }
 
 double difference(const Sym3& s, const Eigen::Matrix3d& m) {
-  return std::sqrt(std::pow(s.xx - m(0, 0), 2) + std::pow(s.yy - m(1, 1), 2) + std::pow(s.zz - m(2, 2), 2) + std::pow(s.xy - m(0, 1), 2) + std::pow(s.yz - m(1, 2), 2) +
-                   std::pow(s.xz - m(0, 2), 2));
+  return std::sqrt(std::pow(s.xx - m(0, 0), 2) + std::pow(s.yy - m(1, 1), 2) + std::pow(s.zz - m(2, 2), 2) +
+                   std::pow(s.xy - m(0, 1), 2) + std::pow(s.yz - m(1, 2), 2) + std::pow(s.xz - m(0, 2), 2));
 }
 
 // Section nodes on the section's boundary: those of an edge that only one quadrilateral has.
@@ -74,7 +75,10 @@ struct Kind {
   ElementKind element;
 };
 std::vector<Kind> kinds() {
-  return {{SweepKind::extrude, ElementKind::full}, {SweepKind::extrude, ElementKind::one_point}, {SweepKind::revolve, ElementKind::full}, {SweepKind::revolve, ElementKind::one_point}};
+  return {{SweepKind::extrude, ElementKind::full},
+          {SweepKind::extrude, ElementKind::one_point},
+          {SweepKind::revolve, ElementKind::full},
+          {SweepKind::revolve, ElementKind::one_point}};
 }
 
 }  // namespace
@@ -115,15 +119,18 @@ TEST(SolidPatchTest, PassesThroughHangingNodesOfAPlaneInterface) {
     ties.spread(u, 0.0);
     const auto& blocks = solid.layout().blocks;
     for (const Tie& t : body.ties)
-      for (int j = 0; j < blocks[0].stations; ++j) ASSERT_LT(norm(value(u, blocks[0], t.slave_node, j) - value(exact, blocks[0], t.slave_node, j)), 1e-14);
+      for (int j = 0; j < blocks[0].stations; ++j)
+        ASSERT_LT(norm(value(u, blocks[0], t.slave_node, j) - value(exact, blocks[0], t.slave_node, j)), 1e-14);
     solid.internal_force(u, 0.0, f);
     ties.collect(f);
-    std::vector<std::vector<char>> boundary{boundary_nodes(body.blocks[0].section), boundary_nodes(body.blocks[1].section)};
+    std::vector<std::vector<char>> boundary{boundary_nodes(body.blocks[0].section),
+                                            boundary_nodes(body.blocks[1].section)};
     for (int c = 1; c < 4; ++c) boundary[1][c] = 0;  // the interface's inner nodes are inside the body
     EXPECT_LT(unbalance(solid, f, [&](int b, int n) { return !boundary[b][n]; }), 1e-11);
     for (int b = 0; b < 2; ++b)
       for (int q = 0; q < static_cast<int>(body.blocks[b].section.quads.size()); ++q)
-        for (int e = 0; e < blocks[b].elements; ++e) ASSERT_LT(difference(solid.stress(u, b, q, e), truth), 1e-11 * truth.norm());
+        for (int e = 0; e < blocks[b].elements; ++e)
+          ASSERT_LT(difference(solid.stress(u, b, q, e), truth), 1e-11 * truth.norm());
   }
 }
 
@@ -136,7 +143,9 @@ TEST(Solid, RigidRotationOfTheLmaWheelBy90DegreesInOneDegreeStepsStressesItLessT
   const double face = 1e-4;  // m², of the order of an element's
   for (int degree = 0; degree <= 90; ++degree) {
     const double psi = degree * std::numbers::pi / 180;
-    Field u = nodal_field(solid, [&](Vec3 x) { return rigid_displacement(x, body.origin, psi, {0.43 * psi, 0, -1e-4}); });
+    Field u = nodal_field(solid, [&](Vec3 x) {
+      return rigid_displacement(x, body.origin, psi, {0.43 * psi, 0, -1e-4});
+    });
     ties.spread(u, psi);
     double worst = 0;
     for (int b = 0; b < static_cast<int>(body.blocks.size()); ++b)
@@ -164,7 +173,9 @@ TEST(Solid, InternalForceIsTheGradientOfTheEnergyAtFiniteStrainAndRotation) {
     const bool ring = kind.sweep == SweepKind::revolve;
     const Solid solid(distorted_body(kind.sweep, ring), {kSteel}, {kind.element, 0.05});
     const Field noise = scattered_field(solid, 1e-4), direction = scattered_field(solid, 1.0, 999);
-    Field u = nodal_field(solid, [&](Vec3 x) { return rigid_displacement(x, solid.body().origin, ring ? psi : 0.0, {}); }), f = solid.layout().field();
+    Field u = nodal_field(solid,
+                          [&](Vec3 x) { return rigid_displacement(x, solid.body().origin, ring ? psi : 0.0, {}); }),
+          f = solid.layout().field();
     for (std::size_t i = 0; i < u.size(); ++i) u[i] += noise[i];
     const double turned = ring ? psi : 0.0, step = 1e-7;
     solid.internal_force(u, turned, f);
@@ -175,7 +186,8 @@ TEST(Solid, InternalForceIsTheGradientOfTheEnergyAtFiniteStrainAndRotation) {
       return e.strain + e.hourglass;
     };
     // fourth-order central difference: the energy is a quartic, so this is its derivative up to round-off
-    const double slope = (8 * (energy_at(step) - energy_at(-step)) - (energy_at(2 * step) - energy_at(-2 * step))) / (12 * step);
+    const double slope =
+        (8 * (energy_at(step) - energy_at(-step)) - (energy_at(2 * step) - energy_at(-2 * step))) / (12 * step);
     const double work = nodal_dot(solid.layout(), f, direction);
     EXPECT_NEAR(slope / work, 1.0, 1e-8);
   }
@@ -184,7 +196,8 @@ TEST(Solid, InternalForceIsTheGradientOfTheEnergyAtFiniteStrainAndRotation) {
 TEST(Solid, LinearForceIsTheTangentOfTheInternalForceAtRest) {
   for (const Kind& kind : kinds()) {
     const Solid solid(distorted_body(kind.sweep, kind.sweep == SweepKind::revolve), {kSteel}, {kind.element, 0.05});
-    Field u = scattered_field(solid, 1e-7), minus = u, linear = solid.layout().field(), plus = linear, opposite = linear;
+    Field u = scattered_field(solid, 1e-7), minus = u, linear = solid.layout().field(), plus = linear,
+          opposite = linear;
     for (double& v : minus) v = -v;
     solid.linear_force(u, linear);
     solid.internal_force(u, 0.0, plus);
@@ -221,7 +234,8 @@ TEST(Solid, ForcesAndEnergyHaveTheSameBitsOnOneTwoAndFourThreads) {
     solid.internal_force(moved, 0.3, f);
     std::vector<double> bits;
     for (const BlockLayout& l : solid.layout().blocks)
-      for (int line = 0; line < 3 * l.nodes; ++line) bits.insert(bits.end(), f.begin() + l.line(0, line), f.begin() + l.line(0, line) + l.stations);
+      for (int line = 0; line < 3 * l.nodes; ++line)
+        bits.insert(bits.end(), f.begin() + l.line(0, line), f.begin() + l.line(0, line) + l.stations);
     const StrainEnergy e = solid.energy(moved, 0.3);
     bits.insert(bits.end(), {e.strain, e.hourglass});
     return bits;
@@ -236,7 +250,8 @@ TEST(SolidMass, OfASkewedBarIsDensityTimesAreaTimesLength) {
   EXPECT_NEAR(solid.total_mass() / (7800 * area * 0.7), 1.0, 1e-13);
 }
 
-// Pappus: area times the path of its centroid; a polygonal ring has the chord triangles' sin(D) in place of each station's angle D.
+// Pappus: area times the path of its centroid; a polygonal ring has the chord triangles' sin(D) in place of each
+// station's angle D.
 TEST(SolidMass, OfASkewedRingIsThatOfPappusForAPolygon) {
   const Solid solid(distorted_body(SweepKind::revolve, true), {kSteel}, {});
   const Block& block = solid.body().blocks[0];
@@ -263,7 +278,8 @@ TEST(SolidMass, OfTheRailIsThatOfItsSectionInGB2585) {
   const SweptBody body = mesh_rail(builtin_profile(ProfileKind::rail, "CN60"), {}, spec, {2e-3, 24e-3, 8e-3, 3, 8e-3});
   const Solid solid(body, {kSteel}, {});
   const double length = body.blocks[0].stations.at.back() - body.blocks[0].stations.at.front();
-  EXPECT_NEAR(solid.total_mass() / (7800 * 77.45e-4 * length), 1.0, 5e-3);  // straight edges of up to 8 mm along its fillets
+  EXPECT_NEAR(solid.total_mass() / (7800 * 77.45e-4 * length), 1.0,
+              5e-3);  // straight edges of up to 8 mm along its fillets
 }
 
 }  // namespace railstrata

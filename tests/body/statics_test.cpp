@@ -21,13 +21,17 @@ SweptBody warped_cube(int n) {
 struct Manufactured {
   static constexpr double kSize = 1e-4;
   Vec3 a{2.1, 1.3, -0.7}, b{-0.9, 2.4, 1.1}, c{1.5, -0.6, 2.0};
-  Vec3 displacement(Vec3 x) const { return kSize * Vec3{std::sin(dot(a, x)), std::sin(dot(b, x)), std::cos(dot(c, x))}; }
+  Vec3 displacement(Vec3 x) const {
+    return kSize * Vec3{std::sin(dot(a, x)), std::sin(dot(b, x)), std::cos(dot(c, x))};
+  }
   // For u = e g(k.x): div sigma = (mu |k|^2 e + (lambda + mu)(k.e) k) g''; here g'' = -g.
   Vec3 body_force(Vec3 x) const {
     const Vec3 u = displacement(x), axis[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, wave[3] = {a, b, c};
     const double g[3] = {u.x, u.y, u.z};
     Vec3 f;
-    for (int i = 0; i < 3; ++i) f += g[i] * (kSteel.mu * dot(wave[i], wave[i]) * axis[i] + (kSteel.lambda + kSteel.mu) * dot(wave[i], axis[i]) * wave[i]);
+    for (int i = 0; i < 3; ++i)
+      f += g[i] * (kSteel.mu * dot(wave[i], wave[i]) * axis[i] +
+                   (kSteel.lambda + kSteel.mu) * dot(wave[i], axis[i]) * wave[i]);
     return f;
   }
 };
@@ -49,19 +53,29 @@ double error(int n, ElementKind element) {
   for (std::ptrdiff_t k : inner) u[k] = 0;
   solid.linear_force(u, q);
   double rr = 0;
-  for (std::ptrdiff_t k : inner) p[k] = r[k] = solid.mass()[k] * force[k] - q[k], rr += r[k] * r[k];
+  for (std::ptrdiff_t k : inner) {
+    p[k] = r[k] = solid.mass()[k] * force[k] - q[k];
+    rr += r[k] * r[k];
+  }
   const double wanted = 1e-20 * rr;
   for (int iteration = 0; iteration < 2000 && rr > wanted; ++iteration) {
     solid.linear_force(p, q);
     double pq = 0, next = 0;
     for (std::ptrdiff_t k : inner) pq += p[k] * q[k];
-    for (std::ptrdiff_t k : inner) u[k] += rr / pq * p[k], r[k] -= rr / pq * q[k], next += r[k] * r[k];
+    for (std::ptrdiff_t k : inner) {
+      u[k] += rr / pq * p[k];
+      r[k] -= rr / pq * q[k];
+      next += r[k] * r[k];
+    }
     for (std::ptrdiff_t k : inner) p[k] = r[k] + next / rr * p[k];
     rr = next;
   }
   EXPECT_LE(rr, wanted);
   Field off = u, weighted = exact;
-  for (std::size_t k = 0; k < u.size(); ++k) off[k] -= exact[k], weighted[k] *= solid.mass()[k];
+  for (std::size_t k = 0; k < u.size(); ++k) {
+    off[k] -= exact[k];
+    weighted[k] *= solid.mass()[k];
+  }
   const double size = nodal_dot(solid.layout(), weighted, exact);
   for (std::size_t k = 0; k < u.size(); ++k) weighted[k] = solid.mass()[k] * off[k];
   return std::sqrt(nodal_dot(solid.layout(), weighted, off) / size);

@@ -5,8 +5,10 @@
 
 namespace railstrata::fem_checks {
 
-/// A brick on its base whose rows from the surface down have the given heights; the first `layered` rows are of materials[1].
-inline SweptBody layered_brick(int columns, int stations, double dx, double dy, const std::vector<double>& heights, int layered) {
+/// A brick on its base whose rows from the surface down have the given heights; the first `layered` rows are of
+/// materials[1].
+inline SweptBody layered_brick(int columns, int stations, double dx, double dy, const std::vector<double>& heights,
+                               int layered) {
   const int rows = static_cast<int>(heights.size());
   SweptBody body = mesh_brick(columns, rows, stations, dx, dy, 1.0);
   Section& s = body.blocks[0].section;

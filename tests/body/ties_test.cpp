@@ -19,7 +19,8 @@ SweptBody layered_rail() {
   return mesh_rail(builtin_profile(ProfileKind::rail, "CN60"), {}, spec, {4e-3, 24e-3, 8e-3, 3, 16e-3});
 }
 
-// Three blocks that meet in the plane z = -10 mm, 4, 2 and 1 elements to 2 cm: the first one's bottom hangs on the second one's, which hangs on the third's top.
+// Three blocks that meet in the plane z = -10 mm, 4, 2 and 1 elements to 2 cm: the first one's bottom hangs on the
+// second one's, which hangs on the third's top.
 SweptBody chain() {
   SweptBody body;
   body.materials = {"matrix"};
@@ -40,19 +41,24 @@ SweptBody chain() {
   return body;
 }
 
-std::vector<SweptBody> tied_bodies() { return {coarse_lma_wheel(), layered_rail(), tied_body(SweepKind::extrude), tied_body(SweepKind::revolve), chain()}; }
+std::vector<SweptBody> tied_bodies() {
+  return {coarse_lma_wheel(), layered_rail(), tied_body(SweepKind::extrude), tied_body(SweepKind::revolve), chain()};
+}
 
 // Sets the slaves to nonsense, so that whatever stands there afterwards came from the masters.
 void spoil_slaves(const SweptBody& body, const BodyLayout& layout, Field& u) {
   for (const Tie& t : body.ties)
-    for (int i = 0; i < 3; ++i) std::fill_n(u.begin() + layout.blocks[t.slave_block].line(t.slave_node, i), layout.blocks[t.slave_block].stations, 1e3);
+    for (int i = 0; i < 3; ++i)
+      std::fill_n(u.begin() + layout.blocks[t.slave_block].line(t.slave_node, i), layout.blocks[t.slave_block].stations,
+                  1e3);
 }
 
 double slave_error(const SweptBody& body, const BodyLayout& layout, const Field& u, const Field& truth) {
   double worst = 0;
   for (const Tie& t : body.ties)
     for (int j = 0; j < layout.blocks[t.slave_block].stations; ++j)
-      worst = std::max(worst, norm(value(u, layout.blocks[t.slave_block], t.slave_node, j) - value(truth, layout.blocks[t.slave_block], t.slave_node, j)));
+      worst = std::max(worst, norm(value(u, layout.blocks[t.slave_block], t.slave_node, j) -
+                                   value(truth, layout.blocks[t.slave_block], t.slave_node, j)));
   return worst;
 }
 
@@ -63,7 +69,9 @@ TEST(Ties, ARigidTurnOfAnySizeIsSpreadExactlyOnRevolvedBodies) {
     const Solid solid(body, {kSteel}, {});
     const Ties ties(body, solid.layout());
     for (double psi : {0.0, 1e-3, 0.7, 2.5, 40.0}) {
-      const Field truth = nodal_field(solid, [&](Vec3 x) { return rigid_displacement(x, body.origin, psi, {17.0, 0.2, -0.3}); });
+      const Field truth = nodal_field(solid, [&](Vec3 x) {
+        return rigid_displacement(x, body.origin, psi, {17.0, 0.2, -0.3});
+      });
       Field u = truth;
       spoil_slaves(body, solid.layout(), u);
       ties.spread(u, psi);
@@ -102,16 +110,21 @@ TEST(Ties, CollectIsTheTransposeOfSpread) {
     const Ties ties(body, solid.layout());
     Field u = scattered_field(solid, 1.0), f = scattered_field(solid, 1.0, 12345), masters = u;
     for (const Tie& t : body.ties)
-      for (int i = 0; i < 3; ++i) std::fill_n(masters.begin() + solid.layout().blocks[t.slave_block].line(t.slave_node, i), solid.layout().blocks[t.slave_block].stations, 0.0);
+      for (int i = 0; i < 3; ++i)
+        std::fill_n(masters.begin() + solid.layout().blocks[t.slave_block].line(t.slave_node, i),
+                    solid.layout().blocks[t.slave_block].stations, 0.0);
     ties.spread(u, 0.0, true);
-    const double work = nodal_dot(solid.layout(), f, u), size = std::sqrt(nodal_dot(solid.layout(), f, f) * nodal_dot(solid.layout(), u, u));
+    const double work = nodal_dot(solid.layout(), f, u),
+                 size = std::sqrt(nodal_dot(solid.layout(), f, f) * nodal_dot(solid.layout(), u, u));
     ties.collect(f);
     EXPECT_NEAR(nodal_dot(solid.layout(), f, masters), work, 1e-13 * size) << body.name;
-    for (const Tie& t : body.ties) EXPECT_EQ(norm(value(f, solid.layout().blocks[t.slave_block], t.slave_node, 0)), 0.0);
+    for (const Tie& t : body.ties)
+      EXPECT_EQ(norm(value(f, solid.layout().blocks[t.slave_block], t.slave_node, 0)), 0.0);
   }
 }
 
-// The slaves follow masters and rotation: f . du_s/dpsi is what collect_turning hands to the rotation, and the masters get the same as from collect.
+// The slaves follow masters and rotation: f . du_s/dpsi is what collect_turning hands to the rotation, and the masters
+// get the same as from collect.
 TEST(Ties, MomentOfTheOffsetsIsTheWorkOfTheSlavesForcesOnARotation) {
   for (const SweptBody& body : {coarse_lma_wheel(), tied_body(SweepKind::revolve)}) {
     const Solid solid(body, {kSteel}, {});
@@ -121,7 +134,8 @@ TEST(Ties, MomentOfTheOffsetsIsTheWorkOfTheSlavesForcesOnARotation) {
     ties.spread(ahead, psi + step);
     ties.spread(behind, psi - step);
     for (std::size_t k = 0; k < ahead.size(); ++k) ahead[k] = (ahead[k] - behind[k]) / (2 * step);
-    const double work = nodal_dot(solid.layout(), f, ahead), size = std::sqrt(nodal_dot(solid.layout(), f, f) * nodal_dot(solid.layout(), ahead, ahead));
+    const double work = nodal_dot(solid.layout(), f, ahead),
+                 size = std::sqrt(nodal_dot(solid.layout(), f, f) * nodal_dot(solid.layout(), ahead, ahead));
     EXPECT_NEAR(ties.collect_turning(f, psi), work, 1e-8 * size) << body.name;
     ties.collect(plain);
     EXPECT_EQ(f, plain);

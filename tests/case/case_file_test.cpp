@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "core/faults.hpp"
 #include "case/option_table.hpp"
+#include "core/faults.hpp"
 
 namespace railstrata {
 namespace {
@@ -56,7 +56,9 @@ method = "penalty"
 positions = ["200 mm", "0.3 m"]
 [output]
 volume = false
-)", "a.toml").spec;
+)",
+                                   "a.toml")
+                            .spec;
   EXPECT_EQ(spec.title, "all");
   EXPECT_EQ(spec.geometry.cant, 0.05);
   EXPECT_EQ(spec.geometry.lateral_shift, 1.5e-3);
@@ -81,19 +83,27 @@ TEST(CaseFile, TheRatioOfALayerUsesAModulusWrittenFurtherDown) {
 }
 
 TEST(CaseFile, AGradedLayerHasAModulusByDepthAndItsTablesThicknessAndMean) {
-  const std::string text = "[[layer]]\nyoung_table = [[\"0 mm\", \"400 GPa\"], [\"1 mm\", \"200 GPa\"],\n  [\"4 mm\", \"200000 MPa\"]]\ngrading_tolerance = \"2 %\"\n";
+  const std::string text =
+      "[[layer]]\nyoung_table = [[\"0 mm\", \"400 GPa\"], [\"1 mm\", \"200 GPa\"],\n  [\"4 mm\", \"200000 "
+      "MPa\"]]\ngrading_tolerance = \"2 %\"\n";
   const LoadedCase loaded = parse_case(text, "a.toml");
   const LayerSpec& layer = loaded.spec.layers.at(0);
   EXPECT_EQ(layer.young_table, (std::vector<ModulusPoint>{{0, 400e9}, {1e-3, 200e9}, {4e-3, 200e9}}));
   EXPECT_EQ(layer.thickness, 4e-3);
   EXPECT_DOUBLE_EQ(layer.material.young, (300e9 + 3 * 200e9) / 4);
   EXPECT_EQ(layer.grading_tolerance, 0.02);
-  EXPECT_NE(loaded.resolved_toml.find("young_table = [[\"0 mm\", \"400 GPa\"], [\"1 mm\", \"200 GPa\"], [\"4 mm\", \"200 GPa\"]]\n"), std::string::npos) << loaded.resolved_toml;
+  EXPECT_NE(loaded.resolved_toml.find(
+                "young_table = [[\"0 mm\", \"400 GPa\"], [\"1 mm\", \"200 GPa\"], [\"4 mm\", \"200 GPa\"]]\n"),
+            std::string::npos)
+      << loaded.resolved_toml;
   const LoadedCase back = parse_case(loaded.resolved_toml, "a.toml");
   EXPECT_EQ(back.resolved_toml, loaded.resolved_toml);
   EXPECT_EQ(back.spec.layers.at(0).young_table, layer.young_table);
   EXPECT_EQ(back.spec.layers.at(0).thickness, layer.thickness);
-  EXPECT_EQ(parse_case(text, "a.toml", {"layer.0.young_table=[[\"0 mm\", \"300 GPa\"], [\"2 mm\", \"100 GPa\"]]"}).spec.layers.at(0).thickness, 2e-3);
+  EXPECT_EQ(parse_case(text, "a.toml", {"layer.0.young_table=[[\"0 mm\", \"300 GPa\"], [\"2 mm\", \"100 GPa\"]]"})
+                .spec.layers.at(0)
+                .thickness,
+            2e-3);
 }
 
 /// A value of every option that differs from its default and is allowed.
@@ -120,7 +130,8 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   spec.layers[1].on = "wheel";
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options)
-      if (!option.multiple_of && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0))) disturb(option, spec, 0);
+      if (!option.multiple_of && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)))
+        disturb(option, spec, 0);
   const std::string text = resolved_case(spec);
   const LoadedCase back = parse_case(text, "a.toml");
   EXPECT_EQ(back.resolved_toml, text);
@@ -152,119 +163,177 @@ struct Bad {
 TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
   const Bad all[] = {
       {"[geometry]\nguage = \"1.435 m\"\n",
-       "a.toml:2:1: unknown key geometry.guage\n    2 | guage = \"1.435 m\"\n      | ^\n    remedy: did you mean gauge? keys of [geometry]: rail_profile, wheel_profile, rail_shape, "
-       "wheel_shape, gauge, gauge_depth, back_to_back, flange_back_to_tape, cant, lateral_shift, wheel_radius, block_width, block_height, rim_thickness, web_thickness, web_offset, "
+       "a.toml:2:1: unknown key geometry.guage\n    2 | guage = \"1.435 m\"\n      | ^\n    remedy: did you mean "
+       "gauge? keys of [geometry]: rail_profile, wheel_profile, rail_shape, "
+       "wheel_shape, gauge, gauge_depth, back_to_back, flange_back_to_tape, cant, lateral_shift, wheel_radius, "
+       "block_width, block_height, rim_thickness, web_thickness, web_offset, "
        "hub_radius, hub_width, bore_radius"},
       {"[meshes]\n",
-       "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: case, geometry, material.rail, material.wheel, layer, vehicle, drive, mesh, "
+       "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: "
+       "case, geometry, material.rail, material.wheel, layer, vehicle, drive, mesh, "
        "contact, run, output"},
       {"[mesh]\nelement_size = \"1 MPa\"\n",
-       "a.toml:2:16: mesh.element_size = \"1 MPa\": \"MPa\" is not the unit of a length\n    2 | element_size = \"1 MPa\"\n      |                ^\n    remedy: write a length, e.g. "
+       "a.toml:2:16: mesh.element_size = \"1 MPa\": \"MPa\" is not the unit of a length\n    2 | element_size = \"1 "
+       "MPa\"\n      |                ^\n    remedy: write a length, e.g. "
        "\"0.2 mm\" (units: mm, m, µm, cm)"},
       {"[mesh]\nelement_size = 0.001\n",
-       "a.toml:2:16: mesh.element_size = 0.001: a bare number has no unit\n    2 | element_size = 0.001\n      |                ^\n    remedy: write a length, e.g. \"0.2 mm\", in quotes"},
+       "a.toml:2:16: mesh.element_size = 0.001: a bare number has no unit\n    2 | element_size = 0.001\n      |       "
+       "         ^\n    remedy: write a length, e.g. \"0.2 mm\", in quotes"},
       {"[mesh]\nelement_size = \"1\"\n",
-       "a.toml:2:16: mesh.element_size = \"1\": has no unit\n    2 | element_size = \"1\"\n      |                ^\n    remedy: write a length, e.g. \"0.2 mm\""},
+       "a.toml:2:16: mesh.element_size = \"1\": has no unit\n    2 | element_size = \"1\"\n      |                ^\n  "
+       "  remedy: write a length, e.g. \"0.2 mm\""},
       {"[material.rail]\nyoung = \"210 MPa\"\n",
-       "a.toml:2:9: material.rail.young = \"210 MPa\": must be between 1 GPa and 10000 GPa\n    2 | young = \"210 MPa\"\n      |         ^\n    remedy: did you mean \"210 GPa\"?"},
+       "a.toml:2:9: material.rail.young = \"210 MPa\": must be between 1 GPa and 10000 GPa\n    2 | young = \"210 "
+       "MPa\"\n      |         ^\n    remedy: did you mean \"210 GPa\"?"},
       {"[material.rail]\npoisson = 0.6\n",
-       "a.toml:2:11: material.rail.poisson = 0.6: must be between 0 and 0.495\n    2 | poisson = 0.6\n      |           ^\n    remedy: choose a value in this range"},
+       "a.toml:2:11: material.rail.poisson = 0.6: must be between 0 and 0.495\n    2 | poisson = 0.6\n      |          "
+       " ^\n    remedy: choose a value in this range"},
       {"[contact]\nmethod = \"motar\"\n",
-       "a.toml:2:10: contact.method = \"motar\": must be one of \"mortar\", \"penalty\"\n    2 | method = \"motar\"\n      |          ^\n    remedy: did you mean \"mortar\"?"},
+       "a.toml:2:10: contact.method = \"motar\": must be one of \"mortar\", \"penalty\"\n    2 | method = \"motar\"\n  "
+       "    |          ^\n    remedy: did you mean \"mortar\"?"},
       {"[mesh]\ncoarse_ratio = 2.5\n",
-       "a.toml:2:16: mesh.coarse_ratio = 2.5: is a number, must be a whole number\n    2 | coarse_ratio = 2.5\n      |                ^\n    remedy: write a whole number"},
+       "a.toml:2:16: mesh.coarse_ratio = 2.5: is a number, must be a whole number\n    2 | coarse_ratio = 2.5\n      | "
+       "               ^\n    remedy: write a whole number"},
       {"[run]\nrolling = \"yes\"\n",
-       "a.toml:2:11: run.rolling = \"yes\": is a text, must be true or false\n    2 | rolling = \"yes\"\n      |           ^\n    remedy: write true or false"},
+       "a.toml:2:11: run.rolling = \"yes\": is a text, must be true or false\n    2 | rolling = \"yes\"\n      |       "
+       "    ^\n    remedy: write true or false"},
       {"[run]\npositions = \"0.3 m\"\n",
-       "a.toml:2:13: run.positions = \"0.3 m\": is a text, must be a list, e.g. [\"0.1 m\", \"0.3 m\"]\n    2 | positions = \"0.3 m\"\n      |             ^\n    remedy: write a list, e.g. "
+       "a.toml:2:13: run.positions = \"0.3 m\": is a text, must be a list, e.g. [\"0.1 m\", \"0.3 m\"]\n    2 | "
+       "positions = \"0.3 m\"\n      |             ^\n    remedy: write a list, e.g. "
        "[\"0.1 m\", \"0.3 m\"]"},
       {"[run]\npositions = [\"0.3 m\", \"0.4 kg\"]\n",
-       "a.toml:2:23: run.positions.1 = \"0.4 kg\": \"kg\" is not the unit of a length\n    2 | positions = [\"0.3 m\", \"0.4 kg\"]\n      |                       ^\n    remedy: write a "
+       "a.toml:2:23: run.positions.1 = \"0.4 kg\": \"kg\" is not the unit of a length\n    2 | positions = [\"0.3 m\", "
+       "\"0.4 kg\"]\n      |                       ^\n    remedy: write a "
        "length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)"},
       {"[run]\npositions = [\"0.3 m\", \"0.2 m\"]\n",
-       "a.toml:2:13: run.positions must increase\n    2 | positions = [\"0.3 m\", \"0.2 m\"]\n      |             ^\n    remedy: list each wheel position once, the smallest first"},
-      {"[run]\npositions = []\n", "a.toml:2:13: run.positions = []: needs at least one value\n    2 | positions = []\n      |             ^\n    remedy: write a list, e.g. [\"0.1 m\", \"0.3 m\"]"},
+       "a.toml:2:13: run.positions must increase\n    2 | positions = [\"0.3 m\", \"0.2 m\"]\n      |             ^\n  "
+       "  remedy: list each wheel position once, the smallest first"},
+      {"[run]\npositions = []\n",
+       "a.toml:2:13: run.positions = []: needs at least one value\n    2 | positions = []\n      |             ^\n    "
+       "remedy: write a list, e.g. [\"0.1 m\", \"0.3 m\"]"},
       {"[run]\npositions = [\"0.05 m\"]\n",
-       "a.toml:2:13: run.positions: 50 mm is not yet beyond the run-up (120 mm) and half the window (5 mm)\n    2 | positions = [\"0.05 m\"]\n      |             ^\n    remedy: start at 125 mm or "
+       "a.toml:2:13: run.positions: 50 mm is not yet beyond the run-up (120 mm) and half the window (5 mm)\n    2 | "
+       "positions = [\"0.05 m\"]\n      |             ^\n    remedy: start at 125 mm or "
        "later, or shorten run.run_up or run.window"},
       {"[drive]\ntraction_coefficient = 0.5\n",
-       "a.toml:2:24: drive.traction_coefficient = 0.5: must be below drive.friction_coefficient = 0.5\n    2 | traction_coefficient = 0.5\n      |                        ^\n    remedy: the wheel "
+       "a.toml:2:24: drive.traction_coefficient = 0.5: must be below drive.friction_coefficient = 0.5\n    2 | "
+       "traction_coefficient = 0.5\n      |                        ^\n    remedy: the wheel "
        "would slide: lower the traction or raise the friction"},
       {"[[layer]]\nthickness = \"1 mm\"\n",
-       "a.toml:1:1: layer.0 has no modulus\n    1 | [[layer]]\n      | ^\n    remedy: add young = \"420 GPa\", or young_ratio = 2.0 for twice the body's"},
+       "a.toml:1:1: layer.0 has no modulus\n    1 | [[layer]]\n      | ^\n    remedy: add young = \"420 GPa\", or "
+       "young_ratio = 2.0 for twice the body's"},
       {"[[layer]]\nyoung = \"420 GPa\"\nyoung_ratio = 2\n",
-       "a.toml:3:15: layer.0 has both young and young_ratio\n    3 | young_ratio = 2\n      |               ^\n    remedy: keep one of them"},
+       "a.toml:3:15: layer.0 has both young and young_ratio\n    3 | young_ratio = 2\n      |               ^\n    "
+       "remedy: keep one of them"},
       {"[[layer]]\nyoung_ratio = 2\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n",
-       "a.toml:3:15: layer.0 has both young_table and young_ratio\n    3 | young_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n      |               ^\n    remedy: keep one of them"},
+       "a.toml:3:15: layer.0 has both young_table and young_ratio\n    3 | young_table = [[\"0 mm\", \"420 GPa\"], "
+       "[\"3 mm\", \"210 GPa\"]]\n      |               ^\n    remedy: keep one of them"},
       {"[[layer]]\nthickness = \"3 mm\"\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n",
-       "a.toml:2:13: layer.0 has both young_table and thickness\n    2 | thickness = \"3 mm\"\n      |             ^\n    remedy: leave thickness out: the layer ends at the table's last depth"},
+       "a.toml:2:13: layer.0 has both young_table and thickness\n    2 | thickness = \"3 mm\"\n      |             ^\n "
+       "   remedy: leave thickness out: the layer ends at the table's last depth"},
       {"[[layer]]\nyoung_table = \"420 GPa\"\n",
-       "a.toml:2:15: layer.0.young_table = \"420 GPa\": is a text, must be a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n    2 | young_table = \"420 GPa\"\n      |               ^\n"
+       "a.toml:2:15: layer.0.young_table = \"420 GPa\": is a text, must be a list of depths and moduli, e.g. [[\"0 "
+       "mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n    2 | young_table = \"420 GPa\"\n      |               ^\n"
        "    remedy: write a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\"]]\n",
-       "a.toml:2:37: layer.0.young_table.1: must be a depth and a modulus\n    2 | young_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\"]]\n      |                                     ^\n    remedy: write [\"3 mm\", \"210 GPa\"]"},
+       "a.toml:2:37: layer.0.young_table.1: must be a depth and a modulus\n    2 | young_table = [[\"0 mm\", \"420 "
+       "GPa\"], [\"3 mm\"]]\n      |                                     ^\n    remedy: write [\"3 mm\", \"210 GPa\"]"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", 420], [\"3 mm\", \"210 mm\"]]\n",
-       "a.toml:2:25: layer.0.young_table.0.1 = 420: a bare number has no unit\n    2 | young_table = [[\"0 mm\", 420], [\"3 mm\", \"210 mm\"]]\n      |                         ^\n    remedy: write a pressure or modulus, e.g. \"210 GPa\", in quotes\n"
-       "a.toml:2:40: layer.0.young_table.1.1 = \"210 mm\": \"mm\" is not the unit of a pressure or modulus\n    2 | young_table = [[\"0 mm\", 420], [\"3 mm\", \"210 mm\"]]\n      |                                        ^\n    remedy: write a pressure or modulus, e.g. "
+       "a.toml:2:25: layer.0.young_table.0.1 = 420: a bare number has no unit\n    2 | young_table = [[\"0 mm\", 420], "
+       "[\"3 mm\", \"210 mm\"]]\n      |                         ^\n    remedy: write a pressure or modulus, e.g. "
+       "\"210 GPa\", in quotes\n"
+       "a.toml:2:40: layer.0.young_table.1.1 = \"210 mm\": \"mm\" is not the unit of a pressure or modulus\n    2 | "
+       "young_table = [[\"0 mm\", 420], [\"3 mm\", \"210 mm\"]]\n      |                                        ^\n    "
+       "remedy: write a pressure or modulus, e.g. "
        "\"210 GPa\" (units: GPa, MPa, Pa)"},
       {"[[layer]]\nyoung_table = [[\"1 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n",
-       "a.toml:2:16: layer.0.young_table: the first depth must be 0 mm, the layer's top\n    2 | young_table = [[\"1 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n      |                ^\n    remedy: begin with the modulus at the top"},
+       "a.toml:2:16: layer.0.young_table: the first depth must be 0 mm, the layer's top\n    2 | young_table = [[\"1 "
+       "mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n      |                ^\n    remedy: begin with the modulus at "
+       "the top"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"0 mm\", \"210 GPa\"]]\n",
-       "a.toml:2:37: layer.0.young_table: depths must increase, by 0.001 mm at least\n    2 | young_table = [[\"0 mm\", \"420 GPa\"], [\"0 mm\", \"210 GPa\"]]\n      |                                     ^\n    remedy: sort the rows by depth; for a jump write two layers"},
+       "a.toml:2:37: layer.0.young_table: depths must increase, by 0.001 mm at least\n    2 | young_table = [[\"0 "
+       "mm\", \"420 GPa\"], [\"0 mm\", \"210 GPa\"]]\n      |                                     ^\n    remedy: sort "
+       "the rows by depth; for a jump write two layers"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"]]\n",
-       "a.toml:2:15: layer.0.young_table: needs at least two rows\n    2 | young_table = [[\"0 mm\", \"420 GPa\"]]\n      |               ^\n    remedy: write a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]"},
+       "a.toml:2:15: layer.0.young_table: needs at least two rows\n    2 | young_table = [[\"0 mm\", \"420 GPa\"]]\n   "
+       "   |               ^\n    remedy: write a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", "
+       "\"210 GPa\"]]"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"0.01 mm\", \"210 GPa\"]]\n",
-       "a.toml:2:37: layer.0.young_table: the last depth, the layer's thickness, must be between 0.05 mm and 10 mm\n    2 | young_table = [[\"0 mm\", \"420 GPa\"], [\"0.01 mm\", \"210 GPa\"]]\n      |                                     ^\n    remedy: "
+       "a.toml:2:37: layer.0.young_table: the last depth, the layer's thickness, must be between 0.05 mm and 10 mm\n   "
+       " 2 | young_table = [[\"0 mm\", \"420 GPa\"], [\"0.01 mm\", \"210 GPa\"]]\n      |                              "
+       "       ^\n    remedy: "
        "choose depths in this range"},
       {"[[layer]]\nyoung_ratio = 2\nthickness = \"20 mm\"\n",
-       "a.toml:3:13: layer.0.thickness = \"20 mm\": must be between 0.05 mm and 10 mm\n    3 | thickness = \"20 mm\"\n      |             ^\n    remedy: choose a value in this range"},
-      {"[layer]\nyoung_ratio = 2\n", "a.toml:1:2: layer must be a list of tables\n    1 | [layer]\n      |  ^\n    remedy: write [[layer]] with two brackets"},
+       "a.toml:3:13: layer.0.thickness = \"20 mm\": must be between 0.05 mm and 10 mm\n    3 | thickness = \"20 mm\"\n "
+       "     |             ^\n    remedy: choose a value in this range"},
+      {"[layer]\nyoung_ratio = 2\n",
+       "a.toml:1:2: layer must be a list of tables\n    1 | [layer]\n      |  ^\n    remedy: write [[layer]] with two "
+       "brackets"},
       {"[[layer]]\nyoung_ratio = 2\n[[layer]]\nyoung_ratio = 2\n",
-       "a.toml:3:1: layer.1.name = \"layer\": another layer of the rail has this name\n    3 | [[layer]]\n      | ^\n    remedy: give every layer a name of its own"},
+       "a.toml:3:1: layer.1.name = \"layer\": another layer of the rail has this name\n    3 | [[layer]]\n      | ^\n  "
+       "  remedy: give every layer a name of its own"},
       {"[mesh]\nfine_width = \"2 mm\"\n",
-       "a.toml:2:14: mesh.fine_width = 2 mm: must be at least 4 mm (four elements)\n    2 | fine_width = \"2 mm\"\n      |              ^\n    remedy: make it larger, or mesh.element_size smaller"},
+       "a.toml:2:14: mesh.fine_width = 2 mm: must be at least 4 mm (four elements)\n    2 | fine_width = \"2 mm\"\n    "
+       "  |              ^\n    remedy: make it larger, or mesh.element_size smaller"},
       {"[geometry]\nhub_radius = \"0.38 m\"\n",
-       "a.toml:2:14: geometry.hub_radius = 380 mm: must be below wheel_radius - rim_thickness = 370 mm\n    2 | hub_radius = \"0.38 m\"\n      |              ^\n    remedy: make the hub or the rim "
+       "a.toml:2:14: geometry.hub_radius = 380 mm: must be below wheel_radius - rim_thickness = 370 mm\n    2 | "
+       "hub_radius = \"0.38 m\"\n      |              ^\n    remedy: make the hub or the rim "
        "smaller"},
       {"[geometry]\nbore_radius = \"0.2 m\"\n",
-       "a.toml:2:15: geometry.bore_radius = 200 mm: must be below hub_radius = 135 mm\n    2 | bore_radius = \"0.2 m\"\n      |               ^\n    remedy: make the bore smaller or the hub larger"},
+       "a.toml:2:15: geometry.bore_radius = 200 mm: must be below hub_radius = 135 mm\n    2 | bore_radius = \"0.2 "
+       "m\"\n      |               ^\n    remedy: make the bore smaller or the hub larger"},
       {"[mesh]\nelement_size = 1 mm\n", "a.toml:2:18: this is not TOML: "},
-      {"mesh = 3\n", "a.toml:1:8: mesh = 3: must be a table\n    1 | mesh = 3\n      |        ^\n    remedy: write [mesh] above its keys"},
+      {"mesh = 3\n",
+       "a.toml:1:8: mesh = 3: must be a table\n    1 | mesh = 3\n      |        ^\n    remedy: write [mesh] above its "
+       "keys"},
       {"[material]\nyoung = \"210 GPa\"\n",
-       "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: tables: case, geometry, material.rail, material.wheel, layer, vehicle, drive, mesh, "
+       "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: "
+       "tables: case, geometry, material.rail, material.wheel, layer, vehicle, drive, mesh, "
        "contact, run, output"},
   };
   for (const Bad& bad : all) {
     const std::string told = error_of(bad.text);
-    if (std::string(bad.message).ends_with("TOML: ")) EXPECT_TRUE(told.starts_with(bad.message)) << told;
-    else EXPECT_EQ(told, bad.message);
+    if (std::string(bad.message).ends_with("TOML: "))
+      EXPECT_TRUE(told.starts_with(bad.message)) << told;
+    else
+      EXPECT_EQ(told, bad.message);
   }
 }
 
 TEST(CaseFile, AMissingProfileIsToldWithThePlaceLookedAtAndTheBuiltInNames) {
   const std::string told = error_of("[geometry]\nrail_profile = \"CN6\"\n");
-  EXPECT_TRUE(told.starts_with("a.toml:2:16: geometry.rail_profile = \"CN6\": neither a built-in profile nor a file (looked for /")) << told;
-  EXPECT_NE(told.find("remedy: did you mean \"CN60\"? built in: CN60, UIC54, UIC60, flat, arc:R=300 mm"), std::string::npos) << told;
+  EXPECT_TRUE(told.starts_with(
+      "a.toml:2:16: geometry.rail_profile = \"CN6\": neither a built-in profile nor a file (looked for /"))
+      << told;
+  EXPECT_NE(told.find("remedy: did you mean \"CN60\"? built in: CN60, UIC54, UIC60, flat, arc:R=300 mm"),
+            std::string::npos)
+      << told;
 }
 
 TEST(CaseFile, AllErrorsOfAFileComeAtOnceInItsOrder) {
   try {
-    parse_case("[run]\nrun_up = 3\n[mesh]\nelement = \"fulll\"\n[drive]\nspeed = \"3 kg\"\nfriction_coefficient = 0.1\n", "a.toml");
+    parse_case(
+        "[run]\nrun_up = 3\n[mesh]\nelement = \"fulll\"\n[drive]\nspeed = \"3 kg\"\nfriction_coefficient = 0.1\n",
+        "a.toml");
     FAIL();
   } catch (const CaseError& e) {
     ASSERT_EQ(e.diagnostics.size(), 4u) << e.what();
     EXPECT_EQ(e.diagnostics[0].where, "a.toml:2:10");
     EXPECT_EQ(e.diagnostics[1].where, "a.toml:4:11");
     EXPECT_EQ(e.diagnostics[2].where, "a.toml:5:2");  // the traction is a default: its table
-    EXPECT_TRUE(e.diagnostics[2].message.starts_with("drive.traction_coefficient = 0.2: must be below")) << e.diagnostics[2].message;
+    EXPECT_TRUE(e.diagnostics[2].message.starts_with("drive.traction_coefficient = 0.2: must be below"))
+        << e.diagnostics[2].message;
     EXPECT_EQ(e.diagnostics[3].where, "a.toml:6:9");
   }
 }
 
 TEST(Overrides, AreReadLikeTheFileAndQuotesMayBeLeftOut) {
   const std::string text = "[[layer]]\nyoung_ratio = 2\n[run]\npositions = [\"0.3 m\"]\n";
-  const CaseSpec spec = parse_case(text, "a.toml", {"mesh.element_size=2 mm", "layer.0.thickness=\"0.5 mm\"", "run.positions=[\"0.2 m\"]", "geometry.cant=1:20", "mesh.coarse_ratio=4",
-                                                   "output.volume=false", "contact.method=penalty", "material.rail.young=200 GPa"}).spec;
+  const CaseSpec spec = parse_case(text, "a.toml",
+                                   {"mesh.element_size=2 mm", "layer.0.thickness=\"0.5 mm\"",
+                                    "run.positions=[\"0.2 m\"]", "geometry.cant=1:20", "mesh.coarse_ratio=4",
+                                    "output.volume=false", "contact.method=penalty", "material.rail.young=200 GPa"})
+                            .spec;
   EXPECT_EQ(spec.mesh.element_size, 2e-3);
   EXPECT_EQ(spec.layers[0].thickness, 0.5e-3);
   EXPECT_EQ(spec.layers[0].material.young, 400e9);
@@ -276,19 +345,25 @@ TEST(Overrides, AreReadLikeTheFileAndQuotesMayBeLeftOut) {
 }
 
 TEST(Overrides, FaultsAreLocatedAtTheCommandLine) {
-  const std::string remedy = "\n    remedy: write --set table.key=value, e.g. --set mesh.element_size=\"2 mm\" or --set layer.0.thickness=\"0.5 mm\"";
+  const std::string remedy =
+      "\n    remedy: write --set table.key=value, e.g. --set mesh.element_size=\"2 mm\" or --set "
+      "layer.0.thickness=\"0.5 mm\"";
   EXPECT_EQ(error_of("[mesh]\nelement_size = \"1 mm\"\n", {"mesh.element_size=2"}),
-            "--set mesh.element_size=2: mesh.element_size = 2: a bare number has no unit\n    remedy: write a length, e.g. \"0.2 mm\", in quotes");
+            "--set mesh.element_size=2: mesh.element_size = 2: a bare number has no unit\n    remedy: write a length, "
+            "e.g. \"0.2 mm\", in quotes");
   EXPECT_TRUE(error_of("", {"mesh.size=2 mm"}).starts_with("--set mesh.size=2 mm: unknown key mesh.size\n"));
   EXPECT_EQ(error_of("", {"mesh"}), "--set mesh: is not key=value" + remedy);
   EXPECT_EQ(error_of("", {"mesh=3"}), "--set mesh=3: names no table" + remedy);
-  EXPECT_EQ(error_of("[[layer]]\nyoung_ratio=2\n", {"layer.1.thickness=1 mm"}), "--set layer.1.thickness=1 mm: layer has 1 entries, counted from 0" + remedy);
-  EXPECT_EQ(error_of("[mesh]\nelement_size=\"1 mm\"\n", {"mesh.element_size.x=1"}), "--set mesh.element_size.x=1: element_size is not a table" + remedy);
+  EXPECT_EQ(error_of("[[layer]]\nyoung_ratio=2\n", {"layer.1.thickness=1 mm"}),
+            "--set layer.1.thickness=1 mm: layer has 1 entries, counted from 0" + remedy);
+  EXPECT_EQ(error_of("[mesh]\nelement_size=\"1 mm\"\n", {"mesh.element_size.x=1"}),
+            "--set mesh.element_size.x=1: element_size is not a table" + remedy);
 }
 
 TEST(CaseFile, SettingsWithoutEffectAreNoted) {
   const std::vector<std::string> notes = parse_case("[contact]\npenalty_scale = 0.2\n", "a.toml").notes;
-  EXPECT_EQ(notes, std::vector<std::string>{"contact.penalty_scale has no effect: it needs contact.method = \"penalty\""});
+  EXPECT_EQ(notes,
+            std::vector<std::string>{"contact.penalty_scale has no effect: it needs contact.method = \"penalty\""});
 }
 
 TEST(CaseFile, AMissingFileIsToldByName) {
@@ -296,22 +371,31 @@ TEST(CaseFile, AMissingFileIsToldByName) {
     load_case("no/such/case.toml");
     FAIL();
   } catch (const CaseError& e) {
-    EXPECT_TRUE(std::string(e.what()).starts_with("cannot read no/such/case.toml: No such file or directory\n")) << e.what();
+    EXPECT_TRUE(std::string(e.what()).starts_with("cannot read no/such/case.toml: No such file or directory\n"))
+        << e.what();
   }
 }
 
 TEST(CaseFile, ARatioMayNotTakeTheModulusOutOfItsRange) {
   const std::string error = error_of("[material.rail]\nyoung = \"10000 GPa\"\n[[layer]]\nyoung_ratio = 100\n");
-  EXPECT_NE(error.find("a.toml:4:15: layer.0.young_ratio = 100: makes young 1000000 GPa, which must be between 1 GPa and 10000 GPa"), std::string::npos) << error;
+  EXPECT_NE(
+      error.find(
+          "a.toml:4:15: layer.0.young_ratio = 100: makes young 1000000 GPa, which must be between 1 GPa and 10000 GPa"),
+      std::string::npos)
+      << error;
 }
 
 TEST(CaseFile, AWholeNumberThatNoDoubleHoldsIsANumber) {
-  EXPECT_NE(error_of("[drive]\nfriction_coefficient = 9007199254740993\n").find("must be between 0 and 2"), std::string::npos);
+  EXPECT_NE(error_of("[drive]\nfriction_coefficient = 9007199254740993\n").find("must be between 0 and 2"),
+            std::string::npos);
 }
 
 TEST(CaseFile, NamesThatNoFileCanHaveAreNoProfiles) {
-  for (const std::string& name : {std::string(), std::string(100'000, 'x'), std::string("a.csv\\u0000b"), std::string("/proc/1/fd/0/x"), std::string("a/../..")})
-    EXPECT_NE(error_of("[geometry]\nrail_profile = \"" + name + "\"\n").find("neither a built-in profile nor a file"), std::string::npos) << name.substr(0, 20);
+  for (const std::string& name : {std::string(), std::string(100'000, 'x'), std::string("a.csv\\u0000b"),
+                                  std::string("/proc/1/fd/0/x"), std::string("a/../..")})
+    EXPECT_NE(error_of("[geometry]\nrail_profile = \"" + name + "\"\n").find("neither a built-in profile nor a file"),
+              std::string::npos)
+        << name.substr(0, 20);
 }
 
 TEST(CaseFile, ControlCharactersOfATextReadBack) {
@@ -323,7 +407,8 @@ TEST(CaseFile, ControlCharactersOfATextReadBack) {
 TEST(CaseFile, KeysNestedBeyondTheStackAreRefused) {
   std::string key = "a";
   for (int i = 0; i < 200'000; ++i) key += ".a";
-  for (const std::string& text : {key + " = 1\n", "[" + key + "]\n", "[case]\ntitle = {" + key + " = 1}\n"}) EXPECT_NE(error_of(text).find("this line has more than 100 dots"), std::string::npos);
+  for (const std::string& text : {key + " = 1\n", "[" + key + "]\n", "[case]\ntitle = {" + key + " = 1}\n"})
+    EXPECT_NE(error_of(text).find("this line has more than 100 dots"), std::string::npos);
   EXPECT_NE(error_of("", {key + "=1"}).find("has more than 100 dots"), std::string::npos);
   EXPECT_NO_THROW(parse_case("# " + std::string(300, '.') + "\n", "a.toml"));
 }

@@ -15,7 +15,8 @@ TEST(CaseReference, ThePageInDocsIsTheOneTheProgramWrites) {
   std::ifstream file(RAILSTRATA_SOURCE_DIR "/docs/case-reference.md");
   std::ostringstream text;
   text << file.rdbuf();
-  EXPECT_EQ(text.str(), case_reference_markdown()) << "write it again: ./railstrata schema --markdown > docs/case-reference.md";
+  EXPECT_EQ(text.str(), case_reference_markdown())
+      << "write it again: ./railstrata schema --markdown > docs/case-reference.md";
 }
 
 TEST(CaseSchema, HasEveryOptionAndRefusesOthers) {
@@ -28,7 +29,8 @@ TEST(CaseSchema, HasEveryOptionAndRefusesOthers) {
     const auto& object = schema.at(nlohmann::json::json_pointer(path));
     EXPECT_EQ(object["additionalProperties"], false) << path;
     EXPECT_EQ(object["properties"].size(), table.options.size()) << path;
-    for (const Option& option : table.options) EXPECT_TRUE(object["properties"].contains(option.key)) << path << option.key;
+    for (const Option& option : table.options)
+      EXPECT_TRUE(object["properties"].contains(option.key)) << path << option.key;
   }
 }
 

@@ -17,14 +17,32 @@ struct Written {
 };
 
 TEST(Units, EveryWayOfWritingGivesTheVeryDoubleOfItsSiLiteral) {
-  const Written all[] = {
-      {"210 GPa", kPressure, 210e9},       {"0.2 mm", kLength, 0.2e-3},          {"27.78 m/s", kSpeed, 27.78},         {"8000 kg", kMass, 8000},
-      {"0.95 MN/m", kStiffness, 0.95e6},   {"10.4 kN s/m", kDamping, 10.4e3},    {"10.4 kN·s/m", kDamping, 10.4e3},    {"10.4 kN*s/m", kDamping, 10.4e3},
-      {"7800 kg/m^3", kDensity, 7800},     {"7800 kg/m³", kDensity, 7800},       {"7.8 g/cm^3", kDensity, 7.8e3},      {"1.5 ms", kTime, 1.5e-3},
-      {"9.81 m/s^2", kAcceleration, 9.81}, {"2000 1/s", kRate, 2000},            {"2 kHz", kRate, 2000},               {"1:40", kSlope, 1.0 / 40},
-      {"0.025", kSlope, 0.025},            {"20 %", kNumber, 0.2},               {"0.2", kNumber, 0.2},                {"50 µm", kLength, 50e-6},
-      {"50um", kLength, 50e-6},            {"+3.5e2 mm", kLength, 0.35},         {"-1.5 mm", kLength, -1.5e-3},        {" 8 t ", kMass, 8000},
-      {"2.5 %", kSlope, 0.025},            {"1 : 20", kSlope, 0.05}};
+  const Written all[] = {{"210 GPa", kPressure, 210e9},
+                         {"0.2 mm", kLength, 0.2e-3},
+                         {"27.78 m/s", kSpeed, 27.78},
+                         {"8000 kg", kMass, 8000},
+                         {"0.95 MN/m", kStiffness, 0.95e6},
+                         {"10.4 kN s/m", kDamping, 10.4e3},
+                         {"10.4 kN·s/m", kDamping, 10.4e3},
+                         {"10.4 kN*s/m", kDamping, 10.4e3},
+                         {"7800 kg/m^3", kDensity, 7800},
+                         {"7800 kg/m³", kDensity, 7800},
+                         {"7.8 g/cm^3", kDensity, 7.8e3},
+                         {"1.5 ms", kTime, 1.5e-3},
+                         {"9.81 m/s^2", kAcceleration, 9.81},
+                         {"2000 1/s", kRate, 2000},
+                         {"2 kHz", kRate, 2000},
+                         {"1:40", kSlope, 1.0 / 40},
+                         {"0.025", kSlope, 0.025},
+                         {"20 %", kNumber, 0.2},
+                         {"0.2", kNumber, 0.2},
+                         {"50 µm", kLength, 50e-6},
+                         {"50um", kLength, 50e-6},
+                         {"+3.5e2 mm", kLength, 0.35},
+                         {"-1.5 mm", kLength, -1.5e-3},
+                         {" 8 t ", kMass, 8000},
+                         {"2.5 %", kSlope, 0.025},
+                         {"1 : 20", kSlope, 0.05}};
   for (const Written& w : all) EXPECT_EQ(parse_quantity(w.text, w.dimension), w.si) << w.text;
 }
 
@@ -32,13 +50,15 @@ TEST(Units, HundredKilometresPerHourAreTheirSiValueToRoundOff) {
   EXPECT_DOUBLE_EQ(parse_quantity("100 km/h", kSpeed), 100e3 / 3600);
   EXPECT_DOUBLE_EQ(parse_quantity("23 mrad", kSlope), std::tan(0.023));
   EXPECT_DOUBLE_EQ(parse_quantity("45 deg", kSlope), 1.0);
-  for (const char* upright : {"90 deg", "-181 deg", "1.6 rad"}) EXPECT_THROW(parse_quantity(upright, kSlope), UnitError) << upright;
+  for (const char* upright : {"90 deg", "-181 deg", "1.6 rad"})
+    EXPECT_THROW(parse_quantity(upright, kSlope), UnitError) << upright;
 }
 
 TEST(Units, WhatIsShownReadsBackToTheSameBits) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> exponent(-9, 12);
-  for (const Dimension& d : {kNumber, kLength, kMass, kTime, kSpeed, kRate, kAcceleration, kPressure, kDensity, kStiffness, kDamping, kSlope})
+  for (const Dimension& d : {kNumber, kLength, kMass, kTime, kSpeed, kRate, kAcceleration, kPressure, kDensity,
+                             kStiffness, kDamping, kSlope})
     for (int i = 0; i < 500; ++i) {
       const double value = std::pow(10.0, exponent(random));
       EXPECT_EQ(parse_quantity(format_quantity(value, d), d), value) << format_quantity(value, d);
@@ -63,9 +83,11 @@ struct Refused {
 TEST(Units, EveryBadTextIsRefusedWithItsRuleAndRemedy) {
   const Refused all[] = {
       {"0.2", kLength, "has no unit", "write a length, e.g. \"0.2 mm\""},
-      {"210 GPa", kLength, "\"GPa\" is not the unit of a length", "write a length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)"},
+      {"210 GPa", kLength, "\"GPa\" is not the unit of a length",
+       "write a length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)"},
       {"210 gpa", kPressure, "unknown unit \"gpa\"", "did you mean GPa?"},
-      {"3 furlong", kLength, "unknown unit \"furlong\"", "units are SI symbols with prefixes, e.g. GPa, mm, km/h, kN s/m, kg/m^3"},
+      {"3 furlong", kLength, "unknown unit \"furlong\"",
+       "units are SI symbols with prefixes, e.g. GPa, mm, km/h, kN s/m, kg/m^3"},
       {"thick", kLength, "does not start with a number", "write a length, e.g. \"0.2 mm\""},
       {"", kLength, "does not start with a number", "write a length, e.g. \"0.2 mm\""},
       {"10 N/m s", kDamping, "the unit \"N/m s\" is ambiguous", "put the divided unit last, e.g. \"kN s/m\""},

@@ -11,7 +11,9 @@ using namespace contact_checks;
 
 constexpr double kStep = 2e-7, kFriction = 0.3;
 
-double scatter(std::size_t i) { return 2 * std::fmod(0.6180339887498949 * static_cast<double>(i * i + 7 * i + 1), 1.0) - 1; }
+double scatter(std::size_t i) {
+  return 2 * std::fmod(0.6180339887498949 * static_cast<double>(i * i + 7 * i + 1), 1.0) - 1;
+}
 
 // A wheel pressed into the rail while it approaches and slides; velocities without pattern, unequal masses.
 struct Impact {
@@ -42,7 +44,8 @@ struct Impact {
   }
   Vec3 slip(const ContactSystem& s, std::size_t r) const {
     Vec3 w = -s.rail.velocity[r];
-    for (int k = rows.rows[r].first; k < rows.rows[r].first + rows.rows[r].count; ++k) w += rows.weights[k].m * s.wheel.velocity[s.weight_node[k]];
+    for (int k = rows.rows[r].first; k < rows.rows[r].first + rows.rows[r].count; ++k)
+      w += rows.weights[k].m * s.wheel.velocity[s.weight_node[k]];
     return w;
   }
   const NodeTraction& traction(std::size_t r) const { return memory.at(rows.rows[r].column, rows.rows[r].station); }
@@ -61,7 +64,8 @@ TEST(Multipliers, SatisfySignoriniAndCoulombAtTheEndOfTheStep) {
     const NodeTraction& t = c.traction(r);
     const Vec3 w = c.slip(c.after, r);
     const double gap = row.gap + kStep * dot(w, row.normal), q = std::hypot(t.q1, t.q2);
-    constexpr double kPressure = 1e6, kLength = 1e-15, kSpeed = 1e-8;  // of pressures of GPa, gaps of um and speeds of m/s
+    constexpr double kPressure = 1e6, kLength = 1e-15,
+                     kSpeed = 1e-8;  // of pressures of GPa, gaps of um and speeds of m/s
     EXPECT_GE(t.p, 0.0);
     EXPECT_GE(gap, -kLength);
     EXPECT_LT(t.p > 0 ? std::abs(gap) : 0.0, kLength);
@@ -76,7 +80,8 @@ TEST(Multipliers, SatisfySignoriniAndCoulombAtTheEndOfTheStep) {
       EXPECT_LT(std::hypot(t.slip1, t.slip2), kSpeed);
     } else {
       ++sliding;  // the traction on the rail points the way the wheel slips
-      EXPECT_NEAR((t.q1 * t.slip1 + t.q2 * t.slip2), q * std::hypot(t.slip1, t.slip2), 1e-6 * q * std::hypot(t.slip1, t.slip2) + q * kSpeed);
+      EXPECT_NEAR((t.q1 * t.slip1 + t.q2 * t.slip2), q * std::hypot(t.slip1, t.slip2),
+                  1e-6 * q * std::hypot(t.slip1, t.slip2) + q * kSpeed);
     }
   }
   EXPECT_GT(open, 10);
@@ -92,7 +97,8 @@ TEST(Multipliers, KeepLinearMomentum) {
       const Vec3 dp = (1 / c.before.rail.inverse_mass[r]) * (c.after.rail.velocity[r] - c.before.rail.velocity[r]);
       change += dp, exchanged += Vec3{std::abs(dp.x), std::abs(dp.y), std::abs(dp.z)};
     }
-    for (std::size_t n = 0; n < c.before.wheel_nodes.size(); ++n) change += (1 / c.before.wheel.inverse_mass[n]) * (c.after.wheel.velocity[n] - c.before.wheel.velocity[n]);
+    for (std::size_t n = 0; n < c.before.wheel_nodes.size(); ++n)
+      change += (1 / c.before.wheel.inverse_mass[n]) * (c.after.wheel.velocity[n] - c.before.wheel.velocity[n]);
     EXPECT_LT(norm(change), 1e-12 * norm(exchanged));
   }
 }
@@ -105,7 +111,8 @@ TEST(Multipliers, ImpulseIsAreaTimesTractionTimesTheStepOnBothSides) {
     const Vec3 impulse = (kStep * row.area) * traction_vector(c.traction(r), row.normal);
     const Vec3 rail = (1 / c.before.rail.inverse_mass[r]) * (c.after.rail.velocity[r] - c.before.rail.velocity[r]);
     EXPECT_LT(norm(rail - impulse), 1e-9 * norm(impulse) + 1e-15);
-    for (int k = row.first; k < row.first + row.count; ++k) wheel[c.before.weight_node[k]] -= c.rows.weights[k].m * impulse;
+    for (int k = row.first; k < row.first + row.count; ++k)
+      wheel[c.before.weight_node[k]] -= c.rows.weights[k].m * impulse;
   }
   for (std::size_t n = 0; n < wheel.size(); ++n) {
     const Vec3 dp = (1 / c.before.wheel.inverse_mass[n]) * (c.after.wheel.velocity[n] - c.before.wheel.velocity[n]);
@@ -118,9 +125,12 @@ TEST(Multipliers, TakeKineticEnergyOutOfSurfacesThatDoNotOverlap) {
   for (const ContactRow& row : c.rows.rows) ASSERT_GE(row.gap, 0.0);
   double loss = 0;
   auto energy = [](Vec3 v, double inverse_mass) { return 0.5 * dot(v, v) / inverse_mass; };
-  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) loss += energy(c.before.rail.velocity[r], c.before.rail.inverse_mass[r]) - energy(c.after.rail.velocity[r], c.before.rail.inverse_mass[r]);
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r)
+    loss += energy(c.before.rail.velocity[r], c.before.rail.inverse_mass[r]) -
+            energy(c.after.rail.velocity[r], c.before.rail.inverse_mass[r]);
   for (std::size_t n = 0; n < c.before.wheel_nodes.size(); ++n)
-    loss += energy(c.before.wheel.velocity[n], c.before.wheel.inverse_mass[n]) - energy(c.after.wheel.velocity[n], c.before.wheel.inverse_mass[n]);
+    loss += energy(c.before.wheel.velocity[n], c.before.wheel.inverse_mass[n]) -
+            energy(c.after.wheel.velocity[n], c.before.wheel.inverse_mass[n]);
   EXPECT_GT(loss, 0.0);
 }
 
@@ -130,7 +140,8 @@ TEST(Multipliers, OfALooseToleranceLeaveAPenetrationOfItsOrder) {
     options.tolerance = tolerance;
     const Impact c(options);
     double worst = 0;
-    for (std::size_t r = 0; r < c.rows.rows.size(); ++r) worst = std::max(worst, -(c.rows.rows[r].gap + kStep * dot(c.slip(c.after, r), c.rows.rows[r].normal)));
+    for (std::size_t r = 0; r < c.rows.rows.size(); ++r)
+      worst = std::max(worst, -(c.rows.rows[r].gap + kStep * dot(c.slip(c.after, r), c.rows.rows[r].normal)));
     EXPECT_LT(worst, 20 * tolerance);
   }
 }
@@ -143,7 +154,8 @@ TEST(Multipliers, AreTheSameWhenTheyStartFromTheSolution) {
   for (std::size_t k = 0; k < first.size(); ++k) EXPECT_NEAR(c.memory.all()[k].p, first[k].p, 1e-7 * 1e9);
 }
 
-// Nodes that answer one another: the rail's by a response of exponential reach, positive definite, with normal and tangential motions mixed; the wheel's by masses.
+// Nodes that answer one another: the rail's by a response of exponential reach, positive definite, with normal and
+// tangential motions mixed; the wheel's by masses.
 TEST(Multipliers, SatisfySignoriniCoulombAndTheResponseWhereNodesAnswerOneAnother) {
   constexpr int kReach = 6;
   constexpr double kLow = 0.15;
@@ -155,7 +167,8 @@ TEST(Multipliers, SatisfySignoriniCoulombAndTheResponseWhereNodesAnswerOneAnothe
       for (int apart = -kReach; apart <= kReach; ++apart) {
         const double near = 2e5 * std::pow(-0.15, std::abs(to - from) + std::abs(apart));
         for (int k = 0; k < 3; ++k) response.entry(from, to, apart, k, k) = near * (k == 2 ? 0.8 : 1);
-        response.entry(from, to, apart, 0, 2) = 0.1 * near * apart;  // antisymmetric in the distance: the whole stays symmetric
+        response.entry(from, to, apart, 0, 2) =
+            0.1 * near * apart;  // antisymmetric in the distance: the whole stays symmetric
         response.entry(from, to, apart, 2, 0) = -0.1 * near * apart;
       }
   c.before.rail.response = &response;
@@ -170,7 +183,8 @@ TEST(Multipliers, SatisfySignoriniCoulombAndTheResponseWhereNodesAnswerOneAnothe
   double difference = 0;
   for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
     const NodeTraction& t = c.traction(r);
-    const double gap = c.rows.rows[r].gap + kStep * dot(c.slip(c.after, r), c.rows.rows[r].normal), q = std::hypot(t.q1, t.q2), slip = std::hypot(t.slip1, t.slip2);
+    const double gap = c.rows.rows[r].gap + kStep * dot(c.slip(c.after, r), c.rows.rows[r].normal),
+                 q = std::hypot(t.q1, t.q2), slip = std::hypot(t.slip1, t.slip2);
     EXPECT_GE(gap, -1e-17);
     EXPECT_LE(q, kLow * t.p * (1 + 1e-12));
     if (t.p > 0) {
@@ -187,7 +201,8 @@ TEST(Multipliers, SatisfySignoriniCoulombAndTheResponseWhereNodesAnswerOneAnothe
     Vec3 gained;
     for (std::size_t k = 0; k < c.rows.rows.size(); ++k) {
       const ContactRow &from = c.rows.rows[k], &to = c.rows.rows[r];
-      gained += response.velocity(from.column, to.column, to.station - from.station, (kStep * from.area) * traction_vector(c.traction(k), from.normal));
+      gained += response.velocity(from.column, to.column, to.station - from.station,
+                                  (kStep * from.area) * traction_vector(c.traction(k), from.normal));
     }
     EXPECT_LT(norm(c.after.rail.velocity[r] - c.before.rail.velocity[r] - gained), 1e-9);
   }
@@ -204,7 +219,9 @@ TEST(Multipliers, ThatWereHeldInTheFreeVelocitiesAreNotGivenTwice) {
     const ContactRow& row = c.rows.rows[r];
     const Vec3 impulse = (kStep * row.area) * traction_vector(c.traction(r), row.normal);
     again.rail.velocity[r] += again.rail.inverse_mass[r] * impulse;
-    for (int k = row.first; k < row.first + row.count; ++k) again.wheel.velocity[again.weight_node[k]] -= (c.rows.weights[k].m * again.wheel.inverse_mass[again.weight_node[k]]) * impulse;
+    for (int k = row.first; k < row.first + row.count; ++k)
+      again.wheel.velocity[again.weight_node[k]] -=
+          (c.rows.weights[k].m * again.wheel.inverse_mass[again.weight_node[k]]) * impulse;
   }
   again.tractions_held = true;
   enforce_contact(c.rows, kStep, exact(), again, c.memory);

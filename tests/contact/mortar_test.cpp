@@ -12,7 +12,8 @@ namespace {
 
 using namespace contact_checks;
 
-const MortarRows& settled_rows(MortarContact& contact, const Field& u_rail, const Field& u_wheel, const AxlePose& pose) {
+const MortarRows& settled_rows(MortarContact& contact, const Field& u_rail, const Field& u_wheel,
+                               const AxlePose& pose) {
   contact.search(u_rail, u_wheel, pose, 20e-3, 1e-3);
   for (int pass = 0; pass < 4; ++pass) contact.rows(u_rail, u_wheel, pose);  // the tangential corrections settle
   return contact.rows(u_rail, u_wheel, pose);
@@ -25,7 +26,10 @@ double weighted(double x, double h, Gap&& gap) {
   double sum = 0;
   for (int side : {-1, 1})
     for (int i = 0; i <= kIntervals; ++i) {
-      const double t = static_cast<double>(i) / kIntervals, simpson = (i == 0 || i == kIntervals ? 1 : i % 2 ? 4 : 2) / (3.0 * kIntervals);
+      const double t = static_cast<double>(i) / kIntervals, simpson = (i == 0 || i == kIntervals ? 1
+                                                                       : i % 2                   ? 4
+                                                                                                 : 2) /
+                                                                      (3.0 * kIntervals);
       sum += 0.5 * simpson * (2 - 3 * t) * gap(x + side * h * t);
     }
   return 2 * sum;  // a_A = h
@@ -42,7 +46,9 @@ TEST(Mortar, WeightedGapOfACylinderOverAFlatRailIsTheIntegralOfTheExactGapAtEver
       const MortarRows& rows = settled_rows(contact, s.rail_field(), s.rolled(pose), pose);
       ASSERT_GT(rows.rows.size(), 50u);
       for (const ContactRow& row : rows.rows) {
-        const double exact = weighted(s.rail.stations.at[row.station], s.h, [&](double at) { return s.radius - std::sqrt(s.radius * s.radius - (at - x) * (at - x)) - 5e-6; });
+        const double exact = weighted(s.rail.stations.at[row.station], s.h, [&](double at) {
+          return s.radius - std::sqrt(s.radius * s.radius - (at - x) * (at - x)) - 5e-6;
+        });
         ASSERT_NEAR(row.gap, exact, 2e-12) << "psi " << psi << " station " << row.station;
         ASSERT_NEAR(row.area, s.h * s.width, 1e-15);
       }
@@ -54,7 +60,8 @@ TEST(Mortar, WeightedGapOfAParabolaFollowsTheClosedForm) {
   const Surfaces s;
   MortarContact contact(s.rail, s.wheel);
   for (const ContactRow& row : settled_rows(contact, s.rail_field(), s.wheel_field(), {}).rows) {
-    const double x = s.rail.stations.at[row.station], quartic = std::pow(std::abs(x) + s.h, 4) / (8 * std::pow(s.radius, 3));
+    const double x = s.rail.stations.at[row.station],
+                 quartic = std::pow(std::abs(x) + s.h, 4) / (8 * std::pow(s.radius, 3));
     ASSERT_NEAR(row.gap, (x * x - s.h * s.h / 6) / (2 * s.radius), 2 * quartic + 1e-13);
   }
 }
@@ -82,7 +89,8 @@ TEST(Mortar, WeightsOfARowSumToOneAndReproduceLinearFieldsOnNonMatchingMeshes) {
     const Surfaces s(ratio);
     MortarContact contact(s.rail, s.wheel);
     const AxlePose pose{0.2e-3, 0, 0.0004};
-    for (const MortarRows& rows = settled_rows(contact, s.rail_field(), s.rolled(pose), pose); const ContactRow& row : rows.rows) {
+    for (const MortarRows& rows = settled_rows(contact, s.rail_field(), s.rolled(pose), pose);
+         const ContactRow& row : rows.rows) {
       double one = 0, y = 0;
       for (int k = row.first; k < row.first + row.count; ++k) {
         const WheelWeight& w = rows.weights[k];
@@ -95,8 +103,9 @@ TEST(Mortar, WeightsOfARowSumToOneAndReproduceLinearFieldsOnNonMatchingMeshes) {
   }
 }
 
-// Contact patch test [TaylorPapadopoulos1991] for the forces: a uniform pressure on the rail's nodes arrives on the wheel's with its resultant and moments, and each
-// node gets the pressure times its own area but for the quadrature of kinks inside a facet.
+// Contact patch test [TaylorPapadopoulos1991] for the forces: a uniform pressure on the rail's nodes arrives on the
+// wheel's with its resultant and moments, and each node gets the pressure times its own area but for the quadrature of
+// kinks inside a facet.
 TEST(Mortar, UniformPressurePassesThroughNonMatchingMeshes) {
   struct Case {
     double ratio, scatter;  // wheel's mesh over the rail's; largest deviation of a nodal force in the middle
@@ -112,14 +121,19 @@ TEST(Mortar, UniformPressurePassesThroughNonMatchingMeshes) {
       area += row.area;
       moment_x += row.area * s.rail.stations.at[row.station];
       moment_y += row.area * s.rail.node[row.column].y;
-      for (int k = row.first; k < row.first + row.count; ++k) force[rows.weights[k].wheel] += row.area * rows.weights[k].m;
+      for (int k = row.first; k < row.first + row.count; ++k)
+        force[rows.weights[k].wheel] += row.area * rows.weights[k].m;
     }
     double worst = 0;
     for (const auto& [index, f] : force) {
       const std::ptrdiff_t k = index - s.wheel.first_line;
-      const double x = s.radius * std::sin(s.wheel.stations.at[k % (3 * s.wheel.stride)]), y = s.wheel.node[k / (3 * s.wheel.stride)].y;
-      total += f, wheel_x += f * x, wheel_y += f * y;
-      if (std::abs(x) < 4e-3 && std::abs(y) < 2.5e-3) worst = std::max(worst, std::abs(f / (s.wheel_h * s.wheel_width) - 1));
+      const double x = s.radius * std::sin(s.wheel.stations.at[k % (3 * s.wheel.stride)]),
+                   y = s.wheel.node[k / (3 * s.wheel.stride)].y;
+      total += f;
+      wheel_x += f * x;
+      wheel_y += f * y;
+      if (std::abs(x) < 4e-3 && std::abs(y) < 2.5e-3)
+        worst = std::max(worst, std::abs(f / (s.wheel_h * s.wheel_width) - 1));
     }
     EXPECT_NEAR(total / area, 1.0, 1e-12);
     EXPECT_NEAR(wheel_x, moment_x, 1e-9 * area);
@@ -144,7 +158,8 @@ TEST(Mortar, SearchChoosesTheNodesWhoseGapIsWithinReach) {
 TEST(Mortar, ContactAtTheBorderOfTheFineZoneIsReported) {
   const Surfaces s;
   MortarContact contact(s.rail, s.wheel);
-  for (const AxlePose& pose : {AxlePose{0, 1e-6, 0}, AxlePose{0, -1e-6, 0}}) {  // a cylinder that touches does so across the whole width
+  for (const AxlePose& pose :
+       {AxlePose{0, 1e-6, 0}, AxlePose{0, -1e-6, 0}}) {  // a cylinder that touches does so across the whole width
     contact.search(s.rail_field(), s.rolled(pose), pose, 20e-3, 20e-6);
     EXPECT_EQ(contact.rows(s.rail_field(), s.rolled(pose), pose).reached_edge, pose.z < 0);
   }

@@ -8,13 +8,14 @@
 namespace railstrata::contact_checks {
 
 struct Surfaces {
-  double h = 1e-3, width = 1e-3;      ///< facets of the rail
-  double wheel_h, wheel_width;        ///< facets of the wheel below the axle
+  double h = 1e-3, width = 1e-3;  ///< facets of the rail
+  double wheel_h, wheel_width;    ///< facets of the wheel below the axle
   double radius;
   ContactSurface rail, wheel;
 
   /// `ratio`: the wheel's facets over the rail's.
-  explicit Surfaces(double ratio = 1.0, double radius_ = 0.43) : wheel_h(ratio * h), wheel_width(ratio * width), radius(radius_) {
+  explicit Surfaces(double ratio = 1.0, double radius_ = 0.43)
+      : wheel_h(ratio * h), wheel_width(ratio * width), radius(radius_) {
     rail.kind = SweepKind::extrude;
     for (int j = -12; j <= 12; ++j) rail.stations.at.push_back(j * h);
     flat(rail, 11, width, 0.0, {0, 1});
@@ -37,7 +38,9 @@ struct Surfaces {
     for (int c = 0; c < rail.columns; ++c)
       for (int j = 0; j < rail.stations.nodes(); ++j) {
         const Vec3 v = f(Vec3{rail.stations.at[j], rail.node[c].y, rail.node[c].z});
-        u[rail.index(c, j)] = v.x, u[rail.index(c, j) + rail.stride] = v.y, u[rail.index(c, j) + 2 * rail.stride] = v.z;
+        u[rail.index(c, j)] = v.x;
+        u[rail.index(c, j) + rail.stride] = v.y;
+        u[rail.index(c, j) + 2 * rail.stride] = v.z;
       }
     return u;
   }

@@ -21,9 +21,13 @@ TEST(NearestWord, OfSeveralTheNearestIsMeant) {
   EXPECT_EQ(nearest_word("UIC06", {"CN60", "UIC54", "UIC60"}), "UIC60");
 }
 
-TEST(NearestWord, AWordThatBeginsAnotherIsMeant) { EXPECT_EQ(nearest_word("friction", {"cant", "friction_coefficient"}), "friction_coefficient"); }
+TEST(NearestWord, AWordThatBeginsAnotherIsMeant) {
+  EXPECT_EQ(nearest_word("friction", {"cant", "friction_coefficient"}), "friction_coefficient");
+}
 
-TEST(NearestWord, AVeryLongWordCostsNoMoreThanToReadIt) { EXPECT_EQ(nearest_word(std::string(100'000'000, 'x'), {"friction_coefficient"}), ""); }
+TEST(NearestWord, AVeryLongWordCostsNoMoreThanToReadIt) {
+  EXPECT_EQ(nearest_word(std::string(100'000'000, 'x'), {"friction_coefficient"}), "");
+}
 
 TEST(NearestWord, AWordUnlikeAllOthersIsNotGuessed) {
   EXPECT_EQ(nearest_word("banana", {"check", "mesh", "info"}), "");

@@ -22,14 +22,19 @@ struct Shape {
   double spacing;
 };
 std::vector<Shape> shapes() {
-  return {{SweepKind::extrude, kSquare, 1e-3}, {SweepKind::extrude, kSkewed, 2e-3}, {SweepKind::revolve, on_wheel(kSquare), 2.3e-3},
+  return {{SweepKind::extrude, kSquare, 1e-3},
+          {SweepKind::extrude, kSkewed, 2e-3},
+          {SweepKind::revolve, on_wheel(kSquare), 2.3e-3},
           {SweepKind::revolve, on_wheel(kSkewed), 0.1}};
 }
 
-Vec3 turn(double angle, Vec3 v) { return {std::cos(angle) * v.x - std::sin(angle) * v.z, v.y, std::sin(angle) * v.x + std::cos(angle) * v.z}; }
+Vec3 turn(double angle, Vec3 v) {
+  return {std::cos(angle) * v.x - std::sin(angle) * v.z, v.y, std::sin(angle) * v.x + std::cos(angle) * v.z};
+}
 
 // Nodal forces of one element for given corner displacements in the model frame, rotated station (Q) and body (R).
-std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const std::array<Vec3, 8>& u, const HourglassStiffness& hg, ElementStress<double>* out = nullptr,
+std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const std::array<Vec3, 8>& u,
+                           const HourglassStiffness& hg, ElementStress<double>* out = nullptr,
                            double* energy = nullptr) {
   const QuadReference r = quad_reference(shape.kind, shape.quad, kSteel);
   const SweepScale sc = sweep_scale(shape.kind, shape.spacing);
@@ -45,13 +50,15 @@ std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const s
   element_forces(r, st, stress, kin, [&](int k, int i, auto&& add) {
     double s = 0, d = 0;
     add(s, d);
-    f[k][i] = s - d, f[k + 4][i] = s + d;
+    f[k][i] = s - d;
+    f[k + 4][i] = s + d;
   });
   if (out) *out = stress;
   if (energy) {
     const double* e = stress.strain;
     const double* p = stress.s;
-    *energy = hourglass + 0.5 * r.volume * sc.sigma * sc.c * (e[0] * p[0] + e[1] * p[1] + e[2] * p[2] + 2 * (e[3] * p[3] + e[4] * p[4] + e[5] * p[5]));
+    *energy = hourglass + 0.5 * r.volume * sc.sigma * sc.c *
+                              (e[0] * p[0] + e[1] * p[1] + e[2] * p[2] + 2 * (e[3] * p[3] + e[4] * p[4] + e[5] * p[5]));
   }
   std::array<Vec3, 8> out_forces;
   for (int k = 0; k < 8; ++k) out_forces[k] = turn(theta - psi, {f[k][0], f[k][1], f[k][2]});
@@ -112,7 +119,8 @@ TEST(SweptHex, ForcesAreTheGradientOfTheEnergyAtFiniteRotationAndStrain) {
     const auto local = local_corners(shape.kind, shape.quad, sc);
     for (std::size_t i = 0; i < 8; ++i) {
       const Vec3 x = turn(theta, local[i]);
-      u[i] = turn(-psi, x) - x + 3e-6 * Vec3{std::sin(7.0 * double(i)), std::cos(5.0 * double(i)), std::sin(3.0 + 11.0 * double(i))};
+      u[i] = turn(-psi, x) - x +
+             3e-6 * Vec3{std::sin(7.0 * double(i)), std::cos(5.0 * double(i)), std::sin(3.0 + 11.0 * double(i))};
     }
     const auto f = forces(shape, theta, psi, u, hg);
     for (std::size_t i = 0; i < 8; ++i)
@@ -137,7 +145,8 @@ TEST(SweptHex, UniformStrainGivesTheExactStressOnEveryShape) {  // patch test of
     const auto hg = hourglass_stiffness(shape.kind, shape.quad, sc, kSteel, ElementKind::full, 0);
     std::array<Vec3, 8> u;
     const auto x = local_corners(shape.kind, shape.quad, sc);
-    for (std::size_t i = 0; i < 8; ++i) u[i] = 1e-9 * Vec3{x[i].x + 0.5 * x[i].y, -0.3 * x[i].y + 0.2 * x[i].z, 0.7 * x[i].z};
+    for (std::size_t i = 0; i < 8; ++i)
+      u[i] = 1e-9 * Vec3{x[i].x + 0.5 * x[i].y, -0.3 * x[i].y + 0.2 * x[i].z, 0.7 * x[i].z};
     ElementStress<double> stress;
     double energy = 0;
     forces(shape, 0, 0, u, hg, &stress, &energy);
@@ -149,15 +158,20 @@ TEST(SweptHex, UniformStrainGivesTheExactStressOnEveryShape) {  // patch test of
   }
 }
 
-TEST(SweptHex, CubeInPureBendingWithOneElementIsExact) {  // M = E I / R with sigma = E y / R; full integration without incompatible modes is 1.5 times too stiff
+TEST(SweptHex, CubeInPureBendingWithOneElementIsExact) {  // M = E I / R with sigma = E y / R; full integration without
+                                                          // incompatible modes is 1.5 times too stiff
   const double side = 1e-3, curvature = 1e-6;
-  const Shape shape{SweepKind::extrude, {{{-side / 2, -side / 2}, {side / 2, -side / 2}, {side / 2, side / 2}, {-side / 2, side / 2}}}, side};
-  const auto hg = hourglass_stiffness(shape.kind, shape.quad, sweep_scale(shape.kind, side), elastic(210e9, 0.0, 7800), ElementKind::full, 0);
+  const Shape shape{SweepKind::extrude,
+                    {{{-side / 2, -side / 2}, {side / 2, -side / 2}, {side / 2, side / 2}, {-side / 2, side / 2}}},
+                    side};
+  const auto hg = hourglass_stiffness(shape.kind, shape.quad, sweep_scale(shape.kind, side), elastic(210e9, 0.0, 7800),
+                                      ElementKind::full, 0);
   const QuadReference r = quad_reference(shape.kind, shape.quad, elastic(210e9, 0.0, 7800));
   const Matrix24 k = linear_stiffness(r, sweep_scale(shape.kind, side), hg);
   Eigen::Matrix<double, 24, 1> u = Eigen::Matrix<double, 24, 1>::Zero();
   const auto x = local_corners(shape.kind, shape.quad, sweep_scale(shape.kind, side));
-  for (int a = 0; a < 8; ++a) u(3 * a) = -curvature * x[static_cast<std::size_t>(a)].x * x[static_cast<std::size_t>(a)].z;
+  for (int a = 0; a < 8; ++a)
+    u(3 * a) = -curvature * x[static_cast<std::size_t>(a)].x * x[static_cast<std::size_t>(a)].z;
   const double energy = 0.5 * u.dot(k * u), exact = 0.5 * 210e9 * std::pow(side, 4) / 12 * curvature * curvature * side;
   EXPECT_NEAR(energy / exact, 1.0, 1e-10);
 }
@@ -166,7 +180,8 @@ TEST(SweptHex, HourglassCoefficientOfACubeThatBendsExactlyIsEOver9PWaveModuli) {
   const SweepScale sc = sweep_scale(SweepKind::extrude, 1e-3);
   const Elastic m = elastic(210e9, 0.0, 7800);
   const auto full = hourglass_stiffness(SweepKind::extrude, kSquare, sc, m, ElementKind::full, 0);
-  const auto scaled = hourglass_stiffness(SweepKind::extrude, kSquare, sc, m, ElementKind::one_point, 210e9 / (9 * m.p_wave_modulus()));
+  const auto scaled =
+      hourglass_stiffness(SweepKind::extrude, kSquare, sc, m, ElementKind::one_point, 210e9 / (9 * m.p_wave_modulus()));
   EXPECT_NEAR(full[9] / scaled[9], 1.0, 1e-10);  // pattern xi eta along the sweep: bending
 }
 
@@ -179,7 +194,9 @@ TEST(SweptHex, LumpedMassesAddUpToTheElement) {
   }
 }
 
-TEST(SweptHex, StableStepOfACubeIsTheIsolatedElementBound) {  // notes: 0.734 of h / c_p for a cube at nu = 0.3 with full stiffness
+TEST(
+    SweptHex,
+    StableStepOfACubeIsTheIsolatedElementBound) {  // notes: 0.734 of h / c_p for a cube at nu = 0.3 with full stiffness
   const SweepScale sc = sweep_scale(SweepKind::extrude, 1e-3);
   const auto hg = hourglass_stiffness(SweepKind::extrude, kSquare, sc, kSteel, ElementKind::full, 0);
   const double cp = std::sqrt(kSteel.p_wave_modulus() / kSteel.density);

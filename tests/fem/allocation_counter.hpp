@@ -3,7 +3,8 @@
 
 namespace railstrata::fem_checks {
 
-/// Of the program so far: by its own code, and by the OpenMP library for itself (g++'s makes a team of one anew for every parallel loop).
+/// Of the program so far: by its own code, and by the OpenMP library for itself (g++'s makes a team of one anew for
+/// every parallel loop).
 struct Allocations {
   long own = 0, openmp = 0;
 };

@@ -117,7 +117,7 @@ TEST(AllocationCounter, SeesNewAndAlignedAndLargeFieldsAndOtherThreads) {
   if (!fem_checks::allocations_are_counted()) GTEST_SKIP() << "a sanitizer looks after the heap";
   EXPECT_EQ(asked_by([] {}), 0);
   EXPECT_EQ(asked_by([] { ::operator delete(::operator new(8)); }), 1);
-  EXPECT_EQ(asked_by([] { ::operator delete(::operator new(64, std::align_val_t{64}), std::align_val_t{64}); }), 1);
+  EXPECT_EQ(asked_by([] { ::operator delete (::operator new (64, std::align_val_t{64}), std::align_val_t{64}); }), 1);
   std::vector<double> plain;
   Field aligned, large;
   EXPECT_EQ(asked_by([&] { plain.assign(100, 1.0); }), 1);
@@ -126,7 +126,8 @@ TEST(AllocationCounter, SeesNewAndAlignedAndLargeFieldsAndOtherThreads) {
   EXPECT_EQ(asked_by([&] { large.assign(std::size_t{1} << 19, 2.0); }), 0);
   std::vector<std::vector<double>> each(8);
   for_each(8, [](std::ptrdiff_t) {});  // the threads are there
-  EXPECT_EQ(asked_by([&] { for_each(8, [&](std::ptrdiff_t k) { each[static_cast<std::size_t>(k)].assign(10, 1.0); }); }), 8);
+  EXPECT_EQ(
+      asked_by([&] { for_each(8, [&](std::ptrdiff_t k) { each[static_cast<std::size_t>(k)].assign(10, 1.0); }); }), 8);
 }
 
 }  // namespace railstrata

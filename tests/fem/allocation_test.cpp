@@ -1,4 +1,5 @@
-// Once it has run in, a step asks the heap for nothing: neither time nor fragments of memory are lost to it, and it cannot fail for want of memory.
+// Once it has run in, a step asks the heap for nothing: neither time nor fragments of memory are lost to it, and it
+// cannot fail for want of memory.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -44,10 +45,15 @@ void expect_no_allocation(const CaseSpec& spec, int threads) {
 
 CaseSpec variant(const std::string& name) {
   CaseSpec spec = small_case();
-  if (name == "run_up_damping") spec.run.run_up = 0.02, spec.run.run_up_damping = 2000;
-  else if (name == "single_precision") spec.run.precision = "single";
-  else if (name == "penalty") spec.contact.method = "penalty";
-  else if (name != "mortar") spec = thinly_layered(spec, name);
+  if (name == "run_up_damping") {
+    spec.run.run_up = 0.02;
+    spec.run.run_up_damping = 2000;
+  } else if (name == "single_precision")
+    spec.run.precision = "single";
+  else if (name == "penalty")
+    spec.contact.method = "penalty";
+  else if (name != "mortar")
+    spec = thinly_layered(spec, name);
   return spec;
 }
 
@@ -55,9 +61,16 @@ CaseSpec variant(const std::string& name) {
 
 class Allocation : public ::testing::TestWithParam<std::tuple<std::string, int>> {};
 
-TEST_P(Allocation, NoneInTheTimeLoop) { expect_no_allocation(variant(std::get<0>(GetParam())), std::get<1>(GetParam())); }
+TEST_P(Allocation, NoneInTheTimeLoop) {
+  expect_no_allocation(variant(std::get<0>(GetParam())), std::get<1>(GetParam()));
+}
 
-INSTANTIATE_TEST_SUITE_P(Stepper, Allocation, ::testing::Combine(::testing::Values("mortar", "run_up_damping", "single_precision", "penalty", "mass_scaling", "local"), ::testing::Values(1, 2)),
-                         [](const auto& test) { return std::get<0>(test.param) + (std::get<1>(test.param) == 1 ? "_1_thread" : "_2_threads"); });
+INSTANTIATE_TEST_SUITE_P(Stepper, Allocation,
+                         ::testing::Combine(::testing::Values("mortar", "run_up_damping", "single_precision", "penalty",
+                                                              "mass_scaling", "local"),
+                                            ::testing::Values(1, 2)),
+                         [](const auto& test) {
+                           return std::get<0>(test.param) + (std::get<1>(test.param) == 1 ? "_1_thread" : "_2_threads");
+                         });
 
 }  // namespace railstrata

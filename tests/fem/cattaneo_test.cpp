@@ -1,4 +1,5 @@
-// A sphere at rest, pressed by its weight and then loaded by a slowly rising torque: the contact sticks inside and slips in a ring that grows inward.
+// A sphere at rest, pressed by its weight and then loaded by a slowly rising torque: the contact sticks inside and
+// slips in a ring that grows inward.
 #include <gtest/gtest.h>
 
 #include "small_rolling.hpp"
@@ -9,10 +10,10 @@ namespace {
 using namespace fem_checks;
 
 struct Tangential {
-  double ratio = 0;                           // F_x / (f N) of the moment looked at
-  double a = 0, h = 0;                        // Hertz's radius, element size
-  double stick_area = 0, contact_area = 0;    // of the nodes
-  double centre_traction = 0;                 // over f p0
+  double ratio = 0;                         // F_x / (f N) of the moment looked at
+  double a = 0, h = 0;                      // Hertz's radius, element size
+  double stick_area = 0, contact_area = 0;  // of the nodes
+  double centre_traction = 0;               // over f p0
 };
 
 Tangential look(const RollingSystem& system, const Stepper& st) {
@@ -26,10 +27,13 @@ Tangential look(const RollingSystem& system, const Stepper& st) {
     for (int j = 1; j + 1 < rail.stations.nodes(); ++j) {
       const NodeTraction& t = st.state().tractions.at(c, j);
       if (t.p <= 0) continue;
-      const double area = 0.25 * (rail.width[c - 1] + rail.width[c]) * (rail.stations.at[j + 1] - rail.stations.at[j - 1]), q = std::hypot(t.q1, t.q2);
+      const double area =
+                       0.25 * (rail.width[c - 1] + rail.width[c]) * (rail.stations.at[j + 1] - rail.stations.at[j - 1]),
+                   q = std::hypot(t.q1, t.q2);
       out.contact_area += area;
       if (q < 0.999 * friction * t.p) out.stick_area += area;
-      if (std::hypot(rail.node[c].y, rail.stations.at[j]) < out.h) out.centre_traction = std::max(out.centre_traction, q / (friction * system.model.hertz.p0));
+      if (std::hypot(rail.node[c].y, rail.stations.at[j]) < out.h)
+        out.centre_traction = std::max(out.centre_traction, q / (friction * system.model.hertz.p0));
     }
   return out;
 }

@@ -18,8 +18,10 @@ double dense_stable_step(const DeformableBody& body) {
   Eigen::MatrixXd k = stiffness_matrix(body);
   const std::vector<std::ptrdiff_t> index = free_indices(body);
   for (Eigen::Index r = 0; r < k.rows(); ++r)
-    for (Eigen::Index c = 0; c < k.cols(); ++c) k(r, c) *= std::sqrt(body.inverse_mass[index[r]] * body.inverse_mass[index[c]]);
-  return 2 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+    for (Eigen::Index c = 0; c < k.cols(); ++c)
+      k(r, c) *= std::sqrt(body.inverse_mass[index[r]] * body.inverse_mass[index[c]]);
+  return 2 /
+         std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
 }
 
 DeformableBody brick_on_its_base() { return {mesh_brick(3, 2, 5, 2e-3, 1e-3, 1.5e-3), {kSteel}, {}}; }
@@ -38,23 +40,30 @@ double growth(const DeformableBody& body, double dt, int steps) {
   double largest = start;
   for (int s = 0; s < steps; ++s) {
     body.solid.internal_force(u, 0, f);
-    for (std::ptrdiff_t i : index) v[i] -= dt * body.inverse_mass[i] * f[i], u[i] += dt * v[i];
+    for (std::ptrdiff_t i : index) {
+      v[i] -= dt * body.inverse_mass[i] * f[i];
+      u[i] += dt * v[i];
+    }
     largest = std::max(largest, size());
   }
   return largest / start;
 }
 
-// Frequency of a standing plane wave in a bar: u_i = cos(k x), `lambda` elements a wavelength. Sampled from the projection on the mode.
+// Frequency of a standing plane wave in a bar: u_i = cos(k x), `lambda` elements a wavelength. Sampled from the
+// projection on the mode.
 struct Wave {
   double omega, dt, k;
 };
 Wave standing_wave(const Elastic& material, int component, double step_ratio) {
   constexpr int kElements = 40, kPerWave = 20;
-  const double h = 2e-3, speed = std::sqrt((component == 0 ? material.p_wave_modulus() : material.mu) / material.density);
+  const double h = 2e-3,
+               speed = std::sqrt((component == 0 ? material.p_wave_modulus() : material.mu) / material.density);
   const Solid solid(mesh_brick(1, 1, kElements, h, h, h), {material}, {});
   const BlockLayout& l = solid.layout().blocks[0];
   Wave w{0, step_ratio * h / speed, 2 * std::numbers::pi / (kPerWave * h)};
-  const Field mode = nodal_field(solid, [&](Vec3 x) { return component == 0 ? Vec3{std::cos(w.k * x.x), 0, 0} : Vec3{0, std::cos(w.k * x.x), 0}; });
+  const Field mode = nodal_field(solid, [&](Vec3 x) {
+    return component == 0 ? Vec3{std::cos(w.k * x.x), 0, 0} : Vec3{0, std::cos(w.k * x.x), 0};
+  });
   Field u = mode, v = solid.layout().field(), f = v, momentum = v;
   for (double& x : u) x *= 1e-9;
   double before = 0, crossing = 0, first = 0;
@@ -84,10 +93,11 @@ Wave standing_wave(const Elastic& material, int component, double step_ratio) {
 }  // namespace
 
 TEST(StableStep, LanczosAgreesWithTheDenseEigenvalueWithinOnePercent) {
-  for (const DeformableBody& body : {brick_on_its_base(), DeformableBody(tied_body(SweepKind::revolve), {kSteel}, {})}) {
+  for (const DeformableBody& body :
+       {brick_on_its_base(), DeformableBody(tied_body(SweepKind::revolve), {kSteel}, {})}) {
     const double dense = dense_stable_step(body), lanczos = lanczos_stable_step(body);
     EXPECT_NEAR(lanczos / dense, 1.0, 0.01);
-    EXPECT_GE(lanczos, dense * (1 - 1e-9));  // Ritz values approach omega_max from below
+    EXPECT_GE(lanczos, dense * (1 - 1e-9));                  // Ritz values approach omega_max from below
     EXPECT_LT(body.solid.element_step_bound().step, dense);  // [Hughes2000 ch. 9]
   }
 }
@@ -95,7 +105,8 @@ TEST(StableStep, LanczosAgreesWithTheDenseEigenvalueWithinOnePercent) {
 TEST(StableStep, CentralDifferencesStayBoundedJustBelowItAndBlowUpJustAbove) {
   const DeformableBody body = brick_on_its_base();
   const double limit = dense_stable_step(body);
-  EXPECT_LT(growth(body, 0.99 * limit, 2000), 1.001 / std::sqrt(1 - 0.99 * 0.99));  // of a mode with omega dt / 2 = r: u_0 / sqrt(1 - r^2) at most
+  EXPECT_LT(growth(body, 0.99 * limit, 2000),
+            1.001 / std::sqrt(1 - 0.99 * 0.99));  // of a mode with omega dt / 2 = r: u_0 / sqrt(1 - r^2) at most
   EXPECT_GT(growth(body, 1.02 * limit, 200), 1e6);
 }
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "tests/body/sample_bodies.hpp"
 #include "small_rolling.hpp"
+#include "tests/body/sample_bodies.hpp"
 
 namespace railstrata {
 namespace {
@@ -31,14 +31,18 @@ TEST(GradedLayerInTheMesh, OfOneModulusIsTheUniformLayer) {
   uniform.layers[0].thickness = 2e-3;
   uniform.layers[0].elements = 1;  // one row: the coarser rows of the sides are the same too
   uniform.layers[0].material.young = 420e9;
-  const RollingSystem a = small_system(uniform), b = small_system(graded_case({{0, 420e9}, {0.5e-3, 420e9}, {2e-3, 420e9}}, 1));
+  const RollingSystem a = small_system(uniform),
+                      b = small_system(graded_case({{0, 420e9}, {0.5e-3, 420e9}, {2e-3, 420e9}}, 1));
   Field u = a.rail.solid.layout().field(), fa = u, fb = b.rail.solid.layout().field();
   ASSERT_EQ(fa.size(), fb.size());
   for (std::size_t k = 0; k < u.size(); ++k) u[k] = 1e-6 * scatter(k);
   a.rail.solid.linear_force(u, fa);
   b.rail.solid.linear_force(u, fb);
   double largest = 0, difference = 0;
-  for (std::size_t k = 0; k < fa.size(); ++k) largest = std::max(largest, std::abs(fa[k])), difference = std::max(difference, std::abs(fa[k] - fb[k]));
+  for (std::size_t k = 0; k < fa.size(); ++k) {
+    largest = std::max(largest, std::abs(fa[k]));
+    difference = std::max(difference, std::abs(fa[k] - fb[k]));
+  }
   EXPECT_LT(difference, 1e-12 * largest);
 }
 
@@ -51,13 +55,18 @@ TEST(GradedLayerInTheMesh, RowsHaveTheTablesMeans) {
   EXPECT_EQ(m.wheel_materials.size(), 1u);
 }
 
-// A column under end loads: the rows' compliance sum h/E against the integral of dz/E(z), t ln(E1/E0)/(E1 - E0) for a linear modulus.
+// A column under end loads: the rows' compliance sum h/E against the integral of dz/E(z), t ln(E1/E0)/(E1 - E0) for a
+// linear modulus.
 TEST(GradedLayerInTheMesh, ComplianceOfAColumnConvergesWithTheSquareOfTheRows) {
   const double t = 3e-3, top = 840e9, bottom = 210e9, exact = t * std::log(top / bottom) / (top - bottom);
   const auto error = [&](int rows) {
     const Model m = build_model(graded_case({{0, top}, {t, bottom}}, rows), ".");
     double sum = 0;
-    for (int r = 0; r < rows; ++r) sum += (m.rail.contact.depth[r + 1] - m.rail.contact.depth[r]) / young_of(m.rail_materials[m.rail.blocks[m.rail.contact.block].section.quad_material[r * m.rail.contact.columns]]);
+    for (int r = 0; r < rows; ++r)
+      sum +=
+          (m.rail.contact.depth[r + 1] - m.rail.contact.depth[r]) /
+          young_of(
+              m.rail_materials[m.rail.blocks[m.rail.contact.block].section.quad_material[r * m.rail.contact.columns]]);
     return sum / exact - 1;
   };
   EXPECT_LT(std::abs(error(8)), 5e-3);

@@ -8,8 +8,8 @@
 
 #include "body/stable_step.hpp"
 #include "fem/stepper.hpp"
-#include "tests/body/same_bits.hpp"
 #include "small_rolling.hpp"
+#include "tests/body/same_bits.hpp"
 #include "tests/body/thin_layer.hpp"
 
 namespace railstrata {
@@ -98,7 +98,10 @@ TEST_F(MassScalingTest, KeepsTheMassOfTranslationAndEveryMomentum) {
     double sum = 0, sum_scaled = 0;
     for (const DeformableBody::Line& l : body.lines)
       if (l.component == component)
-        for (int j = 0; j < l.count; ++j) sum += f[l.first + j], sum_scaled += scaled[l.first + j];
+        for (int j = 0; j < l.count; ++j) {
+          sum += f[l.first + j];
+          sum_scaled += scaled[l.first + j];
+        }
     EXPECT_NEAR(sum_scaled, sum, 1e-12);
   }
 }
@@ -114,7 +117,8 @@ TEST_F(MassScalingTest, PutsTheThicknessModeOfARowAtTheWantedStep) {
   body.solid.linear_force(mode, force);
   Field inertia = mode;
   for (std::size_t i = 0; i < mode.size(); ++i) inertia[i] *= body.mass[i];
-  const double twice_kinetic = nodal_dot(body.solid.layout(), inertia, mode) + 2 * scaling.kinetic(scaling.differences(mode), mode);
+  const double twice_kinetic =
+      nodal_dot(body.solid.layout(), inertia, mode) + 2 * scaling.kinetic(scaling.differences(mode), mode);
   const double omega = std::sqrt(nodal_dot(body.solid.layout(), force, mode) / twice_kinetic);
   EXPECT_NEAR(2 / omega / kWanted, 1.0, 1e-12);
 }
@@ -123,14 +127,16 @@ TEST_F(MassScalingTest, LanczosFindsTheStepOfTheScaledBodyTenTimesTheUnscaledOne
   const DeformableBody body = thin_layer();
   const MassScaling scaling(body, kWanted);
   const Dense d = dense(body, scaling);
-  const double step = 2 / std::sqrt(eigenvalues(d.stiffness, d.mass + d.added).maxCoeff()), unscaled = 2 / std::sqrt(eigenvalues(d.stiffness, d.mass).maxCoeff());
+  const double step = 2 / std::sqrt(eigenvalues(d.stiffness, d.mass + d.added).maxCoeff()),
+               unscaled = 2 / std::sqrt(eigenvalues(d.stiffness, d.mass).maxCoeff());
   EXPECT_NEAR(lanczos_stable_step(body, scaling) / step, 1.0, 0.01);
   EXPECT_GE(lanczos_stable_step(body, scaling), step * (1 - 1e-9));
   EXPECT_GT(step, 10 * unscaled);
   EXPECT_LE(step, kWanted);
 }
 
-// A rod of plane waves along z (nu = 0): A <= D^2/4 K, so omega^2 / (1 + omega^2 D^2/4) <= omega_scaled^2 <= omega^2 for every mode, by the minimum-maximum principle.
+// A rod of plane waves along z (nu = 0): A <= D^2/4 K, so omega^2 / (1 + omega^2 D^2/4) <= omega_scaled^2 <= omega^2
+// for every mode, by the minimum-maximum principle.
 TEST_F(MassScalingTest, SlowsAModeOfPeriodTByNoMoreThanHalfOfPiDOverTSquared) {
   const Elastic soft = elastic(kYoung, 0.0, 7800), stiff = elastic(4 * kYoung, 0.0, 7800);
   std::vector<double> heights = kHeights;
@@ -140,7 +146,11 @@ TEST_F(MassScalingTest, SlowsAModeOfPeriodTByNoMoreThanHalfOfPiDOverTSquared) {
   const BlockLayout& l = body.solid.layout().blocks[0];
   const auto n = static_cast<Eigen::Index>(heights.size());
   Eigen::MatrixXd k(n, n), m(n, n);
-  auto row = [&](Eigen::Index r) { return nodal_field(body.solid, [&](Vec3 x) { return Vec3{0, 0, std::abs(x.z - body.solid.body().blocks[0].section.nodes[2 * r].z) < 1e-9 ? 1.0 : 0.0}; }); };
+  auto row = [&](Eigen::Index r) {
+    return nodal_field(body.solid, [&](Vec3 x) {
+      return Vec3{0, 0, std::abs(x.z - body.solid.body().blocks[0].section.nodes[2 * r].z) < 1e-9 ? 1.0 : 0.0};
+    });
+  };
   Field f = body.solid.layout().field();
   for (Eigen::Index c = 0; c < n; ++c) {
     Field u = row(c), inertia = u;
@@ -167,8 +177,8 @@ TEST_F(MassScalingTest, SlowsAModeOfPeriodTByNoMoreThanHalfOfPiDOverTSquared) {
   EXPECT_NEAR(std::sqrt(after[0] / before[0]), 1.0, 1e-5);
 }
 
-// A pressure pulse of 20 us on the layer, run with the short step of the real masses and with the long one of the scaled ones: the wave that leaves the layer is the
-// same, and so is what the layer itself feels.
+// A pressure pulse of 20 us on the layer, run with the short step of the real masses and with the long one of the
+// scaled ones: the wave that leaves the layer is the same, and so is what the layer itself feels.
 TEST_F(MassScalingTest, APulsePassesThroughTheLayerUnchanged) {
   std::vector<double> heights = kHeights;
   heights.insert(heights.end(), 120, 1e-3);
@@ -188,13 +198,17 @@ TEST_F(MassScalingTest, APulsePassesThroughTheLayerUnchanged) {
     Trace out;
     for (int s = 0; s < steps; ++s) {
       body.solid.linear_force(u, f);
-      const double t = s * dt, pressure = t < kPulse ? 0.5 * kPressure * (1 - std::cos(2 * std::numbers::pi * t / kPulse)) : 0;
+      const double t = s * dt,
+                   pressure = t < kPulse ? 0.5 * kPressure * (1 - std::cos(2 * std::numbers::pi * t / kPulse)) : 0;
       for (int node : {0, 1})
         for (int j : {0, 1}) f[l.line(node, 2) + j] += 0.25 * pressure * kSide * kSide;
       masses.scale(f);
       for (const DeformableBody::Line& line : body.lines)
         if (line.component == 2)
-          for (int j = 0; j < line.count; ++j) v[line.first + j] -= dt * body.inverse_mass[line.first + j] * f[line.first + j], u[line.first + j] += dt * v[line.first + j];
+          for (int j = 0; j < line.count; ++j) {
+            v[line.first + j] -= dt * body.inverse_mass[line.first + j] * f[line.first + j];
+            u[line.first + j] += dt * v[line.first + j];
+          }
       if ((s + 1) % (steps / kSamples)) continue;
       auto strain = [&](int row) { return (u[l.line(2 * row, 2)] - u[l.line(2 * row + 2, 2)]) / heights[row]; };
       out.layer.push_back(strain(0));
@@ -306,7 +320,8 @@ class ThinLayerRolling : public ::testing::Test {
     out.p_max /= static_cast<double>(count);
     const EnergyBalance end = energy();
     out.closure = std::abs(end.total() - start.total()) / end.strain;
-    const RollingSample sample = take_sample(system, st.state().u_rail, st.state().u_wheel, st.state().tractions, {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
+    const RollingSample sample = take_sample(system, st.state().u_rail, st.state().u_wheel, st.state().tractions,
+                                             {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
     for (const Sym3& s : sample.rail.stress) out.von_mises_rail = std::max(out.von_mises_rail, von_mises(s));
     for (const Sym3& s : sample.wheel.stress) out.von_mises_wheel = std::max(out.von_mises_wheel, von_mises(s));
     out.u_rail = st.state().u_rail;
@@ -328,7 +343,8 @@ TEST_F(ThinLayerRolling, ScaledMassesAndLocalStepsGiveTheSamePressuresStressesAn
   }
 }
 
-// The contact's answer is that of the stages, so that no choice of the step feeds it: what closes no longer closes with the number of steps.
+// The contact's answer is that of the stages, so that no choice of the step feeds it: what closes no longer closes with
+// the number of steps.
 TEST_F(ThinLayerRolling, LocalStepsKeepTheirEnergyWithAnyStep) {
   for (double safety : {0.25, 0.35, 0.6}) {
     const Outcome o = roll("local", 0.8e-3, safety);
@@ -343,8 +359,14 @@ TEST_F(ThinLayerRolling, LocalStepsHaveTheSameBitsOnOneTwoAndFourThreads) {
   for (int n : {1, 2, 4}) {
     set_threads(n);
     results.push_back(roll("local", 0.2e-3));
-    EXPECT_EQ(std::memcmp(results.back().u_rail.data(), results.front().u_rail.data(), results.front().u_rail.size() * sizeof(double)), 0) << n;
-    EXPECT_EQ(std::memcmp(results.back().u_wheel.data(), results.front().u_wheel.data(), results.front().u_wheel.size() * sizeof(double)), 0) << n;
+    EXPECT_EQ(std::memcmp(results.back().u_rail.data(), results.front().u_rail.data(),
+                          results.front().u_rail.size() * sizeof(double)),
+              0)
+        << n;
+    EXPECT_EQ(std::memcmp(results.back().u_wheel.data(), results.front().u_wheel.data(),
+                          results.front().u_wheel.size() * sizeof(double)),
+              0)
+        << n;
     EXPECT_EQ(results.back().p_max, results.front().p_max) << n;
   }
   set_threads(threads);

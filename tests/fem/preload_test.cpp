@@ -6,8 +6,8 @@
 #include <algorithm>
 
 #include "body/aggregates.hpp"
-#include "tests/body/sample_bodies.hpp"
 #include "small_rolling.hpp"
+#include "tests/body/sample_bodies.hpp"
 
 namespace railstrata {
 namespace {
@@ -28,7 +28,8 @@ double largest_pressure(const PreloadResult& r) {
 
 double largest_difference(const PreloadResult& a, const PreloadResult& b) {
   double worst = 0;
-  for (std::size_t i = 0; i < a.tractions.all().size(); ++i) worst = std::max(worst, std::abs(a.tractions.all()[i].p - b.tractions.all()[i].p));
+  for (std::size_t i = 0; i < a.tractions.all().size(); ++i)
+    worst = std::max(worst, std::abs(a.tractions.all()[i].p - b.tractions.all()[i].p));
   return worst;
 }
 
@@ -47,7 +48,9 @@ TEST(Preload, ContactForceOfASpinningWheelIsTheWeightUpToTheMeshsImbalance) {
   for (const DeformableBody::Line& l : sys.wheel.lines)
     if (l.component == 2) {
       const Block& block = sys.model.wheel.blocks[l.block];
-      for (int j = 0; j < l.count; ++j) imbalance += sys.start_spin * sys.start_spin * sys.wheel.mass[l.first + j] * block.section.nodes[l.node].z * std::cos(block.stations.at[j]);
+      for (int j = 0; j < l.count; ++j)
+        imbalance += sys.start_spin * sys.start_spin * sys.wheel.mass[l.first + j] * block.section.nodes[l.node].z *
+                     std::cos(block.stations.at[j]);
     }
   const PreloadResult r = solve_preload(sys, 1e-9);
   EXPECT_NEAR(r.contact_force.z / (sys.model.load - imbalance), 1.0, 1e-6);
@@ -79,7 +82,8 @@ TEST(Preload, PressuresAndGapsAreComplementary) {
 
 TEST(Preload, ClustersChangeTheIterationsAndNotTheResult) {
   const RollingSystem sys = small_system(static_case());
-  const PreloadResult fine = solve_preload(sys, 1e-8, {}, nullptr, {24e-3, 0.2}), one = solve_preload(sys, 1e-8, {}, nullptr, {10.0, 0.0});
+  const PreloadResult fine = solve_preload(sys, 1e-8, {}, nullptr, {24e-3, 0.2}),
+                      one = solve_preload(sys, 1e-8, {}, nullptr, {10.0, 0.0});
   EXPECT_LT(largest_difference(fine, one), 1e-6 * largest_pressure(fine));
   EXPECT_NEAR(fine.axle_z, one.axle_z, 1e-6 * std::abs(one.axle_z));
   EXPECT_LT(2 * fine.cg_iterations, one.cg_iterations);

@@ -79,7 +79,8 @@ TEST(Resume, WithAPenaltyToo) {
   expect_same_bits(spec);
 }
 
-// A guard that speaks in the second window, long after the last good state: what is saved goes on to the bits of a run to which nothing happened.
+// A guard that speaks in the second window, long after the last good state: what is saved goes on to the bits of a run
+// to which nothing happened.
 TEST(Resume, FromTheLastGoodStateToo) {
   CaseSpec spec = small_case();
   spec.drive.speed = 12;
@@ -106,7 +107,8 @@ TEST(Resume, FromTheLastGoodStateToo) {
   for (std::size_t p = 0; p < 2; ++p) {
     const auto &a = found.positions[p].samples, &b = expected.positions[p].samples;
     ASSERT_EQ(a.size(), b.size());
-    for (std::size_t k = 0; k < a.size(); ++k) EXPECT_TRUE(same_bits(a[k].rail.stress, b[k].rail.stress)) << p << ", " << k;
+    for (std::size_t k = 0; k < a.size(); ++k)
+      EXPECT_TRUE(same_bits(a[k].rail.stress, b[k].rail.stress)) << p << ", " << k;
   }
 }
 

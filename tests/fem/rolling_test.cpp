@@ -4,8 +4,8 @@
 
 #include <numbers>
 
-#include "tests/body/same_bits.hpp"
 #include "small_rolling.hpp"
+#include "tests/body/same_bits.hpp"
 
 namespace railstrata {
 namespace {
@@ -20,8 +20,8 @@ EnergyBalance energy_now(Stepper& st) {
 
 }  // namespace
 
-// No torque, friction, damping: the balance's total must stand still. A revolution is 2.7 m; 15 mm of it are rolled and the drift is scaled up linearly, which
-// overstates a drift that grows like a random walk.
+// No torque, friction, damping: the balance's total must stand still. A revolution is 2.7 m; 15 mm of it are rolled and
+// the drift is scaled up linearly, which overstates a drift that grows like a random walk.
 TEST(Rolling, AFreeWheelKeepsItsEnergyToOneInTenMillionPerRevolution) {
   CaseSpec spec = small_case();
   spec.drive.traction_coefficient = 0;
@@ -40,8 +40,8 @@ TEST(Rolling, AFreeWheelKeepsItsEnergyToOneInTenMillionPerRevolution) {
   EXPECT_LT(drift / revolutions, 1e-7 * start.kinetic);
 }
 
-// Elements in single precision see displacements relative to the uniformly turning frame. Tractions after 1.5 mm of rolling
-// with a creepage that slides a part of the patch, against those of double precision.
+// Elements in single precision see displacements relative to the uniformly turning frame. Tractions after 1.5 mm of
+// rolling with a creepage that slides a part of the patch, against those of double precision.
 TEST(Rolling, ElementsInSinglePrecisionChangeTractionsByLessThanAFifthOfAPercentOfTheirMaximum) {
   CaseSpec spec = small_case();
   spec.drive.traction_coefficient = 0;
@@ -54,14 +54,16 @@ TEST(Rolling, ElementsInSinglePrecisionChangeTractionsByLessThanAFifthOfAPercent
     const EnergyBalance start = energy_now(st);
     while (st.position() < 0.0015) st.step();
     const EnergyBalance end = energy_now(st);
-    EXPECT_LT(std::abs(end.total() - start.total()), 2e-5 * end.strain) << precision;  // the preload's tolerance is 1e-5
+    EXPECT_LT(std::abs(end.total() - start.total()), 2e-5 * end.strain)
+        << precision;  // the preload's tolerance is 1e-5
     return st.state().tractions.all();
   };
   const std::vector<NodeTraction> exact = roll("double"), rounded = roll("single");
   ASSERT_EQ(exact.size(), rounded.size());
   double p_max = 0, q_max = 0, p_difference = 0, q_difference = 0;
   for (std::size_t k = 0; k < exact.size(); ++k) {
-    p_max = std::max(p_max, exact[k].p), q_max = std::max(q_max, std::hypot(exact[k].q1, exact[k].q2));
+    p_max = std::max(p_max, exact[k].p);
+    q_max = std::max(q_max, std::hypot(exact[k].q1, exact[k].q2));
     p_difference = std::max(p_difference, std::abs(rounded[k].p - exact[k].p));
     q_difference = std::max(q_difference, std::hypot(rounded[k].q1 - exact[k].q1, rounded[k].q2 - exact[k].q2));
   }
@@ -71,7 +73,8 @@ TEST(Rolling, ElementsInSinglePrecisionChangeTractionsByLessThanAFifthOfAPercent
   EXPECT_GT(p_difference, 0);  // it is another arithmetic
 }
 
-// The penalty's compliance lets the surfaces into one another but must neither lose the load nor the energy, and it widens the patch and lowers the peak.
+// The penalty's compliance lets the surfaces into one another but must neither lose the load nor the energy, and it
+// widens the patch and lowers the peak.
 TEST(Rolling, PenaltyContactCarriesTheWeightSoftly) {
   CaseSpec spec = small_case();
   spec.drive.traction_coefficient = 0.05;
@@ -105,15 +108,20 @@ TEST(Rolling, SameBitsOnOneTwoAndFourThreads) {
     Stepper st(system, preload);
     for (int k = 0; k < 60; ++k) st.step();
     const EnergyBalance e = energy_now(st);
-    std::vector<double> bits{st.dt(), st.forces().x, st.forces().y, st.forces().z, st.state().axle.x, st.state().axle.psi, e.total(), e.kinetic, e.friction, e.damping};
-    for (const auto& [body, u] : {std::pair{&system.rail, &st.state().u_rail}, std::pair{&system.wheel, &st.state().u_wheel}})
-      for (const DeformableBody::Line& l : body->lines) bits.insert(bits.end(), u->begin() + l.first, u->begin() + l.first + l.count);
+    std::vector<double> bits{
+        st.dt(),   st.forces().x, st.forces().y, st.forces().z, st.state().axle.x, st.state().axle.psi,
+        e.total(), e.kinetic,     e.friction,    e.damping};
+    for (const auto& [body, u] :
+         {std::pair{&system.rail, &st.state().u_rail}, std::pair{&system.wheel, &st.state().u_wheel}})
+      for (const DeformableBody::Line& l : body->lines)
+        bits.insert(bits.end(), u->begin() + l.first, u->begin() + l.first + l.count);
     return bits;
   });
 }
 
-// A rigid wheel under the torque M = F (r + I/(m r)) is driven by F = m a. The wheel's inertia swings on the tangential stiffness of its contact with a period of
-// about 2.3 ms; the torque rises over about one period and F_x is averaged over another.
+// A rigid wheel under the torque M = F (r + I/(m r)) is driven by F = m a. The wheel's inertia swings on the tangential
+// stiffness of its contact with a period of about 2.3 ms; the torque rises over about one period and F_x is averaged
+// over another.
 TEST(SlowRolling, ThePoweredWheelReachesTheWantedTractionAndItsEnergyClosesToATenthOfAThousandthOfTheWork) {
   CaseSpec spec = small_case();
   spec.vehicle.wheel_mass = 300;
@@ -133,8 +141,12 @@ TEST(SlowRolling, ThePoweredWheelReachesTheWantedTractionAndItsEnergyClosesToATe
     for (int k = 0; k < 100; ++k) {
       st.step();
       if (st.state().time < window_begin) continue;
-      if (count++ == 0) v0 = st.state().axle.vx, t0 = st.state().time;
-      sum += st.forces().x, vertical += st.forces().z;
+      if (count++ == 0) {
+        v0 = st.state().axle.vx;
+        t0 = st.state().time;
+      }
+      sum += st.forces().x;
+      vertical += st.forces().z;
     }
     const EnergyBalance now = energy_now(st);
     worst = std::max(worst, std::abs(now.total() - start.total()));

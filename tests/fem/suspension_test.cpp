@@ -8,7 +8,8 @@
 namespace railstrata {
 namespace {
 
-// Height of the sprung mass on an axle that is held, released from 1 mm above its equilibrium: period and logarithmic decrement of the free vibration.
+// Height of the sprung mass on an axle that is held, released from 1 mm above its equilibrium: period and logarithmic
+// decrement of the free vibration.
 struct Vibration {
   double period, decrement;
 };
@@ -17,7 +18,8 @@ Vibration free_vibration(const VehicleSpec& vehicle, double dt) {
   double before = 0, first_crossing = -1, last_peak = 0, first_peak = 0, crossing = 0;
   int crossings = 0;
   double peak = 0;
-  for (long s = 0; crossings < 9 && s < 10'000'000; ++s) {  // zeros from above and below alternate; between two of them stands one extreme
+  for (long s = 0; crossings < 9 && s < 10'000'000;
+       ++s) {  // zeros from above and below alternate; between two of them stands one extreme
     before = groups[0].z;
     step_suspension(vehicle, 0, 0, dt, groups);
     peak = std::max(peak, std::abs(groups[0].z));
@@ -39,7 +41,9 @@ TEST(Suspension, PeriodAndDampingAreThoseOfTheDampedOscillatorWithinHalfAPercent
   for (int groups : {1, 8}) {
     VehicleSpec v;
     v.suspension_groups = groups;
-    const double rate = v.suspension_damping / (2 * v.sprung_mass), omega = std::sqrt(v.suspension_stiffness / v.sprung_mass - rate * rate), period = 2 * std::numbers::pi / omega;
+    const double rate = v.suspension_damping / (2 * v.sprung_mass),
+                 omega = std::sqrt(v.suspension_stiffness / v.sprung_mass - rate * rate),
+                 period = 2 * std::numbers::pi / omega;
     for (double dt : {1e-5, 1e-4}) {
       const Vibration vibration = free_vibration(v, dt);
       EXPECT_NEAR(vibration.period / period, 1.0, 0.005);

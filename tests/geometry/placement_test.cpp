@@ -56,14 +56,16 @@ TEST(Placement, every_built_in_pair_just_touches_over_a_range_of_shifts) {
         EXPECT_NEAR(brute_force_gap(wp, rp, track, c), 0, 1e-9) << w << " " << r << " " << shift;
         const Vec2 on_wheel = wp.at(c.wheel_s).position;
         EXPECT_NEAR(norm(Vec2{on_wheel.y + c.wheel_offset_y, on_wheel.z + c.wheel_offset_z} - c.point), 0, 1e-12);
-        const Vec2 wheel_tangent = wp.at(c.wheel_s).tangent, rail_tangent = rail_to_model(track, rp.at(c.rail_s).tangent);
+        const Vec2 wheel_tangent = wp.at(c.wheel_s).tangent,
+                   rail_tangent = rail_to_model(track, rp.at(c.rail_s).tangent);
         EXPECT_NEAR(cross(wheel_tangent, rail_tangent), 0, 1e-6) << w << " " << r << " " << shift;
       }
 }
 
 TEST(Placement, the_gauge_is_measured_16_mm_below_the_top_of_the_canted_rail) {
   const RigidContact c = place_wheel(wheel("LMA"), rail("CN60"), {});
-  const double rail_axis = 0.5 * 1.353 + 0.070 - c.wheel_offset_y, face = 0.5 * 1.435 - rail_axis;  // from the track's centre; from the rail's axis
+  const double rail_axis = 0.5 * 1.353 + 0.070 - c.wheel_offset_y,
+               face = 0.5 * 1.435 - rail_axis;  // from the track's centre; from the rail's axis
   const Profile cn60 = rail("CN60");
   const double top = rail_to_model({}, cn60.at(cn60.s_at_y(7.5 * mm)).position).z;
   double nearest = 1;
@@ -129,17 +131,23 @@ std::string error_of(const Profile& w, const Profile& r, const TrackGeometry& tr
 TEST(Placement, errors_say_what_is_wrong) {
   TrackGeometry track;
   track.lateral_shift = 0.2;
-  EXPECT_NE(error_of(wheel("LMA"), rail("CN60"), track).find("wheel LMA on rail CN60: the wheel misses the rail; its tape circle stands 193.9 mm from the rail's axis\n"
-                                                             "    remedy: check lateral_shift, gauge and back_to_back"),
+  EXPECT_NE(error_of(wheel("LMA"), rail("CN60"), track)
+                .find("wheel LMA on rail CN60: the wheel misses the rail; its tape circle stands 193.9 mm from the "
+                      "rail's axis\n"
+                      "    remedy: check lateral_shift, gauge and back_to_back"),
             std::string::npos);
   track = upright();
   track.lateral_shift = 40 * mm;
-  EXPECT_NE(error_of(wheel("flat"), rail("arc:R=300 mm"), track).find("the contact lies at the end of a profile, at wheel y = -"), std::string::npos);
+  EXPECT_NE(error_of(wheel("flat"), rail("arc:R=300 mm"), track)
+                .find("the contact lies at the end of a profile, at wheel y = -"),
+            std::string::npos);
   std::vector<Vec2> crown;
   for (int i = -10; i <= 10; ++i) crown.push_back({i * mm, -i * i * mm * mm / 0.6});
   const Profile shallow = Profile::from_points(ProfileKind::rail, "crown", crown);
-  EXPECT_NE(error_of(wheel("LMA"), shallow, upright()).find("the rail profile crown ends 0.2 mm below its top on the gauge side, above the gauge depth of 16.0 mm"),
-            std::string::npos);
+  EXPECT_NE(
+      error_of(wheel("LMA"), shallow, upright())
+          .find("the rail profile crown ends 0.2 mm below its top on the gauge side, above the gauge depth of 16.0 mm"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -20,7 +20,9 @@ constexpr double mm = 1e-3;
 Profile wheel(const std::string& name) { return builtin_profile(ProfileKind::wheel, name); }
 Profile rail(const std::string& name) { return builtin_profile(ProfileKind::rail, name); }
 
-std::vector<Profile> all_profiles() { return {wheel("LMA"), wheel("S1002"), rail("CN60"), rail("UIC60"), rail("UIC54")}; }
+std::vector<Profile> all_profiles() {
+  return {wheel("LMA"), wheel("S1002"), rail("CN60"), rail("UIC60"), rail("UIC54")};
+}
 
 /// Points of a reference list, in metres, z up.
 std::vector<Vec2> listed(const std::string& file) {
@@ -50,7 +52,8 @@ Vec2 tangent_at_end(const ProfileSegment& g, Vec2 p) {
   return turn * Vec2{-arm.z, arm.y};
 }
 
-/// Distance by which two segments fail to be tangent at their junction: the heel of the angle between them on the smaller of their radii.
+/// Distance by which two segments fail to be tangent at their junction: the heel of the angle between them on the
+/// smaller of their radii.
 double misfit(const ProfileSegment& a, const ProfileSegment& b) {
   const auto size = [](const ProfileSegment& g) { return g.radius > 0 ? g.radius : norm(g.p1 - g.p0); };
   return std::abs(cross(tangent_at_end(a, a.p1), tangent_at_end(b, b.p0))) * std::min(size(a), size(b));
@@ -62,9 +65,12 @@ TEST(Profile, arcs_join_tangentially_within_1e_6_mm_except_at_LMAs_two_drawn_kin
     ASSERT_GE(g.size(), 8u);
     for (std::size_t i = 1; i < g.size(); ++i) {
       EXPECT_LT(norm(g[i].p0 - g[i - 1].p1), 1e-6 * mm);
-      const bool drawn_kink = profile.name() == "LMA" && (std::abs(g[i].p0.y - 30 * mm) < 1e-9 || std::abs(g[i].p0.y - 60 * mm) < 1e-9);
-      if (drawn_kink) EXPECT_GT(misfit(g[i - 1], g[i]), 0.1 * mm);
-      else EXPECT_LT(misfit(g[i - 1], g[i]), 1e-6 * mm) << profile.name() << " junction " << i;
+      const bool drawn_kink =
+          profile.name() == "LMA" && (std::abs(g[i].p0.y - 30 * mm) < 1e-9 || std::abs(g[i].p0.y - 60 * mm) < 1e-9);
+      if (drawn_kink)
+        EXPECT_GT(misfit(g[i - 1], g[i]), 0.1 * mm);
+      else
+        EXPECT_LT(misfit(g[i - 1], g[i]), 1e-6 * mm) << profile.name() << " junction " << i;
     }
   }
 }
@@ -73,7 +79,8 @@ TEST(Profile, built_in_curves_pass_through_the_reference_lists) {
   constexpr double rounding = 0.71e-6 * mm;
   EXPECT_LT(largest_distance(wheel("LMA"), listed("lma_wheel.csv")), rounding);
   EXPECT_LT(largest_distance(rail("CN60"), listed("cn60_head.csv")), rounding);
-  EXPECT_LT(largest_distance(rail("UIC60"), listed("uic60_60e1_head.csv")), 2 * rounding);  // its listed face is not quite tangent
+  EXPECT_LT(largest_distance(rail("UIC60"), listed("uic60_60e1_head.csv")),
+            2 * rounding);  // its listed face is not quite tangent
   EXPECT_LT(largest_distance(rail("UIC54"), listed("uic54_54e1_head.csv")), 2 * rounding);
   EXPECT_LT(largest_distance(wheel("S1002"), listed("s1002_wheel.csv")), 130 * rounding);  // zone C's steps are closed
 }
@@ -81,7 +88,8 @@ TEST(Profile, built_in_curves_pass_through_the_reference_lists) {
 TEST(Profile, S1002_formulas_agree_with_the_reference_list_to_its_rounding_outside_zone_C) {
   double worst = 0;  // the list's first point, y = -70, is 2e-4 mm beside its circle
   for (const Vec2 p : listed("s1002_wheel.csv"))
-    if ((p.y / mm > -69.95 && p.y / mm < -35.01) || p.y / mm > -25.99) worst = std::max(worst, std::abs(-mm * s1002_height_mm(p.y / mm) - p.z));
+    if ((p.y / mm > -69.95 && p.y / mm < -35.01) || p.y / mm > -25.99)
+      worst = std::max(worst, std::abs(-mm * s1002_height_mm(p.y / mm) - p.z));
   EXPECT_GT(worst, 0);
   EXPECT_LT(worst, 6e-7 * mm);
 }
@@ -89,7 +97,7 @@ TEST(Profile, S1002_formulas_agree_with_the_reference_list_to_its_rounding_outsi
 TEST(Profile, LMA_measures_as_drawn) {
   const Profile lma = wheel("LMA");
   EXPECT_NEAR(lma.at(lma.s_max()).position.y - lma.at(lma.s_min()).position.y, 135 * mm, 1e-12);  // rim width
-  EXPECT_NEAR(lma.height(-54 * mm), -28 * mm, 1e-12);                                            // crest
+  EXPECT_NEAR(lma.height(-54 * mm), -28 * mm, 1e-12);                                             // crest
   double front = -54 * mm, base = -30 * mm;  // where the flange's face passes 12 mm below the tape circle
   while (base - front > 1e-12) (lma.height(0.5 * (front + base)) < -12 * mm ? front : base) = 0.5 * (front + base);
   EXPECT_NEAR(front + 70 * mm, 31.97 * mm, 0.005 * mm);  // flange thickness
@@ -121,7 +129,9 @@ TEST(Profile, s_is_the_arc_length_from_y_0) {
       const double from = profile.knots()[k - 1], to = profile.knots()[k];
       double length = 0;
       const int n = 1000;
-      for (int i = 0; i < n; ++i) length += norm(profile.at(from + (to - from) * (i + 0.9999999) / n).position - profile.at(from + (to - from) * i / n).position);
+      for (int i = 0; i < n; ++i)
+        length += norm(profile.at(from + (to - from) * (i + 0.9999999) / n).position -
+                       profile.at(from + (to - from) * i / n).position);
       EXPECT_NEAR(length, to - from, 1e-6 * (to - from)) << profile.name() << " piece " << k;
     }
   }
@@ -139,14 +149,16 @@ TEST(Profile, lateral_coordinates_and_arc_lengths_outside_are_refused) {
   const Profile lma = wheel("LMA");
   EXPECT_THROW(lma.s_at_y(65.1 * mm), std::out_of_range);
   EXPECT_THROW(lma.at(lma.s_max() + 1e-6), std::out_of_range);
-  EXPECT_THROW(Profile::from_segments(ProfileKind::rail, "gap", {{{-1, 0}, {0, 0}, {}, 0}, {{0, 1e-6}, {1, 0}, {}, 0}}), std::invalid_argument);
+  EXPECT_THROW(Profile::from_segments(ProfileKind::rail, "gap", {{{-1, 0}, {0, 0}, {}, 0}, {{0, 1e-6}, {1, 0}, {}, 0}}),
+               std::invalid_argument);
 }
 
 TEST(Profile, running_surface_ends_where_the_curve_turns_vertical) {
   const double r = 0.030, edge = 0.05;  // a bullnose: three quarters of the way round its underside comes back
   const Vec2 c{edge, -r};
-  const Profile nose = Profile::from_segments(ProfileKind::rail, "nose",
-                                              {{{-0.02, 0}, {edge, 0}, {}, 0}, {{edge, 0}, {edge + r * std::cos(-0.5), -r + r * std::sin(-0.5)}, c, r}});
+  const Profile nose = Profile::from_segments(
+      ProfileKind::rail, "nose",
+      {{{-0.02, 0}, {edge, 0}, {}, 0}, {{edge, 0}, {edge + r * std::cos(-0.5), -r + r * std::sin(-0.5)}, c, r}});
   EXPECT_NEAR(nose.y_max(), edge + r, 1e-12);
   EXPECT_LT(nose.at(nose.s_max()).position.y, nose.y_max() - 1e-3);
 }
@@ -184,10 +196,15 @@ std::string error_of(const std::string& name, ProfileKind kind = ProfileKind::ra
 }
 
 TEST(ProfileNames, unknown_names_are_answered_with_the_nearest) {
-  EXPECT_EQ(error_of("CN06"), "there is no built-in rail profile 'CN06'\n    remedy: did you mean 'CN60'? Known: CN60, UIC54, UIC60, flat, arc:R=300 mm; or give a file");
+  EXPECT_EQ(error_of("CN06"),
+            "there is no built-in rail profile 'CN06'\n    remedy: did you mean 'CN60'? Known: CN60, UIC54, UIC60, "
+            "flat, arc:R=300 mm; or give a file");
   EXPECT_NE(error_of("CN60", ProfileKind::wheel).find("no built-in wheel profile 'CN60'"), std::string::npos);
-  EXPECT_NE(error_of("arc:R=300").find("cannot read the radius of the profile 'arc:R=300'\n    remedy: write for example arc:R=300 mm"), std::string::npos);
-  for (const char* name : {"arc:R=0 mm", "arc:R=-4 mm", "arc:R=1e300 m", "arc:R=nan mm"}) EXPECT_NE(error_of(name).find("is not between 5 mm and 1000 m"), std::string::npos) << name;
+  EXPECT_NE(error_of("arc:R=300")
+                .find("cannot read the radius of the profile 'arc:R=300'\n    remedy: write for example arc:R=300 mm"),
+            std::string::npos);
+  for (const char* name : {"arc:R=0 mm", "arc:R=-4 mm", "arc:R=1e300 m", "arc:R=nan mm"})
+    EXPECT_NE(error_of(name).find("is not between 5 mm and 1000 m"), std::string::npos) << name;
   EXPECT_NE(error_of("arc").find("cannot read the profile 'arc'"), std::string::npos);
 }
 
@@ -215,7 +232,8 @@ TEST(ProfileFromPoints, a_circle_is_reproduced_with_order_4) {
   for (const double spacing : {4 * mm, 2 * mm, 1 * mm}) {
     const Profile p = Profile::from_points(ProfileKind::rail, "circle", crown(0.04, 0.02, spacing));
     double worst = 0;
-    for (double y = -0.012; y <= 0.012; y += 1e-4) worst = std::max(worst, std::abs(p.height(y) - (std::sqrt(0.04 * 0.04 - y * y) - 0.04)));
+    for (double y = -0.012; y <= 0.012; y += 1e-4)
+      worst = std::max(worst, std::abs(p.height(y) - (std::sqrt(0.04 * 0.04 - y * y) - 0.04)));
     if (last > 0) {
       EXPECT_GT(std::log2(last / worst), 3.5);
     }
@@ -260,7 +278,8 @@ TEST(ProfileFromPoints, short_and_noisy_lists_still_make_a_curve) {
 
 TEST(ProfileFromPoints, a_kink_is_rounded_over_its_neighbours_without_overshoot) {
   std::vector<Vec2> points;
-  for (int i = -200; i <= 200; ++i) points.push_back({0.1 * mm * i, i < 100 ? 0.0 : -0.1 * mm * (i - 100)});  // 45 degrees down at y = 10 mm
+  for (int i = -200; i <= 200; ++i)
+    points.push_back({0.1 * mm * i, i < 100 ? 0.0 : -0.1 * mm * (i - 100)});  // 45 degrees down at y = 10 mm
   const Profile p = Profile::from_points(ProfileKind::rail, "kink", points);
   for (double y = -0.019; y <= 0.019; y += 1e-5) {
     const double exact = y < 0.01 ? 0.0 : -(y - 0.01);
@@ -269,9 +288,12 @@ TEST(ProfileFromPoints, a_kink_is_rounded_over_its_neighbours_without_overshoot)
 }
 
 TEST(ProfileFromPoints, defects_are_named) {
-  EXPECT_NE(arc_points_error({{-0.01, 0}, {0, 0}, {0.01, 0}}).find("3 points are too few for a profile"), std::string::npos);
+  EXPECT_NE(arc_points_error({{-0.01, 0}, {0, 0}, {0.01, 0}}).find("3 points are too few for a profile"),
+            std::string::npos);
   auto points = crown(300, 20, 0.5);  // millimetres
-  EXPECT_NE(arc_points_error(points).find("the curve is 40.03 m long; a wheel or rail profile measures between 5 and 500 mm"), std::string::npos);
+  EXPECT_NE(
+      arc_points_error(points).find("the curve is 40.03 m long; a wheel or rail profile measures between 5 and 500 mm"),
+      std::string::npos);
   points = crown(0.3, 0.02, 0.5 * mm);
   points[7].z = std::nan("");
   EXPECT_NE(arc_points_error(points).find("point 8 is not a finite number"), std::string::npos);
@@ -279,7 +301,8 @@ TEST(ProfileFromPoints, defects_are_named) {
   std::swap(points[20], points[23]);
   EXPECT_NE(arc_points_error(points).find("turns back on itself at point 21"), std::string::npos);
   points.clear();
-  for (int i = 0; i < 40; ++i) points.push_back({0.01 * std::cos(0.2 * i), 0.01 * std::sin(0.2 * i)});  // more than once round
+  for (int i = 0; i < 40; ++i)
+    points.push_back({0.01 * std::cos(0.2 * i), 0.01 * std::sin(0.2 * i)});  // more than once round
   EXPECT_NE(arc_points_error(points).find("the curve crosses itself"), std::string::npos);
   points = crown(0.3, 0.02, 0.5 * mm);
   for (Vec2& p : points) p.y += 0.75;

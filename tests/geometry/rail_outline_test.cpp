@@ -20,7 +20,8 @@ TEST(SectionProperties, of_a_rectangle_are_the_textbooks) {
   EXPECT_NEAR(p.i_vertical, 5 * 27 / 12.0, 1e-12);
 }
 
-TEST(RailOutline, CN60_has_the_section_properties_of_its_drawing) {  // data/profiles/profiles_arcs.json; GB 2585: 77.45 cm2, 3217 and 524 cm4
+TEST(RailOutline, CN60_has_the_section_properties_of_its_drawing) {  // data/profiles/profiles_arcs.json; GB 2585: 77.45
+                                                                     // cm2, 3217 and 524 cm4
   const Profile head = rail("CN60");
   const SectionProperties p = section_properties(outline_polygon(head, rail_outline(head)));
   EXPECT_NEAR(p.area, 77.40e-4, 0.01e-4);
@@ -71,7 +72,9 @@ TEST(RailOutline, heads_without_flanks_are_refused) {
     rail_outline(rail("arc:R=300 mm"));
     FAIL() << "accepted an arc";
   } catch (const CaseError& e) {
-    EXPECT_NE(std::string(e.what()).find("the rail profile arc:R=300 mm has no flanks: it ends 1.5 mm below the crown"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("the rail profile arc:R=300 mm has no flanks: it ends 1.5 mm below the crown"),
+              std::string::npos)
+        << e.what();
   }
 }
 

@@ -33,7 +33,8 @@ TEST(FastTheories, AgreeWithTheLinearTheoryForSmallCreepage) {
   for (double ratio : {0.3, 1.0, 3.0}) {
     const RollingEllipse e = ellipse(5e-3 * ratio, 5e-3, 1e3);
     for (const Creepage c : {Creepage{1e-6, 0, 0}, Creepage{0, -1e-6, 0}, Creepage{0, 0, 1e-4}}) {
-      const CreepForce linear = linear_theory(e, c), v = vermeulen_johnson(e, c), p = polach(e, c), f = fastsim(e, c, 200, 200);
+      const CreepForce linear = linear_theory(e, c), v = vermeulen_johnson(e, c), p = polach(e, c),
+                       f = fastsim(e, c, 200, 200);
       const double size = std::hypot(linear.x, linear.y);
       for (const CreepForce& other : {v, p, f}) {
         EXPECT_NEAR(other.x / size, linear.x / size, 2e-3) << ratio;
@@ -46,7 +47,8 @@ TEST(FastTheories, AgreeWithTheLinearTheoryForSmallCreepage) {
 TEST(FastTheories, SaturateAtTheFrictionBound) {
   const RollingEllipse e = ellipse(6e-3, 4e-3);
   const double bound = e.friction * e.contact.load;
-  for (const CreepForce& f : {vermeulen_johnson(e, {-0.05, 0.02, 0}), polach(e, {-5, 2, 0}), fastsim(e, {-0.05, 0.02, 0})}) {
+  for (const CreepForce& f :
+       {vermeulen_johnson(e, {-0.05, 0.02, 0}), polach(e, {-5, 2, 0}), fastsim(e, {-0.05, 0.02, 0})}) {
     EXPECT_NEAR(std::hypot(f.x, f.y) / bound, 1, 2e-3);
     EXPECT_LT(f.x, 0);
     EXPECT_GT(f.y, 0);

@@ -34,7 +34,8 @@ TEST(Hertz, EllipsesOfTheContactReferenceCases) {
   EXPECT_NEAR(ell.b, 8.688901e-3, 1e-9);
 }
 
-// The gap closes inside: displacement of an ellipsoidal pressure at the centre and at the ends of the axes, by quadrature of p/r in polar coordinates.
+// The gap closes inside: displacement of an ellipsoidal pressure at the centre and at the ends of the axes, by
+// quadrature of p/r in polar coordinates.
 TEST(Hertz, ApproachMinusGapEqualsDisplacementByQuadrature) {
   const double Es = 1.3e11;
   for (double ratio : {1.0, 1.7, 8.0, 120.0}) {
@@ -44,7 +45,8 @@ TEST(Hertz, ApproachMinusGapEqualsDisplacementByQuadrature) {
     const int n = 4000;
     for (int i = 0; i < n; ++i) {  // ∫ p dr along a ray of length rho = p0 rho pi/4
       const double t = 2 * std::numbers::pi * (i + 0.5) / n;
-      at_centre += c.p0 * std::numbers::pi / 4 / std::hypot(std::cos(t) / c.a, std::sin(t) / c.b) * 2 * std::numbers::pi / n;
+      at_centre +=
+          c.p0 * std::numbers::pi / 4 / std::hypot(std::cos(t) / c.a, std::sin(t) / c.b) * 2 * std::numbers::pi / n;
     }
     EXPECT_NEAR(at_centre / (std::numbers::pi * Es) / c.approach, 1, 1e-10) << ratio;
   }

@@ -22,7 +22,8 @@ void expect_close(const CompliancePoint& a, const CompliancePoint& b, double rel
 
 TEST(Layered, EqualMaterialsGiveTheHomogeneousClosedForm) {
   const CompliancePoint exact = homogeneous_compliance(kSteel)[0].c;
-  for (double k : {1e-3, 1.0, 1e3, 1e7}) expect_close(layered_compliance_at({{{1e-3, kSteel}, {5e-3, kSteel}}, kSteel}, k), exact, 1e-13);
+  for (double k : {1e-3, 1.0, 1e3, 1e7})
+    expect_close(layered_compliance_at({{{1e-3, kSteel}, {5e-3, kSteel}}, kSteel}, k), exact, 1e-13);
 }
 
 TEST(Layered, ThinLimitIsTheSubstrateAndThickLimitTheLayer) {
@@ -36,10 +37,12 @@ TEST(Layered, EightEqualSubLayersAreOneLayer) {
   const HalfSpaceMaterial coat{2.1e9, 0.45};
   LayeredHalfSpace one{{{2e-3, coat}}, kSteel}, eight{{}, kSteel};
   for (int i = 0; i < 8; ++i) eight.layers.push_back({0.25e-3, coat});
-  for (double k = 1; k < 1e6; k *= 3) expect_close(layered_compliance_at(eight, k), layered_compliance_at(one, k), 1e-11);
+  for (double k = 1; k < 1e6; k *= 3)
+    expect_close(layered_compliance_at(eight, k), layered_compliance_at(one, k), 1e-11);
 }
 
-// Incompressible layer on a rigid base: zz k = (sinh 2kh - 2kh)/(2G (cosh 2kh + 1 + 2 (kh)²)), the limit of [Johnson1985 sec. 5.8].
+// Incompressible layer on a rigid base: zz k = (sinh 2kh - 2kh)/(2G (cosh 2kh + 1 + 2 (kh)²)), the limit of
+// [Johnson1985 sec. 5.8].
 TEST(Layered, IncompressibleLayerOnANearlyRigidBaseMeetsItsClosedForm) {
   const HalfSpaceMaterial rubber{3e6, 0.5}, rigid{3e18, 0.3};
   const double h = 5e-3, G = rubber.shear();
@@ -54,7 +57,8 @@ TEST(Layered, BettiReciprocityOfNormalAndTangentialCompliance) {
   for (double k : {10.0, 300.0, 3000.0}) {
     const WaveState s = LayerWaves(body, k).state(0, 0);
     const Eigen::Matrix2d u = s.topRows<2>(), t = s.bottomRows<2>();
-    const Eigen::Matrix2d c = u * Eigen::Matrix2d{{t(1, 1), -t(0, 1)}, {-t(1, 0), t(0, 0)}} / (t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0));
+    const Eigen::Matrix2d c =
+        u * Eigen::Matrix2d{{t(1, 1), -t(0, 1)}, {-t(1, 0), t(0, 0)}} / (t(0, 0) * t(1, 1) - t(0, 1) * t(1, 0));
     EXPECT_NEAR(c(0, 1), c(1, 0), 1e-12 * std::abs(c(1, 1))) << k;
   }
 }
@@ -136,9 +140,11 @@ TEST(GradedLayer, EveryCutStaysWithinTheToleranceAndFollowsTheTable) {
 
 // For waves long against a cut: the thickest of `coarse` is 0.17 mm.
 TEST(GradedLayer, ComplianceErrsWithTheSquareOfTheTolerance) {
-  const LayeredHalfSpace exact{cut_into_layers(kGraded, 0.001), kSteel}, coarse{cut_into_layers(kGraded, 0.1), kSteel}, fine{cut_into_layers(kGraded, 0.05), kSteel};
+  const LayeredHalfSpace exact{cut_into_layers(kGraded, 0.001), kSteel}, coarse{cut_into_layers(kGraded, 0.1), kSteel},
+      fine{cut_into_layers(kGraded, 0.05), kSteel};
   for (double k : {100.0, 500.0, 2000.0}) {
-    const double zz = layered_compliance_at(exact, k).zz, error = layered_compliance_at(coarse, k).zz - zz, finer = layered_compliance_at(fine, k).zz - zz;
+    const double zz = layered_compliance_at(exact, k).zz, error = layered_compliance_at(coarse, k).zz - zz,
+                 finer = layered_compliance_at(fine, k).zz - zz;
     EXPECT_LT(std::abs(error / zz), 2e-3) << k;
     EXPECT_NEAR(error / finer, 4, 0.6) << k;
   }
@@ -146,17 +152,20 @@ TEST(GradedLayer, ComplianceErrsWithTheSquareOfTheTolerance) {
 
 TEST(GradedLayer, OfOneModulusIsAUniformLayer) {
   const HalfSpaceMaterial hard{400e9, 0.25};
-  const LayeredHalfSpace graded{cut_into_layers({{0, hard}, {0.7e-3, hard}, {2e-3, hard}}), kSteel}, uniform{{{2e-3, hard}}, kSteel};
-  for (double k : {30.0, 1000.0, 9000.0}) expect_close(layered_compliance_at(graded, k), layered_compliance_at(uniform, k), 1e-12);
+  const LayeredHalfSpace graded{cut_into_layers({{0, hard}, {0.7e-3, hard}, {2e-3, hard}}), kSteel},
+      uniform{{{2e-3, hard}}, kSteel};
+  for (double k : {30.0, 1000.0, 9000.0})
+    expect_close(layered_compliance_at(graded, k), layered_compliance_at(uniform, k), 1e-12);
 }
 
-/// E(z) = E0 exp(-a z) down to `depth`, then steel, at one wave number: the elasticity equations of layer_waves.hpp's state integrated upwards by Runge and Kutta's rule from the
-/// homogeneous body below,
+/// E(z) = E0 exp(-a z) down to `depth`, then steel, at one wave number: the elasticity equations of layer_waves.hpp's
+/// state integrated upwards by Runge and Kutta's rule from the homogeneous body below,
 ///   U' = T/G - k W,  W' = (S + lambda k U)/(lambda + 2 G),  T' = k ((lambda + 2 G) k U - lambda W'),  S' = k T.
 CompliancePoint exponentially_graded_compliance(double young, double a, double depth, double poisson, double k) {
   using State = Eigen::Matrix<double, 4, 2>;
   const auto slope = [&](const State& y, double z) {
-    const double E = young * std::exp(-a * z), G = E / (2 * (1 + poisson)), lambda = 2 * G * poisson / (1 - 2 * poisson);
+    const double E = young * std::exp(-a * z), G = E / (2 * (1 + poisson)),
+                 lambda = 2 * G * poisson / (1 - 2 * poisson);
     State d;
     d.row(0) = k * (y.row(2) / G - y.row(1));
     d.row(1) = k * (y.row(3) + lambda * y.row(0)) / (lambda + 2 * G);
@@ -172,12 +181,15 @@ CompliancePoint exponentially_graded_compliance(double young, double a, double d
   const double h = -depth / kSteps;
   for (int i = 0; i < kSteps; ++i) {
     const double z = depth + i * h;
-    const State k1 = slope(y, z), k2 = slope(y + 0.5 * h * k1, z + 0.5 * h), k3 = slope(y + 0.5 * h * k2, z + 0.5 * h), k4 = slope(y + h * k3, z + h);
+    const State k1 = slope(y, z), k2 = slope(y + 0.5 * h * k1, z + 0.5 * h), k3 = slope(y + 0.5 * h * k2, z + 0.5 * h),
+                k4 = slope(y + h * k3, z + h);
     y += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
   }
   const Eigen::Matrix2d c = -y.topRows<2>() * y.bottomRows<2>().inverse();
-  // Across the wave vector (G V')' = k^2 G V has the solutions exp(r z), r = (a -+ sqrt(a^2 + 4 k^2))/2; below V' = -k V.
-  const double root = std::sqrt(a * a + 4 * k * k), up = 0.5 * (a + root), down = 0.5 * (a - root), G = young / (2 * (1 + poisson)), g = kSteel.shear() / (G * std::exp(-a * depth));
+  // Across the wave vector (G V')' = k^2 G V has the solutions exp(r z), r = (a -+ sqrt(a^2 + 4 k^2))/2; below V' = -k
+  // V.
+  const double root = std::sqrt(a * a + 4 * k * k), up = 0.5 * (a + root), down = 0.5 * (a - root),
+               G = young / (2 * (1 + poisson)), g = kSteel.shear() / (G * std::exp(-a * depth));
   const double b = -std::exp((down - up) * depth) * (down + g * k) / (up + g * k);
   return {c(1, 1), c(0, 1), c(0, 0), -k * (1 + b) / (G * (down + up * b))};
 }
@@ -187,15 +199,18 @@ TEST(GradedLayer, MeetsTheEquationsOfAnExponentiallyGradedLayerWithSecondOrder) 
   const double thickness = 3e-3, a = std::log(4.0) / thickness;
   const auto stack = [&](int rows) {
     std::vector<GradedPoint> table;
-    for (int i = 0; i <= rows; ++i) table.push_back({thickness * i / rows, {840e9 * std::exp(-a * thickness * i / rows), 0.25}});
+    for (int i = 0; i <= rows; ++i)
+      table.push_back({thickness * i / rows, {840e9 * std::exp(-a * thickness * i / rows), 0.25}});
     return LayeredHalfSpace{cut_into_layers(table, 0.3), kSteel};
   };
   const LayeredHalfSpace coarse = stack(40), fine = stack(80);
   ASSERT_EQ(fine.layers.size(), 80u) << "every row one cut";
   for (double k : {50.0, 400.0, 1500.0}) {
-    const CompliancePoint exact = exponentially_graded_compliance(840e9, a, thickness, 0.25, k), c = layered_compliance_at(coarse, k), f = layered_compliance_at(fine, k);
+    const CompliancePoint exact = exponentially_graded_compliance(840e9, a, thickness, 0.25, k),
+                          c = layered_compliance_at(coarse, k), f = layered_compliance_at(fine, k);
     expect_close(f, exact, 3e-4);
-    for (double CompliancePoint::*part : {&CompliancePoint::zz, &CompliancePoint::rr, &CompliancePoint::tt}) EXPECT_NEAR((c.*part - exact.*part) / (f.*part - exact.*part), 4, 0.1) << k;
+    for (double CompliancePoint::*part : {&CompliancePoint::zz, &CompliancePoint::rr, &CompliancePoint::tt})
+      EXPECT_NEAR((c.*part - exact.*part) / (f.*part - exact.*part), 4, 0.1) << k;
   }
 }
 

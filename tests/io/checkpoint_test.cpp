@@ -50,7 +50,8 @@ RunState small_run(double time) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kOwnHeap = false;  // a sanitizer looks after the memory
 #elif defined(__has_feature)
-constexpr bool kOwnHeap = !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer) && !__has_feature(memory_sanitizer);
+constexpr bool kOwnHeap =
+    !__has_feature(address_sanitizer) && !__has_feature(thread_sanitizer) && !__has_feature(memory_sanitizer);
 #else
 constexpr bool kOwnHeap = true;
 #endif
@@ -151,14 +152,16 @@ TEST_F(Checkpoints, TheSystemHasTheMemoryBack) {
   if (!kOwnHeap) GTEST_SKIP() << "the heap is a sanitizer's";
   RunState r = small_run(1e-3), good;
   RollingState& s = r.stepper.state;
-  for (Field* f : {&s.u_rail, &s.v_rail, &s.u_wheel, &s.v_wheel}) f->assign(std::size_t{1} << 18, 1.0);  // 2 MiB each, below what malloc gives back by itself
+  for (Field* f : {&s.u_rail, &s.v_rail, &s.u_wheel, &s.v_wheel})
+    f->assign(std::size_t{1} << 18, 1.0);  // 2 MiB each, below what malloc gives back by itself
   long least = 0, most = 0;
   for (int k = 0; k < 5; ++k) {
     good = {};
     good = r;
     write_checkpoint(folder, kOrigin, good);
     const long now = resident_memory();
-    least = k == 0 ? now : std::min(least, now), most = std::max(most, now);
+    least = k == 0 ? now : std::min(least, now);
+    most = std::max(most, now);
   }
   EXPECT_GT(least, 16 << 20);
   EXPECT_LT(most, 20 << 20);
@@ -185,8 +188,10 @@ TEST_F(Checkpoints, EveryFlippedByteIsFound) {
 TEST_F(Checkpoints, EveryCutIsFound) {
   const std::string bytes = checkpoint_bytes(kOrigin, small_run(1e-3));
   std::size_t cuts = 0;
-  for (std::size_t k = 0; k < bytes.size(); k += 97, ++cuts) EXPECT_THROW(checkpoint_of(bytes.substr(0, k), "x"), CaseError) << k;
-  if (!HasFailure()) std::printf("RELIABILITY {\"fact\": \"checkpoint_cuts\", \"cut\": %zu, \"found\": %zu}\n", cuts, cuts);
+  for (std::size_t k = 0; k < bytes.size(); k += 97, ++cuts)
+    EXPECT_THROW(checkpoint_of(bytes.substr(0, k), "x"), CaseError) << k;
+  if (!HasFailure())
+    std::printf("RELIABILITY {\"fact\": \"checkpoint_cuts\", \"cut\": %zu, \"found\": %zu}\n", cuts, cuts);
   EXPECT_THROW(checkpoint_of(bytes + '\0', "x"), CaseError);
 }
 
@@ -202,7 +207,9 @@ TEST_F(Checkpoints, TheOneBeforeIsKeptAndTakenWhenTheNewestIsDamaged) {
   const FoundCheckpoint found = read_checkpoint(folder, "a case");
   EXPECT_EQ(found.checkpoint.run.stepper.state.time, 1);
   ASSERT_EQ(found.notes.size(), 1u);
-  EXPECT_NE(found.notes[0].find("checkpoint.h5: this checkpoint is of no use: its checksum does not agree"), std::string::npos) << found.notes[0];
+  EXPECT_NE(found.notes[0].find("checkpoint.h5: this checkpoint is of no use: its checksum does not agree"),
+            std::string::npos)
+      << found.notes[0];
   fs::remove(checkpoint_file(folder));  // killed between the two renames
   EXPECT_EQ(read_checkpoint(folder, "a case").checkpoint.run.stepper.state.time, 1);
   put(previous_checkpoint_file(folder), "");
@@ -241,14 +248,22 @@ TEST_F(Checkpoints, NumbersAreTakenFromThisFileAndAsTheyWereWrittenOnly) {
   };
   const auto as_usual = [](hid_t) {};
   const hsize_t chunk = 3;
-  EXPECT_EQ(checkpoint_of(stored(H5T_IEEE_F64LE, as_usual), "x").run.stepper.state.u_rail, small_run(1).stepper.state.u_rail);
+  EXPECT_EQ(checkpoint_of(stored(H5T_IEEE_F64LE, as_usual), "x").run.stepper.state.u_rail,
+            small_run(1).stepper.state.u_rail);
   const std::string apart = "u_rail is not stored in one piece";
-  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_chunk(how, 1, &chunk); })).find(apart), std::string::npos);
-  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_chunk(how, 1, &chunk), H5Pset_shuffle(how); })).find(apart), std::string::npos);
-  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [](hid_t how) { H5Pset_layout(how, H5D_COMPACT); })).find(apart), std::string::npos);
-  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_external(how, elsewhere.c_str(), 0, 24); })).find(apart), std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_chunk(how, 1, &chunk); })).find(apart),
+            std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_chunk(how, 1, &chunk), H5Pset_shuffle(how); }))
+                .find(apart),
+            std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [](hid_t how) { H5Pset_layout(how, H5D_COMPACT); })).find(apart),
+            std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_external(how, elsewhere.c_str(), 0, 24); }))
+                .find(apart),
+            std::string::npos);
   EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, as_usual, false)).find(apart), std::string::npos);
-  EXPECT_NE(refused_for(stored(H5T_IEEE_F64BE, as_usual)).find("u_rail is no array of numbers of 8 bytes"), std::string::npos);
+  EXPECT_NE(refused_for(stored(H5T_IEEE_F64BE, as_usual)).find("u_rail is no array of numbers of 8 bytes"),
+            std::string::npos);
   const std::string linked = edited(whole, [&](hid_t file) {
     H5Ldelete(file, "state/u_rail", H5P_DEFAULT);
     H5Lcreate_soft("/state/v_wheel", file, "state/u_rail", H5P_DEFAULT, H5P_DEFAULT);

@@ -34,7 +34,8 @@ TEST_F(Csv, a_table_has_provenance_lines_a_header_and_rows) {
 }
 
 TEST_F(Csv, numbers_read_back_to_the_same_doubles) {
-  const std::vector<double> values = {1.0 / 3, M_PI * 1e-300, -0.1, 1e22, std::nextafter(1.0, 2.0), std::numeric_limits<double>::denorm_min(), -0.0};
+  const std::vector<double> values = {
+      1.0 / 3, M_PI * 1e-300, -0.1, 1e22, std::nextafter(1.0, 2.0), std::numeric_limits<double>::denorm_min(), -0.0};
   write_csv(file_, {}, {{"a", values}});
   std::ifstream in(file_);
   std::string line;

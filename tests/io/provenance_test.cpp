@@ -18,13 +18,15 @@ TEST(Provenance, Sha256OfAbcIsTheOneOfTheStandard) {  // FIPS 180-4, example "ab
 TEST(Provenance, NamesEveryInputWithItsSha256AndTheCommandLine) {
   const auto file = std::filesystem::path(testing::TempDir()) / "provenance_input.txt";
   std::ofstream(file) << "abc";
-  const auto json = nlohmann::json::parse(provenance_json({"railstrata", "run", "a.toml"}, {"mesh.element_size=2 mm"}, {file}, 3));
+  const auto json =
+      nlohmann::json::parse(provenance_json({"railstrata", "run", "a.toml"}, {"mesh.element_size=2 mm"}, {file}, 3));
   EXPECT_EQ(json["inputs"][0]["file"], file.string());
   EXPECT_EQ(json["inputs"][0]["sha256"], sha256_of("abc"));
   EXPECT_EQ(json["command_line"][2], "a.toml");
   EXPECT_EQ(json["overrides"][0], "mesh.element_size=2 mm");
   EXPECT_EQ(json["threads"], 3);
-  for (const char* key : {"version", "commit", "dirty", "compiler", "flags", "libraries", "cpu", "isa", "time_utc"}) EXPECT_TRUE(json.contains(key)) << key;
+  for (const char* key : {"version", "commit", "dirty", "compiler", "flags", "libraries", "cpu", "isa", "time_utc"})
+    EXPECT_TRUE(json.contains(key)) << key;
 }
 
 TEST(Provenance, AMissingInputIsAnEnvironmentError) { EXPECT_THROW(sha256_of_file("no/such/file"), EnvironmentError); }

@@ -24,7 +24,9 @@ std::string content(const fs::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-std::size_t files_in(const fs::path& folder) { return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {})); }
+std::size_t files_in(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
+}
 
 class Vtk : public ::testing::Test {
  protected:
@@ -42,18 +44,22 @@ class Vtk : public ::testing::Test {
   bool keep_ = false;
 };
 
-/// A brick of n³ hexahedra with corners (0,0,0) and (1,2,3). Fields are simple functions of place that read_vtk.py repeats.
+/// A brick of n³ hexahedra with corners (0,0,0) and (1,2,3). Fields are simple functions of place that read_vtk.py
+/// repeats.
 VtkHexahedra brick(int n) {
   VtkHexahedra mesh;
-  const auto node = [n](int i, int j, int k) { return static_cast<long long>(i) + (n + 1) * (j + static_cast<long long>(n + 1) * k); };
+  const auto node = [n](int i, int j, int k) {
+    return static_cast<long long>(i) + (n + 1) * (j + static_cast<long long>(n + 1) * k);
+  };
   for (int k = 0; k <= n; ++k)
     for (int j = 0; j <= n; ++j)
       for (int i = 0; i <= n; ++i) mesh.points.push_back({1.0 * i / n, 2.0 * j / n, 3.0 * k / n});
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
-        mesh.cells.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k), node(i, j, k + 1), node(i + 1, j, k + 1),
-                              node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)});
+        mesh.cells.push_back({node(i, j, k), node(i + 1, j, k), node(i + 1, j + 1, k), node(i, j + 1, k),
+                              node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1),
+                              node(i, j + 1, k + 1)});
   std::vector<float> stress;
   std::vector<double> displacement;
   for (const Vec3 p : mesh.points) {
@@ -98,7 +104,9 @@ TEST_F(Vtk, the_collection_is_complete_after_every_frame) {
             "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n"
             "<DataSet timestep=\"0.25\" group=\"\" part=\"0\" file=\"a.vtp\"/>\n</Collection>\n</VTKFile>\n");
   series.add(0.5, folder_ / "deeper" / "b.vtp");
-  EXPECT_NE(content(folder_ / "growing.pvd").find("timestep=\"0.5\" group=\"\" part=\"0\" file=\"deeper/b.vtp\"/>\n</Collection>"), std::string::npos);
+  EXPECT_NE(content(folder_ / "growing.pvd")
+                .find("timestep=\"0.5\" group=\"\" part=\"0\" file=\"deeper/b.vtp\"/>\n</Collection>"),
+            std::string::npos);
 }
 
 TEST_F(Vtk, appended_data_end_with_a_newline_for_meshio) {

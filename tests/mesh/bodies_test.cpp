@@ -38,7 +38,15 @@ SweptBody disc() {
   return mesh_wheel(lma(), 0.430, {0, 0, 0.430}, spec, {});
 }
 
-std::vector<SweptBody> every_shape() { return {rail(), rail(one_layer(3e-3)), rail(one_layer(0.1e-3), {}, 8e-3), rail_block(one_layer(2e-3)), wheel(), wheel(one_layer(1e-3)), disc()}; }
+std::vector<SweptBody> every_shape() {
+  return {rail(),
+          rail(one_layer(3e-3)),
+          rail(one_layer(0.1e-3), {}, 8e-3),
+          rail_block(one_layer(2e-3)),
+          wheel(),
+          wheel(one_layer(1e-3)),
+          disc()};
+}
 
 TEST(ContactBand, SurfaceNodesLieOnTheProfile) {
   for (const SweptBody& body : every_shape()) {
@@ -82,7 +90,9 @@ TEST(ContactBand, LayerInterfacesLieAtTheExactDistanceFromTheProfile) {
       const Profile& profile = body.kind == SweepKind::extrude ? cn60() : lma();
       const ContactBand& band = body.contact;
       const Block& cap = body.blocks[band.block];
-      const auto row = std::find_if(band.depth.begin(), band.depth.end(), [&](double d) { return std::abs(d - t) < 1e-12; }) - band.depth.begin();
+      const auto row =
+          std::find_if(band.depth.begin(), band.depth.end(), [&](double d) { return std::abs(d - t) < 1e-12; }) -
+          band.depth.begin();
       ASSERT_LE(row, band.rows) << body.name << " " << t;
       for (int c = 0; c <= band.columns; ++c) {
         const Vec2 p = to_profile(body, cap.section.nodes[row * (band.columns + 1) + c]);
@@ -116,31 +126,38 @@ TEST(ContactBand, OneElementThroughAThickLayerIsFollowedByRowsThatShrinkGraduall
     layers[0].elements = 1;
     const std::vector<double> d = rail(layers).contact.depth;
     EXPECT_NEAR(d[1], t, 1e-12);
-    for (std::size_t r = 2; r < d.size(); ++r) EXPECT_LE((d[r - 1] - d[r - 2]) / (d[r] - d[r - 1]), 2 + 1e-9) << "row " << r;
+    for (std::size_t r = 2; r < d.size(); ++r)
+      EXPECT_LE((d[r - 1] - d[r - 2]) / (d[r] - d[r - 1]), 2 + 1e-9) << "row " << r;
   }
 }
 
 double layer_area(const SweptBody& body) {
   double sum = 0;
   for (const Block& b : body.blocks)
-    for (std::size_t q = 0; q < b.section.quads.size(); ++q) sum += b.section.quad_material[q] == 1 ? quad_area(b.section, b.section.quads[q]) : 0.0;
+    for (std::size_t q = 0; q < b.section.quads.size(); ++q)
+      sum += b.section.quad_material[q] == 1 ? quad_area(b.section, b.section.quads[q]) : 0.0;
   return sum;
 }
 
 double strip_area(const Profile& profile, double t, double width) {
   const double s0 = profile.s_at_y(-0.5 * width), s1 = profile.s_at_y(0.5 * width);
   double sum = 0;
-  for (int i = 0; i < 2000; ++i) sum += (s1 - s0) / 2000 * t * (1 - 0.5 * t * profile.at(s0 + (i + 0.5) * (s1 - s0) / 2000).curvature);
+  for (int i = 0; i < 2000; ++i)
+    sum += (s1 - s0) / 2000 * t * (1 - 0.5 * t * profile.at(s0 + (i + 0.5) * (s1 - s0) / 2000).curvature);
   return sum;
 }
 
 TEST(Layers, FillTheStripOfTheirThicknessAndWidth) {
   for (double t : {0.2e-3, 1e-3, 3e-3})
     for (double width : {0.060, 0.050, 0.031}) {
-      EXPECT_NEAR(layer_area(rail(one_layer(t, width))) / strip_area(cn60(), t, width), 1.0, 0.01) << "rail " << t << " " << width;
+      EXPECT_NEAR(layer_area(rail(one_layer(t, width))) / strip_area(cn60(), t, width), 1.0, 0.01)
+          << "rail " << t << " " << width;
       const bool cut_upright = width == 0.060;  // the block's sides end the layer there, not its surface's normals
-      EXPECT_TRUE(cut_upright || std::abs(layer_area(rail_block(one_layer(t, width))) / strip_area(cn60(), t, width) - 1) < 0.01) << "block " << t << " " << width;
-      EXPECT_NEAR(layer_area(wheel(one_layer(t, width))) / strip_area(lma(), t, width), 1.0, 0.01) << "wheel " << t << " " << width;
+      EXPECT_TRUE(cut_upright ||
+                  std::abs(layer_area(rail_block(one_layer(t, width))) / strip_area(cn60(), t, width) - 1) < 0.01)
+          << "block " << t << " " << width;
+      EXPECT_NEAR(layer_area(wheel(one_layer(t, width))) / strip_area(lma(), t, width), 1.0, 0.01)
+          << "wheel " << t << " " << width;
     }
 }
 
@@ -154,7 +171,8 @@ TEST(Layers, StackInTheOrderGiven) {
 }
 
 TEST(Layers, RowsOfAGradedOneAreOneLayer) {
-  const SweptBody body = rail({{"clad 1", 0.5e-3, 0.06, 1, true}, {"clad 2", 0.5e-3, 0.06, 1, false}, {"soft", 1e-3, 0.06, 2}});
+  const SweptBody body =
+      rail({{"clad 1", 0.5e-3, 0.06, 1, true}, {"clad 2", 0.5e-3, 0.06, 1, false}, {"soft", 1e-3, 0.06, 2}});
   EXPECT_EQ(body.material_layer, (std::vector<int>{0, 1, 1, 2}));
   EXPECT_EQ(body.layer_of(3), 2);
   EXPECT_EQ(SweptBody{}.layer_of(3), 3) << "where nothing is said every material is a layer";
@@ -167,7 +185,8 @@ std::vector<Vec2> outline_polygon(const Profile& head) {
   right.push_back({right.back().y, o.base_z});
   for (Vec2 p : right) polygon.push_back({-p.y, p.z});
   for (auto p = right.rbegin(); p != right.rend(); ++p) polygon.push_back(*p);
-  for (int i = 2000; i >= 0; --i) polygon.push_back(head.at(head.s_min() + (head.s_max() - head.s_min()) * i / 2000).position);
+  for (int i = 2000; i >= 0; --i)
+    polygon.push_back(head.at(head.s_min() + (head.s_max() - head.s_min()) * i / 2000).position);
   return polygon;
 }
 
@@ -187,7 +206,8 @@ TEST(RailSection, OfCn60WeighsSixtyKilogramsPerMetre) {
   EXPECT_NEAR(sum * 7830, 60.64, 0.6);  // TB/T 2344: 77.45 cm2, 60.64 kg/m
 }
 
-double ring_moment(const std::vector<Vec2>& polygon) {  // integral of the distance to the axis z = 0 over the polygon, |z|
+double ring_moment(
+    const std::vector<Vec2>& polygon) {  // integral of the distance to the axis z = 0 over the polygon, |z|
   double sum = 0;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Vec2 a = polygon[i], b = polygon[(i + 1) % polygon.size()];
@@ -199,12 +219,16 @@ double ring_moment(const std::vector<Vec2>& polygon) {  // integral of the dista
 TEST(WheelVolume, IsThatOfItsSectionRevolvedByPappus) {
   const WheelMeshSpec spec = wheel_spec();
   std::vector<Vec2> rim;
-  for (int i = 0; i <= 4000; ++i) rim.push_back(lma().at(lma().s_min() + (lma().s_max() - lma().s_min()) * i / 4000).position);
+  for (int i = 0; i <= 4000; ++i)
+    rim.push_back(lma().at(lma().s_min() + (lma().s_max() - lma().s_min()) * i / 4000).position);
   rim.push_back({rim.back().y, spec.rim_thickness});
   rim.push_back({rim.front().y, spec.rim_thickness});
   for (Vec2& p : rim) p.z -= 0.430;
-  const auto ring = [](double inner, double outer, double width) { return 0.5 * width * (outer * outer - inner * inner); };
-  const double moment = ring_moment(rim) + ring(spec.hub_radius, 0.430 - spec.rim_thickness, spec.web_thickness) + ring(spec.bore_radius, spec.hub_radius, spec.hub_width);
+  const auto ring = [](double inner, double outer, double width) {
+    return 0.5 * width * (outer * outer - inner * inner);
+  };
+  const double moment = ring_moment(rim) + ring(spec.hub_radius, 0.430 - spec.rim_thickness, spec.web_thickness) +
+                        ring(spec.bore_radius, spec.hub_radius, spec.hub_width);
   EXPECT_NEAR(volume(wheel()) / (2 * std::numbers::pi * moment), 1.0, 0.005);
 }
 
@@ -217,7 +241,8 @@ TEST(Ties, TieEverySlaveOnceAndNeverInACircle) {
       EXPECT_GE(tie.weight1, 0);
       EXPECT_LE(tie.weight1, 1);
     }
-    for (const auto& [node, n] : count) EXPECT_EQ(n, 1) << body.name << " block " << node.first << " node " << node.second;
+    for (const auto& [node, n] : count)
+      EXPECT_EQ(n, 1) << body.name << " block " << node.first << " node " << node.second;
   }
 }
 
@@ -244,7 +269,8 @@ TEST(Ties, BridgeGapsOfAtMostAThirdOfAMillimetre) {
     for (const Tie& tie : body.ties) {
       const auto& master = body.blocks[tie.master_block].section.nodes;
       const Vec2 place = (1 - tie.weight1) * master[tie.master_node0] + tie.weight1 * master[tie.master_node1];
-      EXPECT_LT(norm(place - body.blocks[tie.slave_block].section.nodes[tie.slave_node]), 0.34e-3) << body.name << " block " << tie.slave_block;
+      EXPECT_LT(norm(place - body.blocks[tie.slave_block].section.nodes[tie.slave_node]), 0.34e-3)
+          << body.name << " block " << tie.slave_block;
     }
 }
 
@@ -265,8 +291,10 @@ TEST(Stations, OfCoarserBlocksAreSubsetsAndRingsClose) {
 TEST(Held, AreTheFootsBaseAndTheBore) {
   const SweptBody r = rail(), w = wheel(), b = rail_block(), d = disc();
   const double base = rail_outline(cn60()).base_z;
-  for (SectionNode n : r.held) EXPECT_NEAR(model_to_rail(kTrack, r.blocks[n.block].section.nodes[n.node]).z, base, 1e-12);
-  for (SectionNode n : b.held) EXPECT_NEAR(model_to_rail(kTrack, b.blocks[n.block].section.nodes[n.node]).z, -0.060, 1e-12);
+  for (SectionNode n : r.held)
+    EXPECT_NEAR(model_to_rail(kTrack, r.blocks[n.block].section.nodes[n.node]).z, base, 1e-12);
+  for (SectionNode n : b.held)
+    EXPECT_NEAR(model_to_rail(kTrack, b.blocks[n.block].section.nodes[n.node]).z, -0.060, 1e-12);
   for (const SweptBody* body : {&w, &d})
     for (SectionNode n : body->held) EXPECT_NEAR(body->blocks[n.block].section.nodes[n.node].z, -0.095, 1e-12);
   for (const SweptBody* body : {&r, &w, &b, &d}) EXPECT_GT(body->held.size(), 5u);
@@ -282,7 +310,8 @@ TEST(ElementCount, OfTheBaseCaseAtOneMillimetreStaysBelow300000) {
   WheelMeshSpec wheel_mesh = wheel_spec(contact.wheel_s);
   wheel_mesh.theta_begin = rail_mesh.x_begin / contact.rolling_radius;
   wheel_mesh.theta_end = rail_mesh.x_end / contact.rolling_radius;
-  const SweptBody r = mesh_rail(cn60(), track, rail_mesh, {}), w = mesh_wheel(lma(), 0.430, {0, contact.wheel_offset_y, contact.axle_height}, wheel_mesh, {});
+  const SweptBody r = mesh_rail(cn60(), track, rail_mesh, {}),
+                  w = mesh_wheel(lma(), 0.430, {0, contact.wheel_offset_y, contact.axle_height}, wheel_mesh, {});
   EXPECT_LT(r.elements() + w.elements(), 300000) << r.elements() << " + " << w.elements();
   for (const SweptBody* body : {&r, &w})
     for (const BlockQuality& q : measure_quality(*body)) EXPECT_LT(q.aspect_max, 20) << q.block;
@@ -302,7 +331,10 @@ TEST(Faults, NameWhatDoesNotFitAndTheRemedy) {
   EXPECT_TRUE(has(message_of([] { rail(one_layer(12e-3)); }), "layer thicker than the head: 12 mm"));
   EXPECT_TRUE(has(message_of([] { wheel(one_layer(30e-3)); }), "layer thicker than the rim: 30 mm"));
   EXPECT_TRUE(has(message_of([] { rail(one_layer(1e-3, 0.080)); }), "layer width larger than the head: 80 mm"));
-  EXPECT_TRUE(has(message_of([] { rail({}, {1e-3, 70e-3, 8e-3, 3, 12e-3}); }), "fine width larger than the running surface: 70 mm"));
+  EXPECT_TRUE(has(message_of([] {
+                    rail({}, {1e-3, 70e-3, 8e-3, 3, 12e-3});
+                  }),
+                  "fine width larger than the running surface: 70 mm"));
   EXPECT_TRUE(has(message_of([] { rail({}, {}, 31e-3); }), "too close to the end of the rail's running surface"));
   EXPECT_TRUE(has(message_of([] { rail({}, {}, 31e-3); }), "remedy:"));
   WheelMeshSpec thin = wheel_spec();

@@ -11,7 +11,8 @@ namespace {
 
 double worst_ratio(const std::vector<double>& spacings) {
   double worst = 1;
-  for (std::size_t i = 1; i < spacings.size(); ++i) worst = std::max({worst, spacings[i] / spacings[i - 1], spacings[i - 1] / spacings[i]});
+  for (std::size_t i = 1; i < spacings.size(); ++i)
+    worst = std::max({worst, spacings[i] / spacings[i - 1], spacings[i - 1] / spacings[i]});
   return worst;
 }
 

@@ -31,7 +31,9 @@ inline WheelMeshSpec wheel_spec(double contact_s = 0, std::vector<LayerMesh> lay
   return spec;
 }
 
-inline std::vector<LayerMesh> one_layer(double thickness, double width = 0.060) { return {{"layer", thickness, width, 0}}; }
+inline std::vector<LayerMesh> one_layer(double thickness, double width = 0.060) {
+  return {{"layer", thickness, width, 0}};
+}
 
 inline double quad_area(const Section& section, const std::array<int, 4>& quad) {
   const auto& n = section.nodes;
@@ -46,7 +48,8 @@ inline double area(const Section& section) {
 
 /// Volume of a hexahedron with bilinear faces, by 2 x 2 x 2 Gauss points (exact).
 inline double volume(const std::array<Vec3, 8>& x) {
-  constexpr double kSign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+  constexpr double kSign[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                                  {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   double sum = 0;
   for (const auto& gauss : kSign) {
     Vec3 d[3];
@@ -66,7 +69,8 @@ inline double volume(const SweptBody& body) {
   double sum = 0;
   for (const Block& block : body.blocks)
     for (int j = 0; j < block.stations.elements(); ++j)
-      for (std::size_t q = 0; q < block.section.quads.size(); ++q) sum += volume(element_corners(body, block, static_cast<int>(q), j));
+      for (std::size_t q = 0; q < block.section.quads.size(); ++q)
+        sum += volume(element_corners(body, block, static_cast<int>(q), j));
   return sum;
 }
 

@@ -38,16 +38,20 @@ TEST(MeasureQuality, SeesAnInvertedElementAndSaysWhere) {
 }
 
 TEST(MeasureQuality, OfClassesEqualsThatOfEveryElement) {
-  const SweptBody body = mesh_wheel(builtin_profile(ProfileKind::wheel, "LMA"), 0.43, {0.1, 0.2, 0.43}, wheel_spec(), {2e-3, 24e-3, 8e-3, 3, 12e-3});
+  const SweptBody body = mesh_wheel(builtin_profile(ProfileKind::wheel, "LMA"), 0.43, {0.1, 0.2, 0.43}, wheel_spec(),
+                                    {2e-3, 24e-3, 8e-3, 3, 12e-3});
   const HexMesh all = unstructured(body);
   std::vector<float> least(body.blocks.size(), 2.0F);
-  for (std::size_t c = 0; c < all.cells.size(); ++c) least[all.block[c]] = std::min(least[all.block[c]], all.scaled_jacobian[c]);
+  for (std::size_t c = 0; c < all.cells.size(); ++c)
+    least[all.block[c]] = std::min(least[all.block[c]], all.scaled_jacobian[c]);
   const std::vector<BlockQuality> classes = measure_quality(body);
-  for (std::size_t b = 0; b < least.size(); ++b) EXPECT_NEAR(classes[b].scaled_jacobian_min, least[b], 1e-6) << classes[b].block;
+  for (std::size_t b = 0; b < least.size(); ++b)
+    EXPECT_NEAR(classes[b].scaled_jacobian_min, least[b], 1e-6) << classes[b].block;
 }
 
 TEST(Unstructured, HasEveryElementOnceWithTheBodysVolume) {
-  const SweptBody body = mesh_rail(builtin_profile(ProfileKind::rail, "CN60"), kTrack, rail_spec(0, one_layer(2e-3)), {2e-3, 24e-3, 8e-3, 3, 12e-3});
+  const SweptBody body = mesh_rail(builtin_profile(ProfileKind::rail, "CN60"), kTrack, rail_spec(0, one_layer(2e-3)),
+                                   {2e-3, 24e-3, 8e-3, 3, 12e-3});
   const HexMesh all = unstructured(body);
   ASSERT_EQ(static_cast<long>(all.cells.size()), body.elements());
   ASSERT_EQ(static_cast<long>(all.points.size()), body.nodes());

@@ -16,7 +16,8 @@ WorstQuality scan(const Make& make) {
   WorstQuality worst;
   for (double h : kSizes)
     for (double t : kThickness)
-      gather(worst, make(MeshSizes{h, 24e-3, 8e-3, 3, 12e-3}, t > 0 ? one_layer(t) : std::vector<LayerMesh>{}), fmt::format("h {:g} mm, layer {:g} mm", 1e3 * h, 1e3 * t));
+      gather(worst, make(MeshSizes{h, 24e-3, 8e-3, 3, 12e-3}, t > 0 ? one_layer(t) : std::vector<LayerMesh>{}),
+             fmt::format("h {:g} mm, layer {:g} mm", 1e3 * h, 1e3 * t));
   return worst;
 }
 
@@ -26,18 +27,24 @@ class WheelProfiles : public testing::TestWithParam<const char*> {};
 TEST_P(RailProfiles, GiveNoPoorElementForAnySizeAndLayer) {
   const Profile profile = builtin_profile(ProfileKind::rail, GetParam());
   for (double s : {-8e-3, 0.0, 3e-3, 12e-3}) {
-    const WorstQuality worst = scan([&](const MeshSizes& sizes, const std::vector<LayerMesh>& layers) { return mesh_rail(profile, kTrack, rail_spec(s, layers), sizes); });
+    const WorstQuality worst = scan([&](const MeshSizes& sizes, const std::vector<LayerMesh>& layers) {
+      return mesh_rail(profile, kTrack, rail_spec(s, layers), sizes);
+    });
     EXPECT_GT(worst.scaled_jacobian, 0.1) << worst.where << ", contact at s = " << s;
-    RecordProperty(fmt::format("scaled_jacobian_min_at_{:g}_mm", 1e3 * s), fmt::format("{:.3f}: {}", worst.scaled_jacobian, worst.where));
+    RecordProperty(fmt::format("scaled_jacobian_min_at_{:g}_mm", 1e3 * s),
+                   fmt::format("{:.3f}: {}", worst.scaled_jacobian, worst.where));
   }
 }
 
 TEST_P(WheelProfiles, GiveNoPoorElementForAnySizeAndLayer) {
   const Profile profile = builtin_profile(ProfileKind::wheel, GetParam());
   for (double s : {-12e-3, 0.0, 3e-3, 15e-3}) {
-    const WorstQuality worst = scan([&](const MeshSizes& sizes, const std::vector<LayerMesh>& layers) { return mesh_wheel(profile, 0.430, {}, wheel_spec(s, layers), sizes); });
+    const WorstQuality worst = scan([&](const MeshSizes& sizes, const std::vector<LayerMesh>& layers) {
+      return mesh_wheel(profile, 0.430, {}, wheel_spec(s, layers), sizes);
+    });
     EXPECT_GT(worst.scaled_jacobian, 0.1) << worst.where << ", contact at s = " << s;
-    RecordProperty(fmt::format("scaled_jacobian_min_at_{:g}_mm", 1e3 * s), fmt::format("{:.3f}: {}", worst.scaled_jacobian, worst.where));
+    RecordProperty(fmt::format("scaled_jacobian_min_at_{:g}_mm", 1e3 * s),
+                   fmt::format("{:.3f}: {}", worst.scaled_jacobian, worst.where));
   }
 }
 
@@ -47,7 +54,9 @@ INSTANTIATE_TEST_SUITE_P(Shipped, WheelProfiles, testing::Values("LMA", "S1002")
 TEST(LmaWheel, GivesNoPoorElementForDeepLayersBesideTheChamfer) {
   const Profile lma = builtin_profile(ProfileKind::wheel, "LMA");
   WorstQuality worst;
-  for (int ratio : {1, 3}) gather(worst, mesh_wheel(lma, 0.430, {}, wheel_spec(20e-3, one_layer(8e-3)), {3e-3, 10e-3, 2e-3, ratio, 6e-3}), fmt::format("ratio {}", ratio));
+  for (int ratio : {1, 3})
+    gather(worst, mesh_wheel(lma, 0.430, {}, wheel_spec(20e-3, one_layer(8e-3)), {3e-3, 10e-3, 2e-3, ratio, 6e-3}),
+           fmt::format("ratio {}", ratio));
   EXPECT_GT(worst.scaled_jacobian, 0.1) << worst.where;
 }
 
@@ -77,8 +86,10 @@ TEST(Primitives, ArcsAndPlanesGiveNearlyPerfectBlocksAndDiscs) {
     WheelMeshSpec wheel = wheel_spec();
     wheel.shape = WheelShape::disc;
     wheel.rim_thickness = 0.05;
-    for (const SweptBody& body : {mesh_rail(circular_profile(ProfileKind::rail, radius), flat, rail, {}), mesh_wheel(circular_profile(ProfileKind::wheel, radius), 0.43, {}, wheel, {})})
-      for (const BlockQuality& q : measure_quality(body)) EXPECT_GT(q.scaled_jacobian_min, 0.8) << body.name << " " << q.block;
+    for (const SweptBody& body : {mesh_rail(circular_profile(ProfileKind::rail, radius), flat, rail, {}),
+                                  mesh_wheel(circular_profile(ProfileKind::wheel, radius), 0.43, {}, wheel, {})})
+      for (const BlockQuality& q : measure_quality(body))
+        EXPECT_GT(q.scaled_jacobian_min, 0.8) << body.name << " " << q.block;
   }
 }
 

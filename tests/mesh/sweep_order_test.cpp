@@ -26,7 +26,8 @@ Section shuffled(Section section, unsigned seed) {
 
 }  // namespace
 
-// Row by row of a grid of m x n quadrilaterals leaves m + 2 nodes open, corner by corner about twice as many, by chance nearly all.
+// Row by row of a grid of m x n quadrilaterals leaves m + 2 nodes open, corner by corner about twice as many, by chance
+// nearly all.
 TEST(SweepOrder, KeepsAFrontNarrowHoweverTheSectionIsNumbered) {
   const Section grid = mesh_brick(12, 40, 2, 1e-3, 1e-3, 1e-3).blocks[0].section;
   std::vector<int> rows(grid.quads.size());

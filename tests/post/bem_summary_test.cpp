@@ -26,11 +26,13 @@ bool holds(const Summary& s, const std::string& name) {
   return found != s.checks.end() && found->ok;
 }
 
-// [Johnson1985 sec. 4.2, 3.4]: a = (3 F R / 4 E*)^(1/3), p0 = 3 F / 2 pi a², approach a²/R; largest von Mises stress 0.62 p0 at 0.48 a for nu = 0.3.
+// [Johnson1985 sec. 4.2, 3.4]: a = (3 F R / 4 E*)^(1/3), p0 = 3 F / 2 pi a², approach a²/R; largest von Mises stress
+// 0.62 p0 at 0.48 a for nu = 0.3.
 TEST(BemSummary, OfCrossedCylindersIsHertzs) {
   const CaseSpec spec = crossed_cylinders();
   const Summary s = bem_summary(spec, solve_bem(spec, place(spec, {}), cells(0.25e-3)));
-  const double load = static_load(spec), modulus = 210e9 / (2 * (1 - 0.09)), a = std::cbrt(3 * load * 0.42 / (4 * modulus)), p0 = 1.5 * load / (std::numbers::pi * a * a);
+  const double load = static_load(spec), modulus = 210e9 / (2 * (1 - 0.09)),
+               a = std::cbrt(3 * load * 0.42 / (4 * modulus)), p0 = 1.5 * load / (std::numbers::pi * a * a);
   EXPECT_NEAR(s.contact.p_max / p0, 1, 2e-3);
   EXPECT_NEAR(s.contact.patch_length / (2 * a), 1, 0.01);
   EXPECT_NEAR(s.contact.patch_width / (2 * a), 1, 0.01);
@@ -43,7 +45,8 @@ TEST(BemSummary, OfCrossedCylindersIsHertzs) {
     EXPECT_FALSE(body->layer || body->interface || body->matrix) << "no layer, no interface";
   }
   EXPECT_EQ(s.run.engine, "bem");
-  EXPECT_TRUE(std::isnan(s.contact.creepage_x) && std::isnan(s.contact.slip_area_fraction)) << "without friction neither applies";
+  EXPECT_TRUE(std::isnan(s.contact.creepage_x) && std::isnan(s.contact.slip_area_fraction))
+      << "without friction neither applies";
   EXPECT_TRUE(std::isnan(s.contact.penetration_max));
   EXPECT_EQ(s.position, spec.run.positions.back());
 }
@@ -61,14 +64,18 @@ TEST(BemSummary, ForcesOfADrivingWheelActOnTheWheelAndItsCreepageIsNegative) {
   EXPECT_TRUE(holds(s, "patch_reaches_edge_of_grid"));
 }
 
-// The same force in two frames: along y and z, and along the contact plane's tangent and normal, where pressure and friction are apart.
+// The same force in two frames: along y and z, and along the contact plane's tangent and normal, where pressure and
+// friction are apart.
 TEST(BemSummary, ForcesInTheContactPlaneAreThePressuresAndTheFrictionsResultants) {
   CaseSpec spec;
   spec.geometry.lateral_shift = 1.5e-3;
   const BemResult r = solve_bem(spec, place(spec, {}), cells(0.5e-3));
   const ContactSummary c = bem_contact_summary(spec, r).contact;
   double normal = 0, lateral = 0;
-  for (std::size_t k = 0; k < r.field.p.size(); ++k) normal += r.field.p[k] * r.field.area[k], lateral -= r.field.q_y[k] * r.field.area[k];
+  for (std::size_t k = 0; k < r.field.p.size(); ++k) {
+    normal += r.field.p[k] * r.field.area[k];
+    lateral -= r.field.q_y[k] * r.field.area[k];
+  }
   EXPECT_NEAR(c.normal_force / normal, 1, 1e-9);
   EXPECT_NEAR(c.lateral_force / lateral, 1, 1e-9);
   EXPECT_GT(std::abs(lateral), 1000) << "spin alone makes a lateral force";
@@ -97,7 +104,8 @@ TEST(RailDepthLine, StartsAtTheTractionsAndKeepsThemAcrossTheInterface) {
   const double p_here = *std::max_element(r.field.p.begin(), r.field.p.end());
   EXPECT_EQ(line.depth.front(), 0);
   EXPECT_NEAR(line.stress.front().zz / -p_here, 1, 1e-3) << "compression is negative";
-  const auto below = static_cast<std::size_t>(std::find(line.material.begin(), line.material.end(), 0) - line.material.begin());
+  const auto below =
+      static_cast<std::size_t>(std::find(line.material.begin(), line.material.end(), 0) - line.material.begin());
   ASSERT_GT(below, 0u);
   ASSERT_LT(below, line.depth.size());
   EXPECT_EQ(line.material[below - 1], 1);
@@ -110,7 +118,8 @@ TEST(RailDepthLine, StartsAtTheTractionsAndKeepsThemAcrossTheInterface) {
   EXPECT_NEAR(line.depth.back(), 6e-3, 1e-12);
 }
 
-// Shear in the model frame: a driving wheel pulls the rail's surface backwards, q_x < 0. On the surface with normal +z, sigma_xz = q_x.
+// Shear in the model frame: a driving wheel pulls the rail's surface backwards, q_x < 0. On the surface with normal +z,
+// sigma_xz = q_x.
 TEST(RailDepthLine, ShearAtTheSurfaceIsTheTractionOnTheRail) {
   CaseSpec spec = crossed_cylinders();
   spec.drive.traction_coefficient = 0.2;
@@ -122,7 +131,8 @@ TEST(RailDepthLine, ShearAtTheSurfaceIsTheTractionOnTheRail) {
   EXPECT_NEAR(line.stress.front().xz / r.field.q_x[k], 1, 1e-3);
 }
 
-// Rotating the axes changes no invariant: von Mises stress of a line through a contact at 3 degrees, against the engine's own.
+// Rotating the axes changes no invariant: von Mises stress of a line through a contact at 3 degrees, against the
+// engine's own.
 TEST(RailDepthLine, TurningIntoTheModelFrameKeepsTheInvariants) {
   CaseSpec spec;
   spec.geometry.lateral_shift = 1.5e-3;

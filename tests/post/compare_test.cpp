@@ -32,7 +32,8 @@ TEST(CompareFields, ABilinearPressureIsTheSameOnAnyGrid) {
 }
 
 TEST(CompareFields, APressureTwoPercentHigherDiffersByTwoPercentOfTheReference) {
-  const auto a = field_of(21, 21, 8e-3, [](double, double) { return 1.02e9; }), b = field_of(11, 11, 8e-3, [](double, double) { return 1e9; });
+  const auto a = field_of(21, 21, 8e-3, [](double, double) { return 1.02e9; }),
+             b = field_of(11, 11, 8e-3, [](double, double) { return 1e9; });
   const FieldComparison g = compare_fields(a, b);
   EXPECT_NEAR(g.p.largest, 0.02, 1e-12);
   EXPECT_NEAR(g.p.rms, 0.02, 1e-12);
@@ -52,13 +53,17 @@ TEST(CompareFields, TheLargestDifferenceIsFoundWhereOneFieldHasASpike) {
 
 // Two Hertzian pressures on circles of 5 mm, 1 mm apart, against their closed form on the line between the centres.
 TEST(CompareFields, AShiftOfTheWheelShowsAsTheShiftOfItsPressure) {
-  const auto hertz = [](double at) { return [at](double x, double y) { return 1e9 * std::sqrt(std::max(0.0, 1 - (std::pow(x - at, 2) + y * y) / 25e-6)); }; };
+  const auto hertz = [](double at) {
+    return
+        [at](double x, double y) { return 1e9 * std::sqrt(std::max(0.0, 1 - (std::pow(x - at, 2) + y * y) / 25e-6)); };
+  };
   const double d = 1e-3;
   const FieldComparison g = compare_fields(field_of(161, 161, 8e-3, hertz(d)), field_of(161, 161, 8e-3, hertz(0)));
   std::size_t i = 0;
   while (g.x[i] < 0) ++i;
   const std::size_t k = i * g.y.size() + g.y.size() / 2;
-  EXPECT_NEAR((g.p_a[k] - g.p_b[k]) / 1e9, std::sqrt(1 - std::pow((g.x[i] - d) / 5e-3, 2)) - std::sqrt(1 - std::pow(g.x[i] / 5e-3, 2)), 1e-3);
+  EXPECT_NEAR((g.p_a[k] - g.p_b[k]) / 1e9,
+              std::sqrt(1 - std::pow((g.x[i] - d) / 5e-3, 2)) - std::sqrt(1 - std::pow(g.x[i] / 5e-3, 2)), 1e-3);
   EXPECT_NEAR(g.x.front(), -5e-3, 0.15e-3);
   EXPECT_NEAR(g.x.back(), 6e-3, 0.15e-3) << "the grid covers both patches";
 }

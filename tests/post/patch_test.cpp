@@ -33,7 +33,8 @@ ContactField hertz_field(double h, double x0, double y0) {
 
 }  // namespace
 
-TEST(Patch, AxesAreaAndPeakOfAnEllipseOnMillimetrePointsWhereverItLies) {  // closed form: Hertz, area pi a b [Johnson1985 eq. 4.26]
+TEST(Patch, AxesAreaAndPeakOfAnEllipseOnMillimetrePointsWhereverItLies) {  // closed form: Hertz, area pi a b
+                                                                           // [Johnson1985 eq. 4.26]
   for (double shift : {0.0, 0.25e-3, 0.5e-3}) {
     const PatchMeasures m = measure_patch(hertz_field(1e-3, shift, 0.3 * shift));
     EXPECT_NEAR(m.length / (2 * kA), 1, 0.02) << shift;
@@ -45,7 +46,8 @@ TEST(Patch, AxesAreaAndPeakOfAnEllipseOnMillimetrePointsWhereverItLies) {  // cl
 }
 
 TEST(Patch, MeasuresConvergeWithTheSpacing) {
-  const PatchMeasures coarse = measure_patch(hertz_field(1e-3, 0.2e-3, 0.1e-3)), fine = measure_patch(hertz_field(0.25e-3, 0.2e-3, 0.1e-3));
+  const PatchMeasures coarse = measure_patch(hertz_field(1e-3, 0.2e-3, 0.1e-3)),
+                      fine = measure_patch(hertz_field(0.25e-3, 0.2e-3, 0.1e-3));
   const double area = std::numbers::pi * kA * kB;
   EXPECT_LT(std::abs(fine.area / area - 1), 0.5 * std::abs(coarse.area / area - 1) + 1e-4);
   EXPECT_NEAR(fine.area / area, 1, 4e-3);

@@ -22,11 +22,13 @@ std::vector<double> borders(const std::vector<double>& centres) {
   return out;
 }
 
-// [Johnson1985 eq. 3.45]: on the axis of a circular Hertzian contact s_zz = -p0 / (1 + z²/a²), s_xx = s_yy = -p0 ((1 + nu)(1 - z/a atan(a/z)) - 1/(2 (1 + z²/a²))).
+// [Johnson1985 eq. 3.45]: on the axis of a circular Hertzian contact s_zz = -p0 / (1 + z²/a²), s_xx = s_yy = -p0 ((1 +
+// nu)(1 - z/a atan(a/z)) - 1/(2 (1 + z²/a²))).
 TEST(StressSections, HoldTheStressesOnTheAxisOfAHertzianContact) {
   const CaseSpec spec = crossed_cylinders();
   const BemResult r = solve_bem(spec, place(spec, {}), {});
-  const double a = std::cbrt(3 * static_load(spec) * 0.42 / (4 * 210e9 / (2 * (1 - 0.09)))), p0 = 1.5 * static_load(spec) / (std::numbers::pi * a * a);
+  const double a = std::cbrt(3 * static_load(spec) * 0.42 / (4 * 210e9 / (2 * (1 - 0.09)))),
+               p0 = 1.5 * static_load(spec) / (std::numbers::pi * a * a);
   for (const StressSections& s : {rail_sections(r, 0, 0, 2 * a), wheel_sections(r, 0, 0, 2 * a)})
     for (const StressSection* plane : {&s.longitudinal, &s.cross}) {
       const std::size_t n = plane->along.size(), middle = n / 2;
@@ -35,7 +37,8 @@ TEST(StressSections, HoldTheStressesOnTheAxisOfAHertzianContact) {
       EXPECT_GE(borders(plane->depth).back(), 2 * a);
       ASSERT_EQ(plane->stress.size(), n * plane->depth.size());
       for (std::size_t row = 0; row < plane->depth.size(); ++row) {
-        const double t = plane->depth[row] / a, normal = -1 / (1 + t * t), radial = -(1.3 * (1 - t * std::atan(1 / t)) + 0.5 * normal);
+        const double t = plane->depth[row] / a, normal = -1 / (1 + t * t),
+                     radial = -(1.3 * (1 - t * std::atan(1 / t)) + 0.5 * normal);
         const Sym3& stress = plane->stress[row * n + middle];
         EXPECT_NEAR(stress.zz / p0, normal, 5e-3) << "depth / a = " << t;
         EXPECT_NEAR(stress.xx / p0, radial, 5e-3) << "depth / a = " << t;
@@ -45,13 +48,16 @@ TEST(StressSections, HoldTheStressesOnTheAxisOfAHertzianContact) {
     }
 }
 
-// The traction on the rail is sigma n with n up, that on the wheel -sigma n: just below the surface s_xz = q_x and s_zz = -p in both.
+// The traction on the rail is sigma n with n up, that on the wheel -sigma n: just below the surface s_xz = q_x and s_zz
+// = -p in both.
 TEST(StressSections, BeginWithTheTractionsOfTheSurface) {
   CaseSpec spec = crossed_cylinders();
-  spec.drive.traction_coefficient = 0.2, spec.drive.friction_coefficient = 0.5;
+  spec.drive.traction_coefficient = 0.2;
+  spec.drive.friction_coefficient = 0.5;
   const BemResult r = solve_bem(spec, place(spec, {}), {});
   const CentreLine line = centre_line(r.field);
-  for (const StressSection& s : {rail_sections(r, 0, line.y, 1e-3).longitudinal, wheel_sections(r, 0, line.y, 1e-3).longitudinal}) {
+  for (const StressSection& s :
+       {rail_sections(r, 0, line.y, 1e-3).longitudinal, wheel_sections(r, 0, line.y, 1e-3).longitudinal}) {
     ASSERT_EQ(s.along.size(), line.x.size());
     const auto middle = s.along.size() / 2;
     EXPECT_LT(line.q_x[middle], -0.05 * line.p[middle]) << "a driven wheel pulls the rail backwards";
@@ -63,8 +69,10 @@ TEST(StressSections, BeginWithTheTractionsOfTheSurface) {
 TEST(StressSections, ARowEndsAtEveryInterfaceAndNamesItsMaterial) {
   CaseSpec spec = crossed_cylinders();
   spec.layers.resize(2);
-  spec.layers[0].thickness = 0.2e-3, spec.layers[0].material.young = 420e9;
-  spec.layers[1].thickness = 1.1e-3, spec.layers[1].material.young = 300e9;
+  spec.layers[0].thickness = 0.2e-3;
+  spec.layers[0].material.young = 420e9;
+  spec.layers[1].thickness = 1.1e-3;
+  spec.layers[1].material.young = 300e9;
   const BemResult r = solve_bem(spec, place(spec, {}), {});
   const StressSection s = rail_sections(r, 0, 0, 8e-3).longitudinal;
   const std::vector<double> edge = borders(s.depth);
@@ -82,7 +90,9 @@ TEST(StressSections, ARowEndsAtEveryInterfaceAndNamesItsMaterial) {
 TEST(StressSections, OfABandAreTheElementsNearestToThePoint) {
   const SweptBody brick = mesh_brick(4, 3, 6, 1e-3, 2e-3, 0.5e-3);
   BandSample sample;
-  sample.columns = brick.contact.columns, sample.rows = brick.contact.rows, sample.stations = 6;
+  sample.columns = brick.contact.columns;
+  sample.rows = brick.contact.rows;
+  sample.stations = 6;
   for (int s = 0; s <= sample.stations; ++s) sample.along.push_back(1e-3 * (s - 3));
   for (int s = 0; s < sample.stations; ++s)
     for (int row = 0; row < sample.rows; ++row)

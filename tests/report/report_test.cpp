@@ -20,26 +20,39 @@ ReportRun sample(const std::string& engine) {
   run.name = "sample";
   run.result.engine = engine;
   run.result.title = "a sample";
-  const auto most = [](double value, double depth) { return Json{{"von_mises_max", {{"value_Pa", value}, {"x_m", 0}, {"y_m", 0}, {"depth_m", depth}}}, {"sigma1_max", nullptr}}; };
-  run.result.summary = {{"title", "a sample"},
-                        {"position_m", 0.3},
-                        {"contact", {{"p_max_Pa", 900e6}, {"q_max_Pa", 300e6}, {"patch_length_m", 12e-3}}},
-                        {"stress", {{"rail", {{"subsurface", most(500e6, 3e-3)}, {"interface", nullptr}, {"layer", nullptr}, {"matrix", nullptr}}}}},
-                        {"checks", {{{"name", "energy_closure"}, {"ok", true}, {"value", 1e-4}, {"limit", 1e-2}}}}};
-  run.options = {{"geometry", "cant", "0.025"}, {"mesh", "element_size", "1 mm"}, {"layer.0", "thickness", "2 mm"}, {"drive", "friction_coefficient", "0.5"}};
+  const auto most = [](double value, double depth) {
+    return Json{{"von_mises_max", {{"value_Pa", value}, {"x_m", 0}, {"y_m", 0}, {"depth_m", depth}}},
+                {"sigma1_max", nullptr}};
+  };
+  run.result.summary = {
+      {"title", "a sample"},
+      {"position_m", 0.3},
+      {"contact", {{"p_max_Pa", 900e6}, {"q_max_Pa", 300e6}, {"patch_length_m", 12e-3}}},
+      {"stress",
+       {{"rail",
+         {{"subsurface", most(500e6, 3e-3)}, {"interface", nullptr}, {"layer", nullptr}, {"matrix", nullptr}}}}},
+      {"checks", {{{"name", "energy_closure"}, {"ok", true}, {"value", 1e-4}, {"limit", 1e-2}}}}};
+  run.options = {{"geometry", "cant", "0.025"},
+                 {"mesh", "element_size", "1 mm"},
+                 {"layer.0", "thickness", "2 mm"},
+                 {"drive", "friction_coefficient", "0.5"}};
   ContactField& f = run.result.field;
   f.resize(3, 4);
   for (int s = 0; s < 4; ++s)
     for (int c = 0; c < 3; ++c) {
       const int i = s * 3 + c;
-      f.x[i] = 1e-3 * (s - 1), f.y[i] = 1e-3 * (c - 1), f.p[i] = s == 2 && c == 1 ? 900e6 : s == 3 ? 0 : 100e6, f.q_x[i] = -0.3 * f.p[i];
+      f.x[i] = 1e-3 * (s - 1);
+      f.y[i] = 1e-3 * (c - 1);
+      f.p[i] = s == 2 && c == 1 ? 900e6 : s == 3 ? 0 : 100e6;
+      f.q_x[i] = -0.3 * f.p[i];
       f.state[i] = f.p[i] > 0 ? ContactState::stick : ContactState::separated;
     }
   return run;
 }
 
 ReportCheck find(const std::vector<ReportCheck>& checks, const std::string& name, std::size_t runs) {
-  const auto found = std::find_if(checks.begin(), checks.end(), [&](const ReportCheck& c) { return c.name == name && c.runs.size() == runs; });
+  const auto found = std::find_if(checks.begin(), checks.end(),
+                                  [&](const ReportCheck& c) { return c.name == name && c.runs.size() == runs; });
   if (found == checks.end()) throw std::runtime_error("no check " + name);
   return *found;
 }
@@ -50,7 +63,13 @@ bool has(const std::vector<ReportCheck>& checks, const std::string& name) {
 
 // [RFC 4648, section 10]
 TEST(Base64, MeetsItsTestVectors) {
-  const std::pair<const char*, const char*> vectors[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  const std::pair<const char*, const char*> vectors[] = {{"", ""},
+                                                         {"f", "Zg=="},
+                                                         {"fo", "Zm8="},
+                                                         {"foo", "Zm9v"},
+                                                         {"foob", "Zm9vYg=="},
+                                                         {"fooba", "Zm9vYmE="},
+                                                         {"foobar", "Zm9vYmFy"}};
   for (const auto& [bytes, text] : vectors) EXPECT_EQ(base64_of(bytes), text);
 }
 
@@ -68,13 +87,16 @@ TEST(ReportChecks, HoldFiniteElementsAgainstHalfSpacesOfTheSameCase) {
   EXPECT_TRUE(find(checks, "patch_length", 2).ok);
   EXPECT_TRUE(find(checks, "von_mises_below_surface", 2).ok);
   EXPECT_TRUE(find(checks, "von_mises_below_surface", 2).judged);
-  EXPECT_EQ(std::count_if(checks.begin(), checks.end(), [](const ReportCheck& c) { return c.name == "energy_closure"; }), 2) << "each run's own";
+  EXPECT_EQ(
+      std::count_if(checks.begin(), checks.end(), [](const ReportCheck& c) { return c.name == "energy_closure"; }), 2)
+      << "each run's own";
   EXPECT_FALSE(has(checks, "cases_differ"));
 }
 
 TEST(ReportChecks, TakeTheLargestStressBelowTheSurfaceWhateverItsZone) {
   ReportRun fem = sample("fem"), bem = sample("bem");
-  for (ReportRun* run : {&fem, &bem}) run->result.summary["stress"]["rail"]["interface"] = run->result.summary["stress"]["rail"]["subsurface"];
+  for (ReportRun* run : {&fem, &bem})
+    run->result.summary["stress"]["rail"]["interface"] = run->result.summary["stress"]["rail"]["subsurface"];
   fem.result.summary["stress"]["rail"]["interface"]["von_mises_max"]["value_Pa"] = 700e6;
   bem.result.summary["stress"]["rail"]["interface"]["von_mises_max"]["value_Pa"] = 600e6;
   EXPECT_NEAR(find(report_checks({fem, bem}), "von_mises_below_surface", 2).value, 700.0 / 600 - 1, 1e-12);
@@ -148,7 +170,8 @@ TEST(ReportPage, RunsOnlyItsOwnScriptAndHoldsNoTagsOfOthers) {
   EXPECT_EQ(count("unsafe"), 1) << "style attributes alone";
   EXPECT_LT(page.size(), 2e6);
   const auto data = page.find("id=\"data\">") + 10;
-  EXPECT_EQ(Json::parse(page.substr(data, page.find("</script>", data) - data))["runs"][0]["name"], report.runs[0].name);
+  EXPECT_EQ(Json::parse(page.substr(data, page.find("</script>", data) - data))["runs"][0]["name"],
+            report.runs[0].name);
 }
 
 TEST(ReportAssets, StandInTheProgramWhole) {

@@ -13,21 +13,33 @@ namespace {
 using Numbers = std::vector<std::pair<std::string, double>>;
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-StudyEntry entry(const std::string& group, const std::string& name, const std::string& engine, Numbers numbers, Values values = {}) {
+StudyEntry entry(const std::string& group, const std::string& name, const std::string& engine, Numbers numbers,
+                 Values values = {}) {
   return {group, name, engine, "done", "", "", std::move(values), std::move(numbers)};
 }
 
-const std::vector<AnswerColumn> kColumns{{"paper's mesh", "fem", "paper_"}, {"converged", "fem", ""}, {"half-space", "bem", ""}};
+const std::vector<AnswerColumn> kColumns{
+    {"paper's mesh", "fem", "paper_"}, {"converged", "fem", ""}, {"half-space", "bem", ""}};
 
 PublishedNumber about(double value, double within) {
   PublishedNumber n;
-  n.section = "4", n.quantity = "pressure", n.unit = "MPa", n.column = "p", n.given = "layers/h 1", n.value = value, n.within = within;
+  n.section = "4";
+  n.quantity = "pressure";
+  n.unit = "MPa";
+  n.column = "p";
+  n.given = "layers/h 1";
+  n.value = value;
+  n.within = within;
   return n;
 }
 
 /// The answers of the three columns and the difference, then the reason.
-std::vector<nlohmann::ordered_json> row(const PublishedNumber& n, const std::vector<StudyEntry>& entries) { return published_table({"S", kColumns, {n}, {}}, entries).rows.at(0); }
-std::string reason(const PublishedNumber& n, const std::vector<StudyEntry>& entries) { return row(n, entries).back().get<std::string>(); }
+std::vector<nlohmann::ordered_json> row(const PublishedNumber& n, const std::vector<StudyEntry>& entries) {
+  return published_table({"S", kColumns, {n}, {}}, entries).rows.at(0);
+}
+std::string reason(const PublishedNumber& n, const std::vector<StudyEntry>& entries) {
+  return row(n, entries).back().get<std::string>();
+}
 
 std::vector<StudyEntry> answers(double paper_mesh, double converged, double half_space) {
   std::vector<StudyEntry> out;
@@ -41,7 +53,8 @@ TEST(PublishedTable, TheReasonFollowsFromTheRuns) {
   const PublishedNumber n = about(1000, 20);
   EXPECT_EQ(reason(n, answers(1010, 1005, 990)), "agrees");
   EXPECT_EQ(reason(n, answers(1090, 1005, 990)), "agrees when converged; on the paper's mesh ours gives 1090");
-  EXPECT_EQ(reason(n, answers(1010, 1090, 1085)), "mesh artefact: our run on the paper's mesh agrees, the converged answer is 1090");
+  EXPECT_EQ(reason(n, answers(1010, 1090, 1085)),
+            "mesh artefact: our run on the paper's mesh agrees, the converged answer is 1090");
   EXPECT_EQ(reason(n, answers(1200, 1090, 1085)), "not explained");
   EXPECT_EQ(reason(n, answers(NAN, NAN, 1005)), "agrees (half-spaces alone: no finite element result yet)");
   EXPECT_EQ(reason(n, answers(1090, NAN, 1085)), "not explained (no converged finite element result yet)");
@@ -50,7 +63,8 @@ TEST(PublishedTable, TheReasonFollowsFromTheRuns) {
 
 TEST(PublishedTable, AnotherDefinitionIsNamedOnlyWhereItAgrees) {
   PublishedNumber n = about(510, 20);
-  n.other = "other", n.other_is = "the largest anywhere";
+  n.other = "other";
+  n.other_is = "the largest anywhere";
   EXPECT_EQ(reason(n, answers(1010, 1005, 990)), "other definition: the largest anywhere gives 500");
   n.value = 560;
   EXPECT_EQ(reason(n, answers(1010, 1005, 990)), "not explained");
@@ -58,7 +72,8 @@ TEST(PublishedTable, AnotherDefinitionIsNamedOnlyWhereItAgrees) {
 
 TEST(PublishedTable, AChangeIsTakenWithinEachColumnAndAGroupWithoutTwinStandsForItself) {
   PublishedNumber n = about(10, 1);
-  n.unit = "%", n.against = "base/f 1";
+  n.unit = "%";
+  n.against = "base/f 1";
   std::vector<StudyEntry> all = answers(1200, 1100, 1090);
   all.push_back(entry("base", "f 1", "fem", {{"p", 1000}}));
   all.push_back(entry("base", "f 1", "bem", {{"p", 1000}}));
@@ -73,7 +88,9 @@ TEST(PublishedTable, AChangeIsTakenWithinEachColumnAndAGroupWithoutTwinStandsFor
 
 TEST(PublishedTable, EnginesAreHeldAgainstEachOtherAndBoundsAreBounds) {
   PublishedNumber n = about(2, 0);
-  n.unit = "%", n.engines = true, n.bound = "at most";
+  n.unit = "%";
+  n.engines = true;
+  n.bound = "at most";
   const auto r = row(n, answers(1030, 1010, 1000));
   EXPECT_NEAR(r[5].get<double>(), 3, 1e-9);
   EXPECT_NEAR(r[6].get<double>(), 1, 1e-9);
@@ -88,7 +105,10 @@ TEST(PublishedTable, WhatIsNotDoneHasNoNumber) {
 }
 
 std::string claim(PublishedClaim c, const std::vector<StudyEntry>& entries) {
-  c.section = "6", c.text = "…", c.column = "p", c.unit = "MPa";
+  c.section = "6";
+  c.text = "…";
+  c.column = "p";
+  c.unit = "MPa";
   return claims_table({"S", {{"half-space", "bem", ""}}, {}, {c}}, entries).rows.at(0).at(2).get<std::string>();
 }
 
@@ -109,12 +129,15 @@ PublishedClaim along_modulus(const std::string& kind) {
 }
 
 TEST(ClaimsTable, ACaseWithoutTheKeyStandsInEveryLine) {
-  EXPECT_EQ(claim(along_modulus("rises"), grid({110, 130, 120}, {150, 400, 200})), "confirmed: 0.5 mm: 100, 110, 120, 130; 10 mm: 100, 150, 200, 400 MPa");
+  EXPECT_EQ(claim(along_modulus("rises"), grid({110, 130, 120}, {150, 400, 200})),
+            "confirmed: 0.5 mm: 100, 110, 120, 130; 10 mm: 100, 150, 200, 400 MPa");
 }
 
 TEST(ClaimsTable, WhatHoldsInPartIsToldInParts) {
-  EXPECT_EQ(claim(along_modulus("rises"), grid({110, 130, 120}, {150, 190, 200})), "in part: not 10 mm: 100, 150, 200, 190 MPa; confirmed 0.5 mm: 100, 110, 120, 130 MPa");
-  EXPECT_EQ(claim(along_modulus("falls"), grid({110, 130, 120}, {150, 190, 200})), "not confirmed: 0.5 mm: 100, 110, 120, 130; 10 mm: 100, 150, 200, 190 MPa");
+  EXPECT_EQ(claim(along_modulus("rises"), grid({110, 130, 120}, {150, 190, 200})),
+            "in part: not 10 mm: 100, 150, 200, 190 MPa; confirmed 0.5 mm: 100, 110, 120, 130 MPa");
+  EXPECT_EQ(claim(along_modulus("falls"), grid({110, 130, 120}, {150, 190, 200})),
+            "not confirmed: 0.5 mm: 100, 110, 120, 130; 10 mm: 100, 150, 200, 190 MPa");
 }
 
 TEST(ClaimsTable, FallsThenRises) {
@@ -126,7 +149,9 @@ TEST(ClaimsTable, FallsThenRises) {
 
 TEST(ClaimsTable, LimitsAndMissingResults) {
   PublishedClaim c;
-  c.kind = "below", c.given = "base/case", c.limit = 120;
+  c.kind = "below";
+  c.given = "base/case";
+  c.limit = 120;
   EXPECT_EQ(claim(c, grid({0, 0, 0}, {0, 0, 0})), "confirmed: 100 MPa (below 120 MPa)");
   c.kind = "above";
   EXPECT_EQ(claim(c, grid({0, 0, 0}, {0, 0, 0})), "not confirmed: 100 MPa (above 120 MPa)");
@@ -149,15 +174,21 @@ TEST(Published, ThePapersFileIsReadAndItsCasesAreInTheStudy) {
   for (const PublishedNumber& n : p.numbers)
     for (const std::string& given : {n.given, n.against}) {
       const std::string group = given.substr(0, given.find('/'));
-      EXPECT_TRUE(given.empty() || std::any_of(study.spec.groups.begin(), study.spec.groups.end(), [&](const StudyGroup& g) { return g.name == group; })) << given;
+      EXPECT_TRUE(given.empty() || std::any_of(study.spec.groups.begin(), study.spec.groups.end(),
+                                               [&](const StudyGroup& g) { return g.name == group; }))
+          << given;
     }
   for (const PublishedClaim& c : p.claims)
-    for (const std::string& g : c.groups) EXPECT_TRUE(std::any_of(study.spec.groups.begin(), study.spec.groups.end(), [&](const StudyGroup& known) { return known.name == g; })) << g;
+    for (const std::string& g : c.groups)
+      EXPECT_TRUE(std::any_of(study.spec.groups.begin(), study.spec.groups.end(), [&](const StudyGroup& known) {
+        return known.name == g;
+      })) << g;
 }
 
 TEST(Published, MistakesAreToldWithTheirPlace) {
   const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "published_test.toml";
-  std::ofstream(file) << "[[number]]\nsection = \"1\"\nquantity = \"a\"\nvalue = \"x\"\ncolumn = \"p\"\ngiven = \"a/b\"\nbond = \"at most\"\nwithin = 1\n";
+  std::ofstream(file) << "[[number]]\nsection = \"1\"\nquantity = \"a\"\nvalue = \"x\"\ncolumn = \"p\"\ngiven = "
+                         "\"a/b\"\nbond = \"at most\"\nwithin = 1\n";
   try {
     load_published(file);
     FAIL();
