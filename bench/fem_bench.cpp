@@ -91,14 +91,14 @@ BENCHMARK(memory_traffic)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMilli
 // --------------------------------------------------------------------------------------------------------------------------
 
 struct Lines {
-  Solid solid;
+  Body solid;
   Field u, v, f, inverse_mass;
   Lines(SweepKind kind, Precision precision, int columns, int rows, int stations, bool random = false)
       : solid(body(kind, columns, rows, stations, random), {elastic(210e9, 0.3, 7800)},
               {ElementKind::full, 0.05, precision}) {
-    u = v = f = inverse_mass = solid.layout().field();
+    u = v = f = inverse_mass = solid.layout.field();
     for (std::size_t i = 0; i < u.size(); ++i) {
-      inverse_mass[i] = solid.mass()[i] > 0 ? 1 / solid.mass()[i] : 0;
+      inverse_mass[i] = solid.element_mass[i] > 0 ? 1 / solid.element_mass[i] : 0;
       v[i] = 1e-3 * std::sin(static_cast<double>(i));
     }
   }
@@ -125,7 +125,7 @@ struct Lines {
     return b;
   }
   void advance(int node, int begin, int end, const double* const (&row)[3]) {
-    const BlockLayout& l = solid.layout().blocks[0];
+    const BlockLayout& l = solid.layout.blocks[0];
     const double dt = 1e-7;
     for (int i = 0; i < 3; ++i) {
       double *pu = u.data() + l.line(node, i), *pv = v.data() + l.line(node, i);
@@ -138,7 +138,7 @@ struct Lines {
     }
   }
   void step() {
-    const BlockLayout& l = solid.layout().blocks[0];
+    const BlockLayout& l = solid.layout.blocks[0];
     solid.begin_forces(u, 0);
     const std::vector<Solid::Chain> chains = solid.chains(6 * max_threads());
     const auto take = [&](const Solid::Tile& t, int begin, int node, const double* rows) {

@@ -17,7 +17,7 @@ if(RAILSTRATA_NATIVE)
   target_compile_options(railstrata_flags INTERFACE -march=native)
   # g++ before 13 takes a Zen 4 for a Zen 3 and schedules for vectors of half the width: the explicit step's kernel loses up to 15 %.
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13 AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
-    set_source_files_properties(${CMAKE_SOURCE_DIR}/src/body/solid.cpp PROPERTIES COMPILE_OPTIONS -mtune=icelake-server)
+    set_source_files_properties(${CMAKE_SOURCE_DIR}/src/body/traversal.cpp PROPERTIES COMPILE_OPTIONS -mtune=icelake-server)
   endif()
 endif()
 if(RAILSTRATA_SANITIZE)

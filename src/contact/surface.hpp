@@ -14,6 +14,11 @@ struct SectionPoint {
 };
 using SectionCurve = std::function<SectionPoint(double s)>;
 
+/// A node of the running surface.
+struct SurfaceNode {
+  int column, station;
+};
+
 struct ContactSurface {
   SweepKind kind = SweepKind::extrude;
   Vec3 origin;
@@ -28,6 +33,11 @@ struct ContactSurface {
   int stride = 0;                 ///< between components; nodes are 3 strides apart
   std::ptrdiff_t index(int column, int station) const {
     return first_line + static_cast<std::ptrdiff_t>(column) * 3 * stride + station;
+  }
+  /// The inverse of index().
+  SurfaceNode node_at(std::ptrdiff_t index) const {
+    const std::ptrdiff_t k = index - first_line;
+    return {static_cast<int>(k / (3 * stride)), static_cast<int>(k % (3 * stride))};
   }
 };
 

@@ -281,7 +281,7 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
     still.samples.front().forces = {.x = force.x, .y = force.y, .z = force.z, .penetration = preload.penetration};
     Field& ur = preload.u_rail;
     Field& uw = preload.u_wheel;
-    const StrainEnergy rail = sys.rail.solid.energy(ur, 0), wheel = sys.wheel.solid.energy(uw, 0);
+    const StrainEnergy rail = strain_energy(sys.rail, ur, 0), wheel = strain_energy(sys.wheel, uw, 0);
     out.hourglass_share = (rail.hourglass + wheel.hourglass) / (rail.strain + wheel.strain);
     out.penetration = preload.penetration;
     out.positions.push_back(std::move(still));

@@ -1,5 +1,6 @@
 #pragma once
 // Which step a rolling takes and what makes it possible.
+#include <array>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,7 @@ struct StepPlan {
   explicit StepPlan(const RollingSystem& system);
 
   StepLimits limits;
-  BodySteps rail, wheel;
-  bool local() const { return !rail.local.empty() || !wheel.local.empty(); }
+  std::array<BodySteps, 2> bodies;  ///< by BodyId
 
  private:
   struct Part;

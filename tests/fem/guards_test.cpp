@@ -81,7 +81,7 @@ TEST(Guards, ASoundRunPassesThemAllAndEachSaysWhatWentWrong) {
   while (!r.st.can_be_remembered()) r.st.step();
   EXPECT_NO_THROW(require_finite(r.st));
   StepperMemory memory = r.st.memory();
-  const DeformableBody::Line& line = r.system.rail.lines.back();
+  const NodeLine& line = r.system.rail.lines.back();
   memory.state.u_rail[line.first] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(require_finite(Stepper(r.system, memory)), NumericalError);
 }

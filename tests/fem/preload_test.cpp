@@ -45,7 +45,7 @@ TEST(Preload, ContactForceOfASpinningWheelIsTheWeightUpToTheMeshsImbalance) {
   const RollingSystem sys = small_system(small_case());
   ASSERT_GT(sys.start_spin, 0);
   double imbalance = 0;
-  for (const DeformableBody::Line& l : sys.wheel.lines)
+  for (const NodeLine& l : sys.wheel.lines)
     if (l.component == 2) {
       const Block& block = sys.model.wheel.blocks[l.block];
       for (int j = 0; j < l.count; ++j)
@@ -139,15 +139,15 @@ TEST(Preload, ALayerFourTimesAsStiffAndThinIsReachedToo) {
 
 // The modes of a cluster are orthonormal, so P P^T leaves what they span unchanged.
 TEST(Aggregates, ProjectionKeepsARigidMotion) {
-  const DeformableBody body{coarse_lma_wheel(), {kSteel}, {}};
+  const Body body{coarse_lma_wheel(), {kSteel}, {}};
   const Aggregates clusters(body, {0, -0.43}, {24e-3, 0.2});
   const Field motion = nodal_field(body.solid, [](Vec3 x) { return Vec3{1, -2, 3} + cross(Vec3{4, 5, -6}, x); });
   std::vector<double> c(clusters.modes());
-  Field back = body.solid.layout().field();
+  Field back = body.layout.field();
   clusters.restrict_to(motion, c.data());
   clusters.prolong(c.data(), back);
   double worst = 0;
-  for (const DeformableBody::Line& l : body.lines)
+  for (const NodeLine& l : body.lines)
     for (int j = 0; j < l.count; ++j) worst = std::max(worst, std::abs(back[l.first + j] - motion[l.first + j]));
   EXPECT_LT(worst, 1e-9);
 }

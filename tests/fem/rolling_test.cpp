@@ -114,7 +114,7 @@ TEST(Rolling, SameBitsOnOneTwoAndFourThreads) {
         e.total(), e.kinetic,     e.friction,    e.damping};
     for (const auto& [body, u] :
          {std::pair{&system.rail, &st.state().u_rail}, std::pair{&system.wheel, &st.state().u_wheel}})
-      for (const DeformableBody::Line& l : body->lines)
+      for (const NodeLine& l : body->lines)
         bits.insert(bits.end(), u->begin() + l.first, u->begin() + l.first + l.count);
     return bits;
   });
