@@ -1,6 +1,7 @@
 #pragma once
 // The running surface of a swept body as the contact sees it: the top nodes of the contact band, with the exact profile
 // between them.
+#include <cassert>
 #include <functional>
 
 #include "mesh/layout.hpp"
@@ -26,7 +27,10 @@ struct ContactSurface {
   std::vector<double> width;      ///< arc length of the facets, columns - 1
   std::ptrdiff_t first_line = 0;  ///< layout line of node 0, component 0
   int stride = 0;                 ///< between components; nodes are 3 strides apart
+  /// Of component x of a node in the body's fields; y and z follow one and two strides on.
   std::ptrdiff_t index(int column, int station) const {
+    assert(column >= 0 && column < columns);
+    assert(station >= 0 && station < stations.nodes());
     return first_line + static_cast<std::ptrdiff_t>(column) * 3 * stride + station;
   }
 };

@@ -266,7 +266,7 @@ class Preload {
 
   const RollingSystem& sys_;
   MortarContact contact_;
-  TractionMemory tractions_;
+  SurfaceTractions tractions_;
   StaticPreconditioner preconditioner_;
   StaticVector u_;
   bool compliant_ = false;        // penalty contact: its springs are the contact, there are no multipliers

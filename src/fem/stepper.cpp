@@ -64,7 +64,7 @@ Stepper::Stepper(const RollingSystem& system, StepperMemory memory) : Stepper(sy
   mean_ = memory.mean;
   axle_z0_ = memory.axle_z0;
   reached_edge_ = memory.reached_edge;
-  contact_.recall(std::move(memory.facets));
+  contact_.restore(std::move(memory.facets));
   wheel_surface_u_ = state_.u_wheel;
   frame_.move_to(state_.time);
 }
@@ -72,7 +72,7 @@ Stepper::Stepper(const RollingSystem& system, StepperMemory memory) : Stepper(sy
 bool Stepper::can_be_remembered() const { return state_.step % kSearchInterval == 0; }
 
 StepperMemory Stepper::memory() const {
-  return {state_, balance_, mean_, contact_.memory(), axle_z0_, dt_, reached_edge_};
+  return {state_, balance_, mean_, contact_.facets(), axle_z0_, dt_, reached_edge_};
 }
 
 void ReferenceFrame::set_step(double dt) {
@@ -397,7 +397,7 @@ void Stepper::gather_contact(const MortarRows& rows) {
   ContactSystem& c = contact_system_;
   const ContactSurface &rail = sys_.rail_surface, &wheel = sys_.wheel_surface;
   numbering_.number(rows, wheel, c);
-  c.tractions_held = plan_.local();
+  c.tractions_applied = plan_.local();
   c.rail.clear();
   c.wheel.clear();
   c.rail.response = plan_.rail.response.empty() ? nullptr : &plan_.rail.response;
@@ -410,7 +410,7 @@ void Stepper::gather_contact(const MortarRows& rows) {
     c.rail.velocity.push_back((1 - rate_ * dt_) * c.rail.before.back() + dt_ * free_acceleration(false, r.rail));
     c.rail.inverse_mass.push_back(c.rail.response ? c.rail.response->own(r.column)
                                                   : plan_.rail.scaling.share(r.rail) * sys_.rail.inverse_mass[r.rail]);
-    if (c.rail.response) c.rail.places.push_back({r.column, r.station});
+    if (c.rail.response) c.rail.nodes.push_back({r.column, r.station});
   }
   for (std::ptrdiff_t i : c.wheel_nodes) {
     const Vec3 arm = wheel_arm(i), w = velocity(state_.v_wheel, i, wheel.stride);
@@ -429,8 +429,8 @@ void Stepper::gather_contact(const MortarRows& rows) {
     const double cosine = cos_node_[sys_.model.wheel.contact.block][station],
                  sine = sin_node_[sys_.model.wheel.contact.block][station];  // of theta
     c.wheel.inverse_mass.push_back(c.wheel.response->own(column));
-    c.wheel.places.push_back({column, station, cosine * frame_.cos_psi + sine * frame_.sin_psi,
-                              sine * frame_.cos_psi - cosine * frame_.sin_psi});
+    c.wheel.nodes.push_back({column, station, cosine * frame_.cos_psi + sine * frame_.sin_psi,
+                             sine * frame_.cos_psi - cosine * frame_.sin_psi});
   }
 }
 

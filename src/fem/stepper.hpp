@@ -73,7 +73,7 @@ struct RollingState {
   Field u_rail, v_rail, u_wheel, v_wheel;
   AxleMotion axle;
   std::vector<MassGroup> groups;
-  TractionMemory tractions{0, 0};
+  SurfaceTractions tractions{0, 0};
 };
 
 /// Forces of the last step, on the wheel [N]; slip and penetration of its contact.

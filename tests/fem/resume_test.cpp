@@ -119,8 +119,8 @@ TEST(Resume, AMemoryOfAnotherMeshIsRefused) {
   StepperMemory shorter = whole, turned = whole;
   shorter.state.u_rail.pop_back();
   EXPECT_THROW(Stepper(system, shorter), CaseError);
-  const TractionMemory& t = whole.state.tractions;  // as many nodes, another grid
-  turned.state.tractions = TractionMemory(t.stations(), static_cast<int>(t.all().size()) / t.stations());
+  const SurfaceTractions& t = whole.state.tractions;  // as many nodes, another grid
+  turned.state.tractions = SurfaceTractions(t.stations(), static_cast<int>(t.all().size()) / t.stations());
   EXPECT_THROW(Stepper(system, turned), CaseError);
   EXPECT_NO_THROW(Stepper(system, whole));
 }
