@@ -31,6 +31,20 @@ double rounded_down(double step) {
   return unit * std::floor(step / unit);
 }
 
+double block_mass(const Solid& solid, int block) {
+  const BlockLayout& lay = solid.layout().blocks[block];
+  double sum = 0;
+  for (int n = 0; n < lay.nodes; ++n)
+    for (int j = 0; j < lay.stations; ++j) sum += solid.mass()[lay.line(n, 0) + j];
+  return sum;
+}
+
+void note_scaled_blocks(const Solid& solid, const MassScaling& scaling, StepLimits& limits) {
+  for (const auto& [block, added] : scaling.report().added_in_block)
+    limits.scaled_blocks.push_back(
+        {fmt::format("{} {}", solid.body().name, solid.body().blocks[block].name), block_mass(solid, block), added});
+}
+
 // A penalty spring k a_A between a rail node and a wheel node of like mass.
 double penalty_step(const RollingSystem& sys, const MassScaling& rail) {
   const ContactSurface& r = sys.rail_surface;
@@ -77,6 +91,7 @@ void StepPlan::scale_masses(const std::vector<Part>& parts, const CaseSpec& spec
     if (spec.run.time_step_method == "auto" && step < kWorthwhile * own) scaling = {}, step = own;
     limits.added_mass += scaling.report().added_mass;
     limits.scaled_mass += scaling.report().scaled_mass;
+    note_scaled_blocks(body.solid, scaling, limits);
     if (!scaling.empty()) limits.scaled_where += (limits.scaled_where.empty() ? "" : ", ") + scaling.report().where;
     limits.lanczos = std::min(limits.lanczos, step);
   }
