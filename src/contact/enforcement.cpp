@@ -37,10 +37,10 @@ void apply_impulse(ContactSide& side, std::size_t node, Vec3 impulse) {
     return;
   }
   const SurfaceNode from = side.nodes[node];
-  const Vec3 own{from.cos * impulse.x + from.sin * impulse.z, impulse.y, from.cos * impulse.z - from.sin * impulse.x};
+  const Vec3 own = rotate(from.frame, impulse);
   for (std::size_t n = 0; n < side.nodes.size(); ++n) {
     const Vec3 v = side.response->velocity(from.column, side.nodes[n].column, side.apart(from, side.nodes[n]), own);
-    side.velocity[n] += {from.cos * v.x - from.sin * v.z, v.y, from.sin * v.x + from.cos * v.z};
+    side.velocity[n] += rotate_back(from.frame, v);
   }
 }
 

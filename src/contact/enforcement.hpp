@@ -12,6 +12,7 @@
 
 #include "contact/mortar.hpp"
 #include "contact/surface_response.hpp"
+#include "core/rotation.hpp"
 #include "friction/coulomb.hpp"
 
 namespace railstrata {
@@ -38,7 +39,7 @@ inline Vec3 traction_vector(const NodeTraction& t, Vec3 n) {
 /// A node of a body's running surface.
 struct SurfaceNode {
   int column, station;
-  double cos = 1, sin = 0;  ///< of the station's frame in the model: x = cos x' - sin z', z = sin x' + cos z'
+  Rotation<double> frame{};  ///< forward: components of the model to those of the station's frame
 };
 
 /// One body's nodes in the contact.

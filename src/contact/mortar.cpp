@@ -27,11 +27,6 @@ MortarContact::MortarContact(ContactSurface rail, ContactSurface wheel)
   }
 }
 
-void MortarContact::turn_to(double psi) {
-  cos_psi_ = std::cos(psi);
-  sin_psi_ = std::sin(psi);
-}
-
 Vec3 MortarContact::rail_point(const Field& u, int c, int j, double wy, double wx) const {
   const Vec2 a = rail_.node[c], b = rail_.node[c + 1], sag = rail_.sagitta[c];
   const double bulge = 4 * wy * (1 - wy);
@@ -91,7 +86,7 @@ Vec3 MortarContact::wheel_point(const Field& u, const AxlePose& pose, const Hit&
   Vec3 x{wheel_.origin.x - section.z * std::sin(angle), wheel_.origin.y + section.y,
          wheel_.origin.z + section.z * std::cos(angle)};
   const double weights[4] = {(1 - wy) * (1 - wt), wy * (1 - wt), (1 - wy) * wt, wy * wt};
-  WheelPlane chord;  // of the interpolated undeformed nodes, from the axle
+  PlaneVector<double> chord;  // of the interpolated undeformed nodes, from the axle
   for (int n = 0; n < 4; ++n) {
     const int c = h.column + n % 2, j = n < 2 ? h.station : next;
     const double wz = weights[n] * wheel_.node[c].z;
@@ -100,8 +95,9 @@ Vec3 MortarContact::wheel_point(const Field& u, const AxlePose& pose, const Hit&
     const std::ptrdiff_t i = wheel_.index(c, j);
     x += weights[n] * Vec3{u[i], u[i + wheel_.stride], u[i + 2 * wheel_.stride]};
   }
-  x.x += chord.x - (cos_psi_ * chord.x + sin_psi_ * chord.z);
-  x.z += chord.z - (cos_psi_ * chord.z - sin_psi_ * chord.x);
+  const PlaneVector<double> turned = turned_.forward(chord.x, chord.z);
+  x.x += chord.x - turned.x;
+  x.z += chord.z - turned.z;
   return x;
 }
 
@@ -216,7 +212,7 @@ void MortarContact::start_corrections(const Field& u_rail, const Field& u_wheel,
 
 void MortarContact::search(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double half_length,
                            double gap_limit) {
-  turn_to(pose.psi);
+  turned_ = rotation_by(pose.psi);
   move_window(wheel_.origin.x + pose.x - rail_.origin.x, half_length);
   reserve_window();
   test_nodes(u_rail, u_wheel, pose, gap_limit);
@@ -302,7 +298,7 @@ void MortarContact::append_weights(const WheelPatch& patch, double area) {
 }
 
 const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel, const AxlePose& pose) {
-  turn_to(pose.psi);
+  turned_ = rotation_by(pose.psi);
   update_hits(u_rail, u_wheel, pose);
   result_.rows.clear();
   result_.weights.clear();

@@ -18,7 +18,8 @@
 
 #include "contact/surface.hpp"
 #include "core/array.hpp"
-#include "core/plane_pairs.hpp"
+#include "core/rotation.hpp"
+#include "core/tangential.hpp"
 
 namespace railstrata {
 
@@ -96,7 +97,6 @@ class MortarContact {
   int wheel_station(double theta, double& weight) const;
   int next_wheel_station(int station) const { return station + 1 < wheel_.stations.nodes() ? station + 1 : 0; }
 
-  void turn_to(double psi);
   void move_window(double centre, double half_length);
   void reserve_window();
   void test_nodes(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double gap_limit);
@@ -113,8 +113,8 @@ class MortarContact {
   void append_weights(const WheelPatch& patch, double area);
 
   ContactSurface rail_, wheel_;
-  std::vector<double> sin_t_, cos_t_;  // of the wheel's stations
-  double cos_psi_ = 1, sin_psi_ = 0;
+  std::vector<double> sin_t_, cos_t_;           // of the wheel's stations
+  Rotation<double> turned_;                     // by psi
   int window_first_ = 0, window_stations_ = 0;  // rail stations that the last search looked at
   int inner_columns_ = 0;                       // of the rail: the outermost are tied to the coarser mesh
   std::vector<char> near_, edge_;               // nodes of the window, [station * inner_columns_ + column - 1]

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/rotation.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -46,9 +48,13 @@ class BandPlanes {
 
 // A wheel's motion with its axle.
 struct RigidMotion {
-  explicit RigidMotion(const AxlePose& pose) : x(pose.x), z(pose.z), c(std::cos(pose.psi)), sn(std::sin(pose.psi)) {}
-  Vec3 displacement(Vec3 arm) const { return {x + (c - 1) * arm.x + sn * arm.z, 0, z + (c - 1) * arm.z - sn * arm.x}; }
-  double x, z, c, sn;
+  explicit RigidMotion(const AxlePose& pose) : shift{pose.x, pose.z}, turn(rotation_by(pose.psi)) {}
+  Vec3 displacement(Vec3 arm) const {
+    const PlaneVector<double> d = rigid_displacement(shift, turn, {arm.x, arm.z});
+    return {d.x, 0, d.z};
+  }
+  PlaneVector<double> shift;
+  Rotation<double> turn;
 };
 
 // Displacement of a node without the rigid motion of a body that turns.

@@ -77,9 +77,9 @@ TEST(Guards, ASoundRunPassesThemAllAndEachSaysWhatWentWrong) {
   EXPECT_NE(r.verdict().find("hourglass modes hold too much energy at t = "), std::string::npos);
   EXPECT_NE(r.verdict().find("try a smaller mesh.element_size, more elements through the layers"), std::string::npos);
   EXPECT_EQ(r.verdict().find("mesh.element = "), std::string::npos);  // these are full elements
-  r.system.model.spec.mesh.element = "one_point";
+  r.system.model.spec.mesh.element = ElementFormulation::one_point;
   EXPECT_NE(r.verdict().find("try mesh.element = \"full\", or a larger mesh.hourglass_coefficient"), std::string::npos);
-  r.system.model.spec.mesh.element = "full";
+  r.system.model.spec.mesh.element = ElementFormulation::full;
 
   // a state that is not finite is not kept
   while (!r.st.can_be_remembered()) r.st.step();

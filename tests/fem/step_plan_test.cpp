@@ -9,7 +9,7 @@ namespace railstrata {
 using namespace fem_checks;
 
 TEST(StepPlan, NamesTheBlocksThatMassScalingAddsToWithTheirMass) {
-  const RollingSystem system = small_system(thinly_layered(small_case(), "mass_scaling"));
+  const RollingSystem system = small_system(thinly_layered(small_case(), TimeStepMethod::mass_scaling));
   const StepLimits limits = StepPlan(system).limits;
   ASSERT_FALSE(limits.scaled_blocks.empty());
   double added = 0;
@@ -23,7 +23,7 @@ TEST(StepPlan, NamesTheBlocksThatMassScalingAddsToWithTheirMass) {
 }
 
 TEST(StepPlan, WithRealMassesNamesNoBlock) {
-  const RollingSystem system = small_system(thinly_layered(small_case(), "uniform"));
+  const RollingSystem system = small_system(thinly_layered(small_case(), TimeStepMethod::uniform));
   EXPECT_TRUE(StepPlan(system).limits.scaled_blocks.empty());
 }
 

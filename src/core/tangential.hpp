@@ -1,5 +1,6 @@
 #pragma once
-// Pairs of components in planes other than the section's (y, z), which is core/vec.hpp's Vec2.
+// A pair of components in the plane of the contact. Those of a section, (y, z), are Vec2 (core/vec.hpp); those of the
+// plane in which a wheel turns, (x, z), are PlaneVector (core/rotation.hpp).
 
 namespace railstrata {
 
@@ -8,10 +9,5 @@ struct Tangential {
   double x = 0, y = 0;
 };
 constexpr Tangential operator+(Tangential a, Tangential b) { return {a.x + b.x, a.y + b.y}; }
-
-/// Components in the plane in which a wheel turns: x in the rolling direction, z up.
-struct WheelPlane {
-  double x = 0, z = 0;
-};
 
 }  // namespace railstrata
