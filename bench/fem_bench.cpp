@@ -92,10 +92,12 @@ BENCHMARK(memory_traffic)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMilli
 
 struct Lines {
   Body solid;
-  Field u, v, f, inverse_mass;
+  Traversal elements;
+  Field u, v, f, history, inverse_mass;
   Lines(SweepKind kind, Precision precision, int columns, int rows, int stations, bool random = false)
       : solid(body(kind, columns, rows, stations, random), {elastic(210e9, 0.3, 7800)},
-              {ElementKind::full, 0.05, precision}) {
+              {ElementKind::full, 0.05, precision}),
+        elements(solid) {
     u = v = f = inverse_mass = solid.layout.field();
     for (std::size_t i = 0; i < u.size(); ++i) {
       inverse_mass[i] = solid.element_mass[i] > 0 ? 1 / solid.element_mass[i] : 0;
@@ -139,29 +141,31 @@ struct Lines {
   }
   void step() {
     const BlockLayout& l = solid.layout.blocks[0];
-    solid.begin_forces(u, 0);
-    const std::vector<Solid::Chain> chains = solid.chains(6 * max_threads());
-    const auto take = [&](const Solid::Tile& t, int begin, int node, const double* rows) {
+    elements.begin(u, 0);
+    const std::vector<Chain> chained = chains(solid.tiling, 6 * max_threads());
+    const auto take = [&](const Tile& t, int begin, int node, const double* rows) {
       if (begin == t.first)
-        advance(node, begin, begin + 1,
-                {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
-      advance(node, t.first + 1, t.end,
-              {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
+        advance(node, begin, begin + 1, {rows - t.first, rows + kTile - t.first, rows + 2 * kTile - t.first});
+      advance(node, t.first + 1, t.end, {rows - t.first, rows + kTile - t.first, rows + 2 * kTile - t.first});
       return true;
     };
-    const auto expect = [&](const Solid::Tile& t, int node, Prefetch& lines) {
+    const auto expect = [&](const Tile& t, int node, Prefetch& lines) {
       for (int i = 0; i < 3; ++i) lines.add(&v[l.line(node, i) + t.first]);
       lines.add(&inverse_mass[l.line(node, 0) + t.first]);
     };
     for_each(
-        static_cast<std::ptrdiff_t>(chains.size()),
-        [&](std::ptrdiff_t k) { solid.chain_forces(chains[k], u, f, take, expect); }, true);
-    solid.end_forces(chains, f);
+        static_cast<std::ptrdiff_t>(chained.size()),
+        [&](std::ptrdiff_t k) {
+          elements.chain_forces(chained[k], u, f, history, FuseUpdate{take, expect});
+        },
+        true);
+    elements.end(chained, f);
     for_each(l.nodes, [&](std::ptrdiff_t n) {
       const double* row[3] = {f.data() + l.line(static_cast<int>(n), 0), f.data() + l.line(static_cast<int>(n), 1),
                               f.data() + l.line(static_cast<int>(n), 2)};
-      for (const Solid::Chain& c : chains)
-        advance(static_cast<int>(n), solid.border_plane(c), solid.border_plane(c) + 1, {row[0], row[1], row[2]});
+      for (const Chain& c : chained)
+        advance(static_cast<int>(n), solid.tiling.border_plane(c), solid.tiling.border_plane(c) + 1,
+                {row[0], row[1], row[2]});
       advance(static_cast<int>(n), l.stations - 1, l.stations, {row[0], row[1], row[2]});
     });
   }

@@ -131,6 +131,7 @@ void MassScaling::add_chain(int block, const std::vector<int>& nodes, const Edge
       const double a = last ? 0 : edges.at(std::minmax(nodes[k], nodes[k + 1])).added[j], pivot = rest + a;
       added_[at(k)] = a;
       report_.added_mass += a;
+      report_.added_in_block[block] += a;
       forward_[at(k)] = a / pivot;
       pivot_[at(k)] = mass(k) / pivot;
       if (last) break;

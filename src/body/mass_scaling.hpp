@@ -49,10 +49,11 @@ class MassScaling {
   double kinetic(const Field& differences_of_v, const Field& w);
 
   struct Report {
-    double added_mass = 0;        ///< kg, sum of a
-    double scaled_mass = 0;       ///< kg, of the nodes it acts on
-    int chains = 0, longest = 0;  ///< longest: rows in a chain
-    std::string where;            ///< "rail cap, rail gauge shell"
+    double added_mass = 0;                 ///< kg, sum of a
+    double scaled_mass = 0;                ///< kg, of the nodes it acts on
+    int chains = 0, longest = 0;           ///< longest: rows in a chain
+    std::string where;                     ///< "rail cap, rail gauge shell"
+    std::map<int, double> added_in_block;  ///< kg, by block
   };
   const Report& report() const { return report_; }
 

@@ -17,6 +17,12 @@ std::vector<double>& master_values() {
   return values;
 }
 
+// (1 - w) a + w b. The fused products are written out: which of the two a compiler fuses is its choice, and the offsets
+// of the ties stand in every result.
+Vec3 mix(double w, Vec3 a, Vec3 b) {
+  return {std::fma(1 - w, a.x, w * b.x), std::fma(1 - w, a.y, w * b.y), std::fma(1 - w, a.z, w * b.z)};
+}
+
 // Ties such that a master that is itself tied comes before those that it carries.
 class MastersFirst {
  public:
@@ -124,10 +130,8 @@ void Ties::add_line(const SweptBody& body, const Tie& tie) {
     return swept_point(body.kind, {}, master.section.nodes[node], master.stations.at[station]);
   };
   for (std::size_t j = 0; j < in.left.size(); ++j) {
-    const auto between = [&](int node) {
-      return (1 - in.weight[j]) * at(node, in.left[j]) + in.weight[j] * at(node, in.right[j]);
-    };
-    const Vec3 carried = (1 - tie.weight1) * between(tie.master_node0) + tie.weight1 * between(tie.master_node1);
+    const auto between = [&](int node) { return mix(in.weight[j], at(node, in.left[j]), at(node, in.right[j])); };
+    const Vec3 carried = mix(tie.weight1, between(tie.master_node0), between(tie.master_node1));
     const Vec3 delta = swept_point(body.kind, {}, slave.section.nodes[tie.slave_node], slave.stations.at[j]) - carried;
     delta_x_.push_back(delta.x);
     delta_z_.push_back(delta.z);

@@ -1,5 +1,5 @@
 #pragma once
-// Stiffness matrices of single elements, for set-up and checks.
+// Stiffness matrices of single elements, for set-up and checks; defined in reference.cpp beside the shape functions.
 #include <Eigen/Core>
 
 #include "element/reference.hpp"

@@ -53,7 +53,7 @@ void gather_rail(const MortarRows& rows, const RollingBody& b, const BodyState& 
     side.velocity.push_back((1 - scope.damping_rate * scope.dt) * before +
                             scope.dt * free_acceleration(b, state, scope.gravity, r.rail));
     side.inverse_mass.push_back(side.response ? side.response->own(r.column) : inverse_mass(b, r.rail));
-    if (side.response) side.places.push_back({r.column, r.station});
+    if (side.response) side.nodes.push_back({r.column, r.station});
   }
 }
 
@@ -64,7 +64,7 @@ void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b
   const ReferenceFrame& frame = b.frame;
   const int block = b.body.mesh.contact.block;
   for (std::ptrdiff_t i : nodes) {
-    const SurfaceNode at = b.surface.node_at(i);
+    const SurfaceIndex at = b.surface.node_at(i);
     const Vec3 arm = b.arm(block, at.column, at.station), w = vector_at(state.v, i, b.surface.stride);
     side.before.push_back(Vec3{frame.speed, 0, 0} + frame.to_model(frame.step_back(w + frame.rigid_rate(arm))));
     Vec3 a = free_acceleration(b, state, scope.gravity, i);
@@ -79,8 +79,9 @@ void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b
     }
     const double cosine = b.cos_node[block][at.station], sine = b.sin_node[block][at.station];
     side.inverse_mass.push_back(side.response->own(at.column));
-    side.places.push_back({at.column, at.station, cosine * frame.turn.c + sine * frame.turn.s,
-                           sine * frame.turn.c - cosine * frame.turn.s});
+    side.nodes.push_back({at.column,
+                          at.station,
+                          {cosine * frame.turn.c + sine * frame.turn.s, sine * frame.turn.c - cosine * frame.turn.s}});
   }
 }
 
@@ -91,16 +92,16 @@ ContactStep::ContactStep(const ContactSurface& rail, const ContactSurface& wheel
     : search_(rail, wheel), window_(window), options_(options) {}
 
 void ContactStep::restore(Restart restart) {
-  search_.recall(std::move(restart.facets));
+  search_.restore(std::move(restart.facets));
   reached_edge_ = restart.reached_edge;
 }
 
-Vec3 ContactStep::force_on_rail(const ContactRow& row, const TractionMemory& tractions) const {
+Vec3 ContactStep::force_on_rail(const ContactRow& row, const SurfaceTractions& tractions) const {
   return row.area * traction_vector(tractions.at(row.column, row.station), row.normal);
 }
 
 void ContactStep::find_rows(long step, RollingBodies& bodies, const BodyStates& states, const AxlePose& pose,
-                            TractionMemory& tractions) {
+                            SurfaceTractions& tractions) {
   const Field& u_rail = surface_displacement(bodies[kRail], states[kRail]);
   const Field& u_wheel = surface_displacement(bodies[kWheel], states[kWheel]);
   const bool anew = step % kSearchInterval == 0;
@@ -115,7 +116,7 @@ void ContactStep::find_rows(long step, RollingBodies& bodies, const BodyStates& 
 }
 
 void ContactStep::refine_local_steps(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
-                                     const StepScope& scope, const TractionMemory& tractions) {
+                                     const StepScope& scope, const SurfaceTractions& tractions) {
   carried_.clear();
   if (!any_local_steps(bodies)) return;
   for (const ContactRow& row : rows_->rows) {
@@ -133,12 +134,12 @@ void ContactStep::refine_local_steps(RollingBodies& bodies, BodyStates& states, 
 
 void ContactStep::gather(const RollingBodies& bodies, const BodyStates& states, const StepScope& scope) {
   numbering_.number(*rows_, bodies[kWheel].surface, system_);
-  system_.tractions_held = any_local_steps(bodies);
+  system_.tractions_applied = any_local_steps(bodies);
   gather_rail(*rows_, bodies[kRail], states[kRail], scope, system_.rail);
   gather_wheel(system_.wheel_nodes, bodies[kWheel], states[kWheel], scope, system_.wheel);
 }
 
-void ContactStep::apply_tractions(RollingBodies& bodies, BodyStates& states, const TractionMemory& tractions) {
+void ContactStep::apply_tractions(RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions) {
   const bool local = any_local_steps(bodies);
   for (std::vector<NodalForce>& c : changes_) c.clear();
   for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
@@ -157,7 +158,7 @@ void ContactStep::apply_tractions(RollingBodies& bodies, BodyStates& states, con
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].steps.local.add_forces(changes_[k], states[k].f);
 }
 
-ContactLosses ContactStep::measure(const TractionMemory& tractions) {
+ContactLosses ContactStep::measure(const SurfaceTractions& tractions) {
   const ContactSystem& c = system_;
   forces_ = {};
   forces_.sweeps = c.sweeps;

@@ -36,23 +36,23 @@ class ContactStep {
   /// Rows of this step. Every kSearchInterval steps they are searched anew, and nodes that left the neighbourhood of
   /// the patch lose their tractions.
   void find_rows(long step, RollingBodies& bodies, const BodyStates& states, const AxlePose& pose,
-                 TractionMemory& tractions);
+                 SurfaceTractions& tractions);
 
   /// Local steps carry the tractions of the last step and all other forces through their stages.
   void refine_local_steps(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
-                          const StepScope& scope, const TractionMemory& tractions);
+                          const StepScope& scope, const SurfaceTractions& tractions);
 
   /// Free velocities of the nodes of the contact and how they answer an impulse.
   void gather(const RollingBodies& bodies, const BodyStates& states, const StepScope& scope);
 
   /// The tractions that hold at the end of the step.
-  void enforce(double dt, TractionMemory& tractions) { enforce_contact(*rows_, dt, options_, system_, tractions); }
+  void enforce(double dt, SurfaceTractions& tractions) { enforce_contact(*rows_, dt, options_, system_, tractions); }
 
   /// The tractions to the forces: what local steps have felt already is taken off, the rest goes through their stages.
-  void apply_tractions(RollingBodies& bodies, BodyStates& states, const TractionMemory& tractions);
+  void apply_tractions(RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions);
 
   /// Sums the forces on the wheel and what was lost.
-  ContactLosses measure(const TractionMemory& tractions);
+  ContactLosses measure(const SurfaceTractions& tractions);
 
   const ContactForces& forces() const { return forces_; }
   bool reached_edge() const { return reached_edge_; }
@@ -62,11 +62,11 @@ class ContactStep {
     std::vector<MortarContact::Facet> facets;
     bool reached_edge = false;
   };
-  Restart restart() const { return {search_.memory(), reached_edge_}; }
+  Restart restart() const { return {search_.facets(), reached_edge_}; }
   void restore(Restart restart);
 
  private:
-  Vec3 force_on_rail(const ContactRow& row, const TractionMemory& tractions) const;
+  Vec3 force_on_rail(const ContactRow& row, const SurfaceTractions& tractions) const;
 
   MortarContact search_;
   SearchWindow window_;

@@ -266,7 +266,7 @@ class Preload {
 
   const RollingSystem& sys_;
   MortarContact contact_;
-  TractionMemory tractions_;
+  SurfaceTractions tractions_;
   std::array<Traversal, 2> elements_;
   StaticPreconditioner preconditioner_;
   StaticVector u_;

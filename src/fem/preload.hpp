@@ -21,7 +21,7 @@ namespace railstrata {
 struct PreloadResult {
   std::array<Field, 2> u;  ///< m, displacements by BodyId
   double axle_z = 0;       ///< m, displacement of the axle from the rigid contact position, negative: down
-  TractionMemory tractions{0, 0};
+  SurfaceTractions tractions{0, 0};
   double residual = 0;                      ///< |r| / |load vector|
   double penetration = 0;                   ///< m, largest of the nodes in contact
   Vec3 contact_force;                       ///< N, on the wheel

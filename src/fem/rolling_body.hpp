@@ -59,7 +59,7 @@ struct RollingBody {
   /// From the axle to an undeformed node, frame components; zero if extruded.
   Vec3 arm(int block, int node, int station) const;
   /// Column and station of a surface node from the index of its component x.
-  SurfaceNode surface_node(std::ptrdiff_t index) const { return surface.node_at(index); }
+  SurfaceIndex surface_node(std::ptrdiff_t index) const { return surface.node_at(index); }
 };
 
 /// Chains and border planes for this step; no memory is asked for after the first of each kind.

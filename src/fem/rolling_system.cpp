@@ -90,9 +90,9 @@ Axle axle_of(const Body& wheel, const CaseSpec& spec) {
   return axle;
 }
 
-RollingOptions rolling_options(const Model& m) {
+ExplicitOptions explicit_options(const Model& m) {
   const CaseSpec& spec = m.spec;
-  RollingOptions out{
+  ExplicitOptions out{
       spec.drive.speed, spec.drive.torque_ramp, spec.run.run_up, spec.run.run_up_damping, spec.mesh.element_size, {},
       spec.vehicle};
   out.contact.penalty = spec.contact.method == ContactMethod::penalty;
@@ -117,7 +117,7 @@ ContactSurface wheel_surface_of(const Model& m, const Body& wheel) {
 
 RollingSystem::RollingSystem(const Model& m)
     : model(m),
-      options(rolling_options(m)),
+      options(explicit_options(m)),
       bodies{Body(m.rail, m.rail_materials, element_options(m.spec)),
              Body(m.wheel, m.wheel_materials, element_options(m.spec))},
       axle(axle_of(wheel(), m.spec)),

@@ -41,7 +41,7 @@ struct EndDashpot {
 };
 
 /// What the rolling takes of a case, so that no step looks into the case itself.
-struct RollingOptions {
+struct ExplicitOptions {
   double speed = 0;            ///< m/s
   double torque_ramp = 0;      ///< s
   double run_up = 0;           ///< m, over which the run-up damping fades
@@ -55,7 +55,7 @@ struct RollingSystem {
   explicit RollingSystem(const Model& model);
 
   Model model;
-  RollingOptions options;
+  ExplicitOptions options;
   std::array<Body, 2> bodies;  ///< by BodyId
   Axle axle;
   std::vector<EndDashpot> absorbers;

@@ -33,6 +33,20 @@ double rounded_down(double step) {
   return unit * std::floor(step / unit);
 }
 
+double block_mass(const Body& body, int block) {
+  const BlockLayout& lay = body.layout.blocks[block];
+  double sum = 0;
+  for (int n = 0; n < lay.nodes; ++n)
+    for (int j = 0; j < lay.stations; ++j) sum += body.element_mass[lay.line(n, 0) + j];
+  return sum;
+}
+
+void note_scaled_blocks(const Body& body, const MassScaling& scaling, StepLimits& limits) {
+  for (const auto& [block, added] : scaling.report().added_in_block)
+    limits.scaled_blocks.push_back(
+        {fmt::format("{} {}", body.mesh.name, body.mesh.blocks[block].name), block_mass(body, block), added});
+}
+
 // A penalty spring k a_A between a rail node and a wheel node of like mass.
 double penalty_step(const RollingSystem& sys, const MassScaling& rail) {
   const ContactSurface& r = sys.rail_surface();
@@ -83,6 +97,7 @@ void StepPlan::scale_masses(const std::vector<Part>& parts, const CaseSpec& spec
     }
     limits.added_mass += scaling.report().added_mass;
     limits.scaled_mass += scaling.report().scaled_mass;
+    note_scaled_blocks(body, scaling, limits);
     if (!scaling.empty()) limits.scaled_where += (limits.scaled_where.empty() ? "" : ", ") + scaling.report().where;
     limits.lanczos = std::min(limits.lanczos, step);
   }

@@ -10,6 +10,12 @@
 
 namespace railstrata {
 
+/// A block of a body to which mass scaling adds.
+struct ScaledBlock {
+  std::string name;            ///< "rail cap"
+  double mass = 0, added = 0;  ///< kg, of the whole block and by mass scaling
+};
+
 /// What limits the step [s]: 2/omega_max of the assembled bodies by Lanczos, the bound from single elements and where
 /// that is smallest, the contact (penalty only).
 struct StepLimits {
@@ -22,6 +28,7 @@ struct StepLimits {
   int stages = 1;            ///< of local steps
   long fine_elements = 0;    ///< evaluated in every stage
   std::string scaled_where;  ///< blocks with added mass: "rail cap, rail gauge shell"
+  std::vector<ScaledBlock> scaled_blocks;
   std::string where;
 };
 

@@ -98,7 +98,7 @@ void Stepper::start(const PreloadResult& preload) {
 }
 
 double Stepper::damping_rate() const {
-  const RollingOptions& o = sys_.options;
+  const ExplicitOptions& o = sys_.options;
   if (o.run_up <= 0) return 0;
   return o.run_up_damping * (1 - smooth_rise(state_.axle.x / o.run_up));
 }

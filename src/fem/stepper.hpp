@@ -34,7 +34,7 @@ struct RollingState {
   BodyStates bodies;  ///< by BodyId
   AxleMotion axle;
   std::vector<MassGroup> groups;
-  TractionMemory tractions{0, 0};
+  SurfaceTractions tractions{0, 0};
 };
 
 /// All that a step takes over from the one before, at a restart point. A stepper restored from it computes the same

@@ -351,7 +351,7 @@ TEST_F(LocalStepsTest, SameBitsOnOneTwoAndFourThreadsAndNoForceFromRigidRotation
   local.set_step(0.8 * kWanted, lanczos_stable_step(body));
   ASSERT_GT(local.fine_elements(), 0);
   const double psi = 0.7;
-  Field u = nodal_field(body.solid, [&](Vec3 x) { return rigid_displacement(x, body.mesh.origin, psi, {}); });
+  Field u = nodal_field(body, [&](Vec3 x) { return rigid_displacement(x, body.mesh.origin, psi, {}); });
   Field f = body.layout.field();
   internal_force(body, u, psi, f);
   Field refined = f;

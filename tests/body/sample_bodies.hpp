@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "body/body.hpp"
+#include "body/traversal.hpp"
 #include "mesh/bodies.hpp"
 
 namespace railstrata::fem_checks {

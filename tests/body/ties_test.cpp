@@ -118,8 +118,7 @@ TEST(Ties, CollectIsTheTransposeOfSpread) {
                  size = std::sqrt(nodal_dot(solid.layout, f, f) * nodal_dot(solid.layout, u, u));
     ties.apply_transpose(f);
     EXPECT_NEAR(nodal_dot(solid.layout, f, masters), work, 1e-13 * size) << body.name;
-    for (const Tie& t : body.ties)
-      EXPECT_EQ(norm(value(f, solid.layout.blocks[t.slave_block], t.slave_node, 0)), 0.0);
+    for (const Tie& t : body.ties) EXPECT_EQ(norm(value(f, solid.layout.blocks[t.slave_block], t.slave_node, 0)), 0.0);
   }
 }
 

@@ -93,11 +93,10 @@ Wave standing_wave(const Elastic& material, int component, double step_ratio) {
 }  // namespace
 
 TEST(StableStep, LanczosAgreesWithTheDenseEigenvalueWithinOnePercent) {
-  for (const Body& body :
-       {brick_on_its_base(), Body(tied_body(SweepKind::revolve), {kSteel}, {})}) {
+  for (const Body& body : {brick_on_its_base(), Body(tied_body(SweepKind::revolve), {kSteel}, {})}) {
     const double dense = dense_stable_step(body), lanczos = lanczos_stable_step(body);
     EXPECT_NEAR(lanczos / dense, 1.0, 0.01);
-    EXPECT_GE(lanczos, dense * (1 - 1e-9));                  // Ritz values approach omega_max from below
+    EXPECT_GE(lanczos, dense * (1 - 1e-9));           // Ritz values approach omega_max from below
     EXPECT_LT(element_step_bound(body).step, dense);  // [Hughes2000 ch. 9]
   }
 }

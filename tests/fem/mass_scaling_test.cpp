@@ -89,7 +89,7 @@ TEST_F(MassScalingTest, AForceOnTheSurfaceAddedAfterwardsIsScaledAllTheSame) {
 TEST_F(MassScalingTest, KeepsTheMassOfTranslationAndEveryMomentum) {
   const Body body = thin_layer();
   const MassScaling scaling(body, kWanted);
-  const Field same = nodal_field(body.solid, [](Vec3) { return Vec3{1, -2, 3}; });
+  const Field same = nodal_field(body, [](Vec3) { return Vec3{1, -2, 3}; });
   EXPECT_EQ(scaling.kinetic(scaling.differences(same), same), 0.0);
   const Field f = scattered_forces(body, 1.0);
   Field scaled = f;
@@ -113,7 +113,7 @@ TEST_F(MassScalingTest, PutsTheThicknessModeOfARowAtTheWantedStep) {
   mesh.held.clear();
   const Body body(mesh, {bar, bar}, {});
   const MassScaling scaling(body, kWanted);
-  Field mode = nodal_field(body.solid, [](Vec3 x) { return Vec3{0, 0, x.z > -5e-5 ? 1.0 : -1.0}; }), force = mode;
+  Field mode = nodal_field(body, [](Vec3 x) { return Vec3{0, 0, x.z > -5e-5 ? 1.0 : -1.0}; }), force = mode;
   linear_force(body, mode, force);
   Field inertia = mode;
   for (std::size_t i = 0; i < mode.size(); ++i) inertia[i] *= body.mass[i];
@@ -147,7 +147,7 @@ TEST_F(MassScalingTest, SlowsAModeOfPeriodTByNoMoreThanHalfOfPiDOverTSquared) {
   const auto n = static_cast<Eigen::Index>(heights.size());
   Eigen::MatrixXd k(n, n), m(n, n);
   auto row = [&](Eigen::Index r) {
-    return nodal_field(body.solid, [&](Vec3 x) {
+    return nodal_field(body, [&](Vec3 x) {
       return Vec3{0, 0, std::abs(x.z - body.mesh.blocks[0].section.nodes[2 * r].z) < 1e-9 ? 1.0 : 0.0};
     });
   };
@@ -320,12 +320,13 @@ class ThinLayerRolling : public ::testing::Test {
     out.p_max /= static_cast<double>(count);
     const EnergyBalance end = energy();
     out.closure = std::abs(end.total() - start.total()) / end.strain;
-    const RollingSample sample = take_sample(system, st.state().u_rail, st.state().u_wheel, st.state().tractions,
-                                             {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
+    const RollingSample sample =
+        take_sample(system, st.state().bodies[0].u, st.state().bodies[1].u, st.state().tractions,
+                    {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
     for (const Sym3& s : sample.rail.stress) out.von_mises_rail = std::max(out.von_mises_rail, von_mises(s));
     for (const Sym3& s : sample.wheel.stress) out.von_mises_wheel = std::max(out.von_mises_wheel, von_mises(s));
-    out.u_rail = st.state().u_rail;
-    out.u_wheel = st.state().u_wheel;
+    out.u_rail = st.state().bodies[0].u;
+    out.u_wheel = st.state().bodies[1].u;
     return out;
   }
 };

@@ -1,4 +1,4 @@
-#include "body/body.hpp"
+#include "body/traversal.hpp"
 
 #include <gtest/gtest.h>
 
@@ -93,7 +93,8 @@ TEST(SolidPatchTest, LinearDisplacementsOnASkewedSectionGiveTheExactStressAndNoF
     ASSERT_EQ(std::count(boundary.begin(), boundary.end(), 0), 4 * 3);
     EXPECT_LT(unbalance(solid, f, [&](int, int n) { return !boundary[n]; }), 1e-11);
     for (int q = 0; q < 20; ++q)
-      for (int e = 0; e < 70; ++e) ASSERT_LT(difference(element_stress(solid, u, 0, q, e), truth), 1e-11 * truth.norm());
+      for (int e = 0; e < 70; ++e)
+        ASSERT_LT(difference(element_stress(solid, u, 0, q, e), truth), 1e-11 * truth.norm());
     EXPECT_LT(strain_energy(solid, u, 0.0).hourglass, 1e-20 * strain_energy(solid, u, 0.0).strain);
   }
 }
@@ -196,8 +197,7 @@ TEST(Solid, InternalForceIsTheGradientOfTheEnergyAtFiniteStrainAndRotation) {
 TEST(Solid, LinearForceIsTheTangentOfTheInternalForceAtRest) {
   for (const Kind& kind : kinds()) {
     const Body solid(distorted_body(kind.sweep, kind.sweep == SweepKind::revolve), {kSteel}, {kind.element, 0.05});
-    Field u = scattered_field(solid, 1e-7), minus = u, linear = solid.layout.field(), plus = linear,
-          opposite = linear;
+    Field u = scattered_field(solid, 1e-7), minus = u, linear = solid.layout.field(), plus = linear, opposite = linear;
     for (double& v : minus) v = -v;
     linear_force(solid, u, linear);
     internal_force(solid, u, 0.0, plus);
