@@ -14,6 +14,7 @@ SOURCES = {".hpp", ".cpp", ".cu", ".h"}
 # a file of the project as pages name it: `body/ties.hpp`, `tests/mesh`, [the reference](docs/case-reference.md#mesh)
 NAMED = re.compile(r"`([^`\s]+)`|\]\(([^)\s#]+)(?:#[^)]*)?\)")
 ENDING = re.compile(r"\.(hpp|cpp|md|py|cmake|ts|svg|bib)$")
+RESULTS = {"view.py", "compare.svg"}  # written by the program into its results
 FOLDERS = ("src/", "tests/", "docs/", "tools/", "cases/", "report/src", "data/", "fuzz/", "cmake/", "bench/")
 
 
@@ -44,21 +45,21 @@ def includes(folder):
 
 
 def named_files(text):
-    """(line, name) of everything in a page that looks like a file or folder of the project, patterns left out."""
+    """(line, name, whether it is a link) of what looks like a file or folder of the project, patterns left out."""
     for number, line in enumerate(text.splitlines(), 1):
         for match in NAMED.finditer(line):
-            name = match.group(1) or match.group(2)
-            looks_so = match.group(2) or ENDING.search(name) or name.startswith(FOLDERS)
-            if looks_so and "://" not in name and not re.search(r"[<>*$]|NAME|\.\.\.|…", name):
-                yield number, name
+            name, link = match.group(1) or match.group(2), bool(match.group(2))
+            looks_so = link or ENDING.search(name) or name.startswith(FOLDERS)
+            if looks_so and name not in RESULTS and "://" not in name and not re.search(r"[<>*$]|NAME|…", name):
+                yield number, name, link
 
 
 def missing_files(page, places):
-    """Complaints about files that a page names and that are at none of the places."""
+    """Complaints about files that a page names and that are at none of the places; links go from the page's folder."""
     return [
         f"{page}:{number}: {name} does not exist"
-        for number, name in named_files(page.read_text())
-        if not any((place / name).exists() for place in places)
+        for number, name, link in named_files(page.read_text())
+        if not any((place / name).exists() for place in ([page.parent] if link else places))
     ]
 
 
