@@ -162,8 +162,9 @@ def check_yaml(file, root):
     except yaml.YAMLError as fault:
         return [f"{file}: {fault}"]
     door = (root / "railstrata").read_text()
-    words = set(re.findall(r"\./railstrata (\w+)", file.read_text()))
-    return [f"{file}: ./railstrata has no {word}" for word in sorted(words) if not re.search(rf"^  {word}\)", door, re.M)]
+    known = set(re.findall(r"^  (\w+)\)", door, re.M))
+    called = set(re.findall(r"\./railstrata (\w+)", file.read_text()))
+    return [f"{file}: ./railstrata has no {word}" for word in sorted(called - known)]
 
 
 def check(root):
