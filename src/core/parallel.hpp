@@ -7,7 +7,8 @@
 
 namespace railstrata {
 
-/// Calls kernel(i) for i in [0, n), possibly in parallel; `cost` hints at uneven work (dynamic scheduling).
+/// Calls kernel(i) for i in [0, n), possibly in parallel. uneven: the work differs from index to index (dynamic
+/// scheduling).
 template <class Kernel>
 void for_each(std::ptrdiff_t n, Kernel&& kernel, bool uneven = false) {
   if (uneven) {
