@@ -119,6 +119,16 @@ TEST(Rotation, VectorsTurnAboutTheLateralAxisAndSectionsRoll) {
   EXPECT_NEAR(section.z, std::sin(0.7), kEps<double>);
 }
 
+TEST(Rotation, TensorsRollWithTheVectorsTheyAreMadeOf) {
+  const auto dyad = [](Vec3 v) { return Sym3{v.x * v.x, v.y * v.y, v.z * v.z, v.x * v.y, v.y * v.z, v.x * v.z}; };
+  const auto r = rotation_by(-0.4);
+  const Vec3 v{0.3, -1.2, 0.7};
+  const Vec2 section = roll(r, {v.y, v.z});
+  const Sym3 expected = dyad({v.x, section.y, section.z}), s = roll(r, dyad(v));
+  for (auto m : {&Sym3::xx, &Sym3::yy, &Sym3::zz, &Sym3::xy, &Sym3::yz, &Sym3::xz})
+    EXPECT_NEAR(s.*m, expected.*m, 8 * kEps<double>);
+}
+
 TEST(Rotation, HalfAngleFormKeepsTheDigitsOfOneLessTheCosine) {
   for (double angle : {1e-9, 1e-5, 1e-2}) {
     const auto r = small_rotation_by(angle);
