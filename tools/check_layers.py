@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Holds every #include of src/ against src/LAYERS: a room sees itself and the rooms on lines above its own, nothing else.
+"""Holds every #include of src/ against src/LAYERS: a room sees itself and the rooms on lines above its own, nothing
+else.
 
 usage: check_layers.py SRC
 """
@@ -49,11 +50,13 @@ def self_test():
     with tempfile.TemporaryDirectory() as name:
         src = pathlib.Path(name)
         (src / "LAYERS").write_text("# comment\nlow\nleft right\ntop\n")
-        for room, include in [("low", "top/a.hpp"), ("left", "right/a.hpp"), ("top", "a.hpp"), ("right", "low/a.hpp"), ("stray", "low/a.hpp")]:
+        for room, include in [("low", "top/a.hpp"), ("left", "right/a.hpp"), ("top", "a.hpp"), ("right", "low/a.hpp"),
+                              ("stray", "low/a.hpp")]:
             (src / room).mkdir()
             (src / room / "a.hpp").write_text(f'#include <vector>\n#include "{room}/b.hpp"\n#include "{include}"\n')
         found = check(src)
-        expected = ["left must not include \"right/a.hpp\"", "low must not include \"top/a.hpp\"", "stray: not a room", "top must not include \"a.hpp\""]
+        expected = ["left must not include \"right/a.hpp\"", "low must not include \"top/a.hpp\"", "stray: not a room",
+                    "top must not include \"a.hpp\""]
         assert len(found) == len(expected) and all(e in f for e, f in zip(expected, found)), found
 
 

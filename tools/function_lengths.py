@@ -36,7 +36,8 @@ def findings(paths, most=MOST):
 
 
 def self_test():
-    """A function of one line too many is found, also a member, a template and one behind a raw string; others are not."""
+    """A function of one line too many is found, also a member, a template and one behind a raw string; others are
+    not."""
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "sample.cpp"
 
