@@ -130,8 +130,8 @@ class ActiveSetSolver {
     return std::max(high - low, 1e-3 * std::abs(approach_ - low));
   }
 
-  /// Removes from z the part that would change the load: sum(z) = 0. The correction is M^-1 applied to the multiplier of
-  /// the load, M the preconditioner.
+  /// Removes from z the part that would change the load: sum(z) = 0. The correction is M^-1 applied to the multiplier
+  /// of the load, M the preconditioner.
   void keep_load(Plane& z) const {
     if (!load_given()) return;
     add_scaled(z, -sum(z) / ones_sum_, ones_);
