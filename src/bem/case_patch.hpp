@@ -1,6 +1,8 @@
 #pragma once
 // From a case to the problem on a grid: what solve_bem and creep_curve share.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bem/profile_gap.hpp"
 #include "bem/solve_bem.hpp"

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "bem/case_patch.hpp"
 #include "core/faults.hpp"

@@ -1,9 +1,12 @@
 #include "bem/subsurface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "bem/plane_fft.hpp"
 #include "halfspace/layer_waves.hpp"

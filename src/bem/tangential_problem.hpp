@@ -14,6 +14,7 @@
 // system by GMRES with FFT products. L has a positive semi-definite symmetric part, and slip along the traction adds a
 // positive diagonal, so every linear system is solvable.
 #include <optional>
+#include <vector>
 
 #include "bem/influence_operator.hpp"
 #include "bem/patch_grid.hpp"

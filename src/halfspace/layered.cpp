@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "core/faults.hpp"
 #include "halfspace/layer_waves.hpp"
