@@ -154,7 +154,7 @@ TEST_P(TransientRollingOfCoupledBodies, ArrivesAtTheSteadyStateForForcesCreepage
 }
 INSTANTIATE_TEST_SUITE_P(Pair, TransientRollingOfCoupledBodies, testing::Values(&kSoftRail, &kStiffLayer, &kSoftLayer));
 
-TEST(TransientRolling, OfCoupledBodiesTurnsIntoItsMirrorImageWithTheLateralForceAndTheSpin) {
+TEST(TransientRolling, OfCoupledBodiesMirrorsWithTheLateralForceAndTheSpin) {
   const WheelOn w(kSoftRail);
   RollingContact c = w.contact();
   c.x.force = -4e3;
