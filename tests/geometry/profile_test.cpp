@@ -256,7 +256,7 @@ double scatter(std::mt19937& random) {
   return sum;
 }
 
-TEST(ProfileFromPoints, points_scattered_by_3_micrometres_give_a_curve_closer_than_that) {
+TEST(ProfileFromPoints, points_scattered_by_3_micrometres_give_a_closer_curve) {
   std::mt19937 random(1);
   std::vector<Vec2> points = crown(0.3, 0.03, 0.2 * mm);
   for (Vec2& p : points) p.z += 3e-6 * scatter(random);
