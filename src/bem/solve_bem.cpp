@@ -76,36 +76,40 @@ struct LoadedPatch {
   int load_iterations = 1;
 };
 
+/// Solves under a normal load [N]: on the grid of the load before, on a new one if there is none or the patch reached
+/// its edge.
+void solve_under(double normal, double weight, const CaseSpec& spec, const Placement& placement,
+                 const BemOptions& options, LoadedPatch& out) {
+  const auto solve = [&] {
+    out.patch.contact.target.load = normal;
+    out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling);
+  };
+  if (out.patch.influence) {
+    solve();
+    if (!out.solution.normal.touches_edge) return;
+  }
+  out.patch = make_case_patch(spec, placement, options, normal);
+  if (spec.drive.friction_coefficient > 0) out.patch.contact.x.force = -spec.drive.traction_coefficient * weight;
+  solve();
+}
+
 /// Finds the normal force N with N cos(delta) - T_y(N) sin(delta) = G by secants (case_patch.hpp): lateral friction T_y
-/// carries a share of the weight that grows with the contact angle, and itself depends on N.
+/// carries a share of the weight that grows with the contact angle, and itself depends on N. Where that share grows as
+/// fast as N does, the slope of the left side is zero and no N is large enough: the wheel is wedged.
 LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                                   double weight) {
-  constexpr double kTolerance = 1e-5;
+  constexpr double kTolerance = 1e-5, kWedged = 0.02;
   constexpr int kMostIterations = 20;
   const RigidContact& contact = placement.contact;
   const double cosine = std::cos(contact.angle), sine = std::sin(contact.angle);
   double normal = normal_load(weight, 0, contact), slope = cosine, previous_normal = 0, previous_excess = 0;
   LoadedPatch out;
-  const auto solve = [&] {
-    const auto again = [&] {
-      out.patch.contact.target.load = normal;
-      out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling);
-    };
-    const auto place = [&] {
-      out.patch = make_case_patch(spec, placement, options, normal);
-      if (spec.drive.friction_coefficient > 0) out.patch.contact.x.force = -spec.drive.traction_coefficient * weight;
-      again();
-    };
-    if (out.load_iterations == 1) return place();
-    again();
-    if (out.solution.normal.touches_edge) place();
-  };
   for (;; ++out.load_iterations) {
-    solve();
+    solve_under(normal, weight, spec, placement, options, out);
     const double excess = normal * cosine - out.solution.tangential.force_y * sine - weight;
     if (std::abs(excess) <= kTolerance * weight) return out;
     if (out.load_iterations > 1) slope = (excess - previous_excess) / (normal - previous_normal);
-    if (!(slope > 0.02 * cosine) || out.load_iterations == kMostIterations)
+    if (!(slope > kWedged * cosine) || out.load_iterations == kMostIterations)
       throw CaseError(
           fmt::format(
               "no normal force balances the weight at a contact angle of {:.1f} degrees: friction wedges the wheel",
