@@ -22,6 +22,7 @@ CaseSpec crossed_cylinders() {
   spec.geometry.wheel_radius = kRadius;
   spec.geometry.cant = 0;
   spec.geometry.bore_radius = 0.25;
+  spec.geometry.block_width = 0.05;
   spec.mesh.element_size = 4e-3;
   spec.mesh.fine_width = 32e-3;
   spec.mesh.coarse_ratio = 2;
