@@ -26,8 +26,7 @@ constexpr double kFlops[2] = {534, 568};  // extruded, revolved: kinematics 129,
                                           // per node sums and differences 15; frames 34
 constexpr double kBytes = 104;            // u and v read and written, 1/m read, 24 + 24 + 24 + 24 + 8
 
-// -- the machine
-// ------------------------------------------------------------------------------------------------------------------------------------------
+// -- the machine ----------------------------------------------------------------------------------
 
 /// N dependent chains of fused multiply-adds, every link in a register (an array of packs would be kept in memory).
 template <class P, int N>
@@ -87,8 +86,7 @@ void memory_traffic(benchmark::State& state) {
 }
 BENCHMARK(memory_traffic)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-// -- swept lines without contact
-// --------------------------------------------------------------------------------------------------------------------------
+// -- swept lines without contact ------------------------------------------------------------------
 
 struct Lines {
   Body solid;
@@ -198,8 +196,7 @@ BENCHMARK(swept_lines<SweepKind::extrude, Precision::single_precision>)->Apply(s
 BENCHMARK(swept_lines<SweepKind::revolve, Precision::double_precision>)->Apply(sizes);
 BENCHMARK(swept_lines<SweepKind::revolve, Precision::single_precision>)->Apply(sizes);
 
-// -- whole steps of a case
-// --------------------------------------------------------------------------------------------------------------------------------
+// -- whole steps of a case ------------------------------------------------------------------------
 
 /// Most memory the process has had since forget_peak(): VmHWM of /proc/self/status.
 double peak_bytes() {

@@ -77,8 +77,9 @@ inline Vec3 principal_stresses(const Sym3& s) {
   const double j3 = xx * (yy * zz - s.yz * s.yz) - s.xy * (s.xy * zz - s.yz * s.xz) + s.xz * (s.xy * s.yz - yy * s.xz);
   const double r = std::sqrt(j2 / 3);
   const double angle = std::acos(std::clamp(j3 / (2 * r * r * r), -1.0, 1.0)) / 3;
-  const double turn = 2 * std::numbers::pi / 3;
-  return {mean + 2 * r * std::cos(angle), mean + 2 * r * std::cos(angle - turn), mean + 2 * r * std::cos(angle + turn)};
+  const double third = 2 * std::numbers::pi / 3;
+  return {mean + 2 * r * std::cos(angle), mean + 2 * r * std::cos(angle - third),
+          mean + 2 * r * std::cos(angle + third)};
 }
 
 }  // namespace railstrata

@@ -97,7 +97,8 @@ TEST(Multipliers, KeepLinearMomentum) {
     Vec3 change, exchanged;
     for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
       const Vec3 dp = (1 / c.before.rail.inverse_mass[r]) * (c.after.rail.velocity[r] - c.before.rail.velocity[r]);
-      change += dp, exchanged += Vec3{std::abs(dp.x), std::abs(dp.y), std::abs(dp.z)};
+      change += dp;
+      exchanged += Vec3{std::abs(dp.x), std::abs(dp.y), std::abs(dp.z)};
     }
     for (std::size_t n = 0; n < c.before.wheel_nodes.size(); ++n)
       change += (1 / c.before.wheel.inverse_mass[n]) * (c.after.wheel.velocity[n] - c.before.wheel.velocity[n]);
