@@ -101,7 +101,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
     c.creepage_y = r.creepage_y;
     c.spin_per_m = r.spin;
   }
-  s.run.engine = "bem";
+  s.run.engine = Engine::bem;
   s.run.wall_s = r.wall_s;
   s.run.elements = static_cast<long>(r.grid.size());
   s.checks = checks(spec, r, m);
