@@ -388,7 +388,7 @@ class Refused(StudyTest):
     def test_values_that_cases_refuse_are_told_at_their_place_in_the_study(self):
         file = self.study(GRID.replace("[1.5, 2, 4]", "[1.5, 2000]").replace('"layer.0.thickness"', '"layer.0.thicknes"'))
         self.refused(2, ["study", file, "--out", self.out], f"{file}:10:23: error: unknown key layer.0.thicknes", "did you mean thickness?", f"{file}:11:31: error: layer.0.young_ratio = 2000: must be between")
-        self.refused(2, ["study", self.study(GRID + '"layer.1.width" = ["60 mm"]\n'), "--out", self.out], f"{file}:12:20: error: layer.1.width: layer has 1 entries, counted from 0")
+        self.refused(2, ["study", self.study(GRID + '"layer.2.width" = ["60 mm"]\n'), "--out", self.out], f"{file}:12:20: error: layer.2.width: layer has 1 entry, counted from 0; layer.1 adds one")
         self.assertFalse(self.out.exists())
 
     def test_words_that_make_no_sense(self):

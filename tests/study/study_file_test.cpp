@@ -39,6 +39,12 @@ TEST(Variation, TheLastKeyChangesFastest) {
   EXPECT_EQ(combinations({}).size(), 1u);
   const std::vector<std::string> ten(10, "1");
   EXPECT_EQ(combinations({{"a", ten}, {"b", ten}, {"c", ten}}).size(), 1000u);
+  try {
+    combinations({{"a", ten}, {"b", ten}, {"c", ten}, {"d", ten}, {"e", {"1", "2"}}});
+    ADD_FAILURE() << "twenty thousand cases";
+  } catch (const CaseError& e) {
+    EXPECT_EQ(e.diagnostics.front().message, "the values to vary make 20000 cases, more than 10000");
+  }
   EXPECT_THROW(combinations({{"a", ten}, {"b", ten}, {"c", ten}, {"d", ten}, {"e", ten}, {"f", {"1", "2"}}}),
                CaseError);
 }
