@@ -96,7 +96,7 @@ ExitCode command_run(const CommandOptions& options) {
                    wall_time("--max-time", options.max_time)};
   const bool resuming = !options.resume.empty();
   if (!resuming && options.case_file.empty())
-    throw CaseError("case is required",
+    throw CaseError("run: no case was named",
                     "name a case file, or go on with an interrupted run: railstrata run --resume FOLDER");
   const LoadedCase loaded = resuming ? case_of_folder(options) : load_case_of(options);
   const std::filesystem::path out = resuming ? options.resume : output_folder_of(options, loaded);

@@ -95,7 +95,7 @@ void print_list(const std::vector<StudyRow>& rows, bool json) {
       return fmt::format("{:>{}}", "-", w);
     };
     fmt::print("{:<{}}  {:<6}  {:<6}  {}  {}  {}  {}{}\n", r.study_case->group + "/" + r.study_case->name, width,
-               r.study_case->engine, r.state, cell("p_max_MPa", 1, 9), cell("q_max_MPa", 1, 9),
+               engine_word(r.study_case->engine), r.state, cell("p_max_MPa", 1, 9), cell("q_max_MPa", 1, 9),
                cell("patch_area_mm2", 1, 8), cell("slip_area_fraction", 100, 6), r.fault.empty() ? "" : "  " + r.fault);
   }
 }
@@ -108,7 +108,7 @@ ExitCode command_study(const CommandOptions& options) {
   const Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
   const Shard shard = parse_shard(options.shard);
   std::vector<StudyCase> cases = plan_study(study, options.overrides);
-  const std::vector<bool> ours = chosen(study, cases, options.engine, options.groups, shard);
+  const std::vector<bool> ours = chosen(study, cases, engine_of(options.engine), options.groups, shard);
   const auto only_ours = [&](const std::vector<StudyRow>& all) {
     std::vector<StudyRow> rows;
     for (std::size_t k = 0; k < all.size(); ++k)

@@ -21,6 +21,7 @@
 
 #include "app/commands.hpp"
 #include "app/processors.hpp"
+#include "core/engine.hpp"
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
 #include "io/json_text.hpp"
@@ -28,6 +29,14 @@
 
 namespace railstrata {
 namespace {
+
+/// "fem (finite elements: …), bem (…)".
+std::string engines_text() {
+  std::string out;
+  for (const EngineRow& row : kEngines)
+    out += fmt::format("{}{} ({}: {})", out.empty() ? "" : ", ", row.word, row.title, row.about);
+  return out;
+}
 
 using Command = ExitCode (*)(const CommandOptions&);
 
@@ -117,7 +126,8 @@ void add_study(CLI::App& sub, CommandOptions& options) {
   sub.add_flag("--force", options.force, "Write into a folder that is not empty and holds no study");
   sub.add_option("--jobs", options.jobs, "Cases at a time; they share the threads (default: one thread a case)")
       ->check(CLI::Range(1, 1024));
-  sub.add_option("--engine", options.engine, "Only the cases of one engine")->check(CLI::IsMember({"fem", "bem"}));
+  sub.add_option("--engine", options.engine, fmt::format("Only the cases of one engine: {}", engines_text()))
+      ->check(CLI::IsMember(engine_words()));
   sub.add_option("--group", options.groups, "Only the cases of this group (repeatable)")->allow_extra_args(false);
   sub.add_option("--shard", options.shard,
                  "i/n: compute every n-th case from the i-th on, for n machines that share the folder");

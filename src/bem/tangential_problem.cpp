@@ -1,5 +1,7 @@
 #include "bem/tangential_problem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -106,8 +108,8 @@ class Solver {
     const double available = available_ * grid_.cell_area(),
                  wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
     if (wanted >= available && wanted > 0)
-      throw CaseError("friction cannot carry the tangential force: " + std::to_string(wanted) + " N of at most " +
-                          std::to_string(available) + " N",
+      throw CaseError(fmt::format("friction cannot carry the tangential force: {:.4g} kN of at most {:.4g} kN",
+                                  1e-3 * wanted, 1e-3 * available),
                       "lower the traction or raise the friction coefficient");
   }
 

@@ -73,10 +73,10 @@ struct VehicleSpec {
 
 struct DriveSpec {
   double speed = 27.78;
-  double traction_coefficient = 0.2;  ///< F_T / G, the paper's mu
-  double friction_coefficient = 0.5;  ///< the paper's f
-  double torque_ramp = 4e-3;          ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
-  double creepage_start = 0.0;        ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
+  double traction_coefficient = 0.2;  ///< F_T / G
+  double friction_coefficient = 0.5;
+  double torque_ramp = 4e-3;    ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
+  double creepage_start = 0.0;  ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
 };
 
 struct MeshSpec {
@@ -85,7 +85,7 @@ struct MeshSpec {
   ElementFormulation element = ElementFormulation::full;
   double hourglass_coefficient = 0.05;  ///< one_point only: kappa of the Flanagan–Belytschko stiffness
   double end_length = 0.12;
-  bool elements_through_layer_one = false;  ///< the paper's mesh: one element through every layer
+  bool elements_through_layer_one = false;  ///< a coarser mesh than `elements` of the layers asks for
 };
 
 struct ContactSpec {

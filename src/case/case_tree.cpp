@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "case/absent_options.hpp"
 #include "case/option_table.hpp"
 #include "case/toml_document.hpp"
 #include "core/nearest_word.hpp"
@@ -62,6 +63,12 @@ std::string wanted(const Option& option) {
   return std::visit(Say{option}, option.slot(any, 0));
 }
 
+const OptionTable* find_table(std::string_view name) {
+  for (const OptionTable& t : case_tables())
+    if (t.name == name) return &t;
+  return nullptr;
+}
+
 class TreeReader {
   static constexpr double kThinnestStep = 1e-6;  // m, of depth in a table of moduli
 
@@ -115,7 +122,7 @@ class TreeReader {
     spec_.layers.resize(list->size());
     for (std::size_t i = 0; i < list->size(); ++i) {
       const std::string name = fmt::format("{}.{}", table.name, i);
-      source_.remember(name, place_of((*list)[i].source()));
+      remember_place(name, (*list)[i]);
       const toml::table& entry = *(*list)[i].as_table();
       read_table(table, name, i, entry);
       check_modulus(name, entry);
@@ -322,8 +329,9 @@ class TreeReader {
 
   void out_of_range(const Option& option, const std::string& key, const std::string& value,
                     const std::string& quantity) {
-    const std::string instead =
-        quantity.empty() ? "" : suggest_quantity(quantity, option.dimension, option.range.min, option.range.max);
+    const std::string instead = quantity.empty() ? "" : suggest_quantity(quantity, option.dimension, [&](double v) {
+      return option.range.holds(v);
+    });
     const std::string allowed = describe(option.range, option.dimension);
     source_.complain(key, fmt::format("{} = {}: must be {}", key, value, allowed.empty() ? "finite" : allowed),
                      instead.empty() ? "choose a value in this range" : fmt::format("did you mean \"{}\"?", instead));
@@ -332,19 +340,22 @@ class TreeReader {
   void unknown_key(const OptionTable& table, const std::string& full, const std::string& key) {
     std::vector<std::string> keys;
     for (const Option& o : table.options) keys.emplace_back(o.key);
-    const std::string near = nearest_word(key, keys);
     source_.complain(full, fmt::format("unknown key {}", full),
-                     fmt::format("{}keys of [{}]: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
-                                 table.name, fmt::join(keys, ", ")));
+                     fmt::format("{}keys of [{}]: {}", hint_for(key, keys), table.name, fmt::join(keys, ", ")));
   }
 
   void unknown_table(const std::string& full, const std::string& name) {
     std::vector<std::string> names;
     for (const OptionTable& t : case_tables()) names.emplace_back(t.name);
-    const std::string near = nearest_word(name, names);
     source_.complain(full, fmt::format("unknown table or key {}", full),
-                     fmt::format("{}tables: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
-                                 fmt::join(names, ", ")));
+                     fmt::format("{}tables: {}", hint_for(name, names), fmt::join(names, ", ")));
+  }
+
+  /// What to do without a thing that no case has, else the known name that is meant.
+  static std::string hint_for(const std::string& name, const std::vector<std::string>& known) {
+    if (const std::string_view answer = answer_for_absent(name); !answer.empty()) return fmt::format("{}. ", answer);
+    const std::string near = nearest_word(name, known);
+    return near.empty() ? "" : fmt::format("did you mean {}? ", near);
   }
 
   /// Values point at the value, tables and keys set by an override at nothing of the text.
@@ -354,11 +365,6 @@ class TreeReader {
     if (const TextPlace& at = by_name ? name : value; at.line > 0) source_.remember(full, at);
   }
 
-  static const OptionTable* find_table(std::string_view name) {
-    for (const OptionTable& t : case_tables())
-      if (t.name == name) return &t;
-    return nullptr;
-  }
   static bool is_group(const std::string& name) {
     return std::any_of(case_tables().begin(), case_tables().end(),
                        [&](const OptionTable& t) { return t.name.starts_with(name + "."); });
@@ -405,20 +411,44 @@ toml::table parse_override_value(const std::string& text, const std::string& val
   refuse_override(text, "is not one value in UTF-8");
 }
 
-/// The table named by the parts before the last, made where it is missing; list elements must exist.
-toml::table& descend(toml::table& document, const std::vector<std::string>& parts, const std::string& text) {
+bool is_repeated(const std::string& name) {
+  const OptionTable* table = find_table(name);
+  return table && table->repeated;
+}
+
+/// The entry of a list of tables that an override names; one more than there are adds it.
+toml::table& entry_of(toml::array& list, const std::string& name, const std::string& word, const std::string& text,
+                      CaseSource& source) {
+  constexpr std::size_t kMostDigits = 5;
+  const bool digits =
+      !word.empty() && word.size() <= kMostDigits && word.find_first_not_of("0123456789") == std::string::npos;
+  const std::size_t index = digits ? std::stoul(word) : list.size() + 1;
+  const bool may_grow = is_repeated(name);
+  if (may_grow && index == list.size()) {
+    list.push_back(toml::table{});
+    source.remember_origin(fmt::format("{}.{}", name, index), "--set " + text);
+  }
+  if (index < list.size() && list[index].is_table()) return *list[index].as_table();
+  refuse_override(text,
+                  fmt::format("{} has {} entr{}, counted from 0{}", name, list.size(), list.size() == 1 ? "y" : "ies",
+                              may_grow ? fmt::format("; {}.{} adds one", name, list.size()) : ""));
+}
+
+/// The table named by the parts before the last, made where it is missing.
+toml::table& descend(toml::table& document, const std::vector<std::string>& parts, const std::string& text,
+                     CaseSource& source) {
   toml::table* table = &document;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-    if (!table->contains(parts[i])) table->insert(parts[i], toml::table{});
+    if (!table->contains(parts[i])) {
+      if (i == 0 && is_repeated(parts[i]))
+        table->insert(parts[i], toml::array{});
+      else
+        table->insert(parts[i], toml::table{});
+    }
     toml::node& node = *table->get(parts[i]);
     if (toml::array* list = node.as_array()) {
+      table = &entry_of(*list, parts[i], i + 2 < parts.size() ? parts[i + 1] : "", text, source);
       ++i;
-      const bool digits = i + 1 < parts.size() && !parts[i].empty() && parts[i].size() < 6 &&
-                          parts[i].find_first_not_of("0123456789") == std::string::npos;
-      const std::size_t index = digits ? std::stoul(parts[i]) : list->size();
-      if (index >= list->size() || !(*list)[index].is_table())
-        refuse_override(text, fmt::format("{} has {} entries, counted from 0", parts[i - 1], list->size()));
-      table = (*list)[index].as_table();
     } else if (node.is_table()) {
       table = node.as_table();
     } else {
@@ -431,15 +461,16 @@ toml::table& descend(toml::table& document, const std::vector<std::string>& part
 void apply_override(toml::table& document, const std::string& text, CaseSource& source) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) refuse_override(text, "is not key=value");
-  if (std::count(text.begin(), text.end(), '.') > kMostDots)
-    refuse_override(text.substr(0, 60) + "...", fmt::format("has more than {} dots", kMostDots));
-  const std::string key = text.substr(0, equals);
+  const std::string key = text.substr(0, equals), written = text.substr(equals + 1);
+  if (std::count(key.begin(), key.end(), '.') > kMostDots || deep_key("value = " + written))
+    refuse_override(text.substr(0, 60) + "...", fmt::format("has a key of more than {} parts", kMostDots));
   std::vector<std::string> parts;
   std::istringstream stream(key);
   for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
-  if (parts.size() < 2) refuse_override(text, "names no table");
-  toml::table value = parse_override_value(text, text.substr(equals + 1));
-  toml::table& table = descend(document, parts, text);
+  toml::table value = parse_override_value(text, written);
+  const bool whole_list = parts.size() == 1 && is_repeated(parts[0]);
+  if (parts.size() < 2 && !whole_list) refuse_override(text, "names no table");
+  toml::table& table = descend(document, parts, text, source);
   value.get("value")->visit([&](auto& node) { table.insert_or_assign(toml::key(parts.back()), node); });
   source.remember_origin(key, "--set " + text);
 }

@@ -96,7 +96,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
     c.creepage_y = r.rigid_slip.y;
     c.spin_per_m = r.rigid_slip.spin;
   }
-  s.run.engine = "bem";
+  s.run.engine = Engine::bem;
   s.run.wall_s = r.effort.wall_s;
   s.run.elements = static_cast<long>(r.grid.size());
   s.checks = checks(spec, r, m);

@@ -58,7 +58,7 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   s.rail = rail_stress_summary(sys, m);
   s.wheel = wheel_stress_summary(sys, m);
   s.energy = {spec.run.rolling ? run.closure : kNotApplicable, run.hourglass_share};
-  s.run.engine = "fem";
+  s.run.engine = Engine::fem;
   s.run.wall_s = run.wall_seconds;
   s.run.preload_wall_s = run.preload_wall_seconds;
   s.run.output_wall_s = run.output_wall_seconds;

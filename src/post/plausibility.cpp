@@ -25,7 +25,7 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec) {
   for (const LayerSpec& layer : spec.layers) narrowest = std::min(narrowest, layer.width);
   warn_above("patch_wider_than_layer", width, narrowest,
              "the contact patch is wider than the layer [m]: a larger layer.width holds it");
-  if (s.run.engine == "fem")
+  if (s.run.engine == Engine::fem)
     warn_above("patch_near_border_of_fine_zone", width, spec.mesh.fine_width - 2 * spec.mesh.element_size,
                "the contact patch nearly fills the fine mesh [m]: a larger mesh.fine_width gives it room");
   warn_above("von_mises_above_common_rail_yield", largest_von_mises(s.rail), kCommonRailYield,

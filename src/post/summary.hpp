@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "core/engine.hpp"
+
 namespace railstrata {
 
 inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN();
@@ -50,7 +52,8 @@ struct EnergySummary {
 };
 
 struct RunSummary {
-  std::string engine, commit;
+  Engine engine = Engine::fem;
+  std::string commit;
   double wall_s = kNotApplicable, preload_wall_s = kNotApplicable, output_wall_s = kNotApplicable,
          dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
   double stable_step = kNotApplicable, unscaled_step = kNotApplicable;  ///< s, with and without selective mass scaling

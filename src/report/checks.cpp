@@ -115,7 +115,8 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
   for (int i = 0; i < n; ++i) add_warnings(runs[i], i, out);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
-      if (runs[i].result.engine == "fem" && runs[j].result.engine == "bem" && differences(runs[i], runs[j]).empty())
+      if (is_engine(runs[i].result.engine, Engine::fem) && is_engine(runs[j].result.engine, Engine::bem) &&
+          differences(runs[i], runs[j]).empty())
         add_pair(runs, i, j, out);
   if (n == 2)
     if (std::vector<std::string> d = differences(runs[0], runs[1]); !d.empty()) {

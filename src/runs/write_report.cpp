@@ -72,7 +72,7 @@ fs::path half_space_reference(const fs::path& folder, int threads) {
 void write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference, int threads) {
   Report report;
   for (const fs::path& folder : folders) report.runs.push_back(read_report_run(folder));
-  if (reference && report.runs.size() == 1 && report.runs[0].result.engine == "fem")
+  if (reference && report.runs.size() == 1 && is_engine(report.runs[0].result.engine, Engine::fem))
     if (const fs::path beside = half_space_reference(folders[0], threads); !beside.empty()) {
       report.runs.push_back(read_report_run(beside));
       report.runs[1].name = report.runs[0].name;

@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "core/engine.hpp"
+
 namespace railstrata {
 
 /// Where the study's answers come from: one column of the comparison.
 struct AnswerColumn {
-  std::string name, engine;
+  std::string name;
+  Engine engine = Engine::fem;
   std::string prefix;  ///< of the group's name: "paper_" takes "paper_layers" for "layers"; a group that has no such
                        ///< twin stands for itself
 };

@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-std::string engine_word(const std::string& engine) { return engine == "fem" ? "finite elements" : "half-space"; }
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 /// What a key is called on an axis.
@@ -54,7 +53,8 @@ std::string column_name(const std::string& column) {
   return name;
 }
 
-bool one_of(const std::vector<std::string>& all, const std::string& word) {
+template <class T>
+bool one_of(const std::vector<T>& all, const T& word) {
   return std::find(all.begin(), all.end(), word) != all.end();
 }
 
@@ -87,7 +87,7 @@ std::vector<Line> lines_of(const StudyFigure& f, const std::vector<const StudyEn
                            const std::string& each) {
   const std::vector<std::string> series = values_of(f.series, members);
   std::vector<Line> out;
-  for (const std::string& engine : f.engines)
+  for (const Engine engine : f.engines)
     for (std::size_t k = 0; k < series.size(); ++k)
       for (const StudyEntry* e : members) {
         const std::string at = f.each.empty() ? "" : e->value(f.each);
@@ -95,8 +95,9 @@ std::vector<Line> lines_of(const StudyFigure& f, const std::vector<const StudyEn
             (!f.series.empty() && e->value(f.series) != series[k]))
           continue;
         out.push_back({e, static_cast<int>(k),
-                       f.series.empty() ? engine_word(engine)
-                                        : fmt::format("{}, {}", value_name(f.series, series[k]), engine_word(engine))});
+                       f.series.empty()
+                           ? std::string(engine_title(engine))
+                           : fmt::format("{}, {}", value_name(f.series, series[k]), engine_title(engine))});
       }
   return out;
 }
@@ -127,9 +128,9 @@ void add_centre_lines(const StudyFigure& f, const std::vector<StudyEntry>& entri
       ReportSeries s{line.name,
                      table.column("x_mm"),
                      table.column("p_MPa"),
-                     line.entry->engine == "fem",
-                     f.series.empty() ? (line.entry->engine == "fem" ? 0 : 1) : line.place,
-                     line.entry->engine == "fem" ? "solid" : "dash"};
+                     line.entry->engine == Engine::fem,
+                     f.series.empty() ? (line.entry->engine == Engine::fem ? 0 : 1) : line.place,
+                     line.entry->engine == Engine::fem ? "solid" : "dash"};
       if (f.value == "q") {
         const std::vector<double> qx = table.column("q_x_MPa"), qy = table.column("q_y_MPa");
         for (std::size_t i = 0; i < s.y.size(); ++i) s.y[i] = std::hypot(qx[i], qy[i]);
@@ -155,7 +156,8 @@ void add_trend(const StudyFigure& f, const std::vector<StudyEntry>& entries, Rep
     for (const Line& line : lines_of(f, members, panel)) {
       const double y = line.entry->number(f.value);
       if (chart.series.empty() || chart.series.back().name != line.name)
-        chart.series.push_back({line.name, {}, {}, true, line.place, line.entry->engine == "fem" ? "solid" : "dash"});
+        chart.series.push_back(
+            {line.name, {}, {}, true, line.place, line.entry->engine == Engine::fem ? "solid" : "dash"});
       ReportSeries& s = chart.series.back();
       if (const std::string at = line.entry->value(f.x); !at.empty()) {
         s.x.push_back(axis_value(at).first);
@@ -237,13 +239,13 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
   std::set<fs::path> seen;
   std::vector<ReportRun> half_spaces;
   for (const StudyEntry& e : entries)
-    if (e.engine == "bem" && e.done() && seen.insert(e.folder).second) half_spaces.push_back(for_checks(e));
+    if (e.engine == Engine::bem && e.done() && seen.insert(e.folder).second) half_spaces.push_back(for_checks(e));
   seen.clear();
   for (const StudyEntry& e : entries) {
     if (!e.done() || !seen.insert(e.folder).second) continue;
     std::vector<ReportRun> both{for_checks(e)};
     std::vector<ReportCheck> checks = report_checks(both);
-    if (e.engine == "fem")
+    if (e.engine == Engine::fem)
       for (const ReportRun& b : half_spaces) {
         both.resize(1);
         both.push_back(b);
@@ -255,7 +257,7 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
     std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name};
     for (const ReportCheck& c : checks) {
       if (c.runs.size() == 1 && c.runs[0] == 0)
-        add(c, fmt::format("{}/{}, {}", e.group, e.name, engine_word(e.engine)));
+        add(c, fmt::format("{}/{}, {}", e.group, e.name, engine_title(e.engine)));
       if (c.runs.size() != 2 || c.name == "cases_differ") continue;
       // on a coarser mesh than it takes nothing is promised: the paper's mesh is told, not judged
       if (!both[0].option("mesh", "element").starts_with("one_point")) add(c, fmt::format("{}/{}", e.group, e.name));
@@ -281,7 +283,7 @@ ReportTable cases_table(const std::vector<StudyEntry>& entries) {
                  "σ₁ on the section [MPa]", "at depth [mm]", "state"},
                 {}};
   for (const StudyEntry& e : entries) {
-    std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name, engine_word(e.engine)};
+    std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name, engine_title(e.engine)};
     for (const auto& [column, factor] : std::vector<std::pair<const char*, double>>{{"p_max_MPa", 1},
                                                                                     {"q_max_MPa", 1},
                                                                                     {"patch_length_mm", 1},

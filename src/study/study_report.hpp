@@ -14,7 +14,9 @@ namespace railstrata {
 
 /// A line of the study's table.
 struct StudyEntry {
-  std::string group, name, engine, state, fault;
+  std::string group, name;
+  Engine engine = Engine::fem;
+  std::string state, fault;
   std::filesystem::path folder;                             ///< of the result, if it is done
   std::vector<std::pair<std::string, std::string>> values;  ///< what is varied
   std::vector<std::pair<std::string, double>> numbers;      ///< columns of the table

@@ -300,6 +300,13 @@ TEST(ProfileFromPoints, defects_are_named) {
   points = crown(0.3, 0.02, 0.5 * mm);
   std::swap(points[20], points[23]);
   EXPECT_NE(arc_points_error(points).find("turns back on itself at point 21"), std::string::npos);
+  EXPECT_EQ(arc_points_error(points).find("outlier"), std::string::npos) << "two points change places";
+  points = crown(0.3, 0.02, 0.1 * mm);
+  points[60].z += 0.5 * mm;
+  EXPECT_NE(
+      arc_points_error(points).find("the order along the curve, without loops; or remove point 61 if it is an outlier"),
+      std::string::npos)
+      << arc_points_error(points);
   points.clear();
   for (int i = 0; i < 40; ++i)
     points.push_back({0.01 * std::cos(0.2 * i), 0.01 * std::sin(0.2 * i)});  // more than once round

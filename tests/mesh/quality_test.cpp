@@ -29,6 +29,13 @@ TEST(MeasureQuality, IsOneForCubesAndTheSineOfTheAngleForSheared) {
   EXPECT_NEAR(measure_quality(body)[0].aspect_max, std::sqrt(2.0), 1e-12);
 }
 
+TEST(QuadArea, IsThatOfAnyQuadrilateralBySignOfItsTurn) {
+  const Section s{{{0, 0}, {2, 0}, {2, 1}, {0, 1}, {0.5, 0.25}}, {}, {}};
+  EXPECT_DOUBLE_EQ(quad_area(s, {0, 1, 2, 3}), 2.0);
+  EXPECT_DOUBLE_EQ(quad_area(s, {3, 2, 1, 0}), -2.0);
+  EXPECT_DOUBLE_EQ(quad_area(s, {4, 1, 2, 3}), 1.5) << "the corner at 0.5, 0.25 takes half a unit away";
+}
+
 TEST(MeasureQuality, SeesAnInvertedElementAndSaysWhere) {
   SweptBody body = mesh_brick(3, 3, 2, 1e-3, 1e-3, 1e-3);
   body.blocks[0].section.nodes[5] = {2.2e-3, -1e-3};

@@ -44,7 +44,7 @@ TEST(BemSummary, OfCrossedCylindersIsHertzs) {
     EXPECT_NEAR(body->subsurface->von_mises.depth / a, 0.48, 0.01);
     EXPECT_FALSE(body->layer || body->interface || body->matrix) << "no layer, no interface";
   }
-  EXPECT_EQ(s.run.engine, "bem");
+  EXPECT_EQ(s.run.engine, Engine::bem);
   EXPECT_TRUE(std::isnan(s.contact.creepage_x) && std::isnan(s.contact.slip_area_fraction))
       << "without friction neither applies";
   EXPECT_TRUE(std::isnan(s.contact.penetration_max));

@@ -178,7 +178,7 @@ class Resume(FromOutside):
         self.refused(2, self.resume("--set", "mesh.element_size=2 mm"),
                      "--resume goes on with the run of a folder as it was begun")
         self.refused(2, ["run", "--resume", self.folder / "no"], "there is no such folder")
-        self.refused(2, ["run"], "case is required")
+        self.refused(2, ["run"], "run: no case was named")
         self.refused(2, ["run", self.case(TWO), "--checkpoint-every", "5 mm"],
                      '--checkpoint-every "5 mm": "mm" is not the unit of a time')
         checkpoint = bytearray((self.out / "checkpoint.h5").read_bytes())

@@ -418,8 +418,8 @@ class Refused(StudyTest):
                                                                              '"layer.0.thicknes"'))
         self.refused(2, ["study", file, "--out", self.out], f"{file}:10:23: error: unknown key layer.0.thicknes",
                      "did you mean thickness?", f"{file}:11:31: error: layer.0.young_ratio = 2000: must be between")
-        self.refused(2, ["study", self.study(GRID + '"layer.1.width" = ["60 mm"]\n'), "--out", self.out],
-                     f"{file}:12:20: error: layer.1.width: layer has 1 entries, counted from 0")
+        self.refused(2, ["study", self.study(GRID + '"layer.2.width" = ["60 mm"]\n'), "--out", self.out],
+                     f"{file}:12:20: error: layer.2.width: layer has 1 entry, counted from 0; layer.1 adds one")
         self.assertFalse(self.out.exists())
 
     def test_words_that_make_no_sense(self):
