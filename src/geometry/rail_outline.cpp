@@ -1,10 +1,11 @@
+#include "geometry/rail_outline.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/faults.hpp"
-#include "geometry/profile.hpp"
 
 namespace railstrata {
 namespace {

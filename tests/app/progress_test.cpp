@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-#include "runs/stop_flag.hpp"
+#include "app/signals.hpp"
 
 namespace railstrata {
 namespace {
