@@ -1,9 +1,13 @@
 #pragma once
 // From a case to the problem on a grid: what solve_bem and creep_curve share.
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "bem/bem_options.hpp"
 #include "bem/profile_gap.hpp"
-#include "bem/solve_bem.hpp"
+#include "halfspace/layered.hpp"
+#include "model/model.hpp"
 
 namespace railstrata {
 
@@ -16,6 +20,10 @@ struct CasePatch {
   LayeredHalfSpace wheel, rail;
   std::vector<std::string> notes;
 };
+
+/// Layers of one body ("rail" or "wheel") from the case, from the surface down; a graded one cut to its
+/// grading_tolerance.
+LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body);
 
 /// The normal force [N] that bears the weight G together with a lateral force T_y on the rail, in the contact plane at
 /// the angle delta: N cos(delta) - T_y sin(delta) = G.

@@ -1,7 +1,7 @@
+#include "bem/influence_cache.hpp"
+
 #include <list>
 #include <mutex>
-
-#include "bem/solve_bem.hpp"
 
 namespace railstrata {
 
