@@ -5,12 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/option_values.hpp"
 #include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
-#include "runs/output_folder.hpp"
-#include "runs/run_bem.hpp"
+#include "io/output_folder.hpp"
 
 namespace railstrata {
 namespace {

@@ -35,7 +35,8 @@ ExitCode command_report(const CommandOptions& options) {
       throw CaseError(fmt::format("{} is not a result folder", folder.string()),
                       "give a folder that `railstrata run` or `railstrata bem` has written");
   if (page.has_parent_path()) make_folder(page.parent_path());
-  write_report(page, options.folders, options.reference_solution, options.threads);
+  for (const std::string& note : write_report(page, options.folders, options.reference_solution))
+    spdlog::warn("{}", note);
   if (options.json) fmt::print("{}\n", json_text(nlohmann::json{{"report", page.generic_string()}}));
   spdlog::info("the report is {}", page.string());
   return ExitCode::ok;

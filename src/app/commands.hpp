@@ -49,11 +49,4 @@ ExitCode command_report(const CommandOptions& options);
 ExitCode command_schema(const CommandOptions& options);
 ExitCode command_info(const CommandOptions& options);
 
-/// The case with the overrides applied; its notes are logged.
-LoadedCase load_case_of(const CommandOptions& options);
-
-/// --out, or results/<case name><suffix>.
-std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,
-                                       const std::string& suffix = {});
-
 }  // namespace railstrata

@@ -1,4 +1,4 @@
-#include "runs/output_folder.hpp"
+#include "io/output_folder.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "runs/case_estimate.hpp"
+#include "runs/run_estimate.hpp"
 
 #include <fmt/format.h>
 #include <sys/resource.h>

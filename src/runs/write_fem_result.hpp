@@ -1,48 +1,41 @@
 #pragma once
-// The finite element run of a case, from the spec to the files of its folder.
+// The files of a finite element run: those that grow while it is solved, and its results.
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
-#include <vector>
 
-#include "case/case_spec.hpp"
 #include "io/checkpoint_file.hpp"
-#include "post/summary.hpp"
-#include "runs/run_control.hpp"
+#include "runs/solve_fem.hpp"
 
 namespace railstrata {
 
-/// What the caller wants to hear: a phase ("mesh", "preload", "rolling", "results"), how far it is (0..1, negative:
-/// unknown) and a line of numbers; or an event on the way
-/// ("checkpoint", "warning") in words.
-using RunReporter = std::function<void(const std::string& phase, double fraction, const std::string& detail)>;
+class FemWriter {
+ public:
+  /// Into a folder that is there. `origin.provenance`: "#" lines of the tables. `begun`: the state that the run goes on
+  /// from; history.csv and the series of its patch are then written again up to there.
+  FemWriter(const RollingSystem& system, std::filesystem::path folder, CheckpointOrigin origin,
+            const RunState* begun = nullptr);
+  ~FemWriter();
 
-struct FemRequest {
-  CaseSpec spec;
-  std::filesystem::path case_folder;    ///< of relative profile names
-  std::filesystem::path out;            ///< exists
-  std::vector<std::string> provenance;  ///< "#" lines of the tables
-  std::string commit;
-  int threads = 0;
-  RunReporter report;
-  std::function<void()> begin;  ///< called when mesh and memory are known to do, before the first file is written
-  RunTimes times;
-  std::string case_sha256;         ///< names the case in checkpoints
-  std::string program;             ///< version_text()
-  std::optional<RunState> resume;  ///< from a checkpoint of this folder
+  /// Makes the observer write history.csv, patch.pvd with its frames in patch_series/ (if the case asks for them) and
+  /// checkpoint.h5. The writer must outlive the observer. A checkpoint on the way that cannot be written is reported to
+  /// `warn`, the last one of a run that stops throws EnvironmentError. `saved` hears of every checkpoint.
+  void observe(FemObserver& observer, std::function<void(const RunState&)> saved = {},
+               std::function<void(const std::string&)> warn = {});
+
+  /// Writes per position (in the folder itself for the last of a finished run, in position_<mm>/ for the others)
+  /// summary.json; patch.csv, centre_line.csv, depth_line.csv and two sections a body; patch.vtp, rail_surface.vtp,
+  /// wheel_surface.vtp, geometry.json and view.py; rail.vtu and wheel.vtu if the case asks for them. Removes the
+  /// checkpoints of a finished run. Throws EnvironmentError for the disk.
+  void write(const FemSolution& solution);
+
+ private:
+  struct GrowingFiles;
+  const RollingSystem& system_;
+  std::filesystem::path folder_;
+  CheckpointOrigin origin_;
+  std::unique_ptr<GrowingFiles> growing_;
 };
-
-struct FemOutcome {
-  std::vector<Summary> summaries;  ///< one per wanted position, in order of position; the last one is summary.json
-  bool stopped = false;        ///< before the last position, with a checkpoint: results of the finished positions only
-  bool limit_reached = false;  ///< that was for RunTimes::limit
-};
-
-/// Writes into request.out: history.csv, and per position (in the folder itself for the last, in position_<mm>/ for the
-/// others) summary.json, patch.csv, centre_line.csv, depth_line.csv, patch.vtp, rail.vtu, wheel.vtu; patch.pvd with its
-/// frames; checkpoint.h5 while it runs, removed when all results are there. A checkpoint on the way that cannot be
-/// written is a warning to `report`, a last one an error. Throws as build_model and run_rolling do.
-FemOutcome run_fem(const FemRequest& request);
 
 }  // namespace railstrata

@@ -1,0 +1,46 @@
+#include "app/option_values.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "bem/bem_options.hpp"
+#include "case/units.hpp"
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kSmallestCell = 0.02e-3, kLargestCell = 5e-3;
+
+double length_of(const std::string& text) {
+  try {
+    return parse_quantity(text, dimension::kLength);
+  } catch (const UnitError& e) {
+    throw CaseError(fmt::format("--cell \"{}\": {}", text, e.what()), e.remedy);
+  }
+}
+
+}  // namespace
+
+double cell_size(const std::string& text) {
+  if (text.empty()) return BemOptions{}.cell;
+  const double cell = length_of(text);
+  if (!(cell >= kSmallestCell && cell <= kLargestCell))
+    throw CaseError(fmt::format("--cell \"{}\" is out of range", text), "write a length from 0.02 mm to 5 mm");
+  return cell;
+}
+
+double wall_time(const std::string& option, const std::string& text) {
+  if (text == "0" || text == "never") return 0;
+  try {
+    const double seconds = parse_quantity(text, dimension::kTime);
+    if (seconds >= 0 && std::isfinite(seconds)) return seconds;
+    throw CaseError(fmt::format("{} \"{}\" is out of range", option, text),
+                    "write a time, e.g. \"10 min\", or 0 for never");
+  } catch (const UnitError& e) {
+    throw CaseError(fmt::format("{} \"{}\": {}", option, text, e.what()), e.remedy);
+  }
+}
+
+}  // namespace railstrata
