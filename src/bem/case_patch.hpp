@@ -21,9 +21,9 @@ struct CasePatch {
   std::vector<std::string> notes;
 };
 
-/// Layers of one body ("rail" or "wheel") from the case, from the surface down; a graded one cut to its
+/// Layers of one body from the case, from the surface down; a graded one cut to its
 /// grading_tolerance.
-LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body);
+LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 
 /// The normal force [N] that bears the weight G together with a lateral force T_y on the rail, in the contact plane at
 /// the angle delta: N cos(delta) - T_y sin(delta) = G.
