@@ -26,7 +26,7 @@ ExitCode command_bem(const CommandOptions& options) {
   write_half_space_result(out, table_origin(loaded), loaded.spec, placement, solution);
   print_summary(solution.summary, options.json);
   spdlog::info("results are in {}", out.string());
-  if (options.report) add_report(out);
+  if (options.page) add_report(out);
   const bool ok = all_checks_hold(solution.summary);
   if (!ok) spdlog::warn("a check failed: read the results with care");
   return ok ? ExitCode::ok : ExitCode::failed_checks;

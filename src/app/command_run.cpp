@@ -68,15 +68,15 @@ LoadedCase case_of_folder(const CommandOptions& options) {
   if (!options.case_file.empty() || !options.overrides.empty() || !options.out.empty() || options.force)
     throw CaseError("--resume goes on with the run of a folder as it was begun",
                     "leave out the case, --set, --out and --force; another case is another run");
-  if (!std::filesystem::is_directory(options.resume))
-    throw CaseError(fmt::format("--resume {}: there is no such folder", options.resume.string()),
+  if (!std::filesystem::is_directory(options.run.resume))
+    throw CaseError(fmt::format("--resume {}: there is no such folder", options.run.resume.string()),
                     "name the result folder of a run that was interrupted");
-  if (std::filesystem::exists(options.resume / "summary.json") &&
-      !std::filesystem::exists(checkpoint_file(options.resume)) &&
-      !std::filesystem::exists(previous_checkpoint_file(options.resume)))
-    throw CaseError(fmt::format("there is nothing to resume: {} holds a finished run", options.resume.string()),
+  if (std::filesystem::exists(options.run.resume / "summary.json") &&
+      !std::filesystem::exists(checkpoint_file(options.run.resume)) &&
+      !std::filesystem::exists(previous_checkpoint_file(options.run.resume)))
+    throw CaseError(fmt::format("there is nothing to resume: {} holds a finished run", options.run.resume.string()),
                     "start another with `railstrata run CASE`");
-  return load_case(options.resume / "case.toml");
+  return load_case(options.run.resume / "case.toml");
 }
 
 std::string resume_command(const std::filesystem::path& folder) {
@@ -106,7 +106,7 @@ CheckpointOrigin origin_of(const LoadedCase& loaded) {
 
 RunJob resumed_job(const CommandOptions& options) {
   LoadedCase loaded = case_of_folder(options);
-  const std::filesystem::path& out = options.resume;
+  const std::filesystem::path& out = options.run.resume;
   CheckpointOrigin origin = origin_of(loaded);
   FolderHold hold(out);
   FoundCheckpoint found = read_checkpoint(out, origin.case_sha256);
@@ -185,12 +185,12 @@ void warn_of_shared_processors(int threads) {
 ExitCode command_run(const CommandOptions& options) {
   FemOptions fem;
   fem.wishes = {&stop_flag(), &save_flag()};  // from here on a signal is a wish
-  fem.times.checkpoint_every = wall_time("--checkpoint-every", options.checkpoint_every);
-  fem.times.limit = wall_time("--max-time", options.max_time);
-  if (options.resume.empty() && options.case_file.empty())
+  fem.times.checkpoint_every = wall_time("--checkpoint-every", options.run.checkpoint_every);
+  fem.times.limit = wall_time("--max-time", options.run.max_time);
+  if (options.run.resume.empty() && options.case_file.empty())
     throw CaseError("case is required",
                     "name a case file, or go on with an interrupted run: railstrata run --resume FOLDER");
-  RunJob job = options.resume.empty() ? new_job(options) : resumed_job(options);
+  RunJob job = options.run.resume.empty() ? new_job(options) : resumed_job(options);
   warn_of_shared_processors(options.threads);
   const RunOutcome outcome = [&] {
     try {
@@ -207,7 +207,7 @@ ExitCode command_run(const CommandOptions& options) {
                  resume_command(job.out));
     return outcome.limit_reached ? ExitCode::unfinished : ExitCode::interrupted;
   }
-  if (options.report) add_report(job.out);
+  if (options.page) add_report(job.out);
   const bool all_ok = std::all_of(outcome.summaries.begin(), outcome.summaries.end(), all_checks_hold);
   if (!all_ok) spdlog::warn("a check failed: read the results with care");
   return all_ok ? ExitCode::ok : ExitCode::failed_checks;

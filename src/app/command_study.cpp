@@ -108,8 +108,8 @@ void compute(const CommandOptions& options, const LoadedStudy& study, const fs::
   StudyRun run;
   run.out = out;
   run.cell = study.spec.cell;
-  run.jobs =
-      std::clamp(options.jobs > 0 ? options.jobs : options.threads, 1, std::max(1, static_cast<int>(to_do.size())));
+  run.jobs = std::clamp(options.study.jobs > 0 ? options.study.jobs : options.threads, 1,
+                        std::max(1, static_cast<int>(to_do.size())));
   run.threads = std::max(1, options.threads / run.jobs);
   run.stop = &stop_flag();
   run.save = &save_flag();
@@ -149,11 +149,11 @@ ExitCode command_study(const CommandOptions& options) {
   const LoadedStudy study = study_of(options);
   cell_size(study.spec.cell);  // what is wrong is reported before the first case
   const Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
-  const Shard shard = parse_shard(options.shard);
+  const Shard shard = parse_shard(options.study.shard);
   std::vector<StudyCase> cases = plan_study(study, options.overrides);
-  const std::vector<bool> ours = chosen(study, cases, options.engine, options.groups, shard);
+  const std::vector<bool> ours = chosen(study, cases, options.study.engine, options.study.groups, shard);
   const fs::path out = folder_of(options, study);
-  if (options.dry_run) return list_cases(options, out, cases, ours);
+  if (options.study.dry_run) return list_cases(options, out, cases, ours);
 
   const FolderHold hold =
       prepare_study_folder(out, study, options.command_line, options.overrides, options.threads, options.force);
@@ -167,7 +167,7 @@ ExitCode command_study(const CommandOptions& options) {
     spdlog::warn("stopped; the same command goes on where it was");
     return ExitCode::interrupted;
   }
-  if (options.report) add_study_page(out, study, published, rows);
+  if (options.page) add_study_page(out, study, published, rows);
   const std::vector<StudyRow> our_rows = rows_of(rows, ours);
   print_list(our_rows, options.json);
   spdlog::info("the table is {}", (out / "study.csv").string());

@@ -72,15 +72,15 @@ nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::v
 }  // namespace
 
 ExitCode command_sweep(const CommandOptions& options) {
-  const std::vector<VariedKey> keys = parse_vary(options.vary);
+  const std::vector<VariedKey> keys = parse_vary(options.sweep.vary);
   const LoadedCase base = load_case_of(options);
   std::vector<SweepCase> cases = plan_sweep(base, options.overrides, keys);
   InfluenceCache cache;
   SweepOptions sweep;
   sweep.bem.cell = cell_size(options.cell);
   sweep.bem.cache = &cache;
-  sweep.stresses = options.stresses;
-  const std::vector<ResultColumn> columns = result_columns(options.stresses);
+  sweep.stresses = options.sweep.stresses;
+  const std::vector<ResultColumn> columns = result_columns(options.sweep.stresses);
 
   const std::filesystem::path out = output_folder_of(options, base, "-sweep");
   const FolderHold hold = prepare_output_folder(out, options.force);
