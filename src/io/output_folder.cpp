@@ -131,6 +131,4 @@ std::vector<std::string> table_origin(const LoadedCase& loaded) {
           "x from the axle in the rolling direction, y towards the field side; tractions act on the rail"};
 }
 
-std::string commit_text() { return build_info().commit + (build_info().dirty ? "+dirty" : ""); }
-
 }  // namespace railstrata

@@ -1,11 +1,10 @@
 #include "runs/run_estimate.hpp"
 
-#include <fmt/format.h>
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+
+#include "runs/peak_memory.hpp"
 
 namespace railstrata {
 namespace {
@@ -23,12 +22,6 @@ double force_seconds(const DeformableBody& body) {
   return best;
 }
 
-double memory_in_use() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
 }  // namespace
 
 RunEstimate estimate_run(const Model& model) {
@@ -42,7 +35,7 @@ RunEstimate estimate_run(const Model& model) {
                           static_cast<double>(model.rail.elements() + model.wheel.elements());
   e.seconds = kRestOfStep * e.evaluations * static_cast<double>(e.steps) *
               (force_seconds(system.rail) + force_seconds(system.wheel));
-  e.memory_bytes = memory_in_use();
+  e.memory_bytes = peak_memory();
   return e;
 }
 

@@ -5,7 +5,7 @@
 
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
-#include "io/output_folder.hpp"
+#include "io/provenance.hpp"
 #include "post/fem_summary.hpp"
 #include "runs/memory_need.hpp"
 #include "runs/peak_memory.hpp"

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "core/parallel.hpp"
-#include "io/output_folder.hpp"
+#include "io/provenance.hpp"
 #include "post/bem_summary.hpp"
 #include "runs/peak_memory.hpp"
 
