@@ -1,9 +1,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
+#include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <string>
+#include <vector>
 
+#include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/result_folder.hpp"
 #include "runs/write_fem_result.hpp"
