@@ -22,7 +22,7 @@ torque_ramp = "0.4 ms"
 element_size = "4 mm"
 fine_width = "32 mm"
 fine_depth = "8 mm"
-coarse_ratio = 2.0
+coarse_ratio = 2
 largest = "20 mm"
 end_length = "60 mm"
 [run]
