@@ -11,8 +11,6 @@
 namespace railstrata {
 namespace {
 
-constexpr double kSmallestCell = 0.02e-3, kLargestCell = 5e-3;
-
 double length_of(const std::string& text) {
   try {
     return parse_quantity(text, dimension::kLength);
@@ -27,7 +25,8 @@ double cell_size(const std::string& text) {
   if (text.empty()) return BemOptions{}.cell;
   const double cell = length_of(text);
   if (!(cell >= kSmallestCell && cell <= kLargestCell))
-    throw CaseError(fmt::format("--cell \"{}\" is out of range", text), "write a length from 0.02 mm to 5 mm");
+    throw CaseError(fmt::format("--cell \"{}\" is out of range", text),
+                    fmt::format("write a length from {:g} mm to {:g} mm", 1e3 * kSmallestCell, 1e3 * kLargestCell));
   return cell;
 }
 
