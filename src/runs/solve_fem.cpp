@@ -16,8 +16,10 @@ namespace {
 /// Asks the control on behalf of the rolling, and hands the states that it asked for to the observer.
 class StateKeeper {
  public:
-  StateKeeper(RunControl& control, const FemObserver& observer, const RunWishes& wishes)
-      : control_(control), observer_(observer), states_wanted_(observer.checkpoint || wishes.stop) {}
+  StateKeeper(RunControl& control, const FemObserver& observer, const FemOptions& options)
+      : control_(control),
+        observer_(observer),
+        states_wanted_(observer.checkpoint || options.wishes.stop || options.times.limit > 0) {}
 
   void observe(RunObserver& run) {
     run.demand = [this] { return demand_ = answer(control_.demand()); };
@@ -83,7 +85,7 @@ RollingSystem fem_system(const CaseSpec& spec, const std::filesystem::path& fold
 FemSolution solve_fem(const RollingSystem& system, const FemObserver& observer, const FemOptions& options,
                       std::optional<RunState> begun) {
   RunControl control(options.times, options.wishes);
-  StateKeeper states(control, observer, options.wishes);
+  StateKeeper states(control, observer, options);
   RunObserver run_observer;
   run_observer.stop = &control.preload_stop();
   run_observer.preload = [&](double residual, double wanted, int iterations) {
