@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Checks every #include of src/ against src/LAYERS: a room sees itself and the rooms on lines above its own, nothing
 else. Every room has a card, README.md, whose first heading is the room's name; the files that a card names exist.
+Below the highest room nothing prints, logs, ends the program or touches signals: others can call it.
 
 usage: check_layers.py SRC
 """
@@ -16,6 +17,10 @@ NAMED = re.compile(r"`([^`\s]+)`|\]\(([^)\s#]+)(?:#[^)]*)?\)")
 ENDING = re.compile(r"\.(hpp|cpp|md|py|cmake|ts|svg|bib)$")
 RESULTS = {"view.py", "compare.svg"}  # written by the program into its results
 FOLDERS = ("src/", "tests/", "docs/", "tools/", "cases/", "report/src", "data/", "fuzz/", "cmake/", "bench/")
+LOUD = re.compile(r"\bspdlog\b|\bfmt::print\b|\bstd::(?:cout|cerr|clog)\b|\bf?(?:printf|puts)\(|\bstd(?:out|err)\b"
+                  r"|\b_?exit\(|\babort\(|\b(?:signal|sigaction)\(")
+LOUD_FILES = {"study/child_process.cpp"}  # what a child does between fork and exec
+
 
 
 def read_layers(text):
@@ -35,13 +40,19 @@ def complaint(room, target, levels):
     return f"{other} {side}"
 
 
-def includes(folder):
-    """Every #include "..." below a folder: (file, line, target)."""
+def source_lines(folder):
+    """Every line of source below a folder: (file, number, line)."""
     for file in sorted(f for f in folder.rglob("*") if f.suffix in SOURCES):
         for number, line in enumerate(file.read_text().splitlines(), 1):
-            match = INCLUDE.match(line)
-            if match:
-                yield file, number, match.group(1)
+            yield file, number, line
+
+
+def includes(folder):
+    """Every #include "..." below a folder: (file, line, target)."""
+    for file, number, line in source_lines(folder):
+        match = INCLUDE.match(line)
+        if match:
+            yield file, number, match.group(1)
 
 
 def named_files(text):
@@ -75,6 +86,14 @@ def card_complaints(room):
     return wrong + missing_files(card, [room, room.parent, room.parent.parent])
 
 
+def loud_word(room, file, line, levels):
+    """The word of the line by which a room below the highest prints, ends the program or touches signals, or None."""
+    if levels[room] == max(levels.values()) or f"{room}/{file.name}" in LOUD_FILES:
+        return None
+    match = LOUD.search(line.split("//")[0])
+    return match and match.group(0)
+
+
 def check(src):
     levels = read_layers((src / "LAYERS").read_text())
     found = []
@@ -83,6 +102,10 @@ def check(src):
             found.append(f"{folder}: not a room of LAYERS")
             continue
         found += card_complaints(folder)
+        for file, number, line in source_lines(folder):
+            word = loud_word(folder.name, file, line, levels)
+            if word:
+                found.append(f"{file}:{number}: {folder.name} must not print, log, exit or handle signals: {word}")
         for file, number, target in includes(folder):
             reason = complaint(folder.name, target, levels)
             if reason:
@@ -105,8 +128,11 @@ def test_includes():
             (src / room).mkdir()
             (src / room / "README.md").write_text(f"# {room}\n")
             (src / room / "a.hpp").write_text(f'#include <vector>\n#include "{room}/b.hpp"\n#include "{include}"\n')
+        (src / "left" / "b.cpp").write_text('// puts("here")\nvoid f() { std::puts("there"); }\n')
+        (src / "top" / "b.cpp").write_text('void f() { std::puts("here"); }\n')
         found = check(src)
         expected = [
+            "b.cpp:2: left must not print",
             'left must not include "right/a.hpp"',
             'low must not include "top/a.hpp"',
             "stray: not a room",

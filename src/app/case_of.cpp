@@ -1,6 +1,6 @@
-#include <spdlog/spdlog.h>
+#include "app/case_of.hpp"
 
-#include "app/commands.hpp"
+#include <spdlog/spdlog.h>
 
 namespace railstrata {
 

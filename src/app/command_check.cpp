@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
 #include "post/run_advice.hpp"
-#include "runs/case_estimate.hpp"
 #include "runs/memory_need.hpp"
+#include "runs/run_estimate.hpp"
 
 namespace railstrata {
 namespace {

@@ -5,12 +5,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/option_values.hpp"
 #include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
-#include "runs/output_folder.hpp"
-#include "runs/run_bem.hpp"
+#include "io/output_folder.hpp"
 
 namespace railstrata {
 namespace {
@@ -20,9 +21,9 @@ constexpr double kDecades = 2.5;
 // Creepages of a driving wheel: negative.
 std::vector<double> creepages(const CommandOptions& options) {
   std::vector<double> out;
-  for (int i = 0; i < options.points; ++i)
-    out.push_back(-options.largest_creepage *
-                  std::pow(10.0, -kDecades * (options.points - 1 - i) / (options.points - 1)));
+  for (int i = 0; i < options.creep_curve.points; ++i)
+    out.push_back(-options.creep_curve.largest *
+                  std::pow(10.0, -kDecades * (options.creep_curve.points - 1 - i) / (options.creep_curve.points - 1)));
   return out;
 }
 

@@ -6,7 +6,7 @@
 namespace railstrata {
 
 ExitCode command_schema(const CommandOptions& options) {
-  fmt::print("{}", options.markdown ? case_reference_markdown() : case_json_schema());
+  fmt::print("{}", options.schema.markdown ? case_reference_markdown() : case_json_schema());
   return ExitCode::ok;
 }
 

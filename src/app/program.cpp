@@ -57,18 +57,18 @@ void add_case_and_output(CLI::App& sub, CommandOptions& options) {
 }
 
 void add_no_report(CLI::App& sub, CommandOptions& options) {
-  sub.add_flag("!--no-report", options.report, "Do not write report.html");
+  sub.add_flag("!--no-report", options.page, "Do not write report.html");
 }
 
 void add_run(CLI::App& sub, CommandOptions& options) {
   add_case_and_output(sub, options);
   sub.get_option("case")->required(false);
-  sub.add_option("--resume", options.resume,
+  sub.add_option("--resume", options.run.resume,
                  "Go on with the interrupted run of this result folder: the same bits as in one go")
       ->type_name("FOLDER");
-  sub.add_option("--checkpoint-every", options.checkpoint_every,
+  sub.add_option("--checkpoint-every", options.run.checkpoint_every,
                  "Wall time between checkpoints (default: \"10 min\"; 0: only when stopped)");
-  sub.add_option("--max-time", options.max_time,
+  sub.add_option("--max-time", options.run.max_time,
                  "Stop in time for a batch limit, with a checkpoint: \"110 min\" (exit code 5)");
   add_no_report(sub, options);
 }
@@ -96,10 +96,10 @@ void add_creep_curve(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-creep-curve");
   add_cell(sub, options);
-  sub.add_option("--largest", options.largest_creepage, "Largest creepage (default: 0.02)")
+  sub.add_option("--largest", options.creep_curve.largest, "Largest creepage (default: 0.02)")
       ->check(CLI::Range(1e-6, 0.5))
       ->check(finite());
-  sub.add_option("--points", options.points,
+  sub.add_option("--points", options.creep_curve.points,
                  "Creepages, spaced geometrically over two and a half decades (default: 21)")
       ->check(CLI::Range(2, 1000));
 }
@@ -108,11 +108,12 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-sweep");
   add_cell(sub, options);
-  sub.add_option("--vary", options.vary,
+  sub.add_option("--vary", options.sweep.vary,
                  "A key and its values: --vary layer.0.young_ratio=0.5,1,2 (repeatable: every combination is solved)")
       ->allow_extra_args(false)
       ->required();
-  sub.add_flag("--stresses", options.stresses, "Largest stresses in the rail too (takes longer than the contact)");
+  sub.add_flag("--stresses", options.sweep.stresses,
+               "Largest stresses in the rail too (takes longer than the contact)");
 }
 
 void add_study(CLI::App& sub, CommandOptions& options) {
@@ -124,14 +125,14 @@ void add_study(CLI::App& sub, CommandOptions& options) {
       "-o,--out", options.out,
       "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
   sub.add_flag("--force", options.force, "Write into a folder that is not empty and holds no study");
-  sub.add_option("--jobs", options.jobs, "Cases at a time; they share the threads (default: one thread a case)")
+  sub.add_option("--jobs", options.study.jobs, "Cases at a time; they share the threads (default: one thread a case)")
       ->check(CLI::Range(1, 1024));
-  sub.add_option("--engine", options.engine, fmt::format("Only the cases of one engine: {}", engines_text()))
+  sub.add_option("--engine", options.study.engine, fmt::format("Only the cases of one engine: {}", engines_text()))
       ->check(CLI::IsMember(engine_words()));
-  sub.add_option("--group", options.groups, "Only the cases of this group (repeatable)")->allow_extra_args(false);
-  sub.add_option("--shard", options.shard,
+  sub.add_option("--group", options.study.groups, "Only the cases of this group (repeatable)")->allow_extra_args(false);
+  sub.add_option("--shard", options.study.shard,
                  "i/n: compute every n-th case from the i-th on, for n machines that share the folder");
-  sub.add_flag("--dry-run", options.dry_run, "List the cases and what is done of them; compute nothing");
+  sub.add_flag("--dry-run", options.study.dry_run, "List the cases and what is done of them; compute nothing");
   add_no_report(sub, options);
 }
 
@@ -142,18 +143,19 @@ void add_compare(CLI::App& sub, CommandOptions& options) {
 }
 
 void add_report(CLI::App& sub, CommandOptions& options) {
-  sub.add_option("folders", options.folders, "Result folders of `run` or `bem`; the second is drawn beside the first")
+  sub.add_option("folders", options.report.folders,
+                 "Result folders of `run` or `bem`; the second is drawn beside the first")
       ->required();
   sub.add_option("-o,--out", options.out,
                  "The page to write (default: report.html in the folder, made anew if it is there)");
   sub.add_flag("--force", options.force, "Replace the file that --out names");
-  sub.add_flag("!--no-reference", options.reference_solution,
+  sub.add_flag("!--no-reference", options.report.reference,
                "Do not set a finite element result against the half-space solution of its case");
 }
 
 void add_schema(CLI::App& sub, CommandOptions& options) {
-  auto* json = sub.add_flag("--json-schema", options.schema, "JSON schema (default)");
-  sub.add_flag("--markdown", options.markdown, "Reference page in Markdown")->excludes(json);
+  auto* json = sub.add_flag("--json-schema", options.schema.json_schema, "JSON schema (default)");
+  sub.add_flag("--markdown", options.schema.markdown, "Reference page in Markdown")->excludes(json);
 }
 
 void add_nothing(CLI::App&, CommandOptions&) {}

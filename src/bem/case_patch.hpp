@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "bem/bem_options.hpp"
 #include "bem/profile_gap.hpp"
-#include "bem/solve_bem.hpp"
+#include "halfspace/layered.hpp"
+#include "model/model.hpp"
 
 namespace railstrata {
 
@@ -18,6 +20,9 @@ struct CasePatch {
   LayeredHalfSpace wheel, rail;
   std::vector<std::string> notes;
 };
+
+/// Layers of one body from the case, from the surface down; a graded one cut to its grading_tolerance.
+LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 
 /// The normal force [N] that balances the weight G together with a lateral force T_y on the rail, in the contact plane
 /// at the angle delta: N cos(delta) - T_y sin(delta) = G.

@@ -1,8 +1,8 @@
+#include "bem/influence_cache.hpp"
+
 #include <list>
 #include <memory>
 #include <mutex>
-
-#include "bem/solve_bem.hpp"
 
 namespace railstrata {
 

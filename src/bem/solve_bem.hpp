@@ -6,37 +6,16 @@
 // G on the wheel, no lateral creepage, spin and the variation of the rolling radius across the patch from the geometry.
 // The normal force is such that normal and lateral force together bear the load. Not in it: inertia, the bodies' shape
 // outside the patch, the layer's edges.
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "bem/rolling_contact.hpp"
+#include "bem/bem_options.hpp"
 #include "bem/subsurface.hpp"
 #include "contact/contact_field.hpp"
 #include "halfspace/layered.hpp"
 #include "model/model.hpp"
 
 namespace railstrata {
-
-/// Influence operators of earlier solutions, for sweeps; safe to share between threads.
-class InfluenceCache {
- public:
-  InfluenceCache();
-  ~InfluenceCache();
-  std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail,
-                                               const PatchGrid& grid);
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
-struct BemOptions {
-  double cell = 0.25e-3;         ///< m
-  double largest_patch = 60e-3;  ///< m, of the potential contact area, per direction
-  RollingOptions rolling;
-  InfluenceCache* cache = nullptr;
-};
 
 /// Sums and extremes over the cells.
 struct PatchTotals {
@@ -77,10 +56,6 @@ struct BemResult {
   SolverEffort effort;
   std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
 };
-
-/// Layers of one body from the case, from the surface down; a graded one cut to its
-/// grading_tolerance.
-LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 
 /// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears
 /// the weight whatever the normal force (a wedged wheel).

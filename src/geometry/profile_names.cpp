@@ -1,4 +1,5 @@
-// From names to built-in profiles.
+#include "geometry/profile_names.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -1,3 +1,5 @@
+#include "geometry/rail_outline.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +8,6 @@
 
 #include "core/faults.hpp"
 #include "core/rotation.hpp"
-#include "geometry/profile.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,3 +1,5 @@
+#include "geometry/read_profile.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,7 +16,6 @@
 #include "geometry/exchange_profiles.hpp"
 #include "geometry/number_table.hpp"
 #include "geometry/point_defects.hpp"
-#include "geometry/profile.hpp"
 
 namespace railstrata {
 namespace {

@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/faults.hpp"
+#include "geometry/profile_names.hpp"
+#include "geometry/read_profile.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,3 +1,5 @@
+#include "report/checks.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,7 +9,6 @@
 #include <set>
 
 #include "case/units.hpp"
-#include "report/report.hpp"
 
 namespace railstrata {
 namespace {

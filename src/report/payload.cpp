@@ -1,3 +1,5 @@
+#include "report/payload.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include "io/provenance.hpp"
 #include "post/patch.hpp"
 #include "report/base64.hpp"
-#include "report/report.hpp"
 
 namespace railstrata {
 namespace {

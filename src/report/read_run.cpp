@@ -1,10 +1,11 @@
+#include "report/read_run.hpp"
+
 #include <fmt/format.h>
 
 #include <fstream>
 #include <sstream>
 
 #include "core/faults.hpp"
-#include "report/report.hpp"
 
 namespace railstrata {
 namespace {

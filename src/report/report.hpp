@@ -79,21 +79,4 @@ struct Report {
   std::vector<ReportMaps> maps;
 };
 
-/// Reads a folder of `run` or `bem`. A position_<mm> folder takes case, provenance and history from the folder it
-/// stands in. Throws CaseError as read_result_folder does.
-ReportRun read_report_run(const std::filesystem::path& folder);
-
-/// What the runs say of themselves, and every finite element run against a half-space run of the same case (limits:
-/// p_max 4 %, patch length 6 %, q_max 7 %, largest von Mises stress below the rail's surface 8 % where it lies deeper
-/// than an element). Of two runs of different cases it is told which options differ.
-std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs);
-
-/// The report as JSON, as report/src/data.ts reads it. Lines have six digits; maps and sections are packed to 16 bits a
-/// number and thinned to 300 points a side.
-nlohmann::ordered_json report_payload(const Report& report);
-
-/// The page: one file without any reference outside it. Scripts and styles run by their hashes alone
-/// (Content-Security-Policy).
-std::string report_page(const Report& report);
-
 }  // namespace railstrata

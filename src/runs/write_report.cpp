@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <fstream>
@@ -10,31 +9,26 @@
 
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
+#include "core/parallel.hpp"
 #include "io/output_file.hpp"
-#include "post/bem_summary.hpp"
-#include "report/report.hpp"
-#include "runs/output_folder.hpp"
-#include "runs/peak_memory.hpp"
-#include "runs/run_bem.hpp"
+#include "io/output_folder.hpp"
+#include "report/checks.hpp"
+#include "report/page.hpp"
+#include "report/read_run.hpp"
+#include "runs/write_half_space_result.hpp"
 
 namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
 
-void solve_reference(const fs::path& case_file, const fs::path& folder, int threads) {
+void solve_reference(const fs::path& case_file, const fs::path& folder) {
   const LoadedCase loaded = load_case(case_file);
-  const CaseSpec spec = half_space_case(loaded.spec);
-  const Placement placement = place(spec, loaded.folder());
-  const BemResult result = solve_bem(spec, placement);
-  Summary summary = bem_summary(spec, result);
-  summary.run.commit = commit_text();
-  summary.run.threads = threads;
-  summary.run.peak_memory_bytes = peak_memory();
+  const Placement placement = place(loaded.spec, loaded.folder());
+  const HalfSpaceSolution solution = solve_half_space(loaded.spec, placement);
   fs::create_directories(folder);
-  write_origin(folder, loaded, {"railstrata", "bem", case_file.string(), "--out", folder.string()}, threads);
-  write_bem_geometry(folder, spec, placement, summary.position);
-  write_bem_result(folder, table_origin(loaded), result, summary);
+  write_origin(folder, loaded, {"railstrata", "bem", case_file.string(), "--out", folder.string()}, max_threads());
+  write_half_space_result(folder, table_origin(loaded), loaded.spec, placement, solution);
 }
 
 bool same_text(const fs::path& a, const fs::path& b) {
@@ -53,49 +47,35 @@ std::string title_of(const std::vector<ReportRun>& runs) {
 
 }  // namespace
 
-fs::path half_space_reference(const fs::path& folder, int threads) {
+fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& notes) {
   const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
   const fs::path home = full.filename().string().starts_with(kPositionFolder) ? full.parent_path() : full;
   fs::path out = home / kReferenceFolder;
   if (fs::exists(out / "summary.json") && same_text(home / "case.toml", out / "case.toml")) return out;
   try {
-    solve_reference(home / "case.toml", out, threads);
+    solve_reference(home / "case.toml", out);
     return out;
   } catch (const CaseError& e) {
-    spdlog::warn("no half-space reference: {}", e.what());
+    notes.push_back(fmt::format("no half-space reference: {}", e.what()));
   } catch (const NumericalError& e) {
-    spdlog::warn("no half-space reference: {}", e.what());
+    notes.push_back(fmt::format("no half-space reference: {}", e.what()));
   }
   return {};
 }
 
-void write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference, int threads) {
+std::vector<std::string> write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference) {
+  std::vector<std::string> notes;
   Report report;
   for (const fs::path& folder : folders) report.runs.push_back(read_report_run(folder));
   if (reference && report.runs.size() == 1 && is_engine(report.runs[0].result.engine, Engine::fem))
-    if (const fs::path beside = half_space_reference(folders[0], threads); !beside.empty()) {
+    if (const fs::path beside = half_space_reference(folders[0], notes); !beside.empty()) {
       report.runs.push_back(read_report_run(beside));
       report.runs[1].name = report.runs[0].name;
     }
   report.title = title_of(report.runs);
   report.checks = report_checks(report.runs);
   write_whole_file(page, report_page(report));
-}
-
-void write_page_or_warn(const fs::path& page, const std::function<void()>& write) {
-  try {
-    write();
-    spdlog::info("everything on one page: {}", page.string());
-  } catch (const CaseError& e) {
-    spdlog::warn("no report: {}", e.what());
-  } catch (const EnvironmentError& e) {
-    spdlog::warn("no report: {}{}{}", e.what(), e.remedy.empty() ? "" : "\n    remedy: ", e.remedy);
-  }
-}
-
-void add_report(const fs::path& folder, int threads) {
-  const fs::path page = folder / "report.html";
-  write_page_or_warn(page, [&] { write_report(page, {folder}, true, threads); });
+  return notes;
 }
 
 }  // namespace railstrata

@@ -1,3 +1,5 @@
+#include "study/published_table.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -6,8 +8,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-
-#include "study/study_report.hpp"
 
 namespace railstrata {
 namespace {

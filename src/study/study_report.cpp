@@ -11,6 +11,9 @@
 #include <set>
 
 #include "core/faults.hpp"
+#include "report/checks.hpp"
+#include "report/read_run.hpp"
+#include "study/published_table.hpp"
 
 namespace railstrata {
 namespace {

@@ -32,10 +32,4 @@ std::pair<double, std::string> axis_value(const std::string& text);
 /// finite element case against its half-space case (limits of report_checks).
 Report study_report(const StudySpec& study, const Published& published, const std::vector<StudyEntry>& entries);
 
-/// Every published number beside ours, with the difference and a reason that follows from the runs: agrees; mesh
-/// artefact; other definition; not explained; no result yet.
-ReportTable published_table(const Published& published, const std::vector<StudyEntry>& entries);
-/// Every published statement: confirmed or not, by which numbers.
-ReportTable claims_table(const Published& published, const std::vector<StudyEntry>& entries);
-
 }  // namespace railstrata

@@ -12,10 +12,10 @@
 #include "io/checkpoint_file.hpp"
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
+#include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "io/result_folder.hpp"
 #include "report/view.hpp"
-#include "runs/output_folder.hpp"
 
 namespace railstrata {
 namespace {

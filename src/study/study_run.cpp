@@ -15,7 +15,6 @@
 
 #include "core/faults.hpp"
 #include "io/output_file.hpp"
-#include "runs/stop_flag.hpp"
 #include "study/child_process.hpp"
 #include "study/study_results.hpp"
 
@@ -72,7 +71,7 @@ class Pool {
  public:
   Pool(const StudyRun& run, const std::vector<const StudyCase*>& cases) : run_(run), cases_(cases) {
     for (const StudyCase* c : cases) ++left_[c->engine];
-    leave_the_end_to_the_parent();
+    ignore_second_signal_in_children();
   }
 
   ~Pool() {
@@ -83,7 +82,7 @@ class Pool {
   int work() {
     while (next_ < cases_.size() || !running_.empty()) {
       if (*run_.stop) return stop();
-      if (take_save_wish()) pass_on(SIGUSR1);
+      if (run_.save && run_.save->exchange(false)) pass_on(SIGUSR1);
       while (next_ < cases_.size() && static_cast<int>(running_.size()) < run_.jobs) start(*cases_[next_++]);
       collect();
       run_.progress(fraction());

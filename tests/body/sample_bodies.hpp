@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "body/traversal.hpp"
+#include "geometry/profile_names.hpp"
 #include "mesh/bodies.hpp"
 
 namespace railstrata::fem_checks {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "geometry/profile_names.hpp"
 #include "tests/body/sample_bodies.hpp"
 
 namespace railstrata {

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "body/ties.hpp"
+#include "geometry/profile_names.hpp"
 #include "tests/body/same_bits.hpp"
 #include "tests/body/sample_bodies.hpp"
 

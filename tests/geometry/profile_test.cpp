@@ -10,6 +10,7 @@
 
 #include "core/faults.hpp"
 #include "geometry/builtin_profiles.hpp"
+#include "geometry/profile_names.hpp"
 #include "geometry/smoothing_spline.hpp"
 
 namespace railstrata {

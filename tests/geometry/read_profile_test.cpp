@@ -9,6 +9,8 @@
 
 #include "core/faults.hpp"
 #include "geometry/placement.hpp"
+#include "geometry/profile_names.hpp"
+#include "geometry/read_profile.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,3 +1,5 @@
+#include "geometry/profile_names.hpp"
+#include "geometry/rail_outline.hpp"
 #include "mesh/bodies.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "geometry/profile_names.hpp"
 #include "mesh/quality.hpp"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,4 @@
+#include "study/published_table.hpp"
 #include "study/study_report.hpp"
 
 #include <gtest/gtest.h>

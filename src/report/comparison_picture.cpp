@@ -1,4 +1,4 @@
-#include "app/comparison_picture.hpp"
+#include "report/comparison_picture.hpp"
 
 #include <fmt/format.h>
 

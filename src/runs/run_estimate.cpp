@@ -1,13 +1,11 @@
-#include "runs/case_estimate.hpp"
-
-#include <fmt/format.h>
-#include <sys/resource.h>
+#include "runs/run_estimate.hpp"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 
 #include "body/traversal.hpp"
+#include "runs/peak_memory.hpp"
 
 namespace railstrata {
 namespace {
@@ -26,12 +24,6 @@ double force_seconds(const Body& body) {
   return best;
 }
 
-double memory_in_use() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-
 }  // namespace
 
 RunEstimate estimate_run(const Model& model) {
@@ -45,7 +37,7 @@ RunEstimate estimate_run(const Model& model) {
                           static_cast<double>(model.rail.elements() + model.wheel.elements());
   e.seconds = kRestOfStep * e.evaluations * static_cast<double>(e.steps) *
               (force_seconds(system.rail()) + force_seconds(system.wheel()));
-  e.memory_bytes = memory_in_use();
+  e.memory_bytes = peak_memory();
   return e;
 }
 

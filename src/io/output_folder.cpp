@@ -1,4 +1,4 @@
-#include "runs/output_folder.hpp"
+#include "io/output_folder.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -130,7 +130,5 @@ std::vector<std::string> table_origin(const LoadedCase& loaded) {
           fmt::format("case: {} ({})", loaded.file.filename().string(), loaded.spec.title),
           "x from the axle in the rolling direction, y towards the field side; tractions act on the rail"};
 }
-
-std::string commit_text() { return build_info().commit + (build_info().dirty ? "+dirty" : ""); }
 
 }  // namespace railstrata

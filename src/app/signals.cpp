@@ -1,16 +1,16 @@
-#include "runs/stop_flag.hpp"
+#include "app/signals.hpp"
+
+#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
 
-#include <unistd.h>
-
 #include "core/faults.hpp"
+#include "study/child_process.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr const char* kPatient = "RAILSTRATA_ONE_SIGNAL";
 std::atomic<bool> stop_asked{false}, save_asked{false};
 bool patient = false;
 static_assert(std::atomic<bool>::is_always_lock_free, "only lock-free atomics may be touched in a signal handler");
@@ -23,13 +23,11 @@ void ask_to_save(int) { save_asked = true; }
 
 }  // namespace
 
-void leave_the_end_to_the_parent() { setenv(kPatient, "1", 1); }
-
-bool take_save_wish() { return save_asked.load(std::memory_order_relaxed) && save_asked.exchange(false); }
+std::atomic<bool>& save_flag() { return save_asked; }
 
 std::atomic<bool>& stop_flag() {
   static const bool installed = [] {
-    patient = std::getenv(kPatient) != nullptr;
+    patient = std::getenv(kIgnoreSecondSignal) != nullptr;
     std::signal(SIGINT, ask_to_stop);
     std::signal(SIGTERM, ask_to_stop);
     if (std::signal(SIGHUP, ask_to_stop) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup: it outlives its terminal

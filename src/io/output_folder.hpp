@@ -57,7 +57,4 @@ std::string case_identity(const LoadedCase& loaded);
 /// The "#" lines of a case's tables: program, case, axes and signs.
 std::vector<std::string> table_origin(const LoadedCase& loaded);
 
-/// The commit a summary names, "+dirty" if the sources had changes.
-std::string commit_text();
-
 }  // namespace railstrata
