@@ -2,11 +2,15 @@
 
 #include "app/commands.hpp"
 #include "case/case_schema.hpp"
+#include "io/result_reference.hpp"
 
 namespace railstrata {
 
 ExitCode command_schema(const CommandOptions& options) {
-  fmt::print("{}", options.markdown ? case_reference_markdown() : case_json_schema());
+  if (options.results)
+    fmt::print("{}", options.markdown ? results_reference_markdown() : results_reference_json().dump(2) + "\n");
+  else
+    fmt::print("{}", options.markdown ? case_reference_markdown() : case_json_schema());
   return ExitCode::ok;
 }
 

@@ -17,6 +17,7 @@ struct CommandOptions {
   bool force = false;                     ///< --force: write into a folder that is not empty
   bool json = false;                      ///< --json: results on standard output as JSON
   bool markdown = false, schema = false;  ///< of `schema`
+  bool results = false;                   ///< --results of `schema`
   std::string cell;                       ///< --cell of the half-space commands: a length; empty: the engine's default
   std::filesystem::path reference;        ///< second folder of `compare`
   std::vector<std::filesystem::path> folders;  ///< of `report`

@@ -39,7 +39,7 @@ struct ReportCheck {
   bool judged = true;     ///< false: told, and no part of the verdict
   bool ok = true;
   double value = 0, limit = 0;
-  std::string note;
+  std::string note{};
 };
 
 /// For a study. Cells hold text, numbers or null.
@@ -84,8 +84,8 @@ struct Report {
 ReportRun read_report_run(const std::filesystem::path& folder);
 
 /// What the runs say of themselves, and every finite element run against a half-space run of the same case (limits:
-/// p_max 4 %, patch length 6 %, q_max 7 %, largest von Mises stress below the rail's surface 8 % where it lies deeper
-/// than an element). Of two runs of different cases it is told which options differ.
+/// post/check_limits.hpp; the largest von Mises stress below the rail's surface is judged where it lies deeper than an
+/// element). Of two runs of different cases it is said which options differ.
 std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs);
 
 /// The report as JSON, as report/src/data.ts reads it. Lines have six digits; maps and sections are packed to 16 bits a
