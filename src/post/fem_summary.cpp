@@ -56,7 +56,7 @@ std::vector<Check> finite_element_checks(const Model& model, const RunResult& ru
   std::vector<Check> out;
   out.push_back(at_most("preload_residual", run.preload.residual, spec.run.preload_tolerance));
   out.push_back(fem_check("F_z_relative_to_weight", std::abs(m.F_z / model.load - 1)));
-  if (spec.run.rolling && spec.drive.traction_coefficient > 0)
+  if (spec.run.rolling && spec.drive.traction_coefficient != 0)
     out.push_back(
         fem_check("traction_coefficient_reached", std::abs(m.F_x / m.F_z / spec.drive.traction_coefficient - 1)));
   out.push_back(fem_check("penetration_over_approach", run.penetration / model.hertz.approach));
