@@ -64,7 +64,8 @@ std::vector<Check> finite_element_checks(const Model& model, const RunResult& ru
     out.push_back(fem_check("energy_closure", run.closure));
     out.push_back(fem_check("p_max_scatter", m.p_max_scatter));
   }
-  if (spec.mesh.element == "one_point") out.push_back(fem_check("hourglass_share", run.hourglass_share));
+  if (spec.mesh.element == ElementFormulation::one_point)
+    out.push_back(fem_check("hourglass_share", run.hourglass_share));
   out.push_back(fem_check("patch_reaches_edge_of_fine_zone", run.reached_edge ? 1 : 0));
   return out;
 }
