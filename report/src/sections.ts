@@ -3,12 +3,12 @@ import { numberAt, option, type Check, type Layer, type Report, type Run } from 
 import { element, table, type Cell } from "./dom";
 import { axis, baseLayout, type Figure, type Theme } from "./figures";
 import { linesFigure, type Series } from "./lines";
-import { checkWords, engineName, minus, numberText, percentText, plotText, quantityAt, runLabel, countText, shownQuantities, unitText, zones } from "./text";
+import { checkWords, engineName, limitText, minus, numberText, percentText, plotText, quantityAt, runLabel, countText, shownQuantities, unitText, zones } from "./text";
 
 function checkRow(report: Report, check: Check): HTMLElement {
   const words = checkWords(check.name);
   const number = (v: number | null) => unitText(v, words.unit, 3);
-  const limit = words.unit.shown.includes("|") ? number(check.limit) : `at most ${number(check.limit)}`;
+  const limit = `${words.unit.shown.includes("|") ? "" : "at most "}${limitText(check.limit, words.unit)}`;
   const state = !check.judged ? "remark" : check.ok ? "ok" : "failed";
   const attributes = { class: state, "data-check": check.name, "data-runs": check.runs.join(","), "data-ok": String(check.ok), "data-judged": String(check.judged) };
   const whose = report.runs.length > 1 && check.runs.length === 1 ? runLabel(report.runs[check.runs[0]]) : check.runs.length > 1 && report.runs.length > 2 ? check.runs.map((k) => report.runs[k].name).join(" – ") : "";

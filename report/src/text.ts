@@ -56,12 +56,21 @@ export function checkWords(key: string): CheckWords {
   return words.checks.find((c) => c.key === key) ?? { key, name: key.replace(/_/g, " "), what: "", unit: { shown: "", factor: 1 } };
 }
 
-/// A value in SI as people read it: "931 MPa", "4 %", "inside".
+/// A value in SI as people read it: "931 MPa", "4.02 %", "inside".
 export function unitText(value: number | null, unit: Unit, digits = 4): string {
+  return inUnit(value, unit, (v) => numberText(v, digits));
+}
+
+/// A limit, without zeros at its end: "4 %".
+export function limitText(limit: number | null, unit: Unit): string {
+  return inUnit(limit, unit, (v) => minus(String(Number(v.toPrecision(6)))));
+}
+
+function inUnit(value: number | null, unit: Unit, text: (shown: number) => string): string {
   if (value === null) return "–";
   const states = unit.shown.split("|");
   if (states.length === 2) return states[value === 0 ? 0 : 1];
-  return `${numberText(unit.factor * value, digits)}${unit.shown ? ` ${unit.shown}` : ""}`;
+  return `${text(unit.factor * value)}${unit.shown ? ` ${unit.shown}` : ""}`;
 }
 
 /// The numbers that the page shows, in the order of summary.json.
