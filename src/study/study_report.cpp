@@ -245,7 +245,7 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
       if (c.runs.size() == 1 && c.runs[0] == 0)
         add(c, fmt::format("{}/{}, {}", e.group, e.name, engine_word(e.engine)));
       if (c.runs.size() != 2 || c.name == "cases_differ") continue;
-      // on a coarser mesh than it takes nothing is promised: the paper's mesh is told, not judged
+      // on a coarser mesh than it takes nothing is promised: the paper's mesh is shown, not judged
       if (!both[0].option("mesh", "element").starts_with("one_point")) add(c, fmt::format("{}/{}", e.group, e.name));
       row.push_back(fmt::format("{:.1f} %{}", 100 * c.value, !c.judged ? ", not judged" : c.ok ? "" : " ✗"));
     }
