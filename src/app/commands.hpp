@@ -36,6 +36,7 @@ struct ReportOptions {
 };
 struct SchemaOptions {
   bool json_schema = false, markdown = false;  ///< neither: the JSON schema
+  bool results = false;                        ///< --results: of results instead of cases
 };
 
 /// What the command line says: what several commands have, then what one has.

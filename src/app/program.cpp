@@ -156,6 +156,8 @@ void add_report(CLI::App& sub, CommandOptions& options) {
 void add_schema(CLI::App& sub, CommandOptions& options) {
   auto* json = sub.add_flag("--json-schema", options.schema.json_schema, "JSON schema (default)");
   sub.add_flag("--markdown", options.schema.markdown, "Reference page in Markdown")->excludes(json);
+  sub.add_flag("--results", options.schema.results,
+               "Of results instead of cases: every number of summary.json, every check");
 }
 
 void add_nothing(CLI::App&, CommandOptions&) {}
@@ -211,9 +213,10 @@ constexpr Entry kEntries[] = {
      "Examples:\n  railstrata report results/quick\n  railstrata report results/thin results/thick --out "
      "thin-thick.html\n",
      add_report, command_report},
-    {"schema", "Print the JSON schema of case files for editors, or their reference page",
-     "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n", add_schema,
-     command_schema},
+    {"schema", "Print the JSON schema of case files for editors, or the reference of cases or results",
+     "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n  railstrata "
+     "schema --results --markdown\n",
+     add_schema, command_schema},
     {"info", "Built-in profiles, compiler, instruction set, libraries, threads",
      "Examples:\n  railstrata info\n  railstrata info --json\n", add_nothing, command_info},
 };

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bem/plane_fft.hpp"
+#include "core/parabola.hpp"
 #include "halfspace/layer_waves.hpp"
 #include "material/elastic.hpp"
 
@@ -463,30 +464,19 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
 
 namespace {
 
-/// Vertex of the parabola through (-1, a), (0, b), (1, c): offset in [-1/2, 1/2] and value; b is the largest.
-struct Vertex {
-  double offset, rise;
-};
-Vertex vertex(double a, double b, double c) {
-  const double curvature = a - 2 * b + c;
-  if (!(curvature < 0)) return {0, 0};
-  const double t = std::clamp(0.5 * (a - c) / curvature, -0.5, 0.5);
-  return {t, -0.25 * (a - c) * t};
-}
-
 StressPeak peak_of(const Plane& v, const PatchGrid& g, double depth) {
   const auto k = static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
   const int i = static_cast<int>(k) / g.ny, j = static_cast<int>(k) % g.ny;
   StressPeak peak{v[k], g.x(i), g.y(j), depth};
   if (i > 0 && i + 1 < g.nx) {
-    const Vertex t = vertex(v[g.index(i - 1, j)], v[k], v[g.index(i + 1, j)]);
-    peak.x += t.offset * g.dx;
-    peak.value += t.rise;
+    const ParabolaTop t = parabola_top(v[g.index(i - 1, j)], v[k], v[g.index(i + 1, j)]);
+    peak.x += t.at * g.dx;
+    peak.value += t.above;
   }
   if (j > 0 && j + 1 < g.ny) {
-    const Vertex t = vertex(v[k - 1], v[k], v[k + 1]);
-    peak.y += t.offset * g.dy;
-    peak.value += t.rise;
+    const ParabolaTop t = parabola_top(v[k - 1], v[k], v[k + 1]);
+    peak.y += t.at * g.dy;
+    peak.value += t.above;
   }
   return peak;
 }

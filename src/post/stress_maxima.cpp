@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "contact/enforcement.hpp"
+#include "core/parabola.hpp"
 #include "material/elastic.hpp"
 
 namespace railstrata {
@@ -41,12 +42,10 @@ StressMaximum largest(const BandStress& b, Measure measure, const std::function<
         }
       }
   if (std::isnan(best.value)) return best;
-  auto refine = [&](double t0, double f0, double t1, double f1, double t2, double f2, double& place) {
-    const double a = ((f2 - f1) / (t2 - t1) - (f1 - f0) / (t1 - t0)) / (t2 - t0);
-    if (a >= 0) return;
-    const double slope = (f1 - f0) / (t1 - t0) + a * (t1 - t0), d = std::clamp(-slope / (2 * a), t0 - t1, t2 - t1);
-    place = t1 + d;
-    best.value += slope * d + a * d * d;
+  const auto refine = [&](double t0, double f0, double t1, double f1, double t2, double f2, double& place) {
+    const ParabolaTop t = parabola_top(t0, f0, t1, f1, t2, f2);
+    place = t.at;
+    best.value += t.above;
   };
   const double top = best.value;
   if (br > 0 && br + 1 < b.sample.rows && wanted(bc, br - 1) && wanted(bc, br + 1))

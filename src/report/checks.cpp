@@ -9,6 +9,8 @@
 #include <set>
 
 #include "case/units.hpp"
+#include "post/check_limits.hpp"
+#include "post/result_table.hpp"
 
 namespace railstrata {
 namespace {
@@ -41,8 +43,9 @@ struct Place {
 
 Place von_mises_below_surface(const ReportRun& run) {
   Place best;
-  for (const char* zone : {"subsurface", "layer", "interface", "matrix"}) {
-    const std::string at = fmt::format("/stress/rail/{}/von_mises_max/", zone);
+  for (const StressZone& zone : stress_zones()) {
+    if (zone.key == "surface") continue;
+    const std::string at = fmt::format("/stress/rail/{}/von_mises_max/", zone.key);
     const double value = run.result.number(at + "value_Pa");
     if (std::isfinite(value) && !(value <= best.value)) best = {value, run.result.number(at + "depth_m")};
   }
@@ -57,47 +60,64 @@ double element_size(const ReportRun& run) {
   }
 }
 
-ReportCheck within(std::string name, std::vector<int> runs, double a, double b, double limit) {
+/// The check `name` of two engines' values.
+ReportCheck within(std::string_view name, std::vector<int> runs, double a, double b) {
   const double value = std::abs(a / b - 1);
-  if (!std::isfinite(value))
-    return {std::move(name), std::move(runs), false, true, value, limit, "one of the two has no such number"};
-  return {std::move(name), std::move(runs), true, value <= limit, value, limit, {}};
+  ReportCheck c{.name = std::string(name),
+                .runs = std::move(runs),
+                .judged = std::isfinite(value),
+                .value = value,
+                .limit = check_row(name).fem_limit};
+  c.ok = !c.judged || value <= c.limit;
+  if (!c.judged) c.note = "one of the two has no such number";
+  return c;
 }
 
+double number_in(const nlohmann::json& object, const char* key) {
+  return object.contains(key) && object[key].is_number() ? object[key].get<double>()
+                                                         : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// The objects of a list of the summary; none where it is something else.
+std::vector<nlohmann::json> objects_of(const ReportRun& run, const char* list) {
+  std::vector<nlohmann::json> out;
+  if (!run.result.summary.contains(list) || !run.result.summary[list].is_array()) return out;
+  for (const auto& entry : run.result.summary[list])
+    if (entry.is_object()) out.push_back(entry);
+  return out;
+}
+
+/// The text of a warning that the table knows is the table's, in the units of the page.
 void add_warnings(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
-  if (!run.result.summary.contains("warnings") || !run.result.summary["warnings"].is_array()) return;
-  for (const auto& w : run.result.summary["warnings"]) {
-    if (!w.is_object()) continue;
-    const auto number = [&](const char* key) {
-      return w.contains(key) && w[key].is_number() ? w[key].get<double>() : std::numeric_limits<double>::quiet_NaN();
-    };
-    out.push_back(
-        {w.value("name", "warning"), {index}, false, true, number("value"), number("limit"), w.value("text", "")});
+  for (const auto& w : objects_of(run, "warnings")) {
+    const std::string name = w.value("name", "warning");
+    out.push_back({.name = name,
+                   .runs = {index},
+                   .judged = false,
+                   .value = number_in(w, "value"),
+                   .limit = number_in(w, "limit"),
+                   .note = find_check(name) ? "" : w.value("text", "")});
   }
 }
 
 void add_own(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
-  if (!run.result.summary.contains("checks") || !run.result.summary["checks"].is_array()) return;
-  for (const auto& c : run.result.summary["checks"]) {
-    if (!c.is_object()) continue;
-    const auto number = [&](const char* key) {
-      return c.contains(key) && c[key].is_number() ? c[key].get<double>() : std::numeric_limits<double>::quiet_NaN();
-    };
-    out.push_back(
-        {c.value("name", "check"), {index}, true, c.value("ok", false), number("value"), number("limit"), {}});
-  }
+  for (const auto& c : objects_of(run, "checks"))
+    out.push_back({.name = c.value("name", "check"),
+                   .runs = {index},
+                   .ok = c.value("ok", false),
+                   .value = number_in(c, "value"),
+                   .limit = number_in(c, "limit")});
 }
 
 void add_pair(const std::vector<ReportRun>& runs, int fem, int bem, std::vector<ReportCheck>& out) {
   const ResultFolder &a = runs[fem].result, &b = runs[bem].result;
   const std::vector<int> both{fem, bem};
-  out.push_back(within("p_max", both, a.number("/contact/p_max_Pa"), b.number("/contact/p_max_Pa"), 0.04));
-  out.push_back(
-      within("patch_length", both, a.number("/contact/patch_length_m"), b.number("/contact/patch_length_m"), 0.06));
+  out.push_back(within("p_max", both, a.number("/contact/p_max_Pa"), b.number("/contact/p_max_Pa")));
+  out.push_back(within("patch_length", both, a.number("/contact/patch_length_m"), b.number("/contact/patch_length_m")));
   if (b.number("/contact/q_max_Pa") > 0)
-    out.push_back(within("q_max", both, a.number("/contact/q_max_Pa"), b.number("/contact/q_max_Pa"), 0.07));
+    out.push_back(within("q_max", both, a.number("/contact/q_max_Pa"), b.number("/contact/q_max_Pa")));
   const Place ours = von_mises_below_surface(runs[fem]), theirs = von_mises_below_surface(runs[bem]);
-  ReportCheck stress = within("von_mises_below_surface", both, ours.value, theirs.value, 0.08);
+  ReportCheck stress = within("von_mises_below_surface", both, ours.value, theirs.value);
   if (const double h = element_size(runs[fem]); stress.judged && theirs.depth <= h) {
     stress.judged = false;
     stress.note =
@@ -123,13 +143,12 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
     if (std::vector<std::string> d = differences(runs[0], runs[1]); !d.empty()) {
       const std::size_t shown = std::min<std::size_t>(d.size(), 12), left = d.size() - shown;
       d.resize(shown);
-      out.push_back({"cases_differ",
-                     {0, 1},
-                     false,
-                     true,
-                     std::numeric_limits<double>::quiet_NaN(),
-                     std::numeric_limits<double>::quiet_NaN(),
-                     fmt::format("{}{}", fmt::join(d, "; "), left ? fmt::format("; and {} more", left) : "")});
+      out.push_back({.name = "cases_differ",
+                     .runs = {0, 1},
+                     .judged = false,
+                     .value = std::numeric_limits<double>::quiet_NaN(),
+                     .limit = std::numeric_limits<double>::quiet_NaN(),
+                     .note = fmt::format("{}{}", fmt::join(d, "; "), left ? fmt::format("; and {} more", left) : "")});
     }
   return out;
 }

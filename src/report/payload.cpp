@@ -9,6 +9,7 @@
 
 #include "core/faults.hpp"
 #include "io/provenance.hpp"
+#include "io/result_reference.hpp"
 #include "post/patch.hpp"
 #include "report/base64.hpp"
 
@@ -191,6 +192,7 @@ Json report_payload(const Report& report) {
   Json out;
   out["title"] = report.title;
   out["program"] = version_text();
+  out["words"] = results_reference_json();
   out["checks"] = Json::array();
   out["runs"] = Json::array();
   out["tables"] = Json::array();

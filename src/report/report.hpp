@@ -36,10 +36,10 @@ struct ReportRun {                              // NOLINT(bugprone-exception-esc
 struct ReportCheck {
   std::string name;
   std::vector<int> runs;  ///< one: that run's own; two: the first against the second; none: over all cases of a study
-  bool judged = true;     ///< false: told, and no part of the verdict
+  bool judged = true;     ///< false: shown, and no part of the verdict
   bool ok = true;
   double value = 0, limit = 0;
-  std::string note;
+  std::string note{};
 };
 
 /// For a study. Cells hold text, numbers or null.

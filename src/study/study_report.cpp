@@ -11,9 +11,11 @@
 #include <set>
 
 #include "core/faults.hpp"
+#include "post/check_limits.hpp"
 #include "report/checks.hpp"
 #include "report/read_run.hpp"
 #include "study/published_table.hpp"
+#include "study/result_columns.hpp"
 
 namespace railstrata {
 namespace {
@@ -40,20 +42,6 @@ std::string key_name(const std::string& key) {
 std::string value_name(const std::string& key, const std::string& value) {
   if (key == "layer.0.young_ratio") return value == "1" ? "E₁ = E₀" : fmt::format("E₁ = {} E₀", value);
   return fmt::format("{} {}", key_name(key), value);
-}
-
-/// "p_max_MPa": "p max [MPa]".
-std::string column_name(const std::string& column) {
-  static const std::vector<std::string> units{"MPa", "mm2", "mm", "kN", "um", "s", "per_m"};
-  for (const std::string& u : units)
-    if (column.ends_with("_" + u)) {
-      std::string name = column.substr(0, column.size() - u.size() - 1);
-      std::replace(name.begin(), name.end(), '_', ' ');
-      return fmt::format("{} [{}]", name, u == "mm2" ? "mm²" : u == "um" ? "µm" : u == "per_m" ? "1/m" : u);
-    }
-  std::string name = column;
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
 }
 
 template <class T>
@@ -154,7 +142,7 @@ void add_trend(const StudyFigure& f, const std::vector<StudyEntry>& entries, Rep
                       chart_title(f, panel),
                       f.note,
                       fmt::format("{}{}", key_name(f.x), unit.empty() ? "" : fmt::format(" [{}]", unit)),
-                      column_name(f.value),
+                      column_title(f.value),
                       {}};
     for (const Line& line : lines_of(f, members, panel)) {
       const double y = line.entry->number(f.value);
@@ -262,11 +250,11 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
       if (c.runs.size() == 1 && c.runs[0] == 0)
         add(c, fmt::format("{}/{}, {}", e.group, e.name, engine_title(e.engine)));
       if (c.runs.size() != 2 || c.name == "cases_differ") continue;
-      // on a coarser mesh than it takes nothing is promised: the paper's mesh is told, not judged
+      // on a coarser mesh than it takes nothing is promised: the paper's mesh is shown, not judged
       if (!both[0].option("mesh", "element").starts_with("one_point")) add(c, fmt::format("{}/{}", e.group, e.name));
       row.push_back(fmt::format("{:.1f} %{}", 100 * c.value, !c.judged ? ", not judged" : c.ok ? "" : " ✗"));
     }
-    if (row.size() == 5) pairs.rows.push_back(std::move(row));
+    if (row.size() == pairs.columns.size()) pairs.rows.push_back(std::move(row));
   }
   for (const std::string& kind : order) {
     Worst& w = worst[kind];
@@ -277,33 +265,55 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
   }
 }
 
+/// The columns of the study's table that the page shows.
+constexpr const char* kCasesColumns[] = {"p_max_MPa",
+                                         "q_max_MPa",
+                                         "patch_length_mm",
+                                         "patch_width_mm",
+                                         "patch_area_mm2",
+                                         "slip_area_fraction",
+                                         "creepage_x",
+                                         "rail_von_mises_MPa",
+                                         "rail_von_mises_depth_mm",
+                                         "section_sigma_1_MPa",
+                                         "section_sigma_1_depth_mm"};
+
 ReportTable cases_table(const std::vector<StudyEntry>& entries) {
-  ReportTable t{"cases",
-                "All cases",
-                "study.csv has every column.",
-                {"case", "engine", "p max [MPa]", "q max [MPa]", "length [mm]", "width [mm]", "area [mm²]",
-                 "slip area [%]", "creepage [10⁻³]", "von Mises, rail [MPa]", "at depth [mm]",
-                 "σ₁ on the section [MPa]", "at depth [mm]", "state"},
-                {}};
+  ReportTable t{.id = "cases", .title = "All cases", .note = "study.csv has every column.", .columns = {}, .rows = {}};
+  t.columns = {"case", "engine"};
+  for (const char* name : kCasesColumns) {
+    const ResultColumn& column = *find_column(name);
+    t.columns.push_back(fmt::format("{} [{}]", column.title, column.shown_unit.shown));
+  }
+  t.columns.push_back("state");
   for (const StudyEntry& e : entries) {
     std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name, engine_title(e.engine)};
-    for (const auto& [column, factor] : std::vector<std::pair<const char*, double>>{{"p_max_MPa", 1},
-                                                                                    {"q_max_MPa", 1},
-                                                                                    {"patch_length_mm", 1},
-                                                                                    {"patch_width_mm", 1},
-                                                                                    {"patch_area_mm2", 1},
-                                                                                    {"slip_area_fraction", 100},
-                                                                                    {"creepage_x", 1e3},
-                                                                                    {"rail_von_mises_MPa", 1},
-                                                                                    {"rail_von_mises_depth_mm", 1},
-                                                                                    {"section_sigma_1_MPa", 1},
-                                                                                    {"section_sigma_1_depth_mm", 1}}) {
-      const double v = factor * e.number(column);
+    for (const char* name : kCasesColumns) {
+      const ResultColumn& column = *find_column(name);
+      const double v = e.number(name) * (column.shown_unit.factor / column.factor);
       row.push_back(std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr));
     }
     row.push_back(e.fault.empty() ? e.state : fmt::format("{}: {}", e.state, e.fault));
     t.rows.push_back(std::move(row));
   }
+  return t;
+}
+
+ReportTable engines_table() {
+  ReportTable t{.id = "engines",
+                .title = "Finite elements against half-spaces",
+                .note = "Limits:",
+                .columns = {"case"},
+                .rows = {}};
+  for (const CheckRow& c : kCheckRows)
+    if (c.kind == CheckKind::engines) {
+      t.columns.push_back(std::string(c.name));
+      t.note += fmt::format(" {} {};", c.name, limit_text(c.unit, c.fem_limit));
+    }
+  t.note.back() = '.';
+  t.note +=
+      " The stress is judged where the half-space's lies deeper than an element. ✗: outside. The paper's mesh is shown "
+      "and takes no part in the verdict.";
   return t;
 }
 
@@ -343,12 +353,7 @@ Report study_report(const StudySpec& study, const Published& published, const st
   }
   for (const StudyEntry& e : entries)  // something to look at, whatever the figures ask for
     if (report.runs.empty() && e.done()) run_of(e, report);
-  ReportTable pairs{"engines",
-                    "Finite elements against half-spaces",
-                    "Limits: pressure 4 %, length 6 %, shear 7 %, von Mises stress below the surface 8 % where it lies "
-                    "deeper than an element. ✗: outside. The paper's mesh is told and takes no part in the verdict.",
-                    {"case", "largest pressure", "patch length", "largest shear", "von Mises below the surface"},
-                    {}};
+  ReportTable pairs = engines_table();
   add_verdict(entries, report, pairs);
   if (!published.claims.empty()) report.tables.push_back(claims_table(published, entries));
   if (!published.numbers.empty()) report.tables.push_back(published_table(published, entries));

@@ -80,10 +80,10 @@ void add_rail_maxima(const Json& summary, Json& out) {
     double best = -std::numeric_limits<double>::infinity(), depth = 0;
     for (const char* zone : {"surface", "subsurface", "layer", "interface", "matrix"}) {
       const std::string at = fmt::format("/stress/rail/{}/{}/", zone, key);
-      const double value = column_value({"", (at + "value_Pa").c_str(), 1e-6}, summary);
+      const double value = column_value({.name = "", .path = at + "value_Pa", .factor = 1e-6}, summary);
       if (std::isfinite(value) && value > best) {
         best = value;
-        depth = column_value({"", (at + "depth_m").c_str(), 1e3}, summary);
+        depth = column_value({.name = "", .path = at + "depth_m", .factor = 1e3}, summary);
       }
     }
     if (!std::isfinite(best)) continue;
@@ -251,11 +251,11 @@ std::vector<StudyRow> study_rows(const fs::path& out, const std::vector<StudyCas
       row.state = "done";
       row.fault = failed_check(summary);
       for (const ResultColumn& column : columns)
-        if (std::string(column.name) != "wall_s") row.numbers.emplace_back(column.name, column_value(column, summary));
+        if (column.name != "wall_s") row.numbers.emplace_back(column.name, column_value(column, summary));
       for (const auto& [name, value] : study["numbers"].items())
         row.numbers.emplace_back(name, value.is_number() ? value.get<double>() : kNotApplicable);
       row.numbers.emplace_back("wall_s", column_value(columns.back(), summary));
-      row.numbers.emplace_back("threads", column_value({"", "/run/threads", 1}, summary));
+      row.numbers.emplace_back("threads", column_value({.name = "threads", .path = "/run/threads"}, summary));
     } else if (!row.fault.empty()) {
       row.state = "failed";
     }

@@ -209,8 +209,9 @@ class DuringTheRun(FromOutside):
                          max(s["von_mises_max"]["value_Pa"] for s in summary["stress"]["rail"].values() if s
                              and s["von_mises_max"]) > 500e6)
         self.assertTrue(names)
+        words = {row["key"]: row["name"] for row in json.loads(railstrata("schema", "--results")[1])["checks"]}
         for name in names:
-            self.assertIn(f"warn   {name}", out)
+            self.assertIn(f"warn   {words[name]}", out)
 
     def test_a_wheel_braked_to_a_stand_is_not_waited_for(self):
         err = self.breaks_off('drive.speed="5 mm/s"', "drive.traction_coefficient=-0.2", 'drive.torque_ramp="0 s"')
