@@ -9,6 +9,7 @@
 
 #include "app/commands.hpp"
 #include "app/progress.hpp"
+#include "app/shipped_files.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
@@ -25,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 LoadedStudy study_of(const CommandOptions& options) {
-  fs::path file = options.case_file;
+  fs::path file = shipped_unless_there(options.case_file);
   if (fs::is_directory(file) && fs::exists(file / "study.toml")) file /= "study.toml";
   return load_study(file);
 }

@@ -37,6 +37,7 @@ struct CommandOptions {
   std::vector<std::string> command_line;
 };
 
+ExitCode command_demo(const CommandOptions& options);
 ExitCode command_check(const CommandOptions& options);
 ExitCode command_mesh(const CommandOptions& options);
 ExitCode command_run(const CommandOptions& options);
