@@ -214,7 +214,7 @@ struct Rolling {
   RollingSystem system;
   std::unique_ptr<Stepper> stepper;
   double preload_seconds = 0, peak = 0;
-  Rolling(double millimetres, const char* precision, double layer = 0)
+  Rolling(double millimetres, ArithmeticPrecision precision, double layer = 0)
       : system(build_model(spec(millimetres, precision, layer), ".")) {
     const PreloadResult preload = solve_preload(system, 1e-2);
     preload_seconds = preload.wall_seconds;
@@ -222,7 +222,7 @@ struct Rolling {
     peak = peak_bytes();
   }
   /// layer: thickness [m] of one of four times the modulus, 0: none.
-  static CaseSpec spec(double millimetres, const char* precision, double layer) {
+  static CaseSpec spec(double millimetres, ArithmeticPrecision precision, double layer) {
     CaseSpec s;
     s.geometry.wheel_profile = "LMA";
     s.geometry.rail_profile = "CN60";
@@ -251,7 +251,8 @@ Rolling& rolling(double millimetres, bool single) {
   if (!latest || which != std::pair{millimetres, single}) {
     latest.reset();
     forget_peak();
-    latest = std::make_unique<Rolling>(millimetres, single ? "single" : "double");
+    latest = std::make_unique<Rolling>(
+        millimetres, single ? ArithmeticPrecision::single_precision : ArithmeticPrecision::double_precision);
     which = {millimetres, single};
   }
   return *latest;
@@ -286,7 +287,7 @@ BENCHMARK(whole_steps)
 void layer_over_base(benchmark::State& state) {
   set_threads(2);
   Rolling& base = rolling(1, false);
-  Rolling layered(1, "double", 1e-6 * static_cast<double>(state.range(0)));
+  Rolling layered(1, ArithmeticPrecision::double_precision, 1e-6 * static_cast<double>(state.range(0)));
   Rolling* const both[2] = {&base, &layered};
   double best[2] = {1e99, 1e99};
   for (auto _ : state) {

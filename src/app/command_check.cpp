@@ -28,7 +28,7 @@ void print_layers(const Model& m) {
     const std::string young = l.graded() ? fmt::format("{:.4g} to {:.4g}", 1e-9 * l.young_table.front().young,
                                                        1e-9 * l.young_table.back().young)
                                          : fmt::format("{:.4g}", 1e-9 * l.material.young);
-    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa\n", l.name, l.on,
+    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa\n", l.name, body_word(l.on),
                1e3 * l.thickness, 1e3 * l.width, young);
   }
 }

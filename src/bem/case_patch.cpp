@@ -77,8 +77,8 @@ Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidConta
 
 }  // namespace
 
-LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body) {
-  LayeredHalfSpace out{{}, half_space(body == "wheel" ? spec.wheel_material : spec.rail_material)};
+LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
+  LayeredHalfSpace out{{}, half_space(body == BodyId::wheel ? spec.wheel_material : spec.rail_material)};
   for (const LayerSpec& layer : spec.layers) {
     if (layer.on != body) continue;
     if (!layer.graded()) {
@@ -100,8 +100,8 @@ double normal_load(double weight, double lateral, const RigidContact& contact) {
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double normal) {
   CasePatch patch;
-  patch.wheel = layered_body(spec, "wheel");
-  patch.rail = layered_body(spec, "rail");
+  patch.wheel = layered_body(spec, BodyId::wheel);
+  patch.rail = layered_body(spec, BodyId::rail);
   patch.grid = first_grid(spec, placement, options);
   InfluenceCache own;
   fit_grid(placement, normal, options, options.cache ? *options.cache : own, patch);

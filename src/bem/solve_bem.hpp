@@ -59,9 +59,9 @@ struct BemResult {
   std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
 };
 
-/// Layers of one body ("rail" or "wheel") from the case, from the surface down; a graded one cut to its
+/// Layers of one body from the case, from the surface down; a graded one cut to its
 /// grading_tolerance.
-LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body);
+LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 
 /// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears
 /// the weight whatever the normal force (a wedged wheel).

@@ -43,11 +43,8 @@ struct TypeSchema {
     return s;
   }
   Json operator()(const bool*) const { return {{"type", "boolean"}}; }
-  Json operator()(const std::string*) const {
-    Json s{{"type", "string"}};
-    if (!option.choices.empty()) s["enum"] = option.choices;
-    return s;
-  }
+  Json operator()(const std::string*) const { return {{"type", "string"}}; }
+  Json operator()(const ChoiceSlot&) const { return {{"type", "string"}, {"enum", words_of(option)}}; }
   Json operator()(const std::vector<ModulusPoint>*) const {
     return {{"type", "array"},
             {"minItems", 2},
@@ -60,7 +57,7 @@ struct TypeSchema {
 
 std::string allowed(const Option& option) {
   return option.choices.empty() ? describe(option.range, option.dimension)
-                                : fmt::format("`{}`", fmt::join(option.choices, "`, `"));
+                                : fmt::format("`{}`", fmt::join(words_of(option), "`, `"));
 }
 
 /// A layer's modulus has no default: it must be said.

@@ -48,9 +48,9 @@ std::string wanted(const Option& option) {
     std::string operator()(const double*) const { return describe(option.dimension); }
     std::string operator()(const int*) const { return "a whole number"; }
     std::string operator()(const bool*) const { return "true or false"; }
-    std::string operator()(const std::string*) const {
-      return option.choices.empty() ? "a text in quotes"
-                                    : fmt::format("one of \"{}\"", fmt::join(option.choices, "\", \""));
+    std::string operator()(const std::string*) const { return "a text in quotes"; }
+    std::string operator()(const ChoiceSlot&) const {
+      return fmt::format("one of \"{}\"", fmt::join(words_of(option), "\", \""));
     }
     std::string operator()(const std::vector<double>*) const { return "a list, e.g. [\"0.1 m\", \"0.3 m\"]"; }
     std::string operator()(const std::vector<ModulusPoint>*) const {
@@ -157,46 +157,51 @@ class TreeReader {
   }
 
   void read_value(const Option& option, const std::string& key, std::size_t index, const toml::node& node) {
-    std::visit([&](auto* target) { assign(option, key, index, node, *target); }, option.slot(spec_, index));
+    std::visit([&](auto target) { assign(option, key, index, node, target); }, option.slot(spec_, index));
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, double& target) {
+  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, double* target) {
     double value = 0;
     if (!number(option, key, node, value)) return;
     if (option.multiple_of)
       multiples_.push_back({&option, key, index, value});
     else
-      target = value;
+      *target = value;
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, int& target) {
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, int* target) {
     const auto value = node.value_exact<int64_t>();
     if (!value) return mismatch(option, key, node);
     if (!option.range.holds(static_cast<double>(*value))) return out_of_range(option, key, shown(node), "");
-    target = static_cast<int>(*value);
+    *target = static_cast<int>(*value);
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, bool& target) {
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, bool* target) {
     const auto value = node.value_exact<bool>();
     if (!value) return mismatch(option, key, node);
-    target = *value;
+    *target = *value;
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, std::string& target) {
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, std::string* target) {
     const auto value = node.value_exact<std::string>();
     if (!value) return mismatch(option, key, node);
-    if (!option.choices.empty() &&
-        std::find(option.choices.begin(), option.choices.end(), *value) == option.choices.end()) {
-      const std::string near = nearest_word(*value, {option.choices.begin(), option.choices.end()});
-      return source_.complain(key, fmt::format("{} = \"{}\": must be {}", key, *value, wanted(option)),
-                              near.empty() ? fmt::format("write {} = \"{}\"", option.key, option.choices.front())
-                                           : fmt::format("did you mean \"{}\"?", near));
-    }
-    target = *value;
+    *target = *value;
   }
 
   void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node,
-              std::vector<double>& target) {
+              const ChoiceSlot& target) {
+    const auto value = node.value_exact<std::string>();
+    if (!value) return mismatch(option, key, node);
+    for (const Choice& c : option.choices)
+      if (c.word == *value) return target.set(c.value);
+    const std::string near = nearest_word(*value, words_of(option));
+    source_.complain(key, fmt::format("{} = \"{}\": must be {}", key, *value, wanted(option)),
+                     near.empty() ? fmt::format("write {} = \"{}\"", option.key, option.choices.front().word)
+                                  : fmt::format("did you mean \"{}\"?", near));
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node,
+              std::vector<double>* target) {
     const toml::array* list = node.as_array();
     if (!list) return mismatch(option, key, node);
     std::vector<double> values;
@@ -209,11 +214,11 @@ class TreeReader {
     if (list->empty())
       source_.complain(key, fmt::format("{} = []: needs at least one value", key),
                        fmt::format("write {}", wanted(option)));
-    target = values;
+    *target = values;
   }
 
   void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node,
-              std::vector<ModulusPoint>& target) {
+              std::vector<ModulusPoint>* target) {
     const toml::array* list = node.as_array();
     if (!list) return mismatch(option, key, node);
     std::vector<ModulusPoint> rows;
@@ -237,7 +242,7 @@ class TreeReader {
       rows.push_back(point);
     }
     if (sound && fits(option, key, rows)) take_table(spec_.layers.at(index), rows);
-    target = rows;
+    *target = rows;
   }
 
   /// From the top down, at least two rows, as thick as a layer may be.

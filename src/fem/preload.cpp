@@ -28,7 +28,7 @@ class Preload {
         tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()),
         preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero()) {
-    compliant_ = sys_.model.spec.contact.method == "penalty";
+    compliant_ = sys_.model.spec.contact.method == ContactMethod::penalty;
     element_stiffness_ = compliant_ ? sys_.penalty_stiffness
                                     : young(sys_.model.rail_materials.front()) / sys_.model.spec.mesh.element_size;
     penalty_ = compliant_ ? sys_.penalty_stiffness : kPenaltyScale * element_stiffness_;

@@ -9,9 +9,10 @@
 namespace railstrata {
 
 SolidOptions solid_options(const CaseSpec& spec) {
-  return {spec.mesh.element == "one_point" ? ElementKind::one_point : ElementKind::full,
+  return {spec.mesh.element == ElementFormulation::one_point ? ElementKind::one_point : ElementKind::full,
           spec.mesh.hourglass_coefficient,
-          spec.run.precision == "single" ? Precision::single_precision : Precision::double_precision};
+          spec.run.precision == ArithmeticPrecision::single_precision ? Precision::single_precision
+                                                                      : Precision::double_precision};
 }
 
 namespace {

@@ -55,12 +55,12 @@ StepPlan::StepPlan(const RollingSystem& sys) {
   const std::vector<Part> parts{{sys.rail, sys.rail_surface, rail, lanczos_stable_step(sys.rail)},
                                 {sys.wheel, sys.wheel_surface, wheel, lanczos_stable_step(sys.wheel)}};
   limits.unscaled = limits.lanczos = std::min(parts[0].own, parts[1].own);
-  if (spec.run.time_step_method == "local")
+  if (spec.run.time_step_method == TimeStepMethod::local)
     refine_steps(parts, spec);
-  else if (spec.run.time_step_method != "uniform")
+  else if (spec.run.time_step_method != TimeStepMethod::uniform)
     scale_masses(parts, spec);
   double least = limits.lanczos;
-  if (spec.contact.method == "penalty") {
+  if (spec.contact.method == ContactMethod::penalty) {
     limits.contact = penalty_step(sys, rail.scaling);
     least = 1 / std::sqrt(1 / (least * least) + 1 / (limits.contact * limits.contact));
   }
@@ -74,7 +74,7 @@ void StepPlan::scale_masses(const std::vector<Part>& parts, const CaseSpec& spec
     MassScaling& scaling = steps.scaling;
     scaling = {body, wanted_step(body, spec, spec.run.mass_scaling_step)};
     double step = scaling.empty() ? own : lanczos_stable_step(body, scaling);
-    if (spec.run.time_step_method == "auto" && step < kWorthwhile * own) scaling = {}, step = own;
+    if (spec.run.time_step_method == TimeStepMethod::automatic && step < kWorthwhile * own) scaling = {}, step = own;
     limits.added_mass += scaling.report().added_mass;
     limits.scaled_mass += scaling.report().scaled_mass;
     if (!scaling.empty()) limits.scaled_where += (limits.scaled_where.empty() ? "" : ", ") + scaling.report().where;

@@ -42,7 +42,7 @@ EnergyBalance halfway(const EnergyBalance& before, EnergyBalance now) {
 
 Stepper::Stepper(const RollingSystem& system)
     : sys_(system), contact_(system.rail_surface, system.wheel_surface), plan_(system) {
-  enforcement_.penalty = sys_.model.spec.contact.method == "penalty";
+  enforcement_.penalty = sys_.model.spec.contact.method == ContactMethod::penalty;
   enforcement_.penalty_stiffness = sys_.penalty_stiffness;
   enforcement_.friction_coefficient = sys_.model.spec.drive.friction_coefficient;
   dt_ = plan_.limits.chosen;

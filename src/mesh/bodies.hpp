@@ -1,5 +1,6 @@
 #pragma once
 // Meshes of the two bodies.
+#include "geometry/body_shapes.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile.hpp"
 #include "mesh/swept.hpp"
@@ -29,9 +30,6 @@ struct MeshSizes {
   int coarse_ratio = 3;    ///< station spacing of the rest in the fine range / h
   double largest = 12e-3;  ///< largest element edge far from the contact
 };
-
-enum class RailShape { rail, block };
-enum class WheelShape { wheel, disc };
 
 /// Rail: section from its profile (head, web, foot on the base) or a rectangular block under the profile; extruded from
 /// x_begin - end_length to x_end + end_length, stations of spacing h between x_begin and x_end in the cap, coarse_ratio

@@ -23,7 +23,8 @@ std::vector<Check> checks(const RollingSystem& sys, const RunResult& run, const 
     out.push_back(at_most("energy_closure", run.closure, 1e-2));
     out.push_back(at_most("p_max_scatter", m.p_max_scatter, 1.5e-2));
   }
-  if (spec.mesh.element == "one_point") out.push_back(at_most("hourglass_share", run.hourglass_share, 2e-2));
+  if (spec.mesh.element == ElementFormulation::one_point)
+    out.push_back(at_most("hourglass_share", run.hourglass_share, 2e-2));
   out.push_back(at_most("patch_reaches_edge_of_fine_zone", run.reached_edge ? 1 : 0, 0));
   return out;
 }

@@ -71,7 +71,7 @@ TEST(SolveBem, StiffLayerRaisesThePeakPressureAndSoftLayerLowersIt) {
       << "a layer of the rail's own steel changes nothing";
 }
 
-LayerSpec layer_on(const std::string& body, double thickness, double young) {
+LayerSpec layer_on(BodyId body, double thickness, double young) {
   LayerSpec layer;
   layer.on = body;
   layer.thickness = thickness;
@@ -84,16 +84,16 @@ TEST(SolveBem, LayersOfEitherBodyGiveTheSamePressureWithoutFriction) {
   spec.drive.traction_coefficient = spec.drive.friction_coefficient = 0;
   BemOptions options;
   options.cell = 0.5e-3;
-  spec.layers = {layer_on("rail", 1e-3, 420e9), layer_on("rail", 2e-3, 100e9)};
+  spec.layers = {layer_on(BodyId::rail, 1e-3, 420e9), layer_on(BodyId::rail, 2e-3, 100e9)};
   const BemResult rail = solve_bem(spec, place(spec, {}), options);
-  spec.layers = {layer_on("wheel", 1e-3, 420e9), layer_on("wheel", 2e-3, 100e9)};
+  spec.layers = {layer_on(BodyId::wheel, 1e-3, 420e9), layer_on(BodyId::wheel, 2e-3, 100e9)};
   const BemResult wheel = solve_bem(spec, place(spec, {}), options);
   for (std::size_t k = 0; k < rail.field.p.size(); ++k)
     ASSERT_NEAR(rail.field.p[k], wheel.field.p[k], 1e-8 * rail.p_max);
   EXPECT_NEAR(rail_interior(rail).peaks(8e-3).layers.at(1).von_mises.value /
                   wheel_interior(wheel).peaks(8e-3).layers.at(1).von_mises.value,
               1, 1e-6);
-  spec.layers.push_back(layer_on("rail", 1e-3, 420e9));
+  spec.layers.push_back(layer_on(BodyId::rail, 1e-3, 420e9));
   EXPECT_GT(solve_bem(spec, place(spec, {}), options).p_max, wheel.p_max);
 }
 
@@ -105,15 +105,15 @@ TEST(SolveBem, AGradedLayerLiesBetweenItsEndsAndConvergesWithTheSquareOfTheToler
     spec.layers = {layer};
     return solve_bem(spec, place(spec, {}), options);
   };
-  LayerSpec graded = layer_on("rail", 3e-3, 420e9);
+  LayerSpec graded = layer_on(BodyId::rail, 3e-3, 420e9);
   graded.young_table = {{0, 630e9}, {3e-3, 210e9}};
   const auto cut = [&](int cuts) {  // equal steps of ln E
     graded.grading_tolerance = std::pow(3.0, 1.0 / cuts) - 1;
     return solve(graded);
   };
   const BemResult coarse = cut(24), fine = cut(48), exact = cut(384);
-  EXPECT_GT(exact.p_max, solve(layer_on("rail", 3e-3, 210e9)).p_max);
-  EXPECT_LT(exact.p_max, solve(layer_on("rail", 3e-3, 630e9)).p_max);
+  EXPECT_GT(exact.p_max, solve(layer_on(BodyId::rail, 3e-3, 210e9)).p_max);
+  EXPECT_LT(exact.p_max, solve(layer_on(BodyId::rail, 3e-3, 630e9)).p_max);
   EXPECT_NEAR((coarse.p_max - exact.p_max) / (fine.p_max - exact.p_max), 4, 0.4);
   EXPECT_NEAR(cut(4).p_max / exact.p_max, 1, 2e-4) << "cuts of 32 %";
   graded.grading_tolerance = LayerSpec{}.grading_tolerance;
@@ -176,7 +176,7 @@ TEST(SolveBem, ConvergesForLayersFrom50MicrometresTo10MillimetresAndRatios001To1
   CaseSpec spec = paper_base();
   BemOptions options;
   options.cell = 1e-3;
-  for (const char* on : {"rail", "wheel"})
+  for (const BodyId on : kBodies)
     for (double nu : {0.3, 0.49})
       for (double ratio : {0.01, 0.1, 10.0, 100.0})
         for (double h : {50e-6, 1e-3, 10e-3}) {
@@ -186,7 +186,7 @@ TEST(SolveBem, ConvergesForLayersFrom50MicrometresTo10MillimetresAndRatios001To1
           layer.material = {ratio * 210e9, nu, 7800};
           spec.layers = {layer};
           const BemResult r = solve_bem(spec, place(spec, {}), options);
-          EXPECT_NEAR(r.F_x / (-0.2 * static_load(spec)), 1, 1e-4) << on << nu << ' ' << ratio << ' ' << h;
+          EXPECT_NEAR(r.F_x / (-0.2 * static_load(spec)), 1, 1e-4) << body_word(on) << nu << ' ' << ratio << ' ' << h;
         }
 }
 

@@ -72,7 +72,7 @@ volume = false
   EXPECT_EQ(spec.drive.traction_coefficient, 0.15);
   EXPECT_EQ(spec.mesh.coarse_ratio, 2);
   EXPECT_TRUE(spec.mesh.elements_through_layer_one);
-  EXPECT_EQ(spec.contact.method, "penalty");
+  EXPECT_EQ(spec.contact.method, ContactMethod::penalty);
   EXPECT_EQ(spec.run.positions, (std::vector<double>{0.2, 0.3}));
   EXPECT_FALSE(spec.output.volume);
 }
@@ -117,7 +117,8 @@ void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
     void operator()(double* v) const { *v = inside(*v); }
     void operator()(int* v) const { *v += 1; }
     void operator()(bool* v) const { *v = !*v; }
-    void operator()(std::string* v) const { *v = o.choices.empty() ? *v + " \"2\"\n" : std::string(o.choices.back()); }
+    void operator()(std::string* v) const { *v += " \"2\"\n"; }
+    void operator()(const ChoiceSlot& v) const { v.set(o.choices.back().value); }
     void operator()(std::vector<double>* v) const { *v = {0.2, 1.0 / 3}; }
     void operator()(std::vector<ModulusPoint>* v) const { *v = {{0, 1e11 / 3}, {0.7e-3, 3e11}, {1e-3, 1.1e11}}; }
   };
@@ -127,7 +128,7 @@ void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
 TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   CaseSpec spec;
   spec.layers.resize(2);
-  spec.layers[1].on = "wheel";
+  spec.layers[1].on = BodyId::wheel;
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options)
       if (!option.multiple_of && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)))
@@ -139,7 +140,7 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
     for (const Option& option : table.options) {
       CaseSpec copy = back.spec;
       const Slot a = option.slot(spec, 0), b = option.slot(copy, 0);
-      std::visit([&](auto* x) { EXPECT_EQ(*x, *std::get<decltype(x)>(b)) << table.name << "." << option.key; }, a);
+      std::visit([&](auto x) { EXPECT_EQ(*x, *std::get<decltype(x)>(b)) << table.name << "." << option.key; }, a);
     }
 }
 
@@ -341,7 +342,7 @@ TEST(Overrides, AreReadLikeTheFileAndQuotesMayBeLeftOut) {
   EXPECT_EQ(spec.geometry.cant, 0.05);
   EXPECT_EQ(spec.mesh.coarse_ratio, 4);
   EXPECT_FALSE(spec.output.volume);
-  EXPECT_EQ(spec.contact.method, "penalty");
+  EXPECT_EQ(spec.contact.method, ContactMethod::penalty);
 }
 
 TEST(Overrides, FaultsAreLocatedAtTheCommandLine) {

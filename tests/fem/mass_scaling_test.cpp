@@ -293,7 +293,7 @@ class ThinLayerRolling : public ::testing::Test {
     static const PreloadResult result = solve_preload(small_system(thin_case()), 1e-6);
     return result;
   }
-  static Outcome roll(const char* method, double to = kTo, double safety = CaseSpec{}.run.step_safety) {
+  static Outcome roll(TimeStepMethod method, double to = kTo, double safety = CaseSpec{}.run.step_safety) {
     CaseSpec spec = thin_case();
     spec.run.time_step_method = method;
     spec.run.step_safety = safety;
@@ -331,9 +331,10 @@ class ThinLayerRolling : public ::testing::Test {
 };
 
 TEST_F(ThinLayerRolling, ScaledMassesAndLocalStepsGiveTheSamePressuresStressesAndEnergiesWithATenTimesLongerStep) {
-  const Outcome uniform = roll("uniform");
-  for (const char* method : {"auto", "local"}) {
-    const Outcome o = roll(method);
+  const Outcome uniform = roll(TimeStepMethod::uniform);
+  for (const TimeStepMethod chosen : {TimeStepMethod::automatic, TimeStepMethod::local}) {
+    const Outcome o = roll(chosen);
+    const char* const method = chosen == TimeStepMethod::local ? "local" : "auto";
     EXPECT_GT(o.limits.chosen, 10 * uniform.limits.chosen) << method;
     EXPECT_NEAR(o.p_max / uniform.p_max, 1.0, 0.003) << method;
     EXPECT_NEAR(o.von_mises_rail / uniform.von_mises_rail, 1.0, 0.01) << method;
@@ -347,7 +348,7 @@ TEST_F(ThinLayerRolling, ScaledMassesAndLocalStepsGiveTheSamePressuresStressesAn
 // the number of steps.
 TEST_F(ThinLayerRolling, LocalStepsKeepTheirEnergyWithAnyStep) {
   for (double safety : {0.25, 0.35, 0.6}) {
-    const Outcome o = roll("local", 0.8e-3, safety);
+    const Outcome o = roll(TimeStepMethod::local, 0.8e-3, safety);
     EXPECT_LT(o.closure, 1e-4) << safety;
     EXPECT_LT(o.penetration, 1e-9) << safety;
   }
@@ -358,7 +359,7 @@ TEST_F(ThinLayerRolling, LocalStepsHaveTheSameBitsOnOneTwoAndFourThreads) {
   std::vector<Outcome> results;
   for (int n : {1, 2, 4}) {
     set_threads(n);
-    results.push_back(roll("local", 0.2e-3));
+    results.push_back(roll(TimeStepMethod::local, 0.2e-3));
     EXPECT_EQ(std::memcmp(results.back().u_rail.data(), results.front().u_rail.data(),
                           results.front().u_rail.size() * sizeof(double)),
               0)

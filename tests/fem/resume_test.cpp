@@ -65,17 +65,17 @@ TEST(Resume, AStepperFromMemoryComputesTheSameBits) { expect_same_bits(damped_ca
 
 TEST(Resume, InSinglePrecisionToo) {
   CaseSpec spec = damped_case();
-  spec.run.precision = "single";
+  spec.run.precision = ArithmeticPrecision::single_precision;
   expect_same_bits(spec);
 }
 
-TEST(Resume, WithScaledMassesToo) { expect_same_bits(thinly_layered(damped_case(), "mass_scaling")); }
+TEST(Resume, WithScaledMassesToo) { expect_same_bits(thinly_layered(damped_case(), TimeStepMethod::mass_scaling)); }
 
-TEST(Resume, WithLocalStepsToo) { expect_same_bits(thinly_layered(damped_case(), "local")); }
+TEST(Resume, WithLocalStepsToo) { expect_same_bits(thinly_layered(damped_case(), TimeStepMethod::local)); }
 
 TEST(Resume, WithAPenaltyToo) {
   CaseSpec spec = damped_case();
-  spec.contact.method = "penalty";
+  spec.contact.method = ContactMethod::penalty;
   expect_same_bits(spec);
 }
 
