@@ -159,6 +159,7 @@ install(FILES ${package_build}/RailStrataConfig.cmake ${package_build}/RailStrat
 
 # Both paths are relative to the file itself, so that the folder can be moved.
 file(RELATIVE_PATH root_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" root_from_pc "${root_from_pc}")
 configure_file(${CMAKE_SOURCE_DIR}/cmake/railstrata.pc.in ${package_build}/railstrata.pc @ONLY)
 install(FILES ${package_build}/railstrata.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 

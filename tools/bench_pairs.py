@@ -3,9 +3,11 @@
 
 usage: bench_pairs.py OLD NEW [--filter REGEX] [--rounds 7] [--record FILE.csv --change WORDS]
 
-OLD and NEW are bench_fem or bench_bem of two builds. Each round runs both, the other one first in every second round. A line's figure is new / old of the medians of processor time
-over the rounds; processor time because others use the machine too. Also printed is the spread of OLD's rounds, half the distance of its quartiles over its median: a difference below it is noise.
-Example: tools/bench_pairs.py build-a/bench/bench_fem build-b/bench/bench_fem --filter 'swept_lines.*threads:1/stations:250'
+OLD and NEW are bench_fem or bench_bem of two builds. Each round runs both, the other one first in every second round. A
+line's figure is new / old of the medians of processor time over the rounds; processor time because others use the
+machine too. Also printed is the spread of OLD's rounds, half the distance of its quartiles over its median: a
+difference below it is noise.
+Example: tools/bench_pairs.py build-a/bench/bench_fem build-b/bench/bench_fem --filter 'swept_lines.*threads:1'
 """
 import argparse
 import json
@@ -18,7 +20,8 @@ import records
 
 def measure(program, pattern):
     """name -> processor time of every benchmark that the pattern names."""
-    done = subprocess.run([program, f"--benchmark_filter={pattern}", "--benchmark_format=json"], capture_output=True, text=True)
+    command = [program, f"--benchmark_filter={pattern}", "--benchmark_format=json"]
+    done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"{program}: {done.stderr[-2000:]}")
     found = json.loads(done.stdout)["benchmarks"]
@@ -48,7 +51,9 @@ def main():
             continue
         quartiles = statistics.quantiles(old, n=4)
         middle = statistics.median(old)
-        rows.append({"change": options.change, "benchmark": name, "new_over_old": f"{statistics.median(new) / middle:.3f}", "spread_of_old": f"{(quartiles[2] - quartiles[0]) / 2 / middle:.3f}",
+        rows.append({"change": options.change, "benchmark": name,
+                     "new_over_old": f"{statistics.median(new) / middle:.3f}",
+                     "spread_of_old": f"{(quartiles[2] - quartiles[0]) / 2 / middle:.3f}",
                      "rounds": options.rounds, "commit": records.commit()})
         print(f"{name:70} {rows[-1]['new_over_old']} (spread {rows[-1]['spread_of_old']})", flush=True)
     if options.record:

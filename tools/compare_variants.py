@@ -3,10 +3,13 @@
 
 usage: compare_variants.py PREFIX [--native BINARY] [--case CASE] [--set KEY=VALUE ...] [--rounds 3] [--record FILE.csv]
 
-PREFIX comes from a build with RAILSTRATA_VARIANTS=ON (./railstrata install PREFIX). The loader is kept from the better variants by GLIBC_TUNABLES, so one machine shows all that it
-can run. Each round runs every variant, and --native (the developer's build, build/railstrata-bin) besides, one after the other on one thread; the medians of the rounds' times
-and element steps per second count. Exits with 0 if every number lies within 1e-9 of the first row's. Whoever asks for less than the preload does (run.preload_tolerance) compares where its iterations end.
-Example: tools/compare_variants.py /opt/railstrata --native build/railstrata-bin --set run.preload_tolerance=1e-10 --record bench/results/variants.csv
+PREFIX comes from a build with RAILSTRATA_VARIANTS=ON (./railstrata install PREFIX). The loader is kept from the better
+variants by GLIBC_TUNABLES, so one machine shows all that it can run. Each round runs every variant, and --native (the
+developer's build, build/railstrata-bin) besides, one after the other on one thread; the medians of the rounds' times
+and element steps per second count. Exits with 0 if every number lies within 1e-9 of the first row's. The numbers agree
+only as far as the preload's iterations go, so compare with --set run.preload_tolerance=1e-10.
+Example: tools/compare_variants.py /opt/railstrata --native build/railstrata-bin
+           --set run.preload_tolerance=1e-10 --record bench/results/variants.csv
 """
 import argparse
 import json
@@ -36,7 +39,8 @@ def arguments():
 
 
 def environment(mask):
-    out = {**os.environ, "OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "3000"}  # set: the program does not start itself once more
+    # with these set the program does not start itself once more (src/app/main.cpp)
+    out = {**os.environ, "OMP_WAIT_POLICY": "passive", "GOMP_SPINCOUNT": "3000"}
     if mask:
         out["GLIBC_TUNABLES"] = f"glibc.cpu.hwcaps={mask}"
     return out
@@ -48,7 +52,8 @@ def variants(options):
     out = [("native", options.native, environment(""))] if options.native else []
     best = len(MASKS)
     for name, (mask, isa) in MASKS.items():
-        info = json.loads(subprocess.run([program, "info", "--json"], env=environment(mask), capture_output=True, text=True, check=True).stdout)
+        done = subprocess.run([program, "info", "--json"], env=environment(mask), capture_output=True, check=True)
+        info = json.loads(done.stdout)
         if f"-march={name}" in info["flags"].split():
             if isa not in info["isa"]:
                 sys.exit(f"{name} was compiled for {info['isa']}")
@@ -62,8 +67,10 @@ def variants(options):
 
 
 def run(program, env, options, folder):
-    done = subprocess.run([program, "run", options.case, "--out", folder, "--force", "--quiet", "--no-report", "--threads", "1", *(word for s in options.set for word in ("--set", s))],
-                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env=env)
+    settings = [word for s in options.set for word in ("--set", s)]
+    done = subprocess.run([program, "run", options.case, "--out", folder, "--force", "--quiet", "--no-report",
+                           "--threads", "1", *settings], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                          env=env)
     if done.returncode not in (0, 1):
         sys.exit(f"{program}: exit code {done.returncode}: {done.stderr}")
     return json.loads((folder / "summary.json").read_text()), json.loads((folder / "provenance.json").read_text())
@@ -88,10 +95,13 @@ def main():
     for name, *_ in found:
         summary, origin = last[name]
         rate = statistics.median(rates[name])
-        row = {"variant": name, "isa": origin["isa"].split(",")[0], "wall_s": f"{statistics.median(times[name]):.4g}", "element_steps_per_s": f"{rate:.4g}",
-               "rate_over_first": f"{rate / base:.3f}", "rounds": options.rounds}
-        row |= {f"{number}_relative_difference": f"{abs(at(summary, p) - at(reference, p)) / abs(at(reference, p)):.3g}" for number, p in NUMBERS.items()}
-        rows.append(row | {"case": options.case.name, "set": "; ".join(options.set), "commit": origin["commit"] + ("+dirty" if origin["dirty"] else ""), "cpu": origin["cpu"]})
+        row = {"variant": name, "isa": origin["isa"].split(",")[0], "wall_s": f"{statistics.median(times[name]):.4g}",
+               "element_steps_per_s": f"{rate:.4g}", "rate_over_first": f"{rate / base:.3f}", "rounds": options.rounds}
+        for number, pointer in NUMBERS.items():
+            wanted = at(reference, pointer)
+            row[f"{number}_relative_difference"] = f"{abs(at(summary, pointer) - wanted) / abs(wanted):.3g}"
+        rows.append(row | {"case": options.case.name, "set": "; ".join(options.set),
+                           "commit": origin["commit"] + ("+dirty" if origin["dirty"] else ""), "cpu": origin["cpu"]})
         print(", ".join(f"{k} {v}" for k, v in row.items()), flush=True)
     if options.record:
         records.keep(options.record, ["variant", "case", "set"], rows)

@@ -2,12 +2,15 @@
 """What librailstrata.so shows of itself: the public headers and the symbols.
 
 usage: library_interface.py headers --src SRC --out FOLDER --version V --stamp FILE HEADER...
-       library_interface.py exports --headers FOLDER --nm NM --version V --public-version V --out MAP --library A.a ... --users B.a ...
+       library_interface.py exports --headers FOLDER --nm NM --version V --public-version V --out MAP
+                                     --library A.a ... --users B.a ...
 
-headers: copies the headers and every header they include to FOLDER/<room>/<name>.hpp, with `#include "room/x.hpp"` turned into `#include "railstrata/room/x.hpp"`, and
-writes FOLDER/railstrata.hpp, which includes them all. Refuses headers that a user could not compile with the standard library alone.
-exports: writes a linker version script. Public are the functions, classes and constants of the archives that the public headers declare; private, under a version that no
-other release has, what the users' archives call besides; all else is local.
+headers: copies the headers and every header they include to FOLDER/<room>/<name>.hpp, with `#include "room/x.hpp"`
+turned into `#include "railstrata/room/x.hpp"`, and writes FOLDER/railstrata.hpp, which includes them all. Refuses
+headers that a user could not compile with the standard library alone.
+exports: writes a linker version script. Public are the functions, classes and constants of the archives that the public
+headers declare; private, under a version that no other release has, what the users' archives call besides; all else is
+local.
 """
 import argparse
 import pathlib
@@ -59,16 +62,22 @@ def headers(args):
     for name in names:
         text = (args.src / name).read_text()
         write_if_new(args.out / name, QUOTED.sub(lambda m: f'#include "railstrata/{m[1]}"', text))
-    lines = ["#pragma once", f"// RailStrata {args.version}: everything that the library offers. The C++ interface is unstable until 1.0.",
-             f'#define RAILSTRATA_VERSION "{args.version}"', ""]
-    write_if_new(args.out / "railstrata.hpp", "\n".join([*lines, *(f'#include "railstrata/{h}"' for h in sorted(args.headers)), ""]))
-    args.stamp.with_name(args.stamp.name + ".d").write_text(f"{args.stamp}: {' '.join(str(args.src / n) for n in names)}\n")
+    lines = ["#pragma once",
+             f"// RailStrata {args.version}: all that the library offers. The C++ interface is unstable until 1.0.",
+             f'#define RAILSTRATA_VERSION "{args.version}"',
+             "",
+             *(f'#include "railstrata/{header}"' for header in sorted(args.headers)),
+             ""]
+    write_if_new(args.out / "railstrata.hpp", "\n".join(lines))
+    inputs = " ".join(str(args.src / name) for name in names)
+    args.stamp.with_name(args.stamp.name + ".d").write_text(f"{args.stamp}: {inputs}\n")
     args.stamp.touch()
 
 
 def symbols(nm, archives, *options):
     """(mangled, type) of global symbols in namespace railstrata."""
-    text = subprocess.run([nm, "--extern-only", "--format=posix", *options, *archives], capture_output=True, text=True, check=True).stdout
+    command = [nm, "--extern-only", "--format=posix", *options, *archives]
+    text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
     rows = (line.split() for line in text.splitlines())
     return {(row[0], row[1]) for row in rows if len(row) > 1 and "10railstrata" in row[0]}
 
@@ -80,13 +89,14 @@ def demangled(names):
 
 
 def declared(folder):
-    """Names of functions and of classes that the public headers declare."""
+    """Names of the functions, classes and constants that the public headers declare."""
     text = "\n".join(COMMENT.sub("", f.read_text()) for f in sorted(folder.rglob("*.hpp")))
-    return set(re.findall(r"(~?\b\w+)\s*\(", text)), set(re.findall(r"\b(?:struct|class|namespace)\s+(\w+)", text)), set(re.findall(r"\bextern\b[^;]*?\b(\w+)\s*;", text))
+    patterns = r"(~?\b\w+)\s*\(", r"\b(?:struct|class|namespace)\s+(\w+)", r"\bextern\b[^;]*?\b(\w+)\s*;"
+    return [set(re.findall(pattern, text)) for pattern in patterns]
 
 
 def is_public(name, functions, classes, constants):
-    """A demangled name against what is declared: railstrata::f(…), railstrata::Class::f(…), typeinfo for railstrata::Class."""
+    """A demangled name against what is declared: of a function, a member function, a constant, a class."""
     special = re.fullmatch(r"(?:vtable|typeinfo|typeinfo name) for railstrata::(\w+)", name)
     if special:
         return special[1] in classes

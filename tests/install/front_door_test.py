@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The script ./railstrata, with a program and a builder that only say that they were called. usage: front_door_test.py SOURCE_DIR"""
+"""The script ./railstrata, with a program and a builder that only note their calls. usage: front_door_test.py SOURCE"""
 import os
 import pathlib
 import shutil
@@ -20,7 +20,8 @@ class FrontDoor(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.folder.chmod(0o755)
         self.root, self.tools, self.work = (self.folder / name for name in ("checkout", "tools", "work"))
-        for folder in (self.root / "src/core", self.root / "cmake", self.root / "report/dist", self.root / "build", self.tools, self.work):
+        inside = [self.root / name for name in ("src/core", "cmake", "report/dist", "build")]
+        for folder in (*inside, self.tools, self.work):
             folder.mkdir(parents=True)
         self.work.chmod(0o777)
         shutil.copy(SOURCE / "railstrata", self.root)
@@ -42,7 +43,8 @@ class FrontDoor(unittest.TestCase):
     def call(self, *words, nobody=False):
         user = {"user": NOBODY, "group": NOBODY, "extra_groups": []} if nobody and os.getuid() == 0 else {}
         environment = {**os.environ, "PATH": f"{self.tools}:{os.environ['PATH']}"}
-        return subprocess.run([self.root / "railstrata", *words], capture_output=True, text=True, cwd=self.work, env=environment, **user)
+        return subprocess.run([self.root / "railstrata", *words], capture_output=True, text=True, cwd=self.work,
+                              env=environment, **user)
 
     def calls(self):
         return (self.folder / "calls").read_text() if (self.folder / "calls").exists() else ""
