@@ -29,10 +29,23 @@ set(public_include ${CMAKE_BINARY_DIR}/public/include)
 # The public headers as they are installed: include/railstrata/<room>/<name>.hpp, and railstrata.hpp with all of them.
 set(headers_stamp ${CMAKE_BINARY_DIR}/public/headers.stamp)
 add_custom_command(OUTPUT ${headers_stamp} DEPFILE ${headers_stamp}.d DEPENDS ${interface_tool} VERBATIM
-  COMMAND Python3::Interpreter ${interface_tool} headers --src ${CMAKE_SOURCE_DIR}/src --out ${public_include}/railstrata
-    --version ${PROJECT_VERSION} --stamp ${headers_stamp} ${PUBLIC_HEADERS}
+  COMMAND Python3::Interpreter ${interface_tool} headers --src ${CMAKE_SOURCE_DIR}/src
+    --out ${public_include}/railstrata --version ${PROJECT_VERSION} --stamp ${headers_stamp} ${PUBLIC_HEADERS}
   COMMENT "Collecting the library's public headers")
 add_custom_target(public_headers ALL DEPENDS ${headers_stamp})
+
+# railstrata_collect(OUT SUFFIX room...): OUT_objects, OUT_archives and the third parties' OUT_libraries of rooms.
+function(railstrata_collect out suffix)
+  foreach(room IN LISTS ARGN)
+    list(APPEND objects $<TARGET_OBJECTS:room_${room}${suffix}>)
+    list(APPEND archives $<TARGET_FILE:room_${room}${suffix}>)
+    list(APPEND libraries ${ROOM_LIBS_${room}})
+  endforeach()
+  list(REMOVE_DUPLICATES libraries)
+  foreach(part objects archives libraries)
+    set(${out}_${part} ${${part}} PARENT_SCOPE)
+  endforeach()
+endfunction()
 
 # railstrata_library(VARIANT FOLDER LEVEL): both libraries of a variant, written to FOLDER of the build. LEVEL, if
 # given, is the instruction set that the loader asks the processor for before it takes them.
@@ -43,44 +56,33 @@ function(railstrata_library variant folder level)
   endif()
   set(rooms ${ROOMS${suffix}})
   list(REMOVE_ITEM rooms ${ROOMS_OF_THE_PROGRAM})
-  set(objects $<TARGET_OBJECTS:railstrata_build_info${suffix}>)
-  set(archives $<TARGET_FILE:railstrata_build_info${suffix}>)
-  set(libraries "")
-  foreach(room IN LISTS rooms)
-    list(APPEND objects $<TARGET_OBJECTS:room_${room}${suffix}>)
-    list(APPEND archives $<TARGET_FILE:room_${room}${suffix}>)
-    list(APPEND libraries ${ROOM_LIBS_${room}})
-  endforeach()
-  list(REMOVE_DUPLICATES libraries)
-  set(users "")
-  set(user_objects "")
-  set(user_libraries "")
-  foreach(room IN LISTS ROOMS_OF_THE_PROGRAM)
-    list(APPEND users $<TARGET_FILE:room_${room}${suffix}>)
-    list(APPEND user_objects $<TARGET_OBJECTS:room_${room}${suffix}>)
-    list(APPEND user_libraries ${ROOM_LIBS_${room}})
-  endforeach()
+  railstrata_collect(lower "${suffix}" ${rooms})
+  railstrata_collect(upper "${suffix}" ${ROOMS_OF_THE_PROGRAM})
+  list(APPEND lower_objects $<TARGET_OBJECTS:railstrata_build_info${suffix}>)
+  list(APPEND lower_archives $<TARGET_FILE:railstrata_build_info${suffix}>)
 
   # The version script: a public version with what the public headers declare, a private one with what the program's
   # rooms call besides, all else local.
   set(map ${CMAKE_BINARY_DIR}/generated/librailstrata${suffix}.map)
-  add_custom_command(OUTPUT ${map} DEPENDS ${interface_tool} ${archives} ${users} ${headers_stamp} VERBATIM
+  add_custom_command(OUTPUT ${map} DEPENDS ${interface_tool} ${lower_archives} ${upper_archives} ${headers_stamp}
+    VERBATIM
     COMMAND Python3::Interpreter ${interface_tool} exports --headers ${public_include}/railstrata --nm ${CMAKE_NM}
-      --version ${PROJECT_VERSION} --public-version ${so_version} --out ${map} --library ${archives} --users ${users}
+      --version ${PROJECT_VERSION} --public-version ${so_version} --out ${map} --library ${lower_archives}
+      --users ${upper_archives}
     COMMAND_EXPAND_LISTS COMMENT "Listing the symbols of librailstrata${suffix}.so")
   add_custom_target(railstrata_map${suffix} DEPENDS ${map})
 
   set(library railstrata_library${suffix})
-  add_library(${library} SHARED ${objects})
+  add_library(${library} SHARED ${lower_objects})
   add_dependencies(${library} railstrata_map${suffix})
-  target_link_libraries(${library} PRIVATE ${libraries})
+  target_link_libraries(${library} PRIVATE ${lower_libraries})
   target_link_options(${library} PRIVATE -Wl,--version-script=${map})
   set_target_properties(${library} PROPERTIES OUTPUT_NAME railstrata EXPORT_NAME railstrata LINKER_LANGUAGE CXX
     VERSION ${PROJECT_VERSION} SOVERSION ${so_version} LINK_DEPENDS ${map} LIBRARY_OUTPUT_DIRECTORY ${folder})
 
   set(commands railstrata_commands${suffix})
-  add_library(${commands} SHARED ${user_objects})
-  target_link_libraries(${commands} PRIVATE ${library} ${user_libraries} ${libraries})
+  add_library(${commands} SHARED ${upper_objects})
+  target_link_libraries(${commands} PRIVATE ${library} ${upper_libraries} ${lower_libraries})
   target_link_options(${commands} PRIVATE -Wl,--version-script=${CMAKE_SOURCE_DIR}/cmake/commands.map)
   set_target_properties(${commands} PROPERTIES OUTPUT_NAME railstrata-commands LINKER_LANGUAGE CXX
     VERSION ${PROJECT_VERSION} SOVERSION ${so_version} LINK_DEPENDS ${CMAKE_SOURCE_DIR}/cmake/commands.map
