@@ -61,7 +61,7 @@ set(ROOM_LIBS_app spdlog::spdlog CLI11::CLI11)
 # Sources with the kernels of the explicit step. g++ before 13 takes a Zen 4 for a Zen 3 and schedules for vectors of
 # half the width: the kernel loses up to 15 %. The option stays on these files alone, because it also decides where
 # products and sums are fused, which shows in the last bits of a result.
-set(ROOM_WIDE_VECTOR_SOURCES src/body/solid.cpp)
+set(ROOM_WIDE_VECTOR_SOURCES src/body/traversal.cpp)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
     AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
   foreach(source IN LISTS ROOM_WIDE_VECTOR_SOURCES)

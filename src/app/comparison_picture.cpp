@@ -57,7 +57,8 @@ double tick_step(double length) {
 
 /// A rectangle of the page with its axes: x and y in the units of the labels.
 struct Frame {
-  double left, top, width, height, x0, x1, y0, y1;
+  double left, top, width, height;
+  double x0, x1, y0, y1;
   double px(double x) const { return left + width * (x - x0) / (x1 - x0); }
   double py(double y) const { return top + height * (y1 - y) / (y1 - y0); }
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/faults.hpp"
 
@@ -63,8 +64,8 @@ void fit_grid(const Placement& placement, double normal, const BemOptions& optio
   }
 }
 
-/// Rigid slip of the wheel's surface beyond creepage: it turns with its local radius. The spin part is given apart (its
-/// lateral slip).
+/// Rigid slip of the wheel's surface beyond creepage: each point moves with its local rolling radius. The part linear
+/// in y, -spin y, is left to the spin, which also brings the lateral slip.
 Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidContact& contact, double spin) {
   Plane slip(g.size());
   for (int i = 0; i < g.nx; ++i)
@@ -110,7 +111,7 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
   contact.target.load = normal;
   contact.friction = spec.drive.friction_coefficient;
   contact.spin = -std::sin(placement.contact.angle) / placement.contact.rolling_radius;
-  contact.extra_x = slip_of_radius(patch.grid, patch.profile, placement.contact, contact.spin);
+  contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, contact.spin);
   return patch;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // From a case to the problem on a grid: what solve_bem and creep_curve share.
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "bem/profile_gap.hpp"
 #include "bem/solve_bem.hpp"
@@ -17,8 +19,8 @@ struct CasePatch {
   std::vector<std::string> notes;
 };
 
-/// The normal force [N] that bears the weight G together with a lateral force T_y on the rail, in the contact plane at
-/// the angle delta: N cos(delta) - T_y sin(delta) = G.
+/// The normal force [N] that balances the weight G together with a lateral force T_y on the rail, in the contact plane
+/// at the angle delta: N cos(delta) - T_y sin(delta) = G.
 double normal_load(double weight, double lateral, const RigidContact& contact);
 
 /// Places the grid and grows it until the frictionless patch under the normal load [N], with a ring to spare, lies

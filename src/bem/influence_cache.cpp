@@ -1,4 +1,5 @@
 #include <list>
+#include <memory>
 #include <mutex>
 
 #include "bem/solve_bem.hpp"

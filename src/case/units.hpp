@@ -16,12 +16,14 @@ struct Dimension {
 };
 
 namespace dimension {
-inline constexpr Dimension kNumber{}, kLength{0, 1, 0, 0}, kMass{1, 0, 0, 0}, kTime{0, 0, 1, 0}, kSpeed{0, 1, -1, 0},
-    kRate{0, 0, -1, 0}, kAcceleration{0, 1, -2, 0}, kPressure{1, -1, -2, 0}, kDensity{1, -3, 0, 0},
-    kStiffness{1, 0, -2, 0}, kDamping{1, 0, -1, 0},
-    kSlope{0, 0, 0,
-           1};  ///< an inclination, kept as its tangent; written "1:40", "25 mrad", "1.4 deg" or as the bare tangent
-}
+inline constexpr Dimension kNumber{};
+inline constexpr Dimension kLength{0, 1, 0, 0}, kMass{1, 0, 0, 0}, kTime{0, 0, 1, 0};
+inline constexpr Dimension kSpeed{0, 1, -1, 0}, kRate{0, 0, -1, 0}, kAcceleration{0, 1, -2, 0};
+inline constexpr Dimension kPressure{1, -1, -2, 0}, kDensity{1, -3, 0, 0};
+inline constexpr Dimension kStiffness{1, 0, -2, 0}, kDamping{1, 0, -1, 0};
+/// An inclination, kept as its tangent; written "1:40", "25 mrad", "1.4 deg" or as the bare tangent.
+inline constexpr Dimension kSlope{0, 0, 0, 1};
+}  // namespace dimension
 
 /// What is wrong with the text of a quantity, and what to write instead.
 struct UnitError : std::runtime_error {

@@ -76,6 +76,15 @@ constexpr Vec3 rotate_back(const Rotation<double>& r, Vec3 v) {
 }
 /// In a section plane: y turns towards z.
 constexpr Vec2 roll(const Rotation<double>& r, Vec2 v) { return {r.c * v.y - r.s * v.z, r.s * v.y + r.c * v.z}; }
+/// R s R^T of the same rotation about x.
+constexpr Sym3 roll(const Rotation<double>& r, const Sym3& s) {
+  return {s.xx,
+          r.c * r.c * s.yy - 2 * r.c * r.s * s.yz + r.s * r.s * s.zz,
+          r.s * r.s * s.yy + 2 * r.c * r.s * s.yz + r.c * r.c * s.zz,
+          r.c * s.xy - r.s * s.xz,
+          r.c * r.s * (s.yy - s.zz) + (r.c * r.c - r.s * r.s) * s.yz,
+          r.s * s.xy + r.c * s.xz};
+}
 
 /// Displacement in the plane of the point at `arm` from the axle, of a rigid body whose axle moved by `shift`:
 /// shift + (R - 1) arm.

@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "core/faults.hpp"
 #include "core/nearest_word.hpp"

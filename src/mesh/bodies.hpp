@@ -47,8 +47,9 @@ SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const Ra
 
 /// Wheel: full ring of rim, web and hub (or a disc: rim of constant inner radius down to the bore) revolved about the
 /// axle. Angles theta = arc / rolling radius; cap stations of spacing h between theta_begin and theta_end, growing
-/// outside; the web and hub have their own, coarser stations so that the bore does not limit the time step. Section
-/// coordinates relative to the axle; origin = axle centre in the model frame.
+/// outside, or all round where these angles are a whole turn or nearly one apart; the web and hub have their own,
+/// coarser stations so that the bore does not limit the time step. Section coordinates relative to the axle; origin =
+/// axle centre in the model frame.
 struct WheelMeshSpec {
   WheelShape shape = WheelShape::wheel;
   double contact_s = 0;

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/sweep_kind.hpp"
 #include "core/vec.hpp"
 
 namespace railstrata {
@@ -68,8 +69,6 @@ struct ContactBand {
 struct SectionNode {
   int block = 0, node = 0;
 };
-
-enum class SweepKind { extrude, revolve };
 
 struct SweptBody {
   std::string name;  ///< "rail", "wheel"

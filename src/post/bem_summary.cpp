@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rotation.hpp"
 #include "post/patch.hpp"
 #include "post/plausibility.hpp"
 
@@ -47,7 +48,7 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchM
     return Check{std::move(name), value <= limit, value, limit};
   };
   const double load = static_load(spec);
-  std::vector<Check> out{at_most("F_z_relative_to_weight", std::abs(-r.F_z / load - 1), 1e-4)};
+  std::vector<Check> out{at_most("F_z_relative_to_weight", std::abs(-r.force.z / load - 1), 1e-4)};
   if (spec.drive.friction_coefficient > 0 && spec.drive.traction_coefficient != 0)
     out.push_back(at_most("traction_coefficient_reached",
                           std::abs(m.force_x / load / spec.drive.traction_coefficient - 1), 1e-3));
@@ -57,13 +58,7 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchM
 
 /// From the rail's own axes (y along the common tangent, z down) to the model frame.
 Sym3 in_model_frame(const Sym3& s, double angle) {
-  const double c = std::cos(angle), n = std::sin(angle), yz = -s.yz, xz = -s.xz;
-  return {s.xx,
-          c * c * s.yy - 2 * c * n * yz + n * n * s.zz,
-          n * n * s.yy + 2 * c * n * yz + c * c * s.zz,
-          c * s.xy - n * xz,
-          c * n * (s.yy - s.zz) + (c * c - n * n) * yz,
-          n * s.xy + c * xz};
+  return roll(rotation_by(angle), Sym3{s.xx, s.yy, s.zz, s.xy, -s.yz, -s.xz});
 }
 
 int cell(double at, double first, double size, int count) {
@@ -90,19 +85,19 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   c.patch_length = m.length;
   c.patch_width = m.width;
   c.patch_area = m.area;
-  c.F_x = 0.0 - r.F_x;
-  c.F_y = 0.0 - r.F_y;
-  c.F_z = 0.0 - r.F_z;
+  c.F_x = 0.0 - r.force.x;
+  c.F_y = 0.0 - r.force.y;
+  c.F_z = 0.0 - r.force.z;
   turn_into_contact_plane(c, r.contact.angle);
   c.approach = r.approach;
   if (friction) {
     c.slip_area_fraction = m.slip_area_fraction;
-    c.creepage_x = r.creepage_x;
-    c.creepage_y = r.creepage_y;
-    c.spin_per_m = r.spin;
+    c.creepage_x = r.rigid_slip.x;
+    c.creepage_y = r.rigid_slip.y;
+    c.spin_per_m = r.rigid_slip.spin;
   }
   s.run.engine = "bem";
-  s.run.wall_s = r.wall_s;
+  s.run.wall_s = r.effort.wall_s;
   s.run.elements = static_cast<long>(r.grid.size());
   s.checks = checks(spec, r, m);
   s.warnings = implausible(s, spec);

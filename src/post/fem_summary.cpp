@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "post/plausibility.hpp"
+#include "post/run_advice.hpp"
 #include "post/stress_maxima.hpp"
 
 namespace railstrata {
@@ -76,6 +77,7 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   }
   s.checks = checks(sys, run, m);
   s.warnings = implausible(s, spec);
+  add_run_advice(s, spec, run.limits);
   return s;
 }
 

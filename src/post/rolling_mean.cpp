@@ -39,7 +39,7 @@ void add(BandSample& sum, const BandSample& s, double weight) {
 
 ContactField contact_field(const RollingSystem& sys, const RollingSample& s) {
   ContactField f;
-  const ContactSurface& surface = sys.rail_surface;
+  const ContactSurface& surface = sys.rail_surface();
   f.resize(surface.columns, s.rail.stations + 1);
   auto tributary = [](auto&& width, int i, int n) {
     return 0.5 * ((i > 0 ? width(i - 1) : 0.0) + (i + 1 < n ? width(i) : 0.0));

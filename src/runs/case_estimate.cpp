@@ -7,17 +7,20 @@
 #include <chrono>
 #include <cmath>
 
+#include "body/traversal.hpp"
+
 namespace railstrata {
 namespace {
 
 /// Seconds of one evaluation of the internal forces of a body: the best of a quarter of a second, because other
 /// programs may hold the cores.
-double force_seconds(const DeformableBody& body) {
+double force_seconds(const Body& body) {
   Field u(body.mass.size(), 0.0), f(body.mass.size(), 0.0);
+  Traversal elements(body);
   double best = 1e9;
   for (double spent = 0, last = 0; spent < 0.25; spent += last, best = std::min(best, last)) {
     const auto start = std::chrono::steady_clock::now();
-    body.solid.internal_force(u, 0.0, f);
+    elements.internal_force(u, 0.0, f);
     last = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   }
   return best;
@@ -41,7 +44,7 @@ RunEstimate estimate_run(const Model& model) {
   e.evaluations = 1 + 2 * static_cast<double>(e.limits.stages) * static_cast<double>(e.limits.fine_elements) /
                           static_cast<double>(model.rail.elements() + model.wheel.elements());
   e.seconds = kRestOfStep * e.evaluations * static_cast<double>(e.steps) *
-              (force_seconds(system.rail) + force_seconds(system.wheel));
+              (force_seconds(system.rail()) + force_seconds(system.wheel()));
   e.memory_bytes = memory_in_use();
   return e;
 }

@@ -8,8 +8,8 @@
 
 namespace railstrata {
 
-/// Starts this very program with other words, all it says going to `log`. It dies with this process, however that ends:
-/// nothing computes on unseen. To be called from the main thread. Throws EnvironmentError.
+/// Starts this same program with other arguments; its output and errors go to `log`. The kernel kills it when this
+/// process ends, in whatever way. To be called from the main thread. Throws EnvironmentError.
 pid_t start_self(const std::vector<std::string>& words, const std::filesystem::path& log);
 
 /// True once it has ended; `status` is then what waitpid tells.

@@ -18,7 +18,9 @@ struct AnswerColumn {
 /// A number of the text. Ours is `column` of `given`; with `against`, its change from there in per cent; with
 /// `engines`, finite elements against half-spaces in per cent.
 struct PublishedNumber {
-  std::string section, quantity, unit, column, given, against, bound, other, other_is, note;
+  std::string section, quantity, unit;
+  std::string column, given, against, bound;
+  std::string other, other_is, note;
   double value = 0, within = 0;  ///< agreement: |ours - value| at most this, in the number's unit
   double factor = 1;             ///< of the table's column into the unit
   bool engines = false;
@@ -27,7 +29,8 @@ struct PublishedNumber {
 
 /// A statement of the text as a test of the table.
 struct PublishedClaim {
-  std::string section, text, kind, column, along, each, unit;
+  std::string section, text, kind;
+  std::string column, along, each, unit;
   double factor = 1, limit = 0;  ///< kind "above", "below": the limit, in the unit
   std::string given;             ///< of "above", "below": the case
   std::vector<std::string> groups;

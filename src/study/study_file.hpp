@@ -23,7 +23,7 @@ struct StudyGroup {
   std::string name, title;
   std::filesystem::path base;        ///< case file, as it can be opened
   std::vector<std::string> engines;  ///< "fem", "bem"
-  StudyPoint set, tags;              ///< the same for all cases; tags are told and not set
+  StudyPoint set, tags;              ///< the same for all cases; tags appear in tables and figures and change no case
   std::vector<StudyPoint> points;    ///< vary x zip x case, in this order, the last changing fastest
 };
 

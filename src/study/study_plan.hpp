@@ -43,9 +43,9 @@ struct Shard {
 };
 Shard parse_shard(const std::string& text);
 
-/// What one call of the program is to see to: the cases of an engine ("" for all) and of groups (empty for all), of
-/// these every shard.count-th. For each case whether it is meant; of cases with the same key, the one that is computed
-/// counts. Throws CaseError for a group that is not there.
+/// Which cases one call of the program computes: those of an engine ("" for all) and of groups (empty for all), of
+/// these every shard.count-th. One flag for each case; of several cases with the same key only the one that is computed
+/// for all of them can be chosen. Throws CaseError for a group that does not exist.
 std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, const std::string& engine,
                          const std::vector<std::string>& groups, const Shard& shard);
 

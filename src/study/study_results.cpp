@@ -81,8 +81,10 @@ void add_rail_maxima(const Json& summary, Json& out) {
     for (const char* zone : {"surface", "subsurface", "layer", "interface", "matrix"}) {
       const std::string at = fmt::format("/stress/rail/{}/{}/", zone, key);
       const double value = column_value({"", (at + "value_Pa").c_str(), 1e-6}, summary);
-      if (std::isfinite(value) && value > best)
-        best = value, depth = column_value({"", (at + "depth_m").c_str(), 1e3}, summary);
+      if (std::isfinite(value) && value > best) {
+        best = value;
+        depth = column_value({"", (at + "depth_m").c_str(), 1e3}, summary);
+      }
     }
     if (!std::isfinite(best)) continue;
     out[fmt::format("rail_{}_MPa", name)] = best;

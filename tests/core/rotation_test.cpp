@@ -114,9 +114,19 @@ TEST(Rotation, VectorsTurnAboutTheLateralAxisAndSectionsRoll) {
   EXPECT_EQ(there.y, v.y);
   EXPECT_NEAR(there.x, std::cos(0.7) * v.x + std::sin(0.7) * v.z, 4 * kEps<double>);
   EXPECT_NEAR(norm(again - v), 0, 4 * kEps<double>);
-  const Vec2 section = roll(r, {1, 0});
+  const Vec2 section = roll(r, Vec2{1, 0});
   EXPECT_NEAR(section.y, std::cos(0.7), kEps<double>);
   EXPECT_NEAR(section.z, std::sin(0.7), kEps<double>);
+}
+
+TEST(Rotation, TensorsRollWithTheVectorsTheyAreMadeOf) {
+  const auto dyad = [](Vec3 v) { return Sym3{v.x * v.x, v.y * v.y, v.z * v.z, v.x * v.y, v.y * v.z, v.x * v.z}; };
+  const auto r = rotation_by(-0.4);
+  const Vec3 v{0.3, -1.2, 0.7};
+  const Vec2 section = roll(r, Vec2{v.y, v.z});
+  const Sym3 expected = dyad({v.x, section.y, section.z}), s = roll(r, dyad(v));
+  for (auto m : {&Sym3::xx, &Sym3::yy, &Sym3::zz, &Sym3::xy, &Sym3::yz, &Sym3::xz})
+    EXPECT_NEAR(s.*m, expected.*m, 8 * kEps<double>);
 }
 
 TEST(Rotation, HalfAngleFormKeepsTheDigitsOfOneLessTheCosine) {

@@ -113,8 +113,8 @@ TEST(Rolling, SameBitsOnOneTwoAndFourThreads) {
         st.dt(),   st.forces().x, st.forces().y, st.forces().z, st.state().axle.x, st.state().axle.psi,
         e.total(), e.kinetic,     e.friction,    e.damping};
     for (const auto& [body, u] :
-         {std::pair{&system.rail, &st.state().u_rail}, std::pair{&system.wheel, &st.state().u_wheel}})
-      for (const DeformableBody::Line& l : body->lines)
+         {std::pair{&system.rail(), &st.state().bodies[0].u}, std::pair{&system.wheel(), &st.state().bodies[1].u}})
+      for (const NodeLine& l : body->lines)
         bits.insert(bits.end(), u->begin() + l.first, u->begin() + l.first + l.count);
     return bits;
   });

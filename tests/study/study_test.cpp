@@ -124,7 +124,10 @@ std::vector<StudyEntry> grid(const std::vector<double>& thin, const std::vector<
 
 PublishedClaim along_modulus(const std::string& kind) {
   PublishedClaim c;
-  c.kind = kind, c.along = "E", c.each = "h", c.groups = {"base", "layers"};
+  c.kind = kind;
+  c.along = "E";
+  c.each = "h";
+  c.groups = {"base", "layers"};
   return c;
 }
 

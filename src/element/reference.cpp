@@ -1,7 +1,10 @@
-#include "element/swept_hex.hpp"
+#include "element/reference.hpp"
 
+#include <Eigen/Dense>
 #include <Eigen/Eigenvalues>
 #include <cmath>
+
+#include "element/element_matrix.hpp"
 
 namespace railstrata {
 namespace {
@@ -124,13 +127,11 @@ std::array<Vec3, 8> local_corners(SweepKind kind, const std::array<Vec2, 4>& qua
   return x;
 }
 
-QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material) {
+QuadShape<double> quad_shape(SweepKind kind, const std::array<Vec2, 4>& quad) {
   const std::array<Vec3, 8> corners = local_corners(kind, quad, {1.0, 1.0});
   const MeanGradients mean = mean_gradients(corners);
-  QuadReference r{};
+  QuadShape<double> r{};
   r.volume = mean.volume;
-  r.lambda = material.lambda;
-  r.mu = material.mu;
   for (int k = 0; k < 4; ++k) {
     r.gx[k] = mean.b(0, k + 4);
     r.gy[k] = mean.b(1, k + 4);
@@ -143,6 +144,30 @@ QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, co
     r.odd[2] += 2 * kEtaZeta[k] * x.x;
   }
   return r;
+}
+
+QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material) {
+  return {quad_shape(kind, quad), ElasticLaw::parameters(material)};
+}
+
+ElasticHex::Reference<float> rounded(const QuadReference& r) {
+  ElasticHex::Reference<float> out{};
+  auto f = [](double x) { return static_cast<float>(x); };
+  for (int k = 0; k < 4; ++k) {
+    out.shape.gx[k] = f(r.shape.gx[k]);
+    out.shape.gy[k] = f(r.shape.gy[k]);
+    out.shape.gz[k] = f(r.shape.gz[k]);
+  }
+  for (int k = 0; k < 3; ++k) out.shape.odd[k] = f(r.shape.odd[k]);
+  out.shape.volume = f(r.shape.volume);
+  out.shape.even_y = f(r.shape.even_y);
+  out.shape.even_z = f(r.shape.even_z);
+  out.law = {f(r.law.lambda), f(r.law.mu)};
+  return out;
+}
+
+StationScale<double> station_scale(SweepScale scale) {
+  return {1 / scale.sigma, 1 / scale.c, scale.c, scale.sigma * scale.c, scale.sigma, scale.sigma, scale.c};
 }
 
 Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const Elastic& material) {
@@ -218,24 +243,25 @@ std::array<double, 4> corner_masses(SweepKind kind, const std::array<Vec2, 4>& q
 }
 
 Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const HourglassStiffness& hourglass) {
-  StationScale<double> st{1 / scale.sigma, 1 / scale.c, scale.c, scale.sigma * scale.c,
-                          scale.sigma,     scale.sigma, scale.c};
+  const StationScale<double> st = station_scale(scale);
+  const auto entry = [&](int e) { return hourglass[static_cast<std::size_t>(e)]; };
   Matrix24 k;
   for (int column = 0; column < 24; ++column) {
     const int a = column / 3;
-    auto kin =
-        element_kinematics<SweepKind::revolve, double>(ref, st, [&](int c, int i, double& sum, double& difference) {
-          sum = c == a % 4 && i == column % 3 ? 1.0 : 0.0;
-          difference = a < 4 ? -sum : sum;
-        });
-    const auto stress = linear_stress(ref, kin);
-    hourglass_forces([&](int e) { return hourglass[static_cast<std::size_t>(e)]; }, kin);
-    element_forces(ref, st, stress, kin, [&](int c, int i, auto&& add) {
+    const auto unit_displacement = [&](int c, int i, double& sum, double& difference) {
+      sum = c == a % 4 && i == column % 3 ? 1.0 : 0.0;
+      difference = a < 4 ? -sum : sum;
+    };
+    const auto add_forces = [&](int c, int i, auto&& add) {
       double s = 0, d = 0;
       add(s, d);
       k(3 * c + i, column) = s - d;
       k(3 * (c + 4) + i, column) = s + d;
-    });
+    };
+    double* no_history = nullptr;
+    ElasticHex::forces<SweepKind::revolve, Evaluation::linear>(
+        ref, st, Rotation<double>{}, no_history, unit_displacement,
+        [&](ElementKinematics<double>& kin) { hourglass_forces(entry, kin); }, add_forces);
   }
   return k;
 }
