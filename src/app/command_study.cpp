@@ -9,6 +9,7 @@
 #include "app/commands.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
+#include "app/shipped_files.hpp"
 #include "app/signals.hpp"
 #include "app/write_page.hpp"
 #include "io/json_text.hpp"
@@ -23,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 LoadedStudy study_of(const CommandOptions& options) {
-  fs::path file = options.case_file;
+  fs::path file = shipped_unless_there(options.case_file);
   if (fs::is_directory(file) && fs::exists(file / "study.toml")) file /= "study.toml";
   return load_study(file);
 }

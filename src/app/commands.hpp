@@ -59,6 +59,7 @@ struct CommandOptions {
   SchemaOptions schema;
 };
 
+ExitCode command_demo(const CommandOptions& options);
 ExitCode command_check(const CommandOptions& options);
 ExitCode command_mesh(const CommandOptions& options);
 ExitCode command_run(const CommandOptions& options);

@@ -73,6 +73,12 @@ void add_run(CLI::App& sub, CommandOptions& options) {
   add_no_report(sub, options);
 }
 
+void add_demo(CLI::App& sub, CommandOptions& options) {
+  add_output(sub, options, "results/quick");
+  sub.add_option("--set", options.overrides, "Override a key of the case (repeatable)")->allow_extra_args(false);
+  add_no_report(sub, options);
+}
+
 void add_cell(CLI::App& sub, CommandOptions& options) {
   sub.add_option("--cell", options.cell, "Cells of the potential contact area (default: \"0.25 mm\")");
 }
@@ -168,6 +174,8 @@ struct Entry {
   Command run;
 };
 constexpr Entry kEntries[] = {
+    {"demo", "Run the shipped case cases/quick, in a minute or two, and tell what the results are",
+     "Examples:\n  railstrata demo\n  railstrata demo --out /tmp/quick\n", add_demo, command_demo},
     {"check", "Read a case and tell what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
      "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 "
      "mm\"\n  railstrata check cases/paper/base.toml --json\n",
