@@ -42,10 +42,41 @@ CaseSpec tiny_wheel(std::vector<double> positions) {
   return s;
 }
 
+/// Of the samples around a position: mean and standard deviation.
+struct Measured {
+  double mean = 0, scatter = 0;
+};
+template <class Value>
+Measured measured(const PositionSamples& position, Value&& value) {
+  Measured m;
+  double square = 0;
+  for (const RollingSample& s : position.samples) {
+    m.mean += value(s);
+    square += value(s) * value(s);
+  }
+  const auto n = static_cast<double>(position.samples.size());
+  m.mean /= n;
+  m.scatter = std::sqrt(std::max(0.0, square / n - m.mean * m.mean));
+  return m;
+}
+
 double p_max(const RollingSample& s) {
   double most = 0;
   for (const NodeTraction& t : s.tractions) most = std::max(most, t.p);
   return most;
+}
+
+/// Equal within the scatter of samples a rail element apart.
+void expect_like(const PositionSamples& a, const PositionSamples& b) {
+  const auto compare = [&](const char* what, auto&& value) {
+    const Measured first = measured(a, value), second = measured(b, value);
+    EXPECT_NEAR(first.mean, second.mean, 3 * (first.scatter + second.scatter)) << what << " at " << a.position;
+    EXPECT_LT(first.scatter, 0.03 * std::abs(first.mean)) << what;
+  };
+  ASSERT_EQ(a.samples.size(), b.samples.size());
+  compare("p_max", p_max);
+  compare("F_z", [](const RollingSample& s) { return s.forces.z; });
+  compare("creepage", [](const RollingSample& s) { return s.creepage; });
 }
 
 struct LongRoll {
@@ -65,6 +96,22 @@ struct LongRoll {
 };
 
 }  // namespace
+
+TEST(SlowTurns, ContactIsTheSameOverTheClosureAfterATurnAndOnAnOpenWheel) {
+  const LongRoll roll;
+  CaseSpec shorter = roll.spec;
+  shorter.run.positions = {roll.early};
+  const RollingSystem closed = small_system(roll.spec), open = small_system(shorter);
+  const ContactBand &ring = closed.model.wheel.contact, &part = open.model.wheel.contact;
+  ASSERT_NEAR(ring.fine_end - ring.fine_begin, kTurn, 1e-12);
+  ASSERT_LT(part.fine_end - part.fine_begin, 0.9 * kTurn);
+  const RunResult run = run_rolling(closed, {});
+  EXPECT_FALSE(run.reached_edge);
+  ASSERT_EQ(run.positions.size(), 3u);
+  expect_like(run.positions[1], run.positions[0]);
+  expect_like(run.positions[2], run.positions[0]);
+  expect_like(run_rolling(open, {}).positions[0], run.positions[0]);
+}
 
 // Stopped just before the contact reaches the place where the ring closes.
 TEST(SlowTurns, ResumeAcrossTheClosureComputesTheSameBits) {
