@@ -114,6 +114,23 @@ TEST(ReportChecks, DoNotJudgeAStressWithinOneElementOfTheSurface) {
   EXPECT_NE(stress.note.find("0.50 mm deep, within an element of 1.00 mm"), std::string::npos) << stress.note;
 }
 
+TEST(ReportChecks, TakeTheWordsOfAWarningFromTheTableIfItKnowsTheName) {
+  ReportRun run = sample("fem");
+  run.result.summary["warnings"] = {
+      {{"name", "von_mises_above_common_rail_yield"}, {"value", 931e6}, {"limit", 500e6}, {"text", "in Pa"}},
+      {{"name", "of_another_version"}, {"value", 2}, {"limit", 1}, {"text", "its own words"}}};
+  const auto checks = report_checks({run});
+  EXPECT_EQ(find(checks, "von_mises_above_common_rail_yield", 1).note, "");
+  EXPECT_EQ(find(checks, "of_another_version", 1).note, "its own words");
+  EXPECT_FALSE(find(checks, "of_another_version", 1).judged);
+  const Json words = report_payload(Report{})["words"];
+  const auto yield = std::find_if(words["checks"].begin(), words["checks"].end(),
+                                  [](const Json& row) { return row["key"] == "von_mises_above_common_rail_yield"; });
+  ASSERT_NE(yield, words["checks"].end());
+  EXPECT_EQ((*yield)["name"], "Von Mises stress above common rail yield");
+  EXPECT_EQ((*yield)["unit"]["shown"], "MPa");
+}
+
 TEST(ReportChecks, OfDifferentCasesTellWhatDiffersAndJudgeNothing) {
   ReportRun fem = sample("fem"), bem = sample("bem");
   bem.options[2].value = "3 mm";
