@@ -9,6 +9,7 @@
 #include <iterator>
 
 #include "case/case_file.hpp"
+#include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "io/output_file.hpp"
 #include "post/bem_summary.hpp"
