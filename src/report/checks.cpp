@@ -7,6 +7,7 @@
 #include <set>
 
 #include "case/units.hpp"
+#include "core/engine.hpp"
 #include "report/report.hpp"
 
 namespace railstrata {
