@@ -479,21 +479,21 @@ std::string significant(double value, int digits) {
 
 namespace {
 
-std::string in_unit(const ResultUnit& unit, double si_value, const std::string& number) {
+std::string in_unit(const ResultUnit& unit, double value_si, const std::string& number) {
   const auto bar = unit.shown.find('|');
   if (bar != std::string_view::npos)
-    return std::string(si_value == 0 ? unit.shown.substr(0, bar) : unit.shown.substr(bar + 1));
+    return std::string(value_si == 0 ? unit.shown.substr(0, bar) : unit.shown.substr(bar + 1));
   return fmt::format("{}{}{}", number, unit.shown.empty() ? "" : " ", unit.shown);
 }
 
 }  // namespace
 
-std::string with_unit(const ResultUnit& unit, double si_value, int digits) {
-  return in_unit(unit, si_value, significant(unit.factor * si_value, digits));
+std::string with_unit(const ResultUnit& unit, double value_si, int digits) {
+  return in_unit(unit, value_si, significant(unit.factor * value_si, digits));
 }
 
-std::string limit_text(const ResultUnit& unit, double si_value) {
-  return in_unit(unit, si_value, fmt::format("{:.6g}", unit.factor * si_value));
+std::string limit_text(const ResultUnit& unit, double value_si) {
+  return in_unit(unit, value_si, fmt::format("{:.6g}", unit.factor * value_si));
 }
 
 }  // namespace railstrata

@@ -90,9 +90,9 @@ std::vector<ResultColumn> table_columns();
 std::string significant(double value, int digits);
 
 /// "1067 MPa", "24.6 %", "inside".
-std::string with_unit(const ResultUnit& unit, double si_value, int digits);
+std::string with_unit(const ResultUnit& unit, double value_si, int digits);
 
 /// A limit, without zeros at its end: "4 %", "500 MPa".
-std::string limit_text(const ResultUnit& unit, double si_value);
+std::string limit_text(const ResultUnit& unit, double value_si);
 
 }  // namespace railstrata

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "case/units.hpp"
+#include "core/engine.hpp"
 #include "post/check_limits.hpp"
 #include "post/result_table.hpp"
 

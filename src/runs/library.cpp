@@ -2,18 +2,13 @@
 
 #include <fmt/format.h>
 
-#include "bem/solve_bem.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
-#include "io/provenance.hpp"
 #include "model/model.hpp"
-#include "post/bem_summary.hpp"
-#include "runs/run_bem.hpp"
+#include "runs/solve_half_space.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr double kSmallestCell = 0.02e-3, kLargestCell = 5e-3;  // m
 
 // The number of threads of the calling thread, for as long as this lives.
 class Threads {
@@ -38,16 +33,13 @@ CaseResult solve_by_half_spaces(const LoadedCase& loaded, const HalfSpaceSetting
   if (settings.threads < 0)
     throw CaseError(fmt::format("{} threads are fewer than none", settings.threads), "give 0 for OpenMP's own number");
   const Threads threads(settings.threads);
-  const CaseSpec spec = half_space_case(loaded.spec);
   BemOptions options;
   options.cell = settings.cell;
-  BemResult result = solve_bem(spec, place(spec, loaded.folder()), options);
+  HalfSpaceSolution solution = solve_half_space(loaded.spec, place(loaded.spec, loaded.folder()), options);
   CaseResult out;
-  out.summary = bem_summary(spec, result);
-  out.summary.run.commit = build_info().commit + (build_info().dirty ? "+dirty" : "");
-  out.summary.run.threads = max_threads();
-  out.patch = std::move(result.field);
-  out.notes = std::move(result.notes);
+  out.summary = std::move(solution.summary);
+  out.patch = std::move(solution.result.field);
+  out.notes = std::move(solution.result.notes);
   return out;
 }
 

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "case/case_file.hpp"
+#include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "io/output_file.hpp"
