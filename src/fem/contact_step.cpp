@@ -15,7 +15,8 @@ Vec3 vector_at(const Field& f, std::ptrdiff_t x, int stride) { return {f[x], f[x
 Vec3 free_acceleration(const RollingBody& b, const BodyState& state, double gravity, std::ptrdiff_t i) {
   const double m = b.body.inverse_mass[i];
   if (m == 0) return {};
-  const Vec3 a = b.frame.to_model(-m * vector_at(state.f, i, b.surface.stride));
+  Vec3 a = -m * vector_at(state.f, i, b.surface.stride);
+  if (b.turns()) a = b.frame.to_model(a);
   return a - Vec3{0, 0, gravity};
 }
 

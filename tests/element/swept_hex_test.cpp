@@ -4,6 +4,8 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "element/element_matrix.hpp"
+
 using namespace railstrata;
 
 namespace {
@@ -38,16 +40,18 @@ std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const s
                            double* energy = nullptr) {
   const QuadReference r = quad_reference(shape.kind, shape.quad, kSteel);
   const SweepScale sc = sweep_scale(shape.kind, shape.spacing);
-  const StationScale<double> st{1 / sc.sigma, 1 / sc.c, sc.c, sc.sigma * sc.c, sc.sigma, sc.sigma, sc.c};
-  auto kin = element_kinematics<SweepKind::revolve, double>(r, st, [&](int k, int i, double& sum, double& difference) {
-    auto component = [i](Vec3 v) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
-    sum = component(turn(psi - theta, u[k + 4] + u[k]));
-    difference = component(turn(psi - theta, u[k + 4] - u[k]));
-  });
-  const auto stress = nonlinear_stress(r, BodyTurn<double>{std::cos(psi), std::sin(psi)}, kin);
+  const StationScale<double> st = station_scale(sc);
+  auto kin =
+      element_kinematics<SweepKind::revolve, double>(r.shape, st, [&](int k, int i, double& sum, double& difference) {
+        auto component = [i](Vec3 v) { return i == 0 ? v.x : i == 1 ? v.y : v.z; };
+        sum = component(turn(psi - theta, u[k + 4] + u[k]));
+        difference = component(turn(psi - theta, u[k + 4] - u[k]));
+      });
+  const double* no_history = nullptr;
+  const auto stress = ElasticHex::stress<SweepKind::revolve, double>(r, rotation_by(psi), kin, no_history);
   const double hourglass = hourglass_forces([&](int e) { return hg[static_cast<std::size_t>(e)]; }, kin);
   double f[8][3];
-  element_forces(r, st, stress, kin, [&](int k, int i, auto&& add) {
+  element_forces(r.shape, st, stress, kin, [&](int k, int i, auto&& add) {
     double s = 0, d = 0;
     add(s, d);
     f[k][i] = s - d;
@@ -57,7 +61,7 @@ std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const s
   if (energy) {
     const double* e = stress.strain;
     const double* p = stress.s;
-    *energy = hourglass + 0.5 * r.volume * sc.sigma * sc.c *
+    *energy = hourglass + 0.5 * r.shape.volume * sc.sigma * sc.c *
                               (e[0] * p[0] + e[1] * p[1] + e[2] * p[2] + 2 * (e[3] * p[3] + e[4] * p[4] + e[5] * p[5]));
   }
   std::array<Vec3, 8> out_forces;
@@ -189,7 +193,7 @@ TEST(SweptHex, LumpedMassesAddUpToTheElement) {
   for (const Shape& shape : shapes()) {
     const SweepScale sc = sweep_scale(shape.kind, shape.spacing);
     const auto m = corner_masses(shape.kind, shape.quad, sc, 7800);
-    const double volume = quad_reference(shape.kind, shape.quad, kSteel).volume * sc.sigma * sc.c;
+    const double volume = quad_reference(shape.kind, shape.quad, kSteel).shape.volume * sc.sigma * sc.c;
     EXPECT_NEAR(2 * (m[0] + m[1] + m[2] + m[3]) / (7800 * volume), 1.0, 1e-13);
   }
 }
