@@ -5,6 +5,7 @@
 
 #include "body/local_steps.hpp"
 #include "body/mass_scaling.hpp"
+#include "fem/rolling_system.hpp"
 
 namespace railstrata {
 
