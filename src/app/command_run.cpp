@@ -8,6 +8,7 @@
 #include "app/processors.hpp"
 #include "app/progress.hpp"
 #include "app/summary_text.hpp"
+#include "core/shell_word.hpp"
 #include "io/provenance.hpp"
 #include "model/model.hpp"
 #include "runs/output_folder.hpp"
@@ -48,16 +49,6 @@ class PhaseReport {
   std::string phase_;
   std::optional<Progress> bar_;
 };
-
-// A word as a shell takes it.
-std::string shell_word(const std::string& word) {
-  if (word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+=:,@%") ==
-      std::string::npos)
-    return word;
-  std::string out = "'";
-  for (char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 // The case of the folder, as it was run.
 LoadedCase case_of_folder(const CommandOptions& options) {
@@ -100,7 +91,7 @@ ExitCode command_run(const CommandOptions& options) {
                     "name a case file, or go on with an interrupted run: railstrata run --resume FOLDER");
   const LoadedCase loaded = resuming ? case_of_folder(options) : load_case_of(options);
   const std::filesystem::path out = resuming ? options.resume : output_folder_of(options, loaded);
-  request.case_sha256 = case_identity(loaded);
+  request.case_sha256 = resuming ? identity_in_folder(out, loaded) : case_identity(loaded);
   request.program = version_text();
   request.provenance = table_origin(loaded);
   std::optional<FolderHold> hold;
