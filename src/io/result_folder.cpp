@@ -10,6 +10,7 @@
 
 #include "core/faults.hpp"
 #include "io/csv.hpp"
+#include "io/folder_kind.hpp"
 
 namespace railstrata {
 namespace {
@@ -18,6 +19,8 @@ namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
+  if (!in && file.filename() == "summary.json")
+    throw CaseError(std::vector<Diagnostic>{no_result_here(file.parent_path())});
   if (!in)
     throw CaseError(
         fmt::format("{} is not a result folder: it has no {}", file.parent_path().string(), file.filename().string()),
@@ -63,6 +66,36 @@ std::string text_at(const nlohmann::json& summary, const std::string& path) {
   return summary.contains(at) && summary[at].is_string() ? summary[at].get<std::string>() : "";
 }
 
+const char* kind_of(const nlohmann::json& v) {
+  if (v.is_string()) return "a text";
+  if (v.is_boolean()) return "true or false";
+  return v.is_array() ? "a list" : "a table";
+}
+
+/// Numbers or null, in tables of any depth.
+void require_numbers(const nlohmann::json& v, const std::string& name, const fs::path& file) {
+  if (v.is_number() || v.is_null()) return;
+  if (!v.is_object()) refuse(file, fmt::format("{} is {}, not a number", name, kind_of(v)));
+  for (const auto& [key, value] : v.items()) require_numbers(value, fmt::format("{}.{}", name, key), file);
+}
+
+/// Every value is of the kind that this program writes; otherwise a page would leave it out and say nothing.
+void require_kinds(const nlohmann::json& summary, const fs::path& file) {
+  for (const char* table : {"contact", "stress", "energy", "position_m"})
+    if (summary.contains(table)) require_numbers(summary[table], table, file);
+  if (!summary.contains("run")) return;
+  if (!summary["run"].is_object()) refuse(file, fmt::format("run is {}, not a table", kind_of(summary["run"])));
+  for (const auto& [key, value] : summary["run"].items()) {
+    if (key != "engine" && key != "commit")
+      require_numbers(value, "run." + key, file);
+    else if (!value.is_string())
+      refuse(file, fmt::format("run.{} is not a text", key));
+  }
+  const std::string engine = text_at(summary, "/run/engine");
+  if (engine != "fem" && engine != "bem" && !engine.empty())
+    refuse(file, fmt::format("run.engine = \"{}\": no engine of this program, they are fem and bem", engine));
+}
+
 }  // namespace
 
 double ResultFolder::number(const std::string& path) const {
@@ -77,6 +110,7 @@ ResultFolder parse_results(const std::string& summary, const std::string& patch,
   r.summary = nlohmann::json::parse(summary, nullptr, false);
   if (!r.summary.is_object() || !r.summary.contains("contact"))
     refuse(folder / "summary.json", "this is not a summary");
+  require_kinds(r.summary, folder / "summary.json");
   r.title = text_at(r.summary, "/title");
   r.engine = text_at(r.summary, "/run/engine");
   r.field = patch_of(parse_csv(patch, folder / "patch.csv"));

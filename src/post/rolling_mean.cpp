@@ -1,5 +1,7 @@
 #include "post/rolling_mean.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -81,7 +83,11 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
       for (auto* a : {&m.field.x, &m.field.p, &m.field.q_x, &m.field.q_y, &m.field.slip_x, &m.field.slip_y})
         std::fill(a->begin(), a->end(), 0.0);
     }
-    if (f.size() != m.field.size()) throw NumericalError("samples of different size");
+    if (f.size() != m.field.size())
+      throw NumericalError(
+          fmt::format("two samples of the contact have {} and {} points: their mean is not defined (a "
+                      "fault of the program: please report it with the case file)",
+                      m.field.size(), f.size()));
     for (int i = 0; i < f.size(); ++i) {
       m.field.x[i] += weight * f.x[i];
       m.field.p[i] += weight * f.p[i];

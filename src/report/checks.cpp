@@ -63,6 +63,26 @@ ReportCheck within(std::string name, std::vector<int> runs, double a, double b, 
   return {std::move(name), std::move(runs), true, value <= limit, value, limit, {}};
 }
 
+/// Half-spaces too see less of the peak on coarse cells, and theirs is not converged on the cells they are solved on by
+/// themselves: cases/quick 342, 382, 400, 413 MPa and cases/paper/base 332, 361, 371, 385 MPa on 2, 1, 0.5, 0.25 mm.
+ReportCheck shear_check(const ReportRun& fem, const ReportRun& bem, const std::vector<int>& both) {
+  constexpr double kLimit = 0.07;
+  const double ours = fem.result.number("/contact/q_max_Pa"), theirs = bem.result.number("/contact/q_max_Pa");
+  if (!std::isfinite(fem.shear_on_elements)) return within("q_max", both, ours, theirs, kLimit);
+  ReportCheck check = within("q_max", both, ours, fem.shear_on_elements, kLimit);
+  check.note = fmt::format(
+      "half-spaces on cells as large as the elements ({:.3g} mm): {:.0f} MPa; on their own cells {:.0f} MPa, from "
+      "which "
+      "the elements differ by {:.1f} %",
+      1e3 * element_size(fem), 1e-6 * fem.shear_on_elements, 1e-6 * theirs, 100 * std::abs(ours / theirs - 1));
+  return check;
+}
+
+void add_doubts(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const ResultDoubt& d : run.doubts) out.push_back({d.name, {index}, d.grave, !d.grave, kNone, kNone, d.text});
+}
+
 void add_warnings(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
   if (!run.result.summary.contains("warnings") || !run.result.summary["warnings"].is_array()) return;
   for (const auto& w : run.result.summary["warnings"]) {
@@ -93,8 +113,7 @@ void add_pair(const std::vector<ReportRun>& runs, int fem, int bem, std::vector<
   out.push_back(within("p_max", both, a.number("/contact/p_max_Pa"), b.number("/contact/p_max_Pa"), 0.04));
   out.push_back(
       within("patch_length", both, a.number("/contact/patch_length_m"), b.number("/contact/patch_length_m"), 0.06));
-  if (b.number("/contact/q_max_Pa") > 0)
-    out.push_back(within("q_max", both, a.number("/contact/q_max_Pa"), b.number("/contact/q_max_Pa"), 0.07));
+  if (b.number("/contact/q_max_Pa") > 0) out.push_back(shear_check(runs[fem], runs[bem], both));
   const Place ours = von_mises_below_surface(runs[fem]), theirs = von_mises_below_surface(runs[bem]);
   ReportCheck stress = within("von_mises_below_surface", both, ours.value, theirs.value, 0.08);
   if (const double h = element_size(runs[fem]); stress.judged && theirs.depth <= h) {
@@ -112,6 +131,7 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
   std::vector<ReportCheck> out;
   const int n = static_cast<int>(runs.size());
   for (int i = 0; i < n; ++i) add_own(runs[i], i, out);
+  for (int i = 0; i < n; ++i) add_doubts(runs[i], i, out);
   for (int i = 0; i < n; ++i) add_warnings(runs[i], i, out);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
@@ -130,6 +150,21 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
                      fmt::format("{}{}", fmt::join(d, "; "), left ? fmt::format("; and {} more", left) : "")});
     }
   return out;
+}
+
+ReportVerdict verdict_of(const Report& report) {
+  int judged = 0, failed = 0;
+  std::string names;
+  for (const ReportCheck& c : report.checks) {
+    judged += c.judged;
+    if (!c.judged || c.ok) continue;
+    ++failed;
+    names += fmt::format("{}{}", names.empty() ? "" : "; ", c.name);
+    if (std::isfinite(c.value)) names += fmt::format(" {:.3g}, limit {:.3g}", c.value, c.limit);
+  }
+  if (judged == 0) return {false, "nothing was checked"};
+  if (failed == 0) return {true, fmt::format("all {} checks hold", judged)};
+  return {false, fmt::format("{} of {} checks {}: {}", failed, judged, failed == 1 ? "fails" : "fail", names)};
 }
 
 }  // namespace railstrata

@@ -85,6 +85,7 @@ ReportRun read_report_run(const fs::path& folder) {
   run.result = read_result_folder(folder);
   run.name = fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
   if (const fs::path file = file_of(folder, "case.toml"); !file.empty()) run.options = options_of(text_of(file));
+  run.doubts = result_doubts(folder);
   run.provenance = json_of(file_of(folder, "provenance.json"));
   run.geometry = json_of(file_of(folder, "geometry.json"));
   run.depth_line = table_of(file_of(folder, "depth_line.csv"));

@@ -2,6 +2,7 @@
 // What a report shows: a list of runs, the checks that say whether to trust them, and for a study tables and charts
 // over all of them.
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/csv.hpp"
+#include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
 
 namespace railstrata {
@@ -26,6 +28,10 @@ struct ReportRun {                              // NOLINT(bugprone-exception-esc
   std::vector<CaseOption> options;              ///< case.toml
   nlohmann::ordered_json provenance, geometry;  ///< provenance.json, geometry.json
   std::optional<CsvTable> depth_line, history;
+  double shear_on_elements = std::numeric_limits<double>::quiet_NaN();  ///< of a finite element run: q_max [Pa] of the
+                                                                        ///< half-space solution on cells as large as
+                                                                        ///< its elements; NaN: not solved
+  std::vector<ResultDoubt> doubts;           ///< why its numbers may not be those of its case
   std::map<std::string, CsvTable> sections;  ///< "rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"
 
   /// The value of an option as the case writes it; empty if it is not there.
@@ -85,8 +91,17 @@ ReportRun read_report_run(const std::filesystem::path& folder);
 
 /// What the runs say of themselves, and every finite element run against a half-space run of the same case (limits:
 /// p_max 4 %, patch length 6 %, q_max 7 %, largest von Mises stress below the rail's surface 8 % where it lies deeper
-/// than an element). Of two runs of different cases it is told which options differ.
+/// than an element). The peak of q at the border of stick and slip is as narrow as a cell shows it: q_max is compared
+/// on cells as large as the elements where that solution is there (shear_on_elements). Of two runs of different cases
+/// it is told which options differ.
 std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs);
+
+/// The verdict of the page in one line: "all 13 checks hold", "1 of 13 checks fails: q_max 0.0952, limit 0.07".
+struct ReportVerdict {
+  bool ok = false;
+  std::string text;
+};
+ReportVerdict verdict_of(const Report& report);
 
 /// The report as JSON, as report/src/data.ts reads it. Lines have six digits; maps and sections are packed to 16 bits a
 /// number and thinned to 300 points a side.

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
@@ -51,11 +52,41 @@ std::string title_of(const std::vector<ReportRun>& runs) {
                             : fmt::format("{} and {} more", titles[0], titles.size() - 1);
 }
 
+/// The folder that has case.toml: a position's is the one it stands in.
+fs::path folder_of_case(const fs::path& folder) {
+  const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
+  return full.filename().string().starts_with(kPositionFolder) ? full.parent_path() : full;
+}
+
+/// The largest shear of half-spaces on cells as large as the elements [Pa]; NaN where there is no such solution.
+double shear_on_elements(const fs::path& case_file) {
+  constexpr double kFinest = 0.1e-3;  // m: below, the peak hardly changes any more, and a solution takes seconds
+  try {
+    const LoadedCase loaded = load_case(case_file);
+    const CaseSpec spec = half_space_case(loaded.spec);
+    BemOptions bem;
+    bem.cell = std::max(loaded.spec.mesh.element_size, kFinest);
+    return solve_bem(spec, place(spec, loaded.folder()), bem).q_max;
+  } catch (const CaseError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  } catch (const NumericalError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+/// For finite element runs that a half-space run stands beside.
+void add_shear_on_elements(const std::vector<fs::path>& folders, std::vector<ReportRun>& runs) {
+  const auto is_bem = [](const ReportRun& run) { return run.result.engine == "bem"; };
+  if (std::none_of(runs.begin(), runs.end(), is_bem)) return;
+  for (std::size_t k = 0; k < folders.size(); ++k)
+    if (runs[k].result.engine == "fem")
+      runs[k].shear_on_elements = shear_on_elements(folder_of_case(folders[k]) / "case.toml");
+}
+
 }  // namespace
 
 fs::path half_space_reference(const fs::path& folder, int threads) {
-  const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
-  const fs::path home = full.filename().string().starts_with(kPositionFolder) ? full.parent_path() : full;
+  const fs::path home = folder_of_case(folder);
   fs::path out = home / kReferenceFolder;
   if (fs::exists(out / "summary.json") && same_text(home / "case.toml", out / "case.toml")) return out;
   try {
@@ -69,7 +100,7 @@ fs::path half_space_reference(const fs::path& folder, int threads) {
   return {};
 }
 
-void write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference, int threads) {
+ReportVerdict write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference, int threads) {
   Report report;
   for (const fs::path& folder : folders) report.runs.push_back(read_report_run(folder));
   if (reference && report.runs.size() == 1 && report.runs[0].result.engine == "fem")
@@ -77,9 +108,20 @@ void write_report(const fs::path& page, const std::vector<fs::path>& folders, bo
       report.runs.push_back(read_report_run(beside));
       report.runs[1].name = report.runs[0].name;
     }
+  add_shear_on_elements(folders, report.runs);
   report.title = title_of(report.runs);
   report.checks = report_checks(report.runs);
   write_whole_file(page, report_page(report));
+  for (const ReportRun& run : report.runs)
+    for (const ResultDoubt& doubt : run.doubts) spdlog::warn("{}: {}", run.result.folder.string(), doubt.text);
+  return verdict_of(report);
+}
+
+void tell_verdict(const ReportVerdict& verdict) {
+  if (verdict.ok)
+    spdlog::info("verdict of the page: {}", verdict.text);
+  else
+    spdlog::warn("verdict of the page: {}", verdict.text);
 }
 
 void write_page_or_warn(const fs::path& page, const std::function<void()>& write) {
@@ -95,7 +137,7 @@ void write_page_or_warn(const fs::path& page, const std::function<void()>& write
 
 void add_report(const fs::path& folder, int threads) {
   const fs::path page = folder / "report.html";
-  write_page_or_warn(page, [&] { write_report(page, {folder}, true, threads); });
+  write_page_or_warn(page, [&] { tell_verdict(write_report(page, {folder}, true, threads)); });
 }
 
 }  // namespace railstrata
