@@ -3,7 +3,9 @@
 
 #include "app/commands.hpp"
 #include "app/summary_text.hpp"
+#include "app/waiting.hpp"
 #include "post/bem_summary.hpp"
+#include "runs/half_space_need.hpp"
 #include "runs/output_folder.hpp"
 #include "runs/peak_memory.hpp"
 #include "runs/run_bem.hpp"
@@ -18,7 +20,13 @@ ExitCode command_bem(const CommandOptions& options) {
   BemOptions bem;
   bem.cell = cell_size(options.cell);
   const Placement placement = place(spec, loaded.folder());
-  const BemResult result = solve_bem(spec, placement, bem);
+  const HalfSpaceNeed need = half_space_need(spec, placement, bem.cell);
+  require_memory(need, bem.cell);
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const BemResult result = [&] {
+    const Waiting waiting(fmt::format("half-spaces, {}", need_text(need)), spdlog::should_log(spdlog::level::info));
+    return solve_bem(spec, placement, bem);
+  }();
   for (const std::string& note : result.notes) spdlog::info("{}", note);
   Summary summary = bem_summary(spec, result);
   summary.run.commit = commit_text();
@@ -27,6 +35,7 @@ ExitCode command_bem(const CommandOptions& options) {
 
   require_apart(out, loaded);
   const FolderHold hold = prepare_output_folder(out, options.force);
+  answer_interrupt_with("\nstopped while the results were written: they are not complete; start again with --force\n");
   clear_old_results(out);
   write_origin(out, loaded, options.command_line, options.threads);
   write_bem_geometry(out, spec, placement, summary.position);

@@ -6,9 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/waiting.hpp"
 #include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
+#include "runs/half_space_need.hpp"
 #include "runs/output_folder.hpp"
 #include "runs/run_bem.hpp"
 
@@ -76,8 +78,14 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   const std::filesystem::path out = output_folder_of(options, loaded, "-creep-curve");
   BemOptions bem;
   bem.cell = cell_size(options.cell);
-  const std::vector<CsvColumn> table =
-      table_of(creep_curve(loaded.spec, place(loaded.spec, loaded.folder()), creepages(options), bem));
+  const Placement placement = place(loaded.spec, loaded.folder());
+  require_memory(half_space_need(loaded.spec, placement, bem.cell), bem.cell);
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const std::vector<CsvColumn> table = [&] {
+    const Waiting waiting(fmt::format("creep curve of {} points", options.points),
+                          spdlog::should_log(spdlog::level::info));
+    return table_of(creep_curve(loaded.spec, placement, creepages(options), bem));
+  }();
 
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);

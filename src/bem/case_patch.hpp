@@ -17,6 +17,9 @@ struct CasePatch {
   std::vector<std::string> notes;
 };
 
+/// The potential contact area to begin with: a little larger than the ellipse of Hertz.
+PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options);
+
 /// The normal force [N] that bears the weight G together with a lateral force T_y on the rail, in the contact plane at
 /// the angle delta: N cos(delta) - T_y sin(delta) = G.
 double normal_load(double weight, double lateral, const RigidContact& contact);
