@@ -192,6 +192,11 @@ young_ratio = 2.0
 
     # sweep
 
+    def test_a_sweep_s_table_runs_nothing_in_a_spreadsheet(self):
+        out = self.folder / "sweep"
+        self.done("sweep", BASE, *COARSE, "--vary", "case.title==cmd|calc,@x", "--vary", "geometry.lateral_shift=-1 mm", "--out", out)
+        self.assertEqual([(row["case.title"], row["geometry.lateral_shift"]) for row in table(out / "sweep.csv")], [("'=cmd|calc", "-1 mm"), ("'@x", "-1 mm")])
+
     def test_a_sweep_solves_every_combination_and_its_rows_are_those_of_bem(self):
         out = self.folder / "sweep"
         self.done("sweep", SOURCE / "cases" / "paper" / "layer_3mm_2E0.toml", *COARSE, "--vary", "layer.0.thickness=1 mm, 3 mm", "--vary", "layer.0.young_ratio=0.5,1,2", "--out", out, "--stresses")
