@@ -54,14 +54,14 @@ function largestBelowSurface(run: Run): { value_Pa: number; depth_m: number; zon
   return best && best.zone === "below the surface" ? { ...best, zone: "largest" } : best;
 }
 
-/// The first run's numbers large.
-export function tiles(run: Run): HTMLElement {
+/// One run's numbers large; `named`: with its name above them, where the page shows others too.
+export function tiles(run: Run, named: boolean): HTMLElement {
   const value = (path: string, scale: number, digits = 4) => numberText(numberAt(run, path) === null ? null : scale * numberAt(run, path)!, digits);
   const [fx, fz] = [numberAt(run, "contact/F_x_N"), numberAt(run, "contact/F_z_N")];
   const inside = largestBelowSurface(run);
   const tile = (name: string, text: string, unit: string, small = "") =>
     element("div", { class: "tile" }, element("span", { class: "name" }, name), element("span", { class: "big" }, text, unit ? element("small", {}, ` ${unit}`) : null), small ? element("span", { class: "small" }, small) : null);
-  return element(
+  const cards = element(
     "div",
     { class: "tiles" },
     tile("largest pressure", value("contact/p_max_Pa", 1e-6), "MPa"),
@@ -71,6 +71,7 @@ export function tiles(run: Run): HTMLElement {
     tile("traction F_x / F_z", numberText(fx !== null && fz ? fx / fz : null), "", `wanted ${option(run, "drive", "traction_coefficient") ?? "–"}`),
     tile("rail, von Mises below surface", inside ? numberText(1e-6 * inside.value_Pa) : "–", "MPa", inside ? `${inside.zone}, ${(1e3 * inside.depth_m).toFixed(2)} mm deep` : ""),
   );
+  return element("div", {}, named ? element("p", { class: "note", id: "tiles-of" }, `Numbers of ${runLabel(run)}; all runs beside each other in the table below.`) : null, cards);
 }
 
 export function numbersTable(runs: Run[]): HTMLElement {
@@ -200,7 +201,7 @@ export function origin(runs: Run[]): HTMLElement[] {
       ["program", `RailStrata ${text("version")}, commit ${text("commit")}${p.dirty === true ? " (with changes)" : ""}`],
       ["computed", text("time_utc")],
       ["command", text("command_line")],
-      ["machine", `${text("cpu")}, ${text("threads")} threads, ${text("isa")}`],
+      ["threads", `${text("threads")}, ${text("isa")}`],
       ["compiler", `${text("compiler")} ${text("flags")}`],
       ["size", `${countText(numberAt(run, "run/elements"))} ${run.engine === "bem" ? "cells" : `elements, ${countText(numberAt(run, "run/steps"))} steps`}, ${numberText(wall, 3)} s`],
     ];

@@ -105,12 +105,19 @@ class Run(Page):
 
     def test_finite_elements_are_held_against_half_spaces(self):
         fem, bem = summary_of(FEM), summary_of(HALF_SPACE)
+        with tempfile.TemporaryDirectory() as place:  # shear: on cells as large as the elements
+            size = re.search(r'element_size = "(.*)"', (FEM / "case.toml").read_text())[1]
+            subprocess.run([BINARY, "bem", FEM / "case.toml", "--cell", size, "--no-report", "--quiet", "--out", f"{place}/equal"], check=True, capture_output=True, timeout=60)
+            equal = summary_of(pathlib.Path(place, "equal"))
         for check, key, limit in [("p_max", "p_max_Pa", 0.04), ("patch_length", "patch_length_m", 0.06), ("q_max", "q_max_Pa", 0.07)]:
-            value = abs(fem["contact"][key] / bem["contact"][key] - 1)
+            value = abs(fem["contact"][key] / (equal if check == "q_max" else bem)["contact"][key] - 1)
             row = self.js("const r = document.querySelector(`tr[data-check='${arguments[0]}'][data-runs='0,1']`); return {ok: r.dataset.ok === 'true', value: r.querySelector('.value').innerText, limit: r.querySelector('.limit').innerText}", check)
             self.assertAlmostEqual(number_in(row["value"]) / 100, value, delta=6e-3 * value)
             self.assertAlmostEqual(number_in(row["limit"]) / 100, limit)
             self.assertEqual(row["ok"], value <= limit)
+
+    def test_the_cards_say_whose_numbers_they_are(self):
+        self.assertTrue(self.browser.text("#tiles-of").startswith("Numbers of fem (finite elements)"))
 
     def test_the_numbers_are_those_of_the_summaries(self):
         shown = self.js("return [...document.querySelectorAll('#contact-numbers td[data-path]')].map(c => [c.dataset.path, c.innerText, c.parentElement.cells[1].innerText])")
@@ -443,8 +450,24 @@ class Command(unittest.TestCase):
             self.assertIn("friction_coefficient = 0.4", (folder / "half_space" / "case.toml").read_text())
             self.assertNotEqual(summary_of(folder / "half_space")["contact"]["slip_area_fraction"], summary_of(HALF_SPACE)["contact"]["slip_area_fraction"])
 
+    def test_the_terminal_gives_the_verdict_of_the_page(self):
+        with tempfile.TemporaryDirectory() as place:
+            done = subprocess.run([BINARY, "report", FEM, "--out", f"{place}/page.html"], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            told = re.search(r"warning: verdict of the page: (\d+) of (\d+) checks fails?: ", done.stderr)
+            checks = json.loads(re.search(r'id="data">(.*?)</script>', pathlib.Path(place, "page.html").read_text(), re.S)[1])["checks"]
+            judged = [c for c in checks if c["judged"]]
+            self.assertEqual((int(told[1]), int(told[2])), (sum(not c["ok"] for c in judged), len(judged)))
+
+    def test_a_page_says_nothing_of_the_machine_s_folders(self):
+        text = (FEM / "report.html").read_text()
+        data = re.search(r'id="data">(.*?)</script>', text, re.S)[1]
+        self.assertNotIn(str(RESULTS), data)
+        self.assertNotIn(json.loads((FEM / "provenance.json").read_text())["host"], json.dumps(json.loads(data)["runs"][0]["provenance"]))
+        self.assertNotIn("cpu", json.loads(data)["runs"][0]["provenance"])
+
     def test_several_folders_need_a_place(self):
-        self.refused(2, [FEM, BEM], "a report on several folders needs a place", "--out")
+        self.refused(2, [FEM, BEM], "2 folders are given and no --out", "remedy: say where the page is to be written, e.g. --out comparison.html")
 
 
 del Page  # only its heirs are tests
