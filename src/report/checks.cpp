@@ -21,13 +21,23 @@ bool is_numerical(const CaseOption& o) {
   return keys.contains(o.table.substr(0, o.table.find('.')) + "." + o.key);
 }
 
+/// What an option is compared by: a profile file by its content, for two files may have one name, and one file two.
+std::string meaning(const ReportRun& run, const CaseOption& o) {
+  const auto file = o.table == "geometry" ? run.profile_sha256.find(o.key) : run.profile_sha256.end();
+  return file == run.profile_sha256.end() ? run.option(o.table, o.key) : file->second;
+}
+
 /// "layer.0.thickness: 1 mm, 2 mm" for every physical option that differs.
 std::vector<std::string> differences(const ReportRun& a, const ReportRun& b) {
   std::vector<std::string> out;
-  for (const CaseOption& o : a.options)
-    if (!is_numerical(o) && b.option(o.table, o.key) != o.value)
-      out.push_back(fmt::format("{}.{}: {}, {}", o.table, o.key, o.value,
-                                b.option(o.table, o.key).empty() ? "none" : b.option(o.table, o.key)));
+  for (const CaseOption& o : a.options) {
+    if (is_numerical(o) || meaning(a, o) == meaning(b, o)) continue;
+    const std::string theirs = b.option(o.table, o.key);
+    out.push_back(fmt::format("{}.{}: {}, {}", o.table, o.key, o.value,
+                              theirs.empty()      ? "none"
+                              : theirs == o.value ? "another file of this name"
+                                                  : theirs));
+  }
   for (const CaseOption& o : b.options)
     if (!is_numerical(o) && a.option(o.table, o.key).empty() && !o.value.empty())
       out.push_back(fmt::format("{}.{}: none, {}", o.table, o.key, o.value));

@@ -22,11 +22,13 @@ struct CaseOption {
 };
 
 /// A result folder, read whole. What an older folder has not is empty.
-struct ReportRun {                              // NOLINT(bugprone-exception-escape): as of ResultFolder
-  std::string name;                             ///< what the report calls it
-  ResultFolder result;                          ///< summary.json, patch.csv
-  std::vector<CaseOption> options;              ///< case.toml
-  nlohmann::ordered_json provenance, geometry;  ///< provenance.json, geometry.json
+struct ReportRun {                                    // NOLINT(bugprone-exception-escape): as of ResultFolder
+  std::string name;                                   ///< what the report calls it
+  ResultFolder result;                                ///< summary.json, patch.csv
+  std::vector<CaseOption> options;                    ///< case.toml
+  std::map<std::string, std::string> profile_sha256;  ///< of the content of profile files, by "rail_profile" and
+                                                      ///< "wheel_profile"; none for built-in profiles and lost files
+  nlohmann::ordered_json provenance, geometry;        ///< provenance.json, geometry.json
   std::optional<CsvTable> depth_line, history;
   double shear_on_elements = std::numeric_limits<double>::quiet_NaN();  ///< of a finite element run: q_max [Pa] of the
                                                                         ///< half-space solution on cells as large as

@@ -118,6 +118,18 @@ TEST(ReportChecks, AnEditedCaseFailsAndAnotherVersionIsSaid) {
   EXPECT_FALSE(find(checks, "other_version", 1).judged);
 }
 
+TEST(ReportChecks, CompareProfileFilesByTheirContent) {
+  ReportRun fem = sample("fem"), bem = sample("bem");
+  fem.options.push_back({"geometry", "wheel_profile", "inputs/w.csv"});
+  bem.options.push_back({"geometry", "wheel_profile", "/elsewhere/w.csv"});
+  fem.profile_sha256["wheel_profile"] = bem.profile_sha256["wheel_profile"] = "12";
+  EXPECT_FALSE(has(report_checks({fem, bem}), "cases_differ"));
+  bem.options.back().value = "inputs/w.csv";
+  bem.profile_sha256["wheel_profile"] = "34";
+  EXPECT_EQ(find(report_checks({fem, bem}), "cases_differ", 2).note,
+            "geometry.wheel_profile: inputs/w.csv, another file of this name");
+}
+
 TEST(ReportVerdict, SaysWhatFailsAndByHowMuch) {
   Report report;
   EXPECT_EQ(verdict_of(report).text, "nothing was checked");
