@@ -13,6 +13,7 @@
 #include <functional>
 
 #include "body/aggregates.hpp"
+#include "fem/rolling_system.hpp"
 #include "fem/static_vector.hpp"
 
 namespace railstrata {
