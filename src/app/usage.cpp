@@ -56,14 +56,15 @@ CaseError usage_error(const CLI::App& app, const CLI::ParseError& e, const std::
                       const std::vector<std::string>& commands) {
   const std::vector<const CLI::App*> parsed = app.get_subcommands([](const CLI::App* sub) { return sub->parsed(); });
   const CLI::App* sub = parsed.empty() ? nullptr : parsed.front();
-  if (sub == nullptr && e.get_name() == "RequiredError")
+  const auto is = [&](CLI::ExitCodes code) { return e.get_exit_code() == static_cast<int>(code); };
+  if (sub == nullptr && is(CLI::ExitCodes::RequiredError))
     return CaseError("no command is given", fmt::format("commands: {}; railstrata help", fmt::join(commands, ", ")));
   const std::string command = sub != nullptr ? "railstrata " + sub->get_name() : "railstrata";
-  if (e.get_name() == "ExtrasError") return left_over(app, sub, command, words);
+  if (is(CLI::ExitCodes::ExtrasError)) return left_over(app, sub, command, words);
   const std::string what = e.what(), help = fmt::format("what it takes: {} --help", command);
   const std::string name = what.substr(0, what.find(' '));
   const CLI::Option* missing =
-      e.get_name() == "RequiredError" && sub != nullptr ? sub->get_option_no_throw(name) : nullptr;
+      is(CLI::ExitCodes::RequiredError) && sub != nullptr ? sub->get_option_no_throw(name) : nullptr;
   if (missing != nullptr)
     return CaseError(fmt::format("{}: {} is required ({})", command, name, missing->get_description()), help);
   return CaseError(fmt::format("{}: {}", command, what), help);
