@@ -48,9 +48,9 @@ class Program(FromOutside):
         self.refused(2, ["help", "bme"], 'unknown command "bme"', "did you mean bem?")
 
     def test_help_shows_options_as_they_are_written(self):
-        for command in ["run", "bem", "study", "report"]:
+        for command in ["run", "bem", "study", "report"]:  # {false} is how CLI11 shows a flag that clears
             out = railstrata(command, "--help")[1]
-            self.assertNotIn("{", out, command)
+            self.assertNotIn("{false}", out, command)
             self.assertIn("--no-re", out)
 
     def test_a_missing_case_exits_2(self):
