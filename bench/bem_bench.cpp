@@ -185,7 +185,11 @@ void slope_of_cost_over_cells(benchmark::State& state) {
       for (int i = 0; i < (cells < 10000 ? 20 : 3); ++i)
         best = std::min(best, seconds_of(cpu_seconds, [&] { solve_rolling(p.influence, p.grid, p.contact); }));
       const double u = std::log(static_cast<double>(cells)), v = std::log(best);
-      n += 1, x += u, y += v, xx += u * u, xy += u * v;
+      n += 1;
+      x += u;
+      y += v;
+      xx += u * u;
+      xy += u * v;
     }
     slope = (n * xy - x * y) / (n * xx - x * x);
     state.SetIterationTime(1);

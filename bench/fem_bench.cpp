@@ -26,8 +26,7 @@ constexpr double kFlops[2] = {534, 568};  // extruded, revolved: kinematics 129,
                                           // per node sums and differences 15; frames 34
 constexpr double kBytes = 104;            // u and v read and written, 1/m read, 24 + 24 + 24 + 24 + 8
 
-// -- the machine
-// ------------------------------------------------------------------------------------------------------------------------------------------
+// -- the machine ----------------------------------------------------------------------------------
 
 /// N dependent chains of fused multiply-adds, every link in a register (an array of packs would be kept in memory).
 template <class P, int N>
@@ -87,18 +86,19 @@ void memory_traffic(benchmark::State& state) {
 }
 BENCHMARK(memory_traffic)->Arg(1)->Arg(2)->UseRealTime()->Unit(benchmark::kMillisecond);
 
-// -- swept lines without contact
-// --------------------------------------------------------------------------------------------------------------------------
+// -- swept lines without contact ------------------------------------------------------------------
 
 struct Lines {
-  Solid solid;
-  Field u, v, f, inverse_mass;
+  Body solid;
+  Traversal elements;
+  Field u, v, f, history, inverse_mass;
   Lines(SweepKind kind, Precision precision, int columns, int rows, int stations, bool random = false)
       : solid(body(kind, columns, rows, stations, random), {elastic(210e9, 0.3, 7800)},
-              {ElementKind::full, 0.05, precision}) {
-    u = v = f = inverse_mass = solid.layout().field();
+              {ElementKind::full, 0.05, precision}),
+        elements(solid) {
+    u = v = f = inverse_mass = solid.layout.field();
     for (std::size_t i = 0; i < u.size(); ++i) {
-      inverse_mass[i] = solid.mass()[i] > 0 ? 1 / solid.mass()[i] : 0;
+      inverse_mass[i] = solid.element_mass[i] > 0 ? 1 / solid.element_mass[i] : 0;
       v[i] = 1e-3 * std::sin(static_cast<double>(i));
     }
   }
@@ -125,7 +125,7 @@ struct Lines {
     return b;
   }
   void advance(int node, int begin, int end, const double* const (&row)[3]) {
-    const BlockLayout& l = solid.layout().blocks[0];
+    const BlockLayout& l = solid.layout.blocks[0];
     const double dt = 1e-7;
     for (int i = 0; i < 3; ++i) {
       double *pu = u.data() + l.line(node, i), *pv = v.data() + l.line(node, i);
@@ -138,30 +138,32 @@ struct Lines {
     }
   }
   void step() {
-    const BlockLayout& l = solid.layout().blocks[0];
-    solid.begin_forces(u, 0);
-    const std::vector<Solid::Chain> chains = solid.chains(6 * max_threads());
-    const auto take = [&](const Solid::Tile& t, int begin, int node, const double* rows) {
+    const BlockLayout& l = solid.layout.blocks[0];
+    elements.begin(u, 0);
+    const std::vector<Chain> chained = chains(solid.tiling, 6 * max_threads());
+    const auto take = [&](const Tile& t, int begin, int node, const double* rows) {
       if (begin == t.first)
-        advance(node, begin, begin + 1,
-                {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
-      advance(node, t.first + 1, t.end,
-              {rows - t.first, rows + Solid::kTile - t.first, rows + 2 * Solid::kTile - t.first});
+        advance(node, begin, begin + 1, {rows - t.first, rows + kTile - t.first, rows + 2 * kTile - t.first});
+      advance(node, t.first + 1, t.end, {rows - t.first, rows + kTile - t.first, rows + 2 * kTile - t.first});
       return true;
     };
-    const auto expect = [&](const Solid::Tile& t, int node, Prefetch& lines) {
+    const auto expect = [&](const Tile& t, int node, Prefetch& lines) {
       for (int i = 0; i < 3; ++i) lines.add(&v[l.line(node, i) + t.first]);
       lines.add(&inverse_mass[l.line(node, 0) + t.first]);
     };
     for_each(
-        static_cast<std::ptrdiff_t>(chains.size()),
-        [&](std::ptrdiff_t k) { solid.chain_forces(chains[k], u, f, take, expect); }, true);
-    solid.end_forces(chains, f);
+        static_cast<std::ptrdiff_t>(chained.size()),
+        [&](std::ptrdiff_t k) {
+          elements.chain_forces(chained[k], u, f, history, FuseUpdate{take, expect});
+        },
+        true);
+    elements.end(chained, f);
     for_each(l.nodes, [&](std::ptrdiff_t n) {
       const double* row[3] = {f.data() + l.line(static_cast<int>(n), 0), f.data() + l.line(static_cast<int>(n), 1),
                               f.data() + l.line(static_cast<int>(n), 2)};
-      for (const Solid::Chain& c : chains)
-        advance(static_cast<int>(n), solid.border_plane(c), solid.border_plane(c) + 1, {row[0], row[1], row[2]});
+      for (const Chain& c : chained)
+        advance(static_cast<int>(n), solid.tiling.border_plane(c), solid.tiling.border_plane(c) + 1,
+                {row[0], row[1], row[2]});
       advance(static_cast<int>(n), l.stations - 1, l.stations, {row[0], row[1], row[2]});
     });
   }
@@ -194,8 +196,7 @@ BENCHMARK(swept_lines<SweepKind::extrude, Precision::single_precision>)->Apply(s
 BENCHMARK(swept_lines<SweepKind::revolve, Precision::double_precision>)->Apply(sizes);
 BENCHMARK(swept_lines<SweepKind::revolve, Precision::single_precision>)->Apply(sizes);
 
-// -- whole steps of a case
-// --------------------------------------------------------------------------------------------------------------------------------
+// -- whole steps of a case ------------------------------------------------------------------------
 
 /// Most memory the process has had since forget_peak(): VmHWM of /proc/self/status.
 double peak_bytes() {
@@ -214,7 +215,7 @@ struct Rolling {
   RollingSystem system;
   std::unique_ptr<Stepper> stepper;
   double preload_seconds = 0, peak = 0;
-  Rolling(double millimetres, const char* precision, double layer = 0)
+  Rolling(double millimetres, ArithmeticPrecision precision, double layer = 0)
       : system(build_model(spec(millimetres, precision, layer), ".")) {
     const PreloadResult preload = solve_preload(system, 1e-2);
     preload_seconds = preload.wall_seconds;
@@ -222,7 +223,7 @@ struct Rolling {
     peak = peak_bytes();
   }
   /// layer: thickness [m] of one of four times the modulus, 0: none.
-  static CaseSpec spec(double millimetres, const char* precision, double layer) {
+  static CaseSpec spec(double millimetres, ArithmeticPrecision precision, double layer) {
     CaseSpec s;
     s.geometry.wheel_profile = "LMA";
     s.geometry.rail_profile = "CN60";
@@ -251,7 +252,8 @@ Rolling& rolling(double millimetres, bool single) {
   if (!latest || which != std::pair{millimetres, single}) {
     latest.reset();
     forget_peak();
-    latest = std::make_unique<Rolling>(millimetres, single ? "single" : "double");
+    latest = std::make_unique<Rolling>(
+        millimetres, single ? ArithmeticPrecision::single_precision : ArithmeticPrecision::double_precision);
     which = {millimetres, single};
   }
   return *latest;
@@ -286,7 +288,7 @@ BENCHMARK(whole_steps)
 void layer_over_base(benchmark::State& state) {
   set_threads(2);
   Rolling& base = rolling(1, false);
-  Rolling layered(1, "double", 1e-6 * static_cast<double>(state.range(0)));
+  Rolling layered(1, ArithmeticPrecision::double_precision, 1e-6 * static_cast<double>(state.range(0)));
   Rolling* const both[2] = {&base, &layered};
   double best[2] = {1e99, 1e99};
   for (auto _ : state) {

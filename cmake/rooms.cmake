@@ -1,35 +1,49 @@
-# Rooms: every folder of src/ named in src/LAYERS becomes a library room_<name> that sees the rooms on lower lines and nothing else.
+# Rooms: every folder of src/ named in src/LAYERS becomes a library room_<name> that sees the rooms on lower lines and
+# nothing else. A variant is a second, wholly separate build of the rooms for another instruction set: its targets end
+# in _<variant> (room_fem_v3). The width of a SIMD pack (core/simd.hpp) follows from the instruction set, so objects of
+# two variants must never meet in one library.
 
-add_library(railstrata_flags INTERFACE)
-target_include_directories(railstrata_flags INTERFACE ${CMAKE_SOURCE_DIR}/src)
-# -Wsign-conversion, which -Wconversion brings with clang++, stays off: positions are int and ptrdiff_t, containers ask for size_t, and what must not be negative is tested where it is read.
-target_compile_options(railstrata_flags INTERFACE -Wall -Wextra -Wconversion -Wno-sign-conversion -Wshadow -fno-math-errno -ffp-contract=fast)
-if(RAILSTRATA_WERROR)
-  target_compile_options(railstrata_flags INTERFACE -Werror)
-  # What g++ guesses after optimization changes with the processor, the level and the sanitizers: seen as warnings, not as errors.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    target_compile_options(railstrata_flags INTERFACE -Wno-error=maybe-uninitialized -Wno-error=array-bounds -Wno-error=stringop-overflow -Wno-error=restrict)
-  endif()
-endif()
-# Eigen serves set-up work only; its AVX-512 paths draw false warnings from g++ 12 and slow compilation down.
-target_compile_definitions(railstrata_flags INTERFACE EIGEN_DONT_VECTORIZE)
-if(RAILSTRATA_NATIVE)
-  target_compile_options(railstrata_flags INTERFACE -march=native)
-  # g++ before 13 takes a Zen 4 for a Zen 3 and schedules for vectors of half the width: the explicit step's kernel loses up to 15 %.
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13 AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
-    set_source_files_properties(${CMAKE_SOURCE_DIR}/src/body/solid.cpp PROPERTIES COMPILE_OPTIONS -mtune=icelake-server)
-  endif()
-endif()
-if(RAILSTRATA_SANITIZE)
-  # a finding ends the test; the standard library's own asserts see what a sanitizer does not (an index beyond size() and within the capacity)
-  target_compile_options(railstrata_flags INTERFACE -fsanitize=${RAILSTRATA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS)
-  target_link_options(railstrata_flags INTERFACE -fsanitize=${RAILSTRATA_SANITIZE})
-endif()
+include(CheckCXXCompilerFlag)
+# Objects are position independent because the shared library is linked from the very objects of the static rooms. With
+# this flag calls inside the library are direct and may be inlined, as they are in a program.
+check_cxx_compiler_flag(-fno-semantic-interposition has_no_semantic_interposition)
+set(CMAKE_POSITION_INDEPENDENT_CODE ${RAILSTRATA_LIBRARY})
 
-if(RAILSTRATA_COVERAGE)
-  target_compile_options(railstrata_flags INTERFACE --coverage -fprofile-update=atomic)
-  target_link_options(railstrata_flags INTERFACE --coverage)
-endif()
+# railstrata_flags(TARGET option...): compile and link options that every target of a variant shares. The further
+# arguments are the options of its instruction set.
+function(railstrata_flags target)
+  add_library(${target} INTERFACE)
+  target_include_directories(${target} INTERFACE ${CMAKE_SOURCE_DIR}/src)
+  # -Wsign-conversion, which -Wconversion brings with clang++, stays off: positions are int and ptrdiff_t, containers
+  # ask for size_t, and what must not be negative is tested where it is read.
+  target_compile_options(${target} INTERFACE
+    -Wall -Wextra -Wconversion -Wno-sign-conversion -Wshadow -fno-math-errno -ffp-contract=fast)
+  if(RAILSTRATA_LIBRARY AND has_no_semantic_interposition)
+    target_compile_options(${target} INTERFACE -fno-semantic-interposition)
+  endif()
+  if(RAILSTRATA_WERROR)
+    target_compile_options(${target} INTERFACE -Werror)
+    # What g++ guesses after optimization changes with the processor, the level and the sanitizers: warnings, no errors.
+    if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+      target_compile_options(${target} INTERFACE -Wno-error=maybe-uninitialized -Wno-error=array-bounds
+        -Wno-error=stringop-overflow -Wno-error=restrict)
+    endif()
+  endif()
+  # Eigen serves set-up work only; its AVX-512 paths draw false warnings from g++ 12 and slow compilation down.
+  target_compile_definitions(${target} INTERFACE EIGEN_DONT_VECTORIZE)
+  target_compile_options(${target} INTERFACE ${ARGN})
+  if(RAILSTRATA_SANITIZE)
+    # A finding ends the test; the standard library's own asserts see what a sanitizer does not (an index beyond size()
+    # and within the capacity).
+    target_compile_options(${target} INTERFACE
+      -fsanitize=${RAILSTRATA_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -D_GLIBCXX_ASSERTIONS)
+    target_link_options(${target} INTERFACE -fsanitize=${RAILSTRATA_SANITIZE})
+  endif()
+  if(RAILSTRATA_COVERAGE)
+    target_compile_options(${target} INTERFACE --coverage -fprofile-update=atomic)
+    target_link_options(${target} INTERFACE --coverage)
+  endif()
+endfunction()
 
 # Third-party libraries each room links. Every room may use fmt; the others stand where they are used.
 set(ROOM_LIBS_core fmt::fmt OpenMP::OpenMP_CXX)
@@ -44,9 +58,32 @@ set(ROOM_LIBS_post Eigen3::Eigen)
 set(ROOM_LIBS_io nlohmann_json::nlohmann_json ZLIB::ZLIB OpenSSL::Crypto hdf5::hdf5)
 set(ROOM_LIBS_app spdlog::spdlog CLI11::CLI11)
 
-function(railstrata_rooms)
+# Sources with the kernels of the explicit step. g++ before 13 takes a Zen 4 for a Zen 3 and schedules for vectors of
+# half the width: the kernel loses up to 15 %. The option stays on these files alone, because it also decides where
+# products and sums are fused, which shows in the last bits of a result.
+set(ROOM_WIDE_VECTOR_SOURCES src/body/traversal.cpp)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13
+    AND CMAKE_SYSTEM_PROCESSOR STREQUAL "x86_64")
+  foreach(source IN LISTS ROOM_WIDE_VECTOR_SOURCES)
+    if(NOT EXISTS ${CMAKE_SOURCE_DIR}/${source})
+      message(FATAL_ERROR "${source} is gone: name the file with the step's kernels in ROOM_WIDE_VECTOR_SOURCES "
+        "(cmake/rooms.cmake)")
+    endif()
+    set_source_files_properties(${CMAKE_SOURCE_DIR}/${source} PROPERTIES
+      COMPILE_OPTIONS "$<$<BOOL:$<TARGET_PROPERTY:WIDE_VECTORS>>:-mtune=icelake-server>")
+  endforeach()
+endif()
+
+# railstrata_rooms(VARIANT WIDE_VECTORS): the rooms of a variant; "" is the developer's build, whose targets have no
+# suffix. Sets ROOMS<suffix> to the names of rooms with sources, lowest first, in the caller's scope.
+function(railstrata_rooms variant wide_vectors)
+  set(suffix "")
+  if(variant)
+    set(suffix "_${variant}")
+  endif()
   file(STRINGS ${CMAKE_SOURCE_DIR}/src/LAYERS lines REGEX "^[a-z]")
   set(below "")
+  set(with_sources "")
   foreach(line IN LISTS lines)
     string(REPLACE " " ";" names "${line}")
     set(this_line "")
@@ -55,15 +92,19 @@ function(railstrata_rooms)
       if(name STREQUAL "app")
         list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/app/main.cpp)
       endif()
+      set(room room_${name}${suffix})
       if(sources)
-        add_library(room_${name} STATIC ${sources})
-        target_link_libraries(room_${name} PUBLIC railstrata_flags ${below} ${ROOM_LIBS_${name}})
+        add_library(${room} STATIC ${sources})
+        set_target_properties(${room} PROPERTIES WIDE_VECTORS ${wide_vectors})
+        target_link_libraries(${room} PUBLIC railstrata_flags${suffix} ${below} ${ROOM_LIBS_${name}})
+        list(APPEND with_sources ${name})
       else()
-        add_library(room_${name} INTERFACE)
-        target_link_libraries(room_${name} INTERFACE railstrata_flags ${below} ${ROOM_LIBS_${name}})
+        add_library(${room} INTERFACE)
+        target_link_libraries(${room} INTERFACE railstrata_flags${suffix} ${below} ${ROOM_LIBS_${name}})
       endif()
-      list(APPEND this_line room_${name})
+      list(APPEND this_line ${room})
     endforeach()
     list(PREPEND below ${this_line})
   endforeach()
+  set(ROOMS${suffix} ${with_sources} PARENT_SCOPE)
 endfunction()

@@ -18,9 +18,9 @@ struct InBounds {
   bool operator()(const double* v) const { return option.range.holds(*v); }
   bool operator()(const int* v) const { return option.range.holds(*v); }
   bool operator()(const bool*) const { return true; }
-  bool operator()(const std::string* v) const {
-    return option.choices.empty() ||
-           std::find(option.choices.begin(), option.choices.end(), *v) != option.choices.end();
+  bool operator()(const std::string*) const { return true; }
+  bool operator()(const ChoiceSlot& v) const {
+    return std::any_of(option.choices.begin(), option.choices.end(), [&](const Choice& c) { return c.value == *v; });
   }
   bool operator()(const std::vector<double>* v) const {
     return !v->empty() && std::all_of(v->begin(), v->end(), [&](double x) { return option.range.holds(x); });
@@ -48,7 +48,7 @@ void check(LoadedCase& loaded) {
   promise(again.spec.layers.size() == loaded.spec.layers.size(), "the resolved case has the same layers");
   each_option(loaded.spec, [&](const Option& option, std::size_t i) {
     const Slot a = option.slot(loaded.spec, i), b = option.slot(again.spec, i);
-    const bool same = std::visit([&](auto* value) { return *value == *std::get<decltype(value)>(b); }, a);
+    const bool same = std::visit([&](auto value) { return *value == *std::get<decltype(value)>(b); }, a);
     promise(same, "the resolved case reads back to the same case");
   });
 }

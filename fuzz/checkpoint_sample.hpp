@@ -9,8 +9,8 @@ namespace railstrata::fuzz {
 
 inline RunState sample_run() {
   RunState r;
-  r.stepper.state.u_rail = {0.1, -0.0, 5e-324};
-  r.stepper.state.tractions = TractionMemory(1, 2);
+  r.stepper.state.bodies[0].u = {0.1, -0.0, 5e-324};
+  r.stepper.state.tractions = SurfaceTractions(1, 2);
   r.stepper.state.groups = {{0.5, -0.5}};
   r.stepper.facets.resize(1);
   r.result.history.resize(2);

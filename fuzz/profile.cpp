@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/profile.hpp"
+#include "geometry/read_profile.hpp"
 #include "reader.hpp"
 
 using namespace railstrata;

@@ -68,14 +68,17 @@ def camera(place):
 
 
 def window_class(for_picture):
-    """The name of VTK's window that works here. VTK ends the whole program where it finds no display, so another one tries."""
+    """The name of VTK's window that works here. VTK ends the whole program where it finds no display, so another one
+    tries."""
     if not for_picture:
         if os.environ.get("DISPLAY"):
             return "vtkRenderWindow"
         sys.exit("view.py: a window needs a display; a picture without one: xvfb-run -a python3 view.py --png view.png")
     for name in ("vtkRenderWindow", "vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow"):
-        attempt = f"import sys, vtk; w = vtk.{name}(); w.SetOffScreenRendering(1); w.Render(); sys.exit(not w.SupportsOpenGL())"
-        if subprocess.run([sys.executable, "-c", attempt], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0:
+        attempt = (f"import sys, vtk; w = vtk.{name}(); w.SetOffScreenRendering(1); w.Render(); "
+                   "sys.exit(not w.SupportsOpenGL())")
+        tried = subprocess.run([sys.executable, "-c", attempt], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        if tried.returncode == 0:
             return name
     sys.exit("view.py: VTK needs a display, e.g. xvfb-run -a python3 view.py --png view.png")
 
@@ -84,7 +87,8 @@ def show_with_vtk(arguments):
     try:
         import vtk
     except ImportError:
-        sys.exit(f"view.py: {sys.executable} has neither ParaView nor VTK; Debian: apt install python3-vtk9, then /usr/bin/python3 view.py")
+        sys.exit(f"view.py: {sys.executable} has neither ParaView nor VTK; Debian: apt install python3-vtk9, then "
+                 "/usr/bin/python3 view.py")
     window_name = window_class(bool(arguments.png))
     place, text = read_place()
     renderer = vtk.vtkRenderer()

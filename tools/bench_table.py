@@ -3,9 +3,10 @@
 
     bench_table.py --csv bench/results/fem.csv --commit COMMIT run.json
 
-run.json: --benchmark_out of a Google Benchmark program. Rates in GF/s and GB/s are divided by those of peak_arithmetic and memory_traffic on as many threads in the same
-run; the larger share is what limits. Where a line has a bound, limit/this above 1 keeps it; CONTACT/this is the factor over
-CONTACT's own time. Absolute numbers of a machine that others use mean little: the load average stands in the first lines, and shares and ratios tell more.
+run.json: --benchmark_out of a Google Benchmark program. Rates in GF/s and GB/s are divided by those of peak_arithmetic
+and memory_traffic on as many threads in the same run; the larger share is what limits. Where a line has a bound,
+limit/this above 1 keeps it; CONTACT/this is the factor over CONTACT's own time. Absolute numbers of a machine that
+others use mean little: the load average stands in the first lines, and shares and ratios tell more.
 """
 import argparse
 import csv
@@ -43,7 +44,8 @@ def main():
     with open(options.run) as f:
         run = json.load(f)
 
-    rows = [b for b in run["benchmarks"] if b.get("aggregate_name", "median") == "median" and not b.get("error_occurred")]
+    rows = [b for b in run["benchmarks"] if b.get("aggregate_name", "median") == "median"
+            and not b.get("error_occurred")]
     peaks = {}  # (unit, number type, threads) -> rate
     for b in rows:
         for unit, kind in (("GF/s", "peak_arithmetic"), ("GB/s", "memory_traffic")):
@@ -62,9 +64,12 @@ def main():
     table = []
     for b in rows:
         single = "single" in b["name"] and "single:0" not in b["name"] or "float" in b["name"]
-        line = {"benchmark": re.sub(r"railstrata::|_median|/real_time|/manual_time|/iterations:1", "", b["name"]), "time": f"{b['real_time']:.4g}", "unit": b["time_unit"]}
+        line = {"benchmark": re.sub(r"railstrata::|_median|/real_time|/manual_time|/iterations:1", "", b["name"]),
+                "time": f"{b['real_time']:.4g}", "unit": b["time_unit"]}
         for key, value in b.items():
-            if isinstance(value, (int, float)) and key not in ("real_time", "cpu_time", "iterations", "repetitions", "repetition_index", "family_index", "per_family_instance_index", "threads"):
+            if isinstance(value, (int, float)) and key not in ("real_time", "cpu_time", "iterations", "repetitions",
+                                                               "repetition_index", "family_index",
+                                                               "per_family_instance_index", "threads"):
                 line[key] = f"{value:.4g}"
         for unit, share in (("GF/s", "share of arithmetic"), ("GB/s", "share of memory")):
             peak = peaks.get((unit, "float" if single and unit == "GF/s" else "double", threads_of(b["name"])))
@@ -84,7 +89,8 @@ def main():
     widths = {c: max(len(c), *(len(line.get(c, "")) for line in table)) for c in shown}
     print("  ".join(c.ljust(widths[c]) if c == "benchmark" else c.rjust(widths[c]) for c in shown))
     for line in table:
-        print("  ".join(line.get(c, "").ljust(widths[c]) if c == "benchmark" else line.get(c, "").rjust(widths[c]) for c in shown))
+        print("  ".join(line.get(c, "").ljust(widths[c]) if c == "benchmark" else line.get(c, "").rjust(widths[c])
+                        for c in shown))
     print(f"kept in {options.csv}")
     return 0
 

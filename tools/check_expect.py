@@ -4,9 +4,11 @@
 usage: check_expect.py CASE RESULTS            CASE: a case file, or a folder with case.toml; RESULTS: the run's folder
        check_expect.py CASE --run BINARY       runs the case first, in a folder of its own, and wants exit code 0
 
-The expectations of NAME.toml stand beside it in NAME.expect.toml, those of case.toml in expect.toml; one table a quantity:
+The expectations of NAME.toml stand beside it in NAME.expect.toml, those of case.toml in expect.toml; one table a
+quantity:
 
-    ["contact.F_x_N / contact.F_z_N"]          a path in summary.json, or the quotient of two; checks.NAME is the value of a check
+    ["contact.F_x_N / contact.F_z_N"]          a path in summary.json, or the quotient of two; checks.NAME is the value
+    of a check
     value = 0.2                                with relative or absolute, the allowed difference; or min, max or both
     relative = 0.01
     why = "the case's own demand"              the reference; never left out

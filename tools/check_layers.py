@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
-"""Holds every #include of src/ against src/LAYERS: a room sees itself and the rooms on lines above its own, nothing else.
+"""Checks every #include of src/ against src/LAYERS: a room sees itself and the rooms on lines above its own, nothing
+else. Every room has a card, README.md, whose first heading is the room's name; the files that a card names exist.
+Below the highest room nothing prints, logs, ends the program or touches signals: others can call it.
 
 usage: check_layers.py SRC
 """
@@ -9,6 +11,16 @@ import sys
 import tempfile
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
+SOURCES = {".hpp", ".cpp", ".cu", ".h"}
+# a file of the project as pages name it: `body/ties.hpp`, `tests/mesh`, [the reference](docs/case-reference.md#mesh)
+NAMED = re.compile(r"`([^`\s]+)`|\]\(([^)\s#]+)(?:#[^)]*)?\)")
+ENDING = re.compile(r"\.(hpp|cpp|md|py|cmake|ts|svg|bib)$")
+RESULTS = {"view.py", "compare.svg"}  # written by the program into its results
+FOLDERS = ("src/", "tests/", "docs/", "tools/", "cases/", "report/src", "data/", "fuzz/", "cmake/", "bench/")
+LOUD = re.compile(r"\bspdlog\b|\bfmt::print\b|\bstd::(?:cout|cerr|clog)\b|\bf?(?:printf|puts)\(|\bstd(?:out|err)\b"
+                  r"|\b_?exit\(|\babort\(|\b(?:signal|sigaction)\(")
+LOUD_FILES = {"study/child_process.cpp"}  # what a child does between fork and exec
+
 
 
 def read_layers(text):
@@ -28,6 +40,60 @@ def complaint(room, target, levels):
     return f"{other} {side}"
 
 
+def source_lines(folder):
+    """Every line of source below a folder: (file, number, line)."""
+    for file in sorted(f for f in folder.rglob("*") if f.suffix in SOURCES):
+        for number, line in enumerate(file.read_text().splitlines(), 1):
+            yield file, number, line
+
+
+def includes(folder):
+    """Every #include "..." below a folder: (file, line, target)."""
+    for file, number, line in source_lines(folder):
+        match = INCLUDE.match(line)
+        if match:
+            yield file, number, match.group(1)
+
+
+def named_files(text):
+    """(line, name, whether it is a link) of what looks like a file or folder of the project, patterns left out."""
+    for number, line in enumerate(text.splitlines(), 1):
+        for match in NAMED.finditer(line):
+            name, link = match.group(1) or match.group(2), bool(match.group(2))
+            looks_so = link or ENDING.search(name) or name.startswith(FOLDERS)
+            if looks_so and name not in RESULTS and "://" not in name and not re.search(r"[<>*$]|NAME|…", name):
+                yield number, name, link
+
+
+def missing_files(page, places):
+    """Complaints about files that a page names and that are at none of the places; links go from the page's folder."""
+    return [
+        f"{page}:{number}: {name} does not exist"
+        for number, name, link in named_files(page.read_text())
+        if not any((place / name).exists() for place in ([page.parent] if link else places))
+    ]
+
+
+def card_complaints(room):
+    """What is wrong with a room's card."""
+    card = room / "README.md"
+    if not card.exists():
+        return [f"{room}: no card, README.md"]
+    headings = [line for line in card.read_text().splitlines() if line.startswith("#")]
+    wrong = []
+    if headings[:1] != [f"# {room.name}"]:
+        wrong.append(f'{card}: the first heading is not "# {room.name}"')
+    return wrong + missing_files(card, [room, room.parent, room.parent.parent])
+
+
+def loud_word(room, file, line, levels):
+    """The word of the line by which a room below the highest prints, ends the program or touches signals, or None."""
+    if levels[room] == max(levels.values()) or f"{room}/{file.name}" in LOUD_FILES:
+        return None
+    match = LOUD.search(line.split("//")[0])
+    return match and match.group(0)
+
+
 def check(src):
     levels = read_layers((src / "LAYERS").read_text())
     found = []
@@ -35,25 +101,64 @@ def check(src):
         if folder.name not in levels:
             found.append(f"{folder}: not a room of LAYERS")
             continue
-        for file in sorted(f for f in folder.rglob("*") if f.suffix in {".hpp", ".cpp", ".cu", ".h"}):
-            for number, line in enumerate(file.read_text().splitlines(), 1):
-                match = INCLUDE.match(line)
-                reason = match and complaint(folder.name, match.group(1), levels)
-                if reason:
-                    found.append(f"{file}:{number}: {folder.name} must not include \"{match.group(1)}\": {reason}")
+        found += card_complaints(folder)
+        for file, number, line in source_lines(folder):
+            word = loud_word(folder.name, file, line, levels)
+            if word:
+                found.append(f"{file}:{number}: {folder.name} must not print, log, exit or handle signals: {word}")
+        for file, number, target in includes(folder):
+            reason = complaint(folder.name, target, levels)
+            if reason:
+                found.append(f"{file}:{number}: {folder.name} must not include \"{target}\": {reason}")
     return found
 
 
 def self_test():
     """The check catches an upward, a same-line, a roomless include and an unknown folder, and passes the rest."""
+    test_includes()
+    test_cards()
+
+
+def test_includes():
     with tempfile.TemporaryDirectory() as name:
         src = pathlib.Path(name)
         (src / "LAYERS").write_text("# comment\nlow\nleft right\ntop\n")
-        for room, include in [("low", "top/a.hpp"), ("left", "right/a.hpp"), ("top", "a.hpp"), ("right", "low/a.hpp"), ("stray", "low/a.hpp")]:
+        included = {"low": "top/a.hpp", "left": "right/a.hpp", "top": "a.hpp", "right": "low/a.hpp", "stray": "low/a.hpp"}
+        for room, include in included.items():
             (src / room).mkdir()
+            (src / room / "README.md").write_text(f"# {room}\n")
             (src / room / "a.hpp").write_text(f'#include <vector>\n#include "{room}/b.hpp"\n#include "{include}"\n')
+        (src / "left" / "b.cpp").write_text('// puts("here")\nvoid f() { std::puts("there"); }\n')
+        (src / "top" / "b.cpp").write_text('void f() { std::puts("here"); }\n')
         found = check(src)
-        expected = ["left must not include \"right/a.hpp\"", "low must not include \"top/a.hpp\"", "stray: not a room", "top must not include \"a.hpp\""]
+        expected = [
+            "b.cpp:2: left must not print",
+            'left must not include "right/a.hpp"',
+            'low must not include "top/a.hpp"',
+            "stray: not a room",
+            'top must not include "a.hpp"',
+        ]
+        assert len(found) == len(expected) and all(e in f for e, f in zip(expected, found)), found
+
+
+def test_cards():
+    """Finds a room without a card, the card of another room and names of files that do not exist; passes the rest."""
+    with tempfile.TemporaryDirectory() as name:
+        src = pathlib.Path(name) / "src"
+        cards = {
+            "good": "# good\n`a.hpp`, `bad/a.hpp`, `src/good/a.hpp`, `<name>.cpp`, [rooms](../LAYERS), `patch.csv`\n",
+            "bad": "# good\n`a.hpp`\n`gone.hpp`, `tests/gone`, [page](gone.md#part), `Body`\n",
+            "none": None,
+        }
+        src.mkdir()
+        (src / "LAYERS").write_text("good bad none\n")
+        for room, card in cards.items():
+            (src / room).mkdir()
+            (src / room / "a.hpp").write_text("")
+            if card:
+                (src / room / "README.md").write_text(card)
+        found = check(src)
+        expected = ['is not "# bad"', ":3: gone.hpp", ":3: tests/gone", ":3: gone.md", "none: no card"]
         assert len(found) == len(expected) and all(e in f for e, f in zip(expected, found)), found
 
 
@@ -61,7 +166,7 @@ def main():
     self_test()
     src = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "src")
     found = check(src)
-    print("\n".join(found) or f"{src}: every include goes down the rooms of LAYERS")
+    print("\n".join(found) or f"{src}: every include goes down the rooms of LAYERS, every room has its card")
     return 1 if found else 0
 
 

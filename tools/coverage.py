@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Which lines and branches of src/ the fast tests run, per room.
 
-usage: coverage.py [--csv docs/reliability/coverage.csv] [--uncovered N] [--rooms contact,fem] [--counted] [-- ctest's own options]
+usage: coverage.py [--csv docs/reliability/coverage.csv] [--uncovered N] [--rooms contact,fem] [--counted] [-- ctest's
+own options]
 
-Builds and runs the preset `coverage` and asks gcovr. --counted: the counts of an earlier run are taken as they are. --uncovered N: the N files with most lines that no
-test runs, with these lines. --rooms: only the unit tests of these rooms; nothing is kept. Branches are those a source line decides, without those of exceptions passing through.
+Builds and runs the preset `coverage` and asks gcovr. --counted: the counts of an earlier run are taken as they are.
+--uncovered N: the N files with most lines that no test runs, with these lines. --rooms: only the unit tests of these
+rooms; nothing is kept. Branches are those a source line decides, without those of exceptions passing through.
 """
 import argparse
 import collections
@@ -22,17 +24,21 @@ BUILD = records.ROOT / "build-coverage"
 def measure(rooms, jobs, ctest):
     targets = [word for room in rooms for word in ("--target", f"test_{room}")]
     chosen = ["-R", f"^({'|'.join(rooms)}):"] if rooms else []
-    launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if subprocess.run(["sh", "-c", "command -v ccache"], capture_output=True).returncode == 0 else []
-    for command in (["cmake", "--preset", "coverage", *launcher], ["cmake", "--build", "--preset", "coverage", "-j", str(jobs), *targets]):
+    launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if subprocess.run(["sh", "-c", "command -v ccache"],
+                                                                          capture_output=True).returncode == 0 else []
+    for command in (["cmake", "--preset", "coverage", *launcher], ["cmake", "--build", "--preset", "coverage", "-j",
+                                                                   str(jobs), *targets]):
         if subprocess.run(command, cwd=records.ROOT, stdout=sys.stderr).returncode:
             sys.exit(4)
     for counts in BUILD.rglob("*.gcda"):
         counts.unlink()
-    return subprocess.run(["ctest", "--preset", "coverage", "-j", str(jobs), "--timeout", "3600", *chosen, *ctest], cwd=records.ROOT, stdout=sys.stderr).returncode
+    return subprocess.run(["ctest", "--preset", "coverage", "-j", str(jobs), "--timeout", "3600", *chosen, *ctest],
+                          cwd=records.ROOT, stdout=sys.stderr).returncode
 
 
 def read(build, jobs):
-    done = subprocess.run(["gcovr", "--root", str(records.ROOT), "--filter", str(records.ROOT / "src") + "/", "--exclude-throw-branches", "--exclude-unreachable-branches", "-j", str(jobs), "--json", "-",
+    done = subprocess.run(["gcovr", "--root", str(records.ROOT), "--filter", str(records.ROOT / "src") + "/",
+                           "--exclude-throw-branches", "--exclude-unreachable-branches", "-j", str(jobs), "--json", "-",
                            str(build)], cwd=records.ROOT, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"coverage: gcovr failed\n{done.stderr}")
@@ -56,21 +62,26 @@ def main():
     for file in read(given.build, given.jobs):
         lines = [line for line in file["lines"] if not line["gcovr/noncode"]]
         branches = [b for line in lines for b in line["branches"]]
-        numbers = [len(lines), sum(line["count"] > 0 for line in lines), len(branches), sum(b["count"] > 0 for b in branches)]
+        numbers = [len(lines), sum(line["count"] > 0 for line in lines), len(branches),
+                   sum(b["count"] > 0 for b in branches)]
         name = pathlib.Path(file["file"])
         for room in (name.parts[1], "all"):
             rooms[room] = [a + b for a, b in zip(rooms[room], numbers)]
         missed.append((name, [line["line_number"] for line in lines if line["count"] == 0]))
-    order = [room for line in (records.ROOT / "src/LAYERS").read_text().splitlines() if not line.startswith("#") for room in line.split()] + ["all"]
+    order = [room for line in (records.ROOT / "src/LAYERS").read_text().splitlines() if not line.startswith("#")
+             for room in line.split()] + ["all"]
     rows = []
     print(f"{'room':10} {'lines':>7} {'run':>7}        {'branches':>8} {'run':>7}")
     for room in order:
         if room not in rooms:
             continue
         lines, run, branches, taken = rooms[room]
-        print(f"{room:10} {lines:7} {run:7} {100 * run / max(lines, 1):5.1f} % {branches:8} {taken:7} {100 * taken / max(branches, 1):5.1f} %")
-        rows.append({"room": room, "lines": lines, "lines_run": run, "lines_percent": f"{100 * run / max(lines, 1):.1f}", "branches": branches, "branches_run": taken,
-                     "branches_percent": f"{100 * taken / max(branches, 1):.1f}", "commit": records.commit(), "command": "./railstrata coverage"})
+        print(f"{room:10} {lines:7} {run:7} {100 * run / max(lines, 1):5.1f} % {branches:8} {taken:7} "
+              f"{100 * taken / max(branches, 1):5.1f} %")
+        rows.append({"room": room, "lines": lines, "lines_run": run,
+                     "lines_percent": f"{100 * run / max(lines, 1):.1f}", "branches": branches, "branches_run": taken,
+                     "branches_percent": f"{100 * taken / max(branches, 1):.1f}", "commit": records.commit(),
+                     "command": "./railstrata coverage"})
     for name, lines in sorted(missed, key=lambda m: -len(m[1]))[:given.uncovered]:
         if lines:
             print(f"{name}: {len(lines)} lines not run: {' '.join(map(str, lines))}")

@@ -1,22 +1,36 @@
 #!/usr/bin/python3
 """Finite elements against half-spaces, case by case, from the table of a study:
 
-    tools/engine_agreement.py results/study/study.csv [--equal-cells results/equal_cells/study.csv] [--csv agreement.csv] [--element-mm 1]
+    tools/engine_agreement.py results/study/study.csv [--equal-cells results/equal_cells/study.csv]
+                              [--csv agreement.csv] [--element-mm 1]
 
-Differences in per cent of the half-space value, with the bounds that the study's page uses (docs/report.md). --equal-cells: a table of the same half-space cases on cells as large as the elements; a q_max
-that differs from the study's fine cells and agrees there is a matter of resolution. The von Mises stress is the largest deeper than an element, border of the layer included; in brackets, and not judged,
-where the half-space's largest lies shallower. Prints a Markdown table, one row a case. Exit code 1 if a case has no row by one of the engines.
+Differences in per cent of the half-space value, with the limits of the study's page, asked of the program
+(`railstrata schema --results`). --equal-cells: a table of the same half-space cases on cells as large as the elements;
+a q_max that differs from the study's fine cells and agrees there is a matter of resolution. The von Mises stress is the
+largest deeper than an element, border of the layer included; in brackets, and not judged, where the half-space's
+largest lies shallower. Prints a Markdown table, one row a case. Exit code 1 if a case has no row by one of the engines.
 """
 import argparse
 import csv
+import json
+import pathlib
+import subprocess
 import sys
 
-BOUNDS = {"p_max_MPa": 4.0, "patch_length_mm": 6.0, "q_max_MPa": 7.0, "von_mises": 8.0}
+PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "railstrata"
+COLUMNS = {"p_max": "p_max_MPa", "patch_length": "patch_length_mm", "q_max": "q_max_MPa", "von_mises_below_surface": "von_mises"}
+
+
+def limits(program):
+    """Per cent by column, as the program has them."""
+    checks = json.loads(subprocess.run([program, "schema", "--results"], check=True, capture_output=True, text=True).stdout)["checks"]
+    return {COLUMNS[c["key"]]: 100 * c["fem_limit"] for c in checks if c["kind"] == "engines"}
 
 
 def rows(path):
     with open(path, newline="", encoding="utf-8") as file:
-        return {(r["group"], r["case"], r["engine"]): r for r in csv.DictReader(line for line in file if not line.startswith("#"))}
+        return {(r["group"], r["case"], r["engine"]): r
+                for r in csv.DictReader(line for line in file if not line.startswith("#"))}
 
 
 def difference(a, b, column):
@@ -28,28 +42,30 @@ def difference(a, b, column):
 
 def von_mises_below(row, element_mm):
     """Largest below an element and whether it lies there: (MPa, bool)."""
-    value, deep = float(row["rail_subsurface_von_mises_MPa"]), float(row["rail_subsurface_von_mises_depth_mm"]) > element_mm
+    value = float(row["rail_subsurface_von_mises_MPa"])
+    deep = float(row["rail_subsurface_von_mises_depth_mm"]) > element_mm
     thickness = row.get("layer.0.thickness", "")
     if row["rail_interface_von_mises_MPa"] and thickness and float(thickness.split()[0]) >= element_mm:
         value = max(value, float(row["rail_interface_von_mises_MPa"]))
     return value, deep
 
 
-def reason(values):
+def reason(values, bounds):
     """What an exception is due to, as far as the runs tell."""
-    beyond = [c for c, bound in BOUNDS.items() if values[c] is not None and abs(values[c]) > bound and (c != "von_mises" or values["deep"])]
+    beyond = [c for c, bound in bounds.items() if values[c] is not None and abs(values[c]) > bound
+              and (c != "von_mises" or values["deep"])]
     if not beyond:
         return "agrees"
     said = []
     for column in beyond:
-        if column == "q_max_MPa" and values["q_equal"] is not None and abs(values["q_equal"]) <= BOUNDS[column]:
+        if column == "q_max_MPa" and values["q_equal"] is not None and abs(values["q_equal"]) <= bounds[column]:
             said.append("q_max: resolution, agrees on equal cells")
         else:
             said.append(f"{column.rsplit('_', 1)[0]}: not explained by these runs")
     return "; ".join(said)
 
 
-def agreement(study, equal, element_mm):
+def agreement(study, equal, element_mm, bounds):
     out, missing = [], []
     for group, case, engine in study:
         if engine != "fem" or (group, case, "bem") not in study:
@@ -58,11 +74,11 @@ def agreement(study, equal, element_mm):
         if fem["state"] != "done" or bem["state"] != "done":
             missing.append(f"{group}/{case}")
             continue
-        values = {c: difference(fem, bem, c) for c in BOUNDS if c != "von_mises"}
+        values = {c: difference(fem, bem, c) for c in bounds if c != "von_mises"}
         (ours, _), (theirs, deep) = von_mises_below(fem, element_mm), von_mises_below(bem, element_mm)
         values["von_mises"], values["deep"] = 100 * (ours / theirs - 1), deep
         values["q_equal"] = difference(fem, equal.get((group, case, "bem")), "q_max_MPa")
-        out.append({"group": group, "case": case, **values, "verdict": reason(values)})
+        out.append({"group": group, "case": case, **values, "verdict": reason(values, bounds)})
     return out, missing
 
 
@@ -72,8 +88,9 @@ def main():
     parser.add_argument("--equal-cells")
     parser.add_argument("--csv")
     parser.add_argument("--element-mm", type=float, default=1.0)
+    parser.add_argument("--program", default=PROGRAM, help="whose limits are taken (default: the front door)")
     args = parser.parse_args()
-    table, missing = agreement(rows(args.study), rows(args.equal_cells) if args.equal_cells else {}, args.element_mm)
+    table, missing = agreement(rows(args.study), rows(args.equal_cells) if args.equal_cells else {}, args.element_mm, limits(args.program))
 
     def text(value):
         return "" if value is None else f"{value:+.1f} %"
@@ -81,14 +98,19 @@ def main():
     print("| case | p_max | patch length | q_max, fine cells | q_max, equal cells | von Mises below an element | |")
     print("|---|---|---|---|---|---|---|")
     for r in table:
-        print(f"| {r['group']}, {r['case']} | {text(r['p_max_MPa'])} | {text(r['patch_length_mm'])} | {text(r['q_max_MPa'])} | {text(r['q_equal'])} | {text(r['von_mises']) if r['deep'] else '(' + text(r['von_mises']) + ')'} | {r['verdict']} |")
+        print(f"| {r['group']}, {r['case']} | {text(r['p_max_MPa'])} | {text(r['patch_length_mm'])} | "
+              f"{text(r['q_max_MPa'])} | {text(r['q_equal'])} | "
+              f"{text(r['von_mises']) if r['deep'] else '(' + text(r['von_mises']) + ')'} | {r['verdict']} |")
     if args.csv:
         with open(args.csv, "w", newline="", encoding="utf-8") as file:
-            names = {"p_max_MPa": "p_max_percent", "patch_length_mm": "patch_length_percent", "q_max_MPa": "q_max_percent", "q_equal": "q_max_equal_cells_percent", "von_mises": "von_mises_percent", "deep": "von_mises_judged"}
+            names = {"p_max_MPa": "p_max_percent", "patch_length_mm": "patch_length_percent",
+                     "q_max_MPa": "q_max_percent", "q_equal": "q_max_equal_cells_percent",
+                     "von_mises": "von_mises_percent", "deep": "von_mises_judged"}
             out = csv.writer(file)
             out.writerow(["group", "case", *names.values(), "verdict"])
             for r in table:
-                out.writerow([r["group"], r["case"], *("" if r[c] is None else str(int(r[c])) if isinstance(r[c], bool) else f"{r[c]:.2f}" for c in names), r["verdict"]])
+                out.writerow([r["group"], r["case"], *("" if r[c] is None else str(int(r[c])) if isinstance(r[c], bool)
+                                                       else f"{r[c]:.2f}" for c in names), r["verdict"]])
     for case in missing:
         print(f"no result by both engines: {case}", file=sys.stderr)
     return 1 if missing else 0

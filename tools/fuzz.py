@@ -3,8 +3,9 @@
 
 usage: fuzz.py BUILD [SECONDS] [--runs N] [--reader NAME]... [--merge]
 
-SECONDS: of each reader, 60 if nothing is said; --runs: until results.csv has so many executions of the reader, all runs together. BUILD holds the targets
-(cmake --preset fuzz). What libFuzzer learns stays in BUILD/learned/READER and is taken up again; finds stay in BUILD/finds. Each run adds to fuzz/results.csv.
+SECONDS: of each reader, 60 if nothing is said; --runs: until results.csv has so many executions of the reader, all runs
+together. BUILD holds the targets (cmake --preset fuzz). What libFuzzer learns stays in BUILD/learned/READER and is
+taken up again; finds stay in BUILD/finds. Each run adds to fuzz/results.csv.
 --merge: puts what was learned into fuzz/corpus, as few inputs as cover the same code.
 
 Exit code: 0 nothing found, 1 a reader broke, 2 the targets are not there.
@@ -24,10 +25,14 @@ import records
 
 ROOT = records.ROOT
 READERS = ["profile", "case_file", "study_file", "published", "results", "checkpoint", "checkpoint_content"]
-LONGEST = {"profile": 1200, "case_file": 1200, "study_file": 1600, "published": 1400, "results": 1200, "checkpoint": 700, "checkpoint_content": 700}  # bytes of an input
+# bytes of an input
+LONGEST = {"profile": 1200, "case_file": 1200, "study_file": 1600, "published": 1400, "results": 1200,
+           "checkpoint": 700, "checkpoint_content": 700}
 LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-malloc_limit_mb=512"]
-OWN_LIMITS = {"checkpoint_content": ["-malloc_limit_mb=2147483647"]}  # HDF5 asks for what a forged file says, is refused, and says so
-ENVIRONMENT = {**os.environ, "ASAN_OPTIONS": "quarantine_size_mb=8:malloc_context_size=8"}  # less paging than the defaults
+# HDF5 asks for what a forged file says, is refused, and says so
+OWN_LIMITS = {"checkpoint_content": ["-malloc_limit_mb=2147483647"]}
+# less paging than the defaults
+ENVIRONMENT = {**os.environ, "ASAN_OPTIONS": "quarantine_size_mb=8:malloc_context_size=8"}
 CHECKS = "address undefined libstdc++ leaks"
 KINDS = {"crash": "crashes", "timeout": "hangs", "oom": "out_of_memory", "leak": "leaks", "slow": "hangs"}
 RESULTS = ROOT / "fuzz" / "results.csv"
@@ -54,9 +59,11 @@ def limits(reader):
 
 
 def breaks_again(target, reader, find, kind):
-    """A process that someone stopped for a while looks like one that hangs: a find counts when it is one again, by itself."""
+    """A process that someone stopped for a while looks like one that hangs: a find counts when it is one again, by
+    itself."""
     before = processor_seconds()
-    done = subprocess.run([target, *limits(reader), find], capture_output=True, text=True, errors="replace", env=ENVIRONMENT)
+    done = subprocess.run([target, *limits(reader), find], capture_output=True, text=True, errors="replace",
+                          env=ENVIRONMENT)
     return done.returncode != 0 and (kind != "timeout" or processor_seconds() - before > 10)
 
 
@@ -67,11 +74,14 @@ def run_once(target, reader, build, seconds, runs):
     finds.mkdir(parents=True, exist_ok=True)
     before = set(finds.glob(f"{reader}-*"))  # a folder a reader: two may be driven at the same time
     begin = time.monotonic()
-    words = [target, *limits(reader), f"-max_len={LONGEST[reader]}", f"-max_total_time={max(1, round(seconds))}", f"-runs={runs}", "-print_final_stats=1", "-reload=0", f"-artifact_prefix={finds}/{reader}-",
+    words = [target, *limits(reader), f"-max_len={LONGEST[reader]}", f"-max_total_time={max(1, round(seconds))}",
+             f"-runs={runs}", "-print_final_stats=1", "-reload=0", f"-artifact_prefix={finds}/{reader}-",
              learned, ROOT / "fuzz" / "corpus" / reader]
     done = subprocess.run(words, capture_output=True, text=True, errors="replace", env=ENVIRONMENT)
-    executions = max((int(n) for n in re.findall(r"(?:number_of_executed_units: |^#)(\d+)", done.stderr, re.M)), default=0)
-    row = {"reader": reader, "executions": executions, "seconds": round(time.monotonic() - begin), "commit": commit(build), "checks": CHECKS, "crashes": 0, "hangs": 0, "out_of_memory": 0, "leaks": 0}
+    executions = max((int(n) for n in re.findall(r"(?:number_of_executed_units: |^#)(\d+)", done.stderr, re.M)),
+                     default=0)
+    row = {"reader": reader, "executions": executions, "seconds": round(time.monotonic() - begin),
+           "commit": commit(build), "checks": CHECKS, "crashes": 0, "hangs": 0, "out_of_memory": 0, "leaks": 0}
     found = []
     for find in sorted(set(finds.glob(f"{reader}-*")) - before):
         kind = find.name.removeprefix(reader + "-").split("-")[0]
@@ -94,9 +104,11 @@ def fuzz(reader, build, seconds, runs):
     while not found and (executed(reader) < runs if runs else time.monotonic() < end):
         left = ONE_CALL if runs else min(ONE_CALL, end - time.monotonic())
         row, found = run_once(target, reader, build, left, runs - executed(reader) if runs else -1)
-        records.add(RESULTS, ["reader", "commit", "checks"], row)  # counts of one reader as one commit has it are one row
+        # counts of one reader as one commit has it are one row
+        records.add(RESULTS, ["reader", "commit", "checks"], row)
         total += row["executions"]
-        print(f"{reader:12} {row['executions']:>10} executions in {row['seconds']} s, {executed(reader)} in all", flush=True)
+        print(f"{reader:12} {row['executions']:>10} executions in {row['seconds']} s, {executed(reader)} in all",
+              flush=True)
     for find in found:
         print(f"{reader:12} FOUND {find} (and its .log)", flush=True)
     return found
@@ -106,7 +118,8 @@ def merge(reader, build):
     """As few inputs as cover what the kept and the learned ones cover; the kept ones stay."""
     kept = ROOT / "fuzz" / "corpus" / reader
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([build / "fuzz" / f"fuzz_{reader}", "-merge=1", f"-max_len={LONGEST[reader]}", folder, kept, build / "learned" / reader], check=True, capture_output=True)
+        subprocess.run([build / "fuzz" / f"fuzz_{reader}", "-merge=1", f"-max_len={LONGEST[reader]}", folder, kept,
+                        build / "learned" / reader], check=True, capture_output=True)
         size = sum(f.stat().st_size for f in kept.iterdir())
         old = {f.read_bytes() for f in kept.iterdir()}
         for file in sorted(pathlib.Path(folder).iterdir(), key=lambda f: f.stat().st_size):
@@ -129,7 +142,8 @@ def main():
     build, found = given.build.resolve(), []
     for reader in given.reader or READERS:
         if not (build / "fuzz" / f"fuzz_{reader}").exists():
-            print(f"there is no {build}/fuzz/fuzz_{reader}: cmake --preset fuzz && cmake --build --preset fuzz", file=sys.stderr)
+            print(f"there is no {build}/fuzz/fuzz_{reader}: cmake --preset fuzz && cmake --build --preset fuzz",
+                  file=sys.stderr)
             return 2
         if given.merge:
             merge(reader, build)

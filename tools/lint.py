@@ -1,10 +1,17 @@
 #!/usr/bin/env python3
-"""clang-tidy and cppcheck over src/, shellcheck over the shell scripts: what they find and a verdict.
+"""clang-tidy and cppcheck over src/, shellcheck over the shell scripts, layout and size of all sources: what they find
+and a verdict.
 
 usage: lint.py [--jobs N] [--csv docs/reliability/lint.csv] [FILE.cpp ...]
 
-What is not looked for, and why, stands in .clang-tidy and tools/cppcheck.txt. Without files: all of src/ (some minutes); with files only these, by clang-tidy alone.
-Exit code: 0 clean, 1 findings, 4 a tool is missing.
+  clang-format      layout of src/, tests/, fuzz/ and bench/ as in .clang-format, by version 14 alone: others break
+                    lines elsewhere
+  statement_lines   one statement a line, at most 120 columns (tools/statement_lines.py)
+  function_lengths  no function of src/ over 60 lines (tools/function_lengths.py)
+
+What clang-tidy and cppcheck do not look for, and why, stands in .clang-tidy and tools/cppcheck.txt. Without files: all
+of them (some minutes); with files only these, by clang-tidy and the three above. --quick: the three above and
+shellcheck. Exit code: 0 clean, 1 findings, 4 a tool is missing.
 """
 import argparse
 import concurrent.futures
@@ -15,12 +22,16 @@ import shutil
 import subprocess
 import sys
 
+import function_lengths
 import records
+import statement_lines
 
 ROOT = records.ROOT
 BUILD = ROOT / "build-lint"
 FINDING = re.compile(r"^(\S+?):(\d+):(?:(\d+):)? (warning|error|style|performance|portability|note): (.*)$")
 SCRIPTS = ["railstrata", ".ci/run"]
+FORMATTED = ["src", "tests", "fuzz", "bench"]
+FORMAT_VERSION = "14."
 
 
 def run(*command, cwd=ROOT):
@@ -30,14 +41,16 @@ def run(*command, cwd=ROOT):
 
 def configure():
     """A compilation database of clang++, so that its flags are those that clang-tidy knows."""
-    code, out, err = run("cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_CXX_COMPILER=clang++", "-DRAILSTRATA_TESTS=OFF")
+    code, out, err = run("cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
+                         "-DCMAKE_CXX_COMPILER=clang++", "-DRAILSTRATA_TESTS=OFF")
     if code:
         sys.exit(f"lint: configuring failed\n{out}{err}")
 
 
 def findings(text):
     """Each once: headers are seen from many files. What the analyzer sees in a library's headers is not ours."""
-    return {line for line in text.splitlines() if (m := FINDING.match(line)) and m[4] != "note" and (ROOT / m[1]).is_relative_to(ROOT)}
+    return {line for line in text.splitlines() if (m := FINDING.match(line)) and m[4] != "note"
+            and (ROOT / m[1]).is_relative_to(ROOT)}
 
 
 def clang_tidy(files, jobs):
@@ -59,8 +72,10 @@ def clang_tidy(files, jobs):
 def cppcheck(jobs):
     folder = BUILD / "cppcheck"
     folder.mkdir(parents=True, exist_ok=True)
-    code, out, err = run("cppcheck", "--enable=warning,performance,portability", "--inline-suppr", f"--suppressions-list={ROOT / 'tools/cppcheck.txt'}", "--std=c++20", "--language=c++",
-                         "--library=googletest", "--template={file}:{line}:{column}: {severity}: {message} [{id}]", "--quiet", f"--cppcheck-build-dir={folder}", "-j", jobs, "-I", ROOT / "src",
+    code, out, err = run("cppcheck", "--enable=warning,performance,portability", "--inline-suppr",
+                         f"--suppressions-list={ROOT / 'tools/cppcheck.txt'}", "--std=c++20", "--language=c++",
+                         "--library=googletest", "--template={file}:{line}:{column}: {severity}: {message} [{id}]",
+                         "--quiet", f"--cppcheck-build-dir={folder}", "-j", jobs, "-I", ROOT / "src",
                          ROOT / "src")
     found = findings(err)
     if code and not found:
@@ -75,7 +90,36 @@ def shellcheck():
     return {line for line in out.splitlines() if line}
 
 
+def clang_format(files):
+    if not files:
+        return set()  # it would read its input
+    _, out, err = run("clang-format", "--dry-run", "-Werror", *files)
+    return shown({line for line in (out + err).splitlines() if FINDING.match(line)})
+
+
+def shown(found):
+    """Prints them with paths from the project's root."""
+    found = {line.replace(f"{ROOT}/", "") for line in found}
+    print("\n".join(sorted(found)), end="\n" if found else "")
+    return found
+
+
+def layout(files):
+    """Findings of the three that read sources as text; no files: all."""
+    code = [f for folder in FORMATTED for f in sorted((ROOT / folder).rglob("*")) if f.suffix in statement_lines.CPP]
+    code = [f for f in files if f.suffix in statement_lines.CPP] if files else code
+    lines = files or statement_lines.all_files()
+    statement_lines.self_test()
+    function_lengths.self_test()
+    sized = files or sorted(f for f in (ROOT / "src").rglob("*") if f.suffix in {".cpp", ".hpp"})
+    return {"clang-format": (code, clang_format(code)),
+            "statement_lines": (lines, shown(set(statement_lines.findings(lines)))),
+            "function_lengths": (sized, shown(set(function_lengths.findings(sized))))}
+
+
 def version(tool):
+    if (ROOT / "tools" / f"{tool}.py").exists():
+        return "-"
     text = run(tool, "--version")[1]
     return re.search(r"\d+\.\d+(\.\d+)?", text)[0]
 
@@ -84,26 +128,37 @@ def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("files", nargs="*", type=pathlib.Path)
     options.add_argument("--jobs", type=int, default=os.cpu_count())
+    options.add_argument("--quick", action="store_true", help="layout, lengths and shell scripts alone: seconds")
     options.add_argument("--csv", help="keep the numbers in this table")
     given = options.parse_args()
-    missing = [t for t in ("clang++", "clang-tidy", "cppcheck", "shellcheck") if not shutil.which(t)]
+    tools = ["clang-format", "ctags", "shellcheck"] + ([] if given.quick else ["clang++", "clang-tidy", "cppcheck"])
+    missing = [t for t in tools if not shutil.which(t)]
+    if not missing and not version("clang-format").startswith(FORMAT_VERSION):
+        missing = [f"clang-format {FORMAT_VERSION}x"]
     if missing:
         print(f"lint: not installed: {', '.join(missing)}", file=sys.stderr)
         return 4
-    configure()
+    files = [f.resolve() for f in given.files]
     sources = sorted((ROOT / "src").rglob("*.cpp"))
-    results = {"clang-tidy": (given.files or sources, clang_tidy([f.resolve() for f in given.files] or sources, given.jobs))}
-    if not given.files:
-        results["cppcheck"] = (sources, cppcheck(given.jobs))
+    results = layout(files)
+    if not files:
         results["shellcheck"] = (SCRIPTS, shellcheck())
+    if not given.quick:
+        configure()
+        sources = [f for f in files if f.suffix == ".cpp"] if files else sources
+        results["clang-tidy"] = (sources, clang_tidy(sources, given.jobs))
+        if not files:
+            results["cppcheck"] = (sources, cppcheck(given.jobs))
     rows = []
     for tool, (files, found) in results.items():
         print(f"{tool} {version(tool)}: {len(files)} files, {len(found)} findings")
-        rows.append({"tool": tool, "version": version(tool), "files": len(files), "findings": len(found), "commit": records.commit(), "command": "./railstrata lint"})
-    if given.csv and not given.files:
+        rows.append({"tool": tool, "version": version(tool), "files": len(files), "findings": len(found),
+                     "commit": records.commit(), "command": "./railstrata lint"})
+    if given.csv and not given.files and not given.quick:
         records.keep(given.csv, ["tool"], rows)
     clean = not any(found for _, found in results.values())
-    print("clean" if clean else "findings: mend them, or name the check and the reason in .clang-tidy or tools/cppcheck.txt")
+    print("clean" if clean
+          else "findings: mend them, or name the check and the reason in .clang-tidy or tools/cppcheck.txt")
     return 0 if clean else 1
 
 

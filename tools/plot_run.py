@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Draws a finished run as one picture: pressure, traction, stick and slip, the centre line, and von Mises and the first principal stress on the longitudinal section.
+"""Draws a finished run as one picture: pressure, traction, stick and slip, the centre line, and von Mises and the first
+principal stress on the longitudinal section.
 
     tools/plot_run.py results/base [picture.png]
 
-Needs Debian's python3-matplotlib, python3-numpy and python3-vtk9. Reads patch.csv, rail.vtu and summary.json of the run's folder."""
+Needs Debian's python3-matplotlib, python3-numpy and python3-vtk9. Reads patch.csv, rail.vtu and summary.json of the
+run's folder."""
 import csv
 import json
 import pathlib
@@ -25,7 +27,8 @@ def read_table(path):
 
 
 def section(path, field, y):
-    """Cell values of the slab of elements at the lateral position y: x from the wheel [mm], z [mm], values on a grid."""
+    """Cell values of the slab of elements at the lateral position y: x from the wheel [mm], z [mm], values on a
+    grid."""
     reader = vtkXMLUnstructuredGridReader()
     reader.SetFileName(str(path))
     reader.Update()
@@ -73,13 +76,16 @@ def main():
     figure, axes = plt.subplots(2, 3, figsize=(15, 7.6), constrained_layout=True)
     inside = np.abs(x) < 14
     limits = (x[inside].min(), x[inside].max())
-    for axis, data, label, cmap in ((axes[0, 0], grid["p_MPa"], "pressure p [MPa]", "turbo"), (axes[0, 1], shear, "shear |q| [MPa]", "turbo")):
+    for axis, data, label, cmap in ((axes[0, 0], grid["p_MPa"], "pressure p [MPa]", "turbo"),
+                                    (axes[0, 1], shear, "shear |q| [MPa]", "turbo")):
         image = axis.pcolormesh(grid["x_mm"], grid["y_mm"], data, shading="gouraud", cmap=cmap)
         plt.colorbar(image, ax=axis, label=label, shrink=0.9)
         axis.set(xlabel="x, rolling direction [mm]", ylabel="y, to the field side [mm]", xlim=limits, aspect="equal")
     state = grid["state_0separated_1stick_2slip"]
-    axes[0, 2].pcolormesh(grid["x_mm"], grid["y_mm"], np.ma.masked_equal(state, 0), shading="nearest", cmap="coolwarm", vmin=1, vmax=2)
-    axes[0, 2].set(xlabel="x, rolling direction [mm]", ylabel="y, to the field side [mm]", xlim=limits, aspect="equal", title="stick (blue) and slip (red)")
+    axes[0, 2].pcolormesh(grid["x_mm"], grid["y_mm"], np.ma.masked_equal(state, 0), shading="nearest", cmap="coolwarm",
+                          vmin=1, vmax=2)
+    axes[0, 2].set(xlabel="x, rolling direction [mm]", ylabel="y, to the field side [mm]", xlim=limits, aspect="equal",
+                   title="stick (blue) and slip (red)")
     column = np.unravel_index(np.argmax(grid["p_MPa"]), grid["p_MPa"].shape)[1]
     axes[1, 0].plot(grid["x_mm"][:, column], grid["p_MPa"][:, column], "k.-", label="p")
     axes[1, 0].plot(grid["x_mm"][:, column], shear[:, column], "r.-", label="|q|")
@@ -87,12 +93,15 @@ def main():
     axes[1, 0].legend()
     axes[1, 0].grid(alpha=0.3)
     lateral = grid["y_mm"][0, column] + 1e-3
-    for axis, field, label in ((axes[1, 1], "von_mises_MPa", "von Mises [MPa]"), (axes[1, 2], "sigma1_MPa", "first principal stress [MPa]")):
+    for axis, field, label in ((axes[1, 1], "von_mises_MPa", "von Mises [MPa]"),
+                               (axes[1, 2], "sigma1_MPa", "first principal stress [MPa]")):
         polygons, values = section(folder / "rail.vtu", field, lateral)
         draw_cells(axis, polygons, values, label)
         axis.set_title("rail, longitudinal section")
     contact = summary["contact"]
-    figure.suptitle(f"{summary['title']}: p_max {contact['p_max_Pa'] / 1e6:.0f} MPa, patch {contact['patch_length_m'] * 1e3:.1f} x {contact['patch_width_m'] * 1e3:.1f} mm, "
+    figure.suptitle(
+        f"{summary['title']}: p_max {contact['p_max_Pa'] / 1e6:.0f} MPa, patch {contact['patch_length_m'] * 1e3:.1f} "
+        f"x {contact['patch_width_m'] * 1e3:.1f} mm, "
                     f"F_x/F_z {contact['F_x_N'] / contact['F_z_N']:.3f}")
     figure.savefig(target, dpi=110)
     print(target)

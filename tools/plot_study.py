@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Draws the study of elastic layers as one picture: pressure and shear on the centre line, largest pressure and largest von Mises stress against the layer's thickness.
+"""Draws the study of elastic layers as one picture: pressure and shear on the centre line, largest pressure and largest
+von Mises stress against the layer's thickness.
 
     tools/plot_study.py cases/paper/recorded/study [picture.png]
 
@@ -25,23 +26,28 @@ def table(path):
 
 
 def centre_lines(axis, lines, value, label):
-    cases = {"none": ("base", "traction_coefficient 0.2")} | {h: ("layers", f"thickness {h}, young_ratio {STIFFEST}") for h in COLOURS if h != "none"}
+    cases = {"none": ("base", "traction_coefficient 0.2")} | {h: ("layers", f"thickness {h}, young_ratio {STIFFEST}")
+                                                              for h in COLOURS if h != "none"}
     for h, case in cases.items():
         for engine, style in STYLES.items():
             rows = [r for r in lines if (r["group"], r["case"]) == case and r["engine"] == engine]
             name = ("no layer" if h == "none" else f"{h}, {STIFFEST} $E_0$") if engine == "fem" else None
-            axis.plot([float(r["x_mm"]) for r in rows], [abs(float(r[value])) for r in rows], style, color=COLOURS[h], label=name, linewidth=1.6 if engine == "fem" else 1.0)
+            axis.plot([float(r["x_mm"]) for r in rows], [abs(float(r[value])) for r in rows], style, color=COLOURS[h],
+                      label=name, linewidth=1.6 if engine == "fem" else 1.0)
     axis.set_xlim(-9, 9)
     axis.set_xlabel("x from the axle, rolling direction [mm]")
     axis.set_ylabel(label)
 
 
 def trend(axis, rows, column, label, ratios=RATIOS):
-    base = {engine: next(float(r[column]) for r in rows if r["group"] == "base" and r["engine"] == engine) for engine in STYLES}
+    base = {engine: next(float(r[column]) for r in rows if r["group"] == "base" and r["engine"] == engine)
+            for engine in STYLES}
     for ratio, colour in ratios.items():
         for engine, style in STYLES.items():
-            chosen = [r for r in rows if r["group"] == "layers" and r["engine"] == engine and r["layer.0.young_ratio"] == ratio and r[column]]
-            axis.plot([float(r["layer.0.thickness"].split()[0]) for r in chosen], [float(r[column]) for r in chosen], style, color=colour, marker="o" if engine == "fem" else None, markersize=4,
+            chosen = [r for r in rows if r["group"] == "layers" and r["engine"] == engine
+                      and r["layer.0.young_ratio"] == ratio and r[column]]
+            axis.plot([float(r["layer.0.thickness"].split()[0]) for r in chosen], [float(r[column]) for r in chosen],
+                      style, color=colour, marker="o" if engine == "fem" else None, markersize=4,
                       label=f"{ratio} $E_0$" if engine == "fem" else None)
     axis.axhline(base["fem"], color=COLOURS["none"], linewidth=0.8)
     axis.axhline(base["bem"], color=COLOURS["none"], linewidth=0.8, linestyle="--")
@@ -64,7 +70,8 @@ def main():
     for axis in axes.flat:
         axis.grid(alpha=0.25)
         axis.spines[["top", "right"]].set_visible(False)
-    figure.suptitle("LMA on CN60, 85 kN, $F_T/F_z$ = 0.2: solid, finite elements; dashed, layered half-spaces; grey, no layer")
+    figure.suptitle(
+        "LMA on CN60, 85 kN, $F_T/F_z$ = 0.2: solid, finite elements; dashed, layered half-spaces; grey, no layer")
     figure.savefig(out, dpi=110)
 
 

@@ -3,8 +3,10 @@
 
     tools/record_study.py results/study cases/paper/recorded/study [--equal-cells results/equal_cells]
 
-Copies study.csv, published.csv, claims.csv and, without folders, provenance.json; gathers every case's centre line in centre_lines.csv (five digits) and every summary in summaries.json; with --equal-cells also the
-half-space cases on cells as large as the elements and the agreement of the engines (tools/engine_agreement.py). Files that are not there are left out and named.
+Copies study.csv, published.csv, claims.csv and, without folders, provenance.json; gathers every case's centre line in
+centre_lines.csv (five digits) and every summary in summaries.json; with --equal-cells also the half-space cases on
+cells as large as the elements and the agreement of the engines (tools/engine_agreement.py). Files that are not there
+are left out and named.
 """
 import argparse
 import csv
@@ -71,7 +73,8 @@ def main():
     if args.equal_cells:
         shutil.copyfile(args.equal_cells / "study.csv", args.to / "equal_cells.csv")
         tool = pathlib.Path(__file__).with_name("engine_agreement.py")
-        subprocess.run([tool, args.study / "study.csv", "--equal-cells", args.equal_cells / "study.csv", "--csv", args.to / "agreement.csv"], check=False, stdout=subprocess.DEVNULL)
+        subprocess.run([tool, args.study / "study.csv", "--equal-cells", args.equal_cells / "study.csv", "--csv",
+                        args.to / "agreement.csv"], check=False, stdout=subprocess.DEVNULL)
     for name in missing:
         print(f"not there: {name}", file=sys.stderr)
     return 1 if missing else 0

@@ -11,7 +11,9 @@ def commit():
     def git(*args):
         return subprocess.run(["git", "-C", str(ROOT), *args], capture_output=True, text=True).stdout.strip()
 
-    return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+" if git("status", "--porcelain", "--", "src", "tests", "cmake", "CMakeLists.txt") else "")
+    return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+"
+                                                                    if git("status", "--porcelain", "--", "src",
+                                                                           "tests", "cmake", "CMakeLists.txt") else "")
 
 
 def rows_of(path):
@@ -33,7 +35,8 @@ def write(path, rows):
 
 
 def keep(path, key, rows):
-    """Puts rows (dicts of the same columns) into the table at `path`, in place of those with the same values in the columns `key`. A table of other columns begins anew."""
+    """Puts rows (dicts of the same columns) into the table at `path`, in place of those with the same values in the
+    columns `key`. A table of other columns begins anew."""
     path = pathlib.Path(path)
     kept = [row for row in rows_of(path) if list(row) == list(rows[0])]
     write(path, list({tuple(str(row[k]) for k in key): row for row in kept + rows}.values()))

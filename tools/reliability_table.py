@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
-"""The table of docs/reliability.md: each promise of docs/reliability.toml, how it is tested, what was seen, the command that repeats it.
+"""The table of docs/reliability.md: each promise of docs/reliability.toml, how it is tested, what was seen, the command
+that repeats it.
 
-usage: reliability_table.py collect BUILD [--only WORD]   run the commands (those with WORD in them) and keep what they print in tests/records/facts.json
-       reliability_table.py write [--partly]              the table from facts and records into the page; a promise without a figure is an error, or with --partly "not seen yet"
-       reliability_table.py check BUILD                   the page has a line for each promise, every test that they name is one of CTest, every command is there
+usage: reliability_table.py collect BUILD [--only WORD]   run the commands (those with WORD in them) and keep what they
+print in tests/records/facts.json
+       reliability_table.py write [--partly]              the table from facts and records into the page; a promise
+       without a figure is an error, or with --partly "not seen yet"
+       reliability_table.py check BUILD                   the page has a line for each promise, every test that they
+       name is one of CTest, every command is there
 
 Tests print facts as lines `RELIABILITY {"fact": NAME, ...}`; long campaigns keep records, CSV files with a line each.
 """
@@ -19,7 +23,8 @@ import tomllib
 import types
 
 SOURCE = pathlib.Path(__file__).resolve().parent.parent
-PAGE, PROMISES, FACTS = SOURCE / "docs/reliability.md", SOURCE / "docs/reliability.toml", SOURCE / "tests/records/facts.json"
+PAGE, PROMISES = SOURCE / "docs/reliability.md", SOURCE / "docs/reliability.toml"
+FACTS = SOURCE / "tests/records/facts.json"
 START, END = "<!-- table of tools/reliability_table.py -->", "<!-- end of the table -->"
 
 
@@ -33,7 +38,8 @@ def number(text):
 
 
 class Column:
-    """A column of a record, for the words of a promise: `tests.sum`, `preset[tsan].tests.sum` (of the lines with this cell), `executions.sums_by[reader].min`."""
+    """A column of a record, for the words of a promise: `tests.sum`, `preset[tsan].tests.sum` (of the lines with this
+    cell), `executions.sums_by[reader].min`."""
 
     def __init__(self, name, rows):
         self.name, self.rows = name, rows
@@ -73,7 +79,8 @@ def of_rows(rows, of_what):
 
 
 def record(file):
-    return of_rows(list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#"))), file)
+    return of_rows(list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#"))),
+                   file)
 
 
 def known_facts():
@@ -127,10 +134,12 @@ def collect(build, only):
     promises = tomllib.loads(PROMISES.read_text())["promise"]
     wanted = {p["command"] for p in promises if "records" not in p}
     facts = {command: f for command, f in facts.items() if command in wanted}
-    info = json.loads(subprocess.run([build / "railstrata-bin", "info", "--json"], capture_output=True, text=True, check=True).stdout)
+    info = json.loads(subprocess.run([build / "railstrata-bin", "info", "--json"], capture_output=True, text=True,
+                                     check=True).stdout)
     for command in dict.fromkeys(p["command"] for p in promises if p["command"] in wanted and only in p["command"]):
         print(command, file=sys.stderr, flush=True)
-        done = subprocess.run(re.sub(r"(?<=[ =])build(?=[ /]|$)", str(build), command), shell=True, cwd=SOURCE, capture_output=True, text=True)
+        done = subprocess.run(re.sub(r"(?<=[ =])build(?=[ /]|$)", str(build), command), shell=True, cwd=SOURCE,
+                              capture_output=True, text=True)
         if done.returncode:
             sys.exit(f"{command}: exit code {done.returncode}\n{done.stdout[-3000:]}{done.stderr[-3000:]}")
         seen = {}
@@ -139,7 +148,8 @@ def collect(build, only):
             seen[fact.pop("fact")] = fact
         if passed := re.search(r"% tests passed, (\d+) tests? failed out of (\d+)", done.stdout):
             seen["ctest"] = {"passed": int(passed[2]) - int(passed[1]), "tests": int(passed[2])}
-        facts[command] = {"facts": seen, "program": info["version"], "cpu": info["cpu"], "date": datetime.date.today().isoformat()}
+        facts[command] = {"facts": seen, "program": info["version"], "cpu": info["cpu"],
+                          "date": datetime.date.today().isoformat()}
         FACTS.parent.mkdir(exist_ok=True)
         FACTS.write_text(json.dumps(facts, indent=1, sort_keys=True) + "\n")
 

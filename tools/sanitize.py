@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""The fast tests under the sanitizers: `debug` (address, undefined behaviour, asserts) and `tsan` (threads), each configured, built and run.
+"""The fast tests under the sanitizers: `debug` (address, undefined behaviour, asserts) and `tsan` (threads), each
+configured, built and run.
 
-usage: sanitize.py [debug|tsan ...] [--rooms contact,fem] [--csv docs/reliability/sanitizers.csv] [--jobs N] [-- ctest's own options]
+usage: sanitize.py [debug|tsan ...] [--rooms contact,fem] [--csv docs/reliability/sanitizers.csv] [--jobs N] [-- ctest's
+own options]
 
 --rooms: only the unit tests of these rooms are built and run (lines of their own in the table).
 
@@ -23,23 +25,28 @@ FINDING = re.compile(r"ERROR: (?:Address|Leak)Sanitizer|WARNING: ThreadSanitizer
 
 
 def campaign(preset, rooms, jobs, ctest):
-    targets = ["--target", "railstrata", *(f"test_{room}" for room in rooms)] if rooms else []  # some rooms' tests start the program
+    # some rooms' tests start the program
+    targets = ["--target", "railstrata", *(f"test_{room}" for room in rooms)] if rooms else []
     chosen = ["-R", f"^({'|'.join(rooms)}):"] if rooms else []
     build = records.ROOT / f"build-{preset}"
-    launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if subprocess.run(["sh", "-c", "command -v ccache"], capture_output=True).returncode == 0 else []
-    for command in (["cmake", "--preset", preset, *launcher], ["cmake", "--build", "--preset", preset, "-j", str(jobs), *targets]):
+    launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if subprocess.run(["sh", "-c", "command -v ccache"],
+                                                                          capture_output=True).returncode == 0 else []
+    for command in (["cmake", "--preset", preset, *launcher], ["cmake", "--build", "--preset", preset, "-j", str(jobs),
+                                                               *targets]):
         if subprocess.run(command, cwd=records.ROOT, stdout=sys.stderr).returncode:
             return None
     results = build / "tests.xml"
     results.unlink(missing_ok=True)
-    subprocess.run(["ctest", "--preset", preset, "-j", str(jobs), "--timeout", "3600", "--output-junit", str(results), *chosen, *ctest], cwd=records.ROOT, stdout=sys.stderr)
+    subprocess.run(["ctest", "--preset", preset, "-j", str(jobs), "--timeout", "3600", "--output-junit", str(results),
+                    *chosen, *ctest], cwd=records.ROOT, stdout=sys.stderr)
     return count(results)
 
 
 def count(results):
     suite = xml.parse(results).getroot()
     texts = ["".join(case.itertext()) for case in suite.iter("testcase")]
-    return {"tests": int(suite.get("tests")), "failed": int(suite.get("failures")), "skipped": int(suite.get("skipped")) + int(suite.get("disabled")),
+    return {"tests": int(suite.get("tests")), "failed": int(suite.get("failures")),
+            "skipped": int(suite.get("skipped")) + int(suite.get("disabled")),
             "findings": sum(len(FINDING.findall(t)) for t in texts)}
 
 
@@ -59,11 +66,18 @@ def main():
         if numbers is None:
             print(f"{preset}: the build failed", file=sys.stderr)
             return 4
-        print(f"{preset} ({PRESETS[preset]}): {numbers['tests']} tests, {numbers['failed']} failed, {numbers['skipped']} skipped, {numbers['findings']} findings")
+        print(f"{preset} ({PRESETS[preset]}): {numbers['tests']} tests, {numbers['failed']} failed, "
+              f"{numbers['skipped']} skipped, {numbers['findings']} findings")
         worst = max(worst, 1 if numbers["failed"] or numbers["findings"] or numbers["tests"] == 0 else 0)
         if given.csv:
-            scope, command = " ".join([*rooms, *ctest]) or "all fast tests", " ".join(["./railstrata sanitize", preset, *(["--rooms", given.rooms] if rooms else []), *(["--", *map(shlex.quote, ctest)] if ctest else [])])
-            records.keep(given.csv, ["preset", "tests_of"], [{"preset": preset, "sanitizers": PRESETS[preset], "tests_of": scope, **numbers, "commit": records.commit(), "command": command}])
+            scope, command = " ".join([*rooms, *ctest]) or "all fast tests", " ".join(["./railstrata sanitize", preset,
+                                                                                       *(["--rooms", given.rooms]
+                                                                                         if rooms else []),
+                                                                                       *(["--", *map(
+                shlex.quote, ctest)] if ctest else [])])
+            records.keep(given.csv, ["preset", "tests_of"],
+                         [{"preset": preset, "sanitizers": PRESETS[preset], "tests_of": scope, **numbers,
+                           "commit": records.commit(), "command": command}])
     return worst
 
 

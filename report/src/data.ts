@@ -90,7 +90,7 @@ export interface Run {
 export interface Check {
   name: string;
   runs: number[]; // one: the run's own; two: the first against the second; none: over all cases of a study
-  judged: boolean; // false: told, not judged
+  judged: boolean; // false: said, not judged
   ok: boolean;
   value: number | null;
   limit: number | null;
@@ -126,9 +126,40 @@ export interface Maps {
   names: string[];
 }
 
+export interface Unit {
+  shown: string; // "MPa", "%", "inside|outside" for 0 and 1, "" for a plain number
+  factor: number; // SI to what is shown
+}
+
+/// A number of summary.json and how it is written.
+export interface Quantity {
+  path: string; // "contact/p_max_Pa"
+  name: string;
+  unit: Unit;
+  digits: number; // significant ones
+  shown: boolean;
+  comparable: boolean; // false: a small remainder, or another thing in the other engine: no difference is shown
+}
+
+export interface CheckWords {
+  key: string;
+  name: string;
+  what: string;
+  unit: Unit;
+}
+
+/// The words for results, from the program's tables (src/post/result_table.cpp, src/post/check_limits.hpp).
+export interface Words {
+  numbers: Quantity[];
+  zones: { key: string; name: string }[];
+  measures: { key: "von_mises_max" | "sigma1_max"; name: string }[];
+  checks: CheckWords[];
+}
+
 export interface Report {
   title: string;
   program: string;
+  words: Words;
   checks: Check[];
   runs: Run[];
   tables: Table[];

@@ -3,6 +3,7 @@
 import Plotly from "plotly.js/lib/core";
 import heatmap from "plotly.js/lib/heatmap";
 import { download, element } from "./dom";
+import { plotText } from "./text";
 
 Plotly.register([heatmap]);
 
@@ -65,7 +66,7 @@ export function baseLayout(theme: Theme, width: number, height: number): Record<
 
 export function axis(theme: Theme, title: string, more: Record<string, unknown> = {}): Record<string, unknown> {
   return {
-    title: { text: title, standoff: 6 },
+    title: { text: plotText(title), standoff: 6 },
     gridcolor: theme.grid,
     zerolinecolor: theme.grid,
     linecolor: theme.soft,

@@ -1,5 +1,6 @@
 // Charts of lines.
 import { axis, baseLayout, type DataTable, type Figure, type Theme } from "./figures";
+import { plotText } from "./text";
 
 export interface Series {
   name: string;
@@ -49,14 +50,14 @@ export function linesFigure(c: LinesSpec): Figure {
       data: c.series.map((s) => ({
         type: "scatter",
         mode: s.markers ? "lines+markers" : "lines",
-        name: s.name,
+        name: plotText(s.name),
         showlegend: !s.quiet,
         x: s.x,
         y: s.y,
         connectgaps: false,
         line: { color: s.colour(theme), width: 1.8, dash: s.dash ?? "solid" },
         marker: { size: 5, color: s.colour(theme) },
-        hovertemplate: `${s.hover}<extra>${s.name}</extra>`,
+        hovertemplate: `${s.hover}<extra>${plotText(s.name)}</extra>`,
       })),
       layout: {
         ...baseLayout(theme, width, Math.min(c.height ?? 330, 0.75 * width + 40)),

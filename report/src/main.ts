@@ -6,9 +6,10 @@ import { linesFigure } from "./lines";
 import { centreLines, patchMaps } from "./patch";
 import { geometryFigures, geometryTable, historyFigures, numbersTable, origin, tiles, verdict } from "./sections";
 import { depthLines, maximaTable, sectionMaps } from "./stress";
-import { engineName, numberText, runLabel } from "./text";
+import { engineName, numberText, plotText, runLabel, setWords } from "./text";
 
 const report = JSON.parse(document.getElementById("data")!.textContent!) as Report;
+setWords(report.words);
 
 // ---- theme ---------------------------------------------------------------------------------------------------------------------------------------------------
 const wantsDark = window.matchMedia("(prefers-color-scheme: dark)");
@@ -45,7 +46,7 @@ function studyParts(): HTMLElement[] {
     out.push(
       part("charts", "Figures", grid(report.charts.map((c) =>
         linesFigure({ id: c.id, title: c.title, words: c.note ? [c.note] : undefined, labels: [c.x, c.y], names: [c.x, c.y], window: touched(c),
-          series: c.series.map((s, n) => ({ name: s.name, x: s.x, y: s.y, markers: s.markers && s.x.length < 60, dash: s.dash, colour: (t: Theme) => t.series[(s.colour < 0 ? n : s.colour) % t.series.length], hover: `${c.x} %{x:.4g}<br>${c.y} %{y:.4g}` })) })))),
+          series: c.series.map((s, n) => ({ name: s.name, x: s.x, y: s.y, markers: s.markers && s.x.length < 60, dash: s.dash, colour: (t: Theme) => t.series[(s.colour < 0 ? n : s.colour) % t.series.length], hover: `${plotText(c.x)} %{x:.4g}<br>${plotText(c.y)} %{y:.4g}` })) })))),
     );
   if (report.maps.length) out.push(part("maps", "Maps", ...report.maps.flatMap(mapsRow)));
   return out;

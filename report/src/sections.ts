@@ -3,21 +3,22 @@ import { numberAt, option, type Check, type Layer, type Report, type Run } from 
 import { element, table, type Cell } from "./dom";
 import { axis, baseLayout, type Figure, type Theme } from "./figures";
 import { linesFigure, type Series } from "./lines";
-import { checkWords, engineName, kQuantities, kZones, minus, numberText, percentText, runLabel, countText } from "./text";
+import { checkWords, engineName, limitText, minus, numberText, percentText, plotText, quantityAt, runLabel, countText, shownQuantities, unitText, zones } from "./text";
 
 function checkRow(report: Report, check: Check): HTMLElement {
   const words = checkWords(check.name);
-  const number = (v: number | null) => (v === null ? "–" : `${numberText(words.scale * v, 3)}${words.unit ? ` ${words.unit}` : ""}`);
-  const state = !check.judged ? "told" : check.ok ? "ok" : "failed";
+  const number = (v: number | null) => unitText(v, words.unit, 3);
+  const limit = `${words.unit.shown.includes("|") ? "" : "at most "}${limitText(check.limit, words.unit)}`;
+  const state = !check.judged ? "remark" : check.ok ? "ok" : "failed";
   const attributes = { class: state, "data-check": check.name, "data-runs": check.runs.join(","), "data-ok": String(check.ok), "data-judged": String(check.judged) };
   const whose = report.runs.length > 1 && check.runs.length === 1 ? runLabel(report.runs[check.runs[0]]) : check.runs.length > 1 && report.runs.length > 2 ? check.runs.map((k) => report.runs[k].name).join(" – ") : "";
   return element(
     "tr",
     attributes,
-    element("td", { class: "mark" }, state === "ok" ? "✓ holds" : state === "failed" ? "✗ fails" : "· told"),
+    element("td", { class: "mark" }, state === "ok" ? "✓ holds" : state === "failed" ? "✗ fails" : "· note"),
     element("th", { scope: "row" }, words.name),
     element("td", { class: "value" }, number(check.value)),
-    element("td", { class: "limit" }, check.judged && check.limit !== null ? `at most ${number(check.limit)}` : ""),
+    element("td", { class: "limit" }, check.judged && check.limit !== null ? limit : ""),
     element("td", {}, [words.what, whose, check.note].filter(Boolean).join("; ")),
   );
 }
@@ -31,7 +32,7 @@ export function verdict(report: Report): HTMLElement {
   const ok = judged.length > 0 && failed.length === 0;
   const line = !judged.length ? "Nothing was checked." : ok ? `All ${judged.length} checks hold.` : `${failed.length} of ${judged.length} checks ${failed.length === 1 ? "fails" : "fail"}.`;
   const holds = judged.filter((c) => c.ok);
-  const told = report.checks.filter((c) => !c.judged);
+  const notes = report.checks.filter((c) => !c.judged);
   const head = () => element("thead", {}, element("tr", {}, ...["", "check", "value", "limit", "what it says"].map((h) => element("th", { scope: "col" }, h))));
   const checks = (rows: Check[]) => element("div", { class: "scroll" }, element("table", { class: "checks" }, head(), element("tbody", {}, ...rows.map((c) => checkRow(report, c)))));
   const many = report.checks.length > kManyChecks; // of a study: what failed first, the rest on demand
@@ -40,14 +41,14 @@ export function verdict(report: Report): HTMLElement {
     { id: "verdict", class: ok ? "good" : "bad", "data-ok": String(ok) },
     element("h2", {}, ok ? "✓ " : "✗ ", line),
     failed.length ? element("p", { class: "failed" }, `Read the results with care: ${[...new Set(failed.map((c) => checkWords(c.name).name))].join(", ")}.`) : null,
-    many ? (failed.length ? checks(failed) : null) : checks([...failed, ...holds, ...told]),
-    many ? element("details", {}, element("summary", {}, `${holds.length} checks that hold, ${told.length} told`), checks([...holds, ...told])) : null,
+    many ? (failed.length ? checks(failed) : null) : checks([...failed, ...holds, ...notes]),
+    many ? element("details", {}, element("summary", {}, `${holds.length} checks that hold, ${notes.length} notes`), checks([...holds, ...notes])) : null,
   );
 }
 
 function largestBelowSurface(run: Run): { value_Pa: number; depth_m: number; zone: string } | null {
   let best: { value_Pa: number; depth_m: number; zone: string } | null = null;
-  for (const [zone, name] of kZones) {
+  for (const { key: zone, name } of zones()) {
     const m = zone === "surface" ? null : run.summary.stress.rail?.[zone]?.von_mises_max;
     if (m && (!best || m.value_Pa > best.value_Pa)) best = { value_Pa: m.value_Pa, depth_m: m.depth_m ?? 0, zone: name };
   }
@@ -56,31 +57,37 @@ function largestBelowSurface(run: Run): { value_Pa: number; depth_m: number; zon
 
 /// One run's numbers large; `named`: with its name above them, where the page shows others too.
 export function tiles(run: Run, named: boolean): HTMLElement {
-  const value = (path: string, scale: number, digits = 4) => numberText(numberAt(run, path) === null ? null : scale * numberAt(run, path)!, digits);
+  const digits = (path: string, most: number) => {
+    const q = quantityAt(path);
+    const value = numberAt(run, path);
+    return numberText(value === null ? null : q.unit.factor * value, most);
+  };
   const [fx, fz] = [numberAt(run, "contact/F_x_N"), numberAt(run, "contact/F_z_N")];
   const inside = largestBelowSurface(run);
   const tile = (name: string, text: string, unit: string, small = "") =>
     element("div", { class: "tile" }, element("span", { class: "name" }, name), element("span", { class: "big" }, text, unit ? element("small", {}, ` ${unit}`) : null), small ? element("span", { class: "small" }, small) : null);
+  const number = (path: string, most = 4) => tile(quantityAt(path).name, digits(path, most), quantityAt(path).unit.shown);
+  const [length, width] = ["contact/patch_length_m", "contact/patch_width_m"];
   const cards = element(
     "div",
     { class: "tiles" },
-    tile("largest pressure", value("contact/p_max_Pa", 1e-6), "MPa"),
-    tile("largest shear", value("contact/q_max_Pa", 1e-6), "MPa"),
-    tile("patch", `${value("contact/patch_length_m", 1e3, 3)} × ${value("contact/patch_width_m", 1e3, 3)}`, "mm", "length along x × width"),
-    tile("slip area", value("contact/slip_area_fraction", 100, 3), "%", "of the patch"),
-    tile("traction F_x / F_z", numberText(fx !== null && fz ? fx / fz : null), "", `wanted ${option(run, "drive", "traction_coefficient") ?? "–"}`),
-    tile("rail, von Mises below surface", inside ? numberText(1e-6 * inside.value_Pa) : "–", "MPa", inside ? `${inside.zone}, ${(1e3 * inside.depth_m).toFixed(2)} mm deep` : ""),
+    number("contact/p_max_Pa"),
+    number("contact/q_max_Pa"),
+    tile("Patch", `${digits(length, 3)} × ${digits(width, 3)}`, quantityAt(length).unit.shown, "length along x × width"),
+    number("contact/slip_area_fraction", 3),
+    tile("Traction F_x / F_z", numberText(fx !== null && fz ? fx / fz : null), "", `wanted ${option(run, "drive", "traction_coefficient") ?? "–"}`),
+    tile("Rail, von Mises below the surface", inside ? numberText(1e-6 * inside.value_Pa) : "–", "MPa", inside ? `${inside.zone}, ${(1e3 * inside.depth_m).toFixed(2)} mm deep` : ""),
   );
   return element("div", {}, named ? element("p", { class: "note", id: "tiles-of" }, `Numbers of ${runLabel(run)}; all runs beside each other in the table below.`) : null, cards);
 }
 
 export function numbersTable(runs: Run[]): HTMLElement {
   const pair = runs.length === 2;
-  const rows = kQuantities.flatMap((q) => {
+  const rows = shownQuantities().flatMap((q) => {
     const values = runs.map((run) => numberAt(run, q.path));
     if (values.every((v) => v === null)) return [];
-    const cells: (string | Cell)[] = [q.name, q.unit, ...values.map((v) => ({ text: numberText(v === null ? null : q.scale * v), attributes: { "data-path": q.path, "data-value": String(v) } }))];
-    if (pair) cells.push(!q.alone && values[0] !== null && values[1] ? percentText((values[0] - values[1]) / Math.abs(values[1])) : "–");
+    const cells: (string | Cell)[] = [q.name, q.unit.shown, ...values.map((v) => ({ text: numberText(v === null ? null : q.unit.factor * v, q.digits), attributes: { "data-path": q.path, "data-value": String(v) } }))];
+    if (pair) cells.push(q.comparable && values[0] !== null && values[1] ? percentText((values[0] - values[1]) / Math.abs(values[1])) : "–");
     return [cells];
   });
   return table("Contact", ["quantity", "unit", ...runs.map(runLabel), ...(pair ? ["difference"] : [])], rows, { class: "numbers", id: "contact-numbers" });
@@ -108,7 +115,7 @@ export function geometryFigures(run: Run): Figure[] {
       window.y = [contact.y - halfHeight, contact.y + halfHeight];
       return {
         data: [
-          ...curves.map((c) => ({ type: "scatter", mode: "lines", name: c.name, ...c.line, line: { color: c.colour(theme), dash: c.dash, width: 2 }, hovertemplate: `y %{x:.2f} mm<br>z %{y:.3f} mm<extra>${c.name}</extra>` })),
+          ...curves.map((c) => ({ type: "scatter", mode: "lines", name: plotText(c.name), ...c.line, line: { color: c.colour(theme), dash: c.dash, width: 2 }, hovertemplate: `y %{x:.2f} mm<br>z %{y:.3f} mm<extra>${plotText(c.name)}</extra>` })),
           { type: "scatter", mode: "markers", name: "rigid contact point", x: [contact.x], y: [contact.y], marker: { size: 10, symbol: "circle-open", color: theme.ink, line: { width: 2 } }, hovertemplate: "y %{x:.3f} mm<br>z %{y:.3f} mm<extra>rigid contact point</extra>" },
         ],
         layout: {

@@ -1,5 +1,5 @@
 // Stresses below the surface: sections, depth lines, table of maxima.
-import { kZones, minus, numberText, percentText, runLabel } from "./text";
+import { measures, minus, numberText, percentText, runLabel, zones } from "./text";
 import { rowsOf, unpack, type Run, type Section, type StressMaximum } from "./data";
 import { table, type Cell } from "./dom";
 import type { Figure, Theme } from "./figures";
@@ -182,11 +182,10 @@ function maximumCells(m: StressMaximum | null | undefined): Cell[] {
 
 /// Largest stresses with their places, by zone.
 export function maximaTable(runs: Run[], body: Body): HTMLElement {
-  const kinds = [["von_mises_max", "von Mises"], ["sigma1_max", "σ₁"]] as const;
   const pair = runs.length === 2;
   const head = ["zone", "stress", ...runs.flatMap((run) => [`${runs.length > 1 ? `${runLabel(run)} ` : ""}[MPa]`, "at x, y, depth [mm]"]), ...(pair ? ["difference"] : [])];
-  const rows = kZones.flatMap(([zone, name]) =>
-    kinds.flatMap(([kind, stress]) => {
+  const rows = zones().flatMap(({ key: zone, name }) =>
+    measures().flatMap(({ key: kind, name: stress }) => {
       const found = runs.map((run) => run.summary.stress[body]?.[zone]?.[kind]);
       if (!found.some(Boolean)) return [];
       const [a, b] = found;

@@ -1,5 +1,5 @@
 // Words: what checks and quantities are called, how numbers are written.
-import type { Run } from "./data";
+import type { CheckWords, Quantity, Run, Unit, Words } from "./data";
 
 export function engineName(engine: string): string {
   return engine === "fem" ? "finite elements" : engine === "bem" ? "half-space" : engine;
@@ -45,64 +45,48 @@ export function percentText(fraction: number | null, digits = 2): string {
   return `${fraction > 0 ? "+" : ""}${minus(text)} %`;
 }
 
-/// How a check of summary.json reads: its name, what it says, and how its numbers are shown.
-export interface CheckWords {
-  name: string;
-  what: string;
-  scale: number;
-  unit: string;
-}
-const kChecks: Record<string, CheckWords> = {
-  preload_residual: { name: "Static equilibrium", what: "residual of the preload, relative to the load", scale: 1, unit: "" },
-  F_z_relative_to_weight: { name: "Vertical load", what: "F_z of the contact against the weight on the wheel", scale: 100, unit: "%" },
-  traction_coefficient_reached: { name: "Traction", what: "F_x/F_z reached against the wanted traction coefficient", scale: 100, unit: "%" },
-  penetration_over_approach: { name: "Penetration", what: "largest overlap of the bodies against Hertz’s approach", scale: 100, unit: "%" },
-  energy_closure: { name: "Energy closure", what: "energy gained or lost by the time steps, of the largest energy turned over", scale: 100, unit: "%" },
-  hourglass_share: { name: "Hourglass energy", what: "energy of the elements’ hourglass modes, of the strain energy", scale: 100, unit: "%" },
-  p_max_scatter: { name: "Scatter of p_max", what: "standard deviation over the window, of the mean", scale: 100, unit: "%" },
-  patch_reaches_edge_of_fine_zone: { name: "Patch inside the fine mesh", what: "1 if the patch touches the border of the fine zone", scale: 1, unit: "" },
-  patch_reaches_edge_of_grid: { name: "Patch inside the grid", what: "1 if the patch touches the border of the grid", scale: 1, unit: "" },
-  p_max: { name: "Largest pressure", what: "finite elements against half-space", scale: 100, unit: "%" },
-  patch_length: { name: "Patch length", what: "finite elements against half-space", scale: 100, unit: "%" },
-  q_max: { name: "Largest shear", what: "finite elements against half-space", scale: 100, unit: "%" },
-  cases_differ: { name: "Different cases", what: "their options differ", scale: 1, unit: "" },
-  von_mises_below_surface: { name: "Largest von Mises stress below the surface", what: "rail, finite elements against half-space", scale: 100, unit: "%" },
-};
-
-export function checkWords(name: string): CheckWords {
-  return kChecks[name] ?? { name: name.replace(/_/g, " "), what: "", scale: 1, unit: "" };
+// The program's tables of results give names and units; set once, before anything is built.
+let words: Words = { numbers: [], zones: [], measures: [], checks: [] };
+export function setWords(given: Words): void {
+  words = given;
 }
 
-export interface Quantity {
-  path: string;
-  name: string;
-  unit: string;
-  scale: number; // SI to unit
-  alone?: boolean; // a small remainder, or another thing in the other engine: no difference is told
+/// The words of a check; its key where the program does not know it (a result of another version).
+export function checkWords(key: string): CheckWords {
+  return words.checks.find((c) => c.key === key) ?? { key, name: key.replace(/_/g, " "), what: "", unit: { shown: "", factor: 1 } };
 }
-export const kQuantities: Quantity[] = [
-  { path: "contact/p_max_Pa", name: "Largest pressure p", unit: "MPa", scale: 1e-6 },
-  { path: "contact/q_max_Pa", name: "Largest shear |q|", unit: "MPa", scale: 1e-6 },
-  { path: "contact/patch_length_m", name: "Patch length (along x)", unit: "mm", scale: 1e3 },
-  { path: "contact/patch_width_m", name: "Patch width (along y)", unit: "mm", scale: 1e3 },
-  { path: "contact/patch_area_m2", name: "Patch area", unit: "mm²", scale: 1e6 },
-  { path: "contact/slip_area_fraction", name: "Slip area / patch area", unit: "%", scale: 100 },
-  { path: "contact/F_x_N", name: "F_x on the wheel", unit: "kN", scale: 1e-3 },
-  { path: "contact/F_y_N", name: "F_y on the wheel", unit: "kN", scale: 1e-3, alone: true },
-  { path: "contact/F_z_N", name: "F_z on the wheel", unit: "kN", scale: 1e-3 },
-  { path: "contact/normal_force_N", name: "Normal force in the contact plane", unit: "kN", scale: 1e-3 },
-  { path: "contact/lateral_force_N", name: "Lateral force in the contact plane", unit: "kN", scale: 1e-3, alone: true },
-  { path: "contact/creepage_x", name: "Longitudinal creepage (negative: driving)", unit: "10⁻³", scale: 1e3 },
-  { path: "contact/creepage_y", name: "Lateral creepage", unit: "10⁻³", scale: 1e3, alone: true },
-  { path: "contact/spin_per_m", name: "Spin", unit: "1/m", scale: 1 },
-  { path: "contact/approach_m", name: "Approach (finite elements: with the bending of rail and wheel)", unit: "µm", scale: 1e6, alone: true },
-  { path: "contact/penetration_max_m", name: "Largest penetration", unit: "nm", scale: 1e9, alone: true },
-];
 
-export const kZones: [key: string, name: string][] = [
-  ["surface", "at the surface"],
-  ["subsurface", "below the surface"],
-  ["layer", "in the layers"],
-  ["interface", "at the interfaces"],
-  ["matrix", "in the matrix"],
-];
+/// A value in SI as people read it: "931 MPa", "4.02 %", "inside".
+export function unitText(value: number | null, unit: Unit, digits = 4): string {
+  return inUnit(value, unit, (v) => numberText(v, digits));
+}
+
+/// A limit, without zeros at its end: "4 %".
+export function limitText(limit: number | null, unit: Unit): string {
+  return inUnit(limit, unit, (v) => minus(String(Number(v.toPrecision(6)))));
+}
+
+function inUnit(value: number | null, unit: Unit, text: (shown: number) => string): string {
+  if (value === null) return "–";
+  const states = unit.shown.split("|");
+  if (states.length === 2) return states[value === 0 ? 0 : 1];
+  return `${text(unit.factor * value)}${unit.shown ? ` ${unit.shown}` : ""}`;
+}
+
+/// The numbers that the page shows, in the order of summary.json.
+export function shownQuantities(): Quantity[] {
+  return words.numbers.filter((q) => q.shown);
+}
+
+export function quantityAt(path: string): Quantity {
+  return words.numbers.find((q) => q.path === path) ?? { path, name: path, unit: { shown: "", factor: 1 }, digits: 4, shown: true, comparable: false };
+}
+
+/// Where stresses are looked for: key and name of each zone, of each measure.
+export const zones = () => words.zones;
+export const measures = () => words.measures;
+
+/// A name as Plotly takes it: it reads a small markup ("<b>", "&amp;") in legends and hover words; titles of figures are set as text.
+export function plotText(text: string): string {
+  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
+}

@@ -1,11 +1,13 @@
+#include "app/case_of.hpp"
+
 #include <spdlog/spdlog.h>
 
-#include "app/commands.hpp"
+#include "app/shipped_files.hpp"
 
 namespace railstrata {
 
 LoadedCase load_case_of(const CommandOptions& options) {
-  std::filesystem::path file = options.case_file;
+  std::filesystem::path file = shipped_unless_there(options.case_file);
   std::error_code error;  // of a name too long: load_case tells
   if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error))
     file /= "case.toml";

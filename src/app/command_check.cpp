@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
-#include "runs/case_estimate.hpp"
+#include "post/run_advice.hpp"
 #include "runs/memory_need.hpp"
+#include "runs/run_estimate.hpp"
 
 namespace railstrata {
 namespace {
@@ -28,7 +31,7 @@ void print_layers(const Model& m) {
     const std::string young = l.graded() ? fmt::format("{:.4g} to {:.4g}", 1e-9 * l.young_table.front().young,
                                                        1e-9 * l.young_table.back().young)
                                          : fmt::format("{:.4g}", 1e-9 * l.material.young);
-    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa\n", l.name, l.on,
+    fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa\n", l.name, body_word(l.on),
                1e3 * l.thickness, 1e3 * l.width, young);
   }
 }
@@ -50,6 +53,19 @@ void print_estimate(const Model& m, const RunEstimate& e) {
         e.limits.stages, e.limits.fine_elements, e.evaluations, 1e9 * e.limits.unscaled);
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
+}
+
+/// Of the last position, which is the result's.
+std::vector<Warning> warnings_of(const Model& m, const RunEstimate& e) {
+  const std::vector<double>& positions = m.spec.run.positions;
+  return run_advice(m.spec, positions.empty() ? 0.0 : *std::max_element(positions.begin(), positions.end()), e.limits);
+}
+
+nlohmann::ordered_json as_json(const std::vector<Warning>& warnings) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const Warning& w : warnings)
+    out.push_back({{"name", w.name}, {"value", w.value}, {"limit", w.limit}, {"text", w.text}});
+  return out;
 }
 
 nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
@@ -75,7 +91,8 @@ nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
           {"step_s", e.limits.chosen},
           {"steps", e.steps},
           {"rolling_wall_s", e.seconds},
-          {"memory_bytes", e.memory_bytes}};
+          {"memory_bytes", e.memory_bytes},
+          {"warnings", as_json(warnings_of(m, e))}};
 }
 
 }  // namespace
@@ -94,6 +111,7 @@ ExitCode command_check(const CommandOptions& options) {
   print_geometry(model);
   print_layers(model);
   print_estimate(model, estimate);
+  for (const Warning& w : warnings_of(model, estimate)) fmt::print("warning        {}: {}\n", w.name, w.text);
   fmt::print("\n{}", mesh_table(mesh_rows(model)));
   return ExitCode::ok;
 }

@@ -6,16 +6,16 @@
 #include <stdexcept>
 
 #include "app/commands.hpp"
-#include "app/comparison_picture.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
+#include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
 #include "post/compare.hpp"
-#include "runs/output_folder.hpp"
+#include "report/comparison_picture.hpp"
 
 namespace railstrata {
 namespace {

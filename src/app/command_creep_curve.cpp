@@ -5,14 +5,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/option_values.hpp"
 #include "app/waiting.hpp"
 #include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
+#include "io/output_folder.hpp"
 #include "runs/half_space_need.hpp"
-#include "runs/output_folder.hpp"
-#include "runs/run_bem.hpp"
 
 namespace railstrata {
 namespace {
@@ -22,9 +23,9 @@ constexpr double kDecades = 2.5;
 // Creepages of a driving wheel: negative.
 std::vector<double> creepages(const CommandOptions& options) {
   std::vector<double> out;
-  for (int i = 0; i < options.points; ++i)
-    out.push_back(-options.largest_creepage *
-                  std::pow(10.0, -kDecades * (options.points - 1 - i) / (options.points - 1)));
+  for (int i = 0; i < options.creep_curve.points; ++i)
+    out.push_back(-options.creep_curve.largest *
+                  std::pow(10.0, -kDecades * (options.creep_curve.points - 1 - i) / (options.creep_curve.points - 1)));
   return out;
 }
 
@@ -82,7 +83,7 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   require_memory(half_space_need(loaded.spec, placement, bem.cell), bem.cell);
   answer_interrupt_with("\nstopped: nothing was written\n");
   const std::vector<CsvColumn> table = [&] {
-    const Waiting waiting(fmt::format("creep curve of {} points", options.points),
+    const Waiting waiting(fmt::format("creep curve of {} points", options.creep_curve.points),
                           spdlog::should_log(spdlog::level::info));
     return table_of(creep_curve(loaded.spec, placement, creepages(options), bem));
   }();

@@ -7,7 +7,7 @@
 
 #include "app/commands.hpp"
 #include "core/parallel.hpp"
-#include "geometry/profile.hpp"
+#include "geometry/profile_names.hpp"
 #include "io/provenance.hpp"
 
 namespace railstrata {

@@ -2,11 +2,12 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/mesh_report.hpp"
+#include "io/output_folder.hpp"
 #include "io/vtk.hpp"
 #include "mesh/unstructured.hpp"
-#include "runs/output_folder.hpp"
 
 namespace railstrata {
 namespace {

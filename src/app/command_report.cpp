@@ -6,17 +6,17 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/write_page.hpp"
 #include "core/faults.hpp"
 #include "io/folder_kind.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
-#include "runs/write_report.hpp"
 
 namespace railstrata {
 namespace {
 
 std::filesystem::path page_of(const CommandOptions& options) {
-  std::filesystem::path page = options.out.empty() ? options.folders.front() / "report.html" : options.out;
+  std::filesystem::path page = options.out.empty() ? options.report.folders.front() / "report.html" : options.out;
   if (std::filesystem::is_directory(page)) page /= "report.html";
   return page;
 }
@@ -24,22 +24,21 @@ std::filesystem::path page_of(const CommandOptions& options) {
 }  // namespace
 
 ExitCode command_report(const CommandOptions& options) {
-  if (options.folders.size() > 1 && options.out.empty())
+  if (options.report.folders.size() > 1 && options.out.empty())
     throw CaseError(
         fmt::format("{} folders are given and no --out: a page on one folder goes into it, a page on several could go "
                     "into any of them",
-                    options.folders.size()),
+                    options.report.folders.size()),
         "say where the page is to be written, e.g. --out comparison.html");
   const std::filesystem::path page = page_of(options);
   if (!options.out.empty() && !options.force && std::filesystem::exists(page))
     throw CaseError(fmt::format("--out {}: there is a file of this name", page.string()),
                     "choose another name, or replace it with --force");
-  for (const std::filesystem::path& folder : options.folders)
+  for (const std::filesystem::path& folder : options.report.folders)
     if (!std::filesystem::exists(folder / "summary.json"))
       throw CaseError(std::vector<Diagnostic>{no_result_here(folder)});
   if (page.has_parent_path()) make_folder(page.parent_path());
-  const ReportVerdict verdict = write_report(page, options.folders, options.reference_solution, options.threads);
-  tell_verdict(verdict);
+  log_page(write_report(page, options.report.folders, options.report.reference));
   if (options.json) fmt::print("{}\n", json_text(nlohmann::json{{"report", page.generic_string()}}));
   spdlog::info("the report is {}", page.string());
   return ExitCode::ok;

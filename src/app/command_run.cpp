@@ -3,50 +3,54 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
+#include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/option_values.hpp"
 #include "app/processors.hpp"
 #include "app/progress.hpp"
+#include "app/signals.hpp"
 #include "app/summary_text.hpp"
+#include "app/write_page.hpp"
 #include "core/shell_word.hpp"
+#include "io/output_folder.hpp"
 #include "io/provenance.hpp"
-#include "model/model.hpp"
-#include "runs/output_folder.hpp"
-#include "runs/run_fem.hpp"
-#include "runs/stop_flag.hpp"
-#include "runs/write_report.hpp"
+#include "runs/write_fem_result.hpp"
 
 namespace railstrata {
 namespace {
 
-// One bar or line of progress per phase.
+/// The phases of a run on the screen: a line as each begins, a bar while it rolls.
 class PhaseReport {
  public:
   explicit PhaseReport(bool shown) : shown_(shown) {}
-  void operator()(const std::string& phase, double fraction, const std::string& detail) {
-    if (phase == "warning" || phase == "checkpoint") {
-      if (bar_) bar_->clear();
-      if (phase == "warning")
-        spdlog::warn("{}", detail);
-      else
-        spdlog::info("checkpoint at {}", detail);
-      return;
-    }
-    if (phase != phase_) {
-      phase_ = phase;
-      bar_.reset();
-      if (phase == "rolling")
-        bar_.emplace("rolling", shown_);
-      else if (phase != "results")
-        spdlog::info("{}", phase == "mesh" ? "meshing wheel and rail" : "static preload");
-    }
-    if (bar_) bar_->update(fraction);
-    if (!detail.empty()) spdlog::debug("{}: {}", phase, detail);
+  void meshing() { spdlog::info("meshing wheel and rail"); }
+  void preload() { spdlog::info("static preload"); }
+  void preload_step(double residual, double wanted, int iterations) {
+    spdlog::debug("preload: residual {:.1e} (wanted {:.0e}), {} iterations", residual, wanted, iterations);
   }
+  void rolling(double fraction, const HistoryRow& row) {
+    if (!bar_) bar_.emplace("rolling", shown_);
+    bar_->update(fraction);
+    spdlog::debug("rolling: x {:.1f} mm, F_z {:.2f} kN, F_x/F_z {:.3f}, p_max {:.0f} MPa", 1e3 * row.position,
+                  1e-3 * row.forces.z, row.forces.x / row.forces.z, 1e-6 * row.p_max);
+  }
+  void checkpoint(const RunState& state) {
+    clear();
+    spdlog::info("checkpoint at x = {:.2f} mm", 1e3 * state.stepper.state.axle.x);
+  }
+  void warning(const std::string& text) {
+    clear();
+    spdlog::warn("{}", text);
+  }
+  void results() { bar_.reset(); }
 
  private:
+  void clear() {
+    if (bar_) bar_->clear();
+  }
   bool shown_;
-  std::string phase_;
   std::optional<Progress> bar_;
 };
 
@@ -55,15 +59,15 @@ LoadedCase case_of_folder(const CommandOptions& options) {
   if (!options.case_file.empty() || !options.overrides.empty() || !options.out.empty() || options.force)
     throw CaseError("--resume goes on with the run of a folder as it was begun",
                     "leave out the case, --set, --out and --force; another case is another run");
-  if (!std::filesystem::is_directory(options.resume))
-    throw CaseError(fmt::format("--resume {}: there is no such folder", options.resume.string()),
+  if (!std::filesystem::is_directory(options.run.resume))
+    throw CaseError(fmt::format("--resume {}: there is no such folder", options.run.resume.string()),
                     "name the result folder of a run that was interrupted");
-  if (std::filesystem::exists(options.resume / "summary.json") &&
-      !std::filesystem::exists(checkpoint_file(options.resume)) &&
-      !std::filesystem::exists(previous_checkpoint_file(options.resume)))
-    throw CaseError(fmt::format("there is nothing to resume: {} holds a finished run", options.resume.string()),
+  if (std::filesystem::exists(options.run.resume / "summary.json") &&
+      !std::filesystem::exists(checkpoint_file(options.run.resume)) &&
+      !std::filesystem::exists(previous_checkpoint_file(options.run.resume)))
+    throw CaseError(fmt::format("there is nothing to resume: {} holds a finished run", options.run.resume.string()),
                     "start another with `railstrata run CASE`");
-  return load_case(options.resume / "case.toml");
+  return load_case(options.run.resume / "case.toml");
 }
 
 std::string resume_command(const std::filesystem::path& folder) {
@@ -78,62 +82,112 @@ std::string how_to_go_on(const std::filesystem::path& folder) {
               : std::string(", then start the run again with --force");
 }
 
+/// What is to be computed, and where; `begun`: the state to go on from.
+struct RunJob {
+  LoadedCase loaded;
+  std::filesystem::path out;
+  CheckpointOrigin origin;
+  FolderHold hold;
+  std::optional<RunState> begun;
+};
+
+CheckpointOrigin origin_of(const LoadedCase& loaded, std::string identity) {
+  return {std::move(identity), version_text(), table_origin(loaded)};
+}
+
+RunJob resumed_job(const CommandOptions& options) {
+  LoadedCase loaded = case_of_folder(options);
+  const std::filesystem::path& out = options.run.resume;
+  CheckpointOrigin origin = origin_of(loaded, identity_in_folder(out, loaded));
+  FolderHold hold(out);
+  FoundCheckpoint found = read_checkpoint(out, origin.case_sha256);
+  for (const std::string& note : found.notes) spdlog::warn("{}; the checkpoint before it is taken", note);
+  if (found.checkpoint.origin.program != origin.program)
+    spdlog::warn("the run was begun by RailStrata {}, this is {}: it goes on, but not with the bits of a run in one go",
+                 found.checkpoint.origin.program, origin.program);
+  remove_abandoned_parts(out);
+  origin.provenance = found.checkpoint.origin.provenance;
+  spdlog::info("{}: goes on in {} at x = {:.2f} mm, t = {:.4g} ms", loaded.spec.title, out.string(),
+               1e3 * found.checkpoint.run.stepper.state.axle.x, 1e3 * found.checkpoint.run.stepper.state.time);
+  return {std::move(loaded), out, std::move(origin), std::move(hold), std::move(found.checkpoint.run)};
+}
+
+RunJob new_job(const CommandOptions& options) {
+  LoadedCase loaded = load_case_of(options);
+  const std::filesystem::path out = output_folder_of(options, loaded);
+  place(loaded.spec, loaded.folder());  // faults of the input before a folder is made
+  require_apart(out, loaded);
+  FolderHold hold = prepare_output_folder(out, options.force);
+  spdlog::info("{}: results go to {}", loaded.spec.title, out.string());
+  CheckpointOrigin origin = origin_of(loaded, case_identity(loaded));
+  return {std::move(loaded), out, std::move(origin), std::move(hold), {}};
+}
+
+/// What is left of a solution when its files are written.
+struct RunOutcome {
+  std::vector<Summary> summaries;
+  bool stopped = false, limit_reached = false;
+};
+
+FemSolution solve(RunJob& job, const RollingSystem& system, FemWriter& writer, const FemOptions& options,
+                  PhaseReport& report) {
+  FemObserver observer;
+  writer.observe(
+      observer, [&](const RunState& state) { report.checkpoint(state); },
+      [&](const std::string& text) { report.warning(text); });
+  observer.preload = [&](double residual, double wanted, int iterations) {
+    report.preload_step(residual, wanted, iterations);
+  };
+  observer.rolling = [&](double fraction, const HistoryRow& row) { report.rolling(fraction, row); };
+  try {
+    return solve_fem(system, observer, options, std::move(job.begun));
+  } catch (const NumericalError& e) {
+    if (!std::filesystem::exists(checkpoint_file(job.out))) throw;
+    throw NumericalError(
+        fmt::format("{}\n    the last good state is in {}", e.what(), checkpoint_file(job.out).string()));
+  }
+}
+
+RunOutcome solve_and_write(RunJob& job, const CommandOptions& options, const FemOptions& fem) {
+  PhaseReport report(spdlog::default_logger()->level() <= spdlog::level::info);
+  report.meshing();
+  const RollingSystem system = fem_system(job.loaded.spec, job.loaded.folder());
+  if (!job.begun) {
+    clear_old_results(job.out);
+    write_origin(job.out, job.loaded, options.command_line, options.threads);
+  }
+  FemWriter writer(system, job.out, job.origin, job.begun ? &*job.begun : nullptr);
+  if (!job.begun) report.preload();
+  const FemSolution solution = solve(job, system, writer, fem, report);
+  report.results();
+  writer.write(solution);
+  RunOutcome out{{}, solution.stopped, solution.limit_reached};
+  for (const FemPosition& position : solution.positions) out.summaries.push_back(position.summary);
+  return out;
+}
+
+void warn_of_shared_processors(int threads) {
+  if (const std::string many = oversubscription(threads); !many.empty()) spdlog::warn("{}", many);
+  if (const std::string busy = competition(threads); !busy.empty()) spdlog::info("{}", busy);
+}
+
 }  // namespace
 
 ExitCode command_run(const CommandOptions& options) {
-  stop_flag();  // from here on a signal is a wish
-  FemRequest request;
-  request.times = {wall_time("--checkpoint-every", options.checkpoint_every),
-                   wall_time("--max-time", options.max_time)};
-  const bool resuming = !options.resume.empty();
-  if (!resuming && options.case_file.empty())
-    throw CaseError("case is required",
+  FemOptions fem;
+  fem.wishes = {&stop_flag(), &save_flag()};  // from here on a signal is a wish
+  fem.times.checkpoint_every = wall_time("--checkpoint-every", options.run.checkpoint_every);
+  fem.times.limit = wall_time("--max-time", options.run.max_time);
+  if (options.run.resume.empty() && options.case_file.empty())
+    throw CaseError("run: no case was named",
                     "name a case file, or go on with an interrupted run: railstrata run --resume FOLDER");
-  const LoadedCase loaded = resuming ? case_of_folder(options) : load_case_of(options);
-  const std::filesystem::path out = resuming ? options.resume : output_folder_of(options, loaded);
-  request.case_sha256 = resuming ? identity_in_folder(out, loaded) : case_identity(loaded);
-  request.program = version_text();
-  request.provenance = table_origin(loaded);
-  std::optional<FolderHold> hold;
-  if (resuming) {
-    hold.emplace(out);
-    FoundCheckpoint found = read_checkpoint(out, request.case_sha256);
-    for (const std::string& note : found.notes) spdlog::warn("{}; the checkpoint before it is taken", note);
-    if (found.checkpoint.origin.program != request.program)
-      spdlog::warn(
-          "the run was begun by RailStrata {}, this is {}: it goes on, but not with the bits of a run in one go",
-          found.checkpoint.origin.program, request.program);
-    remove_abandoned_parts(out);
-    request.provenance = found.checkpoint.origin.provenance;
-    spdlog::info("{}: goes on in {} at x = {:.2f} mm, t = {:.4g} ms", loaded.spec.title, out.string(),
-                 1e3 * found.checkpoint.run.stepper.state.axle.x, 1e3 * found.checkpoint.run.stepper.state.time);
-    request.resume = std::move(found.checkpoint.run);
-  } else {
-    place(loaded.spec, loaded.folder());  // faults of the input before a folder is made
-    require_apart(out, loaded);
-    hold.emplace(prepare_output_folder(out, options.force));
-    request.begin = [&] {
-      clear_old_results(out);
-      write_origin(out, loaded, options.command_line, options.threads);
-    };
-    spdlog::info("{}: results go to {}", loaded.spec.title, out.string());
-  }
-
-  if (const std::string many = oversubscription(options.threads); !many.empty()) spdlog::warn("{}", many);
-  if (const std::string busy = competition(options.threads); !busy.empty()) spdlog::info("{}", busy);
-
-  request.spec = loaded.spec;
-  request.case_folder = loaded.folder();
-  request.out = out;
-  request.commit = commit_text();
-  request.threads = options.threads;
-  PhaseReport report(spdlog::default_logger()->level() <= spdlog::level::info);
-  request.report = std::ref(report);
-  const FemOutcome outcome = [&] {
+  RunJob job = options.run.resume.empty() ? new_job(options) : resumed_job(options);
+  warn_of_shared_processors(options.threads);
+  const RunOutcome outcome = [&] {
     try {
-      return run_fem(request);
+      return solve_and_write(job, options, fem);
     } catch (EnvironmentError& e) {
-      if (!e.remedy.empty()) e.remedy += how_to_go_on(out);
+      if (!e.remedy.empty()) e.remedy += how_to_go_on(job.out);
       throw;
     }
   }();
@@ -141,10 +195,10 @@ ExitCode command_run(const CommandOptions& options) {
   for (const Summary& s : outcome.summaries) print_summary(s, options.json);
   if (outcome.stopped) {
     spdlog::warn("stopped {}; go on with\n    {}", outcome.limit_reached ? "for --max-time" : "on request",
-                 resume_command(out));
+                 resume_command(job.out));
     return outcome.limit_reached ? ExitCode::unfinished : ExitCode::interrupted;
   }
-  if (options.report) add_report(out, options.threads);
+  if (options.page) add_report(job.out);
   const bool all_ok = std::all_of(outcome.summaries.begin(), outcome.summaries.end(), all_checks_hold);
   if (!all_ok) spdlog::warn("a check failed: read the results with care");
   return all_ok ? ExitCode::ok : ExitCode::failed_checks;

@@ -3,18 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/option_values.hpp"
 #include "app/progress.hpp"
+#include "app/shipped_files.hpp"
+#include "app/signals.hpp"
+#include "app/write_page.hpp"
 #include "io/json_text.hpp"
-#include "io/output_file.hpp"
-#include "io/provenance.hpp"
-#include "runs/output_folder.hpp"
-#include "runs/run_bem.hpp"
-#include "runs/stop_flag.hpp"
+#include "study/study_folder.hpp"
 #include "study/study_page.hpp"
 #include "study/study_results.hpp"
 #include "study/study_run.hpp"
@@ -25,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 LoadedStudy study_of(const CommandOptions& options) {
-  fs::path file = options.case_file;
+  fs::path file = shipped_unless_there(options.case_file);
   if (fs::is_directory(file) && fs::exists(file / "study.toml")) file /= "study.toml";
   return load_study(file);
 }
@@ -35,33 +34,6 @@ fs::path folder_of(const CommandOptions& options, const LoadedStudy& study) {
   const fs::path file = fs::absolute(study.file).lexically_normal();
   return fs::path("results") /
          (file.stem() == "study" ? file.parent_path().filename().string() + "-study" : file.stem().string());
-}
-
-/// By what prepare_study_folder writes there first; study.toml is what people call their own files.
-bool is_study_folder(const fs::path& out) {
-  std::ifstream in(out / "provenance.json", std::ios::binary);
-  const auto origin = nlohmann::json::parse(in, nullptr, false);
-  if (!origin.is_object() || !origin.contains("command_line") || !origin["command_line"].is_array()) return false;
-  const auto& words = origin["command_line"];
-  return std::find(words.begin(), words.end(), "study") != words.end();
-}
-
-[[nodiscard]] FolderHold prepare_study_folder(const fs::path& out, const LoadedStudy& study,
-                                              const CommandOptions& options) {
-  FolderHold hold = prepare_output_folder(out, options.force, [&] { return is_study_folder(out); });
-  std::vector<fs::path> inputs{study.file};
-  for (const StudyGroup& g : study.spec.groups)
-    if (std::find(inputs.begin(), inputs.end(), g.base) == inputs.end()) inputs.push_back(g.base);
-  write_whole_file(out / "provenance.json",
-                   provenance_json(options.command_line, options.overrides, inputs, options.threads));
-  write_whole_file(out / "study.toml", study.source_text);
-  return hold;
-}
-
-std::vector<std::string> origin_of(const LoadedStudy& study) {
-  return {fmt::format("RailStrata {}", version_text()),
-          fmt::format("study: {} ({})", study.file.filename().string(), study.spec.title),
-          "a case by one engine a line; the names of columns say their units; stresses of the rail"};
 }
 
 void print_list(const std::vector<StudyRow>& rows, bool json) {
@@ -95,54 +67,53 @@ void print_list(const std::vector<StudyRow>& rows, bool json) {
       return fmt::format("{:>{}}", "-", w);
     };
     fmt::print("{:<{}}  {:<6}  {:<6}  {}  {}  {}  {}{}\n", r.study_case->group + "/" + r.study_case->name, width,
-               r.study_case->engine, r.state, cell("p_max_MPa", 1, 9), cell("q_max_MPa", 1, 9),
+               engine_word(r.study_case->engine), r.state, cell("p_max_MPa", 1, 9), cell("q_max_MPa", 1, 9),
                cell("patch_area_mm2", 1, 8), cell("slip_area_fraction", 100, 6), r.fault.empty() ? "" : "  " + r.fault);
   }
 }
 
-}  // namespace
+/// The rows of the cases that this call is to see to.
+std::vector<StudyRow> rows_of(const std::vector<StudyRow>& all, const std::vector<bool>& ours) {
+  std::vector<StudyRow> rows;
+  for (std::size_t k = 0; k < all.size(); ++k)
+    if (ours[k]) rows.push_back(all[k]);
+  return rows;
+}
 
-ExitCode command_study(const CommandOptions& options) {
-  const LoadedStudy study = study_of(options);
-  cell_size(study.spec.cell);  // what is wrong is told before the first case
-  const Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
-  const Shard shard = parse_shard(options.shard);
-  std::vector<StudyCase> cases = plan_study(study, options.overrides);
-  const std::vector<bool> ours = chosen(study, cases, options.engine, options.groups, shard);
-  const auto only_ours = [&](const std::vector<StudyRow>& all) {
-    std::vector<StudyRow> rows;
-    for (std::size_t k = 0; k < all.size(); ++k)
-      if (ours[k]) rows.push_back(all[k]);
-    return rows;
-  };
-  const fs::path out = folder_of(options, study);
-  if (options.dry_run) {
-    find_results(out, cases);
-    const std::vector<StudyRow> rows = only_ours(study_rows(out, cases));
-    print_list(rows, options.json);
-    spdlog::info("{} cases, {} to compute into {}", rows.size(),
-                 std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state != "done"; }),
-                 out.string());
-    return ExitCode::ok;
-  }
-
-  const FolderHold hold = prepare_study_folder(out, study, options);
-  recover(out, cases);
+ExitCode list_cases(const CommandOptions& options, const fs::path& out, std::vector<StudyCase>& cases,
+                    const std::vector<bool>& ours) {
   find_results(out, cases);
+  const std::vector<StudyRow> rows = rows_of(study_rows(out, cases), ours);
+  print_list(rows, options.json);
+  spdlog::info("{} cases, {} to compute into {}", rows.size(),
+               std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state != "done"; }),
+               out.string());
+  return ExitCode::ok;
+}
+
+/// Half-spaces first: they show mistakes in seconds.
+std::vector<const StudyCase*> cases_to_do(const fs::path& out, const std::vector<StudyCase>& cases,
+                                          const std::vector<bool>& ours) {
   std::vector<const StudyCase*> to_do;
   for (std::size_t k = 0; k < cases.size(); ++k)
     if (ours[k] && !is_done(out, cases[k])) to_do.push_back(&cases[k]);
-  std::stable_sort(to_do.begin(), to_do.end(), [](const StudyCase* a, const StudyCase* b) {
-    return a->engine < b->engine;
-  });  // half-spaces first: they tell of mistakes in seconds
+  std::stable_sort(to_do.begin(), to_do.end(),
+                   [](const StudyCase* a, const StudyCase* b) { return a->engine < b->engine; });
+  return to_do;
+}
 
+/// Computes what is to do; study.csv follows every case that ends.
+void compute(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
+             const std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
+  const std::vector<const StudyCase*> to_do = cases_to_do(out, cases, ours);
   StudyRun run;
   run.out = out;
   run.cell = study.spec.cell;
-  run.jobs =
-      std::clamp(options.jobs > 0 ? options.jobs : options.threads, 1, std::max(1, static_cast<int>(to_do.size())));
+  run.jobs = std::clamp(options.study.jobs > 0 ? options.study.jobs : options.threads, 1,
+                        std::max(1, static_cast<int>(to_do.size())));
   run.threads = std::max(1, options.threads / run.jobs);
   run.stop = &stop_flag();
+  run.save = &save_flag();
   spdlog::info("{}: {} cases, {} of them to compute, {} at a time with {} thread{} each; results go to {}",
                study.spec.title, std::count(ours.begin(), ours.end(), true), to_do.size(), run.jobs, run.threads,
                run.threads == 1 ? "" : "s", out.string());
@@ -154,26 +125,54 @@ ExitCode command_study(const CommandOptions& options) {
       spdlog::info("{}/{}  {}: {}", done, to_do.size(), c.label(), duration_text(seconds));
     else
       spdlog::warn("{}/{}  {} failed: {}", done, to_do.size(), c.label(), fault);
-    write_study_table(out / "study.csv", origin_of(study), study_rows(out, cases));
+    write_study_table(out / "study.csv", study_origin(study), study_rows(out, cases));
   };
   run_cases(run, to_do);
-  progress.clear();
+}
+
+void add_study_page(const fs::path& out, const LoadedStudy& study, const Published& published,
+                    const std::vector<StudyRow>& rows) {
+  if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return;
+  const fs::path page = out / "report.html";
+  write_page_or_warn(page, [&] { write_study_page(page, study, published, rows); });
+}
+
+ExitCode warn_of_faults(const std::vector<StudyRow>& rows) {
+  const auto faults = std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return !r.fault.empty(); });
+  if (faults == 0) return ExitCode::ok;
+  spdlog::warn("{} of {} cases failed or have a failed check: see the last column", faults, rows.size());
+  return ExitCode::failed_checks;
+}
+
+}  // namespace
+
+ExitCode command_study(const CommandOptions& options) {
+  const LoadedStudy study = study_of(options);
+  cell_size(study.spec.cell);  // what is wrong is reported before the first case
+  const Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
+  const Shard shard = parse_shard(options.study.shard);
+  std::vector<StudyCase> cases = plan_study(study, options.overrides);
+  const std::vector<bool> ours = chosen(study, cases, engine_of(options.study.engine), options.study.groups, shard);
+  const fs::path out = folder_of(options, study);
+  if (options.study.dry_run) return list_cases(options, out, cases, ours);
+
+  const FolderHold hold =
+      prepare_study_folder(out, study, options.command_line, options.overrides, options.threads, options.force);
+  recover(out, cases);
+  find_results(out, cases);
+  compute(options, study, out, cases, ours);
 
   const std::vector<StudyRow> rows = study_rows(out, cases);
-  write_study_table(out / "study.csv", origin_of(study), rows);
+  write_study_table(out / "study.csv", study_origin(study), rows);
   if (stop_flag()) {
     spdlog::warn("stopped; the same command goes on where it was");
     return ExitCode::interrupted;
   }
-  if (options.report) add_study_page(out, study, published, rows);
-  print_list(only_ours(rows), options.json);
+  if (options.page) add_study_page(out, study, published, rows);
+  const std::vector<StudyRow> our_rows = rows_of(rows, ours);
+  print_list(our_rows, options.json);
   spdlog::info("the table is {}", (out / "study.csv").string());
-  std::size_t faults = 0;
-  for (std::size_t k = 0; k < rows.size(); ++k) faults += ours[k] && !rows[k].fault.empty();
-  if (faults > 0)
-    spdlog::warn("{} of {} cases failed or have a failed check: see the last column", faults,
-                 std::count(ours.begin(), ours.end(), true));
-  return faults > 0 ? ExitCode::failed_checks : ExitCode::ok;
+  return warn_of_faults(our_rows);
 }
 
 }  // namespace railstrata

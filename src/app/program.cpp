@@ -23,6 +23,7 @@
 #include "app/commands.hpp"
 #include "app/processors.hpp"
 #include "app/usage.hpp"
+#include "core/engine.hpp"
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
 #include "io/json_text.hpp"
@@ -30,6 +31,14 @@
 
 namespace railstrata {
 namespace {
+
+/// "fem (finite elements: …), bem (…)".
+std::string engines_text() {
+  std::string out;
+  for (const EngineRow& row : kEngines)
+    out += fmt::format("{}{} ({}: {})", out.empty() ? "" : ", ", row.word, row.title, row.about);
+  return out;
+}
 
 using Command = ExitCode (*)(const CommandOptions&);
 
@@ -51,19 +60,25 @@ void add_case_and_output(CLI::App& sub, CommandOptions& options) {
 
 void add_no_report(CLI::App& sub, CommandOptions& options) {
   sub.add_flag_callback(
-      "--no-report", [&options] { options.report = false; }, "Do not write report.html");
+      "--no-report", [&options] { options.page = false; }, "Do not write report.html");
 }
 
 void add_run(CLI::App& sub, CommandOptions& options) {
   add_case_and_output(sub, options);
   sub.get_option("case")->required(false);
-  sub.add_option("--resume", options.resume,
+  sub.add_option("--resume", options.run.resume,
                  "Go on with the interrupted run of this result folder: the same bits as in one go")
       ->type_name("FOLDER");
-  sub.add_option("--checkpoint-every", options.checkpoint_every,
+  sub.add_option("--checkpoint-every", options.run.checkpoint_every,
                  "Wall time between checkpoints (default: \"10 min\"; 0: only when stopped)");
-  sub.add_option("--max-time", options.max_time,
+  sub.add_option("--max-time", options.run.max_time,
                  "Stop in time for a batch limit, with a checkpoint: \"110 min\" (exit code 5)");
+  add_no_report(sub, options);
+}
+
+void add_demo(CLI::App& sub, CommandOptions& options) {
+  add_output(sub, options, "results/quick");
+  sub.add_option("--set", options.overrides, "Override a key of the case (repeatable)")->allow_extra_args(false);
   add_no_report(sub, options);
 }
 
@@ -90,10 +105,10 @@ void add_creep_curve(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-creep-curve");
   add_cell(sub, options);
-  sub.add_option("--largest", options.largest_creepage, "Largest creepage (default: 0.02)")
+  sub.add_option("--largest", options.creep_curve.largest, "Largest creepage (default: 0.02)")
       ->check(CLI::Range(1e-6, 0.5))
       ->check(finite());
-  sub.add_option("--points", options.points,
+  sub.add_option("--points", options.creep_curve.points,
                  "Creepages, spaced geometrically over two and a half decades (default: 21)")
       ->check(CLI::Range(2, 1000));
 }
@@ -102,11 +117,12 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-sweep");
   add_cell(sub, options);
-  sub.add_option("--vary", options.vary,
+  sub.add_option("--vary", options.sweep.vary,
                  "A key and its values: --vary layer.0.young_ratio=0.5,1,2 (repeatable: every combination is solved)")
       ->allow_extra_args(false)
       ->required();
-  sub.add_flag("--stresses", options.stresses, "Largest stresses in the rail too (takes longer than the contact)");
+  sub.add_flag("--stresses", options.sweep.stresses,
+               "Largest stresses in the rail too (takes longer than the contact)");
 }
 
 void add_study(CLI::App& sub, CommandOptions& options) {
@@ -118,13 +134,14 @@ void add_study(CLI::App& sub, CommandOptions& options) {
       "-o,--out", options.out,
       "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
   sub.add_flag("--force", options.force, "Write into a folder that is not empty and holds no study");
-  sub.add_option("--jobs", options.jobs, "Cases at a time; they share the threads (default: one thread a case)")
+  sub.add_option("--jobs", options.study.jobs, "Cases at a time; they share the threads (default: one thread a case)")
       ->check(CLI::Range(1, 1024));
-  sub.add_option("--engine", options.engine, "Only the cases of one engine")->check(CLI::IsMember({"fem", "bem"}));
-  sub.add_option("--group", options.groups, "Only the cases of this group (repeatable)")->allow_extra_args(false);
-  sub.add_option("--shard", options.shard,
+  sub.add_option("--engine", options.study.engine, fmt::format("Only the cases of one engine: {}", engines_text()))
+      ->check(CLI::IsMember(engine_words()));
+  sub.add_option("--group", options.study.groups, "Only the cases of this group (repeatable)")->allow_extra_args(false);
+  sub.add_option("--shard", options.study.shard,
                  "i/n: compute every n-th case from the i-th on, for n machines that share the folder");
-  sub.add_flag("--dry-run", options.dry_run, "List the cases and what is done of them; compute nothing");
+  sub.add_flag("--dry-run", options.study.dry_run, "List the cases and what is done of them; compute nothing");
   add_no_report(sub, options);
 }
 
@@ -135,19 +152,22 @@ void add_compare(CLI::App& sub, CommandOptions& options) {
 }
 
 void add_report(CLI::App& sub, CommandOptions& options) {
-  sub.add_option("folders", options.folders, "Result folders of `run` or `bem`; the second is drawn beside the first")
+  sub.add_option("folders", options.report.folders,
+                 "Result folders of `run` or `bem`; the second is drawn beside the first")
       ->required();
   sub.add_option("-o,--out", options.out,
                  "The page to write (default: report.html in the folder, made anew if it is there)");
   sub.add_flag("--force", options.force, "Replace the file that --out names");
   sub.add_flag_callback(
-      "--no-reference", [&options] { options.reference_solution = false; },
+      "--no-reference", [&options] { options.report.reference = false; },
       "Do not set a finite element result against the half-space solution of its case");
 }
 
 void add_schema(CLI::App& sub, CommandOptions& options) {
-  auto* json = sub.add_flag("--json-schema", options.schema, "JSON schema (default)");
-  sub.add_flag("--markdown", options.markdown, "Reference page in Markdown")->excludes(json);
+  auto* json = sub.add_flag("--json-schema", options.schema.json_schema, "JSON schema (default)");
+  sub.add_flag("--markdown", options.schema.markdown, "Reference page in Markdown")->excludes(json);
+  sub.add_flag("--results", options.schema.results,
+               "Of results instead of cases: every number of summary.json, every check");
 }
 
 void add_nothing(CLI::App&, CommandOptions&) {}
@@ -158,6 +178,8 @@ struct Entry {
   Command run;
 };
 constexpr Entry kEntries[] = {
+    {"demo", "Run the shipped case cases/quick, in a minute or two, and tell what the results are",
+     "Examples:\n  railstrata demo\n  railstrata demo --out /tmp/quick\n", add_demo, command_demo},
     {"check", "Read a case and tell what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
      "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 "
      "mm\"\n  railstrata check cases/paper/base.toml --json\n",
@@ -203,9 +225,10 @@ constexpr Entry kEntries[] = {
      "Examples:\n  railstrata report results/quick\n  railstrata report results/thin results/thick --out "
      "thin-thick.html\n",
      add_report, command_report},
-    {"schema", "Print the JSON schema of case files for editors, or their reference page",
-     "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n", add_schema,
-     command_schema},
+    {"schema", "Print the JSON schema of case files for editors, or the reference of cases or results",
+     "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n  railstrata "
+     "schema --results --markdown\n",
+     add_schema, command_schema},
     {"info", "Built-in profiles, compiler, instruction set, libraries, threads",
      "Examples:\n  railstrata info\n  railstrata info --json\n", add_nothing, command_info},
 };

@@ -6,74 +6,103 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <numbers>
 
 #include "io/summary_json.hpp"
+#include "post/check_limits.hpp"
+#include "post/result_table.hpp"
 
 namespace railstrata {
 namespace {
 
-std::string in_mm(double metres) { return fmt::format("{:.2f} mm", 1e3 * metres); }
+/// A text in a field of so many columns; letters beyond ASCII count once.
+std::string padded(std::string text, std::size_t width) {
+  const auto letters = static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return letters < width ? text.append(width - letters, ' ') : text;
+}
 
-std::string place(const StressMaximum& m) {
+std::string numbers_text(const Summary& s) {
+  std::string out;
+  for (const ResultNumber& n : result_numbers()) {
+    if (!n.shown) continue;
+    const ResultValue value = n.value(s);
+    const double v =
+        std::holds_alternative<long>(value) ? static_cast<double>(std::get<long>(value)) : std::get<double>(value);
+    if (!std::isfinite(v)) continue;
+    out += fmt::format("  {}{:>10} {}{}\n", padded(std::string(n.label), 18), significant(n.unit.factor * v, n.digits),
+                       padded(std::string(n.unit.shown), 7), n.name);
+  }
+  return out + fmt::format("  {}{:>10.4f}\n", padded("F_x/F_z", 18), s.contact.F_x / s.contact.F_z);
+}
+
+std::string maximum_text(const StressMaximum& m) {
   return fmt::format("{:7.1f} MPa at x {:+.2f}, y {:+.2f}, depth {:.2f} mm", 1e-6 * m.value, 1e3 * m.x, 1e3 * m.y,
                      1e3 * m.depth);
 }
 
-std::string contact_text(const ContactSummary& c) {
+/// Zones that the case has; of the wheel only if one of its layers makes more of them than the surface and below.
+std::string stresses_text(const Summary& s) {
   std::string out;
-  auto to = std::back_inserter(out);
-  fmt::format_to(to, "  p_max            {:8.1f} MPa\n", 1e-6 * c.p_max);
-  fmt::format_to(to, "  q_max            {:8.1f} MPa\n", 1e-6 * c.q_max);
-  fmt::format_to(to, "  patch            {} long, {} wide, {:.1f} mm²\n", in_mm(c.patch_length), in_mm(c.patch_width),
-                 1e6 * c.patch_area);
-  if (std::isfinite(c.slip_area_fraction))
-    fmt::format_to(to, "  slip area        {:8.1f} % of the patch\n", 100 * c.slip_area_fraction);
-  fmt::format_to(to, "  forces on wheel  F_x {:.2f}, F_y {:.2f}, F_z {:.2f} kN, F_x/F_z {:.4f}\n", 1e-3 * c.F_x,
-                 1e-3 * c.F_y, 1e-3 * c.F_z, c.F_x / c.F_z);
-  fmt::format_to(to, "  in contact plane normal {:.2f}, lateral {:.2f} kN, at {:+.2f} degrees\n", 1e-3 * c.normal_force,
-                 1e-3 * c.lateral_force, c.contact_angle * 180 / std::numbers::pi);
-  if (std::isfinite(c.creepage_x))
-    fmt::format_to(to, "  creepage         {:8.3f} e-3 longitudinal (negative: driving)\n", 1e3 * c.creepage_x);
-  if (std::isfinite(c.penetration_max))
-    fmt::format_to(to, "  penetration      {:8.4f} um of {:.1f} um approach\n", 1e6 * c.penetration_max,
-                   1e6 * c.approach);
-  else
-    fmt::format_to(to, "  approach         {:8.1f} um\n", 1e6 * c.approach);
+  for (const StressBody& body : stress_bodies()) {
+    const StressSummary& stress = s.*body.member;
+    if (body.key == "wheel" && !stress.layer) continue;
+    for (const StressZone& zone : stress_zones()) {
+      const std::optional<StressPair>& pair = stress.*zone.member;
+      if (!pair) continue;
+      out += "  " + padded(fmt::format("{} {}", body.key, zone.name), 24);
+      for (const StressMeasure& m : stress_measures())
+        out += fmt::format("{}{} {}", m.member == stress_measures().front().member ? "" : "; ", m.name,
+                           maximum_text((*pair).*m.member));
+      out += "\n";
+    }
+  }
+  return out;
+}
+
+std::string steps_text(const RunSummary& r) {
+  std::string out;
+  const auto instead = [&] {
+    return fmt::format("stable step {:.1f} ns instead of {:.1f} ns\n", 1e9 * r.stable_step, 1e9 * r.unscaled_step);
+  };
+  if (r.added_mass > 0)
+    out += fmt::format("  mass scaling     {:.3f} kg against stretching of thin rows: {}", r.added_mass, instead());
+  if (r.fine_elements > 0)
+    out += fmt::format("  local steps      {:.0f} stages a step in {:.0f} elements: {}", r.local_stages,
+                       r.fine_elements, instead());
+  return out;
+}
+
+/// The name of a check or warning; its key where the table does not know it.
+std::string name_of(const std::string& key) {
+  const CheckRow* row = find_check(key);
+  return row ? std::string(row->name) : key;
+}
+
+const ResultUnit& unit_of(const std::string& key) {
+  const CheckRow* row = find_check(key);
+  return row ? row->unit : result_unit::kNone;
+}
+
+std::string checks_text(const Summary& s) {
+  std::string out = "  checks\n";
+  for (const Check& k : s.checks)
+    out += fmt::format("    {:<6} {}{:>10}  (limit {})\n", k.ok ? "ok" : "FAILED", padded(name_of(k.name), 34),
+                       with_unit(unit_of(k.name), k.value, 3), limit_text(unit_of(k.name), k.limit));
+  for (const Warning& w : s.warnings) {
+    const CheckRow* row = find_check(w.name);
+    out += fmt::format("    warn   {}{:>10}  (above {}): {}\n", padded(name_of(w.name), 34),
+                       with_unit(unit_of(w.name), w.value, 3), limit_text(unit_of(w.name), w.limit),
+                       row ? fmt::format("{}: {}", row->what, row->advice) : w.text);
+  }
   return out;
 }
 
 }  // namespace
 
 std::string summary_text(const Summary& s) {
-  std::string out =
-      fmt::format("\n{}{}\n", s.title, std::isfinite(s.position) ? ", wheel at " + in_mm(s.position) : "") +
-      contact_text(s.contact);
-  auto to = std::back_inserter(out);
-  auto maximum = [&](const char* what, const std::optional<StressPair>& pair) {
-    if (pair)
-      fmt::format_to(to, "  rail {:<11} von Mises {}; sigma_1 {}\n", what, place(pair->von_mises), place(pair->sigma1));
-  };
-  maximum("surface", s.rail.surface);
-  maximum("subsurface", s.rail.subsurface);
-  maximum("layer", s.rail.layer);
-  maximum("interface", s.rail.interface);
-  maximum("matrix", s.rail.matrix);
-  if (s.run.added_mass > 0)
-    fmt::format_to(
-        to,
-        "  mass scaling     {:.3f} kg against stretching of thin rows: stable step {:.1f} ns instead of {:.1f} ns\n",
-        s.run.added_mass, 1e9 * s.run.stable_step, 1e9 * s.run.unscaled_step);
-  if (s.run.fine_elements > 0)
-    fmt::format_to(
-        to, "  local steps      {:.0f} stages a step in {:.0f} elements: stable step {:.1f} ns instead of {:.1f} ns\n",
-        s.run.local_stages, s.run.fine_elements, 1e9 * s.run.stable_step, 1e9 * s.run.unscaled_step);
-  fmt::format_to(to, "  checks\n");
-  for (const Check& k : s.checks)
-    fmt::format_to(to, "    {:<6} {:<34} {:10.3g}  (limit {:.3g})\n", k.ok ? "ok" : "FAILED", k.name, k.value, k.limit);
-  for (const Warning& w : s.warnings)
-    fmt::format_to(to, "    warn   {:<34} {:10.3g}  (above {:.3g}): {}\n", w.name, w.value, w.limit, w.text);
-  return out;
+  return fmt::format("\n{}{}\n", s.title,
+                     std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "") +
+         numbers_text(s) + stresses_text(s) + steps_text(s.run) + checks_text(s);
 }
 
 void print_summary(const Summary& s, bool json) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/faults.hpp"
 
@@ -54,8 +55,8 @@ void fit_grid(const Placement& placement, double normal, const BemOptions& optio
   }
 }
 
-/// Rigid slip of the wheel's surface beyond creepage: it turns with its local radius. The spin part is given apart (its
-/// lateral slip).
+/// Rigid slip of the wheel's surface beyond creepage: each point moves with its local rolling radius. The part linear
+/// in y, -spin y, is left to the spin, which also brings the lateral slip.
 Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidContact& contact, double spin) {
   Plane slip(g.size());
   for (int i = 0; i < g.nx; ++i)
@@ -77,8 +78,8 @@ PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const Bem
   return centred_grid(cells(estimate.a), cells(estimate.b), options.cell, options.cell);
 }
 
-LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body) {
-  LayeredHalfSpace out{{}, half_space(body == "wheel" ? spec.wheel_material : spec.rail_material)};
+LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
+  LayeredHalfSpace out{{}, half_space(body == BodyId::wheel ? spec.wheel_material : spec.rail_material)};
   for (const LayerSpec& layer : spec.layers) {
     if (layer.on != body) continue;
     if (!layer.graded()) {
@@ -100,8 +101,8 @@ double normal_load(double weight, double lateral, const RigidContact& contact) {
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double normal) {
   CasePatch patch;
-  patch.wheel = layered_body(spec, "wheel");
-  patch.rail = layered_body(spec, "rail");
+  patch.wheel = layered_body(spec, BodyId::wheel);
+  patch.rail = layered_body(spec, BodyId::rail);
   patch.grid = first_grid(spec, placement, options);
   InfluenceCache own;
   fit_grid(placement, normal, options, options.cache ? *options.cache : own, patch);
@@ -110,7 +111,7 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
   contact.target.load = normal;
   contact.friction = spec.drive.friction_coefficient;
   contact.spin = -std::sin(placement.contact.angle) / placement.contact.rolling_radius;
-  contact.extra_x = slip_of_radius(patch.grid, patch.profile, placement.contact, contact.spin);
+  contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, contact.spin);
   return patch;
 }
 

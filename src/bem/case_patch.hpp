@@ -1,9 +1,13 @@
 #pragma once
 // From a case to the problem on a grid: what solve_bem and creep_curve share.
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "bem/bem_options.hpp"
 #include "bem/profile_gap.hpp"
-#include "bem/solve_bem.hpp"
+#include "halfspace/layered.hpp"
+#include "model/model.hpp"
 
 namespace railstrata {
 
@@ -20,8 +24,11 @@ struct CasePatch {
 /// The potential contact area to begin with: a little larger than the ellipse of Hertz.
 PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options);
 
-/// The normal force [N] that bears the weight G together with a lateral force T_y on the rail, in the contact plane at
-/// the angle delta: N cos(delta) - T_y sin(delta) = G.
+/// Layers of one body from the case, from the surface down; a graded one cut to its grading_tolerance.
+LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
+
+/// The normal force [N] that balances the weight G together with a lateral force T_y on the rail, in the contact plane
+/// at the angle delta: N cos(delta) - T_y sin(delta) = G.
 double normal_load(double weight, double lateral, const RigidContact& contact);
 
 /// Places the grid and grows it until the frictionless patch under the normal load [N], with a ring to spare, lies

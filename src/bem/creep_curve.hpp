@@ -2,7 +2,8 @@
 // Force against creepage for the contact of a case, by the full theory and by the fast ones.
 #include <vector>
 
-#include "bem/solve_bem.hpp"
+#include "bem/bem_options.hpp"
+#include "model/model.hpp"
 
 namespace railstrata {
 

@@ -1,9 +1,12 @@
 #pragma once
 // Restarted GMRES with a right preconditioner, for operators given as functions. [SaadSchultz1986]
 #include <cmath>
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "bem/plane_algebra.hpp"
+#include "core/rotation.hpp"
 
 namespace railstrata {
 
@@ -16,6 +19,12 @@ struct GmresResult {
 struct GmresSpace {
   std::vector<Plane> basis;
   Plane r, z, w, y;
+  /// The k-th vector of the basis, of n values.
+  Plane& vector(std::size_t k, std::size_t n) {
+    if (basis.size() <= k) basis.emplace_back();
+    basis[k].resize(n);
+    return basis[k];
+  }
 };
 
 /// Takes out of w its parts along basis[0 … count-1] (orthonormal) and adds them to `parts`. Returns |w|² left. Two
@@ -47,13 +56,80 @@ inline double orthogonalize(const std::vector<Plane>& basis, std::size_t count, 
   return left;
 }
 
+/// One step of Arnoldi's process: the part of w across basis[0 … k], normalised, becomes basis[k + 1]. Returns column k
+/// of the Hessenberg matrix: w in the extended basis.
+inline std::vector<double> extend_basis(GmresSpace& space, std::size_t k) {
+  Plane& w = space.w;
+  std::vector<double> column(k + 2);
+  double square = orthogonalize(space.basis, k + 1, w, column), along = 0;
+  for (double c : column) along += c * c;
+  // little was left: once more against round-off
+  if (square < 1e-4 * along) square = orthogonalize(space.basis, k + 1, w, column);
+  column[k + 1] = std::sqrt(square);
+  Plane& next = space.vector(k + 1, w.size());
+  const double scale = square > 0 ? 1 / column[k + 1] : 0.0;
+  for_cells(w.size(), [&](std::size_t i) { next[i] = scale * w[i]; });
+  return column;
+}
+
+/// The least-squares problem of one cycle, min over c of |r e_1 - H c|. The Hessenberg matrix H comes by columns, and
+/// plane rotations make each triangular at once: so the residual is known without c. [SaadSchultz1986 sec. 3.2]
+class HessenbergLeastSquares {
+ public:
+  explicit HessenbergLeastSquares(double residual) : g_{residual} {}
+  std::size_t columns() const { return h_.size(); }
+  double residual() const { return std::abs(g_.back()); }
+
+  void add(std::vector<double> column) {
+    const std::size_t k = h_.size();
+    for (std::size_t i = 0; i < k; ++i) {
+      const auto [upper, lower] = rotations_[i].forward(column[i], column[i + 1]);
+      column[i] = upper;
+      column[i + 1] = lower;
+    }
+    const double length = std::hypot(column[k], column[k + 1]);
+    rotations_.push_back({column[k] / length, column[k + 1] / length});
+    column[k] = length;
+    g_.push_back(-rotations_[k].s * g_[k]);
+    g_[k] *= rotations_[k].c;
+    h_.push_back(std::move(column));
+  }
+
+  std::vector<double> solution() const {
+    std::vector<double> c(h_.size());
+    for (std::size_t i = h_.size(); i-- > 0;) {
+      c[i] = g_[i];
+      for (std::size_t j = i + 1; j < h_.size(); ++j) c[i] -= h_[j][i] * c[j];
+      c[i] /= h_[i][i];
+    }
+    return c;
+  }
+
+ private:
+  std::vector<std::vector<double>> h_;  // columns of the triangular factor
+  std::vector<Rotation<double>> rotations_;
+  std::vector<double> g_;  // the right side, rotated
+};
+
+/// y = sum of c_i basis_i
+inline void combine(const std::vector<Plane>& basis, const std::vector<double>& c, Plane& y) {
+  for_pieces(
+      y.size(),
+      [&](std::size_t, std::size_t begin, std::size_t end) {
+        for (std::size_t j = begin; j < end; ++j) y[j] = 0;
+        for (std::size_t i = 0; i < c.size(); ++i)
+          for (std::size_t j = begin; j < end; ++j) y[j] += c[i] * basis[i][j];
+      },
+      c.size());
+}
+
 /// Solves A x = b from x = 0 to |b - A x| <= relative |b| or max_iterations. apply(in, out) and precondition(in, out)
-/// act on whole vectors.
+/// act on whole vectors. Right preconditioner: A M^-1 y = b, x = M^-1 y, so that the residual is that of x itself; the
+/// basis spans y, and one more application of M^-1 per cycle gives x.
 template <class Apply, class Precondition>
 GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative,
                   int max_iterations, GmresSpace& space, int restart = 60) {
   const std::size_t n = b.size();
-  auto& basis = space.basis;  // no structured binding: clang++ 14 does not capture one
   Plane &r = space.r, &z = space.z, &w = space.w, &y = space.y;
   x.assign(n, 0.0);
   z.resize(n);
@@ -64,61 +140,22 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
   GmresResult result{0, norm_b};
   if (norm_b == 0) return result;
   while (result.iterations < max_iterations && result.residual > relative * norm_b) {
-    const auto vector = [&](std::size_t k) -> Plane& {
-      if (basis.size() <= k) basis.emplace_back();
-      basis[k].resize(n);
-      return basis[k];
-    };
-    std::vector<std::vector<double>> h;  // columns of the triangular factor
-    std::vector<double> cosine, sine, g{result.residual};
-    Plane& first = vector(0);
+    HessenbergLeastSquares cycle(result.residual);
+    Plane& first = space.vector(0, n);
     for_cells(n, [&](std::size_t i) { first[i] = r[i] / result.residual; });
-    while (static_cast<int>(h.size()) < restart && result.iterations < max_iterations &&
-           std::abs(g.back()) > relative * norm_b) {
-      const std::size_t k = h.size();
-      precondition(basis[k], z);
+    while (static_cast<int>(cycle.columns()) < restart && result.iterations < max_iterations &&
+           cycle.residual() > relative * norm_b) {
+      precondition(space.basis[cycle.columns()], z);
       apply(z, w);
       ++result.iterations;
-      std::vector<double> column(k + 2);
-      double square = orthogonalize(basis, k + 1, w, column), along = 0;
-      for (double c : column) along += c * c;
-      if (square < 1e-4 * along)
-        square = orthogonalize(basis, k + 1, w, column);  // little was left: once more against round-off
-      column[k + 1] = std::sqrt(square);
-      Plane& next = vector(k + 1);
-      const double scale = square > 0 ? 1 / column[k + 1] : 0.0;
-      for_cells(n, [&](std::size_t i) { next[i] = scale * w[i]; });
-      for (std::size_t i = 0; i < k; ++i) {
-        const double a = column[i], c = column[i + 1];
-        column[i] = cosine[i] * a + sine[i] * c;
-        column[i + 1] = cosine[i] * c - sine[i] * a;
-      }
-      const double length = std::hypot(column[k], column[k + 1]);
-      cosine.push_back(column[k] / length);
-      sine.push_back(column[k + 1] / length);
-      column[k] = length;
-      g.push_back(-sine[k] * g[k]);
-      g[k] *= cosine[k];
-      h.push_back(std::move(column));
+      cycle.add(extend_basis(space, cycle.columns()));
     }
-    std::vector<double> c(h.size());
-    for (std::size_t i = h.size(); i-- > 0;) {
-      c[i] = g[i];
-      for (std::size_t j = i + 1; j < h.size(); ++j) c[i] -= h[j][i] * c[j];
-      c[i] /= h[i][i];
-    }
-    for_pieces(
-        n,
-        [&](std::size_t, std::size_t begin, std::size_t end) {
-          for (std::size_t j = begin; j < end; ++j) y[j] = 0;
-          for (std::size_t i = 0; i < c.size(); ++i)
-            for (std::size_t j = begin; j < end; ++j) y[j] += c[i] * basis[i][j];
-        },
-        c.size());
+    combine(space.basis, cycle.solution(), y);
     precondition(y, z);
     add_scaled(x, 1, z);
-    result.residual = std::abs(g.back());
+    result.residual = cycle.residual();
     if (result.residual <= relative * norm_b) break;
+    // the residual by the recursion drifts from the true one: a restart begins with the latter
     apply(x, w);
     for (std::size_t j = 0; j < n; ++j) r[j] = b[j] - w[j];
     result.residual = std::sqrt(dot(r, r));

@@ -1,7 +1,8 @@
-#include <list>
-#include <mutex>
+#include "bem/influence_cache.hpp"
 
-#include "bem/solve_bem.hpp"
+#include <list>
+#include <memory>
+#include <mutex>
 
 namespace railstrata {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
 namespace railstrata {
 
@@ -31,7 +32,7 @@ InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int 
   const auto table = rectangle_influence_table(pair, fft_.mx() / 2 + 1, fft_.my() / 2 + 1, dx, dy);
   using I = RectangleInfluence;
   near_[0] = table[0];
-  near_[1] = table[fft_.my() / 2 + 1];
+  near_[1] = table[fft_.my() / 2 + 1];  // the table has index j + (my/2 + 1) i
   nn_hat_ = fft_.spectrum(component(table, &I::nn), 1, 1);
   xx_hat_ = fft_.spectrum(component(table, &I::xx), 1, 1);
   xy_hat_ = fft_.spectrum(component(table, &I::xy), -1, -1);
@@ -40,6 +41,9 @@ InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int 
     nx_hat_ = fft_.spectrum(component(table, &I::nx), -1, 1);
     ny_hat_ = fft_.spectrum(component(table, &I::ny), 1, -1);
   }
+  // Inverses wave by wave on the periodic grid. The mean wave and, near Poisson's ratio 1/2 or for thin soft layers,
+  // the determinant can come close to zero there, though the operator itself is positive: floors keep the inverses
+  // positive definite, which the solvers need; how exact they are only changes the number of iterations.
   const std::size_t n = fft_.spectrum_size();
   for (auto* v : {&inv_nn_, &inv_xx_, &inv_xy_, &inv_yy_}) v->assign(n, 0.0);
   const double points = static_cast<double>(fft_.mx()) * fft_.my(), scale = 1 / (points * points);
@@ -77,16 +81,17 @@ struct SymmetricProduct {
   }
 };
 
+// Spectra of tables that are odd in x or y are imaginary; their imaginary parts are kept (nx_hat_, ny_hat_).
 Complex times_i(Complex z) { return {-z.imag(), z.real()}; }
 
 }  // namespace
 
-void InfluenceOperator::normal(const double* p, double* closing) const {
-  fft_.apply({p}, {closing}, nx(), ScalarProduct{nn_hat_.data()});
+void InfluenceOperator::normal(const double* p, double* u_n) const {
+  fft_.apply({p}, {u_n}, nx(), ScalarProduct{nn_hat_.data()});
 }
 
-void InfluenceOperator::precondition_normal(const double* closing, double* p) const {
-  fft_.apply({closing}, {p}, nx(), ScalarProduct{inv_nn_.data()});
+void InfluenceOperator::precondition_normal(const double* u_n, double* p) const {
+  fft_.apply({u_n}, {p}, nx(), ScalarProduct{inv_nn_.data()});
 }
 
 void InfluenceOperator::tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const {
@@ -114,12 +119,12 @@ void InfluenceOperator::tangential_from_pressure(const double* p, double* u_x, d
   });
 }
 
-void InfluenceOperator::normal_from_traction(const double* q_x, const double* q_y, double* closing) const {
+void InfluenceOperator::normal_from_traction(const double* q_x, const double* q_y, double* u_n) const {
   if (!couples()) {
-    std::fill(closing, closing + static_cast<std::ptrdiff_t>(nx()) * ny(), 0.0);
+    std::fill(u_n, u_n + static_cast<std::ptrdiff_t>(nx()) * ny(), 0.0);
     return;
   }
-  fft_.apply({q_x, q_y}, {closing}, nx(), [this](std::size_t first, int count, const PlaneFft::Spectra& z) {
+  fft_.apply({q_x, q_y}, {u_n}, nx(), [this](std::size_t first, int count, const PlaneFft::Spectra& z) {
     Complex *a = z[0], *b = z[1];
     for (int k = 0; k < count; ++k) {
       const std::size_t i = first + static_cast<std::size_t>(k);

@@ -25,17 +25,17 @@ class InfluenceOperator {
   const RectangleInfluence& of_one_cell(int i) const { return near_[i]; }
   bool couples() const { return !nx_hat_.empty(); }  ///< normal and tangential problems interact
 
-  /// Closing of the gap by pressure: nx x ny.
-  void normal(const double* p, double* closing) const;
+  /// Normal elastic displacement u_n = u_z'(rail) + u_z'(wheel) by pressure, each into its body: nx x ny.
+  void normal(const double* p, double* u_n) const;
   /// Rail minus wheel, from tangential tractions. rows = nx, or nx + 1 for one more row of cells ahead of the grid.
   void tangential(const double* q_x, const double* q_y, double* u_x, double* u_y, int rows) const;
   /// Rail minus wheel, from pressure; zero for equal bodies.
   void tangential_from_pressure(const double* p, double* u_x, double* u_y, int rows) const;
-  /// Closing from tangential tractions; zero for equal bodies.
-  void normal_from_traction(const double* q_x, const double* q_y, double* closing) const;
+  /// Normal elastic displacement by tangential tractions; zero for equal bodies.
+  void normal_from_traction(const double* q_x, const double* q_y, double* u_n) const;
 
   /// Approximate inverses of `normal` and `tangential`: the inverses on the periodic grid, symmetric positive definite.
-  void precondition_normal(const double* closing, double* p) const;
+  void precondition_normal(const double* u_n, double* p) const;
   void precondition_tangential(const double* u_x, const double* u_y, double* q_x, double* q_y) const;
 
  private:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "core/faults.hpp"
 
@@ -12,6 +13,11 @@ namespace railstrata {
 
 namespace {
 
+/// In the patch (the active set) the equation gap + u_n(p) = approach is linear in p; u_n is a symmetric positive
+/// definite operator, so conjugate gradients solve it, on the active cells alone. [PolonskyKeer1999] The FFT inverse of
+/// the periodic grid, cut to the active cells, preconditions it and keeps the number of iterations nearly independent
+/// of the grid. [Vollebregt2014] For a given load F the approach is a multiplier: residuals lose their mean, directions
+/// their load. Then cells with p <= 0 leave the set, cells that interpenetrate enter it, until none changes.
 class ActiveSetSolver {
  public:
   ActiveSetSolver(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap, NormalTarget target,
@@ -23,7 +29,7 @@ class ActiveSetSolver {
         options_(options),
         n_(grid.size()),
         p_(n_, 0.0),
-        closing_(n_),
+        displacement_(n_),
         residual_(n_),
         z_(n_),
         d_(n_),
@@ -37,6 +43,7 @@ class ActiveSetSolver {
     else
       p_ = start;
     for (std::size_t i = 0; i < n_; ++i) active_[i] = p_[i] > 0;
+    // While cells change, solving further than a hundredth is wasted; few changes: sharper; none: to the end.
     double reduce = 1e-2;
     for (int outer = 0; outer < options_.max_outer; ++outer) {
       const double scale = gap_range();
@@ -52,26 +59,27 @@ class ActiveSetSolver {
  private:
   bool load_given() const { return target_.load.has_value(); }
 
-  /// p ~ sqrt(depth of rigid interpenetration). For a given load the depth is right when the closing mirrors the gap.
+  /// p ~ sqrt(depth of rigid interpenetration). For a given load the depth is right when u_n is the gap's mirror image:
+  /// gap + u_n is the same in every cell of the patch.
   void first_guess() {
     const double lowest = *std::min_element(gap_.begin(), gap_.end());
     if (!load_given()) {
       if (*target_.approach <= lowest)
         throw CaseError("the bodies do not touch at this approach", "increase the approach or the load");
       set_pressure(lowest + 0.5 * (*target_.approach - lowest));
-      influence_.normal(p_.data(), closing_.data());
-      scale_by(p_, (*target_.approach - lowest) / *std::max_element(closing_.begin(), closing_.end()));
+      influence_.normal(p_.data(), displacement_.data());
+      scale_by(p_, (*target_.approach - lowest) / *std::max_element(displacement_.begin(), displacement_.end()));
       return;
     }
     double level = level_of_a_half_space(lowest);
     for (int i = 0; i < 4; ++i) {
       set_pressure(level);
       scale_by(p_, *target_.load / (sum(p_) * grid_.cell_area()));
-      influence_.normal(p_.data(), closing_.data());
+      influence_.normal(p_.data(), displacement_.data());
       ++iterations_;
-      const double mirror = mirroring_of_the_gap();
-      if (!(std::abs(mirror - 1) > 0.1)) return;
-      level = lowest + (level - lowest) * std::clamp(std::pow(mirror, 0.6), 0.2,
+      const double slope = displacement_slope();
+      if (!(std::abs(slope - 1) > 0.1)) return;
+      level = lowest + (level - lowest) * std::clamp(std::pow(slope, 0.6), 0.2,
                                                      5.0);  // ~ level^(-3/2) on a half-space, level^-2 on a mattress
     }
   }
@@ -81,8 +89,8 @@ class ActiveSetSolver {
     if (sum(p_) == 0) p_[static_cast<std::size_t>(std::min_element(gap_.begin(), gap_.end()) - gap_.begin())] = 1;
   }
 
-  /// Where a Hertz circle of the same area closes twice the level, its compliance taken from that of one cell (a square
-  /// of side s: 1.122 s/E*).
+  /// The gap level whose Hertz circle of the same area has an approach of twice the level; its compliance is taken from
+  /// that of one cell (a square of side s: 1.122 s/E*).
   double level_of_a_half_space(double lowest) const {
     const double compliance = influence_.of_one_cell(0).nn / (1.122 * std::sqrt(grid_.cell_area()));
     Plane sorted = gap_;
@@ -91,21 +99,28 @@ class ActiveSetSolver {
     while (high - low > 1) {
       const std::size_t mid = (low + high) / 2;
       const double area = static_cast<double>(mid) * grid_.cell_area(), p0 = 1.5 * *target_.load / area;
-      const double closes = p0 * compliance * 0.5 * std::sqrt(area * std::numbers::pi);
-      (2 * (sorted[mid] - lowest) < closes ? low : high) = mid;
+      const double approach = p0 * compliance * 0.5 * std::sqrt(area * std::numbers::pi);
+      (2 * (sorted[mid] - lowest) < approach ? low : high) = mid;
     }
     return sorted[high];
   }
 
-  /// Slope of the closing over the gap, where there is pressure: 1 in the solution, more for too small a patch.
-  double mirroring_of_the_gap() const {
-    double n = 0, gap = 0, closing = 0, both = 0, square = 0;
+  /// Slope of -u_n over the gap by least squares, where there is pressure: 1 in the solution, more for too small a
+  /// patch.
+  double displacement_slope() const {
+    double n = 0, gap = 0, u = 0, both = 0, square = 0;
     for (std::size_t i = 0; i < n_; ++i)
-      if (p_[i] > 0)
-        n += 1, gap += gap_[i], closing += closing_[i], both += gap_[i] * closing_[i], square += gap_[i] * gap_[i];
-    return (gap * closing - n * both) / (n * square - gap * gap);
+      if (p_[i] > 0) {
+        n += 1;
+        gap += gap_[i];
+        u += displacement_[i];
+        both += gap_[i] * displacement_[i];
+        square += gap_[i] * gap_[i];
+      }
+    return (gap * u - n * both) / (n * square - gap * gap);
   }
 
+  /// What the tolerance refers to. A gap that is flat over the patch has no range: then a thousandth of the approach.
   double gap_range() const {
     double low = std::numeric_limits<double>::infinity(), high = -low;
     for (std::size_t i = 0; i < n_; ++i)
@@ -116,7 +131,8 @@ class ActiveSetSolver {
     return std::max(high - low, 1e-3 * std::abs(approach_ - low));
   }
 
-  /// Removes from z the part that would change the load.
+  /// Removes from z the part that would change the load: sum(z) = 0. The correction is M^-1 applied to the multiplier
+  /// of the load, M the preconditioner.
   void keep_load(Plane& z) const {
     if (!load_given()) return;
     add_scaled(z, -sum(z) / ones_sum_, ones_);
@@ -127,7 +143,8 @@ class ActiveSetSolver {
     for_cells(n_, [&](std::size_t i) { z[i] = active_[i] ? z[i] : 0.0; });
   }
 
-  /// Returns the largest.
+  /// residual = approach - gap - u_n on the active cells, zero elsewhere. For a given load the approach is the mean of
+  /// gap + u_n, which makes the sum of the residual zero. Returns the largest.
   double compute_residual() {
     struct Part {
       double sum = 0, count = 0, largest = 0;
@@ -138,7 +155,8 @@ class ActiveSetSolver {
       for_pieces(
           n_,
           [&](std::size_t k, std::size_t begin, std::size_t end) {
-            part[k].sum = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? gap_[i] + closing_[i] : 0.0; });
+            part[k].sum =
+                sum_of(begin, end, [&](std::size_t i) { return active_[i] ? gap_[i] + displacement_[i] : 0.0; });
             part[k].count = sum_of(begin, end, [&](std::size_t i) { return active_[i] ? 1.0 : 0.0; });
           },
           2);
@@ -152,7 +170,7 @@ class ActiveSetSolver {
         n_,
         [&](std::size_t k, std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
-            residual_[i] = active_[i] ? approach_ - gap_[i] - closing_[i] : 0.0;
+            residual_[i] = active_[i] ? approach_ - gap_[i] - displacement_[i] : 0.0;
             part[k].largest = std::max(part[k].largest, std::abs(residual_[i]));
           }
         },
@@ -161,7 +179,8 @@ class ActiveSetSolver {
     return all.largest;
   }
 
-  /// On the active cells. Returns the largest residual left.
+  /// Preconditioned conjugate gradients on the active cells; a given load is met from the first iterate on. Returns the
+  /// largest residual left, at most the larger of 0.3 floor and `reduce` times the first one.
   double conjugate_gradients(double reduce, double floor) {
     if (load_given()) {
       Plane mask(active_.begin(), active_.end());
@@ -169,7 +188,7 @@ class ActiveSetSolver {
       ones_sum_ = sum(ones_);
       add_scaled(p_, (*target_.load / grid_.cell_area() - sum(p_)) / ones_sum_, ones_);
     }
-    influence_.normal(p_.data(), closing_.data());
+    influence_.normal(p_.data(), displacement_.data());
     ++iterations_;
     double left = compute_residual(), previous = 0;
     const double goal = std::max(0.3 * floor, reduce * left);
@@ -184,12 +203,18 @@ class ActiveSetSolver {
       ++iterations_;
       const double alpha = rho / dot(d_, Ad_);
       for_cells(
-          n_, [&](std::size_t i) { p_[i] += alpha * d_[i], closing_[i] += alpha * Ad_[i]; }, 2);
+          n_,
+          [&](std::size_t i) {
+            p_[i] += alpha * d_[i];
+            displacement_[i] += alpha * Ad_[i];
+          },
+          2);
       left = compute_residual();
     }
     return left;
   }
 
+  /// Returns how many cells changed; those whose negative pressure is round-off leave the set uncounted.
   int update_active_set(double tolerance) {
     const double p_small = 1e-9 * *std::max_element(p_.begin(), p_.end());
     int changed = 0;
@@ -198,7 +223,7 @@ class ActiveSetSolver {
         changed += p_[i] < -p_small;
         active_[i] = 0;
         p_[i] = 0;
-      } else if (!active_[i] && approach_ - gap_[i] - closing_[i] > tolerance) {
+      } else if (!active_[i] && approach_ - gap_[i] - displacement_[i] > tolerance) {
         ++changed;
         active_[i] = 1;
       }
@@ -227,7 +252,8 @@ class ActiveSetSolver {
   NormalTarget target_;
   NormalOptions options_;
   std::size_t n_;
-  Plane p_, closing_, residual_, z_, d_, Ad_, ones_;
+  Plane p_, displacement_;              // u_n(p)
+  Plane residual_, z_, d_, Ad_, ones_;  // of the conjugate gradients; ones_: preconditioned indicator of active cells
   Mask active_;
   double approach_ = 0, ones_sum_ = 1;
   int iterations_ = 0;

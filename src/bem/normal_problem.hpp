@@ -1,8 +1,9 @@
 #pragma once
 // The frictionless (normal) contact problem on a grid of cells.
 //
-//   gap(x, y) - approach + closing(p) >= 0,  p >= 0,  one of them zero in every cell,
-// for a given load F = ∑ p dA or a given approach. Solved by an active-set iteration whose linear problems are
+//   gap(x, y) - approach + u_n(p) >= 0,  p >= 0,  one of them zero in every cell,
+// u_n the normal elastic displacement of both bodies together (influence_operator.hpp), positive where it opens the
+// gap, for a given load F = ∑ p dA or a given approach. Solved by an active-set iteration whose linear problems are
 // projected conjugate gradients with an FFT preconditioner. [PolonskyKeer1999, Vollebregt2014]
 #include <optional>
 
@@ -31,9 +32,9 @@ struct NormalSolution {
   bool touches_edge = false;  ///< a cell of the outermost ring carries pressure: the grid is too small
 };
 
-/// gap: undeformed distance of the bodies in each cell [m], any origin; closing of a tangential traction (dissimilar
-/// bodies) is added to it by the caller. start: pressure of a similar problem, or empty. Throws NumericalError when the
-/// iteration does not end.
+/// gap: undeformed distance of the bodies in each cell [m], any origin; the caller adds to it the normal elastic
+/// displacement by a tangential traction (dissimilar bodies). start: pressure of a similar problem, or empty. Throws
+/// NumericalError when the iteration does not end.
 NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& gap,
                             NormalTarget target, const NormalOptions& options = {}, const Plane& start = {});
 

@@ -9,6 +9,11 @@ namespace railstrata {
 using Plane = std::vector<double>;
 using Mask = std::vector<unsigned char>;
 
+/// The two components of a tangential quantity in every cell: x rolling direction, y lateral. Empty: none.
+struct PlanePair {
+  Plane x, y;
+};
+
 /// Below these sizes waking other threads costs more than the work: of a transform, and of one sweep over a vector.
 inline bool threads_pay_for(std::size_t cells) { return cells >= 12000; }
 inline bool threads_pay_for_sweep(std::size_t values) { return values >= 60000; }

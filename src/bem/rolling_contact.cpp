@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/faults.hpp"
 
@@ -33,7 +34,7 @@ void add_displacement_by_pressure(const InfluenceOperator& influence, const Patc
   const Displacement u(influence, grid, pressure);
   const std::size_t n = grid.size(), row = Displacement::row(grid);
   const bool steady = t.kind == RollingKind::steady;
-  Plane &x = steady ? t.extra_x : t.before_x, &y = steady ? t.extra_y : t.before_y;
+  auto& [x, y] = steady ? t.extra_slip : t.before;
   x.resize(n, 0.0);
   y.resize(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
@@ -44,16 +45,16 @@ void add_displacement_by_pressure(const InfluenceOperator& influence, const Patc
 
 TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
                                   const RollingContact& contact, const Plane& pressure) {
-  TangentialProblem t{contact.kind,    pressure,        contact.x,    contact.y,        contact.spin,
-                      contact.extra_x, contact.extra_y, contact.step, contact.before_x, contact.before_y};
-  for (std::size_t i = 0; i < t.bound.size(); ++i)
-    t.bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
+  TangentialProblem t{contact.kind, pressure,           contact.x,    contact.y,
+                      contact.spin, contact.extra_slip, contact.step, contact.before};
+  for (std::size_t i = 0; i < t.traction_bound.size(); ++i)
+    t.traction_bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
   if (influence.couples()) add_displacement_by_pressure(influence, grid, pressure, t);
   return t;
 }
 
-Plane gap_closed_by_traction(const InfluenceOperator& influence, const RollingContact& contact,
-                             const TangentialSolution& s) {
+Plane gap_with_displacement_by_traction(const InfluenceOperator& influence, const RollingContact& contact,
+                                        const TangentialSolution& s) {
   Plane gap(contact.gap.size());
   influence.normal_from_traction(s.q_x.data(), s.q_y.data(), gap.data());
   add_scaled(gap, 1, contact.gap);
@@ -69,20 +70,23 @@ double largest_change(const Plane& a, const Plane& b) {
   return change / peak;
 }
 
-/// Solves one of the two problems further, counting its iterations on.
+/// Takes the next solution of one of the two problems; its iterations are added to those before.
 template <class Solution>
 void replace(Solution& old, Solution next) {
   next.iterations += old.iterations;
   old = std::move(next);
 }
 
-RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
+RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
                               const RollingOptions& options, const RollingSolution* start) {
-  constexpr double kFirst = 0.3;     // a third of the tangential solution is enough to see the pressure move
-  constexpr double kSharper = 0.03;  // of the last change of the pressure: how well the next pressure is known
-  constexpr double kGapPerPressure =
-      0.01;  // a small deviation of the gap, over its range, is a hundredfold one of the pressure in single cells
-  constexpr int kOneStepTurns = 30;  // after these, a turn is taken to its end
+  // A third of the tangential solution is enough to see the pressure move.
+  constexpr double kFirst = 0.3;
+  // Over the last change of the pressure: how well the next pressure is known.
+  constexpr double kSharper = 0.03;
+  // A small deviation of the gap, over its range, is a hundredfold one of the pressure in single cells.
+  constexpr double kGapPerPressure = 0.01;
+  // After these outer iterations the tangential problem is solved to its end each time.
+  constexpr int kOneStepIterations = 30;
   RollingSolution s;
   if (start) {
     s.tangential = start->tangential;
@@ -92,17 +96,18 @@ RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGri
   const auto pressure = [&](const Plane& from) {
     NormalOptions close_enough = options.normal;
     close_enough.tolerance = std::max(close_enough.tolerance, kGapPerPressure * kSharper * change);
-    return solve_normal(influence, grid,
-                        from.empty() ? contact.gap : gap_closed_by_traction(influence, contact, s.tangential),
-                        contact.target, close_enough, from);
+    return solve_normal(
+        influence, grid,
+        from.empty() ? contact.gap : gap_with_displacement_by_traction(influence, contact, s.tangential),
+        contact.target, close_enough, from);
   };
   s.normal = pressure(start ? start->normal.pressure : Plane{});
-  for (s.turns = 1; s.turns <= options.max_turns; ++s.turns) {
-    const bool settled = change < options.coupling_tolerance, first = s.turns == 1 && !start;
+  for (s.outer_iterations = 1; s.outer_iterations <= options.max_outer; ++s.outer_iterations) {
+    const bool settled = change < options.coupling_tolerance, first = s.outer_iterations == 1 && !start;
     TangentialOptions further = options.tangential;
     if (!settled) {
       further.tolerance = std::max(further.tolerance, change);
-      if (!first && s.turns < kOneStepTurns) {
+      if (!first && s.outer_iterations < kOneStepIterations) {
         further.max_outer = 1;
         further.partial = true;
       }
@@ -122,7 +127,7 @@ RollingSolution solve_in_turn(const InfluenceOperator& influence, const PatchGri
 
 RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGrid& grid, const RollingContact& contact,
                               const RollingOptions& options, const RollingSolution* start) {
-  if (influence.couples()) return solve_in_turn(influence, grid, contact, options, start);
+  if (influence.couples()) return solve_coupled(influence, grid, contact, options, start);
   RollingSolution s;
   s.normal = solve_normal(influence, grid, contact.gap, contact.target, options.normal,
                           start ? start->normal.pressure : Plane{});
@@ -137,8 +142,8 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   const auto row = static_cast<std::ptrdiff_t>(Displacement::row(grid));
   contact.kind = RollingKind::transient;
   contact.step = grid.dx;
-  contact.before_x.assign(u.x.begin() + row, u.x.end());
-  contact.before_y.assign(u.y.begin() + row, u.y.end());
+  contact.before.x.assign(u.x.begin() + row, u.x.end());
+  contact.before.y.assign(u.y.begin() + row, u.y.end());
 }
 
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,
@@ -146,8 +151,8 @@ void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const R
   const Displacement u(influence, grid, before);
   const auto row = static_cast<std::ptrdiff_t>(Displacement::row(grid));
   contact.kind = RollingKind::shift;
-  contact.before_x.assign(u.x.begin(), u.x.end() - row);
-  contact.before_y.assign(u.y.begin(), u.y.end() - row);
+  contact.before.x.assign(u.x.begin(), u.x.end() - row);
+  contact.before.y.assign(u.y.begin(), u.y.end() - row);
 }
 
 }  // namespace railstrata

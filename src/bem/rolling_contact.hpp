@@ -1,10 +1,11 @@
 #pragma once
 // Normal and tangential contact together.
 //
-// Equal (elastically similar) bodies: pressure first, then friction. Dissimilar or layered ones: the two problems are
-// solved in turn, each with the displacement caused by the other's traction, until the pressure repeats. [Kalker1990
-// sec. 4.2.2, the Panagiotopoulos process] Neither is solved further in a turn than the other is known: the tangential
-// problem takes one Newton step, which costs little more than that step would cost alone.
+// Equal (elastically similar) bodies: pressure first, then friction. Dissimilar or layered ones: outer iterations (the
+// Panagiotopoulos process [Kalker1990 sec. 4.2.2]) solve the two problems alternately, each with the displacement
+// caused by the other's traction, until the pressure repeats. Both are solved only as accurately as the other is known:
+// the tangential problem takes one Newton step per outer iteration, the normal one a tolerance that follows the last
+// change of the pressure. So the coupled problem costs little more Newton steps than the tangential problem alone.
 #include "bem/normal_problem.hpp"
 #include "bem/tangential_problem.hpp"
 
@@ -17,24 +18,23 @@ struct RollingContact {
   Plane local_friction;  ///< in each cell, replaces `friction`; empty: uniform
   RollingKind kind = RollingKind::steady;
   CreepOrForce x, y;
-  double spin = 0;           ///< 1/m
-  Plane extra_x, extra_y;    ///< further rigid slip, see TangentialProblem; empty: none
-  double step = 0;           ///< rolled distance [m]: transient only
-  Plane before_x, before_y;  ///< history: displacement by pressure and traction of the state before, see
-                             ///< TangentialProblem; empty: none
+  double spin = 0;       ///< 1/m
+  PlanePair extra_slip;  ///< further rigid slip, see TangentialProblem
+  double step = 0;       ///< rolled distance [m]: transient only
+  PlanePair before;      ///< history: displacement by pressure and traction of the state before, see TangentialProblem
 };
 
 struct RollingOptions {
   NormalOptions normal;
   TangentialOptions tangential;
-  double coupling_tolerance = 1e-5;  ///< largest change of the pressure over its maximum between two turns
-  int max_turns = 100;
+  double coupling_tolerance = 1e-5;  ///< largest change of the pressure over its maximum between two outer iterations
+  int max_outer = 100;
 };
 
 struct RollingSolution {
   NormalSolution normal;
   TangentialSolution tangential;
-  int turns = 1;  ///< 1 for similar bodies; iterations of both parts are summed over the turns
+  int outer_iterations = 1;  ///< 1 for similar bodies; the iterations of both parts are sums over the outer ones
 };
 
 /// start: solution of a similar problem on the same grid (the state before, a neighbour in a sweep), or null.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "bem/case_patch.hpp"
 #include "core/faults.hpp"
@@ -49,24 +50,20 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
 void fill_totals(const RollingSolution& s, double speed, BemResult& r) {
   const TangentialSolution& t = s.tangential;
   const double c = std::cos(r.contact.angle), sn = std::sin(r.contact.angle);
-  r.normal_force = s.normal.load;
-  r.tangential_y = t.force_y;
-  r.F_x = t.force_x;
-  r.F_y = r.normal_force * sn + t.force_y * c;
-  r.F_z = -r.normal_force * c + t.force_y * sn;
-  r.moment = t.moment;
+  const double normal = s.normal.load;
+  r.force = {t.force_x, normal * sn + t.force_y * c, -normal * c + t.force_y * sn, normal, t.force_y, t.moment};
   r.approach = s.normal.approach;
-  r.creepage_x = t.creepage_x;
-  r.creepage_y = t.creepage_y;
-  r.slip_area = t.slip_area;
+  r.rigid_slip.x = t.creepage_x;
+  r.rigid_slip.y = t.creepage_y;
   r.dissipation = t.dissipation * speed;
-  r.turns = s.turns;
-  r.iterations = s.normal.iterations + t.iterations;
+  r.effort.outer_iterations = s.outer_iterations;
+  r.effort.iterations = s.normal.iterations + t.iterations;
+  r.patch.slip_area = t.slip_area;
   for (std::size_t k = 0; k < r.field.p.size(); ++k) {
-    r.p_max = std::max(r.p_max, r.field.p[k]);
-    r.q_max = std::max(r.q_max, std::hypot(r.field.q_x[k], r.field.q_y[k]));
+    r.patch.p_max = std::max(r.patch.p_max, r.field.p[k]);
+    r.patch.q_max = std::max(r.patch.q_max, std::hypot(r.field.q_x[k], r.field.q_y[k]));
     if (r.field.p[k] > 0) {
-      r.patch_area += r.field.area[k];
+      r.patch.area += r.field.area[k];
       if (r.field.state[k] == ContactState::separated)
         r.field.state[k] = ContactState::slip;  // contact without friction
     }
@@ -76,39 +73,43 @@ void fill_totals(const RollingSolution& s, double speed, BemResult& r) {
 struct LoadedPatch {
   CasePatch patch;
   RollingSolution solution;
-  int turns = 1;
+  int load_iterations = 1;
 };
 
-/// Seeks the normal force by secants: lateral friction carries a share of the weight that grows with the contact angle,
-/// and itself depends on the normal force.
-LoadedPatch bear_the_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                            double weight) {
-  constexpr double kTolerance = 1e-5;
-  constexpr int kMostTurns = 20;
+/// Solves under a normal load [N]: on the grid of the load before, on a new one if there is none or the patch reached
+/// its edge.
+void solve_under(double normal, double weight, const CaseSpec& spec, const Placement& placement,
+                 const BemOptions& options, LoadedPatch& out) {
+  const auto solve = [&] {
+    out.patch.contact.target.load = normal;
+    out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling);
+  };
+  if (out.patch.influence) {
+    solve();
+    if (!out.solution.normal.touches_edge) return;
+  }
+  out.patch = make_case_patch(spec, placement, options, normal);
+  if (spec.drive.friction_coefficient > 0) out.patch.contact.x.force = -spec.drive.traction_coefficient * weight;
+  solve();
+}
+
+/// Finds the normal force N with N cos(delta) - T_y(N) sin(delta) = G by secants (case_patch.hpp): lateral friction T_y
+/// carries a share of the weight that grows with the contact angle, and itself depends on N. Where that share grows as
+/// fast as N does, the slope of the left side is zero and no N is large enough: the wheel is wedged.
+LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                                  double weight) {
+  constexpr double kTolerance = 1e-5, kWedged = 0.02;
+  constexpr int kMostIterations = 20;
   const RigidContact& contact = placement.contact;
   const double cosine = std::cos(contact.angle), sine = std::sin(contact.angle);
   double normal = normal_load(weight, 0, contact), slope = cosine, previous_normal = 0, previous_excess = 0;
   LoadedPatch out;
-  const auto solve = [&] {
-    const auto again = [&] {
-      out.patch.contact.target.load = normal;
-      out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling);
-    };
-    const auto place = [&] {
-      out.patch = make_case_patch(spec, placement, options, normal);
-      if (spec.drive.friction_coefficient > 0) out.patch.contact.x.force = -spec.drive.traction_coefficient * weight;
-      again();
-    };
-    if (out.turns == 1) return place();
-    again();
-    if (out.solution.normal.touches_edge) place();
-  };
-  for (;; ++out.turns) {
-    solve();
+  for (;; ++out.load_iterations) {
+    solve_under(normal, weight, spec, placement, options, out);
     const double excess = normal * cosine - out.solution.tangential.force_y * sine - weight;
     if (std::abs(excess) <= kTolerance * weight) return out;
-    if (out.turns > 1) slope = (excess - previous_excess) / (normal - previous_normal);
-    if (!(slope > 0.02 * cosine) || out.turns == kMostTurns)
+    if (out.load_iterations > 1) slope = (excess - previous_excess) / (normal - previous_normal);
+    if (!(slope > kWedged * cosine) || out.load_iterations == kMostIterations)
       throw CaseError(
           fmt::format(
               "no normal force balances the weight at a contact angle of {:.1f} degrees: friction wedges the wheel",
@@ -126,7 +127,7 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   const auto begin = std::chrono::steady_clock::now();
   const double load = static_load(spec);
   check_friction(spec, load, normal_load(load, 0, placement.contact));
-  const LoadedPatch loaded = bear_the_weight(spec, placement, options, load);
+  const LoadedPatch loaded = balance_vertical_load(spec, placement, options, load);
   const CasePatch& patch = loaded.patch;
   const RollingSolution& s = loaded.solution;
 
@@ -135,12 +136,12 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   r.grid = patch.grid;
   r.wheel = patch.wheel;
   r.rail = patch.rail;
-  r.spin = patch.contact.spin;
+  r.rigid_slip.spin = patch.contact.spin;
   r.notes = patch.notes;
-  r.load_turns = loaded.turns;
+  r.effort.load_iterations = loaded.load_iterations;
   fill_field(patch, s, r.contact, spec.drive.speed, r.field);
   fill_totals(s, spec.drive.speed, r);
-  r.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return r;
 }
 

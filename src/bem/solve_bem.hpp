@@ -4,13 +4,12 @@
 // What it takes of a case: profiles and track, wheel radius, moduli, layers (unbounded sideways), load G = (wheel +
 // sprung mass) g as the vertical force, friction and traction coefficients. Steady rolling: F_x = traction_coefficient
 // G on the wheel, no lateral creepage, spin and the variation of the rolling radius across the patch from the geometry.
-// The normal force is such that normal and lateral force together bear the load. What it has not: inertia, the bodies'
-// shape outside the patch, the layer's edges.
-#include <memory>
+// The normal force is such that normal and lateral force together bear the load. Not in it: inertia, the bodies' shape
+// outside the patch, the layer's edges.
 #include <string>
 #include <vector>
 
-#include "bem/rolling_contact.hpp"
+#include "bem/bem_options.hpp"
 #include "bem/subsurface.hpp"
 #include "contact/contact_field.hpp"
 #include "halfspace/layered.hpp"
@@ -18,24 +17,30 @@
 
 namespace railstrata {
 
-/// Influence operators of earlier solutions, for sweeps; safe to share between threads.
-class InfluenceCache {
- public:
-  InfluenceCache();
-  ~InfluenceCache();
-  std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail,
-                                               const PatchGrid& grid);
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
+/// Sums and extremes over the cells.
+struct PatchTotals {
+  double p_max = 0, q_max = 0;     ///< Pa
+  double area = 0, slip_area = 0;  ///< m²
 };
 
-struct BemOptions {
-  double cell = 0.25e-3;         ///< m
-  double largest_patch = 60e-3;  ///< m, of the potential contact area, per direction
-  RollingOptions rolling;
-  InfluenceCache* cache = nullptr;
+/// Resultants on the rail.
+struct RailForces {
+  double x = 0, y = 0, z = 0;         ///< N, model frame (z up: z < 0), pressure and friction together
+  double normal = 0, tangential = 0;  ///< N, contact frame: of the pressure; of the lateral friction, along y
+  double moment = 0;                  ///< N m about the contact normal
+};
+
+/// Rigid slip of the wheel over the rail, divided by V; a driving wheel has x < 0.
+struct RigidSlip {
+  double x = 0, y = 0;  ///< creepages
+  double spin = 0;      ///< 1/m
+};
+
+struct SolverEffort {
+  int load_iterations = 1;   ///< normal loads tried until the vertical force was the weight
+  int outer_iterations = 1;  ///< of pressure and friction, see RollingSolution; of the last normal load
+  int iterations = 0;        ///< products with the influence operators, of the last normal load
+  double wall_s = 0;
 };
 
 struct BemResult {
@@ -43,25 +48,14 @@ struct BemResult {
   PatchGrid grid;  ///< contact frame: x rolling, y along the common tangent, origin at the rigid contact point
   RigidContact contact;
   LayeredHalfSpace wheel, rail;
-  double p_max = 0, q_max = 0;       ///< Pa, of the cells
-  double F_x = 0, F_y = 0, F_z = 0;  ///< N, on the rail, model frame (z up: F_z < 0), pressure and friction together
-  double normal_force = 0,
-         tangential_y = 0;  ///< N, contact frame: the pressure's resultant; the lateral friction's on the rail
-  double moment = 0;        ///< N m about the contact normal, on the rail
-  double approach = 0;      ///< m
-  double creepage_x = 0, creepage_y = 0,
-         spin = 0;  ///< rigid slip of the wheel over the rail / V; a driving wheel has creepage_x < 0
-  double patch_area = 0, slip_area = 0;  ///< m², of the cells
-  double dissipation = 0;                ///< W
-  int turns = 1, iterations = 0;         ///< turns of pressure against friction, of the last normal load
-  int load_turns = 1;                    ///< normal loads tried until the vertical force was the weight
-  double wall_s = 0;
+  PatchTotals patch;
+  RailForces force;
+  RigidSlip rigid_slip;
+  double approach = 0;     ///< m
+  double dissipation = 0;  ///< W
+  SolverEffort effort;
   std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
 };
-
-/// Layers of one body ("rail" or "wheel") from the case, from the surface down; a graded one cut to its
-/// grading_tolerance.
-LayeredHalfSpace layered_body(const CaseSpec& spec, const std::string& body);
 
 /// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears
 /// the weight whatever the normal force (a wedged wheel).

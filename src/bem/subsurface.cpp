@@ -1,11 +1,15 @@
 #include "bem/subsurface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include "bem/plane_fft.hpp"
+#include "core/parabola.hpp"
 #include "halfspace/layer_waves.hpp"
 #include "material/elastic.hpp"
 
@@ -42,7 +46,10 @@ std::vector<double*> pointers(Planes& s, std::size_t n) {
   return out;
 }
 
-/// Loads (p, q_x, q_y) with the table of their influences at offsets from a cell: value(entry, load, quantity).
+/// Quantities out[s] = sum over the loads (p, q_x, q_y) of table entry times load, by one FFT: value(entry, load, s) is
+/// the influence at an offset from a cell. The table holds the quadrant x, y >= 0 alone; the parities complete it. A
+/// spectrum is real where both parities agree, else imaginary with its imaginary part kept: hence the two products
+/// below.
 template <std::size_t N, class Table, class Value>
 void convolve(const PlaneFft& fft, const std::vector<const double*>& loads, const Table& table,
               const Parity (&parity)[3][N], const std::vector<double*>& out, Value&& value) {
@@ -71,12 +78,15 @@ void convolve(const PlaneFft& fft, const std::vector<const double*>& loads, cons
 /// The state under unit surface loads at one wave number and depth, in the axes of the wave: displacements times k,
 /// tractions; see layer_waves.hpp for U, W, T, S, V, Q.
 struct WaveResponse {
-  double kU_p = 0, kW_p = 0, T_p = 0, S_p = 0, kU_q = 0, kW_q = 0, T_q = 0, S_q = 0, kV = 0, Q = 0;
+  double kU_p = 0, kW_p = 0, T_p = 0, S_p = 0;  // under pressure
+  double kU_q = 0, kW_q = 0, T_q = 0, S_q = 0;  // under traction along the wave vector
+  double kV = 0, Q = 0;                         // under traction across it
 };
 constexpr std::array<double WaveResponse::*, 10> kResponse{
     &WaveResponse::kU_p, &WaveResponse::kW_p, &WaveResponse::T_p, &WaveResponse::S_p, &WaveResponse::kU_q,
     &WaveResponse::kW_q, &WaveResponse::T_q,  &WaveResponse::S_q, &WaveResponse::kV,  &WaveResponse::Q};
 
+/// Amplitudes of the two surface waves from unit tractions at the surface, then the state at the depth.
 WaveResponse response(const LayerWaves& waves, double depth) {
   const WaveState top = waves.state(0, 0), s = waves.state(depth);
   // amplitudes for S/k = -1 (unit pressure) and T/k = -1 (unit radial traction), times k
@@ -178,8 +188,8 @@ struct Subsurface::Layered {
         std::copy_n(loads[l]->begin() + static_cast<std::ptrdiff_t>(grid.index(i, 0)), ny,
                     spread[l].begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * pitch));
     }
-    // the loads are steps, one a cell, as in the closed form: their transform is that of the values times sin(k d/2)/(k
-    // d/2)
+    // The loads are steps, one a cell, as in the closed form: their transform is that of the values times
+    // sin(k d/2)/(k d/2) in each direction.
     const auto step = [](double half) { return half == 0 ? 1.0 : std::sin(half) / half; };
     const double scale = 1 / points();
     Planes wide;
@@ -210,7 +220,7 @@ struct Subsurface::Layered {
               (*from[s])[static_cast<std::size_t>(i) * pitch + static_cast<std::size_t>(j)];
   }
 
-  /// Polynomial of the fifth order through the six nodes around k.
+  /// Lagrange's polynomial of the fifth order in ln k through the six nodes around k.
   WaveResponse between(const std::vector<WaveResponse>& node, double k) const {
     const double s = (std::log(k) - log_low) / log_step;
     const int i = std::clamp(static_cast<int>(s) - 2, 0, kNodes - 6);
@@ -259,8 +269,11 @@ DisplacementPlane Subsurface::displacement(double depth) const {
 }
 
 void Subsurface::straighten_steps(double depth, StatePlane& out) const {
-  // Tractions constant in each cell differ from linear ones by a sawtooth, whose waves k = 2 pi n/dx reach the cell's
-  // middle with the sum of (-1)^n/n exp(-k z) …
+  // Tractions constant in each cell differ from linear ones by a sawtooth of the slope. Its waves are k_n = 2 pi n/d
+  // with amplitudes (-1)^n/n; at a depth z each carries exp(-k_n z), times k_n z in the terms of the half-space
+  // solution that grow with depth. With r = exp(-2 pi z/d) the sums over n at the cell's middle are
+  //   sum of -(-r)^n/n = ln(1 + r) ("alternating"),   sum of -(-r)^n = r/(1 + r) ("once"),
+  // and a cell below the surface 0.2 % of it is left. Cells at the grid's rim have no neighbour and carry no traction.
   const double G = body_.substrate.shear(), nu = body_.substrate.poisson;
   struct Tooth {
     double normal_strain, shear_strain, s_zz;  // per unit slope of the traction
@@ -284,6 +297,8 @@ void Subsurface::straighten_steps(double depth, StatePlane& out) const {
     }
 }
 
+// Layered minus homogeneous, wave by wave. k^ = (cx, cy) is the direction of the wave; along = -i k^·q and across =
+// k^⊥·q are the tractions in its axes (layer_waves.hpp: sigma_x'z = i T).
 void Subsurface::add_layer_difference(double depth, StatePlane& out) const {
   const std::vector<WaveResponse> node = layered_->nodes(depth);
   const Layered::Means mean = layered_->mean(node);
@@ -325,11 +340,14 @@ void Subsurface::add_layer_difference(double depth, DisplacementPlane& out) cons
   };
   layered_->add(grid_, {&p_, &q_x_, &q_y_}, node, out, wave, zero);
   // the images' strain as a displacement from each load: e p (x - x'), and the tilt t q·(x - x')
-  double p = 0, px = 0, py = 0, qx = 0, qy = 0, qx_x = 0, qy_y = 0;
+  double p = 0, px = 0, py = 0;
+  double qx = 0, qy = 0, qx_x = 0, qy_y = 0;
   for (int i = 0; i < grid_.nx; ++i)
     for (int j = 0; j < grid_.ny; ++j) {
       const std::size_t k = grid_.index(i, j);
-      p += p_[k], px += p_[k] * grid_.x(i), py += p_[k] * grid_.y(j);
+      p += p_[k];
+      px += p_[k] * grid_.x(i);
+      py += p_[k] * grid_.y(j);
       qx += q_x_[k];
       qx_x += q_x_[k] * grid_.x(i);
       qy += q_y_[k];
@@ -376,7 +394,8 @@ struct Around {
     const int i = std::clamp(static_cast<int>(std::floor(u)) - 1, 0, g.nx - 4),
               j = std::clamp(static_cast<int>(std::floor(v)) - 1, 0, g.ny - 4);
     first = g.index(i, j);
-    x = cubic_weights(u - i), y = cubic_weights(v - j);
+    x = cubic_weights(u - i);
+    y = cubic_weights(v - j);
   }
   double of(const PatchGrid& g, const Plane& v) const {
     double sum = 0;
@@ -405,6 +424,8 @@ Subsurface Subsurface::widened(int more_x, int more_y) const {
   return {body_, g, padded(p_), padded(q_x_), padded(q_y_), period_};
 }
 
+// Points outside the grid: the same tractions on a grid widened with empty cells. Points are taken by depth, since a
+// plane costs a convolution and a point on it next to nothing.
 std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool below_interface) const {
   constexpr double kMostCells = 4e6;
   int more_x = 0, more_y = 0;
@@ -428,7 +449,10 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
   DisplacementPlane u;
   for (std::size_t k : order) {
     const Vec3& p = points[k];
-    if (s.s_zz.empty() || s.depth != p.z) s = plane(p.z), u = displacement(p.z);
+    if (s.s_zz.empty() || s.depth != p.z) {
+      s = plane(p.z);
+      u = displacement(p.z);
+    }
     const Around near(grid_, p);
     const auto of = [&](const Plane& v) { return near.of(grid_, v); };
     out[k].displacement = {of(u.u_x), of(u.u_y), of(u.u_z)};
@@ -440,30 +464,19 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
 
 namespace {
 
-/// Vertex of the parabola through (-1, a), (0, b), (1, c): offset in [-1/2, 1/2] and value; b is the largest.
-struct Vertex {
-  double offset, rise;
-};
-Vertex vertex(double a, double b, double c) {
-  const double curvature = a - 2 * b + c;
-  if (!(curvature < 0)) return {0, 0};
-  const double t = std::clamp(0.5 * (a - c) / curvature, -0.5, 0.5);
-  return {t, -0.25 * (a - c) * t};
-}
-
 StressPeak peak_of(const Plane& v, const PatchGrid& g, double depth) {
   const auto k = static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
   const int i = static_cast<int>(k) / g.ny, j = static_cast<int>(k) % g.ny;
   StressPeak peak{v[k], g.x(i), g.y(j), depth};
   if (i > 0 && i + 1 < g.nx) {
-    const Vertex t = vertex(v[g.index(i - 1, j)], v[k], v[g.index(i + 1, j)]);
-    peak.x += t.offset * g.dx;
-    peak.value += t.rise;
+    const ParabolaTop t = parabola_top(v[g.index(i - 1, j)], v[k], v[g.index(i + 1, j)]);
+    peak.x += t.at * g.dx;
+    peak.value += t.above;
   }
   if (j > 0 && j + 1 < g.ny) {
-    const Vertex t = vertex(v[k - 1], v[k], v[k + 1]);
-    peak.y += t.offset * g.dy;
-    peak.value += t.rise;
+    const ParabolaTop t = parabola_top(v[k - 1], v[k], v[k + 1]);
+    peak.y += t.at * g.dy;
+    peak.value += t.above;
   }
   return peak;
 }
@@ -504,8 +517,10 @@ class PeakSearch {
   }
 
  private:
+  /// Successive parabolas through the largest value and its neighbours; every depth tried joins the list. No golden
+  /// section: a plane costs a convolution, and near its top the curve is a parabola.
   void refine(std::vector<double> depth, double top, ZonePeaks& best, StressPeak ZonePeaks::*which) {
-    for (int turn = 0; turn < 6; ++turn) {
+    for (int pass = 0; pass < 6; ++pass) {
       std::size_t m = 0;
       const auto value = [&](std::size_t i) { return (at(depth[i], depth[i] == top).*which).value; };
       for (std::size_t i = 1; i < depth.size(); ++i)

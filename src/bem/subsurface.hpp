@@ -45,8 +45,8 @@ struct ZonePeaks {
   StressPeak von_mises, sigma1;
 };
 
-/// Maxima by zone. Depths are refined by golden section to 1 % of the cell, positions in plan by parabolas through
-/// neighbouring cells.
+/// Maxima by zone. Depths are refined by parabolas until they move by less than 1 % of the cell, positions in plan by
+/// one parabola through the neighbouring cells.
 struct SubsurfacePeaks {
   ZonePeaks surface;     ///< depth 0, the material at the surface
   ZonePeaks subsurface;  ///< below half a cell, whatever the material

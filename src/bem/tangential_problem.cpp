@@ -1,8 +1,12 @@
 #include "bem/tangential_problem.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "bem/gmres.hpp"
 #include "core/faults.hpp"
@@ -12,13 +16,19 @@ namespace railstrata {
 namespace {
 
 constexpr unsigned char kOutside = 0, kStick = 1, kSlip = 2,
-                        kLoosened = 3;  // loosened: stuck before the Newton step, over the bound after it
+                        kLoosened = 3;  // loosened: stuck before the Newton step, over the traction bound after it
 constexpr double kCoarse = 0.1;         // of the linear systems, while sets still change
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
-/// Vectors of the Newton system hold the planes x and y one after the other, then one entry for each direction whose
-/// force is given.
+/// Active sets with Newton's method. [Kalker1990 ch. 4] With n = q/|q|, t across it and the slip
+/// s(q, xi) = w(xi) + history - L q, the equations of the sets are
+///   stick: s = 0 (two unknowns dq),   slip: |q| = g and s·t = 0 (one unknown: dq along t, then back to the circle),
+/// linearised at the last q. Turning q by dq/g turns t as well, so that a slipping cell's row is
+///   t·L dq + ((s·n)/g) dq·t = s·t:   the diagonal (s·n)/g >= 0 is what makes slip solvable by itself.
+/// Where a force is given its creepage is a further unknown, and the equation sum of dq dA = missing force a further
+/// row. Vectors of the Newton system hold the planes x and y one after the other, then one entry for each such
+/// direction.
 class Solver {
  public:
   Solver(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem,
@@ -32,13 +42,13 @@ class Solver {
         q_(2 * n_, 0.0),
         slip_(2 * n_),
         rigid_(2 * n_),
+        history_(2 * n_, 0.0),
         normal_(2 * n_, 0.0),
         diagonal_(n_, 0.0),
-        history_(2 * n_, 0.0),
         integral_(2 * n_),
         set_(n_, kOutside),
         u_(2 * (n_ + ahead_)),
-        over_(1 / step_length()) {
+        inverse_step_(1 / step_length()) {
     if (problem.x.force) directions_.push_back(0);
     if (problem.y.force) directions_.push_back(1);
     creepage_[0] = problem.x.creepage;
@@ -48,8 +58,10 @@ class Solver {
     fill_fixed_slip();
   }
 
+  /// Newton steps until the slip conditions hold. The linear systems are solved roughly while cells change sets, and as
+  /// sharply as the error asks for once the sets stand.
   TangentialSolution solve(const TangentialSolution* start) {
-    for (std::size_t i = 0; i < n_; ++i) set_[i] = problem_.bound[i] > 0 ? kStick : kOutside;
+    for (std::size_t i = 0; i < n_; ++i) set_[i] = problem_.traction_bound[i] > 0 ? kStick : kOutside;
     check_forces();
     if (start) adopt(*start);
     update_slip();
@@ -83,27 +95,30 @@ class Solver {
     for (int i = 0; i < grid_.nx; ++i)
       for (int j = 0; j < grid_.ny; ++j) {
         const std::size_t k = grid_.index(i, j);
-        rigid_[k] = -problem_.spin * grid_.y(j) + (problem_.extra_x.empty() ? 0.0 : problem_.extra_x[k]);
-        rigid_[n_ + k] = problem_.spin * (grid_.x(i) + ahead) + (problem_.extra_y.empty() ? 0.0 : problem_.extra_y[k]);
-        if (!problem_.before_x.empty()) history_[k] = problem_.before_x[k] / step_length();
-        if (!problem_.before_y.empty()) history_[n_ + k] = problem_.before_y[k] / step_length();
+        rigid_[k] = -problem_.spin * grid_.y(j) + (problem_.extra_slip.x.empty() ? 0.0 : problem_.extra_slip.x[k]);
+        rigid_[n_ + k] =
+            problem_.spin * (grid_.x(i) + ahead) + (problem_.extra_slip.y.empty() ? 0.0 : problem_.extra_slip.y[k]);
+        if (!problem_.before.x.empty()) history_[k] = problem_.before.x[k] / step_length();
+        if (!problem_.before.y.empty()) history_[n_ + k] = problem_.before.y[k] / step_length();
       }
   }
 
   void check_forces() {
-    available_ = sum(problem_.bound);
+    available_ = sum(problem_.traction_bound);
     const double available = available_ * grid_.cell_area(),
                  wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
     if (wanted >= available && wanted > 0)
-      throw CaseError("friction cannot carry the tangential force: " + std::to_string(wanted) + " N of at most " +
-                          std::to_string(available) + " N",
+      throw CaseError(fmt::format("friction cannot carry the tangential force: {:.4g} kN of at most {:.4g} kN",
+                                  1e-3 * wanted, 1e-3 * available),
                       "lower the traction or raise the friction coefficient");
   }
 
+  /// Takes over the traction of a similar problem. Its traction bound differs: cells that slipped are put on the new
+  /// bound, sticking ones at most on it.
   void adopt(const TangentialSolution& start) {
     for (std::size_t i = 0; i < n_; ++i) {
       if (set_[i] == kOutside) continue;
-      const double size = length(start.q_x[i], start.q_y[i]), g = problem_.bound[i];
+      const double size = length(start.q_x[i], start.q_y[i]), g = problem_.traction_bound[i];
       const bool slips = start.state[i] == ContactState::slip && size > 0;
       const double scale = slips || size > g ? g / size : 1.0;
       q_[i] = scale * start.q_x[i];
@@ -121,7 +136,7 @@ class Solver {
     for (std::size_t i = 0; i < n_; ++i) {
       const double slip = length(slip_[i], slip_[n_ + i]);
       if (set_[i] == kOutside || start.state[i] != ContactState::separated || slip == 0) continue;
-      const double g = problem_.bound[i], q = std::min(g, slip / self_);
+      const double g = problem_.traction_bound[i], q = std::min(g, slip / self_);
       if (q == g) set_[i] = kSlip;
       q_[i] = q * slip_[i] / slip;
       q_[n_ + i] = q * slip_[n_ + i] / slip;
@@ -137,9 +152,9 @@ class Solver {
   }
 
   /// L in at cell i, after elastic_displacement(in).
-  double L_x(std::size_t i) const { return (u_[i] - (steady() ? u_[i + ahead_] : 0.0)) * over_; }
+  double L_x(std::size_t i) const { return (u_[i] - (steady() ? u_[i + ahead_] : 0.0)) * inverse_step_; }
   double L_y(std::size_t i) const {
-    return (u_[n_ + ahead_ + i] - (steady() ? u_[n_ + ahead_ + i + ahead_] : 0.0)) * over_;
+    return (u_[n_ + ahead_ + i] - (steady() ? u_[n_ + ahead_ + i + ahead_] : 0.0)) * inverse_step_;
   }
   void elastic_displacement(const double* in) {
     A_.tangential(in, in + n_, u_.data(), u_.data() + n_ + ahead_, steady() ? grid_.nx + 1 : grid_.nx);
@@ -155,11 +170,11 @@ class Solver {
     });
   }
 
-  using Vec2 = std::array<double, 2>;
+  using Components = std::array<double, 2>;
   /// The same, and the sums of a pair of planes after it.
   template <class Kernel>
-  Vec2 for_both_summed(const double* pair, Kernel&& kernel) const {
-    std::vector<Vec2> part(pieces_of(n_));
+  Components for_both_summed(const double* pair, Kernel&& kernel) const {
+    std::vector<Components> part(pieces_of(n_));
     for_pieces(
         n_,
         [&](std::size_t k, std::size_t begin, std::size_t end) {
@@ -168,8 +183,8 @@ class Solver {
                      sum_of(begin, end, [&](std::size_t i) { return pair[n_ + i]; })};
         },
         2);
-    Vec2 total{0, 0};
-    for (const Vec2& p : part) {
+    Components total{0, 0};
+    for (const Components& p : part) {
       total[0] += p[0];
       total[1] += p[1];
     }
@@ -187,7 +202,7 @@ class Solver {
   void prepare_slip_cells() {
     for_both([&](std::size_t i) {
       if (set_[i] != kSlip) return;
-      const double g = problem_.bound[i];
+      const double g = problem_.traction_bound[i];
       normal_[i] = q_[i] / g;
       normal_[n_ + i] = q_[n_ + i] / g;
       diagonal_[i] = std::max(0.0, slip_[i] * normal_[i] + slip_[n_ + i] * normal_[n_ + i]) / g;
@@ -206,6 +221,7 @@ class Solver {
     y = across * normal_[i];
   }
 
+  /// A dq = s in the unknowns of each cell, with the row of each given force scaled like a row of slip.
   void newton_step(double accuracy) {
     prepare_border();
     const std::size_t m = directions_.size();
@@ -220,12 +236,13 @@ class Solver {
           [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, accuracy, 120, space_);
   }
 
+  /// out = A in: L dq - creepage, projected, plus the diagonal of slip; then the sums of dq for the given forces.
   void newton_product(const Plane& in, Plane& out) {
     elastic_displacement(in.data());
     const std::size_t m = directions_.size();
     double creep[2] = {0, 0};
     for (std::size_t c = 0; c < m; ++c) creep[directions_[c]] = in[2 * n_ + c];
-    const Vec2 force = for_both_summed(in.data(), [&](std::size_t i) {
+    const Components force = for_both_summed(in.data(), [&](std::size_t i) {
       double x = L_x(i) - creep[0], y = L_y(i) - creep[1];
       project(i, x, y);
       const double d = set_[i] == kSlip ? diagonal_[i] : 0.0;
@@ -235,8 +252,10 @@ class Solver {
     for (std::size_t c = 0; c < m; ++c) out[2 * n_ + c] = force_row_ * force[directions_[c]];
   }
 
-  /// Approximate inverse of the first block. Returns the sums of the result.
-  Vec2 precondition_block(const double* in, double* out) {
+  /// Approximate inverse of the first block: u from the slip it makes (steady: summed up from the leading edge), then
+  /// the traction on the periodic grid that makes u. Slipping cells take their diagonal alone: that sum runs over
+  /// sticking cells only. Returns the sums of the result.
+  Components precondition_block(const double* in, double* out) {
     if (steady())
       integrate_from_leading_edge(in);
     else
@@ -269,7 +288,8 @@ class Solver {
     });
   }
 
-  /// What a unit creepage does to the first block's approximate inverse.
+  /// The approximate inverse applied to a unit creepage, and its force: column and pivot for eliminating the creepages
+  /// from the bordered system (`precondition`). Sets change with each Newton step, and so does the border.
   void prepare_border() {
     border_.resize(directions_.size());
     right_side_.resize(2 * n_);
@@ -280,13 +300,15 @@ class Solver {
         project(i, right_side_[i], right_side_[n_ + i]);
       });
       border_[c].resize(2 * n_);
-      const Vec2 force = precondition_block(right_side_.data(), border_[c].data());
+      const Components force = precondition_block(right_side_.data(), border_[c].data());
       for (std::size_t d = 0; d < directions_.size(); ++d) border_force_[d][c] = force[directions_[d]];
     }
   }
 
+  /// Block elimination with the approximate inverse P of the first block: creepages from P's forces (at most a system
+  /// of two), then the traction they make is added.
   void precondition(const Plane& in, Plane& out) {
-    const Vec2 force = precondition_block(in.data(), out.data());
+    const Components force = precondition_block(in.data(), out.data());
     const std::size_t m = directions_.size();
     double r[2] = {0, 0}, creep[2] = {0, 0};
     for (std::size_t c = 0; c < m; ++c) r[c] = in[2 * n_ + c] / force_row_ - force[directions_[c]];
@@ -303,13 +325,15 @@ class Solver {
     }
   }
 
+  /// q + dq, brought back to the circle |q| = g where it slips or has left it. A cell that sticks and leaves the circle
+  /// starts to slip (kLoosened until update_sets counts it).
   void advance() {
     for (std::size_t c = 0; c < directions_.size(); ++c) creepage_[directions_[c]] += step_[2 * n_ + c];
     for_both([&](std::size_t i) {
       if (set_[i] == kOutside) return;
       q_[i] += step_[i];
       q_[n_ + i] += step_[n_ + i];
-      const double size = length(q_[i], q_[n_ + i]), g = problem_.bound[i];
+      const double size = length(q_[i], q_[n_ + i]), g = problem_.traction_bound[i];
       if (set_[i] == kSlip || size > g) {
         if (set_[i] == kStick) set_[i] = kLoosened;
         q_[i] *= g / size;
@@ -318,14 +342,16 @@ class Solver {
     });
   }
 
-  /// Cells that step over the bound slip, those that would slip against their traction stick. Returns how many changed.
+  /// Cells that exceed the traction bound slip, those that would slip against their traction stick: s·q < 0 would
+  /// feed energy in; the threshold is round-off of the largest rigid slip. Returns how many changed.
   int update_sets() {
     return static_cast<int>(ordered_sum_of(n_, [&](std::size_t i) -> double {
       if (set_[i] == kLoosened) {
         set_[i] = kSlip;
         return 1;
       }
-      if (set_[i] != kSlip || slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i] >= -1e-9 * scale_ * problem_.bound[i])
+      if (set_[i] != kSlip ||
+          slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i] >= -1e-9 * scale_ * problem_.traction_bound[i])
         return 0;
       set_[i] = kStick;
       return 1;
@@ -343,7 +369,8 @@ class Solver {
         [&](std::size_t k, std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
             if (set_[i] == kOutside) continue;
-            const double x = rigid_[i] + creepage_[0], y = rigid_[n_ + i] + creepage_[1], g = problem_.bound[i];
+            const double x = rigid_[i] + creepage_[0], y = rigid_[n_ + i] + creepage_[1],
+                         g = problem_.traction_bound[i];
             const double across = (slip_[i] * q_[n_ + i] - slip_[n_ + i] * q_[i]) / g;
             part[k].rigid = std::max({part[k].rigid, x * x + y * y,
                                       1e-4 * (history_[i] * history_[i] + history_[n_ + i] * history_[n_ + i])});
@@ -397,10 +424,13 @@ class Solver {
   const TangentialProblem& problem_;
   TangentialOptions options_;
   std::size_t n_, ahead_;
-  Plane q_, slip_, rigid_, normal_, diagonal_, history_, step_, right_side_, integral_;
+  Plane q_, slip_;           // unknown traction; its slip
+  Plane rigid_, history_;    // fixed parts of the slip
+  Plane normal_, diagonal_;  // of slipping cells: unit traction; (s.n)/g
+  Plane step_, right_side_, integral_;
   Mask set_;
   Plane u_;
-  double over_;
+  double inverse_step_;
   std::vector<Plane> border_;
   std::vector<int> directions_;  // 0 x, 1 y: those whose force is given
   double border_force_[2][2] = {{1, 0}, {0, 1}};
@@ -428,16 +458,16 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   influence.tangential(before.q_x.data(), before.q_y.data(), ux.data(), uy.data(), grid.nx + 1);
   problem.kind = RollingKind::transient;
   problem.step = grid.dx;
-  problem.before_x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
-  problem.before_y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
+  problem.before.x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
+  problem.before.y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
 }
 
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
               TangentialProblem& problem) {
   problem.kind = RollingKind::shift;
-  problem.before_x.resize(grid.size());
-  problem.before_y.resize(grid.size());
-  influence.tangential(before.q_x.data(), before.q_y.data(), problem.before_x.data(), problem.before_y.data(), grid.nx);
+  problem.before.x.resize(grid.size());
+  problem.before.y.resize(grid.size());
+  influence.tangential(before.q_x.data(), before.q_y.data(), problem.before.x.data(), problem.before.y.data(), grid.nx);
 }
 
 }  // namespace railstrata

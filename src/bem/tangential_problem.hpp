@@ -3,7 +3,7 @@
 // 4, Vollebregt2014]
 //
 // In every cell of the patch, with the relative slip s = (velocity of the wheel's surface over the rail's)/V and the
-// bound g = f p,
+// traction bound g = f p,
 //   |q| <= g;   |q| < g: s = 0 (stick);   s != 0: q = g s/|s| (slip),        q acts on the rail,
 //   s = w - L q + history,   w = (xi - phi y, eta + phi x) the rigid slip, u = rail minus wheel displacement by q:
 //   steady rolling     L q = (u(x) - u(x + dx))/dx         (particles enter at the leading edge, x large)
@@ -14,6 +14,7 @@
 // system by GMRES with FFT products. L has a positive semi-definite symmetric part, and slip along the traction adds a
 // positive diagonal, so every linear system is solvable.
 #include <optional>
+#include <vector>
 
 #include "bem/influence_operator.hpp"
 #include "bem/patch_grid.hpp"
@@ -33,14 +34,13 @@ struct CreepOrForce {
 
 struct TangentialProblem {
   RollingKind kind = RollingKind::steady;
-  Plane bound;  ///< f p in each cell [Pa]; 0 outside the patch
+  Plane traction_bound;  ///< f p in each cell [Pa]; 0 outside the patch
   CreepOrForce x, y;
-  double spin = 0;  ///< 1/m
-  Plane extra_x,
-      extra_y;      ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies; empty: none
-  double step = 0;  ///< rolled distance dq [m]: transient only
-  Plane before_x, before_y;  ///< transient: rail minus wheel displacement of the state before, at (x + dq, y); shift:
-                             ///< at (x, y); empty: none
+  double spin = 0;       ///< 1/m
+  PlanePair extra_slip;  ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies
+  double step = 0;       ///< rolled distance dq [m]: transient only
+  PlanePair before;      ///< m, history: rail minus wheel displacement of the state before; transient: at (x + dq, y);
+                         ///< shift: at (x, y)
 };
 
 struct TangentialOptions {

@@ -6,6 +6,8 @@
 #include <functional>
 #include <map>
 
+#include "core/parallel.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -16,11 +18,11 @@ using Modes = Eigen::Matrix<double, 3, 6>;
 
 }  // namespace
 
-Aggregates::Aggregates(const DeformableBody& body, Vec2 contact, const ClusterSizes& sizes)
-    : body_(body), cut_(body.solid.body().blocks.size()), arm_(body.solid.layout().field()) {
-  const SweptBody& mesh = body.solid.body();
+Aggregates::Aggregates(const Body& body, Vec2 contact, const ClusterSizes& sizes)
+    : body_(body), cut_(body.mesh.blocks.size()), arm_(body.layout.field()) {
+  const SweptBody& mesh = body.mesh;
   std::vector<std::vector<int>> free(cut_.size());
-  for (const DeformableBody::Line& l : body.lines)
+  for (const NodeLine& l : body.lines)
     if (l.component == 0) free[l.block].push_back(l.node);
   const double radius = mesh.kind == SweepKind::revolve ? std::abs(contact.z) : 1.0;
   for (int b = 0; b < static_cast<int>(cut_.size()); ++b) {
@@ -36,7 +38,7 @@ Aggregates::Aggregates(const DeformableBody& body, Vec2 contact, const ClusterSi
 // Halves the nodes along the longer side until they fit.
 void Aggregates::cut_section(int block, std::vector<int> nodes, Vec2 contact, const ClusterSizes& sizes) {
   if (nodes.empty()) return;
-  const auto& at = body_.solid.body().blocks[block].section.nodes;
+  const auto& at = body_.mesh.blocks[block].section.nodes;
   Vec2 low = at[nodes[0]], high = low;
   double distance = norm(low - contact);
   for (int n : nodes) {
@@ -59,13 +61,13 @@ void Aggregates::cut_section(int block, std::vector<int> nodes, Vec2 contact, co
 }
 
 void Aggregates::cut_stations(int block, double radius, const ClusterSizes& sizes) {
-  const std::vector<double>& at = body_.solid.body().blocks[block].stations.at;
+  const std::vector<double>& at = body_.mesh.blocks[block].stations.at;
   BlockCut& cut = cut_[block];
   // from the station under the contact to both ends
   const int n = static_cast<int>(at.size());
   auto distance = [&](int j) {
     double t = std::abs(at[j]);
-    if (body_.solid.body().kind == SweepKind::revolve) t = std::abs(std::remainder(t, 2 * std::acos(-1.0)));
+    if (body_.mesh.kind == SweepKind::revolve) t = std::abs(std::remainder(t, 2 * std::acos(-1.0)));
     return radius * t;
   };
   cut.group_of.resize(n);
@@ -87,7 +89,7 @@ void Aggregates::cut_stations(int block, double radius, const ClusterSizes& size
 }
 
 Modes Aggregates::rigid_modes(const Cluster& c, int node, int station) const {
-  const Vec3 r = (1 / c.length) * arm(body_.solid.layout().blocks[c.block], node, station);
+  const Vec3 r = (1 / c.length) * arm(body_.layout.blocks[c.block], node, station);
   Modes m;
   m << 1, 0, 0, 0, r.z, -r.y,  //
       0, 1, 0, -r.z, 0, r.x,   //
@@ -104,12 +106,12 @@ void Aggregates::add_cluster(int block, int section, int group) {
     for (int n : nodes)
       for (int j = first; j < first + count; ++j) work(n, j);
   };
-  visit([&](int n, int j) { c.centre += body_.solid.reference_position(block, n, j); });
+  visit([&](int n, int j) { c.centre += reference_position(body_, block, n, j); });
   c.centre = (1.0 / static_cast<double>(nodes.size() * count)) * c.centre;
   double radius2 = 0;
-  const BlockLayout& lay = body_.solid.layout().blocks[block];
+  const BlockLayout& lay = body_.layout.blocks[block];
   visit([&](int n, int j) {
-    const Vec3 r = body_.solid.reference_position(block, n, j) - c.centre;
+    const Vec3 r = reference_position(body_, block, n, j) - c.centre;
     double* a = arm_.data() + lay.line(n, 0) + j;
     a[0] = r.x;
     a[lay.stride] = r.y;
@@ -139,7 +141,7 @@ int Aggregates::cluster_of(int block, int node, int station) const {
 }
 
 void Aggregates::restrict_to(const Field& f, double* out) const {
-  const BodyLayout& lay = body_.solid.layout();
+  const BodyLayout& lay = body_.layout;
   for_each(
       clusters(),
       [&](std::ptrdiff_t i) {
@@ -162,7 +164,7 @@ void Aggregates::restrict_to(const Field& f, double* out) const {
 }
 
 void Aggregates::prolong(const double* coefficients, Field& u) const {
-  const BodyLayout& lay = body_.solid.layout();
+  const BodyLayout& lay = body_.layout;
   for_each(
       clusters(),
       [&](std::ptrdiff_t i) {
@@ -190,7 +192,7 @@ Eigen::Matrix<double, 6, 1> Aggregates::modes_at(int block, int node, int statio
 }
 
 Aggregates::Neighbours Aggregates::neighbours() const {
-  const SweptBody& mesh = body_.solid.body();
+  const SweptBody& mesh = body_.mesh;
   std::map<std::pair<int, int>, const Tie*> tie_of;
   for (const Tie& t : mesh.ties) tie_of[{t.slave_block, t.slave_node}] = &t;
   constexpr int kHeld = -1;

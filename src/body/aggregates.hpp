@@ -8,14 +8,14 @@
 // thread in a fixed order, so results do not depend on the number of threads.
 #include <Eigen/Core>
 
+#include "body/body.hpp"
 #include "body/cluster_sizes.hpp"
-#include "body/deformable_body.hpp"
 
 namespace railstrata {
 
 class Aggregates {
  public:
-  Aggregates(const DeformableBody& body, Vec2 contact, const ClusterSizes& sizes);
+  Aggregates(const Body& body, Vec2 contact, const ClusterSizes& sizes);
 
   int clusters() const { return static_cast<int>(cluster_.size()); }
   int modes() const { return modes_; }  ///< of all clusters
@@ -62,7 +62,7 @@ class Aggregates {
     return {a[0], a[l.stride], a[2 * l.stride]};
   }
 
-  const DeformableBody& body_;
+  const Body& body_;
   std::vector<BlockCut> cut_;
   Field arm_;  // X - X_c of the free nodes
   std::vector<Cluster> cluster_;

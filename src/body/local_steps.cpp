@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -43,7 +45,7 @@ NodeSets fast_nodes(const SweptBody& body, const std::vector<Elastic>& materials
       const auto& k = s.quads[q];
       const Elastic& m = materials[s.quad_material[q]];
       const auto edge = [&](int side) { return norm(s.nodes[k[(side + 1) % 4]] - s.nodes[k[side]]); };
-      const double area = 0.5 * cross(s.nodes[k[2]] - s.nodes[k[0]], s.nodes[k[3]] - s.nodes[k[1]]);
+      const double area = quad_area(s, k);
       const double across = area / std::max(0.5 * (edge(0) + edge(2)), 0.5 * (edge(1) + edge(3)));
       const double least = std::min(across, shortest_spacing(body, body.blocks[b], std::abs(s.nodes[k[0]].z)));
       if (std::sqrt(m.p_wave_modulus() / m.density) * step <= kSlack * least) continue;
@@ -72,31 +74,63 @@ struct Extract {
   std::vector<std::vector<std::pair<int, int>>> of;  // per block and node of the part: block and node of the whole
 };
 
+using QuadSets = std::vector<std::vector<bool>>;  // per block and quadrilateral
+
+struct Kept {
+  NodeSets nodes, covered;  // covered: by a quadrilateral that is kept
+  QuadSets quads;
+  void add(const SweptBody& whole, std::size_t b, std::size_t q) {
+    quads[b][q] = true;
+    for (int n : whole.blocks[b].section.quads[q]) nodes[b][n] = covered[b][n] = true;
+  }
+};
+
 // The quadrilaterals that touch a moving node, their nodes and the masters of these; a master that would stand alone
 // brings a quadrilateral, whose forces do not change.
-Extract extract(const SweptBody& whole, const NodeSets& moving) {
-  NodeSets kept = no_nodes(whole), covered = kept;
-  std::vector<std::vector<bool>> quads;
-  const auto keep = [&](std::size_t b, std::size_t q) {
-    quads[b][q] = true;
-    for (int n : whole.blocks[b].section.quads[q]) kept[b][n] = covered[b][n] = true;
-  };
+Kept kept_parts(const SweptBody& whole, const NodeSets& moving) {
+  Kept kept{no_nodes(whole), no_nodes(whole), {}};
   for (std::size_t b = 0; b < whole.blocks.size(); ++b) {
     const auto& all = whole.blocks[b].section.quads;
-    quads.emplace_back(all.size(), false);
+    kept.quads.emplace_back(all.size(), false);
     for (std::size_t q = 0; q < all.size(); ++q)
-      if (std::any_of(all[q].begin(), all[q].end(), [&](int n) { return moving[b][n]; })) keep(b, q);
+      if (std::any_of(all[q].begin(), all[q].end(), [&](int n) { return moving[b][n]; })) kept.add(whole, b, q);
   }
   for (bool changed = true; changed;) {
-    changed = add_masters(whole, kept);
+    changed = add_masters(whole, kept.nodes);
     for (std::size_t b = 0; b < whole.blocks.size(); ++b)
-      for (std::size_t q = 0; q < quads[b].size(); ++q)
+      for (std::size_t q = 0; q < kept.quads[b].size(); ++q)
         for (int n : whole.blocks[b].section.quads[q])
-          if (kept[b][n] && !covered[b][n]) {
-            keep(b, q);
+          if (kept.nodes[b][n] && !kept.covered[b][n]) {
+            kept.add(whole, b, q);
             changed = true;
           }
   }
+  return kept;
+}
+
+// The kept nodes and quadrilaterals of a block with numbers of their own; new_number: per node, -1 for those left out.
+Block extract_block(const Block& whole, const std::vector<bool>& nodes, const std::vector<bool>& quads,
+                    std::vector<int>& new_number) {
+  const Section& from = whole.section;
+  Block block{whole.name, {}, whole.stations};
+  new_number.assign(from.nodes.size(), -1);
+  for (std::size_t n = 0; n < from.nodes.size(); ++n) {
+    if (!nodes[n]) continue;
+    new_number[n] = static_cast<int>(block.section.nodes.size());
+    block.section.nodes.push_back(from.nodes[n]);
+  }
+  for (std::size_t q = 0; q < from.quads.size(); ++q) {
+    if (!quads[q]) continue;
+    std::array<int, 4> k = from.quads[q];
+    for (int& n : k) n = new_number[n];
+    block.section.quads.push_back(k);
+    block.section.quad_material.push_back(from.quad_material[q]);
+  }
+  return block;
+}
+
+Extract extract(const SweptBody& whole, const NodeSets& moving) {
+  const Kept kept = kept_parts(whole, moving);
   Extract out;
   out.body.name = whole.name;
   out.body.kind = whole.kind;
@@ -105,29 +139,15 @@ Extract extract(const SweptBody& whole, const NodeSets& moving) {
   std::vector<int> block_of(whole.blocks.size(), -1);
   std::vector<std::vector<int>> node_of(whole.blocks.size());
   for (std::size_t b = 0; b < whole.blocks.size(); ++b) {
-    if (std::find(kept[b].begin(), kept[b].end(), true) == kept[b].end()) continue;
+    if (std::find(kept.nodes[b].begin(), kept.nodes[b].end(), true) == kept.nodes[b].end()) continue;
     block_of[b] = static_cast<int>(out.body.blocks.size());
-    const Section& from = whole.blocks[b].section;
-    Block block{whole.blocks[b].name, {}, whole.blocks[b].stations};
+    out.body.blocks.push_back(extract_block(whole.blocks[b], kept.nodes[b], kept.quads[b], node_of[b]));
     out.of.emplace_back();
-    node_of[b].assign(from.nodes.size(), -1);
-    for (std::size_t n = 0; n < from.nodes.size(); ++n) {
-      if (!kept[b][n]) continue;
-      node_of[b][n] = static_cast<int>(block.section.nodes.size());
-      block.section.nodes.push_back(from.nodes[n]);
-      out.of.back().emplace_back(static_cast<int>(b), static_cast<int>(n));
-    }
-    for (std::size_t q = 0; q < from.quads.size(); ++q) {
-      if (!quads[b][q]) continue;
-      std::array<int, 4> k = from.quads[q];
-      for (int& n : k) n = node_of[b][n];
-      block.section.quads.push_back(k);
-      block.section.quad_material.push_back(from.quad_material[q]);
-    }
-    out.body.blocks.push_back(std::move(block));
+    for (std::size_t n = 0; n < node_of[b].size(); ++n)
+      if (node_of[b][n] >= 0) out.of.back().emplace_back(static_cast<int>(b), static_cast<int>(n));
   }
   for (const Tie& t : whole.ties)
-    if (kept[t.slave_block][t.slave_node])
+    if (kept.nodes[t.slave_block][t.slave_node])
       out.body.ties.push_back({block_of[t.slave_block], node_of[t.slave_block][t.slave_node], block_of[t.master_block],
                                node_of[t.master_block][t.master_node0], node_of[t.master_block][t.master_node1],
                                t.weight1});
@@ -151,38 +171,45 @@ Stages::Stages(int count_, double damping)
   }
 }
 
-LocalSteps::LocalSteps(const DeformableBody& body, const SolidOptions& options, double wanted_step) {
-  const SweptBody& whole = body.solid.body();
-  const BodyLayout& from = body.solid.layout();
-  fine_ = fast_nodes(whole, body.solid.materials(), wanted_step);
-  const NodeSets moving = moving_nodes(whole, fine_);
+LocalSteps::Part::Part(const SweptBody& mesh, const std::vector<Elastic>& materials, const ElementOptions& options)
+    : body(mesh, materials, options), traversal(body) {
+  for (Field* f : {&start, &moved, &stretched, &force, &frozen, &now, &before, &acceleration, &inverse_mass, &arm})
+    *f = body.layout.field();
+}
+
+LocalSteps::LocalSteps(const Body& whole, const ElementOptions& options, double wanted_step) {
+  const SweptBody& mesh = whole.mesh;
+  fine_ = fast_nodes(mesh, whole.materials, wanted_step);
+  const NodeSets moving = moving_nodes(mesh, fine_);
   for (std::size_t b = 0; b < fine_.size(); ++b)
     for (std::size_t n = 0; n < fine_[b].size(); ++n)
-      fine_[b][n] = fine_[b][n] && body.inverse_mass[from.blocks[b].line(static_cast<int>(n), 0)] > 0;
-  Extract part = extract(whole, moving);
+      fine_[b][n] = fine_[b][n] && whole.is_free(static_cast<int>(b), static_cast<int>(n));
+  Extract part = extract(mesh, moving);
   if (part.body.blocks.empty()) return;
-  Solid solid(part.body, body.solid.materials(), options);
-  const BodyLayout& to = solid.layout();
-  const Field zero = to.field();
-  part_.emplace(Part{solid, Ties(part.body, to), {}, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero});
-  acts_on_ = no_nodes(whole);
+  part_ = std::make_unique<Part>(part.body, whole.materials, options);
+  acts_on_ = no_nodes(mesh);
   for (std::size_t b = 0; b < part.of.size(); ++b)
     for (std::size_t n = 0; n < part.of[b].size(); ++n)
       for (int i = 0; i < 3; ++i) {
         const auto [block, node] = part.of[b][n];
-        const Copy line{from.blocks[block].line(node, i), to.blocks[b].line(static_cast<int>(n), i),
-                        to.blocks[b].stations, body.inverse_mass[from.blocks[block].line(node, i)] > 0,
-                        fine_[block][node]};
-        part_->lines.push_back(line);
-        std::copy_n(body.inverse_mass.begin() + line.body, line.count, part_->inverse_mass.begin() + line.part);
-        acts_on_[block][node] = line.free;
-        if (whole.kind == SweepKind::revolve && i != 1)
-          for (int j = 0; j < line.count; ++j) {
-            const Vec3 arm = swept_point(whole.kind, {}, whole.blocks[block].section.nodes[node],
-                                         whole.blocks[block].stations.at[j]);
-            part_->arm[line.part + j] = i == 0 ? arm.x : arm.z;
-          }
+        add_line(whole, block, node, i, static_cast<int>(b), static_cast<int>(n));
       }
+}
+
+// One component of one node of the whole, as it stands in the part.
+void LocalSteps::add_line(const Body& whole, int block, int node, int i, int part_block, int part_node) {
+  const BlockLayout& to = part_->body.layout.blocks[part_block];
+  const std::ptrdiff_t from = whole.layout.blocks[block].line(node, i);
+  const Copy line{from, to.line(part_node, i), to.stations, whole.inverse_mass[from] > 0, fine_[block][node]};
+  part_->lines.push_back(line);
+  std::copy_n(whole.inverse_mass.begin() + line.body, line.count, part_->inverse_mass.begin() + line.part);
+  acts_on_[block][node] = line.free;
+  if (whole.mesh.kind != SweepKind::revolve || i == 1) return;
+  const Block& b = whole.mesh.blocks[block];
+  for (int j = 0; j < line.count; ++j) {
+    const Vec3 arm = swept_point(whole.mesh.kind, {}, b.section.nodes[node], b.stations.at[j]);
+    part_->arm[line.part + j] = i == 0 ? arm.x : arm.z;
+  }
 }
 
 void LocalSteps::set_step(double step, double body_step, double damping) {
@@ -192,10 +219,10 @@ void LocalSteps::set_step(double step, double body_step, double damping) {
   stages_ = Stages(p, damping);
 }
 
-long LocalSteps::fine_elements() const { return part_ ? part_->solid.body().elements() : 0; }
+long LocalSteps::fine_elements() const { return part_ ? part_->body.mesh.elements() : 0; }
 
 template <class Force>
-void LocalSteps::run_stages(Force&& added_force) const {
+void LocalSteps::run_stages(Force&& added_force) {
   Part& p = *part_;
   const auto lines = static_cast<std::ptrdiff_t>(p.lines.size());
   const double d2 = step_ * step_, first = d2 / (stages_.omega * stages_.delta);
@@ -211,9 +238,9 @@ void LocalSteps::run_stages(Force&& added_force) const {
       const Copy& l = p.lines[n];
       for (std::ptrdiff_t i = l.part; i < l.part + l.count; ++i) p.stretched[i] = l.fine ? p.now[i] : 0.0;
     });
-    p.ties.spread(p.stretched, 0, true);
+    p.body.ties.apply_homogeneous(p.stretched);
     added_force(p.force);
-    p.ties.collect(p.force);
+    p.body.ties.apply_transpose(p.force);
     const double b = stages_.b[k], c = 2 * d2 / stages_.omega * stages_.c[k];
     for_each(lines, [&](std::ptrdiff_t n) {
       const Copy& l = p.lines[n];
@@ -228,19 +255,20 @@ void LocalSteps::run_stages(Force&& added_force) const {
 }
 
 template <class Force>
-void LocalSteps::refine_with(const Field& u, const FrozenAcceleration& frozen, Field& f, Force&& force) const {
+void LocalSteps::refine_with(const Field& u, const FrozenAcceleration& frozen, Field& f, Force&& force) {
   if (empty() || stages_.count == 1) return;
   Part& p = *part_;
   const auto lines = static_cast<std::ptrdiff_t>(p.lines.size());
   const double uniform[3] = {frozen.uniform.x, frozen.uniform.y, frozen.uniform.z};
-  const auto beside = [&](std::ptrdiff_t n, std::ptrdiff_t i) {
+  const auto body_acceleration = [&](std::ptrdiff_t n, std::ptrdiff_t i) {
     return uniform[n % 3] + frozen.centrifugal * p.arm[i];
   };
   for_each(lines, [&](std::ptrdiff_t n) {
     const Copy& l = p.lines[n];
     for (int j = 0; j < l.count; ++j) {
       p.start[l.part + j] = u[l.body + j];
-      p.acceleration[l.part + j] = l.free ? beside(n, l.part + j) - p.inverse_mass[l.part + j] * f[l.body + j] : 0.0;
+      p.acceleration[l.part + j] =
+          l.free ? body_acceleration(n, l.part + j) - p.inverse_mass[l.part + j] * f[l.body + j] : 0.0;
     }
   });
   force(p.start, p.frozen);
@@ -260,11 +288,11 @@ void LocalSteps::refine_with(const Field& u, const FrozenAcceleration& frozen, F
     const Copy& l = p.lines[n];
     if (!l.free) return;
     for (int j = 0; j < l.count; ++j)
-      f[l.body + j] = (beside(n, l.part + j) - back * p.now[l.part + j]) / p.inverse_mass[l.part + j];
+      f[l.body + j] = (body_acceleration(n, l.part + j) - back * p.now[l.part + j]) / p.inverse_mass[l.part + j];
   });
 }
 
-void LocalSteps::add_forces(const std::vector<NodalForce>& forces, Field& f) const {
+void LocalSteps::add_forces(const std::vector<NodalForce>& forces, Field& f) {
   if (empty() || stages_.count == 1) {
     for (const NodalForce& a : forces) f[a.index] -= a.value;
     return;
@@ -282,7 +310,7 @@ void LocalSteps::add_forces(const std::vector<NodalForce>& forces, Field& f) con
     const std::ptrdiff_t i = std::prev(after)->part + (a.index - std::prev(after)->body);
     p.acceleration[i] += p.inverse_mass[i] * a.value;
   }
-  run_stages([&](Field& added) { p.solid.linear_force(p.stretched, added); });
+  run_stages([&](Field& added) { p.traversal.linear_force(p.stretched, added); });
   const double back = 2 / (step_ * step_);
   for_each(static_cast<std::ptrdiff_t>(p.lines.size()), [&](std::ptrdiff_t n) {
     const Copy& l = p.lines[n];
@@ -291,16 +319,16 @@ void LocalSteps::add_forces(const std::vector<NodalForce>& forces, Field& f) con
   });
 }
 
-void LocalSteps::refine(const Field& u, double psi, const FrozenAcceleration& frozen, Field& f) const {
-  refine_with(u, frozen, f, [&](Field& x, Field& out) { part_->solid.internal_force(x, psi, out); });
+void LocalSteps::refine(const Field& u, double psi, const FrozenAcceleration& frozen, Field& f) {
+  refine_with(u, frozen, f, [&](Field& x, Field& out) { part_->traversal.internal_force(x, psi, out); });
 }
 
-void LocalSteps::refine_linear(const Field& u, Field& f) const {
-  refine_with(u, {}, f, [&](Field& x, Field& out) { part_->solid.linear_force(x, out); });
+void LocalSteps::refine_linear(const Field& u, Field& f) {
+  refine_with(u, {}, f, [&](Field& x, Field& out) { part_->traversal.linear_force(x, out); });
 }
 
-SurfaceResponse surface_response(const DeformableBody& body, const ContactSurface& surface, const LocalSteps& steps) {
-  const ContactBand& band = body.solid.body().contact;
+SurfaceResponse surface_response(const Body& body, const ContactSurface& surface, LocalSteps& steps) {
+  const ContactBand& band = body.mesh.contact;
   bool any = false;
   for (int column = 0; column < surface.columns; ++column) any = any || steps.acts_on(band.block, column);
   if (!any) return {};
@@ -328,7 +356,7 @@ SurfaceResponse surface_response(const DeformableBody& body, const ContactSurfac
         for (const auto& [component, value] :
              {std::pair{0, p.axis[i].x}, std::pair{1, p.axis[i].y}, std::pair{2, p.axis[i].z}})
           forces.push_back({surface.index(p.column, p.station) + component * surface.stride, value});
-      Field f = body.solid.layout().field();
+      Field f = body.layout.field();
       steps.add_forces(forces, f);
       for (const Push& p : pushes)
         for (int to = 0; to < surface.columns; ++to)

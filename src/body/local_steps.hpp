@@ -21,9 +21,9 @@
 // then give. They first run with the tractions of the last step; what has to change is found with the stages' own
 // answer to impulses on the surface (surface_response), and runs through them in turn (add_forces). A change of f moves
 // velocities by D B M^-1 f, nothing else. Work: 2 p more evaluations of the elements that touch a fine node.
-#include <optional>
+#include <memory>
 
-#include "body/deformable_body.hpp"
+#include "body/traversal.hpp"
 #include "contact/surface.hpp"
 #include "contact/surface_response.hpp"
 
@@ -60,7 +60,7 @@ class LocalSteps {
   LocalSteps() = default;
   /// Fine: all nodes of section quadrilaterals that a pressure wave crosses along an edge in less than `wanted_step`
   /// over kSlack.
-  LocalSteps(const DeformableBody& body, const SolidOptions& options, double wanted_step);
+  LocalSteps(const Body& body, const ElementOptions& options, double wanted_step);
 
   bool empty() const { return !part_; }
   /// The section node touches a fine node: its forces change.
@@ -74,12 +74,12 @@ class LocalSteps {
   /// f: internal and frozen forces at u, accelerations -f/m + frozen. Leaves -m (a_eff - frozen), so that the usual
   /// update with `frozen` gives a_eff. psi: rotation of the body. Nodes that it does not act on are left alone. Same
   /// bits for any number of threads.
-  void refine(const Field& u, double psi, const FrozenAcceleration& frozen, Field& f) const;
+  void refine(const Field& u, double psi, const FrozenAcceleration& frozen, Field& f);
   /// The same for f = K u.
-  void refine_linear(const Field& u, Field& f) const;
+  void refine_linear(const Field& u, Field& f);
   /// Adds what further forces F [N] give to nodes at rest, -m a_eff: f -= M B M^-1 F. Model frame of a body that is not
   /// turned, or any frame that turns with it.
-  void add_forces(const std::vector<NodalForce>& forces, Field& f) const;
+  void add_forces(const std::vector<NodalForce>& forces, Field& f);
   /// True at lines of fine nodes, per block and section node.
   const std::vector<std::vector<bool>>& fine() const { return fine_; }
 
@@ -90,21 +90,23 @@ class LocalSteps {
     bool free, fine;
   };
   struct Part {  // the elements that touch a fine node as a body of their own
-    Solid solid;
-    Ties ties;
+    explicit Part(const SweptBody& mesh, const std::vector<Elastic>& materials, const ElementOptions& options);
+    Body body;
+    Traversal traversal;
     std::vector<Copy> lines;
     Field start, moved, stretched, force, frozen;  // u_n, u_n + P d, P d, forces; forces at u_n
     Field now, before, acceleration, inverse_mass, arm;
   };
+  void add_line(const Body& whole, int block, int node, int component, int part_block, int part_node);
   /// Stages from the accelerations in part_ on; leaves d_p in part_->now. force: what is added to the frozen forces at
   /// u_n + P d.
   template <class Force>
-  void run_stages(Force&& added_force) const;
+  void run_stages(Force&& added_force);
   template <class Force>
-  void refine_with(const Field& u, const FrozenAcceleration& frozen, Field& f, Force&& force) const;
+  void refine_with(const Field& u, const FrozenAcceleration& frozen, Field& f, Force&& force);
 
   std::vector<std::vector<bool>> fine_, acts_on_;
-  mutable std::optional<Part> part_;
+  std::unique_ptr<Part> part_;
   Stages stages_{1};
   double step_ = 0;
 };
@@ -112,6 +114,6 @@ class LocalSteps {
 /// How the running surface answers impulses on it, by the stages of local steps: B M^-1 for every surface column and
 /// component, among the fine stations, whose spacing is the same. Stages carry an impulse no further than their number
 /// of stations. Empty if no surface node is acted on.
-SurfaceResponse surface_response(const DeformableBody& body, const ContactSurface& surface, const LocalSteps& steps);
+SurfaceResponse surface_response(const Body& body, const ContactSurface& surface, LocalSteps& steps);
 
 }  // namespace railstrata

@@ -6,6 +6,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "core/parallel.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -30,7 +32,7 @@ MassScaling::Edges MassScaling::thin_edges(const SweptBody& body, int block, con
   for (std::size_t q = 0; q < s.quads.size(); ++q) {
     const auto& k = s.quads[q];
     const Elastic& m = materials[s.quad_material[q]];
-    const double area = 0.5 * cross(s.nodes[k[2]] - s.nodes[k[0]], s.nodes[k[3]] - s.nodes[k[1]]);
+    const double area = quad_area(s, k);
     for (int side : {0, 1}) {  // edges (side, side + 1) and the one opposite run across the row
       const double width =
           0.5 * (edge_length(s, k[side + 1], k[(side + 2) % 4]) + edge_length(s, k[(side + 3) % 4], k[side]));
@@ -91,19 +93,19 @@ std::vector<std::vector<int>> MassScaling::paths(const Edges& edges, int nodes) 
   return out;
 }
 
-MassScaling::MassScaling(const DeformableBody& body, double wanted_step) : layout_(body.solid.layout()) {
-  const SweptBody& mesh = body.solid.body();
+MassScaling::MassScaling(const Body& body, double wanted_step) : layout_(body.layout) {
+  const SweptBody& mesh = body.mesh;
   for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b) {
     const BlockLayout& lay = layout_.blocks[b];
     chain_of_.emplace_back(lay.nodes, kNone);
-    Edges edges = thin_edges(mesh, b, body.solid.materials(), wanted_step);
+    Edges edges = thin_edges(mesh, b, body.materials, wanted_step);
     const auto is_free = [&](int node) { return body.inverse_mass[lay.line(node, 0)] > 0; };
     std::erase_if(edges, [&](const auto& edge) { return !is_free(edge.first.first) || !is_free(edge.first.second); });
     for (auto& [ends, edge] : edges)
       for (int j = 0; j < lay.stations; ++j) {
         // a node that carries slaves is heavier than its own elements, and so is what its edges need
         const auto share = [&](int node) {
-          return body.mass[lay.line(node, 0) + j] / body.solid.mass()[lay.line(node, 0) + j];
+          return body.mass[lay.line(node, 0) + j] / body.element_mass[lay.line(node, 0) + j];
         };
         edge.added[j] *= std::max(share(ends.first), share(ends.second));
       }
@@ -129,6 +131,7 @@ void MassScaling::add_chain(int block, const std::vector<int>& nodes, const Edge
       const double a = last ? 0 : edges.at(std::minmax(nodes[k], nodes[k + 1])).added[j], pivot = rest + a;
       added_[at(k)] = a;
       report_.added_mass += a;
+      report_.added_in_block[block] += a;
       forward_[at(k)] = a / pivot;
       pivot_[at(k)] = mass(k) / pivot;
       if (last) break;
@@ -136,7 +139,10 @@ void MassScaling::add_chain(int block, const std::vector<int>& nodes, const Edge
       rest = mass(k + 1) + a * rest / pivot;
     }
     double y = 1;
-    for (std::size_t k = 0; k < n; ++k) response_[at(k)] = pivot_[at(k)] * y, y *= forward_[at(k)];
+    for (std::size_t k = 0; k < n; ++k) {
+      response_[at(k)] = pivot_[at(k)] * y;
+      y *= forward_[at(k)];
+    }
     for (std::size_t k = n - 1; k-- > 0;) response_[at(k)] += backward_[at(k)] * response_[at(k + 1)];
     for (std::size_t k = 0; k < n; ++k) report_.scaled_mass += mass(k);
   }
@@ -229,7 +235,7 @@ Field MassScaling::differences(const Field& v, Field reuse) const {
   return out;
 }
 
-double MassScaling::kinetic(const Field& differences_of_v, const Field& w) const {
+double MassScaling::kinetic(const Field& differences_of_v, const Field& w) {
   std::vector<double>& part = chain_energy_;
   part.assign(3 * chains_.size(), 0.0);
   each_edge([&](std::ptrdiff_t task, std::ptrdiff_t factor, std::ptrdiff_t here, std::ptrdiff_t below, int stations) {

@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "body/deformable_body.hpp"
+#include "body/body.hpp"
 
 namespace railstrata {
 
@@ -28,7 +28,7 @@ class MassScaling {
   /// wanted_step D [s]: rows that a pressure wave crosses in less than D / kSlack get added mass; chains follow the
   /// section's edges. Nodes that are held or carried by others (slaves) have none: their masters' edges make up for the
   /// mass they carry.
-  MassScaling(const DeformableBody& body, double wanted_step);
+  MassScaling(const Body& body, double wanted_step);
 
   bool empty() const { return chains_.empty(); }
   /// The section node stands in a chain.
@@ -46,13 +46,14 @@ class MassScaling {
   /// Differences of v across the edges (in the memory of `reuse`), and the kinetic energy of the added mass 1/2 v^T A w
   /// from those of v and from w [J] (v, w: the half steps before and after).
   Field differences(const Field& v, Field reuse = {}) const;
-  double kinetic(const Field& differences_of_v, const Field& w) const;
+  double kinetic(const Field& differences_of_v, const Field& w);
 
   struct Report {
-    double added_mass = 0;        ///< kg, sum of a
-    double scaled_mass = 0;       ///< kg, of the nodes it acts on
-    int chains = 0, longest = 0;  ///< longest: rows in a chain
-    std::string where;            ///< "rail cap, rail gauge shell"
+    double added_mass = 0;                 ///< kg, sum of a
+    double scaled_mass = 0;                ///< kg, of the nodes it acts on
+    int chains = 0, longest = 0;           ///< longest: rows in a chain
+    std::string where;                     ///< "rail cap, rail gauge shell"
+    std::map<int, double> added_in_block;  ///< kg, by block
   };
   const Report& report() const { return report_; }
 
@@ -81,7 +82,7 @@ class MassScaling {
   // L D L^T of M + A along a chain: y_k = f_k + g_(k-1) y_(k-1) down, f'_k = p_k y_k + b_k f'_(k+1) up; and f' for a
   // unit force at the first node
   Field added_, forward_, pivot_, backward_, response_;
-  mutable std::vector<double> chain_energy_;
+  std::vector<double> chain_energy_;  // work space
   Report report_;
 };
 

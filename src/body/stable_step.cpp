@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/parallel.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -11,7 +13,7 @@ namespace {
 // stiffness: w = K q on free nodes, q may be spread to slaves; solve: z = S^-1 r in place, zero at nodes that do not
 // take part.
 template <class Stiffness, class Solve>
-StepSpectrum lanczos(const DeformableBody& body, int iterations, Stiffness&& stiffness, Solve&& solve) {
+StepSpectrum lanczos(const Body& body, int iterations, Stiffness&& stiffness, Solve&& solve) {
   const auto n = static_cast<std::ptrdiff_t>(body.inverse_mass.size());
   auto dot = [n](const Field& a, const Field& b) {
     return ordered_sum(n, [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
@@ -20,7 +22,7 @@ StepSpectrum lanczos(const DeformableBody& body, int iterations, Stiffness&& sti
       return s;
     });
   };
-  Field r = body.solid.layout().field(), z = r, q = r, s_q = r, s_before = r;
+  Field r = body.layout.field(), z = r, q = r, s_q = r, s_before = r;
   std::uint64_t seed = 0x9E3779B97F4A7C15ull;  // any fixed start will do; the same for every width of vectors, to which
                                                // lines are filled up
   for (std::ptrdiff_t i = 0; i < n; ++i) {
@@ -52,46 +54,50 @@ StepSpectrum lanczos(const DeformableBody& body, int iterations, Stiffness&& sti
 }
 
 // w = K q, slaves follow their masters
-void stiffness_of(const DeformableBody& body, Field& q, Field& w) {
-  body.ties.spread(q, 0, true);
-  body.solid.linear_force(q, w);
-  body.ties.collect(w);
+void stiffness_of(Traversal& elements, Field& q, Field& w) {
+  const Body& body = elements.body();
+  body.ties.apply_homogeneous(q);
+  elements.linear_force(q, w);
+  body.ties.apply_transpose(w);
   for_each(static_cast<std::ptrdiff_t>(w.size()), [&](std::ptrdiff_t i) {
     if (body.inverse_mass[i] == 0) w[i] = 0;
   });
 }
 
-void divide_by_mass(const DeformableBody& body, Field& f) {
+void divide_by_mass(const Body& body, Field& f) {
   for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) { f[i] *= body.inverse_mass[i]; });
 }
 
 }  // namespace
 
-double lanczos_stable_step(const DeformableBody& body, const MassScaling& scaling, int iterations) {
+double lanczos_stable_step(const Body& body, const MassScaling& scaling, int iterations) {
+  Traversal elements(body);
   const auto solve = [&](Field& f) {
     scaling.scale(f);
     divide_by_mass(body, f);
   };
   return 2 / std::sqrt(lanczos(
-                           body, iterations, [&](Field& q, Field& w) { stiffness_of(body, q, w); }, solve)
+                           body, iterations, [&](Field& q, Field& w) { stiffness_of(elements, q, w); }, solve)
                            .largest);
 }
 
-double lanczos_coarse_step(const DeformableBody& body, const LocalSteps& local, int iterations) {
+double lanczos_coarse_step(const Body& body, const LocalSteps& local, int iterations) {
+  Traversal elements(body);
   Field coarse = body.inverse_mass;
-  for (const DeformableBody::Line& l : body.lines)
+  for (const NodeLine& l : body.lines)
     if (local.fine()[l.block][l.node]) std::fill_n(coarse.begin() + l.first, l.count, 0.0);
   const auto solve = [&](Field& f) {
     for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) { f[i] *= coarse[i]; });
   };
   return 2 / std::sqrt(lanczos(
-                           body, iterations, [&](Field& q, Field& w) { stiffness_of(body, q, w); }, solve)
+                           body, iterations, [&](Field& q, Field& w) { stiffness_of(elements, q, w); }, solve)
                            .largest);
 }
 
-StepSpectrum lanczos_spectrum(const DeformableBody& body, const LocalSteps& local, int iterations) {
+StepSpectrum lanczos_spectrum(const Body& body, LocalSteps& local, int iterations) {
+  Traversal elements(body);
   const auto refined = [&](Field& q, Field& w) {
-    stiffness_of(body, q, w);
+    stiffness_of(elements, q, w);
     local.refine_linear(q, w);
   };
   StepSpectrum s = lanczos(body, iterations, refined, [&](Field& f) { divide_by_mass(body, f); });

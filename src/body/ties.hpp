@@ -1,12 +1,13 @@
 #pragma once
-// Hanging nodes: lines of slave nodes carried by lines of master nodes (mesh/swept.hpp, Tie).
+// Hanging nodes: lines of slave nodes carried by lines of master nodes (mesh/swept.hpp, Tie), as a linear constraint T.
 //
 //   x_s = sum_m w_m x_m + R(psi) delta,   delta = X_s - sum_m w_m X_m
 // The offset delta (the sagitta of an arc between two stations) turns with the body, so a rigid motion of any size
-// strains nothing. Forces and masses on a slave go to its masters with the same weights.
-#include <array>
+// strains nothing. Forces and masses on a slave go to its masters with the same weights: the transpose of T.
+#include <vector>
 
 #include "core/array.hpp"
+#include "core/rotation.hpp"
 #include "mesh/layout.hpp"
 
 namespace railstrata {
@@ -15,18 +16,20 @@ class Ties {
  public:
   Ties(const SweptBody& body, const BodyLayout& layout);
 
-  /// Sets the displacements of all slaves from their masters. homogeneous: without the offsets (increments, search
-  /// directions).
-  void spread(Field& u, double psi, bool homogeneous = false) const;
-  /// Adds what stands at the slaves (forces, masses) to their masters and clears it at the slaves.
-  void collect(Field& f) const;
-  /// The same for forces on a body turned by psi. Returns what the offsets hand to the rotation itself, sum f_s . d(R
-  /// delta)/dpsi [N m]: without it the work of the forces on the slaves is not that of the collected ones.
-  double collect_turning(Field& f, double psi) const;
+  /// u_s = T u + (R(psi) - 1) delta: the displacements of all slaves from their masters.
+  void apply(Field& u, double psi) const;
+  /// u_s = T u, without the offsets: increments and search directions.
+  void apply_homogeneous(Field& u) const;
+  /// f += T^T f_s, f_s = 0: what stands at the slaves (forces, masses) goes to their masters.
+  void apply_transpose(Field& f) const;
+  /// The same for forces on a body turned by psi. Returns what the offsets hand to the rotation itself,
+  /// sum f_s . d(R delta)/dpsi [N m]: without it the work of the forces on the slaves is not that of those at the
+  /// masters.
+  double apply_transpose_turned(Field& f, double psi) const;
 
-  /// One component (0, 1, 2) of spread and collect_turning, for callers that run them in parallel.
-  void spread_component(Field& u, int component, double cos_psi, double sin_psi, bool homogeneous) const;
-  double collect_component(Field& f, int component, double cos_psi, double sin_psi) const;
+  /// One component (0, 1, 2) of the above, for callers that run them in parallel.
+  void apply_component(Field& u, int component, Rotation<double> turn, bool homogeneous) const;
+  double apply_transpose_component(Field& f, int component, Rotation<double> turn) const;
 
   bool is_slave(int block, int node) const { return slave_[block][node]; }
 
@@ -34,25 +37,30 @@ class Ties {
   struct Line {
     int slave_block, slave_node, master_block, node0, node1;
     double weight1;
-    int interpolation;         // index into interpolations_
-    std::ptrdiff_t delta = 0;  // start in delta arrays
+    int interpolation;     // index into interpolations_
+    std::ptrdiff_t delta;  // start in the offsets
   };
-  struct Interpolation {  // from the stations of one block to those of another
+  /// From the stations of one block to those of another.
+  struct Interpolation {
     int slave_block, master_block;
     std::vector<int> left, right;
     std::vector<double> weight;  // of right
-    // the transposed: master station i gets the slaves' values share[k] * at station from[k], first[i] <= k < first[i +
-    // 1]
+    // the transpose: master station i gets the slaves' values share[k] * at station from[k],
+    // first[i] <= k < first[i + 1]
     std::vector<int> first, from;
     std::vector<double> share;
   };
+  static Interpolation interpolation(const SweptBody& body, int slave_block, int master_block);
+  static void transpose(int master_stations, Interpolation& in);
+  int interpolation_index(const SweptBody& body, int slave_block, int master_block);
+  void add_line(const SweptBody& body, const Tie& tie);
+
   BodyLayout layout_;
   SweepKind kind_;
   std::vector<Line> lines_;  // masters' own ties come before
   std::vector<Interpolation> interpolations_;
-  std::vector<double> delta_x_, delta_y_, delta_z_;
+  std::vector<double> delta_x_, delta_z_;
   std::vector<std::vector<bool>> slave_;
-  mutable std::array<std::vector<double>, 3> carried_;  // of a line's masters, per component
 };
 
 }  // namespace railstrata

@@ -9,7 +9,7 @@
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
 #include "core/nearest_word.hpp"
-#include "geometry/profile.hpp"
+#include "geometry/profile_names.hpp"
 
 namespace railstrata {
 namespace {

@@ -43,7 +43,7 @@ void check_wheel(const GeometrySpec& g, CaseSource& source) {
   if (!source.sound({"geometry.wheel_radius", "geometry.rim_thickness", "geometry.hub_radius", "geometry.bore_radius"}))
     return;
   const double rim_inside = g.wheel_radius - g.rim_thickness;
-  if (g.wheel_shape == "disc") {
+  if (g.wheel_shape == WheelShape::disc) {
     if (!(g.bore_radius < g.wheel_radius))
       source.complain("geometry.bore_radius",
                       fmt::format("geometry.bore_radius = {}: must be below wheel_radius = {}", length(g.bore_radius),
@@ -81,7 +81,7 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
       if (spec.layers[i].name == spec.layers[j].name && spec.layers[i].on == spec.layers[j].on)
         source.complain(fmt::format("layer.{}.name", i),
                         fmt::format("layer.{}.name = \"{}\": another layer of the {} has this name", i,
-                                    spec.layers[i].name, spec.layers[i].on),
+                                    spec.layers[i].name, body_word(spec.layers[i].on)),
                         "give every layer a name of its own");
 }
 
@@ -101,16 +101,17 @@ std::vector<std::string> idle_settings(const CaseSpec& spec) {
   const auto idle = [&](bool set, const char* key, const char* when) {
     if (set) notes.push_back(fmt::format("{} has no effect: it needs {}", key, when));
   };
-  idle(spec.contact.method != "penalty" && spec.contact.penalty_scale != defaults.contact.penalty_scale,
+  idle(spec.contact.method != ContactMethod::penalty && spec.contact.penalty_scale != defaults.contact.penalty_scale,
        "contact.penalty_scale", "contact.method = \"penalty\"");
-  idle(spec.mesh.element != "one_point" && spec.mesh.hourglass_coefficient != defaults.mesh.hourglass_coefficient,
+  idle(spec.mesh.element != ElementFormulation::one_point &&
+           spec.mesh.hourglass_coefficient != defaults.mesh.hourglass_coefficient,
        "mesh.hourglass_coefficient", "mesh.element = \"one_point\"");
   for (std::size_t i = 0; i < spec.layers.size(); ++i)
     idle(!spec.layers[i].graded() && spec.layers[i].grading_tolerance != LayerSpec{}.grading_tolerance,
          fmt::format("layer.{}.grading_tolerance", i).c_str(), "a young_table");
-  idle(spec.geometry.rail_shape != "block" && spec.geometry.block_width != defaults.geometry.block_width,
+  idle(spec.geometry.rail_shape != RailShape::block && spec.geometry.block_width != defaults.geometry.block_width,
        "geometry.block_width", "geometry.rail_shape = \"block\"");
-  idle(spec.geometry.rail_shape != "block" && spec.geometry.block_height != defaults.geometry.block_height,
+  idle(spec.geometry.rail_shape != RailShape::block && spec.geometry.block_height != defaults.geometry.block_height,
        "geometry.block_height", "geometry.rail_shape = \"block\"");
   return notes;
 }

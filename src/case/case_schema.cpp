@@ -43,11 +43,8 @@ struct TypeSchema {
     return s;
   }
   Json operator()(const bool*) const { return {{"type", "boolean"}}; }
-  Json operator()(const std::string*) const {
-    Json s{{"type", "string"}};
-    if (!option.choices.empty()) s["enum"] = option.choices;
-    return s;
-  }
+  Json operator()(const std::string*) const { return {{"type", "string"}}; }
+  Json operator()(const ChoiceSlot&) const { return {{"type", "string"}, {"enum", words_of(option)}}; }
   Json operator()(const std::vector<ModulusPoint>*) const {
     return {{"type", "array"},
             {"minItems", 2},
@@ -60,7 +57,7 @@ struct TypeSchema {
 
 std::string allowed(const Option& option) {
   return option.choices.empty() ? describe(option.range, option.dimension)
-                                : fmt::format("`{}`", fmt::join(option.choices, "`, `"));
+                                : fmt::format("`{}`", fmt::join(words_of(option), "`, `"));
 }
 
 /// A layer's modulus has no default: it must be said.
@@ -83,6 +80,21 @@ Json table_schema(const OptionTable& table, CaseSpec& spec) {
     s["properties"][std::string(option.key)] = option_schema(table, option, spec);
   if (table.repeated) return {{"type", "array"}, {"description", table.doc}, {"items", s}};
   return s;
+}
+
+/// What a table's rows cannot say: how values of more than one number are written.
+std::string more_about(const OptionTable& table) {
+  if (table.name == "geometry")
+    return "\n`rail_profile` and `wheel_profile` also take an arc, `\"arc:R=200 mm\"`: convex of this radius, hollow "
+           "with `R=-450 mm`;\n`\"flat\"` is a plane. Profile files: "
+           "[data/profiles](../data/profiles/README.md).\n";
+  if (table.name == "layer")
+    return "\n`young_table` gives a modulus that varies with depth, row by row from the layer's top, linear between "
+           "the rows:\n\n"
+           "```toml\n[[layer]]\nname = \"graded\"\n"
+           "young_table = [[\"0 mm\", \"240 GPa\"], [\"1 mm\", \"225 GPa\"], [\"3 mm\", \"210 GPa\"]]\n```\n\n"
+           "The first depth is 0 mm, the last one the layer's thickness; for a jump of the modulus write two layers.\n";
+  return "";
 }
 
 }  // namespace
@@ -115,14 +127,17 @@ std::string case_reference_markdown() {
       "<!-- Written by `railstrata schema --markdown` from src/case/option_table.cpp; a test holds this page against "
       "the program. -->\n\n"
       "A case is a TOML file. Every key has a default, so a case says only what differs. A value with a dimension is a "
-      "text with its unit\n"
-      "(`\"210 GPa\"`, `\"0.2 mm\"`, `\"100 km/h\"`, `\"10.4 kN s/m\"`); inclinations are written `\"1:40\"`, `\"25 "
-      "mrad\"` or as a bare tangent; plain\n"
-      "numbers may be given in per cent (`\"20 %\"`). `--set table.key=value` overrides a key on the command line, "
-      "`--set layer.0.key=value` one of the first layer.\n";
+      "text\n"
+      "with its unit (`\"210 GPa\"`, `\"0.2 mm\"`, `\"100 km/h\"`, `\"10.4 kN s/m\"`); inclinations are written "
+      "`\"1:40\"`,\n"
+      "`\"1/40\"`, `\"25 mrad\"` or as a bare tangent; plain numbers may be given in per cent (`\"20 %\"`).\n\n"
+      "`--set table.key=value` overrides a key on the command line, `--set layer.0.key=value` one of the first layer; "
+      "the\n"
+      "index after the last adds a layer, `--set layer=[{...}]` gives all of them.\n";
   for (const OptionTable& table : case_tables()) {
-    out += fmt::format("\n## {}{}{}\n\n{}.\n\n| key | default | allowed | meaning |\n|---|---|---|---|\n",
-                       table.repeated ? "[[" : "[", table.name, table.repeated ? "]]" : "]", table.doc);
+    out +=
+        fmt::format("\n## {}{}{}\n\n{}.\n{}\n| key | default | allowed | meaning |\n|---|---|---|---|\n",
+                    table.repeated ? "[[" : "[", table.name, table.repeated ? "]]" : "]", table.doc, more_about(table));
     for (const Option& option : table.options) {
       const std::string value = default_text(table, option, spec);
       out += fmt::format("| `{}` | {} | {} | {} |\n", option.key, value.empty() ? value : "`" + value + "`",

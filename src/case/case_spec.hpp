@@ -1,16 +1,35 @@
 #pragma once
-// What a case file says, in SI units, with every default. io/case_file reads it; the option tables there give names,
-// units, ranges and documentation.
+// What a case file says, in SI units, with every default. case/case_file reads it; case/option_table gives names,
+// units, ranges, the words of the choices and documentation.
 #include <string>
 #include <vector>
 
+#include "core/body_id.hpp"
+#include "geometry/body_shapes.hpp"
+
 namespace railstrata {
+
+enum class ElementFormulation {
+  full,      ///< fully integrated, free of locking
+  one_point  ///< with scaled hourglass stiffness
+};
+
+enum class ContactMethod {
+  mortar,  ///< no penetration at the end of each step
+  penalty
+};
+
+/// How thin layers are kept from shortening the time step (fem/step_plan.hpp).
+enum class TimeStepMethod { automatic, uniform, mass_scaling, local };
+
+/// Of the element arithmetic while rolling; nodal values and the static preload stay double.
+enum class ArithmeticPrecision { double_precision, single_precision };
 
 struct GeometrySpec {
   std::string rail_profile = "CN60";  ///< a built-in name or a file
   std::string wheel_profile = "LMA";
-  std::string rail_shape = "rail";    ///< rail | block
-  std::string wheel_shape = "wheel";  ///< wheel | disc
+  RailShape rail_shape = RailShape::rail;
+  WheelShape wheel_shape = WheelShape::wheel;
   double gauge = 1.435, gauge_depth = 0.016, back_to_back = 1.353, flange_back_to_tape = 0.070;
   double cant = 0.025;  ///< tangent (1:40)
   double lateral_shift = 0.0;
@@ -32,7 +51,7 @@ struct ModulusPoint {
 
 struct LayerSpec {
   std::string name = "layer";
-  std::string on = "rail";  ///< rail | wheel
+  BodyId on = BodyId::rail;
   double thickness = 1e-3;  ///< of a graded layer: its table's last depth
   double width = 0.060;
   MaterialSpec material;                  ///< young of a graded layer: the mean over its depth
@@ -54,25 +73,24 @@ struct VehicleSpec {
 
 struct DriveSpec {
   double speed = 27.78;
-  double traction_coefficient = 0.2;  ///< F_T / G, the paper's mu
-  double friction_coefficient = 0.5;  ///< the paper's f
-  double torque_ramp = 4e-3;          ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
-  double creepage_start = 0.0;        ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
+  double traction_coefficient = 0.2;  ///< F_T / G
+  double friction_coefficient = 0.5;
+  double torque_ramp = 4e-3;    ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
+  double creepage_start = 0.0;  ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
 };
 
 struct MeshSpec {
   double element_size = 1e-3, fine_width = 24e-3, fine_depth = 8e-3, largest = 12e-3;
   int coarse_ratio = 3;
-  std::string element =
-      "full";  ///< full (locking-free, fully integrated) | one_point (with scaled hourglass stiffness)
+  ElementFormulation element = ElementFormulation::full;
   double hourglass_coefficient = 0.05;  ///< one_point only: kappa of the Flanagan–Belytschko stiffness
   double end_length = 0.12;
-  bool elements_through_layer_one = false;  ///< the paper's mesh: one element through every layer
+  bool elements_through_layer_one = false;  ///< a coarser mesh than `elements` of the layers asks for
 };
 
 struct ContactSpec {
-  std::string method = "mortar";  ///< mortar (zero penetration at each step) | penalty
-  double penalty_scale = 0.1;     ///< penalty only: k = scale * K A / V of the rail's surface elements
+  ContactMethod method = ContactMethod::mortar;
+  double penalty_scale = 0.1;  ///< penalty only: k = scale * K A / V of the rail's surface elements
 };
 
 struct RunSpec {
@@ -81,12 +99,10 @@ struct RunSpec {
   double run_up = 0.12;                   ///< m of rolling over which the run-up damping fades to zero
   double run_up_damping = 2000.0;         ///< 1/s, mass-proportional damping of vibration at the start
   double step_safety = 0.9;               ///< of the stable step
-  std::string time_step_method = "auto";  ///< auto | uniform | mass_scaling | local: how thin layers are kept from
-                                          ///< shortening the step (fem/step_plan.hpp)
+  TimeStepMethod time_step_method = TimeStepMethod::automatic;
   double mass_scaling_step =
       1.0;  ///< wanted step of thin rows of elements, in element sizes over the matrix's pressure wave speed
-  std::string precision = "double";  ///< double | single: of the element arithmetic while rolling; nodal values and the
-                                     ///< static preload stay double
+  ArithmeticPrecision precision = ArithmeticPrecision::double_precision;
   double preload_tolerance = 1e-6;   ///< relative residual of the static equilibrium
   double history_interval = 0.2e-3;  ///< m of rolling between rows of history.csv
   bool rolling = true;               ///< false: stop after the static preload

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "case/absent_options.hpp"
 #include "case/option_table.hpp"
 #include "case/toml_document.hpp"
 #include "core/nearest_word.hpp"
@@ -48,9 +49,9 @@ std::string wanted(const Option& option) {
     std::string operator()(const double*) const { return describe(option.dimension); }
     std::string operator()(const int*) const { return "a whole number"; }
     std::string operator()(const bool*) const { return "true or false"; }
-    std::string operator()(const std::string*) const {
-      return option.choices.empty() ? "a text in quotes"
-                                    : fmt::format("one of \"{}\"", fmt::join(option.choices, "\", \""));
+    std::string operator()(const std::string*) const { return "a text in quotes"; }
+    std::string operator()(const ChoiceSlot&) const {
+      return fmt::format("one of \"{}\"", fmt::join(words_of(option), "\", \""));
     }
     std::string operator()(const std::vector<double>*) const { return "a list, e.g. [\"0.1 m\", \"0.3 m\"]"; }
     std::string operator()(const std::vector<ModulusPoint>*) const {
@@ -60,6 +61,12 @@ std::string wanted(const Option& option) {
   CaseSpec any;
   any.layers.resize(1);
   return std::visit(Say{option}, option.slot(any, 0));
+}
+
+const OptionTable* find_table(std::string_view name) {
+  for (const OptionTable& t : case_tables())
+    if (t.name == name) return &t;
+  return nullptr;
 }
 
 class TreeReader {
@@ -115,7 +122,7 @@ class TreeReader {
     spec_.layers.resize(list->size());
     for (std::size_t i = 0; i < list->size(); ++i) {
       const std::string name = fmt::format("{}.{}", table.name, i);
-      source_.remember(name, place_of((*list)[i].source()));
+      remember_place(name, (*list)[i]);
       const toml::table& entry = *(*list)[i].as_table();
       read_table(table, name, i, entry);
       check_modulus(name, entry);
@@ -157,46 +164,51 @@ class TreeReader {
   }
 
   void read_value(const Option& option, const std::string& key, std::size_t index, const toml::node& node) {
-    std::visit([&](auto* target) { assign(option, key, index, node, *target); }, option.slot(spec_, index));
+    std::visit([&](auto target) { assign(option, key, index, node, target); }, option.slot(spec_, index));
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, double& target) {
+  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, double* target) {
     double value = 0;
     if (!number(option, key, node, value)) return;
     if (option.multiple_of)
       multiples_.push_back({&option, key, index, value});
     else
-      target = value;
+      *target = value;
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, int& target) {
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, int* target) {
     const auto value = node.value_exact<int64_t>();
     if (!value) return mismatch(option, key, node);
     if (!option.range.holds(static_cast<double>(*value))) return out_of_range(option, key, shown(node), "");
-    target = static_cast<int>(*value);
+    *target = static_cast<int>(*value);
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, bool& target) {
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, bool* target) {
     const auto value = node.value_exact<bool>();
     if (!value) return mismatch(option, key, node);
-    target = *value;
+    *target = *value;
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, std::string& target) {
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, std::string* target) {
     const auto value = node.value_exact<std::string>();
     if (!value) return mismatch(option, key, node);
-    if (!option.choices.empty() &&
-        std::find(option.choices.begin(), option.choices.end(), *value) == option.choices.end()) {
-      const std::string near = nearest_word(*value, {option.choices.begin(), option.choices.end()});
-      return source_.complain(key, fmt::format("{} = \"{}\": must be {}", key, *value, wanted(option)),
-                              near.empty() ? fmt::format("write {} = \"{}\"", option.key, option.choices.front())
-                                           : fmt::format("did you mean \"{}\"?", near));
-    }
-    target = *value;
+    *target = *value;
   }
 
   void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node,
-              std::vector<double>& target) {
+              const ChoiceSlot& target) {
+    const auto value = node.value_exact<std::string>();
+    if (!value) return mismatch(option, key, node);
+    for (const Choice& c : option.choices)
+      if (c.word == *value) return target.set(c.value);
+    const std::string near = nearest_word(*value, words_of(option));
+    source_.complain(key, fmt::format("{} = \"{}\": must be {}", key, *value, wanted(option)),
+                     near.empty() ? fmt::format("write {} = \"{}\"", option.key, option.choices.front().word)
+                                  : fmt::format("did you mean \"{}\"?", near));
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node,
+              std::vector<double>* target) {
     const toml::array* list = node.as_array();
     if (!list) return mismatch(option, key, node);
     std::vector<double> values;
@@ -209,11 +221,11 @@ class TreeReader {
     if (list->empty())
       source_.complain(key, fmt::format("{} = []: needs at least one value", key),
                        fmt::format("write {}", wanted(option)));
-    target = values;
+    *target = values;
   }
 
   void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node,
-              std::vector<ModulusPoint>& target) {
+              std::vector<ModulusPoint>* target) {
     const toml::array* list = node.as_array();
     if (!list) return mismatch(option, key, node);
     std::vector<ModulusPoint> rows;
@@ -237,7 +249,7 @@ class TreeReader {
       rows.push_back(point);
     }
     if (sound && fits(option, key, rows)) take_table(spec_.layers.at(index), rows);
-    target = rows;
+    *target = rows;
   }
 
   /// From the top down, at least two rows, as thick as a layer may be.
@@ -317,8 +329,9 @@ class TreeReader {
 
   void out_of_range(const Option& option, const std::string& key, const std::string& value,
                     const std::string& quantity) {
-    const std::string instead =
-        quantity.empty() ? "" : suggest_quantity(quantity, option.dimension, option.range.min, option.range.max);
+    const std::string instead = quantity.empty() ? "" : suggest_quantity(quantity, option.dimension, [&](double v) {
+      return option.range.holds(v);
+    });
     const std::string allowed = describe(option.range, option.dimension);
     source_.complain(key, fmt::format("{} = {}: must be {}", key, value, allowed.empty() ? "finite" : allowed),
                      instead.empty() ? "choose a value in this range" : fmt::format("did you mean \"{}\"?", instead));
@@ -327,19 +340,22 @@ class TreeReader {
   void unknown_key(const OptionTable& table, const std::string& full, const std::string& key) {
     std::vector<std::string> keys;
     for (const Option& o : table.options) keys.emplace_back(o.key);
-    const std::string near = nearest_word(key, keys);
     source_.complain(full, fmt::format("unknown key {}", full),
-                     fmt::format("{}keys of [{}]: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
-                                 table.name, fmt::join(keys, ", ")));
+                     fmt::format("{}keys of [{}]: {}", hint_for(key, keys), table.name, fmt::join(keys, ", ")));
   }
 
   void unknown_table(const std::string& full, const std::string& name) {
     std::vector<std::string> names;
     for (const OptionTable& t : case_tables()) names.emplace_back(t.name);
-    const std::string near = nearest_word(name, names);
     source_.complain(full, fmt::format("unknown table or key {}", full),
-                     fmt::format("{}tables: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
-                                 fmt::join(names, ", ")));
+                     fmt::format("{}tables: {}", hint_for(name, names), fmt::join(names, ", ")));
+  }
+
+  /// What to do without a thing that no case has, else the known name that is meant.
+  static std::string hint_for(const std::string& name, const std::vector<std::string>& known) {
+    if (const std::string_view answer = answer_for_absent(name); !answer.empty()) return fmt::format("{}. ", answer);
+    const std::string near = nearest_word(name, known);
+    return near.empty() ? "" : fmt::format("did you mean {}? ", near);
   }
 
   /// Values point at the value, tables and keys set by an override at nothing of the text.
@@ -349,11 +365,6 @@ class TreeReader {
     if (const TextPlace& at = by_name ? name : value; at.line > 0) source_.remember(full, at);
   }
 
-  static const OptionTable* find_table(std::string_view name) {
-    for (const OptionTable& t : case_tables())
-      if (t.name == name) return &t;
-    return nullptr;
-  }
   static bool is_group(const std::string& name) {
     return std::any_of(case_tables().begin(), case_tables().end(),
                        [&](const OptionTable& t) { return t.name.starts_with(name + "."); });
@@ -400,20 +411,44 @@ toml::table parse_override_value(const std::string& text, const std::string& val
   refuse_override(text, "is not one value in UTF-8");
 }
 
-/// The table named by the parts before the last, made where it is missing; list elements must exist.
-toml::table& descend(toml::table& document, const std::vector<std::string>& parts, const std::string& text) {
+bool is_repeated(const std::string& name) {
+  const OptionTable* table = find_table(name);
+  return table && table->repeated;
+}
+
+/// The entry of a list of tables that an override names; one more than there are adds it.
+toml::table& entry_of(toml::array& list, const std::string& name, const std::string& word, const std::string& text,
+                      CaseSource& source) {
+  constexpr std::size_t kMostDigits = 5;
+  const bool digits =
+      !word.empty() && word.size() <= kMostDigits && word.find_first_not_of("0123456789") == std::string::npos;
+  const std::size_t index = digits ? std::stoul(word) : list.size() + 1;
+  const bool may_grow = is_repeated(name);
+  if (may_grow && index == list.size()) {
+    list.push_back(toml::table{});
+    source.remember_origin(fmt::format("{}.{}", name, index), "--set " + text);
+  }
+  if (index < list.size() && list[index].is_table()) return *list[index].as_table();
+  refuse_override(text,
+                  fmt::format("{} has {} entr{}, counted from 0{}", name, list.size(), list.size() == 1 ? "y" : "ies",
+                              may_grow ? fmt::format("; {}.{} adds one", name, list.size()) : ""));
+}
+
+/// The table named by the parts before the last, made where it is missing.
+toml::table& descend(toml::table& document, const std::vector<std::string>& parts, const std::string& text,
+                     CaseSource& source) {
   toml::table* table = &document;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-    if (!table->contains(parts[i])) table->insert(parts[i], toml::table{});
+    if (!table->contains(parts[i])) {
+      if (i == 0 && is_repeated(parts[i]))
+        table->insert(parts[i], toml::array{});
+      else
+        table->insert(parts[i], toml::table{});
+    }
     toml::node& node = *table->get(parts[i]);
     if (toml::array* list = node.as_array()) {
+      table = &entry_of(*list, parts[i], i + 2 < parts.size() ? parts[i + 1] : "", text, source);
       ++i;
-      const bool digits = i + 1 < parts.size() && !parts[i].empty() && parts[i].size() < 6 &&
-                          parts[i].find_first_not_of("0123456789") == std::string::npos;
-      const std::size_t index = digits ? std::stoul(parts[i]) : list->size();
-      if (index >= list->size() || !(*list)[index].is_table())
-        refuse_override(text, fmt::format("{} has {} entries, counted from 0", parts[i - 1], list->size()));
-      table = (*list)[index].as_table();
     } else if (node.is_table()) {
       table = node.as_table();
     } else {
@@ -426,15 +461,16 @@ toml::table& descend(toml::table& document, const std::vector<std::string>& part
 void apply_override(toml::table& document, const std::string& text, CaseSource& source) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) refuse_override(text, "is not key=value");
-  if (std::count(text.begin(), text.end(), '.') > kMostDots)
-    refuse_override(text.substr(0, 60) + "...", fmt::format("has more than {} dots", kMostDots));
-  const std::string key = text.substr(0, equals);
+  const std::string key = text.substr(0, equals), written = text.substr(equals + 1);
+  if (std::count(key.begin(), key.end(), '.') > kMostDots || deep_key("value = " + written))
+    refuse_override(text.substr(0, 60) + "...", fmt::format("has a key of more than {} parts", kMostDots));
   std::vector<std::string> parts;
   std::istringstream stream(key);
   for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
-  if (parts.size() < 2) refuse_override(text, "names no table");
-  toml::table value = parse_override_value(text, text.substr(equals + 1));
-  toml::table& table = descend(document, parts, text);
+  toml::table value = parse_override_value(text, written);
+  const bool whole_list = parts.size() == 1 && is_repeated(parts[0]);
+  if (parts.size() < 2 && !whole_list) refuse_override(text, "names no table");
+  toml::table& table = descend(document, parts, text, source);
   value.get("value")->visit([&](auto& node) { table.insert_or_assign(toml::key(parts.back()), node); });
   source.remember_origin(key, "--set " + text);
 }

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
+#include <type_traits>
 
 namespace railstrata {
 namespace {
@@ -18,17 +21,45 @@ using H = MeshSpec;
 using R = RunSpec;
 using O = OutputSpec;
 
+template <class T>
+Slot slot_of(T& member) {
+  if constexpr (std::is_enum_v<T>)
+    return ChoiceSlot(member);
+  else
+    return &member;
+}
 template <auto Part, auto Member>
 Slot at(CaseSpec& spec, std::size_t) {
-  return &(spec.*Part.*Member);
+  return slot_of(spec.*Part.*Member);
 }
 template <auto... Path>
 Slot layer(CaseSpec& spec, std::size_t index) {
-  return &(spec.layers.at(index).*....*Path);
+  return slot_of((spec.layers.at(index).*....*Path));
+}
+
+template <class Struct, class T>
+T type_of(T Struct::*);
+/// A word and the value it stands for, of the same enum as the member.
+template <auto Member>
+struct Word {
+  std::string_view word;
+  decltype(type_of(Member)) value;
+};
+template <auto Member>
+Option choice(std::string_view key, Slot (*slot)(CaseSpec&, std::size_t), std::string_view doc,
+              std::initializer_list<Word<Member>> words) {
+  Option out{key, slot, doc};
+  for (const Word<Member>& w : words) out.choices.push_back({w.word, static_cast<int>(w.value)});
+  return out;
+}
+/// One of several words in a table that stands once in a case.
+template <auto Part, auto Member>
+Option choice_at(std::string_view key, std::string_view doc, std::initializer_list<Word<Member>> words) {
+  return choice<Member>(key, at<Part, Member>, doc, words);
 }
 
 double matrix_modulus(const CaseSpec& spec, std::size_t index) {
-  return (spec.layers.at(index).on == "wheel" ? spec.wheel_material : spec.rail_material).young;
+  return (spec.layers.at(index).on == BodyId::wheel ? spec.wheel_material : spec.rail_material).young;
 }
 
 bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).graded(); }
@@ -37,77 +68,78 @@ bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(ind
 constexpr double kMilli = 1e-3;
 Range above(double min, double max = std::numeric_limits<double>::infinity()) { return {min, max, true}; }
 
+std::vector<Option> track_options() {
+  return {
+      {"rail_profile", at<&C::geometry, &G::rail_profile>,
+       "A built-in name (see `railstrata info`), an arc, or a file (two columns, Simpack, MiniProf), relative to the "
+       "case file"},
+      {"wheel_profile", at<&C::geometry, &G::wheel_profile>,
+       "A built-in name, an arc, or a file (two columns, Simpack, MiniProf), relative to the case file"},
+      choice_at<&C::geometry, &G::rail_shape>("rail_shape",
+                                              "Whole rail section, or a block with the profile on top (verification)",
+                                              {{"rail", RailShape::rail}, {"block", RailShape::block}}),
+      choice_at<&C::geometry, &G::wheel_shape>("wheel_shape", "Rim, web and hub, or a plain disc (verification)",
+                                               {{"wheel", WheelShape::wheel}, {"disc", WheelShape::disc}}),
+      {"gauge", at<&C::geometry, &G::gauge>, "Track gauge between the gauge faces", kLength, {0.5, 2.0}},
+      {"gauge_depth",
+       at<&C::geometry, &G::gauge_depth>,
+       "Depth below the top of the rail at which the gauge is measured",
+       kLength,
+       {1 * kMilli, 50 * kMilli}},
+      {"back_to_back",
+       at<&C::geometry, &G::back_to_back>,
+       "Distance between the inner faces of the two wheels",
+       kLength,
+       {0.4, 2.0}},
+      {"flange_back_to_tape",
+       at<&C::geometry, &G::flange_back_to_tape>,
+       "Distance from the flange back to the tape circle",
+       kLength,
+       {10 * kMilli, 200 * kMilli}},
+      {"cant",
+       at<&C::geometry, &G::cant>,
+       "Inclination of the rail towards the track centre (a tangent)",
+       kSlope,
+       {-0.2, 0.2}},
+      {"lateral_shift",
+       at<&C::geometry, &G::lateral_shift>,
+       "Of the wheel, positive to the field side",
+       kLength,
+       {-0.05, 0.05}},
+      {"wheel_radius", at<&C::geometry, &G::wheel_radius>, "At the tape circle", kLength, {0.05, 2.0}}};
+}
+
+std::vector<Option> body_options() {
+  return {{"block_width",
+           at<&C::geometry, &G::block_width>,
+           "rail_shape = \"block\": width of the block",
+           kLength,
+           {kMilli, 2.0}},
+          {"block_height",
+           at<&C::geometry, &G::block_height>,
+           "rail_shape = \"block\": height of the block",
+           kLength,
+           {kMilli, 2.0}},
+          {"rim_thickness",
+           at<&C::geometry, &G::rim_thickness>,
+           "From the tape circle to the inner face of the rim",
+           kLength,
+           {5 * kMilli, 0.5}},
+          {"web_thickness", at<&C::geometry, &G::web_thickness>, "Of the wheel's plate", kLength, {5 * kMilli, 0.2}},
+          {"web_offset",
+           at<&C::geometry, &G::web_offset>,
+           "Lateral position of the plate's middle from the tape circle",
+           kLength,
+           {-0.07, 0.07}},
+          {"hub_radius", at<&C::geometry, &G::hub_radius>, "Outer radius of the hub", kLength, {0.01, 1.0}},
+          {"hub_width", at<&C::geometry, &G::hub_width>, "Lateral width of the hub", kLength, {0.01, 0.5}},
+          {"bore_radius", at<&C::geometry, &G::bore_radius>, "Radius of the axle seat", kLength, {0.005, 1.0}}};
+}
+
 OptionTable geometry_table() {
-  return {"geometry",
-          "Profiles, track and wheel",
-          {{"rail_profile", at<&C::geometry, &G::rail_profile>,
-            "A built-in name (see `railstrata info`) or a file (two columns, Simpack, MiniProf), relative to the case "
-            "file"},
-           {"wheel_profile", at<&C::geometry, &G::wheel_profile>,
-            "A built-in name or a file (two columns, Simpack, MiniProf), relative to the case file"},
-           {"rail_shape",
-            at<&C::geometry, &G::rail_shape>,
-            "Whole rail section, or a block with the profile on top (verification)",
-            {},
-            {},
-            {"rail", "block"}},
-           {"wheel_shape",
-            at<&C::geometry, &G::wheel_shape>,
-            "Rim, web and hub, or a plain disc (verification)",
-            {},
-            {},
-            {"wheel", "disc"}},
-           {"gauge", at<&C::geometry, &G::gauge>, "Track gauge between the gauge faces", kLength, {0.5, 2.0}},
-           {"gauge_depth",
-            at<&C::geometry, &G::gauge_depth>,
-            "Depth below the top of the rail at which the gauge is measured",
-            kLength,
-            {1 * kMilli, 50 * kMilli}},
-           {"back_to_back",
-            at<&C::geometry, &G::back_to_back>,
-            "Distance between the inner faces of the two wheels",
-            kLength,
-            {0.4, 2.0}},
-           {"flange_back_to_tape",
-            at<&C::geometry, &G::flange_back_to_tape>,
-            "Distance from the flange back to the tape circle",
-            kLength,
-            {10 * kMilli, 200 * kMilli}},
-           {"cant",
-            at<&C::geometry, &G::cant>,
-            "Inclination of the rail towards the track centre (a tangent)",
-            kSlope,
-            {-0.2, 0.2}},
-           {"lateral_shift",
-            at<&C::geometry, &G::lateral_shift>,
-            "Of the wheel, positive to the field side",
-            kLength,
-            {-0.05, 0.05}},
-           {"wheel_radius", at<&C::geometry, &G::wheel_radius>, "At the tape circle", kLength, {0.05, 2.0}},
-           {"block_width",
-            at<&C::geometry, &G::block_width>,
-            "rail_shape = \"block\": width of the block",
-            kLength,
-            {kMilli, 2.0}},
-           {"block_height",
-            at<&C::geometry, &G::block_height>,
-            "rail_shape = \"block\": height of the block",
-            kLength,
-            {kMilli, 2.0}},
-           {"rim_thickness",
-            at<&C::geometry, &G::rim_thickness>,
-            "From the tape circle to the inner face of the rim",
-            kLength,
-            {5 * kMilli, 0.5}},
-           {"web_thickness", at<&C::geometry, &G::web_thickness>, "Of the wheel's plate", kLength, {5 * kMilli, 0.2}},
-           {"web_offset",
-            at<&C::geometry, &G::web_offset>,
-            "Lateral position of the plate's middle from the tape circle",
-            kLength,
-            {-0.07, 0.07}},
-           {"hub_radius", at<&C::geometry, &G::hub_radius>, "Outer radius of the hub", kLength, {0.01, 1.0}},
-           {"hub_width", at<&C::geometry, &G::hub_width>, "Lateral width of the hub", kLength, {0.01, 0.5}},
-           {"bore_radius", at<&C::geometry, &G::bore_radius>, "Radius of the axle seat", kLength, {0.005, 1.0}}}};
+  OptionTable out{"geometry", "Profiles, track and wheel", track_options()};
+  for (const Option& option : body_options()) out.options.push_back(option);
+  return out;
 }
 
 const Range kYoung{1e9, 1e13}, kPoisson{0.0, 0.495}, kDensityRange{100, 30000},
@@ -127,7 +159,8 @@ OptionTable layer_table() {
           "A bonded layer; the first of a body is its surface, the next lies below it. Each needs one of young, "
           "young_ratio and young_table",
           {{"name", layer<&L::name>, "What results call the layer"},
-           {"on", layer<&L::on>, "The body that carries the layer", {}, {}, {"rail", "wheel"}},
+           choice<&L::on>("on", layer<&L::on>, "The body that carries the layer",
+                          {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
            {"thickness",
             layer<&L::thickness>,
             "Along the normal of the surface; a young_table tells it itself",
@@ -230,12 +263,9 @@ OptionTable mesh_table() {
             "Spacing along the path outside the cap, in element sizes",
             kNumber,
             {1, 20}},
-           {"element",
-            at<&C::mesh, &H::element>,
-            "Fully integrated without locking, or one point with hourglass stiffness",
-            {},
-            {},
-            {"full", "one_point"}},
+           choice_at<&C::mesh, &H::element>(
+               "element", "Fully integrated without locking, or one point with hourglass stiffness",
+               {{"full", ElementFormulation::full}, {"one_point", ElementFormulation::one_point}}),
            {"hourglass_coefficient",
             at<&C::mesh, &H::hourglass_coefficient>,
             "element = \"one_point\": scale of the hourglass stiffness",
@@ -243,19 +273,16 @@ OptionTable mesh_table() {
             {0, 1}},
            {"end_length", at<&C::mesh, &H::end_length>, "Rail beyond both ends of the fine range", kLength, {0, 5}},
            {"elements_through_layer_one", at<&C::mesh, &H::elements_through_layer_one>,
-            "One element through every layer, as in the reference paper"}}};
+            "One element through every layer, as coarse published meshes have; `elements` of the layers is not used"}}};
 }
 
 OptionTable contact_table() {
   return {
       "contact",
       "Enforcement of the contact",
-      {{"method",
-        at<&C::contact, &ContactSpec::method>,
-        "No penetration at the end of each step, or penalty springs",
-        {},
-        {},
-        {"mortar", "penalty"}},
+      {choice_at<&C::contact, &ContactSpec::method>(
+           "method", "No penetration at the end of each step, or penalty springs",
+           {{"mortar", ContactMethod::mortar}, {"penalty", ContactMethod::penalty}}),
        {"penalty_scale", at<&C::contact, &ContactSpec::penalty_scale>,
         "method = \"penalty\": stiffness in units of K A / V of the rail's surface elements", kNumber, above(0, 100)}}};
 }
@@ -285,21 +312,19 @@ OptionTable run_table() {
         kRate,
         {0, 1e6}},
        {"step_safety", at<&C::run, &R::step_safety>, "Time step as a share of the stable one", kNumber, above(0, 1)},
-       {"time_step_method",
-        at<&C::run, &R::time_step_method>,
-        "Thin layers: selective mass scaling, the short step of the real masses, or inner steps for the thin rows "
-        "alone; auto scales where the step grows by more than a fifth",
-        {},
-        {},
-        {"auto", "uniform", "mass_scaling", "local"}},
+       choice_at<&C::run, &R::time_step_method>(
+           "time_step_method",
+           "Thin layers: selective mass scaling, the short step of the real masses, or inner steps for the thin rows "
+           "alone; auto scales where the step grows by more than a fifth",
+           {{"auto", TimeStepMethod::automatic},
+            {"uniform", TimeStepMethod::uniform},
+            {"mass_scaling", TimeStepMethod::mass_scaling},
+            {"local", TimeStepMethod::local}}),
        {"mass_scaling_step", at<&C::run, &R::mass_scaling_step>,
         "Mass scaling: step it aims at, in element sizes over the matrix's pressure wave speed", kNumber, above(0, 10)},
-       {"precision",
-        at<&C::run, &R::precision>,
-        "Element arithmetic while rolling; nodal values and the static preload are always double",
-        {},
-        {},
-        {"double", "single"}},
+       choice_at<&C::run, &R::precision>(
+           "precision", "Element arithmetic while rolling; nodal values and the static preload are always double",
+           {{"double", ArithmeticPrecision::double_precision}, {"single", ArithmeticPrecision::single_precision}}),
        {"preload_tolerance",
         at<&C::run, &R::preload_tolerance>,
         "Relative residual of the static equilibrium",
@@ -326,6 +351,13 @@ std::string quantity(double value, const Dimension& dimension) {
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
 }
 
+std::string_view word_of(const Option& option, const ChoiceSlot& slot) {
+  const auto found =
+      std::find_if(option.choices.begin(), option.choices.end(), [&](const Choice& c) { return c.value == *slot; });
+  assert(found != option.choices.end());
+  return found->word;
+}
+
 }  // namespace
 
 const std::vector<OptionTable>& case_tables() {
@@ -342,6 +374,12 @@ const std::vector<OptionTable>& case_tables() {
       run_table(),
       output_table()};
   return tables;
+}
+
+std::vector<std::string> words_of(const Option& option) {
+  std::vector<std::string> out;
+  for (const Choice& c : option.choices) out.emplace_back(c.word);
+  return out;
 }
 
 const Option& table_depth() {
@@ -375,6 +413,7 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
     std::string operator()(const int* v) const { return fmt::format("{}", *v); }
     std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
     std::string operator()(const std::string* v) const { return toml_quoted(*v); }
+    std::string operator()(const ChoiceSlot& v) const { return toml_quoted(word_of(option, v)); }
     std::string operator()(const std::vector<double>* v) const {
       std::string out;
       for (double x : *v) out += (out.empty() ? "" : ", ") + quantity(x, option.dimension);

@@ -13,9 +13,34 @@
 
 namespace railstrata {
 
+/// A member of an enum type: the place of an option that is one of several words.
+class ChoiceSlot {
+ public:
+  template <class Enum>
+  explicit ChoiceSlot(Enum& member)
+      : member_(&member),
+        read_([](const void* m) { return static_cast<int>(*static_cast<const Enum*>(m)); }),
+        write_([](void* m, int value) { *static_cast<Enum*>(m) = static_cast<Enum>(value); }) {}
+  int operator*() const { return read_(member_); }  ///< as of the pointers beside it in Slot
+  void set(int value) const { write_(member_, value); }
+  friend bool operator==(const ChoiceSlot& a, const ChoiceSlot& b) { return a.member_ == b.member_; }
+
+ private:
+  void* member_;
+  int (*read_)(const void*);
+  void (*write_)(void*, int);
+};
+
 /// Where an option lives in a case, by type. A double or a list of doubles is a quantity of the option's dimension, in
 /// SI; a table of moduli has rows of a depth and a modulus.
-using Slot = std::variant<double*, int*, bool*, std::string*, std::vector<double>*, std::vector<ModulusPoint>*>;
+using Slot =
+    std::variant<double*, int*, bool*, std::string*, ChoiceSlot, std::vector<double>*, std::vector<ModulusPoint>*>;
+
+/// A word of a case file and the value of the option's enum that it stands for.
+struct Choice {
+  std::string_view word;
+  int value;
+};
 
 /// Allowed values of a number, ends included unless `open` (then min itself is refused).
 struct Range {
@@ -30,7 +55,7 @@ struct Option {
   std::string_view doc;                        ///< one line, as on the reference page
   Dimension dimension{};
   Range range{};
-  std::vector<std::string_view> choices{};  ///< of a word
+  std::vector<Choice> choices{};  ///< of a ChoiceSlot, the only place where its words stand
   /// Set for a second way of giving the slot of another option: the number written is a multiple of this (young_ratio
   /// of the body's modulus).
   double (*multiple_of)(const CaseSpec&, std::size_t index) = nullptr;
@@ -49,6 +74,9 @@ struct OptionTable {
   std::vector<Option> options;
   bool repeated = false;  ///< [[name]], any number of times
 };
+
+/// The words of an option with choices, in the table's order.
+std::vector<std::string> words_of(const Option& option);
 
 /// In the order of the reference page and of a resolved case.
 const std::vector<OptionTable>& case_tables();

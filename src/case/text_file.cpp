@@ -1,11 +1,13 @@
 #include "case/text_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 
 #include "core/faults.hpp"
 
@@ -13,22 +15,66 @@ namespace railstrata {
 namespace {
 
 constexpr std::size_t kLargest = std::size_t{4} << 20;  // nobody writes more by hand
+constexpr int kPatience = 2000;                         // ms, for somebody to open a named pipe for writing
+constexpr int kForEver = -1;
+
+/// A file that is open for reading, closed at the end. It does not block: a named pipe without a writer would for ever.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::filesystem::path& file) : descriptor_(::open(file.c_str(), O_RDONLY | O_NONBLOCK)) {}
+  ~OpenFile() {
+    if (is_open()) ::close(descriptor_);
+  }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  bool is_open() const { return descriptor_ >= 0; }
+  /// Bytes read; 0 at the end, and of a pipe that has no writer; -1: none yet (EAGAIN), or an error.
+  ssize_t read(char* into, std::size_t most) const { return ::read(descriptor_, into, most); }
+  /// Whether within this time there is something to read, or the end.
+  bool wait(int milliseconds) const {
+    pollfd one{descriptor_, POLLIN, 0};
+    return ::poll(&one, 1, milliseconds) > 0;
+  }
+
+ private:
+  int descriptor_;
+};
+
+[[noreturn]] void refuse_unreadable(const std::filesystem::path& file, int reason, const std::string& remedy) {
+  throw CaseError(fmt::format("cannot read {}: {}", file.string(), std::strerror(reason)),
+                  reason == EACCES || reason == EPERM
+                      ? fmt::format("ask its owner to make it readable: chmod +r {}", file.string())
+                      : remedy);
+}
 
 }  // namespace
 
 std::string read_text_file(const std::filesystem::path& file, const std::string& remedy) {
-  std::error_code error;  // of a name too long, a folder that may not be looked into: told below
+  std::error_code error;  // of a name too long, a folder that may not be looked into: open() says it below
   if (std::filesystem::is_directory(file, error))
     throw CaseError(fmt::format("{} is a folder", file.string()), "name the file in it");
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw CaseError(fmt::format("cannot read {}: {}", file.string(), std::strerror(errno)), remedy);
+  const OpenFile in(file);
+  if (!in.is_open()) refuse_unreadable(file, errno, remedy);
+  const bool silent = std::filesystem::is_fifo(file, error) && !in.wait(kPatience);
   std::string text;
   std::array<char, 1 << 16> piece;
-  while (stream.read(piece.data(), piece.size()) || stream.gcount() > 0) {
-    text.append(piece.data(), static_cast<std::size_t>(stream.gcount()));
+  for (;;) {
+    const ssize_t count = in.read(piece.data(), piece.size());
+    const int reason = errno;
+    if (count == 0) break;
+    if (count > 0)
+      text.append(piece.data(), static_cast<std::size_t>(count));
+    else if (reason == EAGAIN)
+      in.wait(kForEver);
+    else if (reason != EINTR)
+      refuse_unreadable(file, reason, remedy);
     if (text.size() > kLargest)
-      throw CaseError(fmt::format("{} is larger than {} MiB", file.string(), kLargest >> 20), remedy);
+      throw CaseError(fmt::format("{} is larger than {} MiB", file.string(), kLargest >> 20),
+                      "a text written by hand has a few kilobytes: was another file meant?");
   }
+  if (silent && text.empty())
+    throw CaseError(fmt::format("{} is a named pipe, and nothing writes into it", file.string()),
+                    "start the program that writes into it first, or name a file");
   return text;
 }
 

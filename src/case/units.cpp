@@ -140,19 +140,33 @@ std::optional<Unit> find_symbol(std::string_view text) {
   return std::nullopt;
 }
 
-std::vector<std::string> known_units() {
-  std::vector<std::string> out;
-  for (const Customary& c : customary())
-    for (std::string_view u : c.units)
-      if (!u.empty()) out.emplace_back(u);
-  return out;
+/// "write a length, e.g. "0.2 mm" (units: mm, m, µm, cm)".
+std::string how_to_write(const Dimension& dimension) {
+  const std::string units = quoted_list(customary(dimension).units);
+  return fmt::format("write {}{}", describe(dimension), units.empty() ? "" : fmt::format(" (units: {})", units));
 }
 
-UnitError unknown_unit(std::string_view unit) {
-  const std::string near = nearest_word(unit, known_units());
+UnitError unknown_unit(std::string_view unit, const Dimension& expected) {
+  std::vector<std::string> units;
+  for (const std::string_view u : customary(expected).units)
+    if (!u.empty()) units.emplace_back(u);
+  const std::string near = nearest_word(unit, units);
   return UnitError(fmt::format("unknown unit \"{}\"", unit),
-                   near.empty() ? "units are SI symbols with prefixes, e.g. GPa, mm, km/h, kN s/m, kg/m^3"
-                                : fmt::format("did you mean {}?", near));
+                   near.empty() ? how_to_write(expected) : fmt::format("did you mean {}?", near));
+}
+
+/// "0,5 mm": what to write instead. Three digits behind the comma may also mean thousands.
+UnitError comma_in_number(std::string_view whole, std::size_t comma) {
+  const std::string before(whole.substr(0, comma)), after(whole.substr(comma + 1));
+  const std::size_t digits = std::min(after.find_first_not_of("0123456789"), after.size());
+  const std::string with_point = fmt::format("\"{}.{}\"", before, after);
+  return UnitError("has a comma in the number",
+                   digits == 3 ? fmt::format("write {}, or \"{}{}\" if thousands are meant", with_point, before, after)
+                               : fmt::format("numbers have a decimal point: write {}", with_point));
+}
+
+bool starts_with_comma(std::string_view text) {
+  return text.size() > 1 && text[0] == ',' && text[1] >= '0' && text[1] <= '9';
 }
 
 void multiply(Unit& total, const Unit& u, int power) {
@@ -174,7 +188,7 @@ int take_power(std::string_view& symbol) {
   return 1;
 }
 
-Unit parse_unit(std::string_view whole) {
+Unit parse_unit(std::string_view whole, const Dimension& expected) {
   static constexpr std::array<std::string_view, 6> kSeparators{" ", "\t", "*", "·", "⋅", "/"};
   Unit total;
   bool divide = false, after_solidus = false;
@@ -193,7 +207,7 @@ Unit parse_unit(std::string_view whole) {
                         "put the divided unit last, e.g. \"kN s/m\"");
       const int power = take_power(symbol);
       const auto unit = find_symbol(symbol);
-      if (!unit) throw unknown_unit(whole);
+      if (!unit) throw unknown_unit(whole, expected);
       multiply(total, *unit, divide ? -power : power);
       divide = false;
     }
@@ -204,12 +218,12 @@ Unit parse_unit(std::string_view whole) {
     }
     rest.remove_prefix(std::min(rest.size(), cut + separator.size()));
   }
-  if (divide) throw unknown_unit(whole);
+  if (divide) throw unknown_unit(whole, expected);
   return total;
 }
 
 std::optional<double> parse_ratio(std::string_view text) {
-  const auto colon = text.find(':');
+  const auto colon = text.find_first_of(":/");
   if (colon == std::string_view::npos) return std::nullopt;
   const std::string_view up = trim(text.substr(0, colon)), along = trim(text.substr(colon + 1));
   if (up.empty() || along.empty() || number_length(up) != up.size() || number_length(along) != along.size())
@@ -233,12 +247,11 @@ double parse_quantity(std::string_view whole, const Dimension& expected) {
     if (needs_unit) throw UnitError("has no unit", fmt::format("write {}", describe(expected)));
     return scaled_number(number, 0);
   }
-  const Unit unit = parse_unit(unit_text);
+  if (starts_with_comma(text.substr(length))) throw comma_in_number(text, length);
+  const Unit unit = parse_unit(unit_text, expected);
   if (unit.dimension != expected && !(expected == dimension::kSlope && unit.dimension == dimension::kNumber))
-    throw UnitError(
-        fmt::format("\"{}\" is not the unit of {}", unit_text, customary(expected).noun),
-        needs_unit ? fmt::format("write {} (units: {})", describe(expected), quoted_list(customary(expected).units))
-                   : fmt::format("write {}", describe(expected)));
+    throw UnitError(fmt::format("\"{}\" is not the unit of {}", unit_text, customary(expected).noun),
+                    how_to_write(expected));
   const double scaled = scaled_number(number, unit.decimals);
   const double value = unit.factor == 1 ? scaled : scaled * unit.factor;
   if (unit.dimension != dimension::kSlope) return value;
@@ -255,8 +268,8 @@ std::string format_quantity(double value, const Dimension& dimension) {
   const auto end = std::to_chars(buffer.begin(), buffer.end(), value, std::chars_format::scientific).ptr;
   const std::string_view shortest(buffer.data(), end);
   const auto e = shortest.find('e');
-  const std::string moved =
-      fmt::format("{}e{}", shortest.substr(0, e), std::atoi(shortest.data() + e + 1) - parse_unit(shown).decimals);
+  const std::string moved = fmt::format("{}e{}", shortest.substr(0, e),
+                                        std::atoi(shortest.data() + e + 1) - parse_unit(shown, dimension).decimals);
   const std::string plain = fmt::format("{} {}", std::strtod(moved.c_str(), nullptr), shown);
   return parse_quantity(plain, dimension) == value ? plain : fmt::format("{} {}", moved, shown);
 }
@@ -267,14 +280,14 @@ std::string describe(const Dimension& dimension) {
   return fmt::format("{}, e.g. {}{}{}", c.noun, quote, c.example, quote);
 }
 
-std::string suggest_quantity(std::string_view whole, const Dimension& dimension, double min, double max) {
+std::string suggest_quantity(std::string_view whole, const Dimension& dimension,
+                             const std::function<bool(double)>& allowed) {
   const std::string_view text = trim(whole), number = text.substr(0, number_length(text));
-  if (number.empty()) return {};
+  if (number.empty() || scaled_number(number, 0) == 0) return {};
   for (std::string_view unit : customary(dimension).units) {
     if (unit.empty()) continue;
     std::string candidate = fmt::format("{} {}", number, unit);
-    const double value = parse_quantity(candidate, dimension);
-    if (value >= min && value <= max) return candidate;
+    if (allowed(parse_quantity(candidate, dimension))) return candidate;
   }
   return {};
 }

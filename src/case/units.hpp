@@ -3,6 +3,7 @@
 //
 // A text is a decimal number and a unit: symbols with SI prefixes, multiplied by a blank, * or ·, at most one / before
 // the last symbol, powers as ^3 or ³. Its value is rounded once: "0.2 mm" is exactly the double 0.2e-3.
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -16,12 +17,14 @@ struct Dimension {
 };
 
 namespace dimension {
-inline constexpr Dimension kNumber{}, kLength{0, 1, 0, 0}, kMass{1, 0, 0, 0}, kTime{0, 0, 1, 0}, kSpeed{0, 1, -1, 0},
-    kRate{0, 0, -1, 0}, kAcceleration{0, 1, -2, 0}, kPressure{1, -1, -2, 0}, kDensity{1, -3, 0, 0},
-    kStiffness{1, 0, -2, 0}, kDamping{1, 0, -1, 0},
-    kSlope{0, 0, 0,
-           1};  ///< an inclination, kept as its tangent; written "1:40", "25 mrad", "1.4 deg" or as the bare tangent
-}
+inline constexpr Dimension kNumber{};
+inline constexpr Dimension kLength{0, 1, 0, 0}, kMass{1, 0, 0, 0}, kTime{0, 0, 1, 0};
+inline constexpr Dimension kSpeed{0, 1, -1, 0}, kRate{0, 0, -1, 0}, kAcceleration{0, 1, -2, 0};
+inline constexpr Dimension kPressure{1, -1, -2, 0}, kDensity{1, -3, 0, 0};
+inline constexpr Dimension kStiffness{1, 0, -2, 0}, kDamping{1, 0, -1, 0};
+/// An inclination, kept as its tangent; written "1:40", "1/40", "25 mrad", "1.4 deg" or as the bare tangent.
+inline constexpr Dimension kSlope{0, 0, 0, 1};
+}  // namespace dimension
 
 /// What is wrong with the text of a quantity, and what to write instead.
 struct UnitError : std::runtime_error {
@@ -39,8 +42,9 @@ std::string format_quantity(double value, const Dimension& dimension);
 /// "a length, e.g. \"0.2 mm\"": for messages, schema and reference page.
 std::string describe(const Dimension& dimension);
 
-/// A text like `text` with another prefix or unit of the same dimension whose value lies in [min, max] ("210 MPa" ->
-/// "210 GPa"); empty if there is none.
-std::string suggest_quantity(std::string_view text, const Dimension& dimension, double min, double max);
+/// A text like `text` with another prefix or unit of the same dimension whose value is allowed ("210 MPa" ->
+/// "210 GPa"); empty if there is none, and for zero, which no unit changes.
+std::string suggest_quantity(std::string_view text, const Dimension& dimension,
+                             const std::function<bool(double)>& allowed);
 
 }  // namespace railstrata

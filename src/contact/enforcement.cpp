@@ -1,6 +1,7 @@
 #include "contact/enforcement.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace railstrata {
@@ -10,6 +11,7 @@ void WheelNumbering::number(const MortarRows& rows, const ContactSurface& wheel,
   mark_.resize(static_cast<std::size_t>(wheel.columns) * wheel.stride, -1);
   auto slot = [&](std::ptrdiff_t index) -> int& {
     const std::ptrdiff_t k = index - wheel.first_line;
+    assert(k >= 0 && k < node_stride * wheel.columns && k % node_stride < wheel.stride);
     return mark_[k / node_stride * wheel.stride + k % node_stride];
   };
   system.wheel_nodes.clear();
@@ -23,29 +25,30 @@ void WheelNumbering::number(const MortarRows& rows, const ContactSurface& wheel,
     system.weight_node[k] = m;
   }
   for (std::ptrdiff_t index : system.wheel_nodes) slot(index) = -1;
+  system.wheel.ring_stations = wheel.stations.closed ? wheel.stations.nodes() : 0;
 }
 
 namespace {
 
-void give(ContactSide& side, std::size_t node, Vec3 impulse) {
+// Velocities gained by an impulse [N s, model frame] on one of the nodes.
+void apply_impulse(ContactSide& side, std::size_t node, Vec3 impulse) {
   if (!side.response) {
     side.velocity[node] += side.inverse_mass[node] * impulse;
     return;
   }
-  const ContactSide::Place from = side.places[node];
-  const Vec3 own{from.cos * impulse.x + from.sin * impulse.z, impulse.y, from.cos * impulse.z - from.sin * impulse.x};
-  for (std::size_t n = 0; n < side.places.size(); ++n) {
-    const Vec3 v =
-        side.response->velocity(from.column, side.places[n].column, side.places[n].station - from.station, own);
-    side.velocity[n] += {from.cos * v.x - from.sin * v.z, v.y, from.sin * v.x + from.cos * v.z};
+  const SurfaceNode from = side.nodes[node];
+  const Vec3 own = rotate(from.frame, impulse);
+  for (std::size_t n = 0; n < side.nodes.size(); ++n) {
+    const Vec3 v = side.response->velocity(from.column, side.nodes[n].column, side.apart(from, side.nodes[n]), own);
+    side.velocity[n] += rotate_back(from.frame, v);
   }
 }
 
 class Sweeper {
  public:
   Sweeper(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
-          TractionMemory& memory)
-      : rows_(rows), dt_(dt), options_(options), sys_(system), memory_(memory) {}
+          SurfaceTractions& tractions)
+      : rows_(rows), dt_(dt), options_(options), sys_(system), tractions_(tractions) {}
 
   Vec3 relative_velocity(std::size_t r) const { return relative(r, sys_.rail.velocity, sys_.wheel.velocity); }
   Vec3 relative(std::size_t r, const std::vector<Vec3>& rail, const std::vector<Vec3>& wheel) const {
@@ -54,12 +57,13 @@ class Sweeper {
     for (int k = row.first; k < row.first + row.count; ++k) w += rows_.weights[k].m * wheel[sys_.weight_node[k]];
     return w;
   }
-  void push(std::size_t r, Vec3 traction) {
+  // The impulse of a traction on the rail [Pa] over the step, to the nodes of both bodies.
+  void apply_traction(std::size_t r, Vec3 traction) {
     const ContactRow& row = rows_.rows[r];
     const Vec3 impulse = dt_ * row.area * traction;
-    give(sys_.rail, r, impulse);
+    apply_impulse(sys_.rail, r, impulse);
     for (int k = row.first; k < row.first + row.count; ++k)
-      give(sys_.wheel, sys_.weight_node[k], -rows_.weights[k].m * impulse);
+      apply_impulse(sys_.wheel, sys_.weight_node[k], -rows_.weights[k].m * impulse);
   }
   // Velocity gained per unit traction.
   double compliance(std::size_t r) const {
@@ -76,8 +80,8 @@ class Sweeper {
     diagonal.resize(n);
     for (std::size_t r = 0; r < n; ++r) {
       diagonal[r] = compliance(r);
-      if (const NodeTraction& t = node(r); t.p > 0 && !sys_.tractions_held)
-        push(r, traction_vector(t, rows_.rows[r].normal));
+      if (const NodeTraction& t = node(r); t.p > 0 && !sys_.tractions_applied)
+        apply_traction(r, traction_vector(t, rows_.rows[r].normal));
     }
     for (sys_.sweeps = 0; sys_.sweeps < options_.max_sweeps;) {
       double change = 0;
@@ -92,12 +96,12 @@ class Sweeper {
   }
 
   void penalty() {
-    std::vector<Vec3>& held = sys_.held;
-    held.assign(rows_.rows.size(), Vec3{});
+    std::vector<Vec3>& last = sys_.last_tractions;
+    last.assign(rows_.rows.size(), Vec3{});
     for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
       const ContactRow& row = rows_.rows[r];
       NodeTraction& t = node(r);
-      if (sys_.tractions_held) held[r] = traction_vector(t, row.normal);
+      if (sys_.tractions_applied) last[r] = traction_vector(t, row.normal);
       const Vec3 w = relative(r, sys_.rail.before, sys_.wheel.before);
       const TangentFrame f = tangent_frame(row.normal);
       t.p = options_.penalty_stiffness * std::max(0.0, -row.gap);
@@ -106,7 +110,7 @@ class Sweeper {
       return_to_coulomb_disc(options_.friction_coefficient, t.p, t.q1, t.q2);
     }
     for (std::size_t r = 0; r < rows_.rows.size(); ++r)
-      push(r, traction_vector(node(r), rows_.rows[r].normal) - held[r]);
+      apply_traction(r, traction_vector(node(r), rows_.rows[r].normal) - last[r]);
   }
 
   void record_slip() {
@@ -119,7 +123,7 @@ class Sweeper {
   }
 
  private:
-  NodeTraction& node(std::size_t r) { return memory_.at(rows_.rows[r].column, rows_.rows[r].station); }
+  NodeTraction& node(std::size_t r) { return tractions_.at(rows_.rows[r].column, rows_.rows[r].station); }
 
   double relax(std::size_t r, double diagonal) {
     const ContactRow& row = rows_.rows[r];
@@ -133,12 +137,12 @@ class Sweeper {
     next.q1 += dot(w, f.t1) / diagonal;
     next.q2 += dot(w, f.t2) / diagonal;
     return_to_coulomb_disc(options_.friction_coefficient, next.p, next.q1, next.q2);
-    NodeTraction step = next;
+    NodeTraction step = next;  // what this sweep changes
     step.p -= t.p;
     step.q1 -= t.q1;
     step.q2 -= t.q2;
     const Vec3 change = traction_vector(step, row.normal);
-    push(r, change);
+    apply_traction(r, change);
     t = next;
     return norm(change) * diagonal;
   }
@@ -147,14 +151,14 @@ class Sweeper {
   double dt_;
   const EnforcementOptions& options_;
   ContactSystem& sys_;
-  TractionMemory& memory_;
+  SurfaceTractions& tractions_;
 };
 
 }  // namespace
 
 void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
-                     TractionMemory& memory) {
-  Sweeper sweeper(rows, dt, options, system, memory);
+                     SurfaceTractions& tractions) {
+  Sweeper sweeper(rows, dt, options, system, tractions);
   if (options.penalty)
     sweeper.penalty();
   else

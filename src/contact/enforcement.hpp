@@ -8,14 +8,17 @@
 // solved by projected block Gauss–Seidel sweeps from the last step's tractions. It adds no stiffness, so it does not
 // lower the stable step, and leaves a penetration of the order of the solver's tolerance. penalty: p = k max(0, -g),
 // with a tangential spring of the same stiffness returned to the Coulomb disc; for comparison with codes that do so.
+#include <cassert>
+
 #include "contact/mortar.hpp"
 #include "contact/surface_response.hpp"
+#include "core/rotation.hpp"
 #include "friction/coulomb.hpp"
 
 namespace railstrata {
 
-/// What a rail node remembers from step to step: traction on the rail in its own frame (normal into the rail, rolling
-/// direction, lateral) and slip velocity.
+/// State of a rail node's contact, kept from step to step: traction on the rail in the node's own frame (normal into
+/// the rail, rolling direction, lateral) and slip velocity.
 struct NodeTraction {
   double p = 0, q1 = 0, q2 = 0;  ///< Pa
   double slip1 = 0, slip2 = 0;   ///< m/s, wheel relative to rail, mean of the step
@@ -33,18 +36,33 @@ inline Vec3 traction_vector(const NodeTraction& t, Vec3 n) {
   return -t.p * n + t.q1 * f.t1 + t.q2 * f.t2;
 }
 
+/// A node of a body's running surface.
+struct SurfaceNode {
+  int column, station;
+  Rotation<double> frame{};  ///< forward: components of the model to those of the station's frame
+};
+
 /// One body's nodes in the contact.
 struct ContactSide {
   std::vector<Vec3> velocity;  ///< m/s; free on input, final on output
   std::vector<Vec3> before;    ///< of the last half step: what a penalty's tangential spring has been stretched by
   std::vector<double> inverse_mass;           ///< 1/kg; with a response the largest answer of a node to its own impulse
-  const SurfaceResponse* response = nullptr;  ///< if nodes answer one another; then also
-  struct Place {
-    int column, station;
-    double cos = 1, sin = 0;  ///< of the station's frame in the model: x = cos x' - sin z', z = sin x' + cos z'
-  };
-  std::vector<Place> places;
-  void clear() { velocity.clear(), before.clear(), inverse_mass.clear(), places.clear(); }
+  const SurfaceResponse* response = nullptr;  ///< if nodes answer one another; needs `nodes` then
+  std::vector<SurfaceNode> nodes;
+  int ring_stations = 0;  ///< of a surface that closes to a ring; 0: it does not
+
+  /// Signed number of stations from one node to another, round a ring the shorter way.
+  int apart(const SurfaceNode& from, const SurfaceNode& to) const {
+    const int d = to.station - from.station;
+    if (ring_stations == 0) return d;
+    return d > ring_stations / 2 ? d - ring_stations : d < -ring_stations / 2 ? d + ring_stations : d;
+  }
+  void clear() {
+    velocity.clear();
+    before.clear();
+    inverse_mass.clear();
+    nodes.clear();
+  }
 };
 
 /// What the contact works on, gathered for the rows of a step: rail nodes in the order of the rows, wheel nodes each
@@ -53,14 +71,14 @@ struct ContactSystem {
   std::vector<std::ptrdiff_t> wheel_nodes;  ///< index of component x
   std::vector<int> weight_node;             ///< per weight of the rows, position in wheel_nodes
   ContactSide rail, wheel;
-  bool tractions_held = false;  ///< the free velocities have felt the last step's tractions already
-  // memory that one step leaves to the next
-  std::vector<double> compliance;  ///< of the rows, (m/s)/Pa; set by enforce_contact
-  std::vector<Vec3> held;          ///< tractions of the last step, Pa; penalty only
-  int sweeps = 0;
+  bool tractions_applied = false;  ///< the free velocities contain the last step's tractions already
+  int sweeps = 0;                  ///< that the multipliers took
+  // room for enforce_contact, kept so that a step allocates nothing
+  std::vector<double> compliance;    ///< of the rows, (m/s)/Pa
+  std::vector<Vec3> last_tractions;  ///< of the rows, Pa; penalty only
 };
 
-/// Numbers the wheel nodes of the rows.
+/// Numbers the wheel nodes of the rows, each once: fills wheel_nodes, weight_node and the wheel's ring_stations.
 class WheelNumbering {
  public:
   void number(const MortarRows& rows, const ContactSurface& wheel, ContactSystem& system);
@@ -70,19 +88,23 @@ class WheelNumbering {
 };
 
 /// Tractions of the rail's surface nodes, [column * stations + station].
-class TractionMemory {
+class SurfaceTractions {
  public:
-  TractionMemory(int columns, int stations)
+  SurfaceTractions(int columns, int stations)
       : stations_(stations), node_(static_cast<std::size_t>(columns) * stations) {}
-  NodeTraction& at(int column, int station) { return node_[static_cast<std::size_t>(column) * stations_ + station]; }
-  const NodeTraction& at(int column, int station) const {
-    return node_[static_cast<std::size_t>(column) * stations_ + station];
-  }
+  NodeTraction& at(int column, int station) { return node_[index(column, station)]; }
+  const NodeTraction& at(int column, int station) const { return node_[index(column, station)]; }
   std::vector<NodeTraction>& all() { return node_; }
   const std::vector<NodeTraction>& all() const { return node_; }
   int stations() const { return stations_; }
 
  private:
+  std::size_t index(int column, int station) const {
+    const std::size_t k = static_cast<std::size_t>(column) * stations_ + station;
+    assert(station >= 0 && station < stations_);
+    assert(k < node_.size());
+    return k;
+  }
   int stations_;
   std::vector<NodeTraction> node_;
 };
@@ -95,9 +117,9 @@ struct EnforcementOptions {
   int max_sweeps = 100;
 };
 
-/// Finds the tractions of the rows and the velocities after the step. Nodes of `memory` that are not among the rows
+/// Finds the tractions of the rows and the velocities after the step. Tractions of nodes that are not among the rows
 /// must be zero.
 void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
-                     TractionMemory& memory);
+                     SurfaceTractions& tractions);
 
 }  // namespace railstrata

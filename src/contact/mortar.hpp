@@ -14,12 +14,17 @@
 //
 // Search: both surfaces are sweeps, so the wheel's facet under a rail point follows from the wheel's angle; a small
 // tangential correction is carried from step to step.
+#include <array>
+
 #include "contact/surface.hpp"
 #include "core/array.hpp"
+#include "core/rotation.hpp"
+#include "core/tangential.hpp"
 
 namespace railstrata {
 
-/// Rigid position of the axle: displacement from the start and rotation psi (positive rolling forward).
+/// Rigid position of the axle: displacement from the start and rotation psi (positive rolling forward, any number of
+/// turns).
 struct AxlePose {
   double x = 0, z = 0, psi = 0;
 };
@@ -52,20 +57,21 @@ class MortarContact {
   const ContactSurface& rail() const { return rail_; }
   const ContactSurface& wheel() const { return wheel_; }
 
-  /// Chooses the rail nodes whose gap is below `reach` (m) within `half_length` (m) of the axle; call it every few
+  /// Chooses the rail nodes whose gap is below `gap_limit` (m) within `half_length` (m) of the axle; call it every few
   /// steps, before rows().
-  void search(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double half_length, double reach);
+  void search(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double half_length, double gap_limit);
   /// Gaps and weights of the chosen nodes at the present positions. The result is reused by the next call.
   const MortarRows& rows(const Field& u_rail, const Field& u_wheel, const AxlePose& pose);
 
+  /// A facet of the rail with a chosen node at one of its corners.
   struct Facet {
     int column, station;
-    Vec2 correction[4];  ///< tangential (x, y) mismatch of the last step at the Gauss points
+    Tangential correction[4];  ///< m, mismatch of the last step at the Gauss points
   };
-  /// All that a search remembers of what came before it.
-  const std::vector<Facet>& memory() const { return facets_; }
-  /// To be followed by a search.
-  void recall(std::vector<Facet> memory) { facets_ = std::move(memory); }
+  /// All that a search takes over from those before it.
+  const std::vector<Facet>& facets() const { return facets_; }
+  /// Puts back what facets() gave; to be followed by a search.
+  void restore(std::vector<Facet> facets) { facets_ = std::move(facets); }
 
  private:
   struct Hit {                  // the wheel's surface opposite a rail point
@@ -74,28 +80,50 @@ class MortarContact {
     Vec3 offset;                // x_wheel - x_rail
     bool inside;                // within the wheel's contact band
   };
-  Vec3 rail_point(const Field& u, int column, int station, double weight_y, double weight_x) const;
-  Hit opposite(const Field& u_wheel, const AxlePose& pose, Vec3 point, Vec2 correction) const;
-  int wheel_station(double theta, double& weight) const;
+  using FacetHits = std::array<Hit, 4>;         // at the Gauss points of a rail facet
+  using FacetsAroundNode = std::array<int, 4>;  // in facets_: the node is their corner (1,1), (0,1), (1,0), (0,0)
+  /// Wheel nodes that a rail node's facets touch. Stations count from `anchor`, so that they run on over the place
+  /// where a ring closes.
+  struct WheelPatch {
+    int column = 0, columns = 0;
+    int anchor = 0, first = 0, stations = 0;
+  };
 
-  void turn_to(double psi);
+  Vec3 rail_point(const Field& u, int column, int station, double weight_y, double weight_x) const;
+  Vec3 gauss_point(const Field& u_rail, const Facet& facet, int g) const;
+  Hit opposite(const Field& u_wheel, const AxlePose& pose, Vec3 point, Tangential correction) const;
+  Hit facet_below(const AxlePose& pose, Vec3 arm, Tangential correction) const;
+  Vec3 wheel_point(const Field& u_wheel, const AxlePose& pose, const Hit& hit) const;
+  int wheel_station(double theta, double& weight) const;
+  int next_wheel_station(int station) const { return station + 1 < wheel_.stations.nodes() ? station + 1 : 0; }
+
+  void move_window(double centre, double half_length);
   void reserve_window();
+  void test_nodes(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double gap_limit);
+  void choose_nodes();
+  void keep_corrections();
+  void start_corrections(const Field& u_rail, const Field& u_wheel, const AxlePose& pose);
+
+  void update_hits(const Field& u_rail, const Field& u_wheel, const AxlePose& pose);
+  int& facet_index(int column, int station);
+  FacetsAroundNode facets_around(int column, int station);
+  int stations_from(int anchor, int station) const;
+  WheelPatch wheel_patch(const FacetsAroundNode& around) const;
+  void integrate(const FacetsAroundNode& around, const WheelPatch& patch, ContactRow& row);
+  void append_weights(const WheelPatch& patch, double area);
 
   ContactSurface rail_, wheel_;
-  std::vector<double> sin_t_, cos_t_;  // of the wheel's stations
-  double cos_psi_ = 1, sin_psi_ = 0;
+  std::vector<double> sin_t_, cos_t_;           // of the wheel's stations
+  Rotation<double> turned_;                     // by psi
+  int window_first_ = 0, window_stations_ = 0;  // rail stations that the last search looked at
+  int inner_columns_ = 0;                       // of the rail: the outermost are tied to the coarser mesh
+  std::vector<char> near_, edge_;               // nodes of the window, [station * inner_columns_ + column - 1]
   std::vector<int> chosen_column_, chosen_station_;
-  std::vector<Facet> facets_;
-  struct GaussHit {
-    Hit hit[4];
-  };
-  std::vector<GaussHit> hits_;
-  std::vector<int> facet_of_;      // dense map over the search window
-  std::vector<char> near_, edge_;  // of the search, and the facets that it found before
-  std::vector<Facet> before_;
-  int window_first_ = 0, window_stations_ = 0;
+  std::vector<Facet> facets_, before_;  // of this search and of the one before
+  std::vector<int> facet_of_;           // index in facets_ or -1, over the window and a station more at either end
+  std::vector<FacetHits> hits_;
   MortarRows result_;
-  std::vector<double> scratch_;
+  std::vector<double> sum_;  // weights of a row over its wheel patch
 };
 
 }  // namespace railstrata

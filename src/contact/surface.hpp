@@ -1,6 +1,7 @@
 #pragma once
 // The running surface of a swept body as the contact sees it: the top nodes of the contact band, with the exact profile
 // between them.
+#include <cassert>
 #include <functional>
 
 #include "mesh/layout.hpp"
@@ -14,6 +15,11 @@ struct SectionPoint {
 };
 using SectionCurve = std::function<SectionPoint(double s)>;
 
+/// Where a node of the running surface stands.
+struct SurfaceIndex {
+  int column, station;
+};
+
 struct ContactSurface {
   SweepKind kind = SweepKind::extrude;
   Vec3 origin;
@@ -26,8 +32,16 @@ struct ContactSurface {
   std::vector<double> width;      ///< arc length of the facets, columns - 1
   std::ptrdiff_t first_line = 0;  ///< layout line of node 0, component 0
   int stride = 0;                 ///< between components; nodes are 3 strides apart
+  /// Of component x of a node in the body's fields; y and z follow one and two strides on.
   std::ptrdiff_t index(int column, int station) const {
+    assert(column >= 0 && column < columns);
+    assert(station >= 0 && station < stations.nodes());
     return first_line + static_cast<std::ptrdiff_t>(column) * 3 * stride + station;
+  }
+  /// The inverse of index().
+  SurfaceIndex node_at(std::ptrdiff_t index) const {
+    const std::ptrdiff_t k = index - first_line;
+    return {static_cast<int>(k / (3 * stride)), static_cast<int>(k % (3 * stride))};
   }
 };
 

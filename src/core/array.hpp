@@ -31,7 +31,7 @@ struct CacheLineAllocator {
   }
 };
 
-/// One number per degree of freedom (or per station); how it is indexed is told by mesh/layout.hpp.
+/// One number per degree of freedom (or per station); mesh/layout.hpp defines the index.
 using Field = std::vector<double, CacheLineAllocator<double>>;
 
 /// Lines of memory that will be wanted soon. They are asked for in pieces, between other work: a burst of requests

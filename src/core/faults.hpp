@@ -2,6 +2,7 @@
 // The three kinds of failure a user can meet, each with its own exit code. A programmer's fault is an assert.
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace railstrata {

@@ -1,5 +1,6 @@
 #pragma once
-// Executors. Every loop body writes only what belongs to its index, so results do not depend on the number of threads.
+// Parallel loops and sums whose results do not depend on the number of threads: a loop body writes only what belongs to
+// its index, and sums have fixed pieces. Loops do not nest: inside another one a loop runs on the calling thread alone.
 #include <omp.h>
 
 #include <cstddef>
@@ -7,7 +8,9 @@
 
 namespace railstrata {
 
-/// Calls kernel(i) for i in [0, n), possibly in parallel; `cost` hints at uneven work (dynamic scheduling).
+/// Calls kernel(i) once for each i in [0, n), in any order and possibly in parallel. The kernel may read what no other
+/// call writes; it must not throw. `uneven`: calls take different times, so threads fetch them one by one (an atomic
+/// operation each: for calls of microseconds and more); else every thread has one range of consecutive indices.
 template <class Kernel>
 void for_each(std::ptrdiff_t n, Kernel&& kernel, bool uneven = false) {
   if (uneven) {
@@ -19,8 +22,9 @@ void for_each(std::ptrdiff_t n, Kernel&& kernel, bool uneven = false) {
   }
 }
 
-/// Sum of kernel(begin, end) over fixed pieces of [0, n), added in the order of the pieces: the same bits for any
-/// number of threads.
+/// Sum of kernel(begin, end) over pieces of [0, n), where the kernel returns the sum of its own piece. The pieces have
+/// a fixed length and are added in their order: the same bits for any number of threads, but other bits than one
+/// running sum. Allocates one double for each piece, so it does not belong into the time loop.
 template <class Kernel>
 double ordered_sum(std::ptrdiff_t n, Kernel&& kernel) {
   constexpr std::ptrdiff_t piece = 8192;

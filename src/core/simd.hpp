@@ -6,6 +6,10 @@
 #include <type_traits>
 #include <utility>
 
+/// In front of every pointwise function (laws and elements): inline here, and the place where another compiler's mark
+/// for functions of a device will stand.
+#define RAILSTRATA_POINTWISE inline
+
 /// In front of a short loop of a law: packs stay in registers only if the compiler takes the loop apart, and it shies
 /// away from long bodies.
 #define RAILSTRATA_UNROLL _Pragma("GCC unroll 16")

@@ -1,5 +1,6 @@
 #pragma once
-// The 8-node hexahedron of a swept mesh.
+// The 8-node hexahedron of a swept mesh: the element class, pointwise. Compiled for scalars and for float and double
+// packs alike; what it reads is made in element/reference.hpp, who calls it is body/tile_forces.hpp.
 //
 // An element is a quadrilateral (corners k = 0..3, section coordinates y_k, z_k) carried over one station spacing. In
 // its own frame (1 along the sweep, 2 lateral, 3 up) the corners stand at (-+ a_k, y_k, b_k) with, for a spacing D,
@@ -24,62 +25,22 @@
 //   [TaylorBeresfordWilson1976] one_point  K = kappa (lambda + 2 mu) V (b:b)/8 I, the stiffness hourglass control of
 //   explicit codes [FlanaganBelytschko1981]
 // By the mirror symmetry of the element K falls apart into a 5x5 (even) and a 7x7 (odd) block: 43 numbers.
-#include <Eigen/Dense>
-#include <array>
-
+#include "core/rotation.hpp"
 #include "core/simd.hpp"
-#include "core/vec.hpp"
-#include "material/elastic.hpp"
-#include "mesh/swept.hpp"
+#include "core/sweep_kind.hpp"
 
 namespace railstrata {
 
 inline constexpr int kHourglassEntries = 15 + 28;  ///< upper triangles of the 5x5 and the 7x7 block, row by row
-using HourglassStiffness = std::array<double, kHourglassEntries>;
 
 /// Shared by all elements of one quadrilateral: the reference shape sigma = c = 1.
 template <class Real>
-struct QuadReferenceOf {
+struct QuadShape {
   Real gx[4], gy[4], gz[4];  ///< mean gradients of the corners at +a (at -a: gx changes sign)
   Real volume;
   Real even_y, even_z;  ///< h_even . Y, h_even . Z
   Real odd[3];          ///< h_m . A for the patterns eta, zeta, eta zeta
-  Real lambda, mu;
 };
-using QuadReference = QuadReferenceOf<double>;
-
-/// The two numbers by which a station spacing scales the reference shape.
-struct SweepScale {
-  double sigma, c;
-};
-SweepScale sweep_scale(SweepKind kind, double spacing);
-
-enum class ElementKind { full, one_point };
-
-/// Corner coordinates of the element in its own frame, 0–3 at -a, 4–7 at +a.
-std::array<Vec3, 8> local_corners(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale);
-
-QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material);
-HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale,
-                                       const Elastic& material, ElementKind element, double kappa);
-
-/// Row-sum lumped masses of the eight corners, kg; corner k at -a and at +a have the same.
-std::array<double, 4> corner_masses(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, double density);
-
-using Matrix24 = Eigen::Matrix<double, 24, 24>;
-/// Linear stiffness of the element in its own frame (dof 3 a + i, corners as in local_corners), from the reference data
-/// the solver uses.
-Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const HourglassStiffness& hourglass);
-/// Stiffness of the fully integrated incompatible-mode element, condensed: what `full` must reproduce.
-Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const Elastic& material);
-
-/// 2 / omega_max of the free element with lumped mass: a lower bound of the whole mesh's stable step [Hughes2000 ch.
-/// 9].
-double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material,
-                           const HourglassStiffness& hourglass);
-
-// ---- the law
-// ---------------------------------------------------------------------------------------------------------------------------------------------
 
 /// Signs of the section patterns eta, zeta, eta zeta at the corners.
 inline constexpr double kEta[4] = {-1, 1, 1, -1}, kZeta[4] = {-1, -1, 1, 1}, kEtaZeta[4] = {1, -1, 1, -1};
@@ -92,24 +53,11 @@ struct StationScale {
   T sigma, c;
 };
 
-/// T: the carried frame -> the element's own, turned back by the body's rigid rotation psi; positive when rolling
-/// forward.
-template <class Real>
-struct BodyTurn {
-  Real c = 1, s = 0;  ///< cos psi, sin psi
-};
-
-/// Elastic and hourglass energies [J] of an element.
-template <class T>
-struct ElementEnergy {
-  T strain, hourglass;
-};
-
 namespace detail {
 
 /// y = K x for a symmetric matrix given by its upper triangle.
 template <int N, class T, class Entry>
-inline void symmetric_product(const Entry& k, int first, const T (&x)[N], T (&y)[N]) {
+RAILSTRATA_POINTWISE void symmetric_product(const Entry& k, int first, const T (&x)[N], T (&y)[N]) {
   RAILSTRATA_UNROLL
   for (int i = 0; i < N; ++i) y[i] = T{};
   int e = first;
@@ -136,8 +84,8 @@ struct ElementKinematics {
 /// corner(k, i, sum, difference) gives component i of the displacements at +a_k plus and minus that at -a_k. One
 /// component at a time, so that few registers are alive.
 template <SweepKind kind = SweepKind::revolve, class T, class Real, class Corner>
-inline ElementKinematics<T> element_kinematics(const QuadReferenceOf<Real>& r, const StationScale<T>& st,
-                                               Corner&& corner) {
+RAILSTRATA_POINTWISE ElementKinematics<T> element_kinematics(const QuadShape<Real>& r, const StationScale<T>& st,
+                                                             Corner&& corner) {
   ElementKinematics<T> k;
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
@@ -170,13 +118,16 @@ struct ElementStress {
   T strain[6];
 };
 
-/// Exact (geometrically non-linear) response.
-template <SweepKind kind = SweepKind::revolve, class T, class Real>
-inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, BodyTurn<Real> turn,
-                                         const ElementKinematics<T>& k) {
+/// Exact (geometrically non-linear) response. law(strain, s) gives S; turn: the carried frame -> the element's own, of
+/// the body's rigid rotation psi, positive when rolling forward.
+template <SweepKind kind = SweepKind::revolve, class T, class Real, class LawOfStrain>
+RAILSTRATA_POINTWISE ElementStress<T> finite_stress(const Rotation<Real>& turn, const ElementKinematics<T>& k,
+                                                    LawOfStrain&& law) {
   ElementStress<T> out;
   const Real one = 1, half = Real(0.5);
-  T f1[3] = {k.h1[0], k.h1[1], k.h1[2]}, f2[3] = {k.h2[0], one + k.h2[1], k.h2[2]}, f3[3] = {k.h3[0], k.h3[1], k.h3[2]};
+  T f1[3] = {k.h1[0], k.h1[1], k.h1[2]};
+  T f2[3] = {k.h2[0], one + k.h2[1], k.h2[2]};
+  T f3[3] = {k.h3[0], k.h3[1], k.h3[2]};
   if constexpr (kind == SweepKind::revolve) {
     f1[0] += turn.c;
     f1[2] += turn.s;
@@ -193,7 +144,7 @@ inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, BodyTur
   out.strain[3] = half * dot3(f1, f2);
   out.strain[4] = half * dot3(f2, f3);
   out.strain[5] = half * dot3(f1, f3);
-  elastic_stress(r.lambda, r.mu, out.strain, out.s);
+  law(out.strain, out.s);
   const T(&s)[6] = out.s;
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
@@ -204,19 +155,18 @@ inline ElementStress<T> nonlinear_stress(const QuadReferenceOf<Real>& r, BodyTur
   return out;
 }
 
-/// Small strains about the undeformed body (T = 1): the tangent of nonlinear_stress at u = 0, used by the static
-/// solver.
-template <class T, class Real>
-inline ElementStress<T> linear_stress(const QuadReferenceOf<Real>& r, const ElementKinematics<T>& k) {
+/// Small strains about the undeformed body (T = 1): the tangent of finite_stress at u = 0, used by the static solver.
+template <class T, class LawOfStrain>
+RAILSTRATA_POINTWISE ElementStress<T> small_stress(const ElementKinematics<T>& k, LawOfStrain&& law) {
   ElementStress<T> out;
+  const ScalarOf<T> half = ScalarOf<T>(0.5);
   out.strain[0] = k.h1[0];
   out.strain[1] = k.h2[1];
   out.strain[2] = k.h3[2];
-  const Real half = Real(0.5);
   out.strain[3] = half * (k.h1[1] + k.h2[0]);
   out.strain[4] = half * (k.h2[2] + k.h3[1]);
   out.strain[5] = half * (k.h1[2] + k.h3[0]);
-  elastic_stress(r.lambda, r.mu, out.strain, out.s);
+  law(out.strain, out.s);
   const T(&s)[6] = out.s;
   out.p1[0] = s[0];
   out.p1[1] = s[3];
@@ -233,7 +183,7 @@ inline ElementStress<T> linear_stress(const QuadReferenceOf<Real>& r, const Elem
 /// Generalised hourglass forces K q in place of q; returns the hourglass energy q.Kq / 2. `entry(e)` gives the e-th
 /// number of HourglassStiffness.
 template <class T, class Entry>
-inline T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
+RAILSTRATA_POINTWISE T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
   const T a[5] = {k.even[1], k.even[2], k.odd[0][0], k.odd[1][0], k.odd[2][0]};
   T ka[5];
   detail::symmetric_product<5>(entry, 0, a, ka);
@@ -260,8 +210,9 @@ inline T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
 /// Nodal internal forces s - d at -a_k and s + d at +a_k: change(k, i, add) calls add(s, d), which adds to their
 /// component i. `k` holds generalised hourglass forces.
 template <class T, class Real, class Change>
-inline void element_forces(const QuadReferenceOf<Real>& r, const StationScale<T>& st, const ElementStress<T>& stress,
-                           const ElementKinematics<T>& k, Change&& change) {
+RAILSTRATA_POINTWISE void element_forces(const QuadShape<Real>& r, const StationScale<T>& st,
+                                         const ElementStress<T>& stress, const ElementKinematics<T>& k,
+                                         Change&& change) {
   const T v1 = r.volume * st.v1, v2 = r.volume * st.v2, v3 = r.volume * st.v3;
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) {
@@ -281,5 +232,54 @@ inline void element_forces(const QuadReferenceOf<Real>& r, const StationScale<T>
       });
   }
 }
+
+/// How an element is evaluated: the stiffness of the undeformed body; a trial, which leaves the history alone; a step
+/// that counts, which advances it.
+enum class Evaluation { linear, trial, commit };
+
+/// What the elements of one quadrilateral read: their shape and their law's parameters.
+template <class Real, class LawParameters>
+struct HexReference {
+  QuadShape<Real> shape;
+  LawParameters law;
+};
+
+/// The element class: what one quadrilateral's elements read (Reference), what a station scales it by (StationScale),
+/// what an element keeps from step to step (kHistory numbers) and its forces. Law: material/elastic.hpp, ElasticLaw.
+template <class LawType>
+struct SweptHex {
+  using Law = LawType;
+  static constexpr int kHistory = Law::kHistory;
+
+  template <class Real>
+  using Reference = HexReference<Real, typename Law::template Parameters<Real>>;
+
+  /// Internal forces of one element (or of a pack of them).
+  ///   corner     as in element_kinematics
+  ///   hourglass  replaces the hourglass amplitudes of the kinematics by generalised forces
+  ///   history    kHistory numbers of the last committed step; advanced by a trial or commit (the caller keeps them or
+  ///   not) change     as in element_forces
+  template <SweepKind kind, Evaluation how, class T, class Real, class Corner, class Hourglass, class Change>
+  static void forces(const Reference<Real>& r, const StationScale<T>& st, const Rotation<Real>& turn, T* history,
+                     Corner&& corner, Hourglass&& hourglass, Change&& change) {
+    auto kin = element_kinematics<kind, T>(r.shape, st, corner);
+    ElementStress<T> stress;
+    if constexpr (how == Evaluation::linear)
+      stress = small_stress(kin, [&](const T(&strain)[6], T(&s)[6]) { Law::tangent_stress(r.law, strain, s); });
+    else
+      stress = finite_stress<kind>(turn, kin,
+                                   [&](const T(&strain)[6], T(&s)[6]) { Law::update(r.law, strain, history, s); });
+    hourglass(kin);
+    element_forces(r.shape, st, stress, kin, change);
+  }
+
+  /// Stress and strain at a displacement with the history as it was committed.
+  template <SweepKind kind, class T, class Real>
+  static ElementStress<T> stress(const Reference<Real>& r, const Rotation<Real>& turn, const ElementKinematics<T>& kin,
+                                 const T* history) {
+    return finite_stress<kind>(turn, kin,
+                               [&](const T(&strain)[6], T(&s)[6]) { Law::stress(r.law, strain, history, s); });
+  }
+};
 
 }  // namespace railstrata

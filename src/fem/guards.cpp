@@ -106,16 +106,18 @@ void require_within_bounds(const Stepper& st, const HistoryRow& row, double larg
     end_run(
         st, "the wheel sinks into the rail",
         fmt::format("{:.3g} um, the approach is {:.3g} um", 1e6 * row.forces.penetration, 1e6 * model.hertz.approach),
-        model.spec.contact.method == "penalty" ? "a larger contact.penalty_scale, or contact.method = \"mortar\""
-                                               : "a smaller run.step_safety");
+        model.spec.contact.method == ContactMethod::penalty
+            ? "a larger contact.penalty_scale, or contact.method = \"mortar\""
+            : "a smaller run.step_safety");
   if (!(row.energy.hourglass <= limits.hourglass_share * row.energy.strain))
     end_run(st, "hourglass modes hold too much energy",
             fmt::format("{:.3g} of the strain energy", row.energy.hourglass / row.energy.strain),
-            "mesh.element = \"full\", or a larger mesh.hourglass_coefficient");
+            element_options(model.spec).element == ElementKind::one_point
+                ? "mesh.element = \"full\", or a larger mesh.hourglass_coefficient"
+                : "a smaller mesh.element_size, more elements through the layers (layer.elements) or layers that are "
+                  "not so soft");
   if (row_number % limits.rows_between_shapes != 0) return;
-  const RollingState& s = st.state();
-  const RollingSample sample =
-      take_sample(st.system(), s.u_rail, st.wheel_displacement(), s.tractions, {s.axle.x, s.axle.z, s.axle.psi});
+  const RollingSample sample = take_sample(st);
   require_shape(sample.rail, model.rail);
   require_shape(sample.wheel, model.wheel);
 }

@@ -1,10 +1,11 @@
 #pragma once
-// What a run must keep to while it rolls, looked at a hundred or so steps apart. A run that leaves these bounds
-// computes nothing of use any more and ends with a NumericalError that says what, where and what to try. They are wide:
-// results are judged by the far narrower checks of the summary.
+// Bounds that a run must keep while it rolls: finite numbers and a wheel that rolls forward after every step, the
+// others at the rows of the history. A run that leaves them computes nothing of use any more and ends with a
+// NumericalError that says what, where and what to try. They are wide: results are judged by the far narrower checks of
+// the summary.
 #include <optional>
 
-#include "fem/rolling_run.hpp"
+#include "fem/rolling_sample.hpp"
 
 namespace railstrata {
 
@@ -27,14 +28,15 @@ struct InvertedElement {
 /// are. section: y and z of the band's nodes [row * (columns + 1) + column].
 std::optional<InvertedElement> inverted_element(const BandSample& sample, const std::vector<Vec2>& section);
 
-/// Numbers that are no longer finite, or an axle that moves by an element in one step. Called after every step.
+// Each throws a NumericalError.
+/// If forces, creepage or the axle's motion are not finite, or the axle moves by an element in one step.
 void require_sound(const Stepper& stepper);
-/// A displacement that is not finite anywhere. Called before a state is kept.
+/// If a displacement is not finite.
 void require_finite(const Stepper& stepper);
-/// A wheel that no longer rolls forward. Called after every step.
+/// If the wheel no longer rolls forward.
 void require_forward(const Stepper& stepper);
-/// All others, at a row of the history. largest_energy: of torque work and strain energy so far [J]; row_number: from
-/// 0.
+/// If a row of the history, or now and then the elements' shapes, leave the limits. largest_energy: of torque work and
+/// strain energy so far [J]; row_number: from 0.
 void require_within_bounds(const Stepper& stepper, const HistoryRow& row, double largest_energy, std::size_t row_number,
                            const GuardLimits& limits = {});
 

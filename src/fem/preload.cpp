@@ -5,11 +5,15 @@
 #include <chrono>
 #include <cmath>
 
+#include "body/traversal.hpp"
 #include "core/faults.hpp"
+#include "core/parallel.hpp"
 #include "fem/static_preconditioner.hpp"
 
 namespace railstrata {
 namespace {
+
+constexpr std::size_t kRail = index_of(BodyId::rail), kWheel = index_of(BodyId::wheel);
 
 constexpr double kPenetration = 1e-4;         // of the Hertzian approach
 constexpr double kVirtualPenetration = 0.55;  // of the approach: rigid profiles pushed so far into one another overlap
@@ -24,14 +28,15 @@ class Preload {
  public:
   Preload(const RollingSystem& system, const ClusterSizes& clusters)
       : sys_(system),
-        contact_(system.rail_surface, system.wheel_surface),
-        tractions_(system.rail_surface.columns, system.rail_surface.stations.nodes()),
+        contact_(system.rail_surface(), system.wheel_surface()),
+        tractions_(system.rail_surface().columns, system.rail_surface().stations.nodes()),
+        elements_{Traversal(system.rail()), Traversal(system.wheel())},
         preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero()) {
-    compliant_ = sys_.model.spec.contact.method == "penalty";
-    element_stiffness_ = compliant_ ? sys_.penalty_stiffness
-                                    : young(sys_.model.rail_materials.front()) / sys_.model.spec.mesh.element_size;
-    penalty_ = compliant_ ? sys_.penalty_stiffness : kPenaltyScale * element_stiffness_;
+    compliant_ = sys_.options.contact.penalty;
+    element_stiffness_ = compliant_ ? sys_.options.contact.penalty_stiffness
+                                    : young(sys_.rail().materials.front()) / sys_.options.element_size;
+    penalty_ = compliant_ ? sys_.options.contact.penalty_stiffness : kPenaltyScale * element_stiffness_;
   }
 
   PreloadResult solve(double tolerance, const PreloadProgress& progress, const std::atomic<bool>* stop) {
@@ -53,13 +58,12 @@ class Preload {
             fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e}){}", step,
                         out.residual, tolerance, what_to_try()));
       if (stop && *stop) throw Interrupted("stopped during the static preload: there is nothing to resume yet");
-      hold_gaps_shut(r);
+      apply_gap_springs(r);
       out.cg_iterations +=
           conjugate_gradients(r, load * std::max(kLastStep * tolerance, kForcing * std::min(out.residual, 1.0)));
       advance(r);
     }
-    out.u_rail = u_.rail;
-    out.u_wheel = u_.wheel;
+    out.u = u_.body;
     out.axle_z = u_.axle;
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
@@ -80,38 +84,35 @@ class Preload {
         1e3 * m.spec.mesh.element_size, 2e3 * m.hertz.a, 2e3 * m.hertz.b);
   }
 
-  StaticVector zero() const { return {sys_.rail.solid.layout().field(), sys_.wheel.solid.layout().field(), 0.0}; }
+  StaticVector zero() const { return {{sys_.rail().layout.field(), sys_.wheel().layout.field()}, 0.0}; }
 
   void start_from_overlap() {
     u_.axle = -kVirtualPenetration * sys_.model.hertz.approach;
-    for (const DeformableBody::Line& l : sys_.wheel.lines)
-      if (l.component == 2) std::fill_n(u_.wheel.begin() + l.first, l.count, u_.axle);
-    sys_.apply_constraints(u_.rail, u_.wheel, {0, u_.axle, 0});
+    for (const NodeLine& l : sys_.wheel().lines)
+      if (l.component == 2) std::fill_n(u_.body[kWheel].begin() + l.first, l.count, u_.axle);
+    sys_.apply_constraints(u_.body[kRail], u_.body[kWheel], {0, u_.axle, 0});
   }
 
   // Weight of everything on its nodes and on the axle; centrifugal forces of a wheel that rolls.
   StaticVector loads() const {
     StaticVector f = zero();
     const double g = sys_.gravity;
-    auto weigh = [g](const DeformableBody& body, Field& out) {
-      for (const DeformableBody::Line& l : body.lines)
+    for (std::size_t k = 0; k < f.body.size(); ++k)
+      for (const NodeLine& l : sys_.bodies[k].lines)
         if (l.component == 2)
-          for (int j = 0; j < l.count; ++j) out[l.first + j] = -g * body.mass[l.first + j];
-    };
-    weigh(sys_.rail, f.rail);
-    weigh(sys_.wheel, f.wheel);
+          for (int j = 0; j < l.count; ++j) f.body[k][l.first + j] = -g * sys_.bodies[k].mass[l.first + j];
     const double spin = sys_.start_spin, spin2 = spin * spin;
-    for (const DeformableBody::Line& l : sys_.wheel.lines) {
+    const Body& wheel = sys_.wheel();
+    for (const NodeLine& l : wheel.lines) {
       if (l.component == 1) continue;
-      const Block& block = sys_.model.wheel.blocks[l.block];
-      const double z = block.section.nodes[l.node].z;
+      const double z = line_radius(wheel, l.block, l.node);
       for (int j = 0; j < l.count; ++j) {
-        const double t = block.stations.at[j];
-        f.wheel[l.first + j] +=
-            spin2 * sys_.wheel.mass[l.first + j] * (l.component == 0 ? -z * std::sin(t) : z * std::cos(t));
+        const double t = wheel.mesh.blocks[l.block].stations.at[j];
+        f.body[kWheel][l.first + j] +=
+            spin2 * wheel.mass[l.first + j] * (l.component == 0 ? -z * std::sin(t) : z * std::cos(t));
       }
     }
-    f.axle = -g * (sys_.axle.mass_z + sys_.model.spec.vehicle.sprung_mass);
+    f.axle = -g * (sys_.axle.mass_z + sys_.options.vehicle.sprung_mass);
     return f;
   }
   double load_norm() const {
@@ -121,9 +122,10 @@ class Preload {
 
   void update_contact() {
     const AxlePose pose{0, u_.axle, 0};
-    const double h = sys_.model.spec.mesh.element_size;
-    contact_.search(u_.rail, u_.wheel, pose, 2 * sys_.model.hertz.a + 4 * h, 0.3 * sys_.model.hertz.approach);
-    rows_ = &contact_.rows(u_.rail, u_.wheel, pose);
+    const double h = sys_.options.element_size;
+    contact_.search(u_.body[kRail], u_.body[kWheel], pose, 2 * sys_.model.hertz.a + 4 * h,
+                    0.3 * sys_.model.hertz.approach);
+    rows_ = &contact_.rows(u_.body[kRail], u_.body[kWheel], pose);
     pressure_.clear();
     active_.clear();
     for (const ContactRow& row : rows_->rows) {
@@ -133,28 +135,27 @@ class Preload {
     }
   }
   // The stiff springs of the linear step at the present gaps, in place of the pressures.
-  void hold_gaps_shut(StaticVector& r) {
+  void apply_gap_springs(StaticVector& r) {
     spring_.assign(rows_->rows.size(), 0.0);
     StaticVector f = zero();
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       if (!active_[k]) continue;
       const ContactRow& row = rows_->rows[k];
       spring_[k] = tractions_.at(row.column, row.station).p - penalty_ * row.gap;
-      push(k, spring_[k] - pressure_[k], f.rail, f.wheel);
+      apply_pressure(k, spring_[k] - pressure_[k], f);
     }
     reduce(f);
     add(r, 1.0, f);
   }
   // Takes the step; the springs' pressures are the next multipliers, negative ones too: they open the contact there.
   void advance(StaticVector& step) {
-    sys_.rail.ties.spread(step.rail, 0, true);
-    sys_.wheel.ties.spread(step.wheel, 0, true);
+    for (std::size_t k = 0; k < step.body.size(); ++k) sys_.bodies[k].ties.apply_homogeneous(step.body[k]);
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
       if (active_[k] && !compliant_)
         tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = spring_[k] - penalty_ * gap_change(k, step);
     add(u_, 1.0, step);
-    sys_.apply_constraints(u_.rail, u_.wheel, {0, u_.axle, 0});
+    sys_.apply_constraints(u_.body[kRail], u_.body[kWheel], {0, u_.axle, 0});
   }
   double penetration() const {
     double worst = 0;
@@ -163,40 +164,42 @@ class Preload {
     return worst;
   }
 
-  // Adds scale * a_A p_A on both surfaces: pushes the rail down and the wheel up.
-  void push(std::size_t k, double p, Field& rail, Field& wheel) const {
+  // Adds a_A p_A on both surfaces: the rail down and the wheel up.
+  void apply_pressure(std::size_t k, double p, StaticVector& f) const {
     const ContactRow& row = rows_->rows[k];
     const double n[3] = {row.normal.x, row.normal.y, row.normal.z};
     for (int i = 0; i < 3; ++i) {
       const double force = row.area * p * n[i];
-      rail[row.rail + i * sys_.rail_surface.stride] -= force;
+      f.body[kRail][row.rail + i * sys_.rail_surface().stride] -= force;
       for (int w = row.first; w < row.first + row.count; ++w)
-        wheel[rows_->weights[w].wheel + i * sys_.wheel_surface.stride] += rows_->weights[w].m * force;
+        f.body[kWheel][rows_->weights[w].wheel + i * sys_.wheel_surface().stride] += rows_->weights[w].m * force;
     }
   }
 
   // Forces on constrained nodes go to what carries them.
   void reduce(StaticVector& f) const {
-    sys_.rail.ties.collect(f.rail);
-    sys_.wheel.ties.collect(f.wheel);
-    for (const BoreNode& n : sys_.axle.bore) f.axle += f.wheel[n.index + 2 * n.stride];
-    mask(sys_.rail, f.rail);
-    mask(sys_.wheel, f.wheel);
+    for (std::size_t k = 0; k < f.body.size(); ++k) sys_.bodies[k].ties.apply_transpose(f.body[k]);
+    for (const BoreNode& n : sys_.axle.bore) f.axle += f.body[kWheel][n.index + 2 * n.stride];
+    clear_constrained(f);
   }
-  static void mask(const DeformableBody& body, Field& f) {
-    for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) {
-      if (body.inverse_mass[i] == 0) f[i] = 0;
-    });
+  void clear_constrained(StaticVector& x) const {
+    for (std::size_t k = 0; k < x.body.size(); ++k) {
+      const Field& inverse_mass = sys_.bodies[k].inverse_mass;
+      Field& f = x.body[k];
+      for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) {
+        if (inverse_mass[i] == 0) f[i] = 0;
+      });
+    }
   }
 
   StaticVector residual() {
     StaticVector r = zero();
-    sys_.rail.solid.internal_force(u_.rail, 0, r.rail);
-    sys_.wheel.solid.internal_force(u_.wheel, 0, r.wheel);
-    for (double& v : r.rail) v = -v;
-    for (double& v : r.wheel) v = -v;
+    for (std::size_t k = 0; k < r.body.size(); ++k) {
+      elements_[k].internal_force(u_.body[k], 0, r.body[k]);
+      for (double& v : r.body[k]) v = -v;
+    }
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
-      if (pressure_[k] > 0) push(k, pressure_[k], r.rail, r.wheel);
+      if (pressure_[k] > 0) apply_pressure(k, pressure_[k], r);
     reduce(r);
     add(r, 1.0, loads());
     return r;
@@ -206,39 +209,36 @@ class Preload {
   void stiffness(StaticVector& x, StaticVector& y) {
     elastic(x, y);
     reduce(y);
-    release(x);
+    clear_constrained(x);
   }
   // y = (K + eps G^T a G) x
   void apply(StaticVector& x, StaticVector& y) {
     elastic(x, y);
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
-      if (active_[k]) push(k, penalty_ * gap_change(k, x), y.rail, y.wheel);
+      if (active_[k]) apply_pressure(k, penalty_ * gap_change(k, x), y);
     reduce(y);
-    release(x);
+    clear_constrained(x);
   }
   void elastic(StaticVector& x, StaticVector& y) {
+    Field& wheel = x.body[kWheel];
     for (const BoreNode& n : sys_.axle.bore) {
-      x.wheel[n.index] = x.wheel[n.index + n.stride] = 0;
-      x.wheel[n.index + 2 * n.stride] = x.axle;
+      wheel[n.index] = wheel[n.index + n.stride] = 0;
+      wheel[n.index + 2 * n.stride] = x.axle;
     }
-    sys_.rail.ties.spread(x.rail, 0, true);
-    sys_.wheel.ties.spread(x.wheel, 0, true);
-    sys_.rail.solid.linear_force(x.rail, y.rail);
-    sys_.wheel.solid.linear_force(x.wheel, y.wheel);
+    for (std::size_t k = 0; k < x.body.size(); ++k) {
+      sys_.bodies[k].ties.apply_homogeneous(x.body[k]);
+      elements_[k].linear_force(x.body[k], y.body[k]);
+    }
     y.axle = 0;
-  }
-  void release(StaticVector& x) const {
-    mask(sys_.rail, x.rail);
-    mask(sys_.wheel, x.wheel);
   }
   double gap_change(std::size_t k, const StaticVector& x) const {
     const ContactRow& row = rows_->rows[k];
     const double n[3] = {row.normal.x, row.normal.y, row.normal.z};
     double g = 0;
     for (int i = 0; i < 3; ++i) {
-      double w = -x.rail[row.rail + i * sys_.rail_surface.stride];
+      double w = -x.body[kRail][row.rail + i * sys_.rail_surface().stride];
       for (int j = row.first; j < row.first + row.count; ++j)
-        w += rows_->weights[j].m * x.wheel[rows_->weights[j].wheel + i * sys_.wheel_surface.stride];
+        w += rows_->weights[j].m * x.body[kWheel][rows_->weights[j].wheel + i * sys_.wheel_surface().stride];
       g += n[i] * w;
     }
     return g;
@@ -266,7 +266,8 @@ class Preload {
 
   const RollingSystem& sys_;
   MortarContact contact_;
-  TractionMemory tractions_;
+  SurfaceTractions tractions_;
+  std::array<Traversal, 2> elements_;
   StaticPreconditioner preconditioner_;
   StaticVector u_;
   bool compliant_ = false;        // penalty contact: its springs are the contact, there are no multipliers

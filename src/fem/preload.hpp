@@ -9,6 +9,7 @@
 // [HueberWohlmuth2005]. The linear systems are solved by conjugate gradients with the explicit solver's element kernel
 // as the operator and two levels of preconditioning (fem/static_preconditioner.hpp), never more exactly than the next
 // step can use. Nothing but the coarse level is assembled.
+#include <array>
 #include <atomic>
 #include <functional>
 
@@ -18,9 +19,9 @@
 namespace railstrata {
 
 struct PreloadResult {
-  Field u_rail, u_wheel;
-  double axle_z = 0;  ///< m, displacement of the axle from the rigid contact position, negative: down
-  TractionMemory tractions{0, 0};
+  std::array<Field, 2> u;  ///< m, displacements by BodyId
+  double axle_z = 0;       ///< m, displacement of the axle from the rigid contact position, negative: down
+  SurfaceTractions tractions{0, 0};
   double residual = 0;                      ///< |r| / |load vector|
   double penetration = 0;                   ///< m, largest of the nodes in contact
   Vec3 contact_force;                       ///< N, on the wheel

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <numbers>
 
+#include "body/traversal.hpp"
 #include "core/faults.hpp"
 #include "fem/guards.hpp"
 
@@ -18,63 +18,10 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 constexpr long kStepsBetweenGoodStates = 1024;  // a copy of the state costs less than a step
 
-// Half length of a sample: the patch and the stress field around it.
-double sample_half_length(const RollingSystem& s) { return 1.5 * s.model.hertz.a + 2 * s.model.spec.mesh.element_size; }
-
-BandSample band_sample(const Solid& solid, const ContactBand& band, const Field& u, double centre, double radius,
-                       const AxlePose& pose, double half_length) {
-  const Block& block = solid.body().blocks[band.block];
-  const BlockLayout& lay = solid.layout().blocks[band.block];
-  const auto& at = block.stations.at;
-  const double period = block.stations.closed ? 2 * std::numbers::pi : 0;
-  const int n = lay.stations;
-  auto wrapped = [&](int j) { return ((j % n) + n) % n; };
-  auto coordinate = [&](int j) {
-    return block.stations.closed ? at[wrapped(j)] + period * std::floor(static_cast<double>(j) / n) : at[j];
-  };
-  if (period > 0) centre -= period * std::floor((centre - at.front()) / period);
-  int middle = static_cast<int>(std::lower_bound(at.begin(), at.end(), centre) - at.begin());
-  if (middle > 0 && (middle >= n || centre - at[middle - 1] < at[middle] - centre)) --middle;
-  // The same number of stations on either side whatever the exact position, so that samples can be averaged station by
-  // station.
-  const int reach = static_cast<int>(std::ceil(half_length / radius / (coordinate(middle + 1) - coordinate(middle))));
-  const int first = block.stations.closed ? middle - reach : std::max(middle - reach, 0);
-  const int last = block.stations.closed ? middle + reach : std::min(middle + reach, lay.elements);
-
-  BandSample s;
-  s.columns = band.columns;
-  s.rows = band.rows;
-  s.stations = last - first;
-  for (int j = first; j <= last; ++j) s.along.push_back(radius * (coordinate(j) - centre));
-  for (int j = first; j < last; ++j)
-    for (int q = 0; q < band.rows * band.columns; ++q)
-      s.stress.push_back(solid.stress(u, band.block, q, block.stations.closed ? wrapped(j) : j));
-  const bool turning = solid.body().kind == SweepKind::revolve;
-  const double c = std::cos(pose.psi), sn = std::sin(pose.psi);
-  for (int j = first; j <= last; ++j)
-    for (int k = 0; k < (band.rows + 1) * (band.columns + 1); ++k) {
-      const int station = block.stations.closed ? wrapped(j) : j;
-      const std::ptrdiff_t i = lay.line(k, 0) + station;
-      Vec3 d{u[i], u[i + lay.stride], u[i + 2 * lay.stride]};
-      if (turning) {
-        const Vec3 arm = solid.reference_position(band.block, k, station) - solid.body().origin;
-        d -= Vec3{pose.x + (c - 1) * arm.x + sn * arm.z, 0, pose.z + (c - 1) * arm.z - sn * arm.x};
-      }
-      s.displacement.push_back(d);
-    }
-  return s;
-}
-
-double largest_pressure(const TractionMemory& t) {
-  double p = 0;
-  for (const NodeTraction& n : t.all()) p = std::max(p, n.p);
-  return p;
-}
-
 // The wheel positions at which a wanted position is sampled: every rail station of the window, so that samples fall on
 // the same points of the mesh.
 std::vector<double> sample_positions(const RollingSystem& s, double position) {
-  const auto& at = s.rail_surface.stations.at;
+  const auto& at = s.rail_surface().stations.at;
   const auto near = std::lower_bound(at.begin(), at.end(), position);
   const double spacing = *near - *std::prev(near);
   constexpr double kRounding = 1e-6;  // half a window of two and a half elements is three by every instruction set
@@ -82,12 +29,6 @@ std::vector<double> sample_positions(const RollingSystem& s, double position) {
   std::vector<double> out;
   for (int k = -half; k <= half; ++k) out.push_back(position + k * spacing);
   return out;
-}
-
-HistoryRow history_row(const Stepper& st, const EnergyBalance& now, const EnergyBalance& start) {
-  const RollingState& s = st.state();
-  return {s.time,    st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(),
-          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total()};
 }
 
 std::vector<double> sorted_targets(const RollingSystem& sys) {
@@ -113,23 +54,14 @@ std::vector<Wanted> wanted_samples(const RollingSystem& sys) {
   return wanted;
 }
 
-RollingSample sample_now(const Stepper& st) {
-  RollingSample s = take_sample(st.system(), st.state().u_rail, st.wheel_displacement(), st.state().tractions,
-                                {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
-  s.time = st.state().time;
-  s.axle = st.state().axle;
-  s.forces = st.forces();
-  s.creepage = st.creepage();
-  return s;
-}
-
-// The tables of a result only grow: a state of some moment does without them, its own are the first rows and samples of
-// those there are later.
+// A state of some moment is kept without the tables of its result: they only grow, so its own are the first rows and
+// samples of those there are later.
 void swap_tables(RunResult& a, RunResult& b) {
   a.history.swap(b.history);
   a.positions.swap(b.positions);
 }
 
+// Back to what the tables were after so many rows and samples.
 void cut_tables(RunResult& result, std::size_t rows, std::size_t samples, const std::vector<Wanted>& wanted) {
   std::vector<std::size_t> count(result.positions.size(), 0);
   for (std::size_t k = 0; k < samples; ++k) ++count[wanted[k].group];
@@ -137,136 +69,199 @@ void cut_tables(RunResult& result, std::size_t rows, std::size_t samples, const 
   result.history.resize(rows);
 }
 
-RunResult roll(const RollingSystem& sys, const RunObserver& observer, Stepper& st, RunState run,
-               Clock::time_point start_time) {
-  const CaseSpec& spec = sys.model.spec;
-  RunResult& out = run.result;
-  out.limits = st.plan().limits;
-  out.dt = st.dt();
-  const double earlier_seconds = out.wall_seconds;
-  const std::vector<Wanted> wanted = wanted_samples(sys);
-  const double end = std::max(sys.model.x_end, wanted.back().position);
-  const int frames = std::max(spec.output.series_frames, 1);
-  const auto timed = [&](auto&& output) {
+/// Rolls from a state to the last sample, or until it is to stop.
+class Roller {
+ public:
+  Roller(const RollingSystem& system, const RunObserver& observer, Stepper& stepper, RunState run,
+         Clock::time_point start);
+  RunResult roll();
+
+ private:
+  bool attend_to_demand();
+  void step();
+  void record_history();
+  void show_frame();
+  void take_due_samples();
+  void keep_state();
+  void save();
+  void save_last_good_state();
+  void drop_unfinished_positions();
+  RunResult finish();
+
+  RunResult& result() { return run_.result; }
+  bool all_sampled() const { return run_.next_sample == wanted_.size(); }
+  double wall_seconds() const { return earlier_seconds_ + seconds_since(start_); }
+  template <class Output>
+  void time_output(Output&& output) {
     const auto start = Clock::now();
     output();
-    out.output_wall_seconds += seconds_since(start);
-  };
-  RunState good;  // the last one that was looked at, without tables: saved on demand or when a guard speaks
-  std::size_t good_rows = 0;
-  auto remember = [&] {
-    require_finite(st);
-    out.wall_seconds = earlier_seconds + seconds_since(start_time);
-    out.reached_edge = st.reached_edge();
-    good = {};  // one at a time
-    RunResult tables;
-    swap_tables(tables, out);
-    good = run;
-    swap_tables(tables, out);
-    good_rows = out.history.size();
-    good.stepper = st.memory();
-  };
-  auto save = [&] {
-    if (!observer.save) return;
-    remember();
-    swap_tables(good.result, out);
-    observer.save(good);
-    swap_tables(good.result, out);
-  };
+    result().output_wall_seconds += seconds_since(start);
+  }
 
-  auto one_step = [&] {
-    const bool record = st.position() >= run.next_history;
-    if (record) st.want_energy();
-    st.step();
-    require_sound(st);
-    require_forward(st);
-    if (record) {
-      run.next_history += spec.run.history_interval;
-      const EnergyBalance now = st.energy();
-      if (!run.started) {
-        run.start_energy = now;
-        run.started = true;
-      }
-      const HistoryRow row = history_row(st, now, run.start_energy);
-      run.largest_closure = std::max(run.largest_closure, std::abs(row.closure));
-      run.largest_energy = std::max({run.largest_energy, now.torque_work, now.strain});
-      require_within_bounds(st, row, run.largest_energy, out.history.size());
-      out.hourglass_share = std::max(out.hourglass_share, now.hourglass / now.strain);
-      out.run_up_damping_energy = now.damping;
-      out.history.push_back(row);
-      timed([&] {
-        if (observer.history) observer.history(row);
-        if (observer.progress) observer.progress(st.position() / end, row);
-      });
-    }
-    if (observer.frame && st.position() >= run.next_frame) {
-      run.next_frame += end / frames;
-      run.frame_times.push_back(st.state().time);
-      timed([&] { observer.frame(sample_now(st)); });
-    }
-    while (run.next_sample < wanted.size() && st.position() >= wanted[run.next_sample].position) {
-      out.penetration = std::max(out.penetration, st.forces().penetration);
-      timed([&] { out.positions[wanted[run.next_sample].group].samples.push_back(sample_now(st)); });
-      ++run.next_sample;
-    }
-  };
+  const RollingSystem& sys_;
+  const RunObserver& observer_;
+  Stepper& stepper_;
+  RunState run_;
+  std::vector<Wanted> wanted_;
+  double end_, frame_spacing_;  // m
+  Clock::time_point start_;
+  double earlier_seconds_;  // of the sittings before this one
+  RunState good_;           // the last state that was looked at, without tables; saved when a guard ends the run
+  std::size_t good_rows_ = 0;
+};
 
-  // False when the run is to stop.
-  auto between_steps = [&] {
-    if (!st.can_be_remembered()) return true;
-    const Demand demand = observer.demand ? observer.demand() : Demand::go_on;
-    if (demand != Demand::go_on)
-      timed(save);
-    else if (observer.save && st.state().step % kStepsBetweenGoodStates == 0)
-      timed(remember);
-    return demand != Demand::save_and_stop;
-  };
+Roller::Roller(const RollingSystem& system, const RunObserver& observer, Stepper& stepper, RunState run,
+               Clock::time_point start)
+    : sys_(system),
+      observer_(observer),
+      stepper_(stepper),
+      run_(std::move(run)),
+      wanted_(wanted_samples(system)),
+      end_(std::max(system.model.x_end, wanted_.back().position)),
+      frame_spacing_(end_ / std::max(system.model.spec.output.series_frames, 1)),
+      start_(start),
+      earlier_seconds_(run_.result.wall_seconds) {
+  result().limits = stepper_.plan().limits;
+  result().dt = stepper_.dt();
+}
 
+RunResult Roller::roll() {
   try {
-    while (!out.stopped && run.next_sample < wanted.size())
-      if (between_steps())
-        one_step();
+    while (!result().stopped && !all_sampled())
+      if (attend_to_demand())
+        step();
       else
-        out.stopped = true;
+        result().stopped = true;
   } catch (const NumericalError&) {
-    if (observer.save && good.stepper.dt > 0) {
-      cut_tables(out, good_rows, good.next_sample, wanted);
-      swap_tables(good.result, out);
-      observer.save(good);
-    }
+    save_last_good_state();
     throw;
   }
-  if (out.stopped)  // a position half measured is none
-    while (!out.positions.empty() &&
-           out.positions.back().samples.size() < sample_positions(sys, out.positions.back().position).size())
-      out.positions.pop_back();
-  out.closure = run.largest_energy > 0 ? run.largest_closure / run.largest_energy : 0;
-  out.reached_edge = st.reached_edge();
-  out.steps = st.state().step;
-  out.wall_seconds = earlier_seconds + seconds_since(start_time);
-  return std::move(run.result);
+  return finish();
 }
+
+// False when the run is to stop.
+bool Roller::attend_to_demand() {
+  if (!stepper_.is_restart_point()) return true;
+  const Demand demand = observer_.demand ? observer_.demand() : Demand::go_on;
+  if (demand != Demand::go_on)
+    time_output([&] { save(); });
+  else if (observer_.save && stepper_.state().step % kStepsBetweenGoodStates == 0)
+    time_output([&] { keep_state(); });
+  return demand != Demand::save_and_stop;
+}
+
+void Roller::step() {
+  const bool record = stepper_.position() >= run_.next_history;
+  if (record) stepper_.want_energy();
+  stepper_.step();
+  require_sound(stepper_);
+  require_forward(stepper_);
+  if (record) record_history();
+  if (observer_.frame && stepper_.position() >= run_.next_frame) show_frame();
+  take_due_samples();
+}
+
+void Roller::record_history() {
+  run_.next_history += sys_.model.spec.run.history_interval;
+  const EnergyBalance& now = stepper_.energy();
+  if (!run_.started) {
+    run_.start_energy = now;
+    run_.started = true;
+  }
+  const HistoryRow row = history_row(stepper_, run_.start_energy);
+  run_.largest_closure = std::max(run_.largest_closure, std::abs(row.closure));
+  run_.largest_energy = std::max({run_.largest_energy, now.torque_work, now.strain});
+  require_within_bounds(stepper_, row, run_.largest_energy, result().history.size());
+  result().hourglass_share = std::max(result().hourglass_share, now.hourglass / now.strain);
+  result().run_up_damping_energy = now.damping;
+  result().history.push_back(row);
+  time_output([&] {
+    if (observer_.history) observer_.history(row);
+    if (observer_.progress) observer_.progress(stepper_.position() / end_, row);
+  });
+}
+
+void Roller::show_frame() {
+  run_.next_frame += frame_spacing_;
+  run_.frame_times.push_back(stepper_.state().time);
+  time_output([&] { observer_.frame(take_sample(stepper_)); });
+}
+
+void Roller::take_due_samples() {
+  for (; !all_sampled() && stepper_.position() >= wanted_[run_.next_sample].position; ++run_.next_sample) {
+    result().penetration = std::max(result().penetration, stepper_.forces().penetration);
+    time_output([&] { result().positions[wanted_[run_.next_sample].group].samples.push_back(take_sample(stepper_)); });
+  }
+}
+
+void Roller::keep_state() {
+  require_finite(stepper_);
+  result().wall_seconds = wall_seconds();
+  result().reached_edge = stepper_.reached_edge();
+  good_ = {};  // one at a time
+  RunResult tables;
+  swap_tables(tables, result());
+  good_ = run_;
+  swap_tables(tables, result());
+  good_rows_ = result().history.size();
+  good_.stepper = stepper_.restart_state();
+}
+
+void Roller::save() {
+  if (!observer_.save) return;
+  keep_state();
+  swap_tables(good_.result, result());
+  observer_.save(good_);
+  swap_tables(good_.result, result());
+}
+
+void Roller::save_last_good_state() {
+  if (!observer_.save || good_.stepper.dt == 0) return;
+  cut_tables(result(), good_rows_, good_.next_sample, wanted_);
+  swap_tables(good_.result, result());
+  observer_.save(good_);
+}
+
+// A position measured in a part of its window only is none.
+void Roller::drop_unfinished_positions() {
+  std::vector<PositionSamples>& positions = result().positions;
+  while (!positions.empty() &&
+         positions.back().samples.size() < sample_positions(sys_, positions.back().position).size())
+    positions.pop_back();
+}
+
+RunResult Roller::finish() {
+  if (result().stopped) drop_unfinished_positions();
+  result().closure = run_.largest_energy > 0 ? run_.largest_closure / run_.largest_energy : 0;
+  result().reached_edge = stepper_.reached_edge();
+  result().steps = stepper_.state().step;
+  result().wall_seconds = wall_seconds();
+  return std::move(run_.result);
+}
+
+// A static case has one position with one sample.
+PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& preload) {
+  PositionSamples still{0.0, {take_sample(sys, preload.u[0], preload.u[1], preload.tractions, {0, preload.axle_z, 0})}};
+  RollingSample& sample = still.samples.front();
+  sample.axle.z = preload.axle_z;
+  const Vec3 force = preload.contact_force;
+  sample.forces = {.x = force.x, .y = force.y, .z = force.z, .penetration = preload.penetration};
+  return still;
+}
+
+double hourglass_share(const RollingSystem& sys, PreloadResult& preload) {
+  const StrainEnergy rail = strain_energy(sys.rail(), preload.u[0], 0);
+  const StrainEnergy wheel = strain_energy(sys.wheel(), preload.u[1], 0);
+  return (rail.hourglass + wheel.hourglass) / (rail.strain + wheel.strain);
+}
+
+void drop_fields(PreloadResult& preload) { preload.u = {}; }
 
 }  // namespace
 
-RollingSample take_sample(const RollingSystem& sys, const Field& u_rail, const Field& u_wheel,
-                          const TractionMemory& tractions, const AxlePose& pose) {
-  RollingSample out;
-  const double half = sample_half_length(sys);
-  out.position = pose.x;
-  out.rail = band_sample(sys.rail.solid, sys.model.rail.contact, u_rail, pose.x, 1.0, {}, half);
-  out.wheel = band_sample(sys.wheel.solid, sys.model.wheel.contact, u_wheel, pose.psi, sys.rolling_radius, pose, half);
-  const auto& at = sys.rail_surface.stations.at;
-  const int first =
-      static_cast<int>(std::lower_bound(at.begin(), at.end(), out.rail.along.front() + pose.x - 1e-9) - at.begin());
-  for (int j = first; j <= first + out.rail.stations; ++j)
-    for (int c = 0; c < sys.rail_surface.columns; ++c) out.tractions.push_back(tractions.at(c, j));
-  return out;
-}
-
 RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
   const RunSpec& run = sys.model.spec.run;
-  const auto start_time = Clock::now();
+  const auto start = Clock::now();
   RunResult out;
   out.elements = sys.model.rail.elements() + sys.model.wheel.elements();
   out.nodes = sys.model.rail.nodes() + sys.model.wheel.nodes();
@@ -274,37 +269,29 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
   out.preload_wall_seconds = preload.wall_seconds;
 
   if (!run.rolling) {
-    PositionSamples still{
-        0.0, {take_sample(sys, preload.u_rail, preload.u_wheel, preload.tractions, {0, preload.axle_z, 0})}};
-    still.samples.front().axle.z = preload.axle_z;
-    const Vec3 force = preload.contact_force;
-    still.samples.front().forces = {.x = force.x, .y = force.y, .z = force.z, .penetration = preload.penetration};
-    Field& ur = preload.u_rail;
-    Field& uw = preload.u_wheel;
-    const StrainEnergy rail = sys.rail.solid.energy(ur, 0), wheel = sys.wheel.solid.energy(uw, 0);
-    out.hourglass_share = (rail.hourglass + wheel.hourglass) / (rail.strain + wheel.strain);
+    out.positions.push_back(still_contact(sys, preload));
+    out.hourglass_share = hourglass_share(sys, preload);
     out.penetration = preload.penetration;
-    out.positions.push_back(std::move(still));
-    preload.u_rail = preload.u_wheel = Field{};
+    drop_fields(preload);
     out.preload = std::move(preload);
-    out.wall_seconds = seconds_since(start_time);
+    out.wall_seconds = seconds_since(start);
     return out;
   }
 
-  Stepper st(sys, preload);
-  preload.u_rail = preload.u_wheel = Field{};
+  Stepper stepper(sys, preload);
+  drop_fields(preload);
   out.preload = std::move(preload);
   for (double target : sorted_targets(sys)) out.positions.push_back({target, {}});
   RunState state;
   state.result = std::move(out);
-  return roll(sys, observer, st, std::move(state), start_time);
+  return Roller(sys, observer, stepper, std::move(state), start).roll();
 }
 
 RunResult resume_rolling(const RollingSystem& sys, const RunObserver& observer, RunState state) {
-  const auto start_time = Clock::now();
-  Stepper st(sys, std::move(state.stepper));
+  const auto start = Clock::now();
+  Stepper stepper(sys, std::move(state.stepper));
   state.stepper = {};
-  return roll(sys, observer, st, std::move(state), start_time);
+  return Roller(sys, observer, stepper, std::move(state), start).roll();
 }
 
 }  // namespace railstrata

@@ -7,14 +7,17 @@
 // wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius. Suspension: groups of a spring and a
 // dashpot with a share of the sprung mass each, vertical, around the axle's (non-rotating) box. In x the sprung mass
 // rides along with the axle if the case says so.
-#include "body/deformable_body.hpp"
+#include <array>
+
+#include "body/body.hpp"
 #include "contact/enforcement.hpp"
+#include "core/body_id.hpp"
 #include "model/model.hpp"
 
 namespace railstrata {
 
 /// Elements and precision that a case asks for.
-SolidOptions solid_options(const CaseSpec& spec);
+ElementOptions element_options(const CaseSpec& spec);
 
 /// A node on the rigid axle: index of component x in the wheel's fields, arm from the axle's centre in the undeformed
 /// wheel.
@@ -37,14 +40,26 @@ struct EndDashpot {
   double coefficient;
 };
 
+/// What the rolling takes of a case, so that no step looks into the case itself.
+struct ExplicitOptions {
+  double speed = 0;            ///< m/s
+  double torque_ramp = 0;      ///< s
+  double run_up = 0;           ///< m, over which the run-up damping fades
+  double run_up_damping = 0;   ///< 1/s, at the start
+  double element_size = 0;     ///< m, of the contact's zone
+  EnforcementOptions contact;  ///< penalty stiffness and friction included
+  VehicleSpec vehicle;
+};
+
 struct RollingSystem {
   explicit RollingSystem(const Model& model);
 
   Model model;
-  DeformableBody rail, wheel;
+  ExplicitOptions options;
+  std::array<Body, 2> bodies;  ///< by BodyId
   Axle axle;
   std::vector<EndDashpot> absorbers;
-  ContactSurface rail_surface, wheel_surface;
+  std::array<ContactSurface, 2> surfaces;  ///< by BodyId
   double gravity = 0;
   double rolling_radius = 0;
   double spin_inertia = 0;  ///< kg m², of everything that turns
@@ -52,7 +67,13 @@ struct RollingSystem {
   double start_spin = 0;    ///< rad/s, at the start of the rolling: V (1 - creepage)/r; 0 for a static case
   double torque =
       0;  ///< N m, steady: gives the wanted F_T with the inertia of the accelerated wheel, M = F_T (r + I/(m r))
-  double penalty_stiffness = 0;  ///< Pa/m, of the penalty method
+
+  const Body& body(BodyId id) const { return bodies[index_of(id)]; }
+  const Body& rail() const { return body(BodyId::rail); }
+  const Body& wheel() const { return body(BodyId::wheel); }
+  const ContactSurface& surface(BodyId id) const { return surfaces[index_of(id)]; }
+  const ContactSurface& rail_surface() const { return surface(BodyId::rail); }
+  const ContactSurface& wheel_surface() const { return surface(BodyId::wheel); }
 
   /// Moves the bore's nodes with the axle and the slaves with their masters; u_wheel and pose in the same frame.
   void apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose) const;

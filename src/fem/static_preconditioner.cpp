@@ -8,6 +8,8 @@
 namespace railstrata {
 namespace {
 
+constexpr std::size_t kRail = index_of(BodyId::rail), kWheel = index_of(BodyId::wheel);
+
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // Colours such that no two clusters of one colour have a neighbour in common.
@@ -37,84 +39,96 @@ Vec2 contact_in_section(const ContactSurface& s) { return s.node[s.columns / 2];
 StaticPreconditioner::StaticPreconditioner(const RollingSystem& system, const ClusterSizes& sizes,
                                            const Operator& stiffness)
     : sys_(system),
-      rail_(system.rail, contact_in_section(system.rail_surface), sizes),
-      wheel_(system.wheel, contact_in_section(system.wheel_surface), sizes),
-      size_(rail_.modes() + wheel_.modes() + 1) {
+      clusters_{Aggregates(system.rail(), contact_in_section(system.rail_surface()), sizes),
+                Aggregates(system.wheel(), contact_in_section(system.wheel_surface()), sizes)},
+      size_(clusters_[kRail].modes() + clusters_[kWheel].modes() + 1) {
   invert_diagonal();
   probe(stiffness);
   probe_axle(stiffness);
 }
 
+StaticVector StaticPreconditioner::zero() const {
+  return {{sys_.rail().layout.field(), sys_.wheel().layout.field()}, 0.0};
+}
+
 void StaticPreconditioner::invert_diagonal() {
-  inverse_ = {sys_.rail.solid.layout().field(), sys_.wheel.solid.layout().field(), 0.0};
-  sys_.rail.solid.stiffness_diagonal(inverse_.rail);
-  sys_.wheel.solid.stiffness_diagonal(inverse_.wheel);
-  sys_.rail.ties.collect(inverse_.rail);
-  sys_.wheel.ties.collect(inverse_.wheel);
+  inverse_ = zero();
+  for (std::size_t k = 0; k < sys_.bodies.size(); ++k) {
+    stiffness_diagonal(sys_.bodies[k], inverse_.body[k]);
+    sys_.bodies[k].ties.apply_transpose(inverse_.body[k]);
+  }
   double axle = 0;
-  for (const BoreNode& n : sys_.axle.bore) axle += inverse_.wheel[n.index + 2 * n.stride];
-  auto invert = [](const DeformableBody& body, Field& f) {
-    for (std::size_t i = 0; i < f.size(); ++i) f[i] = body.inverse_mass[i] > 0 && f[i] > 0 ? 1 / f[i] : 0;
-  };
-  invert(sys_.rail, inverse_.rail);
-  invert(sys_.wheel, inverse_.wheel);
+  for (const BoreNode& n : sys_.axle.bore) axle += inverse_.body[kWheel][n.index + 2 * n.stride];
+  for (std::size_t k = 0; k < sys_.bodies.size(); ++k) {
+    const Field& inverse_mass = sys_.bodies[k].inverse_mass;
+    Field& f = inverse_.body[k];
+    for (std::size_t i = 0; i < f.size(); ++i) f[i] = inverse_mass[i] > 0 && f[i] > 0 ? 1 / f[i] : 0;
+  }
   inverse_.axle = 1 / axle;
 }
 
+// The coarse matrix by columns: the stiffness is applied to one mode of all clusters of a colour at once.
 void StaticPreconditioner::probe(const Operator& stiffness) {
-  StaticVector x{sys_.rail.solid.layout().field(), sys_.wheel.solid.layout().field(), 0.0}, y = x;
-  struct Part {
-    const Aggregates& clusters;
-    Aggregates::Neighbours neighbours;
-    std::vector<std::vector<int>> classes;
-    int offset;
-    Field StaticVector::*field;
-  };
-  Part parts[2] = {{rail_, rail_.neighbours(), {}, 0, &StaticVector::rail},
-                   {wheel_, wheel_.neighbours(), {}, rail_.modes(), &StaticVector::wheel}};
-  for (Part& p : parts) p.classes = colour(p.neighbours);
+  StaticVector x = zero(), y = x;
+  std::array<ColouredClusters, 2> parts;
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    parts[k].neighbours = clusters_[k].neighbours();
+    parts[k].classes = colour(parts[k].neighbours);
+  }
   const std::size_t colours = std::max(parts[0].classes.size(), parts[1].classes.size());
   std::vector<double> c;
-  for (std::size_t k = 0; k < colours; ++k)
+  for (std::size_t colour = 0; colour < colours; ++colour)
     for (int mode = 0; mode < 6; ++mode) {
       x.axle = 0;
-      for (const Part& p : parts) {
-        c.assign(p.clusters.modes(), 0.0);
-        if (k < p.classes.size())
-          for (int a : p.classes[k])
-            if (mode < p.clusters.mode_count(a)) c[p.clusters.first_mode(a) + mode] = 1;
-        Field& f = x.*p.field;
-        std::fill(f.begin(), f.end(), 0.0);
-        p.clusters.prolong(c.data(), f);
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        c.assign(clusters_[k].modes(), 0.0);
+        if (colour < parts[k].classes.size())
+          for (int a : parts[k].classes[colour])
+            if (mode < clusters_[k].mode_count(a)) c[clusters_[k].first_mode(a) + mode] = 1;
+        std::fill(x.body[k].begin(), x.body[k].end(), 0.0);
+        clusters_[k].prolong(c.data(), x.body[k]);
       }
       stiffness(x, y);
       ++probes_;
-      for (const Part& p : parts) {
-        if (k >= p.classes.size()) continue;
-        c.resize(p.clusters.modes());
-        p.clusters.restrict_to(y.*p.field, c.data());
-        for (int a : p.classes[k]) {
-          if (mode >= p.clusters.mode_count(a)) continue;
-          const int column = p.offset + p.clusters.first_mode(a) + mode;
-          for (int b : p.neighbours.of[a])
-            for (int i = 0; i < p.clusters.mode_count(b); ++i) {
-              const int row = p.clusters.first_mode(b) + i;
-              if (p.offset + row >= column) coarse_.emplace_back(p.offset + row, column, c[row]);
-            }
-        }
+      for (std::size_t k = 0; k < parts.size(); ++k) {
+        if (colour >= parts[k].classes.size()) continue;
+        c.resize(clusters_[k].modes());
+        clusters_[k].restrict_to(y.body[k], c.data());
+        gather_columns(k, parts[k], colour, mode, c);
       }
     }
 }
 
+int StaticPreconditioner::first_mode(std::size_t body) const { return body == kRail ? 0 : clusters_[kRail].modes(); }
+
+// Entries of the coarse matrix that one probe shows: rows of the neighbours of the probed clusters.
+void StaticPreconditioner::gather_columns(std::size_t body, const ColouredClusters& part, std::size_t colour, int mode,
+                                          const std::vector<double>& c) {
+  const Aggregates& clusters = clusters_[body];
+  const int offset = first_mode(body);
+  for (int a : part.classes[colour]) {
+    if (mode >= clusters.mode_count(a)) continue;
+    const int column = offset + clusters.first_mode(a) + mode;
+    for (int b : part.neighbours.of[a])
+      for (int i = 0; i < clusters.mode_count(b); ++i) {
+        const int row = clusters.first_mode(b) + i;
+        if (offset + row >= column) coarse_.emplace_back(offset + row, column, c[row]);
+      }
+  }
+}
+
 void StaticPreconditioner::probe_axle(const Operator& stiffness) {
-  StaticVector x{sys_.rail.solid.layout().field(), sys_.wheel.solid.layout().field(), 1.0}, y = x;
+  StaticVector x = zero();
+  x.axle = 1.0;
+  StaticVector y = x;
   stiffness(x, y);
   ++probes_;
-  std::vector<double> c(wheel_.modes());
-  wheel_.restrict_to(y.wheel, c.data());
+  const Aggregates& wheel = clusters_[kWheel];
+  std::vector<double> c(wheel.modes());
+  wheel.restrict_to(y.body[kWheel], c.data());
   const int axle = size_ - 1;
-  for (int i = 0; i < wheel_.modes(); ++i)
-    if (c[i] != 0) coarse_.emplace_back(axle, rail_.modes() + i, c[i]);
+  for (int i = 0; i < wheel.modes(); ++i)
+    if (c[i] != 0) coarse_.emplace_back(axle, first_mode(kWheel) + i, c[i]);
   coarse_.emplace_back(axle, axle, y.axle);
 }
 
@@ -133,9 +147,9 @@ void StaticPreconditioner::gather_gaps(const MortarRows& rows, const std::vector
     GapRow g{{}, penalty * row.area};
     for (int i = 0; i < 3; ++i) {
       if (n[i] == 0) continue;
-      g.entry.push_back({false, row.rail + i * sys_.rail_surface.stride, -n[i]});
+      g.entry.push_back({kRail, row.rail + i * sys_.rail_surface().stride, -n[i]});
       for (int w = row.first; w < row.first + row.count; ++w)
-        g.entry.push_back({true, rows.weights[w].wheel + i * sys_.wheel_surface.stride, n[i] * rows.weights[w].m});
+        g.entry.push_back({kWheel, rows.weights[w].wheel + i * sys_.wheel_surface().stride, n[i] * rows.weights[w].m});
     }
     gaps_.push_back(std::move(g));
   }
@@ -145,18 +159,18 @@ void StaticPreconditioner::gather_gaps(const MortarRows& rows, const std::vector
 void StaticPreconditioner::factorise_gaps() {
   const int n = static_cast<int>(gaps_.size());
   if (n == 0) return;
-  const auto rail = static_cast<std::ptrdiff_t>(inverse_.rail.size());
+  const auto rail = static_cast<std::ptrdiff_t>(inverse_.body[kRail].size());
+  const auto column_of = [&](const Entry& e) { return e.body == kWheel ? rail + e.index : e.index; };
   std::vector<std::ptrdiff_t> columns;
   for (const GapRow& g : gaps_)
-    for (const Entry& e : g.entry) columns.push_back(e.wheel ? rail + e.index : e.index);
+    for (const Entry& e : g.entry) columns.push_back(column_of(e));
   std::sort(columns.begin(), columns.end());
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
   std::vector<Eigen::Triplet<double>> entries;
   for (int k = 0; k < n; ++k)
     for (const Entry& e : gaps_[k].entry) {
-      const double flexibility = e.wheel ? inverse_.wheel[e.index] : inverse_.rail[e.index];
-      const auto column =
-          std::lower_bound(columns.begin(), columns.end(), e.wheel ? rail + e.index : e.index) - columns.begin();
+      const double flexibility = inverse_.body[e.body][e.index];
+      const auto column = std::lower_bound(columns.begin(), columns.end(), column_of(e)) - columns.begin();
       entries.emplace_back(k, static_cast<int>(column), e.value * std::sqrt(flexibility));
     }
   SparseMatrix g(n, static_cast<int>(columns.size()));
@@ -173,16 +187,16 @@ std::vector<Eigen::Triplet<double>> StaticPreconditioner::coarse_row(const GapRo
   std::vector<Eigen::Triplet<double>> out;
   const double scale = std::sqrt(row.stiffness);
   for (const Entry& e : row.entry) {
-    const ContactSurface& s = e.wheel ? sys_.wheel_surface : sys_.rail_surface;
-    const Aggregates& a = e.wheel ? wheel_ : rail_;
-    const int block = (e.wheel ? sys_.model.wheel : sys_.model.rail).contact.block;
+    const ContactSurface& s = sys_.surfaces[e.body];
+    const Aggregates& a = clusters_[e.body];
+    const int block = sys_.bodies[e.body].mesh.contact.block;
     const std::ptrdiff_t place = e.index - s.first_line, line = place / s.stride;
     const int node = static_cast<int>(line / 3), component = static_cast<int>(line % 3),
               station = static_cast<int>(place % s.stride);
     const int cluster = a.cluster_of(block, node, station);
     if (cluster < 0) continue;
     const auto modes = a.modes_at(block, node, station, component);
-    const int first = (e.wheel ? rail_.modes() : 0) + a.first_mode(cluster);
+    const int first = first_mode(e.body) + a.first_mode(cluster);
     for (int i = 0; i < a.mode_count(cluster); ++i) out.emplace_back(number, first + i, scale * e.value * modes[i]);
   }
   return out;
@@ -205,34 +219,26 @@ void StaticPreconditioner::factorise_coarse() {
 }
 
 void StaticPreconditioner::apply(const StaticVector& r, StaticVector& z) const {
-  auto scaled = [](const Field& inverse, const Field& from, Field& to) {
-    for_each(static_cast<std::ptrdiff_t>(from.size()), [&](std::ptrdiff_t i) { to[i] = inverse[i] * from[i]; });
-  };
-  scaled(inverse_.rail, r.rail, z.rail);
-  scaled(inverse_.wheel, r.wheel, z.wheel);
+  for (std::size_t k = 0; k < r.body.size(); ++k)
+    for_each(static_cast<std::ptrdiff_t>(r.body[k].size()),
+             [&](std::ptrdiff_t i) { z.body[k][i] = inverse_.body[k][i] * r.body[k][i]; });
   z.axle = inverse_.axle * r.axle;
   if (!gaps_.empty()) {
     Eigen::VectorXd gap(static_cast<int>(gaps_.size()));
     for (int k = 0; k < gap.size(); ++k) {
       gap[k] = 0;
-      for (const Entry& e : gaps_[k].entry) gap[k] += e.value * (e.wheel ? z.wheel[e.index] : z.rail[e.index]);
+      for (const Entry& e : gaps_[k].entry) gap[k] += e.value * z.body[e.body][e.index];
     }
     const Eigen::VectorXd force = gap_factor_.solve(gap);
     for (int k = 0; k < gap.size(); ++k)
-      for (const Entry& e : gaps_[k].entry) {
-        if (e.wheel)
-          z.wheel[e.index] -= inverse_.wheel[e.index] * e.value * force[k];
-        else
-          z.rail[e.index] -= inverse_.rail[e.index] * e.value * force[k];
-      }
+      for (const Entry& e : gaps_[k].entry)
+        z.body[e.body][e.index] -= inverse_.body[e.body][e.index] * e.value * force[k];
   }
   Eigen::VectorXd c(size_);
-  rail_.restrict_to(r.rail, c.data());
-  wheel_.restrict_to(r.wheel, c.data() + rail_.modes());
+  for (std::size_t k = 0; k < clusters_.size(); ++k) clusters_[k].restrict_to(r.body[k], c.data() + first_mode(k));
   c[size_ - 1] = r.axle;
   const Eigen::VectorXd coarse = coarse_factor_.solve(c);
-  rail_.prolong(coarse.data(), z.rail);
-  wheel_.prolong(coarse.data() + rail_.modes(), z.wheel);
+  for (std::size_t k = 0; k < clusters_.size(); ++k) clusters_[k].prolong(coarse.data() + first_mode(k), z.body[k]);
   z.axle += coarse[size_ - 1];
 }
 

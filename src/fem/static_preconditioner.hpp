@@ -35,7 +35,7 @@ class StaticPreconditioner {
  private:
   using Cholesky = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>;
   struct Entry {
-    bool wheel;
+    std::size_t body;  // by BodyId
     std::ptrdiff_t index;
     double value;
   };
@@ -43,6 +43,14 @@ class StaticPreconditioner {
     std::vector<Entry> entry;
     double stiffness;  // N/m
   };
+  struct ColouredClusters {
+    Aggregates::Neighbours neighbours;
+    std::vector<std::vector<int>> classes;  // clusters of one colour have no neighbour in common
+  };
+  StaticVector zero() const;
+  int first_mode(std::size_t body) const;
+  void gather_columns(std::size_t body, const ColouredClusters& part, std::size_t colour, int mode,
+                      const std::vector<double>& c);
   void invert_diagonal();
   void probe(const Operator& stiffness);
   void probe_axle(const Operator& stiffness);
@@ -52,7 +60,7 @@ class StaticPreconditioner {
   std::vector<Eigen::Triplet<double>> coarse_row(const GapRow& row, int number) const;
 
   const RollingSystem& sys_;
-  Aggregates rail_, wheel_;
+  std::array<Aggregates, 2> clusters_;  // by BodyId
   int size_ = 0, probes_ = 0;
   StaticVector inverse_;
   std::vector<GapRow> gaps_;

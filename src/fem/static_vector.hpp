@@ -1,14 +1,16 @@
 #pragma once
 // A vector of the static problem: displacements (or forces) of both bodies and of the axle's height. Constrained
 // entries and padding are zero wherever sums are taken.
+#include <array>
+
 #include "core/array.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {
 
 struct StaticVector {
-  Field rail, wheel;
-  double axle = 0;  ///< m or N
+  std::array<Field, 2> body;  ///< by BodyId
+  double axle = 0;            ///< m or N
 };
 
 /// Fixed order of summation: the same bits for any number of threads.
@@ -20,7 +22,7 @@ inline double dot(const Field& a, const Field& b) {
   });
 }
 inline double dot(const StaticVector& a, const StaticVector& b) {
-  return dot(a.rail, b.rail) + dot(a.wheel, b.wheel) + a.axle * b.axle;
+  return dot(a.body[0], b.body[0]) + dot(a.body[1], b.body[1]) + a.axle * b.axle;
 }
 
 /// y += s x
@@ -28,8 +30,7 @@ inline void add(Field& y, double s, const Field& x) {
   for_each(static_cast<std::ptrdiff_t>(y.size()), [&](std::ptrdiff_t i) { y[i] += s * x[i]; });
 }
 inline void add(StaticVector& y, double s, const StaticVector& x) {
-  add(y.rail, s, x.rail);
-  add(y.wheel, s, x.wheel);
+  for (std::size_t k = 0; k < y.body.size(); ++k) add(y.body[k], s, x.body[k]);
   y.axle += s * x.axle;
 }
 
@@ -38,8 +39,7 @@ inline void scale_and_add(Field& y, double s, const Field& x) {
   for_each(static_cast<std::ptrdiff_t>(y.size()), [&](std::ptrdiff_t i) { y[i] = x[i] + s * y[i]; });
 }
 inline void scale_and_add(StaticVector& y, double s, const StaticVector& x) {
-  scale_and_add(y.rail, s, x.rail);
-  scale_and_add(y.wheel, s, x.wheel);
+  for (std::size_t k = 0; k < y.body.size(); ++k) scale_and_add(y.body[k], s, x.body[k]);
   y.axle = x.axle + s * y.axle;
 }
 

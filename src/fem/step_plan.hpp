@@ -1,5 +1,6 @@
 #pragma once
 // Which step a rolling takes and what makes it possible.
+#include <array>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,12 @@
 #include "fem/rolling_system.hpp"
 
 namespace railstrata {
+
+/// A block of a body to which mass scaling adds.
+struct ScaledBlock {
+  std::string name;            ///< "rail cap"
+  double mass = 0, added = 0;  ///< kg, of the whole block and by mass scaling
+};
 
 /// What limits the step [s]: 2/omega_max of the assembled bodies by Lanczos, the bound from single elements and where
 /// that is smallest, the contact (penalty only).
@@ -21,6 +28,7 @@ struct StepLimits {
   int stages = 1;            ///< of local steps
   long fine_elements = 0;    ///< evaluated in every stage
   std::string scaled_where;  ///< blocks with added mass: "rail cap, rail gauge shell"
+  std::vector<ScaledBlock> scaled_blocks;
   std::string where;
 };
 
@@ -41,8 +49,7 @@ struct StepPlan {
   explicit StepPlan(const RollingSystem& system);
 
   StepLimits limits;
-  BodySteps rail, wheel;
-  bool local() const { return !rail.local.empty() || !wheel.local.empty(); }
+  std::array<BodySteps, 2> bodies;  ///< by BodyId
 
  private:
   struct Part;

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
+#include <vector>
 
 namespace railstrata {
 namespace {

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "core/faults.hpp"
+#include "core/rotation.hpp"
 
 namespace railstrata {
 namespace {
@@ -16,9 +18,10 @@ constexpr double kSearchStep = 0.05e-3;  // m, along the rail
 constexpr double kCandidate = 1e-7;      // m: a minimum this close to the lowest sample may be the lowest of all
 constexpr double kEqual = 1e-12;         // m: gaps closer than this are equal
 
-Vec2 turn(Vec2 p, double tangent) {
-  const double c = 1 / std::hypot(1.0, tangent), s = tangent * c;
-  return {c * p.y - s * p.z, s * p.y + c * p.z};
+/// By the angle whose tangent is given: a cant of 1:40 is 0.025.
+Rotation<double> rotation_of_tangent(double tangent) {
+  const double c = 1 / std::hypot(1.0, tangent);
+  return {c, tangent * c};
 }
 
 /// Vertical gap between the wheel, its tape circle at (offset_y, 0), and the canted rail.
@@ -142,8 +145,12 @@ std::string pair_name(const Profile& wheel, const Profile& rail) {
 
 }  // namespace
 
-Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point) { return turn(rail_point, track.cant); }
-Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point) { return turn(model_point, -track.cant); }
+Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point) {
+  return roll(rotation_of_tangent(track.cant), rail_point);
+}
+Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point) {
+  return roll(rotation_of_tangent(-track.cant), model_point);
+}
 
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
   const double offset_y = lateral_offset(wheel, rail, track);

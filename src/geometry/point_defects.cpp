@@ -24,15 +24,27 @@ PointDefect loop(std::size_t first, std::size_t second) {
           "its running surface"};
 }
 
+bool turns_back(Vec2 a, Vec2 b, Vec2 c) {
+  const Vec2 before = b - a, after = c - b;
+  return dot(before, after) < kSharpestTurn * norm(before) * norm(after);
+}
+
+/// Whether the curve goes on smoothly there without the point.
+bool is_outlier(const std::vector<Vec2>& p, std::size_t i) {
+  return (i < 2 || !turns_back(p[i - 2], p[i - 1], p[i + 1])) &&
+         (i + 2 >= p.size() || !turns_back(p[i - 1], p[i + 1], p[i + 2]));
+}
+
 std::optional<PointDefect> bad_neighbours(const std::vector<Vec2>& p) {
   for (std::size_t i = 1; i < p.size(); ++i) {
     if (norm(p[i] - p[i - 1]) < kCloseness)
       return PointDefect{i, fmt::format("point {} repeats the one before", i + 1), "remove one of them"};
     if (i < 2) continue;
-    const Vec2 before = p[i - 1] - p[i - 2], after = p[i] - p[i - 1];
-    if (dot(before, after) < kSharpestTurn * norm(before) * norm(after))
-      return PointDefect{i, fmt::format("the curve turns back on itself at point {}", i),
-                         "list the points in the order along the curve, without loops"};
+    if (turns_back(p[i - 2], p[i - 1], p[i]))
+      return PointDefect{
+          i, fmt::format("the curve turns back on itself at point {}", i),
+          fmt::format("list the points in the order along the curve, without loops{}",
+                      is_outlier(p, i - 1) ? fmt::format("; or remove point {} if it is an outlier", i) : "")};
   }
   return std::nullopt;
 }

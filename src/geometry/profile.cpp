@@ -6,8 +6,10 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "core/faults.hpp"
+#include "core/rotation.hpp"
 #include "geometry/point_defects.hpp"
 #include "geometry/smoothing_spline.hpp"
 
@@ -103,10 +105,9 @@ Profile::Local Profile::local(std::size_t i, double s) const {
       return {g.p0 + (s - s_[i]) * t, t, {}};
     }
     const Vec2 a = g.p0 - g.centre;
-    const double turn = cross(a, g.p1 - g.centre) > 0 ? 1.0 : -1.0, angle = turn * (s - s_[i]) / g.radius;
-    const double c = std::cos(angle), d = std::sin(angle);
-    const Vec2 arm{c * a.y - d * a.z, d * a.y + c * a.z};
-    return {g.centre + arm, (turn / g.radius) * Vec2{-arm.z, arm.y}, (-1 / (g.radius * g.radius)) * arm};
+    const double sense = cross(a, g.p1 - g.centre) > 0 ? 1.0 : -1.0;  // 1: anticlockwise
+    const Vec2 arm = roll(rotation_by(sense * (s - s_[i]) / g.radius), a);
+    return {g.centre + arm, (sense / g.radius) * Vec2{-arm.z, arm.y}, (-1 / (g.radius * g.radius)) * arm};
   }
   const double a = (s_[i + 1] - s) / h, b = (s - s_[i]) / h;
   return {a * p_[i] + b * p_[i + 1] + (h * h / 6) * ((a * a * a - a) * d2_[i] + (b * b * b - b) * d2_[i + 1]),

@@ -7,9 +7,7 @@
 //   wheel: origin on the tread at the tape circle; z points to the axle; the material lies above the curve; the flange
 //   has z < 0.
 // A curve is walked with y increasing over the running surface; s is the arc length, s = 0 at y = 0.
-#include <filesystem>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/vec.hpp"
@@ -92,56 +90,5 @@ class Profile {
   double graph_begin_ = 0, graph_end_ = 0;  // arc lengths of y_min and y_max
   double graph_y_begin_ = 0, graph_y_end_ = 0;
 };
-
-/// Names accepted by builtin_profile: LMA, S1002 (wheel); CN60, UIC60, UIC54 (rail); "flat" (both).
-std::vector<std::string> builtin_profile_names(ProfileKind kind);
-/// A profile shipped inside the program. Besides the names above it understands "arc:R=300 mm" (also m; positive
-/// convex, negative hollow), see circular_profile. Throws CaseError with the nearest name.
-Profile builtin_profile(ProfileKind kind, const std::string& name);
-
-/// An arc of the given radius [m] (convex positive, hollow negative, infinite: a plane) with y from -half_width to
-/// half_width, tangent horizontal at y = 0. For tests and verification cases.
-Profile circular_profile(ProfileKind kind, double radius, double half_width = 0.030);
-
-/// Reads a Simpack file (.prr, .prw), a MiniProf file (.ban, .whl) or a two-column file (any other name: y z; blanks,
-/// tabs, commas or semicolons; # % ! " comments; a header row; decimal commas; mm or metres; z up or down; either
-/// side's orientation). What was detected and flipped is appended to `notes`, one sentence each. Throws CaseError
-/// naming the file and line.
-Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes = nullptr);
-
-/// The same from a text; `file` names it in messages.
-Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file,
-                      std::vector<std::string>* notes = nullptr);
-
-/// Lower part of a rail section for a head profile, in the rail's profile frame. CN60 has its own; other heads are
-/// given CN60's underside, web and foot at CN60's height, widened towards the end of the head's flank
-/// (docs/conventions.md). A flank that ends higher than CN60's (34.06 mm below the crown) is continued straight. Throws
-/// CaseError for a head without flanks (a plane, an arc, a list that ends on the running surface).
-///
-/// Every list includes both its ends and begins where the one before ends; arcs are drawn with a sagitta of 2
-/// micrometres. Neighbouring parts meet at the 45-degree points of the two web fillets (R12 below the head, R20 above
-/// the foot), so that each can be mapped by a mesh.
-struct RailOutline {
-  // Right half (y >= 0); the left half is its mirror image (for measured profiles the head is taken as it is and only
-  // the lower part mirrored).
-  double flank_y = 0, flank_z = 0;  ///< where the head's flank ends and the underside begins
-  std::vector<Vec2> underside;      ///< from the flank's end to the web, z decreasing
-  std::vector<Vec2> web;            ///< from the underside's end down to the foot's top
-  std::vector<Vec2> foot_top;       ///< from the web's end out to the toe (largest y)
-  std::vector<Vec2> toe;            ///< from there down to the base
-  double base_z = 0;                ///< bottom of the foot
-};
-RailOutline rail_outline(const Profile& head);
-
-/// The whole section as a closed polygon, walked anticlockwise seen from +x (y to the right, z up); the last point is
-/// not the first again.
-std::vector<Vec2> outline_polygon(const Profile& head, const RailOutline& outline);
-
-/// Area [m²], centroid height above the lowest point [m], second moments about the horizontal and vertical axes through
-/// the centroid [m⁴] of a closed polygon walked anticlockwise.
-struct SectionProperties {
-  double area, centroid_height, i_horizontal, i_vertical;
-};
-SectionProperties section_properties(const std::vector<Vec2>& polygon);
 
 }  // namespace railstrata

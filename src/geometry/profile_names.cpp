@@ -1,11 +1,15 @@
-// From names to built-in profiles.
+#include "geometry/profile_names.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <string>
+#include <vector>
 
 #include "core/faults.hpp"
 #include "core/nearest_word.hpp"

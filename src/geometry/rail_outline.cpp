@@ -1,10 +1,13 @@
+#include "geometry/rail_outline.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "core/faults.hpp"
-#include "geometry/profile.hpp"
+#include "core/rotation.hpp"
 
 namespace railstrata {
 namespace {
@@ -41,10 +44,7 @@ void arc_to(std::vector<Vec2>& line, Vec2 centre, Vec2 end) {
   const Vec2 a = line.back() - centre, b = end - centre;
   const double radius = norm(a), angle = std::atan2(cross(a, b), dot(a, b));
   const int n = static_cast<int>(std::ceil(std::abs(angle) / (2 * std::acos(1 - kSagitta / radius))));
-  for (int i = 1; i < n; ++i) {
-    const double c = std::cos(angle * i / n), s = std::sin(angle * i / n);
-    line.push_back(centre + Vec2{c * a.y - s * a.z, s * a.y + c * a.z});
-  }
+  for (int i = 1; i < n; ++i) line.push_back(centre + roll(rotation_by(angle * i / n), a));
   line.push_back(end);
 }
 

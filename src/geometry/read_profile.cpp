@@ -1,15 +1,21 @@
+#include "geometry/read_profile.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <regex>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "core/faults.hpp"
 #include "geometry/exchange_profiles.hpp"
 #include "geometry/number_table.hpp"
 #include "geometry/point_defects.hpp"
-#include "geometry/profile.hpp"
 
 namespace railstrata {
 namespace {

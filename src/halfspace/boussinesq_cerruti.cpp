@@ -18,9 +18,9 @@ RectangleInfluence corner(const ComplianceImage& image, double x, double y) {
   const double log_x = x >= 0 ? std::log(x + R) : std::log((y * y + d * d) / (R - x));
   const double plan = x * x + y * y, log_d = std::log(R + d);
   // atan(y/x) - atan(d y/(x R)) in one continuous piece, and its mirror
-  const double turn = R + d > 0 ? plan / (R + d) : 0.0;
-  const double angle_x = std::atan2(x * y * turn, R * x * x + d * y * y);
-  const double angle_y = std::atan2(x * y * turn, R * y * y + d * x * x);
+  const double factor = R + d > 0 ? plan / (R + d) : 0.0;
+  const double angle_x = std::atan2(x * y * factor, R * x * x + d * y * y);
+  const double angle_y = std::atan2(x * y * factor, R * y * y + d * x * x);
   const double kxx = x * log_y - d * angle_x, kyy = y * log_x - d * angle_y, kxy = R - d * log_d;
   const double slope_x = y * log_d + d * log_y + x * angle_x, slope_y = x * log_d + d * log_x + y * angle_y;
   const CompliancePoint& c = image.c;

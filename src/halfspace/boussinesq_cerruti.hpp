@@ -31,8 +31,8 @@ using SurfaceCompliance = std::vector<ComplianceImage>;
 SurfaceCompliance homogeneous_compliance(const HalfSpaceMaterial& material);
 
 /// Two bodies pressed together. p >= 0 presses both, q acts on the rail and -q on the wheel; then
-///   closing  = u_z'(rail) + u_z'(wheel) = nn p + n x q_x + n y q_y,   rail minus wheel: u_x = xx q_x + xy q_y + xn p,
-///   …
+///   normal elastic displacement   u_n = u_z'(rail) + u_z'(wheel) = nn p + nx q_x + ny q_y,
+///   rail minus wheel              u_x = xx q_x + xy q_y + xn p,   u_y = yx q_x + yy q_y + yn p,
 /// where the coupling rz is the rail's minus the wheel's: it vanishes for equal bodies.
 SurfaceCompliance combined_compliance(const SurfaceCompliance& wheel, const SurfaceCompliance& rail);
 
@@ -40,7 +40,7 @@ SurfaceCompliance combined_compliance(const SurfaceCompliance& wheel, const Surf
 /// antisymmetric: xn = -nx, yn = -ny.
 struct RectangleInfluence {
   double nn = 0, xx = 0, xy = 0, yy = 0;
-  double nx = 0, ny = 0;  ///< closing caused by q_x, q_y
+  double nx = 0, ny = 0;  ///< of u_n, by q_x and q_y
 };
 RectangleInfluence rectangle_influence(const SurfaceCompliance& compliance, double x, double y, double dx, double dy);
 

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "core/faults.hpp"
 #include "halfspace/layer_waves.hpp"
 
 namespace railstrata {
 
+// The surface state (U, W; T/k, S/k) of the two waves gives u = D a and traction = B a with the amplitudes a, hence
+// u = -D B^-1 traction (tractions act on the body, stresses on its cut). By reciprocity the coupling is the same both
+// ways; the mean of the two takes out round-off.
 CompliancePoint layered_compliance_at(const LayeredHalfSpace& body, double k) {
   const LayerWaves waves(body, k);
   const WaveState s = waves.state(0, 0);
@@ -26,6 +30,8 @@ namespace {
 using Four = Eigen::Matrix<double, 1, 4>;
 Four four(const CompliancePoint& c) { return {c.zz, c.rz, c.rr, c.tt}; }
 
+// Without interfaces between equal materials: a reflection there would be round-off, and a body of equal layers is
+// recognised as homogeneous.
 LayeredHalfSpace merged(const LayeredHalfSpace& body) {
   LayeredHalfSpace out{{}, body.substrate};
   for (const HalfSpaceLayer& layer : body.layers) {
@@ -43,6 +49,7 @@ struct Samples {
   Eigen::VectorXd k;
   Eigen::Matrix<double, Eigen::Dynamic, 4> c;
 };
+// At n wave numbers spaced geometrically.
 Samples sample(const LayeredHalfSpace& body, double k_low, double k_high, int n) {
   Samples s{Eigen::VectorXd(n), Eigen::Matrix<double, Eigen::Dynamic, 4>(n, 4)};
   for (int i = 0; i < n; ++i) {
@@ -52,6 +59,7 @@ Samples sample(const LayeredHalfSpace& body, double k_low, double k_high, int n)
   return s;
 }
 
+// exp(-k_i d_j): what image j adds at wave number i per unit coefficient.
 Eigen::MatrixXd exponentials(const Eigen::VectorXd& k, const Eigen::VectorXd& depth) {
   return (-(k * depth.transpose())).array().exp().matrix();
 }
@@ -80,6 +88,10 @@ std::vector<DepthLadder> ladders(double nearest, double total) {
 
 }  // namespace
 
+// Fits c(k) - c_top = sum over j of a_j exp(-k d_j) by least squares, all four compliances with the same depths d_j.
+// The matrix of exponentials is nearly singular by nature: the complete orthogonal decomposition gives the smallest
+// coefficients. The fit is judged at other wave numbers than it was made at. Below k_low the stack is thinner than 1e-5
+// wave lengths (the substrate), above k_high only the top material is felt (exp(-60)).
 SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double tolerance) {
   const LayeredHalfSpace body = merged(given);
   if (body.layers.empty()) return homogeneous_compliance(body.substrate);

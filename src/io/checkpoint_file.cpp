@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -29,9 +30,10 @@ namespace fs = std::filesystem;
 constexpr std::size_t kHeader = 512;  // HDF5 looks for its superblock at 0, 512, 1024, …
 constexpr std::size_t kSlowestGrowth = std::size_t{64} << 10, kFastestGrowth = std::size_t{16} << 20;
 
-/// What is wrong with the bytes of a checkpoint.
+/// What is wrong with the bytes of a checkpoint, and what to do.
 struct Damage {
   std::string what;
+  std::string remedy = "start the run anew with --force, or put a whole copy of the file back";
 };
 
 hid_t checked(hid_t id, const char* what) {
@@ -307,14 +309,18 @@ constexpr auto visit_history = [](auto& h, auto&& on) {
 constexpr auto visit_facet = [](auto& f, auto&& on) {
   on("column", f.column);
   on("station", f.station);
-  for (auto& c : f.correction) {
-    on("y", c.y);
-    on("z", c.z);
-  }
+  on("x0", f.correction[0].x);
+  on("y0", f.correction[0].y);
+  on("x1", f.correction[1].x);
+  on("y1", f.correction[1].y);
+  on("x2", f.correction[2].x);
+  on("y2", f.correction[2].y);
+  on("x3", f.correction[3].x);
+  on("y3", f.correction[3].y);
 };
 
 template <class Archive>
-void describe(Archive& a, StepperMemory& m) {
+void describe(Archive& a, RestartState& m) {
   RollingState& s = m.state;
   a.row("now", m, [](auto& v, auto&& on) {
     on("time", v.state.time);
@@ -326,14 +332,14 @@ void describe(Archive& a, StepperMemory& m) {
     on("mean_z", v.mean.z);
     on("mean_spin", v.mean.spin);
   });
-  a.numbers("u_rail", s.u_rail);
-  a.numbers("v_rail", s.v_rail);
-  a.numbers("u_wheel", s.u_wheel);
-  a.numbers("v_wheel", s.v_wheel);
+  for (const BodyId id : kBodies)
+    for (const StateArray& array : kStateArrays)
+      if (array.restart)
+        a.numbers(fmt::format("{}_{}", array.name, body_word(id)).c_str(), s.bodies[index_of(id)].*array.values);
   a.row("axle", s.axle, visit_axle);
   a.rows("suspension", s.groups, visit_mass);
   a.row("energy", m.balance, visit_energy);
-  a.rows("contact_memory", m.facets, visit_facet);
+  a.rows("contact_facets", m.facets, visit_facet);
   std::vector<int> stations{s.tractions.stations()};
   a.rows("traction_stations", stations, [](auto& v, auto&& on) { on("stations", v); });
   std::vector<NodeTraction> tractions = s.tractions.all();
@@ -341,7 +347,7 @@ void describe(Archive& a, StepperMemory& m) {
   if (Archive::reading) {
     if (stations.size() != 1 || stations[0] <= 0 || tractions.size() % stations[0] != 0)
       throw Damage{"the tractions are not a grid"};
-    s.tractions = TractionMemory(static_cast<int>(tractions.size()) / stations[0], stations[0]);
+    s.tractions = SurfaceTractions(static_cast<int>(tractions.size()) / stations[0], stations[0]);
     s.tractions.all() = std::move(tractions);
   }
 }
@@ -445,6 +451,17 @@ std::string header_of(std::string_view image) {
   return text;
 }
 
+/// Of a checkpoint in another format.
+Damage of_another_program(std::string_view format) {
+  int number = 0;
+  const auto [end, error] = std::from_chars(format.data(), format.data() + format.size(), number);
+  if (error != std::errc{} || end != format.data() + format.size())
+    return {fmt::format("its format is {}, this program's is {}", format.substr(0, 20), kCheckpointFormat)};
+  return {fmt::format("it was written by {} RailStrata (its format is {}, this program's is {})",
+                      number < kCheckpointFormat ? "an older" : "a newer", number, kCheckpointFormat),
+          "start the run anew with --force, or go on with the program that wrote it"};
+}
+
 /// Throws Damage unless every byte is as it was written.
 void verify(std::string_view bytes) {
   constexpr std::string_view kStart = "RailStrata checkpoint\nformat ";
@@ -456,7 +473,7 @@ void verify(std::string_view bytes) {
     return text.substr(kStart.size(), text.find('\n', kStart.size()) - kStart.size());
   };
   if (const std::string_view found = format(bytes.substr(0, kHeader)); found != format(expected))
-    throw Damage{fmt::format("its format is {}, this program's is {}", found.substr(0, 20), kCheckpointFormat)};
+    throw of_another_program(found);
   if (bytes.substr(0, kHeader) != expected)
     throw Damage{"its checksum does not agree with its bytes: it is cut off or was changed"};
 }
@@ -487,9 +504,9 @@ std::string sealed_checkpoint(std::string_view image) { return header_of(image).
 std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
   try {
-    Handle access =
-        memory_access(std::clamp(sizeof(double) * (run.stepper.state.u_rail.size() + run.stepper.state.u_wheel.size()),
-                                 kSlowestGrowth, kFastestGrowth));
+    Handle access = memory_access(
+        std::clamp(sizeof(double) * (run.stepper.state.bodies[0].u.size() + run.stepper.state.bodies[1].u.size()),
+                   kSlowestGrowth, kFastestGrowth));
     Handle file(H5Fcreate("checkpoint", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose, "make a file in memory");
     Writer writer(file);
     CheckpointOrigin from = origin;
@@ -519,8 +536,7 @@ Checkpoint checkpoint_of(std::string_view bytes, const fs::path& file) {
     describe(reader, checkpoint.origin, checkpoint.run);
     return checkpoint;
   } catch (const Damage& d) {
-    throw CaseError(fmt::format("this checkpoint is of no use: {}", d.what),
-                    "start the run anew with --force, or put a whole copy of the file back", file.string());
+    throw CaseError(fmt::format("this checkpoint is of no use: {}", d.what), d.remedy, file.string());
   }
 }
 
@@ -535,17 +551,20 @@ void write_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, co
 FoundCheckpoint read_checkpoint(const fs::path& folder, const std::string& case_sha256) {
   const GivesMemoryBack at_the_end;
   FoundCheckpoint found;
-  bool any = false;
+  std::string remedy;  // of the newest
   for (const fs::path& file : {checkpoint_file(folder), previous_checkpoint_file(folder)}) {
     if (!fs::exists(file)) continue;
-    any = true;
     std::optional<Checkpoint> checkpoint;
+    const auto note = [&](const std::string& what, const std::string& what_to_do) {
+      found.notes.push_back(fmt::format("{}: {}", file.string(), what));
+      if (remedy.empty()) remedy = what_to_do;
+    };
     try {
       checkpoint = checkpoint_of(read_bytes(file), file);
     } catch (const Damage& d) {
-      found.notes.push_back(fmt::format("{}: {}", file.string(), d.what));
+      note(d.what, d.remedy);
     } catch (const CaseError& e) {
-      found.notes.push_back(fmt::format("{}: {}", file.string(), e.diagnostics.front().message));
+      note(e.diagnostics.front().message, e.diagnostics.front().remedy);
     }
     if (!checkpoint) continue;
     if (checkpoint->origin.case_sha256 != case_sha256)
@@ -554,13 +573,13 @@ FoundCheckpoint read_checkpoint(const fs::path& folder, const std::string& case_
     found.checkpoint = std::move(*checkpoint);
     return found;
   }
-  if (!any)
+  if (found.notes.empty())
     throw CaseError(fmt::format("there is nothing to resume in {}: it has no checkpoint", folder.string()),
                     "start the run anew; runs write a checkpoint every ten minutes (--checkpoint-every) and when they "
                     "are stopped while rolling");
   std::vector<Diagnostic> all;
   for (const std::string& note : found.notes) all.push_back({"", note, ""});
-  all.back().remedy = "start the run anew with --force, or put a whole copy of the file back";
+  all.back().remedy = remedy;
   throw CaseError(all);
 }
 

@@ -14,7 +14,9 @@
 
 namespace railstrata {
 
-inline constexpr int kCheckpointFormat = 1;
+/// 2: the columns of contact_facets have their own names. A checkpoint of another format is refused, its text says
+/// which program wrote it.
+inline constexpr int kCheckpointFormat = 2;
 
 struct CheckpointOrigin {
   std::string case_sha256;              ///< of the resolved case and its profiles

@@ -53,12 +53,12 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement) {
   out["layers"] = Json::array();
   double rail_depth = 0, wheel_depth = 0;
   for (const LayerSpec& l : spec.layers) {
-    const bool on_rail = l.on == "rail";
+    const bool on_rail = l.on == BodyId::rail;
     double& depth = on_rail ? rail_depth : wheel_depth;
     depth += l.thickness;
     out["layers"].push_back(
         {{"name", l.name},
-         {"on", l.on},
+         {"on", body_word(l.on)},
          {"thickness_m", l.thickness},
          {"width_m", l.width},
          {"young_Pa", l.material.young},

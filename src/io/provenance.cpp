@@ -28,6 +28,8 @@ std::string version_text() {
   return b.commit.empty() ? b.version : fmt::format("{} ({}{})", b.version, b.commit, b.dirty ? "+dirty" : "");
 }
 
+std::string commit_text() { return build_info().commit + (build_info().dirty ? "+dirty" : ""); }
+
 std::vector<std::pair<std::string, std::string>> library_versions() {
   const auto dotted = [](int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); };
   return {

@@ -18,6 +18,9 @@ const BuildInfo& build_info();
 /// "0.1.0 (1a2b3c4d5e6f+dirty)"
 std::string version_text();
 
+/// The commit a summary names, "+dirty" if the sources had changes.
+std::string commit_text();
+
 /// Name and version of every library linked.
 std::vector<std::pair<std::string, std::string>> library_versions();
 

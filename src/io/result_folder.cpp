@@ -1,6 +1,7 @@
 #include "io/result_folder.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/folder_kind.hpp"
@@ -85,8 +87,9 @@ void require_kinds(const nlohmann::json& summary, const fs::path& file) {
   for (const char* table : {"contact", "stress", "energy", "position_m"})
     if (summary.contains(table)) require_numbers(summary[table], table, file);
   const std::string engine = text_at(summary, "/run/engine");
-  if (engine != "fem" && engine != "bem" && !engine.empty())
-    refuse(file, fmt::format("run.engine = \"{}\": no engine of this program, they are fem and bem", engine));
+  if (!engine.empty() && !engine_of(engine))
+    refuse(file, fmt::format("run.engine = \"{}\": no engine of this program, they are {}", engine,
+                             fmt::join(engine_words(), " and ")));
 }
 
 }  // namespace

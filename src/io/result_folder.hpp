@@ -11,7 +11,8 @@ namespace railstrata {
 
 struct ResultFolder {  // NOLINT(bugprone-exception-escape): the move of json is declared not to throw, and does not
   std::filesystem::path folder;
-  std::string title, engine;
+  std::string title;
+  std::string engine;      ///< its word, as it stands in the file
   nlohmann::json summary;  ///< summary.json
   ContactField field;      ///< patch.csv
 

@@ -33,6 +33,35 @@ inline void elastic_stress(Real lambda, Real mu, const T (&strain)[6], T (&stres
   for (int i = 3; i < 6; ++i) stress[i] = 2 * mu * strain[i];
 }
 
+/// The law of an element without memory. What every law offers (element/swept_hex.hpp):
+///   Parameters<Real>   what it reads, by quadrilateral; Real float or double
+///   kHistory           numbers that an element keeps from step to step
+///   stress             S at a strain, with the history as it stands
+///   update             the same at the end of a step that leads to this strain; advances the history
+struct ElasticLaw {
+  template <class Real>
+  struct Parameters {
+    Real lambda, mu;  ///< Pa
+  };
+  static constexpr int kHistory = 0;
+
+  static Parameters<double> parameters(const Elastic& m) { return {m.lambda, m.mu}; }
+
+  template <class T, class Real>
+  static void stress(const Parameters<Real>& p, const T (&strain)[6], const T*, T (&stress)[6]) {
+    elastic_stress(p.lambda, p.mu, strain, stress);
+  }
+  template <class T, class Real>
+  static void update(const Parameters<Real>& p, const T (&strain)[6], T*, T (&stress)[6]) {
+    elastic_stress(p.lambda, p.mu, strain, stress);
+  }
+  /// Tangent of the undeformed state, for the static solver: the same.
+  template <class T, class Real>
+  static void tangent_stress(const Parameters<Real>& p, const T (&strain)[6], T (&stress)[6]) {
+    elastic_stress(p.lambda, p.mu, strain, stress);
+  }
+};
+
 /// von Mises stress, sqrt(3/2 s:s).
 inline double von_mises(const Sym3& s) {
   const double a = s.xx - s.yy, b = s.yy - s.zz, c = s.zz - s.xx;
@@ -48,8 +77,9 @@ inline Vec3 principal_stresses(const Sym3& s) {
   const double j3 = xx * (yy * zz - s.yz * s.yz) - s.xy * (s.xy * zz - s.yz * s.xz) + s.xz * (s.xy * s.yz - yy * s.xz);
   const double r = std::sqrt(j2 / 3);
   const double angle = std::acos(std::clamp(j3 / (2 * r * r * r), -1.0, 1.0)) / 3;
-  const double turn = 2 * std::numbers::pi / 3;
-  return {mean + 2 * r * std::cos(angle), mean + 2 * r * std::cos(angle - turn), mean + 2 * r * std::cos(angle + turn)};
+  const double third = 2 * std::numbers::pi / 3;
+  return {mean + 2 * r * std::cos(angle), mean + 2 * r * std::cos(angle - third),
+          mean + 2 * r * std::cos(angle + third)};
 }
 
 }  // namespace railstrata

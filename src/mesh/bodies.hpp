@@ -1,5 +1,6 @@
 #pragma once
 // Meshes of the two bodies.
+#include "geometry/body_shapes.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile.hpp"
 #include "mesh/swept.hpp"
@@ -30,9 +31,6 @@ struct MeshSizes {
   double largest = 12e-3;  ///< largest element edge far from the contact
 };
 
-enum class RailShape { rail, block };
-enum class WheelShape { wheel, disc };
-
 /// Rail: section from its profile (head, web, foot on the base) or a rectangular block under the profile; extruded from
 /// x_begin - end_length to x_end + end_length, stations of spacing h between x_begin and x_end in the cap, coarse_ratio
 /// * h in the rest, growing outside. Section in the model frame (canted), origin (0,0,0).
@@ -49,8 +47,9 @@ SweptBody mesh_rail(const Profile& profile, const TrackGeometry& track, const Ra
 
 /// Wheel: full ring of rim, web and hub (or a disc: rim of constant inner radius down to the bore) revolved about the
 /// axle. Angles theta = arc / rolling radius; cap stations of spacing h between theta_begin and theta_end, growing
-/// outside; the web and hub have their own, coarser stations so that the bore does not limit the time step. Section
-/// coordinates relative to the axle; origin = axle centre in the model frame.
+/// outside, or all round where these angles are a whole turn or nearly one apart; the web and hub have their own,
+/// coarser stations so that the bore does not limit the time step. Section coordinates relative to the axle; origin =
+/// axle centre in the model frame.
 struct WheelMeshSpec {
   WheelShape shape = WheelShape::wheel;
   double contact_s = 0;

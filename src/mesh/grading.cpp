@@ -62,6 +62,22 @@ void append_run(StationPair& stations, const std::vector<double>& spacings) {
   }
 }
 
+// A whole number of coarse steps round the ring, as near to the wanted one as that allows.
+StationPair uniform_ring(double begin, double step, int ratio) {
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const int coarse_count = std::max(3, static_cast<int>(std::lround(kTurn / (ratio * step)))),
+            count = coarse_count * ratio;
+  StationPair out;
+  out.fine_begin = begin;
+  out.fine_end = begin + kTurn;
+  for (int i = 0; i < count; ++i) {
+    const double at = begin + kTurn * i / count;
+    out.fine.push_back(at);
+    if (i % ratio == 0) out.coarse.push_back(at);
+  }
+  return out;
+}
+
 void append_fine_range(StationPair& stations, double begin, int coarse_count, double step, int ratio) {
   stations.fine_begin = begin;
   stations.fine_end = begin + coarse_count * ratio * step;
@@ -93,6 +109,7 @@ StationPair extruded_stations(double begin, double end, double step, int ratio, 
 StationPair ring_stations(double begin, double end, double step, int ratio, double largest) {
   StationPair out;
   const double coarse = ratio * step;
+  if (2 * std::numbers::pi - (end - begin) < 4 * coarse) return uniform_ring(begin, step, ratio);
   append_fine_range(out, begin, coarse_steps(begin, end, coarse), step, ratio);
   const double rest = 2 * std::numbers::pi - (out.fine_end - out.fine_begin);
   std::vector<double> run = growing_spacings(rest / 2, coarse, kStationGrowth, largest);

@@ -29,7 +29,9 @@ inline constexpr double kStationGrowth = 1.3;
 /// Spacing `step` on [begin, end], the end moved outward to a whole number of coarse steps (ratio * step); outside,
 /// over end_length on both sides, growing spacings.
 StationPair extruded_stations(double begin, double end, double step, int ratio, double end_length, double largest);
-/// The same closed round a ring of 2 pi; the first station is `begin`, the last one lies below begin + 2 pi.
+/// The same closed round a ring of 2 pi; the first station is `begin`, the last one lies below begin + 2 pi. A range
+/// that leaves less than four coarse steps of the ring, or is longer than it, makes the whole ring fine: equal
+/// spacings, a whole number of coarse ones, fine_end = fine_begin + 2 pi.
 StationPair ring_stations(double begin, double end, double step, int ratio, double largest);
 /// A subset of the stations, ends kept, with spacings up to `largest`.
 std::vector<double> thinned(const std::vector<double>& stations, double largest);

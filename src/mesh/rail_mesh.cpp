@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/faults.hpp"
+#include "geometry/rail_outline.hpp"
 #include "mesh/contact_band.hpp"
 #include "mesh/grading.hpp"
 #include "mesh/offset_frame.hpp"

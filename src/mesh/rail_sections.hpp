@@ -1,6 +1,6 @@
 #pragma once
 // Plane sections of the rail below the contact band, in the rail's profile frame.
-#include "geometry/profile.hpp"
+#include "geometry/rail_outline.hpp"
 #include "mesh/section_grid.hpp"
 
 namespace railstrata {

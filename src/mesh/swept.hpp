@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "core/sweep_kind.hpp"
 #include "core/vec.hpp"
 
 namespace railstrata {
@@ -24,6 +25,11 @@ struct Section {
   std::vector<std::array<int, 4>> quads;
   std::vector<int> quad_material;  ///< index into SweptBody::materials
 };
+
+/// Area of a quadrilateral by its diagonals, also of one that is not convex; positive for corners anticlockwise.
+inline double quad_area(const Section& s, const std::array<int, 4>& quad) {
+  return 0.5 * cross(s.nodes[quad[2]] - s.nodes[quad[0]], s.nodes[quad[3]] - s.nodes[quad[1]]);
+}
 
 /// Sweep coordinates of the node planes, increasing. closed: the last element joins the last station to the first (a
 /// full ring, period 2 pi).
@@ -63,8 +69,6 @@ struct ContactBand {
 struct SectionNode {
   int block = 0, node = 0;
 };
-
-enum class SweepKind { extrude, revolve };
 
 struct SweptBody {
   std::string name;  ///< "rail", "wheel"

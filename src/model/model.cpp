@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/faults.hpp"
+#include "geometry/profile_names.hpp"
+#include "geometry/read_profile.hpp"
 
 namespace railstrata {
 namespace {
@@ -43,7 +45,7 @@ struct Row {
   LayerMesh mesh;
   MaterialSpec material;
 };
-std::vector<Row> rows_on(const CaseSpec& spec, const std::string& body) {
+std::vector<Row> rows_on(const CaseSpec& spec, BodyId body) {
   std::vector<Row> out;
   for (const LayerSpec& l : spec.layers) {
     if (l.on != body) continue;
@@ -62,20 +64,19 @@ std::vector<Row> rows_on(const CaseSpec& spec, const std::string& body) {
   return out;
 }
 
-std::vector<LayerMesh> layers_on(const CaseSpec& spec, const std::string& body) {
+std::vector<LayerMesh> layers_on(const CaseSpec& spec, BodyId body) {
   std::vector<LayerMesh> out;
   for (const Row& row : rows_on(spec, body)) out.push_back(row.mesh);
   return out;
 }
 
-std::vector<Elastic> materials_of(const CaseSpec& spec, const std::string& body, const MaterialSpec& matrix) {
+std::vector<Elastic> materials_of(const CaseSpec& spec, BodyId body, const MaterialSpec& matrix) {
   std::vector<Elastic> out{to_elastic(matrix)};
   for (const Row& row : rows_on(spec, body)) out.push_back(to_elastic(row.material));
   return out;
 }
 
-std::vector<Elastic> materials_at_surface(const CaseSpec& spec, const std::string& body,
-                                          std::vector<Elastic> materials) {
+std::vector<Elastic> materials_at_surface(const CaseSpec& spec, BodyId body, std::vector<Elastic> materials) {
   const auto top =
       std::find_if(spec.layers.begin(), spec.layers.end(), [&](const LayerSpec& l) { return l.on == body; });
   if (top != spec.layers.end() && top->graded()) {
@@ -136,15 +137,15 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
           place(spec, folder),
           {},
           {},
-          materials_of(spec, "rail", spec.rail_material),
-          materials_of(spec, "wheel", spec.wheel_material),
+          materials_of(spec, BodyId::rail, spec.rail_material),
+          materials_of(spec, BodyId::wheel, spec.wheel_material),
           {},
           {},
           static_load(spec),
           {},
           0};
-  m.rail_at_surface = materials_at_surface(spec, "rail", m.rail_materials);
-  m.wheel_at_surface = materials_at_surface(spec, "wheel", m.wheel_materials);
+  m.rail_at_surface = materials_at_surface(spec, BodyId::rail, m.rail_materials);
+  m.wheel_at_surface = materials_at_surface(spec, BodyId::wheel, m.wheel_materials);
   const RigidContact& contact = m.placement.contact;
   m.hertz = hertz_estimate(spec, contact);
   const double last = spec.run.rolling ? *std::max_element(spec.run.positions.begin(), spec.run.positions.end()) : 0.0;
@@ -158,18 +159,18 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
 
   const GeometrySpec& g = spec.geometry;
   RailMeshSpec rail;
-  rail.shape = g.rail_shape == "block" ? RailShape::block : RailShape::rail;
+  rail.shape = g.rail_shape;
   rail.contact_s = strip.rail_s;
   rail.x_begin = -margin;
   rail.x_end = m.x_end + margin;
   rail.end_length = spec.mesh.end_length;
   rail.block_width = g.block_width;
   rail.block_height = g.block_height;
-  rail.layers = layers_on(spec, "rail");
+  rail.layers = layers_on(spec, BodyId::rail);
   m.rail = mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
 
   WheelMeshSpec wheel;
-  wheel.shape = g.wheel_shape == "disc" ? WheelShape::disc : WheelShape::wheel;
+  wheel.shape = g.wheel_shape;
   wheel.contact_s = strip.wheel_s;
   wheel.theta_begin = -margin / contact.rolling_radius;
   wheel.theta_end = (m.x_end + margin) / contact.rolling_radius;
@@ -179,7 +180,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   wheel.hub_radius = g.hub_radius;
   wheel.hub_width = g.hub_width;
   wheel.bore_radius = g.bore_radius;
-  wheel.layers = layers_on(spec, "wheel");
+  wheel.layers = layers_on(spec, BodyId::wheel);
   m.wheel =
       mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);
   return m;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rotation.hpp"
+#include "post/check_limits.hpp"
 #include "post/patch.hpp"
 #include "post/plausibility.hpp"
 
@@ -42,28 +44,21 @@ bool reaches_edge(const ContactField& f) {
   return false;
 }
 
+Check bem_check(std::string_view name, double value) { return at_most(name, value, check_row(name).bem_limit); }
+
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchMeasures& m) {
-  const auto at_most = [](std::string name, double value, double limit) {
-    return Check{std::move(name), value <= limit, value, limit};
-  };
   const double load = static_load(spec);
-  std::vector<Check> out{at_most("F_z_relative_to_weight", std::abs(-r.F_z / load - 1), 1e-4)};
+  std::vector<Check> out{bem_check("F_z_relative_to_weight", std::abs(-r.force.z / load - 1))};
   if (spec.drive.friction_coefficient > 0 && spec.drive.traction_coefficient != 0)
-    out.push_back(at_most("traction_coefficient_reached",
-                          std::abs(m.force_x / load / spec.drive.traction_coefficient - 1), 1e-3));
-  out.push_back(at_most("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0, 0));
+    out.push_back(
+        bem_check("traction_coefficient_reached", std::abs(m.force_x / load / spec.drive.traction_coefficient - 1)));
+  out.push_back(bem_check("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0));
   return out;
 }
 
 /// From the rail's own axes (y along the common tangent, z down) to the model frame.
 Sym3 in_model_frame(const Sym3& s, double angle) {
-  const double c = std::cos(angle), n = std::sin(angle), yz = -s.yz, xz = -s.xz;
-  return {s.xx,
-          c * c * s.yy - 2 * c * n * yz + n * n * s.zz,
-          n * n * s.yy + 2 * c * n * yz + c * c * s.zz,
-          c * s.xy - n * xz,
-          c * n * (s.yy - s.zz) + (c * c - n * n) * yz,
-          n * s.xy + c * xz};
+  return roll(rotation_by(angle), Sym3{s.xx, s.yy, s.zz, s.xy, -s.yz, -s.xz});
 }
 
 int cell(double at, double first, double size, int count) {
@@ -73,7 +68,7 @@ int cell(double at, double first, double size, int count) {
 }  // namespace
 
 double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact) {
-  double depth = std::max(contact.patch_length, contact.patch_width);
+  double depth = std::max(contact.patch.length, contact.patch.width);
   for (const HalfSpaceLayer& layer : body.layers) depth += layer.thickness;
   return depth;
 }
@@ -82,29 +77,26 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   Summary s;
   s.title = spec.title;
   s.position = spec.run.rolling && !spec.run.positions.empty() ? spec.run.positions.back() : 0.0;
-  const PatchMeasures m = measure_patch(r.field);
   const bool friction = spec.drive.friction_coefficient > 0;
   ContactSummary& c = s.contact;
-  c.p_max = m.p_max;
-  c.q_max = m.q_max;
-  c.patch_length = m.length;
-  c.patch_width = m.width;
-  c.patch_area = m.area;
-  c.F_x = 0.0 - r.F_x;
-  c.F_y = 0.0 - r.F_y;
-  c.F_z = 0.0 - r.F_z;
+  const PatchMeasures measured = measure_patch(r.field);
+  c.patch = measured;
+  c.F_x = 0.0 - r.force.x;
+  c.F_y = 0.0 - r.force.y;
+  c.F_z = 0.0 - r.force.z;
   turn_into_contact_plane(c, r.contact.angle);
   c.approach = r.approach;
   if (friction) {
-    c.slip_area_fraction = m.slip_area_fraction;
-    c.creepage_x = r.creepage_x;
-    c.creepage_y = r.creepage_y;
-    c.spin_per_m = r.spin;
+    c.creepage_x = r.rigid_slip.x;
+    c.creepage_y = r.rigid_slip.y;
+    c.spin_per_m = r.rigid_slip.spin;
+  } else {
+    c.patch.slip_area_fraction = kNotApplicable;
   }
-  s.run.engine = "bem";
-  s.run.wall_s = r.wall_s;
+  s.run.engine = Engine::bem;
+  s.run.wall_s = r.effort.wall_s;
   s.run.elements = static_cast<long>(r.grid.size());
-  s.checks = checks(spec, r, m);
+  s.checks = checks(spec, r, measured);
   s.warnings = implausible(s, spec);
   return s;
 }

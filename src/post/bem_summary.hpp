@@ -14,7 +14,7 @@ double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& con
 /// counts the cells of the grid. Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface`
 /// starts half a cell below the surface; `interface` takes either side. NaN: penetration and scatter; without friction
 /// also slip area and creepages. Steady rolling is the same everywhere: position is the case's last one, of a static
-/// case 0. Checks (limits): F_z against G (0.01 %), F_x/G against the wanted traction coefficient (0.1 %), the patch
+/// case 0. Checks (limits: check_limits.hpp): F_z against G, F_x/G against the wanted traction coefficient, the patch
 /// inside the grid.
 Summary bem_summary(const CaseSpec& spec, const BemResult& result);
 

@@ -53,7 +53,10 @@ class Lattice {
 
 struct Range {
   double low = 1e300, high = -1e300;
-  void add(double v) { low = std::min(low, v), high = std::max(high, v); }
+  void add(double v) {
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
 };
 
 double finest(const std::vector<double>& t) {

@@ -7,9 +7,11 @@
 namespace railstrata {
 
 /// engine, wall times, steps and checks are filled in; commit, threads and peak memory are the program's to add.
-/// Checks (limits): mean F_z against G (0.5 %), F_x/F_z against the wanted traction coefficient (1 %), energy closure
-/// (1 %), hourglass energy (2 %, one_point elements), penetration (1 % of the Hertzian approach), scatter of p_max in
-/// the window (1.5 %), the patch inside the fine zone, preload residual.
 Summary fem_summary(const RollingSystem& system, const RunResult& run, const MeanContact& mean);
+
+/// Limits: check_limits.hpp. Preload residual, mean F_z against G, F_x/F_z against the wanted traction coefficient of a
+/// wheel that drives or brakes, penetration against the Hertzian approach, energy closure, scatter of p_max in the
+/// window, hourglass energy (one_point elements), the patch inside the fine zone.
+std::vector<Check> finite_element_checks(const Model& model, const RunResult& run, const MeanContact& mean);
 
 }  // namespace railstrata

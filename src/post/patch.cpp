@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parabola.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -39,55 +41,40 @@ Chord chord(int n, double noise, T&& t, P&& p) {
   return c;
 }
 
-// Offset and height above the middle value of the top of the parabola through three points.
-struct Top {
-  double at, above;
-};
-Top parabola_top(double t0, double f0, double t1, double f1, double t2, double f2) {
-  const double a = ((f2 - f1) / (t2 - t1) - (f1 - f0) / (t1 - t0)) / (t2 - t0);
-  if (a >= 0) return {t1, 0};
-  const double b = (f1 - f0) / (t1 - t0) + a * (t1 - t0);  // slope at t1
-  const double d = std::clamp(-b / (2 * a), t0 - t1, t2 - t1);
-  return {t1 + d, b * d + a * d * d};
-}
-
-}  // namespace
-
-PatchMeasures measure_patch(const ContactField& f) {
-  PatchMeasures m;
-  if (f.size() == 0) return m;
-  const int nc = f.columns, ns = f.stations;
-  auto at = [nc](int c, int s) { return s * nc + c; };
-  const int top = static_cast<int>(std::max_element(f.p.begin(), f.p.end()) - f.p.begin()), tc = top % nc,
-            ts = top / nc;
+/// p_max and its place, refined from the point of largest pressure along both directions.
+void find_peak(const ContactField& f, int top, PatchMeasures& m) {
+  const int column = top % f.columns, station = top / f.columns;
   m.p_max = f.p[top];
   m.p_max_x = f.x[top];
   m.p_max_y = f.y[top];
-  if (ts > 0 && ts + 1 < ns) {
-    const int a = at(tc, ts - 1), b = at(tc, ts + 1);
-    const Top t = parabola_top(f.x[a], f.p[a], f.x[top], f.p[top], f.x[b], f.p[b]);
+  if (station > 0 && station + 1 < f.stations) {
+    const int a = top - f.columns, b = top + f.columns;
+    const ParabolaTop t = parabola_top(f.x[a], f.p[a], f.x[top], f.p[top], f.x[b], f.p[b]);
     m.p_max += t.above;
     m.p_max_x = t.at;
   }
-  if (tc > 0 && tc + 1 < nc) {
-    const int a = at(tc - 1, ts), b = at(tc + 1, ts);
-    const Top t = parabola_top(f.y[a], f.p[a], f.y[top], f.p[top], f.y[b], f.p[b]);
+  if (column > 0 && column + 1 < f.columns) {
+    const int a = top - 1, b = top + 1;
+    const ParabolaTop t = parabola_top(f.y[a], f.p[a], f.y[top], f.p[top], f.y[b], f.p[b]);
     m.p_max += t.above;
     m.p_max_y = t.at;
   }
+}
+
+double slip_share(const ContactField& f) {
   double touching = 0, slipping = 0;
   for (int i = 0; i < f.size(); ++i) {
-    m.q_max = std::max(m.q_max, std::hypot(f.q_x[i], f.q_y[i]));
-    m.force_x -= f.area[i] * f.q_x[i];
-    m.force_y -= f.area[i] * f.q_y[i];
-    m.force_z += f.area[i] * f.p[i];
-    if (f.p[i] > f.p_noise && f.p[i] > 0) {
-      touching += f.area[i];
-      if (f.state[i] == ContactState::slip) slipping += f.area[i];
-    }
+    if (!(f.p[i] > f.p_noise && f.p[i] > 0)) continue;
+    touching += f.area[i];
+    if (f.state[i] == ContactState::slip) slipping += f.area[i];
   }
-  m.slip_area_fraction = touching > 0 ? slipping / touching : 0;
+  return touching > 0 ? slipping / touching : 0;
+}
 
+/// Length, width and area from the chords of columns and stations; y at the station of largest pressure.
+void find_extent(const ContactField& f, int peak_station, PatchMeasures& m) {
+  const int nc = f.columns, ns = f.stations;
+  const auto at = [nc](int c, int s) { return s * nc + c; };
   std::vector<Chord> along(nc);
   int first = -1, last = -1;
   for (int c = 0; c < nc; ++c) {
@@ -109,15 +96,26 @@ PatchMeasures measure_patch(const ContactField& f) {
       y_end = c.end;
     }
   }
-  if (first >= 0) {
-    const int s = ts;
-    for (int c = first; c < last; ++c)
-      m.area += 0.5 * (along[c].length() + along[c + 1].length()) * (f.y[at(c + 1, s)] - f.y[at(c, s)]);
-    // the rounded ends beyond the outermost columns: a parabola's segment
-    m.area += 2.0 / 3.0 *
-              (along[first].length() * std::max(0.0, f.y[at(first, s)] - y_begin) +
-               along[last].length() * std::max(0.0, y_end - f.y[at(last, s)]));
-  }
+  if (first < 0) return;
+  const int s = peak_station;
+  for (int c = first; c < last; ++c)
+    m.area += 0.5 * (along[c].length() + along[c + 1].length()) * (f.y[at(c + 1, s)] - f.y[at(c, s)]);
+  // the rounded ends beyond the outermost columns: a parabola's segment
+  m.area += 2.0 / 3.0 *
+            (along[first].length() * std::max(0.0, f.y[at(first, s)] - y_begin) +
+             along[last].length() * std::max(0.0, y_end - f.y[at(last, s)]));
+}
+
+}  // namespace
+
+PatchMeasures measure_patch(const ContactField& f) {
+  PatchMeasures m;
+  if (f.size() == 0) return m;
+  const int top = static_cast<int>(std::max_element(f.p.begin(), f.p.end()) - f.p.begin());
+  find_peak(f, top, m);
+  for (int i = 0; i < f.size(); ++i) add_point(m, f, i);
+  m.slip_area_fraction = slip_share(f);
+  find_extent(f, top / f.columns, m);
   return m;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 // The contact patch in numbers, from a ContactField of either engine.
+#include <algorithm>
+#include <cmath>
+
 #include "contact/contact_field.hpp"
 
 namespace railstrata {
@@ -7,14 +10,22 @@ namespace railstrata {
 struct PatchMeasures {
   double p_max = 0;  ///< Pa, top of the parabola through the largest value and its neighbours
   double p_max_x = 0, p_max_y = 0;
-  double q_max = 0;              ///< Pa, largest magnitude of the tangential traction
-  double length = 0, width = 0;  ///< m, in and across the rolling direction; edges where p² extrapolates to zero, as
-                                 ///< Hertz's pressure does
-  double area = 0;               ///< m², from the chords of the columns
-  double slip_area_fraction =
-      0;  ///< area of slipping points / area of points in contact (p above 2.5 % of p_max: ContactField::p_noise)
+  double q_max = 0;  ///< Pa, largest magnitude of the tangential traction
+  /// m, in and across the rolling direction; edges where p² extrapolates to zero, as Hertz's pressure does
+  double length = 0, width = 0;
+  double area = 0;  ///< m², from the chords of the columns
+  /// area of slipping points / area of points in contact (those with p above ContactField::p_noise)
+  double slip_area_fraction = 0;
   double force_x = 0, force_y = 0, force_z = 0;  ///< N on the wheel, sums of area times traction (z: normal)
 };
+
+/// The share of one point in the sums and extremes over all points.
+inline void add_point(PatchMeasures& m, const ContactField& f, int i) {
+  m.q_max = std::max(m.q_max, std::hypot(f.q_x[i], f.q_y[i]));
+  m.force_x -= f.area[i] * f.q_x[i];
+  m.force_y -= f.area[i] * f.q_y[i];
+  m.force_z += f.area[i] * f.p[i];
+}
 
 PatchMeasures measure_patch(const ContactField& field);
 

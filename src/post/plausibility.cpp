@@ -1,7 +1,11 @@
 #include "post/plausibility.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+
+#include "post/check_limits.hpp"
 
 namespace railstrata {
 namespace {
@@ -17,20 +21,21 @@ double largest_von_mises(const StressSummary& s) {
 
 std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec) {
   std::vector<Warning> out;
-  const double width = s.contact.patch_width;
-  auto warn_above = [&](const char* name, double value, double limit, const char* text) {
-    if (value > limit) out.push_back({name, value, limit, text});
+  const double width = s.contact.patch.width;
+  const auto warn_above = [&](std::string_view name, double value, double limit) {
+    const CheckRow& row = check_row(name);
+    if (value > limit)
+      out.push_back({.name = std::string(name),
+                     .value = value,
+                     .limit = limit,
+                     .text = fmt::format("{} [{}]: {}", row.what, row.unit.si(), row.advice)});
   };
   double narrowest = HUGE_VAL;
   for (const LayerSpec& layer : spec.layers) narrowest = std::min(narrowest, layer.width);
-  warn_above("patch_wider_than_layer", width, narrowest,
-             "the contact patch is wider than the layer [m]: a larger layer.width holds it");
-  if (s.run.engine == "fem")
-    warn_above("patch_near_border_of_fine_zone", width, spec.mesh.fine_width - 2 * spec.mesh.element_size,
-               "the contact patch nearly fills the fine mesh [m]: a larger mesh.fine_width gives it room");
-  warn_above("von_mises_above_common_rail_yield", largest_von_mises(s.rail), kCommonRailYield,
-             "the elastic stress in the rail is above the proof stress of common rail steels [Pa]: a real rail would "
-             "yield there, and shake down or wear");
+  warn_above("patch_wider_than_layer", width, narrowest);
+  if (s.run.engine == Engine::fem)
+    warn_above("patch_near_border_of_fine_zone", width, spec.mesh.fine_width - 2 * spec.mesh.element_size);
+  warn_above("von_mises_above_common_rail_yield", largest_von_mises(s.rail), kCommonRailYield);
   return out;
 }
 

@@ -41,7 +41,7 @@ void add(BandSample& sum, const BandSample& s, double weight) {
 
 ContactField contact_field(const RollingSystem& sys, const RollingSample& s) {
   ContactField f;
-  const ContactSurface& surface = sys.rail_surface;
+  const ContactSurface& surface = sys.rail_surface();
   f.resize(surface.columns, s.rail.stations + 1);
   auto tributary = [](auto&& width, int i, int n) {
     return 0.5 * ((i > 0 ? width(i - 1) : 0.0) + (i + 1 < n ? width(i) : 0.0));
@@ -85,8 +85,8 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     }
     if (f.size() != m.field.size())
       throw NumericalError(
-          fmt::format("two samples of the contact have {} and {} points: their mean is not defined (a "
-                      "fault of the program: please report it with the case file)",
+          fmt::format("the samples cannot be averaged: the surface of one has {} points, that of another {} (a fault "
+                      "of the program: please report it with the case file)",
                       m.field.size(), f.size()));
     for (int i = 0; i < f.size(); ++i) {
       m.field.x[i] += weight * f.x[i];

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "contact/enforcement.hpp"
+#include "core/parabola.hpp"
 #include "material/elastic.hpp"
 
 namespace railstrata {
@@ -41,12 +42,10 @@ StressMaximum largest(const BandStress& b, Measure measure, const std::function<
         }
       }
   if (std::isnan(best.value)) return best;
-  auto refine = [&](double t0, double f0, double t1, double f1, double t2, double f2, double& place) {
-    const double a = ((f2 - f1) / (t2 - t1) - (f1 - f0) / (t1 - t0)) / (t2 - t0);
-    if (a >= 0) return;
-    const double slope = (f1 - f0) / (t1 - t0) + a * (t1 - t0), d = std::clamp(-slope / (2 * a), t0 - t1, t2 - t1);
-    place = t1 + d;
-    best.value += slope * d + a * d * d;
+  const auto refine = [&](double t0, double f0, double t1, double f1, double t2, double f2, double& place) {
+    const ParabolaTop t = parabola_top(t0, f0, t1, f1, t2, f2);
+    place = t.at;
+    best.value += t.above;
   };
   const double top = best.value;
   if (br > 0 && br + 1 < b.sample.rows && wanted(bc, br - 1) && wanted(bc, br + 1))
@@ -189,18 +188,18 @@ StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sam
 
 std::vector<Sym3> rail_surface_stress(const RollingSystem& sys, const MeanContact& m) {
   const ContactField& f = m.field;
-  return recover_surface(sys.rail_surface, m.rail, sys.model.rail, sys.model.rail_at_surface, 0, [&](int c, int j) {
+  return recover_surface(sys.rail_surface(), m.rail, sys.model.rail, sys.model.rail_at_surface, 0, [&](int c, int j) {
     const int i = j * f.columns + c;
     return traction_vector({f.p[i], f.q_x[i], f.q_y[i], 0, 0},
-                           {0, sys.rail_surface.outward[c].y, sys.rail_surface.outward[c].z});
+                           {0, sys.rail_surface().outward[c].y, sys.rail_surface().outward[c].z});
   });
 }
 
 std::vector<Sym3> wheel_surface_stress(const RollingSystem& sys, const MeanContact& m) {
-  return recover_surface(sys.wheel_surface, m.wheel, sys.model.wheel, sys.model.wheel_at_surface, sys.rolling_radius,
+  return recover_surface(sys.wheel_surface(), m.wheel, sys.model.wheel, sys.model.wheel_at_surface, sys.rolling_radius,
                          [&](int c, int j) {
-                           return -traction_at(m.field, sys.rail_surface, m.wheel.along[j],
-                                               sys.wheel_surface.origin.y + sys.wheel_surface.node[c].y);
+                           return -traction_at(m.field, sys.rail_surface(), m.wheel.along[j],
+                                               sys.wheel_surface().origin.y + sys.wheel_surface().node[c].y);
                          });
 }
 
@@ -210,7 +209,7 @@ StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m
   const BandStress b = band_stress(sys.model.rail, m.rail, contact_y);
   below_surface(b, sys.model.spec.mesh.element_size, sys.model.rail_materials.size() > 1, out);
   out.surface =
-      surface_maxima(rail_surface_stress(sys, m), m.rail, sys.rail_surface, sys.model.placement.contact.point.y);
+      surface_maxima(rail_surface_stress(sys, m), m.rail, sys.rail_surface(), sys.model.placement.contact.point.y);
   return out;
 }
 
@@ -220,7 +219,7 @@ StressSummary wheel_stress_summary(const RollingSystem& sys, const MeanContact& 
   below_surface(band_stress(sys.model.wheel, m.wheel, contact_y), sys.model.spec.mesh.element_size,
                 sys.model.wheel_materials.size() > 1, out);
   out.surface =
-      surface_maxima(wheel_surface_stress(sys, m), m.wheel, sys.wheel_surface, sys.model.placement.contact.point.y);
+      surface_maxima(wheel_surface_stress(sys, m), m.wheel, sys.wheel_surface(), sys.model.placement.contact.point.y);
   return out;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/rotation.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -35,17 +37,6 @@ std::vector<Row> rows_of(const LayeredHalfSpace& body, double cell, double deepe
   return rows;
 }
 
-/// About the x axis, from axes whose y lies along the common tangent to the model frame's.
-Sym3 turned(const Sym3& s, double angle) {
-  const double c = std::cos(angle), n = std::sin(angle);
-  return {s.xx,
-          c * c * s.yy - 2 * c * n * s.yz + n * n * s.zz,
-          n * n * s.yy + 2 * c * n * s.yz + c * c * s.zz,
-          c * s.xy - n * s.xz,
-          c * n * (s.yy - s.zz) + (c * c - n * n) * s.yz,
-          n * s.xy + c * s.xz};
-}
-
 StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& body, const Subsurface& interior,
                                  double z_up, double x, double y, double deepest) {
   const PatchGrid& g = r.grid;
@@ -62,7 +53,7 @@ StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& bod
       Sym3 s = interior.stress(plane, k);
       s.yz *= z_up;
       s.xz *= z_up;
-      section.stress.push_back(turned(s, r.contact.angle));
+      section.stress.push_back(roll(rotation_by(r.contact.angle), s));
       section.material.push_back(row.material);
     };
     for (int i = 0; i < g.nx; ++i) add(along, g.index(i, j0));

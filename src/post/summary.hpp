@@ -1,28 +1,28 @@
 #pragma once
 // The numbers of a result, the same for both engines: what summary.json holds. SI units; a number that does not apply
-// is NaN (null in the file).
+// is NaN (null in the file). post/result_table.hpp has a row for each: its key, unit, words and where it is shown.
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "core/engine.hpp"
+#include "post/patch.hpp"
+
 namespace railstrata {
 
 inline constexpr double kNotApplicable = std::numeric_limits<double>::quiet_NaN();
 
 struct ContactSummary {
-  double p_max = kNotApplicable, q_max = kNotApplicable;
-  double patch_length = kNotApplicable, patch_width = kNotApplicable, patch_area = kNotApplicable,
-         slip_area_fraction = kNotApplicable;
-  double F_x = kNotApplicable, F_y = kNotApplicable,
-         F_z = kNotApplicable;  ///< N, on the wheel, model frame: pressure and friction of the whole contact together
+  PatchMeasures patch;  ///< of the field alone
+  /// N, on the wheel, model frame: pressure and friction of the whole contact together
+  double F_x = kNotApplicable, F_y = kNotApplicable, F_z = kNotApplicable;
   double creepage_x = kNotApplicable, creepage_y = kNotApplicable, spin_per_m = kNotApplicable;
   double approach = kNotApplicable, penetration_max = kNotApplicable, p_max_scatter = kNotApplicable;
   double contact_angle = kNotApplicable;  ///< rad, of the common tangent at the rigid contact point
-  double normal_force = kNotApplicable,
-         lateral_force = kNotApplicable;  ///< N, on the wheel: (F_y, F_z) along the contact plane's normal and along
-                                          ///< its lateral tangent
+  /// N, on the wheel: (F_y, F_z) along the contact plane's normal and along its lateral tangent
+  double normal_force = kNotApplicable, lateral_force = kNotApplicable;
 };
 
 /// normal_force = F_z cos(angle) - F_y sin(angle), lateral_force = F_y cos(angle) + F_z sin(angle): of the half-space
@@ -50,23 +50,27 @@ struct EnergySummary {
 };
 
 struct RunSummary {
-  std::string engine, commit;
-  double wall_s = kNotApplicable, preload_wall_s = kNotApplicable, output_wall_s = kNotApplicable,
-         dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
+  Engine engine = Engine::fem;
+  std::string commit;
+  double wall_s = kNotApplicable, preload_wall_s = kNotApplicable, output_wall_s = kNotApplicable;
+  double dt_s = kNotApplicable, element_steps_per_s = kNotApplicable, peak_memory_bytes = kNotApplicable;
   double stable_step = kNotApplicable, unscaled_step = kNotApplicable;  ///< s, with and without selective mass scaling
   double added_mass = kNotApplicable;  ///< kg, by selective mass scaling of thin rows; 0: real masses
-  double local_stages = kNotApplicable,
-         fine_elements =
-             kNotApplicable;  ///< forces of the fine elements are evaluated so often a step; 1, 0: one step for all
+  /// forces of the fine elements are evaluated so often a step; 1, 0: one step for all
+  double local_stages = kNotApplicable, fine_elements = kNotApplicable;
   long elements = 0, nodes = 0, steps = 0;
   int threads = 0;
 };
 
 struct Check {
-  std::string name;
+  std::string name;  ///< key of a row of post/check_limits.hpp
   bool ok = false;
   double value = kNotApplicable, limit = kNotApplicable;
 };
+
+inline Check at_most(std::string_view name, double value, double limit) {
+  return {.name = std::string(name), .ok = value <= limit, .value = value, .limit = limit};
+}
 
 /// A sound result that is not plausible; exit code and checks do not depend on it.
 struct Warning {

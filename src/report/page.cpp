@@ -1,10 +1,12 @@
+#include "report/page.hpp"
+
 #include <fmt/format.h>
 
 #include "io/json_text.hpp"
 #include "io/provenance.hpp"
 #include "report/assets.hpp"
 #include "report/base64.hpp"
-#include "report/report.hpp"
+#include "report/payload.hpp"
 
 namespace railstrata {
 namespace {

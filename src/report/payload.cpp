@@ -1,3 +1,5 @@
+#include "report/payload.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,9 +10,9 @@
 
 #include "core/faults.hpp"
 #include "io/provenance.hpp"
+#include "io/result_reference.hpp"
 #include "post/patch.hpp"
 #include "report/base64.hpp"
-#include "report/report.hpp"
 
 namespace railstrata {
 namespace {
@@ -228,6 +230,7 @@ Json report_payload(const Report& report) {
   Json out;
   out["title"] = report.title;
   out["program"] = version_text();
+  out["words"] = results_reference_json();
   out["checks"] = Json::array();
   out["runs"] = Json::array();
   out["tables"] = Json::array();

@@ -1,3 +1,5 @@
+#include "report/read_run.hpp"
+
 #include <fmt/format.h>
 
 #include <fstream>
@@ -5,7 +7,6 @@
 
 #include "core/faults.hpp"
 #include "io/provenance.hpp"
-#include "report/report.hpp"
 
 namespace railstrata {
 namespace {

@@ -44,10 +44,10 @@ struct ReportRun {                                    // NOLINT(bugprone-excepti
 struct ReportCheck {
   std::string name;
   std::vector<int> runs;  ///< one: that run's own; two: the first against the second; none: over all cases of a study
-  bool judged = true;     ///< false: told, and no part of the verdict
+  bool judged = true;     ///< false: shown, and no part of the verdict
   bool ok = true;
   double value = 0, limit = 0;
-  std::string note;
+  std::string note{};
 };
 
 /// For a study. Cells hold text, numbers or null.
@@ -86,31 +86,5 @@ struct Report {
   std::vector<ReportChart> charts;
   std::vector<ReportMaps> maps;
 };
-
-/// Reads a folder of `run` or `bem`. A position_<mm> folder takes case, provenance and history from the folder it
-/// stands in. Throws CaseError as read_result_folder does.
-ReportRun read_report_run(const std::filesystem::path& folder);
-
-/// What the runs say of themselves, and every finite element run against a half-space run of the same case (limits:
-/// p_max 4 %, patch length 6 %, q_max 7 %, largest von Mises stress below the rail's surface 8 % where it lies deeper
-/// than an element). The peak of q at the border of stick and slip is as narrow as a cell shows it: q_max is compared
-/// on cells as large as the elements where that solution is there (shear_on_elements). Of two runs of different cases
-/// it is told which options differ.
-std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs);
-
-/// The verdict of the page in one line: "all 13 checks hold", "1 of 13 checks fails: q_max 0.0952, limit 0.07".
-struct ReportVerdict {
-  bool ok = false;
-  std::string text;
-};
-ReportVerdict verdict_of(const Report& report);
-
-/// The report as JSON, as report/src/data.ts reads it. Lines have six digits; maps and sections are packed to 16 bits a
-/// number and thinned to 300 points a side.
-nlohmann::ordered_json report_payload(const Report& report);
-
-/// The page: one file without any reference outside it. Scripts and styles run by their hashes alone
-/// (Content-Security-Policy).
-std::string report_page(const Report& report);
 
 }  // namespace railstrata

@@ -1,7 +1,8 @@
 #pragma once
-// When a run saves its state and when it stops: signals, the time between checkpoints, the time limit of a batch queue.
+// When a run saves its state and when it stops: wishes from outside, the time between checkpoints, the time limit of a
+// batch queue.
+#include <atomic>
 #include <chrono>
-#include <string>
 
 #include "fem/rolling_run.hpp"
 
@@ -9,36 +10,41 @@ namespace railstrata {
 
 /// Wall times [s]; 0: never, no limit.
 struct RunTimes {
-  double checkpoint_every = 600;
+  double checkpoint_every = 0;
   double limit = 0;
+  std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< both count from here
 };
 
-/// "10 min", "90 s", "1.5 h"; "0" and "never" are 0. `option` names it in the CaseError of a text that is no time.
-double wall_time(const std::string& option, const std::string& text);
+/// What another thread, or a signal's handler, may wish of a run. Either may be null.
+struct RunWishes {
+  const std::atomic<bool>* stop = nullptr;  ///< true: end between two steps and keep the state
+  std::atomic<bool>* save = nullptr;        ///< true: a checkpoint is wanted; the run sets it back
+};
 
 class RunControl {
  public:
-  /// The clock starts here. Installs the signals' handlers.
-  explicit RunControl(const RunTimes& times);
+  RunControl(const RunTimes& times, const RunWishes& wishes) : times_(times), wishes_(wishes) {}
 
   /// What is asked of the run now. A limit is kept by stopping early: what is left must do for twice the longest
   /// checkpoint, the longest pause between two calls and one part in a hundred of the limit.
   Demand demand();
   /// A checkpoint took so long [s].
   void saved(double seconds);
-  /// To be called during the preload: lets the limit raise the stop flag.
-  void watch_limit();
-  /// Stopped by the limit, not by a signal.
+  /// To be called during the preload: raises preload_stop() when the run is to stop.
+  void watch_preload();
+  const std::atomic<bool>& preload_stop() const { return preload_stop_; }
+  /// Stopped by the limit, not by a wish.
   bool limit_reached() const { return limit_reached_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double elapsed() const;
   bool out_of_time(double now) const;
+  bool must_stop(double now);
   RunTimes times_;
-  Clock::time_point start_ = Clock::now();
+  RunWishes wishes_;
   double last_save_ = 0, longest_save_ = 0, last_call_ = -1, longest_pause_ = 0;
   bool limit_reached_ = false;
+  std::atomic<bool> preload_stop_{false};
 };
 
 }  // namespace railstrata

@@ -2,40 +2,35 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <utility>
 
 #include "case/case_file.hpp"
+#include "core/engine.hpp"
 #include "core/faults.hpp"
+#include "core/parallel.hpp"
 #include "io/output_file.hpp"
-#include "post/bem_summary.hpp"
-#include "report/report.hpp"
-#include "runs/output_folder.hpp"
-#include "runs/peak_memory.hpp"
-#include "runs/run_bem.hpp"
+#include "io/output_folder.hpp"
+#include "report/page.hpp"
+#include "report/read_run.hpp"
+#include "runs/write_half_space_result.hpp"
 
 namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
 
-void solve_reference(const fs::path& case_file, const fs::path& folder, int threads) {
+void solve_reference(const fs::path& case_file, const fs::path& folder) {
   const LoadedCase loaded = load_case(case_file);
-  const CaseSpec spec = half_space_case(loaded.spec);
-  const Placement placement = place(spec, loaded.folder());
-  const BemResult result = solve_bem(spec, placement);
-  Summary summary = bem_summary(spec, result);
-  summary.run.commit = commit_text();
-  summary.run.threads = threads;
-  summary.run.peak_memory_bytes = peak_memory();
+  const Placement placement = place(loaded.spec, loaded.folder());
+  const HalfSpaceSolution solution = solve_half_space(loaded.spec, placement);
   fs::create_directories(folder);
-  write_origin(folder, loaded, {"railstrata", "bem", case_file.string(), "--out", folder.string()}, threads);
-  write_bem_geometry(folder, spec, placement, summary.position);
-  write_bem_result(folder, table_origin(loaded), result, summary);
+  write_origin(folder, loaded, {"railstrata", "bem", case_file.string(), "--out", folder.string()}, max_threads());
+  write_half_space_result(folder, table_origin(loaded), loaded.spec, placement, solution);
 }
 
 bool same_text(const fs::path& a, const fs::path& b) {
@@ -66,7 +61,7 @@ double shear_on_elements(const fs::path& case_file) {
     const CaseSpec spec = half_space_case(loaded.spec);
     BemOptions bem;
     bem.cell = std::max(loaded.spec.mesh.element_size, kFinest);
-    return solve_bem(spec, place(spec, loaded.folder()), bem).q_max;
+    return solve_bem(spec, place(spec, loaded.folder()), bem).patch.q_max;
   } catch (const CaseError&) {
     return std::numeric_limits<double>::quiet_NaN();
   } catch (const NumericalError&) {
@@ -76,35 +71,36 @@ double shear_on_elements(const fs::path& case_file) {
 
 /// For finite element runs that a half-space run stands beside.
 void add_shear_on_elements(const std::vector<fs::path>& folders, std::vector<ReportRun>& runs) {
-  const auto is_bem = [](const ReportRun& run) { return run.result.engine == "bem"; };
+  const auto is_bem = [](const ReportRun& run) { return is_engine(run.result.engine, Engine::bem); };
   if (std::none_of(runs.begin(), runs.end(), is_bem)) return;
   for (std::size_t k = 0; k < folders.size(); ++k)
-    if (runs[k].result.engine == "fem")
+    if (is_engine(runs[k].result.engine, Engine::fem))
       runs[k].shear_on_elements = shear_on_elements(folder_of_case(folders[k]) / "case.toml");
 }
 
 }  // namespace
 
-fs::path half_space_reference(const fs::path& folder, int threads) {
+fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& notes) {
   const fs::path home = folder_of_case(folder);
   fs::path out = home / kReferenceFolder;
   if (fs::exists(out / "summary.json") && same_text(home / "case.toml", out / "case.toml")) return out;
   try {
-    solve_reference(home / "case.toml", out, threads);
+    solve_reference(home / "case.toml", out);
     return out;
   } catch (const CaseError& e) {
-    spdlog::warn("no half-space reference: {}", e.what());
+    notes.push_back(fmt::format("no half-space reference: {}", e.what()));
   } catch (const NumericalError& e) {
-    spdlog::warn("no half-space reference: {}", e.what());
+    notes.push_back(fmt::format("no half-space reference: {}", e.what()));
   }
   return {};
 }
 
-ReportVerdict write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference, int threads) {
+WrittenPage write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference) {
+  std::vector<std::string> notes;
   Report report;
   for (const fs::path& folder : folders) report.runs.push_back(read_report_run(folder));
-  if (reference && report.runs.size() == 1 && report.runs[0].result.engine == "fem")
-    if (const fs::path beside = half_space_reference(folders[0], threads); !beside.empty()) {
+  if (reference && report.runs.size() == 1 && is_engine(report.runs[0].result.engine, Engine::fem))
+    if (const fs::path beside = half_space_reference(folders[0], notes); !beside.empty()) {
       report.runs.push_back(read_report_run(beside));
       report.runs[1].name = report.runs[0].name;
     }
@@ -113,31 +109,9 @@ ReportVerdict write_report(const fs::path& page, const std::vector<fs::path>& fo
   report.checks = report_checks(report.runs);
   write_whole_file(page, report_page(report));
   for (const ReportRun& run : report.runs)
-    for (const ResultDoubt& doubt : run.doubts) spdlog::warn("{}: {}", run.result.folder.string(), doubt.text);
-  return verdict_of(report);
-}
-
-void tell_verdict(const ReportVerdict& verdict) {
-  if (verdict.ok)
-    spdlog::info("verdict of the page: {}", verdict.text);
-  else
-    spdlog::warn("verdict of the page: {}", verdict.text);
-}
-
-void write_page_or_warn(const fs::path& page, const std::function<void()>& write) {
-  try {
-    write();
-    spdlog::info("everything on one page: {}", page.string());
-  } catch (const CaseError& e) {
-    spdlog::warn("no report: {}", e.what());
-  } catch (const EnvironmentError& e) {
-    spdlog::warn("no report: {}{}{}", e.what(), e.remedy.empty() ? "" : "\n    remedy: ", e.remedy);
-  }
-}
-
-void add_report(const fs::path& folder, int threads) {
-  const fs::path page = folder / "report.html";
-  write_page_or_warn(page, [&] { tell_verdict(write_report(page, {folder}, true, threads)); });
+    for (const ResultDoubt& doubt : run.doubts)
+      notes.push_back(fmt::format("{}: {}", run.result.folder.string(), doubt.text));
+  return {verdict_of(report), std::move(notes)};
 }
 
 }  // namespace railstrata

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 
 #include "core/faults.hpp"
@@ -36,6 +37,8 @@ pid_t start_self(const std::vector<std::string>& words, const std::filesystem::p
   if (child < 0) throw EnvironmentError(fmt::format("cannot start a process: {}", std::strerror(errno)));
   return child;
 }
+
+void ignore_second_signal_in_children() { ::setenv(kIgnoreSecondSignal, "1", 1); }
 
 bool has_ended(pid_t child, int& status) {
   const pid_t got = ::waitpid(child, &status, WNOHANG);

@@ -8,9 +8,17 @@
 
 namespace railstrata {
 
-/// Starts this very program with other words, all it says going to `log`. It dies with this process, however that ends:
-/// nothing computes on unseen. To be called from the main thread. Throws EnvironmentError.
+/// Starts this same program with other arguments; its output and errors go to `log`. The kernel kills it when this
+/// process ends, in whatever way. To be called from the main thread. Throws EnvironmentError.
 pid_t start_self(const std::vector<std::string>& words, const std::filesystem::path& log);
+
+/// The variable of the environment by which a program that study starts knows that a second signal is not to end it.
+inline constexpr const char* kIgnoreSecondSignal = "RAILSTRATA_ONE_SIGNAL";
+
+/// Sets kIgnoreSecondSignal for all programs started from now on. A terminal's Ctrl-C and a batch system's SIGTERM
+/// reach them beside the signal that this program sends: two signals within one step would end them without a
+/// checkpoint. This program kills those that take too long.
+void ignore_second_signal_in_children();
 
 /// True once it has ended; `status` is then what waitpid tells.
 bool has_ended(pid_t child, int& status);

@@ -86,8 +86,9 @@ Published parse_published(const std::string& text, const std::filesystem::path& 
   out.source = top.text("source");
   for (const toml::table* t : tables(document, "column")) {
     Reader r(source, *t, {"name", "engine", "prefix"});
-    out.columns.push_back({r.text("name", true), r.text("engine", true), r.text("prefix")});
-    r.choice("engine", out.columns.back().engine, {"fem", "bem"});
+    const std::string engine = r.text("engine", true);
+    r.choice("engine", engine, engine_words());
+    out.columns.push_back({r.text("name", true), engine_of(engine).value_or(Engine::fem), r.text("prefix")});
   }
   for (const toml::table* t : tables(document, "number")) {
     Reader r(source, *t,

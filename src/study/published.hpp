@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "core/engine.hpp"
+
 namespace railstrata {
 
 /// Where the study's answers come from: one column of the comparison.
 struct AnswerColumn {
-  std::string name, engine;
+  std::string name;
+  Engine engine = Engine::fem;
   std::string prefix;  ///< of the group's name: "paper_" takes "paper_layers" for "layers"; a group that has no such
                        ///< twin stands for itself
 };
@@ -18,7 +21,9 @@ struct AnswerColumn {
 /// A number of the text. Ours is `column` of `given`; with `against`, its change from there in per cent; with
 /// `engines`, finite elements against half-spaces in per cent.
 struct PublishedNumber {
-  std::string section, quantity, unit, column, given, against, bound, other, other_is, note;
+  std::string section, quantity, unit;
+  std::string column, given, against, bound;
+  std::string other, other_is, note;
   double value = 0, within = 0;  ///< agreement: |ours - value| at most this, in the number's unit
   double factor = 1;             ///< of the table's column into the unit
   bool engines = false;
@@ -27,7 +32,8 @@ struct PublishedNumber {
 
 /// A statement of the text as a test of the table.
 struct PublishedClaim {
-  std::string section, text, kind, column, along, each, unit;
+  std::string section, text, kind;
+  std::string column, along, each, unit;
   double factor = 1, limit = 0;  ///< kind "above", "below": the limit, in the unit
   std::string given;             ///< of "above", "below": the case
   std::vector<std::string> groups;

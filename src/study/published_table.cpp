@@ -1,3 +1,5 @@
+#include "study/published_table.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,15 +9,12 @@
 #include <map>
 #include <optional>
 
-#include "study/study_report.hpp"
-
 namespace railstrata {
 namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-const StudyEntry* entry_at(const std::vector<StudyEntry>& entries, const std::string& given,
-                           const std::string& engine) {
+const StudyEntry* entry_at(const std::vector<StudyEntry>& entries, const std::string& given, Engine engine) {
   const auto slash = given.find('/');
   for (const StudyEntry& e : entries)
     if (e.engine == engine && e.group == given.substr(0, slash) &&
@@ -41,8 +40,9 @@ double ours(const PublishedNumber& n, const std::string& column, const AnswerCol
             const std::vector<StudyEntry>& entries) {
   const double a = number_of(answer(entries, where, n.given), column);
   if (n.engines)
-    return where.engine == "bem" ? kNothing
-                                 : 100 * std::abs(a / number_of(entry_at(entries, n.given, "bem"), column) - 1);
+    return where.engine == Engine::bem
+               ? kNothing
+               : 100 * std::abs(a / number_of(entry_at(entries, n.given, Engine::bem), column) - 1);
   if (!n.against.empty()) return 100 * (a / number_of(answer(entries, where, n.against), column) - 1);
   return n.factor * a;
 }
@@ -199,9 +199,9 @@ ReportTable published_table(const Published& published, const std::vector<StudyE
     for (const AnswerColumn& c : published.columns) {
       const bool fits = n.only.empty() || std::find(n.only.begin(), n.only.end(), c.name) != n.only.end();
       const double v = fits ? ours(n, n.column, c, entries) : kNothing;
-      double Answers::*slot = c.engine == "bem"  ? &Answers::half_space
-                              : c.prefix.empty() ? &Answers::converged
-                                                 : &Answers::paper_mesh;
+      double Answers::*slot = c.engine == Engine::bem ? &Answers::half_space
+                              : c.prefix.empty()      ? &Answers::converged
+                                                      : &Answers::paper_mesh;
       a.*slot = v;
       if (fits && !n.other.empty()) other.*slot = ours(n, n.other, c, entries);
       row.push_back(std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr));

@@ -2,46 +2,59 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "io/spreadsheet_text.hpp"
 
 namespace railstrata {
-namespace {
-
-constexpr ResultColumn kContact[] = {{"p_max_MPa", "/contact/p_max_Pa", 1e-6},
-                                     {"q_max_MPa", "/contact/q_max_Pa", 1e-6},
-                                     {"patch_length_mm", "/contact/patch_length_m", 1e3},
-                                     {"patch_width_mm", "/contact/patch_width_m", 1e3},
-                                     {"patch_area_mm2", "/contact/patch_area_m2", 1e6},
-                                     {"slip_area_fraction", "/contact/slip_area_fraction", 1},
-                                     {"F_x_kN", "/contact/F_x_N", 1e-3},
-                                     {"F_y_kN", "/contact/F_y_N", 1e-3},
-                                     {"F_z_kN", "/contact/F_z_N", 1e-3},
-                                     {"normal_force_kN", "/contact/normal_force_N", 1e-3},
-                                     {"lateral_force_kN", "/contact/lateral_force_N", 1e-3},
-                                     {"creepage_x", "/contact/creepage_x", 1},
-                                     {"spin_per_m", "/contact/spin_per_m", 1},
-                                     {"approach_um", "/contact/approach_m", 1e6}};
-constexpr ResultColumn kStress[] = {
-    {"rail_surface_von_mises_MPa", "/stress/rail/surface/von_mises_max/value_Pa", 1e-6},
-    {"rail_surface_sigma_1_MPa", "/stress/rail/surface/sigma1_max/value_Pa", 1e-6},
-    {"rail_subsurface_von_mises_MPa", "/stress/rail/subsurface/von_mises_max/value_Pa", 1e-6},
-    {"rail_subsurface_von_mises_depth_mm", "/stress/rail/subsurface/von_mises_max/depth_m", 1e3},
-    {"rail_layer_von_mises_MPa", "/stress/rail/layer/von_mises_max/value_Pa", 1e-6},
-    {"rail_layer_sigma_1_MPa", "/stress/rail/layer/sigma1_max/value_Pa", 1e-6},
-    {"rail_interface_von_mises_MPa", "/stress/rail/interface/von_mises_max/value_Pa", 1e-6},
-    {"rail_matrix_von_mises_MPa", "/stress/rail/matrix/von_mises_max/value_Pa", 1e-6}};
-constexpr ResultColumn kWall{"wall_s", "/run/wall_s", 1};
-
-}  // namespace
-
 std::vector<ResultColumn> result_columns(bool stresses) {
-  std::vector<ResultColumn> out(std::begin(kContact), std::end(kContact));
-  if (stresses) out.insert(out.end(), std::begin(kStress), std::end(kStress));
-  out.push_back(kWall);
+  std::vector<ResultColumn> out = table_columns();
+  if (!stresses) std::erase_if(out, [](const ResultColumn& c) { return c.of_stress; });
   return out;
+}
+
+const std::vector<ResultColumn>& study_columns() {
+  using namespace result_unit;
+  const auto own = [](std::string name, std::string title, ResultUnit unit) {
+    const std::string_view in_column = unit.factor == unit.column_factor ? unit.shown : "";
+    return ResultColumn{.name = std::move(name),
+                        .factor = unit.column_factor,
+                        .title = std::move(title),
+                        .unit = in_column,
+                        .shown_unit = unit};
+  };
+  static const std::vector<ResultColumn> columns{
+      own("rail_von_mises_MPa", "rail von Mises", kMPa),
+      own("rail_von_mises_depth_mm", "rail von Mises, depth", kMillimetres),
+      own("rail_sigma_1_MPa", "rail σ₁", kMPa),
+      own("rail_sigma_1_depth_mm", "rail σ₁, depth", kMillimetres),
+      own("section_von_mises_MPa", "von Mises on the section", kMPa),
+      own("section_von_mises_depth_mm", "von Mises on the section, depth", kMillimetres),
+      own("section_sigma_1_MPa", "σ₁ on the section", kMPa),
+      own("section_sigma_1_depth_mm", "σ₁ on the section, depth", kMillimetres),
+      own("whole_points_area_mm2", "area of whole points", kSquareMillimetres),
+      own("whole_points_length_mm", "length of whole points", kMillimetres),
+      own("whole_points_slip_fraction", "slip area of whole points", kShare),
+      own("slip_over_stick", "slip area / stick area", kNone),
+      own("threads", "threads", kNone)};
+  return columns;
+}
+
+const ResultColumn* find_column(std::string_view name) {
+  static const std::vector<ResultColumn> all = [] {
+    std::vector<ResultColumn> out = result_columns(true);
+    out.insert(out.end(), study_columns().begin(), study_columns().end());
+    return out;
+  }();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const ResultColumn& c) { return c.name == name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string column_title(const std::string& name) {
+  const ResultColumn* column = find_column(name);
+  if (!column) return name;
+  return column->unit.empty() ? column->title : fmt::format("{} [{}]", column->title, column->unit);
 }
 
 double column_value(const ResultColumn& column, const nlohmann::ordered_json& summary) {

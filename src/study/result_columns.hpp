@@ -1,22 +1,26 @@
 #pragma once
-// The main numbers of a result as columns of a table, units in their names: what `sweep` and `study` write.
+// The main numbers of a result as columns of a table, units in their names: what `sweep` and `study` write. Which ones
+// there are and what they are called stands in post/result_table.hpp.
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "post/summary.hpp"
+#include "post/result_table.hpp"
 
 namespace railstrata {
 
-/// A number of summary.json, where it stands there and by what it is multiplied.
-struct ResultColumn {
-  const char *name, *path;
-  double factor;
-};
-
 /// Contact, then the stresses if they are wanted, then the wall time.
 std::vector<ResultColumn> result_columns(bool stresses);
+
+/// What else a study's table holds of a result: made from its files (study_results.cpp), and its threads.
+const std::vector<ResultColumn>& study_columns();
+
+/// The row of a column of a study's table by its name; null if there is none.
+const ResultColumn* find_column(std::string_view name);
+
+/// "p_max [MPa]": as an axis or the head of a column names it; the name itself if it is no column.
+std::string column_title(const std::string& name);
 
 /// The number of a summary; NaN where it is null or missing.
 double column_value(const ResultColumn& column, const nlohmann::ordered_json& summary);

@@ -59,7 +59,7 @@ class StudyReader {
     spec_.cell = length(t, "cell");
     base_ = file(t, "base");
     spec_.published = file(t, "published");
-    engines_ = engines_of(t, {"fem", "bem"});
+    engines_ = engines_of(t, engines_);
     set_ = values_at(t, "set");
   }
 
@@ -339,13 +339,16 @@ class StudyReader {
     return out;
   }
 
-  std::vector<std::string> engines_of(const toml::table& t, std::vector<std::string> otherwise) {
+  std::vector<Engine> engines_of(const toml::table& t, const std::vector<Engine>& otherwise) {
     if (!t.contains("engines")) return otherwise;
-    std::vector<std::string> out = words(t, "engines");
-    for (const std::string& e : out)
-      if (e != "fem" && e != "bem")
-        source_.complain_at(place_of(*t.get("engines")), fmt::format("engines: there is no engine \"{}\"", e),
-                            "write engines = [\"fem\", \"bem\"], or one of the two");
+    std::vector<Engine> out;
+    for (const std::string& word : words(t, "engines"))
+      if (const auto engine = engine_of(word))
+        out.push_back(*engine);
+      else
+        source_.complain_at(
+            place_of(*t.get("engines")), fmt::format("engines: there is no engine \"{}\"", word),
+            fmt::format("write engines = [\"{}\"], or one of them", fmt::join(engine_words(), "\", \"")));
     return out;
   }
 
@@ -380,7 +383,7 @@ class StudyReader {
   CaseSource& source_;
   StudySpec& spec_;
   std::filesystem::path base_;
-  std::vector<std::string> engines_{"fem", "bem"};
+  std::vector<Engine> engines_{all_engines()};
   StudyPoint set_;
   std::set<std::string> names_;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "case/case_source.hpp"
+#include "core/engine.hpp"
 
 namespace railstrata {
 
@@ -21,10 +22,10 @@ using StudyPoint = std::vector<StudyValue>;
 
 struct StudyGroup {
   std::string name, title;
-  std::filesystem::path base;        ///< case file, as it can be opened
-  std::vector<std::string> engines;  ///< "fem", "bem"
-  StudyPoint set, tags;              ///< the same for all cases; tags are told and not set
-  std::vector<StudyPoint> points;    ///< vary x zip x case, in this order, the last changing fastest
+  std::filesystem::path base;  ///< case file, as it can be opened
+  std::vector<Engine> engines;
+  StudyPoint set, tags;            ///< the same for all cases; tags appear in tables and figures and change no case
+  std::vector<StudyPoint> points;  ///< vary x zip x case, in this order, the last changing fastest
 };
 
 /// A figure over the cases of some groups: one chart (or row of maps) for each value of `each`, one line (or map) for
@@ -33,7 +34,8 @@ struct StudyFigure {
   std::string id, title, note, kind;  ///< "centre_line", "trend", "map"
   std::string value;  ///< centre_line: "p", "q"; trend: a column of the table; map: "state", "von_mises", "sigma_1"
   std::string each, series, x;  ///< keys; x: of a trend
-  std::vector<std::string> groups, engines;
+  std::vector<std::string> groups;
+  std::vector<Engine> engines;
   std::map<std::string, std::vector<std::string>>
       where;  ///< only cases whose key has one of these values; those without the key pass
 };

@@ -1,9 +1,7 @@
 #include "study/study_page.hpp"
 
-#include <algorithm>
-
 #include "io/output_file.hpp"
-#include "runs/write_report.hpp"
+#include "report/page.hpp"
 #include "study/study_report.hpp"
 
 namespace railstrata {
@@ -34,16 +32,13 @@ void write_table(const std::filesystem::path& file, const ReportTable& t) {
 
 }  // namespace
 
-void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const Published& published,
-                    const std::vector<StudyRow>& rows) {
-  if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return;
-  const std::filesystem::path page = out / "report.html";
-  write_page_or_warn(page, [&] {
-    const Report report = study_report(study.spec, published, entries_of(out, rows));
-    for (const ReportTable& t : report.tables)
-      if (t.id == "published" || t.id == "claims") write_table(out / (t.id + ".csv"), t);
-    write_whole_file(page, report_page(report));
-  });
+void write_study_page(const std::filesystem::path& page, const LoadedStudy& study, const Published& published,
+                      const std::vector<StudyRow>& rows) {
+  const std::filesystem::path out = page.parent_path();
+  const Report report = study_report(study.spec, published, entries_of(out, rows));
+  for (const ReportTable& t : report.tables)
+    if (t.id == "published" || t.id == "claims") write_table(out / (t.id + ".csv"), t);
+  write_whole_file(page, report_page(report));
 }
 
 }  // namespace railstrata

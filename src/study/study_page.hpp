@@ -9,9 +9,10 @@
 
 namespace railstrata {
 
-/// Writes report.html into the study's folder: its figures, tables and checks over all cases that are done. Failing, it
-/// warns: the results are there without it.
-void add_study_page(const std::filesystem::path& out, const LoadedStudy& study, const Published& published,
-                    const std::vector<StudyRow>& rows);
+/// Writes the page into the study's folder: its figures, tables and checks over all cases that are done; beside it
+/// published.csv and claims.csv if the study compares. Throws CaseError for a result that cannot be read,
+/// EnvironmentError for the disk.
+void write_study_page(const std::filesystem::path& page, const LoadedStudy& study, const Published& published,
+                      const std::vector<StudyRow>& rows);
 
 }  // namespace railstrata

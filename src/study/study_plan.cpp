@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "core/faults.hpp"
+#include "io/kept_inputs.hpp"
 #include "io/provenance.hpp"
-#include "runs/kept_inputs.hpp"
 
 namespace railstrata {
 namespace {
@@ -68,8 +68,8 @@ void add_placed(const CaseError& e, const LoadedStudy& study, const std::vector<
 
 }  // namespace
 
-std::string result_key(const LoadedCase& loaded, const std::string& engine, const std::string& cell) {
-  std::string text = fmt::format("{} {} {}\n", engine, kResultVersion, engine == "bem" ? cell : "");
+std::string result_key(const LoadedCase& loaded, Engine engine, const std::string& cell) {
+  std::string text = fmt::format("{} {} {}\n", engine_word(engine), kResultVersion, engine == Engine::bem ? cell : "");
   std::istringstream lines(case_by_content(loaded));
   for (std::string line; std::getline(lines, line);)
     if (!line.starts_with("title = ")) text += line + '\n';
@@ -101,10 +101,10 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
         add_placed(e, study, values, texts, faults);
         continue;
       }
-      for (const std::string& e : g.engines) {
+      for (const Engine e : g.engines) {
         c.engine = e;
         c.key = result_key(c.loaded, e, study.spec.cell);
-        c.own_folder = std::filesystem::path(g.name) / folder_name(c.name) / e;
+        c.own_folder = std::filesystem::path(g.name) / folder_name(c.name) / engine_word(e);
         out.push_back(c);
       }
     }
@@ -115,7 +115,8 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
   for (StudyCase& c : out) {
     if (const auto [at, is_new] = taken.emplace(c.own_folder, c.key);
         !is_new && at->second != c.key)  // "1 mm" and "1_mm"
-      c.own_folder = c.own_folder.parent_path().string() + "-" + c.key.substr(0, 8) + "/" + c.engine;
+      c.own_folder =
+          c.own_folder.parent_path().string() + "-" + c.key.substr(0, 8) + "/" + std::string(engine_word(c.engine));
     const auto [known, is_new] = owner.emplace(c.key, c.own_folder);
     c.first = is_new;
     c.folder = known->second;
@@ -123,7 +124,7 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
   return out;
 }
 
-std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, const std::string& engine,
+std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, std::optional<Engine> engine,
                          const std::vector<std::string>& groups, const Shard& shard) {
   for (const std::string& wanted : groups)
     if (std::none_of(study.spec.groups.begin(), study.spec.groups.end(),
@@ -136,7 +137,7 @@ std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>&
   std::vector<bool> out;
   std::set<std::string> keys;  // a case may be wanted under the name of a later twin
   for (const StudyCase& c : cases)
-    if ((engine.empty() || c.engine == engine) &&
+    if ((!engine || c.engine == *engine) &&
         (groups.empty() || std::find(groups.begin(), groups.end(), c.group) != groups.end()))
       keys.insert(c.key);
   int n = 0;

@@ -1,6 +1,7 @@
 #pragma once
 // From a study file to the cases that must be computed.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,7 +17,8 @@ inline constexpr int kResultVersion = 3;
 
 /// A case of a study by one engine.
 struct StudyCase {
-  std::string group, name, engine;                          ///< name: "thickness 0.2 mm, young_ratio 4"
+  std::string group, name;  ///< name: "thickness 0.2 mm, young_ratio 4"
+  Engine engine = Engine::fem;
   std::vector<std::pair<std::string, std::string>> values;  ///< key and text of what is varied, then the group's tags
   std::vector<std::string> overrides;
   LoadedCase loaded;
@@ -24,14 +26,12 @@ struct StudyCase {
   std::filesystem::path folder;      ///< of its result, below the study's; shared by cases of the same key
   std::filesystem::path own_folder;  ///< where it would stand if no other case had its key
   bool first = true;                 ///< false: an earlier case of the list has the same key and is computed for both
-  std::string label() const {
-    return group + "/" + name + (engine == "fem" ? " by finite elements" : " by half-spaces");
-  }
+  std::string label() const { return group + "/" + name + " (" + std::string(engine_title(engine)) + ")"; }
 };
 
 /// What decides a result: engine, kResultVersion, the resolved case without its title (profile files by their content),
 /// and of the half-space engine the cell size.
-std::string result_key(const LoadedCase& loaded, const std::string& engine, const std::string& cell);
+std::string result_key(const LoadedCase& loaded, Engine engine, const std::string& cell);
 
 /// Every case of the study, in the order of the file, per group and case the engines. `overrides` hold for all cases.
 /// Throws CaseError with every value that a case refuses, at its place in the study file.
@@ -43,10 +43,10 @@ struct Shard {
 };
 Shard parse_shard(const std::string& text);
 
-/// What one call of the program is to see to: the cases of an engine ("" for all) and of groups (empty for all), of
-/// these every shard.count-th. For each case whether it is meant; of cases with the same key, the one that is computed
-/// counts. Throws CaseError for a group that is not there.
-std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, const std::string& engine,
+/// Which cases one call of the program computes: those of an engine (none: of all) and of groups (empty for all), of
+/// these every shard.count-th. One flag for each case; of several cases with the same key only the one that is computed
+/// for all of them can be chosen. Throws CaseError for a group that does not exist.
+std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, std::optional<Engine> engine,
                          const std::vector<std::string>& groups, const Shard& shard);
 
 }  // namespace railstrata

@@ -11,6 +11,11 @@
 #include <set>
 
 #include "core/faults.hpp"
+#include "post/check_limits.hpp"
+#include "report/checks.hpp"
+#include "report/read_run.hpp"
+#include "study/published_table.hpp"
+#include "study/result_columns.hpp"
 
 namespace railstrata {
 namespace {
@@ -19,7 +24,6 @@ namespace fs = std::filesystem;
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-std::string engine_word(const std::string& engine) { return engine == "fem" ? "finite elements" : "half-space"; }
 std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 /// What a key is called on an axis.
@@ -40,21 +44,8 @@ std::string value_name(const std::string& key, const std::string& value) {
   return fmt::format("{} {}", key_name(key), value);
 }
 
-/// "p_max_MPa": "p max [MPa]".
-std::string column_name(const std::string& column) {
-  static const std::vector<std::string> units{"MPa", "mm2", "mm", "kN", "um", "s", "per_m"};
-  for (const std::string& u : units)
-    if (column.ends_with("_" + u)) {
-      std::string name = column.substr(0, column.size() - u.size() - 1);
-      std::replace(name.begin(), name.end(), '_', ' ');
-      return fmt::format("{} [{}]", name, u == "mm2" ? "mm²" : u == "um" ? "µm" : u == "per_m" ? "1/m" : u);
-    }
-  std::string name = column;
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
-}
-
-bool one_of(const std::vector<std::string>& all, const std::string& word) {
+template <class T>
+bool one_of(const std::vector<T>& all, const T& word) {
   return std::find(all.begin(), all.end(), word) != all.end();
 }
 
@@ -87,7 +78,7 @@ std::vector<Line> lines_of(const StudyFigure& f, const std::vector<const StudyEn
                            const std::string& each) {
   const std::vector<std::string> series = values_of(f.series, members);
   std::vector<Line> out;
-  for (const std::string& engine : f.engines)
+  for (const Engine engine : f.engines)
     for (std::size_t k = 0; k < series.size(); ++k)
       for (const StudyEntry* e : members) {
         const std::string at = f.each.empty() ? "" : e->value(f.each);
@@ -95,8 +86,9 @@ std::vector<Line> lines_of(const StudyFigure& f, const std::vector<const StudyEn
             (!f.series.empty() && e->value(f.series) != series[k]))
           continue;
         out.push_back({e, static_cast<int>(k),
-                       f.series.empty() ? engine_word(engine)
-                                        : fmt::format("{}, {}", value_name(f.series, series[k]), engine_word(engine))});
+                       f.series.empty()
+                           ? std::string(engine_title(engine))
+                           : fmt::format("{}, {}", value_name(f.series, series[k]), engine_title(engine))});
       }
   return out;
 }
@@ -127,9 +119,9 @@ void add_centre_lines(const StudyFigure& f, const std::vector<StudyEntry>& entri
       ReportSeries s{line.name,
                      table.column("x_mm"),
                      table.column("p_MPa"),
-                     line.entry->engine == "fem",
-                     f.series.empty() ? (line.entry->engine == "fem" ? 0 : 1) : line.place,
-                     line.entry->engine == "fem" ? "solid" : "dash"};
+                     line.entry->engine == Engine::fem,
+                     f.series.empty() ? (line.entry->engine == Engine::fem ? 0 : 1) : line.place,
+                     line.entry->engine == Engine::fem ? "solid" : "dash"};
       if (f.value == "q") {
         const std::vector<double> qx = table.column("q_x_MPa"), qy = table.column("q_y_MPa");
         for (std::size_t i = 0; i < s.y.size(); ++i) s.y[i] = std::hypot(qx[i], qy[i]);
@@ -150,12 +142,13 @@ void add_trend(const StudyFigure& f, const std::vector<StudyEntry>& entries, Rep
                       chart_title(f, panel),
                       f.note,
                       fmt::format("{}{}", key_name(f.x), unit.empty() ? "" : fmt::format(" [{}]", unit)),
-                      column_name(f.value),
+                      column_title(f.value),
                       {}};
     for (const Line& line : lines_of(f, members, panel)) {
       const double y = line.entry->number(f.value);
       if (chart.series.empty() || chart.series.back().name != line.name)
-        chart.series.push_back({line.name, {}, {}, true, line.place, line.entry->engine == "fem" ? "solid" : "dash"});
+        chart.series.push_back(
+            {line.name, {}, {}, true, line.place, line.entry->engine == Engine::fem ? "solid" : "dash"});
       ReportSeries& s = chart.series.back();
       if (const std::string at = line.entry->value(f.x); !at.empty()) {
         s.x.push_back(axis_value(at).first);
@@ -237,13 +230,13 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
   std::set<fs::path> seen;
   std::vector<ReportRun> half_spaces;
   for (const StudyEntry& e : entries)
-    if (e.engine == "bem" && e.done() && seen.insert(e.folder).second) half_spaces.push_back(for_checks(e));
+    if (e.engine == Engine::bem && e.done() && seen.insert(e.folder).second) half_spaces.push_back(for_checks(e));
   seen.clear();
   for (const StudyEntry& e : entries) {
     if (!e.done() || !seen.insert(e.folder).second) continue;
     std::vector<ReportRun> both{for_checks(e)};
     std::vector<ReportCheck> checks = report_checks(both);
-    if (e.engine == "fem")
+    if (e.engine == Engine::fem)
       for (const ReportRun& b : half_spaces) {
         both.resize(1);
         both.push_back(b);
@@ -255,13 +248,13 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
     std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name};
     for (const ReportCheck& c : checks) {
       if (c.runs.size() == 1 && c.runs[0] == 0)
-        add(c, fmt::format("{}/{}, {}", e.group, e.name, engine_word(e.engine)));
+        add(c, fmt::format("{}/{}, {}", e.group, e.name, engine_title(e.engine)));
       if (c.runs.size() != 2 || c.name == "cases_differ") continue;
-      // on a coarser mesh than it takes nothing is promised: the paper's mesh is told, not judged
+      // on a coarser mesh than it takes nothing is promised: the paper's mesh is shown, not judged
       if (!both[0].option("mesh", "element").starts_with("one_point")) add(c, fmt::format("{}/{}", e.group, e.name));
       row.push_back(fmt::format("{:.1f} %{}", 100 * c.value, !c.judged ? ", not judged" : c.ok ? "" : " ✗"));
     }
-    if (row.size() == 5) pairs.rows.push_back(std::move(row));
+    if (row.size() == pairs.columns.size()) pairs.rows.push_back(std::move(row));
   }
   for (const std::string& kind : order) {
     Worst& w = worst[kind];
@@ -272,33 +265,55 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
   }
 }
 
+/// The columns of the study's table that the page shows.
+constexpr const char* kCasesColumns[] = {"p_max_MPa",
+                                         "q_max_MPa",
+                                         "patch_length_mm",
+                                         "patch_width_mm",
+                                         "patch_area_mm2",
+                                         "slip_area_fraction",
+                                         "creepage_x",
+                                         "rail_von_mises_MPa",
+                                         "rail_von_mises_depth_mm",
+                                         "section_sigma_1_MPa",
+                                         "section_sigma_1_depth_mm"};
+
 ReportTable cases_table(const std::vector<StudyEntry>& entries) {
-  ReportTable t{"cases",
-                "All cases",
-                "study.csv has every column.",
-                {"case", "engine", "p max [MPa]", "q max [MPa]", "length [mm]", "width [mm]", "area [mm²]",
-                 "slip area [%]", "creepage [10⁻³]", "von Mises, rail [MPa]", "at depth [mm]",
-                 "σ₁ on the section [MPa]", "at depth [mm]", "state"},
-                {}};
+  ReportTable t{.id = "cases", .title = "All cases", .note = "study.csv has every column.", .columns = {}, .rows = {}};
+  t.columns = {"case", "engine"};
+  for (const char* name : kCasesColumns) {
+    const ResultColumn& column = *find_column(name);
+    t.columns.push_back(fmt::format("{} [{}]", column.title, column.shown_unit.shown));
+  }
+  t.columns.push_back("state");
   for (const StudyEntry& e : entries) {
-    std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name, engine_word(e.engine)};
-    for (const auto& [column, factor] : std::vector<std::pair<const char*, double>>{{"p_max_MPa", 1},
-                                                                                    {"q_max_MPa", 1},
-                                                                                    {"patch_length_mm", 1},
-                                                                                    {"patch_width_mm", 1},
-                                                                                    {"patch_area_mm2", 1},
-                                                                                    {"slip_area_fraction", 100},
-                                                                                    {"creepage_x", 1e3},
-                                                                                    {"rail_von_mises_MPa", 1},
-                                                                                    {"rail_von_mises_depth_mm", 1},
-                                                                                    {"section_sigma_1_MPa", 1},
-                                                                                    {"section_sigma_1_depth_mm", 1}}) {
-      const double v = factor * e.number(column);
+    std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name, engine_title(e.engine)};
+    for (const char* name : kCasesColumns) {
+      const ResultColumn& column = *find_column(name);
+      const double v = e.number(name) * (column.shown_unit.factor / column.factor);
       row.push_back(std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr));
     }
     row.push_back(e.fault.empty() ? e.state : fmt::format("{}: {}", e.state, e.fault));
     t.rows.push_back(std::move(row));
   }
+  return t;
+}
+
+ReportTable engines_table() {
+  ReportTable t{.id = "engines",
+                .title = "Finite elements against half-spaces",
+                .note = "Limits:",
+                .columns = {"case"},
+                .rows = {}};
+  for (const CheckRow& c : kCheckRows)
+    if (c.kind == CheckKind::engines) {
+      t.columns.push_back(std::string(c.name));
+      t.note += fmt::format(" {} {};", c.name, limit_text(c.unit, c.fem_limit));
+    }
+  t.note.back() = '.';
+  t.note +=
+      " The stress is judged where the half-space's lies deeper than an element. ✗: outside. The paper's mesh is shown "
+      "and takes no part in the verdict.";
   return t;
 }
 
@@ -338,12 +353,7 @@ Report study_report(const StudySpec& study, const Published& published, const st
   }
   for (const StudyEntry& e : entries)  // something to look at, whatever the figures ask for
     if (report.runs.empty() && e.done()) run_of(e, report);
-  ReportTable pairs{"engines",
-                    "Finite elements against half-spaces",
-                    "Limits: pressure 4 %, length 6 %, shear 7 %, von Mises stress below the surface 8 % where it lies "
-                    "deeper than an element. ✗: outside. The paper's mesh is told and takes no part in the verdict.",
-                    {"case", "largest pressure", "patch length", "largest shear", "von Mises below the surface"},
-                    {}};
+  ReportTable pairs = engines_table();
   add_verdict(entries, report, pairs);
   if (!published.claims.empty()) report.tables.push_back(claims_table(published, entries));
   if (!published.numbers.empty()) report.tables.push_back(published_table(published, entries));

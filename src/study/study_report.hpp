@@ -14,7 +14,9 @@ namespace railstrata {
 
 /// A line of the study's table.
 struct StudyEntry {
-  std::string group, name, engine, state, fault;
+  std::string group, name;
+  Engine engine = Engine::fem;
+  std::string state, fault;
   std::filesystem::path folder;                             ///< of the result, if it is done
   std::vector<std::pair<std::string, std::string>> values;  ///< what is varied
   std::vector<std::pair<std::string, double>> numbers;      ///< columns of the table
@@ -29,11 +31,5 @@ std::pair<double, std::string> axis_value(const std::string& text);
 /// The report. Full runs are those the maps show; the verdict is over all cases: what each says of itself, and every
 /// finite element case against its half-space case (limits of report_checks).
 Report study_report(const StudySpec& study, const Published& published, const std::vector<StudyEntry>& entries);
-
-/// Every published number beside ours, with the difference and a reason that follows from the runs: agrees; mesh
-/// artefact; other definition; not explained; no result yet.
-ReportTable published_table(const Published& published, const std::vector<StudyEntry>& entries);
-/// Every published statement: confirmed or not, by which numbers.
-ReportTable claims_table(const Published& published, const std::vector<StudyEntry>& entries);
 
 }  // namespace railstrata

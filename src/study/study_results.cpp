@@ -12,10 +12,10 @@
 #include "io/checkpoint_file.hpp"
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
+#include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "io/result_folder.hpp"
 #include "report/view.hpp"
-#include "runs/output_folder.hpp"
 
 namespace railstrata {
 namespace {
@@ -80,9 +80,11 @@ void add_rail_maxima(const Json& summary, Json& out) {
     double best = -std::numeric_limits<double>::infinity(), depth = 0;
     for (const char* zone : {"surface", "subsurface", "layer", "interface", "matrix"}) {
       const std::string at = fmt::format("/stress/rail/{}/{}/", zone, key);
-      const double value = column_value({"", (at + "value_Pa").c_str(), 1e-6}, summary);
-      if (std::isfinite(value) && value > best)
-        best = value, depth = column_value({"", (at + "depth_m").c_str(), 1e3}, summary);
+      const double value = column_value({.name = "", .path = at + "value_Pa", .factor = 1e-6}, summary);
+      if (std::isfinite(value) && value > best) {
+        best = value;
+        depth = column_value({.name = "", .path = at + "depth_m", .factor = 1e3}, summary);
+      }
     }
     if (!std::isfinite(best)) continue;
     out[fmt::format("rail_{}_MPa", name)] = best;
@@ -249,11 +251,11 @@ std::vector<StudyRow> study_rows(const fs::path& out, const std::vector<StudyCas
       row.state = "done";
       row.fault = failed_check(summary);
       for (const ResultColumn& column : columns)
-        if (std::string(column.name) != "wall_s") row.numbers.emplace_back(column.name, column_value(column, summary));
+        if (column.name != "wall_s") row.numbers.emplace_back(column.name, column_value(column, summary));
       for (const auto& [name, value] : study["numbers"].items())
         row.numbers.emplace_back(name, value.is_number() ? value.get<double>() : kNotApplicable);
       row.numbers.emplace_back("wall_s", column_value(columns.back(), summary));
-      row.numbers.emplace_back("threads", column_value({"", "/run/threads", 1}, summary));
+      row.numbers.emplace_back("threads", column_value({.name = "threads", .path = "/run/threads"}, summary));
     } else if (!row.fault.empty()) {
       row.state = "failed";
     }
@@ -283,7 +285,7 @@ void write_study_table(const fs::path& file, const std::vector<std::string>& ori
   text += "folder,state,fault\n";
   for (const StudyRow& row : rows) {
     const StudyCase& c = *row.study_case;
-    text += csv_cell(c.group) + ',' + csv_cell(c.name) + ',' + c.engine + ',';
+    text += csv_cell(c.group) + ',' + csv_cell(c.name) + ',' + std::string(engine_word(c.engine)) + ',';
     for (const std::string& key : keys) {
       const auto v = std::find_if(c.values.begin(), c.values.end(), [&](const auto& kv) { return kv.first == key; });
       text += (v == c.values.end() ? "" : csv_cell(v->second)) + ',';

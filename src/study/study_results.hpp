@@ -1,5 +1,5 @@
 #pragma once
-// What stands in a study's folder: one folder a case, whole or not there.
+// The results in a study's folder: a folder for each case, which holds either a complete result or does not exist.
 #include <filesystem>
 #include <string>
 #include <vector>

@@ -14,9 +14,8 @@
 #include <thread>
 
 #include "core/faults.hpp"
+#include "io/kept_inputs.hpp"
 #include "io/output_file.hpp"
-#include "runs/kept_inputs.hpp"
-#include "runs/stop_flag.hpp"
 #include "study/child_process.hpp"
 #include "study/study_results.hpp"
 
@@ -73,7 +72,7 @@ class Pool {
  public:
   Pool(const StudyRun& run, const std::vector<const StudyCase*>& cases) : run_(run), cases_(cases) {
     for (const StudyCase* c : cases) ++left_[c->engine];
-    leave_the_end_to_the_parent();
+    ignore_second_signal_in_children();
   }
 
   ~Pool() {
@@ -84,7 +83,7 @@ class Pool {
   int work() {
     while (next_ < cases_.size() || !running_.empty()) {
       if (*run_.stop) return stop();
-      if (take_save_wish()) pass_on(SIGUSR1);
+      if (run_.save && run_.save->exchange(false)) pass_on(SIGUSR1);
       while (next_ < cases_.size() && static_cast<int>(running_.size()) < run_.jobs) start(*cases_[next_++]);
       collect();
       run_.progress(fraction());
@@ -96,7 +95,7 @@ class Pool {
  private:
   void start(const StudyCase& c) {
     const fs::path folder = working_folder(run_.out, c);
-    const bool begun = c.engine == "fem" && take_over(run_.out, c, folder);
+    const bool begun = c.engine == Engine::fem && take_over(run_.out, c, folder);
     if (!begun) make_folder(folder);
     std::vector<std::string> words =
         begun ? resume_command(run_.threads, folder) : case_command(c, run_.cell, run_.threads, folder);
@@ -179,7 +178,8 @@ class Pool {
     double done = 0, all = 0;
     for (const auto& [engine, left] : left_) {
       const auto s = spent_.find(engine);
-      const double each = s == spent_.end() ? (engine == "fem" ? 600.0 : 2.0) : s->second.seconds / s->second.cases;
+      const double each =
+          s == spent_.end() ? (engine == Engine::fem ? 600.0 : 2.0) : s->second.seconds / s->second.cases;
       if (s != spent_.end()) {
         done += s->second.seconds;
         all += s->second.seconds;
@@ -199,8 +199,8 @@ class Pool {
   const std::vector<const StudyCase*>& cases_;
   std::size_t next_ = 0;
   std::list<Running> running_;
-  std::map<std::string, int> left_;
-  std::map<std::string, Spent> spent_;
+  std::map<Engine, int> left_;
+  std::map<Engine, Spent> spent_;
   int failures_ = 0, done_ = 0;
 };
 
@@ -208,9 +208,9 @@ class Pool {
 
 std::vector<std::string> case_command(const StudyCase& c, const std::string& cell, int threads,
                                       const fs::path& folder) {
-  std::vector<std::string> words{c.engine == "fem" ? "run" : "bem", c.loaded.file.string()};
+  std::vector<std::string> words{std::string(row_of(c.engine).command), c.loaded.file.string()};
   for (const std::string& o : c.overrides) words.insert(words.end(), {"--set", o});
-  if (c.engine == "bem" && !cell.empty()) words.insert(words.end(), {"--cell", cell});
+  if (c.engine == Engine::bem && !cell.empty()) words.insert(words.end(), {"--cell", cell});
   words.insert(words.end(),
                {"--out", folder.string(), "--force", "--no-report", "--threads", fmt::format("{}", threads)});
   return words;

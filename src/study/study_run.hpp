@@ -13,9 +13,10 @@ namespace railstrata {
 
 struct StudyRun {
   std::filesystem::path out;
-  std::string cell;           ///< of the half-space engine
-  int jobs = 1, threads = 1;  ///< cases at a time; threads of each
-  const std::atomic<bool>* stop = nullptr;
+  std::string cell;                               ///< of the half-space engine
+  int jobs = 1, threads = 1;                      ///< cases at a time; threads of each
+  const std::atomic<bool>* stop = nullptr;        ///< true: the cases end with a checkpoint
+  std::atomic<bool>* save = nullptr;              ///< true: they write a checkpoint; set back here; may be null
   std::function<void(double fraction)> progress;  ///< of the work of this call
   std::function<void(const StudyCase&, const std::string& fault, double seconds, int done)>
       ended;  ///< a case has ended; fault: empty if it has a result

@@ -44,11 +44,13 @@ std::vector<VariedKey> parse_vary(const std::vector<std::string>& options) {
 }
 
 std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>& keys) {
+  double cases = 1;
+  for (const VariedKey& k : keys) cases *= static_cast<double>(k.values.size());
+  if (cases > kMostCases)
+    throw CaseError(fmt::format("the values to vary make {:.6g} cases, more than {}", cases, kMostCases),
+                    "vary fewer keys at once, or give fewer values");
   std::vector<std::vector<std::string>> out(1);
   for (const VariedKey& k : keys) {
-    if (out.size() * k.values.size() > kMostCases)
-      throw CaseError(fmt::format("these are more than {} cases", kMostCases),
-                      "vary fewer keys at once, or give fewer values");
     std::vector<std::vector<std::string>> longer;
     for (const auto& head : out)
       for (const std::string& value : k.values) {

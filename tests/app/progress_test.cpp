@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <csignal>
-
-#include "runs/stop_flag.hpp"
-
 namespace railstrata {
 namespace {
 
@@ -23,18 +19,6 @@ TEST(Progress, TheTimeLeftIsTheTimeSpentScaledByWhatIsLeft) {
             "rolling  [######################--------]  75 %  10 s left");  // a run that was resumed
   EXPECT_EQ(progress_bar("rolling", 0.5, 0.1, 0.5), "rolling  [###############---------------]  50 %  ");
   EXPECT_EQ(progress_bar("rolling", 1.2, 10), "rolling  [##############################] 100 %  0 s left");
-}
-
-TEST(StopFlag, TheFirstSignalAsksAndTheSecondEndsTheProgramWith130) {
-  EXPECT_FALSE(stop_flag());
-  EXPECT_EXIT(
-      {
-        std::raise(SIGTERM);
-        if (!stop_flag()) std::exit(1);
-        std::raise(SIGINT);
-        std::exit(2);
-      },
-      testing::ExitedWithCode(130), "");
 }
 
 }  // namespace

@@ -20,12 +20,12 @@ CreepCoefficients coefficients(double a_over_b, double nu, int n) {
   const PatchGrid g = grid_around(a, b, a / n, b / n);
   const InfluenceOperator op(pair_of(body, body), g.nx, g.ny, g.dx, g.dy);
   TangentialProblem p;
-  p.bound.resize(g.size());
+  p.traction_bound.resize(g.size());
   double area = 0;
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j)
       if (std::hypot(g.x(i) / a, g.y(j) / b) < 1 - 1e-9) {
-        p.bound[g.index(i, j)] = 1e15;
+        p.traction_bound[g.index(i, j)] = 1e15;
         area += g.cell_area();  // no slip anywhere
       }
   p.x.creepage = p.y.creepage = 1e-4;

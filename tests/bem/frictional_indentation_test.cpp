@@ -99,7 +99,7 @@ TEST(FrictionalIndentation, StickingPunchIsStifferThanASmoothOneBySpencesFactor)
 
 // [Spence1975]: stick over contact radius is the same for every load and every indenter that grows self-similarly, a
 // punch among them; also for strong coupling.
-TEST(FrictionalIndentation, ASphereLoadedStepByStepTendsToThePunchsStickRatioWithTheOrderOfTheSteps) {
+TEST(FrictionalIndentation, ALoadedSphereTendsToThePunchsStickRatioInFirstOrder) {
   const double friction = 0.2;
   const RigidOn body(2.0 / 7, 30);
   const double punch = stick_ratio(solve_rolling(body.influence, body.grid, body.punch(friction)));

@@ -43,8 +43,8 @@ struct ReferenceContact {
         normal(solve_normal(influence, grid, quadratic_gap(grid, A, B), {.load = kLoad, .approach = {}})) {}
   TangentialProblem rolling() const {
     TangentialProblem p;
-    p.bound = normal.pressure;
-    for (double& g : p.bound) g *= kFriction;
+    p.traction_bound = normal.pressure;
+    for (double& g : p.traction_bound) g *= kFriction;
     return p;
   }
 };

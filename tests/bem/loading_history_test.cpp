@@ -110,9 +110,20 @@ TEST_P(TransientRollingOfCoupledBodies, ArrivesAtTheSteadyStateForForcesCreepage
   const std::function<void(RollingContact&)> drives[] = {
       [&](RollingContact& c) { c.x.force = -half; },
       [&](RollingContact& c) { c.y.force = half; },
-      [&](RollingContact& c) { c.x.force = -0.3 * half, c.y.force = 0.6 * half, c.spin = 0.1; },
-      [&](RollingContact& c) { c.x.creepage = -1e-3, c.y.force = 0.4 * half; },
-      [&](RollingContact& c) { c.x.creepage = -1e-3, c.y.creepage = 5e-4, c.spin = 0.1; },
+      [&](RollingContact& c) {
+        c.x.force = -0.3 * half;
+        c.y.force = 0.6 * half;
+        c.spin = 0.1;
+      },
+      [&](RollingContact& c) {
+        c.x.creepage = -1e-3;
+        c.y.force = 0.4 * half;
+      },
+      [&](RollingContact& c) {
+        c.x.creepage = -1e-3;
+        c.y.creepage = 5e-4;
+        c.spin = 0.1;
+      },
   };
   int which = 0;
   for (const auto& drive : drives) {
@@ -143,7 +154,7 @@ TEST_P(TransientRollingOfCoupledBodies, ArrivesAtTheSteadyStateForForcesCreepage
 }
 INSTANTIATE_TEST_SUITE_P(Pair, TransientRollingOfCoupledBodies, testing::Values(&kSoftRail, &kStiffLayer, &kSoftLayer));
 
-TEST(TransientRolling, OfCoupledBodiesTurnsIntoItsMirrorImageWithTheLateralForceAndTheSpin) {
+TEST(TransientRolling, OfCoupledBodiesMirrorsWithTheLateralForceAndTheSpin) {
   const WheelOn w(kSoftRail);
   RollingContact c = w.contact();
   c.x.force = -4e3;

@@ -22,7 +22,8 @@ TEST(InfluenceOperator, EqualsDirectSummationForEveryComponent) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1, 1);
   const std::size_t n = static_cast<std::size_t>(nx) * ny, m = n + ny;
-  Plane p(n), qx(n), qy(n), un(n), ux(m), uy(m), tn(n), nx_(m), ny_(m);
+  Plane p(n), qx(n), qy(n), un(n), tn(n);
+  Plane ux(m), uy(m), nx_(m), ny_(m);
   for (auto* v : {&p, &qx, &qy})
     for (double& e : *v) e = uniform(random);
   op.normal(p.data(), un.data());

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "bem/normal_problem.hpp"
+#include "geometry/profile_names.hpp"
 
 namespace railstrata {
 namespace {

@@ -30,7 +30,7 @@ TEST(RollingContact, CoupledSolutionMeetsTheNormalAndTheTangentialConditionsAtOn
   RollingContact c = d.contact();
   c.x.force = -0.5 * 0.4 * d.load;
   const RollingSolution s = solve_rolling(d.influence, d.grid, c);
-  EXPECT_GT(s.turns, 1);
+  EXPECT_GT(s.outer_iterations, 1);
   const std::size_t n = d.grid.size(), row = static_cast<std::size_t>(d.grid.ny);
   Plane by_p(n), by_q(n), ux(n + row), uy(n + row), px(n + row), py(n + row);
   d.influence.normal(s.normal.pressure.data(), by_p.data());

@@ -123,7 +123,7 @@ TEST(Subsurface, ThickLayerIsAHalfSpaceOfItsMaterial) {
   }
 }
 
-TEST(Subsurface, LayeredFieldCarriesTheLoadAndItsTractionsAreContinuousAcrossTheInterface) {
+TEST(Subsurface, LayeredFieldCarriesTheLoadContinuouslyAcrossTheInterface) {
   const LayeredFixture f;
   const Subsurface body({{{1e-3, {4 * 210e9, 0.25}}}, kSteel}, f.g, f.p, f.qx, f.qy);
   const StatePlane above = body.plane(1e-3), below = body.plane(1e-3 * (1 + 1e-9));
@@ -146,7 +146,7 @@ TEST(Subsurface, LayeredFieldCarriesTheLoadAndItsTractionsAreContinuousAcrossThe
 
 // Two ways to the same strain: the interior waves with their periodic grid, and the displacements of the surface by
 // images at depth.
-TEST(Subsurface, SurfaceStrainsOfALayeredBodyAreTheDerivativesOfItsSurfaceDisplacements) {
+TEST(Subsurface, LayeredSurfaceStrainsAreTheDerivativesOfTheDisplacements) {
   const LayeredHalfSpace body{{{1e-3, {4 * 210e9, 0.25}}}, kSteel};
   const PatchGrid g = centred_grid(48, 48, 0.125e-3, 0.125e-3);
   Plane p(g.size()), qx(g.size()), qy(g.size());
@@ -279,7 +279,7 @@ Residual residual_at(const Subsurface& body, const PatchGrid& g, double depth) {
 }
 
 // Inside the second and the third layer and the substrate.
-TEST(Subsurface, LayeredInteriorIsInEquilibriumAndObeysHookesLawByFiniteDifferencesTo1em6) {
+TEST(Subsurface, LayeredInteriorObeysEquilibriumAndHookesLawTo1em6) {
   const StackFixture f;
   const Subsurface body(f.body, f.g, f.p, f.qx, f.qy, 8);
   Residual doubled;
@@ -339,7 +339,7 @@ TEST(Subsurface, EqualSubLayersAreOneLayer) {
 }
 
 // The state of the cuts with the graded material's own modulus at each depth.
-TEST(Subsurface, StressesInAGradedLayerErrWithTheSquareOfTheToleranceAndDoNotJumpAtTheCuts) {
+TEST(Subsurface, GradedStressesErrWithTheSquareOfTheToleranceAndDoNotJumpAtCuts) {
   const StackFixture f(24, 0.375e-3);
   const auto cut = [&](int cuts) {
     return LayeredHalfSpace{cut_into_layers({{0, {840e9, 0.3}}, {3e-3, {210e9, 0.3}}}, std::pow(4.0, 1.0 / cuts) - 1),

@@ -103,8 +103,8 @@ TEST(Shift, MeetsCattaneoMindlinForPoissonZero) {
   const InfluenceOperator op(pair_of(body, body), g.nx, g.ny, g.dx, g.dy);
   TangentialProblem p;
   p.kind = RollingKind::shift;
-  p.bound = solve_normal(op, g, quadratic_gap(g, gap.A, gap.B), {.load = 6e4, .approach = {}}).pressure;
-  for (double& v : p.bound) v *= 0.3;
+  p.traction_bound = solve_normal(op, g, quadratic_gap(g, gap.A, gap.B), {.load = 6e4, .approach = {}}).pressure;
+  for (double& v : p.traction_bound) v *= 0.3;
   const double force = 0.5 * 0.3 * 6e4;
   p.y.force = force;
   const TangentialSolution s = solve_tangential(op, g, p);
@@ -129,8 +129,8 @@ TEST(SteadyRolling, AcrossALongPatchMeetsCarter) {
   const InfluenceOperator op(pair_of(kSteel, kSteel), g.nx, g.ny, g.dx, g.dy);
   const HertzContact hertz = hertz_contact(gap.A, gap.B, contact_modulus(kSteel, kSteel), F);
   TangentialProblem p;
-  p.bound = solve_normal(op, g, quadratic_gap(g, gap.A, gap.B), {.load = F, .approach = {}}).pressure;
-  for (double& v : p.bound) v *= f;
+  p.traction_bound = solve_normal(op, g, quadratic_gap(g, gap.A, gap.B), {.load = F, .approach = {}}).pressure;
+  for (double& v : p.traction_bound) v *= f;
   const double ratio = 0.5;
   CarterRolling carter = carter_rolling(a, hertz.p0, 2 * gap.A, f, ratio);
   p.x.creepage = carter.creepage;
@@ -152,8 +152,8 @@ TEST(SteadyRolling, ConvergesForEveryTractionAndAxisRatio01To10AndObeysCoulomb) 
     const PatchGrid g = grid_around(a, b, a / 13, b / 13);
     const InfluenceOperator op(pair_of(kSteel, kSteel), g.nx, g.ny, g.dx, g.dy);
     TangentialProblem p;
-    p.bound = solve_normal(op, g, quadratic_gap(g, gap.A, gap.B), {.load = F, .approach = {}}).pressure;
-    for (double& v : p.bound) v *= f;
+    p.traction_bound = solve_normal(op, g, quadratic_gap(g, gap.A, gap.B), {.load = F, .approach = {}}).pressure;
+    for (double& v : p.traction_bound) v *= f;
     for (double level : {0.0, 1e-3, 0.1, 0.5, 0.9, 0.99})
       for (double angle : {0.0, 0.8, 2.2})
         for (double spin : {0.0, 0.4}) {
@@ -166,12 +166,14 @@ TEST(SteadyRolling, ConvergesForEveryTractionAndAxisRatio01To10AndObeysCoulomb) 
           EXPECT_NEAR(s.force_y, *p.y.force, 1e-5 * F);
           for (std::size_t k = 0; k < g.size(); ++k) {
             const double q = std::hypot(s.q_x[k], s.q_y[k]);
-            ASSERT_LE(q, p.bound[k] * (1 + 1e-9) + 1e-3);
-            ASSERT_GE(s.q_x[k] * s.slip_x[k] + s.q_y[k] * s.slip_y[k], -1e-9 * p.bound[k]);
+            ASSERT_LE(q, p.traction_bound[k] * (1 + 1e-9) + 1e-3);
+            ASSERT_GE(s.q_x[k] * s.slip_x[k] + s.q_y[k] * s.slip_y[k], -1e-9 * p.traction_bound[k]);
           }
         }
     for (double creep : {1e-6, 1e-3, 3e-2, 1.0}) {
-      p.x = {creep, {}}, p.y = {-0.5 * creep, {}}, p.spin = -0.2;
+      p.x = {creep, {}};
+      p.y = {-0.5 * creep, {}};
+      p.spin = -0.2;
       EXPECT_NO_THROW(solve_tangential(op, g, p)) << ratio << ' ' << creep;
     }
   }
@@ -194,7 +196,7 @@ TEST(SteadyRolling, NoTractionWithoutFrictionAndNoForceBeyondIt) {
   EXPECT_THROW(solve_tangential(c.influence, c.grid, p), CaseError);
   p.x.force = 0;
   EXPECT_EQ(largest_traction(solve_tangential(c.influence, c.grid, p)), 0);
-  std::fill(p.bound.begin(), p.bound.end(), 0.0);
+  std::fill(p.traction_bound.begin(), p.traction_bound.end(), 0.0);
   p.x = {-1e-3, {}};
   EXPECT_EQ(largest_traction(solve_tangential(c.influence, c.grid, p)), 0);
   p.x.force = -1;

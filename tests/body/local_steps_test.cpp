@@ -27,14 +27,14 @@ std::vector<double> with_rows(int more) {
   return heights;
 }
 
-DeformableBody block_under_layer() { return {layered_brick(1, 3, 1e-3, 1e-3, with_rows(4), 2), kStiffOnSteel, {}}; }
+Body block_under_layer() { return {layered_brick(1, 3, 1e-3, 1e-3, with_rows(4), 2), kStiffOnSteel, {}}; }
 
 // Column by column: K, and M B K of local steps.
-Eigen::MatrixXd dense(const DeformableBody& body, const LocalSteps& local) {
+Eigen::MatrixXd dense(const Body& body, const LocalSteps& local) {
   return free_matrix(body, [&](const Field& u, Field& f) { local.refine_linear(u, f); });
 }
 
-Eigen::VectorXd masses(const DeformableBody& body) {
+Eigen::VectorXd masses(const Body& body) {
   const std::vector<std::ptrdiff_t> index = free_indices(body);
   Eigen::VectorXd m(static_cast<Eigen::Index>(index.size()));
   for (Eigen::Index i = 0; i < m.size(); ++i) m[i] = body.mass[index[i]];
@@ -60,7 +60,7 @@ TEST_F(LocalStepsTest, StagesAreChebyshevPolynomials) {
 
 // All nodes fine: D^2 B K = 2 (1 - T_p(delta - D^2 K/omega)/T_p(delta)) by the eigenvectors of M^-1/2 K M^-1/2.
 TEST_F(LocalStepsTest, OfAWhollyFineBodyAreTheChebyshevPolynomialOfItsStiffness) {
-  const DeformableBody body = thin_layer();
+  const Body body = thin_layer();
   LocalSteps local(body, {}, 2 * kWanted);
   local.set_step(0.9 * kWanted, lanczos_stable_step(body));
   ASSERT_GT(local.stages(), 10);
@@ -80,14 +80,14 @@ TEST_F(LocalStepsTest, OfAWhollyFineBodyAreTheChebyshevPolynomialOfItsStiffness)
 }
 
 TEST_F(LocalStepsTest, GiveASymmetricOperatorThatIsTheStiffnessAwayFromTheFineNodes) {
-  const DeformableBody body = block_under_layer();
+  const Body body = block_under_layer();
   LocalSteps local(body, {}, kWanted);
   local.set_step(0.8 * kWanted, lanczos_stable_step(body));
   EXPECT_EQ(local.fine_elements(), 6 * 3);  // five thin rows and the one that touches them
   const Eigen::MatrixXd k = dense(body, LocalSteps()), effective = dense(body, local);
   EXPECT_LT((effective - effective.transpose()).norm(), 1e-10 * effective.norm());
   const std::vector<std::ptrdiff_t> index = free_indices(body);
-  const BlockLayout& l = body.solid.layout().blocks[0];
+  const BlockLayout& l = body.layout.blocks[0];
   int far = 0;
   for (std::size_t c = 0; c < index.size(); ++c) {
     const int row = static_cast<int>(index[c] / (3 * l.stride)) / 2;
@@ -102,20 +102,20 @@ TEST_F(LocalStepsTest, GiveASymmetricOperatorThatIsTheStiffnessAwayFromTheFineNo
 // stable.
 TEST_F(LocalStepsTest, StaySymmetricAndStableAcrossTies) {
   for (SweepKind kind : {SweepKind::extrude, SweepKind::revolve}) {
-    const DeformableBody body(tied_body(kind), {kSteel}, {});
+    const Body body(tied_body(kind), {kSteel}, {});
     const double size = kind == SweepKind::extrude ? 4e-3 : 6e-3,
                  wave = std::sqrt(kSteel.p_wave_modulus() / kSteel.density);
     LocalSteps local(body, {}, 1.4 * size / wave);
     ASSERT_GT(local.fine_elements(), 0);
-    ASSERT_LT(local.fine_elements(), body.solid.body().elements());
+    ASSERT_LT(local.fine_elements(), body.mesh.elements());
     const double own = lanczos_stable_step(body), coarse = lanczos_coarse_step(body, local);
     local.set_step(0.9 * coarse, own);
     EXPECT_GT(local.stages(), 1);
     auto product = [&](Field x) {
       Field f = x;
-      body.ties.spread(x, 0, true);
-      body.solid.linear_force(x, f);
-      body.ties.collect(f);
+      body.ties.apply_homogeneous(x);
+      linear_force(body, x, f);
+      body.ties.apply_transpose(f);
       local.refine_linear(x, f);
       return f;
     };
@@ -140,7 +140,7 @@ TEST_F(LocalStepsTest, StaySymmetricAndStableAcrossTies) {
 // Stable at the step of the coarse nodes alone. Damping keeps the fast modes within 2 (1 -+ 1/cosh sqrt(2 nu)); without
 // it they come to the edges of stability.
 TEST_F(LocalStepsTest, AreStableUpToTheCoarseStepAndKeepTheFastModesFromTheEdges) {
-  const DeformableBody body = block_under_layer();
+  const Body body = block_under_layer();
   LocalSteps local(body, {}, kWanted);
   const double own = lanczos_stable_step(body), coarse = lanczos_coarse_step(body, local);
   ASSERT_GT(coarse, 10 * own);
@@ -175,7 +175,7 @@ TEST_F(LocalStepsTest, AreStableUpToTheCoarseStepAndKeepTheFastModesFromTheEdges
 
 // A disc's or a rail's running surface over a thin layer, all stations of one spacing.
 struct LayeredSurface {
-  DeformableBody body;
+  Body body;
   ContactSurface surface;
   LocalSteps local;
   static SweptBody mesh(SweepKind kind) {
@@ -193,10 +193,10 @@ struct LayeredSurface {
     return mesh;
   }
   explicit LayeredSurface(SweepKind kind) : body(mesh(kind), kStiffOnSteel, {}), local(body, {}, kWanted) {
-    const BlockLayout& l = body.solid.layout().blocks[0];
+    const BlockLayout& l = body.layout.blocks[0];
     surface.kind = kind;
     surface.columns = 5;
-    surface.stations = body.solid.body().blocks[0].stations;
+    surface.stations = body.mesh.blocks[0].stations;
     surface.first_line = l.line(0, 0);
     surface.stride = l.stride;
     local.set_step(0.7 * kWanted, lanczos_stable_step(body));
@@ -207,7 +207,7 @@ TEST_F(LocalStepsTest, AnswerFurtherForcesAsTheyAnswerThoseOfTheElements) {
   for (SweepKind kind : {SweepKind::extrude, SweepKind::revolve}) {
     const LayeredSurface s(kind);
     ASSERT_GT(s.local.stages(), 5);
-    const Field rest = s.body.solid.layout().field();
+    const Field rest = s.body.layout.field();
     Field wanted = rest, f = rest;
     std::vector<NodalForce> forces;
     std::size_t k = 0;
@@ -242,7 +242,7 @@ TEST_F(LocalStepsTest, SurfaceResponseIsWhatTheStagesGive) {
       for (const auto& [i, value] :
            {std::pair{0, impulse[n].x}, std::pair{1, impulse[n].y}, std::pair{2, impulse[n].z}})
         forces.push_back({index[n] + i * s.surface.stride, value});
-    Field f = s.body.solid.layout().field();
+    Field f = s.body.layout.field();
     s.local.add_forces(forces, f);
     for (std::size_t to = 0; to < index.size(); ++to) {
       Vec3 sum;
@@ -266,15 +266,15 @@ TEST_F(LocalStepsTest, SurfaceResponseIsWhatTheStagesGive) {
 
 // v(n-1/2).M v(n+1/2)/2 + u.M B K u/2, to round-off.
 TEST_F(LocalStepsTest, ConserveTheirEnergy) {
-  const DeformableBody body = block_under_layer();
+  const Body body = block_under_layer();
   LocalSteps local(body, {}, kWanted);
   local.set_step(0.9 * lanczos_coarse_step(body, local), lanczos_stable_step(body));
   const double dt = local.step();
-  Field u = body.solid.layout().field(), v = scattered_forces(body, 1.0), f = u;
+  Field u = body.layout.field(), v = scattered_forces(body, 1.0), f = u;
   auto step = [&] {
-    body.solid.linear_force(u, f);
+    linear_force(body, u, f);
     local.refine_linear(u, f);
-    double energy = 0.5 * nodal_dot(body.solid.layout(), u, f);
+    double energy = 0.5 * nodal_dot(body.layout, u, f);
     for (std::ptrdiff_t i : free_indices(body)) {
       const double before = v[i];
       v[i] -= dt * body.inverse_mass[i] * f[i];
@@ -292,9 +292,9 @@ TEST_F(LocalStepsTest, ConserveTheirEnergy) {
 TEST_F(LocalStepsTest, APulsePassesThroughTheLayerAsWithOneShortStep) {
   const std::vector<double> heights = with_rows(60);
   const Elastic soft = elastic(kYoung, 0.0, 7800), stiff = elastic(4 * kYoung, 0.0, 7800);
-  const DeformableBody body(layered_brick(1, 1, 1e-3, 1e-3, heights, 2), {soft, stiff}, {});
+  const Body body(layered_brick(1, 1, 1e-3, 1e-3, heights, 2), {soft, stiff}, {});
   LocalSteps local(body, {}, 1e-3 / std::sqrt(soft.p_wave_modulus() / soft.density));
-  const BlockLayout& l = body.solid.layout().blocks[0];
+  const BlockLayout& l = body.layout.blocks[0];
   constexpr double kPulse = 8e-6, kEnd = 9.6e-6, kPressure = 1e9, kSide = 1e-3;
   constexpr int kSamples = 20;
   const double own = lanczos_stable_step(body), coarse = lanczos_coarse_step(body, local);
@@ -303,16 +303,16 @@ TEST_F(LocalStepsTest, APulsePassesThroughTheLayerAsWithOneShortStep) {
     const int steps = static_cast<int>(std::ceil(kEnd / step / kSamples)) * kSamples;
     const double dt = kEnd / steps;
     if (locally) local.set_step(dt, own);
-    Field u = body.solid.layout().field(), v = u, f = u;
+    Field u = body.layout.field(), v = u, f = u;
     std::vector<double> strain;
     for (int s = 0; s < steps; ++s) {
-      body.solid.linear_force(u, f);
+      linear_force(body, u, f);
       const double t = s * dt,
                    pressure = t < kPulse ? 0.5 * kPressure * (1 - std::cos(2 * std::numbers::pi * t / kPulse)) : 0;
       for (int node : {0, 1})
         for (int j : {0, 1}) f[l.line(node, 2) + j] += 0.25 * pressure * kSide * kSide;
       if (locally) local.refine_linear(u, f);
-      for (const DeformableBody::Line& line : body.lines)
+      for (const NodeLine& line : body.lines)
         if (line.component == 2)
           for (int j = 0; j < line.count; ++j) {
             v[line.first + j] -= dt * body.inverse_mass[line.first + j] * f[line.first + j];
@@ -346,14 +346,14 @@ TEST_F(LocalStepsTest, SameBitsOnOneTwoAndFourThreadsAndNoForceFromRigidRotation
   mesh.kind = SweepKind::revolve;
   for (Vec2& p : mesh.blocks[0].section.nodes) p.z -= 0.05;
   for (double& t : mesh.blocks[0].stations.at) t /= 0.05;
-  const DeformableBody body(mesh, kStiffOnSteel, {});
+  const Body body(mesh, kStiffOnSteel, {});
   LocalSteps local(body, {}, kWanted);
   local.set_step(0.8 * kWanted, lanczos_stable_step(body));
   ASSERT_GT(local.fine_elements(), 0);
   const double psi = 0.7;
-  Field u = nodal_field(body.solid, [&](Vec3 x) { return rigid_displacement(x, body.solid.body().origin, psi, {}); });
-  Field f = body.solid.layout().field();
-  body.solid.internal_force(u, psi, f);
+  Field u = nodal_field(body, [&](Vec3 x) { return rigid_displacement(x, body.mesh.origin, psi, {}); });
+  Field f = body.layout.field();
+  internal_force(body, u, psi, f);
   Field refined = f;
   local.refine(u, psi, {}, refined);
   double largest = 0;
@@ -362,7 +362,7 @@ TEST_F(LocalStepsTest, SameBitsOnOneTwoAndFourThreadsAndNoForceFromRigidRotation
   const Field shaken = scattered_forces(body, 1e-6);
   for (std::size_t i = 0; i < u.size(); ++i) u[i] += shaken[i];
   expect_same_bits_on_one_two_and_four_threads([&] {
-    body.solid.internal_force(u, psi, f);
+    internal_force(body, u, psi, f);
     local.refine(u, psi, {{0, 0, -9.81}, 3000}, f);
     std::vector<double> bits;
     for (std::ptrdiff_t i : free_indices(body)) bits.push_back(f[i]);

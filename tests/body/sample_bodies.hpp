@@ -3,7 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "body/solid.hpp"
+#include "body/traversal.hpp"
+#include "geometry/profile_names.hpp"
 #include "mesh/bodies.hpp"
 
 namespace railstrata::fem_checks {
@@ -88,13 +89,13 @@ inline SweptBody coarse_lma_wheel() {
 
 /// u = f(X) at all nodes.
 template <class F>
-Field nodal_field(const Solid& solid, F&& f) {
-  Field u = solid.layout().field();
-  const auto& blocks = solid.layout().blocks;
+Field nodal_field(const Body& solid, F&& f) {
+  Field u = solid.layout.field();
+  const auto& blocks = solid.layout.blocks;
   for (int b = 0; b < static_cast<int>(blocks.size()); ++b)
     for (int n = 0; n < blocks[b].nodes; ++n)
       for (int j = 0; j < blocks[b].stations; ++j) {
-        const Vec3 v = f(solid.reference_position(b, n, j));
+        const Vec3 v = f(reference_position(solid, b, n, j));
         u[blocks[b].line(n, 0) + j] = v.x;
         u[blocks[b].line(n, 1) + j] = v.y;
         u[blocks[b].line(n, 2) + j] = v.z;
@@ -103,7 +104,7 @@ Field nodal_field(const Solid& solid, F&& f) {
 }
 
 /// Numbers without pattern in [-size, size) at all nodes.
-inline Field scattered_field(const Solid& solid, double size, std::size_t seed = 0) {
+inline Field scattered_field(const Body& solid, double size, std::size_t seed = 0) {
   std::size_t i = seed;
   return nodal_field(solid, [&](Vec3) { return size * Vec3{scatter(i++), scatter(i++), scatter(i++)}; });
 }

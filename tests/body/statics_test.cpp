@@ -38,9 +38,9 @@ struct Manufactured {
 
 // Mass-weighted rms error of the displacement relative to the solution's, all boundary displacements given.
 double error(int n, ElementKind element) {
-  const Solid solid(warped_cube(n), {kSteel}, {element, 0.05});
+  const Body solid(warped_cube(n), {kSteel}, {element, 0.05});
   const Manufactured truth;
-  const BlockLayout& l = solid.layout().blocks[0];
+  const BlockLayout& l = solid.layout.blocks[0];
   const Field exact = nodal_field(solid, [&](Vec3 x) { return truth.displacement(x); });
   const Field force = nodal_field(solid, [&](Vec3 x) { return (1 / kSteel.density) * truth.body_force(x); });
   std::vector<std::ptrdiff_t> inner;
@@ -49,17 +49,17 @@ double error(int n, ElementKind element) {
       for (int i = 0; i < 3; ++i)
         for (int j = 1; j < n; ++j) inner.push_back(l.line(r * (n + 1) + c, i) + j);
 
-  Field u = exact, r = solid.layout().field(), p = r, q = r;
+  Field u = exact, r = solid.layout.field(), p = r, q = r;
   for (std::ptrdiff_t k : inner) u[k] = 0;
-  solid.linear_force(u, q);
+  linear_force(solid, u, q);
   double rr = 0;
   for (std::ptrdiff_t k : inner) {
-    p[k] = r[k] = solid.mass()[k] * force[k] - q[k];
+    p[k] = r[k] = solid.element_mass[k] * force[k] - q[k];
     rr += r[k] * r[k];
   }
   const double wanted = 1e-20 * rr;
   for (int iteration = 0; iteration < 2000 && rr > wanted; ++iteration) {
-    solid.linear_force(p, q);
+    linear_force(solid, p, q);
     double pq = 0, next = 0;
     for (std::ptrdiff_t k : inner) pq += p[k] * q[k];
     for (std::ptrdiff_t k : inner) {
@@ -74,11 +74,11 @@ double error(int n, ElementKind element) {
   Field off = u, weighted = exact;
   for (std::size_t k = 0; k < u.size(); ++k) {
     off[k] -= exact[k];
-    weighted[k] *= solid.mass()[k];
+    weighted[k] *= solid.element_mass[k];
   }
-  const double size = nodal_dot(solid.layout(), weighted, exact);
-  for (std::size_t k = 0; k < u.size(); ++k) weighted[k] = solid.mass()[k] * off[k];
-  return std::sqrt(nodal_dot(solid.layout(), weighted, off) / size);
+  const double size = nodal_dot(solid.layout, weighted, exact);
+  for (std::size_t k = 0; k < u.size(); ++k) weighted[k] = solid.element_mass[k] * off[k];
+  return std::sqrt(nodal_dot(solid.layout, weighted, off) / size);
 }
 
 }  // namespace

@@ -28,10 +28,10 @@ inline const std::vector<double> kHeights{1e-4, 1e-4, 2e-4, 4e-4, 8e-4, 1e-3};
 inline const std::vector<Elastic> kStiffOnSteel{kSteel, elastic(4 * kYoung, 0.3, 7800)};
 inline const double kWanted = 1e-3 / std::sqrt(kSteel.p_wave_modulus() / kSteel.density);
 
-inline DeformableBody thin_layer() { return {layered_brick(1, 3, 1e-3, 1e-3, kHeights, 2), kStiffOnSteel, {}}; }
+inline Body thin_layer() { return {layered_brick(1, 3, 1e-3, 1e-3, kHeights, 2), kStiffOnSteel, {}}; }
 
-inline Field scattered_forces(const DeformableBody& body, double size) {
-  Field f = body.solid.layout().field();
+inline Field scattered_forces(const Body& body, double size) {
+  Field f = body.layout.field();
   std::size_t k = 0;
   for (std::ptrdiff_t i : free_indices(body)) f[i] = size * scatter(k++);
   return f;

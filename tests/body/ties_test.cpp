@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "geometry/profile_names.hpp"
 #include "tests/body/sample_bodies.hpp"
 
 namespace railstrata {
@@ -66,60 +67,59 @@ double slave_error(const SweptBody& body, const BodyLayout& layout, const Field&
 
 TEST(Ties, ARigidTurnOfAnySizeIsSpreadExactlyOnRevolvedBodies) {
   for (const SweptBody& body : {coarse_lma_wheel(), tied_body(SweepKind::revolve)}) {
-    const Solid solid(body, {kSteel}, {});
-    const Ties ties(body, solid.layout());
+    const Body solid(body, {kSteel}, {});
+    const Ties ties(body, solid.layout);
     for (double psi : {0.0, 1e-3, 0.7, 2.5, 40.0}) {
       const Field truth = nodal_field(solid, [&](Vec3 x) {
         return rigid_displacement(x, body.origin, psi, {17.0, 0.2, -0.3});
       });
       Field u = truth;
-      spoil_slaves(body, solid.layout(), u);
-      ties.spread(u, psi);
-      EXPECT_LT(slave_error(body, solid.layout(), u, truth), 2e-14) << body.name << " " << psi;  // round-off of 17 m
+      spoil_slaves(body, solid.layout, u);
+      ties.apply(u, psi);
+      EXPECT_LT(slave_error(body, solid.layout, u, truth), 2e-14) << body.name << " " << psi;  // round-off of 17 m
     }
   }
 }
 
 TEST(Ties, ATranslationIsSpreadExactlyOnEveryBody) {
   for (const SweptBody& body : tied_bodies()) {
-    const Solid solid(body, {kSteel, kSteel}, {});
-    const Ties ties(body, solid.layout());
+    const Body solid(body, {kSteel, kSteel}, {});
+    const Ties ties(body, solid.layout);
     const Field truth = nodal_field(solid, [](Vec3) { return Vec3{0.3, -0.2, 0.1}; });
     Field u = truth;
-    spoil_slaves(body, solid.layout(), u);
-    ties.spread(u, 0.0);
-    EXPECT_LT(slave_error(body, solid.layout(), u, truth), 1e-15) << body.name;
+    spoil_slaves(body, solid.layout, u);
+    ties.apply(u, 0.0);
+    EXPECT_LT(slave_error(body, solid.layout, u, truth), 1e-15) << body.name;
   }
 }
 
 TEST(Ties, AChainOfTiesCarriesALinearFieldThroughWhateverTheOrderOfItsLines) {
   SweptBody body = chain();
-  const Solid solid(body, {kSteel}, {});
+  const Body solid(body, {kSteel}, {});
   const Field truth = nodal_field(solid, [](Vec3 x) { return Vec3{x.x + 2 * x.y, 3 * x.z - x.x, x.y}; });
   for (int pass = 0; pass < 2; ++pass, std::reverse(body.ties.begin(), body.ties.end())) {
     Field u = truth;
-    spoil_slaves(body, solid.layout(), u);
-    Ties(body, solid.layout()).spread(u, 0.0);
-    EXPECT_LT(slave_error(body, solid.layout(), u, truth), 1e-15);
+    spoil_slaves(body, solid.layout, u);
+    Ties(body, solid.layout).spread(u, 0.0);
+    EXPECT_LT(slave_error(body, solid.layout, u, truth), 1e-15);
   }
 }
 
 TEST(Ties, CollectIsTheTransposeOfSpread) {
   for (const SweptBody& body : tied_bodies()) {
-    const Solid solid(body, {kSteel, kSteel}, {});
-    const Ties ties(body, solid.layout());
+    const Body solid(body, {kSteel, kSteel}, {});
+    const Ties ties(body, solid.layout);
     Field u = scattered_field(solid, 1.0), f = scattered_field(solid, 1.0, 12345), masters = u;
     for (const Tie& t : body.ties)
       for (int i = 0; i < 3; ++i)
-        std::fill_n(masters.begin() + solid.layout().blocks[t.slave_block].line(t.slave_node, i),
-                    solid.layout().blocks[t.slave_block].stations, 0.0);
-    ties.spread(u, 0.0, true);
-    const double work = nodal_dot(solid.layout(), f, u),
-                 size = std::sqrt(nodal_dot(solid.layout(), f, f) * nodal_dot(solid.layout(), u, u));
-    ties.collect(f);
-    EXPECT_NEAR(nodal_dot(solid.layout(), f, masters), work, 1e-13 * size) << body.name;
-    for (const Tie& t : body.ties)
-      EXPECT_EQ(norm(value(f, solid.layout().blocks[t.slave_block], t.slave_node, 0)), 0.0);
+        std::fill_n(masters.begin() + solid.layout.blocks[t.slave_block].line(t.slave_node, i),
+                    solid.layout.blocks[t.slave_block].stations, 0.0);
+    ties.apply_homogeneous(u);
+    const double work = nodal_dot(solid.layout, f, u),
+                 size = std::sqrt(nodal_dot(solid.layout, f, f) * nodal_dot(solid.layout, u, u));
+    ties.apply_transpose(f);
+    EXPECT_NEAR(nodal_dot(solid.layout, f, masters), work, 1e-13 * size) << body.name;
+    for (const Tie& t : body.ties) EXPECT_EQ(norm(value(f, solid.layout.blocks[t.slave_block], t.slave_node, 0)), 0.0);
   }
 }
 
@@ -127,28 +127,28 @@ TEST(Ties, CollectIsTheTransposeOfSpread) {
 // get the same as from collect.
 TEST(Ties, MomentOfTheOffsetsIsTheWorkOfTheSlavesForcesOnARotation) {
   for (const SweptBody& body : {coarse_lma_wheel(), tied_body(SweepKind::revolve)}) {
-    const Solid solid(body, {kSteel}, {});
-    const Ties ties(body, solid.layout());
+    const Body solid(body, {kSteel}, {});
+    const Ties ties(body, solid.layout);
     const double psi = 0.8, step = 1e-4;
     Field ahead = scattered_field(solid, 1.0), behind = ahead, f = scattered_field(solid, 1.0, 12345), plain = f;
-    ties.spread(ahead, psi + step);
-    ties.spread(behind, psi - step);
+    ties.apply(ahead, psi + step);
+    ties.apply(behind, psi - step);
     for (std::size_t k = 0; k < ahead.size(); ++k) ahead[k] = (ahead[k] - behind[k]) / (2 * step);
-    const double work = nodal_dot(solid.layout(), f, ahead),
-                 size = std::sqrt(nodal_dot(solid.layout(), f, f) * nodal_dot(solid.layout(), ahead, ahead));
-    EXPECT_NEAR(ties.collect_turning(f, psi), work, 1e-8 * size) << body.name;
-    ties.collect(plain);
+    const double work = nodal_dot(solid.layout, f, ahead),
+                 size = std::sqrt(nodal_dot(solid.layout, f, f) * nodal_dot(solid.layout, ahead, ahead));
+    EXPECT_NEAR(ties.apply_transpose_turned(f, psi), work, 1e-8 * size) << body.name;
+    ties.apply_transpose(plain);
     EXPECT_EQ(f, plain);
   }
 }
 
 TEST(Ties, CollectedMassIsTheWholeMass) {
   for (const SweptBody& body : tied_bodies()) {
-    const Solid solid(body, {kSteel, kSteel}, {});
-    Field mass = solid.mass();
-    Ties(body, solid.layout()).collect(mass);
+    const Body solid(body, {kSteel, kSteel}, {});
+    Field mass = solid.element_mass;
+    Ties(body, solid.layout).collect(mass);
     const Field unit = nodal_field(solid, [](Vec3) { return Vec3{1, 0, 0}; });
-    EXPECT_NEAR(nodal_dot(solid.layout(), mass, unit) / solid.total_mass(), 1.0, 1e-13) << body.name;
+    EXPECT_NEAR(nodal_dot(solid.layout, mass, unit) / total_mass(solid), 1.0, 1e-13) << body.name;
   }
 }
 

@@ -72,7 +72,7 @@ volume = false
   EXPECT_EQ(spec.drive.traction_coefficient, 0.15);
   EXPECT_EQ(spec.mesh.coarse_ratio, 2);
   EXPECT_TRUE(spec.mesh.elements_through_layer_one);
-  EXPECT_EQ(spec.contact.method, "penalty");
+  EXPECT_EQ(spec.contact.method, ContactMethod::penalty);
   EXPECT_EQ(spec.run.positions, (std::vector<double>{0.2, 0.3}));
   EXPECT_FALSE(spec.output.volume);
 }
@@ -117,7 +117,8 @@ void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
     void operator()(double* v) const { *v = inside(*v); }
     void operator()(int* v) const { *v += 1; }
     void operator()(bool* v) const { *v = !*v; }
-    void operator()(std::string* v) const { *v = o.choices.empty() ? *v + " \"2\"\n" : std::string(o.choices.back()); }
+    void operator()(std::string* v) const { *v += " \"2\"\n"; }
+    void operator()(const ChoiceSlot& v) const { v.set(o.choices.back().value); }
     void operator()(std::vector<double>* v) const { *v = {0.2, 1.0 / 3}; }
     void operator()(std::vector<ModulusPoint>* v) const { *v = {{0, 1e11 / 3}, {0.7e-3, 3e11}, {1e-3, 1.1e11}}; }
   };
@@ -127,7 +128,7 @@ void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
 TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   CaseSpec spec;
   spec.layers.resize(2);
-  spec.layers[1].on = "wheel";
+  spec.layers[1].on = BodyId::wheel;
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options)
       if (!option.multiple_of && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)))
@@ -139,7 +140,7 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
     for (const Option& option : table.options) {
       CaseSpec copy = back.spec;
       const Slot a = option.slot(spec, 0), b = option.slot(copy, 0);
-      std::visit([&](auto* x) { EXPECT_EQ(*x, *std::get<decltype(x)>(b)) << table.name << "." << option.key; }, a);
+      std::visit([&](auto x) { EXPECT_EQ(*x, *std::get<decltype(x)>(b)) << table.name << "." << option.key; }, a);
     }
 }
 
@@ -341,7 +342,7 @@ TEST(Overrides, AreReadLikeTheFileAndQuotesMayBeLeftOut) {
   EXPECT_EQ(spec.geometry.cant, 0.05);
   EXPECT_EQ(spec.mesh.coarse_ratio, 4);
   EXPECT_FALSE(spec.output.volume);
-  EXPECT_EQ(spec.contact.method, "penalty");
+  EXPECT_EQ(spec.contact.method, ContactMethod::penalty);
 }
 
 TEST(Overrides, FaultsAreLocatedAtTheCommandLine) {
@@ -354,8 +355,8 @@ TEST(Overrides, FaultsAreLocatedAtTheCommandLine) {
   EXPECT_TRUE(error_of("", {"mesh.size=2 mm"}).starts_with("--set mesh.size=2 mm: unknown key mesh.size\n"));
   EXPECT_EQ(error_of("", {"mesh"}), "--set mesh: is not key=value" + remedy);
   EXPECT_EQ(error_of("", {"mesh=3"}), "--set mesh=3: names no table" + remedy);
-  EXPECT_EQ(error_of("[[layer]]\nyoung_ratio=2\n", {"layer.1.thickness=1 mm"}),
-            "--set layer.1.thickness=1 mm: layer has 1 entries, counted from 0" + remedy);
+  EXPECT_EQ(error_of("[[layer]]\nyoung_ratio=2\n", {"layer.2.thickness=1 mm"}),
+            "--set layer.2.thickness=1 mm: layer has 1 entry, counted from 0; layer.1 adds one" + remedy);
   EXPECT_EQ(error_of("[mesh]\nelement_size=\"1 mm\"\n", {"mesh.element_size.x=1"}),
             "--set mesh.element_size.x=1: element_size is not a table" + remedy);
 }
@@ -408,9 +409,84 @@ TEST(CaseFile, KeysNestedBeyondTheStackAreRefused) {
   std::string key = "a";
   for (int i = 0; i < 200'000; ++i) key += ".a";
   for (const std::string& text : {key + " = 1\n", "[" + key + "]\n", "[case]\ntitle = {" + key + " = 1}\n"})
-    EXPECT_NE(error_of(text).find("this line has more than 100 dots"), std::string::npos);
-  EXPECT_NE(error_of("", {key + "=1"}).find("has more than 100 dots"), std::string::npos);
+    EXPECT_NE(error_of(text).find("a key on this line has more than 100 dots"), std::string::npos);
+  EXPECT_NE(error_of("", {key + "=1"}).find("has a key of more than 100 parts"), std::string::npos);
+  EXPECT_NE(error_of("", {"case.title={" + key + "=1}"}).find("has a key of more than 100 parts"), std::string::npos);
   EXPECT_NO_THROW(parse_case("# " + std::string(300, '.') + "\n", "a.toml"));
+}
+
+TEST(CaseFile, KeysNestedInBracketsCountTogether) {
+  std::string text = "[case]\ntitle = ";
+  for (int i = 0; i < 60; ++i) text += "[{a.b.c = ";
+  EXPECT_NE(error_of(text).find("a key on this line has more than 100 dots"), std::string::npos);
+  std::string key = "a";
+  for (int i = 0; i < 200'000; ++i) key += ".a";
+  for (const char* quotes : {"\"\"\"", "'''"})
+    for (std::size_t own = 0; own < 3; ++own) {  // a text may end with two quotes of its own
+      const std::string end = quotes + std::string(quotes).substr(0, own),
+                        before = std::string("[case]\ntitle = [") + quotes + "x\ny" + end + ", {";
+      EXPECT_NE(error_of(before + key + " = 1}]\n").find("more than 100 dots"), std::string::npos) << before;
+    }
+}
+
+TEST(CaseFile, DotsOfNumbersAndTextsAreNotThoseOfKeys) {
+  std::string rows;
+  for (int i = 0; i <= 60; ++i)
+    rows += "[\"" + std::to_string(0.05 * i) + " mm\", \"" + std::to_string(210.5 + i) + " GPa\"], ";
+  const LoadedCase loaded = parse_case("[[layer]]\nyoung_table = [" + rows + "]\n", "a.toml");
+  EXPECT_EQ(loaded.spec.layers.at(0).young_table.size(), 61u);
+  EXPECT_EQ(
+      parse_case("[[layer]]\nyoung_ratio = 1", "a.toml", {"layer.0.thickness=\"1.0 mm\""}).spec.layers[0].thickness,
+      1e-3);
+  std::string positions = "0.20";
+  for (int i = 1; i < 150; ++i) positions += " m\", \"" + std::to_string(0.2 + 0.001 * i);
+  EXPECT_EQ(parse_case("[run]\npositions = [\"" + positions + " m\"]\n", "a.toml").spec.run.positions.size(), 150u);
+  EXPECT_EQ(parse_case("", "a.toml", {"run.positions=[\"" + positions + " m\"]"}).spec.run.positions.size(), 150u);
+  EXPECT_EQ(parse_case("[case]\ntitle = \"" + std::string(300, '.') + "\"\n", "a.toml").spec.title.size(), 300u);
+}
+
+TEST(Overrides, OneIndexBeyondTheLastAddsALayer) {
+  const CaseSpec one = parse_case("", "a.toml", {"layer.0.thickness=2 mm", "layer.0.young_ratio=2"}).spec;
+  ASSERT_EQ(one.layers.size(), 1u);
+  EXPECT_EQ(one.layers[0].thickness, 2e-3);
+  EXPECT_EQ(one.layers[0].material.young, 2 * one.rail_material.young);
+  const CaseSpec two =
+      parse_case("[[layer]]\nyoung_ratio = 2\n", "a.toml", {"layer.1.on=wheel", "layer.1.young=100 GPa"}).spec;
+  ASSERT_EQ(two.layers.size(), 2u);
+  EXPECT_EQ(two.layers[1].on, BodyId::wheel);
+  EXPECT_TRUE(
+      error_of("", {"layer.0.thickness=1 mm"}).starts_with("--set layer.0.thickness=1 mm: layer.0 has no modulus\n"))
+      << error_of("", {"layer.0.thickness=1 mm"});
+  EXPECT_TRUE(
+      error_of("", {"layer.1.thickness=1 mm"})
+          .starts_with("--set layer.1.thickness=1 mm: layer has 0 entries, counted from 0; layer.0 adds one\n"));
+  EXPECT_TRUE(error_of("", {"layer.thickness=1 mm"}).starts_with("--set layer.thickness=1 mm: layer has 0 entries"));
+}
+
+TEST(Overrides, GiveAllLayersAsAList) {
+  const CaseSpec spec = parse_case("[[layer]]\nyoung_ratio = 9\n", "a.toml",
+                                   {"layer=[{thickness = \"1 mm\", young_ratio = 2}, {young_ratio = 3, name = \"b\"}]"})
+                            .spec;
+  ASSERT_EQ(spec.layers.size(), 2u);
+  EXPECT_EQ(spec.layers[1].material.young, 3 * spec.rail_material.young);
+  const std::string error = error_of("", {"layer=[{thickness = \"1 m\", young_ratio = 2}]"});
+  EXPECT_TRUE(
+      error.starts_with("--set layer=[{thickness = \"1 m\", young_ratio = 2}]: layer.0.thickness = \"1 m\": must be"))
+      << error;
+  EXPECT_TRUE(error_of("", {"layer=3"}).starts_with("--set layer=3: layer must be a list of tables\n"));
+}
+
+TEST(CaseFile, WhatNoCaseHasIsAnsweredByWhatToDoInstead) {
+  const auto remedy = [](const std::string& text) {
+    const std::string error = error_of(text);
+    return error.substr(error.find("remedy: ") + 8);
+  };
+  EXPECT_TRUE(remedy("[drive]\ncreepage = 0.01\n").starts_with("creepage follows from drive.traction_coefficient"));
+  EXPECT_TRUE(remedy("[geometry]\ncurve_radius = \"300 m\"\n").starts_with("the track is straight"));
+  EXPECT_TRUE(remedy("[vehicle]\naxle_load = \"22.5 t\"\n").starts_with("the load is (vehicle.wheel_mass +"));
+  EXPECT_TRUE(
+      remedy("[track]\ngauge = \"1435 mm\"\n").starts_with("gauge, cant and lateral_shift are keys of [geometry]"));
+  EXPECT_EQ(remedy("[drive]\nspeed = \"0 km/h\"\n"), "choose a value in this range");
 }
 
 TEST(Overrides, AreOneValueInUtf8) {

@@ -42,7 +42,8 @@ TEST(Units, EveryWayOfWritingGivesTheVeryDoubleOfItsSiLiteral) {
                          {"-1.5 mm", kLength, -1.5e-3},
                          {" 8 t ", kMass, 8000},
                          {"2.5 %", kSlope, 0.025},
-                         {"1 : 20", kSlope, 0.05}};
+                         {"1 : 20", kSlope, 0.05},
+                         {"1/40", kSlope, 1.0 / 40}};
   for (const Written& w : all) EXPECT_EQ(parse_quantity(w.text, w.dimension), w.si) << w.text;
 }
 
@@ -86,15 +87,20 @@ TEST(Units, EveryBadTextIsRefusedWithItsRuleAndRemedy) {
       {"210 GPa", kLength, "\"GPa\" is not the unit of a length",
        "write a length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)"},
       {"210 gpa", kPressure, "unknown unit \"gpa\"", "did you mean GPa?"},
-      {"3 furlong", kLength, "unknown unit \"furlong\"",
-       "units are SI symbols with prefixes, e.g. GPa, mm, km/h, kN s/m, kg/m^3"},
+      {"3 furlong", kLength, "unknown unit \"furlong\"", "write a length, e.g. \"0.2 mm\" (units: mm, m, µm, cm)"},
+      {"50 mph", kSpeed, "unknown unit \"mph\"", "write a speed, e.g. \"100 km/h\" (units: m/s, km/h)"},
+      {"100 kmh", kSpeed, "unknown unit \"kmh\"", "did you mean km/h?"},
+      {"0,5 mm", kLength, "has a comma in the number", "numbers have a decimal point: write \"0.5 mm\""},
+      {"0,2", kNumber, "has a comma in the number", "numbers have a decimal point: write \"0.2\""},
+      {"8,000 kg", kMass, "has a comma in the number", "write \"8.000 kg\", or \"8000 kg\" if thousands are meant"},
       {"thick", kLength, "does not start with a number", "write a length, e.g. \"0.2 mm\""},
       {"", kLength, "does not start with a number", "write a length, e.g. \"0.2 mm\""},
       {"10 N/m s", kDamping, "the unit \"N/m s\" is ambiguous", "put the divided unit last, e.g. \"kN s/m\""},
       {"9.81 m/s/s", kAcceleration, "the unit \"m/s/s\" has two solidi", "write one, e.g. \"m/s^2\""},
       {"2 mm", kNumber, "\"mm\" is not the unit of a number", "write a number, e.g. 0.2"},
-      {"1:0", kSlope, "unknown unit \":0\"", "units are SI symbols with prefixes, e.g. GPa, mm, km/h, kN s/m, kg/m^3"},
-      {"5 m/", kSpeed, "unknown unit \"m/\"", "did you mean mm?"}};
+      {"1:0", kSlope, "unknown unit \":0\"", "write an inclination, e.g. \"1:40\" (units: mrad, rad, deg)"},
+      {"1/0", kSlope, "unknown unit \"/0\"", "write an inclination, e.g. \"1:40\" (units: mrad, rad, deg)"},
+      {"5 m/", kSpeed, "unknown unit \"m/\"", "did you mean m/s?"}};
   for (const Refused& r : all) {
     try {
       parse_quantity(r.text, r.dimension);
@@ -107,9 +113,11 @@ TEST(Units, EveryBadTextIsRefusedWithItsRuleAndRemedy) {
 }
 
 TEST(Units, AModulusInMegapascalIsAnsweredWithGigapascal) {
-  EXPECT_EQ(suggest_quantity("210 MPa", kPressure, 1e9, 2000e9), "210 GPa");
-  EXPECT_EQ(suggest_quantity("430 m", kLength, 0.1, 1.0), "430 mm");
-  EXPECT_EQ(suggest_quantity("-3 mm", kLength, 0.1, 1.0), "");
+  const auto within = [](double min, double max) { return [=](double v) { return v >= min && v <= max; }; };
+  EXPECT_EQ(suggest_quantity("210 MPa", kPressure, within(1e9, 2000e9)), "210 GPa");
+  EXPECT_EQ(suggest_quantity("430 m", kLength, within(0.1, 1.0)), "430 mm");
+  EXPECT_EQ(suggest_quantity("-3 mm", kLength, within(0.1, 1.0)), "");
+  EXPECT_EQ(suggest_quantity("0 km/h", kSpeed, within(0, 200)), "") << "zero has no other unit";
 }
 
 TEST(Units, ExponentsBeyondAllBoundsAreInfiniteOrZeroAndNeverForgotten) {

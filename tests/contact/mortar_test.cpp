@@ -55,6 +55,31 @@ TEST(Mortar, WeightedGapOfACylinderOverAFlatRailIsTheIntegralOfTheExactGapAtEver
     }
 }
 
+// Many turns on, and with the place where the ring closes in the middle of the patch.
+TEST(Mortar, RowsAreTheSameWhereTheWheelsRingCloses) {
+  Surfaces s(1.37, 0.05);
+  const int ring = s.close_ring();
+  const auto rows_at = [&](int station) {
+    MortarContact contact(s.rail, s.wheel);
+    const AxlePose pose{0, -0.5e-6, 2 * std::numbers::pi * station / ring};
+    return settled_rows(contact, s.rail_field(), s.rolled(pose), pose);
+  };
+  const MortarRows away = rows_at(ring / 3);
+  for (int station : {-1, 0, 1, ring, 5 * ring}) {
+    const MortarRows closing = rows_at(station);
+    ASSERT_EQ(closing.rows.size(), away.rows.size());
+    ASSERT_EQ(closing.weights.size(), away.weights.size());
+    for (std::size_t r = 0; r < away.rows.size(); ++r) ASSERT_NEAR(closing.rows[r].gap, away.rows[r].gap, 1e-13);
+    for (std::size_t k = 0; k < away.weights.size(); ++k) {
+      const std::ptrdiff_t column = 3 * s.wheel.stride,
+                           ahead = away.weights[k].wheel % column - closing.weights[k].wheel % column;
+      ASSERT_EQ(closing.weights[k].wheel / column, away.weights[k].wheel / column);
+      ASSERT_EQ((ahead - ring / 3 + station + 6 * ring) % ring, 0) << "station " << station;
+      ASSERT_NEAR(closing.weights[k].m, away.weights[k].m, 1e-9);
+    }
+  }
+}
+
 // For a parabola x^2 / 2R the integral is (x^2 - h^2 / 6) / 2R.
 TEST(Mortar, WeightedGapOfAParabolaFollowsTheClosedForm) {
   const Surfaces s;
@@ -143,11 +168,11 @@ TEST(Mortar, UniformPressurePassesThroughNonMatchingMeshes) {
   }
 }
 
-TEST(Mortar, SearchChoosesTheNodesWhoseGapIsWithinReach) {
+TEST(Mortar, SearchChoosesTheNodesWhoseGapIsBelowTheLimit) {
   const Surfaces s;
   MortarContact contact(s.rail, s.wheel);
-  const double reach = 20e-6, half = std::sqrt(2 * s.radius * reach);
-  contact.search(s.rail_field(), s.wheel_field(), {}, 20e-3, reach);
+  const double limit = 20e-6, half = std::sqrt(2 * s.radius * limit);
+  contact.search(s.rail_field(), s.wheel_field(), {}, 20e-3, limit);
   const MortarRows& rows = contact.rows(s.rail_field(), s.wheel_field(), {});
   int expected = 0;
   for (double x : s.rail.stations.at) expected += std::abs(x) < half;

@@ -30,6 +30,15 @@ struct Surfaces {
     flat(wheel, 2 * static_cast<int>(std::ceil(7e-3 / wheel_width)) + 2, wheel_width, -radius, {0, -1});
   }
 
+  /// Equal stations all round the wheel, the first one at theta = 0; returns how many.
+  int close_ring() {
+    const int count = static_cast<int>(std::lround(2 * std::numbers::pi * radius / wheel_h));
+    wheel.stations.at.clear();
+    for (int j = 0; j < count; ++j) wheel.stations.at.push_back(2 * std::numbers::pi * j / count);
+    wheel.stride = count + 8;
+    return count;
+  }
+
   Field rail_field() const { return Field(static_cast<std::size_t>(rail.columns) * 3 * rail.stride, 0.0); }
   Field wheel_field() const { return Field(static_cast<std::size_t>(wheel.columns) * 3 * wheel.stride, 0.0); }
   template <class F>

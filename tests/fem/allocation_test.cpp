@@ -49,11 +49,13 @@ CaseSpec variant(const std::string& name) {
     spec.run.run_up = 0.02;
     spec.run.run_up_damping = 2000;
   } else if (name == "single_precision")
-    spec.run.precision = "single";
+    spec.run.precision = ArithmeticPrecision::single_precision;
   else if (name == "penalty")
-    spec.contact.method = "penalty";
-  else if (name != "mortar")
-    spec = thinly_layered(spec, name);
+    spec.contact.method = ContactMethod::penalty;
+  else if (name == "mass_scaling")
+    spec = thinly_layered(spec, TimeStepMethod::mass_scaling);
+  else if (name == "local")
+    spec = thinly_layered(spec, TimeStepMethod::local);
   return spec;
 }
 

@@ -13,8 +13,8 @@ double descent(double sprung_mass) {
   CaseSpec spec;
   spec.geometry.rail_profile = "flat";
   spec.geometry.wheel_profile = "arc:R=430 mm";
-  spec.geometry.rail_shape = "block";
-  spec.geometry.wheel_shape = "disc";
+  spec.geometry.rail_shape = RailShape::block;
+  spec.geometry.wheel_shape = WheelShape::disc;
   spec.geometry.cant = 0;
   spec.vehicle.sprung_mass = sprung_mass;
   spec.run.rolling = false;

@@ -9,20 +9,20 @@ namespace {
 
 using namespace fem_checks;
 
-struct Tangential {
+struct TangentialLook {
   double ratio = 0;                         // F_x / (f N) of the moment looked at
   double a = 0, h = 0;                      // Hertz's radius, element size
   double stick_area = 0, contact_area = 0;  // of the nodes
   double centre_traction = 0;               // over f p0
 };
 
-Tangential look(const RollingSystem& system, const Stepper& st) {
+TangentialLook look(const RollingSystem& system, const Stepper& st) {
   const double friction = system.model.spec.drive.friction_coefficient;
-  Tangential out;
+  TangentialLook out;
   out.ratio = st.forces().x / (friction * st.forces().z);
   out.a = system.model.hertz.a;
   out.h = system.model.spec.mesh.element_size;
-  const ContactSurface& rail = system.rail_surface;
+  const ContactSurface& rail = system.rail_surface();
   for (int c = 1; c + 1 < rail.columns; ++c)
     for (int j = 1; j + 1 < rail.stations.nodes(); ++j) {
       const NodeTraction& t = st.state().tractions.at(c, j);
@@ -73,7 +73,7 @@ TEST(SlowCattaneo, StickRadiusOfASphereIsWithinOneElementOfTheClosedForm) {
       ASSERT_GE(st.forces().x, force - 1e-3 * limit);  // the closed form holds for a force that only grows
       force = std::max(force, st.forces().x);
     }
-    const Tangential t = look(system, st);
+    const TangentialLook t = look(system, st);
     ASSERT_NEAR(t.ratio, wanted, 0.01);
     ASSERT_GT(t.a, 5 * t.h);
     const double c = t.a * std::cbrt(1 - t.ratio);

@@ -14,7 +14,7 @@ namespace {
 using namespace fem_checks;
 
 // 2 / omega_max of the assembled free degrees of freedom from a dense eigenproblem.
-double dense_stable_step(const DeformableBody& body) {
+double dense_stable_step(const Body& body) {
   Eigen::MatrixXd k = stiffness_matrix(body);
   const std::vector<std::ptrdiff_t> index = free_indices(body);
   for (Eigen::Index r = 0; r < k.rows(); ++r)
@@ -24,12 +24,12 @@ double dense_stable_step(const DeformableBody& body) {
          std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
 }
 
-DeformableBody brick_on_its_base() { return {mesh_brick(3, 2, 5, 2e-3, 1e-3, 1.5e-3), {kSteel}, {}}; }
+Body brick_on_its_base() { return {mesh_brick(3, 2, 5, 2e-3, 1e-3, 1.5e-3), {kSteel}, {}}; }
 
 // Largest |u|_M over `steps` central-difference steps from a scattered displacement at rest, over its start.
-double growth(const DeformableBody& body, double dt, int steps) {
+double growth(const Body& body, double dt, int steps) {
   const std::vector<std::ptrdiff_t> index = free_indices(body);
-  Field u = body.solid.layout().field(), v = u, f = u;
+  Field u = body.layout.field(), v = u, f = u;
   for (std::size_t k = 0; k < index.size(); ++k) u[index[k]] = 1e-12 * scatter(k);
   auto size = [&] {
     double sum = 0;
@@ -39,7 +39,7 @@ double growth(const DeformableBody& body, double dt, int steps) {
   const double start = size();
   double largest = start;
   for (int s = 0; s < steps; ++s) {
-    body.solid.internal_force(u, 0, f);
+    internal_force(body, u, 0, f);
     for (std::ptrdiff_t i : index) {
       v[i] -= dt * body.inverse_mass[i] * f[i];
       u[i] += dt * v[i];
@@ -58,31 +58,31 @@ Wave standing_wave(const Elastic& material, int component, double step_ratio) {
   constexpr int kElements = 40, kPerWave = 20;
   const double h = 2e-3,
                speed = std::sqrt((component == 0 ? material.p_wave_modulus() : material.mu) / material.density);
-  const Solid solid(mesh_brick(1, 1, kElements, h, h, h), {material}, {});
-  const BlockLayout& l = solid.layout().blocks[0];
+  const Body solid(mesh_brick(1, 1, kElements, h, h, h), {material}, {});
+  const BlockLayout& l = solid.layout.blocks[0];
   Wave w{0, step_ratio * h / speed, 2 * std::numbers::pi / (kPerWave * h)};
   const Field mode = nodal_field(solid, [&](Vec3 x) {
     return component == 0 ? Vec3{std::cos(w.k * x.x), 0, 0} : Vec3{0, std::cos(w.k * x.x), 0};
   });
-  Field u = mode, v = solid.layout().field(), f = v, momentum = v;
+  Field u = mode, v = solid.layout.field(), f = v, momentum = v;
   for (double& x : u) x *= 1e-9;
   double before = 0, crossing = 0, first = 0;
   int crossings = 0;
   for (int s = 0; crossings < 9 && s < 20000; ++s) {  // four whole periods between the first and the ninth zero
-    for (std::size_t i = 0; i < u.size(); ++i) momentum[i] = solid.mass()[i] * u[i];
-    const double now = nodal_dot(solid.layout(), momentum, mode);
+    for (std::size_t i = 0; i < u.size(); ++i) momentum[i] = solid.element_mass[i] * u[i];
+    const double now = nodal_dot(solid.layout, momentum, mode);
     if (s > 0 && (now < 0) != (before < 0)) {
       crossing = (s - 1 + before / (before - now)) * w.dt;
       if (crossings++ == 0) first = crossing;
     }
     before = now;
-    solid.internal_force(u, 0, f);
+    internal_force(solid, u, 0, f);
     for (int n = 0; n < l.nodes; ++n)
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < l.stations; ++j) {
           const std::ptrdiff_t p = l.line(n, i) + j;
           if (i != component) continue;  // a plane wave: the others are held
-          v[p] -= (s == 0 ? 0.5 : 1.0) * w.dt * f[p] / solid.mass()[p];
+          v[p] -= (s == 0 ? 0.5 : 1.0) * w.dt * f[p] / solid.element_mass[p];
           u[p] += w.dt * v[p];
         }
   }
@@ -93,17 +93,16 @@ Wave standing_wave(const Elastic& material, int component, double step_ratio) {
 }  // namespace
 
 TEST(StableStep, LanczosAgreesWithTheDenseEigenvalueWithinOnePercent) {
-  for (const DeformableBody& body :
-       {brick_on_its_base(), DeformableBody(tied_body(SweepKind::revolve), {kSteel}, {})}) {
+  for (const Body& body : {brick_on_its_base(), Body(tied_body(SweepKind::revolve), {kSteel}, {})}) {
     const double dense = dense_stable_step(body), lanczos = lanczos_stable_step(body);
     EXPECT_NEAR(lanczos / dense, 1.0, 0.01);
-    EXPECT_GE(lanczos, dense * (1 - 1e-9));                  // Ritz values approach omega_max from below
-    EXPECT_LT(body.solid.element_step_bound().step, dense);  // [Hughes2000 ch. 9]
+    EXPECT_GE(lanczos, dense * (1 - 1e-9));           // Ritz values approach omega_max from below
+    EXPECT_LT(element_step_bound(body).step, dense);  // [Hughes2000 ch. 9]
   }
 }
 
 TEST(StableStep, CentralDifferencesStayBoundedJustBelowItAndBlowUpJustAbove) {
-  const DeformableBody body = brick_on_its_base();
+  const Body body = brick_on_its_base();
   const double limit = dense_stable_step(body);
   EXPECT_LT(growth(body, 0.99 * limit, 2000),
             1.001 / std::sqrt(1 - 0.99 * 0.99));  // of a mode with omega dt / 2 = r: u_0 / sqrt(1 - r^2) at most

@@ -45,11 +45,11 @@ TEST(Preload, ContactForceOfASpinningWheelIsTheWeightUpToTheMeshsImbalance) {
   const RollingSystem sys = small_system(small_case());
   ASSERT_GT(sys.start_spin, 0);
   double imbalance = 0;
-  for (const DeformableBody::Line& l : sys.wheel.lines)
+  for (const NodeLine& l : sys.wheel().lines)
     if (l.component == 2) {
       const Block& block = sys.model.wheel.blocks[l.block];
       for (int j = 0; j < l.count; ++j)
-        imbalance += sys.start_spin * sys.start_spin * sys.wheel.mass[l.first + j] * block.section.nodes[l.node].z *
+        imbalance += sys.start_spin * sys.start_spin * sys.wheel().mass[l.first + j] * block.section.nodes[l.node].z *
                      std::cos(block.stations.at[j]);
     }
   const PreloadResult r = solve_preload(sys, 1e-9);
@@ -60,12 +60,12 @@ TEST(Preload, ContactForceOfASpinningWheelIsTheWeightUpToTheMeshsImbalance) {
 TEST(Preload, PressuresAndGapsAreComplementary) {
   const RollingSystem sys = small_system(static_case());
   PreloadResult r = solve_preload(sys, 1e-8);
-  MortarContact contact(sys.rail_surface, sys.wheel_surface);
+  MortarContact contact(sys.rail_surface(), sys.wheel_surface());
   const AxlePose pose{0, r.axle_z, 0};
-  contact.search(r.u_rail, r.u_wheel, pose, 4 * sys.model.hertz.a, sys.model.hertz.approach);
+  contact.search(r.u[0], r.u[1], pose, 4 * sys.model.hertz.a, sys.model.hertz.approach);
   const double thin = 1e-4 * sys.model.hertz.approach;
   int shut = 0, open = 0;
-  for (const ContactRow& row : contact.rows(r.u_rail, r.u_wheel, pose).rows) {
+  for (const ContactRow& row : contact.rows(r.u[0], r.u[1], pose).rows) {
     const double p = r.tractions.at(row.column, row.station).p;
     EXPECT_GE(p, 0);
     EXPECT_GT(row.gap, -thin);
@@ -99,7 +99,7 @@ TEST(Preload, SameBitsForOneTwoAndFourThreads) {
     const PreloadResult many = solve_preload(sys, 1e-6);
     EXPECT_EQ(many.cg_iterations, one.cg_iterations) << n;
     EXPECT_EQ(many.axle_z, one.axle_z) << n;
-    EXPECT_TRUE(many.u_rail == one.u_rail && many.u_wheel == one.u_wheel) << n;
+    EXPECT_TRUE(many.u[0] == one.u[0] && many.u[1] == one.u[1]) << n;
     EXPECT_EQ(largest_difference(many, one), 0) << n;
   }
   set_threads(before);
@@ -139,15 +139,15 @@ TEST(Preload, ALayerFourTimesAsStiffAndThinIsReachedToo) {
 
 // The modes of a cluster are orthonormal, so P P^T leaves what they span unchanged.
 TEST(Aggregates, ProjectionKeepsARigidMotion) {
-  const DeformableBody body{coarse_lma_wheel(), {kSteel}, {}};
+  const Body body{coarse_lma_wheel(), {kSteel}, {}};
   const Aggregates clusters(body, {0, -0.43}, {24e-3, 0.2});
-  const Field motion = nodal_field(body.solid, [](Vec3 x) { return Vec3{1, -2, 3} + cross(Vec3{4, 5, -6}, x); });
+  const Field motion = nodal_field(body, [](Vec3 x) { return Vec3{1, -2, 3} + cross(Vec3{4, 5, -6}, x); });
   std::vector<double> c(clusters.modes());
-  Field back = body.solid.layout().field();
+  Field back = body.layout.field();
   clusters.restrict_to(motion, c.data());
   clusters.prolong(c.data(), back);
   double worst = 0;
-  for (const DeformableBody::Line& l : body.lines)
+  for (const NodeLine& l : body.lines)
     for (int j = 0; j < l.count; ++j) worst = std::max(worst, std::abs(back[l.first + j] - motion[l.first + j]));
   EXPECT_LT(worst, 1e-9);
 }

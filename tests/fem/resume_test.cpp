@@ -27,11 +27,11 @@ void expect_same_bits(const CaseSpec& spec) {
   const RollingSystem system = small_system(spec);
   const PreloadResult preload = solve_preload(system, 1e-4);
   Stepper whole(system, preload), first(system, preload);
-  EXPECT_TRUE(first.can_be_remembered());
+  EXPECT_TRUE(first.is_restart_point());
   roll(first, 21);
-  EXPECT_FALSE(first.can_be_remembered());
-  while (!first.can_be_remembered()) first.step();
-  Stepper second(system, first.memory());
+  EXPECT_FALSE(first.is_restart_point());
+  while (!first.is_restart_point()) first.step();
+  Stepper second(system, first.restart_state());
   roll(second, 35);
   roll(whole, 21);
   for (int k = 21; k < 32; ++k) whole.step();
@@ -40,10 +40,10 @@ void expect_same_bits(const CaseSpec& spec) {
   EXPECT_EQ(a.step, 67);
   EXPECT_EQ(b.step, 67);
   EXPECT_EQ(a.time, b.time);
-  EXPECT_TRUE(same_bits(a.u_rail, b.u_rail));
-  EXPECT_TRUE(same_bits(a.v_rail, b.v_rail));
-  EXPECT_TRUE(same_bits(a.u_wheel, b.u_wheel));
-  EXPECT_TRUE(same_bits(a.v_wheel, b.v_wheel));
+  EXPECT_TRUE(same_bits(a.bodies[0].u, b.bodies[0].u));
+  EXPECT_TRUE(same_bits(a.bodies[0].v, b.bodies[0].v));
+  EXPECT_TRUE(same_bits(a.bodies[1].u, b.bodies[1].u));
+  EXPECT_TRUE(same_bits(a.bodies[1].v, b.bodies[1].v));
   EXPECT_TRUE(same_bits(a.tractions.all(), b.tractions.all()));
   EXPECT_TRUE(same_bits(a.groups, b.groups));
   EXPECT_EQ(std::memcmp(&a.axle, &b.axle, sizeof a.axle), 0);
@@ -65,17 +65,17 @@ TEST(Resume, AStepperFromMemoryComputesTheSameBits) { expect_same_bits(damped_ca
 
 TEST(Resume, InSinglePrecisionToo) {
   CaseSpec spec = damped_case();
-  spec.run.precision = "single";
+  spec.run.precision = ArithmeticPrecision::single_precision;
   expect_same_bits(spec);
 }
 
-TEST(Resume, WithScaledMassesToo) { expect_same_bits(thinly_layered(damped_case(), "mass_scaling")); }
+TEST(Resume, WithScaledMassesToo) { expect_same_bits(thinly_layered(damped_case(), TimeStepMethod::mass_scaling)); }
 
-TEST(Resume, WithLocalStepsToo) { expect_same_bits(thinly_layered(damped_case(), "local")); }
+TEST(Resume, WithLocalStepsToo) { expect_same_bits(thinly_layered(damped_case(), TimeStepMethod::local)); }
 
 TEST(Resume, WithAPenaltyToo) {
   CaseSpec spec = damped_case();
-  spec.contact.method = "penalty";
+  spec.contact.method = ContactMethod::penalty;
   expect_same_bits(spec);
 }
 
@@ -115,12 +115,12 @@ TEST(Resume, FromTheLastGoodStateToo) {
 TEST(Resume, AMemoryOfAnotherMeshIsRefused) {
   const RollingSystem system = small_system(small_case());
   Stepper st(system, solve_preload(system, 1e-3));
-  const StepperMemory whole = st.memory();
-  StepperMemory shorter = whole, turned = whole;
-  shorter.state.u_rail.pop_back();
+  const RestartState whole = st.restart_state();
+  RestartState shorter = whole, turned = whole;
+  shorter.state.bodies[0].u.pop_back();
   EXPECT_THROW(Stepper(system, shorter), CaseError);
-  const TractionMemory& t = whole.state.tractions;  // as many nodes, another grid
-  turned.state.tractions = TractionMemory(t.stations(), static_cast<int>(t.all().size()) / t.stations());
+  const SurfaceTractions& t = whole.state.tractions;  // as many nodes, another grid
+  turned.state.tractions = SurfaceTractions(t.stations(), static_cast<int>(t.all().size()) / t.stations());
   EXPECT_THROW(Stepper(system, turned), CaseError);
   EXPECT_NO_THROW(Stepper(system, whole));
 }

@@ -47,7 +47,7 @@ TEST(Rolling, ElementsInSinglePrecisionChangeTractionsByLessThanAFifthOfAPercent
   spec.drive.traction_coefficient = 0;
   spec.drive.creepage_start = -0.02;
   const PreloadResult preload = solve_preload(small_system(spec), 1e-5);
-  auto roll = [&](const char* precision) {
+  auto roll = [&](ArithmeticPrecision precision) {
     spec.run.precision = precision;
     const RollingSystem system = small_system(spec);
     Stepper st(system, preload);
@@ -55,10 +55,11 @@ TEST(Rolling, ElementsInSinglePrecisionChangeTractionsByLessThanAFifthOfAPercent
     while (st.position() < 0.0015) st.step();
     const EnergyBalance end = energy_now(st);
     EXPECT_LT(std::abs(end.total() - start.total()), 2e-5 * end.strain)
-        << precision;  // the preload's tolerance is 1e-5
+        << static_cast<int>(precision);  // the preload's tolerance is 1e-5
     return st.state().tractions.all();
   };
-  const std::vector<NodeTraction> exact = roll("double"), rounded = roll("single");
+  const std::vector<NodeTraction> exact = roll(ArithmeticPrecision::double_precision),
+                                  rounded = roll(ArithmeticPrecision::single_precision);
   ASSERT_EQ(exact.size(), rounded.size());
   double p_max = 0, q_max = 0, p_difference = 0, q_difference = 0;
   for (std::size_t k = 0; k < exact.size(); ++k) {
@@ -80,7 +81,7 @@ TEST(Rolling, PenaltyContactCarriesTheWeightSoftly) {
   spec.drive.traction_coefficient = 0.05;
   const RollingSystem exact = small_system(spec);
   const PreloadResult hard = solve_preload(exact, 1e-6);
-  spec.contact.method = "penalty";
+  spec.contact.method = ContactMethod::penalty;
   const RollingSystem system = small_system(spec);
   const PreloadResult soft = solve_preload(system, 1e-6);
   EXPECT_NEAR(soft.contact_force.z / hard.contact_force.z, 1, 1e-4);
@@ -112,8 +113,8 @@ TEST(Rolling, SameBitsOnOneTwoAndFourThreads) {
         st.dt(),   st.forces().x, st.forces().y, st.forces().z, st.state().axle.x, st.state().axle.psi,
         e.total(), e.kinetic,     e.friction,    e.damping};
     for (const auto& [body, u] :
-         {std::pair{&system.rail, &st.state().u_rail}, std::pair{&system.wheel, &st.state().u_wheel}})
-      for (const DeformableBody::Line& l : body->lines)
+         {std::pair{&system.rail(), &st.state().bodies[0].u}, std::pair{&system.wheel(), &st.state().bodies[1].u}})
+      for (const NodeLine& l : body->lines)
         bits.insert(bits.end(), u->begin() + l.first, u->begin() + l.first + l.count);
     return bits;
   });

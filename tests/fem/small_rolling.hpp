@@ -8,8 +8,8 @@ inline CaseSpec small_case() {
   CaseSpec s;
   s.geometry.rail_profile = "flat";
   s.geometry.wheel_profile = "arc:R=430 mm";
-  s.geometry.rail_shape = "block";
-  s.geometry.wheel_shape = "disc";
+  s.geometry.rail_shape = RailShape::block;
+  s.geometry.wheel_shape = WheelShape::disc;
   s.geometry.cant = 0;
   s.geometry.bore_radius = 0.25;
   s.vehicle.wheel_mass = 1500;
@@ -28,11 +28,11 @@ inline CaseSpec small_case() {
 }
 
 /// With a layer of a millimetre on 4 mm elements.
-inline CaseSpec thinly_layered(CaseSpec s, const std::string& time_step_method) {
+inline CaseSpec thinly_layered(CaseSpec s, TimeStepMethod method) {
   s.layers.emplace_back();
   s.layers.back().thickness = 1e-3;
   s.layers.back().width = 0.02;
-  s.run.time_step_method = time_step_method;
+  s.run.time_step_method = method;
   return s;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/faults.hpp"
+#include "geometry/profile_names.hpp"
 
 namespace railstrata {
 namespace {

@@ -10,6 +10,7 @@
 
 #include "core/faults.hpp"
 #include "geometry/builtin_profiles.hpp"
+#include "geometry/profile_names.hpp"
 #include "geometry/smoothing_spline.hpp"
 
 namespace railstrata {
@@ -85,7 +86,7 @@ TEST(Profile, built_in_curves_pass_through_the_reference_lists) {
   EXPECT_LT(largest_distance(wheel("S1002"), listed("s1002_wheel.csv")), 130 * rounding);  // zone C's steps are closed
 }
 
-TEST(Profile, S1002_formulas_agree_with_the_reference_list_to_its_rounding_outside_zone_C) {
+TEST(Profile, S1002_formulas_agree_with_the_reference_list_outside_zone_C) {
   double worst = 0;  // the list's first point, y = -70, is 2e-4 mm beside its circle
   for (const Vec2 p : listed("s1002_wheel.csv"))
     if ((p.y / mm > -69.95 && p.y / mm < -35.01) || p.y / mm > -25.99)
@@ -242,7 +243,7 @@ TEST(ProfileFromPoints, a_circle_is_reproduced_with_order_4) {
   EXPECT_LT(last, 1e-6 * mm);
 }
 
-TEST(ProfileFromPoints, rounding_to_1e_6_mm_every_01_mm_leaves_the_curvature_of_a_crown_within_1_percent) {
+TEST(ProfileFromPoints, rounding_to_1e_6_mm_leaves_a_crowns_curvature_within_1_percent) {
   std::vector<Vec2> points = crown(0.3, 0.01, 0.1 * mm);
   for (Vec2& p : points) p.z = std::round(p.z / (1e-6 * mm)) * 1e-6 * mm;
   const Profile p = Profile::from_points(ProfileKind::rail, "rounded", points);
@@ -256,7 +257,7 @@ double scatter(std::mt19937& random) {
   return sum;
 }
 
-TEST(ProfileFromPoints, measured_points_scattered_by_3_micrometres_give_a_curve_closer_than_that) {
+TEST(ProfileFromPoints, points_scattered_by_3_micrometres_give_a_closer_curve) {
   std::mt19937 random(1);
   std::vector<Vec2> points = crown(0.3, 0.03, 0.2 * mm);
   for (Vec2& p : points) p.z += 3e-6 * scatter(random);
@@ -300,6 +301,13 @@ TEST(ProfileFromPoints, defects_are_named) {
   points = crown(0.3, 0.02, 0.5 * mm);
   std::swap(points[20], points[23]);
   EXPECT_NE(arc_points_error(points).find("turns back on itself at point 21"), std::string::npos);
+  EXPECT_EQ(arc_points_error(points).find("outlier"), std::string::npos) << "two points change places";
+  points = crown(0.3, 0.02, 0.1 * mm);
+  points[60].z += 0.5 * mm;
+  EXPECT_NE(
+      arc_points_error(points).find("the order along the curve, without loops; or remove point 61 if it is an outlier"),
+      std::string::npos)
+      << arc_points_error(points);
   points.clear();
   for (int i = 0; i < 40; ++i)
     points.push_back({0.01 * std::cos(0.2 * i), 0.01 * std::sin(0.2 * i)});  // more than once round

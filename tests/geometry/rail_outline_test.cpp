@@ -3,7 +3,8 @@
 #include <cmath>
 
 #include "core/faults.hpp"
-#include "geometry/profile.hpp"
+#include "geometry/profile_names.hpp"
+#include "geometry/rail_outline.hpp"
 
 namespace railstrata {
 namespace {

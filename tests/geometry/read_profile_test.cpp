@@ -9,6 +9,8 @@
 
 #include "core/faults.hpp"
 #include "geometry/placement.hpp"
+#include "geometry/profile_names.hpp"
+#include "geometry/read_profile.hpp"
 
 namespace railstrata {
 namespace {
@@ -86,8 +88,7 @@ bool mentions(const std::vector<std::string>& notes, const std::string& text) {
   return false;
 }
 
-TEST_F(ReadProfile,
-       the_listed_LMA_touches_CN60_where_the_arcs_do_and_away_from_jumps_with_the_same_curvature_within_1_percent) {
+TEST_F(ReadProfile, the_listed_LMA_touches_CN60_where_the_arcs_do_with_their_curvature) {
   const Profile arcs = builtin_profile(ProfileKind::wheel, "LMA"),
                 listed = read_profile(ProfileKind::wheel, shipped("lma_wheel.csv"));
   const Profile rail_arcs = builtin_profile(ProfileKind::rail, "CN60"),
@@ -279,7 +280,7 @@ TEST_F(ReadProfile, a_stray_point_that_the_curve_swings_out_to_is_refused_with_t
             "points, or give more of them where the curve bends");
 }
 
-TEST_F(ReadProfile, points_that_nearly_repeat_each_other_beside_long_gaps_are_refused_with_the_file) {
+TEST_F(ReadProfile, nearly_repeated_points_beside_long_gaps_are_refused_with_the_file) {
   const std::string error = error_of("-24.001 -1.44\n0 0\n0.000002 0.00064\n0.02 0.001\n0.024 0\n20 -1.00048\n");
   EXPECT_EQ(error.find("list.csv"), 0u) << error;
   EXPECT_NE(error.find("remedy"), std::string::npos);
@@ -293,7 +294,7 @@ TEST_F(ReadProfile, a_curve_that_passes_the_axis_twice_is_refused_with_the_file)
   EXPECT_NE(error.find("remedy"), std::string::npos);
 }
 
-TEST_F(ReadProfile, a_Simpack_file_is_shifted_cut_mirrored_and_reversed_in_this_order_and_says_so) {
+TEST_F(ReadProfile, a_Simpack_file_is_shifted_cut_mirrored_reversed_in_this_order) {
   const std::string header =
       "header.begin\n  version = 1\n  type = 1 ! wheel\nheader.end\nspline.begin\n  approx.smooth = 1\n  shift.y = 2\n "
       " shift.z = -1\n  rotate = 0.0\n"
@@ -345,7 +346,7 @@ TEST_F(ReadProfile, what_is_wrong_with_a_Simpack_file_is_told_with_its_line) {
         << error_of(text, ProfileKind::rail, "rail.prr");
 }
 
-TEST_F(ReadProfile, MiniProf_files_new_and_old_are_read_without_their_switched_off_points) {
+TEST_F(ReadProfile, MiniProf_files_new_and_old_lose_their_switched_off_points) {
   const std::string rows =
       relisted("lma_wheel.csv", [](double y, double z) { return formatted("%.6f\t%.6f\t0.1\t0.002", -y, -z); });
   std::vector<std::string> notes;

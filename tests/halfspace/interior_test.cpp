@@ -14,8 +14,8 @@ const HalfSpaceMaterial kBody{70e9, 0.27};
 
 // Far from a small square the fields are those of point forces [Johnson1985 eqs. 3.19, 3.77].
 TEST(Interior, FarFieldIsBoussinesqAndCerruti) {
-  const double x = 0.3, y = -0.5, z = 0.7, s = 1e-3, r2 = x * x + y * y, rho = std::sqrt(r2 + z * z), P = s * s,
-               nu = kBody.poisson, pi = std::numbers::pi;
+  const double x = 0.3, y = -0.5, z = 0.7, s = 1e-3, P = s * s;
+  const double r2 = x * x + y * y, rho = std::sqrt(r2 + z * z), nu = kBody.poisson, pi = std::numbers::pi;
   const InteriorInfluence i = rectangle_interior(kBody, x, y, z, s, s);
   const Sym3 n = stress_of(i[0], kBody), t = stress_of(i[1], kBody);
   const double tolerance = 2e-6 * P;
@@ -80,8 +80,9 @@ TEST(Interior, SurfaceStrainsAreTheDerivativesOfTheSurfaceDisplacements) {
 
 // [Johnson1985 eqs. 3.18, 3.75]: displacements of point forces.
 TEST(Interior, FarDisplacementIsBoussinesqsAndCerrutis) {
-  const double x = 0.3, y = -0.5, z = 0.7, s = 1e-3, rho = std::sqrt(x * x + y * y + z * z), nu = kBody.poisson,
-               f = s * s / (4 * std::numbers::pi * kBody.shear());
+  const double x = 0.3, y = -0.5, z = 0.7, s = 1e-3;
+  const double rho = std::sqrt(x * x + y * y + z * z), nu = kBody.poisson;
+  const double f = s * s / (4 * std::numbers::pi * kBody.shear());
   const InteriorDisplacement u = rectangle_displacement(kBody, x, y, z, s, s);
   const double tolerance = 2e-6 * f;
   EXPECT_NEAR(u[0].x, f * (x * z / std::pow(rho, 3) - (1 - 2 * nu) * x / (rho * (rho + z))), tolerance);

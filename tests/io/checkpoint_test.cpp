@@ -1,5 +1,6 @@
 #include "io/checkpoint_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -27,9 +28,9 @@ RunState small_run(double time) {
   RunState r;
   r.stepper.state.time = time;
   r.stepper.state.step = 1'234'567'890'123;
-  r.stepper.state.u_rail = {0.1, -0.0, 5e-324};
-  r.stepper.state.v_wheel = {1.0 / 3};
-  r.stepper.state.tractions = TractionMemory(2, 3);
+  r.stepper.state.bodies[0].u = {0.1, -0.0, 5e-324};
+  r.stepper.state.bodies[1].v = {1.0 / 3};
+  r.stepper.state.tractions = SurfaceTractions(2, 3);
   r.stepper.state.tractions.at(1, 2) = {1, 2, 3, 4, 5};
   r.stepper.state.groups = {{0.5, -0.5}};
   r.stepper.facets = {{3, 4, {{1, 2}, {3, 4}, {5, 6}, {7, 8}}}};
@@ -115,10 +116,10 @@ TEST_F(Checkpoints, ReadBackWhatWasWritten) {
   const Checkpoint c = checkpoint_of(bytes, "x");
   EXPECT_EQ(c.origin.provenance, kOrigin.provenance);
   EXPECT_EQ(c.run.stepper.state.step, r.stepper.state.step);
-  EXPECT_EQ(c.run.stepper.state.u_rail, r.stepper.state.u_rail);
-  EXPECT_TRUE(std::signbit(c.run.stepper.state.u_rail[1]));
+  EXPECT_EQ(c.run.stepper.state.bodies[0].u, r.stepper.state.bodies[0].u);
+  EXPECT_TRUE(std::signbit(c.run.stepper.state.bodies[0].u[1]));
   EXPECT_EQ(c.run.stepper.state.tractions.at(1, 2).slip2, 5);
-  EXPECT_EQ(c.run.stepper.facets[0].correction[3].z, 8);
+  EXPECT_EQ(c.run.stepper.facets[0].correction[3].y, 8);
   EXPECT_TRUE(c.run.stepper.reached_edge);
   EXPECT_EQ(c.run.result.history[0].forces.nodes, 7);
   EXPECT_EQ(c.run.result.positions[0].samples[1].rail.stress[0].xz, 6);
@@ -152,7 +153,7 @@ TEST_F(Checkpoints, TheSystemHasTheMemoryBack) {
   if (!kOwnHeap) GTEST_SKIP() << "the heap is a sanitizer's";
   RunState r = small_run(1e-3), good;
   RollingState& s = r.stepper.state;
-  for (Field* f : {&s.u_rail, &s.v_rail, &s.u_wheel, &s.v_wheel})
+  for (Field* f : {&s.bodies[0].u, &s.bodies[0].v, &s.bodies[1].u, &s.bodies[1].v})
     f->assign(std::size_t{1} << 18, 1.0);  // 2 MiB each, below what malloc gives back by itself
   long least = 0, most = 0;
   for (int k = 0; k < 5; ++k) {
@@ -248,8 +249,8 @@ TEST_F(Checkpoints, NumbersAreTakenFromThisFileAndAsTheyWereWrittenOnly) {
   };
   const auto as_usual = [](hid_t) {};
   const hsize_t chunk = 3;
-  EXPECT_EQ(checkpoint_of(stored(H5T_IEEE_F64LE, as_usual), "x").run.stepper.state.u_rail,
-            small_run(1).stepper.state.u_rail);
+  EXPECT_EQ(checkpoint_of(stored(H5T_IEEE_F64LE, as_usual), "x").run.stepper.state.bodies[0].u,
+            small_run(1).stepper.state.bodies[0].u);
   const std::string apart = "u_rail is not stored in one piece";
   EXPECT_NE(refused_for(stored(H5T_IEEE_F64LE, [&](hid_t how) { H5Pset_chunk(how, 1, &chunk); })).find(apart),
             std::string::npos);
@@ -274,10 +275,20 @@ TEST_F(Checkpoints, NumbersAreTakenFromThisFileAndAsTheyWereWrittenOnly) {
 TEST_F(Checkpoints, ThoseOfAnotherCaseOrFormatAreRefused) {
   write_checkpoint(folder, {"another case", "a program", {}}, small_run(1));
   EXPECT_NE(refusal().find("belongs to another case"), std::string::npos);
-  std::string bytes = checkpoint_bytes(kOrigin, small_run(1));
-  bytes.replace(bytes.find("format 1"), 8, "format 7");
-  put(checkpoint_file(folder), bytes);
-  EXPECT_NE(refusal().find("its format is 7, this program's is 1"), std::string::npos) << refusal();
+  const std::string whole = checkpoint_bytes(kOrigin, small_run(1)),
+                    format = fmt::format("format {}\n", kCheckpointFormat);
+  const auto refusal_of = [&](const std::string& other) {
+    std::string bytes = whole;
+    bytes.replace(bytes.find(format), format.size(), "format " + other + "\n");
+    put(checkpoint_file(folder), bytes);
+    fs::remove(previous_checkpoint_file(folder));
+    return refusal();
+  };
+  const std::string older = refusal_of("1"), newer = refusal_of("77"), strange = refusal_of("x7");
+  EXPECT_NE(older.find("it was written by an older RailStrata (its format is 1, this program's is"), std::string::npos);
+  EXPECT_NE(older.find("start the run anew with --force, or go on with the program that wrote it"), std::string::npos);
+  EXPECT_NE(newer.find("it was written by a newer RailStrata (its format is 77, "), std::string::npos) << newer;
+  EXPECT_NE(strange.find("its format is x7, this program's is"), std::string::npos) << strange;
 }
 
 }  // namespace railstrata

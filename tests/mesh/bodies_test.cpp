@@ -1,3 +1,5 @@
+#include "geometry/profile_names.hpp"
+#include "geometry/rail_outline.hpp"
 #include "mesh/bodies.hpp"
 
 #include <gtest/gtest.h>
@@ -32,6 +34,11 @@ SweptBody rail_block(const std::vector<LayerMesh>& layers = {}) {
   spec.shape = RailShape::block;
   return mesh_rail(cn60(), kTrack, spec, {});
 }
+SweptBody ring_wheel() {
+  WheelMeshSpec spec = wheel_spec();
+  spec.theta_end = 7;
+  return mesh_wheel(lma(), 0.430, {0, 0, 0.430}, spec, {.element = 3e-3});
+}
 SweptBody disc() {
   WheelMeshSpec spec = wheel_spec();
   spec.shape = WheelShape::disc;
@@ -45,6 +52,7 @@ std::vector<SweptBody> every_shape() {
           rail_block(one_layer(2e-3)),
           wheel(),
           wheel(one_layer(1e-3)),
+          ring_wheel(),
           disc()};
 }
 
@@ -230,6 +238,23 @@ TEST(WheelVolume, IsThatOfItsSectionRevolvedByPappus) {
   const double moment = ring_moment(rim) + ring(spec.hub_radius, 0.430 - spec.rim_thickness, spec.web_thickness) +
                         ring(spec.bore_radius, spec.hub_radius, spec.hub_width);
   EXPECT_NEAR(volume(wheel()) / (2 * std::numbers::pi * moment), 1.0, 0.005);
+}
+
+// A path of a turn and more: the band is fine all round, and no element lies over another.
+TEST(WheelVolume, OfALongPathIsThatOfAShortOne) {
+  const MeshSizes sizes{.element = 4e-3};
+  const SweptBody few = wheel({}, sizes);
+  for (double turns : {0.97, 1.0, 1.3, 7.4}) {
+    WheelMeshSpec spec = wheel_spec();
+    spec.theta_end = spec.theta_begin + 2 * std::numbers::pi * turns;
+    const SweptBody body = mesh_wheel(lma(), 0.430, {0, 0, 0.430}, spec, sizes);
+    EXPECT_NEAR(volume(body) / volume(few), 1, 1e-3) << turns;
+    WorstQuality worst, worst_of_few;
+    gather(worst, body, "long path");
+    gather(worst_of_few, few, "short path");
+    EXPECT_GT(worst.scaled_jacobian, 0.99 * worst_of_few.scaled_jacobian) << turns << ": " << worst.where;
+    EXPECT_EQ(body.contact.fine_end - body.contact.fine_begin >= 2 * std::numbers::pi - 1e-12, turns > 0.98) << turns;
+  }
 }
 
 TEST(Ties, TieEverySlaveOnceAndNeverInACircle) {

@@ -79,6 +79,31 @@ TEST(RingStations, CloseTheRingOnceWithinTheGrowth) {
   EXPECT_TRUE(std::includes(s.fine.begin(), s.fine.end(), s.coarse.begin(), s.coarse.end()));
 }
 
+TEST(RingStations, AreEqualAllRoundWhereTheRangeIsNearlyATurnOrLonger) {
+  constexpr double kTurn = 2 * std::numbers::pi, kStep = 1e-3 / 0.43;
+  for (double length : {kTurn - 11 * kStep, kTurn, 1.3 * kTurn, 7.4 * kTurn}) {
+    const StationPair s = ring_stations(-0.037, -0.037 + length, kStep, 3, 18e-3 / 0.43);
+    EXPECT_EQ(s.fine.size(), 3 * s.coarse.size());
+    EXPECT_NEAR(kTurn / (kStep * static_cast<double>(s.fine.size())), 1, 1e-3);
+    EXPECT_EQ(s.fine.front(), -0.037);
+    EXPECT_DOUBLE_EQ(s.fine_end - s.fine_begin, kTurn);
+    std::vector<double> closed = s.fine;
+    closed.push_back(s.fine.front() + kTurn);
+    EXPECT_LT(worst_ratio(differences(closed)), 1 + 1e-9);
+    EXPECT_TRUE(std::includes(s.fine.begin(), s.fine.end(), s.coarse.begin(), s.coarse.end()));
+  }
+}
+
+TEST(RingStations, KeepAGapWhereFourCoarseStepsAreLeft) {
+  constexpr double kStep = 1e-3 / 0.43, kLeft = 2 * std::numbers::pi - 12.5 * kStep;
+  const StationPair s = ring_stations(-0.037, -0.037 + kLeft, kStep, 3, 18e-3 / 0.43);
+  EXPECT_LT(s.fine_end, s.fine_begin + 2 * std::numbers::pi);
+  std::vector<double> closed = s.fine;
+  closed.push_back(s.fine.front() + 2 * std::numbers::pi);
+  EXPECT_TRUE(std::is_sorted(closed.begin(), closed.end()));
+  EXPECT_LE(worst_ratio(differences(s.coarse)), 2.0);
+}
+
 TEST(Thinned, KeepsEndsAndStaysBelowTheLargestSpacing) {
   const StationPair s = extruded_stations(0, 0.3, 1e-3, 3, 0.12, 12e-3);
   const std::vector<double> few = thinned(s.coarse, 12e-3);

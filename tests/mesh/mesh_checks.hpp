@@ -35,11 +35,6 @@ inline std::vector<LayerMesh> one_layer(double thickness, double width = 0.060) 
   return {{"layer", thickness, width, 0}};
 }
 
-inline double quad_area(const Section& section, const std::array<int, 4>& quad) {
-  const auto& n = section.nodes;
-  return 0.5 * cross(n[quad[2]] - n[quad[0]], n[quad[3]] - n[quad[1]]);
-}
-
 inline double area(const Section& section) {
   double sum = 0;
   for (const auto& quad : section.quads) sum += quad_area(section, quad);

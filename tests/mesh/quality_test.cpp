@@ -1,3 +1,4 @@
+#include "geometry/profile_names.hpp"
 #include "mesh/quality.hpp"
 
 #include <gtest/gtest.h>
@@ -27,6 +28,13 @@ TEST(MeasureQuality, IsOneForCubesAndTheSineOfTheAngleForSheared) {
   for (Vec2& p : body.blocks[0].section.nodes) p.y += p.z;
   EXPECT_NEAR(measure_quality(body)[0].scaled_jacobian_min, std::sqrt(0.5), 1e-12);
   EXPECT_NEAR(measure_quality(body)[0].aspect_max, std::sqrt(2.0), 1e-12);
+}
+
+TEST(QuadArea, IsThatOfAnyQuadrilateralBySignOfItsTurn) {
+  const Section s{{{0, 0}, {2, 0}, {2, 1}, {0, 1}, {0.5, 0.25}}, {}, {}};
+  EXPECT_DOUBLE_EQ(quad_area(s, {0, 1, 2, 3}), 2.0);
+  EXPECT_DOUBLE_EQ(quad_area(s, {3, 2, 1, 0}), -2.0);
+  EXPECT_DOUBLE_EQ(quad_area(s, {4, 1, 2, 3}), 1.5) << "the corner at 0.5, 0.25 takes half a unit away";
 }
 
 TEST(MeasureQuality, SeesAnInvertedElementAndSaysWhere) {

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "geometry/profile_names.hpp"
 #include "mesh_checks.hpp"
 
 namespace railstrata {

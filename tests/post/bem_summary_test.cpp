@@ -33,10 +33,10 @@ TEST(BemSummary, OfCrossedCylindersIsHertzs) {
   const Summary s = bem_summary(spec, solve_bem(spec, place(spec, {}), cells(0.25e-3)));
   const double load = static_load(spec), modulus = 210e9 / (2 * (1 - 0.09)),
                a = std::cbrt(3 * load * 0.42 / (4 * modulus)), p0 = 1.5 * load / (std::numbers::pi * a * a);
-  EXPECT_NEAR(s.contact.p_max / p0, 1, 2e-3);
-  EXPECT_NEAR(s.contact.patch_length / (2 * a), 1, 0.01);
-  EXPECT_NEAR(s.contact.patch_width / (2 * a), 1, 0.01);
-  EXPECT_NEAR(s.contact.patch_area / (std::numbers::pi * a * a), 1, 0.01);
+  EXPECT_NEAR(s.contact.patch.p_max / p0, 1, 2e-3);
+  EXPECT_NEAR(s.contact.patch.length / (2 * a), 1, 0.01);
+  EXPECT_NEAR(s.contact.patch.width / (2 * a), 1, 0.01);
+  EXPECT_NEAR(s.contact.patch.area / (std::numbers::pi * a * a), 1, 0.01);
   EXPECT_NEAR(s.contact.approach / (a * a / 0.42), 1, 2e-3);
   EXPECT_NEAR(s.contact.F_z / load, 1, 1e-9);
   for (const StressSummary* body : {&s.rail, &s.wheel}) {
@@ -44,8 +44,8 @@ TEST(BemSummary, OfCrossedCylindersIsHertzs) {
     EXPECT_NEAR(body->subsurface->von_mises.depth / a, 0.48, 0.01);
     EXPECT_FALSE(body->layer || body->interface || body->matrix) << "no layer, no interface";
   }
-  EXPECT_EQ(s.run.engine, "bem");
-  EXPECT_TRUE(std::isnan(s.contact.creepage_x) && std::isnan(s.contact.slip_area_fraction))
+  EXPECT_EQ(s.run.engine, Engine::bem);
+  EXPECT_TRUE(std::isnan(s.contact.creepage_x) && std::isnan(s.contact.patch.slip_area_fraction))
       << "without friction neither applies";
   EXPECT_TRUE(std::isnan(s.contact.penetration_max));
   EXPECT_EQ(s.position, spec.run.positions.back());

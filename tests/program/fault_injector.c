@@ -1,6 +1,9 @@
-// A disk that fails on demand, for tests: preloaded into the program it lets one kind of call on one kind of file fail or wait.
-//   RAILSTRATA_FAULT="CALL NAME REASON SKIP"   the calls (open, write, fsync, rename) on files whose path contains NAME fail with errno REASON, after SKIP that succeed;
-//                                              REASON "wait": they take ten seconds instead. A write that fails for lack of room has written half of its bytes before, as on a real disk.
+// A disk that fails on demand, for tests: preloaded into the program it lets one kind of call on one kind of file fail
+// or wait.
+//   RAILSTRATA_FAULT="CALL NAME REASON SKIP"   the calls (open, write, fsync, rename) on files whose path contains NAME
+//                                              fail with errno REASON, after SKIP that succeed;
+//                                              REASON "wait": they take ten seconds instead. A write that fails for
+//                                              lack of room has written half of its bytes before, as on a real disk.
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>

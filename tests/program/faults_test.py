@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What the machine does to a run: full disks, folders that cannot be written, checkpoints that cannot be read, two runs at once. usage: faults_test.py BINARY FAULT_INJECTOR
+"""What the machine does to a run: full disks, folders that cannot be written, checkpoints that cannot be read, two runs
+at once. usage: faults_test.py BINARY FAULT_INJECTOR
 
 FAULT_INJECTOR: the library of fault_injector.c."""
 import contextlib
@@ -27,7 +28,8 @@ NO_ROOM = "No space left on device\n    remedy: make room on the disk"
 
 def with_fault(call, name, reason, skip=0):
     """The environment of a program whose calls on a file of this name fail."""
-    return {**os.environ, "LD_PRELOAD": str(INJECTOR), "ASAN_OPTIONS": "verify_asan_link_order=0", "RAILSTRATA_FAULT": f"{call} {name} {reason} {skip}"}
+    return {**os.environ, "LD_PRELOAD": str(INJECTOR), "ASAN_OPTIONS": "verify_asan_link_order=0",
+            "RAILSTRATA_FAULT": f"{call} {name} {reason} {skip}"}
 
 
 class Faults(FromOutside):
@@ -59,11 +61,14 @@ class Faults(FromOutside):
 class FullDisk(Faults):
     def test_at_any_file_of_a_run(self):
         injected = 0
-        for text, wanted in ((STILL, lambda name: "history" not in name), (SMALL, lambda name: re.search(r"history|patch_series.*(0|2)\.vtp|pvd|position_.*summary", name))):
+        for text, wanted in ((STILL, lambda name: "history" not in name),
+                             (SMALL, lambda name: re.search(r"history|patch_series.*(0|2)\.vtp|pvd|position_.*summary",
+                                                            name))):
             rc, reference = self.whole(text)
             files = [*filter(wanted, reference), *(["provenance.json"] if text == STILL else [])]
             for name in files:
-                code, _, err = railstrata(*self.run_words(text), "--force", env=with_fault("write", f"/out/{name}", errno.ENOSPC))
+                code, _, err = railstrata(*self.run_words(text), "--force",
+                                          env=with_fault("write", f"/out/{name}", errno.ENOSPC))
                 self.assertEqual(code, 4, f"{name}: {err}")
                 self.assertIn(f"error: cannot write {self.out}/{name}: {NO_ROOM}", err)
                 if name not in ("case.toml", "case.original.toml", "provenance.json"):
@@ -90,11 +95,15 @@ class FullDisk(Faults):
 
     def test_the_run_goes_on_from_its_checkpoint_when_there_is_room(self):
         rc, reference = self.whole(SMALL)
-        faults = (("write", "history.csv", 60), ("write", "rail.vtu", 0), ("fsync", "wheel.vtu", 0), ("rename", "summary.json", 0))
+        faults = (("write", "history.csv", 60), ("write", "rail.vtu", 0), ("fsync", "wheel.vtu", 0),
+                  ("rename", "summary.json", 0))
         for call, name, skip in faults:
-            code, _, err = railstrata(*self.run_words(SMALL), "--force", *SOON, env=with_fault(call, f"/out/{name}", errno.ENOSPC, skip))
+            code, _, err = railstrata(*self.run_words(SMALL), "--force", *SOON,
+                                      env=with_fault(call, f"/out/{name}", errno.ENOSPC, skip))
             self.assertEqual(code, 4, err)
-            self.assertIn(f"error: cannot write {self.out}/{name}: {NO_ROOM}, then go on with\n    railstrata run --resume {self.out}\n", err)
+            self.assertIn(
+                f"error: cannot write {self.out}/{name}: {NO_ROOM}, then go on with\n    railstrata run --resume "
+                f"{self.out}\n", err)
             self.assert_unfinished_and_sound()
             self.assertEqual(railstrata("run", "--resume", self.out, *WORDS)[0], rc)
             self.assert_same(reference)
@@ -102,11 +111,16 @@ class FullDisk(Faults):
 
     def test_a_checkpoint_that_cannot_be_written_leaves_the_one_before(self):
         rc, reference = self.whole(SMALL)
-        faults = [(call, reason, skip) for call, reason in (("write", errno.ENOSPC), ("fsync", errno.EIO), ("rename", errno.EIO), ("open", errno.EDQUOT)) for skip in (0, 1)]
+        faults = [(call, reason, skip) for call, reason in (("write", errno.ENOSPC), ("fsync", errno.EIO),
+                                                            ("rename", errno.EIO), ("open", errno.EDQUOT))
+                  for skip in (0, 1)]
         for call, reason, skip in faults:
-            code, _, err = railstrata(*self.run_words(SMALL), "--force", *SOON, env=with_fault(call, "/out/checkpoint.h5", reason, skip))
+            code, _, err = railstrata(*self.run_words(SMALL), "--force", *SOON,
+                                      env=with_fault(call, "/out/checkpoint.h5", reason, skip))
             self.assertEqual(code, rc, err)
-            self.assertIn(f"warning: no checkpoint: cannot write {self.out}/checkpoint.h5: {os.strerror(reason)}; the run goes on\n", err)
+            self.assertIn(
+                f"warning: no checkpoint: cannot write {self.out}/checkpoint.h5: {os.strerror(reason)}; the run goes "
+                f"on\n", err)
             self.assert_same(reference)
         fact("disk_full_checkpoint", injected=len(faults), survived=len(faults))
 
@@ -123,9 +137,13 @@ class FullDisk(Faults):
     def test_a_study_takes_up_again_when_there_is_room(self):
         base = self.folder / "base.toml"
         base.write_text(TINY)
-        (self.folder / "study.toml").write_text(f'[study]\nbase = "{base}"\nengines = ["bem"]\ncell = "1.5 mm"\n[[group]]\nname = "g"\n[group.vary]\n"drive.traction_coefficient" = [0.1, 0.2]\n')
+        (self.folder / "study.toml").write_text(
+            f'[study]\nbase = "{base}"\nengines = ["bem"]\ncell = "1.5 mm"\n[[group]]\nname = "g"\n[group.vary]\n'
+            f'"drive.traction_coefficient" = [0.1, 0.2]\n')
         words = ["study", self.folder / "study.toml", "--out", self.out, "--no-report", "--jobs", "1"]
-        for name, text in (("study.json", "cannot write"), ("study.csv", f"cannot write {self.out}/study.csv: {NO_ROOM}\n"), ("patch.csv", "2 of 2 cases failed")):
+        for name, text in (("study.json", "cannot write"),
+                           ("study.csv", f"cannot write {self.out}/study.csv: {NO_ROOM}\n"),
+                           ("patch.csv", "2 of 2 cases failed")):
             code, _, err = railstrata(*words, env=with_fault("write", name, errno.ENOSPC))
             self.assertEqual(code, 1 if name == "patch.csv" else 4, err)
             self.assertIn(text, err)
@@ -145,9 +163,11 @@ class FullDisk(Faults):
 
 @contextlib.contextmanager
 def file_system(options):
-    """A file system in memory of its own: its folder as everyone of this user sees it. Skips where the system does not let us mount one."""
+    """A file system in memory of its own: its folder as everyone of this user sees it. Skips where the system does not
+    let us mount one."""
     script = f"mount -t tmpfs -o {options} none /mnt && echo ready && exec sleep 1000"
-    holder = subprocess.Popen(["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    holder = subprocess.Popen(["unshare", "--user", "--map-root-user", "--mount", "sh", "-c", script],
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         if holder.stdout.readline() != "ready\n":
             raise unittest.SkipTest(f"SKIPPED: no file system can be mounted here: {holder.stderr.read().strip()}")
@@ -180,8 +200,12 @@ class SmallFileSystem(Faults):
 
     def test_one_that_can_only_be_read(self):
         with file_system("ro") as disk:
-            self.refused(4, self.run_words(SMALL, disk / "out"), f"error: cannot make the output folder {disk}/out: Read-only file system\n    remedy: choose another with --out\n")
-            self.refused(4, self.run_words(SMALL, disk), f"error: cannot write {disk}/.writable: Read-only file system\n    remedy: choose a folder that can be written, with --out")
+            self.refused(4, self.run_words(SMALL, disk / "out"),
+                         f"error: cannot make the output folder {disk}/out: Read-only file system\n    remedy: choose "
+                         f"another with --out\n")
+            self.refused(4, self.run_words(SMALL, disk),
+                         f"error: cannot write {disk}/.writable: Read-only file system\n    remedy: choose a folder "
+                         f"that can be written, with --out")
 
 
 class ReadOnly(Faults):
@@ -189,7 +213,9 @@ class ReadOnly(Faults):
         self.out.mkdir()
         code, _, err = railstrata(*self.run_words(SMALL), env=with_fault("open", "/out/", errno.EROFS))
         self.assertEqual(code, 4, err)
-        self.assertIn(f"error: cannot write {self.out}/.writable: Read-only file system\n    remedy: choose a folder that can be written, with --out", err)
+        self.assertIn(
+            f"error: cannot write {self.out}/.writable: Read-only file system\n    remedy: choose a folder that can "
+            f"be written, with --out", err)
         self.assertNotIn("meshing", err)
         self.assertEqual(list(self.out.iterdir()), [])
 
@@ -215,7 +241,9 @@ class Checkpoints(Faults):
 
     def test_a_second_signal_while_one_is_being_written_leaves_the_one_before(self):
         rc, reference = self.whole(SMALL)
-        process = start(*self.run_words(SMALL), "--checkpoint-every", "never", env=with_fault("fsync", "/out/checkpoint.h5", "wait", 1))  # the second takes its time
+        # the second takes its time
+        process = start(*self.run_words(SMALL), "--checkpoint-every", "never",
+                        env=with_fault("fsync", "/out/checkpoint.h5", "wait", 1))
         wait_for(lambda: rows(self.out) > 10, process)
         process.send_signal(signal.SIGUSR1)
         wait_for((self.out / "checkpoint.h5").exists, process)
@@ -274,8 +302,10 @@ class TwoAtOnce(Faults):
         rc, reference = self.whole(SMALL)
         first = start(*self.run_words(SMALL))
         wait_for((self.out / "provenance.json").exists, first)
-        told = f"error: another railstrata is writing into {self.out}\n    remedy: wait until it has ended, or choose another folder with --out\n"
-        for words in ([*self.run_words(SMALL), "--force"], ["run", "--resume", self.out], ["bem", self.folder / "case.toml", "--cell", "1.5 mm", "--out", self.out, "--force"]):
+        told = (f"error: another railstrata is writing into {self.out}\n    remedy: wait until it has ended, or choose "
+                f"another folder with --out\n")
+        for words in ([*self.run_words(SMALL), "--force"], ["run", "--resume", self.out],
+                      ["bem", self.folder / "case.toml", "--cell", "1.5 mm", "--out", self.out, "--force"]):
             self.refused(2, words, told)
         first.communicate()
         self.assertEqual(first.returncode, rc)

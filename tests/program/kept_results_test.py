@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A result folder stands for itself: it can be computed again anywhere, what was changed in it is seen, and what is no result is called by its name. usage: kept_results_test.py BINARY"""
+"""A result folder stands for itself: it can be computed again anywhere, what was changed in it is seen, and what is no
+result is called by its name. usage: kept_results_test.py BINARY"""
 import json
 import signal
 import sys
@@ -59,14 +60,16 @@ class Profiles(FromOutside):
 
     def test_files_of_one_name_are_kept_apart_and_nobody_s_file_is_replaced(self):
         (self.folder / "rail").mkdir()
-        (self.folder / "rail" / "w.csv").write_text("".join(f"{y:.6f}, {-y * y / 70:.9f}\n" for y in [0.5 * i for i in range(-72, 73)]))
+        rail = "".join(f"{y:.6f}, {-y * y / 70:.9f}\n" for y in [0.5 * i for i in range(-72, 73)])
+        (self.folder / "rail" / "w.csv").write_text(rail)
         (self.out / "inputs").mkdir(parents=True)
         (self.out / "inputs" / "w.csv").write_text("mine")
         case = HALF_SPACE.replace('"flat"', '"rail/w.csv"').format("elsewhere/w.csv")
         for _ in range(2):  # the second time the copies are found again
             self.done("bem", self.case(case), *COARSE, "--out", self.out, "--force")
             self.assertEqual((self.out / "inputs" / "w.csv").read_text(), "mine")
-            self.assertEqual((self.out / "inputs" / "w-2.csv").read_bytes(), (self.folder / "rail" / "w.csv").read_bytes())
+            self.assertEqual((self.out / "inputs" / "w-2.csv").read_bytes(),
+                             (self.folder / "rail" / "w.csv").read_bytes())
             self.assertEqual((self.out / "inputs" / "w-3.csv").read_bytes(), self.profile.read_bytes())
             self.assertEqual(sorted(f.name for f in (self.out / "inputs").iterdir()), ["w-2.csv", "w-3.csv", "w.csv"])
 
@@ -76,7 +79,9 @@ class Profiles(FromOutside):
 
     def test_a_study_keeps_the_profiles_of_its_cases_and_finds_its_results_again(self):
         (self.folder / "base.toml").write_text(HALF_SPACE.format("elsewhere/w.csv"))
-        (self.folder / "study.toml").write_text('[study]\ntitle = "s"\nbase = "base.toml"\nengines = ["bem"]\ncell = "1 mm"\n[[group]]\nname = "g"\n[group.vary]\n"drive.traction_coefficient" = [0.1, 0.2]\n')
+        (self.folder / "study.toml").write_text(
+            '[study]\ntitle = "s"\nbase = "base.toml"\nengines = ["bem"]\ncell = "1 mm"\n[[group]]\nname = "g"\n'
+            '[group.vary]\n"drive.traction_coefficient" = [0.1, 0.2]\n')
         study = ["study", self.folder / "study.toml", "--out", self.out, "--no-report"]
         err = self.done(*study)
         self.assertIn("2 of them to compute", err)
@@ -135,7 +140,8 @@ class Edited(FromOutside):
         self.assertIn(f"warning: {self.out}: case.toml was changed after the run", err)
         self.assertRegex(err, r"warning: verdict of the page: 1 of \d+ checks fails: case_edited\n")
         self.assertFalse(self.checks()["case_edited"]["ok"])
-        self.assertIn("case.toml was changed after the run", self.told("compare", self.out, self.out, "--out", self.folder / "c"))
+        self.assertIn("case.toml was changed after the run",
+                      self.told("compare", self.out, self.out, "--out", self.folder / "c"))
 
     def test_another_version_is_named(self):
         version = json.loads((self.out / "provenance.json").read_text())["version"]
@@ -146,19 +152,22 @@ class Edited(FromOutside):
 
     def test_an_unknown_engine_is_refused(self):
         self.edit("summary.json", '"engine": "bem"', '"engine": "abc"')
-        self.refused(2, ["report", self.out], f'{self.out}/summary.json: error: run.engine = "abc": no engine of this program, they are fem and bem\n    remedy: ')
+        self.refused(2, ["report", self.out], f'{self.out}/summary.json: error: run.engine = "abc": no engine of this '
+                                              f'program, they are fem and bem\n    remedy: ')
 
     def test_a_text_where_a_number_belongs_is_refused(self):
         summary = json.loads((self.out / "summary.json").read_text())
         summary["contact"]["p_max_Pa"] = "1.1 GPa"
         (self.out / "summary.json").write_text(json.dumps(summary))
         for words in (["report", self.out], ["compare", self.out, self.out, "--out", self.folder / "c"]):
-            self.refused(2, words, f"{self.out}/summary.json: error: contact.p_max_Pa is a text, not a number\n    remedy: ")
+            self.refused(2, words, f"{self.out}/summary.json: error: contact.p_max_Pa is a text, not a number\n    "
+                                   f"remedy: ")
 
     def test_a_section_with_lines_missing_says_so(self):
         file = self.out / "rail_cross_section.csv"
         file.write_text("\n".join(file.read_text().splitlines()[:-1]) + "\n")
-        self.refused(2, ["report", self.out], "rail_cross_section.csv: error: this section cannot be drawn: ", "remedy: lines were removed or sorted")
+        self.refused(2, ["report", self.out], "rail_cross_section.csv: error: this section cannot be drawn: ",
+                     "remedy: lines were removed or sorted")
 
 
 class NoResults(FromOutside):
@@ -175,24 +184,30 @@ class NoResults(FromOutside):
         self.refused_by_both(out, ": this run is not finished", f"railstrata run --resume '{out}'\n")
         for file in out.glob("checkpoint*"):
             file.unlink()
-        self.refused_by_both(out, ": this folder was begun by `railstrata run` and has no results yet", "wait until it has ended; if it was stopped, start it again: railstrata run CASE --out")
+        self.refused_by_both(out, ": this folder was begun by `railstrata run` and has no results yet",
+                             "wait until it has ended; if it was stopped, start it again: railstrata run CASE --out")
 
     def test_studies_sweeps_and_creep_curves_are_called_so(self):
         case = self.case(HALF_SPACE.format("arc:R=430 mm"))
         sweep, creep = self.folder / "sweep", self.folder / "creep"
-        self.assertEqual(railstrata("sweep", case, "--cell", "1 mm", "--vary", "drive.traction_coefficient=0.1,0.2", "--out", sweep)[0], 0)
+        self.assertEqual(railstrata("sweep", case, "--cell", "1 mm", "--vary", "drive.traction_coefficient=0.1,0.2",
+                                    "--out", sweep)[0], 0)
         self.refused_by_both(sweep, ": this is a sweep", "its table is sweep.csv")
         self.assertEqual(railstrata("creep-curve", case, "--cell", "1 mm", "--points", "2", "--out", creep)[0], 0)
         self.refused_by_both(creep, ": this is a creep curve", "its table is creep_curve.csv")
-        (self.folder / "study.toml").write_text('[study]\ntitle = "s"\nbase = "case.toml"\nengines = ["bem"]\ncell = "1 mm"\n[[group]]\nname = "g"\n')
+        (self.folder / "study.toml").write_text(
+            '[study]\ntitle = "s"\nbase = "case.toml"\nengines = ["bem"]\ncell = "1 mm"\n[[group]]\nname = "g"\n')
         study = self.folder / "study"
         self.assertEqual(railstrata("study", self.folder / "study.toml", "--out", study, "--no-report")[0], 0)
-        self.refused_by_both(study, ": this is a study", "its page is report.html in it, written by `railstrata study FILE --out ")
+        self.refused_by_both(study, ": this is a study", "its page is report.html in it, written by `railstrata study "
+                                                         "FILE --out ")
         one = next(study.glob("g/*/bem"))
-        self.refused_by_both(one.parent, " is not a result folder: it has no summary.json, folders in it have", f"give a folder that has one, for example {one}")
+        self.refused_by_both(one.parent, " is not a result folder: it has no summary.json, folders in it have",
+                             f"give a folder that has one, for example {one}")
 
     def test_a_folder_that_is_not_there(self):
-        self.refused_by_both(self.folder / "gone", " is not a result folder: there is no such folder", "give a folder that")
+        self.refused_by_both(self.folder / "gone", " is not a result folder: there is no such folder",
+                             "give a folder that")
 
 
 class Waiting(FromOutside):
@@ -207,7 +222,8 @@ class Waiting(FromOutside):
         import resource
         rc, _, err = railstrata(*words, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
         self.assertEqual(rc, 4, err)
-        self.assertRegex(err, r"error: half-spaces on cells of 0.02 mm need about [\d.]+ GB of memory \([\d.]+ million cells\), [\d.]+ GB are at hand\n    remedy: choose larger cells")
+        self.assertRegex(err, r"error: half-spaces on cells of 0.02 mm need about [\d.]+ GB of memory \([\d.]+ million "
+                              r"cells\), [\d.]+ GB are at hand\n    remedy: choose larger cells")
 
     def test_a_long_solution_says_what_it_takes_and_ctrl_c_is_answered(self):
         process = start("bem", self.case(HALF_SPACE.format("arc:R=430 mm")), *self.FINE, "--out", self.folder / "out")
@@ -216,7 +232,8 @@ class Waiting(FromOutside):
         process.send_signal(signal.SIGINT)
         _, err = process.communicate()
         self.assertEqual(process.returncode, 130, err)
-        self.assertRegex(err, r"half-spaces, [\d.]+ million cells, about [\d.]+ GB of memory and \d+ \w+: \d s so far\n")
+        self.assertRegex(err, r"half-spaces, [\d.]+ million cells, about [\d.]+ GB of memory and \d+ \w+: \d s so "
+                              r"far\n")
         self.assertTrue(err.endswith("stopped: nothing was written\n"), err)
         self.assertFalse((self.folder / "out").exists())
 

@@ -38,7 +38,8 @@ run_up = "0 mm"
 
 # Smaller still, a fifth of the time: the wheel of soak.toml with two positions.
 SMALL = (pathlib.Path(__file__).parent / "soak.toml").read_text()
-for old, new in (("100 mm/s", "10 m/s"), ('["65 mm"]', '["6 mm", "12 mm"]'), ('run_up = "5 mm"', 'run_up = "2 mm"'), ("0.5 mm", "0.1 mm")):
+for old, new in (("100 mm/s", "10 m/s"), ('["65 mm"]', '["6 mm", "12 mm"]'), ('run_up = "5 mm"', 'run_up = "2 mm"'),
+                 ("0.5 mm", "0.1 mm")):
     assert SMALL.count(old) == 1, old
     SMALL = SMALL.replace(old, new)
 
@@ -52,7 +53,8 @@ def railstrata(*words, cwd=None, **options):
 
 
 def start(*words, **options):
-    return subprocess.Popen([BINARY, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
+    return subprocess.Popen([BINARY, *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                            **options)
 
 
 def wait_for(condition, process):
@@ -80,7 +82,8 @@ def results(folder):
             out[name] = out[name].replace(str(place).encode(), b"FOLDER")
         if file.name == "summary.json":
             summary = json.loads(out[name])
-            for key in ("wall_s", "preload_wall_s", "output_wall_s", "element_steps_per_s", "peak_memory_bytes", "threads"):
+            for key in ("wall_s", "preload_wall_s", "output_wall_s", "element_steps_per_s", "peak_memory_bytes",
+                        "threads"):
                 del summary["run"][key]
             out[name] = json.dumps(summary)
     return out
@@ -95,14 +98,17 @@ def broken_files(folder):
                 return bool(json.loads(text))
             case ".csv":
                 table = [line for line in text.decode().splitlines() if not line.startswith("#")]
-                return text == b"" and file.name == "history.csv" or text.endswith(b"\n") and len({len(row) for row in csv.reader(table)}) == 1  # history.csv grows row by row
+                # history.csv grows row by row
+                return text == b"" and file.name == "history.csv" or text.endswith(b"\n") and len(
+                    {len(row) for row in csv.reader(table)}) == 1
             case ".vtp" | ".vtu" | ".pvd":
                 return text.rstrip().endswith(b"</VTKFile>")
             case ".html":
                 return text.rstrip().endswith(b"</html>")
             case ".toml" | ".py":
                 return text.endswith(b"\n")
-        return file.name in ("checkpoint.h5", "checkpoint.h5.previous")  # a whole one is resumed from; anything else has no business there
+        # a whole one is resumed from; anything else has no business there
+        return file.name in ("checkpoint.h5", "checkpoint.h5.previous")
     found = []
     for file in sorted(p for p in folder.rglob("*") if p.is_file()):
         try:
@@ -122,7 +128,8 @@ def fact(promise, **figures):
 def origin(folder):
     """What a result comes from, in the words of a record."""
     p = json.loads((folder / "provenance.json").read_text())
-    return {"commit": p["commit"] + ("+dirty" if p["dirty"] else ""), "cpu": p["cpu"], "compiler": p["compiler"], "isa": p["isa"].split(",")[0]}
+    return {"commit": p["commit"] + ("+dirty" if p["dirty"] else ""), "cpu": p["cpu"], "compiler": p["compiler"],
+            "isa": p["isa"].split(",")[0]}
 
 
 def keep_record(file, seen):

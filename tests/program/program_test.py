@@ -17,8 +17,11 @@ COARSE = ["--threads", "1", "--set", "mesh.element_size=4 mm", "--set", "mesh.fi
 class Program(FromOutside):
     def test_a_case_error_exits_2_with_place_caret_and_remedy(self):
         case = self.case('[mesh]\nelement_size = "1 MPa"\n[geometry]\nguage = "1.4 m"\n')
-        self.refused(2, ["check", case], f'{case}:2:16: error: mesh.element_size = "1 MPa": "MPa" is not the unit of a length\n    2 | element_size = "1 MPa"\n      |                ^\n'
-                     '    remedy: write a length', f"{case}:4:1: error: unknown key geometry.guage\n", "did you mean gauge?")
+        self.refused(2, ["check", case],
+                     f'{case}:2:16: error: mesh.element_size = "1 MPa": "MPa" is not the unit of a length\n    2 | '
+                     f'element_size = "1 MPa"\n      |                ^\n'
+                     '    remedy: write a length', f"{case}:4:1: error: unknown key geometry.guage\n",
+                     "did you mean gauge?")
 
     def test_errors_come_as_json_on_request(self):
         out = self.refused(2, ["check", self.case("[mesh]\nelement_size = 1\n"), "--json"], "a bare number has no unit")
@@ -27,11 +30,15 @@ class Program(FromOutside):
     def test_unknown_commands_and_options_exit_2(self):
         self.refused(2, ["chekc"], 'error: unknown command "chekc"\n    remedy: did you mean check?')
         self.refused(2, ["check"], "case is required")
-        self.refused(2, ["check", "a.toml", "--colour"], "error: railstrata check has no option --colour\n    remedy: options: ")
-        self.refused(2, ["bem", "a.toml", "--cel", "1 mm"], "error: railstrata bem has no option --cel\n    remedy: did you mean --cell? options: --cell, --force, --help, ")
-        self.refused(2, ["bem", "a.toml", "--cell", "1", "mm"], 'error: "mm" is one word too many for railstrata bem\n    remedy: put what has blanks into quotes')
+        self.refused(2, ["check", "a.toml", "--colour"], "error: railstrata check has no option --colour\n"
+                                                         "    remedy: options: ")
+        self.refused(2, ["bem", "a.toml", "--cel", "1 mm"], "error: railstrata bem has no option --cel\n    remedy: "
+                                                            "did you mean --cell? options: --cell, --force, --help, ")
+        self.refused(2, ["bem", "a.toml", "--cell", "1", "mm"], 'error: "mm" is one word too many for railstrata bem\n'
+                                                                '    remedy: put what has blanks into quotes')
         self.refused(2, ["--json"], "error: no command is given\n    remedy: commands: check, mesh, run, ")
-        self.refused(2, ["check"], "error: railstrata check: case is required (Case file, or a folder with case.toml)\n    remedy: what it takes: railstrata check --help\n")
+        self.refused(2, ["check"], "error: railstrata check: case is required (Case file, or a folder with "
+                                   "case.toml)\n    remedy: what it takes: railstrata check --help\n")
         self.refused(2, ["check", "a.toml", "--threads", "many"], "error: railstrata check: ", "--threads", "remedy: ")
         errors = json.loads(self.refused(2, ["bem", "a.toml", "--cel", "1 mm", "--json"]))["errors"]
         self.assertEqual(errors[0]["message"], "railstrata bem has no option --cel")
@@ -60,7 +67,9 @@ class Program(FromOutside):
         (self.folder / "out").mkdir()
         (self.folder / "out" / "mine.txt").write_text("keep")
         words = ["mesh", self.case(""), *COARSE, "--out", self.folder / "out"]
-        self.refused(2, words, "is not empty\n    remedy: choose another with --out, or overwrite files of the same name with --force")
+        self.refused(2, words,
+                     "is not empty\n    remedy: choose another with --out, or overwrite files of the same name with "
+                     "--force")
         rc, _, err = railstrata(*words, "--force")
         self.assertEqual(rc, 0, err)
         self.assertEqual((self.folder / "out" / "mine.txt").read_text(), "keep")
@@ -69,7 +78,8 @@ class Program(FromOutside):
         rc, out, err = railstrata("check", self.case(""), *COARSE, "--json")
         self.assertEqual(rc, 0, err)
         report = json.loads(out)
-        self.assertAlmostEqual(report["contact"]["wheel_y_m"], 6.06e-3, delta=0.01e-3)  # half-space contact scripts' rigid contact point, LMA on CN60 at 1:40
+        # half-space contact scripts' rigid contact point, LMA on CN60 at 1:40
+        self.assertAlmostEqual(report["contact"]["wheel_y_m"], 6.06e-3, delta=0.01e-3)
         self.assertAlmostEqual(report["contact"]["angle_rad"], 0.025, delta=0.1e-3)
         self.assertAlmostEqual(report["load_N"], 8660 * 9.81, places=6)
         self.assertLess(report["step_s"], report["stable_step_s"])
@@ -77,12 +87,15 @@ class Program(FromOutside):
 
     def test_without_friction_the_force_of_both_engines_stands_on_the_contact_plane(self):
         case = self.case(TINY.replace("cant = 0.0", 'cant = "1:40"'))
-        for engine, words in [("run", ["--threads", "1", "--set", "mesh.element_size=8 mm", "--set", "mesh.largest=30 mm"]), ("bem", ["--cell", "1 mm"])]:
-            rc, _, err = railstrata(engine, case, *words, "--set", "run.rolling=false", "--quiet", "--out", self.folder / engine)
+        for engine, words in [("run", ["--threads", "1", "--set", "mesh.element_size=8 mm", "--set",
+                                       "mesh.largest=30 mm"]), ("bem", ["--cell", "1 mm"])]:
+            rc, _, err = railstrata(engine, case, *words, "--set", "run.rolling=false", "--quiet", "--out",
+                                    self.folder / engine)
             self.assertIn(rc, (0, 1), err)  # 1: a check of a result so coarse may fail
             contact = json.loads((self.folder / engine / "summary.json").read_text())["contact"]
             self.assertAlmostEqual(abs(contact["contact_angle_rad"]), 0.025, delta=1e-4)
-            self.assertAlmostEqual(contact["F_y_N"] / contact["F_z_N"], -math.tan(contact["contact_angle_rad"]), delta=1e-6, msg=engine)
+            self.assertAlmostEqual(contact["F_y_N"] / contact["F_z_N"], -math.tan(contact["contact_angle_rad"]),
+                                   delta=1e-6, msg=engine)
             self.assertAlmostEqual(contact["lateral_force_N"] / contact["normal_force_N"], 0, delta=1e-6, msg=engine)
             self.assertAlmostEqual(contact["F_z_N"], 8500 * 9.81, delta=5)
 
@@ -92,7 +105,8 @@ class Program(FromOutside):
         self.assertEqual(rc, 0, err)
         self.assertIn("limits the step", out)
         results = self.folder / "results" / self.folder.name
-        self.assertTrue({"rail.vtu", "wheel.vtu", "case.toml", "case.original.toml", "provenance.json"} <= {f.name for f in results.iterdir()})
+        self.assertTrue({"rail.vtu", "wheel.vtu", "case.toml", "case.original.toml",
+                         "provenance.json"} <= {f.name for f in results.iterdir()})
         provenance = json.loads((results / "provenance.json").read_text())
         self.assertEqual(provenance["inputs"][0]["sha256"], hashlib.sha256(case.read_bytes()).hexdigest())
         self.assertEqual(provenance["overrides"], COARSE[3::2])
@@ -101,7 +115,8 @@ class Program(FromOutside):
         railstrata("mesh", self.case('[[layer]]\nyoung_ratio = 2\n'), *COARSE, "--out", self.folder / "first")
         rc, _, err = railstrata("mesh", self.folder / "first" / "case.toml", "--out", self.folder / "second")
         self.assertEqual(rc, 0, err)
-        self.assertEqual((self.folder / "first" / "case.toml").read_text(), (self.folder / "second" / "case.toml").read_text())
+        self.assertEqual((self.folder / "first" / "case.toml").read_text(),
+                         (self.folder / "second" / "case.toml").read_text())
 
     def test_version_names_the_commit_of_the_sources(self):
         rc, out, _ = railstrata("--version")
@@ -128,7 +143,8 @@ class Program(FromOutside):
 
     def test_every_shipped_case_is_accepted(self):
         cases = sorted(SOURCE.glob("cases/**/*.toml"))
-        cases = [c for c in cases if not c.name.endswith("expect.toml") and c.name != "study.toml"]  # studies: study_test.py
+        # studies: study_test.py
+        cases = [c for c in cases if not c.name.endswith("expect.toml") and c.name != "study.toml"]
         self.assertGreaterEqual(len(cases), 4)
         for case in cases:
             rc, _, err = railstrata("check", case, *COARSE)

@@ -67,7 +67,8 @@ class Resume(FromOutside):
         err = self.stop_at(process, 3 * self.rows // 4, (signal.SIGINT,))
         self.assertEqual(process.returncode, 130, err)
         self.assertGreater(rows(self.out), early)
-        self.assertTrue((self.out / "position_12mm" / "summary.json").exists())  # the finished position; the half measured one is not there
+        # the finished position; the half measured one is not there
+        self.assertTrue((self.out / "position_12mm" / "summary.json").exists())
         self.assertFalse((self.out / "summary.json").exists())
         self.finish()
         self.refused(2, self.resume(), "there is nothing to resume", "holds a finished run")
@@ -121,12 +122,16 @@ class Resume(FromOutside):
     def test_a_time_limit_is_kept_with_a_checkpoint(self):
         rc, _, err = railstrata("run", self.case(TWO), *WORDS, "--out", self.out, "--max-time", "1 ms")
         self.assertEqual(rc, 4, err)
-        self.assertIn("the static preload alone takes longer than --max-time allows: there is nothing to resume yet", err)
+        self.assertIn("the static preload alone takes longer than --max-time allows: there is nothing to resume yet",
+                      err)
         limit, codes = 1.5, [4]
-        while 4 in codes[-2:]:  # the preload takes as long as the machine is slow, the rolling ten times as long; the last limit is at least twice what comes before the rolling
+        # the preload takes as long as the machine is slow, the rolling ten times as long; the last limit is at least
+        # twice what comes before the rolling
+        while 4 in codes[-2:]:
             limit *= 2
             began = time.time()
-            rc, _, err = railstrata("run", self.case(TWO), *WORDS, "--out", self.out, "--force", "--set", 'run.positions=["400 mm"]', "--max-time", f"{limit} s")
+            rc, _, err = railstrata("run", self.case(TWO), *WORDS, "--out", self.out, "--force", "--set",
+                                    'run.positions=["400 mm"]', "--max-time", f"{limit} s")
             codes.append(rc)
         self.assertEqual(rc, 5, err)
         self.assertLess((self.out / "checkpoint.h5").stat().st_mtime - began, limit + 0.5)
@@ -141,7 +146,8 @@ class Resume(FromOutside):
         err = process.communicate()[1]
         self.assertEqual(process.returncode, 130, err)
         self.assertIn("error: stopped during the static preload: there is nothing to resume yet\n", err)
-        self.assertEqual(sorted(f.name for f in self.out.iterdir()), ["case.original.toml", "case.toml", "provenance.json"])
+        self.assertEqual(sorted(f.name for f in self.out.iterdir()),
+                         ["case.original.toml", "case.toml", "provenance.json"])
         self.refused(2, self.resume(), "there is nothing to resume in")
 
     def test_a_full_disk_costs_a_checkpoint_and_not_the_run(self):
@@ -169,15 +175,19 @@ class Resume(FromOutside):
         self.assertNotEqual(file.read_text(), text)
         self.refused(2, self.resume(), "this checkpoint belongs to another case")
         file.write_text(text)
-        self.refused(2, self.resume("--set", "mesh.element_size=2 mm"), "--resume goes on with the run of a folder as it was begun")
+        self.refused(2, self.resume("--set", "mesh.element_size=2 mm"),
+                     "--resume goes on with the run of a folder as it was begun")
         self.refused(2, ["run", "--resume", self.folder / "no"], "there is no such folder")
-        self.refused(2, ["run"], "case is required")
-        self.refused(2, ["run", self.case(TWO), "--checkpoint-every", "5 mm"], '--checkpoint-every "5 mm": "mm" is not the unit of a time')
+        self.refused(2, ["run"], "run: no case was named")
+        self.refused(2, ["run", self.case(TWO), "--checkpoint-every", "5 mm"],
+                     '--checkpoint-every "5 mm": "mm" is not the unit of a time')
         checkpoint = bytearray((self.out / "checkpoint.h5").read_bytes())
         checkpoint[len(checkpoint) // 3] ^= 4
         (self.out / "checkpoint.h5.previous").write_bytes((self.out / "checkpoint.h5").read_bytes())
         (self.out / "checkpoint.h5").write_bytes(checkpoint)
-        self.assertIn("its checksum does not agree with its bytes: it is cut off or was changed; the checkpoint before it is taken", self.finish())
+        self.assertIn(
+            "its checksum does not agree with its bytes: it is cut off or was changed; the checkpoint before it is "
+            "taken", self.finish())
 
 
 if __name__ == "__main__":

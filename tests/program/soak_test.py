@@ -1,13 +1,18 @@
 #!/usr/bin/env python3
-"""A million steps of a small wheel that rolls slowly: energy, memory, and the same bits in many sittings. usage: soak_test.py BINARY [--distance "65 mm"] [--sittings 20] [--record FILE.csv]
+"""A million steps of a small wheel that rolls slowly: energy, memory, and the same bits in many sittings. usage:
+soak_test.py BINARY [--distance "65 mm"] [--sittings 20] [--record FILE.csv]
 
-Runs soak.toml twice at the same time, once in one go and once interrupted again and again, in turn by SIGTERM and by kill -9. Exits with 0 if the energy balance closes, the memory does not
-grow and every result file is equal. --record adds a line with what was seen.
+Runs soak.toml twice at the same time, once in one go and once interrupted again and again, in turn by SIGTERM and by
+kill -9. Exits with 0 if the energy balance closes, the memory does not grow and every result file is equal. --record
+adds a line with what was seen.
 
-The memory is that of the run in one go, anonymous only (RssAnon): pages of the program and its libraries are files' (RssFile), which come in whenever code runs for the first time and go when the
-system wants; the first checkpoint alone touches 3 MB of HDF5. It counts after the second checkpoint, when every kind of output has been written once, to where the window of the result begins,
-whose samples are kept by design: the first fifth of that path against the last, by medians, which do not see the moments in which a checkpoint is being made. By design the history alone grows: 200
-bytes a row, in a table up to twice as long as needed, 0.05 MB in 65 mm. A checkpoint that leaves one block of the history's size behind is found."""
+The memory is that of the run in one go, anonymous only (RssAnon): pages of the program and its libraries are files'
+(RssFile), which come in whenever code runs for the first time and go when the system wants; the first checkpoint alone
+touches 3 MB of HDF5. It counts after the second checkpoint, when every kind of output has been written once, to where
+the window of the result begins, whose samples are kept by design: the first fifth of that path against the last, by
+medians, which do not see the moments in which a checkpoint is being made. By design the history alone grows: 200 bytes
+a row, in a table up to twice as long as needed, 0.05 MB in 65 mm. A checkpoint that leaves one block of the history's
+size behind is found."""
 import argparse
 import csv
 import json
@@ -63,13 +68,16 @@ class Run:
         self.process = self.start([CASE, "--set", f'run.positions=["{distance}"]', "--out", out])
 
     def start(self, words):
-        return subprocess.Popen([self.binary, "run", *words, "--no-report", "--quiet", "--threads", "1", "--checkpoint-every", "5 s"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen([self.binary, "run", *words, "--no-report", "--quiet", "--threads", "1",
+                                 "--checkpoint-every", "5 s"], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                text=True)
 
     def rows(self):
         """Of the history, as (position / mm)."""
         file = self.out / "history.csv"
         lines = file.read_text().splitlines() if file.exists() else []
-        return [float(line.split(",")[1]) for line in lines if line[:1].isdigit() and line.count(",") == lines[-1].count(",") > 3]
+        return [float(line.split(",")[1]) for line in lines if line[:1].isdigit()
+                and line.count(",") == lines[-1].count(",") > 3]
 
     def count_checkpoints(self):
         try:
@@ -107,14 +115,16 @@ def summary_of(run):
 
 def drift(out):
     """Change of the energy balance between the first and the last fifth of the path, over the strain energy."""
-    table = list(csv.DictReader(line for line in (out / "history.csv").read_text().splitlines() if not line.startswith("#")))
+    table = list(csv.DictReader(line for line in (out / "history.csv").read_text().splitlines()
+                                if not line.startswith("#")))
     fifth = len(table) // 5
     mean = lambda rows, key: statistics.fmean(float(r[key]) for r in rows)
     return (mean(table[-fifth:], "closure_J") - mean(table[:fifth], "closure_J")) / mean(table, "strain_J")
 
 
 def growth(moments, end):
-    """The memory in the first and in the last fifth of the warm path, and how much of its growth is more than the history's."""
+    """The memory in the first and in the last fifth of the warm path, and how much of its growth is more than the
+    history's."""
     warm = [m for m in moments if m.checkpoints > WARM and m.position < end - WINDOW]
     if not warm or warm[-1].checkpoints < 5 * WARM:
         sys.exit("soak: too few checkpoints to tell whether the memory grows: choose a longer distance")
@@ -136,16 +146,21 @@ def main():
         while whole.process.poll() is None or parts.process.poll() is None:
             if whole.process.poll() is None:
                 whole.watch()
-            if parts.process.poll() is None and parts.watch() >= end * parts.sittings / options.sittings and parts.sittings < options.sittings:
-                parts.interrupt()
+            if parts.process.poll() is None:
+                due = parts.watch() >= end * parts.sittings / options.sittings
+                if due and parts.sittings < options.sittings:
+                    parts.interrupt()
             time.sleep(0.2)
         summary, again = summary_of(whole), summary_of(parts)
         first, last, more = growth(whole.memory, end)
         expected, found = results(whole.out), results(parts.out)
         different = sorted(name for name in expected.keys() | found.keys() if expected.get(name) != found.get(name))
         closure = next(c for c in summary["checks"] if c["name"] == "energy_closure")
-        seen = {"steps": summary["run"]["steps"], "elements": summary["run"]["elements"], "sittings": parts.sittings, "checkpoints": whole.checkpoints, "files": len(expected), "files_different": len(different), "energy_closure": float(f"{closure['value']:.3g}"),
-                "energy_drift_over_strain": float(f"{drift(whole.out):.3g}"), "memory_start_MB": round(1e-6 * first, 2), "memory_end_MB": round(1e-6 * last, 2), **origin(whole.out)}
+        seen = {"steps": summary["run"]["steps"], "elements": summary["run"]["elements"], "sittings": parts.sittings,
+                "checkpoints": whole.checkpoints, "files": len(expected), "files_different": len(different),
+                "energy_closure": float(f"{closure['value']:.3g}"),
+                "energy_drift_over_strain": float(f"{drift(whole.out):.3g}"), "memory_start_MB": round(1e-6 * first, 2),
+                "memory_end_MB": round(1e-6 * last, 2), **origin(whole.out)}
     fact("soak", **seen)
     if options.record:
         keep_record(options.record, seen)

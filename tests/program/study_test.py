@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""`study` from outside: what it computes, what it skips, what a kill leaves. usage: study_test.py BINARY SOURCE_DIR [KILLS]
+"""`study` from outside: what it computes, what it skips, what a kill leaves. usage: study_test.py BINARY SOURCE_DIR
+[KILLS]
 
-KILLS: how many times a study by finite elements is killed at a random moment (default 4), one by half-spaces half as often again."""
+KILLS: how many times a study by finite elements is killed at a random moment (default 4), one by half-spaces half as
+often again."""
 import contextlib
 import csv
 import json
@@ -71,7 +73,8 @@ class StudyTest(FromOutside):
         return table(self.out / "study.csv")
 
     def stamps(self):
-        return {str(file.relative_to(self.out)): file.stat().st_mtime_ns for file in self.out.rglob("study.json") if ".part-" not in str(file)}
+        return {str(file.relative_to(self.out)): file.stat().st_mtime_ns for file in self.out.rglob("study.json")
+                if ".part-" not in str(file)}
 
     def left_behind(self):
         return [str(file) for file in self.out.rglob("*") if ".part" in file.name]
@@ -81,18 +84,24 @@ class Cases(StudyTest):
     def test_its_numbers_are_those_of_bem_and_every_case_has_its_folder(self):
         self.solve(GRID)
         rows = self.rows()
-        self.assertEqual([(r["layer.0.thickness"], r["layer.0.young_ratio"]) for r in rows], [(h, e) for h in ("1 mm", "2 mm") for e in ("1.5", "2", "4")])
-        rc, out, err = railstrata("bem", LAYERED, "--cell", "1.5 mm", "--set", "layer.0.thickness=2 mm", "--set", "layer.0.young_ratio=1.5", "--out", self.folder / "one", "--no-report", "--json")
+        self.assertEqual([(r["layer.0.thickness"], r["layer.0.young_ratio"]) for r in rows],
+                         [(h, e) for h in ("1 mm", "2 mm") for e in ("1.5", "2", "4")])
+        rc, out, err = railstrata("bem", LAYERED, "--cell", "1.5 mm", "--set", "layer.0.thickness=2 mm", "--set",
+                                  "layer.0.young_ratio=1.5", "--out", self.folder / "one", "--no-report", "--json")
         self.assertEqual(rc, 0, err)
         alone, row = json.loads(out), rows[3]
         self.assertEqual(float(row["p_max_MPa"]), 1e-6 * alone["contact"]["p_max_Pa"])
-        self.assertEqual(float(row["rail_subsurface_von_mises_MPa"]), 1e-6 * alone["stress"]["rail"]["subsurface"]["von_mises_max"]["value_Pa"])
-        self.assertEqual((self.out / row["folder"] / "patch.csv").read_text().split("\n", 3)[3], (self.folder / "one" / "patch.csv").read_text().split("\n", 3)[3])
+        self.assertEqual(float(row["rail_subsurface_von_mises_MPa"]),
+                         1e-6 * alone["stress"]["rail"]["subsurface"]["von_mises_max"]["value_Pa"])
+        self.assertEqual((self.out / row["folder"] / "patch.csv").read_text().split("\n", 3)[3],
+                         (self.folder / "one" / "patch.csv").read_text().split("\n", 3)[3])
         section = table(self.out / row["folder"] / "rail_longitudinal_section.csv")
         self.assertAlmostEqual(float(row["section_von_mises_MPa"]), max(float(r["von_mises_MPa"]) for r in section))
 
     def test_the_same_case_in_two_groups_is_computed_once(self):
-        err = self.solve(GRID + f'[[group]]\nname = "again"\nset = {{ "layer.0.young_ratio" = 2 }}\n[group.vary]\n"layer.0.thickness" = ["2 mm", "3 mm"]\n')
+        err = self.solve(GRID
+                         + f'[[group]]\nname = "again"\nset = {{ "layer.0.young_ratio" = 2 }}\n[group.vary]\n'
+                           f'"layer.0.thickness" = ["2 mm", "3 mm"]\n')
         self.assertIn("7 cases, 7 of them to compute", err)
         rows = self.rows()
         self.assertEqual(rows[6]["folder"], rows[4]["folder"])
@@ -100,12 +109,16 @@ class Cases(StudyTest):
         self.assertEqual(len(self.stamps()), 7)
         before = self.stamps()
         grid = GRID.index("[[group]]")
-        self.assertIn("0 of them to compute", self.solve(GRID[:grid] + '[[group]]\nname = "again"\nset = { "layer.0.young_ratio" = 2 }\n[group.vary]\n"layer.0.thickness" = ["2 mm", "3 mm"]\n' + GRID[grid:]))
+        self.assertIn("0 of them to compute",
+                      self.solve(GRID[:grid]
+                                 + '[[group]]\nname = "again"\nset = { "layer.0.young_ratio" = 2 }\n[group.vary]\n'
+                                   '"layer.0.thickness" = ["2 mm", "3 mm"]\n' + GRID[grid:]))
         self.assertEqual(self.stamps(), before, "in another order too")
 
     def test_both_engines(self):
         self.case(TINY)
-        self.solve('[study]\nbase = "case.toml"\ncell = "1 mm"\n[[group]]\nname = "wheel"\n', code=1)  # a check of so coarse a rolling fails, and is told
+        # a check of so coarse a rolling fails, and is told
+        self.solve('[study]\nbase = "case.toml"\ncell = "1 mm"\n[[group]]\nname = "wheel"\n', code=1)
         fem, bem = self.rows()
         self.assertEqual([fem["engine"], bem["engine"]], ["fem", "bem"])
         self.assertIn("check failed", fem["fault"])
@@ -151,12 +164,16 @@ class Cases(StudyTest):
     def test_what_decides_a_result_decides_whether_it_is_computed_again(self):
         self.solve(GRID)
         before = self.stamps()
-        self.assertIn("6 cases, 0 of them to compute", self.solve(GRID.replace('title = "tests"', 'title = "other"').replace("1.5, 2", "1.50, 2.0")))
+        self.assertIn("6 cases, 0 of them to compute",
+                      self.solve(GRID.replace('title = "tests"', 'title = "other"').replace("1.5, 2", "1.50, 2.0")))
         self.assertEqual(self.stamps(), before)
         self.assertIn("6 cases, 6 of them to compute", self.solve(GRID.replace('cell = "1.5 mm"', 'cell = "1.4 mm"')))
         self.assertIn("6 cases, 6 of them to compute", self.solve(GRID, "--set", "drive.friction_coefficient=0.4"))
-        self.assertIn("9 cases, 9 of them to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]')))
-        self.assertIn("9 cases, 3 of them to compute", self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]').replace("1.5, 2, 4", "1.5, 2, 5")))
+        self.assertIn("9 cases, 9 of them to compute",
+                      self.solve(GRID.replace('["1 mm", "2 mm"]', '["1 mm", "2 mm", "3 mm"]')))
+        self.assertIn("9 cases, 3 of them to compute",
+                      self.solve(GRID.replace('["1 mm", "2 mm"]',
+                                              '["1 mm", "2 mm", "3 mm"]').replace("1.5, 2, 4", "1.5, 2, 5")))
         self.assertEqual(self.left_behind(), [])
 
     def test_a_dry_run_lists_and_computes_nothing(self):
@@ -179,14 +196,17 @@ class Paper(FromOutside):
         for entry in published["number"] + published["claim"]:
             for key in ("given", "against"):
                 self.assertIn(entry.get(key, "mesh/elements 1"), names)
-        grid = [(c["values"].get("layer.0.thickness"), c["values"].get("layer.0.young_ratio")) for c in json.loads(out) if c["group"] == "layers" and c["engine"] == "fem"]
-        self.assertEqual(grid, [(h, e) for h in ("0.2 mm", "0.5 mm", "1 mm", "3 mm", "6 mm") for e in ("1.67", "2", "4")])
+        grid = [(c["values"].get("layer.0.thickness"), c["values"].get("layer.0.young_ratio")) for c in json.loads(out)
+                if c["group"] == "layers" and c["engine"] == "fem"]
+        self.assertEqual(grid, [(h, e) for h in ("0.2 mm", "0.5 mm", "1 mm", "3 mm", "6 mm")
+                                for e in ("1.67", "2", "4")])
 
 
 class Killed(StudyTest):
     LONG = TINY.replace('positions = ["30 mm"]', 'positions = ["900 mm"]')
     WHEEL = SMALL.replace('["6 mm", "12 mm"]', '["24 mm"]')
-    WHEELS = '[study]\nbase = "case.toml"\nengines = ["fem"]\n[[group]]\nname = "wheel"\n[group.vary]\n"drive.traction_coefficient" = [0.1, 0.2]\n'
+    WHEELS = ('[study]\nbase = "case.toml"\nengines = ["fem"]\n[[group]]\nname = "wheel"\n[group.vary]\n'
+              '"drive.traction_coefficient" = [0.1, 0.2]\n')
 
     def working(self):
         return [folder for folder in self.out.rglob("*.part-*") if folder.is_dir()]
@@ -194,7 +214,8 @@ class Killed(StudyTest):
     def rolling(self, process):
         """Folders of this study's cases that roll: from then on a signal asks for a checkpoint."""
         with contextlib.suppress(FileNotFoundError):  # one has just been renamed
-            return [folder for folder in self.working() if folder.name.endswith(f"-{process.pid}") and (folder / "history.csv").exists() and "meshing" in (folder / "log.txt").read_text()]
+            return [folder for folder in self.working() if folder.name.endswith(f"-{process.pid}")
+                    and (folder / "history.csv").exists() and "meshing" in (folder / "log.txt").read_text()]
         return []
 
     def wait_until_rolling(self, process):
@@ -207,9 +228,11 @@ class Killed(StudyTest):
         return [log for log in self.out.rglob("log.txt") if "goes on in" in log.read_text()]
 
     def wait_for_a_checkpoint(self, process):
-        process.send_signal(signal.SIGUSR1)  # a study passes it on; of cases that have gone on there is a checkpoint already
+        # a study passes it on; of cases that have gone on there is a checkpoint already
+        process.send_signal(signal.SIGUSR1)
         end = time.monotonic() + 60
-        while time.monotonic() < end and process.poll() is None and not any((folder / "checkpoint.h5").exists() for folder in self.rolling(process)):
+        while time.monotonic() < end and process.poll() is None and not any((folder / "checkpoint.h5").exists()
+                                                                            for folder in self.rolling(process)):
             time.sleep(0.005)
 
     def finite_element_results(self, out):
@@ -217,7 +240,8 @@ class Killed(StudyTest):
 
     def assert_same(self, expected):
         found = self.finite_element_results(self.out)
-        self.assertEqual({case: sorted(files) for case, files in found.items()}, {case: sorted(files) for case, files in expected.items()})
+        self.assertEqual({case: sorted(files) for case, files in found.items()},
+                         {case: sorted(files) for case, files in expected.items()})
         for case, files in expected.items():
             for name, content in files.items():
                 self.assertTrue(found[case][name] == content, f"{case}/{name}")
@@ -295,7 +319,8 @@ class Killed(StudyTest):
         self.assert_same(expected)
 
     def children(self, process):
-        return [int(pid) for pid in pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()]
+        return [int(pid)
+                for pid in pathlib.Path(f"/proc/{process.pid}/task/{process.pid}/children").read_text().split()]
 
     def wait_for_a_child(self, process):
         end = time.monotonic() + 30
@@ -365,7 +390,8 @@ class Killed(StudyTest):
         child = self.wait_for_a_child(process)
         self.wait_until_rolling(process)
         asked = time.monotonic()
-        os.killpg(process.pid, signal.SIGINT)  # a terminal asks all of them, the study its cases once more, a batch system too
+        # a terminal asks all of them, the study its cases once more, a batch system too
+        os.killpg(process.pid, signal.SIGINT)
         for pid in child:
             os.kill(pid, signal.SIGTERM)
         _, err = process.communicate(timeout=60)
@@ -378,7 +404,9 @@ class Killed(StudyTest):
         self.assertTrue((pathlib.Path(left) / "checkpoint.h5").exists())
         process = self.start(text, "--jobs", "1")
         end = time.monotonic() + 60
-        while time.monotonic() < end and "goes on in" not in "".join((folder / "log.txt").read_text() for folder in self.working() if (folder / "log.txt").exists()):
+        while time.monotonic() < end and "goes on in" not in "".join((folder / "log.txt").read_text()
+                                                                     for folder in self.working()
+                                                                     if (folder / "log.txt").exists()):
             time.sleep(0.02)
         process.kill(), process.communicate()
         self.assertEqual(len(self.goes_on()), 1)
@@ -386,9 +414,12 @@ class Killed(StudyTest):
 
 class Refused(StudyTest):
     def test_values_that_cases_refuse_are_told_at_their_place_in_the_study(self):
-        file = self.study(GRID.replace("[1.5, 2, 4]", "[1.5, 2000]").replace('"layer.0.thickness"', '"layer.0.thicknes"'))
-        self.refused(2, ["study", file, "--out", self.out], f"{file}:10:23: error: unknown key layer.0.thicknes", "did you mean thickness?", f"{file}:11:31: error: layer.0.young_ratio = 2000: must be between")
-        self.refused(2, ["study", self.study(GRID + '"layer.1.width" = ["60 mm"]\n'), "--out", self.out], f"{file}:12:20: error: layer.1.width: layer has 1 entries, counted from 0")
+        file = self.study(GRID.replace("[1.5, 2, 4]", "[1.5, 2000]").replace('"layer.0.thickness"',
+                                                                             '"layer.0.thicknes"'))
+        self.refused(2, ["study", file, "--out", self.out], f"{file}:10:23: error: unknown key layer.0.thicknes",
+                     "did you mean thickness?", f"{file}:11:31: error: layer.0.young_ratio = 2000: must be between")
+        self.refused(2, ["study", self.study(GRID + '"layer.2.width" = ["60 mm"]\n'), "--out", self.out],
+                     f"{file}:12:20: error: layer.2.width: layer has 1 entry, counted from 0; layer.1 adds one")
         self.assertFalse(self.out.exists())
 
     def test_words_that_make_no_sense(self):

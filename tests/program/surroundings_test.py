@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""What lies around a run: standard streams that are closed, full or read by nobody, signals at odd moments, folders that hold other things. usage: surroundings_test.py BINARY"""
+"""What lies around a run: standard streams that are closed, full or read by nobody, signals at odd moments, folders
+that hold other things. usage: surroundings_test.py BINARY"""
 import json
 import os
 import pathlib
@@ -22,7 +23,8 @@ class Surroundings(FromOutside):
         self.out = self.folder / "out"
 
     def shell(self, redirections, *words):
-        return subprocess.run(["sh", "-c", f'exec "$0" "$@" {redirections}', BINARY, *map(str, words)], capture_output=True, text=True, timeout=300)
+        return subprocess.run(["sh", "-c", f'exec "$0" "$@" {redirections}', BINARY, *map(str, words)],
+                              capture_output=True, text=True, timeout=300)
 
     def finished(self, *words):
         rc, _, err = railstrata(*words)
@@ -36,10 +38,13 @@ class Streams(Surroundings):
             self.assertEqual(self.shell(redirection, "check", self.folder / "no.toml").returncode, 2, redirection)
 
     def test_messages_never_reach_a_table(self):
-        done = self.shell("<&- 2>&-", "run", self.case(SMALL), *WORDS, "--checkpoint-every", "0.02 s", "--out", self.out)
+        done = self.shell("<&- 2>&-", "run", self.case(SMALL), *WORDS, "--checkpoint-every", "0.02 s", "--out",
+                          self.out)
         self.assertIn(done.returncode, (0, 1))
         self.assertEqual(broken_files(self.out), [])
-        self.assertEqual(self.shell(">&-", "run", self.case(SMALL), *WORDS, "--out", self.folder / "second").returncode, 4)  # the result is there, its summary could not be shown
+        # the result is there, its summary could not be shown
+        self.assertEqual(self.shell(">&-", "run", self.case(SMALL), *WORDS, "--out", self.folder / "second").returncode,
+                         4)
         self.assertEqual(results(self.folder / "second"), results(self.out))
 
     def test_a_study_with_closed_streams_computes_its_cases(self):
@@ -52,7 +57,8 @@ class Streams(Surroundings):
     def test_a_reader_that_goes_away_stops_neither_the_run_nor_its_report(self):
         read, write = os.pipe()
         os.close(read)
-        process = subprocess.Popen([BINARY, "run", self.case(SMALL), "--threads", "1", "--json", "--out", self.out], stdout=write, stderr=write)
+        process = subprocess.Popen([BINARY, "run", self.case(SMALL), "--threads", "1", "--json", "--out", self.out],
+                                   stdout=write, stderr=write)
         os.close(write)
         self.assertEqual(process.wait(300), 4)
         self.assertIn("</html>", (self.out / "report.html").read_text()[-100:])
@@ -74,7 +80,8 @@ class Signals(Surroundings):
 
     def test_a_terminal_that_goes_away_is_a_request_to_stop_but_not_under_nohup(self):
         for ignored in (False, True):
-            process = start("run", self.case(TWO), *WORDS, "--out", self.out, "--force", preexec_fn=(lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)) if ignored else None)
+            process = start("run", self.case(TWO), *WORDS, "--out", self.out, "--force",
+                            preexec_fn=(lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN)) if ignored else None)
             wait_for(lambda: rows(self.out) > 8, process)
             process.send_signal(signal.SIGHUP)
             err = process.communicate()[1]
@@ -111,9 +118,11 @@ class Folders(Surroundings):
         self.assertEqual(results(self.out), {**results(self.folder / "fresh"), **old})
 
     def test_every_position_has_a_folder_of_its_own(self):
-        self.finished("run", self.case(SMALL), *WORDS, "--set", 'run.positions=["6.1 mm", "6.4 mm", "12 mm"]', "--out", self.out)
+        self.finished("run", self.case(SMALL), *WORDS, "--set", 'run.positions=["6.1 mm", "6.4 mm", "12 mm"]', "--out",
+                      self.out)
         for position in ("6.1", "6.4"):
-            self.assertEqual(json.loads((self.out / f"position_{position}mm" / "summary.json").read_text())["position_m"], float(position + "e-3"))
+            self.assertEqual(json.loads((self.out / f"position_{position}mm" / "summary.json").read_text())[
+                "position_m"], float(position + "e-3"))
 
     def test_half_a_result_is_not_written_where_a_folder_was_moved_away(self):
         process = start("run", self.case(TWO), *WORDS, "--out", self.out)
@@ -121,13 +130,16 @@ class Folders(Surroundings):
         self.out.rename(self.folder / "moved")
         err = process.communicate()[1]
         self.assertEqual(process.returncode, 4, err)
-        self.assertRegex(err, f"error: cannot write {self.out}/.*: No such file or directory\n    remedy: leave the folder where it is")
+        self.assertRegex(err,
+                         f"error: cannot write {self.out}/.*: No such file or directory\n    remedy: leave the folder "
+                         f"where it is")
         self.assertFalse(self.out.exists())
 
     def test_the_case_file_itself_is_never_replaced(self):
         case = self.case(SMALL)
         for command in ("run", "bem"):
-            self.refused(2, [command, case, "--out", case.parent, "--force"], "would replace the case file itself", "choose another folder")
+            self.refused(2, [command, case, "--out", case.parent, "--force"], "would replace the case file itself",
+                         "choose another folder")
         self.assertEqual(case.read_text(), SMALL)
 
     def test_a_study_takes_only_a_study_s_folder_for_its_own(self):
@@ -152,14 +164,18 @@ class Folders(Surroundings):
         self.assertEqual(page.read_text(), "mine")
         rc, out, err = railstrata("report", self.out, "--out", self.folder / 'a "quoted" name.html', "--json")
         self.assertEqual((rc, json.loads(out)["report"]), (0, str(self.folder / 'a "quoted" name.html')), err)
-        self.refused(2, ["report", self.folder / "nothing", "--out", self.folder / "new" / "page.html"], "is not a result folder")
+        self.refused(2, ["report", self.folder / "nothing", "--out", self.folder / "new" / "page.html"],
+                     "is not a result folder")
         self.assertFalse((self.folder / "new").exists())
 
     def test_a_title_of_several_lines_heads_every_table(self):
         text = SMALL.replace('title = "', 'title = "one\\ntwo,\\rthree ')
         study = self.folder / "study.toml"
-        study.write_text('[study]\ntitle = "one\\ntwo,three"\nbase = "case.toml"\nengines = ["bem"]\ncell = "2 mm"\n[[group]]\nname = "g"\n')
-        self.finished("sweep", self.case(text), "--vary", "drive.traction_coefficient=0.01", "--cell", "2 mm", "--out", self.out / "sweep")
+        study.write_text(
+            '[study]\ntitle = "one\\ntwo,three"\nbase = "case.toml"\nengines = ["bem"]\ncell = "2 mm"\n[[group]]\n'
+            'name = "g"\n')
+        self.finished("sweep", self.case(text), "--vary", "drive.traction_coefficient=0.01", "--cell", "2 mm", "--out",
+                      self.out / "sweep")
         self.finished("bem", self.case(text), "--cell", "2 mm", "--out", self.out / "bem")
         self.finished("study", study, "--out", self.out / "study")
         self.assertEqual([name for name in broken_files(self.out) if not name.endswith("log.txt")], [])
@@ -169,7 +185,8 @@ class Folders(Surroundings):
         elsewhere.write_text("mine")
         self.out.mkdir()
         (self.out / "sweep.csv").symlink_to(elsewhere)
-        self.finished("sweep", self.case(SMALL), "--vary", "drive.traction_coefficient=0.01", "--cell", "2 mm", "--out", self.out, "--force")
+        self.finished("sweep", self.case(SMALL), "--vary", "drive.traction_coefficient=0.01", "--cell", "2 mm", "--out",
+                      self.out, "--force")
         self.assertEqual(elsewhere.read_text(), "mine")
         self.assertEqual(broken_files(self.out), [])
 
@@ -182,7 +199,8 @@ class Folders(Surroundings):
         self.assertFalse(os.path.exists(odd))
         os.mkdir(odd)
         shutil.copy(os.fsencode(case), odd)
-        done = subprocess.run([BINARY, "bem", "case.toml", "--cell", "1.5 mm", "--out", "out"], cwd=odd, capture_output=True, timeout=300)
+        done = subprocess.run([BINARY, "bem", "case.toml", "--cell", "1.5 mm", "--out", "out"], cwd=odd,
+                              capture_output=True, timeout=300)
         self.assertIn(done.returncode, (0, 1), done.stderr)
 
 

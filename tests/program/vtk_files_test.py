@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The files of `mesh` and `run` open in VTK's own readers, with the fields they should have. usage: vtk_files_test.py BINARY SOURCE_DIR"""
+"""The files of `mesh` and `run` open in VTK's own readers, with the fields they should have. usage: vtk_files_test.py
+BINARY SOURCE_DIR"""
 import json
 import pathlib
 import sys
@@ -83,7 +84,8 @@ class Mesh(Results):
         self.assertEqual(set(array(read(self.folder / "wheel.vtu").GetCellData(), "material")), {0})
         volumes, material = hexahedra_volumes(grid), array(grid.GetCellData(), "material")
         length = np.ptp(vtk_to_numpy(grid.GetPoints().GetData())[:, 0])
-        self.assertAlmostEqual(volumes[material == 1].sum() / (2e-3 * 60e-3 * length), 1, delta=0.05)  # thickness x width x length; the surface is curved
+        # thickness x width x length; the surface is curved
+        self.assertAlmostEqual(volumes[material == 1].sum() / (2e-3 * 60e-3 * length), 1, delta=0.05)
 
 
 class Run(Results):
@@ -101,7 +103,8 @@ class Run(Results):
         patch = read(self.out / "patch.vtp")
         self.assertEqual(names(patch.GetPointData()), {"pressure_MPa", "traction_MPa", "slip_velocity_mm_s", "state"})
         pressure, x = array(patch.GetPointData(), "pressure_MPa"), vtk_to_numpy(patch.GetPoints().GetData())[:, 0]
-        self.assertAlmostEqual(pressure.max() / (1e-6 * self.summary["contact"]["p_max_Pa"]), 1, delta=0.1)  # the peak between points is interpolated
+        # the peak between points is interpolated
+        self.assertAlmostEqual(pressure.max() / (1e-6 * self.summary["contact"]["p_max_Pa"]), 1, delta=0.1)
         self.assertAlmostEqual((pressure * x).sum() / pressure.sum(), self.summary["position_m"], delta=1e-3)
         self.assertGreater(patch.GetNumberOfPolys(), 0)
 
@@ -113,9 +116,11 @@ class Run(Results):
             self.assertEqual(names(grid.GetPointData()), {"displacement_mm", "von_mises_smooth_MPa"})
             self.assertEqual(names(grid.GetCellData()), {"stress_MPa", "von_mises_MPa", "sigma1_MPa", "material"})
             self.assertEqual(set(array(grid.GetCellData(), "material")), materials)
-            stress, equivalent = array(grid.GetCellData(), "stress_MPa").astype(float), array(grid.GetCellData(), "von_mises_MPa")
+            stress, equivalent = array(grid.GetCellData(), "stress_MPa").astype(float), array(grid.GetCellData(),
+                                                                                              "von_mises_MPa")
             xx, yy, zz, xy, yz, xz = stress.T
-            np.testing.assert_allclose(equivalent, np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + yz**2 + xz**2)), rtol=1e-4, atol=1e-3)
+            np.testing.assert_allclose(equivalent, np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2)
+                                                           + 3 * (xy**2 + yz**2 + xz**2)), rtol=1e-4, atol=1e-3)
             self.assertLess(zz.min(), -300)  # the patch presses with some 1000 MPa
 
     def test_the_series_names_frames_that_open_and_follow_the_wheel(self):

@@ -1,4 +1,5 @@
-"""A page in headless Chromium, as a reader meets it: opened from the disk, without a network, with everything the console says."""
+"""A page in headless Chromium, as a reader meets it: opened from the disk, without a network, with everything the
+console says."""
 import base64
 import json
 import pathlib
@@ -18,7 +19,8 @@ for program, package in [("chromium", "chromium"), ("chromedriver", "chromium-dr
         print(f"SKIPPED: no {program} (Debian package {package})")
         sys.exit(77)
 
-FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--window-size=1366,900"]
+FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync", "--window-size=1366,900"]
 
 
 class Browser:
@@ -34,7 +36,8 @@ class Browser:
             options.add_argument(flag)
         options.set_capability("goog:loggingPrefs", {"browser": "ALL", "performance": "ALL"})
         self.driver = webdriver.Chrome(options=options, service=Service(shutil.which("chromedriver")))
-        self.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(self.downloads)})
+        self.driver.execute_cdp_cmd("Browser.setDownloadBehavior",
+                                    {"behavior": "allow", "downloadPath": str(self.downloads)})
         return self
 
     def __exit__(self, *_):
@@ -72,13 +75,19 @@ class Browser:
     def hover(self, plot, x, y):
         """The words at a point of a figure's axes."""
         place = self.js(
-            """const g = document.getElementById(arguments[0]); g.scrollIntoView({block: 'center', behavior: 'instant'});
+            """const g = document.getElementById(arguments[0]);
+               g.scrollIntoView({block: 'center', behavior: 'instant'});
                const f = g._fullLayout, box = g.getBoundingClientRect();
-               return [box.left + f.xaxis._offset + f.xaxis.d2p(arguments[1]), box.top + f.yaxis._offset + f.yaxis.d2p(arguments[2])];""", plot, x, y)
+               return [box.left + f.xaxis._offset + f.xaxis.d2p(arguments[1]),
+                       box.top + f.yaxis._offset + f.yaxis.d2p(arguments[2])];""", plot, x, y)
         for step in (3, 0):  # a pointer that only appears does not move
-            self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": place[0] + step, "y": place[1]})
+            self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": place[0] + step,
+                                                                     "y": place[1]})
             time.sleep(0.2)  # words follow a pointer at rest
-        return self.wait(lambda: self.js("return [...document.querySelectorAll('#' + arguments[0] + ' .hoverlayer .hovertext')].map(e => e.textContent).join(' ')", plot), f"words over {plot}", 10)
+        return self.wait(
+            lambda: self.js(
+            "return [...document.querySelectorAll('#' + arguments[0] + ' .hoverlayer .hovertext')].map(e => "
+            "e.textContent).join(' ')", plot), f"words over {plot}", 10)
 
     def download(self, figure):
         self.js("document.querySelector(`[data-csv='${arguments[0]}']`).click()", figure)
@@ -87,4 +96,6 @@ class Browser:
         return file
 
     def pdf(self):
-        return base64.b64decode(self.driver.execute_cdp_cmd("Page.printToPDF", {"printBackground": True, "preferCSSPageSize": True})["data"])
+        return base64.b64decode(self.driver.execute_cdp_cmd("Page.printToPDF",
+                                                            {"printBackground": True, "preferCSSPageSize": True})[
+            "data"])

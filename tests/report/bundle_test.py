@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""report/dist is what report/src is built to, and holds nothing that would leave the page. usage: bundle_test.py REPORT_DIR"""
+"""report/dist is what report/src is built to, and holds nothing that would leave the page. usage: bundle_test.py
+REPORT_DIR"""
 import hashlib
 import json
 import pathlib
@@ -12,10 +13,13 @@ REPORT = pathlib.Path(sys.argv[1])
 class Bundle(unittest.TestCase):
     def test_it_is_built_from_the_sources_as_they_stand(self):
         hashes = json.loads((REPORT / "dist/sources.json").read_text())
-        files = {f"src/{file.name}" for file in (REPORT / "src").iterdir()} | {"package.json", "package-lock.json", "tsconfig.json", "build.mjs"}
-        self.assertEqual(files, {name for name in hashes if not name.startswith("dist/")}, "run `npm ci && npm run build` in report/")
+        files = {f"src/{file.name}" for file in (REPORT / "src").iterdir()} | {"package.json", "package-lock.json",
+                                                                               "tsconfig.json", "build.mjs"}
+        self.assertEqual(files, {name for name in hashes if not name.startswith("dist/")},
+                         "run `npm ci && npm run build` in report/")
         for name, sha256 in hashes.items():
-            self.assertEqual(hashlib.sha256((REPORT / name).read_bytes()).hexdigest(), sha256, f"{name}: run `npm ci && npm run build` in report/")
+            self.assertEqual(hashlib.sha256((REPORT / name).read_bytes()).hexdigest(), sha256,
+                             f"{name}: run `npm ci && npm run build` in report/")
 
     def test_its_software_is_named_with_licences(self):
         licences = (REPORT / "dist/LICENSES.txt").read_text()

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Result folders for the tests of the report: fem (a wheel on a layered block, 30 mm of rolling), its reference fem/half_space, bem (LMA on CN60 by half-spaces, with two
-layers), old (what folders held before they had sections and geometry), study (both engines). usage: make_results.py BINARY FOLDER"""
+"""Result folders for the tests of the report: fem (a wheel on a layered block, 30 mm of rolling), its reference
+fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), old (what folders held before they had sections and
+geometry), study (both engines). usage: make_results.py BINARY FOLDER"""
 import pathlib
 import shutil
 import subprocess
@@ -163,7 +164,8 @@ shutil.copytree(FOLDER / "fem", FOLDER / "old")
 for file in [*(FOLDER / "old").glob("*_section.csv"), FOLDER / "old" / "geometry.json", FOLDER / "old" / "report.html"]:
     file.unlink(missing_ok=True)
 railstrata("report", FOLDER / "old", "--no-reference", "--quiet")
-railstrata("report", FOLDER / "fem", FOLDER / "bem", FOLDER / "fem" / "half_space", "--out", FOLDER / "three.html", "--quiet")
+railstrata("report", FOLDER / "fem", FOLDER / "bem", FOLDER / "fem" / "half_space", "--out", FOLDER / "three.html",
+           "--quiet")
 (FOLDER / "plain.toml").write_text(HALF_SPACE.split("[[layer]]")[0])
 (FOLDER / "published.toml").write_text(PUBLISHED)
 (FOLDER / "study.toml").write_text(STUDY)

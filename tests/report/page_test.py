@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""The report as a reader meets it: in a browser, from the disk, its numbers held against the files of the result folder. usage: page_test.py BINARY RESULTS"""
+"""The report as a reader meets it: in a browser, from the disk, its numbers held against the files of the result
+folder. usage: page_test.py BINARY RESULTS"""
 import csv
 import json
 import pathlib
@@ -47,7 +48,9 @@ class Page(unittest.TestCase):
         return self.browser.js(script, *arguments)
 
     def trace(self, plot, k=0):
-        return self.js("const t = document.getElementById(arguments[0]).data[arguments[1]]; return {x: [...t.x], y: [...t.y], z: t.z && t.z.map(r => [...r]), name: t.name}", plot, k)
+        return self.js(
+            "const t = document.getElementById(arguments[0]).data[arguments[1]]; return {x: [...t.x], y: [...t.y], z: "
+            "t.z && t.z.map(r => [...r]), name: t.name}", plot, k)
 
     def map_peak(self, plot):
         t = self.trace(plot)
@@ -63,22 +66,53 @@ class Run(Page):
     def test_nothing_is_fetched_and_nothing_is_wrong(self):
         self.browser.console()
         self.js("document.querySelector('#wheel').open = true; window.scrollTo(0, document.body.scrollHeight)")
-        self.browser.wait(lambda: self.js("return document.querySelectorAll('#wheel .main-svg').length > 0"), "the wheel's sections are drawn")
+        self.browser.wait(lambda: self.js("return document.querySelectorAll('#wheel .main-svg').length > 0"),
+                          "the wheel's sections are drawn")
         self.assertEqual(self.first_words + self.browser.console(), [])
         self.js("document.querySelector('#wheel').open = false")
-        self.assertEqual([address for address in self.asked if not address.startswith(("data:", "blob:"))], [self.file.as_uri()])
+        self.assertEqual([address for address in self.asked if not address.startswith(("data:", "blob:"))],
+                         [self.file.as_uri()])
 
     def test_the_page_could_not_reach_out_if_it_wanted(self):
         blocked = self.browser.driver.execute_async_script(
             """const done = arguments[arguments.length - 1], seen = [];
-               document.addEventListener('securitypolicyviolation', e => { seen.push(e.effectiveDirective); if (seen.length === 3) done(seen); });
+               document.addEventListener('securitypolicyviolation', e => {
+                 seen.push(e.effectiveDirective);
+                 if (seen.length === 3) done(seen);
+               });
                fetch('https://example.org/').catch(() => {});
                document.body.append(Object.assign(new Image(), {src: 'https://example.org/a.png'}));
-               document.head.append(Object.assign(document.createElement('script'), {textContent: 'window.intruder = true'}));
+               const script = document.createElement('script');
+               document.head.append(Object.assign(script, {textContent: 'window.intruder = true'}));
                setTimeout(() => done(seen), 5000);""")
         self.assertEqual(sorted(blocked), ["connect-src", "img-src", "script-src-elem"])
         self.assertIsNone(self.js("return window.intruder ?? null"))
         self.browser.console()  # it has just complained about this
+
+    def test_a_telephone_needs_no_sideways_scrolling(self):
+        device = self.browser.driver.execute_cdp_cmd
+        device("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2,
+                                                      "mobile": False})
+        try:
+            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width <= "
+                                              "document.getElementById('plot-map-p-0').clientWidth"),
+                              "figures have followed")
+            self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), 390)
+            right = self.js("return Math.max(...[...document.querySelectorAll('nav a')].map(a => "
+                            "a.getBoundingClientRect().right))")
+            self.assertLessEqual(right, 390)
+        finally:
+            device("Emulation.clearDeviceMetricsOverride", {})
+            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width > 400"),
+                              "figures have followed back")
+
+    def test_names_of_checks_are_those_of_the_program_s_table(self):
+        checks = json.loads(subprocess.run([BINARY, "schema", "--results"], capture_output=True, text=True,
+                                           check=True).stdout)["checks"]
+        names = {row["key"]: row["name"] for row in checks}
+        for name, key in self.js("return [...document.querySelectorAll('#verdict tr[data-check] th')].map(e => "
+                                 "[e.innerText, e.parentElement.dataset.check])"):
+            self.assertEqual(name, names[key])
 
     def test_it_fits_into_six_megabytes(self):
         self.assertLess(self.file.stat().st_size, 6e6)
@@ -88,30 +122,46 @@ class Run(Page):
         self.assertIn("<b>", summary_of(FEM)["title"])
 
     def test_the_verdict_is_that_of_the_checks(self):
-        rows = self.js("return [...document.querySelectorAll('#verdict tr[data-check]')].map(r => ({name: r.dataset.check, runs: r.dataset.runs, ok: r.dataset.ok === 'true', judged: r.dataset.judged === 'true', "
+        rows = self.js(
+            "return [...document.querySelectorAll('#verdict tr[data-check]')].map(r => ({name: r.dataset.check, runs: "
+            "r.dataset.runs, ok: r.dataset.ok === 'true', judged: r.dataset.judged === 'true', "
                        "mark: r.querySelector('.mark').innerText, value: r.querySelector('.value').innerText}))")
         for run, folder in [("0", FEM), ("1", HALF_SPACE)]:
             for check in summary_of(folder)["checks"]:
                 row = next(r for r in rows if r["name"] == check["name"] and r["runs"] == run)
                 self.assertEqual(row["ok"], check["ok"], check["name"])
                 self.assertIn("holds" if check["ok"] else "fails", row["mark"])
+                if row["value"] in ("inside", "outside"):
+                    self.assertEqual(row["value"], "outside" if check["value"] else "inside")
+                    continue
                 scale = 100 if "%" in row["value"] else 1
-                self.assertAlmostEqual(number_in(row["value"]) / scale, check["value"], delta=6e-3 * abs(check["value"]) + 1e-12)
+                self.assertAlmostEqual(number_in(row["value"]) / scale, check["value"],
+                                       delta=6e-3 * abs(check["value"]) + 1e-12)
         failed = [r for r in rows if r["judged"] and not r["ok"]]
         self.assertGreater(len(failed), 0, "30 mm of rolling on 3 mm elements are not enough")
-        self.assertTrue(self.browser.text("#verdict h2").startswith(f"✗ {len(failed)} of {sum(r['judged'] for r in rows)} checks"))
-        red, green, blue = map(int, re.findall(r"\d+", self.js("return getComputedStyle(document.querySelector('#verdict')).backgroundColor"))[:3])
+        self.assertTrue(self.browser.text("#verdict h2").startswith(
+            f"✗ {len(failed)} of {sum(r['judged'] for r in rows)} checks"))
+        colour = self.js("return getComputedStyle(document.querySelector('#verdict')).backgroundColor")
+        red, green, blue = map(int, re.findall(r"\d+", colour)[:3])
         self.assertTrue(red > green and red > blue)
 
     def test_finite_elements_are_held_against_half_spaces(self):
         fem, bem = summary_of(FEM), summary_of(HALF_SPACE)
+        schema = subprocess.run([BINARY, "schema", "--results"], capture_output=True, text=True, check=True)
+        limits = {row["key"]: row["fem_limit"] for row in json.loads(schema.stdout)["checks"]}
         with tempfile.TemporaryDirectory() as place:  # shear: on cells as large as the elements
             size = re.search(r'element_size = "(.*)"', (FEM / "case.toml").read_text())[1]
-            subprocess.run([BINARY, "bem", FEM / "case.toml", "--cell", size, "--no-report", "--quiet", "--out", f"{place}/equal"], check=True, capture_output=True, timeout=60)
+            subprocess.run(
+                [BINARY, "bem", FEM / "case.toml", "--cell", size, "--no-report", "--quiet", "--out", f"{place}/equal"],
+                check=True, capture_output=True, timeout=60)
             equal = summary_of(pathlib.Path(place, "equal"))
-        for check, key, limit in [("p_max", "p_max_Pa", 0.04), ("patch_length", "patch_length_m", 0.06), ("q_max", "q_max_Pa", 0.07)]:
+        for check, key in [("p_max", "p_max_Pa"), ("patch_length", "patch_length_m"), ("q_max", "q_max_Pa")]:
+            limit = limits[check]
             value = abs(fem["contact"][key] / (equal if check == "q_max" else bem)["contact"][key] - 1)
-            row = self.js("const r = document.querySelector(`tr[data-check='${arguments[0]}'][data-runs='0,1']`); return {ok: r.dataset.ok === 'true', value: r.querySelector('.value').innerText, limit: r.querySelector('.limit').innerText}", check)
+            row = self.js(
+                "const r = document.querySelector(`tr[data-check='${arguments[0]}'][data-runs='0,1']`); return {ok: "
+                "r.dataset.ok === 'true', value: r.querySelector('.value').innerText, limit: "
+                "r.querySelector('.limit').innerText}", check)
             self.assertAlmostEqual(number_in(row["value"]) / 100, value, delta=6e-3 * value)
             self.assertAlmostEqual(number_in(row["limit"]) / 100, limit)
             self.assertEqual(row["ok"], value <= limit)
@@ -120,9 +170,12 @@ class Run(Page):
         self.assertTrue(self.browser.text("#tiles-of").startswith("Numbers of fem (finite elements)"))
 
     def test_the_numbers_are_those_of_the_summaries(self):
-        shown = self.js("return [...document.querySelectorAll('#contact-numbers td[data-path]')].map(c => [c.dataset.path, c.innerText, c.parentElement.cells[1].innerText])")
+        shown = self.js(
+            "return [...document.querySelectorAll('#contact-numbers td[data-path]')].map(c => [c.dataset.path, "
+            "c.innerText, c.parentElement.cells[1].innerText])")
         self.assertGreater(len(shown), 20)
-        units = {"MPa": 1e6, "mm": 1e-3, "mm²": 1e-6, "%": 1e-2, "kN": 1e3, "10⁻³": 1e-3, "1/m": 1, "µm": 1e-6, "nm": 1e-9}
+        units = {"MPa": 1e6, "mm": 1e-3, "mm²": 1e-6, "%": 1e-2, "kN": 1e3, "10⁻³": 1e-3, "1/m": 1, "µm": 1e-6,
+                 "nm": 1e-9}
         summaries, seen = [summary_of(FEM), summary_of(HALF_SPACE)], {}
         for path, text, unit in shown:
             run = seen[path] = seen.get(path, -1) + 1
@@ -135,12 +188,17 @@ class Run(Page):
                 self.assertAlmostEqual(number_in(text) * units[unit], value, delta=6e-4 * abs(value), msg=path)
 
     def test_the_maxima_are_those_of_the_summary_with_their_places(self):
-        rows = self.js("return [...document.querySelectorAll('#maxima-rail tbody tr')].map(r => [...r.cells].map(c => c.innerText))")
-        zones = {"at the surface": "surface", "below the surface": "subsurface", "in the layers": "layer", "at the interfaces": "interface", "in the matrix": "matrix"}
+        rows = self.js(
+            "return [...document.querySelectorAll('#maxima-rail tbody tr')].map(r => [...r.cells].map(c => "
+            "c.innerText))")
+        zones = {"at the surface": "surface", "below the surface": "subsurface", "in the layers": "layer",
+                 "at the interfaces": "interface", "in the matrix": "matrix"}
         self.assertEqual(len(rows), 10)
         for row in rows:
-            wanted = summary_of(FEM)["stress"]["rail"][zones[row[0]]]["von_mises_max" if row[1] == "von Mises" else "sigma1_max"]
-            self.assertAlmostEqual(number_in(row[2]), 1e-6 * wanted["value_Pa"], delta=6e-4 * abs(1e-6 * wanted["value_Pa"]))
+            wanted = summary_of(FEM)["stress"]["rail"][zones[row[0]]]["von_mises_max" if row[1] == "von Mises"
+                                                                      else "sigma1_max"]
+            self.assertAlmostEqual(number_in(row[2]), 1e-6 * wanted["value_Pa"],
+                                   delta=6e-4 * abs(1e-6 * wanted["value_Pa"]))
             place = [number_in(part) for part in row[3].split(",")]
             for text, key in zip(place, ["x_m", "y_m", "depth_m"]):
                 self.assertAlmostEqual(text, 1e3 * wanted[key], delta=0.0051)
@@ -154,22 +212,30 @@ class Run(Page):
                 k = cells(patch, column)
                 x, y, value = self.map_peak(f"plot-map-{kind}-{n}")
                 self.assertAlmostEqual(value, patch[column][k], delta=1e-3 * patch[column][k])
-                near = [i for i, v in enumerate(patch[column]) if v > (1 - 1e-3) * patch[column][k]]  # a symmetric patch has several
-                self.assertTrue(any(abs(patch["x_mm"][i] - x) < 1e-4 and abs(patch["y_mm"][i] - 1e3 * contact["y_m"] - y) < 1e-4 for i in near), (x, y))
+                # a symmetric patch has several
+                near = [i for i, v in enumerate(patch[column]) if v > (1 - 1e-3) * patch[column][k]]
+                self.assertTrue(any(abs(patch["x_mm"][i] - x) < 1e-4
+                                    and abs(patch["y_mm"][i] - 1e3 * contact["y_m"] - y) < 1e-4 for i in near), (x, y))
             states = [v for row in self.trace(f"plot-map-state-{n}")["z"] for v in row]
             for state in (1, 2):
                 self.assertEqual(states.count(state), patch["state_0separated_1stick_2slip"].count(state))
 
     def test_millimetres_are_equally_long_on_both_axes(self):
-        for plot in ["plot-map-p-0", "plot-section-rail-longitudinal-von_mises-0", "plot-section-rail-cross-sigma_1-1", "plot-profiles"]:
-            scale = self.js("const f = document.getElementById(arguments[0])._fullLayout; return [f.xaxis, f.yaxis].map(a => a._length / Math.abs(a.range[1] - a.range[0]))", plot)
+        for plot in ["plot-map-p-0", "plot-section-rail-longitudinal-von_mises-0", "plot-section-rail-cross-sigma_1-1",
+                     "plot-profiles"]:
+            scale = self.js(
+                "const f = document.getElementById(arguments[0])._fullLayout; return [f.xaxis, f.yaxis].map(a => "
+                "a._length / Math.abs(a.range[1] - a.range[0]))", plot)
             self.assertAlmostEqual(scale[0] / scale[1], 1, delta=0.01, msg=plot)
 
     def test_the_words_over_a_map_tell_value_and_units(self):
         t = self.trace("plot-map-p-1")
-        i, j = (min(range(len(line)), key=lambda k: abs(line[k] - wanted)) for line, wanted in ((t["x"], 3), (t["y"], -2)))  # away from the cross at the contact point
+        # away from the cross at the contact point
+        i, j = (min(range(len(line)), key=lambda k: abs(line[k] - wanted)) for line,
+                wanted in ((t["x"], 3), (t["y"], -2)))
         words = self.browser.hover("plot-map-p-1", t["x"][i], t["y"][j])
-        self.assertEqual(re.findall(r"(-?[\d.]+) (mm|MPa)", words), [(f"{t['x'][i]:.2f}", "mm"), (f"{t['y'][j]:.2f}", "mm"), (f"{t['z'][j][i]:.1f}", "MPa")])
+        self.assertEqual(re.findall(r"(-?[\d.]+) (mm|MPa)", words),
+                         [(f"{t['x'][i]:.2f}", "mm"), (f"{t['y'][j]:.2f}", "mm"), (f"{t['z'][j][i]:.1f}", "MPa")])
 
     def test_the_sections_have_the_tables_peaks_and_the_layer_s_border(self):
         for n, folder in enumerate([FEM, HALF_SPACE]):
@@ -179,13 +245,15 @@ class Run(Page):
                     plot = f"plot-section-rail-{plane}-{kind}-{n}"
                     k = cells(table, column)
                     _, _, value = self.map_peak(plot)
-                    self.assertAlmostEqual(value, table[column][k], delta=1e-4 * (max(table[column]) - min(table[column])))
+                    self.assertAlmostEqual(value, table[column][k],
+                                           delta=1e-4 * (max(table[column]) - min(table[column])))
                     edges = self.trace(plot)["y"]
                     for a, b in zip(edges, row_borders(sorted(set(table["depth_mm"])))):
                         self.assertAlmostEqual(a, b, delta=1e-3)
                     self.assertEqual(edges[0], 0)
                     border = self.trace(plot, 1)
-                    self.assertTrue(all(abs(d - 3) < 2e-3 for d in border["y"] if d is not None), "the layer is 3 mm thick")
+                    self.assertTrue(all(abs(d - 3) < 2e-3 for d in border["y"] if d is not None),
+                                    "the layer is 3 mm thick")
                     self.assertAlmostEqual(max(v for v in border["x"] if v is not None), self.trace(plot)["x"][-1])
 
     def test_the_centre_lines_are_those_of_both_engines_and_hertz(self):
@@ -220,7 +288,8 @@ class Run(Page):
     def test_every_figure_offers_its_numbers(self):
         figures = self.js("return [...document.querySelectorAll('figure')].map(f => f.id)")
         self.assertGreater(len(figures), 25)
-        self.assertEqual(self.js("return [...document.querySelectorAll('[data-csv]')].map(b => b.dataset.csv)"), figures)
+        self.assertEqual(self.js("return [...document.querySelectorAll('[data-csv]')].map(b => b.dataset.csv)"),
+                         figures)
 
     def test_saved_numbers_are_the_folder_s(self):
         lines = self.browser.download("map-p-1").read_text().splitlines()
@@ -233,7 +302,8 @@ class Run(Page):
         touching = [k for k, p in enumerate(patch["p_MPa"]) if p > 0]
         self.assertEqual(len(saved), len(touching))
         for k in touching:
-            self.assertAlmostEqual(saved[round(patch["x_mm"][k], 3), round(patch["y_mm"][k] - shift, 3)], patch["p_MPa"][k], delta=2e-5 * max(patch["p_MPa"]))
+            self.assertAlmostEqual(saved[round(patch["x_mm"][k], 3), round(patch["y_mm"][k] - shift, 3)],
+                                   patch["p_MPa"][k], delta=2e-5 * max(patch["p_MPa"]))
 
     def test_no_button_sends_anything_away(self):
         buttons = self.js("return [...document.querySelectorAll('.modebar-btn')].map(b => b.dataset.title)")
@@ -243,14 +313,18 @@ class Run(Page):
 
     def test_light_dark_and_light_again_in_print(self):
         def look():
-            return self.js("return [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor, document.getElementById('plot-map-p-0')._fullLayout.paper_bgcolor]")
+            return self.js(
+                "return [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor, "
+                "document.getElementById('plot-map-p-0')._fullLayout.paper_bgcolor]")
 
         light = look()
         self.js("document.getElementById('theme').click()")
         dark = look()
         self.assertEqual([light[0], dark[0]], ["light", "dark"])
         self.assertTrue(all(a != b for a, b in zip(light, dark)))
-        self.js("window.printed = []; window.addEventListener('beforeprint', () => document.querySelectorAll('.js-plotly-plot').forEach(g => g.clientWidth !== 0 && window.printed.push([g._fullLayout.width, g._fullLayout.paper_bgcolor])))")
+        self.js("window.printed = []; window.addEventListener('beforeprint', () => "
+                "document.querySelectorAll('.js-plotly-plot').forEach(g => g.clientWidth !== 0 && "
+                "window.printed.push([g._fullLayout.width, g._fullLayout.paper_bgcolor])))")
         pdf = self.browser.pdf()
         self.assertTrue(pdf.startswith(b"%PDF"))
         self.assertIn(len(re.findall(rb"/Type\s*/Page\b", pdf)), range(4, 16))
@@ -271,7 +345,8 @@ class HalfSpace(Page):
     def test_its_verdict_is_green(self):
         self.assertTrue(all(check["ok"] for check in summary_of(BEM)["checks"]))
         self.assertRegex(self.browser.text("#verdict h2"), r"^✓ All \d+ checks hold")
-        red, green, blue = map(int, re.findall(r"\d+", self.js("return getComputedStyle(document.querySelector('#verdict')).backgroundColor"))[:3])
+        colour = self.js("return getComputedStyle(document.querySelector('#verdict')).backgroundColor")
+        red, green, blue = map(int, re.findall(r"\d+", colour)[:3])
         self.assertTrue(green > red and green > blue)
 
     def test_it_has_no_history_and_says_nothing_of_it(self):
@@ -279,7 +354,8 @@ class HalfSpace(Page):
         self.assertNotIn("history", self.browser.text("nav"))
 
     def test_both_layers_have_their_borders(self):
-        depths = {round(d, 3) for d in self.trace("plot-section-rail-longitudinal-von_mises-0", 1)["y"] if d is not None}
+        depths = {round(d, 3) for d in self.trace("plot-section-rail-longitudinal-von_mises-0", 1)["y"]
+                  if d is not None}
         self.assertEqual(depths, {0.5, 2.0})
         levels = self.js("return document.getElementById('plot-depth').layout.shapes.map(s => s.y0)")
         self.assertEqual([round(d, 3) for d in levels], [0.5, 2.0])
@@ -302,8 +378,12 @@ class Old(Page):
     def test_a_narrow_window_needs_no_sideways_scrolling(self):
         self.browser.driver.set_window_size(760, 900)
         try:
-            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width <= document.getElementById('plot-map-p-0').clientWidth"), "figures have followed")
-            self.assertLessEqual(self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth"), 1)
+            self.browser.wait(
+                lambda: self.js(
+                "return document.getElementById('plot-map-p-0')._fullLayout.width <= "
+                "document.getElementById('plot-map-p-0').clientWidth"), "figures have followed")
+            self.assertLessEqual(
+                self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth"), 1)
         finally:
             self.browser.driver.set_window_size(1366, 900)
 
@@ -315,25 +395,34 @@ class Study(Page):
 
     @classmethod
     def setUpClass(cls):
-        table = [{"id": "trend", "title": "Trend", "note": "A note.", "columns": ["layer", "p_max [MPa]"], "rows": [["1 mm", 1101.48], ["2 mm <i>", None]]}]
+        table = [{"id": "trend", "title": "Trend", "note": "A note.", "columns": ["layer", "p_max [MPa]"],
+                  "rows": [["1 mm", 1101.48], ["2 mm <i>", None]]}]
         chart = [{"id": "fig", "title": "Pressure against thickness", "note": "", "x": "h [mm]", "y": "p_max [MPa]",
-                  "series": [{"name": "2 E0", "x": [0.5, 1, 3], "y": [1090, 1100, 1130], "markers": True, "colour": -1, "dash": "solid"}, {"name": "4 E0", "x": [0.5, 1, 3], "y": [1100, 1150, 1250], "markers": True, "colour": -1, "dash": "solid"}]}]
-        page = (RESULTS / "three.html").read_text().replace('"tables":[],"charts":[]', f'"tables":{json.dumps(table)},"charts":{json.dumps(chart)}'.replace("<", "\\u003c"), 1)
+                  "series": [{"name": "2 E0", "x": [0.5, 1, 3], "y": [1090, 1100, 1130], "markers": True, "colour": -1,
+                              "dash": "solid"}, {"name": "<b>4</b> E0 & more", "x": [0.5, 1, 3],
+                                                 "y": [1100, 1150, 1250], "markers": True, "colour": -1,
+                                                 "dash": "solid"}]}]
+        data = f'"tables":{json.dumps(table)},"charts":{json.dumps(chart)}'.replace("<", "\\u003c")
+        page = (RESULTS / "three.html").read_text().replace('"tables":[],"charts":[]', data, 1)
         cls.file.write_text(page)
         super().setUpClass()
 
     def test_its_chart_has_the_lines(self):
         self.assertEqual(self.trace("plot-fig", 1)["y"], [1100, 1150, 1250])
-        self.assertEqual(self.js("return [...document.querySelectorAll('#plot-fig .legendtext')].map(e => e.textContent)"), ["2 E0", "4 E0"])
+        self.assertEqual(
+            self.js("return [...document.querySelectorAll('#plot-fig .legendtext')].map(e => e.textContent)"),
+            ["2 E0", "<b>4</b> E0 & more"])
 
     def test_its_table_has_the_cells(self):
-        rows = self.js("return [...document.querySelectorAll('#table-trend tr')].map(r => [...r.cells].map(c => c.innerText))")
+        rows = self.js(
+            "return [...document.querySelectorAll('#table-trend tr')].map(r => [...r.cells].map(c => c.innerText))")
         self.assertEqual(rows, [["layer", "p_max [MPa]"], ["1 mm", "1101"], ["2 mm <i>", "–"]])
 
     def test_the_chosen_runs_are_shown(self):
         self.assertEqual(self.browser.text("header .sub").split(" · ")[0], "3 runs")
         self.assertAlmostEqual(self.map_peak("plot-map-p-0")[2], max(read_table(FEM / "patch.csv")["p_MPa"]), delta=0.1)
-        self.js("const s = document.querySelectorAll('.chooser select'); s[0].value = '1'; s[1].value = ''; s[0].dispatchEvent(new Event('change'))")
+        self.js("const s = document.querySelectorAll('.chooser select'); s[0].value = '1'; s[1].value = ''; "
+                "s[0].dispatchEvent(new Event('change'))")
         self.assertAlmostEqual(self.map_peak("plot-map-p-0")[2], max(read_table(BEM / "patch.csv")["p_MPa"]), delta=0.1)
         self.assertIsNone(self.browser.text("#plot-map-p-1"))
         self.assertEqual(self.first_words + self.browser.console(), [])
@@ -345,18 +434,22 @@ class WholeStudy(Page):
     file = RESULTS / "study" / "report.html"
 
     def rows(self, group="", engine=""):
-        lines = [line for line in (RESULTS / "study" / "study.csv").read_text().splitlines() if not line.startswith("#")]
+        lines = [line for line in (RESULTS / "study" / "study.csv").read_text().splitlines()
+                 if not line.startswith("#")]
         return [row for row in csv.DictReader(lines) if group in row["group"] and engine in row["engine"]]
 
     def folder(self, row):
         return RESULTS / "study" / row["folder"]
 
     def cells_of(self, table):
-        return self.js("return [...document.querySelectorAll('#table-' + arguments[0] + ' tr')].map(r => [...r.cells].map(c => c.innerText))", table)
+        return self.js(
+            "return [...document.querySelectorAll('#table-' + arguments[0] + ' tr')].map(r => [...r.cells].map(c => "
+            "c.innerText))", table)
 
     def test_nothing_is_fetched_and_nothing_is_wrong(self):
         self.assertEqual(self.first_words, [])
-        self.assertEqual([address for address in self.asked if not address.startswith(("data:", "blob:"))], [self.file.as_uri()])
+        self.assertEqual([address for address in self.asked if not address.startswith(("data:", "blob:"))],
+                         [self.file.as_uri()])
         self.assertLess(self.file.stat().st_size, 6e6)
         self.assertEqual(self.browser.text("h1"), "a small <i>study</i>")
 
@@ -375,7 +468,8 @@ class WholeStudy(Page):
         shown = [self.trace("plot-trend", k) for k in range(3)]
         self.assertEqual([s["x"] for s in shown], [[0.5, 10]] * 3)
         for s, ratio in zip(shown, ["1", "1.5", "4"]):
-            wanted = [plain, plain] if ratio == "1" else [float(r["p_max_MPa"]) for r in self.rows("grid") if r["layer.0.young_ratio"] == ratio]
+            wanted = [plain, plain] if ratio == "1" else [float(r["p_max_MPa"]) for r in self.rows("grid")
+                                                          if r["layer.0.young_ratio"] == ratio]
             for a, b in zip(s["y"], wanted, strict=True):
                 self.assertAlmostEqual(a, b, delta=1e-5 * b)
 
@@ -386,7 +480,8 @@ class WholeStudy(Page):
             patch = read_table(self.folder(row) / "patch.csv")["state_0separated_1stick_2slip"]
             self.assertEqual([states.count(s) for s in (1, 2)], [patch.count(s) for s in (1, 2)])
         for n, row in enumerate(r for r in grid if r["layer.0.thickness"] == "0.5 mm"):
-            self.assertAlmostEqual(self.map_peak(f"plot-stress-{n + 1}")[2], float(row["section_von_mises_MPa"]), delta=0.1)
+            self.assertAlmostEqual(self.map_peak(f"plot-stress-{n + 1}")[2], float(row["section_von_mises_MPa"]),
+                                   delta=0.1)
             depths = {round(d, 3) for d in self.trace(f"plot-stress-{n + 1}", 1)["y"] if d is not None}
             self.assertEqual(depths, {0.5, 2.0})
 
@@ -401,9 +496,12 @@ class WholeStudy(Page):
         self.assertEqual(shear[8], "not explained")
         claim = self.cells_of("claims")[1]
         self.assertEqual(claim[2], "no result yet")
-        lines = [[float(self.rows("plain")[0]["p_max_MPa"])] + [float(r["p_max_MPa"]) for r in self.rows("grid") if r["layer.0.thickness"] == h] for h in ("0.5 mm", "10 mm")]
+        lines = [[float(self.rows("plain")[0]["p_max_MPa"])] + [float(r["p_max_MPa"]) for r in self.rows("grid")
+                                                                if r["layer.0.thickness"] == h]
+                 for h in ("0.5 mm", "10 mm")]
         rising = [line == sorted(line) for line in lines]
-        self.assertTrue(claim[3].startswith("confirmed" if all(rising) else "in part" if any(rising) else "not confirmed"), (claim, lines))
+        self.assertTrue(claim[3].startswith("confirmed" if all(rising) else "in part" if any(rising)
+                                            else "not confirmed"), (claim, lines))
 
     def test_every_case_has_a_line_and_the_failed_one_its_reason(self):
         cases = self.cells_of("cases")[1:]
@@ -411,14 +509,21 @@ class WholeStudy(Page):
         self.assertRegex(next(c for c in cases if c[0].startswith("broken"))[-1], "^failed: .*misses the rail")
 
     def test_the_verdict_counts_the_cases_and_names_the_worst(self):
-        rows = self.js("return [...document.querySelectorAll('#verdict tr[data-check]')].map(r => ({name: r.dataset.check, ok: r.dataset.ok === 'true', words: r.cells[4].innerText, value: r.querySelector('.value').innerText}))")
+        rows = self.js(
+            "return [...document.querySelectorAll('#verdict tr[data-check]')].map(r => ({name: r.dataset.check, ok: "
+            "r.dataset.ok === 'true', words: r.cells[4].innerText, value: r.querySelector('.value').innerText}))")
         traction = next(r for r in rows if r["name"] == "traction_coefficient_reached")
-        checks = [(self.folder(r), k) for r in self.rows() if r["state"] == "done" for k in summary_of(self.folder(r))["checks"] if k["name"] == "traction_coefficient_reached"]
-        self.assertIn(f"{sum(k['ok'] for _, k in checks)} of {len(checks)} cases; the worst: wheel/case, finite elements", traction["words"])
-        self.assertAlmostEqual(number_in(traction["value"]) / 100, max(k["value"] for _, k in checks), delta=5e-3 * max(k["value"] for _, k in checks))
+        checks = [(self.folder(r), k) for r in self.rows() if r["state"] == "done"
+                  for k in summary_of(self.folder(r))["checks"] if k["name"] == "traction_coefficient_reached"]
+        self.assertIn(
+            f"{sum(k['ok'] for _, k in checks)} of {len(checks)} cases; the worst: wheel/case, finite elements",
+            traction["words"])
+        self.assertAlmostEqual(number_in(traction["value"]) / 100, max(k["value"] for _, k in checks),
+                               delta=5e-3 * max(k["value"] for _, k in checks))
         fem, bem = (summary_of(self.folder(r))["contact"] for r in self.rows("wheel"))
         pressure = next(r for r in rows if r["name"] == "p_max")
-        self.assertAlmostEqual(number_in(pressure["value"]) / 100, abs(fem["p_max_Pa"] / bem["p_max_Pa"] - 1), delta=6e-3)
+        self.assertAlmostEqual(number_in(pressure["value"]) / 100, abs(fem["p_max_Pa"] / bem["p_max_Pa"] - 1),
+                               delta=6e-3)
         self.assertEqual(self.cells_of("engines")[1][0], "wheel/case")
 
 
@@ -430,12 +535,14 @@ class Command(unittest.TestCase):
             self.assertIn(message, done.stderr)
 
     def test_what_is_no_result_is_refused(self):
-        self.refused(2, [RESULTS / "nowhere"], "is not a result folder", "remedy: give a folder that `railstrata run` or `railstrata bem` has written")
+        self.refused(2, [RESULTS / "nowhere"], "is not a result folder",
+                     "remedy: give a folder that `railstrata run` or `railstrata bem` has written")
 
     def test_no_report_is_written_where_none_is_wanted(self):
         with tempfile.TemporaryDirectory() as place:
             for word, wanted in [("--no-report", False), ("--force", True)]:
-                done = subprocess.run([BINARY, "bem", RESULTS / "layers.toml", "--cell", "0.8 mm", "--out", f"{place}/bem", word, "--quiet"], capture_output=True, text=True, timeout=60)
+                done = subprocess.run([BINARY, "bem", RESULTS / "layers.toml", "--cell", "0.8 mm", "--out",
+                                       f"{place}/bem", word, "--quiet"], capture_output=True, text=True, timeout=60)
                 self.assertEqual(done.returncode, 0, done.stderr)
                 self.assertEqual(pathlib.Path(place, "bem", "report.html").exists(), wanted)
 
@@ -448,14 +555,17 @@ class Command(unittest.TestCase):
             done = subprocess.run([BINARY, "report", folder, "--quiet"], capture_output=True, text=True, timeout=60)
             self.assertEqual(done.returncode, 0, done.stderr)
             self.assertIn("friction_coefficient = 0.4", (folder / "half_space" / "case.toml").read_text())
-            self.assertNotEqual(summary_of(folder / "half_space")["contact"]["slip_area_fraction"], summary_of(HALF_SPACE)["contact"]["slip_area_fraction"])
+            self.assertNotEqual(summary_of(folder / "half_space")["contact"]["slip_area_fraction"],
+                                summary_of(HALF_SPACE)["contact"]["slip_area_fraction"])
 
     def test_the_terminal_gives_the_verdict_of_the_page(self):
         with tempfile.TemporaryDirectory() as place:
-            done = subprocess.run([BINARY, "report", FEM, "--out", f"{place}/page.html"], capture_output=True, text=True, timeout=60)
+            done = subprocess.run([BINARY, "report", FEM, "--out", f"{place}/page.html"], capture_output=True,
+                                  text=True, timeout=60)
             self.assertEqual(done.returncode, 0, done.stderr)
             told = re.search(r"warning: verdict of the page: (\d+) of (\d+) checks fails?: ", done.stderr)
-            checks = json.loads(re.search(r'id="data">(.*?)</script>', pathlib.Path(place, "page.html").read_text(), re.S)[1])["checks"]
+            checks = json.loads(re.search(r'id="data">(.*?)</script>', pathlib.Path(place, "page.html").read_text(),
+                                          re.S)[1])["checks"]
             judged = [c for c in checks if c["judged"]]
             self.assertEqual((int(told[1]), int(told[2])), (sum(not c["ok"] for c in judged), len(judged)))
 
@@ -463,11 +573,13 @@ class Command(unittest.TestCase):
         text = (FEM / "report.html").read_text()
         data = re.search(r'id="data">(.*?)</script>', text, re.S)[1]
         self.assertNotIn(str(RESULTS), data)
-        self.assertNotIn(json.loads((FEM / "provenance.json").read_text())["host"], json.dumps(json.loads(data)["runs"][0]["provenance"]))
+        self.assertNotIn(json.loads((FEM / "provenance.json").read_text())["host"],
+                         json.dumps(json.loads(data)["runs"][0]["provenance"]))
         self.assertNotIn("cpu", json.loads(data)["runs"][0]["provenance"])
 
     def test_several_folders_need_a_place(self):
-        self.refused(2, [FEM, BEM], "2 folders are given and no --out", "remedy: say where the page is to be written, e.g. --out comparison.html")
+        self.refused(2, [FEM, BEM], "2 folders are given and no --out",
+                     "remedy: say where the page is to be written, e.g. --out comparison.html")
 
 
 del Page  # only its heirs are tests

@@ -8,6 +8,9 @@
 #include "io/provenance.hpp"
 #include "report/assets.hpp"
 #include "report/base64.hpp"
+#include "report/checks.hpp"
+#include "report/page.hpp"
+#include "report/payload.hpp"
 
 namespace railstrata {
 namespace {
@@ -139,7 +142,7 @@ TEST(ReportVerdict, SaysWhatFailsAndByHowMuch) {
   EXPECT_EQ(verdict_of(report).text, "all 1 checks hold");
   report.checks.push_back({"q_max", {0, 1}, true, false, 0.0952, 0.07, ""});
   EXPECT_FALSE(verdict_of(report).ok);
-  EXPECT_EQ(verdict_of(report).text, "1 of 2 checks fails: q_max 0.0952, limit 0.07");
+  EXPECT_EQ(verdict_of(report).text, "1 of 2 checks fails: Largest shear 9.52 %, limit 7 %");
 }
 
 TEST(ReportPayload, LeavesOutTheMachineAndItsFolders) {
@@ -178,6 +181,23 @@ TEST(ReportChecks, DoNotJudgeAStressWithinOneElementOfTheSurface) {
   const ReportCheck stress = find(report_checks({fem, bem}), "von_mises_below_surface", 2);
   EXPECT_FALSE(stress.judged);
   EXPECT_NE(stress.note.find("0.50 mm deep, within an element of 1.00 mm"), std::string::npos) << stress.note;
+}
+
+TEST(ReportChecks, TakeTheWordsOfAWarningFromTheTableIfItKnowsTheName) {
+  ReportRun run = sample("fem");
+  run.result.summary["warnings"] = {
+      {{"name", "von_mises_above_common_rail_yield"}, {"value", 931e6}, {"limit", 500e6}, {"text", "in Pa"}},
+      {{"name", "of_another_version"}, {"value", 2}, {"limit", 1}, {"text", "its own words"}}};
+  const auto checks = report_checks({run});
+  EXPECT_EQ(find(checks, "von_mises_above_common_rail_yield", 1).note, "");
+  EXPECT_EQ(find(checks, "of_another_version", 1).note, "its own words");
+  EXPECT_FALSE(find(checks, "of_another_version", 1).judged);
+  const Json words = report_payload(Report{})["words"];
+  const auto yield = std::find_if(words["checks"].begin(), words["checks"].end(),
+                                  [](const Json& row) { return row["key"] == "von_mises_above_common_rail_yield"; });
+  ASSERT_NE(yield, words["checks"].end());
+  EXPECT_EQ((*yield)["name"], "Von Mises stress above common rail yield");
+  EXPECT_EQ((*yield)["unit"]["shown"], "MPa");
 }
 
 TEST(ReportChecks, OfDifferentCasesTellWhatDiffersAndJudgeNothing) {

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""view.py of a run shows wheel, rail, layer and stress. Under xvfb, with Debian's python3-vtk9. usage: view_test.py RESULTS"""
+"""view.py of a run shows wheel, rail, layer and stress. Under xvfb, with Debian's python3-vtk9. usage: view_test.py
+RESULTS"""
 import json
 import os
 import pathlib
@@ -31,13 +32,15 @@ def picture(folder, *words):
     """The picture as rows of RGB, from the top."""
     with tempfile.TemporaryDirectory() as place:
         file = pathlib.Path(place) / "view.png"
-        done = subprocess.run(["xvfb-run", "-a", sys.executable, folder / "view.py", "--png", file, *words], capture_output=True, text=True, timeout=120, cwd=place)
+        done = subprocess.run(["xvfb-run", "-a", sys.executable, folder / "view.py", "--png", file, *words],
+                              capture_output=True, text=True, timeout=120, cwd=place)
         assert done.returncode == 0 and file.exists() and "ERR" not in done.stderr, done.stdout + done.stderr
         reader = vtkPNGReader()
         reader.SetFileName(str(file))
         reader.Update()
         width, height, _ = reader.GetOutput().GetDimensions()
-        return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(height, width, -1)[::-1, :, :3].astype(int)
+        return vtk_to_numpy(reader.GetOutput().GetPointData().GetScalars()).reshape(height, width,
+                                                                                    -1)[::-1, :, :3].astype(int)
 
 
 def points(file):
@@ -72,7 +75,8 @@ def section_size(folder, body):
 class View(unittest.TestCase):
     def test_a_run_shows_its_stresses_at_the_size_of_its_sections(self):
         bodies = picture(RESULTS / "fem")[:, :1180]  # without the scale
-        front = sum(np.prod(section_size(RESULTS / "fem", body)) for body in ("rail", "wheel")) * abs(SIGHT[1]) / PIXEL**2
+        front = sum(np.prod(section_size(RESULTS / "fem", body))
+                    for body in ("rail", "wheel")) * abs(SIGHT[1]) / PIXEL**2
         self.assertGreater(coloured(bodies).sum(), 0.9 * front)  # some of it are edges of elements
         self.assertLess(coloured(bodies).sum(), 2 * front)  # with the faces at the side and on top
         self.assertGreater(share(bodies, YELLOW, 40), 1e-3, "the largest von Mises stress")
@@ -96,7 +100,8 @@ class View(unittest.TestCase):
     def test_a_half_space_result_shows_its_patch_at_its_size(self):
         bodies = picture(RESULTS / "bem")[:, :1180]
         area = json.loads((RESULTS / "bem" / "summary.json").read_text())["contact"]["patch_area_m2"]
-        self.assertAlmostEqual(coloured(bodies).sum() * PIXEL**2 / (area * SIGHT[2]), 1, delta=0.2)  # the rail's surface rises by some 25 mrad
+        # the rail's surface rises by some 25 mrad
+        self.assertAlmostEqual(coloured(bodies).sum() * PIXEL**2 / (area * SIGHT[2]), 1, delta=0.2)
         self.assertGreater(share(bodies, YELLOW, 60), 1e-4)
 
     def test_the_surfaces_touch_at_the_contact_point_only(self):
@@ -114,13 +119,17 @@ class View(unittest.TestCase):
     def test_without_a_display_it_says_what_helps(self):
         bare = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         for display in ({}, {"DISPLAY": ":4711"}):
-            done = subprocess.run([sys.executable, RESULTS / "bem" / "view.py", "--png", "no.png"], capture_output=True, text=True, timeout=120, env=bare | display)
+            done = subprocess.run([sys.executable, RESULTS / "bem" / "view.py", "--png", "no.png"], capture_output=True,
+                                  text=True, timeout=120, env=bare | display)
             if done.returncode == 0:
                 pathlib.Path("no.png").unlink()  # a VTK that draws without a display
                 continue
-            self.assertEqual((done.returncode, done.stderr), (1, "view.py: VTK needs a display, e.g. xvfb-run -a python3 view.py --png view.png\n"))
-        done = subprocess.run([sys.executable, RESULTS / "bem" / "view.py"], capture_output=True, text=True, timeout=120, env=bare)
-        self.assertEqual((done.returncode, done.stderr), (1, "view.py: a window needs a display; a picture without one: xvfb-run -a python3 view.py --png view.png\n"))
+            self.assertEqual((done.returncode, done.stderr), (1, "view.py: VTK needs a display, e.g. xvfb-run -a "
+                                                                 "python3 view.py --png view.png\n"))
+        done = subprocess.run([sys.executable, RESULTS / "bem" / "view.py"], capture_output=True, text=True,
+                              timeout=120, env=bare)
+        self.assertEqual((done.returncode, done.stderr), (1, "view.py: a window needs a display; a picture without "
+                                                             "one: xvfb-run -a python3 view.py --png view.png\n"))
 
     def test_the_script_knows_where_it_was_written(self):
         for folder in ("fem", "bem"):

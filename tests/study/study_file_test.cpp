@@ -39,6 +39,12 @@ TEST(Variation, TheLastKeyChangesFastest) {
   EXPECT_EQ(combinations({}).size(), 1u);
   const std::vector<std::string> ten(10, "1");
   EXPECT_EQ(combinations({{"a", ten}, {"b", ten}, {"c", ten}}).size(), 1000u);
+  try {
+    combinations({{"a", ten}, {"b", ten}, {"c", ten}, {"d", ten}, {"e", {"1", "2"}}});
+    ADD_FAILURE() << "twenty thousand cases";
+  } catch (const CaseError& e) {
+    EXPECT_EQ(e.diagnostics.front().message, "the values to vary make 20000 cases, more than 10000");
+  }
   EXPECT_THROW(combinations({{"a", ten}, {"b", ten}, {"c", ten}, {"d", ten}, {"e", ten}, {"f", {"1", "2"}}}),
                CaseError);
 }
@@ -86,9 +92,9 @@ TEST(StudyFile, AGroupWithoutKeysIsOneCaseAndTakesBaseEnginesAndSettingsFromTheS
   const StudyGroup &a = s.spec.groups.at(0), &b = s.spec.groups.at(1);
   EXPECT_EQ(a.points.size(), 1u);
   EXPECT_EQ(a.base.filename(), "base.toml");
-  EXPECT_EQ(a.engines, std::vector<std::string>{"bem"});
+  EXPECT_EQ(a.engines, std::vector<Engine>{Engine::bem});
   EXPECT_EQ(b.base.filename(), "layer_3mm_2E0.toml");
-  EXPECT_EQ(b.engines, std::vector<std::string>{"fem"});
+  EXPECT_EQ(b.engines, std::vector<Engine>{Engine::fem});
   ASSERT_EQ(b.set.size(), 2u);
   EXPECT_EQ(b.set[0].toml, "\"20 m/s\"");
 }
@@ -117,7 +123,7 @@ TEST(StudyFile, EveryMistakeIsToldAtOnceWithPlaceAndRemedy) {
           "13:19: mesh.largest is varied twice in this group | name a key once, in vary, zip or case",
           "14:22: mesh.end_length has 2 values and mesh.largest has 1: what is zipped goes together, value by value | "
           "give every key of [group.zip] equally many values, or put it into [group.vary]",
-          "18:11: engines: there is no engine \"bme\" | write engines = [\"fem\", \"bem\"], or one of the two",
+          "18:11: engines: there is no engine \"bme\" | write engines = [\"fem\", \"bem\"], or one of them",
           "19:1: figure \"figure-1\" is a trend and has no x | name the key along its axis: x = \"layer.0.thickness\"",
           "21:10: figure \"figure-1\": there is no group \"y\" | groups: x"}));
 }

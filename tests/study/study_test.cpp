@@ -1,3 +1,4 @@
+#include "study/published_table.hpp"
 #include "study/study_report.hpp"
 
 #include <gtest/gtest.h>
@@ -13,13 +14,13 @@ namespace {
 using Numbers = std::vector<std::pair<std::string, double>>;
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-StudyEntry entry(const std::string& group, const std::string& name, const std::string& engine, Numbers numbers,
+StudyEntry entry(const std::string& group, const std::string& name, Engine engine, Numbers numbers,
                  Values values = {}) {
   return {group, name, engine, "done", "", "", std::move(values), std::move(numbers)};
 }
 
 const std::vector<AnswerColumn> kColumns{
-    {"paper's mesh", "fem", "paper_"}, {"converged", "fem", ""}, {"half-space", "bem", ""}};
+    {"paper's mesh", Engine::fem, "paper_"}, {"converged", Engine::fem, ""}, {"half-space", Engine::bem, ""}};
 
 PublishedNumber about(double value, double within) {
   PublishedNumber n;
@@ -43,9 +44,10 @@ std::string reason(const PublishedNumber& n, const std::vector<StudyEntry>& entr
 
 std::vector<StudyEntry> answers(double paper_mesh, double converged, double half_space) {
   std::vector<StudyEntry> out;
-  if (!std::isnan(paper_mesh)) out.push_back(entry("paper_layers", "h 1", "fem", {{"p", paper_mesh}, {"other", 500}}));
-  if (!std::isnan(converged)) out.push_back(entry("layers", "h 1", "fem", {{"p", converged}, {"other", 500}}));
-  if (!std::isnan(half_space)) out.push_back(entry("layers", "h 1", "bem", {{"p", half_space}, {"other", 500}}));
+  if (!std::isnan(paper_mesh))
+    out.push_back(entry("paper_layers", "h 1", Engine::fem, {{"p", paper_mesh}, {"other", 500}}));
+  if (!std::isnan(converged)) out.push_back(entry("layers", "h 1", Engine::fem, {{"p", converged}, {"other", 500}}));
+  if (!std::isnan(half_space)) out.push_back(entry("layers", "h 1", Engine::bem, {{"p", half_space}, {"other", 500}}));
   return out;
 }
 
@@ -75,14 +77,14 @@ TEST(PublishedTable, AChangeIsTakenWithinEachColumnAndAGroupWithoutTwinStandsFor
   n.unit = "%";
   n.against = "base/f 1";
   std::vector<StudyEntry> all = answers(1200, 1100, 1090);
-  all.push_back(entry("base", "f 1", "fem", {{"p", 1000}}));
-  all.push_back(entry("base", "f 1", "bem", {{"p", 1000}}));
+  all.push_back(entry("base", "f 1", Engine::fem, {{"p", 1000}}));
+  all.push_back(entry("base", "f 1", Engine::bem, {{"p", 1000}}));
   const auto without = row(n, all);
   EXPECT_NEAR(without[5].get<double>(), 20, 1e-9);
   EXPECT_NEAR(without[6].get<double>(), 10, 1e-9);
   EXPECT_NEAR(without[7].get<double>(), 9, 1e-9);
   EXPECT_EQ(without[8], "+0.0 points");
-  all.push_back(entry("paper_base", "f 1", "fem", {{"p", 1100}}));
+  all.push_back(entry("paper_base", "f 1", Engine::fem, {{"p", 1100}}));
   EXPECT_NEAR(row(n, all)[5].get<double>(), 100.0 / 11, 1e-9);
 }
 
@@ -109,22 +111,25 @@ std::string claim(PublishedClaim c, const std::vector<StudyEntry>& entries) {
   c.text = "…";
   c.column = "p";
   c.unit = "MPa";
-  return claims_table({"S", {{"half-space", "bem", ""}}, {}, {c}}, entries).rows.at(0).at(2).get<std::string>();
+  return claims_table({"S", {{"half-space", Engine::bem, ""}}, {}, {c}}, entries).rows.at(0).at(2).get<std::string>();
 }
 
 std::vector<StudyEntry> grid(const std::vector<double>& thin, const std::vector<double>& thick) {
-  std::vector<StudyEntry> out{entry("base", "case", "bem", {{"p", 100}}, {{"E", "1"}})};
+  std::vector<StudyEntry> out{entry("base", "case", Engine::bem, {{"p", 100}}, {{"E", "1"}})};
   const char* moduli[] = {"2", "10", "4"};  // by their numbers, not by their letters or their order
   for (int k = 0; k < 3; ++k) {
-    out.push_back(entry("layers", "", "bem", {{"p", thin[k]}}, {{"h", "0.5 mm"}, {"E", moduli[k]}}));
-    out.push_back(entry("layers", "", "bem", {{"p", thick[k]}}, {{"h", "10 mm"}, {"E", moduli[k]}}));
+    out.push_back(entry("layers", "", Engine::bem, {{"p", thin[k]}}, {{"h", "0.5 mm"}, {"E", moduli[k]}}));
+    out.push_back(entry("layers", "", Engine::bem, {{"p", thick[k]}}, {{"h", "10 mm"}, {"E", moduli[k]}}));
   }
   return out;
 }
 
 PublishedClaim along_modulus(const std::string& kind) {
   PublishedClaim c;
-  c.kind = kind, c.along = "E", c.each = "h", c.groups = {"base", "layers"};
+  c.kind = kind;
+  c.along = "E";
+  c.each = "h";
+  c.groups = {"base", "layers"};
   return c;
 }
 

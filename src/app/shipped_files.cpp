@@ -1,0 +1,43 @@
+#include "app/shipped_files.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <cstdlib>
+#include <system_error>
+
+// Path of the data folder, seen from that of the program; the build gives the one it installs to.
+#ifndef RAILSTRATA_DATA_FROM_PROGRAM
+#define RAILSTRATA_DATA_FROM_PROGRAM "../share/railstrata"
+#endif
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_there(const fs::path& file) {
+  std::error_code error;  // a name too long, a folder that may not be entered: not there
+  return fs::exists(file, error);
+}
+
+}  // namespace
+
+fs::path shipped_folder() {
+  if (const char* wanted = std::getenv("RAILSTRATA_DATA"); wanted != nullptr && *wanted != '\0') return wanted;
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
+  if (error) return {};
+  for (const char* place : {RAILSTRATA_DATA_FROM_PROGRAM, ".."})
+    if (is_there(program / place / "cases/quick/case.toml")) return (program / place).lexically_normal();
+  return {};
+}
+
+fs::path shipped_unless_there(const fs::path& file) {
+  if (file.empty() || file.is_absolute() || is_there(file)) return file;
+  const fs::path folder = shipped_folder();
+  if (folder.empty() || !is_there(folder / file)) return file;
+  spdlog::info("{} is not here; taking the one that comes with the program", file.string());
+  return folder / file;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,132 @@
+#include "body/element_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr int kLineEnd = 64 / sizeof(float);  // lines end with a whole pack of any number type
+
+bool same_spacing(double a, double b) { return std::abs(a - b) < 1e-9 * b; }
+
+// Index of `value` in `known`, added if it is new.
+template <class T, class Same>
+int class_of(std::vector<T>& known, const T& value, Same&& same) {
+  const auto at = std::find_if(known.begin(), known.end(), [&](const T& k) { return same(k, value); });
+  if (at != known.end()) return static_cast<int>(at - known.begin());
+  known.push_back(value);
+  return static_cast<int>(known.size()) - 1;
+}
+
+std::vector<double> spacings(const Block& block, const BlockLayout& lay) {
+  std::vector<double> out(lay.elements);
+  for (int e = 0; e < lay.elements; ++e) {
+    const double t1 = e + 1 < lay.stations ? block.stations.at[e + 1] : block.stations.at[0] + 2 * std::numbers::pi;
+    out[e] = t1 - block.stations.at[e];
+  }
+  return out;
+}
+
+void fill_station_lines(SweepKind kind, const std::vector<double>& spacing, int padded, ElementTable<double>& table) {
+  for (auto* line : {&table.inv_sigma, &table.inv_c, &table.v1, &table.v2, &table.v3, &table.sigma, &table.c})
+    line->assign(padded, 0.0);
+  for (std::size_t e = 0; e < spacing.size(); ++e) {
+    const StationScale<double> scale = station_scale(sweep_scale(kind, spacing[e]));
+    table.inv_sigma[e] = scale.inv_sigma;
+    table.inv_c[e] = scale.inv_c;
+    table.v1[e] = scale.v1;
+    table.v2[e] = scale.v2;
+    table.v3[e] = scale.v3;
+    table.sigma[e] = scale.sigma;
+    table.c[e] = scale.c;
+  }
+}
+
+void fill_frames(SweepKind kind, const Block& block, const BlockLayout& lay, BlockElements& out) {
+  for (Field* line : {&out.theta, &out.cos_q, &out.sin_q}) line->assign(lay.elements, 0.0);
+  for (int e = 0; e < lay.elements; ++e) {
+    const double t0 = block.stations.at[e];
+    const double t1 = e + 1 < lay.stations ? block.stations.at[e + 1] : block.stations.at[0] + 2 * std::numbers::pi;
+    out.theta[e] = kind == SweepKind::revolve ? 0.5 * (t0 + t1) : 0.0;
+    out.cos_q[e] = std::cos(out.theta[e]);
+    out.sin_q[e] = std::sin(out.theta[e]);
+  }
+}
+
+// Groups and classes of the elements; returns the spacings that hourglass stiffnesses are made for.
+std::vector<double> classify(const std::vector<double>& spacing, int padded, BlockElements& out) {
+  std::vector<double> hourglass_spacings;
+  const int elements = static_cast<int>(spacing.size());
+  for (int e = 0; e < elements; ++e) {
+    if (e % kHourglassGroup == 0) {
+      const int count = std::min(kHourglassGroup, elements - e);
+      const double shortest = *std::min_element(&spacing[e], &spacing[e] + count);
+      out.hourglass_class.push_back(class_of(hourglass_spacings, shortest, same_spacing));
+    }
+    const SpacingClass mine{spacing[e], out.hourglass_class.back()};
+    out.element_class.push_back(class_of(out.classes, mine, [](const SpacingClass& a, const SpacingClass& c) {
+      return same_spacing(a.spacing, c.spacing) && a.hourglass == c.hourglass;
+    }));
+  }
+  out.hourglass_class.resize(padded / kHourglassGroup, out.hourglass_class.back());
+  return hourglass_spacings;
+}
+
+ElementTable<float> rounded(const ElementTable<double>& from) {
+  ElementTable<float> to;
+  for (const QuadReference& r : from.quads) to.quads.push_back(rounded(r));
+  for (const HourglassStiffness& h : from.hourglass) {
+    to.hourglass.emplace_back();
+    std::transform(h.begin(), h.end(), to.hourglass.back().begin(), [](double x) { return static_cast<float>(x); });
+  }
+  const auto round_line = [](const ElementTable<double>::Line& line, ElementTable<float>::Line& out) {
+    out.assign(line.begin(), line.end());
+  };
+  round_line(from.inv_sigma, to.inv_sigma);
+  round_line(from.inv_c, to.inv_c);
+  round_line(from.v1, to.v1);
+  round_line(from.v2, to.v2);
+  round_line(from.v3, to.v3);
+  round_line(from.sigma, to.sigma);
+  round_line(from.c, to.c);
+  return to;
+}
+
+}  // namespace
+
+std::array<Vec2, 4> quad_corners(const Section& s, int quad) {
+  const auto& q = s.quads[quad];
+  return {s.nodes[q[0]], s.nodes[q[1]], s.nodes[q[2]], s.nodes[q[3]]};
+}
+
+BlockElements block_elements(SweepKind kind, const Block& block, const BlockLayout& lay,
+                             const std::vector<Elastic>& materials, const ElementOptions& options) {
+  const Section& section = block.section;
+  const int quads = static_cast<int>(section.quads.size());
+  const int padded = (lay.elements + kLineEnd - 1) / kLineEnd * kLineEnd;
+  const auto material = [&](int q) -> const Elastic& { return materials[section.quad_material[q]]; };
+  BlockElements out;
+  ElementTable<double>& table = out.table;
+  const std::vector<double> spacing = spacings(block, lay);
+  fill_station_lines(kind, spacing, padded, table);
+  fill_frames(kind, block, lay, out);
+  const std::vector<double> hourglass_spacings = classify(spacing, padded, out);
+
+  table.quads.reserve(quads);
+  for (int q = 0; q < quads; ++q) table.quads.push_back(quad_reference(kind, quad_corners(section, q), material(q)));
+  table.hourglass.assign(hourglass_spacings.size() * quads, HourglassStiffness{});
+  for_each(static_cast<std::ptrdiff_t>(table.hourglass.size()), [&](std::ptrdiff_t i) {
+    const int q = static_cast<int>(i % quads);
+    const SweepScale scale = sweep_scale(kind, hourglass_spacings[i / quads]);
+    table.hourglass[i] = hourglass_stiffness(kind, quad_corners(section, q), scale, material(q), options.element,
+                                             options.hourglass_coefficient);
+  });
+  if (options.precision == Precision::single_precision) out.single = rounded(table);
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,16 @@
+#pragma once
+// Stress and displacement gradient of single elements.
+#include <array>
+
+#include "body/body.hpp"
+
+namespace railstrata {
+
+/// Cauchy stress at the centre of an element, model frame [Pa].
+Sym3 element_stress(const Body& body, const Field& u, int block, int quad, int station);
+
+/// Displacement gradient du_i/dX_j at the centre, X in the element's own frame, u in the model frame: columns along the
+/// sweep, lateral, up.
+std::array<Vec3, 3> displacement_gradient(const Body& body, const Field& u, int block, int quad, int station);
+
+}  // namespace railstrata

@@ -1,0 +1,97 @@
+#pragma once
+// The traversal of a body's elements. It alone knows tiles, chains, packs and scratch memory.
+//
+// A tile goes through its quadrilaterals one by one (SweepPlan): displacements of a node are gathered when the first
+// quadrilateral touches it, forces are scattered after the last, and stay in scratch rows between. A tile's node is
+// complete while it is in cache; what happens to it then is the caller's policy:
+//   StoreForces   all forces go to f
+//   FuseUpdate    they are handed over at once, so that the update of the node uses what is in cache
+//
+// An evaluation is `linear` (f = K u of the undeformed body), a `trial` (the history of the elements is read and left
+// alone) or a `commit` (a step that counts: the history advances). Stress and energy read what was committed.
+#include <vector>
+
+#include "body/body_state.hpp"
+#include "core/callable_ref.hpp"
+
+namespace railstrata {
+
+/// Sum over the body [J].
+struct StrainEnergy {
+  double strain = 0, hourglass = 0;
+};
+
+struct StoreForces {};
+
+struct FuseUpdate {
+  /// Complete internal forces on a node at the stations begin <= j < tile.end: rows[i * kTile + j - tile.first]; begin
+  /// is the tile's first station or the next. May change the displacements there. Returns true if it has used them up;
+  /// otherwise they are stored in f.
+  using Rows = CallableRef<bool(const Tile& tile, int begin, int node, const double* rows)>;
+  /// Called some time before: adds the lines of memory, from the tile's first station, that the update will want.
+  using Lines = CallableRef<void(const Tile& tile, int node, Prefetch& lines)>;
+  Rows update;
+  Lines expect;
+};
+
+/// Workspace of the evaluations on one body; one for each thread of control. Element: element/swept_hex.hpp.
+template <class Element>
+class TraversalOf {
+ public:
+  explicit TraversalOf(const Body& body);
+
+  const Body& body() const { return *body_; }
+
+  /// f = internal forces at displacement u (model frame, u = x - X), a trial; psi: rigid rotation of the body about its
+  /// axle, positive when rolling forward. Ghosts of u are refreshed; padding of f is not defined. In double precision.
+  void internal_force(Field& u, double psi, Field& f, const Field& history = {});
+  /// The same as a commit: the history advances to u.
+  void commit_internal_force(Field& u, double psi, Field& f, Field& history);
+  /// f = K u, K the stiffness of the undeformed body.
+  void linear_force(Field& u, Field& f);
+  /// At u, with the history as committed.
+  StrainEnergy energy(Field& u, double psi, const Field& history = {});
+
+  // -- a step in pieces: begin, every chain once (in parallel if wanted), end
+  // ------------------------------------------
+  void begin(Field& u, double psi);
+  /// Commits, in the precision of the body's options.
+  template <class Policy>
+  void chain_forces(const Chain& chain, const Field& u, Field& f, Field& history, const Policy& policy);
+  /// Forces on the border planes of all chains, and on the last station of an open block.
+  void end(const std::vector<Chain>& chains, Field& f);
+
+ private:
+  struct CarriedFrame {
+    Field cosine, sine;  // of the element centres, turned back by psi: R of the element class
+  };
+  template <Evaluation how>
+  void all_forces(Field& u, double psi, Field& f, const Field& history, Field* advanced);
+  template <class Real, Evaluation how, class Policy>
+  void run_chain(const Chain& chain, const Field& u, Field& f, const Field& history, Field* advanced,
+                 const Policy& policy);
+  template <class Real, Evaluation how, SweepKind kind, class Policy>
+  void run_tile(int tile, bool follows, const Field& u, Field& f, const Field& history, Field* advanced,
+                const Policy& policy);
+  StrainEnergy tile_energy(const Tile& tile, const Field& u, const Field& history) const;
+
+  const Body* body_;
+  HistoryLayout history_;
+  Rotation<double> turn_;
+  std::vector<CarriedFrame> frames_;  // per block
+  Field border_first_, border_end_;   // forces of a tile on its border planes, [node][component]
+  std::vector<Chain> all_chains_;     // of evaluations of the whole body
+  std::vector<StrainEnergy> tile_energy_;
+};
+
+using Traversal = TraversalOf<ElasticHex>;
+extern template class TraversalOf<ElasticHex>;
+
+/// A single evaluation, with a workspace of its own.
+inline void internal_force(const Body& body, Field& u, double psi, Field& f) {
+  Traversal(body).internal_force(u, psi, f);
+}
+inline void linear_force(const Body& body, Field& u, Field& f) { Traversal(body).linear_force(u, f); }
+inline StrainEnergy strain_energy(const Body& body, Field& u, double psi) { return Traversal(body).energy(u, psi); }
+
+}  // namespace railstrata

@@ -1,0 +1,280 @@
+#include "element/reference.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "element/element_matrix.hpp"
+
+namespace railstrata {
+namespace {
+
+using Matrix3 = Eigen::Matrix3d;
+using Gradients = Eigen::Matrix<double, 3, 8>;
+using Matrix6x24 = Eigen::Matrix<double, 6, 24>;
+constexpr double kGauss = 0.57735026918962576451;
+
+// Natural coordinates: xi along the sweep; corner a < 4 at xi = -1, a >= 4 at xi = +1.
+double xi_of(int a) { return a < 4 ? -1.0 : 1.0; }
+
+Gradients natural_gradients(double xi, double eta, double zeta) {
+  Gradients g;
+  for (int a = 0; a < 8; ++a) {
+    const double x = xi_of(a), e = kEta[a % 4], z = kZeta[a % 4];
+    g(0, a) = 0.125 * x * (1 + e * eta) * (1 + z * zeta);
+    g(1, a) = 0.125 * e * (1 + x * xi) * (1 + z * zeta);
+    g(2, a) = 0.125 * z * (1 + x * xi) * (1 + e * eta);
+  }
+  return g;
+}
+
+Matrix3 jacobian(const std::array<Vec3, 8>& corners, const Gradients& natural) {
+  Matrix3 j = Matrix3::Zero();  // j(m, i) = dX_i / dxi_m
+  for (int a = 0; a < 8; ++a)
+    for (int m = 0; m < 3; ++m) {
+      j(m, 0) += natural(m, a) * corners[a].x;
+      j(m, 1) += natural(m, a) * corners[a].y;
+      j(m, 2) += natural(m, a) * corners[a].z;
+    }
+  return j;
+}
+
+template <class F>
+void for_gauss_points(F&& f) {
+  for (int p = 0; p < 8; ++p) f((p & 1 ? kGauss : -kGauss), (p & 2 ? kGauss : -kGauss), (p & 4 ? kGauss : -kGauss));
+}
+
+struct MeanGradients {
+  Gradients b;
+  double volume;
+};
+
+MeanGradients mean_gradients(const std::array<Vec3, 8>& corners) {
+  MeanGradients m{Gradients::Zero(), 0.0};
+  for_gauss_points([&](double xi, double eta, double zeta) {
+    const Gradients natural = natural_gradients(xi, eta, zeta);
+    const Matrix3 j = jacobian(corners, natural);
+    const double det = j.determinant();
+    m.b += det * (j.inverse() * natural);
+    m.volume += det;
+  });
+  m.b /= m.volume;
+  return m;
+}
+
+// Strain rows xx, yy, zz, 2xy, 2yz, 2xz of one gradient vector acting on a vector amplitude.
+Eigen::Matrix<double, 6, 3> strain_rows(const Eigen::Vector3d& g) {
+  Eigen::Matrix<double, 6, 3> b = Eigen::Matrix<double, 6, 3>::Zero();
+  b(0, 0) = g(0);
+  b(1, 1) = g(1);
+  b(2, 2) = g(2);
+  b(3, 0) = g(1);
+  b(3, 1) = g(0);
+  b(4, 1) = g(2);
+  b(4, 2) = g(1);
+  b(5, 0) = g(2);
+  b(5, 2) = g(0);
+  return b;
+}
+
+Eigen::Matrix<double, 6, 6> elasticity(const Elastic& m) {
+  Eigen::Matrix<double, 6, 6> c = Eigen::Matrix<double, 6, 6>::Zero();
+  c.topLeftCorner<3, 3>().setConstant(m.lambda);
+  for (int i = 0; i < 3; ++i) {
+    c(i, i) += 2 * m.mu;
+    c(i + 3, i + 3) = m.mu;
+  }
+  return c;
+}
+
+// Hourglass patterns on the eight corners: even (eta zeta), odd (xi eta, xi zeta, xi eta zeta).
+Eigen::Matrix<double, 8, 4> hourglass_patterns() {
+  Eigen::Matrix<double, 8, 4> h;
+  for (int a = 0; a < 8; ++a) {
+    const int k = a % 4;
+    h(a, 0) = kEtaZeta[k];
+    h(a, 1) = xi_of(a) * kEta[k];
+    h(a, 2) = xi_of(a) * kZeta[k];
+    h(a, 3) = xi_of(a) * kEtaZeta[k];
+  }
+  return h;
+}
+
+Eigen::Matrix<double, 8, 3> positions(const std::array<Vec3, 8>& corners) {
+  Eigen::Matrix<double, 8, 3> x;
+  for (int a = 0; a < 8; ++a) x.row(a) << corners[a].x, corners[a].y, corners[a].z;
+  return x;
+}
+
+// The order in which the law gathers the amplitudes: (mode, component) of the 5 even and the 7 odd ones.
+constexpr std::array<std::array<int, 2>, 5> kEvenOrder{{{0, 1}, {0, 2}, {1, 0}, {2, 0}, {3, 0}}};
+constexpr std::array<std::array<int, 2>, 7> kOddOrder{{{0, 0}, {1, 1}, {1, 2}, {2, 1}, {2, 2}, {3, 1}, {3, 2}}};
+
+}  // namespace
+
+SweepScale sweep_scale(SweepKind kind, double spacing) {
+  if (kind == SweepKind::extrude) return {0.5 * spacing, 1.0};
+  return {std::sin(0.5 * spacing), std::cos(0.5 * spacing)};
+}
+
+std::array<Vec3, 8> local_corners(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale) {
+  std::array<Vec3, 8> x;
+  for (int k = 0; k < 4; ++k) {
+    const double a = scale.sigma * (kind == SweepKind::extrude ? 1.0 : -quad[k].z);
+    x[k] = {-a, quad[k].y, quad[k].z * scale.c};
+    x[k + 4] = {a, quad[k].y, quad[k].z * scale.c};
+  }
+  return x;
+}
+
+QuadShape<double> quad_shape(SweepKind kind, const std::array<Vec2, 4>& quad) {
+  const std::array<Vec3, 8> corners = local_corners(kind, quad, {1.0, 1.0});
+  const MeanGradients mean = mean_gradients(corners);
+  QuadShape<double> r{};
+  r.volume = mean.volume;
+  for (int k = 0; k < 4; ++k) {
+    r.gx[k] = mean.b(0, k + 4);
+    r.gy[k] = mean.b(1, k + 4);
+    r.gz[k] = mean.b(2, k + 4);
+    const Vec3 x = corners[k + 4];
+    r.even_y += 2 * kEtaZeta[k] * x.y;
+    r.even_z += 2 * kEtaZeta[k] * x.z;
+    r.odd[0] += 2 * kEta[k] * x.x;
+    r.odd[1] += 2 * kZeta[k] * x.x;
+    r.odd[2] += 2 * kEtaZeta[k] * x.x;
+  }
+  return r;
+}
+
+QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material) {
+  return {quad_shape(kind, quad), ElasticLaw::parameters(material)};
+}
+
+ElasticHex::Reference<float> rounded(const QuadReference& r) {
+  ElasticHex::Reference<float> out{};
+  auto f = [](double x) { return static_cast<float>(x); };
+  for (int k = 0; k < 4; ++k) {
+    out.shape.gx[k] = f(r.shape.gx[k]);
+    out.shape.gy[k] = f(r.shape.gy[k]);
+    out.shape.gz[k] = f(r.shape.gz[k]);
+  }
+  for (int k = 0; k < 3; ++k) out.shape.odd[k] = f(r.shape.odd[k]);
+  out.shape.volume = f(r.shape.volume);
+  out.shape.even_y = f(r.shape.even_y);
+  out.shape.even_z = f(r.shape.even_z);
+  out.law = {f(r.law.lambda), f(r.law.mu)};
+  return out;
+}
+
+StationScale<double> station_scale(SweepScale scale) {
+  return {1 / scale.sigma, 1 / scale.c, scale.c, scale.sigma * scale.c, scale.sigma, scale.sigma, scale.c};
+}
+
+Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const Elastic& material) {
+  const Eigen::Matrix<double, 6, 6> c = elasticity(material);
+  const Matrix3 j0_inverse = jacobian(corners, natural_gradients(0, 0, 0)).inverse();
+  const double det0 = 1.0 / j0_inverse.determinant();
+  Matrix24 kuu = Matrix24::Zero();
+  Eigen::Matrix<double, 9, 24> kau = Eigen::Matrix<double, 9, 24>::Zero();
+  Eigen::Matrix<double, 9, 9> kaa = Eigen::Matrix<double, 9, 9>::Zero();
+  for_gauss_points([&](double xi, double eta, double zeta) {
+    const Gradients natural = natural_gradients(xi, eta, zeta);
+    const Matrix3 j = jacobian(corners, natural);
+    const double det = j.determinant();
+    const Gradients g = j.inverse() * natural;
+    Matrix6x24 b;
+    for (int a = 0; a < 8; ++a) b.middleCols<3>(3 * a) = strain_rows(g.col(a));
+    // Taylor's correction: gradients of the bubbles 1 - xi^2 with the centre's Jacobian, so that their mean over the
+    // element vanishes.
+    Eigen::Matrix<double, 6, 9> m;
+    const double bubbles[3] = {-2 * xi, -2 * eta, -2 * zeta};
+    for (int n = 0; n < 3; ++n)
+      m.middleCols<3>(3 * n) = strain_rows(Eigen::Vector3d(j0_inverse.col(n) * (bubbles[n] * det0 / det)));
+    kuu += det * b.transpose() * c * b;
+    kau += det * m.transpose() * c * b;
+    kaa += det * m.transpose() * c * m;
+  });
+  return kuu - kau.transpose() * kaa.ldlt().solve(kau);
+}
+
+HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale,
+                                       const Elastic& material, ElementKind element, double kappa) {
+  const std::array<Vec3, 8> corners = local_corners(kind, quad, scale);
+  const MeanGradients mean = mean_gradients(corners);
+  Eigen::Matrix<double, 12, 12> k;
+  if (element == ElementKind::one_point) {
+    k = Eigen::Matrix<double, 12, 12>::Identity() *
+        (kappa * material.p_wave_modulus() * mean.volume * mean.b.squaredNorm() / 8);
+  } else {
+    const Eigen::Matrix<double, 8, 4> h = hourglass_patterns();
+    const Eigen::Matrix<double, 8, 3> x = positions(corners);
+    const Eigen::Matrix<double, 8, 4> gamma = h - mean.b.transpose() * (x.transpose() * h);
+    const Eigen::Matrix<double, 8, 4> phi = h - x * (mean.b * h);
+    const Eigen::Matrix4d amplitude =
+        (gamma.transpose() * phi).inverse();  // phi * amplitude has unit hourglass amplitudes
+    const Eigen::Matrix<double, 8, 4> unit = phi * amplitude;
+    Eigen::Matrix<double, 24, 12> modes = Eigen::Matrix<double, 24, 12>::Zero();
+    for (int l = 0; l < 4; ++l)
+      for (int i = 0; i < 3; ++i)
+        for (int a = 0; a < 8; ++a) modes(3 * a + i, 3 * l + i) = unit(a, l);
+    k = modes.transpose() * incompatible_mode_stiffness(corners, material) * modes;
+  }
+  HourglassStiffness out{};
+  int e = 0;
+  auto pack = [&](const auto& order) {
+    for (std::size_t i = 0; i < order.size(); ++i)
+      for (std::size_t j = i; j < order.size(); ++j)
+        out[static_cast<std::size_t>(e++)] = k(3 * order[i][0] + order[i][1], 3 * order[j][0] + order[j][1]);
+  };
+  pack(kEvenOrder);
+  pack(kOddOrder);
+  return out;
+}
+
+std::array<double, 4> corner_masses(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, double density) {
+  const std::array<Vec3, 8> corners = local_corners(kind, quad, scale);
+  std::array<double, 4> mass{};
+  for_gauss_points([&](double xi, double eta, double zeta) {
+    const double det = jacobian(corners, natural_gradients(xi, eta, zeta)).determinant();
+    for (int k = 0; k < 4; ++k)
+      mass[static_cast<std::size_t>(k)] += 0.5 * density * det * 0.25 * (1 + kEta[k] * eta) * (1 + kZeta[k] * zeta);
+  });
+  return mass;
+}
+
+Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const HourglassStiffness& hourglass) {
+  const StationScale<double> st = station_scale(scale);
+  const auto entry = [&](int e) { return hourglass[static_cast<std::size_t>(e)]; };
+  Matrix24 k;
+  for (int column = 0; column < 24; ++column) {
+    const int a = column / 3;
+    const auto unit_displacement = [&](int c, int i, double& sum, double& difference) {
+      sum = c == a % 4 && i == column % 3 ? 1.0 : 0.0;
+      difference = a < 4 ? -sum : sum;
+    };
+    const auto add_forces = [&](int c, int i, auto&& add) {
+      double s = 0, d = 0;
+      add(s, d);
+      k(3 * c + i, column) = s - d;
+      k(3 * (c + 4) + i, column) = s + d;
+    };
+    double* no_history = nullptr;
+    ElasticHex::forces<SweepKind::revolve, Evaluation::linear>(
+        ref, st, Rotation<double>{}, no_history, unit_displacement,
+        [&](ElementKinematics<double>& kin) { hourglass_forces(entry, kin); }, add_forces);
+  }
+  return k;
+}
+
+double element_stable_step(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale, const Elastic& material,
+                           const HourglassStiffness& hourglass) {
+  const Matrix24 k = linear_stiffness(quad_reference(kind, quad, material), scale, hourglass);
+  const std::array<double, 4> mass = corner_masses(kind, quad, scale, material.density);
+  Eigen::Matrix<double, 24, 1> root;
+  for (int i = 0; i < 24; ++i) root(i) = 1 / std::sqrt(mass[static_cast<std::size_t>(i / 3 % 4)]);
+  const Matrix24 scaled = root.asDiagonal() * k * root.asDiagonal();
+  Eigen::SelfAdjointEigenSolver<Matrix24> eigen(0.5 * (scaled + scaled.transpose()), Eigen::EigenvaluesOnly);
+  return 2 / std::sqrt(eigen.eigenvalues().maxCoeff());
+}
+
+}  // namespace railstrata

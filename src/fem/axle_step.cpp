@@ -1,0 +1,56 @@
+#include "fem/axle_step.hpp"
+
+namespace railstrata {
+
+AxleLoads bore_loads(const Axle& axle, const Field& f_wheel, Rotation<double> drift, double tie_moment,
+                     const ReferenceFrame& frame) {
+  Vec3 bore{};
+  double moment = -tie_moment;
+  for (const BoreNode& n : axle.bore) {
+    const double fx = -f_wheel[n.index], fz = -f_wheel[n.index + 2 * n.stride];
+    const auto [rx, rz] = drift.forward(n.arm.x, n.arm.z);
+    bore.x += fx;
+    bore.z += fz;
+    moment += rz * fx - rx * fz;
+  }
+  bore = frame.to_model(bore);
+  return {bore.x, bore.z, moment};
+}
+
+AxleWork advance_axle(const RollingSystem& system, const AxleLoads& loads, double torque, double rest_z,
+                      const StepScope& scope, AxleMotion& a, std::vector<MassGroup>& groups) {
+  const VehicleSpec& v = system.options.vehicle;
+  const Axle& axle = system.axle;
+  const double dt = scope.dt, rate = scope.damping_rate;
+  const SuspensionForce spring = step_suspension(v, a.z - rest_z, a.vz, dt, groups);
+  const double suspension = -v.sprung_mass * system.gravity - spring.on_masses;
+  const double vx = a.vx, vz = a.vz, spin = a.spin;
+  a.vx += dt * loads.fx / axle.mass_x;
+  a.vz += dt * ((loads.fz + suspension) / axle.mass_z - system.gravity - rate * a.vz);
+  a.spin += dt * (loads.moment + torque) / axle.inertia;
+  a.x += dt * a.vx;
+  a.z += dt * a.vz;
+  a.psi += dt * a.spin;
+  AxleWork work;
+  work.dashpot = dt * spring.dashpot_power;
+  work.torque_work = dt * torque * 0.5 * (spin + a.spin);
+  work.damping = dt * rate * axle.mass_z * vz * 0.5 * (vz + a.vz);
+  work.kinetic = 0.5 * (axle.mass_x * vx * a.vx + axle.mass_z * vz * a.vz + axle.inertia * spin * a.spin);
+  const double share = v.sprung_mass / static_cast<double>(groups.size());
+  for (const MassGroup& m : groups) work.kinetic += 0.5 * share * m.vz * m.vz;
+  return work;
+}
+
+double spring_energy(const RollingSystem& system, const AxleMotion& axle, double rest_z,
+                     const std::vector<MassGroup>& groups) {
+  const VehicleSpec& v = system.options.vehicle;
+  const double k = v.suspension_stiffness / static_cast<double>(groups.size());
+  double sum = v.sprung_mass * system.gravity * axle.z;
+  for (const MassGroup& m : groups) {
+    const double squeeze = axle.z - rest_z - m.z;
+    sum += 0.5 * k * squeeze * squeeze;
+  }
+  return sum;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,188 @@
+#include "fem/contact_step.hpp"
+
+#include <algorithm>
+
+#include "core/body_id.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr std::size_t kRail = index_of(BodyId::rail), kWheel = index_of(BodyId::wheel);
+
+Vec3 vector_at(const Field& f, std::ptrdiff_t x, int stride) { return {f[x], f[x + stride], f[x + 2 * stride]}; }
+
+// Of a node on the running surface, model frame; zero for one that is not free.
+Vec3 free_acceleration(const RollingBody& b, const BodyState& state, double gravity, std::ptrdiff_t i) {
+  const double m = b.body.inverse_mass[i];
+  if (m == 0) return {};
+  const Vec3 a = b.frame.to_model(-m * vector_at(state.f, i, b.surface.stride));
+  return a - Vec3{0, 0, gravity};
+}
+
+double inverse_mass(const RollingBody& b, std::ptrdiff_t i) {
+  return b.steps.scaling.share(i) * b.body.inverse_mass[i];
+}
+
+// A force [N] of the wheel on the rail in a row of the contact, to the nodes of both bodies; add(body, index, force on
+// the node).
+template <class Add>
+void distribute(const MortarRows& rows, const ContactRow& row, const RollingBodies& bodies, Vec3 force, Add&& add) {
+  const Vec3 turned = bodies[kWheel].frame.to_frame(force);
+  const double on_rail[3] = {force.x, force.y, force.z}, on_wheel[3] = {-turned.x, -turned.y, -turned.z};
+  for (int i = 0; i < 3; ++i) add(kRail, row.rail + i * bodies[kRail].surface.stride, on_rail[i]);
+  for (int w = row.first; w < row.first + row.count; ++w)
+    for (int i = 0; i < 3; ++i)
+      add(kWheel, rows.weights[w].wheel + i * bodies[kWheel].surface.stride, rows.weights[w].m * on_wheel[i]);
+}
+
+bool any_local_steps(const RollingBodies& bodies) {
+  return std::any_of(bodies.begin(), bodies.end(), [](const RollingBody& b) { return !b.steps.local.empty(); });
+}
+
+const SurfaceResponse* response_of(const RollingBody& b) {
+  return b.steps.response.empty() ? nullptr : &b.steps.response;
+}
+
+void gather_rail(const MortarRows& rows, const RollingBody& b, const BodyState& state, const StepScope& scope,
+                 ContactSide& side) {
+  side.clear();
+  side.response = response_of(b);
+  for (const ContactRow& r : rows.rows) {
+    const Vec3 before = vector_at(state.v, r.rail, b.surface.stride);
+    side.before.push_back(before);
+    side.velocity.push_back((1 - scope.damping_rate * scope.dt) * before +
+                            scope.dt * free_acceleration(b, state, scope.gravity, r.rail));
+    side.inverse_mass.push_back(side.response ? side.response->own(r.column) : inverse_mass(b, r.rail));
+    if (side.response) side.nodes.push_back({r.column, r.station});
+  }
+}
+
+void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b, const BodyState& state,
+                  const StepScope& scope, ContactSide& side) {
+  side.clear();
+  side.response = response_of(b);
+  const ReferenceFrame& frame = b.frame;
+  const int block = b.body.mesh.contact.block;
+  for (std::ptrdiff_t i : nodes) {
+    const SurfaceIndex at = b.surface.node_at(i);
+    const Vec3 arm = b.arm(block, at.column, at.station), w = vector_at(state.v, i, b.surface.stride);
+    side.before.push_back(Vec3{frame.speed, 0, 0} + frame.to_model(frame.step_back(w + frame.rigid_rate(arm))));
+    Vec3 a = free_acceleration(b, state, scope.gravity, i);
+    if (scope.damping_rate > 0) {
+      const Vec3 mean{b.mean.x + b.mean.spin * arm.z, 0, b.mean.z - b.mean.spin * arm.x};
+      a -= scope.damping_rate * frame.to_model(frame.step_back(w - mean));
+    }
+    side.velocity.push_back(side.before.back() + scope.dt * a);
+    if (!side.response) {
+      side.inverse_mass.push_back(inverse_mass(b, i));
+      continue;
+    }
+    const double cosine = b.cos_node[block][at.station], sine = b.sin_node[block][at.station];
+    side.inverse_mass.push_back(side.response->own(at.column));
+    side.nodes.push_back({at.column,
+                          at.station,
+                          {cosine * frame.turn.c + sine * frame.turn.s, sine * frame.turn.c - cosine * frame.turn.s}});
+  }
+}
+
+}  // namespace
+
+ContactStep::ContactStep(const ContactSurface& rail, const ContactSurface& wheel, const EnforcementOptions& options,
+                         const SearchWindow& window)
+    : search_(rail, wheel), window_(window), options_(options) {}
+
+void ContactStep::restore(Restart restart) {
+  search_.restore(std::move(restart.facets));
+  reached_edge_ = restart.reached_edge;
+}
+
+Vec3 ContactStep::force_on_rail(const ContactRow& row, const SurfaceTractions& tractions) const {
+  return row.area * traction_vector(tractions.at(row.column, row.station), row.normal);
+}
+
+void ContactStep::find_rows(long step, RollingBodies& bodies, const BodyStates& states, const AxlePose& pose,
+                            SurfaceTractions& tractions) {
+  const Field& u_rail = surface_displacement(bodies[kRail], states[kRail]);
+  const Field& u_wheel = surface_displacement(bodies[kWheel], states[kWheel]);
+  const bool anew = step % kSearchInterval == 0;
+  if (anew) search_.search(u_rail, u_wheel, pose, window_.half_length, window_.gap);
+  rows_ = &search_.rows(u_rail, u_wheel, pose);
+  reached_edge_ = reached_edge_ || rows_->reached_edge;
+  if (!anew) return;
+  kept_.clear();
+  for (const ContactRow& r : rows_->rows) kept_.push_back(tractions.at(r.column, r.station));
+  for (NodeTraction& t : tractions.all()) t = {};
+  for (std::size_t k = 0; k < kept_.size(); ++k) tractions.at(rows_->rows[k].column, rows_->rows[k].station) = kept_[k];
+}
+
+void ContactStep::refine_local_steps(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
+                                     const StepScope& scope, const SurfaceTractions& tractions) {
+  carried_.clear();
+  if (!any_local_steps(bodies)) return;
+  for (const ContactRow& row : rows_->rows) {
+    carried_.push_back(force_on_rail(row, tractions));
+    distribute(*rows_, row, bodies, carried_.back(),
+               [&](std::size_t body, std::ptrdiff_t i, double force) { states[body].f[i] -= force; });
+  }
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const ReferenceFrame& frame = bodies[k].frame;
+    const FrozenAcceleration frozen{{frame.turn.s * scope.gravity, 0, -frame.turn.c * scope.gravity},
+                                    frame.centrifugal};
+    bodies[k].steps.local.refine(states[k].u, drift[k], frozen, states[k].f);
+  }
+}
+
+void ContactStep::gather(const RollingBodies& bodies, const BodyStates& states, const StepScope& scope) {
+  numbering_.number(*rows_, bodies[kWheel].surface, system_);
+  system_.tractions_applied = any_local_steps(bodies);
+  gather_rail(*rows_, bodies[kRail], states[kRail], scope, system_.rail);
+  gather_wheel(system_.wheel_nodes, bodies[kWheel], states[kWheel], scope, system_.wheel);
+}
+
+void ContactStep::apply_tractions(RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions) {
+  const bool local = any_local_steps(bodies);
+  for (std::vector<NodalForce>& c : changes_) c.clear();
+  for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
+    const ContactRow& row = rows_->rows[k];
+    if (tractions.at(row.column, row.station).p <= 0 && carried_.empty()) continue;
+    const Vec3 force = force_on_rail(row, tractions);
+    const Vec3 change = carried_.empty() ? force : force - carried_[k];
+    distribute(*rows_, row, bodies, change, [&](std::size_t body, std::ptrdiff_t i, double part) {
+      if (local)
+        changes_[body].push_back({i, part});
+      else
+        bodies[body].steps.scaling.add_force(states[body].f, i, -part);
+    });
+  }
+  if (!local) return;
+  for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].steps.local.add_forces(changes_[k], states[k].f);
+}
+
+ContactLosses ContactStep::measure(const SurfaceTractions& tractions) {
+  const ContactSystem& c = system_;
+  forces_ = {};
+  forces_.sweeps = c.sweeps;
+  ContactLosses losses;
+  for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
+    const ContactRow& row = rows_->rows[k];
+    const double p = tractions.at(row.column, row.station).p;
+    if (p <= 0) continue;
+    const Vec3 force = force_on_rail(row, tractions);
+    Vec3 slip = -0.5 * (c.rail.before[k] + c.rail.velocity[k]);  // mean of the step, wheel against rail
+    for (int w = row.first; w < row.first + row.count; ++w) {
+      const int n = c.weight_node[w];
+      slip += (0.5 * rows_->weights[w].m) * (c.wheel.before[n] + c.wheel.velocity[n]);
+    }
+    forces_.x -= force.x;
+    forces_.y -= force.y;
+    forces_.z -= force.z;
+    forces_.penetration = std::max(forces_.penetration, -row.gap);
+    ++forces_.nodes;
+    const double normal_slip = dot(slip, row.normal);
+    losses.normal += -row.area * p * normal_slip;
+    losses.friction += dot(force, slip) + row.area * p * normal_slip;
+  }
+  return losses;
+}
+
+}  // namespace railstrata

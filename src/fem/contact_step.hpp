@@ -1,0 +1,84 @@
+#pragma once
+// The contact of one step: which rows, which free velocities, which tractions, and their forces on both bodies.
+#include <array>
+#include <vector>
+
+#include "contact/enforcement.hpp"
+#include "fem/node_update.hpp"
+
+namespace railstrata {
+
+/// Forces of the last step, on the wheel [N]; slip and penetration of its contact.
+struct ContactForces {
+  double x = 0, y = 0, z = 0;
+  double penetration = 0;  ///< m, largest at the start of the step among nodes that carry pressure
+  int nodes = 0, sweeps = 0;
+};
+
+/// W, lost in a step.
+struct ContactLosses {
+  double friction = 0, normal = 0;
+};
+
+/// How far and how close the search looks.
+struct SearchWindow {
+  double half_length = 0;  ///< m, along the rail from the axle
+  double gap = 0;          ///< m
+};
+
+class ContactStep {
+ public:
+  static constexpr int kSearchInterval = 16;  ///< steps; the wheel moves less than 0.1 mm between searches
+
+  ContactStep(const ContactSurface& rail, const ContactSurface& wheel, const EnforcementOptions& options,
+              const SearchWindow& window);
+
+  /// Rows of this step. Every kSearchInterval steps they are searched anew, and nodes that left the neighbourhood of
+  /// the patch lose their tractions.
+  void find_rows(long step, RollingBodies& bodies, const BodyStates& states, const AxlePose& pose,
+                 SurfaceTractions& tractions);
+
+  /// Local steps carry the tractions of the last step and all other forces through their stages.
+  void refine_local_steps(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
+                          const StepScope& scope, const SurfaceTractions& tractions);
+
+  /// Free velocities of the nodes of the contact and how they answer an impulse.
+  void gather(const RollingBodies& bodies, const BodyStates& states, const StepScope& scope);
+
+  /// The tractions that hold at the end of the step.
+  void enforce(double dt, SurfaceTractions& tractions) { enforce_contact(*rows_, dt, options_, system_, tractions); }
+
+  /// The tractions to the forces: what local steps have felt already is taken off, the rest goes through their stages.
+  void apply_tractions(RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions);
+
+  /// Sums the forces on the wheel and what was lost.
+  ContactLosses measure(const SurfaceTractions& tractions);
+
+  const ContactForces& forces() const { return forces_; }
+  bool reached_edge() const { return reached_edge_; }
+
+  /// What the next search needs of this one.
+  struct Restart {
+    std::vector<MortarContact::Facet> facets;
+    bool reached_edge = false;
+  };
+  Restart restart() const { return {search_.facets(), reached_edge_}; }
+  void restore(Restart restart);
+
+ private:
+  Vec3 force_on_rail(const ContactRow& row, const SurfaceTractions& tractions) const;
+
+  MortarContact search_;
+  SearchWindow window_;
+  EnforcementOptions options_;
+  const MortarRows* rows_ = nullptr;
+  WheelNumbering numbering_;
+  ContactSystem system_;
+  std::vector<Vec3> carried_;  // forces of the rows that local steps have felt already
+  std::array<std::vector<NodalForce>, 2> changes_;
+  std::vector<NodeTraction> kept_;
+  ContactForces forces_;
+  bool reached_edge_ = false;
+};
+
+}  // namespace railstrata

@@ -1,0 +1,33 @@
+#pragma once
+// The central-difference update of nodes, and the traversal that feeds it.
+#include <array>
+
+#include "fem/rolling_body.hpp"
+
+namespace railstrata {
+
+/// What the functions of one step share.
+struct StepScope {
+  double dt = 0;            ///< s
+  double gravity = 0;       ///< m/s²
+  double damping_rate = 0;  ///< 1/s, run-up damping
+  bool energy_wanted = false;
+  bool sums_wanted() const { return damping_rate > 0 || energy_wanted; }
+};
+
+using RollingBodies = std::array<RollingBody, 2>;
+using BodyStates = std::array<BodyState, 2>;
+
+/// Internal forces of both bodies at their displacements; drift: rotation of the body relative to its frame [rad].
+/// Nodes that wait for nothing are updated on the way (FuseUpdate), unless the energies are wanted, which are those of
+/// one moment. Commits the history.
+void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
+                       const StepScope& scope);
+
+/// The nodes that waited for the contact, and the border planes of the others.
+void update_waiting_nodes(RollingBodies& bodies, BodyStates& states, const StepScope& scope);
+
+/// Sums of this step's updates; zero if none were wanted.
+std::array<UpdateSums, 2> update_sums(const RollingBodies& bodies, const StepScope& scope);
+
+}  // namespace railstrata

@@ -1,0 +1,41 @@
+#pragma once
+// Uniform travel and turn, which a body's displacements are followed in (fem/stepper.hpp). A frame without speed and
+// spin is the model frame: every function then returns its argument to the last bit.
+#include "core/rotation.hpp"
+
+namespace railstrata {
+
+struct ReferenceFrame {
+  double speed = 0;  ///< m/s
+  double spin = 0;   ///< rad/s, positive rolling forward
+  double x = 0;      ///< m travelled
+  double psi = 0;    ///< rad turned
+  Rotation<double> turn;
+  Rotation<double> step;   ///< of one time step
+  double centrifugal = 0;  ///< 1/s², 2 (1 - cos omega dt)/dt^2
+  double slope_cos = 0;    ///< 1/s, (cos omega dt - 1)/dt
+  double slope_sin = 0;    ///< 1/s, sin omega dt/dt
+
+  void set_step(double dt) {
+    const SmallRotation<double> small = small_rotation_by(spin * dt);
+    step = small.rotation();
+    centrifugal = small.chord_squared() / (dt * dt);
+    slope_cos = small.cosine_less_one() / dt;
+    slope_sin = small.s / dt;
+  }
+  void move_to(double time) {
+    x = speed * time;
+    psi = spin * time;
+    turn = rotation_by(psi);
+  }
+  Vec3 to_model(Vec3 v) const { return rotate(turn, v); }
+  Vec3 to_frame(Vec3 v) const { return rotate_back(turn, v); }
+  /// D^T v, D the rotation of one step.
+  Vec3 step_back(Vec3 v) const { return rotate_back(step, v); }
+  /// (D - 1) X / dt
+  Vec3 rigid_rate(Vec3 arm) const {
+    return {slope_cos * arm.x + slope_sin * arm.z, 0, slope_cos * arm.z - slope_sin * arm.x};
+  }
+};
+
+}  // namespace railstrata

@@ -1,0 +1,90 @@
+#pragma once
+// One of the two bodies as the steps of a rolling see it: its frame, its workspaces and the schedule of its nodes.
+#include <vector>
+
+#include "body/traversal.hpp"
+#include "contact/surface.hpp"
+#include "fem/reference_frame.hpp"
+#include "fem/step_plan.hpp"
+
+namespace railstrata {
+
+/// What an update adds up.
+struct UpdateSums {
+  double kinetic = 0, damping = 0;                     ///< J, W
+  double momentum_x = 0, momentum_z = 0, angular = 0;  ///< of the velocities in the frame; revolved bodies only
+  UpdateSums& operator+=(const UpdateSums& o) {
+    kinetic += o.kinetic;
+    damping += o.damping;
+    momentum_x += o.momentum_x;
+    momentum_z += o.momentum_z;
+    angular += o.angular;
+    return *this;
+  }
+};
+
+/// Mean motion of a revolved body's free nodes relative to its frame, in its components; the run-up damping spares it.
+struct MeanMotion {
+  double x = 0, z = 0, spin = 0;
+};
+
+/// When a body's nodes are updated: as soon as their forces are complete, or after the contact.
+struct UpdateSchedule {
+  std::vector<std::vector<char>> at_once;  ///< per block and section node
+  std::vector<SectionNode> waiting;   ///< free nodes on the running surface, at ties, with added mass or local steps
+  std::vector<SectionNode> bordered;  ///< nodes updated at once, but for the border planes
+  int chains_wanted = 0;              ///< what chains and borders were made for
+  std::vector<Chain> chains;  ///< enough to keep the threads busy; single tiles where sums are wanted, whose bits are
+                              ///< not to depend on the threads
+  std::vector<std::vector<int>> borders;  ///< per block, border stations
+  std::vector<UpdateSums> chain_sums, waiting_sums, border_sums;
+};
+
+struct RollingBody {
+  RollingBody(const Body& body, const ContactSurface& surface, BodySteps& steps, const ReferenceFrame& frame);
+
+  const Body& body;
+  const ContactSurface& surface;
+  BodySteps& steps;
+  ReferenceFrame frame;
+  Traversal elements;
+  UpdateSchedule schedule;
+  MeanMotion mean;
+  std::vector<std::vector<double>> cos_node, sin_node;  ///< of the station angles, per block; 1 and 0 if extruded
+  double free_mass = 0, free_inertia = 0;               ///< kg, kg m², of the free nodes of a revolved body
+  Field surface_u;          ///< m, displacements in the model frame; valid on the surface lines of a revolved body
+  Field stretch, velocity;  ///< work space of the added mass's energy
+
+  bool turns() const { return body.mesh.kind == SweepKind::revolve; }
+  /// From the axle to an undeformed node, frame components; zero if extruded.
+  Vec3 arm(int block, int node, int station) const;
+  /// Column and station of a surface node from the index of its component x.
+  SurfaceIndex surface_node(std::ptrdiff_t index) const { return surface.node_at(index); }
+};
+
+/// Chains and border planes for this step; no memory is asked for after the first of each kind.
+void chain_tiles(RollingBody& body, bool sums_wanted);
+
+/// Displacements of the running surface in the model frame.
+const Field& surface_displacement(RollingBody& body, const BodyState& state);
+
+/// Displacements of the whole body in the model frame, u = x - X.
+Field model_displacement(const RollingBody& body, const BodyState& state);
+
+/// Velocities relative to the frame's travel, in this step's frame components: of the half step before, or the one
+/// after the update; in body.velocity. Nothing is done without added mass.
+const Field& frame_velocity(RollingBody& body, const BodyState& state, bool before);
+
+/// v = -rate du/dt along the sweep: the pattern of deformation stands still while the body moves through it.
+void start_velocities(const RollingBody& body, double rate, BodyState& state);
+
+/// From the sums of momentum of an update.
+MeanMotion mean_motion(const RollingBody& body, const UpdateSums& sums);
+/// The same from the velocities as they stand.
+MeanMotion mean_motion(const RollingBody& body, const BodyState& state);
+
+/// kg m: `sum` and the masses of the free nodes times their heights above the undeformed ones. Summed on, so that the
+/// order of the sum over both bodies is one.
+double add_weight_moment(const RollingBody& body, const BodyState& state, double sum);
+
+}  // namespace railstrata

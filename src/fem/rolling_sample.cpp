@@ -1,0 +1,141 @@
+#include "fem/rolling_sample.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "body/stress.hpp"
+#include "core/rotation.hpp"
+
+namespace railstrata {
+namespace {
+
+// Half length of a sample: the patch and the stress field around it.
+double sample_half_length(const RollingSystem& s) { return 1.5 * s.model.hertz.a + 2 * s.options.element_size; }
+
+// The node planes of a band by number; on a ring the numbers go on below zero and beyond the last station.
+class BandPlanes {
+ public:
+  explicit BandPlanes(const Block& block)
+      : at_(block.stations.at), closed_(block.stations.closed), count_(block.stations.nodes()) {}
+
+  bool closed() const { return closed_; }
+  /// Station of the block.
+  int station(int plane) const { return closed_ ? ((plane % count_) + count_) % count_ : plane; }
+  /// Sweep coordinate, continued over the turns of a ring.
+  double coordinate(int plane) const {
+    assert(closed_ || (plane >= 0 && plane < count_));
+    return closed_ ? at_[station(plane)] + kPeriod * std::floor(static_cast<double>(plane) / count_) : at_[plane];
+  }
+  /// A sweep coordinate in the turn that begins with the first station.
+  double in_first_turn(double coordinate) const {
+    return closed_ ? coordinate - kPeriod * std::floor((coordinate - at_.front()) / kPeriod) : coordinate;
+  }
+  /// The plane nearest to a coordinate of the first turn.
+  int nearest(double centre) const {
+    const int above = static_cast<int>(std::lower_bound(at_.begin(), at_.end(), centre) - at_.begin());
+    if (above == 0) return above;
+    const bool last = above >= count_ && !closed_;
+    return last || centre - coordinate(above - 1) < coordinate(above) - centre ? above - 1 : above;
+  }
+
+ private:
+  static constexpr double kPeriod = 2 * std::numbers::pi;
+  const std::vector<double>& at_;
+  bool closed_;
+  int count_;
+};
+
+// A wheel's motion with its axle.
+struct RigidMotion {
+  explicit RigidMotion(const AxlePose& pose) : shift{pose.x, pose.z}, turn(rotation_by(pose.psi)) {}
+  Vec3 displacement(Vec3 arm) const {
+    const PlaneVector<double> d = rigid_displacement(shift, turn, {arm.x, arm.z});
+    return {d.x, 0, d.z};
+  }
+  PlaneVector<double> shift;
+  Rotation<double> turn;
+};
+
+// Displacement of a node without the rigid motion of a body that turns.
+Vec3 elastic_displacement(const Body& body, const Field& u, SectionNode node, int station, const RigidMotion& motion) {
+  const BlockLayout& lay = body.layout.blocks[node.block];
+  const std::ptrdiff_t i = lay.line(node.node, 0) + station;
+  Vec3 d{u[i], u[i + lay.stride], u[i + 2 * lay.stride]};
+  if (body.mesh.kind == SweepKind::revolve)
+    d -= motion.displacement(reference_position(body, node.block, node.node, station) - body.mesh.origin);
+  return d;
+}
+
+// radius: metres per unit of the sweep coordinate.
+BandSample band_sample(const Body& body, const ContactBand& band, const Field& u, double centre, double radius,
+                       const AxlePose& pose, double half_length) {
+  const BandPlanes planes(body.mesh.blocks[band.block]);
+  const int elements = body.layout.blocks[band.block].elements;
+  centre = planes.in_first_turn(centre);
+  const int middle = planes.nearest(centre);
+  // The same number of stations on either side whatever the exact position, so that samples can be averaged station by
+  // station.
+  const int reach =
+      static_cast<int>(std::ceil(half_length / radius / (planes.coordinate(middle + 1) - planes.coordinate(middle))));
+  const int first = planes.closed() ? middle - reach : std::max(middle - reach, 0);
+  const int last = planes.closed() ? middle + reach : std::min(middle + reach, elements);
+
+  BandSample s;
+  s.columns = band.columns;
+  s.rows = band.rows;
+  s.stations = last - first;
+  for (int j = first; j <= last; ++j) s.along.push_back(radius * (planes.coordinate(j) - centre));
+  for (int j = first; j < last; ++j)
+    for (int q = 0; q < band.rows * band.columns; ++q)
+      s.stress.push_back(element_stress(body, u, band.block, q, planes.station(j)));
+  const RigidMotion motion(pose);
+  for (int j = first; j <= last; ++j)
+    for (int k = 0; k < (band.rows + 1) * (band.columns + 1); ++k)
+      s.displacement.push_back(elastic_displacement(body, u, {band.block, k}, planes.station(j), motion));
+  return s;
+}
+
+double largest_pressure(const SurfaceTractions& t) {
+  double p = 0;
+  for (const NodeTraction& n : t.all()) p = std::max(p, n.p);
+  return p;
+}
+
+}  // namespace
+
+RollingSample take_sample(const RollingSystem& sys, const Field& u_rail, const Field& u_wheel,
+                          const SurfaceTractions& tractions, const AxlePose& pose) {
+  RollingSample out;
+  const double half = sample_half_length(sys);
+  out.position = pose.x;
+  out.rail = band_sample(sys.rail(), sys.model.rail.contact, u_rail, pose.x, 1.0, {}, half);
+  out.wheel = band_sample(sys.wheel(), sys.model.wheel.contact, u_wheel, pose.psi, sys.rolling_radius, pose, half);
+  const auto& at = sys.rail_surface().stations.at;
+  const int first =
+      static_cast<int>(std::lower_bound(at.begin(), at.end(), out.rail.along.front() + pose.x - 1e-9) - at.begin());
+  for (int j = first; j <= first + out.rail.stations; ++j)
+    for (int c = 0; c < sys.rail_surface().columns; ++c) out.tractions.push_back(tractions.at(c, j));
+  return out;
+}
+
+RollingSample take_sample(const Stepper& st) {
+  const RollingState& state = st.state();
+  RollingSample s = take_sample(st.system(), state.bodies[index_of(BodyId::rail)].u, st.displacement(BodyId::wheel),
+                                state.tractions, {state.axle.x, state.axle.z, state.axle.psi});
+  s.time = state.time;
+  s.axle = state.axle;
+  s.forces = st.forces();
+  s.creepage = st.creepage();
+  return s;
+}
+
+HistoryRow history_row(const Stepper& st, const EnergyBalance& start) {
+  const RollingState& s = st.state();
+  const EnergyBalance& now = st.energy();
+  return {s.time,    st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(),
+          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total()};
+}
+
+}  // namespace railstrata

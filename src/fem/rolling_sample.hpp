@@ -1,0 +1,51 @@
+#pragma once
+// What a run records of the moving contact: samples of both bodies around the wheel, and rows of the history.
+#include <vector>
+
+#include "fem/stepper.hpp"
+
+namespace railstrata {
+
+/// Stresses and displacements of a body's contact band around the wheel, on stations counted from the wheel's position
+/// (relative station 0 is nearest to it). On a wheel they run on over the place where its ring closes.
+struct BandSample {
+  int columns = 0, rows = 0, stations = 0;  ///< elements
+  std::vector<double> along;  ///< stations + 1: distance of the node planes from the axle in the rolling direction, m
+                              ///< (arc length on the wheel)
+  std::vector<Sym3> stress;   ///< Cauchy stress at the element centres, model frame, Pa; index (station * rows + row) *
+                              ///< columns + column
+  std::vector<Vec3> displacement;  ///< of the nodes, m, model frame, without the wheel's rigid motion; index (station *
+                                   ///< (rows + 1) + row) * (columns + 1) + column
+};
+
+/// One look at the moving contact.
+struct RollingSample {
+  double time = 0, position = 0;
+  AxleMotion axle;
+  ContactForces forces;
+  double creepage = 0;
+  BandSample rail, wheel;
+  std::vector<NodeTraction>
+      tractions;  ///< rail surface nodes of the band sample, index station * (columns + 1) + column
+};
+
+/// A row of history.csv.
+struct HistoryRow {
+  double time, position, torque;
+  ContactForces forces;
+  double p_max, creepage, axle_vx, axle_vz, spin;
+  EnergyBalance energy;
+  double closure;  ///< change of the balance's total since the start, J
+};
+
+/// Of displacements in the model frame; time, axle, forces and creepage are left at zero.
+RollingSample take_sample(const RollingSystem& system, const Field& u_rail, const Field& u_wheel,
+                          const SurfaceTractions& tractions, const AxlePose& pose);
+
+/// Of the stepper's present state.
+RollingSample take_sample(const Stepper& stepper);
+
+/// Of the stepper's last step, whose energies were asked for.
+HistoryRow history_row(const Stepper& stepper, const EnergyBalance& start);
+
+}  // namespace railstrata

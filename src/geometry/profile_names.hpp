@@ -1,0 +1,20 @@
+#pragma once
+// Profiles by name: those shipped inside the program, planes and arcs.
+#include <string>
+#include <vector>
+
+#include "geometry/profile.hpp"
+
+namespace railstrata {
+
+/// Names accepted by builtin_profile: LMA, S1002 (wheel); CN60, UIC60, UIC54 (rail); "flat" (both).
+std::vector<std::string> builtin_profile_names(ProfileKind kind);
+/// A profile shipped inside the program. Besides the names above it understands "arc:R=300 mm" (also m; positive
+/// convex, negative hollow), see circular_profile. Throws CaseError with the nearest name.
+Profile builtin_profile(ProfileKind kind, const std::string& name);
+
+/// An arc of the given radius [m] (convex positive, hollow negative, infinite: a plane) with y from -half_width to
+/// half_width, tangent horizontal at y = 0. For tests and verification cases.
+Profile circular_profile(ProfileKind kind, double radius, double half_width = 0.030);
+
+}  // namespace railstrata

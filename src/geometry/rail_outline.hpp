@@ -1,0 +1,40 @@
+#pragma once
+// A rail's section below its head: underside, web and foot.
+#include <vector>
+
+#include "geometry/profile.hpp"
+
+namespace railstrata {
+
+/// Lower part of a rail section for a head profile, in the rail's profile frame. CN60 has its own; other heads are
+/// given CN60's underside, web and foot at CN60's height, widened towards the end of the head's flank
+/// (docs/conventions.md). A flank that ends higher than CN60's (34.06 mm below the crown) is continued straight. Throws
+/// CaseError for a head without flanks (a plane, an arc, a list that ends on the running surface).
+///
+/// Every list includes both its ends and begins where the one before ends; arcs are drawn with a sagitta of 2
+/// micrometres. Neighbouring parts meet at the 45-degree points of the two web fillets (R12 below the head, R20 above
+/// the foot), so that each can be mapped by a mesh.
+struct RailOutline {
+  // Right half (y >= 0); the left half is its mirror image (for measured profiles the head is taken as it is and only
+  // the lower part mirrored).
+  double flank_y = 0, flank_z = 0;  ///< where the head's flank ends and the underside begins
+  std::vector<Vec2> underside;      ///< from the flank's end to the web, z decreasing
+  std::vector<Vec2> web;            ///< from the underside's end down to the foot's top
+  std::vector<Vec2> foot_top;       ///< from the web's end out to the toe (largest y)
+  std::vector<Vec2> toe;            ///< from there down to the base
+  double base_z = 0;                ///< bottom of the foot
+};
+RailOutline rail_outline(const Profile& head);
+
+/// The whole section as a closed polygon, walked anticlockwise seen from +x (y to the right, z up); the last point is
+/// not the first again.
+std::vector<Vec2> outline_polygon(const Profile& head, const RailOutline& outline);
+
+/// Area [m²], centroid height above the lowest point [m], second moments about the horizontal and vertical axes through
+/// the centroid [m⁴] of a closed polygon walked anticlockwise.
+struct SectionProperties {
+  double area, centroid_height, i_horizontal, i_vertical;
+};
+SectionProperties section_properties(const std::vector<Vec2>& polygon);
+
+}  // namespace railstrata

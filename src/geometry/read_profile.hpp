@@ -1,0 +1,22 @@
+#pragma once
+// Profiles from files: Simpack, MiniProf, lists of points.
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "geometry/profile.hpp"
+
+namespace railstrata {
+
+/// Reads a Simpack file (.prr, .prw), a MiniProf file (.ban, .whl) or a two-column file (any other name: y z; blanks,
+/// tabs, commas or semicolons; # % ! " comments; a header row; decimal commas; mm or metres; z up or down; either
+/// side's orientation). What was detected and flipped is appended to `notes`, one sentence each. Throws CaseError
+/// naming the file and line.
+Profile read_profile(ProfileKind kind, const std::filesystem::path& file, std::vector<std::string>* notes = nullptr);
+
+/// The same from a text; `file` names it in messages.
+Profile parse_profile(ProfileKind kind, std::string_view text, const std::filesystem::path& file,
+                      std::vector<std::string>* notes = nullptr);
+
+}  // namespace railstrata

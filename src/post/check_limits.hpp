@@ -1,0 +1,146 @@
+#pragma once
+// The checks and warnings of a result: their limits and their words. This is the only place of either: both engines'
+// checks, the comparison of the engines, the study, the page, the screen, docs/results-reference.md and
+// `railstrata schema --results`, which tools read, all take them from here.
+#include <array>
+#include <limits>
+#include <stdexcept>
+#include <string_view>
+
+#include "post/result_unit.hpp"
+
+namespace railstrata {
+
+enum class CheckKind {
+  run,      ///< asked of a single result; the exit code depends on it
+  engines,  ///< asked of a finite element result against the half-space result of its case: |a/b - 1|
+  warning,  ///< a sound result that is not plausible: value above limit; no check depends on it
+  note      ///< said, not judged
+};
+
+/// A check holds where value <= limit. A limit that is NaN is not asked of that engine, or comes from the case.
+struct CheckRow {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  std::string_view key;   ///< its name in summary.json
+  std::string_view name;  ///< for people
+  std::string_view what;  ///< what the value is, or what the warning says
+  CheckKind kind = CheckKind::run;
+  ResultUnit unit = result_unit::kShare;
+  double fem_limit = kNone, bem_limit = kNone;  ///< SI; of kind `engines` the same
+  std::string_view case_option{};               ///< where the limit comes from, if from the case
+  std::string_view advice{};                    ///< of a warning: what follows, what to do
+
+  static constexpr CheckRow of_engines(std::string_view key, std::string_view name, std::string_view what,
+                                       double limit) {
+    return {key, name, what, CheckKind::engines, result_unit::kShare, limit, limit};
+  }
+};
+
+/// Von Mises stress above which a linear elastic rail is no longer to be believed, Pa: a round figure of the order of
+/// the 0.2 % proof stress of common as-rolled rail steels (grade R260). Heat-treated grades stand more, so it is a
+/// warning, not a check.
+inline constexpr double kCommonRailYield = 500e6;
+
+inline constexpr std::array kCheckRows{
+    CheckRow{.key = "preload_residual",
+             .name = "Static equilibrium",
+             .what = "residual of the preload, relative to the load",
+             .unit = result_unit::kNone,
+             .case_option = "run.preload_tolerance"},
+    CheckRow{.key = "F_z_relative_to_weight",
+             .name = "Vertical load",
+             .what = "F_z of the contact against the weight on the wheel",
+             .fem_limit = 5e-3,
+             .bem_limit = 1e-4},
+    CheckRow{.key = "traction_coefficient_reached",
+             .name = "Traction",
+             .what = "F_x/F_z reached against the wanted traction coefficient",
+             .fem_limit = 1e-2,
+             .bem_limit = 1e-3},
+    CheckRow{.key = "penetration_over_approach",
+             .name = "Penetration",
+             .what = "largest overlap of the bodies, of Hertz’s approach",
+             .fem_limit = 1e-2},
+    CheckRow{.key = "energy_closure",
+             .name = "Energy closure",
+             .what = "energy gained or lost by the time steps, of the largest energy turned over",
+             .fem_limit = 1e-2},
+    CheckRow{.key = "p_max_scatter",
+             .name = "Scatter of p_max",
+             .what = "standard deviation over the window, of the mean",
+             .fem_limit = 1.5e-2},
+    CheckRow{.key = "hourglass_share",
+             .name = "Hourglass energy",
+             .what = "energy of the hourglass modes of one-point elements, of the strain energy",
+             .fem_limit = 2e-2},
+    CheckRow{.key = "patch_reaches_edge_of_fine_zone",
+             .name = "Patch inside the fine mesh",
+             .what = "outside once it touches the border of the fine zone",
+             .unit = result_unit::kInside,
+             .fem_limit = 0},
+    CheckRow{.key = "patch_reaches_edge_of_grid",
+             .name = "Patch inside the grid",
+             .what = "outside once it touches the border of the grid",
+             .unit = result_unit::kInside,
+             .bem_limit = 0},
+    CheckRow::of_engines("p_max", "Largest pressure", "finite elements against half-space", 0.04),
+    CheckRow::of_engines("patch_length", "Patch length", "finite elements against half-space", 0.06),
+    CheckRow::of_engines("q_max", "Largest shear", "finite elements against half-space", 0.07),
+    CheckRow::of_engines("von_mises_below_surface", "Largest von Mises stress below the surface",
+                         "rail with its layers and interfaces, finite elements against half-space; judged where the "
+                         "half-space’s largest lies deeper than one element",
+                         0.08),
+    CheckRow{.key = "patch_wider_than_layer",
+             .name = "Patch wider than the layer",
+             .what = "the contact patch is wider than the layer",
+             .kind = CheckKind::warning,
+             .unit = result_unit::kMillimetres,
+             .case_option = "layer.width",
+             .advice = "a larger layer.width holds it"},
+    CheckRow{.key = "patch_near_border_of_fine_zone",
+             .name = "Patch near the border of the fine mesh",
+             .what = "the contact patch nearly fills the fine mesh",
+             .kind = CheckKind::warning,
+             .unit = result_unit::kMillimetres,
+             .case_option = "mesh.fine_width less two elements",
+             .advice = "a larger mesh.fine_width gives it room"},
+    CheckRow{.key = "von_mises_above_common_rail_yield",
+             .name = "Von Mises stress above common rail yield",
+             .what = "the elastic stress in the rail is above the proof stress of common rail steels",
+             .kind = CheckKind::warning,
+             .unit = result_unit::kMPa,
+             .fem_limit = kCommonRailYield,
+             .bem_limit = kCommonRailYield,
+             .advice = "a real rail would yield there, and shake down or wear"},
+    CheckRow{.key = "case_edited",
+             .name = "Case as it was run",
+             .what = "case.toml against the one of the run",
+             .kind = CheckKind::note,
+             .unit = result_unit::kNone},
+    CheckRow{.key = "other_version",
+             .name = "Other version",
+             .what = "the result was not written by this version",
+             .kind = CheckKind::note,
+             .unit = result_unit::kNone},
+    CheckRow{.key = "cases_differ",
+             .name = "Different cases",
+             .what = "their options differ",
+             .kind = CheckKind::note,
+             .unit = result_unit::kNone},
+};
+
+/// Null for a name that is not in the table (a result of another version).
+constexpr const CheckRow* find_check(std::string_view key) {
+  for (const CheckRow& row : kCheckRows)
+    if (row.key == key) return &row;
+  return nullptr;
+}
+
+/// For names that stand in the program; in a constant expression a wrong name does not compile.
+constexpr const CheckRow& check_row(std::string_view key) {
+  if (const CheckRow* row = find_check(key)) return *row;
+  throw std::invalid_argument("no such check");
+}
+
+}  // namespace railstrata

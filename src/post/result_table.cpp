@@ -1,0 +1,499 @@
+#include "post/result_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace railstrata {
+namespace {
+
+using namespace result_unit;
+using C = ContactSummary;
+using P = PatchMeasures;
+using R = RunSummary;
+
+template <auto... Path>
+ResultValue at(const Summary& s) {
+  return (s.*....*Path);
+}
+template <auto Member>
+ResultValue count(const Summary& s) {
+  return static_cast<long>(s.run.*Member);
+}
+template <auto Member>
+constexpr auto patch = &at<&Summary::contact, &C::patch, Member>;
+template <auto Member>
+constexpr auto contact = &at<&Summary::contact, Member>;
+template <auto Member>
+constexpr auto energy = &at<&Summary::energy, Member>;
+template <auto Member>
+constexpr auto run = &at<&Summary::run, Member>;
+
+std::vector<ResultNumber> traction_numbers() {
+  return {{.group = "contact",
+           .symbol = "p_max",
+           .unit = kMPa,
+           .value = patch<&P::p_max>,
+           .label = "p_max",
+           .name = "Largest pressure p",
+           .doc = "Top of the parabola through the largest pressure and its neighbours",
+           .column = true,
+           .shown = true,
+           .comparable = true},
+          {.group = "contact",
+           .symbol = "q_max",
+           .unit = kMPa,
+           .value = patch<&P::q_max>,
+           .label = "q_max",
+           .name = "Largest shear |q|",
+           .doc = "Largest magnitude of the tangential traction at a point",
+           .column = true,
+           .shown = true,
+           .comparable = true}};
+}
+
+std::vector<ResultNumber> extent_numbers() {
+  return {{.group = "contact",
+           .symbol = "patch_length",
+           .unit = kMillimetres,
+           .value = patch<&P::length>,
+           .label = "length",
+           .name = "Patch length (along x)",
+           .doc = "Longest chord in the rolling direction, between the edges where p² extrapolates to zero",
+           .column = true,
+           .shown = true,
+           .comparable = true},
+          {.group = "contact",
+           .symbol = "patch_width",
+           .unit = kMillimetres,
+           .value = patch<&P::width>,
+           .label = "width",
+           .name = "Patch width (along y)",
+           .doc = "Longest chord across the rolling direction",
+           .column = true,
+           .shown = true,
+           .comparable = true},
+          {.group = "contact",
+           .symbol = "patch_area",
+           .unit = kSquareMillimetres,
+           .value = patch<&P::area>,
+           .label = "area",
+           .name = "Patch area",
+           .doc = "Area between the edges of the columns' chords",
+           .column = true,
+           .shown = true,
+           .comparable = true},
+          {.group = "contact",
+           .symbol = "slip_area_fraction",
+           .unit = kShare,
+           .value = patch<&P::slip_area_fraction>,
+           .label = "slip area",
+           .name = "Slip area / patch area",
+           .doc = "Area of the slipping points, of the points in contact; finite elements: mean over the window. Null "
+                  "without friction (half-space)",
+           .column = true,
+           .shown = true,
+           .comparable = true}};
+}
+
+std::vector<ResultNumber> force_numbers() {
+  return {{.group = "contact",
+           .symbol = "F_x",
+           .unit = kKilonewtons,
+           .value = contact<&C::F_x>,
+           .label = "F_x",
+           .name = "F_x on the wheel",
+           .doc = "Contact force on the wheel, rolling direction; positive drives",
+           .column = true,
+           .shown = true,
+           .comparable = true},
+          {.group = "contact",
+           .symbol = "F_y",
+           .unit = kKilonewtons,
+           .value = contact<&C::F_y>,
+           .label = "F_y",
+           .name = "F_y on the wheel",
+           .doc = "Contact force on the wheel towards the field side, model frame",
+           .column = true,
+           .shown = true},
+          {.group = "contact",
+           .symbol = "F_z",
+           .unit = kKilonewtons,
+           .value = contact<&C::F_z>,
+           .label = "F_z",
+           .name = "F_z on the wheel",
+           .doc = "Contact force on the wheel, upwards",
+           .column = true,
+           .shown = true,
+           .comparable = true},
+          {.group = "contact",
+           .symbol = "contact_angle",
+           .unit = kDegrees,
+           .value = contact<&C::contact_angle>,
+           .label = "contact angle",
+           .name = "Contact angle",
+           .doc = "Of the common tangent at the rigid contact point"},
+          {.group = "contact",
+           .symbol = "normal_force",
+           .unit = kKilonewtons,
+           .value = contact<&C::normal_force>,
+           .label = "normal force",
+           .name = "Normal force in the contact plane",
+           .doc = "(F_y, F_z) along the normal of the contact plane",
+           .column = true,
+           .shown = true,
+           .comparable = true},
+          {.group = "contact",
+           .symbol = "lateral_force",
+           .unit = kKilonewtons,
+           .value = contact<&C::lateral_force>,
+           .label = "lateral force",
+           .name = "Lateral force in the contact plane",
+           .doc = "(F_y, F_z) along the lateral tangent of the contact plane",
+           .column = true,
+           .shown = true}};
+}
+
+std::vector<ResultNumber> motion_numbers() {
+  return {
+      {.group = "contact",
+       .symbol = "creepage_x",
+       .unit = kPerMille,
+       .value = contact<&C::creepage_x>,
+       .label = "creepage",
+       .name = "Longitudinal creepage (negative: driving)",
+       .doc = "(V - ω r)/V with the rolling radius r",
+       .column = true,
+       .shown = true,
+       .comparable = true},
+      {.group = "contact",
+       .symbol = "creepage_y",
+       .unit = kPerMille,
+       .value = contact<&C::creepage_y>,
+       .label = "lateral creepage",
+       .name = "Lateral creepage",
+       .doc = "0: the axle is guided",
+       .shown = true},
+      {.group = "contact",
+       .symbol = "spin",
+       .unit = kPerMetre,
+       .value = contact<&C::spin_per_m>,
+       .label = "spin",
+       .name = "Spin",
+       .doc = "Spin of the wheel about the contact normal, over V",
+       .column = true,
+       .shown = true,
+       .comparable = true},
+      {.group = "contact",
+       .symbol = "approach",
+       .unit = kMicrometres,
+       .value = contact<&C::approach>,
+       .label = "approach",
+       .name = "Approach (finite elements: with the bending of rail and wheel)",
+       .doc = "Of the bodies under the load; finite elements: descent of the axle in the static preload, bending of "
+              "rail and wheel included",
+       .column = true,
+       .shown = true},
+      {.group = "contact",
+       .symbol = "penetration_max",
+       .unit = kNanometres,
+       .value = contact<&C::penetration_max>,
+       .label = "penetration",
+       .name = "Largest penetration",
+       .doc = "Largest overlap of the surfaces during the run",
+       .engine = HadBy::finite_elements,
+       .shown = true},
+      {.group = "contact",
+       .symbol = "p_max_scatter",
+       .unit = kShare,
+       .value = contact<&C::p_max_scatter>,
+       .label = "scatter of p_max",
+       .name = "Scatter of p_max",
+       .doc = "Standard deviation over the window, of the mean",
+       .engine = HadBy::finite_elements}};
+}
+
+std::vector<ResultNumber> energy_numbers() {
+  return {{.group = "energy",
+           .symbol = "closure",
+           .unit = kShare,
+           .value = energy<&EnergySummary::closure>,
+           .label = "energy closure",
+           .name = "Energy closure",
+           .doc = "Energy gained or lost by the time steps, of the largest energy turned over",
+           .engine = HadBy::finite_elements},
+          {.group = "energy",
+           .symbol = "hourglass_share",
+           .unit = kShare,
+           .value = energy<&EnergySummary::hourglass_share>,
+           .label = "hourglass energy",
+           .name = "Hourglass energy",
+           .doc = "Largest hourglass energy, of the strain energy",
+           .engine = HadBy::finite_elements}};
+}
+
+std::vector<ResultNumber> time_numbers() {
+  return {{.group = "run",
+           .symbol = "wall",
+           .unit = kSeconds,
+           .value = run<&R::wall_s>,
+           .label = "wall time",
+           .name = "Wall time",
+           .doc = "Of the solution, with its output",
+           .column = true},
+          {.group = "run",
+           .symbol = "preload_wall",
+           .unit = kSeconds,
+           .value = run<&R::preload_wall_s>,
+           .label = "preload",
+           .name = "Wall time of the preload",
+           .doc = "Share of the static preload in the wall time",
+           .engine = HadBy::finite_elements},
+          {.group = "run",
+           .symbol = "output_wall",
+           .unit = kSeconds,
+           .value = run<&R::output_wall_s>,
+           .label = "output",
+           .name = "Wall time of the output",
+           .doc = "Share of writing in the wall time",
+           .engine = HadBy::finite_elements},
+          {.group = "run",
+           .symbol = "elements",
+           .unit = kNone,
+           .value = count<&R::elements>,
+           .label = "elements",
+           .name = "Elements",
+           .doc = "Finite elements, or cells of the half-space's grid"},
+          {.group = "run",
+           .symbol = "nodes",
+           .unit = kNone,
+           .value = count<&R::nodes>,
+           .label = "nodes",
+           .name = "Nodes",
+           .doc = "Of both bodies; half-space: 0"},
+          {.group = "run",
+           .symbol = "steps",
+           .unit = kNone,
+           .value = count<&R::steps>,
+           .label = "steps",
+           .name = "Time steps",
+           .doc = "Half-space and static cases: 0"}};
+}
+
+std::vector<ResultNumber> step_numbers() {
+  return {{.group = "run",
+           .symbol = "dt",
+           .unit = kNanoseconds,
+           .value = run<&R::dt_s>,
+           .label = "time step",
+           .name = "Time step",
+           .doc = "Length of a step",
+           .engine = HadBy::finite_elements},
+          {.group = "run",
+           .symbol = "stable_step",
+           .unit = kNanoseconds,
+           .value = run<&R::stable_step>,
+           .label = "stable step",
+           .name = "Stable step",
+           .doc = "With selective mass scaling or local steps, if there are any",
+           .engine = HadBy::finite_elements},
+          {.group = "run",
+           .symbol = "unscaled_step",
+           .unit = kNanoseconds,
+           .value = run<&R::unscaled_step>,
+           .label = "unscaled step",
+           .name = "Stable step of the real masses",
+           .doc = "Without mass scaling and local steps",
+           .engine = HadBy::finite_elements},
+          {.group = "run",
+           .symbol = "added_mass",
+           .unit = kKilograms,
+           .value = run<&R::added_mass>,
+           .label = "added mass",
+           .name = "Added mass",
+           .doc = "By selective mass scaling of thin rows; 0: real masses",
+           .engine = HadBy::finite_elements},
+          {.group = "run",
+           .symbol = "local_stages",
+           .unit = kNone,
+           .value = run<&R::local_stages>,
+           .label = "stages",
+           .name = "Stages of local steps",
+           .doc = "The forces of the fine elements are evaluated so often a step; 1: one step for all",
+           .engine = HadBy::finite_elements},
+          {.group = "run",
+           .symbol = "fine_elements",
+           .unit = kNone,
+           .value = run<&R::fine_elements>,
+           .label = "fine elements",
+           .name = "Elements in local steps",
+           .doc = "0: one step for all",
+           .engine = HadBy::finite_elements}};
+}
+
+std::vector<ResultNumber> effort_numbers() {
+  return {{.group = "run",
+           .symbol = "element_steps",
+           .unit = kPerSecond,
+           .value = run<&R::element_steps_per_s>,
+           .label = "element steps",
+           .name = "Element steps per second",
+           .doc = "Elements times steps over the wall time without the preload",
+           .engine = HadBy::finite_elements},
+          {.group = "run",
+           .symbol = "threads",
+           .unit = kNone,
+           .value = count<&R::threads>,
+           .label = "threads",
+           .name = "Threads",
+           .doc = "That computed; results do not depend on them"},
+          {.group = "run",
+           .symbol = "peak_memory",
+           .unit = kMegabytes,
+           .value = run<&R::peak_memory_bytes>,
+           .label = "memory",
+           .name = "Largest memory",
+           .doc = "Largest resident memory of the program"}};
+}
+
+/// The stresses that tables hold, in their order.
+struct StressColumn {
+  std::string_view body, zone, measure, number;
+};
+constexpr StressColumn kStressColumns[] = {
+    {"rail", "surface", "von_mises_max", "value"},    {"rail", "surface", "sigma1_max", "value"},
+    {"rail", "subsurface", "von_mises_max", "value"}, {"rail", "subsurface", "von_mises_max", "depth"},
+    {"rail", "layer", "von_mises_max", "value"},      {"rail", "layer", "sigma1_max", "value"},
+    {"rail", "interface", "von_mises_max", "value"},  {"rail", "matrix", "von_mises_max", "value"}};
+
+template <class Row>
+const Row& row_of(const std::vector<Row>& rows, std::string_view key) {
+  return *std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.key == key; });
+}
+
+ResultColumn column_of(const ResultNumber& n) {
+  const bool same = n.unit.factor == n.unit.column_factor;
+  return {.name = n.column_name(),
+          .path = n.path(),
+          .factor = n.unit.column_factor,
+          .title = std::string(n.label),
+          .unit = same ? n.unit.shown : "",
+          .shown_unit = n.unit,
+          .doc = n.name,
+          .of_stress = false,
+          .comparable = n.comparable,
+          .digits = n.digits};
+}
+
+ResultColumn column_of(const StressColumn& c) {
+  const StressZone& zone = row_of(stress_zones(), c.zone);
+  const StressMeasure& measure = row_of(stress_measures(), c.measure);
+  const StressNumber& number = row_of(stress_numbers(), c.number);
+  const bool value = c.number == "value";
+  return {
+      .name = fmt::format("{}_{}_{}{}{}", c.body, c.zone, measure.symbol, value ? "" : fmt::format("_{}", c.number),
+                          number.unit.column_ending),
+      .path = fmt::format("/stress/{}/{}/{}/{}{}", c.body, c.zone, c.measure, c.number, number.unit.key_ending),
+      .factor = number.unit.column_factor,
+      .title = fmt::format("{} {} {}{}", c.body, measure.name, zone.name, value ? "" : ", " + std::string(c.number)),
+      .unit = number.unit.shown,
+      .shown_unit = number.unit,
+      .doc = number.doc,
+      .of_stress = true};
+}
+
+}  // namespace
+
+std::string ResultNumber::key() const { return fmt::format("{}{}", symbol, unit.key_ending); }
+std::string ResultNumber::path() const { return fmt::format("{}{}/{}", group.empty() ? "" : "/", group, key()); }
+std::string ResultNumber::column_name() const { return fmt::format("{}{}", symbol, unit.column_ending); }
+
+const std::vector<ResultNumber>& result_numbers() {
+  static const std::vector<ResultNumber> numbers = [] {
+    std::vector<ResultNumber> out{
+        {.group = "",
+         .symbol = "position",
+         .unit = kMillimetres,
+         .value = at<&Summary::position>,
+         .label = "position",
+         .name = "Position of the wheel",
+         .doc = "Of the axle along the rail; half-space: the case's last one, static cases 0"}};
+    for (const auto& part : {traction_numbers(), extent_numbers(), force_numbers(), motion_numbers(), energy_numbers(),
+                             time_numbers(), step_numbers(), effort_numbers()})
+      out.insert(out.end(), part.begin(), part.end());
+    return out;
+  }();
+  return numbers;
+}
+
+const std::vector<StressBody>& stress_bodies() {
+  static const std::vector<StressBody> bodies{{"rail", &Summary::rail}, {"wheel", &Summary::wheel}};
+  return bodies;
+}
+
+const std::vector<StressZone>& stress_zones() {
+  using S = StressSummary;
+  static const std::vector<StressZone> zones{
+      {"surface", &S::surface, "at the surface", "At the running surface, from its tractions and strains"},
+      {"subsurface", &S::subsurface, "below the surface", "Deeper than one element edge; half-space: than half a cell"},
+      {"layer", &S::layer, "in the layers", "In the layers, from their own points"},
+      {"interface", &S::interface, "at the interfaces", "On either side of every border between materials"},
+      {"matrix", &S::matrix, "in the matrix", "Below all layers"}};
+  return zones;
+}
+
+const std::vector<StressMeasure>& stress_measures() {
+  static const std::vector<StressMeasure> measures{{"von_mises_max", "von_mises", &StressPair::von_mises, "von Mises"},
+                                                   {"sigma1_max", "sigma_1", &StressPair::sigma1, "σ₁"}};
+  return measures;
+}
+
+const std::vector<StressNumber>& stress_numbers() {
+  static const std::vector<StressNumber> numbers{
+      {"value", kMPa, &StressMaximum::value, "Largest value"},
+      {"x", kMillimetres, &StressMaximum::x, "Its place from the axle in the rolling direction"},
+      {"y", kMillimetres, &StressMaximum::y, "Its place from the rigid contact point towards the field side"},
+      {"depth", kMillimetres, &StressMaximum::depth, "Its depth below the surface along the normal"}};
+  return numbers;
+}
+
+std::vector<ResultColumn> table_columns() {
+  std::vector<ResultColumn> contact_columns, run_columns;
+  for (const ResultNumber& n : result_numbers())
+    if (n.column) (n.group == "run" ? run_columns : contact_columns).push_back(column_of(n));
+  std::vector<ResultColumn> out = std::move(contact_columns);
+  for (const StressColumn& c : kStressColumns) out.push_back(column_of(c));
+  out.insert(out.end(), run_columns.begin(), run_columns.end());
+  return out;
+}
+
+std::string significant(double value, int digits) {
+  if (!std::isfinite(value)) return "-";
+  const double size = std::abs(value);
+  if (size == 0) return "0";
+  if (size < 1e-4 || size >= 1e7) return fmt::format("{:.{}g}", value, digits);
+  const int decimals = std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(size))));
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+namespace {
+
+std::string in_unit(const ResultUnit& unit, double value_si, const std::string& number) {
+  const auto bar = unit.shown.find('|');
+  if (bar != std::string_view::npos)
+    return std::string(value_si == 0 ? unit.shown.substr(0, bar) : unit.shown.substr(bar + 1));
+  return fmt::format("{}{}{}", number, unit.shown.empty() ? "" : " ", unit.shown);
+}
+
+}  // namespace
+
+std::string with_unit(const ResultUnit& unit, double value_si, int digits) {
+  return in_unit(unit, value_si, significant(unit.factor * value_si, digits));
+}
+
+std::string limit_text(const ResultUnit& unit, double value_si) {
+  return in_unit(unit, value_si, fmt::format("{:.6g}", unit.factor * value_si));
+}
+
+}  // namespace railstrata

@@ -1,0 +1,60 @@
+#include "post/run_advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace railstrata {
+namespace {
+
+constexpr const char* kWithinRamp = "measured_within_torque_ramp";
+
+void warn_within_ramp(const CaseSpec& spec, double position, std::vector<Warning>& out) {
+  const DriveSpec& drive = spec.drive;
+  if (!spec.run.rolling || drive.traction_coefficient == 0) return;
+  const double ramp = drive.torque_ramp * drive.speed, begin = position - 0.5 * spec.run.window;
+  if (ramp <= begin) return;
+  out.push_back(
+      {kWithinRamp, ramp, begin,
+       fmt::format("the torque rises over {:.4g} ms, {:.4g} mm at this speed, and the measuring window begins "
+                   "at {:.4g} mm [m]: later run.positions, or a shorter drive.torque_ramp",
+                   1e3 * drive.torque_ramp, 1e3 * ramp, 1e3 * begin)});
+}
+
+void warn_of_added_mass(const StepLimits& limits, std::vector<Warning>& out) {
+  double most = 0;
+  std::string blocks;
+  for (const ScaledBlock& b : limits.scaled_blocks) {
+    if (b.added <= kMuchAddedMass * b.mass) continue;
+    most = std::max(most, b.added / b.mass);
+    blocks +=
+        fmt::format("{}{:.3g} kg to the {:.3g} kg of the {}", blocks.empty() ? "" : ", ", b.added, b.mass, b.name);
+  }
+  if (blocks.empty()) return;
+  out.push_back(
+      {"mass_scaling_adds_much", most, kMuchAddedMass,
+       fmt::format("mass scaling adds {} against stretching across thin rows: rigid motion keeps the real masses, "
+                   "vibrations across the layers are slowed; run.time_step_method = \"local\" adds none",
+                   blocks)});
+}
+
+}  // namespace
+
+std::vector<Warning> run_advice(const CaseSpec& spec, double position, const StepLimits& limits) {
+  std::vector<Warning> out;
+  warn_within_ramp(spec, position, out);
+  warn_of_added_mass(limits, out);
+  return out;
+}
+
+void add_run_advice(Summary& summary, const CaseSpec& spec, const StepLimits& limits) {
+  const bool traction_missed = std::any_of(summary.checks.begin(), summary.checks.end(), [](const Check& c) {
+    return c.name == "traction_coefficient_reached" && !c.ok;
+  });
+  for (Warning& w : run_advice(spec, summary.position, limits)) {
+    if (w.name == kWithinRamp && traction_missed) w.text += "; traction_coefficient_reached fails for this reason";
+    summary.warnings.push_back(std::move(w));
+  }
+}
+
+}  // namespace railstrata

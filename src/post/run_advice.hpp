@@ -1,0 +1,24 @@
+#pragma once
+// What can be said of a finite element run before it is made, and of its results for the same reasons.
+#include <vector>
+
+#include "case/case_spec.hpp"
+#include "fem/step_plan.hpp"
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+/// Largest share of a block's mass that mass scaling may add without a word.
+inline constexpr double kMuchAddedMass = 0.01;
+
+/// Warnings of a case that is measured at a wheel position [m]:
+///   measured_within_torque_ramp   the window begins before the torque has its full value (the ramp's time times the
+///                                 speed; value and limit are lengths): the wanted traction cannot be reached there
+///   mass_scaling_adds_much        to a block (value and limit are shares of the block's mass; the text has kilograms)
+std::vector<Warning> run_advice(const CaseSpec& spec, double position, const StepLimits& limits);
+
+/// Adds the warnings to a summary. Where traction_coefficient_reached fails within the torque's ramp, the warning says
+/// that it fails for this reason.
+void add_run_advice(Summary& summary, const CaseSpec& spec, const StepLimits& limits);
+
+}  // namespace railstrata

@@ -1,0 +1,183 @@
+#include "report/comparison_picture.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+
+#include "post/patch.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kMilli = 1e3, kMega = 1e-6;
+constexpr int kMapPoints = 72;
+constexpr const char* kColourA = "#0b5fa5";
+constexpr const char* kColourB = "#c2410c";
+
+struct Rgb {
+  double r, g, b;
+};
+constexpr std::array<Rgb, 5> kPressureColours{
+    {{255, 255, 255}, {166, 206, 227}, {66, 146, 198}, {8, 81, 156}, {3, 19, 67}}};
+constexpr std::array<Rgb, 5> kDifferenceColours{
+    {{11, 95, 165}, {146, 197, 222}, {255, 255, 255}, {244, 165, 130}, {194, 65, 12}}};
+
+std::string colour(const std::array<Rgb, 5>& stops, double t) {
+  const double s = std::clamp(t, 0.0, 1.0) * 4;
+  const auto k = std::min<std::size_t>(static_cast<std::size_t>(s), 3);
+  const double w = s - static_cast<double>(k);
+  const auto mix = [&](double u, double v) { return static_cast<int>(std::lround(u + w * (v - u))); };
+  return fmt::format("#{:02x}{:02x}{:02x}", mix(stops[k].r, stops[k + 1].r), mix(stops[k].g, stops[k + 1].g),
+                     mix(stops[k].b, stops[k + 1].b));
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (char c : text) {
+    if (c == '<')
+      out += "&lt;";
+    else if (c == '&')
+      out += "&amp;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+/// 1, 2 or 5 times a power of ten: about five of them fill the length.
+double tick_step(double length) {
+  const double raw = length / 5, power = std::pow(10.0, std::floor(std::log10(raw)));
+  for (double m : {1.0, 2.0, 5.0})
+    if (raw <= m * power) return m * power;
+  return 10 * power;
+}
+
+/// A rectangle of the page with its axes: x and y in the units of the labels.
+struct Frame {
+  double left, top, width, height;
+  double x0, x1, y0, y1;
+  double px(double x) const { return left + width * (x - x0) / (x1 - x0); }
+  double py(double y) const { return top + height * (y1 - y) / (y1 - y0); }
+};
+
+class Page {
+ public:
+  Page(double width, double height) {
+    add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" "
+        "font-family=\"sans-serif\" font-size=\"12\">\n"
+        "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
+        width, height);
+  }
+  template <class... T>
+  void add(fmt::format_string<T...> format, T&&... values) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
+  }
+  void text(double x, double y, const std::string& words, const char* anchor = "start", const char* fill = "#222") {
+    add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n", x, y, anchor, fill,
+        escaped(words));
+  }
+  void axes(const Frame& f, const std::string& x_label, const std::string& y_label) {
+    add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#888\"/>\n", f.left,
+        f.top, f.width, f.height);
+    const double dx = tick_step(f.x1 - f.x0), dy = tick_step(f.y1 - f.y0);
+    for (double k = std::ceil(f.x0 / dx); k * dx <= f.x1; ++k)
+      text(f.px(k * dx), f.top + f.height + 15, fmt::format("{:g}", k * dx + 0.0), "middle");
+    for (double k = std::ceil(f.y0 / dy); k * dy <= f.y1; ++k)
+      text(f.left - 5, f.py(k * dy) + 4, fmt::format("{:g}", k * dy + 0.0), "end");
+    text(f.left + f.width / 2, f.top + f.height + 32, x_label, "middle");
+    text(f.left, f.top - 8, y_label);
+  }
+  void line(const Frame& f, const std::vector<double>& x, const std::vector<double>& y, const char* stroke,
+            bool dashed) {
+    std::string points;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (x[i] >= f.x0 && x[i] <= f.x1)
+        fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", f.px(x[i]), f.py(y[i]));
+    add("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"{}/>\n", points, stroke,
+        dashed ? " stroke-dasharray=\"5 3\"" : "");
+  }
+  std::string finish() {
+    add("</svg>\n");
+    return std::move(out_);
+  }
+
+ private:
+  std::string out_;
+};
+
+std::vector<double> scaled(const std::vector<double>& v, double factor) {
+  std::vector<double> out(v);
+  for (double& x : out) x *= factor;
+  return out;
+}
+
+double largest(const std::vector<double>& v) { return v.empty() ? 0 : *std::max_element(v.begin(), v.end()); }
+
+void draw_centre_line(Page& page, const Frame& f, const PictureSide& side, const char* stroke) {
+  const CentreLine line = centre_line(side.field);
+  std::vector<double> q;
+  for (std::size_t i = 0; i < line.q_x.size(); ++i) q.push_back(kMega * std::hypot(line.q_x[i], line.q_y[i]));
+  page.line(f, scaled(line.x, kMilli), scaled(line.p, kMega), stroke, false);
+  page.line(f, scaled(line.x, kMilli), q, stroke, true);
+}
+
+void draw_map(Page& page, const Frame& f, const FieldComparison& g, const std::array<Rgb, 5>& stops,
+              const std::vector<double>& shade) {
+  const int nx = static_cast<int>(g.x.size()), ny = static_cast<int>(g.y.size()),
+            sx = (nx + kMapPoints - 1) / kMapPoints, sy = (ny + kMapPoints - 1) / kMapPoints;
+  const double w = sx * f.width / (nx - 1), h = sy * f.height / (ny - 1);
+  for (int i = 0; i < nx; i += sx)
+    for (int j = 0; j < ny; j += sy) {
+      const std::size_t k = static_cast<std::size_t>(i) * g.y.size() + static_cast<std::size_t>(j);
+      if (!(g.p_a[k] > 0 || g.p_b[k] > 0)) continue;
+      page.add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n",
+               f.px(kMilli * g.x[i]) - w / 2, f.py(kMilli * g.y[j]) - h / 2, w + 0.2, h + 0.2, colour(stops, shade[k]));
+    }
+}
+
+void draw_maps(Page& page, double top, double width, const PictureSide& a, const PictureSide& b,
+               const FieldComparison& g) {
+  const double p = std::max(largest(g.p_a), largest(g.p_b));
+  std::vector<double> gap;
+  double reach = 1;  // Pa
+  for (std::size_t k = 0; k < g.p_a.size(); ++k) reach = std::max(reach, std::abs(g.p_a[k] - g.p_b[k]));
+  for (std::size_t k = 0; k < g.p_a.size(); ++k) gap.push_back(0.5 + 0.5 * (g.p_a[k] - g.p_b[k]) / reach);
+  const double x0 = kMilli * g.x.front(), x1 = kMilli * g.x.back(), y0 = kMilli * g.y.front(), y1 = kMilli * g.y.back();
+  const double height = width * (y1 - y0) / (x1 - x0);
+  const auto frame = [&](int k) { return Frame{60 + k * (width + 60), top, width, height, x0, x1, y0, y1}; };
+  draw_map(page, frame(0), g, kPressureColours, scaled(g.p_a, 1 / p));
+  draw_map(page, frame(1), g, kPressureColours, scaled(g.p_b, 1 / p));
+  draw_map(page, frame(2), g, kDifferenceColours, gap);
+  page.axes(frame(0), "x [mm], rolling to the right",
+            fmt::format("p of {}: 0 to {:.0f} MPa, y [mm]", a.name, kMega * p));
+  page.axes(frame(1), "x [mm]", fmt::format("p of {}, same colours", b.name));
+  page.axes(frame(2), "x [mm]", fmt::format("difference: -{0:.0f} (blue) to {0:.0f} MPa (red)", kMega * reach));
+}
+
+}  // namespace
+
+std::string comparison_svg(const PictureSide& a, const PictureSide& b, const FieldComparison& g) {
+  const double map = 270, aspect = (g.y.back() - g.y.front()) / (g.x.back() - g.x.front());
+  Page page(1060, 400 + map * aspect + 60);
+  const Frame lines{60,
+                    50,
+                    930,
+                    280,
+                    kMilli * g.x.front(),
+                    kMilli * g.x.back(),
+                    0,
+                    1.08 * kMega * std::max({largest(g.p_a), largest(g.p_b), 1.0})};
+  page.axes(lines, "x [mm] from the axle, rolling to the right",
+            "p (lines) and |q| (dashed) through the largest pressure [MPa]");
+  draw_centre_line(page, lines, a, kColourA);
+  draw_centre_line(page, lines, b, kColourB);
+  page.text(lines.left + 10, lines.top + 18, a.name, "start", kColourA);
+  page.text(lines.left + 10, lines.top + 35, b.name, "start", kColourB);
+  draw_maps(page, 400, map, a, b, g);
+  return page.finish();
+}
+
+}  // namespace railstrata

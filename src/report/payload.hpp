@@ -1,0 +1,13 @@
+#pragma once
+// A report as JSON for the script of its page.
+#include <nlohmann/json.hpp>
+
+#include "report/report.hpp"
+
+namespace railstrata {
+
+/// The report as JSON, as report/src/data.ts reads it. Lines have six digits; maps and sections are packed to 16 bits a
+/// number and thinned to 300 points a side.
+nlohmann::ordered_json report_payload(const Report& report);
+
+}  // namespace railstrata

@@ -1,0 +1,113 @@
+#include "runs/solve_fem.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+#include "io/provenance.hpp"
+#include "post/fem_summary.hpp"
+#include "runs/memory_need.hpp"
+#include "runs/peak_memory.hpp"
+
+namespace railstrata {
+namespace {
+
+/// Asks the control on behalf of the rolling, and hands the states that it asked for to the observer.
+class StateKeeper {
+ public:
+  StateKeeper(RunControl& control, const FemObserver& observer, const FemOptions& options)
+      : control_(control),
+        observer_(observer),
+        states_wanted_(observer.checkpoint || options.wishes.stop || options.times.limit > 0) {}
+
+  void observe(RunObserver& run) {
+    run.demand = [this] { return demand_ = answer(control_.demand()); };
+    if (states_wanted_) run.save = [this](const RunState& state) { save(state); };
+  }
+
+  std::optional<RunState> stopped_at;
+
+ private:
+  /// Without anyone to take a checkpoint, there is nothing to do on the way.
+  Demand answer(Demand demand) const {
+    return demand == Demand::save && !observer_.checkpoint ? Demand::go_on : demand;
+  }
+
+  void save(const RunState& state) {
+    const bool stopping = demand_ == Demand::save_and_stop;
+    const auto start = std::chrono::steady_clock::now();
+    if (observer_.checkpoint) observer_.checkpoint(state, stopping);
+    control_.saved(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    if (stopping) stopped_at = state;
+  }
+
+  RunControl& control_;
+  const FemObserver& observer_;
+  bool states_wanted_;
+  Demand demand_ = Demand::go_on;
+};
+
+FemPosition position_of(const RollingSystem& system, const RunResult& run, const PositionSamples& samples) {
+  FemPosition out;
+  out.contact = mean_contact(system, samples);
+  const Model& model = system.model;
+  const double contact_y = model.placement.contact.point.y;
+  out.rail = band_stress(model.rail, out.contact.rail, contact_y - model.rail.origin.y);
+  out.wheel = band_stress(model.wheel, out.contact.wheel, contact_y - model.wheel.origin.y);
+  out.summary = fem_summary(system, run, out.contact);
+  out.summary.run.commit = commit_text();
+  out.summary.run.threads = max_threads();
+  out.summary.run.peak_memory_bytes = peak_memory();
+  return out;
+}
+
+RunResult roll(const RollingSystem& system, const RunObserver& observer, const RunControl& control,
+               std::optional<RunState> begun) {
+  try {
+    return begun ? resume_rolling(system, observer, *std::move(begun)) : run_rolling(system, observer);
+  } catch (const Interrupted&) {
+    if (!control.limit_reached()) throw;
+    throw EnvironmentError(
+        "the static preload alone takes longer than --max-time allows: there is nothing to resume yet; give the run "
+        "more time");
+  }
+}
+
+}  // namespace
+
+RollingSystem fem_system(const CaseSpec& spec, const std::filesystem::path& folder) {
+  const Model model = build_model(spec, folder);
+  require_memory(model);
+  return RollingSystem(model);
+}
+
+FemSolution solve_fem(const RollingSystem& system, const FemObserver& observer, const FemOptions& options,
+                      std::optional<RunState> begun) {
+  RunControl control(options.times, options.wishes);
+  StateKeeper states(control, observer, options);
+  RunObserver run_observer;
+  run_observer.stop = &control.preload_stop();
+  run_observer.preload = [&](double residual, double wanted, int iterations) {
+    control.watch_preload();
+    if (observer.preload) observer.preload(residual, wanted, iterations);
+  };
+  run_observer.history = observer.history;
+  run_observer.progress = observer.rolling;
+  run_observer.frame = observer.frame;
+  states.observe(run_observer);
+
+  RunResult run = roll(system, run_observer, control, std::move(begun));
+  FemSolution out;
+  out.stopped = run.stopped;
+  out.limit_reached = control.limit_reached();
+  out.state = std::move(states.stopped_at);
+  for (const PositionSamples& samples : run.positions) {
+    if (samples.samples.empty()) break;
+    out.positions.push_back(position_of(system, run, samples));
+  }
+  out.history = std::move(run.history);
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,58 @@
+#pragma once
+// The finite element solution of a case as values: from a system that is ready for computing to patch, stresses and
+// summary. Nothing is written, printed or installed here; files are made by an observer (runs/write_fem_result.hpp).
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "post/stress_maxima.hpp"
+#include "post/summary.hpp"
+#include "runs/run_control.hpp"
+
+namespace railstrata {
+
+/// What can be followed while a case is solved. Any may be empty.
+struct FemObserver {
+  std::function<void(double residual, double wanted, int iterations)> preload;  ///< after each Newton step
+  std::function<void(double fraction, const HistoryRow&)> rolling;              ///< how far it is, 0..1
+  std::function<void(const HistoryRow&)> history;                               ///< a row every run.history_interval
+  std::function<void(const RollingSample&)> frame;  ///< evenly spaced, output.series_frames of them
+  /// The state to go on from: on demand, when the run stops (`stopping`), and the last good one before a
+  /// NumericalError. May throw: that ends the run.
+  std::function<void(const RunState&, bool stopping)> checkpoint;
+};
+
+struct FemOptions {
+  RunTimes times;
+  RunWishes wishes;
+};
+
+/// The contact at one wanted position of the wheel.
+struct FemPosition {
+  MeanContact contact;     ///< patch: pressure, traction, slip; mean of the samples around the position
+  BandStress rail, wheel;  ///< stresses of the bodies below the patch; they refer to the system's meshes
+  Summary summary;
+};
+
+struct FemSolution {
+  std::vector<FemPosition> positions;  ///< in their order; of a stopped run those that were finished
+  std::vector<HistoryRow> history;
+  bool stopped = false;           ///< before the last position
+  bool limit_reached = false;     ///< that was for RunTimes::limit
+  std::optional<RunState> state;  ///< of a stopped run: what solve_fem goes on from
+};
+
+/// Meshes the case and makes both bodies ready for computing. Relative profile names are looked for in `folder`. Throws
+/// as build_model, and EnvironmentError if the run does not fit into the memory at hand.
+RollingSystem fem_system(const CaseSpec& spec, const std::filesystem::path& folder);
+
+/// Preload, rolling (if the case rolls), means and stresses at every wanted position. `begun`: the state that an
+/// earlier run of the same system has left; the results then have the bits of a run in one go. summary.run.threads is
+/// the number of threads of the calling thread (core/parallel.hpp), commit that of the program.
+/// Throws NumericalError and CaseError as run_rolling does, Interrupted when it is stopped during the preload,
+/// EnvironmentError when the preload takes longer than the limit.
+FemSolution solve_fem(const RollingSystem& system, const FemObserver& observer = {}, const FemOptions& options = {},
+                      std::optional<RunState> begun = {});
+
+}  // namespace railstrata

@@ -1,0 +1,130 @@
+#include "runs/write_fem_result.hpp"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "core/faults.hpp"
+#include "io/geometry_json.hpp"
+#include "io/output_file.hpp"
+#include "io/output_folder.hpp"
+#include "io/placed_surfaces.hpp"
+#include "io/result_files.hpp"
+#include "io/summary_json.hpp"
+#include "post/stress_sections.hpp"
+#include "report/view.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+// patch.pvd and its frames.
+class PatchSeries {
+ public:
+  /// times: of the frames that an interrupted run has left.
+  PatchSeries(const RollingSystem& system, const fs::path& out, const std::vector<double>& times)
+      : system_(system), folder_(out / kSeriesFolder), series_(out / "patch.pvd") {
+    make_folder(folder_, Above::there);
+    for (double time : times) series_.add(time, next_file());
+  }
+  void add(const RollingSample& sample) {
+    const fs::path file = next_file();
+    write_vtp(file, patch_mesh(contact_field(system_, sample), sample.position));
+    series_.add(sample.time, file);
+  }
+
+ private:
+  fs::path next_file() { return folder_ / fmt::format("patch_{:04d}.vtp", frames_++); }
+  const RollingSystem& system_;
+  fs::path folder_;
+  PvdSeries series_;
+  int frames_ = 0;
+};
+
+/// Of a position before the last.
+fs::path position_folder(double position) { return fmt::format("{}{:.10g}mm", kPositionFolder, 1e3 * position); }
+
+void write_position(const Model& model, const FemPosition& position, const fs::path& folder,
+                    const std::vector<std::string>& provenance) {
+  const auto& [contact, rail, wheel, summary] = position;
+  write_patch_tables(folder, provenance, contact.field);
+  const StressMaximum& deepest = summary.rail.subsurface->von_mises;
+  write_depth_line(folder / "depth_line.csv", provenance, depth_line(rail, deepest.x, deepest.y));
+  const double centre_y = centre_line(contact.field).y;
+  write_sections(folder, "rail", provenance, band_sections(rail, deepest.x, centre_y));
+  write_sections(folder, "wheel", provenance, band_sections(wheel, summary.wheel.subsurface->von_mises.x, centre_y));
+  write_geometry(folder / "geometry.json", model.spec, model.placement);
+  write_placed_surfaces(folder, model.placement, contact.position);
+  write_view_script(folder);
+  write_vtp(folder / "patch.vtp", patch_mesh(contact.field, contact.position));
+  if (model.spec.output.volume) {
+    write_vtu(folder / "rail.vtu", band_mesh(rail, contact.position));
+    write_vtu(folder / "wheel.vtu", band_mesh(wheel, contact.position));
+  }
+  write_summary(folder / "summary.json", summary);
+}
+
+}  // namespace
+
+// Made when there is something to put in: a run stopped before the rolling leaves none.
+struct FemWriter::GrowingFiles {
+  std::optional<HistoryLog> history;
+  std::optional<PatchSeries> series;
+
+  HistoryLog& history_in(const fs::path& folder, const std::vector<std::string>& provenance) {
+    if (!history) history.emplace(folder / "history.csv", provenance);
+    return *history;
+  }
+  PatchSeries& series_in(const fs::path& folder, const RollingSystem& system, const std::vector<double>& times = {}) {
+    if (!series) series.emplace(system, folder, times);
+    return *series;
+  }
+};
+
+FemWriter::FemWriter(const RollingSystem& system, fs::path folder, CheckpointOrigin origin, const RunState* begun)
+    : system_(system),
+      folder_(std::move(folder)),
+      origin_(std::move(origin)),
+      growing_(std::make_unique<GrowingFiles>()) {
+  if (!begun) return;
+  HistoryLog& history = growing_->history_in(folder_, origin_.provenance);
+  for (const HistoryRow& row : begun->result.history) history.add(row);
+  const CaseSpec& spec = system_.model.spec;
+  if (spec.run.rolling && spec.output.patch_series) growing_->series_in(folder_, system_, begun->frame_times);
+}
+
+FemWriter::~FemWriter() = default;
+
+void FemWriter::observe(FemObserver& observer, std::function<void(const RunState&)> saved,
+                        std::function<void(const std::string&)> warn) {
+  observer.history = [this](const HistoryRow& row) { growing_->history_in(folder_, origin_.provenance).add(row); };
+  const CaseSpec& spec = system_.model.spec;
+  if (spec.run.rolling && spec.output.patch_series)
+    observer.frame = [this](const RollingSample& sample) { growing_->series_in(folder_, system_).add(sample); };
+  observer.checkpoint = [this, saved = std::move(saved), warn = std::move(warn)](const RunState& state, bool stopping) {
+    try {
+      write_checkpoint(folder_, origin_, state);
+    } catch (const EnvironmentError& e) {
+      if (stopping) throw;
+      if (warn) warn(fmt::format("no checkpoint: {}; the run goes on", e.what()));
+      return;
+    }
+    if (saved) saved(state);
+  };
+}
+
+void FemWriter::write(const FemSolution& solution) {
+  growing_->history_in(folder_, origin_.provenance);
+  for (const FemPosition& position : solution.positions) {
+    const bool last = !solution.stopped && &position == &solution.positions.back();
+    const fs::path folder = last ? folder_ : folder_ / position_folder(position.contact.position);
+    if (!last) make_folder(folder, Above::there);
+    write_position(system_.model, position, folder, origin_.provenance);
+  }
+  if (!solution.stopped) remove_checkpoints(folder_);
+}
+
+}  // namespace railstrata

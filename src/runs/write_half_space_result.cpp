@@ -1,0 +1,32 @@
+#include "runs/write_half_space_result.hpp"
+
+#include "io/geometry_json.hpp"
+#include "io/placed_surfaces.hpp"
+#include "io/result_files.hpp"
+#include "io/summary_json.hpp"
+#include "post/bem_summary.hpp"
+#include "post/stress_sections.hpp"
+#include "report/view.hpp"
+
+namespace railstrata {
+
+void write_half_space_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                             const CaseSpec& spec, const Placement& placement, const HalfSpaceSolution& solution) {
+  const auto& [result, summary] = solution;
+  write_geometry(folder / "geometry.json", spec, placement);
+  write_placed_surfaces(folder, placement, summary.position);
+  write_view_script(folder);
+  write_patch_tables(folder, provenance, result.field);
+  const StressMaximum& deepest = summary.rail.subsurface->von_mises;
+  const double rail_depth = depth_of_interest(result.rail, summary.contact);
+  const double wheel_depth = depth_of_interest(result.wheel, summary.contact);
+  write_depth_line(folder / "depth_line.csv", provenance, rail_depth_line(result, deepest.x, deepest.y, rail_depth));
+  const double centre_y = centre_line(result.field).y;
+  write_sections(folder, "rail", provenance, rail_sections(result, deepest.x, centre_y, rail_depth));
+  write_sections(folder, "wheel", provenance,
+                 wheel_sections(result, summary.wheel.subsurface->von_mises.x, centre_y, wheel_depth));
+  write_vtp(folder / "patch.vtp", patch_mesh(result.field, summary.position));
+  write_summary(folder / "summary.json", summary);
+}
+
+}  // namespace railstrata

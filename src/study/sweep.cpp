@@ -1,0 +1,105 @@
+#include "study/sweep.hpp"
+
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <utility>
+
+#include "bem/solve_bem.hpp"
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+#include "io/csv.hpp"
+#include "io/summary_json.hpp"
+#include "post/bem_summary.hpp"
+#include "runs/solve_half_space.hpp"
+
+namespace railstrata {
+namespace {
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+std::string fault_of(const CaseError& e) {
+  return e.diagnostics.empty() ? first_line(e.what()) : first_line(e.diagnostics.front().message);
+}
+
+void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
+  if (!c.loaded) return;
+  try {
+    const CaseSpec spec = half_space_case(c.loaded->spec);
+    const BemResult result = solve_bem(spec, place(spec, c.loaded->folder()), bem);
+    Summary summary = bem_contact_summary(spec, result);
+    if (stresses) summary.rail = bem_rail_stress(result, summary.contact);
+    c.summary = summary_json(summary);
+    c.fault = failed_check(c.summary);
+  } catch (const CaseError& e) {
+    c.fault = fault_of(e);
+  } catch (const std::exception& e) {
+    c.fault = first_line(e.what());
+  }
+}
+
+}  // namespace
+
+std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
+                                  const std::vector<VariedKey>& keys) {
+  std::vector<SweepCase> cases;
+  std::optional<CaseError> first_error;
+  bool any = false;
+  for (std::vector<std::string>& values : combinations(keys)) {
+    std::vector<std::string> all = overrides;
+    for (std::size_t k = 0; k < keys.size(); ++k) all.push_back(keys[k].key + "=" + values[k]);
+    cases.push_back({std::move(values), {}, nullptr, {}, false});
+    try {
+      cases.back().loaded = parse_case(base.source_text, base.file, all);
+      any = true;
+    } catch (const CaseError& e) {
+      cases.back().fault = fault_of(e);
+      if (!first_error) first_error = e;
+    }
+  }
+  if (!any) throw CaseError(*first_error);
+  return cases;
+}
+
+void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options) {
+  std::mutex ending;
+  std::exception_ptr failure;
+  for_each(
+      static_cast<std::ptrdiff_t>(cases.size()),
+      [&](std::ptrdiff_t i) {
+        SweepCase& c = cases[static_cast<std::size_t>(i)];
+        if (options.stop && *options.stop) return;
+        solve(c, options.bem, options.stresses);
+        const std::lock_guard lock(ending);
+        c.done = true;
+        try {
+          if (options.ended) options.ended();
+        } catch (...) {
+          failure = std::current_exception();
+        }
+      },
+      true);
+  if (failure) std::rethrow_exception(failure);
+}
+
+SweepTable::SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                       const std::vector<VariedKey>& keys, std::vector<ResultColumn> columns)
+    : file_(file), columns_(std::move(columns)) {
+  std::string head = csv_remarks(origin);
+  for (const VariedKey& k : keys) head += k.key + ',';
+  for (const ResultColumn& c : columns_) head += std::string(c.name) + ',';
+  file_.write(head + "fault\n");
+}
+
+void SweepTable::add_done(const std::vector<SweepCase>& cases) {
+  while (written_ < cases.size() && cases[written_].done) file_.write(row(cases[written_++]));
+}
+
+std::string SweepTable::row(const SweepCase& c) const {
+  std::string out;
+  for (const std::string& v : c.values) out += csv_cell(v) + ',';
+  for (const ResultColumn& column : columns_) out += csv_cell(column_value(column, c.summary)) + ',';
+  return out + csv_cell(c.fault) + '\n';
+}
+
+}  // namespace railstrata

@@ -1,0 +1,60 @@
+#pragma once
+// Half-space solutions over every combination of values of a case's keys.
+#include <atomic>
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bem/bem_options.hpp"
+#include "case/case_file.hpp"
+#include "io/output_file.hpp"
+#include "study/result_columns.hpp"
+#include "study/variation.hpp"
+
+namespace railstrata {
+
+struct SweepCase {
+  std::vector<std::string> values;   ///< one per varied key
+  std::optional<LoadedCase> loaded;  ///< none: the case refuses the values
+  nlohmann::ordered_json summary;    ///< null: there is none
+  std::string fault;                 ///< empty: the result is there and its checks hold
+  bool done = false;
+};
+
+/// The cases of all combinations, in their order. One whose values are refused carries the fault; if all are, the first
+/// one's CaseError is thrown: a key that does not exist, most likely.
+std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
+                                  const std::vector<VariedKey>& keys);
+
+struct SweepOptions {
+  BemOptions bem;
+  bool stresses = false;                    ///< the rail's largest stresses too
+  const std::atomic<bool>* stop = nullptr;  ///< true: cases that have not begun are left out
+  std::function<void()> ended;              ///< after every case, from any thread, one at a time
+};
+
+/// Solves the cases side by side, one thread each: their grids are too small to share one. What goes wrong with a case
+/// is its fault; what `ended` throws, the last one of it, is thrown at the end.
+void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options);
+
+/// sweep.csv, which grows in the order of the cases, whatever the order in which they end.
+class SweepTable {
+ public:
+  SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin,
+             const std::vector<VariedKey>& keys, std::vector<ResultColumn> columns);
+  /// Writes the rows that are done and not yet written.
+  void add_done(const std::vector<SweepCase>& cases);
+
+ private:
+  std::string row(const SweepCase& c) const;
+  OutputFile file_;
+  std::vector<ResultColumn> columns_;
+  std::size_t written_ = 0;
+};
+
+}  // namespace railstrata

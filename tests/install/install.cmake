@@ -1,0 +1,24 @@
+# `cmake --install` into the build folder, once; then what is there, moved elsewhere and used by other programs.
+if(RAILSTRATA_LIBRARY)
+  set(here ${CMAKE_SOURCE_DIR}/tests/install)
+  set(installed ${CMAKE_CURRENT_BINARY_DIR}/installed)
+  set(install_test /usr/bin/python3 ${here}/install_test.py ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR} ${installed}
+    ${CMAKE_COMMAND} ${CMAKE_CXX_COMPILER})
+  add_test(NAME install:install COMMAND ${install_test} Install)
+  set_tests_properties(install:install PROPERTIES FIXTURES_SETUP installed)
+  foreach(group Tree Symbols Headers CMakeConsumer PkgConfigConsumer Moved)
+    add_test(NAME install:${group} COMMAND ${install_test} ${group})
+    set_tests_properties(install:${group} PROPERTIES FIXTURES_REQUIRED installed)
+  endforeach()
+  if(RAILSTRATA_VARIANTS)
+    add_test(NAME install:Variants COMMAND ${install_test} Variants)
+    add_test(NAME install:compare_variants COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tools/compare_variants.py
+      ${installed}/prefix --native $<TARGET_FILE:railstrata> --rounds 1 --set run.preload_tolerance=1e-10)
+    set_tests_properties(install:Variants install:compare_variants PROPERTIES FIXTURES_REQUIRED installed)
+    set_tests_properties(install:compare_variants PROPERTIES LABELS long TIMEOUT 86400)
+  endif()
+endif()
+add_test(NAME versions COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/install/versions_test.py
+  $<TARGET_FILE:railstrata> ${CMAKE_SOURCE_DIR})
+add_test(NAME front_door COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/install/front_door_test.py
+  ${CMAKE_SOURCE_DIR})

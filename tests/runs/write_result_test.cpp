@@ -1,0 +1,118 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/faults.hpp"
+#include "io/csv.hpp"
+#include "io/result_folder.hpp"
+#include "runs/write_fem_result.hpp"
+#include "runs/write_half_space_result.hpp"
+#include "tests/runs/small_run.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+class WriteResult : public testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "railstrata-XXXXXX").string();
+    ASSERT_NE(mkdtemp(name.data()), nullptr);
+    folder = name;
+  }
+  void TearDown() override { fs::remove_all(folder); }
+  static Names names_in(const fs::path& where) {
+    Names names;
+    for (const auto& entry : fs::directory_iterator(where)) names.insert(entry.path().filename().string());
+    return names;
+  }
+  fs::path folder;
+};
+
+const Names kPosition{"centre_line.csv",
+                      "depth_line.csv",
+                      "geometry.json",
+                      "patch.csv",
+                      "patch.vtp",
+                      "rail_cross_section.csv",
+                      "rail_longitudinal_section.csv",
+                      "rail_surface.vtp",
+                      "summary.json",
+                      "view.py",
+                      "wheel_cross_section.csv",
+                      "wheel_longitudinal_section.csv",
+                      "wheel_surface.vtp"};
+
+Names with(Names names, const Names& more) {
+  names.insert(more.begin(), more.end());
+  return names;
+}
+
+}  // namespace
+
+TEST_F(WriteResult, AWriterThatObservesARunLeavesItsFilesAndNoCheckpoint) {
+  const RollingSystem system = fem_system(run_checks::small_case().spec, ".");
+  FemWriter writer(system, folder, {"sha", "program", {"a case"}});
+  FemObserver observer;
+  int saved = 0;
+  writer.observe(observer, [&](const RunState&) {
+    ++saved;
+    EXPECT_TRUE(fs::exists(checkpoint_file(folder)));
+  });
+  std::atomic<bool> save{true};
+  FemOptions options;
+  options.wishes.save = &save;
+  const FemSolution solution = solve_fem(system, observer, options);
+  EXPECT_EQ(saved, 1);
+  EXPECT_EQ(read_csv(folder / "history.csv").rows(), solution.history.size());  // before the results are written
+  writer.write(solution);
+  EXPECT_EQ(names_in(folder),
+            with(kPosition, {"history.csv", "patch.pvd", "patch_series", "position_5mm", "rail.vtu", "wheel.vtu"}));
+  EXPECT_EQ(names_in(folder / "position_5mm"), with(kPosition, {"rail.vtu", "wheel.vtu"}));
+  EXPECT_EQ(names_in(folder / "patch_series"), (Names{"patch_0000.vtp", "patch_0001.vtp", "patch_0002.vtp"}));
+  EXPECT_EQ(read_result_folder(folder).number("/contact/p_max_Pa"), solution.positions[1].summary.contact.p_max);
+  EXPECT_EQ(read_result_folder(folder / "position_5mm").number("/contact/p_max_Pa"),
+            solution.positions[0].summary.contact.p_max);
+}
+
+TEST_F(WriteResult, ACheckpointThatCannotBeWrittenIsAWarningUnlessTheRunStops) {
+  const RollingSystem system = fem_system(run_checks::small_case({"output.patch_series=false"}).spec, ".");
+  const fs::path gone = folder / "gone";
+  FemWriter writer(system, gone, {"sha", "program", {}});
+  FemObserver observer;
+  std::vector<std::string> warnings;
+  writer.observe(observer, {}, [&](const std::string& text) { warnings.push_back(text); });
+  observer.history = {};
+  std::atomic<bool> save{true};
+  FemOptions options;
+  options.wishes.save = &save;
+  EXPECT_FALSE(solve_fem(system, observer, options).stopped);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("the run goes on"), std::string::npos) << warnings[0];
+
+  std::atomic<bool> stop{false};
+  options.wishes = {&stop, nullptr};
+  observer.rolling = [&](double, const HistoryRow&) { stop = true; };
+  EXPECT_THROW(solve_fem(system, observer, options), EnvironmentError);
+}
+
+TEST_F(WriteResult, AHalfSpaceSolutionHasTheFilesOfAPosition) {
+  const LoadedCase loaded = run_checks::small_case();
+  const Placement placement = place(loaded.spec, ".");
+  BemOptions options;
+  options.cell = 0.5e-3;
+  const HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, options);
+  write_half_space_result(folder, {"a case"}, loaded.spec, placement, solution);
+  EXPECT_EQ(names_in(folder), kPosition);
+  EXPECT_EQ(read_result_folder(folder).number("/contact/p_max_Pa"), solution.summary.contact.p_max);
+}
+
+}  // namespace railstrata
