@@ -7,6 +7,18 @@
 #include <sstream>
 
 namespace railstrata {
+namespace {
+
+/// What is known of a key or of the nearest table above it.
+template <class Value>
+const Value* nearest(const std::map<std::string, Value>& known, std::string key) {
+  for (;; key.resize(key.rfind('.'))) {
+    if (const auto found = known.find(key); found != known.end()) return &found->second;
+    if (key.find('.') == std::string::npos) return nullptr;
+  }
+}
+
+}  // namespace
 
 CaseSource::CaseSource(std::filesystem::path file, std::string text) : file_(std::move(file)), text_(std::move(text)) {
   std::istringstream stream(text_);
@@ -41,15 +53,13 @@ bool CaseSource::sound(std::initializer_list<std::string_view> keys) const {
 
 void CaseSource::complain(const std::string& key, const std::string& message, const std::string& remedy) {
   unsound_.push_back(key);
-  for (std::string at = key;; at.resize(at.rfind('.'))) {
-    if (const auto origin = origins_.find(at); origin != origins_.end()) {
-      found_.push_back({{std::numeric_limits<int>::max(), 0}, {origin->second, message, remedy}});
-      return;
-    }
-    if (const auto place = places_.find(at); place != places_.end()) return complain_at(place->second, message, remedy);
-    if (at.find('.') == std::string::npos) break;
-  }
-  found_.push_back({{}, {file_.string(), message, remedy}});
+  // an override replaces all that the text has below its key
+  if (const std::string* origin = nearest(origins_, key))
+    found_.push_back({{std::numeric_limits<int>::max(), 0}, {*origin, message, remedy}});
+  else if (const TextPlace* place = nearest(places_, key))
+    complain_at(*place, message, remedy);
+  else
+    found_.push_back({{}, {file_.string(), message, remedy}});
 }
 
 void CaseSource::finish() const {

@@ -227,7 +227,8 @@ void StaticPreconditioner::apply(const StaticVector& r, StaticVector& z) const {
     Eigen::VectorXd gap(static_cast<int>(gaps_.size()));
     for (int k = 0; k < gap.size(); ++k) {
       gap[k] = 0;
-      for (const Entry& e : gaps_[k].entry) gap[k] += e.value * z.body[e.body][e.index];
+      // fused by name: a compiler may add the products in packs, and the iterations would take another path
+      for (const Entry& e : gaps_[k].entry) gap[k] = std::fma(e.value, z.body[e.body][e.index], gap[k]);
     }
     const Eigen::VectorXd force = gap_factor_.solve(gap);
     for (int k = 0; k < gap.size(); ++k)

@@ -29,10 +29,12 @@ bool turns_back(Vec2 a, Vec2 b, Vec2 c) {
   return dot(before, after) < kSharpestTurn * norm(before) * norm(after);
 }
 
-/// Whether the curve goes on smoothly there without the point.
-bool is_outlier(const std::vector<Vec2>& p, std::size_t i) {
-  return (i < 2 || !turns_back(p[i - 2], p[i - 1], p[i + 1])) &&
-         (i + 2 >= p.size() || !turns_back(p[i - 1], p[i + 1], p[i + 2]));
+/// Whether the curve turns back nowhere without this point.
+bool is_outlier(std::vector<Vec2> p, std::size_t i) {
+  p.erase(p.begin() + static_cast<std::ptrdiff_t>(i));
+  for (std::size_t k = 2; k < p.size(); ++k)
+    if (turns_back(p[k - 2], p[k - 1], p[k])) return false;
+  return true;
 }
 
 std::optional<PointDefect> bad_neighbours(const std::vector<Vec2>& p) {

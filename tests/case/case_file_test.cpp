@@ -473,6 +473,8 @@ TEST(Overrides, GiveAllLayersAsAList) {
   EXPECT_TRUE(
       error.starts_with("--set layer=[{thickness = \"1 m\", young_ratio = 2}]: layer.0.thickness = \"1 m\": must be"))
       << error;
+  EXPECT_TRUE(error_of("[run]\nwindow = \"1 mm\"\n", {"run.positions=[\"0.2 m\", \"99 m\"]"})
+                  .starts_with("--set run.positions=[\"0.2 m\", \"99 m\"]: run.positions.1 = \"99 m\": must be"));
   EXPECT_TRUE(error_of("", {"layer=3"}).starts_with("--set layer=3: layer must be a list of tables\n"));
 }
 
