@@ -88,7 +88,7 @@ void require_kinds(const nlohmann::json& summary, const fs::path& file) {
     if (summary.contains(table)) require_numbers(summary[table], table, file);
   const std::string engine = text_at(summary, "/run/engine");
   if (!engine.empty() && !engine_of(engine))
-    refuse(file, fmt::format("run.engine = \"{}\": no engine of this program, they are {}", engine,
+    refuse(file, fmt::format("the engine is \"{}\": no engine of this program, they are {}", engine,
                              fmt::join(engine_words(), " and ")));
 }
 

@@ -114,7 +114,7 @@ inline constexpr std::array kCheckRows{
              .bem_limit = kCommonRailYield,
              .advice = "a real rail would yield there, and shake down or wear"},
     CheckRow{.key = "case_edited",
-             .name = "Case as it was run",
+             .name = "Case unchanged since the run",
              .what = "case.toml against the one of the run",
              .kind = CheckKind::note,
              .unit = result_unit::kNone},

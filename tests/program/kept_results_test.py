@@ -138,7 +138,7 @@ class Edited(FromOutside):
         self.edit("case.toml", 'speed = "', 'speed = "1')
         err = self.told("report", self.out)
         self.assertIn(f"warning: {self.out}: case.toml was changed after the run", err)
-        self.assertRegex(err, r"warning: verdict of the page: 1 of \d+ checks fails: case_edited\n")
+        self.assertRegex(err, r"warning: verdict of the page: 1 of \d+ checks fails: Case unchanged since the run\n")
         self.assertFalse(self.checks()["case_edited"]["ok"])
         self.assertIn("case.toml was changed after the run",
                       self.told("compare", self.out, self.out, "--out", self.folder / "c"))
@@ -152,7 +152,7 @@ class Edited(FromOutside):
 
     def test_an_unknown_engine_is_refused(self):
         self.edit("summary.json", '"engine": "bem"', '"engine": "abc"')
-        self.refused(2, ["report", self.out], f'{self.out}/summary.json: error: run.engine = "abc": no engine of this '
+        self.refused(2, ["report", self.out], f'{self.out}/summary.json: error: the engine is "abc": no engine of this '
                                               f'program, they are fem and bem\n    remedy: ')
 
     def test_a_text_where_a_number_belongs_is_refused(self):
