@@ -221,7 +221,7 @@ Aggregates::Neighbours Aggregates::neighbours() const {
   };
   Neighbours result;
   result.of.resize(clusters());
-  std::vector<char> held(clusters(), 0);
+  std::vector<char> prescribed(clusters(), 0);
   std::vector<int> touched, more;
   for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b) {
     const Block& block = mesh.blocks[b];
@@ -232,10 +232,10 @@ Aggregates::Neighbours Aggregates::neighbours() const {
           for (int n : quad) carriers(b, n, j, touched);
         std::sort(touched.begin(), touched.end());
         touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-        const bool at_held = touched.front() == kHeld;
+        const bool at_prescribed = touched.front() == kHeld;
         for (int a : touched) {
           if (a == kHeld) continue;
-          held[a] |= at_held;
+          prescribed[a] |= at_prescribed;
           for (int other : touched)
             if (other != kHeld) {
               auto& list = result.of[a];
@@ -246,7 +246,7 @@ Aggregates::Neighbours Aggregates::neighbours() const {
       }
   }
   for (int a = 0; a < clusters(); ++a)
-    if (held[a]) result.held.push_back(a);
+    if (prescribed[a]) result.prescribed.push_back(a);
   return result;
 }
 

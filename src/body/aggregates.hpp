@@ -31,10 +31,10 @@ class Aggregates {
   Eigen::Matrix<double, 6, 1> modes_at(int block, int node, int station, int component) const;
 
   /// Clusters that share an element, directly or through hanging nodes; [cluster] -> sorted list with the cluster
-  /// itself. `held` are clusters next to held nodes.
+  /// itself. `prescribed` are clusters next to prescribed nodes.
   struct Neighbours {
     std::vector<std::vector<int>> of;
-    std::vector<int> held;
+    std::vector<int> prescribed;
   };
   Neighbours neighbours() const;
 

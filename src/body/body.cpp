@@ -34,7 +34,7 @@ void add_element_masses(const Body& body, int b, Field& mass) {
 void find_free_nodes(Body& body) {
   std::vector<std::vector<bool>> prescribed;
   for (const BlockLayout& b : body.layout.blocks) prescribed.emplace_back(b.nodes, false);
-  for (const SectionNode& n : body.mesh.held) prescribed[n.block][n.node] = true;
+  for (const SectionNode& n : body.mesh.prescribed) prescribed[n.block][n.node] = true;
   body.inverse_mass = body.layout.field();
   for (int b = 0; b < static_cast<int>(body.layout.blocks.size()); ++b)
     for (int n = 0; n < body.layout.blocks[b].nodes; ++n)

@@ -26,8 +26,8 @@ class MassScaling {
   /// No added mass.
   MassScaling() = default;
   /// wanted_step D [s]: rows that a pressure wave crosses in less than D / kSlack get added mass; chains follow the
-  /// section's edges. Nodes that are held or carried by others (slaves) have none: their masters' edges make up for the
-  /// mass they carry.
+  /// section's edges. Nodes that are prescribed or carried by others (slaves) have none: their masters' edges make up
+  /// for the mass they carry.
   MassScaling(const Body& body, double wanted_step);
 
   bool empty() const { return chains_.empty(); }

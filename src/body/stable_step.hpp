@@ -10,7 +10,7 @@ namespace railstrata {
 /// %.
 double lanczos_stable_step(const Body& body, const MassScaling& scaling = {}, int iterations = 60);
 
-/// The same for the nodes that local steps leave coarse, their fine nodes held: the longest step these can hope for.
+/// The same for the nodes that local steps leave coarse, their fine nodes fixed: the longest step these can hope for.
 double lanczos_coarse_step(const Body& body, const LocalSteps& local, int iterations = 60);
 
 /// Ends of the spectrum of D^2 B K (body/local_steps.hpp): stable if it lies above zero and below four.

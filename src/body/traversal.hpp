@@ -34,6 +34,13 @@ struct FuseUpdate {
   Lines expect;
 };
 
+namespace traversal {
+template <class Real>
+struct TileWork;
+template <class Real>
+struct QuadRows;
+}  // namespace traversal
+
 /// Workspace of the evaluations on one body; one for each thread of control. Element: element/swept_hex.hpp.
 template <class Element>
 class TraversalOf {
@@ -73,6 +80,9 @@ class TraversalOf {
   template <class Real, Evaluation how, SweepKind kind, class Policy>
   void run_tile(int tile, bool follows, const Field& u, Field& f, const Field& history, Field* advanced,
                 const Policy& policy);
+  template <SweepKind kind, class Real, class Policy>
+  void complete_nodes(int tile, bool follows, const traversal::TileWork<Real>& work, int quad,
+                      const traversal::QuadRows<Real>& rows, Field& f, const Policy& policy);
   StrainEnergy tile_energy(const Tile& tile, const Field& u, const Field& history) const;
 
   const Body* body_;

@@ -74,6 +74,47 @@ struct QuadRows {
   int history_stride;
 };
 
+// A tile and what it works with.
+template <class Real>
+struct TileWork {
+  const Tile& tile;
+  const SweepPlan& plan;
+  const BlockLayout& layout;
+  const std::vector<std::array<int, 4>>& quads;
+  CarriedRows frame;
+  int count;  // elements along the sweep
+  ScratchRows<Real>& scratch;
+};
+
+// Names the memory that a quadrilateral will touch, so that it can be asked for while the one before is evaluated.
+template <class Real, class Policy>
+inline void look_ahead(const TileWork<Real>& work, int q, const Field& u, const Policy& policy, Prefetch& ahead) {
+  for (int c = 0; c < 4; ++c) {
+    const int node = work.quads[q][c];
+    if (work.plan.first[q][c])
+      for (int i = 0; i < 3; ++i) ahead.add(u.data() + work.layout.line(node, i) + work.tile.first);
+    if constexpr (std::is_same_v<Policy, FuseUpdate>)
+      if (work.plan.last[q][c]) policy.expect(work.tile, node, ahead);
+  }
+}
+
+// The rows of the corners; displacements of those that are touched for the first time.
+template <SweepKind kind, class Real>
+inline QuadRows<Real> gather_quad(const TileWork<Real>& work, int q, const Field& u) {
+  using Rows = ScratchRows<Real>;
+  QuadRows<Real> rows{};
+  for (int c = 0; c < 4; ++c) {
+    const int node = work.quads[q][c];
+    rows.node[c] = &work.scratch.rows[static_cast<std::size_t>(work.plan.slot[node]) * Rows::kNode];
+    rows.forces[c] = work.plan.first[q][c] ? work.scratch.zero : rows.node[c] + Rows::kForces * kTile;
+    if (!work.plan.first[q][c]) continue;
+    const double* line[3];
+    for (int i = 0; i < 3; ++i) line[i] = u.data() + work.layout.line(node, i) + work.tile.first;
+    gather_displacements<kind>(line, work.frame, work.count, rows.node[c]);
+  }
+  return rows;
+}
+
 // All packs of one quadrilateral in a tile.
 template <class Element, Evaluation how, SweepKind kind, class Real, class P, int most>
 inline void evaluate_quad(const BlockElements& elements, int quad, const StationScale<P> (&scale)[most], int packs,
@@ -146,75 +187,68 @@ template <class Real, Evaluation how, SweepKind kind, class Policy>
 void TraversalOf<Element>::run_tile(int t, bool follows, const Field& u, Field& f, const Field& history,
                                     Field* advanced, const Policy& policy) {
   using P = PackOf<Real>;
-  using Rows = ScratchRows<Real>;
   constexpr int lanes = kLanesOf<Real>;
-  constexpr bool fused = std::is_same_v<Policy, FuseUpdate>;
-  const Tiling& tiling = body_->tiling;
-  const Tile& tile = tiling.tiles[t];
-  const SweepPlan& plan = tiling.plans[tile.block];
+  const Tile& tile = body_->tiling.tiles[t];
+  const SweepPlan& plan = body_->tiling.plans[tile.block];
   const BlockElements& elements = body_->elements[tile.block];
-  const BlockLayout& lay = body_->layout.blocks[tile.block];
-  const auto& quads = body_->mesh.blocks[tile.block].section.quads;
-  const int count = tile.end - tile.first, packs = (count + lanes - 1) / lanes;
-  const CarriedRows frame{frames_[tile.block].cosine.data() + tile.first, frames_[tile.block].sine.data() + tile.first};
+  const CarriedFrame& frame = frames_[tile.block];
+  const traversal::TileWork<Real> work{tile,
+                                       plan,
+                                       body_->layout.blocks[tile.block],
+                                       body_->mesh.blocks[tile.block].section.quads,
+                                       {frame.cosine.data() + tile.first, frame.sine.data() + tile.first},
+                                       tile.end - tile.first,
+                                       traversal::thread_scratch<Real>()};
+  work.scratch.fit(plan.slots);
+  const int packs = (work.count + lanes - 1) / lanes;
   const Rotation<Real> turn{static_cast<Real>(turn_.c), static_cast<Real>(turn_.s)};
-  Rows& scratch = traversal::thread_scratch<Real>();
-  scratch.fit(plan.slots);
-  alignas(64) double complete[3 * kTile];
-
   StationScale<P> scale[kTile / lanes];
   for (int n = 0; n < packs; ++n)
     scale[n] = elements.of<Real>().template scale<P>(tile.first + n * lanes, [](const Real* x) { return load(x); });
 
-  // While a quadrilateral is evaluated, what the next one will touch is asked for.
   Prefetch ahead;
-  const auto look_ahead = [&](int q) {
-    for (int c = 0; c < 4; ++c) {
-      if (plan.first[q][c])
-        for (int i = 0; i < 3; ++i) ahead.add(u.data() + lay.line(quads[q][c], i) + tile.first);
-      if constexpr (fused)
-        if (plan.last[q][c]) policy.expect(tile, quads[q][c], ahead);
-    }
-  };
-  look_ahead(plan.order.front());
-  ahead.ask(0, count + 1);
-  for (std::size_t p = 0; p < quads.size(); ++p) {
+  traversal::look_ahead(work, plan.order.front(), u, policy, ahead);
+  ahead.ask(0, work.count + 1);
+  for (std::size_t p = 0; p < plan.order.size(); ++p) {
     const int q = plan.order[p];
     ahead.clear();
-    if (p + 1 < quads.size()) look_ahead(plan.order[p + 1]);
-    traversal::QuadRows<Real> rows{};
+    if (p + 1 < plan.order.size()) traversal::look_ahead(work, plan.order[p + 1], u, policy, ahead);
+    traversal::QuadRows<Real> rows = traversal::gather_quad<kind>(work, q, u);
     if constexpr (Element::kHistory > 0 && how != Evaluation::linear) {
       const std::ptrdiff_t first = history_.first(tile.block, q) + tile.first;
       rows.history = history.data() + first;
       rows.advanced = advanced ? advanced->data() + first : nullptr;
       rows.history_stride = history_.stride[tile.block];
     }
-    for (int c = 0; c < 4; ++c) {
-      const int node = quads[q][c];
-      rows.node[c] = &scratch.rows[static_cast<std::size_t>(plan.slot[node]) * Rows::kNode];
-      rows.forces[c] = plan.first[q][c] ? scratch.zero : rows.node[c] + Rows::kForces * kTile;
-      if (!plan.first[q][c]) continue;
-      const double* line[3];
-      for (int i = 0; i < 3; ++i) line[i] = u.data() + lay.line(node, i) + tile.first;
-      gather_displacements<kind>(line, frame, count, rows.node[c]);
-    }
     traversal::evaluate_quad<Element, how, kind>(elements, q, scale, packs, tile.first, turn, rows, ahead);
-    for (int c = 0; c < 4; ++c) {
-      if (!plan.last[q][c]) continue;
-      const int node = quads[q][c];
-      const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node) * 3;
-      double* first = &border_first_[tiling.border[t] + at];
-      scatter_forces<kind>(rows.node[c] + Rows::kForces * kTile, frame, count, complete, first,
-                           &border_end_[tiling.border[t] + at]);
-      if (follows)
-        for (int i = 0; i < 3; ++i) complete[i * kTile] = border_end_[tiling.border[t - 1] + at + i] + first[i];
-      const int begin = follows ? 0 : 1;
-      if constexpr (fused)
-        if (policy.update(tile, tile.first + begin, node, complete)) continue;
-      for (int i = 0; i < 3; ++i)
-        std::copy(complete + i * kTile + begin, complete + i * kTile + count,
-                  f.data() + lay.line(node, i) + tile.first + begin);
-    }
+    complete_nodes<kind>(t, follows, work, q, rows, f, policy);
+  }
+}
+
+// The corners that a quadrilateral was the last to touch: their forces are complete but for the border planes.
+template <class Element>
+template <SweepKind kind, class Real, class Policy>
+inline void TraversalOf<Element>::complete_nodes(int t, bool follows, const traversal::TileWork<Real>& work, int q,
+                                                 const traversal::QuadRows<Real>& rows, Field& f,
+                                                 const Policy& policy) {
+  using Rows = ScratchRows<Real>;
+  const std::vector<std::ptrdiff_t>& border = body_->tiling.border;
+  alignas(64) double complete[3 * kTile];
+  for (int c = 0; c < 4; ++c) {
+    if (!work.plan.last[q][c]) continue;
+    const int node = work.quads[q][c];
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(node) * 3;
+    double* first = &border_first_[border[t] + at];
+    scatter_forces<kind>(rows.node[c] + Rows::kForces * kTile, work.frame, work.count, complete, first,
+                         &border_end_[border[t] + at]);
+    if (follows)
+      for (int i = 0; i < 3; ++i) complete[i * kTile] = border_end_[border[t - 1] + at + i] + first[i];
+    const int begin = follows ? 0 : 1;
+    if constexpr (std::is_same_v<Policy, FuseUpdate>)
+      if (policy.update(work.tile, work.tile.first + begin, node, complete)) continue;
+    for (int i = 0; i < 3; ++i)
+      std::copy(complete + i * kTile + begin, complete + i * kTile + work.count,
+                f.data() + work.layout.line(node, i) + work.tile.first + begin);
   }
 }
 

@@ -47,6 +47,24 @@ inline RigidVelocity rigid_velocity(const ReferenceFrame& frame, double radius, 
           slope_z + travel_z};
 }
 
+struct PlaneAndLateral {
+  double x, y, z;
+};
+// What the run-up damping takes off a node's acceleration, components of this step's frame.
+template <bool turning>
+inline PlaneAndLateral run_up_damping(double rate, const MeanMotion& mean, Rotation<double> step, double radius,
+                                      double cosine, double sine, double wx, double wy, double wz) {
+  double rx = rate * wx, ry = rate * wy, rz = rate * wz;
+  if constexpr (turning) {
+    rx -= rate * (mean.x + mean.spin * radius * cosine);
+    rz -= rate * (mean.z + mean.spin * radius * sine);
+    const double r = rx;
+    rx = step.c * r - step.s * rz;
+    rz = step.s * r + step.c * rz;
+  }
+  return {rx, ry, rz};
+}
+
 // Stations begin <= j < end of one section node (fem/stepper.hpp has the scheme). measured: with run-up damping and
 // sums. Everything a loop needs stands in locals, and nothing in it branches: it is compiled to packs.
 template <SweepKind kind, bool measured>
@@ -66,8 +84,8 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
     const double m = n.inverse_mass[j];
     const double wx = n.vx[j], wy = n.vy[j], wz = n.vz[j];
     double ax = gx - m * n.fx[j], ay = -m * n.fy[j], az = gz - m * n.fz[j];
-    double bx = wx, bz = wz;                         // before, in the frame of this step
-    [[maybe_unused]] double rx = 0, ry = 0, rz = 0;  // what the run-up damping takes off
+    double bx = wx, bz = wz;  // before, in the frame of this step
+    [[maybe_unused]] PlaneAndLateral damped{};
     if constexpr (turning) {
       ax -= push * n.sine[j];
       az += push * n.cosine[j];
@@ -75,19 +93,11 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
       bz = sd * wx + cd * wz;
     }
     if constexpr (measured) {
-      rx = rate * wx;
-      ry = rate * wy;
-      rz = rate * wz;
-      if constexpr (turning) {
-        rx -= rate * (mean.x + mean.spin * radius * n.cosine[j]);
-        rz -= rate * (mean.z + mean.spin * radius * n.sine[j]);
-        const double r = rx;
-        rx = cd * r - sd * rz;
-        rz = sd * r + cd * rz;
-      }
-      ax -= rx;
-      ay -= ry;
-      az -= rz;
+      damped = run_up_damping<turning>(rate, mean, frame.step, radius, turning ? n.cosine[j] : 1.0,
+                                       turning ? n.sine[j] : 0.0, wx, wy, wz);
+      ax -= damped.x;
+      ay -= damped.y;
+      az -= damped.z;
     }
     const double qx = bx + dt * ax, qy = wy + dt * ay, qz = bz + dt * az;
     n.vx[j] = qx;
@@ -111,7 +121,7 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
         angular += mass * radius * (n.cosine[j] * qx + n.sine[j] * qz);
       }
       twice_kinetic += mass * (before_x * after_x + wy * qy + before_z * after_z);
-      power += 0.5 * mass * (rx * (before_x + after_x) + ry * (wy + qy) + rz * (before_z + after_z));
+      power += 0.5 * mass * (damped.x * (before_x + after_x) + damped.y * (wy + qy) + damped.z * (before_z + after_z));
     }
   }
   if constexpr (measured) sums += {0.5 * twice_kinetic, power, px, pz, angular};

@@ -4,7 +4,7 @@
 //
 // Unknown: the displacements of both bodies, the axle's height and the pressures. A primal-dual active set: a node is
 // in contact where p - c g > 0 (c: stiffness of a surface element); a step solves the equilibrium of the undeformed
-// bodies' stiffness with the gaps of these nodes held shut by springs a thousand times stiffer than an element, whose
+// bodies' stiffness with the gaps of these nodes closed by springs a thousand times stiffer than an element, whose
 // pressures are the next p, and opens and closes nodes by it until residual and penetration are met
 // [HueberWohlmuth2005]. The linear systems are solved by conjugate gradients with the explicit solver's element kernel
 // as the operator and two levels of preconditioning (fem/static_preconditioner.hpp), never more exactly than the next

@@ -57,7 +57,7 @@ double penalty_rule(const Model& model) {
 
 // The lines of prescribed nodes carry no mass of their own: the foundation or the axle has it.
 void clear_prescribed_mass(Body& body) {
-  for (const SectionNode& n : body.mesh.held) {
+  for (const SectionNode& n : body.mesh.prescribed) {
     const BlockLayout& b = body.layout.blocks[n.block];
     for (int i = 0; i < 3; ++i) std::fill_n(body.mass.begin() + b.line(n.node, i), b.stations, 0.0);
   }
@@ -76,7 +76,7 @@ Axle axle_of(const Body& wheel, const CaseSpec& spec) {
   Axle axle;
   axle.mass_z = added;
   axle.inertia = 0.5 * added * spec.geometry.bore_radius * spec.geometry.bore_radius;
-  for (const SectionNode& n : wheel.mesh.held) {
+  for (const SectionNode& n : wheel.mesh.prescribed) {
     const BlockLayout& lay = wheel.layout.blocks[n.block];
     for (int j = 0; j < lay.stations; ++j) {
       const std::ptrdiff_t index = lay.line(n.node, 0) + j;

@@ -22,7 +22,7 @@ SweptBody mesh_brick(int columns, int rows, int stations, double dx, double dy, 
   body.contact = {0, columns, rows, {}, {}, 0.0, stations * dx};
   for (int c = 0; c <= columns; ++c) body.contact.s.push_back(c * dy);
   for (int r = 0; r <= rows; ++r) body.contact.depth.push_back(r * dz);
-  for (int c = 0; c <= columns; ++c) body.held.push_back({0, rows * stride + c});
+  for (int c = 0; c <= columns; ++c) body.prescribed.push_back({0, rows * stride + c});
   body.blocks.push_back(std::move(block));
   return body;
 }

@@ -195,7 +195,7 @@ void fill_rail(SweptBody& body, const Profile& profile, const RailMeshSpec& spec
                  {"head", head.section, {stations.coarse, false}},
                  {"foot", foot.section, {thinned(stations.coarse, sizes.largest), false}}};
   tie_rail(body, cap, left, right, head, foot);
-  for (int node : foot.base) body.held.push_back({kFoot, node});
+  for (int node : foot.base) body.prescribed.push_back({kFoot, node});
 }
 
 void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spec, const MeshSizes& sizes,
@@ -229,7 +229,7 @@ void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spe
   frame.right_side = side(high, half);
   const FrameNodes nodes = add_offset_frame(body, profile, spec.contact_s, spec.layers, sizes, frame,
                                             {stations.fine, false}, {stations.coarse, false}, stations);
-  for (int node : nodes.floor) body.held.push_back({nodes.block, node});
+  for (int node : nodes.floor) body.prescribed.push_back({nodes.block, node});
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ struct SweptBody {
   std::vector<Block> blocks;  ///< masters and slaves in any order; a tie's slave is never master of a cycle
   std::vector<Tie> ties;
   ContactBand contact;
-  std::vector<SectionNode>
-      held;  ///< rail: nodes of the foot's base (fixed); wheel: nodes of the bore (carried by the rigid axle)
+  /// Rail: nodes of the foot's base (fixed); wheel: nodes of the bore (they move with the rigid axle).
+  std::vector<SectionNode> prescribed;
   std::vector<std::string> materials;  ///< names; 0 is the matrix, then the layers from the surface down
   std::vector<int> material_layer;     ///< of each material: 0 the matrix, k the k-th layer; the rows of a graded layer
                                        ///< share theirs. Empty: every material is a layer

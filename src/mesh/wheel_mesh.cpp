@@ -184,7 +184,7 @@ SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, con
     if (y > y0 - 1e-9 && y < y1 + 1e-9) carried.push_back(node);
   }
   tie_to_line(body, rim.block, carried, web_block, web.top);
-  for (int node : web.bore) body.held.push_back({web_block, node});
+  for (int node : web.bore) body.prescribed.push_back({web_block, node});
 
   for (Block& block : body.blocks)
     for (Vec2& p : block.section.nodes) p.z -= wheel_radius;

@@ -72,8 +72,8 @@ inline SweptBody tied_body(SweepKind kind) {
     const int left = std::min(c / ratio, columns - 1);
     body.ties.push_back({0, hanging + c, 1, left, left + 1, static_cast<double>(c - left * ratio) / ratio});
   }
-  body.held.clear();
-  for (SectionNode n : lower.held) body.held.push_back({1, n.node});
+  body.prescribed.clear();
+  for (SectionNode n : lower.prescribed) body.prescribed.push_back({1, n.node});
   body.blocks.push_back(std::move(lower.blocks[0]));
   return body;
 }

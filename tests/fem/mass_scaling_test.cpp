@@ -110,7 +110,7 @@ TEST_F(MassScalingTest, KeepsTheMassOfTranslationAndEveryMomentum) {
 TEST_F(MassScalingTest, PutsTheThicknessModeOfARowAtTheWantedStep) {
   const Elastic bar = elastic(4 * kYoung, 0.0, 7800);
   SweptBody mesh = layered_brick(3, 3, 1e-3, 1e-3, {1e-4}, 1);
-  mesh.held.clear();
+  mesh.prescribed.clear();
   const Body body(mesh, {bar, bar}, {});
   const MassScaling scaling(body, kWanted);
   Field mode = nodal_field(body, [](Vec3 x) { return Vec3{0, 0, x.z > -5e-5 ? 1.0 : -1.0}; }), force = mode;

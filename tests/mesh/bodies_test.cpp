@@ -1,6 +1,6 @@
+#include "mesh/bodies.hpp"
 #include "geometry/profile_names.hpp"
 #include "geometry/rail_outline.hpp"
-#include "mesh/bodies.hpp"
 
 #include <gtest/gtest.h>
 
@@ -316,13 +316,13 @@ TEST(Stations, OfCoarserBlocksAreSubsetsAndRingsClose) {
 TEST(Held, AreTheFootsBaseAndTheBore) {
   const SweptBody r = rail(), w = wheel(), b = rail_block(), d = disc();
   const double base = rail_outline(cn60()).base_z;
-  for (SectionNode n : r.held)
+  for (SectionNode n : r.prescribed)
     EXPECT_NEAR(model_to_rail(kTrack, r.blocks[n.block].section.nodes[n.node]).z, base, 1e-12);
-  for (SectionNode n : b.held)
+  for (SectionNode n : b.prescribed)
     EXPECT_NEAR(model_to_rail(kTrack, b.blocks[n.block].section.nodes[n.node]).z, -0.060, 1e-12);
   for (const SweptBody* body : {&w, &d})
-    for (SectionNode n : body->held) EXPECT_NEAR(body->blocks[n.block].section.nodes[n.node].z, -0.095, 1e-12);
-  for (const SweptBody* body : {&r, &w, &b, &d}) EXPECT_GT(body->held.size(), 5u);
+    for (SectionNode n : body->prescribed) EXPECT_NEAR(body->blocks[n.block].section.nodes[n.node].z, -0.095, 1e-12);
+  for (const SweptBody* body : {&r, &w, &b, &d}) EXPECT_GT(body->prescribed.size(), 5u);
 }
 
 TEST(ElementCount, OfTheBaseCaseAtOneMillimetreStaysBelow300000) {

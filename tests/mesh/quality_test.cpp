@@ -1,5 +1,5 @@
-#include "geometry/profile_names.hpp"
 #include "mesh/quality.hpp"
+#include "geometry/profile_names.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,8 +16,8 @@ TEST(MeshBrick, HasTheVolumeCountsAndContactBandOfItsGrid) {
   EXPECT_EQ(body.elements(), 60);
   EXPECT_EQ(body.nodes(), 5 * 4 * 6);
   EXPECT_NEAR(volume(body), 60 * 1e-9, 1e-18);
-  EXPECT_EQ(body.held.size(), 5u);
-  for (SectionNode n : body.held) EXPECT_DOUBLE_EQ(body.blocks[0].section.nodes[n.node].z, -1.5e-3);
+  EXPECT_EQ(body.prescribed.size(), 5u);
+  for (SectionNode n : body.prescribed) EXPECT_DOUBLE_EQ(body.blocks[0].section.nodes[n.node].z, -1.5e-3);
   for (int c = 0; c <= 4; ++c) EXPECT_DOUBLE_EQ(body.blocks[0].section.nodes[c].z, 0.0);
 }
 
