@@ -123,16 +123,18 @@ std::vector<nlohmann::json> objects_of(const ReportRun& run, const char* list) {
   return out;
 }
 
-/// The text of a warning that the table knows is the table's, in the units of the page.
+/// The text of a warning that the table knows is the table's, in the units of the page, unless it names this case's
+/// numbers.
 void add_warnings(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
   for (const auto& w : objects_of(run, "warnings")) {
     const std::string name = w.value("name", "warning");
+    const CheckRow* row = find_check(name);
     out.push_back({.name = name,
                    .runs = {index},
                    .judged = false,
                    .value = number_in(w, "value"),
                    .limit = number_in(w, "limit"),
-                   .note = find_check(name) ? "" : w.value("text", "")});
+                   .note = row && !row->own_text ? "" : w.value("text", "")});
   }
 }
 
