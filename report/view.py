@@ -3,14 +3,18 @@
 
     paraview --script=view.py          in ParaView, to go on from there (in the folder where it was written)
     pvpython view.py --png view.png    a picture by ParaView
-    python3 view.py [--png view.png]   a window, or a picture, by VTK alone (Debian: python3-vtk9)
+    python3 view.py [--png view.png]   a window, or a picture, by VTK alone (Debian: python3-vtk9); without a display
+                                       xvfb-run -a python3 view.py --png view.png
 
 Both bodies are cut lengthwise through the largest pressure; the half on the field side is shown, seen from the track. Colours are von Mises stresses of the elements
 (--field sigma1_MPa: largest principal stresses); the black lines are the border of the layer. A half-space result has no elements: its patch is shown on the rail.
 Axes: x rolling direction, y to the field side, z up; metres."""
 import argparse
 import json
+import os
 import pathlib
+import subprocess
+import sys
 
 WRITTEN_TO = ""  # filled in by RailStrata; ParaView's window does not tell a script where it lies
 FOLDER = pathlib.Path(__file__).resolve().parent if "__file__" in globals() else pathlib.Path(WRITTEN_TO)
@@ -63,9 +67,29 @@ def camera(place):
 # ---- VTK --------------------------------------------------------------------------------------------------------------------------------------------------------
 
 
-def show_with_vtk(arguments):
-    import vtk
+def window_class(for_picture):
+    """The name of VTK's window that works here. VTK ends the whole program where it finds no display, so another one
+    tries."""
+    if not for_picture:
+        if os.environ.get("DISPLAY"):
+            return "vtkRenderWindow"
+        sys.exit("view.py: a window needs a display; a picture without one: xvfb-run -a python3 view.py --png view.png")
+    for name in ("vtkRenderWindow", "vtkEGLRenderWindow", "vtkOSOpenGLRenderWindow"):
+        attempt = (f"import sys, vtk; w = vtk.{name}(); w.SetOffScreenRendering(1); w.Render(); "
+                   "sys.exit(not w.SupportsOpenGL())")
+        tried = subprocess.run([sys.executable, "-c", attempt], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        if tried.returncode == 0:
+            return name
+    sys.exit("view.py: VTK needs a display, e.g. xvfb-run -a python3 view.py --png view.png")
 
+
+def show_with_vtk(arguments):
+    try:
+        import vtk
+    except ImportError:
+        sys.exit(f"view.py: {sys.executable} has neither ParaView nor VTK; Debian: apt install python3-vtk9, then "
+                 "/usr/bin/python3 view.py")
+    window_name = window_class(bool(arguments.png))
     place, text = read_place()
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
@@ -209,7 +233,7 @@ def show_with_vtk(arguments):
     view.SetParallelScale(HALF_HEIGHT)
     renderer.ResetCameraClippingRange()
 
-    window = vtk.vtkRenderWindow()
+    window = getattr(vtk, window_name)()
     window.SetSize(*SIZE)
     window.SetMultiSamples(4)
     window.AddRenderer(renderer)

@@ -83,7 +83,7 @@ let looked: Run[] = report.runs.slice(0, 2);
 const stage = element("div", { id: "stage" });
 function showRuns(): void {
   forget(stage);
-  stage.replaceChildren(tiles(looked[0]), ...runParts(looked));
+  stage.replaceChildren(tiles(looked[0], report.runs.length > 1), ...runParts(looked));
   drawAll(theme());
 }
 

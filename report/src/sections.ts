@@ -55,8 +55,8 @@ function largestBelowSurface(run: Run): { value_Pa: number; depth_m: number; zon
   return best && best.zone === "below the surface" ? { ...best, zone: "largest" } : best;
 }
 
-/// The first run's numbers large.
-export function tiles(run: Run): HTMLElement {
+/// One run's numbers large; `named`: with its name above them, where the page shows others too.
+export function tiles(run: Run, named: boolean): HTMLElement {
   const digits = (path: string, most: number) => {
     const q = quantityAt(path);
     const value = numberAt(run, path);
@@ -68,7 +68,7 @@ export function tiles(run: Run): HTMLElement {
     element("div", { class: "tile" }, element("span", { class: "name" }, name), element("span", { class: "big" }, text, unit ? element("small", {}, ` ${unit}`) : null), small ? element("span", { class: "small" }, small) : null);
   const number = (path: string, most = 4) => tile(quantityAt(path).name, digits(path, most), quantityAt(path).unit.shown);
   const [length, width] = ["contact/patch_length_m", "contact/patch_width_m"];
-  return element(
+  const cards = element(
     "div",
     { class: "tiles" },
     number("contact/p_max_Pa"),
@@ -78,6 +78,7 @@ export function tiles(run: Run): HTMLElement {
     tile("Traction F_x / F_z", numberText(fx !== null && fz ? fx / fz : null), "", `wanted ${option(run, "drive", "traction_coefficient") ?? "–"}`),
     tile("Rail, von Mises below the surface", inside ? numberText(1e-6 * inside.value_Pa) : "–", "MPa", inside ? `${inside.zone}, ${(1e3 * inside.depth_m).toFixed(2)} mm deep` : ""),
   );
+  return element("div", {}, named ? element("p", { class: "note", id: "tiles-of" }, `Numbers of ${runLabel(run)}; all runs beside each other in the table below.`) : null, cards);
 }
 
 export function numbersTable(runs: Run[]): HTMLElement {
@@ -207,7 +208,7 @@ export function origin(runs: Run[]): HTMLElement[] {
       ["program", `RailStrata ${text("version")}, commit ${text("commit")}${p.dirty === true ? " (with changes)" : ""}`],
       ["computed", text("time_utc")],
       ["command", text("command_line")],
-      ["machine", `${text("cpu")}, ${text("threads")} threads, ${text("isa")}`],
+      ["threads", `${text("threads")}, ${text("isa")}`],
       ["compiler", `${text("compiler")} ${text("flags")}`],
       ["size", `${countText(numberAt(run, "run/elements"))} ${run.engine === "bem" ? "cells" : `elements, ${countText(numberAt(run, "run/steps"))} steps`}, ${numberText(wall, 3)} s`],
     ];

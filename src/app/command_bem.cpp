@@ -1,11 +1,14 @@
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/option_values.hpp"
 #include "app/summary_text.hpp"
+#include "app/waiting.hpp"
 #include "app/write_page.hpp"
 #include "io/output_folder.hpp"
+#include "runs/half_space_need.hpp"
 #include "runs/write_half_space_result.hpp"
 
 namespace railstrata {
@@ -16,11 +19,18 @@ ExitCode command_bem(const CommandOptions& options) {
   BemOptions bem;
   bem.cell = cell_size(options.cell);
   const Placement placement = place(loaded.spec, loaded.folder());
-  const HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, bem);
+  const HalfSpaceNeed need = half_space_need(loaded.spec, placement, bem.cell);
+  require_memory(need, bem.cell);
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const HalfSpaceSolution solution = [&] {
+    const Waiting waiting(fmt::format("half-spaces, {}", need_text(need)), spdlog::should_log(spdlog::level::info));
+    return solve_half_space(loaded.spec, placement, bem);
+  }();
   for (const std::string& note : solution.result.notes) spdlog::info("{}", note);
 
   require_apart(out, loaded);
   const FolderHold hold = prepare_output_folder(out, options.force);
+  answer_interrupt_with("\nstopped while the results were written: they are not complete; start again with --force\n");
   clear_old_results(out);
   write_origin(out, loaded, options.command_line, options.threads);
   write_half_space_result(out, table_origin(loaded), loaded.spec, placement, solution);

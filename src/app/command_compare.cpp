@@ -12,6 +12,7 @@
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
+#include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
 #include "post/compare.hpp"
 #include "report/comparison_picture.hpp"
@@ -144,6 +145,9 @@ ExitCode command_compare(const CommandOptions& options) {
   const fs::path out =
       options.out.empty() ? fs::path("results") / fmt::format("{}-against-{}", last_name(a.folder), last_name(b.folder))
                           : options.out;
+  for (const ResultFolder* side : {&a, &b})
+    for (const ResultDoubt& doubt : result_doubts(side->folder))
+      spdlog::warn("{}: {}", side->folder.string(), doubt.text);
   const FieldComparison comparison = compare_fields_of(a, b);
   const std::vector<Row> rows = rows_of(a, b);
   const nlohmann::ordered_json json = as_json(a, b, rows, comparison);

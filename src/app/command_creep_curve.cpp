@@ -8,10 +8,12 @@
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/option_values.hpp"
+#include "app/waiting.hpp"
 #include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/output_folder.hpp"
+#include "runs/half_space_need.hpp"
 
 namespace railstrata {
 namespace {
@@ -77,8 +79,14 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   const std::filesystem::path out = output_folder_of(options, loaded, "-creep-curve");
   BemOptions bem;
   bem.cell = cell_size(options.cell);
-  const std::vector<CsvColumn> table =
-      table_of(creep_curve(loaded.spec, place(loaded.spec, loaded.folder()), creepages(options), bem));
+  const Placement placement = place(loaded.spec, loaded.folder());
+  require_memory(half_space_need(loaded.spec, placement, bem.cell), bem.cell);
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const std::vector<CsvColumn> table = [&] {
+    const Waiting waiting(fmt::format("creep curve of {} points", options.creep_curve.points),
+                          spdlog::should_log(spdlog::level::info));
+    return table_of(creep_curve(loaded.spec, placement, creepages(options), bem));
+  }();
 
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);

@@ -6,10 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/write_page.hpp"
 #include "core/faults.hpp"
+#include "io/folder_kind.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
-#include "runs/write_report.hpp"
 
 namespace railstrata {
 namespace {
@@ -24,19 +25,20 @@ std::filesystem::path page_of(const CommandOptions& options) {
 
 ExitCode command_report(const CommandOptions& options) {
   if (options.report.folders.size() > 1 && options.out.empty())
-    throw CaseError("a report on several folders needs a place",
-                    "name the page with --out, e.g. --out comparison.html");
+    throw CaseError(
+        fmt::format("{} folders are given and no --out: a page on one folder goes into it, a page on several could go "
+                    "into any of them",
+                    options.report.folders.size()),
+        "say where the page is to be written, e.g. --out comparison.html");
   const std::filesystem::path page = page_of(options);
   if (!options.out.empty() && !options.force && std::filesystem::exists(page))
     throw CaseError(fmt::format("--out {}: there is a file of this name", page.string()),
                     "choose another name, or replace it with --force");
   for (const std::filesystem::path& folder : options.report.folders)
-    if (!std::filesystem::is_directory(folder))
-      throw CaseError(fmt::format("{} is not a result folder", folder.string()),
-                      "give a folder that `railstrata run` or `railstrata bem` has written");
+    if (!std::filesystem::exists(folder / "summary.json"))
+      throw CaseError(std::vector<Diagnostic>{no_result_here(folder)});
   if (page.has_parent_path()) make_folder(page.parent_path());
-  for (const std::string& note : write_report(page, options.report.folders, options.report.reference))
-    spdlog::warn("{}", note);
+  log_page(write_report(page, options.report.folders, options.report.reference));
   if (options.json) fmt::print("{}\n", json_text(nlohmann::json{{"report", page.generic_string()}}));
   spdlog::info("the report is {}", page.string());
   return ExitCode::ok;

@@ -13,6 +13,7 @@
 #include "app/signals.hpp"
 #include "app/summary_text.hpp"
 #include "app/write_page.hpp"
+#include "core/shell_word.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "runs/write_fem_result.hpp"
@@ -53,16 +54,6 @@ class PhaseReport {
   std::optional<Progress> bar_;
 };
 
-// A word as a shell takes it.
-std::string shell_word(const std::string& word) {
-  if (word.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./+=:,@%") ==
-      std::string::npos)
-    return word;
-  std::string out = "'";
-  for (char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 // The case of the folder, as it was run.
 LoadedCase case_of_folder(const CommandOptions& options) {
   if (!options.case_file.empty() || !options.overrides.empty() || !options.out.empty() || options.force)
@@ -100,14 +91,14 @@ struct RunJob {
   std::optional<RunState> begun;
 };
 
-CheckpointOrigin origin_of(const LoadedCase& loaded) {
-  return {case_identity(loaded), version_text(), table_origin(loaded)};
+CheckpointOrigin origin_of(const LoadedCase& loaded, std::string identity) {
+  return {std::move(identity), version_text(), table_origin(loaded)};
 }
 
 RunJob resumed_job(const CommandOptions& options) {
   LoadedCase loaded = case_of_folder(options);
   const std::filesystem::path& out = options.run.resume;
-  CheckpointOrigin origin = origin_of(loaded);
+  CheckpointOrigin origin = origin_of(loaded, identity_in_folder(out, loaded));
   FolderHold hold(out);
   FoundCheckpoint found = read_checkpoint(out, origin.case_sha256);
   for (const std::string& note : found.notes) spdlog::warn("{}; the checkpoint before it is taken", note);
@@ -128,7 +119,7 @@ RunJob new_job(const CommandOptions& options) {
   require_apart(out, loaded);
   FolderHold hold = prepare_output_folder(out, options.force);
   spdlog::info("{}: results go to {}", loaded.spec.title, out.string());
-  CheckpointOrigin origin = origin_of(loaded);
+  CheckpointOrigin origin = origin_of(loaded, case_identity(loaded));
   return {std::move(loaded), out, std::move(origin), std::move(hold), {}};
 }
 

@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -21,6 +22,7 @@
 
 #include "app/commands.hpp"
 #include "app/processors.hpp"
+#include "app/usage.hpp"
 #include "core/engine.hpp"
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
@@ -57,7 +59,8 @@ void add_case_and_output(CLI::App& sub, CommandOptions& options) {
 }
 
 void add_no_report(CLI::App& sub, CommandOptions& options) {
-  sub.add_flag("!--no-report", options.page, "Do not write report.html");
+  sub.add_flag_callback(
+      "--no-report", [&options] { options.page = false; }, "Do not write report.html");
 }
 
 void add_run(CLI::App& sub, CommandOptions& options) {
@@ -155,8 +158,9 @@ void add_report(CLI::App& sub, CommandOptions& options) {
   sub.add_option("-o,--out", options.out,
                  "The page to write (default: report.html in the folder, made anew if it is there)");
   sub.add_flag("--force", options.force, "Replace the file that --out names");
-  sub.add_flag("!--no-reference", options.report.reference,
-               "Do not set a finite element result against the half-space solution of its case");
+  sub.add_flag_callback(
+      "--no-reference", [&options] { options.report.reference = false; },
+      "Do not set a finite element result against the half-space solution of its case");
 }
 
 void add_schema(CLI::App& sub, CommandOptions& options) {
@@ -303,7 +307,7 @@ int tell(const CaseError& e, bool json) {
   return static_cast<int>(ExitCode::user);
 }
 
-int parse_and_run(const std::vector<std::string>& words, CommandOptions& options) {
+int parse_and_run(const std::vector<std::string>& given, CommandOptions& options) {
   CLI::App app{"RailStrata: rolling contact of a wheel on a layered rail", "railstrata"};
   app.footer(
       "Examples:\n  railstrata check cases/quick\n  railstrata run cases/quick --threads 2\n  railstrata bem "
@@ -329,13 +333,20 @@ int parse_and_run(const std::vector<std::string>& words, CommandOptions& options
     e.add_options(*sub, options);
     commands.emplace_back(sub, e.run);
   }
-  require_utf8(words);
+  require_utf8(given);
+  if (given.size() == 1) {  // no mistake to name, and yet nothing done: what there is, and the code of a mistake
+    say(stdout, app.help());
+    return static_cast<int>(ExitCode::user);
+  }
+  const std::vector<std::string> words = with_help_spelled_out(given);
   check_command_word(words);
   try {
     std::vector<std::string> reversed(words.rbegin(), words.rend() - 1);
     app.parse(reversed);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? static_cast<int>(ExitCode::ok) : static_cast<int>(ExitCode::user);
+    if (e.get_exit_code() == 0) return app.exit(e);  // help or version, on standard output
+    options.json = std::find(words.begin(), words.end(), "--json") != words.end();
+    throw usage_error(app, e, words, command_names());
   }
   set_up_log(quiet, verbose);
   set_threads(options.threads);

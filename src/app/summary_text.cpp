@@ -92,7 +92,7 @@ std::string checks_text(const Summary& s) {
     const CheckRow* row = find_check(w.name);
     out += fmt::format("    warn   {}{:>10}  (above {}): {}\n", padded(name_of(w.name), 34),
                        with_unit(unit_of(w.name), w.value, 3), limit_text(unit_of(w.name), w.limit),
-                       row ? fmt::format("{}: {}", row->what, row->advice) : w.text);
+                       row && !row->own_text ? fmt::format("{}: {}", row->what, row->advice) : w.text);
   }
   return out;
 }

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "core/faults.hpp"
-#include "runs/write_report.hpp"
 
 namespace railstrata {
 
@@ -20,11 +19,15 @@ void write_page_or_warn(const std::filesystem::path& page, const std::function<v
   }
 }
 
+void log_page(const WrittenPage& page) {
+  for (const std::string& note : page.notes) spdlog::warn("{}", note);
+  spdlog::log(page.verdict.ok ? spdlog::level::info : spdlog::level::warn, "verdict of the page: {}",
+              page.verdict.text);
+}
+
 void add_report(const std::filesystem::path& folder) {
   const std::filesystem::path page = folder / "report.html";
-  write_page_or_warn(page, [&] {
-    for (const std::string& note : write_report(page, {folder}, true)) spdlog::warn("{}", note);
-  });
+  write_page_or_warn(page, [&] { log_page(write_report(page, {folder}, true)); });
 }
 
 }  // namespace railstrata

@@ -3,10 +3,15 @@
 #include <filesystem>
 #include <functional>
 
+#include "runs/write_report.hpp"
+
 namespace railstrata {
 
 /// write(), which makes `page`, and logs where it is. Failing, it warns: the results are there without a page.
 void write_page_or_warn(const std::filesystem::path& page, const std::function<void()>& write);
+
+/// Logs what a written page has to say: its notes and its verdict, a failed one as a warning.
+void log_page(const WrittenPage& page);
 
 /// What `run` and `bem` do when they are done: report.html in the folder, or a warning.
 void add_report(const std::filesystem::path& folder);

@@ -14,15 +14,6 @@ namespace {
 
 HalfSpaceMaterial half_space(const MaterialSpec& m) { return {m.young, m.poisson}; }
 
-PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  const HertzContact estimate = hertz_estimate(spec, placement.contact);
-  const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
-  const auto cells = [&](double semi_axis) {
-    return static_cast<int>(std::min(std::ceil(1.15 * semi_axis / options.cell) + 2, static_cast<double>(most)));
-  };
-  return centred_grid(cells(estimate.a), cells(estimate.b), options.cell, options.cell);
-}
-
 struct Touches {
   bool x = false, y = false;
 };
@@ -77,6 +68,15 @@ Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidConta
 }
 
 }  // namespace
+
+PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  const HertzContact estimate = hertz_estimate(spec, placement.contact);
+  const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
+  const auto cells = [&](double semi_axis) {
+    return static_cast<int>(std::min(std::ceil(1.15 * semi_axis / options.cell) + 2, static_cast<double>(most)));
+  };
+  return centred_grid(cells(estimate.a), cells(estimate.b), options.cell, options.cell);
+}
 
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
   LayeredHalfSpace out{{}, half_space(body == BodyId::wheel ? spec.wheel_material : spec.rail_material)};

@@ -21,6 +21,9 @@ struct CasePatch {
   std::vector<std::string> notes;
 };
 
+/// The potential contact area to begin with: a little larger than the ellipse of Hertz.
+PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options);
+
 /// Layers of one body from the case, from the surface down; a graded one cut to its grading_tolerance.
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 

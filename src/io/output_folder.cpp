@@ -5,11 +5,13 @@
 #include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <utility>
 
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
+#include "io/kept_inputs.hpp"
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
 
@@ -103,10 +105,15 @@ void require_apart(const std::filesystem::path& folder, const LoadedCase& loaded
 
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
                   const std::vector<std::string>& command_line, int threads) {
-  write_whole_file(folder / "case.toml",
-                   "# Every option of the run; reads back to the same case.\n" + loaded.resolved_toml);
+  const std::vector<KeptInput> inputs = kept_inputs(loaded, folder);
+  copy_inputs(inputs, folder);
+  const std::string text = "# Every option of the run; reads back to the same case.\n" + kept_case(loaded, inputs);
+  KeptOrigin kept{sha256_of(text), {}};
+  for (const KeptInput& input : inputs) kept.copies.emplace_back(input.source, input.kept);
+  write_whole_file(folder / "case.toml", text);
   write_whole_file(folder / "case.original.toml", loaded.source_text);
-  write_whole_file(folder / "provenance.json", provenance_json(command_line, loaded.overrides, loaded.inputs, threads));
+  write_whole_file(folder / "provenance.json",
+                   provenance_json(command_line, loaded.overrides, loaded.inputs, threads, kept));
 }
 
 void remove_abandoned_parts(const std::filesystem::path& folder) {
@@ -118,7 +125,17 @@ void remove_abandoned_parts(const std::filesystem::path& folder) {
   for (const auto& file : found) std::filesystem::remove(file, ignored);
 }
 
-std::string case_identity(const LoadedCase& loaded) {
+std::string case_identity(const LoadedCase& loaded) { return sha256_of(case_by_content(loaded)); }
+
+std::string identity_in_folder(const std::filesystem::path& folder, const LoadedCase& loaded) {
+  const std::filesystem::path kept = std::filesystem::absolute(folder / kInputsFolder).lexically_normal();
+  const bool old = std::any_of(loaded.inputs.begin(), loaded.inputs.end(), [&](const std::filesystem::path& file) {
+    return file != loaded.file && file.parent_path() != kept;
+  });
+  return old ? identity_by_path(loaded) : case_identity(loaded);
+}
+
+std::string identity_by_path(const LoadedCase& loaded) {
   std::string all = loaded.resolved_toml;
   for (const std::filesystem::path& file : loaded.inputs)
     if (std::filesystem::absolute(file) != std::filesystem::absolute(loaded.file)) all += sha256_of_file(file);

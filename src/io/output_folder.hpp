@@ -42,8 +42,8 @@ void clear_old_results(const std::filesystem::path& folder);
 /// Throws CaseError if write_origin() would replace the file that the case was read from.
 void require_apart(const std::filesystem::path& folder, const LoadedCase& loaded);
 
-/// case.toml with every option written out, case.original.toml as it was given, provenance.json. Each file is whole or
-/// not there.
+/// Copies of the profile files (io/kept_inputs.hpp), case.toml with every option written out, case.original.toml as
+/// it was given, provenance.json. Each file is whole or not there.
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
                   const std::vector<std::string>& command_line, int threads);
 
@@ -51,8 +51,16 @@ void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
 /// folder and those in it.
 void remove_abandoned_parts(const std::filesystem::path& folder);
 
-/// SHA-256 over the resolved case and the profile files it names: what a checkpoint must agree with.
+/// SHA-256 over the resolved case and the content of the profile files it names, wherever they lie: what a checkpoint
+/// must agree with.
 std::string case_identity(const LoadedCase& loaded);
+
+/// The same as of a folder's own case.toml: folders from before 0.2.0 keep no copies of their profiles, and their
+/// checkpoints carry identity_by_path.
+std::string identity_in_folder(const std::filesystem::path& folder, const LoadedCase& loaded);
+
+/// SHA-256 over the resolved case with the absolute paths of its profile files, and their content.
+std::string identity_by_path(const LoadedCase& loaded);
 
 /// The "#" lines of a case's tables: program, case, axes and signs.
 std::vector<std::string> table_origin(const LoadedCase& loaded);

@@ -83,33 +83,37 @@ std::string sha256_of_file(const std::filesystem::path& file) {
 }
 
 std::string provenance_json(const std::vector<std::string>& command_line, const std::vector<std::string>& overrides,
-                            const std::vector<std::filesystem::path>& inputs, int threads) {
+                            const std::vector<std::filesystem::path>& inputs, int threads, const KeptOrigin& kept) {
   using Json = nlohmann::ordered_json;
   const BuildInfo& build = build_info();
   Json libraries, files = Json::array();
   for (const auto& [name, version] : library_versions()) libraries[name] = version;
-  for (const auto& file : inputs)
+  for (const auto& file : inputs) {
     files.push_back(
         {{"file", std::filesystem::absolute(file).lexically_normal().string()}, {"sha256", sha256_of_file(file)}});
+    for (const auto& [source, copy] : kept.copies)
+      if (source == file) files.back()["kept"] = copy;
+  }
   std::array<char, 256> host{};
   gethostname(host.data(), host.size() - 1);
-  const Json all{{"program", "RailStrata"},
-                 {"version", build.version},
-                 {"commit", build.commit.empty() ? Json(nullptr) : Json(build.commit)},
-                 {"dirty", build.dirty},
-                 {"compiler", build.compiler},
-                 {"flags", build.flags},
-                 {"build_type", build.build_type},
-                 {"libraries", libraries},
-                 {"cpu", cpu_name()},
-                 {"isa", compiled_isa()},
-                 {"cores", std::thread::hardware_concurrency()},
-                 {"threads", threads},
-                 {"host", host.data()},
-                 {"command_line", command_line},
-                 {"overrides", overrides},
-                 {"inputs", files},
-                 {"time_utc", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
+  Json all{{"program", "RailStrata"},
+           {"version", build.version},
+           {"commit", build.commit.empty() ? Json(nullptr) : Json(build.commit)},
+           {"dirty", build.dirty},
+           {"compiler", build.compiler},
+           {"flags", build.flags},
+           {"build_type", build.build_type},
+           {"libraries", libraries},
+           {"cpu", cpu_name()},
+           {"isa", compiled_isa()},
+           {"cores", std::thread::hardware_concurrency()},
+           {"threads", threads},
+           {"host", host.data()},
+           {"command_line", command_line},
+           {"overrides", overrides},
+           {"inputs", files},
+           {"time_utc", fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)))}};
+  if (!kept.case_sha256.empty()) all["case_sha256"] = kept.case_sha256;
   return json_text(all, 2) + "\n";
 }
 

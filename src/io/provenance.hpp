@@ -34,9 +34,15 @@ std::string cpu_name();
 std::string sha256_of(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& file);
 
-/// The text of provenance.json: program, build, machine, threads, command line, overrides, time (UTC, ISO 8601) and the
-/// SHA-256 of every input file.
+/// What a result folder keeps of its inputs.
+struct KeptOrigin {
+  std::string case_sha256;                                            ///< of case.toml there; empty: there is none
+  std::vector<std::pair<std::filesystem::path, std::string>> copies;  ///< an input file and its copy in the folder
+};
+
+/// The text of provenance.json: program, build, machine, threads, command line, overrides, time (UTC, ISO 8601), the
+/// SHA-256 of every input file with the name of its copy ("kept"), and that of case.toml ("case_sha256").
 std::string provenance_json(const std::vector<std::string>& command_line, const std::vector<std::string>& overrides,
-                            const std::vector<std::filesystem::path>& inputs, int threads);
+                            const std::vector<std::filesystem::path>& inputs, int threads, const KeptOrigin& kept = {});
 
 }  // namespace railstrata

@@ -1,6 +1,7 @@
 #include "io/result_folder.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +9,10 @@
 #include <limits>
 #include <sstream>
 
+#include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "io/csv.hpp"
+#include "io/folder_kind.hpp"
 
 namespace railstrata {
 namespace {
@@ -18,6 +21,8 @@ namespace fs = std::filesystem;
 
 std::string text_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
+  if (!in && file.filename() == "summary.json")
+    throw CaseError(std::vector<Diagnostic>{no_result_here(file.parent_path())});
   if (!in)
     throw CaseError(
         fmt::format("{} is not a result folder: it has no {}", file.parent_path().string(), file.filename().string()),
@@ -63,6 +68,30 @@ std::string text_at(const nlohmann::json& summary, const std::string& path) {
   return summary.contains(at) && summary[at].is_string() ? summary[at].get<std::string>() : "";
 }
 
+const char* kind_of(const nlohmann::json& v) {
+  if (v.is_string()) return "a text";
+  if (v.is_boolean()) return "true or false";
+  return v.is_array() ? "a list" : "a table";
+}
+
+/// Numbers or null, in tables within tables.
+void require_numbers(const nlohmann::json& v, const std::string& name, const fs::path& file, int depth = 0) {
+  constexpr int kDeepest = 8;  // of a summary: 4
+  if (v.is_number() || v.is_null()) return;
+  if (!v.is_object() || depth == kDeepest) refuse(file, fmt::format("{} is {}, not a number", name, kind_of(v)));
+  for (const auto& [key, value] : v.items()) require_numbers(value, fmt::format("{}.{}", name, key), file, depth + 1);
+}
+
+/// Every value is of the kind that this program writes; otherwise a page would leave it out and say nothing.
+void require_kinds(const nlohmann::json& summary, const fs::path& file) {
+  for (const char* table : {"contact", "stress", "energy", "position_m"})
+    if (summary.contains(table)) require_numbers(summary[table], table, file);
+  const std::string engine = text_at(summary, "/run/engine");
+  if (!engine.empty() && !engine_of(engine))
+    refuse(file, fmt::format("the engine is \"{}\": no engine of this program, they are {}", engine,
+                             fmt::join(engine_words(), " and ")));
+}
+
 }  // namespace
 
 double ResultFolder::number(const std::string& path) const {
@@ -77,6 +106,7 @@ ResultFolder parse_results(const std::string& summary, const std::string& patch,
   r.summary = nlohmann::json::parse(summary, nullptr, false);
   if (!r.summary.is_object() || !r.summary.contains("contact"))
     refuse(folder / "summary.json", "this is not a summary");
+  require_kinds(r.summary, folder / "summary.json");
   r.title = text_at(r.summary, "/title");
   r.engine = text_at(r.summary, "/run/engine");
   r.field = patch_of(parse_csv(patch, folder / "patch.csv"));

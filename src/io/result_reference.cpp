@@ -130,7 +130,7 @@ std::string checks_markdown() {
   return check_rows(
              CheckKind::run,
              "\n## checks\n\nEach has `name`, `ok`, `value` and `limit`; it holds where the value is at most the "
-             "limit. When one fails, the exit code is 1.\nAn empty limit: the engine does not ask for it.\n\n"
+             "limit. When one fails, the exit code\nis 1. An empty limit: the engine does not ask for it.\n\n"
              "| name | finite elements | half-space | called | value |\n|---|---|---|---|---|\n",
              [](const CheckRow& c) {
                return fmt::format("{} | {} | {} | {}", limit_cell(c, c.fem_limit),
@@ -145,7 +145,7 @@ std::string checks_markdown() {
                     }) +
          check_rows(CheckKind::warning,
                     "\n## warnings\n\nEach has `name`, `value`, `limit` and `text`: a sound result that is not "
-                    "plausible. The exit code does not depend on them.\n\n"
+                    "plausible. The exit code does not depend on\nthem.\n\n"
                     "| name | above | called | text |\n|---|---|---|---|\n",
                     [](const CheckRow& c) {
                       return fmt::format("{} | {} | {}: {}", limit_cell(c, c.fem_limit), c.name, c.what, c.advice);
@@ -160,10 +160,10 @@ std::string results_reference_markdown() {
       "<!-- Written by `railstrata schema --results --markdown` from src/post/result_table.cpp and "
       "src/post/check_limits.hpp; a test holds this page against the program. -->\n\n"
       "`summary.json` of a result folder holds these numbers in SI units, the same keys from both engines; a number "
-      "that "
-      "does not apply is\nnull. The key names the unit. Tables (`sweep.csv`, `study.csv`) hold those with a column, in "
-      "the unit that its name ends with. Engine: `fem` or\n`bem` where only one of them has the number.\n\n"
-      "`title` is the case's; `run.engine` is `fem` or `bem`, `run.commit` the program's.\n" +
+      "that does\nnot apply is null. The key names the unit. Tables (`sweep.csv`, `study.csv`) hold those with a "
+      "column, "
+      "in the unit that\nits name ends with. Engine: `fem` or `bem` where only one of them has the number.\n\n"
+      "`title` is the case's; of `run`, `engine` is `fem` or `bem` and `commit` the program's.\n" +
       numbers_markdown("");
   for (const std::string_view group : {"contact", "energy", "run"}) {
     out += fmt::format("\n## {}\n", group) + numbers_markdown(group);

@@ -30,6 +30,7 @@ struct CheckRow {
   double fem_limit = kNone, bem_limit = kNone;  ///< SI; of kind `engines` the same
   std::string_view case_option{};               ///< where the limit comes from, if from the case
   std::string_view advice{};                    ///< of a warning: what follows, what to do
+  bool own_text = false;  ///< of a warning: its text in the result names this case's numbers and is shown
 
   static constexpr CheckRow of_engines(std::string_view key, std::string_view name, std::string_view what,
                                        double limit) {
@@ -113,6 +114,31 @@ inline constexpr std::array kCheckRows{
              .fem_limit = kCommonRailYield,
              .bem_limit = kCommonRailYield,
              .advice = "a real rail would yield there, and shake down or wear"},
+    CheckRow{.key = "measured_within_torque_ramp",
+             .name = "Measured while the torque rises",
+             .what = "the measuring window begins before the torque has its full value",
+             .kind = CheckKind::warning,
+             .unit = result_unit::kMillimetres,
+             .case_option = "run.positions less half of run.window",
+             .advice = "the wanted traction cannot be reached there",
+             .own_text = true},
+    CheckRow{.key = "mass_scaling_adds_much",
+             .name = "Mass added by scaling",
+             .what = "largest share that mass scaling adds to a block’s mass",
+             .kind = CheckKind::warning,
+             .fem_limit = 0.01,
+             .advice = "vibrations across thin layers are slowed",
+             .own_text = true},
+    CheckRow{.key = "case_edited",
+             .name = "Case unchanged since the run",
+             .what = "case.toml against the one of the run",
+             .kind = CheckKind::note,
+             .unit = result_unit::kNone},
+    CheckRow{.key = "other_version",
+             .name = "Other version",
+             .what = "the result was not written by this version",
+             .kind = CheckKind::note,
+             .unit = result_unit::kNone},
     CheckRow{.key = "cases_differ",
              .name = "Different cases",
              .what = "their options differ",

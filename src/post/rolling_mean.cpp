@@ -85,7 +85,8 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     }
     if (f.size() != m.field.size())
       throw NumericalError(
-          fmt::format("the samples cannot be averaged: the surface of one has {} points, that of another {}",
+          fmt::format("the samples cannot be averaged: the surface of one has {} points, that of another {} (a fault "
+                      "of the program: please report it with the case file)",
                       m.field.size(), f.size()));
     for (int i = 0; i < f.size(); ++i) {
       m.field.x[i] += weight * f.x[i];

@@ -13,7 +13,8 @@ void warn_within_ramp(const CaseSpec& spec, double position, std::vector<Warning
   const DriveSpec& drive = spec.drive;
   if (!spec.run.rolling || drive.traction_coefficient == 0) return;
   const double ramp = drive.torque_ramp * drive.speed, begin = position - 0.5 * spec.run.window;
-  if (ramp <= begin) return;
+  constexpr double kRounding = 1e-9;  // of the ramp: 105 mm less 5 mm is a little less than 100 mm in binary
+  if (ramp <= begin + kRounding * ramp) return;
   out.push_back(
       {kWithinRamp, ramp, begin,
        fmt::format("the torque rises over {:.4g} ms, {:.4g} mm at this speed, and the measuring window begins "

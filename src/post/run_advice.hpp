@@ -4,12 +4,13 @@
 
 #include "case/case_spec.hpp"
 #include "fem/step_plan.hpp"
+#include "post/check_limits.hpp"
 #include "post/summary.hpp"
 
 namespace railstrata {
 
 /// Largest share of a block's mass that mass scaling may add without a word.
-inline constexpr double kMuchAddedMass = 0.01;
+inline constexpr double kMuchAddedMass = check_row("mass_scaling_adds_much").fem_limit;
 
 /// Warnings of a case that is measured at a wheel position [m]:
 ///   measured_within_torque_ramp   the window begins before the torque has its full value (the ramp's time times the

@@ -25,13 +25,23 @@ bool is_numerical(const CaseOption& o) {
   return keys.contains(o.table.substr(0, o.table.find('.')) + "." + o.key);
 }
 
+/// What an option is compared by: a profile file by its content, for two files may have one name, and one file two.
+std::string meaning(const ReportRun& run, const CaseOption& o) {
+  const auto file = o.table == "geometry" ? run.profile_sha256.find(o.key) : run.profile_sha256.end();
+  return file == run.profile_sha256.end() ? run.option(o.table, o.key) : file->second;
+}
+
 /// "layer.0.thickness: 1 mm, 2 mm" for every physical option that differs.
 std::vector<std::string> differences(const ReportRun& a, const ReportRun& b) {
   std::vector<std::string> out;
-  for (const CaseOption& o : a.options)
-    if (!is_numerical(o) && b.option(o.table, o.key) != o.value)
-      out.push_back(fmt::format("{}.{}: {}, {}", o.table, o.key, o.value,
-                                b.option(o.table, o.key).empty() ? "none" : b.option(o.table, o.key)));
+  for (const CaseOption& o : a.options) {
+    if (is_numerical(o) || meaning(a, o) == meaning(b, o)) continue;
+    const std::string theirs = b.option(o.table, o.key);
+    out.push_back(fmt::format("{}.{}: {}, {}", o.table, o.key, o.value,
+                              theirs.empty()      ? "none"
+                              : theirs == o.value ? "another file of this name"
+                                                  : theirs));
+  }
   for (const CaseOption& o : b.options)
     if (!is_numerical(o) && a.option(o.table, o.key).empty() && !o.value.empty())
       out.push_back(fmt::format("{}.{}: none, {}", o.table, o.key, o.value));
@@ -79,6 +89,31 @@ double number_in(const nlohmann::json& object, const char* key) {
                                                          : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Half-spaces too see less of the peak on coarse cells, and theirs is not converged on the cells they are solved on by
+/// themselves: cases/quick 342, 382, 400, 413 MPa and cases/paper/base 332, 361, 371, 385 MPa on 2, 1, 0.5, 0.25 mm.
+ReportCheck shear_check(const ReportRun& fem, const ReportRun& bem, const std::vector<int>& both) {
+  const double ours = fem.result.number("/contact/q_max_Pa"), theirs = bem.result.number("/contact/q_max_Pa");
+  if (!std::isfinite(fem.shear_on_elements)) return within("q_max", both, ours, theirs);
+  ReportCheck check = within("q_max", both, ours, fem.shear_on_elements);
+  check.note = fmt::format(
+      "half-spaces on cells as large as the elements ({:.3g} mm): {:.0f} MPa; on their own cells {:.0f} MPa, from "
+      "which the elements differ by {:.1f} %",
+      1e3 * element_size(fem), 1e-6 * fem.shear_on_elements, 1e-6 * theirs, 100 * std::abs(ours / theirs - 1));
+  return check;
+}
+
+void add_doubts(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  for (const ResultDoubt& d : run.doubts)
+    out.push_back({.name = d.name,
+                   .runs = {index},
+                   .judged = d.grave,
+                   .ok = !d.grave,
+                   .value = kNone,
+                   .limit = kNone,
+                   .note = d.text});
+}
+
 /// The objects of a list of the summary; none where it is something else.
 std::vector<nlohmann::json> objects_of(const ReportRun& run, const char* list) {
   std::vector<nlohmann::json> out;
@@ -88,16 +123,18 @@ std::vector<nlohmann::json> objects_of(const ReportRun& run, const char* list) {
   return out;
 }
 
-/// The text of a warning that the table knows is the table's, in the units of the page.
+/// The text of a warning that the table knows is the table's, in the units of the page, unless it names this case's
+/// numbers.
 void add_warnings(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
   for (const auto& w : objects_of(run, "warnings")) {
     const std::string name = w.value("name", "warning");
+    const CheckRow* row = find_check(name);
     out.push_back({.name = name,
                    .runs = {index},
                    .judged = false,
                    .value = number_in(w, "value"),
                    .limit = number_in(w, "limit"),
-                   .note = find_check(name) ? "" : w.value("text", "")});
+                   .note = row && !row->own_text ? "" : w.value("text", "")});
   }
 }
 
@@ -115,8 +152,7 @@ void add_pair(const std::vector<ReportRun>& runs, int fem, int bem, std::vector<
   const std::vector<int> both{fem, bem};
   out.push_back(within("p_max", both, a.number("/contact/p_max_Pa"), b.number("/contact/p_max_Pa")));
   out.push_back(within("patch_length", both, a.number("/contact/patch_length_m"), b.number("/contact/patch_length_m")));
-  if (b.number("/contact/q_max_Pa") > 0)
-    out.push_back(within("q_max", both, a.number("/contact/q_max_Pa"), b.number("/contact/q_max_Pa")));
+  if (b.number("/contact/q_max_Pa") > 0) out.push_back(shear_check(runs[fem], runs[bem], both));
   const Place ours = von_mises_below_surface(runs[fem]), theirs = von_mises_below_surface(runs[bem]);
   ReportCheck stress = within("von_mises_below_surface", both, ours.value, theirs.value);
   if (const double h = element_size(runs[fem]); stress.judged && theirs.depth <= h) {
@@ -134,6 +170,7 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
   std::vector<ReportCheck> out;
   const int n = static_cast<int>(runs.size());
   for (int i = 0; i < n; ++i) add_own(runs[i], i, out);
+  for (int i = 0; i < n; ++i) add_doubts(runs[i], i, out);
   for (int i = 0; i < n; ++i) add_warnings(runs[i], i, out);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
@@ -152,6 +189,24 @@ std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs) {
                      .note = fmt::format("{}{}", fmt::join(d, "; "), left ? fmt::format("; and {} more", left) : "")});
     }
   return out;
+}
+
+ReportVerdict verdict_of(const Report& report) {
+  int judged = 0, failed = 0;
+  std::string names;
+  for (const ReportCheck& c : report.checks) {
+    judged += c.judged;
+    if (!c.judged || c.ok) continue;
+    ++failed;
+    const CheckRow* row = find_check(c.name);
+    const ResultUnit& unit = row ? row->unit : result_unit::kNone;
+    names += fmt::format("{}{}", names.empty() ? "" : "; ", row ? row->name : c.name);
+    if (std::isfinite(c.value))
+      names += fmt::format(" {}, limit {}", with_unit(unit, c.value, 3), limit_text(unit, c.limit));
+  }
+  if (judged == 0) return {false, "nothing was checked"};
+  if (failed == 0) return {true, fmt::format("all {} checks hold", judged)};
+  return {false, fmt::format("{} of {} checks {}: {}", failed, judged, failed == 1 ? "fails" : "fail", names)};
 }
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #pragma once
 // Whether to trust the runs of a report.
+#include <string>
 #include <vector>
 
 #include "report/report.hpp"
@@ -7,8 +8,17 @@
 namespace railstrata {
 
 /// What the runs say of themselves, and every finite element run against a half-space run of the same case (limits:
-/// p_max 4 %, patch length 6 %, q_max 7 %, largest von Mises stress below the rail's surface 8 % where it lies deeper
-/// than an element). Of two runs of different cases it is told which options differ.
+/// post/check_limits.hpp; largest von Mises stress below the rail's surface where it lies deeper than an element). The
+/// peak of q at the border of stick and slip is as narrow as a cell shows it: q_max is compared on cells as large as
+/// the elements where that solution is there (shear_on_elements). For two runs of different cases the options that
+/// differ are listed.
 std::vector<ReportCheck> report_checks(const std::vector<ReportRun>& runs);
+
+/// The verdict of the page in one line: "all 13 checks hold", "1 of 13 checks fails: Largest shear 9.52 %, limit 7 %".
+struct ReportVerdict {
+  bool ok = false;
+  std::string text;
+};
+ReportVerdict verdict_of(const Report& report);
 
 }  // namespace railstrata

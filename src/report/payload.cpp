@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 
 #include "core/faults.hpp"
@@ -140,8 +141,13 @@ Json section(const CsvTable& table, bool longitudinal) {
   std::size_t width = 0;
   while (width < depth.size() && depth[width] == depth[0]) ++width;
   if (width < 2 || depth.size() % width != 0 || depth.size() < 2 * width)
-    throw CaseError("the rows are not a section", "write the results anew with `railstrata run` or `railstrata bem`",
-                    table.file.string());
+    throw CaseError(
+        fmt::format("this section cannot be drawn: {} rows do not make a grid with one depth a row of it (the first "
+                    "depth has {} points)",
+                    depth.size(), width),
+        "lines were removed or sorted; copy the file back, or write the results anew with `railstrata run` or "
+        "`railstrata bem`",
+        table.file.string());
   const std::vector<double>& along = longitudinal ? x : y;
   std::vector<double> rows;
   for (std::size_t i = 0; i < depth.size(); i += width) rows.push_back(depth[i]);
@@ -166,17 +172,49 @@ Json sections(const ReportRun& run) {
   return out;
 }
 
+/// The name alone of what is an absolute path: a page is sent to others, where the folders of one's machine lie is not.
+std::string without_folders(const std::string& word) {
+  const std::filesystem::path path = word;
+  return path.is_absolute() ? path.lexically_normal().filename().string() : word;
+}
+
+/// What a page says of where a run comes from. The processor, the machine's name and absolute paths stay in
+/// provenance.json.
+Json origin(const ReportRun& run) {
+  if (!run.provenance.is_object()) return Json::object();
+  Json out = run.provenance;
+  for (const char* key : {"cpu", "host"}) out.erase(key);
+  for (const char* key : {"command_line", "overrides"})
+    if (out.contains(key) && out[key].is_array())
+      for (Json& word : out[key])
+        if (word.is_string()) word = without_folders(word.get<std::string>());
+  if (out.contains("inputs") && out["inputs"].is_array())
+    for (Json& input : out["inputs"])
+      if (input.is_object() && input.contains("file") && input["file"].is_string())
+        input["file"] = without_folders(input["file"].get<std::string>());
+  return out;
+}
+
+/// geometry.json with the names of profile files instead of their paths.
+Json geometry(const ReportRun& run) {
+  Json out = run.geometry;
+  for (const char* key : {"rail_profile", "wheel_profile"})
+    if (out.is_object() && out.contains(key) && out[key].is_string())
+      out[key] = without_folders(out[key].get<std::string>());
+  return out;
+}
+
 Json run_json(const ReportRun& run) {
   Json options = Json::array();
-  for (const CaseOption& o : run.options) options.push_back({o.table, o.key, o.value});
+  for (const CaseOption& o : run.options) options.push_back({o.table, o.key, without_folders(o.value)});
   return {{"name", run.name},
-          {"folder", run.result.folder.string()},
+          {"folder", without_folders(run.result.folder.string())},
           {"engine", run.result.engine},
           {"title", run.result.title},
           {"summary", run.result.summary},
           {"case", options},
-          {"provenance", run.provenance.is_object() ? run.provenance : Json::object()},
-          {"geometry", run.geometry},
+          {"provenance", origin(run)},
+          {"geometry", geometry(run)},
           {"patch", patch(run.result.field)},
           {"centre_line", centre(run.result.field)},
           {"depth_line", columns(run.depth_line)},

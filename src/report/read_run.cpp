@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/faults.hpp"
+#include "io/provenance.hpp"
 
 namespace railstrata {
 namespace {
@@ -66,6 +67,16 @@ std::vector<CaseOption> options_of(const std::string& text) {
   return out;
 }
 
+std::map<std::string, std::string> profiles_of(const ReportRun& run, const fs::path& folder) {
+  std::map<std::string, std::string> out;
+  std::error_code error;  // of a name too long: a file that is not there
+  for (const char* key : {"rail_profile", "wheel_profile"})
+    if (const std::string name = run.option("geometry", key);
+        !name.empty() && fs::is_regular_file(folder / name, error))
+      out[key] = sha256_of_file(folder / name);
+  return out;
+}
+
 std::optional<CsvTable> table_of(const fs::path& file) {
   if (file.empty()) return std::nullopt;
   CsvTable table = read_csv(file);
@@ -85,7 +96,11 @@ ReportRun read_report_run(const fs::path& folder) {
   ReportRun run;
   run.result = read_result_folder(folder);
   run.name = fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
-  if (const fs::path file = file_of(folder, "case.toml"); !file.empty()) run.options = options_of(text_of(file));
+  if (const fs::path file = file_of(folder, "case.toml"); !file.empty()) {
+    run.options = options_of(text_of(file));
+    run.profile_sha256 = profiles_of(run, file.parent_path());
+  }
+  run.doubts = result_doubts(folder);
   run.provenance = json_of(file_of(folder, "provenance.json"));
   run.geometry = json_of(file_of(folder, "geometry.json"));
   run.depth_line = table_of(file_of(folder, "depth_line.csv"));

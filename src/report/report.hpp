@@ -2,6 +2,7 @@
 // What a report shows: a list of runs, the checks that say whether to trust them, and for a study tables and charts
 // over all of them.
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/csv.hpp"
+#include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
 
 namespace railstrata {
@@ -20,12 +22,18 @@ struct CaseOption {
 };
 
 /// A result folder, read whole. What an older folder has not is empty.
-struct ReportRun {                              // NOLINT(bugprone-exception-escape): as of ResultFolder
-  std::string name;                             ///< what the report calls it
-  ResultFolder result;                          ///< summary.json, patch.csv
-  std::vector<CaseOption> options;              ///< case.toml
-  nlohmann::ordered_json provenance, geometry;  ///< provenance.json, geometry.json
+struct ReportRun {                                    // NOLINT(bugprone-exception-escape): as of ResultFolder
+  std::string name;                                   ///< what the report calls it
+  ResultFolder result;                                ///< summary.json, patch.csv
+  std::vector<CaseOption> options;                    ///< case.toml
+  std::map<std::string, std::string> profile_sha256;  ///< of the content of profile files, by "rail_profile" and
+                                                      ///< "wheel_profile"; none for built-in profiles and lost files
+  nlohmann::ordered_json provenance, geometry;        ///< provenance.json, geometry.json
   std::optional<CsvTable> depth_line, history;
+  double shear_on_elements = std::numeric_limits<double>::quiet_NaN();  ///< of a finite element run: q_max [Pa] of the
+                                                                        ///< half-space solution on cells as large as
+                                                                        ///< its elements; NaN: not solved
+  std::vector<ResultDoubt> doubts;           ///< why its numbers may not be those of its case
   std::map<std::string, CsvTable> sections;  ///< "rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"
 
   /// The value of an option as the case writes it; empty if it is not there.

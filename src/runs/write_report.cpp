@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <limits>
+#include <utility>
 
 #include "case/case_file.hpp"
 #include "core/engine.hpp"
@@ -13,7 +15,6 @@
 #include "core/parallel.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
-#include "report/checks.hpp"
 #include "report/page.hpp"
 #include "report/read_run.hpp"
 #include "runs/write_half_space_result.hpp"
@@ -46,11 +47,41 @@ std::string title_of(const std::vector<ReportRun>& runs) {
                             : fmt::format("{} and {} more", titles[0], titles.size() - 1);
 }
 
+/// The folder that has case.toml: a position's is the one it stands in.
+fs::path folder_of_case(const fs::path& folder) {
+  const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
+  return full.filename().string().starts_with(kPositionFolder) ? full.parent_path() : full;
+}
+
+/// The largest shear of half-spaces on cells as large as the elements [Pa]; NaN where there is no such solution.
+double shear_on_elements(const fs::path& case_file) {
+  constexpr double kFinest = 0.1e-3;  // m: below, the peak hardly changes any more, and a solution takes seconds
+  try {
+    const LoadedCase loaded = load_case(case_file);
+    const CaseSpec spec = half_space_case(loaded.spec);
+    BemOptions bem;
+    bem.cell = std::max(loaded.spec.mesh.element_size, kFinest);
+    return solve_bem(spec, place(spec, loaded.folder()), bem).patch.q_max;
+  } catch (const CaseError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  } catch (const NumericalError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+/// For finite element runs that a half-space run stands beside.
+void add_shear_on_elements(const std::vector<fs::path>& folders, std::vector<ReportRun>& runs) {
+  const auto is_bem = [](const ReportRun& run) { return is_engine(run.result.engine, Engine::bem); };
+  if (std::none_of(runs.begin(), runs.end(), is_bem)) return;
+  for (std::size_t k = 0; k < folders.size(); ++k)
+    if (is_engine(runs[k].result.engine, Engine::fem))
+      runs[k].shear_on_elements = shear_on_elements(folder_of_case(folders[k]) / "case.toml");
+}
+
 }  // namespace
 
 fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& notes) {
-  const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
-  const fs::path home = full.filename().string().starts_with(kPositionFolder) ? full.parent_path() : full;
+  const fs::path home = folder_of_case(folder);
   fs::path out = home / kReferenceFolder;
   if (fs::exists(out / "summary.json") && same_text(home / "case.toml", out / "case.toml")) return out;
   try {
@@ -64,7 +95,7 @@ fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& 
   return {};
 }
 
-std::vector<std::string> write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference) {
+WrittenPage write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference) {
   std::vector<std::string> notes;
   Report report;
   for (const fs::path& folder : folders) report.runs.push_back(read_report_run(folder));
@@ -73,10 +104,14 @@ std::vector<std::string> write_report(const fs::path& page, const std::vector<fs
       report.runs.push_back(read_report_run(beside));
       report.runs[1].name = report.runs[0].name;
     }
+  add_shear_on_elements(folders, report.runs);
   report.title = title_of(report.runs);
   report.checks = report_checks(report.runs);
   write_whole_file(page, report_page(report));
-  return notes;
+  for (const ReportRun& run : report.runs)
+    for (const ResultDoubt& doubt : run.doubts)
+      notes.push_back(fmt::format("{}: {}", run.result.folder.string(), doubt.text));
+  return {verdict_of(report), std::move(notes)};
 }
 
 }  // namespace railstrata

@@ -4,7 +4,15 @@
 #include <string>
 #include <vector>
 
+#include "report/checks.hpp"
+
 namespace railstrata {
+
+/// What the user should know of a page that was written.
+struct WrittenPage {
+  ReportVerdict verdict;           ///< the one that stands on the page
+  std::vector<std::string> notes;  ///< why there is no reference; why a result may not be that of its case
+};
 
 /// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that holds
 /// this case already. Of several positions each has the one of the run's folder. Returns the folder; empty, with a note
@@ -12,9 +20,8 @@ namespace railstrata {
 std::filesystem::path half_space_reference(const std::filesystem::path& folder, std::vector<std::string>& notes);
 
 /// Writes the page for these folders; throws CaseError where one is no result, EnvironmentError for the disk. A single
-/// finite element result is set against its half-space reference if `reference` says so. Returns what the user should
-/// know: why there is no reference.
-std::vector<std::string> write_report(const std::filesystem::path& page,
-                                      const std::vector<std::filesystem::path>& folders, bool reference);
+/// finite element result is set against its half-space reference if `reference` says so.
+WrittenPage write_report(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders,
+                         bool reference);
 
 }  // namespace railstrata

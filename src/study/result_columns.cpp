@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/spreadsheet_text.hpp"
+
 namespace railstrata {
 std::vector<ResultColumn> result_columns(bool stresses) {
   std::vector<ResultColumn> out = table_columns();
@@ -60,7 +62,8 @@ double column_value(const ResultColumn& column, const nlohmann::ordered_json& su
   return summary.contains(at) && summary[at].is_number() ? column.factor * summary[at].get<double>() : kNotApplicable;
 }
 
-std::string csv_cell(const std::string& text) {
+std::string csv_cell(const std::string& given) {
+  const std::string text = without_formula(given);
   if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) {

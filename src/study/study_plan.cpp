@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/faults.hpp"
+#include "io/kept_inputs.hpp"
 #include "io/provenance.hpp"
 
 namespace railstrata {
@@ -69,14 +70,9 @@ void add_placed(const CaseError& e, const LoadedStudy& study, const std::vector<
 
 std::string result_key(const LoadedCase& loaded, Engine engine, const std::string& cell) {
   std::string text = fmt::format("{} {} {}\n", engine_word(engine), kResultVersion, engine == Engine::bem ? cell : "");
-  std::istringstream lines(loaded.resolved_toml);
+  std::istringstream lines(case_by_content(loaded));
   for (std::string line; std::getline(lines, line);)
     if (!line.starts_with("title = ")) text += line + '\n';
-  for (const std::filesystem::path& file : loaded.inputs) {
-    if (file == loaded.file) continue;
-    for (std::size_t at = 0; (at = text.find(file.string(), at)) != std::string::npos;)
-      text.replace(at, file.string().size(), sha256_of_file(file));
-  }
   return sha256_of(text);
 }
 

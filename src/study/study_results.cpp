@@ -285,7 +285,7 @@ void write_study_table(const fs::path& file, const std::vector<std::string>& ori
   text += "folder,state,fault\n";
   for (const StudyRow& row : rows) {
     const StudyCase& c = *row.study_case;
-    text += c.group + ',' + csv_cell(c.name) + ',' + std::string(engine_word(c.engine)) + ',';
+    text += csv_cell(c.group) + ',' + csv_cell(c.name) + ',' + std::string(engine_word(c.engine)) + ',';
     for (const std::string& key : keys) {
       const auto v = std::find_if(c.values.begin(), c.values.end(), [&](const auto& kv) { return kv.first == key; });
       text += (v == c.values.end() ? "" : csv_cell(v->second)) + ',';

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "core/faults.hpp"
+#include "io/kept_inputs.hpp"
 #include "io/output_file.hpp"
 #include "study/child_process.hpp"
 #include "study/study_results.hpp"
@@ -124,7 +125,7 @@ class Pool {
     std::string fault;
     if (!has_result(status))
       fault = reason_of(text_of(r.folder / "log.txt"), status);
-    else if (!text_of(r.folder / "case.toml").ends_with(c.loaded.resolved_toml))
+    else if (!text_of(r.folder / "case.toml").ends_with(kept_case(c.loaded, kept_inputs(c.loaded, r.folder))))
       fault = "the base case changed while the study ran: start it again";
     if (fault.empty()) {
       try {

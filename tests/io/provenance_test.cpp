@@ -29,6 +29,15 @@ TEST(Provenance, NamesEveryInputWithItsSha256AndTheCommandLine) {
     EXPECT_TRUE(json.contains(key)) << key;
 }
 
+TEST(Provenance, NamesTheCopiesThatAResultKeeps) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "kept_input.txt";
+  std::ofstream(file) << "abc";
+  const auto json = nlohmann::json::parse(provenance_json({}, {}, {file}, 1, {"12ab", {{file, "inputs/w.csv"}}}));
+  EXPECT_EQ(json["inputs"][0]["kept"], "inputs/w.csv");
+  EXPECT_EQ(json["case_sha256"], "12ab");
+  EXPECT_FALSE(nlohmann::json::parse(provenance_json({}, {}, {file}, 1)).contains("case_sha256"));
+}
+
 TEST(Provenance, AMissingInputIsAnEnvironmentError) { EXPECT_THROW(sha256_of_file("no/such/file"), EnvironmentError); }
 
 }  // namespace

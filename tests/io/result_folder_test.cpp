@@ -31,5 +31,28 @@ TEST(ResultFolder, OnlyWholeSoundPatchesAreRead) {
   EXPECT_NE(refusal("", "[]").find("folder/summary.json: this is not a summary"), std::string::npos);
 }
 
+TEST(ResultFolder, TextsInThePlaceOfNumbersAreRefused) {
+  const auto said = [](const char* summary) { return refusal("0,1,0,1,2,3,4,5,6,2\n", summary); };
+  EXPECT_EQ(said(R"({"contact": {"p_max_Pa": 1e9, "spin_per_m": null}, "stress": {"rail": {"layer": null}}})"),
+            "accepted");
+  EXPECT_NE(said(R"({"contact": {"p_max_Pa": "1 GPa"}})").find("contact.p_max_Pa is a text, not a number"),
+            std::string::npos);
+  EXPECT_NE(said(R"({"contact": {}, "stress": {"rail": {"layer": [1]}}})").find("stress.rail.layer is a list"),
+            std::string::npos);
+  EXPECT_NE(said(R"({"contact": {}, "position_m": true})").find("position_m is true or false"), std::string::npos);
+  std::string deep = "1";
+  for (int k = 0; k < 20000; ++k) deep = "{\"a\":" + deep + "}";
+  EXPECT_NE(said(("{\"contact\": " + deep + "}").c_str()).find("is a table, not a number"), std::string::npos);
+}
+
+TEST(ResultFolder, OnlyEnginesOfThisProgramAreRead) {
+  const auto said = [](const std::string& engine) {
+    return refusal("0,1,0,1,2,3,4,5,6,2\n", R"({"contact": {}, "run": {"engine": ")" + engine + "\"}}");
+  };
+  EXPECT_EQ(said("fem"), "accepted");
+  EXPECT_EQ(said("bem"), "accepted");
+  EXPECT_NE(said("abc").find("the engine is \"abc\": no engine of this program"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace railstrata

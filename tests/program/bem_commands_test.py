@@ -54,7 +54,8 @@ class HalfSpaceCommands(FromOutside):
 
     def test_the_table_is_that_of_run_and_json_is_the_summary(self):
         out = self.done("bem", BASE, *COARSE, "--out", self.folder / "a")
-        for word in ["p_max", "q_max", "slip area", "F_x/F_z", "creepage", "rail below the surface", "Vertical load", "checks"]:
+        for word in ["p_max", "q_max", "slip area", "F_x/F_z", "creepage", "rail below the surface", "Vertical load",
+                     "checks"]:
             self.assertIn(word, out)
         self.assertNotIn("nan", out)
         out = self.done("bem", BASE, *COARSE, "--out", self.folder / "b", "--json", "-q")
@@ -210,6 +211,13 @@ young_ratio = 2.0
                          "drive.traction_coefficient=0"], "error: ")
 
     # sweep
+
+    def test_a_sweep_s_table_runs_nothing_in_a_spreadsheet(self):
+        out = self.folder / "sweep"
+        self.done("sweep", BASE, *COARSE, "--vary", "case.title==cmd|calc,@x", "--vary", "geometry.lateral_shift=-1 mm",
+                  "--out", out)
+        self.assertEqual([(row["case.title"], row["geometry.lateral_shift"]) for row in table(out / "sweep.csv")],
+                         [("'=cmd|calc", "-1 mm"), ("'@x", "-1 mm")])
 
     def test_a_sweep_solves_every_combination_and_its_rows_are_those_of_bem(self):
         out = self.folder / "sweep"

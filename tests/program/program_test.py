@@ -30,9 +30,35 @@ class Program(FromOutside):
     def test_unknown_commands_and_options_exit_2(self):
         self.refused(2, ["chekc"], 'error: unknown command "chekc"\n    remedy: did you mean check?')
         self.refused(2, ["check"], "case is required")
-        self.refused(2, ["check", "a.toml", "--colour"], "--colour")
-        self.refused(2, [], "A subcommand is required")
-        self.refused(2, ["check", "a.toml", "--threads", "many"], "--threads")
+        self.refused(2, ["check", "a.toml", "--colour"], "error: railstrata check has no option --colour\n"
+                                                         "    remedy: options: ")
+        self.refused(2, ["bem", "a.toml", "--cel", "1 mm"], "error: railstrata bem has no option --cel\n    remedy: "
+                                                            "did you mean --cell? options: --cell, --force, --help, ")
+        self.refused(2, ["bem", "a.toml", "--cell", "1", "mm"], 'error: "mm" is one word too many for railstrata bem\n'
+                                                                '    remedy: put what has blanks into quotes')
+        self.refused(2, ["--json"], "error: no command is given\n    remedy: commands: demo, check, mesh, run, ")
+        self.refused(2, ["check"], "error: railstrata check: case is required (Case file, or a folder with "
+                                   "case.toml)\n    remedy: what it takes: railstrata check --help\n")
+        self.refused(2, ["check", "a.toml", "--threads", "many"], "error: railstrata check: ", "--threads", "remedy: ")
+        errors = json.loads(self.refused(2, ["bem", "a.toml", "--cel", "1 mm", "--json"]))["errors"]
+        self.assertEqual(errors[0]["message"], "railstrata bem has no option --cel")
+
+    def test_the_bare_program_shows_its_commands(self):
+        rc, out, err = railstrata()
+        self.assertEqual((rc, err), (2, ""))
+        self.assertEqual(out, railstrata("--help")[1])
+        self.assertIn("creep-curve", out)
+
+    def test_help_is_a_word_too(self):
+        self.assertEqual(railstrata("help"), railstrata("--help"))
+        self.assertEqual(railstrata("help", "bem"), railstrata("bem", "--help"))
+        self.refused(2, ["help", "bme"], 'unknown command "bme"', "did you mean bem?")
+
+    def test_help_shows_options_as_they_are_written(self):
+        for command in ["run", "bem", "study", "report"]:  # {false} is how CLI11 shows a flag that clears
+            out = railstrata(command, "--help")[1]
+            self.assertNotIn("{false}", out, command)
+            self.assertIn("--no-re", out)
 
     def test_a_missing_case_exits_2(self):
         self.refused(2, ["check", "no/such.toml"], "cannot read no/such.toml: No such file or directory")
@@ -126,7 +152,7 @@ class Program(FromOutside):
 
     def test_every_command_named_in_the_readme_exists(self):
         readme = (SOURCE / "README.md").read_text()
-        for word in set(re.findall(r"\./railstrata ([a-z]+)", readme)) - {"demo", "test"}:
+        for word in set(re.findall(r"\./railstrata ([a-z]+)", readme)) - {"test", "install"}:  # of the front door
             self.assertEqual(railstrata(word, "--help")[0], 0, word)
 
 

@@ -91,20 +91,27 @@ class Run(Page):
 
     def test_a_telephone_needs_no_sideways_scrolling(self):
         device = self.browser.driver.execute_cdp_cmd
-        device("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": False})
+        device("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2,
+                                                      "mobile": False})
         try:
-            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width <= document.getElementById('plot-map-p-0').clientWidth"), "figures have followed")
+            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width <= "
+                                              "document.getElementById('plot-map-p-0').clientWidth"),
+                              "figures have followed")
             self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), 390)
-            right = self.js("return Math.max(...[...document.querySelectorAll('nav a')].map(a => a.getBoundingClientRect().right))")
+            right = self.js("return Math.max(...[...document.querySelectorAll('nav a')].map(a => "
+                            "a.getBoundingClientRect().right))")
             self.assertLessEqual(right, 390)
         finally:
             device("Emulation.clearDeviceMetricsOverride", {})
-            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width > 400"), "figures have followed back")
+            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width > 400"),
+                              "figures have followed back")
 
     def test_names_of_checks_are_those_of_the_program_s_table(self):
-        checks = json.loads(subprocess.run([BINARY, "schema", "--results"], capture_output=True, text=True, check=True).stdout)["checks"]
+        checks = json.loads(subprocess.run([BINARY, "schema", "--results"], capture_output=True, text=True,
+                                           check=True).stdout)["checks"]
         names = {row["key"]: row["name"] for row in checks}
-        for name, key in self.js("return [...document.querySelectorAll('#verdict tr[data-check] th')].map(e => [e.innerText, e.parentElement.dataset.check])"):
+        for name, key in self.js("return [...document.querySelectorAll('#verdict tr[data-check] th')].map(e => "
+                                 "[e.innerText, e.parentElement.dataset.check])"):
             self.assertEqual(name, names[key])
 
     def test_it_fits_into_six_megabytes(self):
@@ -142,9 +149,15 @@ class Run(Page):
         fem, bem = summary_of(FEM), summary_of(HALF_SPACE)
         schema = subprocess.run([BINARY, "schema", "--results"], capture_output=True, text=True, check=True)
         limits = {row["key"]: row["fem_limit"] for row in json.loads(schema.stdout)["checks"]}
+        with tempfile.TemporaryDirectory() as place:  # shear: on cells as large as the elements
+            size = re.search(r'element_size = "(.*)"', (FEM / "case.toml").read_text())[1]
+            subprocess.run(
+                [BINARY, "bem", FEM / "case.toml", "--cell", size, "--no-report", "--quiet", "--out", f"{place}/equal"],
+                check=True, capture_output=True, timeout=60)
+            equal = summary_of(pathlib.Path(place, "equal"))
         for check, key in [("p_max", "p_max_Pa"), ("patch_length", "patch_length_m"), ("q_max", "q_max_Pa")]:
             limit = limits[check]
-            value = abs(fem["contact"][key] / bem["contact"][key] - 1)
+            value = abs(fem["contact"][key] / (equal if check == "q_max" else bem)["contact"][key] - 1)
             row = self.js(
                 "const r = document.querySelector(`tr[data-check='${arguments[0]}'][data-runs='0,1']`); return {ok: "
                 "r.dataset.ok === 'true', value: r.querySelector('.value').innerText, limit: "
@@ -152,6 +165,9 @@ class Run(Page):
             self.assertAlmostEqual(number_in(row["value"]) / 100, value, delta=6e-3 * value)
             self.assertAlmostEqual(number_in(row["limit"]) / 100, limit)
             self.assertEqual(row["ok"], value <= limit)
+
+    def test_the_cards_say_whose_numbers_they_are(self):
+        self.assertTrue(self.browser.text("#tiles-of").startswith("Numbers of fem (finite elements)"))
 
     def test_the_numbers_are_those_of_the_summaries(self):
         shown = self.js(
@@ -542,8 +558,28 @@ class Command(unittest.TestCase):
             self.assertNotEqual(summary_of(folder / "half_space")["contact"]["slip_area_fraction"],
                                 summary_of(HALF_SPACE)["contact"]["slip_area_fraction"])
 
+    def test_the_terminal_gives_the_verdict_of_the_page(self):
+        with tempfile.TemporaryDirectory() as place:
+            done = subprocess.run([BINARY, "report", FEM, "--out", f"{place}/page.html"], capture_output=True,
+                                  text=True, timeout=60)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            told = re.search(r"warning: verdict of the page: (\d+) of (\d+) checks fails?: ", done.stderr)
+            checks = json.loads(re.search(r'id="data">(.*?)</script>', pathlib.Path(place, "page.html").read_text(),
+                                          re.S)[1])["checks"]
+            judged = [c for c in checks if c["judged"]]
+            self.assertEqual((int(told[1]), int(told[2])), (sum(not c["ok"] for c in judged), len(judged)))
+
+    def test_a_page_says_nothing_of_the_machine_s_folders(self):
+        text = (FEM / "report.html").read_text()
+        data = re.search(r'id="data">(.*?)</script>', text, re.S)[1]
+        self.assertNotIn(str(RESULTS), data)
+        self.assertNotIn(json.loads((FEM / "provenance.json").read_text())["host"],
+                         json.dumps(json.loads(data)["runs"][0]["provenance"]))
+        self.assertNotIn("cpu", json.loads(data)["runs"][0]["provenance"])
+
     def test_several_folders_need_a_place(self):
-        self.refused(2, [FEM, BEM], "a report on several folders needs a place", "--out")
+        self.refused(2, [FEM, BEM], "2 folders are given and no --out",
+                     "remedy: say where the page is to be written, e.g. --out comparison.html")
 
 
 del Page  # only its heirs are tests

@@ -96,6 +96,75 @@ TEST(ReportChecks, HoldFiniteElementsAgainstHalfSpacesOfTheSameCase) {
   EXPECT_FALSE(has(checks, "cases_differ"));
 }
 
+TEST(ReportChecks, CompareTheLargestShearOnCellsAsLargeAsTheElements) {
+  ReportRun fem = sample("fem");
+  const ReportRun bem = sample("bem");
+  fem.result.summary["contact"]["q_max_Pa"] = 240e6;  // 20 % below the half-spaces on their own cells
+  fem.shear_on_elements = 250e6;
+  const ReportCheck shear = find(report_checks({fem, bem}), "q_max", 2);
+  EXPECT_TRUE(shear.ok);
+  EXPECT_NEAR(shear.value, 0.04, 1e-12);
+  EXPECT_DOUBLE_EQ(shear.limit, 0.07);
+  EXPECT_NE(shear.note.find("(1 mm): 250 MPa; on their own cells 300 MPa, from which the elements differ by 20.0 %"),
+            std::string::npos)
+      << shear.note;
+  fem.shear_on_elements = 260e6;
+  EXPECT_FALSE(find(report_checks({fem, bem}), "q_max", 2).ok) << "the limit is that of any two runs";
+}
+
+TEST(ReportChecks, AnEditedCaseFailsAndAnotherVersionIsSaid) {
+  ReportRun run = sample("bem");
+  run.doubts = {{"case_edited", "changed", true}, {"other_version", "older", false}};
+  const auto checks = report_checks({run});
+  EXPECT_TRUE(find(checks, "case_edited", 1).judged);
+  EXPECT_FALSE(find(checks, "case_edited", 1).ok);
+  EXPECT_FALSE(find(checks, "other_version", 1).judged);
+}
+
+TEST(ReportChecks, CompareProfileFilesByTheirContent) {
+  ReportRun fem = sample("fem"), bem = sample("bem");
+  fem.options.push_back({"geometry", "wheel_profile", "inputs/w.csv"});
+  bem.options.push_back({"geometry", "wheel_profile", "/elsewhere/w.csv"});
+  fem.profile_sha256["wheel_profile"] = bem.profile_sha256["wheel_profile"] = "12";
+  EXPECT_FALSE(has(report_checks({fem, bem}), "cases_differ"));
+  bem.options.back().value = "inputs/w.csv";
+  bem.profile_sha256["wheel_profile"] = "34";
+  EXPECT_EQ(find(report_checks({fem, bem}), "cases_differ", 2).note,
+            "geometry.wheel_profile: inputs/w.csv, another file of this name");
+}
+
+TEST(ReportVerdict, SaysWhatFailsAndByHowMuch) {
+  Report report;
+  EXPECT_EQ(verdict_of(report).text, "nothing was checked");
+  EXPECT_FALSE(verdict_of(report).ok);
+  report.checks = {{"p_max", {0, 1}, true, true, 0.01, 0.04, ""}, {"yield", {0}, false, true, 2, 1, ""}};
+  EXPECT_TRUE(verdict_of(report).ok);
+  EXPECT_EQ(verdict_of(report).text, "all 1 checks hold");
+  report.checks.push_back({"q_max", {0, 1}, true, false, 0.0952, 0.07, ""});
+  EXPECT_FALSE(verdict_of(report).ok);
+  EXPECT_EQ(verdict_of(report).text, "1 of 2 checks fails: Largest shear 9.52 %, limit 7 %");
+}
+
+TEST(ReportPayload, LeavesOutTheMachineAndItsFolders) {
+  Report report;
+  report.runs.push_back(sample("bem"));
+  ReportRun& run = report.runs[0];
+  run.result.folder = "/home/name/results/one";
+  run.provenance = {{"cpu", "a processor"},
+                    {"host", "a name"},
+                    {"command_line", {"/usr/bin/railstrata", "bem", "/home/name/case.toml", "--out=one"}},
+                    {"inputs", {{{"file", "/home/name/w.csv"}, {"sha256", "12"}}}}};
+  run.geometry = {{"rail_profile", "CN60"}, {"wheel_profile", "/home/name/w.csv"}};
+  run.options.push_back({"geometry", "wheel_profile", "/home/name/w.csv"});
+  const Json shown = report_payload(report)["runs"][0];
+  EXPECT_EQ(shown.dump().find("/home"), std::string::npos);
+  EXPECT_EQ(shown["folder"], "one");
+  EXPECT_EQ(shown["provenance"], (Json{{"command_line", {"railstrata", "bem", "case.toml", "--out=one"}},
+                                       {"inputs", {{{"file", "w.csv"}, {"sha256", "12"}}}}}));
+  EXPECT_EQ(shown["geometry"]["wheel_profile"], "w.csv");
+  EXPECT_EQ(shown["geometry"]["rail_profile"], "CN60");
+}
+
 TEST(ReportChecks, TakeTheLargestStressBelowTheSurfaceWhateverItsZone) {
   ReportRun fem = sample("fem"), bem = sample("bem");
   for (ReportRun* run : {&fem, &bem})

@@ -2,6 +2,7 @@
 """view.py of a run shows wheel, rail, layer and stress. Under xvfb, with Debian's python3-vtk9. usage: view_test.py
 RESULTS"""
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -114,6 +115,21 @@ class View(unittest.TestCase):
         self.assertGreater(gap.min(), -2e-6)  # both curves are drawn as lines between points a millimetre apart
         self.assertLess(gap.min(), 2e-6)
         self.assertLess(abs(summit[inside, 1][gap.argmin()]), 2e-3, "near the crown, where LMA meets CN60")
+
+    def test_without_a_display_it_says_what_helps(self):
+        bare = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        for display in ({}, {"DISPLAY": ":4711"}):
+            done = subprocess.run([sys.executable, RESULTS / "bem" / "view.py", "--png", "no.png"], capture_output=True,
+                                  text=True, timeout=120, env=bare | display)
+            if done.returncode == 0:
+                pathlib.Path("no.png").unlink()  # a VTK that draws without a display
+                continue
+            self.assertEqual((done.returncode, done.stderr), (1, "view.py: VTK needs a display, e.g. xvfb-run -a "
+                                                                 "python3 view.py --png view.png\n"))
+        done = subprocess.run([sys.executable, RESULTS / "bem" / "view.py"], capture_output=True, text=True,
+                              timeout=120, env=bare)
+        self.assertEqual((done.returncode, done.stderr), (1, "view.py: a window needs a display; a picture without "
+                                                             "one: xvfb-run -a python3 view.py --png view.png\n"))
 
     def test_the_script_knows_where_it_was_written(self):
         for folder in ("fem", "bem"):

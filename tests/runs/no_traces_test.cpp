@@ -58,8 +58,8 @@ TEST(NoTraces, SolvingLeavesNoFileNoLineAndNoSignalHandler) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_TRUE(folder.empty());
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGUSR1}) EXPECT_TRUE(is_default(signal)) << signal;
-  EXPECT_GT(fem.positions.back().summary.contact.p_max, 0);
-  EXPECT_GT(half_space.summary.contact.p_max, 0);
+  EXPECT_GT(fem.positions.back().summary.contact.patch.p_max, 0);
+  EXPECT_GT(half_space.summary.contact.patch.p_max, 0);
 }
 
 }  // namespace railstrata

@@ -21,7 +21,7 @@ void expect_same_bits(const HalfSpaceSolution& a, const HalfSpaceSolution& b) {
   EXPECT_EQ(a.result.field.p, b.result.field.p);
   EXPECT_EQ(a.result.field.q_x, b.result.field.q_x);
   EXPECT_EQ(a.result.field.q_y, b.result.field.q_y);
-  EXPECT_EQ(a.result.creepage_x, b.result.creepage_x);
+  EXPECT_EQ(a.result.rigid_slip.x, b.result.rigid_slip.x);
   ASSERT_TRUE(a.summary.rail.subsurface && b.summary.rail.subsurface);
   EXPECT_EQ(a.summary.rail.subsurface->von_mises.value, b.summary.rail.subsurface->von_mises.value);
 }
@@ -32,7 +32,7 @@ TEST(SolveHalfSpace, TwoThreadsAtATimeGetTheBitsOfOneAfterTheOther) {
   const std::vector<std::vector<std::string>> cases{{"drive.traction_coefficient=0.1"},
                                                     {"drive.traction_coefficient=0.3", "geometry.lateral_shift=2 mm"}};
   const HalfSpaceSolution first = solve(cases[0]), second = solve(cases[1]);
-  EXPECT_NE(first.result.creepage_x, second.result.creepage_x);
+  EXPECT_NE(first.result.rigid_slip.x, second.result.rigid_slip.x);
   for (int round = 0; round < 3; ++round) {
     HalfSpaceSolution a, b;
     std::thread one([&] { a = solve(cases[0]); }), other([&] { b = solve(cases[1]); });
@@ -46,20 +46,20 @@ TEST(SolveHalfSpace, TwoThreadsAtATimeGetTheBitsOfOneAfterTheOther) {
 TEST(SolveHalfSpace, GivesPatchForcesStressesAndSummary) {
   const HalfSpaceSolution s = solve({});
   EXPECT_EQ(s.summary.title, "from a text");
-  EXPECT_EQ(s.summary.run.engine, "bem");
+  EXPECT_EQ(s.summary.run.engine, Engine::bem);
   EXPECT_GT(s.summary.run.threads, 0);
-  EXPECT_NEAR(s.result.F_z, -(660 + 8000) * 9.81, 1e-4 * 8660 * 9.81);
+  EXPECT_NEAR(s.result.force.z, -(660 + 8000) * 9.81, 1e-4 * 8660 * 9.81);
   const double deepest = s.summary.rail.subsurface->von_mises.value;
-  EXPECT_GT(deepest, 0.3 * s.result.p_max);
-  EXPECT_LT(deepest, s.result.p_max);
+  EXPECT_GT(deepest, 0.3 * s.result.patch.p_max);
+  EXPECT_LT(deepest, s.result.patch.p_max);
   const InteriorPoint below = rail_interior(s.result).at({{0, 0, 1e-3}}).front();
-  EXPECT_LT(below.stress.zz, -0.5 * s.result.p_max);  // a millimetre below the middle of the patch
+  EXPECT_LT(below.stress.zz, -0.5 * s.result.patch.p_max);  // a millimetre below the middle of the patch
 }
 
 TEST(SolveHalfSpace, AStaticCaseIsWithoutFriction) {
   const HalfSpaceSolution s = solve({"run.rolling=false"});
-  EXPECT_EQ(s.result.F_x, 0);
-  EXPECT_EQ(s.result.q_max, 0);
+  EXPECT_EQ(s.result.force.x, 0);
+  EXPECT_EQ(s.result.patch.q_max, 0);
 }
 
 }  // namespace railstrata

@@ -77,10 +77,11 @@ TEST_F(WriteResult, AWriterThatObservesARunLeavesItsFilesAndNoCheckpoint) {
   EXPECT_EQ(names_in(folder),
             with(kPosition, {"history.csv", "patch.pvd", "patch_series", "position_5mm", "rail.vtu", "wheel.vtu"}));
   EXPECT_EQ(names_in(folder / "position_5mm"), with(kPosition, {"rail.vtu", "wheel.vtu"}));
-  EXPECT_EQ(names_in(folder / "patch_series"), (Names{"patch_0000.vtp", "patch_0001.vtp", "patch_0002.vtp"}));
-  EXPECT_EQ(read_result_folder(folder).number("/contact/p_max_Pa"), solution.positions[1].summary.contact.p_max);
+  EXPECT_EQ(names_in(folder / "patch_series"),
+            (Names{"patch_0000.vtp", "patch_0001.vtp", "patch_0002.vtp", "patch_0003.vtp"}));
+  EXPECT_EQ(read_result_folder(folder).number("/contact/p_max_Pa"), solution.positions[1].summary.contact.patch.p_max);
   EXPECT_EQ(read_result_folder(folder / "position_5mm").number("/contact/p_max_Pa"),
-            solution.positions[0].summary.contact.p_max);
+            solution.positions[0].summary.contact.patch.p_max);
 }
 
 TEST_F(WriteResult, ACheckpointThatCannotBeWrittenIsAWarningUnlessTheRunStops) {
@@ -112,7 +113,7 @@ TEST_F(WriteResult, AHalfSpaceSolutionHasTheFilesOfAPosition) {
   const HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, options);
   write_half_space_result(folder, {"a case"}, loaded.spec, placement, solution);
   EXPECT_EQ(names_in(folder), kPosition);
-  EXPECT_EQ(read_result_folder(folder).number("/contact/p_max_Pa"), solution.summary.contact.p_max);
+  EXPECT_EQ(read_result_folder(folder).number("/contact/p_max_Pa"), solution.summary.contact.patch.p_max);
 }
 
 }  // namespace railstrata

@@ -1,0 +1,93 @@
+#include "io/folder_kind.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/shell_word.hpp"
+#include "io/checkpoint_file.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool has(const fs::path& folder, const char* name) {
+  std::error_code error;
+  return fs::exists(folder / name, error);
+}
+
+/// The command that has written the folder ("run", "study"), by its provenance.json; empty if that does not say.
+std::string command_of(const fs::path& folder) {
+  std::ifstream in(folder / "provenance.json", std::ios::binary);
+  const auto origin = nlohmann::json::parse(in, nullptr, false);
+  if (!origin.is_object() || !origin.contains("command_line") || !origin["command_line"].is_array()) return {};
+  for (const auto& word : origin["command_line"])
+    for (const char* command : {"run", "bem", "study", "sweep", "creep-curve", "mesh"})
+      if (word == command) return command;
+  return {};
+}
+
+/// The first folder, by name, right below this one that holds a finished result; empty if none does.
+fs::path result_below(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> found;
+  for (auto entry = fs::directory_iterator(folder, error); !error && entry != fs::directory_iterator();
+       entry.increment(error))
+    if (has(entry->path(), "summary.json")) found.push_back(entry->path());
+  std::sort(found.begin(), found.end());
+  return found.empty() ? fs::path() : found.front();
+}
+
+Diagnostic begun(const fs::path& folder, const std::string& command) {
+  const std::string word = shell_word(folder.string()), name = folder.string();
+  if (fs::exists(checkpoint_file(folder)) || fs::exists(previous_checkpoint_file(folder)))
+    return {"", fmt::format("{}: this run is not finished, it has a checkpoint and no summary.json", name),
+            fmt::format("railstrata run --resume {}", word)};
+  return {"", fmt::format("{}: this folder was begun by `railstrata {}` and has no results yet", name, command),
+          fmt::format("wait until it has ended; if it was stopped, start it again: railstrata {} {} --out {} --force",
+                      command, command == "run" || command == "bem" ? "CASE" : "...", word)};
+}
+
+}  // namespace
+
+Diagnostic no_result_here(const fs::path& folder) {
+  const std::string name = folder.string(), word = shell_word(name);
+  std::error_code error;
+  if (!fs::exists(folder, error))
+    return {"", fmt::format("{} is not a result folder: there is no such folder", name),
+            "give a folder that `railstrata run` or `railstrata bem` has written"};
+  if (!fs::is_directory(folder, error))
+    return {"", fmt::format("{} is not a result folder: it is a file", name),
+            "give a folder that `railstrata run` or `railstrata bem` has written"};
+  const std::string command = command_of(folder);
+  if (command == "study" || has(folder, "study.csv"))
+    return {"", fmt::format("{}: this is a study, not the result of one case", name),
+            fmt::format("its page is report.html in it, written by `railstrata study FILE --out {}`; for one case give "
+                        "its folder, GROUP/CASE/fem or GROUP/CASE/bem below it",
+                        word)};
+  if (command == "sweep" || has(folder, "sweep.csv"))
+    return {"", fmt::format("{}: this is a sweep, not the result of one case", name),
+            "its table is sweep.csv in it; for one of its cases: railstrata bem CASE --set KEY=VALUE"};
+  if (command == "creep-curve" || has(folder, "creep_curve.csv"))
+    return {"", fmt::format("{}: this is a creep curve, not the result of one case", name),
+            "its table is creep_curve.csv in it; for a page on the case: railstrata bem CASE"};
+  if (has(folder, "compare.json"))
+    return {"", fmt::format("{}: this is a comparison, not the result of one case", name),
+            "its picture is compare.svg in it; for a page give the two folders it compares"};
+  if (command == "run" || command == "bem" || has(folder, "checkpoint.h5")) return begun(folder, command);
+  if (command == "mesh")
+    return {"", fmt::format("{}: these are meshes, written by `railstrata mesh`", name), "railstrata run CASE"};
+  if (const fs::path below = result_below(folder); !below.empty())
+    return {"", fmt::format("{} is not a result folder: it has no summary.json, folders in it have", name),
+            fmt::format("give a folder that has one, for example {}", shell_word(below.string()))};
+  return {"", fmt::format("{} is not a result folder: it has no summary.json", name),
+          "give a folder that `railstrata run` or `railstrata bem` has written"};
+}
+
+}  // namespace railstrata
