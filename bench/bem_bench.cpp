@@ -50,8 +50,8 @@ struct Problem {
   NormalSolution normal() const { return solve_normal(influence, grid, contact.gap, contact.target); }
   TangentialProblem tangential(const NormalSolution& s) const {
     TangentialProblem p;
-    p.bound = s.pressure;
-    for (double& g : p.bound) g *= kFriction;
+    p.traction_bound = s.pressure;
+    for (double& g : p.traction_bound) g *= kFriction;
     p.x = contact.x;
     return p;
   }

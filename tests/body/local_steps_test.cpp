@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "body/stable_step.hpp"
+#include "contact/enforcement.hpp"
 #include "tests/body/same_bits.hpp"
 #include "tests/body/thin_layer.hpp"
 
@@ -30,9 +31,10 @@ std::vector<double> with_rows(int more) {
 Body block_under_layer() { return {layered_brick(1, 3, 1e-3, 1e-3, with_rows(4), 2), kStiffOnSteel, {}}; }
 
 // Column by column: K, and M B K of local steps.
-Eigen::MatrixXd dense(const Body& body, const LocalSteps& local) {
+Eigen::MatrixXd dense(const Body& body, LocalSteps& local) {
   return free_matrix(body, [&](const Field& u, Field& f) { local.refine_linear(u, f); });
 }
+Eigen::MatrixXd dense(const Body& body, LocalSteps&& local) { return dense(body, local); }
 
 Eigen::VectorXd masses(const Body& body) {
   const std::vector<std::ptrdiff_t> index = free_indices(body);
@@ -205,7 +207,7 @@ struct LayeredSurface {
 
 TEST_F(LocalStepsTest, AnswerFurtherForcesAsTheyAnswerThoseOfTheElements) {
   for (SweepKind kind : {SweepKind::extrude, SweepKind::revolve}) {
-    const LayeredSurface s(kind);
+    LayeredSurface s(kind);
     ASSERT_GT(s.local.stages(), 5);
     const Field rest = s.body.layout.field();
     Field wanted = rest, f = rest;
@@ -226,7 +228,7 @@ TEST_F(LocalStepsTest, AnswerFurtherForcesAsTheyAnswerThoseOfTheElements) {
 // Velocities of the surface by the response against all stages with all forces at once.
 TEST_F(LocalStepsTest, SurfaceResponseIsWhatTheStagesGive) {
   for (SweepKind kind : {SweepKind::extrude, SweepKind::revolve}) {
-    const LayeredSurface s(kind);
+    LayeredSurface s(kind);
     const SurfaceResponse response = surface_response(s.body, s.surface, s.local);
     EXPECT_EQ(response.reach(), std::min(s.local.stages() - 1, 20));
     ContactSide side;

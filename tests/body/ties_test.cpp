@@ -100,7 +100,7 @@ TEST(Ties, AChainOfTiesCarriesALinearFieldThroughWhateverTheOrderOfItsLines) {
   for (int pass = 0; pass < 2; ++pass, std::reverse(body.ties.begin(), body.ties.end())) {
     Field u = truth;
     spoil_slaves(body, solid.layout, u);
-    Ties(body, solid.layout).spread(u, 0.0);
+    Ties(body, solid.layout).apply(u, 0.0);
     EXPECT_LT(slave_error(body, solid.layout, u, truth), 1e-15);
   }
 }
@@ -146,7 +146,7 @@ TEST(Ties, CollectedMassIsTheWholeMass) {
   for (const SweptBody& body : tied_bodies()) {
     const Body solid(body, {kSteel, kSteel}, {});
     Field mass = solid.element_mass;
-    Ties(body, solid.layout).collect(mass);
+    Ties(body, solid.layout).apply_transpose(mass);
     const Field unit = nodal_field(solid, [](Vec3) { return Vec3{1, 0, 0}; });
     EXPECT_NEAR(nodal_dot(solid.layout, mass, unit) / total_mass(solid), 1.0, 1e-13) << body.name;
   }

@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 
+#include "body/stress.hpp"
 #include "body/ties.hpp"
 #include "geometry/profile_names.hpp"
 #include "tests/body/same_bits.hpp"

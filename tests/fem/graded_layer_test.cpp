@@ -33,11 +33,11 @@ TEST(GradedLayerInTheMesh, OfOneModulusIsTheUniformLayer) {
   uniform.layers[0].material.young = 420e9;
   const RollingSystem a = small_system(uniform),
                       b = small_system(graded_case({{0, 420e9}, {0.5e-3, 420e9}, {2e-3, 420e9}}, 1));
-  Field u = a.rail.layout.field(), fa = u, fb = b.rail.layout.field();
+  Field u = a.rail().layout.field(), fa = u, fb = b.rail().layout.field();
   ASSERT_EQ(fa.size(), fb.size());
   for (std::size_t k = 0; k < u.size(); ++k) u[k] = 1e-6 * scatter(k);
-  linear_force(a.rail, u, fa);
-  linear_force(b.rail, u, fb);
+  linear_force(a.rail(), u, fa);
+  linear_force(b.rail(), u, fb);
   double largest = 0, difference = 0;
   for (std::size_t k = 0; k < fa.size(); ++k) {
     largest = std::max(largest, std::abs(fa[k]));

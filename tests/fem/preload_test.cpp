@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "body/aggregates.hpp"
+#include "core/parallel.hpp"
 #include "small_rolling.hpp"
 #include "tests/body/sample_bodies.hpp"
 
