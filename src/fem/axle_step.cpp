@@ -1,5 +1,7 @@
 #include "fem/axle_step.hpp"
 
+#include <cmath>
+
 namespace railstrata {
 
 AxleLoads bore_loads(const Axle& axle, const Field& f_wheel, Rotation<double> drift, double tie_moment,
@@ -17,8 +19,8 @@ AxleLoads bore_loads(const Axle& axle, const Field& f_wheel, Rotation<double> dr
   return {bore.x, bore.z, moment};
 }
 
-AxleWork advance_axle(const RollingSystem& system, const AxleLoads& loads, double torque, double rest_z,
-                      const StepScope& scope, AxleMotion& a, std::vector<MassGroup>& groups) {
+double advance_axle(const RollingSystem& system, const AxleLoads& loads, double torque, double rest_z,
+                    const StepScope& scope, AxleMotion& a, std::vector<MassGroup>& groups, EnergyBalance& book) {
   const VehicleSpec& v = system.options.vehicle;
   const Axle& axle = system.axle;
   const double dt = scope.dt, rate = scope.damping_rate;
@@ -31,14 +33,13 @@ AxleWork advance_axle(const RollingSystem& system, const AxleLoads& loads, doubl
   a.x += dt * a.vx;
   a.z += dt * a.vz;
   a.psi += dt * a.spin;
-  AxleWork work;
-  work.dashpot = dt * spring.dashpot_power;
-  work.torque_work = dt * torque * 0.5 * (spin + a.spin);
-  work.damping = dt * rate * axle.mass_z * vz * 0.5 * (vz + a.vz);
-  work.kinetic = 0.5 * (axle.mass_x * vx * a.vx + axle.mass_z * vz * a.vz + axle.inertia * spin * a.spin);
+  book.dashpot = std::fma(dt, spring.dashpot_power, book.dashpot);
+  book.torque_work = std::fma(dt * torque * 0.5, spin + a.spin, book.torque_work);
+  book.damping = std::fma(dt * rate * axle.mass_z * vz * 0.5, vz + a.vz, book.damping);
+  double kinetic = 0.5 * (axle.mass_x * vx * a.vx + axle.mass_z * vz * a.vz + axle.inertia * spin * a.spin);
   const double share = v.sprung_mass / static_cast<double>(groups.size());
-  for (const MassGroup& m : groups) work.kinetic += 0.5 * share * m.vz * m.vz;
-  return work;
+  for (const MassGroup& m : groups) kinetic += 0.5 * share * m.vz * m.vz;
+  return kinetic;
 }
 
 double spring_energy(const RollingSystem& system, const AxleMotion& axle, double rest_z,

@@ -1,6 +1,7 @@
 #pragma once
 // The rigid axle of the wheel: what loads it and its step.
 #include "body/body_state.hpp"
+#include "fem/energy.hpp"
 #include "fem/node_update.hpp"
 #include "fem/rolling_system.hpp"
 #include "fem/suspension.hpp"
@@ -33,17 +34,10 @@ inline double drive_torque(const RollingSystem& system, double time) {
 AxleLoads bore_loads(const Axle& axle, const Field& f_wheel, Rotation<double> drift, double tie_moment,
                      const ReferenceFrame& frame);
 
-/// What a step of the axle adds to the energy book.
-struct AxleWork {
-  double kinetic = 0;      ///< J, of axle and sprung mass, v(n-1/2) v(n+1/2)/2
-  double torque_work = 0;  ///< J
-  double damping = 0;      ///< J
-  double dashpot = 0;      ///< J
-};
-
-/// One central-difference step; rest_z: height of the axle in static equilibrium [m].
-AxleWork advance_axle(const RollingSystem& system, const AxleLoads& loads, double torque, double rest_z,
-                      const StepScope& scope, AxleMotion& axle, std::vector<MassGroup>& groups);
+/// One central-difference step; rest_z: height of the axle in static equilibrium [m]. Adds torque work and losses to
+/// the book and returns the kinetic energy of axle and sprung mass, v(n-1/2) v(n+1/2)/2 [J].
+double advance_axle(const RollingSystem& system, const AxleLoads& loads, double torque, double rest_z,
+                    const StepScope& scope, AxleMotion& axle, std::vector<MassGroup>& groups, EnergyBalance& book);
 
 /// J, of the suspension's springs with their static force.
 double spring_energy(const RollingSystem& system, const AxleMotion& axle, double rest_z,

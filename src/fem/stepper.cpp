@@ -137,10 +137,10 @@ void Stepper::step() {
 
   update_waiting_nodes(bodies_, state_.bodies, scope);
   book_update(scope);
-  const AxleWork work = advance_axle(sys_, loads, torque(), axle_rest_z_, scope, state_.axle, state_.groups);
-  book_axle(work);
+  const double axle_kinetic =
+      advance_axle(sys_, loads, torque(), axle_rest_z_, scope, state_.axle, state_.groups, balance_);
   if (want_energy_) {
-    book_kinetic_energy(work);
+    book_kinetic_energy(axle_kinetic);
     recorded_ = halfway(before, balance_);
   }
   advance_clock();
@@ -196,14 +196,8 @@ void Stepper::book_update(const StepScope& scope) {
   for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].mean = mean_motion(bodies_[k], sums_[k]);
 }
 
-void Stepper::book_axle(const AxleWork& work) {
-  balance_.dashpot += work.dashpot;
-  balance_.torque_work += work.torque_work;
-  balance_.damping += work.damping;
-}
-
-void Stepper::book_kinetic_energy(const AxleWork& work) {
-  balance_.kinetic = sums_[kWheel].kinetic + sums_[kRail].kinetic + work.kinetic;
+void Stepper::book_kinetic_energy(double axle) {
+  balance_.kinetic = sums_[kWheel].kinetic + sums_[kRail].kinetic + axle;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     RollingBody& b = bodies_[k];
     balance_.kinetic += b.steps.scaling.kinetic(b.stretch, frame_velocity(b, state_.bodies[k], false));

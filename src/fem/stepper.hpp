@@ -95,8 +95,7 @@ class Stepper {
   double reduce_ties(const std::array<double, 2>& drift);
   void absorb_at_ends();
   void book_update(const StepScope& scope);
-  void book_axle(const AxleWork& work);
-  void book_kinetic_energy(const AxleWork& work);
+  void book_kinetic_energy(double axle);
   void advance_clock();
 
   const RollingSystem& sys_;
