@@ -6,8 +6,9 @@
     python3 view.py [--png view.png]   a window, or a picture, by VTK alone (Debian: python3-vtk9); without a display
                                        xvfb-run -a python3 view.py --png view.png
 
-Both bodies are cut lengthwise through the largest pressure; the half on the field side is shown, seen from the track. Colours are von Mises stresses of the elements
-(--field sigma1_MPa: largest principal stresses); the black lines are the border of the layer. A half-space result has no elements: its patch is shown on the rail.
+Both bodies are cut lengthwise through the largest pressure; the half on the field side is shown, seen from the track.
+Colours are von Mises stresses of the elements (--field sigma1_MPa: largest principal stresses); the black lines are the
+border of the layer. A half-space result has no elements: its patch is shown on the rail.
 Axes: x rolling direction, y to the field side, z up; metres."""
 import argparse
 import json
@@ -46,10 +47,12 @@ def bodies():
 def colours(field, top, low):
     """(value, r, g, b) of a scale: Viridis for von Mises, blue and red about zero for the principal stress."""
     if field == "von_mises_MPa":
-        scale = [(0, 0.267, 0.005, 0.329), (0.25, 0.230, 0.322, 0.546), (0.5, 0.128, 0.567, 0.551), (0.75, 0.369, 0.789, 0.383), (1, 0.993, 0.906, 0.144)]
+        scale = [(0, 0.267, 0.005, 0.329), (0.25, 0.230, 0.322, 0.546), (0.5, 0.128, 0.567, 0.551),
+                 (0.75, 0.369, 0.789, 0.383), (1, 0.993, 0.906, 0.144)]
         return [(t * top, r, g, b) for t, r, g, b in scale]
     size = max(top, 0.1 * abs(low))
-    scale = [(-1, 0.13, 0.40, 0.67), (-0.5, 0.40, 0.66, 0.81), (0, 0.97, 0.97, 0.97), (0.5, 0.94, 0.54, 0.38), (1, 0.70, 0.09, 0.17)]
+    scale = [(-1, 0.13, 0.40, 0.67), (-0.5, 0.40, 0.66, 0.81), (0, 0.97, 0.97, 0.97), (0.5, 0.94, 0.54, 0.38),
+             (1, 0.70, 0.09, 0.17)]
     return [(t * size, r, g, b) for t, r, g, b in scale]
 
 
@@ -64,7 +67,7 @@ def camera(place):
     return (x + 0.12, y - 0.5, z + 0.13), (x, y, z - 0.001), (0, 0, 1)
 
 
-# ---- VTK --------------------------------------------------------------------------------------------------------------------------------------------------------
+# ---- VTK -------------------------------------------------------------------------------------------------------------
 
 
 def window_class(for_picture):
@@ -111,7 +114,8 @@ def show_with_vtk(arguments):
         mapper = vtk.vtkPolyDataMapper()
         mapper.SetInputConnection(source.GetOutputPort())
         if field:
-            mapper.SetScalarModeToUseCellFieldData() if field[1] == "cell" else mapper.SetScalarModeToUsePointFieldData()
+            (mapper.SetScalarModeToUseCellFieldData() if field[1] == "cell"
+             else mapper.SetScalarModeToUsePointFieldData())
             mapper.SelectColorArray(field[0])
             mapper.SetLookupTable(table)
             mapper.UseLookupTableScalarRangeOn()
@@ -159,10 +163,12 @@ def show_with_vtk(arguments):
         grids.append(half)
     if grids:
         ranges = [g.GetOutput().GetCellData().GetArray(arguments.field).GetRange() for g in grids]
-        field, name = (arguments.field, "cell"), "von Mises [MPa]" if arguments.field == "von_mises_MPa" else "sigma_1 [MPa]"
+        field = arguments.field, "cell"
+        name = "von Mises [MPa]" if arguments.field == "von_mises_MPa" else "sigma_1 [MPa]"
         table = table_of(arguments.field, min(r[0] for r in ranges), max(r[1] for r in ranges))
     else:
-        field, name, table = ("pressure_MPa", "point"), "pressure [MPa]", table_of("von_mises_MPa", 0, pressure.GetRange()[1])
+        field, name = ("pressure_MPa", "point"), "pressure [MPa]"
+        table = table_of("von_mises_MPa", 0, pressure.GetRange()[1])
     for half in grids:
         add(polygons(half), field=field, table=table, edges=True)
         layer = vtk.vtkThreshold()
@@ -255,7 +261,7 @@ def show_with_vtk(arguments):
     hand.Start()
 
 
-# ---- ParaView ---------------------------------------------------------------------------------------------------------------------------------------------------
+# ---- ParaView --------------------------------------------------------------------------------------------------------
 
 
 def show_with_paraview(arguments):
@@ -297,14 +303,16 @@ def show_with_paraview(arguments):
         halves.append(half)
         ranges.append(half.CellData[arguments.field].GetRange())
     if halves:
-        field, kind, name = arguments.field, "CELLS", "von Mises [MPa]" if arguments.field == "von_mises_MPa" else "sigma_1 [MPa]"
+        field, kind = arguments.field, "CELLS"
+        name = "von Mises [MPa]" if arguments.field == "von_mises_MPa" else "sigma_1 [MPa]"
         scale = colours(field, max(r[1] for r in ranges), min(r[0] for r in ranges))
     else:
         field, kind, name = "pressure_MPa", "POINTS", "pressure [MPa]"
         scale = colours("von_mises_MPa", pressure.GetRange()[1], 0)
     table = simple.GetColorTransferFunction(field)
     if not halves:
-        patch = simple.Clip(registrationName="contact", Input=patch, ClipType="Scalar", Scalars=["POINTS", "pressure_MPa"], Value=1e-6, Invert=0)
+        patch = simple.Clip(registrationName="contact", Input=patch, ClipType="Scalar",
+                            Scalars=["POINTS", "pressure_MPa"], Value=1e-6, Invert=0)
     for source in halves or [patch]:
         display = simple.Show(source, view)
         display.Ambient, display.Diffuse = 1, 0  # colours as on the bar
@@ -318,16 +326,20 @@ def show_with_paraview(arguments):
     for half in halves:
         if half.CellData["material"].GetRange()[1] < 1:
             continue
-        layer = simple.Threshold(registrationName="layer", Input=half, Scalars=["CELLS", "material"], ThresholdMethod="Above Upper Threshold", UpperThreshold=1)
+        layer = simple.Threshold(registrationName="layer", Input=half, Scalars=["CELLS", "material"],
+                                 ThresholdMethod="Above Upper Threshold", UpperThreshold=1)
         surface = simple.ExtractSurface(Input=layer)
-        edges = simple.FeatureEdges(registrationName="border of the layer", Input=surface, FeatureAngle=50, NonManifoldEdges=0, Coloring=0)
+        edges = simple.FeatureEdges(registrationName="border of the layer", Input=surface, FeatureAngle=50,
+                                    NonManifoldEdges=0, Coloring=0)
         simple.Hide(layer, view)
         simple.Hide(surface, view)
         show(edges, (0, 0, 0)).LineWidth = 3
     for body in ("rail", "wheel"):
         file = FOLDER / f"{body}_surface.vtp"
         if file.exists():
-            show(field_side(simple.XMLPolyDataReader(registrationName=f"{file.stem}, whole", FileName=[str(file)]), file.stem, surface_cut(bool(halves), cut, points.GetBounds()[3]), False), STEEL, 0.45)
+            whole = simple.XMLPolyDataReader(registrationName=f"{file.stem}, whole", FileName=[str(file)])
+            half = field_side(whole, file.stem, surface_cut(bool(halves), cut, points.GetBounds()[3]), False)
+            show(half, STEEL, 0.45)
     bar = simple.GetScalarBar(table, view)
     bar.Title, bar.ComponentTitle = name, ""
     bar.TitleColor = bar.LabelColor = [0, 0, 0]

@@ -123,7 +123,8 @@ def test_includes():
     with tempfile.TemporaryDirectory() as name:
         src = pathlib.Path(name)
         (src / "LAYERS").write_text("# comment\nlow\nleft right\ntop\n")
-        included = {"low": "top/a.hpp", "left": "right/a.hpp", "top": "a.hpp", "right": "low/a.hpp", "stray": "low/a.hpp"}
+        included = {"low": "top/a.hpp", "left": "right/a.hpp", "top": "a.hpp", "right": "low/a.hpp",
+                    "stray": "low/a.hpp"}
         for room, include in included.items():
             (src / room).mkdir()
             (src / room / "README.md").write_text(f"# {room}\n")

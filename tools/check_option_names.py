@@ -21,7 +21,8 @@ def keys_of(schema):
     out = {}
 
     def add(name, node):
-        node = node.get("items", node) if node.get("type") == "array" and "properties" in node.get("items", {}) else node
+        node = (node.get("items", node) if node.get("type") == "array" and "properties" in node.get("items", {})
+                else node)
         if "properties" not in node:
             out[name] = node.get("enum")
             return
@@ -74,17 +75,21 @@ def self_test():
                              "material": {"properties": {"rail": {"properties": {"young": {}}}}}}}
     keys = keys_of(schema)
     assert sorted(keys) == ["layer.width", "material.rail.young", "run.precision", "run.step_safety"], keys
-    source = '#include "run.hpp"\nf("a smaller run.step_safety, "\n  "or run.step_safty");  // "run.comment"\ng("run.precision = \\"half\\"");\n'
+    source = ('#include "run.hpp"\nf("a smaller run.step_safety, "\n  "or run.step_safty");  // "run.comment"\n'
+              'g("run.precision = \\"half\\"");\n')
     wrong = [(line, reason) for line, text in texts_of(source) for reason in complaints(text, keys)]
-    assert wrong == [(2, "there is no option run.step_safty"), (4, 'run.precision is never "half": double, single')], wrong
-    for fine in ["layer.0.width", "layer.{}.width of layer.key", "case.toml", "run.json", 'run.precision = "single"', "material.rail.young"]:
+    assert wrong == [(2, "there is no option run.step_safty"),
+                     (4, 'run.precision is never "half": double, single')], wrong
+    for fine in ["layer.0.width", "layer.{}.width of layer.key", "case.toml", "run.json", 'run.precision = "single"',
+                 "material.rail.young"]:
         assert not list(complaints(fine, keys)), fine
 
 
 def main():
     self_test()
     program, src = sys.argv[1], pathlib.Path(sys.argv[2])
-    schema = json.loads(subprocess.run([program, "schema", "--json-schema"], capture_output=True, text=True, check=True).stdout)
+    schema = json.loads(subprocess.run([program, "schema", "--json-schema"], capture_output=True, text=True,
+                                       check=True).stdout)
     found = check(src, keys_of(schema))
     print("\n".join(found) or f"{src}: every option that a text names is there")
     return 1 if found else 0

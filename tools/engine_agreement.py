@@ -18,12 +18,14 @@ import subprocess
 import sys
 
 PROGRAM = pathlib.Path(__file__).resolve().parent.parent / "railstrata"
-COLUMNS = {"p_max": "p_max_MPa", "patch_length": "patch_length_mm", "q_max": "q_max_MPa", "von_mises_below_surface": "von_mises"}
+COLUMNS = {"p_max": "p_max_MPa", "patch_length": "patch_length_mm", "q_max": "q_max_MPa",
+           "von_mises_below_surface": "von_mises"}
 
 
 def limits(program):
     """Per cent by column, as the program has them."""
-    checks = json.loads(subprocess.run([program, "schema", "--results"], check=True, capture_output=True, text=True).stdout)["checks"]
+    checks = json.loads(subprocess.run([program, "schema", "--results"], check=True, capture_output=True,
+                                       text=True).stdout)["checks"]
     return {COLUMNS[c["key"]]: 100 * c["fem_limit"] for c in checks if c["kind"] == "engines"}
 
 
@@ -90,7 +92,8 @@ def main():
     parser.add_argument("--element-mm", type=float, default=1.0)
     parser.add_argument("--program", default=PROGRAM, help="whose limits are taken (default: the front door)")
     args = parser.parse_args()
-    table, missing = agreement(rows(args.study), rows(args.equal_cells) if args.equal_cells else {}, args.element_mm, limits(args.program))
+    table, missing = agreement(rows(args.study), rows(args.equal_cells) if args.equal_cells else {},
+                               args.element_mm, limits(args.program))
 
     def text(value):
         return "" if value is None else f"{value:+.1f} %"

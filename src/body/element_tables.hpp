@@ -31,7 +31,8 @@ struct ElementTable {
   using Line = std::vector<Real, CacheLineAllocator<Real>>;
   std::vector<ElasticHex::Reference<Real>> quads;
   std::vector<std::array<Real, kHourglassEntries>> hourglass;  ///< [class * quads + quad]; zero for the padding
-  Line inv_sigma, inv_c, v1, v2, v3, sigma, c;                 ///< StationScale by element
+  Line inv_sigma, inv_c, v1, v2, v3;                           ///< StationScale by element
+  Line sigma, c;                                               ///< the same
 
   /// read(pointer): a number or a pack.
   template <class T, class Read>

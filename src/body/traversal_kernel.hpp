@@ -25,14 +25,19 @@ struct TwoClasses {
 // Replaces the hourglass amplitudes of a pack of elements from `first` on by their forces; returns the energy. Lanes
 // past the end of the line are filled with numbers that mean nothing.
 template <class Real, class P>
-P pack_hourglass(const BlockElements& elements, int quad, int first, ElementKinematics<P>& kin) {
+__attribute__((noinline)) P two_class_hourglass(const Real* lower, const Real* upper, ElementKinematics<P>& kin) {
+  return hourglass_forces(TwoClasses<Real>{lower, upper}, kin);
+}
+template <class Real, class P>
+RAILSTRATA_ALWAYS_INLINE P pack_hourglass(const BlockElements& elements, int quad, int first,
+                                          ElementKinematics<P>& kin) {
   const ElementTable<Real>& table = elements.of<Real>();
   const std::size_t quads = table.quads.size();
   const auto stiffness = [&](int cls) { return table.hourglass[cls * quads + quad].data(); };
   const int lower = elements.hourglass_class[first / kHourglassGroup];
   const int upper = elements.hourglass_class[(first + kLanesOf<Real> / 2) / kHourglassGroup];
   if (lower == upper) return hourglass_forces(OneClass<Real>{stiffness(lower)}, kin);
-  return hourglass_forces(TwoClasses<Real>{stiffness(lower), stiffness(upper)}, kin);
+  return two_class_hourglass<Real>(stiffness(lower), stiffness(upper), kin);  // seldom: where the spacing changes
 }
 
 template <class Real>
@@ -117,37 +122,42 @@ inline QuadRows<Real> gather_quad(const TileWork<Real>& work, int q, const Field
 
 // All packs of one quadrilateral in a tile.
 template <class Element, Evaluation how, SweepKind kind, class Real, class P, int most>
-inline void evaluate_quad(const BlockElements& elements, int quad, const StationScale<P> (&scale)[most], int packs,
-                          int first_element, const Rotation<Real>& turn, const QuadRows<Real>& rows,
-                          const Prefetch& ahead) {
+RAILSTRATA_ALWAYS_INLINE void evaluate_quad(const BlockElements& elements, int quad,
+                                            const StationScale<P> (&scale)[most], int packs, int first_element,
+                                            const Rotation<Real>& turn, const QuadRows<Real>& rows,
+                                            const Prefetch& ahead) {
   using Rows = ScratchRows<Real>;
   constexpr int lanes = kLanesOf<Real>, entries = Element::kHistory;
   const auto& reference = elements.of<Real>().quads[quad];
+  // copies whose address nobody has: stores to the rows would else make the compiler read the pointers again
+  Real* const node[4] = {rows.node[0], rows.node[1], rows.node[2], rows.node[3]};
+  const Real* const so_far[4] = {rows.forces[0], rows.forces[1], rows.forces[2], rows.forces[3]};
+  const Rotation<Real> turned = turn;
   for (int n = 0; n < packs; ++n) {
     const int e = n * lanes;
     ahead.ask(n == 0 ? 0 : e + 1, e + lanes + 1);
     const auto corner = [&](int c, int i, P& sum, P& difference) {
-      sum = load(rows.node[c] + (Rows::kSum + i) * kTile + e);
-      difference = load(rows.node[c] + (Rows::kDifference + i) * kTile + e);
+      sum = load(node[c] + (Rows::kSum + i) * kTile + e);
+      difference = load(node[c] + (Rows::kDifference + i) * kTile + e);
     };
     const auto hourglass = [&](ElementKinematics<P>& kin) {
       pack_hourglass<Real>(elements, quad, first_element + e, kin);
     };
     const auto add_forces = [&](int c, int i, auto&& add) {
-      P s = load(rows.forces[c] + (Rows::kSum + i) * kTile + e);
-      P difference = load(rows.forces[c] + (Rows::kDifference + i) * kTile + e);
+      P s = load(so_far[c] + (Rows::kSum + i) * kTile + e);
+      P difference = load(so_far[c] + (Rows::kDifference + i) * kTile + e);
       add(s, difference);
-      store(rows.node[c] + (Rows::kForces + Rows::kSum + i) * kTile + e, s);
-      store(rows.node[c] + (Rows::kForces + Rows::kDifference + i) * kTile + e, difference);
+      store(node[c] + (Rows::kForces + Rows::kSum + i) * kTile + e, s);
+      store(node[c] + (Rows::kForces + Rows::kDifference + i) * kTile + e, difference);
     };
     if constexpr (entries > 0 && how != Evaluation::linear) {
       P history[entries];
       load_history(rows.history + e, rows.history_stride, history);
-      Element::template forces<kind, how>(reference, scale[n], turn, history, corner, hourglass, add_forces);
+      Element::template forces<kind, how>(reference, scale[n], turned, history, corner, hourglass, add_forces);
       if constexpr (how == Evaluation::commit) store_history(history, rows.history_stride, rows.advanced + e);
     } else {
       P* none = nullptr;
-      Element::template forces<kind, how>(reference, scale[n], turn, none, corner, hourglass, add_forces);
+      Element::template forces<kind, how>(reference, scale[n], turned, none, corner, hourglass, add_forces);
     }
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 // The 8-node hexahedron of a swept mesh: the element class, pointwise. Compiled for scalars and for float and double
-// packs alike; what it reads is made in element/reference.hpp, who calls it is body/tile_forces.hpp.
+// packs alike; what it reads is made in element/reference.hpp, who calls it is body/traversal_kernel.hpp.
 //
 // An element is a quadrilateral (corners k = 0..3, section coordinates y_k, z_k) carried over one station spacing. In
 // its own frame (1 along the sweep, 2 lateral, 3 up) the corners stand at (-+ a_k, y_k, b_k) with, for a spacing D,
@@ -22,8 +22,9 @@
 // linear element is *identical* to the fully integrated one that K_full comes from, at the cost of one stress point.
 // Two kinds:
 //   full       Taylor–Wilson incompatible modes, 2x2x2 Gauss points: neither shear nor volumetric locking
-//   [TaylorBeresfordWilson1976] one_point  K = kappa (lambda + 2 mu) V (b:b)/8 I, the stiffness hourglass control of
-//   explicit codes [FlanaganBelytschko1981]
+//              [TaylorBeresfordWilson1976]
+//   one_point  K = kappa (lambda + 2 mu) V (b:b)/8 I, the stiffness hourglass control of explicit codes
+//              [FlanaganBelytschko1981]
 // By the mirror symmetry of the element K falls apart into a 5x5 (even) and a 7x7 (odd) block: 43 numbers.
 #include "core/rotation.hpp"
 #include "core/simd.hpp"
@@ -183,7 +184,7 @@ RAILSTRATA_POINTWISE ElementStress<T> small_stress(const ElementKinematics<T>& k
 /// Generalised hourglass forces K q in place of q; returns the hourglass energy q.Kq / 2. `entry(e)` gives the e-th
 /// number of HourglassStiffness.
 template <class T, class Entry>
-RAILSTRATA_POINTWISE T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
+RAILSTRATA_ALWAYS_INLINE T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
   const T a[5] = {k.even[1], k.even[2], k.odd[0][0], k.odd[1][0], k.odd[2][0]};
   T ka[5];
   detail::symmetric_product<5>(entry, 0, a, ka);
@@ -257,11 +258,12 @@ struct SweptHex {
   /// Internal forces of one element (or of a pack of them).
   ///   corner     as in element_kinematics
   ///   hourglass  replaces the hourglass amplitudes of the kinematics by generalised forces
-  ///   history    kHistory numbers of the last committed step; advanced by a trial or commit (the caller keeps them or
-  ///   not) change     as in element_forces
+  ///   history    kHistory numbers of the last committed step; advanced here, the caller keeps them or not
+  ///   change     as in element_forces
   template <SweepKind kind, Evaluation how, class T, class Real, class Corner, class Hourglass, class Change>
-  static void forces(const Reference<Real>& r, const StationScale<T>& st, const Rotation<Real>& turn, T* history,
-                     Corner&& corner, Hourglass&& hourglass, Change&& change) {
+  static RAILSTRATA_ALWAYS_INLINE void forces(const Reference<Real>& r, const StationScale<T>& st,
+                                              const Rotation<Real>& turn, T* history, Corner&& corner,
+                                              Hourglass&& hourglass, Change&& change) {
     auto kin = element_kinematics<kind, T>(r.shape, st, corner);
     ElementStress<T> stress;
     if constexpr (how == Evaluation::linear)

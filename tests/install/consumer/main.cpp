@@ -13,8 +13,8 @@ int main(int argc, char** argv) {
     const railstrata::CaseResult result = railstrata::solve_by_half_spaces(quick, settings);
     double largest = 0;
     for (const double p : result.patch.p) largest = std::fmax(largest, p);
-    std::printf("%s: p_max %.17g Pa, %d cells\n", railstrata::version_text().c_str(), result.summary.contact.patch.p_max,
-                result.patch.size());
+    std::printf("%s: p_max %.17g Pa, %d cells\n", railstrata::version_text().c_str(),
+                result.summary.contact.patch.p_max, result.patch.size());
     // cases/quick/README.md: the layered half-space has 1148 MPa
     if (std::fabs(largest - 1148e6) > 1e6) return 1;
   } catch (const railstrata::CaseError& e) {
