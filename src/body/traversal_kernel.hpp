@@ -29,8 +29,7 @@ __attribute__((noinline)) P two_class_hourglass(const Real* lower, const Real* u
   return hourglass_forces(TwoClasses<Real>{lower, upper}, kin);
 }
 template <class Real, class P>
-RAILSTRATA_ALWAYS_INLINE P pack_hourglass(const BlockElements& elements, int quad, int first,
-                                          ElementKinematics<P>& kin) {
+P pack_hourglass(const BlockElements& elements, int quad, int first, ElementKinematics<P>& kin) {
   const ElementTable<Real>& table = elements.of<Real>();
   const std::size_t quads = table.quads.size();
   const auto stiffness = [&](int cls) { return table.hourglass[cls * quads + quad].data(); };
@@ -122,10 +121,9 @@ inline QuadRows<Real> gather_quad(const TileWork<Real>& work, int q, const Field
 
 // All packs of one quadrilateral in a tile.
 template <class Element, Evaluation how, SweepKind kind, class Real, class P, int most>
-RAILSTRATA_ALWAYS_INLINE void evaluate_quad(const BlockElements& elements, int quad,
-                                            const StationScale<P> (&scale)[most], int packs, int first_element,
-                                            const Rotation<Real>& turn, const QuadRows<Real>& rows,
-                                            const Prefetch& ahead) {
+inline void evaluate_quad(const BlockElements& elements, int quad, const StationScale<P> (&scale)[most], int packs,
+                          int first_element, const Rotation<Real>& turn, const QuadRows<Real>& rows,
+                          const Prefetch& ahead) {
   using Rows = ScratchRows<Real>;
   constexpr int lanes = kLanesOf<Real>, entries = Element::kHistory;
   const auto& reference = elements.of<Real>().quads[quad];

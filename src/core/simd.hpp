@@ -10,10 +10,6 @@
 /// for functions of a device will stand.
 #define RAILSTRATA_POINTWISE inline
 
-/// In front of what calls them in the inner loop: out of line, its packs would go through memory (a fifth of the
-/// speed).
-#define RAILSTRATA_ALWAYS_INLINE inline __attribute__((always_inline))
-
 /// In front of a short loop of a law: packs stay in registers only if the compiler takes the loop apart, and it shies
 /// away from long bodies.
 #define RAILSTRATA_UNROLL _Pragma("GCC unroll 16")

@@ -184,7 +184,7 @@ RAILSTRATA_POINTWISE ElementStress<T> small_stress(const ElementKinematics<T>& k
 /// Generalised hourglass forces K q in place of q; returns the hourglass energy q.Kq / 2. `entry(e)` gives the e-th
 /// number of HourglassStiffness.
 template <class T, class Entry>
-RAILSTRATA_ALWAYS_INLINE T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
+RAILSTRATA_POINTWISE T hourglass_forces(const Entry& entry, ElementKinematics<T>& k) {
   const T a[5] = {k.even[1], k.even[2], k.odd[0][0], k.odd[1][0], k.odd[2][0]};
   T ka[5];
   detail::symmetric_product<5>(entry, 0, a, ka);
@@ -261,9 +261,8 @@ struct SweptHex {
   ///   history    kHistory numbers of the last committed step; advanced here, the caller keeps them or not
   ///   change     as in element_forces
   template <SweepKind kind, Evaluation how, class T, class Real, class Corner, class Hourglass, class Change>
-  static RAILSTRATA_ALWAYS_INLINE void forces(const Reference<Real>& r, const StationScale<T>& st,
-                                              const Rotation<Real>& turn, T* history, Corner&& corner,
-                                              Hourglass&& hourglass, Change&& change) {
+  static void forces(const Reference<Real>& r, const StationScale<T>& st, const Rotation<Real>& turn, T* history,
+                     Corner&& corner, Hourglass&& hourglass, Change&& change) {
     auto kin = element_kinematics<kind, T>(r.shape, st, corner);
     ElementStress<T> stress;
     if constexpr (how == Evaluation::linear)
