@@ -2,11 +2,15 @@
 
 namespace railstrata {
 
-BodyState::BodyState(const Body& body, int history_entries)
-    : u(body.layout.field()),
-      v(body.layout.field()),
-      f(body.layout.field()),
-      history(static_cast<std::size_t>(HistoryLayout(body.layout, body.mesh, history_entries).size), 0.0) {}
+BodyState::BodyState(const Body& body, int history_entries) {
+  for (const StateArray& a : kStateArrays) (this->*a.values).assign(array_size(body, a, history_entries), 0.0);
+}
+
+std::size_t array_size(const Body& body, const StateArray& array, int history_entries) {
+  const bool nodal = array.values != &BodyState::history;
+  return static_cast<std::size_t>(nodal ? body.layout.size
+                                        : HistoryLayout(body.layout, body.mesh, history_entries).size);
+}
 
 HistoryLayout::HistoryLayout(const BodyLayout& layout, const SweptBody& mesh, int entries_) : entries(entries_) {
   for (std::size_t b = 0; b < layout.blocks.size(); ++b) {

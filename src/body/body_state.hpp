@@ -30,6 +30,9 @@ inline constexpr std::array<StateArray, 4> kStateArrays{{{"u", "m", &BodyState::
                                                          {"f", "N", &BodyState::f, false},
                                                          {"history", "", &BodyState::history, true}}};
 
+/// Numbers in an array of a body's state.
+std::size_t array_size(const Body& body, const StateArray& array, int history_entries = ElasticHex::kHistory);
+
 /// Where an element's history stands: entry k of the elements of a quadrilateral at first + k * stride, + element.
 struct HistoryLayout {
   HistoryLayout(const BodyLayout& layout, const SweptBody& mesh, int entries);

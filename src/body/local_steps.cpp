@@ -362,7 +362,7 @@ SurfaceResponse surface_response(const Body& body, const ContactSurface& surface
         for (int to = 0; to < surface.columns; ++to)
           for (int distance = -reach; distance <= reach; ++distance) {
             const std::ptrdiff_t n = surface.index(to, p.station + distance);
-            const Vec3 velocity = -body.inverse_mass[n] * Vec3{f[n], f[n + surface.stride], f[n + 2 * surface.stride]};
+            const Vec3 velocity = -body.inverse_mass[n] * vector_at(f, n, surface.stride);
             for (int k = 0; k < 3; ++k) out.entry(p.column, to, distance, k, i) = dot(velocity, p.axis[k]);
           }
     }

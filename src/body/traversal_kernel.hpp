@@ -25,10 +25,6 @@ struct TwoClasses {
 // Replaces the hourglass amplitudes of a pack of elements from `first` on by their forces; returns the energy. Lanes
 // past the end of the line are filled with numbers that mean nothing.
 template <class Real, class P>
-__attribute__((noinline)) P two_class_hourglass(const Real* lower, const Real* upper, ElementKinematics<P>& kin) {
-  return hourglass_forces(TwoClasses<Real>{lower, upper}, kin);
-}
-template <class Real, class P>
 P pack_hourglass(const BlockElements& elements, int quad, int first, ElementKinematics<P>& kin) {
   const ElementTable<Real>& table = elements.of<Real>();
   const std::size_t quads = table.quads.size();
@@ -36,7 +32,7 @@ P pack_hourglass(const BlockElements& elements, int quad, int first, ElementKine
   const int lower = elements.hourglass_class[first / kHourglassGroup];
   const int upper = elements.hourglass_class[(first + kLanesOf<Real> / 2) / kHourglassGroup];
   if (lower == upper) return hourglass_forces(OneClass<Real>{stiffness(lower)}, kin);
-  return two_class_hourglass<Real>(stiffness(lower), stiffness(upper), kin);  // seldom: where the spacing changes
+  return hourglass_forces(TwoClasses<Real>{stiffness(lower), stiffness(upper)}, kin);
 }
 
 template <class Real>

@@ -12,6 +12,8 @@ inline constexpr std::array kBodies{BodyId::rail, BodyId::wheel};
 /// Place of a body in arrays of two.
 constexpr std::size_t index_of(BodyId body) { return static_cast<std::size_t>(body); }
 
+inline constexpr std::size_t kRail = index_of(BodyId::rail), kWheel = index_of(BodyId::wheel);
+
 constexpr const char* body_word(BodyId body) {
   constexpr std::array words{"rail", "wheel"};
   return words[static_cast<std::size_t>(body)];

@@ -8,10 +8,6 @@
 namespace railstrata {
 namespace {
 
-constexpr std::size_t kRail = index_of(BodyId::rail), kWheel = index_of(BodyId::wheel);
-
-Vec3 vector_at(const Field& f, std::ptrdiff_t x, int stride) { return {f[x], f[x + stride], f[x + 2 * stride]}; }
-
 // s a + b. Where fused products are written out, the compiler has no choice of which product to fuse, and results have
 // the same bits whatever stands around them.
 Vec3 fused(double s, Vec3 a, Vec3 b) { return {std::fma(s, a.x, b.x), std::fma(s, a.y, b.y), std::fma(s, a.z, b.z)}; }

@@ -13,8 +13,6 @@
 namespace railstrata {
 namespace {
 
-constexpr std::size_t kRail = index_of(BodyId::rail), kWheel = index_of(BodyId::wheel);
-
 constexpr double kPenetration = 1e-4;         // of the Hertzian approach
 constexpr double kVirtualPenetration = 0.55;  // of the approach: rigid profiles pushed so far into one another overlap
                                               // in about the patch [PiotrowskiKik2008]
@@ -32,7 +30,7 @@ class Preload {
         tractions_(system.rail_surface().columns, system.rail_surface().stations.nodes()),
         elements_{Traversal(system.rail()), Traversal(system.wheel())},
         preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
-        u_(zero()) {
+        u_(zero_vector(system)) {
     compliant_ = sys_.options.contact.penalty;
     element_stiffness_ = compliant_ ? sys_.options.contact.penalty_stiffness
                                     : young(sys_.rail().materials.front()) / sys_.options.element_size;
@@ -84,8 +82,6 @@ class Preload {
         1e3 * m.spec.mesh.element_size, 2e3 * m.hertz.a, 2e3 * m.hertz.b);
   }
 
-  StaticVector zero() const { return {{sys_.rail().layout.field(), sys_.wheel().layout.field()}, 0.0}; }
-
   void start_from_overlap() {
     u_.axle = -kVirtualPenetration * sys_.model.hertz.approach;
     for (const NodeLine& l : sys_.wheel().lines)
@@ -95,7 +91,7 @@ class Preload {
 
   // Weight of everything on its nodes and on the axle; centrifugal forces of a wheel that rolls.
   StaticVector loads() const {
-    StaticVector f = zero();
+    StaticVector f = zero_vector(sys_);
     const double g = sys_.gravity;
     for (std::size_t k = 0; k < f.body.size(); ++k)
       for (const NodeLine& l : sys_.bodies[k].lines)
@@ -137,7 +133,7 @@ class Preload {
   // The stiff springs of the linear step at the present gaps, in place of the pressures.
   void apply_gap_springs(StaticVector& r) {
     spring_.assign(rows_->rows.size(), 0.0);
-    StaticVector f = zero();
+    StaticVector f = zero_vector(sys_);
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       if (!active_[k]) continue;
       const ContactRow& row = rows_->rows[k];
@@ -193,7 +189,7 @@ class Preload {
   }
 
   StaticVector residual() {
-    StaticVector r = zero();
+    StaticVector r = zero_vector(sys_);
     for (std::size_t k = 0; k < r.body.size(); ++k) {
       elements_[k].internal_force(u_.body[k], 0, r.body[k]);
       for (double& v : r.body[k]) v = -v;
@@ -247,7 +243,7 @@ class Preload {
   // Solves for r in place, down to |r| <= wanted; returns the number of iterations.
   int conjugate_gradients(StaticVector& r, double wanted) {
     preconditioner_.set_contact(*rows_, active_, penalty_);
-    StaticVector x = zero(), z = zero(), p = zero(), q = zero();
+    StaticVector x = zero_vector(sys_), z = zero_vector(sys_), p = zero_vector(sys_), q = zero_vector(sys_);
     double rz = 1;
     int iteration = 0;
     for (; iteration < kMostIterations && dot(r, r) > wanted * wanted; ++iteration) {

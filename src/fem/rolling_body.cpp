@@ -54,9 +54,6 @@ UpdateSchedule schedule_of(const Body& body, const ContactSurface& surface, cons
   return out;
 }
 
-// x, y and z of a node, from the index of x.
-Vec3 vector_at(const Field& f, std::ptrdiff_t x, int stride) { return {f[x], f[x + stride], f[x + 2 * stride]}; }
-
 void set_vector(Field& f, std::ptrdiff_t x, int stride, Vec3 v) {
   f[x] = v.x;
   f[x + stride] = v.y;
@@ -156,7 +153,7 @@ Field model_displacement(const RollingBody& b, const BodyState& state) {
 }
 
 const Field& frame_velocity(RollingBody& b, const BodyState& state, bool before) {
-  if (b.steps.scaling.empty()) return b.velocity;
+  if (b.steps.scaling.empty() || !b.turns()) return state.v;
   b.velocity.assign(state.v.size(), 0.0);
   each_node(b.body, [&](int block, int node, int station, std::ptrdiff_t x, int stride) {
     const Vec3 w = vector_at(state.v, x, stride) + b.frame.rigid_rate(b.arm(block, node, station));

@@ -52,14 +52,12 @@ struct RollingBody {
   MeanMotion mean;
   std::vector<std::vector<double>> cos_node, sin_node;  ///< of the station angles, per block; 1 and 0 if extruded
   double free_mass = 0, free_inertia = 0;               ///< kg, kg m², of the free nodes of a revolved body
-  Field surface_u;          ///< m, displacements in the model frame; valid on the surface lines of a revolved body
+  Field surface_u;          ///< m, of a revolved body: displacements in the model frame, valid on the surface lines
   Field stretch, velocity;  ///< work space of the added mass's energy
 
   bool turns() const { return body.mesh.kind == SweepKind::revolve; }
   /// From the axle to an undeformed node, frame components; zero if extruded.
   Vec3 arm(int block, int node, int station) const;
-  /// Column and station of a surface node from the index of its component x.
-  SurfaceIndex surface_node(std::ptrdiff_t index) const { return surface.node_at(index); }
 };
 
 /// Chains and border planes for this step; no memory is asked for after the first of each kind.
@@ -72,7 +70,7 @@ const Field& surface_displacement(RollingBody& body, const BodyState& state);
 Field model_displacement(const RollingBody& body, const BodyState& state);
 
 /// Velocities relative to the frame's travel, in this step's frame components: of the half step before, or the one
-/// after the update; in body.velocity. Nothing is done without added mass.
+/// after the update. Only found where they differ from v and added mass asks for them.
 const Field& frame_velocity(RollingBody& body, const BodyState& state, bool before);
 
 /// v = -rate du/dt along the sweep: the pattern of deformation stands still while the body moves through it.

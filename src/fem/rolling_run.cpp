@@ -241,7 +241,8 @@ RunResult Roller::finish() {
 
 // A static case has one position with one sample.
 PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& preload) {
-  PositionSamples still{0.0, {take_sample(sys, preload.u[0], preload.u[1], preload.tractions, {0, preload.axle_z, 0})}};
+  PositionSamples still{
+      0.0, {take_sample(sys, preload.u[kRail], preload.u[kWheel], preload.tractions, {0, preload.axle_z, 0})}};
   RollingSample& sample = still.samples.front();
   sample.axle.z = preload.axle_z;
   const Vec3 force = preload.contact_force;
@@ -250,8 +251,8 @@ PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& pre
 }
 
 double hourglass_share(const RollingSystem& sys, PreloadResult& preload) {
-  const StrainEnergy rail = strain_energy(sys.rail(), preload.u[0], 0);
-  const StrainEnergy wheel = strain_energy(sys.wheel(), preload.u[1], 0);
+  const StrainEnergy rail = strain_energy(sys.rail(), preload.u[kRail], 0);
+  const StrainEnergy wheel = strain_energy(sys.wheel(), preload.u[kWheel], 0);
   return (rail.hourglass + wheel.hourglass) / (rail.strain + wheel.strain);
 }
 

@@ -62,7 +62,7 @@ struct RigidMotion {
 Vec3 elastic_displacement(const Body& body, const Field& u, SectionNode node, int station, const RigidMotion& motion) {
   const BlockLayout& lay = body.layout.blocks[node.block];
   const std::ptrdiff_t i = lay.line(node.node, 0) + station;
-  Vec3 d{u[i], u[i + lay.stride], u[i + 2 * lay.stride]};
+  Vec3 d = vector_at(u, i, lay.stride);
   if (body.mesh.kind == SweepKind::revolve)
     d -= motion.displacement(reference_position(body, node.block, node.node, station) - body.mesh.origin);
   return d;
@@ -122,8 +122,8 @@ RollingSample take_sample(const RollingSystem& sys, const Field& u_rail, const F
 
 RollingSample take_sample(const Stepper& st) {
   const RollingState& state = st.state();
-  RollingSample s = take_sample(st.system(), state.bodies[index_of(BodyId::rail)].u, st.displacement(BodyId::wheel),
-                                state.tractions, {state.axle.x, state.axle.z, state.axle.psi});
+  RollingSample s = take_sample(st.system(), state.bodies[kRail].u, st.displacement(BodyId::wheel), state.tractions,
+                                {state.axle.x, state.axle.z, state.axle.psi});
   s.time = state.time;
   s.axle = state.axle;
   s.forces = st.forces();

@@ -8,8 +8,6 @@
 namespace railstrata {
 namespace {
 
-constexpr std::size_t kRail = index_of(BodyId::rail), kWheel = index_of(BodyId::wheel);
-
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 // Colours such that no two clusters of one colour have a neighbour in common.
@@ -47,12 +45,12 @@ StaticPreconditioner::StaticPreconditioner(const RollingSystem& system, const Cl
   probe_axle(stiffness);
 }
 
-StaticVector StaticPreconditioner::zero() const {
-  return {{sys_.rail().layout.field(), sys_.wheel().layout.field()}, 0.0};
+StaticVector zero_vector(const RollingSystem& system) {
+  return {{system.rail().layout.field(), system.wheel().layout.field()}, 0.0};
 }
 
 void StaticPreconditioner::invert_diagonal() {
-  inverse_ = zero();
+  inverse_ = zero_vector(sys_);
   for (std::size_t k = 0; k < sys_.bodies.size(); ++k) {
     stiffness_diagonal(sys_.bodies[k], inverse_.body[k]);
     sys_.bodies[k].ties.apply_transpose(inverse_.body[k]);
@@ -69,7 +67,7 @@ void StaticPreconditioner::invert_diagonal() {
 
 // The coarse matrix by columns: the stiffness is applied to one mode of all clusters of a colour at once.
 void StaticPreconditioner::probe(const Operator& stiffness) {
-  StaticVector x = zero(), y = x;
+  StaticVector x = zero_vector(sys_), y = x;
   std::array<ColouredClusters, 2> parts;
   for (std::size_t k = 0; k < parts.size(); ++k) {
     parts[k].neighbours = clusters_[k].neighbours();
@@ -118,7 +116,7 @@ void StaticPreconditioner::gather_columns(std::size_t body, const ColouredCluste
 }
 
 void StaticPreconditioner::probe_axle(const Operator& stiffness) {
-  StaticVector x = zero();
+  StaticVector x = zero_vector(sys_);
   x.axle = 1.0;
   StaticVector y = x;
   stiffness(x, y);

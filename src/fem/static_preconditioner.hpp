@@ -18,6 +18,9 @@
 
 namespace railstrata {
 
+/// Of the system's size.
+StaticVector zero_vector(const RollingSystem& system);
+
 class StaticPreconditioner {
  public:
   /// stiffness(x, y): y = K x on the free degrees of freedom, without contact.
@@ -47,7 +50,6 @@ class StaticPreconditioner {
     Aggregates::Neighbours neighbours;
     std::vector<std::vector<int>> classes;  // clusters of one colour have no neighbour in common
   };
-  StaticVector zero() const;
   int first_mode(std::size_t body) const;
   void gather_columns(std::size_t body, const ColouredClusters& part, std::size_t colour, int mode,
                       const std::vector<double>& c);

@@ -78,7 +78,7 @@ StepPlan::StepPlan(const RollingSystem& sys) {
     scale_masses(parts, spec);
   double least = limits.lanczos;
   if (spec.contact.method == ContactMethod::penalty) {
-    limits.contact = penalty_step(sys, bodies[index_of(BodyId::rail)].scaling);
+    limits.contact = penalty_step(sys, bodies[kRail].scaling);
     least = 1 / std::sqrt(1 / (least * least) + 1 / (limits.contact * limits.contact));
   }
   limits.chosen = rounded_down(spec.run.step_safety * least);

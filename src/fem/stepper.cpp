@@ -10,8 +10,6 @@
 namespace railstrata {
 namespace {
 
-constexpr std::size_t kRail = index_of(BodyId::rail), kWheel = index_of(BodyId::wheel);
-
 ReferenceFrame rolling_frame(const RollingSystem& sys, double dt) {
   ReferenceFrame frame;
   frame.speed = sys.options.speed;
@@ -27,9 +25,8 @@ SearchWindow search_window(const RollingSystem& sys) {
 
 bool same_sizes(const RestartState& r, const RollingSystem& sys) {
   for (std::size_t k = 0; k < sys.bodies.size(); ++k) {
-    const BodyState blank(sys.bodies[k]);
     for (const StateArray& a : kStateArrays)
-      if (a.restart && (r.state.bodies[k].*a.values).size() != (blank.*a.values).size()) return false;
+      if (a.restart && (r.state.bodies[k].*a.values).size() != array_size(sys.bodies[k], a)) return false;
   }
   const ContactSurface& surface = sys.rail_surface();
   const auto surface_nodes = static_cast<std::size_t>(surface.columns) * surface.stations.nodes();
@@ -55,7 +52,7 @@ Stepper::Stepper(const RollingSystem& system, RestartState restart) : Stepper(sy
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     state_.bodies[k].f = sys_.bodies[k].layout.field();
     bodies_[k].frame.move_to(state_.time);
-    bodies_[k].surface_u = state_.bodies[k].u;
+    if (bodies_[k].turns()) bodies_[k].surface_u = state_.bodies[k].u;
   }
   balance_ = restart.balance;
   bodies_[kWheel].mean = restart.mean;
@@ -91,7 +88,7 @@ void Stepper::start(const PreloadResult& preload) {
     state = BodyState(b.body);
     state.u = preload.u[k];
     b.frame.move_to(0);
-    b.surface_u = state.u;
+    if (b.turns()) b.surface_u = state.u;
     start_velocities(b, rate[k], state);
     b.mean = mean_motion(b, state);
   }

@@ -26,6 +26,9 @@ struct BodyLayout {
   Field field() const { return Field(static_cast<std::size_t>(size), 0.0); }
 };
 
+/// x, y and z of a node, from the index of its component x; stride: BlockLayout::stride.
+inline Vec3 vector_at(const Field& f, std::ptrdiff_t x, int stride) { return {f[x], f[x + stride], f[x + 2 * stride]}; }
+
 inline BodyLayout layout_of(const SweptBody& body) {
   BodyLayout layout;
   layout.size = kLanes - 1;

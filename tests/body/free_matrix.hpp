@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "body/body.hpp"
+#include "body/traversal.hpp"
 
 namespace railstrata::fem_checks {
 
@@ -20,11 +21,12 @@ Eigen::MatrixXd free_matrix(const Body& body, Change&& change) {
   const auto n = static_cast<Eigen::Index>(index.size());
   Eigen::MatrixXd out(n, n);
   Field u = body.layout.field(), f = u;
+  Traversal elements(body);
   for (Eigen::Index c = 0; c < n; ++c) {
     std::fill(u.begin(), u.end(), 0.0);
     u[index[c]] = 1;
     body.ties.apply_homogeneous(u);
-    linear_force(body, u, f);
+    elements.linear_force(u, f);
     body.ties.apply_transpose(f);
     change(u, f);
     for (Eigen::Index r = 0; r < n; ++r) out(r, c) = f[index[r]];

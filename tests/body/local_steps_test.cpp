@@ -113,10 +113,11 @@ TEST_F(LocalStepsTest, StaySymmetricAndStableAcrossTies) {
     const double own = lanczos_stable_step(body), coarse = lanczos_coarse_step(body, local);
     local.set_step(0.9 * coarse, own);
     EXPECT_GT(local.stages(), 1);
+    Traversal elements(body);
     auto product = [&](Field x) {
       Field f = x;
       body.ties.apply_homogeneous(x);
-      linear_force(body, x, f);
+      elements.linear_force(x, f);
       body.ties.apply_transpose(f);
       local.refine_linear(x, f);
       return f;
@@ -273,8 +274,9 @@ TEST_F(LocalStepsTest, ConserveTheirEnergy) {
   local.set_step(0.9 * lanczos_coarse_step(body, local), lanczos_stable_step(body));
   const double dt = local.step();
   Field u = body.layout.field(), v = scattered_forces(body, 1.0), f = u;
+  Traversal elements(body);
   auto step = [&] {
-    linear_force(body, u, f);
+    elements.linear_force(u, f);
     local.refine_linear(u, f);
     double energy = 0.5 * nodal_dot(body.layout, u, f);
     for (std::ptrdiff_t i : free_indices(body)) {
@@ -306,9 +308,10 @@ TEST_F(LocalStepsTest, APulsePassesThroughTheLayerAsWithOneShortStep) {
     const double dt = kEnd / steps;
     if (locally) local.set_step(dt, own);
     Field u = body.layout.field(), v = u, f = u;
+    Traversal elements(body);
     std::vector<double> strain;
     for (int s = 0; s < steps; ++s) {
-      linear_force(body, u, f);
+      elements.linear_force(u, f);
       const double t = s * dt,
                    pressure = t < kPulse ? 0.5 * kPressure * (1 - std::cos(2 * std::numbers::pi * t / kPulse)) : 0;
       for (int node : {0, 1})

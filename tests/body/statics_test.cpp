@@ -51,7 +51,8 @@ double error(int n, ElementKind element) {
 
   Field u = exact, r = solid.layout.field(), p = r, q = r;
   for (std::ptrdiff_t k : inner) u[k] = 0;
-  linear_force(solid, u, q);
+  Traversal elements(solid);
+  elements.linear_force(u, q);
   double rr = 0;
   for (std::ptrdiff_t k : inner) {
     p[k] = r[k] = solid.element_mass[k] * force[k] - q[k];
@@ -59,7 +60,7 @@ double error(int n, ElementKind element) {
   }
   const double wanted = 1e-20 * rr;
   for (int iteration = 0; iteration < 2000 && rr > wanted; ++iteration) {
-    linear_force(solid, p, q);
+    elements.linear_force(p, q);
     double pq = 0, next = 0;
     for (std::ptrdiff_t k : inner) pq += p[k] * q[k];
     for (std::ptrdiff_t k : inner) {

@@ -195,9 +195,10 @@ TEST_F(MassScalingTest, APulsePassesThroughTheLayerUnchanged) {
     const int steps = static_cast<int>(std::ceil(kEnd / step / kSamples)) * kSamples;
     const double dt = kEnd / steps;
     Field u = body.layout.field(), v = u, f = u;
+    Traversal elements(body);
     Trace out;
     for (int s = 0; s < steps; ++s) {
-      linear_force(body, u, f);
+      elements.linear_force(u, f);
       const double t = s * dt,
                    pressure = t < kPulse ? 0.5 * kPressure * (1 - std::cos(2 * std::numbers::pi * t / kPulse)) : 0;
       for (int node : {0, 1})
