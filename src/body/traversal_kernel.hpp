@@ -22,6 +22,12 @@ struct TwoClasses {
   PackOf<Real> operator()(int e) const { return halves(PackOf<Real>{} + lower[e], PackOf<Real>{} + upper[e]); }
 };
 
+// Seldom: where the spacing changes. Kept out of the loop over packs, whose registers it would take.
+template <class Real, class P>
+__attribute__((noinline)) P two_class_hourglass(const Real* lower, const Real* upper, ElementKinematics<P>& kin) {
+  return hourglass_forces(TwoClasses<Real>{lower, upper}, kin);
+}
+
 // Replaces the hourglass amplitudes of a pack of elements from `first` on by their forces; returns the energy. Lanes
 // past the end of the line are filled with numbers that mean nothing.
 template <class Real, class P>
@@ -32,7 +38,7 @@ P pack_hourglass(const BlockElements& elements, int quad, int first, ElementKine
   const int lower = elements.hourglass_class[first / kHourglassGroup];
   const int upper = elements.hourglass_class[(first + kLanesOf<Real> / 2) / kHourglassGroup];
   if (lower == upper) return hourglass_forces(OneClass<Real>{stiffness(lower)}, kin);
-  return hourglass_forces(TwoClasses<Real>{stiffness(lower), stiffness(upper)}, kin);
+  return two_class_hourglass<Real>(stiffness(lower), stiffness(upper), kin);
 }
 
 template <class Real>
@@ -186,10 +192,13 @@ void TraversalOf<Element>::begin(Field& u, double psi) {
   }
 }
 
+// Flattened (all that it calls is inlined): the kinematics of a pack then stay in registers from the gather to the
+// scatter, and the energy that nobody reads here is not computed. 1.2 to 1.4 times as fast as with calls between.
 template <class Element>
 template <class Real, Evaluation how, SweepKind kind, class Policy>
-void TraversalOf<Element>::run_tile(int t, bool follows, const Field& u, Field& f, const Field& history,
-                                    Field* advanced, const Policy& policy) {
+__attribute__((flatten)) void TraversalOf<Element>::run_tile(int t, bool follows, const Field& u, Field& f,
+                                                             const Field& history, Field* advanced,
+                                                             const Policy& policy) {
   using P = PackOf<Real>;
   constexpr int lanes = kLanesOf<Real>;
   const Tile& tile = body_->tiling.tiles[t];

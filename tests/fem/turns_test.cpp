@@ -97,7 +97,7 @@ struct LongRoll {
 
 }  // namespace
 
-TEST(SlowTurns, ContactIsTheSameOverTheClosureAfterATurnAndOnAnOpenWheel) {
+TEST(LongTurns, ContactIsTheSameOverTheClosureAfterATurnAndOnAnOpenWheel) {
   const LongRoll roll;
   CaseSpec shorter = roll.spec;
   shorter.run.positions = {roll.early};
@@ -114,7 +114,7 @@ TEST(SlowTurns, ContactIsTheSameOverTheClosureAfterATurnAndOnAnOpenWheel) {
 }
 
 // Stopped just before the contact reaches the place where the ring closes.
-TEST(SlowTurns, ResumeAcrossTheClosureComputesTheSameBits) {
+TEST(LongTurns, ResumeAcrossTheClosureComputesTheSameBits) {
   LongRoll roll;
   roll.spec.run.positions.pop_back();
   const RollingSystem system = small_system(roll.spec);
