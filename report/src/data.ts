@@ -1,6 +1,11 @@
 // What the program puts into the page: src/report/payload.cpp writes it, this file reads it. Millimetres, MPa,
 // milliseconds and newtons, except in `summary`, which is summary.json as it stands (SI).
 
+/// Numbers, some of them missing.
+export type Values = (number|null)[];
+export type Span = [low: number, high: number];
+export type BodyName = "rail"|"wheel";
+
 /// Numbers to 1/65534 of their range: 16-bit steps in base64; 65535 is "no value".
 interface PackedNumbers {
   low: number;
@@ -42,7 +47,8 @@ export interface StressMaximum {
   y_m: number|null;
   depth_m: number|null;
 }
-export type Zones = Record<string, Record<"von_mises_max"|"sigma1_max", StressMaximum|null>|null>;
+export type Measure = "von_mises_max"|"sigma1_max";
+export type Zones = Record<string, Record<Measure, StressMaximum|null>|null>;
 
 export interface Layer {
   name: string;
@@ -66,15 +72,19 @@ export interface Geometry {
   layers: Layer[];
 }
 
+export interface Summary {
+  position_m: number|null;
+  contact: Record<string, number|null>;
+  stress: Record<BodyName, Zones>;
+  run: Record<string, number|string|null>;
+}
+
 export interface Run {
   name: string;
   folder: string;
   engine: string;
   title: string;
-  summary: {
-    position_m: number|null; contact: Record<string, number|null>; stress: Record<"rail"|"wheel", Zones>;
-    run: Record<string, number|string|null>;
-  };
+  summary: Summary;
   case: [table: string, key: string, value: string][];
   provenance: Record<string, unknown>;
   geometry: Geometry|null;
@@ -82,7 +92,7 @@ export interface Run {
   centre_line: Columns&{y: number[]};
   depth_line: Columns|null;
   history: Columns|null;
-  sections: Partial<Record<"rail"|"wheel", BodySections>>;
+  sections: Partial<Record<BodyName, BodySections>>;
 }
 
 export interface Check {
@@ -104,6 +114,15 @@ export interface Table {
   rows: (string|number|null)[][];
 }
 
+export interface ChartSeries {
+  name: string;
+  x: number[];
+  y: number[];
+  markers: boolean;
+  colour: number;  // place among the page's; -1: the series' own
+  dash: string;
+}
+
 /// A chart of lines for the study.
 export interface Chart {
   id: string;
@@ -111,8 +130,7 @@ export interface Chart {
   note: string;
   x: string;
   y: string;
-  series: {name: string; x: number[]; y: number[]; markers: boolean; colour: number;
-           dash: string}[];  // colour: place among the page's; -1: the series' own
+  series: ChartSeries[];
 }
 
 /// A row of maps of one quantity, one a run, on one scale.
@@ -151,7 +169,7 @@ export interface CheckWords {
 export interface Words {
   numbers: Quantity[];
   zones: {key: string; name: string}[];
-  measures: {key: "von_mises_max"|"sigma1_max"; name: string}[];
+  measures: {key: Measure; name: string}[];
   checks: CheckWords[];
 }
 
@@ -166,9 +184,9 @@ export interface Report {
   maps: Maps[];
 }
 
-export function unpack(packed: PackedNumbers): (number|null)[] {
+export function unpack(packed: PackedNumbers): Values {
   const bytes = atob(packed.u16);
-  const out: (number|null)[] = [];
+  const out: Values = [];
   const step = (packed.high - packed.low) / 65534;
   for (let i = 0; i + 1 < bytes.length; i += 2) {
     const k = bytes.charCodeAt(i) + 256 * bytes.charCodeAt(i + 1);

@@ -95,16 +95,16 @@ export function axis(theme: Theme, title: string, more: Record<string, unknown> 
   };
 }
 
+function csvCell(v: string|number|null): string {
+  if (v === null) return "";
+  if (typeof v === "number") return String(Number(v.toPrecision(7)));
+  return /[",\n]/.test(v) ? `"${v.replace(/"/g, '""')}"` : v;
+}
+
 export function csvText(table: DataTable, head: string[]): string {
-  const cell = (v: string|number|null) =>
-      (v === null                  ? ""
-           : typeof v === "number" ? String(Number(v.toPrecision(7)))
-           : /[",\n]/.test(v)      ? `"${v.replace(/"/g, '""')}"`
-                                   : v);
-  return [
-    ...head.map((h) => `# ${h}`), table.names.join(","), ...table.rows.map((row) => row.map(cell).join(","))
-  ].join("\n") +
-      "\n";
+  const comments = head.map((h) => `# ${h}`);
+  const rows = table.rows.map((row) => row.map(csvCell).join(","));
+  return [...comments, table.names.join(","), ...rows].join("\n") + "\n";
 }
 
 interface Shown {
@@ -119,10 +119,10 @@ export function setOrigin(lines: string[]): void { origin = lines; }
 
 export function frame(figure: Figure): HTMLElement {
   const plot = element("div", {class: "plot", id: `plot-${figure.id}`, role: "img", "aria-label": figure.title});
-  const button = element(
-      "button", {type: "button", class: "csv", title: "Save the numbers of this figure", "data-csv": figure.id}, "CSV");
-  button.addEventListener(
-      "click", () => download(`${figure.id}.csv`, csvText(figure.table(), [...origin, figure.title])));
+  const attributes = {type: "button", class: "csv", title: "Save the numbers of this figure", "data-csv": figure.id};
+  const button = element("button", attributes, "CSV");
+  const save = () => download(`${figure.id}.csv`, csvText(figure.table(), [...origin, figure.title]));
+  button.addEventListener("click", save);
   shown.set(figure.id, {figure, plot});
   return element(
       "figure",

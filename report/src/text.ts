@@ -2,7 +2,8 @@
 import type {CheckWords, Quantity, Run, Unit, Words} from "./data";
 
 export function engineName(engine: string): string {
-  return engine === "fem" ? "finite elements" : engine === "bem" ? "half-space" : engine;
+  if (engine === "fem") return "finite elements";
+  return engine === "bem" ? "half-space" : engine;
 }
 
 export function runLabel(run: Run): string { return `${run.name} (${engineName(run.engine)})`; }
@@ -40,12 +41,17 @@ export function percentText(fraction: number|null, digits = 2): string {
 
 // The program's tables of results give names and units; set once, before anything is built.
 let words: Words = {numbers: [], zones: [], measures: [], checks: []};
+const kPlain: Unit = {
+  shown: "",
+  factor: 1
+};
+
 export function setWords(given: Words): void { words = given; }
 
 /// The words of a check; its key where the program does not know it (a result of another version).
 export function checkWords(key: string): CheckWords {
-  return words.checks.find((c) => c.key === key) ??
-      {key, name: key.replace(/_/g, " "), what: "", unit: {shown: "", factor: 1}};
+  const unknown = {key, name: key.replace(/_/g, " "), what: "", unit: kPlain};
+  return words.checks.find((c) => c.key === key) ?? unknown;
 }
 
 /// A value in SI as people read it: "931 MPa", "4.02 %", "inside".
@@ -69,8 +75,8 @@ function inUnit(value: number|null, unit: Unit, text: (shown: number) => string)
 export function shownQuantities(): Quantity[] { return words.numbers.filter((q) => q.shown); }
 
 export function quantityAt(path: string): Quantity {
-  return words.numbers.find((q) => q.path === path) ??
-      {path, name: path, unit: {shown: "", factor: 1}, digits: 4, shown: true, comparable: false};
+  const unknown = {path, name: path, unit: kPlain, digits: 4, shown: true, comparable: false};
+  return words.numbers.find((q) => q.path === path) ?? unknown;
 }
 
 /// Where stresses are looked for: key and name of each zone, of each measure.
