@@ -36,20 +36,23 @@ if (/<\/script|<!--/i.test(script)) throw new Error("the bundle holds a text tha
 const packages = new Set();
 for (const [file, part] of Object.entries(Object.values(bundle.metafile.outputs)[0].inputs)) {
   const path = file.split("node_modules/").slice(1).pop();
-  if (path && !path.endsWith(".css") && part.bytesInOutput > 0)
-    packages.add(
-        file.slice(0, file.lastIndexOf(path)) + path.split("/").slice(0, path.startsWith("@") ? 2 : 1).join("/"));
+  if (!path || path.endsWith(".css") || part.bytesInOutput === 0) continue;
+  const name = path.split("/").slice(0, path.startsWith("@") ? 2 : 1).join("/");
+  packages.add(file.slice(0, file.lastIndexOf(path)) + name);
 }
+
+function withoutText(author) {
+  const holder = typeof author === "object" ? author.name : author;
+  return `Copyright ${holder}. The package brings no text of its licence; the one named above applies.`;
+}
+
 let licences = "Third-party software in report.js, with its licences.\n";
 for (const folder of [...packages].sort()) {
   const {name, version, license, author} = JSON.parse(readFileSync(`${folder}/package.json`, "utf8"));
   const text = readdirSync(folder).find((file) => /^licen[cs]e/i.test(file));
-  licences += `\n${"=".repeat(80)}\n${name} ${version} (${typeof license === "object" ? license.type : license})\n\n`;
-  licences += text ? readFileSync(`${folder}/${text}`, "utf8").trim() + "\n"
-                   : `Copyright ${
-                         typeof author === "object"
-                             ? author.name
-                             : author}. The package brings no text of its licence; the one named above applies.\n`;
+  const kind = typeof license === "object" ? license.type : license;
+  const body = text ? readFileSync(`${folder}/${text}`, "utf8").trim() : withoutText(author);
+  licences += `\n${"=".repeat(80)}\n${name} ${version} (${kind})\n\n${body}\n`;
 }
 writeFileSync("dist/LICENSES.txt", licences);
 
