@@ -4,8 +4,8 @@ and a verdict.
 
 usage: lint.py [--jobs N] [--csv docs/reliability/lint.csv] [FILE.cpp ...]
 
-  clang-format      layout of src/, tests/, fuzz/ and bench/ as in .clang-format, by version 14 alone: others break
-                    lines elsewhere
+  clang-format      layout of src/, tests/, fuzz/, bench/ and the report's TypeScript as in .clang-format, by version
+                    14 alone: others break lines elsewhere
   statement_lines   one statement a line, at most 120 columns (tools/statement_lines.py)
   function_lengths  no function of src/ over 60 lines (tools/function_lengths.py)
 
@@ -30,7 +30,8 @@ ROOT = records.ROOT
 BUILD = ROOT / "build-lint"
 FINDING = re.compile(r"^(\S+?):(\d+):(?:(\d+):)? (warning|error|style|performance|portability|note): (.*)$")
 SCRIPTS = ["railstrata", ".ci/run"]
-FORMATTED = ["src", "tests", "fuzz", "bench"]
+FORMATTED = ["src/**/*", "tests/**/*", "fuzz/**/*", "bench/**/*", "report/src/*", "report/*"]
+FORMATTED_SUFFIXES = statement_lines.CPP | statement_lines.SCRIPTS
 FORMAT_VERSION = "14."
 
 
@@ -106,8 +107,8 @@ def shown(found):
 
 def layout(files):
     """Findings of the three that read sources as text; no files: all."""
-    code = [f for folder in FORMATTED for f in sorted((ROOT / folder).rglob("*")) if f.suffix in statement_lines.CPP]
-    code = [f for f in files if f.suffix in statement_lines.CPP] if files else code
+    code = files or [f for pattern in FORMATTED for f in sorted(ROOT.glob(pattern))]
+    code = [f for f in code if f.suffix in FORMATTED_SUFFIXES]
     lines = files or statement_lines.all_files()
     statement_lines.self_test()
     function_lengths.self_test()

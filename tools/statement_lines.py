@@ -3,8 +3,9 @@
 
 usage: statement_lines.py [FILE ...]
 
-C and C++: assignments joined by commas (`a = 1, b = 2;`) and declarations of more than six names in one statement.
-These and Python: lines of more than 120 characters. Without files: all that git knows. Exit code: 0 clean, 1 findings.
+C, C++, JavaScript and TypeScript: assignments joined by commas (`a = 1, b = 2;`) and declarations of more than six
+names in one statement. These and Python: lines of more than 120 characters. Without files: all that git knows. Exit
+code: 0 clean, 1 findings.
 """
 import pathlib
 import re
@@ -15,11 +16,15 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 MOST_COLUMNS = 120
 MOST_NAMES = 6  # a symmetric tensor has six components
 CPP = {".cpp", ".hpp", ".c", ".h"}
+SCRIPTS = {".ts", ".mjs", ".js"}
 OTHERS = {".py"}
+WRITTEN_BY_PROGRAMS = "report/dist/"
 
-# comments, raw strings, strings, characters and preprocessor lines, in the order in which they hide one another
+# comments, raw strings, strings, characters, templates and preprocessor lines, in the order in which they hide one
+# another
 HIDDEN = re.compile(
-    r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#(?:\\\n|[^\n])*',
+    r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])+\'|`(?:\\.|[^`\\])*`'
+    r'|^[ \t]*#(?:\\\n|[^\n])*',
     re.DOTALL | re.MULTILINE)
 HELD = "\0"  # stands for what was in brackets
 LOOP = re.compile(r"\bfor\s*\(")
@@ -37,7 +42,7 @@ NEXT_NAME = re.compile(rf"^\s*[*&]*\s*{WORD}\s*(?:=(?!=).*)?$", re.DOTALL)
 
 def blanked(text):
     """The same lines without what is hidden."""
-    return HIDDEN.sub(lambda m: ('""' if m[0][0] in "R\"'" else "") + "\n" * m[0].count("\n"), text)
+    return HIDDEN.sub(lambda m: ('""' if m[0][0] in "R\"'`" else "") + "\n" * m[0].count("\n"), text)
 
 
 def without_loop_heads(text):
@@ -74,7 +79,7 @@ def statements(text):
 
 
 def joined_statements(text):
-    """(line number, message) for C++."""
+    """(line number, message) for languages whose statements end with a semicolon."""
     for line, statement in statements(text):
         parts = CONTROL.sub("", statement).split(",")
         if len(parts) < 2:
@@ -96,7 +101,7 @@ def findings(files):
             if len(line) > MOST_COLUMNS:
                 found.append(
                     f"{file}:{number}: warning: {len(line)} columns, at most {MOST_COLUMNS} are wanted [columns]")
-        if file.suffix in CPP:
+        if file.suffix in CPP | SCRIPTS:
             found += [f"{file}:{number}: warning: {message}" for number, message in joined_statements(text)]
     return found
 
@@ -104,8 +109,8 @@ def findings(files):
 def all_files():
     listed = subprocess.run(["git", "-C", ROOT, "ls-files"], capture_output=True, text=True,
                             check=True).stdout.splitlines()
-    files = [ROOT / name for name in listed]
-    return [f for f in files if f.suffix in CPP | OTHERS]
+    files = [ROOT / name for name in listed if not name.startswith(WRITTEN_BY_PROGRAMS)]
+    return [f for f in files if f.suffix in CPP | SCRIPTS | OTHERS]
 
 
 def self_test():
@@ -113,7 +118,8 @@ def self_test():
         return [f"{line} {message.split('[')[1][:-1]}" for line, message in joined_statements(text)]
 
     joined = ["a = 1, b = 2;", "if (x)\n  n += f(1, 2), v[i] = {1, 2};", "else p->x = 0, ++n;", "s.a *= 2, s.b -= 3;",
-              "run([&](int i) { p[i] = 1, q[i] = 2; }, 2);", "case 1: x = a, y = b;"]
+              "run([&](int i) { p[i] = 1, q[i] = 2; }, 2);", "case 1: x = a, y = b;",
+              "for (const v of line)\n  if (v !== null) low = Math.min(low, v), high = Math.max(high, v);"]
     for text in joined:
         assert [m.split()[1] for m in messages("void f() {\n" + text + "\n}")] == ["one-statement"], (
             text, messages(text))
@@ -125,7 +131,8 @@ def self_test():
             "template <class T = int, class U = long>\nvoid g();", "auto h = [a = 1, b = 2] { return a; };",
             "Plane xx, yy, zz, xy, yz, xz;",
             "void g(int a = 1, int b = 2, int c = 3, int d = 4, int e = 5, int f = 6);", "S s{a, b, c, d, e, f};",
-            "return a, b, c, d, e, f;", "f(a, b, c, d, e, g), h(b);", "X() : a(1), b(2), c(3), d(4), e(5), f(6) {}"]
+            "return a, b, c, d, e, f;", "f(a, b, c, d, e, g), h(b);", "X() : a(1), b(2), c(3), d(4), e(5), f(6) {}",
+            "x = `${a} = 1, b = ${f(`c`)};`;", "let low = 1, high = 2;"]
     for text in fine:
         assert not messages(text), (text, messages(text))
     many = ["double a = 0, b = 0, c, d, e = f(1, 2), g, h;", "std::vector<int> a, b, c, d, e, f, g;",

@@ -1,5 +1,10 @@
-// What the program puts into the page: src/report/payload.cpp writes it, this file reads it. Millimetres, MPa, milliseconds and newtons, except in `summary`, which is
-// summary.json as it stands (SI).
+// What the program puts into the page: src/report/payload.cpp writes it, this file reads it. Millimetres, MPa,
+// milliseconds and newtons, except in `summary`, which is summary.json as it stands (SI).
+
+/// Numbers, some of them missing.
+export type Values = (number|null)[];
+export type Span = [low: number, high: number];
+export type BodyName = "rail"|"wheel";
 
 /// Numbers to 1/65534 of their range: 16-bit steps in base64; 65535 is "no value".
 interface PackedNumbers {
@@ -16,7 +21,7 @@ export interface Grid {
   q_y: PackedNumbers;
   slip_x: PackedNumbers;
   slip_y: PackedNumbers;
-  state: string; // one digit a point: 0 separated, 1 stick, 2 slip
+  state: string;  // one digit a point: 0 separated, 1 stick, 2 slip
 }
 
 /// Values at cell centres, index along + along.length * row; rows go down from the surface.
@@ -26,7 +31,7 @@ export interface Section {
   depth: number[];
   von_mises: PackedNumbers;
   sigma_1: PackedNumbers;
-  material: string; // one digit (base 36) a cell
+  material: string;  // one digit (base 36) a cell
 }
 
 export interface BodySections {
@@ -38,11 +43,12 @@ export type Columns = Record<string, number[]>;
 
 export interface StressMaximum {
   value_Pa: number;
-  x_m: number | null;
-  y_m: number | null;
-  depth_m: number | null;
+  x_m: number|null;
+  y_m: number|null;
+  depth_m: number|null;
 }
-export type Zones = Record<string, Record<"von_mises_max" | "sigma1_max", StressMaximum | null> | null>;
+export type Measure = "von_mises_max"|"sigma1_max";
+export type Zones = Record<string, Record<Measure, StressMaximum|null>|null>;
 
 export interface Layer {
   name: string;
@@ -51,7 +57,7 @@ export interface Layer {
   width_m: number;
   young_Pa: number;
   young_ratio: number;
-  young_table?: [number, number][]; // depth [m] and modulus [Pa] of a graded layer; its young_Pa is the mean
+  young_table?: [number, number][];  // depth [m] and modulus [Pa] of a graded layer; its young_Pa is the mean
   bottom_m: [number, number][];
 }
 
@@ -60,10 +66,17 @@ export interface Geometry {
   wheel_profile: string;
   load_N: number;
   contact: Record<string, number>;
-  hertz: { a_m: number; b_m: number; p0_Pa: number; approach_m: number };
+  hertz: {a_m: number; b_m: number; p0_Pa: number; approach_m: number};
   rail_m: [number, number][];
   wheel_m: [number, number][];
   layers: Layer[];
+}
+
+export interface Summary {
+  position_m: number|null;
+  contact: Record<string, number|null>;
+  stress: Record<BodyName, Zones>;
+  run: Record<string, number|string|null>;
 }
 
 export interface Run {
@@ -71,29 +84,24 @@ export interface Run {
   folder: string;
   engine: string;
   title: string;
-  summary: {
-    position_m: number | null;
-    contact: Record<string, number | null>;
-    stress: Record<"rail" | "wheel", Zones>;
-    run: Record<string, number | string | null>;
-  };
+  summary: Summary;
   case: [table: string, key: string, value: string][];
   provenance: Record<string, unknown>;
-  geometry: Geometry | null;
+  geometry: Geometry|null;
   patch: Grid;
-  centre_line: Columns & { y: number[] };
-  depth_line: Columns | null;
-  history: Columns | null;
-  sections: Partial<Record<"rail" | "wheel", BodySections>>;
+  centre_line: Columns&{y: number[]};
+  depth_line: Columns|null;
+  history: Columns|null;
+  sections: Partial<Record<BodyName, BodySections>>;
 }
 
 export interface Check {
   name: string;
-  runs: number[]; // one: the run's own; two: the first against the second; none: over all cases of a study
-  judged: boolean; // false: said, not judged
+  runs: number[];   // one: the run's own; two: the first against the second; none: over all cases of a study
+  judged: boolean;  // false: said, not judged
   ok: boolean;
-  value: number | null;
-  limit: number | null;
+  value: number|null;
+  limit: number|null;
   note: string;
 }
 
@@ -103,7 +111,16 @@ export interface Table {
   title: string;
   note: string;
   columns: string[];
-  rows: (string | number | null)[][];
+  rows: (string|number|null)[][];
+}
+
+export interface ChartSeries {
+  name: string;
+  x: number[];
+  y: number[];
+  markers: boolean;
+  colour: number;  // place among the page's; -1: the series' own
+  dash: string;
 }
 
 /// A chart of lines for the study.
@@ -113,7 +130,7 @@ export interface Chart {
   note: string;
   x: string;
   y: string;
-  series: { name: string; x: number[]; y: number[]; markers: boolean; colour: number; dash: string }[]; // colour: place among the page's; -1: the series' own
+  series: ChartSeries[];
 }
 
 /// A row of maps of one quantity, one a run, on one scale.
@@ -121,24 +138,24 @@ export interface Maps {
   id: string;
   title: string;
   note: string;
-  kind: "state" | "von_mises" | "sigma_1";
+  kind: "state"|"von_mises"|"sigma_1";
   runs: number[];
   names: string[];
 }
 
 export interface Unit {
-  shown: string; // "MPa", "%", "inside|outside" for 0 and 1, "" for a plain number
-  factor: number; // SI to what is shown
+  shown: string;   // "MPa", "%", "inside|outside" for 0 and 1, "" for a plain number
+  factor: number;  // SI to what is shown
 }
 
 /// A number of summary.json and how it is written.
 export interface Quantity {
-  path: string; // "contact/p_max_Pa"
+  path: string;  // "contact/p_max_Pa"
   name: string;
   unit: Unit;
-  digits: number; // significant ones
+  digits: number;  // significant ones
   shown: boolean;
-  comparable: boolean; // false: a small remainder, or another thing in the other engine: no difference is shown
+  comparable: boolean;  // false: a small remainder, or another thing in the other engine: no difference is shown
 }
 
 export interface CheckWords {
@@ -151,8 +168,8 @@ export interface CheckWords {
 /// The words for results, from the program's tables (src/post/result_table.cpp, src/post/check_limits.hpp).
 export interface Words {
   numbers: Quantity[];
-  zones: { key: string; name: string }[];
-  measures: { key: "von_mises_max" | "sigma1_max"; name: string }[];
+  zones: {key: string; name: string}[];
+  measures: {key: Measure; name: string}[];
   checks: CheckWords[];
 }
 
@@ -167,9 +184,9 @@ export interface Report {
   maps: Maps[];
 }
 
-export function unpack(packed: PackedNumbers): (number | null)[] {
+export function unpack(packed: PackedNumbers): Values {
   const bytes = atob(packed.u16);
-  const out: (number | null)[] = [];
+  const out: Values = [];
   const step = (packed.high - packed.low) / 65534;
   for (let i = 0; i + 1 < bytes.length; i += 2) {
     const k = bytes.charCodeAt(i) + 256 * bytes.charCodeAt(i + 1);
@@ -187,17 +204,17 @@ export function rowsOf<T>(values: readonly T[], width: number): T[][] {
 
 export function columnsOf<T>(values: readonly T[], height: number): T[][] {
   const rows = rowsOf(values, height);
-  return Array.from({ length: height }, (_, j) => rows.map((row) => row[j]));
+  return Array.from({length: height}, (_, j) => rows.map((row) => row[j]));
 }
 
 /// A number of summary.json by its path, "contact/p_max_Pa"; null if it is not there.
-export function numberAt(run: Run, path: string): number | null {
+export function numberAt(run: Run, path: string): number|null {
   let at: unknown = run.summary;
   for (const key of path.split("/")) at = at && typeof at === "object" ? (at as Record<string, unknown>)[key] : null;
   return typeof at === "number" ? at : null;
 }
 
 /// Value of an option of the resolved case.
-export function option(run: Run, table: string, key: string): string | null {
+export function option(run: Run, table: string, key: string): string|null {
   return run.case.find(([t, k]) => t === table && k === key)?.[2] ?? null;
 }

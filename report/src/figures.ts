@@ -1,9 +1,10 @@
-// Figures: a frame with title, plot, words and a button for the data. Every figure knows how to draw itself for a theme and a width, so that it can be drawn again
-// when the theme changes or the page is printed.
+// Figures: a frame with title, plot, words and a button for the data. Every figure knows how to draw itself for a theme
+// and a width, so that it can be drawn again when the theme changes or the page is printed.
 import Plotly from "plotly.js/lib/core";
 import heatmap from "plotly.js/lib/heatmap";
-import { download, element } from "./dom";
-import { plotText } from "./text";
+
+import {download, element} from "./dom";
+import {plotText} from "./text";
 
 Plotly.register([heatmap]);
 
@@ -12,20 +13,34 @@ export interface Theme {
   soft: string;
   grid: string;
   paper: string;
-  series: string[]; // runs, in order
-  reference: string; // theory
+  series: string[];   // runs, in order
+  reference: string;  // theory
   stick: string;
   slip: string;
-  size: number; // of letters
+  size: number;  // of letters
 }
 
 // Okabe and Ito's colours, told apart with any colour vision; brighter on dark paper.
 export const kLight: Theme = {
-  ink: "#1b1f24", soft: "#59636e", grid: "#dfe3e8", paper: "#ffffff", reference: "#59636e", stick: "#0072b2", slip: "#e69f00", size: 12,
+  ink: "#1b1f24",
+  soft: "#59636e",
+  grid: "#dfe3e8",
+  paper: "#ffffff",
+  reference: "#59636e",
+  stick: "#0072b2",
+  slip: "#e69f00",
+  size: 12,
   series: ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#7a6400", "#56b4e9"],
 };
 export const kDark: Theme = {
-  ink: "#e6e9ed", soft: "#a3adb8", grid: "#343b44", paper: "#16191d", reference: "#a3adb8", stick: "#3b9edb", slip: "#f0b22a", size: 12,
+  ink: "#e6e9ed",
+  soft: "#a3adb8",
+  grid: "#343b44",
+  paper: "#16191d",
+  reference: "#a3adb8",
+  stick: "#3b9edb",
+  slip: "#f0b22a",
+  size: 12,
   series: ["#56b4e9", "#f28b3c", "#3fcf9f", "#e59bc5", "#d8c23f", "#9fd0f0"],
 };
 
@@ -35,12 +50,12 @@ export interface Drawing {
 }
 export interface DataTable {
   names: string[];
-  rows: (string | number | null)[][];
+  rows: (string|number|null)[][];
 }
 export interface Figure {
   id: string;
   title: string;
-  words?: (string | Node)[];
+  words?: (string|Node)[];
   wide?: boolean;
   draw(theme: Theme, width: number): Drawing;
   table(): DataTable;
@@ -55,18 +70,18 @@ export function baseLayout(theme: Theme, width: number, height: number): Record<
     height,
     paper_bgcolor: theme.paper,
     plot_bgcolor: theme.paper,
-    font: { family: kFont, size: theme.size, color: theme.ink },
-    margin: { l: 58, r: 16, t: 12, b: 44 },
-    hoverlabel: { font: { family: kFont, size: 12 } },
-    legend: { orientation: "h", x: 0, y: 1.02, yanchor: "bottom", font: { size: theme.size } },
-    modebar: { bgcolor: "rgba(0,0,0,0)", color: theme.soft, activecolor: theme.ink },
+    font: {family: kFont, size: theme.size, color: theme.ink},
+    margin: {l: 58, r: 16, t: 12, b: 44},
+    hoverlabel: {font: {family: kFont, size: 12}},
+    legend: {orientation: "h", x: 0, y: 1.02, yanchor: "bottom", font: {size: theme.size}},
+    modebar: {bgcolor: "rgba(0,0,0,0)", color: theme.soft, activecolor: theme.ink},
     showlegend: false,
   };
 }
 
 export function axis(theme: Theme, title: string, more: Record<string, unknown> = {}): Record<string, unknown> {
   return {
-    title: { text: plotText(title), standoff: 6 },
+    title: {text: plotText(title), standoff: 6},
     gridcolor: theme.grid,
     zerolinecolor: theme.grid,
     linecolor: theme.soft,
@@ -80,9 +95,16 @@ export function axis(theme: Theme, title: string, more: Record<string, unknown> 
   };
 }
 
+function csvCell(v: string|number|null): string {
+  if (v === null) return "";
+  if (typeof v === "number") return String(Number(v.toPrecision(7)));
+  return /[",\n]/.test(v) ? `"${v.replace(/"/g, '""')}"` : v;
+}
+
 export function csvText(table: DataTable, head: string[]): string {
-  const cell = (v: string | number | null) => (v === null ? "" : typeof v === "number" ? String(Number(v.toPrecision(7))) : /[",\n]/.test(v) ? `"${v.replace(/"/g, '""')}"` : v);
-  return [...head.map((h) => `# ${h}`), table.names.join(","), ...table.rows.map((row) => row.map(cell).join(","))].join("\n") + "\n";
+  const comments = head.map((h) => `# ${h}`);
+  const rows = table.rows.map((row) => row.map(csvCell).join(","));
+  return [...comments, table.names.join(","), ...rows].join("\n") + "\n";
 }
 
 interface Shown {
@@ -93,27 +115,27 @@ const shown = new Map<string, Shown>();
 let origin: string[] = [];
 
 /// Lines at the head of every downloaded table.
-export function setOrigin(lines: string[]): void {
-  origin = lines;
-}
+export function setOrigin(lines: string[]): void { origin = lines; }
 
 export function frame(figure: Figure): HTMLElement {
-  const plot = element("div", { class: "plot", id: `plot-${figure.id}`, role: "img", "aria-label": figure.title });
-  const button = element("button", { type: "button", class: "csv", title: "Save the numbers of this figure", "data-csv": figure.id }, "CSV");
-  button.addEventListener("click", () => download(`${figure.id}.csv`, csvText(figure.table(), [...origin, figure.title])));
-  shown.set(figure.id, { figure, plot });
+  const plot = element("div", {class: "plot", id: `plot-${figure.id}`, role: "img", "aria-label": figure.title});
+  const attributes = {type: "button", class: "csv", title: "Save the numbers of this figure", "data-csv": figure.id};
+  const button = element("button", attributes, "CSV");
+  const save = () => download(`${figure.id}.csv`, csvText(figure.table(), [...origin, figure.title]));
+  button.addEventListener("click", save);
+  shown.set(figure.id, {figure, plot});
   return element(
-    "figure",
-    { id: figure.id, class: figure.wide ? "wide" : "" },
-    element("div", { class: "head" }, element("h3", {}, figure.title), button),
-    plot,
-    figure.words ? element("figcaption", {}, ...figure.words) : null,
+      "figure",
+      {id: figure.id, class: figure.wide ? "wide" : ""},
+      element("div", {class: "head"}, element("h3", {}, figure.title), button),
+      plot,
+      figure.words ? element("figcaption", {}, ...figure.words) : null,
   );
 }
 
 /// Drops the figures inside an element.
 export function forget(inside: HTMLElement): void {
-  for (const [id, { plot }] of shown) {
+  for (const [id, {plot}] of shown) {
     if (!inside.contains(plot)) continue;
     Plotly.purge(plot as never);
     shown.delete(id);
@@ -122,16 +144,16 @@ export function forget(inside: HTMLElement): void {
 
 /// Draws everything on the page; `width` for print, else what the frame offers.
 export function drawAll(theme: Theme, width?: (wide: boolean) => number): void {
-  for (const { figure, plot } of shown.values()) {
+  for (const {figure, plot} of shown.values()) {
     const space = width ? width(figure.wide ?? false) : plot.clientWidth;
-    if (space <= 0) continue; // folded away: drawn when it is opened
-    const { data, layout } = figure.draw(theme, space);
+    if (space <= 0) continue;  // folded away: drawn when it is opened
+    const {data, layout} = figure.draw(theme, space);
     void Plotly.react(plot as never, data as never, layout as never, {
       displaylogo: false,
       showSendToCloud: false,
       plotlyServerURL: "",
       modeBarButtons: [["zoom2d", "pan2d", "resetScale2d", "toImage"]],
-      toImageButtonOptions: { format: "png", scale: 2, filename: figure.id },
+      toImageButtonOptions: {format: "png", scale: 2, filename: figure.id},
     } as never);
   }
 }

@@ -1,37 +1,116 @@
 // Coloured maps with millimetres of equal length on both axes.
-import { axis, baseLayout, type DataTable, type Drawing, type Figure, type Theme } from "./figures";
+import type {Span, Values} from "./data";
+import {axis, baseLayout, type DataTable, type Drawing, type Figure, type Theme} from "./figures";
+import {minus} from "./text";
 
 export interface Line {
-  x: (number | null)[];
-  y: (number | null)[];
+  x: Values;
+  y: Values;
   dash?: string;
+}
+
+export interface Marker {
+  x: number;
+  y: number;
+  text: string;
+  symbol?: string;
 }
 
 export interface MapSpec {
   id: string;
   title: string;
-  words?: (string | Node)[];
-  x: number[]; // centres, or one more edge than columns
+  words?: (string|Node)[];
+  x: number[];  // centres, or one more edge than columns
   y: number[];
-  z: (number | null)[][]; // a row for each y
-  centresX: number[]; // what the data table says
+  z: Values[];         // a row for each y
+  centresX: number[];  // what the data table says
   centresY: number[];
-  names: [x: string, y: string, z: string]; // of columns, with units
-  labels: [x: string, y: string]; // of axes
-  hover: string; // of the value: "p %{z:.1f} MPa"
-  hoverY: string; // "y" or "depth"
-  bar: string; // title of the colour bar
-  floor?: boolean; // values below the range exist and take its lowest colour
-  range: [number, number];
+  names: [x: string, y: string, z: string];  // of columns, with units
+  labels: [x: string, y: string];            // of axes
+  hover: string;                             // of the value: "p %{z:.1f} MPa"
+  hoverY: string;                            // "y" or "depth"
+  bar: string;                               // title of the colour bar
+  floor?: boolean;                           // values below the range exist and take its lowest colour
+  range: Span;
   colours: (theme: Theme) => unknown;
-  reversed?: boolean; // y grows downwards
-  discrete?: boolean; // no colour bar
-  smooth?: boolean; // between points; cells keep their colour otherwise
-  windowX: [number, number];
-  windowY: [number, number];
+  reversed?: boolean;  // y grows downwards
+  discrete?: boolean;  // no colour bar
+  smooth?: boolean;    // between points; cells keep their colour otherwise
+  windowX: Span;
+  windowY: Span;
   lines?: Line[];
-  marker?: { x: number; y: number; text: string; symbol?: string };
-  valueWords?: string[]; // hover text by value, for states
+  marker?: Marker;
+  valueWords?: string[];  // hover text by value, for states
+}
+
+const kRight = 100;  // margin, room for the colour bar
+
+/// Marks of the colour bar where values below its range exist: its lowest says so.
+function floorTicks(m: MapSpec): Record<string, unknown> {
+  const shares = [-1, -0.5, 0, 0.5, 1];
+  const text = (share: number) => `${share === -1 ? "≤ " : ""}${minus((share * m.range[1]).toFixed(0))}`;
+  return {tickmode: "array", tickvals: shares.map((share) => share * m.range[1]), ticktext: shares.map(text)};
+}
+
+function colourBar(m: MapSpec, theme: Theme): Record<string, unknown> {
+  const ticks = m.floor ? floorTicks(m) : {};
+  const title = {text: m.bar, side: "top"};
+  return {title, thickness: 12, len: 1, outlinewidth: 0, tickcolor: theme.soft, ...ticks};
+}
+
+function heatmap(m: MapSpec, theme: Theme): Record<string, unknown> {
+  const across = m.labels[0].startsWith("y") ? "y" : "x";
+  const words = m.valueWords;
+  const text = words ? {text: m.z.map((row) => row.map((v) => (v === null ? "" : words[v])))} : {};
+  return {
+    type: "heatmap",
+    x: m.x,
+    y: m.y,
+    z: m.z,
+    zmin: m.range[0],
+    zmax: m.range[1],
+    colorscale: m.colours(theme),
+    zsmooth: m.smooth ? "best" : false,
+    hoverongaps: false,
+    showscale: !m.discrete,
+    colorbar: colourBar(m, theme),
+    ...text,
+    hovertemplate: `${across} %{x:.2f} mm, ${m.hoverY} %{y:.2f} mm<br><b>${m.hover}</b><extra></extra>`,
+  };
+}
+
+function borderTrace(b: Line, theme: Theme): Record<string, unknown> {
+  const line = {color: theme.ink, width: 1.6, dash: b.dash ?? "dash"};
+  return {type: "scatter", mode: "lines", x: b.x, y: b.y, hoverinfo: "skip", line};
+}
+
+/// Dark on light, to be seen on any colour.
+function markerTraces(m: Marker): Record<string, unknown>[] {
+  const symbol = m.symbol ?? "cross-thin";
+  return [{color: "#ffffff", width: 4}, {color: "#1b1f24", width: 1.6}].map(
+      (line) => ({
+        type: "scatter",
+        mode: "markers",
+        x: [m.x],
+        y: [m.y],
+        hovertemplate: `${m.text}<extra></extra>`,
+        cliponaxis: false,
+        marker: {symbol, size: 11, color: "rgba(0,0,0,0)", line},
+      }));
+}
+
+function layoutOf(m: MapSpec, theme: Theme, width: number): Record<string, unknown> {
+  const [low, high] = m.windowY;
+  const aspect = (high - low) / (m.windowX[1] - m.windowX[0]);
+  const height = Math.round(Math.min(Math.max((width - 60 - kRight) * aspect, 90), 420) + 76);
+  const bare = {constrain: "domain", showgrid: false, zeroline: false};
+  const y = {range: m.reversed ? [high, low] : [low, high], scaleanchor: "x", scaleratio: 1, ...bare};
+  return {
+    ...baseLayout(theme, width, height),
+    margin: {l: 58, r: kRight, t: 30, b: 46},
+    xaxis: axis(theme, m.labels[0], {range: m.windowX, ...bare}),
+    yaxis: axis(theme, m.labels[1], y),
+  };
 }
 
 export function mapFigure(m: MapSpec): Figure {
@@ -40,44 +119,9 @@ export function mapFigure(m: MapSpec): Figure {
     title: m.title,
     words: m.words,
     draw: (theme: Theme, width: number): Drawing => {
-      const right = 100;
-      const aspect = (m.windowY[1] - m.windowY[0]) / (m.windowX[1] - m.windowX[0]);
-      const height = Math.round(Math.min(Math.max((width - 60 - right) * aspect, 90), 420) + 76);
-      const hoverXY = `x %{x:.2f} mm, ${m.hoverY} %{y:.2f} mm`.replace(/^x/, m.labels[0].startsWith("y") ? "y" : "x");
-      const ticks = m.floor ? { tickmode: "array", tickvals: [-1, -0.5, 0, 0.5, 1].map((v) => v * m.range[1]), ticktext: [-1, -0.5, 0, 0.5, 1].map((v) => `${v === -1 ? "≤ " : ""}${(v * m.range[1]).toFixed(0).replace("-", "−")}`) } : {};
-      const data: Record<string, unknown>[] = [
-        {
-          type: "heatmap",
-          x: m.x,
-          y: m.y,
-          z: m.z,
-          zmin: m.range[0],
-          zmax: m.range[1],
-          colorscale: m.colours(theme),
-          zsmooth: m.smooth ? "best" : false,
-          hoverongaps: false,
-          showscale: !m.discrete,
-          colorbar: { title: { text: m.bar, side: "top" }, thickness: 12, len: 1, outlinewidth: 0, tickcolor: theme.soft, ...ticks },
-          ...(m.valueWords ? { text: m.z.map((row) => row.map((v) => (v === null ? "" : m.valueWords![v]))) } : {}),
-          hovertemplate: `${hoverXY}<br><b>${m.hover}</b><extra></extra>`,
-        },
-      ];
-      for (const line of m.lines ?? [])
-        data.push({ type: "scatter", mode: "lines", x: line.x, y: line.y, hoverinfo: "skip", line: { color: theme.ink, width: 1.6, dash: line.dash ?? "dash" } });
-      // dark on light, to be seen on any colour
-      for (const [color, line] of m.marker ? [["#ffffff", 4], ["#1b1f24", 1.6]] : [])
-        data.push({
-          type: "scatter", mode: "markers", x: [m.marker!.x], y: [m.marker!.y], hovertemplate: `${m.marker!.text}<extra></extra>`, cliponaxis: false,
-          marker: { symbol: m.marker!.symbol ?? "cross-thin", size: 11, color: "rgba(0,0,0,0)", line: { color, width: line } },
-        });
-      const [low, high] = m.windowY;
-      const layout = {
-        ...baseLayout(theme, width, height),
-        margin: { l: 58, r: right, t: 30, b: 46 },
-        xaxis: axis(theme, m.labels[0], { range: m.windowX, constrain: "domain", showgrid: false, zeroline: false }),
-        yaxis: axis(theme, m.labels[1], { range: m.reversed ? [high, low] : [low, high], scaleanchor: "x", scaleratio: 1, constrain: "domain", showgrid: false, zeroline: false }),
-      };
-      return { data, layout };
+      const borders = (m.lines ?? []).map((line) => borderTrace(line, theme));
+      const markers = m.marker ? markerTraces(m.marker) : [];
+      return {data: [heatmap(m, theme), ...borders, ...markers], layout: layoutOf(m, theme, width)};
     },
     table: (): DataTable => ({
       names: m.names,
@@ -87,7 +131,7 @@ export function mapFigure(m: MapSpec): Figure {
 }
 
 /// What all of them cover: pictures of several runs show the same piece of the body.
-export function commonWindow(all: number[][]): [number, number] {
+export function commonWindow(all: number[][]): Span {
   return [Math.max(...all.map((v) => Math.min(...v))), Math.min(...all.map((v) => Math.max(...v)))];
 }
 
@@ -95,9 +139,9 @@ export function commonWindow(all: number[][]): [number, number] {
 export const magnitudeColours = () => "Viridis";
 /// Of the principal stress: compression blue, tension red, zero the paper's shade.
 export const signedColours = (theme: Theme) => [
-  [0, "#2166ac"],
-  [0.25, "#67a9cf"],
-  [0.5, theme.paper === "#ffffff" ? "#f7f7f7" : "#2a2f36"],
-  [0.75, "#ef8a62"],
-  [1, "#b2182b"],
+    [0, "#2166ac"],
+    [0.25, "#67a9cf"],
+    [0.5, theme.paper === "#ffffff" ? "#f7f7f7" : "#2a2f36"],
+    [0.75, "#ef8a62"],
+    [1, "#b2182b"],
 ];

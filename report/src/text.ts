@@ -1,16 +1,15 @@
 // Words: what checks and quantities are called, how numbers are written.
-import type { CheckWords, Quantity, Run, Unit, Words } from "./data";
+import type {CheckWords, Quantity, Run, Unit, Words} from "./data";
 
 export function engineName(engine: string): string {
-  return engine === "fem" ? "finite elements" : engine === "bem" ? "half-space" : engine;
+  if (engine === "fem") return "finite elements";
+  return engine === "bem" ? "half-space" : engine;
 }
 
-export function runLabel(run: Run): string {
-  return `${run.name} (${engineName(run.engine)})`;
-}
+export function runLabel(run: Run): string { return `${run.name} (${engineName(run.engine)})`; }
 
 /// Four significant digits, no exponent where it can be avoided; "–" for no number.
-export function numberText(value: number | null | undefined, digits = 4): string {
+export function numberText(value: number|null|undefined, digits = 4): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
   if (value === 0) return "0";
   const size = Math.abs(value);
@@ -23,22 +22,17 @@ export function numberText(value: number | null | undefined, digits = 4): string
 }
 
 /// A whole number in groups of three.
-export function countText(value: number | null): string {
+export function countText(value: number|null): string {
   return value === null ? "–" : String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 }
 
-export function minus(text: string): string {
-  return text.replace("-", "−");
-}
+export function minus(text: string): string { return text.replace("-", "−"); }
 
 function superscript(n: number): string {
-  return String(n)
-    .split("")
-    .map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)]))
-    .join("");
+  return String(n).split("").map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)])).join("");
 }
 
-export function percentText(fraction: number | null, digits = 2): string {
+export function percentText(fraction: number|null, digits = 2): string {
   if (fraction === null || !Number.isFinite(fraction)) return "–";
   const text = (100 * fraction).toFixed(digits);
   if (Number(text) === 0) return `${text.replace("-", "")} %`;
@@ -46,27 +40,31 @@ export function percentText(fraction: number | null, digits = 2): string {
 }
 
 // The program's tables of results give names and units; set once, before anything is built.
-let words: Words = { numbers: [], zones: [], measures: [], checks: [] };
-export function setWords(given: Words): void {
-  words = given;
-}
+let words: Words = {numbers: [], zones: [], measures: [], checks: []};
+const kPlain: Unit = {
+  shown: "",
+  factor: 1
+};
+
+export function setWords(given: Words): void { words = given; }
 
 /// The words of a check; its key where the program does not know it (a result of another version).
 export function checkWords(key: string): CheckWords {
-  return words.checks.find((c) => c.key === key) ?? { key, name: key.replace(/_/g, " "), what: "", unit: { shown: "", factor: 1 } };
+  const unknown = {key, name: key.replace(/_/g, " "), what: "", unit: kPlain};
+  return words.checks.find((c) => c.key === key) ?? unknown;
 }
 
 /// A value in SI as people read it: "931 MPa", "4.02 %", "inside".
-export function unitText(value: number | null, unit: Unit, digits = 4): string {
+export function unitText(value: number|null, unit: Unit, digits = 4): string {
   return inUnit(value, unit, (v) => numberText(v, digits));
 }
 
 /// A limit, without zeros at its end: "4 %".
-export function limitText(limit: number | null, unit: Unit): string {
+export function limitText(limit: number|null, unit: Unit): string {
   return inUnit(limit, unit, (v) => minus(String(Number(v.toPrecision(6)))));
 }
 
-function inUnit(value: number | null, unit: Unit, text: (shown: number) => string): string {
+function inUnit(value: number|null, unit: Unit, text: (shown: number) => string): string {
   if (value === null) return "–";
   const states = unit.shown.split("|");
   if (states.length === 2) return states[value === 0 ? 0 : 1];
@@ -74,19 +72,17 @@ function inUnit(value: number | null, unit: Unit, text: (shown: number) => strin
 }
 
 /// The numbers that the page shows, in the order of summary.json.
-export function shownQuantities(): Quantity[] {
-  return words.numbers.filter((q) => q.shown);
-}
+export function shownQuantities(): Quantity[] { return words.numbers.filter((q) => q.shown); }
 
 export function quantityAt(path: string): Quantity {
-  return words.numbers.find((q) => q.path === path) ?? { path, name: path, unit: { shown: "", factor: 1 }, digits: 4, shown: true, comparable: false };
+  const unknown = {path, name: path, unit: kPlain, digits: 4, shown: true, comparable: false};
+  return words.numbers.find((q) => q.path === path) ?? unknown;
 }
 
 /// Where stresses are looked for: key and name of each zone, of each measure.
 export const zones = () => words.zones;
 export const measures = () => words.measures;
 
-/// A name as Plotly takes it: it reads a small markup ("<b>", "&amp;") in legends and hover words; titles of figures are set as text.
-export function plotText(text: string): string {
-  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;");
-}
+/// A name as Plotly takes it: it reads a small markup ("<b>", "&amp;") in legends and hover words; titles of figures
+/// are set as text.
+export function plotText(text: string): string { return text.replace(/&/g, "&amp;").replace(/</g, "&lt;"); }
