@@ -71,9 +71,9 @@ void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b
     Vec3 a = free_acceleration(b, state, scope.gravity, i);
     if (scope.damping_rate > 0) {
       const Vec3 mean{b.mean.x + b.mean.spin * arm.z, 0, b.mean.z - b.mean.spin * arm.x};
-      a -= scope.damping_rate * frame.to_model(frame.step_back(w - mean));
+      a = fused(-scope.damping_rate, frame.to_model(frame.step_back(w - mean)), a);
     }
-    side.velocity.push_back(side.before.back() + scope.dt * a);
+    side.velocity.push_back(fused(scope.dt, a, side.before.back()));
     if (!side.response) {
       side.inverse_mass.push_back(inverse_mass(b, i));
       continue;
