@@ -13,7 +13,7 @@ using namespace fem_checks;
 /// Elastic; counts its updates and keeps the largest dilatation, which softens nothing.
 struct RecordingLaw {
   template <class Real>
-  using Parameters = ElasticLaw::Parameters<Real>;
+  using Parameters = MaterialParameters<Real>;
   static constexpr int kHistory = 2;  // updates, largest dilatation
 
   template <class T, class Real>
