@@ -241,7 +241,9 @@ RunResult Roller::finish() {
 
 // A static case has one position with one sample.
 PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& preload) {
-  PositionSamples still{0.0, {take_sample(sys, preload.u[0], preload.u[1], preload.tractions, {0, preload.axle_z, 0})}};
+  const Field rail = initial_history(sys.rail()), wheel = initial_history(sys.wheel());
+  PositionSamples still{
+      0.0, {take_sample(sys, {preload.u[0], rail}, {preload.u[1], wheel}, preload.tractions, {0, preload.axle_z, 0})}};
   RollingSample& sample = still.samples.front();
   sample.axle.z = preload.axle_z;
   const Vec3 force = preload.contact_force;
