@@ -55,6 +55,13 @@ struct Recording {
   HistoryLayout layout;
 };
 
+template <class Element>
+concept TriedWithoutHistory = requires(TraversalOf<Element> elements, Field field) {
+  elements.internal_force(field, 0.0, field);
+};
+static_assert(TriedWithoutHistory<ElasticHex>);
+static_assert(!TriedWithoutHistory<RecordingHex>, "an element that remembers is never evaluated without its history");
+
 Field stretched(const Body& body, double share) {
   return nodal_field(body, [&](Vec3 x) { return Vec3{share * x.x, 0, 0}; });
 }
