@@ -12,12 +12,4 @@ std::size_t array_size(const Body& body, const StateArray& array, int history_en
                                         : HistoryLayout(body.layout, body.mesh, history_entries).size);
 }
 
-HistoryLayout::HistoryLayout(const BodyLayout& layout, const SweptBody& mesh, int entries_) : entries(entries_) {
-  for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
-    offset.push_back(size);
-    stride.push_back((layout.blocks[b].elements + 15) / 16 * 16);  // whole packs of any number type
-    size += static_cast<std::ptrdiff_t>(mesh.blocks[b].section.quads.size()) * entries * stride.back();
-  }
-}
-
 }  // namespace railstrata

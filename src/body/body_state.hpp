@@ -10,7 +10,7 @@ namespace railstrata {
 struct BodyState {
   BodyState() = default;
   /// Zero everywhere. history_entries: numbers that the elements keep (kHistory of their class).
-  explicit BodyState(const Body& body, int history_entries = ElasticHex::kHistory);
+  explicit BodyState(const Body& body, int history_entries = BodyElement::kHistory);
 
   Field u;        ///< m, displacements
   Field v;        ///< m/s, velocities at the half step before
@@ -31,18 +31,9 @@ inline constexpr std::array<StateArray, 4> kStateArrays{{{"u", "m", &BodyState::
                                                          {"history", "", &BodyState::history, true}}};
 
 /// Numbers in an array of a body's state.
-std::size_t array_size(const Body& body, const StateArray& array, int history_entries = ElasticHex::kHistory);
+std::size_t array_size(const Body& body, const StateArray& array, int history_entries = BodyElement::kHistory);
 
-/// Where an element's history stands: entry k of the elements of a quadrilateral at first + k * stride, + element.
-struct HistoryLayout {
-  HistoryLayout(const BodyLayout& layout, const SweptBody& mesh, int entries);
-  std::ptrdiff_t first(int block, int quad) const {
-    return offset[block] + static_cast<std::ptrdiff_t>(quad) * entries * stride[block];
-  }
-  int entries = 0;
-  std::vector<std::ptrdiff_t> offset;  ///< per block
-  std::vector<int> stride;
-  std::ptrdiff_t size = 0;
-};
+/// The history of elements to which nothing has happened.
+inline Field initial_history(const Body& body) { return Field(static_cast<std::size_t>(body.history.size), 0.0); }
 
 }  // namespace railstrata

@@ -4,8 +4,8 @@
 
 namespace railstrata {
 
-template class TraversalOf<ElasticHex>;
-template void TraversalOf<ElasticHex>::chain_forces(const Chain&, const Field&, Field&, Field&, const StoreForces&);
-template void TraversalOf<ElasticHex>::chain_forces(const Chain&, const Field&, Field&, Field&, const FuseUpdate&);
+template class TraversalOf<BodyElement>;
+template void TraversalOf<BodyElement>::chain_forces(const Chain&, const Field&, Field&, Field&, const StoreForces&);
+template void TraversalOf<BodyElement>::chain_forces(const Chain&, const Field&, Field&, Field&, const FuseUpdate&);
 
 }  // namespace railstrata

@@ -51,13 +51,16 @@ class TraversalOf {
 
   /// f = internal forces at displacement u (model frame, u = x - X), a trial; psi: rigid rotation of the body about its
   /// axle, positive when rolling forward. Ghosts of u are refreshed; padding of f is not defined. In double precision.
-  void internal_force(Field& u, double psi, Field& f, const Field& history = {});
+  void internal_force(Field& u, double psi, Field& f, const Field& history);
+  void internal_force(Field& u, double psi, Field& f) requires(Element::kHistory == 0) {
+    internal_force(u, psi, f, Field());
+  }
   /// The same as a commit: the history advances to u.
   void commit_internal_force(Field& u, double psi, Field& f, Field& history);
   /// f = K u, K the stiffness of the undeformed body.
   void linear_force(Field& u, Field& f);
   /// At u, with the history as committed.
-  StrainEnergy energy(Field& u, double psi, const Field& history = {});
+  StrainEnergy energy(Field& u, double psi, const Field& history);
 
   // -- a step in pieces: begin, every chain once (in parallel if wanted), end
   // ------------------------------------------
@@ -94,14 +97,16 @@ class TraversalOf {
   std::vector<StrainEnergy> tile_energy_;
 };
 
-using Traversal = TraversalOf<ElasticHex>;
-extern template class TraversalOf<ElasticHex>;
+using Traversal = TraversalOf<BodyElement>;
+extern template class TraversalOf<BodyElement>;
 
-/// A single evaluation, with a workspace of its own.
+/// A single evaluation of elements to which nothing has happened, with a workspace of its own.
 inline void internal_force(const Body& body, Field& u, double psi, Field& f) {
-  Traversal(body).internal_force(u, psi, f);
+  Traversal(body).internal_force(u, psi, f, initial_history(body));
 }
 inline void linear_force(const Body& body, Field& u, Field& f) { Traversal(body).linear_force(u, f); }
-inline StrainEnergy strain_energy(const Body& body, Field& u, double psi) { return Traversal(body).energy(u, psi); }
+inline StrainEnergy strain_energy(const Body& body, Field& u, double psi) {
+  return Traversal(body).energy(u, psi, initial_history(body));
+}
 
 }  // namespace railstrata

@@ -1,6 +1,7 @@
 #pragma once
 // The SIMD pack: a vector as wide as the machine's registers, with + - * / and mixed scalar operations from the
 // compiler's vector extension. Laws are templates on the number type and take a scalar or a pack alike.
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
@@ -42,6 +43,10 @@ template <>
 struct ScalarType<double> {
   using type = double;
 };
+template <>
+struct ScalarType<float> {
+  using type = float;
+};
 template <class T>
 using ScalarOf = typename ScalarType<T>::type;
 
@@ -56,6 +61,20 @@ inline PackOf<Real> load(const Real* p) {
 }
 inline void store(double* p, Pack v) { std::memcpy(p, &v, sizeof v); }
 inline void store(float* p, PackOf<float> v) { std::memcpy(p, &v, sizeof v); }
+
+/// Of a scalar, or of every lane of a pack. To choose between two values a law writes `a > b ? x : y`, which packs do
+/// lane by lane.
+template <class T>
+RAILSTRATA_POINTWISE T square_root(const T& x) {
+  if constexpr (std::is_floating_point_v<T>) {
+    return std::sqrt(x);
+  } else {
+    T root;
+    RAILSTRATA_UNROLL
+    for (int l = 0; l < static_cast<int>(sizeof(T) / sizeof(ScalarOf<T>)); ++l) root[l] = std::sqrt(x[l]);
+    return root;
+  }
+}
 
 /// The lower lanes of one pack and the upper ones of another.
 template <class P>

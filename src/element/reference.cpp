@@ -147,11 +147,11 @@ QuadShape<double> quad_shape(SweepKind kind, const std::array<Vec2, 4>& quad) {
 }
 
 QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material) {
-  return {quad_shape(kind, quad), ElasticLaw::parameters(material)};
+  return {quad_shape(kind, quad), material_parameters(material)};
 }
 
-ElasticHex::Reference<float> rounded(const QuadReference& r) {
-  ElasticHex::Reference<float> out{};
+ReferenceOf<float> rounded(const QuadReference& r) {
+  ReferenceOf<float> out{};
   auto f = [](double x) { return static_cast<float>(x); };
   for (int k = 0; k < 4; ++k) {
     out.shape.gx[k] = f(r.shape.gx[k]);
@@ -162,7 +162,7 @@ ElasticHex::Reference<float> rounded(const QuadReference& r) {
   out.shape.volume = f(r.shape.volume);
   out.shape.even_y = f(r.shape.even_y);
   out.shape.even_z = f(r.shape.even_z);
-  out.law = {f(r.law.lambda), f(r.law.mu)};
+  out.law = r.law.rounded_to<float>();
   return out;
 }
 

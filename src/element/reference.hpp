@@ -11,7 +11,10 @@ namespace railstrata {
 
 using HourglassStiffness = std::array<double, kHourglassEntries>;
 using ElasticHex = SweptHex<ElasticLaw>;
-using QuadReference = ElasticHex::Reference<double>;
+/// What element classes of any law read.
+template <class Real>
+using ReferenceOf = HexReference<Real, MaterialParameters<Real>>;
+using QuadReference = ReferenceOf<double>;
 
 /// The two numbers by which a station spacing scales the reference shape.
 struct SweepScale {
@@ -29,7 +32,7 @@ std::array<Vec3, 8> local_corners(SweepKind kind, const std::array<Vec2, 4>& qua
 QuadShape<double> quad_shape(SweepKind kind, const std::array<Vec2, 4>& quad);
 QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material);
 /// Rounded to single precision.
-ElasticHex::Reference<float> rounded(const QuadReference& reference);
+ReferenceOf<float> rounded(const QuadReference& reference);
 
 HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale,
                                        const Elastic& material, ElementKind element, double kappa);

@@ -29,6 +29,7 @@ class Preload {
         contact_(system.rail_surface(), system.wheel_surface()),
         tractions_(system.rail_surface().columns, system.rail_surface().stations.nodes()),
         elements_{Traversal(system.rail()), Traversal(system.wheel())},
+        history_{initial_history(system.rail()), initial_history(system.wheel())},
         preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero_vector(system)) {
     compliant_ = sys_.options.contact.penalty;
@@ -191,7 +192,7 @@ class Preload {
   StaticVector residual() {
     StaticVector r = zero_vector(sys_);
     for (std::size_t k = 0; k < r.body.size(); ++k) {
-      elements_[k].internal_force(u_.body[k], 0, r.body[k]);
+      elements_[k].internal_force(u_.body[k], 0, r.body[k], history_[k]);
       for (double& v : r.body[k]) v = -v;
     }
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
@@ -264,6 +265,7 @@ class Preload {
   MortarContact contact_;
   SurfaceTractions tractions_;
   std::array<Traversal, 2> elements_;
+  const std::array<Field, 2> history_;  // the first step commits what the load has done
   StaticPreconditioner preconditioner_;
   StaticVector u_;
   bool compliant_ = false;        // penalty contact: its springs are the contact, there are no multipliers

@@ -241,8 +241,10 @@ RunResult Roller::finish() {
 
 // A static case has one position with one sample.
 PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& preload) {
-  PositionSamples still{
-      0.0, {take_sample(sys, preload.u[kRail], preload.u[kWheel], preload.tractions, {0, preload.axle_z, 0})}};
+  const Field rail = initial_history(sys.rail()), wheel = initial_history(sys.wheel());
+  PositionSamples still{0.0,
+                        {take_sample(sys, {preload.u[kRail], rail}, {preload.u[kWheel], wheel}, preload.tractions,
+                                     {0, preload.axle_z, 0})}};
   RollingSample& sample = still.samples.front();
   sample.axle.z = preload.axle_z;
   const Vec3 force = preload.contact_force;

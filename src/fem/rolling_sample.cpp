@@ -69,7 +69,7 @@ Vec3 elastic_displacement(const Body& body, const Field& u, SectionNode node, in
 }
 
 // radius: metres per unit of the sweep coordinate.
-BandSample band_sample(const Body& body, const ContactBand& band, const Field& u, double centre, double radius,
+BandSample band_sample(const Body& body, const ContactBand& band, const SampledBody& at, double centre, double radius,
                        const AxlePose& pose, double half_length) {
   const BandPlanes planes(body.mesh.blocks[band.block]);
   const int elements = body.layout.blocks[band.block].elements;
@@ -89,11 +89,11 @@ BandSample band_sample(const Body& body, const ContactBand& band, const Field& u
   for (int j = first; j <= last; ++j) s.along.push_back(radius * (planes.coordinate(j) - centre));
   for (int j = first; j < last; ++j)
     for (int q = 0; q < band.rows * band.columns; ++q)
-      s.stress.push_back(element_stress(body, u, band.block, q, planes.station(j)));
+      s.stress.push_back(element_stress(body, at.u, at.history, band.block, q, planes.station(j)));
   const RigidMotion motion(pose);
   for (int j = first; j <= last; ++j)
     for (int k = 0; k < (band.rows + 1) * (band.columns + 1); ++k)
-      s.displacement.push_back(elastic_displacement(body, u, {band.block, k}, planes.station(j), motion));
+      s.displacement.push_back(elastic_displacement(body, at.u, {band.block, k}, planes.station(j), motion));
   return s;
 }
 
@@ -105,13 +105,13 @@ double largest_pressure(const SurfaceTractions& t) {
 
 }  // namespace
 
-RollingSample take_sample(const RollingSystem& sys, const Field& u_rail, const Field& u_wheel,
+RollingSample take_sample(const RollingSystem& sys, const SampledBody& rail, const SampledBody& wheel,
                           const SurfaceTractions& tractions, const AxlePose& pose) {
   RollingSample out;
   const double half = sample_half_length(sys);
   out.position = pose.x;
-  out.rail = band_sample(sys.rail(), sys.model.rail.contact, u_rail, pose.x, 1.0, {}, half);
-  out.wheel = band_sample(sys.wheel(), sys.model.wheel.contact, u_wheel, pose.psi, sys.rolling_radius, pose, half);
+  out.rail = band_sample(sys.rail(), sys.model.rail.contact, rail, pose.x, 1.0, {}, half);
+  out.wheel = band_sample(sys.wheel(), sys.model.wheel.contact, wheel, pose.psi, sys.rolling_radius, pose, half);
   const auto& at = sys.rail_surface().stations.at;
   const int first =
       static_cast<int>(std::lower_bound(at.begin(), at.end(), out.rail.along.front() + pose.x - 1e-9) - at.begin());
@@ -122,7 +122,9 @@ RollingSample take_sample(const RollingSystem& sys, const Field& u_rail, const F
 
 RollingSample take_sample(const Stepper& st) {
   const RollingState& state = st.state();
-  RollingSample s = take_sample(st.system(), state.bodies[kRail].u, st.displacement(BodyId::wheel), state.tractions,
+  const BodyState &rail = state.bodies[kRail], &wheel = state.bodies[kWheel];
+  const Field u_wheel = st.displacement(BodyId::wheel);
+  RollingSample s = take_sample(st.system(), {rail.u, rail.history}, {u_wheel, wheel.history}, state.tractions,
                                 {state.axle.x, state.axle.z, state.axle.psi});
   s.time = state.time;
   s.axle = state.axle;

@@ -38,8 +38,13 @@ struct HistoryRow {
   double closure;  ///< change of the balance's total since the start, J
 };
 
-/// Of displacements in the model frame; time, axle, forces and creepage are left at zero.
-RollingSample take_sample(const RollingSystem& system, const Field& u_rail, const Field& u_wheel,
+/// A body as it is sampled.
+struct SampledBody {
+  const Field& u;        ///< m, model frame
+  const Field& history;  ///< of the elements, as committed
+};
+/// Time, axle, forces and creepage are left at zero.
+RollingSample take_sample(const RollingSystem& system, const SampledBody& rail, const SampledBody& wheel,
                           const SurfaceTractions& tractions, const AxlePose& pose);
 
 /// Of the stepper's present state.

@@ -33,19 +33,31 @@ inline void elastic_stress(Real lambda, Real mu, const T (&strain)[6], T (&stres
   for (int i = 3; i < 6; ++i) stress[i] = 2 * mu * strain[i];
 }
 
+/// What laws read of a material, by quadrilateral; Real float or double. One list for all laws, so that what a body
+/// holds depends on none: a law reads what it needs. A further number stands here, in material_parameters and in
+/// rounded_to.
+template <class Real>
+struct MaterialParameters {
+  Real lambda, mu;  ///< Pa
+
+  template <class Other>
+  MaterialParameters<Other> rounded_to() const {
+    return {static_cast<Other>(lambda), static_cast<Other>(mu)};
+  }
+};
+inline MaterialParameters<double> material_parameters(const Elastic& m) { return {m.lambda, m.mu}; }
+
 /// The law of an element without memory. What every law offers (element/swept_hex.hpp):
-///   Parameters<Real>   what it reads, by quadrilateral; Real float or double
+///   Parameters<Real>   MaterialParameters
 ///   kHistory           numbers that an element keeps from step to step
 ///   stress             S at a strain, with the history as it stands
-///   update             the same at the end of a step that leads to this strain; advances the history
+///   update             the same at the end of a step that leads to this strain; advances the history. Trials call it
+///                      too, with a copy that nobody keeps
+///   tangent_stress     of the undeformed state, for the static solver
 struct ElasticLaw {
   template <class Real>
-  struct Parameters {
-    Real lambda, mu;  ///< Pa
-  };
+  using Parameters = MaterialParameters<Real>;
   static constexpr int kHistory = 0;
-
-  static Parameters<double> parameters(const Elastic& m) { return {m.lambda, m.mu}; }
 
   template <class T, class Real>
   static void stress(const Parameters<Real>& p, const T (&strain)[6], const T*, T (&stress)[6]) {
@@ -55,7 +67,6 @@ struct ElasticLaw {
   static void update(const Parameters<Real>& p, const T (&strain)[6], T*, T (&stress)[6]) {
     elastic_stress(p.lambda, p.mu, strain, stress);
   }
-  /// Tangent of the undeformed state, for the static solver: the same.
   template <class T, class Real>
   static void tangent_stress(const Parameters<Real>& p, const T (&strain)[6], T (&stress)[6]) {
     elastic_stress(p.lambda, p.mu, strain, stress);

@@ -13,7 +13,7 @@ using namespace fem_checks;
 /// Elastic; counts its updates and keeps the largest dilatation, which softens nothing.
 struct RecordingLaw {
   template <class Real>
-  using Parameters = ElasticLaw::Parameters<Real>;
+  using Parameters = MaterialParameters<Real>;
   static constexpr int kHistory = 2;  // updates, largest dilatation
 
   template <class T, class Real>
@@ -54,6 +54,13 @@ struct Recording {
   TraversalOf<RecordingHex> elements;
   HistoryLayout layout;
 };
+
+template <class Element>
+concept TriedWithoutHistory = requires(TraversalOf<Element> elements, Field field) {
+  elements.internal_force(field, 0.0, field);
+};
+static_assert(TriedWithoutHistory<ElasticHex>);
+static_assert(!TriedWithoutHistory<RecordingHex>, "an element that remembers is never evaluated without its history");
 
 Field stretched(const Body& body, double share) {
   return nodal_field(body, [&](Vec3 x) { return Vec3{share * x.x, 0, 0}; });

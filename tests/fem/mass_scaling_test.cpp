@@ -321,8 +321,9 @@ class ThinLayerRolling : public ::testing::Test {
     out.p_max /= static_cast<double>(count);
     const EnergyBalance end = energy();
     out.closure = std::abs(end.total() - start.total()) / end.strain;
+    const BodyState &rail = st.state().bodies[0], &wheel = st.state().bodies[1];
     const RollingSample sample =
-        take_sample(system, st.state().bodies[0].u, st.state().bodies[1].u, st.state().tractions,
+        take_sample(system, {rail.u, rail.history}, {wheel.u, wheel.history}, st.state().tractions,
                     {st.state().axle.x, st.state().axle.z, st.state().axle.psi});
     for (const Sym3& s : sample.rail.stress) out.von_mises_rail = std::max(out.von_mises_rail, von_mises(s));
     for (const Sym3& s : sample.wheel.stress) out.von_mises_wheel = std::max(out.von_mises_wheel, von_mises(s));
