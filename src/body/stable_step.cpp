@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/faults.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {
@@ -48,6 +49,8 @@ StepSpectrum lanczos(const Body& body, int iterations, Stiffness&& stiffness, So
     solve(z);
     beta[k] = norm = std::sqrt(std::max(0.0, dot(r, z)));
   }
+  if (k == 0 || !std::isfinite(norm))
+    throw NumericalError("the stable time step cannot be found: the stiffness of the mesh is not a number");
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(alpha.head(k), beta.head(k - 1), Eigen::EigenvaluesOnly);
   return {solver.eigenvalues().minCoeff(), solver.eigenvalues().maxCoeff()};

@@ -271,7 +271,7 @@ OptionTable mesh_table() {
             "element = \"one_point\": scale of the hourglass stiffness",
             kNumber,
             {0, 1}},
-           {"end_length", at<&C::mesh, &H::end_length>, "Rail beyond both ends of the fine range", kLength, {0, 5}},
+           {"end_length", at<&C::mesh, &H::end_length>, "Rail beyond both ends of the fine range", kLength, {1e-3, 5}},
            {"elements_through_layer_one", at<&C::mesh, &H::elements_through_layer_one>,
             "One element through every layer, as coarse published meshes have; `elements` of the layers is not used"}}};
 }

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/body_id.hpp"
 #include "core/faults.hpp"
 #include "geometry/profile_names.hpp"
 #include "geometry/read_profile.hpp"
+#include "mesh/quality.hpp"
 
 namespace railstrata {
 namespace {
@@ -132,6 +134,33 @@ HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
   return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, static_load(spec));
 }
 
+namespace {
+
+// An element that is turned inside out or flat would be computed without a word.
+void require_sound_mesh(const SweptBody& body, BodyId id, const CaseSpec& spec) {
+  for (const BlockQuality& q : measure_quality(body)) {
+    if (q.scaled_jacobian_min > 0) continue;
+    const GeometrySpec& g = spec.geometry;
+    const MeshSpec& m = spec.mesh;
+    const std::string shape =
+        id == BodyId::wheel
+            ? fmt::format("geometry.rim_thickness (now {:g} mm), geometry.flange_back_to_tape (now {:g} mm)",
+                          1e3 * g.rim_thickness, 1e3 * g.flange_back_to_tape)
+            : fmt::format("geometry.block_width and block_height (now {:g} and {:g} mm)", 1e3 * g.block_width,
+                          1e3 * g.block_height);
+    throw CaseError(
+        fmt::format("the {} cannot be meshed: in its part \"{}\" an element near x = {:.1f} mm, y = {:.1f} mm, "
+                    "z = {:.1f} mm is turned inside out (scaled Jacobian {:.3f})",
+                    body_word(id), q.block, 1e3 * q.worst_at.x, 1e3 * q.worst_at.y, 1e3 * q.worst_at.z,
+                    q.scaled_jacobian_min),
+        fmt::format("there is too little room for the fine zone: look at {}, the profile, mesh.fine_depth (now "
+                    "{:g} mm) and mesh.fine_width (now {:g} mm)",
+                    shape, 1e3 * m.fine_depth, 1e3 * m.fine_width));
+  }
+}
+
+}  // namespace
+
 Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   Model m{spec,
           place(spec, folder),
@@ -183,6 +212,8 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   wheel.layers = layers_on(spec, BodyId::wheel);
   m.wheel =
       mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);
+  require_sound_mesh(m.rail, BodyId::rail, spec);
+  require_sound_mesh(m.wheel, BodyId::wheel, spec);
   return m;
 }
 

@@ -133,6 +133,22 @@ TEST(BuildModel, AUniformLayerIsOneMaterialOfItsBodyAlone) {
 }
 
 // Section coordinates of the wheel count from the axle, those of the rail from its own origin.
+TEST(BuildModel, AMeshWithAnElementTurnedInsideOutIsACaseErrorThatNamesThePlaceAndWhatToChange) {
+  CaseSpec spec;
+  spec.mesh.element_size = 2e-3;
+  spec.run.rolling = false;
+  EXPECT_NO_THROW(build_model(spec, "."));
+  spec.geometry.rim_thickness = 8e-3;
+  try {
+    build_model(spec, ".");
+    FAIL() << "no error";
+  } catch (const CaseError& e) {
+    const std::string text = e.what();
+    EXPECT_NE(text.find("\"rim\""), std::string::npos) << text;
+    EXPECT_NE(text.find("inside out"), std::string::npos) << text;
+  }
+}
+
 TEST(BuildModel, BothRunningSurfacesMeetInTheRigidContactPoint) {
   const Model m = build_model(crossed_cylinders(), {});
   const RigidContact& c = m.placement.contact;
