@@ -19,10 +19,11 @@ void check_drive(const CaseSpec& spec, CaseSource& source) {
   const DriveSpec& d = spec.drive;
   if (spec.run.rolling && source.sound({"drive.traction_coefficient", "drive.friction_coefficient"}) &&
       d.traction_coefficient != 0 && !(std::abs(d.traction_coefficient) < d.friction_coefficient))
-    source.complain("drive.traction_coefficient",
-                    fmt::format("drive.traction_coefficient = {}: must be below drive.friction_coefficient = {}",
-                                d.traction_coefficient, d.friction_coefficient),
-                    "the wheel would slide: lower the traction or raise the friction");
+    source.complain(
+        "drive.traction_coefficient",
+        fmt::format("drive.traction_coefficient = {}: {}must be below drive.friction_coefficient = {}",
+                    d.traction_coefficient, d.traction_coefficient < 0 ? "its magnitude " : "", d.friction_coefficient),
+        "the wheel would slide: lower the traction or raise the friction");
 }
 
 void check_path(const RunSpec& run, CaseSource& source) {

@@ -220,6 +220,12 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:2:24: drive.traction_coefficient = 0.5: must be below drive.friction_coefficient = 0.5\n    2 | "
        "traction_coefficient = 0.5\n      |                        ^\n    remedy: the wheel "
        "would slide: lower the traction or raise the friction"},
+      {"[drive]\ntraction_coefficient = -0.1\nfriction_coefficient = 0\n",
+       "a.toml:2:24: drive.traction_coefficient = -0.1: its magnitude must be below drive.friction_coefficient = 0\n   "
+       " "
+       "2 | traction_coefficient = -0.1\n      |                        ^\n    remedy: the wheel would slide: lower "
+       "the "
+       "traction or raise the friction"},
       {"[[layer]]\nthickness = \"1 mm\"\n",
        "a.toml:1:1: layer.0 has no modulus\n    1 | [[layer]]\n      | ^\n    remedy: add young = \"420 GPa\", or "
        "young_ratio = 2.0 for twice the body's"},
