@@ -34,7 +34,7 @@ void resolve_profile(ProfileKind kind, const char* key, std::string& name, Loade
     return;
   }
   const std::vector<std::string> names = builtin_profile_names(kind);
-  const std::string near = nearest_word(name, names);
+  const std::string near = likely_profile(kind, name);
   source.complain(fmt::format("geometry.{}", key),
                   fmt::format("geometry.{} = {}: neither a built-in profile nor a file{}", key, toml_quoted(name),
                               nameable ? fmt::format(" (looked for {})", file.string()) : ""),

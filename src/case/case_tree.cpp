@@ -398,10 +398,45 @@ class TreeReader {
       "write --set table.key=value, e.g. --set mesh.element_size=\"2 mm\" or --set layer.0.thickness=\"0.5 mm\"");
 }
 
-/// TOML where it is TOML, else a text: quotes may be left out.
-toml::table parse_override_value(const std::string& text, const std::string& value) {
+/// What the parts of a key name: "layer.0.young", "run.positions", and what is inside a list ("run.positions.0").
+struct NamedOption {
+  const Option* option = nullptr;  ///< null: no option
+  std::size_t parts = 0;           ///< of the key up to the option
+};
+NamedOption named_option(const std::vector<std::string>& parts) {
+  for (const std::size_t of_name : {std::size_t{1}, std::size_t{2}}) {
+    if (parts.size() <= of_name) break;
+    const OptionTable* table = find_table(of_name == 1 ? parts[0] : parts[0] + "." + parts[1]);
+    const std::size_t at = of_name + (table && table->repeated ? 1 : 0);
+    if (!table || at >= parts.size()) continue;
+    for (const Option& option : table->options)
+      if (option.key == parts[at]) return {&option, at + 1};
+  }
+  return {};
+}
+
+Slot any_slot(const Option& option) {
+  static CaseSpec spec = [] {
+    CaseSpec one;
+    one.layers.resize(1);
+    return one;
+  }();
+  return option.slot(spec, 0);
+}
+
+bool is_text(const Option& option) {
+  const Slot slot = any_slot(option);
+  return std::holds_alternative<std::string*>(slot) || std::holds_alternative<ChoiceSlot>(slot);
+}
+
+/// TOML where it is TOML, else a text: quotes may be left out. Of an option that is a text the words are the text, also
+/// where they would be a number (60E1).
+toml::table parse_override_value(const std::string& text, const std::string& value, bool words) {
   try {
-    if (toml::table table = toml::parse("value = " + value); table.size() == 1) return table;
+    toml::table table = toml::parse("value = " + value);
+    if (words && table.size() == 1 && !table.get("value")->is_string())
+      return toml::parse("value = " + toml_quoted(value));
+    if (table.size() == 1) return table;
   } catch (const toml::parse_error&) {
     try {
       return toml::parse("value = " + toml_quoted(value));
@@ -467,7 +502,8 @@ void apply_override(toml::table& document, const std::string& text, CaseSource& 
   std::vector<std::string> parts;
   std::istringstream stream(key);
   for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
-  toml::table value = parse_override_value(text, written);
+  const NamedOption named = named_option(parts);
+  toml::table value = parse_override_value(text, written, named.option && is_text(*named.option));
   const bool whole_list = parts.size() == 1 && is_repeated(parts[0]);
   if (parts.size() < 2 && !whole_list) refuse_override(text, "names no table");
   toml::table& table = descend(document, parts, text, source);

@@ -1,6 +1,9 @@
 #include "case/case_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <utility>
 
 #include "case/option_table.hpp"
 #include "core/faults.hpp"
@@ -365,6 +368,22 @@ TEST(Overrides, FaultsAreLocatedAtTheCommandLine) {
             "--set layer.2.thickness=1 mm: layer has 1 entry, counted from 0; layer.1 adds one" + remedy);
   EXPECT_EQ(error_of("[mesh]\nelement_size=\"1 mm\"\n", {"mesh.element_size.x=1"}),
             "--set mesh.element_size.x=1: element_size is not a table" + remedy);
+}
+
+TEST(Overrides, OfATextAreItsWordsEvenIfTheyCouldBeANumber) {
+  EXPECT_EQ(parse_case("", "a.toml", {"case.title=2026"}).spec.title, "2026");
+  EXPECT_EQ(parse_case("", "a.toml", {"case.title=true"}).spec.title, "true");
+  EXPECT_EQ(parse_case("", "a.toml", {"case.title=\"60E1\""}).spec.title, "60E1");
+  EXPECT_EQ(parse_case("", "a.toml", {"case.title='60E1'"}).spec.title, "60E1");
+  EXPECT_EQ(parse_case("", "a.toml", {"layer.0.young_ratio=2", "layer.0.name=3"}).spec.layers[0].name, "3");
+  for (const auto& [name, meant] : {std::pair{"60E1", "UIC60"}, {"54E1", "UIC54"}, {"UIC60E1", "UIC60"}}) {
+    const std::string error = error_of("", {fmt::format("geometry.rail_profile={}", name)});
+    EXPECT_NE(error.find(fmt::format("geometry.rail_profile = \"{}\": neither a built-in profile nor a file", name)),
+              std::string::npos)
+        << error;
+    EXPECT_NE(error.find(fmt::format("did you mean \"{}\"?", meant)), std::string::npos) << error;
+  }
+  EXPECT_NE(error_of("", {"contact.method=3"}).find("contact.method = \"3\": must be one of"), std::string::npos);
 }
 
 TEST(CaseFile, SettingsWithoutEffectAreNoted) {
