@@ -42,6 +42,9 @@ std::string_view kind(const toml::node& node) {
   return node.is_number() ? "a number" : "a date or time";
 }
 
+constexpr const char *kExampleOfList = R"(["0.1 m", "0.3 m"])",
+                     *kExampleOfModuli = R"([["0 mm", "420 GPa"], ["3 mm", "210 GPa"]])";
+
 /// What the value of an option must look like, with an example.
 std::string wanted(const Option& option) {
   struct Say {
@@ -53,9 +56,9 @@ std::string wanted(const Option& option) {
     std::string operator()(const ChoiceSlot&) const {
       return fmt::format("one of \"{}\"", fmt::join(words_of(option), "\", \""));
     }
-    std::string operator()(const std::vector<double>*) const { return "a list, e.g. [\"0.1 m\", \"0.3 m\"]"; }
+    std::string operator()(const std::vector<double>*) const { return fmt::format("a list, e.g. {}", kExampleOfList); }
     std::string operator()(const std::vector<ModulusPoint>*) const {
-      return "a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]";
+      return fmt::format("a list of depths and moduli, e.g. {}", kExampleOfModuli);
     }
   };
   CaseSpec any;
@@ -429,6 +432,19 @@ bool is_text(const Option& option) {
   return std::holds_alternative<std::string*>(slot) || std::holds_alternative<ChoiceSlot>(slot);
 }
 
+/// A key that goes on inside an option: a list is set as a whole, everything else has no inside.
+[[noreturn]] void refuse_inside(const Option& option, const std::vector<std::string>& parts, std::size_t count,
+                                const std::string& text) {
+  const std::string key = fmt::format("{}", fmt::join(parts.begin(), parts.begin() + static_cast<long>(count), "."));
+  const Slot slot = any_slot(option);
+  const bool table = std::holds_alternative<std::vector<ModulusPoint>*>(slot);
+  if (!table && !std::holds_alternative<std::vector<double>*>(slot))
+    refuse_override(text, fmt::format("{} is not a table", key));
+  throw CaseError(
+      fmt::format("--set {}: {} is one list, its values have no keys of their own", text, key),
+      fmt::format("give the whole list, e.g. --set {}='{}'", key, table ? kExampleOfModuli : kExampleOfList));
+}
+
 /// TOML where it is TOML, else a text: quotes may be left out. Of an option that is a text the words are the text, also
 /// where they would be a number (60E1).
 toml::table parse_override_value(const std::string& text, const std::string& value, bool words) {
@@ -503,6 +519,7 @@ void apply_override(toml::table& document, const std::string& text, CaseSource& 
   std::istringstream stream(key);
   for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
   const NamedOption named = named_option(parts);
+  if (named.option && named.parts < parts.size()) refuse_inside(*named.option, parts, named.parts, text);
   toml::table value = parse_override_value(text, written, named.option && is_text(*named.option));
   const bool whole_list = parts.size() == 1 && is_repeated(parts[0]);
   if (parts.size() < 2 && !whole_list) refuse_override(text, "names no table");

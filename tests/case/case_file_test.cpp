@@ -367,7 +367,21 @@ TEST(Overrides, FaultsAreLocatedAtTheCommandLine) {
   EXPECT_EQ(error_of("[[layer]]\nyoung_ratio=2\n", {"layer.2.thickness=1 mm"}),
             "--set layer.2.thickness=1 mm: layer has 1 entry, counted from 0; layer.1 adds one" + remedy);
   EXPECT_EQ(error_of("[mesh]\nelement_size=\"1 mm\"\n", {"mesh.element_size.x=1"}),
-            "--set mesh.element_size.x=1: element_size is not a table" + remedy);
+            "--set mesh.element_size.x=1: mesh.element_size is not a table" + remedy);
+  EXPECT_EQ(error_of("", {"mesh.element_size.x=1"}),
+            "--set mesh.element_size.x=1: mesh.element_size is not a table" + remedy);
+}
+
+TEST(Overrides, OfOneEntryOfAListAreAnsweredByTheWholeList) {
+  for (const char* text : {"", "[run]\npositions = [\"0.3 m\"]\n"})
+    EXPECT_EQ(
+        error_of(text, {"run.positions.0=0.3 m"}),
+        "--set run.positions.0=0.3 m: run.positions is one list, its values have no keys of their own\n    remedy: "
+        "give the whole list, e.g. --set run.positions='[\"0.1 m\", \"0.3 m\"]'");
+  EXPECT_EQ(error_of("", {"layer.0.young_table.0.1=3 GPa"}),
+            "--set layer.0.young_table.0.1=3 GPa: layer.0.young_table is one list, its values have no keys of their "
+            "own\n    remedy: give the whole list, e.g. --set layer.0.young_table='[[\"0 mm\", \"420 GPa\"], [\"3 "
+            "mm\", \"210 GPa\"]]'");
 }
 
 TEST(Overrides, OfATextAreItsWordsEvenIfTheyCouldBeANumber) {
