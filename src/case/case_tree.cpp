@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "case/absent_options.hpp"
@@ -129,6 +130,29 @@ class TreeReader {
       const toml::table& entry = *(*list)[i].as_table();
       read_table(table, name, i, entry);
       check_modulus(name, entry);
+    }
+    name_layers(*list);
+  }
+
+  /// A layer without a name is "layer" if it is alone on its body, else "layer 1", "layer 2", … from the surface down.
+  void name_layers(const toml::array& list) {
+    for (const BodyId body : {BodyId::rail, BodyId::wheel}) {
+      std::set<std::string> taken;
+      std::vector<LayerSpec*> unnamed;
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        if (spec_.layers[i].on != body) continue;
+        if (list[i].as_table()->contains("name"))
+          taken.insert(spec_.layers[i].name);
+        else
+          unnamed.push_back(&spec_.layers[i]);
+      }
+      if (unnamed.size() < 2 && !taken.contains(LayerSpec{}.name)) continue;
+      int number = 0;
+      for (LayerSpec* layer : unnamed) {
+        do {
+          layer->name = fmt::format("{} {}", LayerSpec{}.name, ++number);
+        } while (taken.contains(layer->name));
+      }
     }
   }
 

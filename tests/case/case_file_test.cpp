@@ -279,9 +279,10 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[layer]\nyoung_ratio = 2\n",
        "a.toml:1:2: layer must be a list of tables\n    1 | [layer]\n      |  ^\n    remedy: write [[layer]] with two "
        "brackets"},
-      {"[[layer]]\nyoung_ratio = 2\n[[layer]]\nyoung_ratio = 2\n",
-       "a.toml:3:1: layer.1.name = \"layer\": another layer of the rail has this name\n    3 | [[layer]]\n      | ^\n  "
-       "  remedy: give every layer a name of its own"},
+      {"[[layer]]\nyoung_ratio = 2\nname = \"a\"\n[[layer]]\nyoung_ratio = 2\nname = \"a\"\n",
+       "a.toml:6:8: layer.1.name = \"a\": another layer of the rail has this name\n    6 | name = \"a\"\n      |       "
+       " ^"
+       "\n    remedy: give every layer a name of its own"},
       {"[mesh]\nfine_width = \"2 mm\"\n",
        "a.toml:2:14: mesh.fine_width = 2 mm: must be at least 4 mm (four elements)\n    2 | fine_width = \"2 mm\"\n    "
        "  |              ^\n    remedy: make it larger, or mesh.element_size smaller"},
@@ -335,6 +336,36 @@ TEST(CaseFile, AllErrorsOfAFileComeAtOnceInItsOrder) {
         << e.diagnostics[2].message;
     EXPECT_EQ(e.diagnostics[3].where, "a.toml:6:9");
   }
+}
+
+std::vector<std::string> layer_names(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  std::vector<std::string> out;
+  for (const LayerSpec& layer : parse_case(text, "a.toml", overrides).spec.layers) out.push_back(layer.name);
+  return out;
+}
+
+TEST(CaseFile, LayersWithoutANameGetOneEach) {
+  using Names = std::vector<std::string>;
+  const std::string plain = "[[layer]]\nyoung_ratio = 2\n", wheel = plain + "on = \"wheel\"\n";
+  EXPECT_EQ(layer_names(plain), Names{"layer"});
+  EXPECT_EQ(layer_names(plain + wheel), (Names{"layer", "layer"})) << "one of each body, as always";
+  EXPECT_EQ(layer_names(plain + plain), (Names{"layer 1", "layer 2"}));
+  EXPECT_EQ(layer_names(plain + wheel + plain), (Names{"layer 1", "layer", "layer 2"}));
+  EXPECT_EQ(layer_names(plain + plain + "name = \"layer 1\"\n" + plain), (Names{"layer 2", "layer 1", "layer 3"}));
+  EXPECT_EQ(layer_names(plain + "name = \"layer\"\n" + plain), (Names{"layer", "layer 1"}));
+  EXPECT_EQ(layer_names(plain + "name = \"top\"\n" + plain), (Names{"top", "layer"}));
+  EXPECT_EQ(layer_names(plain, {"layer.1.young_ratio=3"}), (Names{"layer 1", "layer 2"}));
+  const std::string resolved = parse_case(plain + plain, "a.toml").resolved_toml;
+  EXPECT_EQ(parse_case(resolved, "b.toml").resolved_toml, resolved);
+}
+
+TEST(CaseFile, ANameThatManyLayersHaveIsToldOnce) {
+  std::string text;
+  for (int i = 0; i < 10; ++i) text += "[[layer]]\nyoung_ratio = 2\nname = \"a\"\nthickness = \"1 mm\"\n";
+  const std::string error = error_of(text);
+  EXPECT_TRUE(error.starts_with("a.toml:7:8: layer.1.name = \"a\": 9 other layers of the rail have this name\n"))
+      << error;
+  EXPECT_EQ(error.find("layer.2"), std::string::npos) << error;
 }
 
 TEST(Overrides, AreReadLikeTheFileAndQuotesMayBeLeftOut) {
