@@ -437,6 +437,16 @@ TEST(CaseFile, SettingsWithoutEffectAreNoted) {
             std::vector<std::string>{"contact.penalty_scale has no effect: it needs contact.method = \"penalty\""});
 }
 
+TEST(CaseFile, AnEmptyFileIsNoted) {
+  for (const char* text : {"", "\n \t\r\n", "# [mesh]\n  # nothing\n"})
+    EXPECT_EQ(parse_case(text, "a.toml").notes,
+              std::vector<std::string>{"the case file a.toml is empty: the default case is computed"});
+  EXPECT_EQ(parse_case("", "a.toml", {"mesh.element_size=2 mm"}).notes,
+            std::vector<std::string>{
+                "the case file a.toml is empty: the default case is computed, but for what --set gives"});
+  EXPECT_TRUE(parse_case("[mesh]\n", "a.toml").notes.empty());
+}
+
 TEST(CaseFile, AMissingFileIsToldByName) {
   try {
     load_case("no/such/case.toml");
