@@ -148,7 +148,7 @@ void add_study(CLI::App& sub, CommandOptions& options) {
 void add_compare(CLI::App& sub, CommandOptions& options) {
   sub.add_option("a", options.case_file, "Result folder A")->required();
   sub.add_option("b", options.reference, "Result folder B: differences are relative to it")->required();
-  add_output(sub, options, "results/compare");
+  add_output(sub, options, "results/<folder A>-against-<folder B>");
 }
 
 void add_report(CLI::App& sub, CommandOptions& options) {

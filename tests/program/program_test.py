@@ -150,6 +150,23 @@ class Program(FromOutside):
             rc, _, err = railstrata("check", case, *COARSE)
             self.assertEqual(rc, 0, f"{case}: {err}")
 
+    def test_compare_names_the_folder_that_it_writes(self):
+        self.assertIn("(default: results/<folder A>-against-<folder B>)", re.sub(r"\s+", " ", railstrata(
+            "compare", "--help")[1]))
+
+    def test_the_readme_compares_folders_that_its_other_lines_have_written(self):
+        lines = re.findall(r"\./railstrata (run|bem|compare) ([^#\n]+)", (SOURCE / "README.md").read_text())
+        written = set()
+        for command, words in lines:
+            if command == "compare":
+                self.assertLessEqual(set(words.split()), written)
+                break
+            case = pathlib.PurePath(words.split()[0])
+            out = re.search(r"--out (\S+)", words)
+            written.add(out[1] if out else f"results/{case.stem}" + ("-bem" if command == "bem" else ""))
+        else:
+            self.fail("no comparison")
+
     def test_every_command_named_in_the_readme_exists(self):
         readme = (SOURCE / "README.md").read_text()
         for word in set(re.findall(r"\./railstrata ([a-z]+)", readme)) - {"test", "install"}:  # of the front door
