@@ -42,10 +42,19 @@ std::string engines_text() {
 
 using Command = ExitCode (*)(const CommandOptions&);
 
+/// An option that is written again for each further value.
+CLI::Option* add_repeated(CLI::App& sub, const std::string& name, std::vector<std::string>& values, const char* word,
+                          const char* what) {
+  return sub.add_option(name, values, what)->allow_extra_args(false)->option_text(word);
+}
+
+void add_set(CLI::App& sub, CommandOptions& options, const char* what) {
+  add_repeated(sub, "--set", options.overrides, "KEY=VALUE", what);
+}
+
 void add_case(CLI::App& sub, CommandOptions& options) {
   sub.add_option("case", options.case_file, "Case file, or a folder with case.toml")->required();
-  sub.add_option("--set", options.overrides, "Override a key: --set mesh.element_size=\"2 mm\" (repeatable)")
-      ->allow_extra_args(false);
+  add_set(sub, options, "Override a key: --set mesh.element_size=\"2 mm\"; once for each key");
 }
 
 void add_output(CLI::App& sub, CommandOptions& options, const char* preset) {
@@ -78,7 +87,7 @@ void add_run(CLI::App& sub, CommandOptions& options) {
 
 void add_demo(CLI::App& sub, CommandOptions& options) {
   add_output(sub, options, "results/quick");
-  sub.add_option("--set", options.overrides, "Override a key of the case (repeatable)")->allow_extra_args(false);
+  add_set(sub, options, "Override a key of the case; once for each key");
   add_no_report(sub, options);
 }
 
@@ -117,9 +126,9 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-sweep");
   add_cell(sub, options);
-  sub.add_option("--vary", options.sweep.vary,
-                 "A key and its values: --vary layer.0.young_ratio=0.5,1,2 (repeatable: every combination is solved)")
-      ->allow_extra_args(false)
+  add_repeated(
+      sub, "--vary", options.sweep.vary, "KEY=VALUES",
+      "A key and its values: --vary layer.0.young_ratio=0.5,1,2; once for each key: every combination is solved")
       ->required();
   sub.add_flag("--stresses", options.sweep.stresses,
                "Largest stresses in the rail too (takes longer than the contact)");
@@ -127,9 +136,7 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
 
 void add_study(CLI::App& sub, CommandOptions& options) {
   sub.add_option("study", options.case_file, "Study file, or a folder with study.toml")->required();
-  sub.add_option("--set", options.overrides,
-                 "Override a key in all cases: --set mesh.element_size=\"2 mm\" (repeatable)")
-      ->allow_extra_args(false);
+  add_set(sub, options, "Override a key in all cases: --set mesh.element_size=\"2 mm\"; once for each key");
   sub.add_option(
       "-o,--out", options.out,
       "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
@@ -138,7 +145,7 @@ void add_study(CLI::App& sub, CommandOptions& options) {
       ->check(CLI::Range(1, 1024));
   sub.add_option("--engine", options.study.engine, fmt::format("Only the cases of one engine: {}", engines_text()))
       ->check(CLI::IsMember(engine_words()));
-  sub.add_option("--group", options.study.groups, "Only the cases of this group (repeatable)")->allow_extra_args(false);
+  add_repeated(sub, "--group", options.study.groups, "NAME", "Only the cases of this group; once for each group");
   sub.add_option("--shard", options.study.shard,
                  "i/n: compute every n-th case from the i-th on, for n machines that share the folder");
   sub.add_flag("--dry-run", options.study.dry_run, "List the cases and what is done of them; compute nothing");
