@@ -57,8 +57,15 @@ void add_case(CLI::App& sub, CommandOptions& options) {
   add_set(sub, options, "Override a key: --set mesh.element_size=\"2 mm\"; once for each key");
 }
 
+/// `--out ""` is an empty variable of a script; the folder that is taken without --out is not meant.
+CLI::Option* add_out(CLI::App& sub, CommandOptions& options, const std::string& what) {
+  return sub.add_option("-o,--out", options.out, what)
+      ->check(
+          CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "names nothing" : ""); }, ""));
+}
+
 void add_output(CLI::App& sub, CommandOptions& options, const char* preset) {
-  sub.add_option("-o,--out", options.out, fmt::format("Folder for the results (default: {})", preset));
+  add_out(sub, options, fmt::format("Folder for the results (default: {})", preset));
   sub.add_flag("--force", options.force, "Write into a folder that is not empty; files of the same name are replaced");
 }
 
@@ -137,8 +144,8 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
 void add_study(CLI::App& sub, CommandOptions& options) {
   sub.add_option("study", options.case_file, "Study file, or a folder with study.toml")->required();
   add_set(sub, options, "Override a key in all cases: --set mesh.element_size=\"2 mm\"; once for each key");
-  sub.add_option(
-      "-o,--out", options.out,
+  add_out(
+      sub, options,
       "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
   sub.add_flag("--force", options.force, "Write into a folder that is not empty and holds no study");
   sub.add_option("--jobs", options.study.jobs, "Cases at a time; they share the threads (default: one thread a case)")
@@ -162,8 +169,7 @@ void add_report(CLI::App& sub, CommandOptions& options) {
   sub.add_option("folders", options.report.folders,
                  "Result folders of `run` or `bem`; the second is drawn beside the first")
       ->required();
-  sub.add_option("-o,--out", options.out,
-                 "The page to write (default: report.html in the folder, made anew if it is there)");
+  add_out(sub, options, "The page to write (default: report.html in the folder, made anew if it is there)");
   sub.add_flag("--force", options.force, "Replace the file that --out names");
   sub.add_flag_callback(
       "--no-reference", [&options] { options.report.reference = false; },

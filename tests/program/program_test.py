@@ -47,6 +47,11 @@ class Program(FromOutside):
         errors = json.loads(self.refused(2, ["bem", "a.toml", "--cel", "1 mm", "--json"]))["errors"]
         self.assertEqual(errors[0]["message"], "railstrata bem has no option --cel")
 
+    def test_an_empty_out_is_refused(self):
+        for words in (["bem", "a"], ["study", "a"], ["report", "a"], ["compare", "a", "b"]):
+            for out in (["--out", ""], ["-o", ""], ["--out="]):
+                self.refused(2, [*words, *out], f"error: railstrata {words[0]}: --out", f"railstrata {words[0]} --help")
+
     def test_the_bare_program_shows_its_commands(self):
         rc, out, err = railstrata()
         self.assertEqual((rc, err), (2, ""))
