@@ -169,7 +169,7 @@ void add_report(CLI::App& sub, CommandOptions& options) {
   sub.add_option("folders", options.report.folders,
                  "Result folders of `run` or `bem`; the second is drawn beside the first")
       ->required();
-  add_out(sub, options, "The page to write (default: report.html in the folder, made anew if it is there)");
+  add_out(sub, options, "The page to write, NAME.html (default: report.html in the folder, made anew if it is there)");
   sub.add_flag("--force", options.force, "Replace the file that --out names");
   sub.add_flag_callback(
       "--no-reference", [&options] { options.report.reference = false; },

@@ -143,9 +143,13 @@ class Folders(FromOutside):
         for words in commands:
             with self.subTest(words[0]):
                 self.refused(2, [*words, "--out", out], "is not empty", "--force")
-        self.refused(2, ["report", results, "--out", out / "case.toml"],
-                     f"error: --out {out}/case.toml: there is a file of this name\n    remedy: choose another name, "
+        self.refused(2, ["report", results, "--out", out / "report.html"],
+                     f"error: --out {out}/report.html: there is a file of this name\n    remedy: choose another name, "
                      f"or replace it with --force\n")
+        for name in ("case.toml", "summary.json", "patch.csv", "page"):
+            self.refused(2, ["report", results, "--out", out / name, "--force"],
+                         f"error: --out {out}/{name}: a page has a name that ends in .html\n    remedy: write for "
+                         f"example --out {(out / name).with_suffix('.html')}\n")
         self.assertEqual({f.name: f.read_text() for f in out.iterdir()}, {"case.toml": "mine", "report.html": "mine"})
         rc, _, err = railstrata("report", results, "--out", out / "report.html", "--force", "--no-reference")
         self.assertEqual(rc, 0, err)
