@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
@@ -15,6 +16,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <memory>
 #include <new>
 #include <system_error>
 
@@ -26,6 +29,7 @@
 #include "core/engine.hpp"
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
+#include "core/printable.hpp"
 #include "io/json_text.hpp"
 #include "io/provenance.hpp"
 
@@ -269,9 +273,21 @@ void check_command_word(const std::vector<std::string>& words) {
   }
 }
 
+/// The text of a line of the log.
+class PrintableText : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
+    const std::string text = printable({message.payload.data(), message.payload.size()});
+    out.append(text.data(), text.data() + text.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<PrintableText>(); }
+};
+
 void set_up_log(bool quiet, int verbose) {
   auto logger = std::make_shared<spdlog::logger>("railstrata", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
-  logger->set_pattern("%^%l:%$ %v");
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<PrintableText>('*').set_pattern("%^%l:%$ %*");
+  logger->set_formatter(std::move(formatter));
   logger->set_level(quiet ? spdlog::level::warn : verbose > 0 ? spdlog::level::debug : spdlog::level::info);
   spdlog::set_default_logger(logger);
 }
@@ -303,7 +319,7 @@ void say(FILE* stream, const std::string& text) {
 }
 
 int tell(ExitCode code, const std::string& text) {
-  say(stderr, fmt::format("error: {}\n", text));
+  say(stderr, printable(fmt::format("error: {}\n", text)));
   return static_cast<int>(code);
 }
 
@@ -315,8 +331,8 @@ int tell(const CaseError& e, bool json) {
     say(stdout, json_text(nlohmann::ordered_json{{"errors", all}}, 2) + "\n");
   }
   for (const Diagnostic& d : e.diagnostics)
-    say(stderr, fmt::format("{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message,
-                            d.remedy.empty() ? "" : "\n    remedy: " + d.remedy));
+    say(stderr, printable(fmt::format("{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message,
+                                      d.remedy.empty() ? "" : "\n    remedy: " + d.remedy)));
   return static_cast<int>(ExitCode::user);
 }
 
