@@ -4,7 +4,9 @@
 KILLS: how many times the run is killed at a random moment (default 4)."""
 import pathlib
 import random
+import re
 import resource
+import shlex
 import signal
 import subprocess
 import sys
@@ -148,7 +150,12 @@ class Resume(FromOutside):
         self.assertIn("error: stopped during the static preload: there is nothing to resume yet\n", err)
         self.assertEqual(sorted(f.name for f in self.out.iterdir()),
                          ["case.original.toml", "case.toml", "provenance.json"])
-        self.refused(2, self.resume(), "there is nothing to resume in")
+        again = re.search(r"\n    remedy: start it again: railstrata (.+)\n$", err)[1]
+        self.refused(2, self.resume(), "there is nothing to resume in", f"remedy: start it again: railstrata {again}\n")
+        self.refused(2, ["report", self.out], f"start it again: railstrata {again}\n")
+        rc, _, err = railstrata(*shlex.split(again))
+        self.assertEqual(rc, self.rc, err)
+        self.same_as_whole()
 
     def test_a_full_disk_costs_a_checkpoint_and_not_the_run(self):
         def small_files():
