@@ -70,8 +70,10 @@ LoadedCase case_of_folder(const CommandOptions& options) {
   if (std::filesystem::exists(options.run.resume / "summary.json") && !has_checkpoint(options.run.resume))
     throw CaseError(fmt::format("there is nothing to resume: {} holds a finished run", options.run.resume.string()),
                     "start another with `railstrata run CASE`");
-  const bool begun = std::filesystem::exists(options.run.resume / "case.toml");
-  if (begun && !has_checkpoint(options.run.resume))
+  if (!std::filesystem::exists(options.run.resume / "case.toml"))
+    throw CaseError(fmt::format("{} has no case.toml, which a run goes on with", options.run.resume.string()),
+                    "name the result folder of a run that was interrupted, or put its case.toml back");
+  if (!has_checkpoint(options.run.resume))
     throw CaseError(fmt::format("there is nothing to resume in {}: the run was stopped before its first checkpoint",
                                 options.run.resume.string()),
                     fmt::format("start it again: {}", command_again(options.run.resume)));

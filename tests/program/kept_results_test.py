@@ -187,6 +187,16 @@ class NoResults(FromOutside):
         self.refused_by_both(out, ": this folder was begun by `railstrata run` and has no results yet",
                              "wait until it has ended; if it was stopped, start it again: railstrata run CASE --out")
 
+    def test_a_result_without_its_case_says_what_is_missing(self):
+        out = self.folder / "run"
+        rc, _, err = railstrata("run", self.case(SMALL), "--threads", "1", "--no-report", "--out", out)
+        self.assertIn(rc, (0, 1), err)
+        (out / "case.toml").unlink()
+        rc, _, err = railstrata("report", out)
+        self.assertEqual(rc, 0, err)
+        self.assertIn(f"no half-space reference: {out} has no case.toml; put back the one of the run", err)
+        self.assertNotIn("shipped cases", err)
+
     def test_studies_sweeps_and_creep_curves_are_called_so(self):
         case = self.case(HALF_SPACE.format("arc:R=430 mm"))
         sweep, creep = self.folder / "sweep", self.folder / "creep"

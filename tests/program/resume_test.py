@@ -185,6 +185,9 @@ class Resume(FromOutside):
         self.refused(2, self.resume("--set", "mesh.element_size=2 mm"),
                      "--resume goes on with the run of a folder as it was begun")
         self.refused(2, ["run", "--resume", self.folder / "no"], "there is no such folder")
+        (self.folder / "empty").mkdir()
+        self.refused(2, ["run", "--resume", self.folder / "empty"], f"error: {self.folder}/empty has no case.toml",
+                     "remedy: name the result folder of a run that was interrupted")
         self.refused(2, ["run"], "run: no case was named")
         self.refused(2, ["run", self.case(TWO), "--checkpoint-every", "5 mm"],
                      '--checkpoint-every "5 mm": "mm" is not the unit of a time')
