@@ -185,7 +185,7 @@ class NoResults(FromOutside):
         for file in out.glob("checkpoint*"):
             file.unlink()
         self.refused_by_both(out, ": this folder was begun by `railstrata run` and has no results yet",
-                             "wait until it has ended; if it was stopped, start it again: railstrata run CASE --out")
+                             "wait until it has ended; if it was stopped, start it again: railstrata run ")
 
     def test_a_result_without_its_case_says_what_is_missing(self):
         out = self.folder / "run"
