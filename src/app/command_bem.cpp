@@ -31,9 +31,14 @@ ExitCode command_bem(const CommandOptions& options) {
   require_apart(out, loaded);
   const FolderHold hold = prepare_output_folder(out, options.force);
   answer_interrupt_with("\nstopped while the results were written: they are not complete; start again with --force\n");
-  clear_old_results(out);
-  write_origin(out, loaded, options.command_line, options.threads);
-  write_half_space_result(out, table_origin(loaded), loaded.spec, placement, solution);
+  try {
+    clear_old_results(out);
+    write_origin(out, loaded, options.command_line, options.threads);
+    write_half_space_result(out, table_origin(loaded), loaded.spec, placement, solution);
+  } catch (EnvironmentError& e) {
+    if (!e.remedy.empty()) e.remedy += ", then start it again with --force";
+    throw;
+  }
   print_summary(solution.summary, options.json);
   spdlog::info("results are in {}", out.string());
   if (options.page) add_report(out);

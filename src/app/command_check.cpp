@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
+#include "core/printable.hpp"
 #include "post/run_advice.hpp"
 #include "runs/memory_need.hpp"
 #include "runs/run_estimate.hpp"
@@ -107,7 +108,7 @@ ExitCode command_check(const CommandOptions& options) {
     fmt::print("{}\n", as_json(model, estimate).dump(2));
     return ExitCode::ok;
   }
-  fmt::print("{}: {}\n\n", loaded.file.string(), loaded.spec.title);
+  fmt::print("{}\n\n", printable(fmt::format("{}: {}", loaded.file.string(), loaded.spec.title)));
   print_geometry(model);
   print_layers(model);
   print_estimate(model, estimate);

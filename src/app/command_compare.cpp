@@ -7,6 +7,7 @@
 
 #include "app/commands.hpp"
 #include "core/faults.hpp"
+#include "core/printable.hpp"
 #include "io/csv.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
@@ -64,8 +65,8 @@ std::string number(double v, const char* format) {
 }
 
 void print_table(const ResultFolder& a, const ResultFolder& b, const std::vector<Row>& rows, const FieldComparison& g) {
-  fmt::print("A  {} ({}): {}\nB  {} ({}): {}\n\n", a.folder.string(), a.engine, a.title, b.folder.string(), b.engine,
-             b.title);
+  fmt::print("A  {} ({}): {}\nB  {} ({}): {}\n\n", printable(a.folder.string()), a.engine, printable(a.title),
+             printable(b.folder.string()), b.engine, printable(b.title));
   fmt::print("  {:<36} {:>12} {:>12} {:>12}\n", "", "A", "B", "(A-B)/|B|");
   for (const Row& r : rows) {
     const Quantity& q = r.quantity;

@@ -2,12 +2,14 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cctype>
 
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
 #include "app/write_page.hpp"
 #include "core/faults.hpp"
+#include "core/shell_word.hpp"
 #include "io/folder_kind.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
@@ -21,6 +23,17 @@ std::filesystem::path page_of(const CommandOptions& options) {
   return page;
 }
 
+/// A page by another name opens in no browser, and a result's own files have other names.
+void require_name_of_page(const std::filesystem::path& page) {
+  std::string ending = page.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".html" || ending == ".htm") return;
+  const std::filesystem::path other =
+      page.has_filename() ? std::filesystem::path(page).replace_extension(".html") : page / "report.html";
+  throw CaseError(fmt::format("--out {}: a page has a name that ends in .html", page.string()),
+                  fmt::format("write for example --out {}", shell_word(other.string())));
+}
+
 }  // namespace
 
 ExitCode command_report(const CommandOptions& options) {
@@ -31,6 +44,7 @@ ExitCode command_report(const CommandOptions& options) {
                     options.report.folders.size()),
         "say where the page is to be written, e.g. --out comparison.html");
   const std::filesystem::path page = page_of(options);
+  require_name_of_page(page);
   if (!options.out.empty() && !options.force && std::filesystem::exists(page))
     throw CaseError(fmt::format("--out {}: there is a file of this name", page.string()),
                     "choose another name, or replace it with --force");

@@ -14,6 +14,7 @@
 #include "app/summary_text.hpp"
 #include "app/write_page.hpp"
 #include "core/shell_word.hpp"
+#include "io/folder_kind.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "runs/write_fem_result.hpp"
@@ -54,6 +55,10 @@ class PhaseReport {
   std::optional<Progress> bar_;
 };
 
+bool has_checkpoint(const std::filesystem::path& folder) {
+  return std::filesystem::exists(checkpoint_file(folder)) || std::filesystem::exists(previous_checkpoint_file(folder));
+}
+
 // The case of the folder, as it was run.
 LoadedCase case_of_folder(const CommandOptions& options) {
   if (!options.case_file.empty() || !options.overrides.empty() || !options.out.empty() || options.force)
@@ -62,11 +67,16 @@ LoadedCase case_of_folder(const CommandOptions& options) {
   if (!std::filesystem::is_directory(options.run.resume))
     throw CaseError(fmt::format("--resume {}: there is no such folder", options.run.resume.string()),
                     "name the result folder of a run that was interrupted");
-  if (std::filesystem::exists(options.run.resume / "summary.json") &&
-      !std::filesystem::exists(checkpoint_file(options.run.resume)) &&
-      !std::filesystem::exists(previous_checkpoint_file(options.run.resume)))
+  if (std::filesystem::exists(options.run.resume / "summary.json") && !has_checkpoint(options.run.resume))
     throw CaseError(fmt::format("there is nothing to resume: {} holds a finished run", options.run.resume.string()),
                     "start another with `railstrata run CASE`");
+  if (!std::filesystem::exists(options.run.resume / "case.toml"))
+    throw CaseError(fmt::format("{} has no case.toml, which a run goes on with", options.run.resume.string()),
+                    "name the result folder of a run that was interrupted, or put its case.toml back");
+  if (!has_checkpoint(options.run.resume))
+    throw CaseError(fmt::format("there is nothing to resume in {}: the run was stopped before its first checkpoint",
+                                options.run.resume.string()),
+                    fmt::format("start it again: {}", command_again(options.run.resume)));
   return load_case(options.run.resume / "case.toml");
 }
 
@@ -76,10 +86,8 @@ std::string resume_command(const std::filesystem::path& folder) {
 
 // What can be done once the machine lets us write again.
 std::string how_to_go_on(const std::filesystem::path& folder) {
-  const bool kept =
-      std::filesystem::exists(checkpoint_file(folder)) || std::filesystem::exists(previous_checkpoint_file(folder));
-  return kept ? fmt::format(", then go on with\n    {}", resume_command(folder))
-              : std::string(", then start the run again with --force");
+  return has_checkpoint(folder) ? fmt::format(", then go on with\n    {}", resume_command(folder))
+                                : std::string(", then start the run again with --force");
 }
 
 /// What is to be computed, and where; `begun`: the state to go on from.
@@ -189,6 +197,8 @@ ExitCode command_run(const CommandOptions& options) {
     } catch (EnvironmentError& e) {
       if (!e.remedy.empty()) e.remedy += how_to_go_on(job.out);
       throw;
+    } catch (const Interrupted& e) {  // before there was anything to keep
+      throw Interrupted(fmt::format("{}\n    remedy: start it again: {}", e.what(), command_again(job.out)));
     }
   }();
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
@@ -15,6 +16,8 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <memory>
 #include <new>
 #include <system_error>
 
@@ -26,6 +29,7 @@
 #include "core/engine.hpp"
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
+#include "core/printable.hpp"
 #include "io/json_text.hpp"
 #include "io/provenance.hpp"
 
@@ -42,14 +46,30 @@ std::string engines_text() {
 
 using Command = ExitCode (*)(const CommandOptions&);
 
+/// An option that is written again for each further value.
+CLI::Option* add_repeated(CLI::App& sub, const std::string& name, std::vector<std::string>& values, const char* word,
+                          const char* what) {
+  return sub.add_option(name, values, what)->allow_extra_args(false)->option_text(word);
+}
+
+void add_set(CLI::App& sub, CommandOptions& options, const char* what) {
+  add_repeated(sub, "--set", options.overrides, "KEY=VALUE", what);
+}
+
 void add_case(CLI::App& sub, CommandOptions& options) {
   sub.add_option("case", options.case_file, "Case file, or a folder with case.toml")->required();
-  sub.add_option("--set", options.overrides, "Override a key: --set mesh.element_size=\"2 mm\" (repeatable)")
-      ->allow_extra_args(false);
+  add_set(sub, options, "Override a key: --set mesh.element_size=\"2 mm\"; once for each key");
+}
+
+/// `--out ""` is an empty variable of a script; the folder that is taken without --out is not meant.
+CLI::Option* add_out(CLI::App& sub, CommandOptions& options, const std::string& what) {
+  return sub.add_option("-o,--out", options.out, what)
+      ->check(
+          CLI::Validator([](const std::string& text) { return std::string(text.empty() ? "names nothing" : ""); }, ""));
 }
 
 void add_output(CLI::App& sub, CommandOptions& options, const char* preset) {
-  sub.add_option("-o,--out", options.out, fmt::format("Folder for the results (default: {})", preset));
+  add_out(sub, options, fmt::format("Folder for the results (default: {})", preset));
   sub.add_flag("--force", options.force, "Write into a folder that is not empty; files of the same name are replaced");
 }
 
@@ -78,7 +98,7 @@ void add_run(CLI::App& sub, CommandOptions& options) {
 
 void add_demo(CLI::App& sub, CommandOptions& options) {
   add_output(sub, options, "results/quick");
-  sub.add_option("--set", options.overrides, "Override a key of the case (repeatable)")->allow_extra_args(false);
+  add_set(sub, options, "Override a key of the case; once for each key");
   add_no_report(sub, options);
 }
 
@@ -117,9 +137,9 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-sweep");
   add_cell(sub, options);
-  sub.add_option("--vary", options.sweep.vary,
-                 "A key and its values: --vary layer.0.young_ratio=0.5,1,2 (repeatable: every combination is solved)")
-      ->allow_extra_args(false)
+  add_repeated(
+      sub, "--vary", options.sweep.vary, "KEY=VALUES",
+      "A key and its values: --vary layer.0.young_ratio=0.5,1,2; once for each key: every combination is solved")
       ->required();
   sub.add_flag("--stresses", options.sweep.stresses,
                "Largest stresses in the rail too (takes longer than the contact)");
@@ -127,18 +147,16 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
 
 void add_study(CLI::App& sub, CommandOptions& options) {
   sub.add_option("study", options.case_file, "Study file, or a folder with study.toml")->required();
-  sub.add_option("--set", options.overrides,
-                 "Override a key in all cases: --set mesh.element_size=\"2 mm\" (repeatable)")
-      ->allow_extra_args(false);
-  sub.add_option(
-      "-o,--out", options.out,
+  add_set(sub, options, "Override a key in all cases: --set mesh.element_size=\"2 mm\"; once for each key");
+  add_out(
+      sub, options,
       "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
   sub.add_flag("--force", options.force, "Write into a folder that is not empty and holds no study");
   sub.add_option("--jobs", options.study.jobs, "Cases at a time; they share the threads (default: one thread a case)")
       ->check(CLI::Range(1, 1024));
   sub.add_option("--engine", options.study.engine, fmt::format("Only the cases of one engine: {}", engines_text()))
       ->check(CLI::IsMember(engine_words()));
-  sub.add_option("--group", options.study.groups, "Only the cases of this group (repeatable)")->allow_extra_args(false);
+  add_repeated(sub, "--group", options.study.groups, "NAME", "Only the cases of this group; once for each group");
   sub.add_option("--shard", options.study.shard,
                  "i/n: compute every n-th case from the i-th on, for n machines that share the folder");
   sub.add_flag("--dry-run", options.study.dry_run, "List the cases and what is done of them; compute nothing");
@@ -148,15 +166,14 @@ void add_study(CLI::App& sub, CommandOptions& options) {
 void add_compare(CLI::App& sub, CommandOptions& options) {
   sub.add_option("a", options.case_file, "Result folder A")->required();
   sub.add_option("b", options.reference, "Result folder B: differences are relative to it")->required();
-  add_output(sub, options, "results/compare");
+  add_output(sub, options, "results/<folder A>-against-<folder B>");
 }
 
 void add_report(CLI::App& sub, CommandOptions& options) {
   sub.add_option("folders", options.report.folders,
                  "Result folders of `run` or `bem`; the second is drawn beside the first")
       ->required();
-  sub.add_option("-o,--out", options.out,
-                 "The page to write (default: report.html in the folder, made anew if it is there)");
+  add_out(sub, options, "The page to write, NAME.html (default: report.html in the folder, made anew if it is there)");
   sub.add_flag("--force", options.force, "Replace the file that --out names");
   sub.add_flag_callback(
       "--no-reference", [&options] { options.report.reference = false; },
@@ -256,9 +273,21 @@ void check_command_word(const std::vector<std::string>& words) {
   }
 }
 
+/// The text of a line of the log.
+class PrintableText : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&, spdlog::memory_buf_t& out) override {
+    const std::string text = printable({message.payload.data(), message.payload.size()});
+    out.append(text.data(), text.data() + text.size());
+  }
+  std::unique_ptr<custom_flag_formatter> clone() const override { return std::make_unique<PrintableText>(); }
+};
+
 void set_up_log(bool quiet, int verbose) {
   auto logger = std::make_shared<spdlog::logger>("railstrata", std::make_shared<spdlog::sinks::stderr_color_sink_mt>());
-  logger->set_pattern("%^%l:%$ %v");
+  auto formatter = std::make_unique<spdlog::pattern_formatter>();
+  formatter->add_flag<PrintableText>('*').set_pattern("%^%l:%$ %*");
+  logger->set_formatter(std::move(formatter));
   logger->set_level(quiet ? spdlog::level::warn : verbose > 0 ? spdlog::level::debug : spdlog::level::info);
   spdlog::set_default_logger(logger);
 }
@@ -290,7 +319,7 @@ void say(FILE* stream, const std::string& text) {
 }
 
 int tell(ExitCode code, const std::string& text) {
-  say(stderr, fmt::format("error: {}\n", text));
+  say(stderr, printable(fmt::format("error: {}\n", text)));
   return static_cast<int>(code);
 }
 
@@ -302,8 +331,8 @@ int tell(const CaseError& e, bool json) {
     say(stdout, json_text(nlohmann::ordered_json{{"errors", all}}, 2) + "\n");
   }
   for (const Diagnostic& d : e.diagnostics)
-    say(stderr, fmt::format("{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message,
-                            d.remedy.empty() ? "" : "\n    remedy: " + d.remedy));
+    say(stderr, printable(fmt::format("{}{}error: {}{}\n", d.where, d.where.empty() ? "" : ": ", d.message,
+                                      d.remedy.empty() ? "" : "\n    remedy: " + d.remedy)));
   return static_cast<int>(ExitCode::user);
 }
 

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <iterator>
 
+#include "core/printable.hpp"
 #include "io/summary_json.hpp"
 #include "post/check_limits.hpp"
 #include "post/result_table.hpp"
@@ -100,7 +101,7 @@ std::string checks_text(const Summary& s) {
 }  // namespace
 
 std::string summary_text(const Summary& s) {
-  return fmt::format("\n{}{}\n", s.title,
+  return fmt::format("\n{}{}\n", printable(s.title),
                      std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "") +
          numbers_text(s) + stresses_text(s) + steps_text(s.run) + checks_text(s);
 }

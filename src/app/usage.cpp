@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "core/nearest_word.hpp"
+#include "core/shell_word.hpp"
 
 namespace railstrata {
 namespace {
@@ -37,6 +38,11 @@ std::string first_left_over(const std::vector<std::string>& words, const std::ve
 CaseError left_over(const CLI::App& app, const CLI::App* sub, const std::string& command,
                     const std::vector<std::string>& words) {
   const std::string word = first_left_over(words, app.remaining(true));
+  const bool setting = !word.starts_with("-") && word.find('=') != std::string::npos;
+  for (const std::string option : {"--set", "--vary"})
+    if (setting && std::find(words.begin(), words.end(), option) != words.end())
+      return CaseError(fmt::format("\"{}\" is one word too many for {}", word, command),
+                       fmt::format("write {} once for each key: {} {}", option, option, shell_word(word)));
   if (!word.starts_with("-"))
     return CaseError(
         fmt::format("\"{}\" is one word too many for {}", word, command),

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <sstream>
+#include <utility>
+
 #include "case/case_rules.hpp"
 #include "case/case_source.hpp"
 #include "case/case_tree.hpp"
@@ -34,12 +37,21 @@ void resolve_profile(ProfileKind kind, const char* key, std::string& name, Loade
     return;
   }
   const std::vector<std::string> names = builtin_profile_names(kind);
-  const std::string near = nearest_word(name, names);
+  const std::string near = likely_profile(kind, name);
   source.complain(fmt::format("geometry.{}", key),
                   fmt::format("geometry.{} = {}: neither a built-in profile nor a file{}", key, toml_quoted(name),
                               nameable ? fmt::format(" (looked for {})", file.string()) : ""),
                   fmt::format("{}built in: {}, arc:R=300 mm",
                               near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near), fmt::join(names, ", ")));
+}
+
+/// Only blanks and comments.
+bool says_nothing(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (const std::size_t at = line.find_first_not_of(" \t\r"); at != std::string::npos && line[at] != '#')
+      return false;
+  return true;
 }
 
 }  // namespace
@@ -57,7 +69,10 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   check_case_rules(loaded.spec, source);
   source.finish();
   loaded.resolved_toml = resolved_case(loaded.spec);
-  loaded.notes = idle_settings(loaded.spec);
+  if (says_nothing(text))
+    loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),
+                                       overrides.empty() ? "" : ", but for what --set gives"));
+  for (std::string& note : idle_settings(loaded.spec)) loaded.notes.push_back(std::move(note));
   return loaded;
 }
 

@@ -19,10 +19,11 @@ void check_drive(const CaseSpec& spec, CaseSource& source) {
   const DriveSpec& d = spec.drive;
   if (spec.run.rolling && source.sound({"drive.traction_coefficient", "drive.friction_coefficient"}) &&
       d.traction_coefficient != 0 && !(std::abs(d.traction_coefficient) < d.friction_coefficient))
-    source.complain("drive.traction_coefficient",
-                    fmt::format("drive.traction_coefficient = {}: must be below drive.friction_coefficient = {}",
-                                d.traction_coefficient, d.friction_coefficient),
-                    "the wheel would slide: lower the traction or raise the friction");
+    source.complain(
+        "drive.traction_coefficient",
+        fmt::format("drive.traction_coefficient = {}: {}must be below drive.friction_coefficient = {}",
+                    d.traction_coefficient, d.traction_coefficient < 0 ? "its magnitude " : "", d.friction_coefficient),
+        "the wheel would slide: lower the traction or raise the friction");
 }
 
 void check_path(const RunSpec& run, CaseSource& source) {
@@ -75,14 +76,21 @@ void check_mesh(const MeshSpec& m, CaseSource& source) {
   at_least("largest", m.largest, m.element_size, "one element");
 }
 
+/// One message for each name, at the second layer that has it.
 void check_layers(const CaseSpec& spec, CaseSource& source) {
-  for (std::size_t i = 0; i < spec.layers.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (spec.layers[i].name == spec.layers[j].name && spec.layers[i].on == spec.layers[j].on)
-        source.complain(fmt::format("layer.{}.name", i),
-                        fmt::format("layer.{}.name = \"{}\": another layer of the {} has this name", i,
-                                    spec.layers[i].name, body_word(spec.layers[i].on)),
-                        "give every layer a name of its own");
+  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
+    const auto same = [&](const LayerSpec& other) {
+      return other.name == spec.layers[i].name && other.on == spec.layers[i].on;
+    };
+    const auto begin = spec.layers.begin(), here = begin + static_cast<std::ptrdiff_t>(i);
+    if (std::count_if(begin, here, same) != 1) continue;
+    const auto others = std::count_if(begin, spec.layers.end(), same) - 1;
+    source.complain(fmt::format("layer.{}.name", i),
+                    fmt::format("layer.{}.name = \"{}\": {} of the {} {} this name", i, spec.layers[i].name,
+                                others == 1 ? "another layer" : fmt::format("{} other layers", others),
+                                body_word(spec.layers[i].on), others == 1 ? "has" : "have"),
+                    "give every layer a name of its own");
+  }
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include "core/printable.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -31,10 +33,12 @@ CaseSource::CaseSource(std::filesystem::path file, std::string text) : file_(std
 std::string CaseSource::caret_lines(TextPlace place) const {
   if (place.line < 1 || place.line > static_cast<int>(lines_.size())) return {};
   const std::string& line = lines_[place.line - 1];
+  std::size_t before = std::min(line.size(), static_cast<std::size_t>(std::max(place.column - 1, 0)));
+  while (before < line.size() && before > 0 && (line[before] & 0xC0) == 0x80) ++before;
   std::string indent;
-  for (int i = 0; i + 1 < place.column && i < static_cast<int>(line.size()); ++i)
-    if ((line[i] & 0xC0) != 0x80) indent += line[i] == '\t' ? '\t' : ' ';
-  return fmt::format("\n{:5} | {}\n      | {}^", place.line, line, indent);
+  for (const char c : printable(std::string_view(line).substr(0, before)))
+    if ((c & 0xC0) != 0x80) indent += c == '\t' ? '\t' : ' ';
+  return fmt::format("\n{:5} | {}\n      | {}^", place.line, printable(line), indent);
 }
 
 void CaseSource::complain_at(TextPlace place, const std::string& message, const std::string& remedy) {

@@ -50,7 +50,7 @@ struct ModulusPoint {
 };
 
 struct LayerSpec {
-  std::string name = "layer";
+  std::string name = "layer";  ///< of several of a body that have none in the file: "layer 1", "layer 2", …
   BodyId on = BodyId::rail;
   double thickness = 1e-3;  ///< of a graded layer: its table's last depth
   double width = 0.060;

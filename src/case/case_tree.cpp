@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "case/absent_options.hpp"
@@ -42,6 +43,9 @@ std::string_view kind(const toml::node& node) {
   return node.is_number() ? "a number" : "a date or time";
 }
 
+constexpr const char *kExampleOfList = R"(["0.1 m", "0.3 m"])",
+                     *kExampleOfModuli = R"([["0 mm", "420 GPa"], ["3 mm", "210 GPa"]])";
+
 /// What the value of an option must look like, with an example.
 std::string wanted(const Option& option) {
   struct Say {
@@ -53,9 +57,9 @@ std::string wanted(const Option& option) {
     std::string operator()(const ChoiceSlot&) const {
       return fmt::format("one of \"{}\"", fmt::join(words_of(option), "\", \""));
     }
-    std::string operator()(const std::vector<double>*) const { return "a list, e.g. [\"0.1 m\", \"0.3 m\"]"; }
+    std::string operator()(const std::vector<double>*) const { return fmt::format("a list, e.g. {}", kExampleOfList); }
     std::string operator()(const std::vector<ModulusPoint>*) const {
-      return "a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]";
+      return fmt::format("a list of depths and moduli, e.g. {}", kExampleOfModuli);
     }
   };
   CaseSpec any;
@@ -126,6 +130,29 @@ class TreeReader {
       const toml::table& entry = *(*list)[i].as_table();
       read_table(table, name, i, entry);
       check_modulus(name, entry);
+    }
+    name_layers(*list);
+  }
+
+  /// A layer without a name is "layer" if it is alone on its body, else "layer 1", "layer 2", … from the surface down.
+  void name_layers(const toml::array& list) {
+    for (const BodyId body : {BodyId::rail, BodyId::wheel}) {
+      std::set<std::string> taken;
+      std::vector<LayerSpec*> unnamed;
+      for (std::size_t i = 0; i < list.size(); ++i) {
+        if (spec_.layers[i].on != body) continue;
+        if (list[i].as_table()->contains("name"))
+          taken.insert(spec_.layers[i].name);
+        else
+          unnamed.push_back(&spec_.layers[i]);
+      }
+      if (unnamed.size() < 2 && !taken.contains(LayerSpec{}.name)) continue;
+      int number = 0;
+      for (LayerSpec* layer : unnamed) {
+        do {
+          layer->name = fmt::format("{} {}", LayerSpec{}.name, ++number);
+        } while (taken.contains(layer->name));
+      }
     }
   }
 
@@ -398,10 +425,58 @@ class TreeReader {
       "write --set table.key=value, e.g. --set mesh.element_size=\"2 mm\" or --set layer.0.thickness=\"0.5 mm\"");
 }
 
-/// TOML where it is TOML, else a text: quotes may be left out.
-toml::table parse_override_value(const std::string& text, const std::string& value) {
+/// What the parts of a key name: "layer.0.young", "run.positions", and what is inside a list ("run.positions.0").
+struct NamedOption {
+  const Option* option = nullptr;  ///< null: no option
+  std::size_t parts = 0;           ///< of the key up to the option
+};
+NamedOption named_option(const std::vector<std::string>& parts) {
+  for (const std::size_t of_name : {std::size_t{1}, std::size_t{2}}) {
+    if (parts.size() <= of_name) break;
+    const OptionTable* table = find_table(of_name == 1 ? parts[0] : parts[0] + "." + parts[1]);
+    const std::size_t at = of_name + (table && table->repeated ? 1 : 0);
+    if (!table || at >= parts.size()) continue;
+    for (const Option& option : table->options)
+      if (option.key == parts[at]) return {&option, at + 1};
+  }
+  return {};
+}
+
+Slot any_slot(const Option& option) {
+  static CaseSpec spec = [] {
+    CaseSpec one;
+    one.layers.resize(1);
+    return one;
+  }();
+  return option.slot(spec, 0);
+}
+
+bool is_text(const Option& option) {
+  const Slot slot = any_slot(option);
+  return std::holds_alternative<std::string*>(slot) || std::holds_alternative<ChoiceSlot>(slot);
+}
+
+/// A key that goes on inside an option: a list is set as a whole, everything else has no inside.
+[[noreturn]] void refuse_inside(const Option& option, const std::vector<std::string>& parts, std::size_t count,
+                                const std::string& text) {
+  const std::string key = fmt::format("{}", fmt::join(parts.begin(), parts.begin() + static_cast<long>(count), "."));
+  const Slot slot = any_slot(option);
+  const bool table = std::holds_alternative<std::vector<ModulusPoint>*>(slot);
+  if (!table && !std::holds_alternative<std::vector<double>*>(slot))
+    refuse_override(text, fmt::format("{} is not a table", key));
+  throw CaseError(
+      fmt::format("--set {}: {} is one list, its values have no keys of their own", text, key),
+      fmt::format("give the whole list, e.g. --set {}='{}'", key, table ? kExampleOfModuli : kExampleOfList));
+}
+
+/// TOML where it is TOML, else a text: quotes may be left out. Of an option that is a text the words are the text, also
+/// where they would be a number (60E1).
+toml::table parse_override_value(const std::string& text, const std::string& value, bool words) {
   try {
-    if (toml::table table = toml::parse("value = " + value); table.size() == 1) return table;
+    toml::table table = toml::parse("value = " + value);
+    if (words && table.size() == 1 && !table.get("value")->is_string())
+      return toml::parse("value = " + toml_quoted(value));
+    if (table.size() == 1) return table;
   } catch (const toml::parse_error&) {
     try {
       return toml::parse("value = " + toml_quoted(value));
@@ -467,7 +542,9 @@ void apply_override(toml::table& document, const std::string& text, CaseSource& 
   std::vector<std::string> parts;
   std::istringstream stream(key);
   for (std::string part; std::getline(stream, part, '.');) parts.push_back(part);
-  toml::table value = parse_override_value(text, written);
+  const NamedOption named = named_option(parts);
+  if (named.option && named.parts < parts.size()) refuse_inside(*named.option, parts, named.parts, text);
+  toml::table value = parse_override_value(text, written, named.option && is_text(*named.option));
   const bool whole_list = parts.size() == 1 && is_repeated(parts[0]);
   if (parts.size() < 2 && !whole_list) refuse_override(text, "names no table");
   toml::table& table = descend(document, parts, text, source);

@@ -158,7 +158,9 @@ OptionTable layer_table() {
   return {"layer",
           "A bonded layer; the first of a body is its surface, the next lies below it. Each needs one of young, "
           "young_ratio and young_table",
-          {{"name", layer<&L::name>, "What results call the layer"},
+          {{"name", layer<&L::name>,
+            "What results call the layer; several of a body without one are \"layer 1\", \"layer 2\", … from the "
+            "surface down"},
            choice<&L::on>("on", layer<&L::on>, "The body that carries the layer",
                           {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
            {"thickness",

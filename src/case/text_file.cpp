@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "core/faults.hpp"
+#include "core/printable.hpp"
 
 namespace railstrata {
 namespace {
@@ -75,6 +76,9 @@ std::string read_text_file(const std::filesystem::path& file, const std::string&
   if (silent && text.empty())
     throw CaseError(fmt::format("{} is a named pipe, and nothing writes into it", file.string()),
                     "start the program that writes into it first, or name a file");
+  if (const std::string sign = sign_of_binary(text); !sign.empty())
+    throw CaseError(fmt::format("{} is not a text: {}", file.string(), sign),
+                    "was another file meant? If it is a text, save it as UTF-8");
   return text;
 }
 

@@ -43,7 +43,7 @@ std::string format_quantity(double value, const Dimension& dimension);
 std::string describe(const Dimension& dimension);
 
 /// A text like `text` with another prefix or unit of the same dimension whose value is allowed ("210 MPa" ->
-/// "210 GPa"); empty if there is none, and for zero, which no unit changes.
+/// "210 GPa"), but never in micrometres or microseconds; empty if there is none, and for zero, which no unit changes.
 std::string suggest_quantity(std::string_view text, const Dimension& dimension,
                              const std::function<bool(double)>& allowed);
 

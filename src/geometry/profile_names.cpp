@@ -61,6 +61,14 @@ std::vector<std::string> builtin_profile_names(ProfileKind kind) {
   return names;
 }
 
+std::string likely_profile(ProfileKind kind, const std::string& name) {
+  static const std::map<std::string, std::string> names_of_en_13674 = {{"60E1", "UIC60"}, {"54E1", "UIC54"}};
+  if (const auto found = names_of_en_13674.find(upper(name));
+      kind == ProfileKind::rail && found != names_of_en_13674.end())
+    return found->second;
+  return nearest_word(name, builtin_profile_names(kind));
+}
+
 Profile builtin_profile(ProfileKind kind, const std::string& name) {
   if (upper(name) == "FLAT") return circular_profile(kind, std::numeric_limits<double>::infinity());
   if (name.starts_with("arc")) return circular_profile(kind, arc_radius(name));
@@ -68,7 +76,7 @@ Profile builtin_profile(ProfileKind kind, const std::string& name) {
   if (found != makers(kind).end()) return found->second();
 
   const std::vector<std::string> names = builtin_profile_names(kind);
-  const std::string near = nearest_word(name, names);
+  const std::string near = likely_profile(kind, name);
   throw CaseError(
       fmt::format("there is no built-in {} profile '{}'", kind == ProfileKind::wheel ? "wheel" : "rail", name),
       fmt::format("{}Known: {}, arc:R=300 mm; or give a file",

@@ -9,6 +9,9 @@ namespace railstrata {
 
 /// Names accepted by builtin_profile: LMA, S1002 (wheel); CN60, UIC60, UIC54 (rail); "flat" (both).
 std::vector<std::string> builtin_profile_names(ProfileKind kind);
+/// The built-in name that is meant by one that is not there: another name of the same profile (60E1 of EN 13674-1 for
+/// UIC60), else the nearest; empty if none is near.
+std::string likely_profile(ProfileKind kind, const std::string& name);
 /// A profile shipped inside the program. Besides the names above it understands "arc:R=300 mm" (also m; positive
 /// convex, negative hollow), see circular_profile. Throws CaseError with the nearest name.
 Profile builtin_profile(ProfileKind kind, const std::string& name);

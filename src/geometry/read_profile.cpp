@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/faults.hpp"
+#include "core/printable.hpp"
 #include "geometry/exchange_profiles.hpp"
 #include "geometry/number_table.hpp"
 #include "geometry/point_defects.hpp"
@@ -50,6 +51,9 @@ Extent extent_z(const std::vector<Vec2>& points) {
 NumberTable table_of(ProfileKind kind, std::string_view text, const std::filesystem::path& file) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
     throw CaseError("this profile is in UTF-16", "save it as UTF-8 or plain text", file.string());
+  if (const std::string sign = sign_of_binary(text); !sign.empty())
+    throw CaseError(fmt::format("this is not a text: {}", sign),
+                    "give a table of y and z as a text, or a file of Simpack or MiniProf", file.string());
   std::string ending = file.extension().string();
   for (char& c : ending) c = static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
   if (ending == ".prr" || ending == ".prw") return parse_simpack(kind, text, file.string());

@@ -22,12 +22,20 @@ bool has(const fs::path& folder, const char* name) {
   return fs::exists(folder / name, error);
 }
 
-/// The command that has written the folder ("run", "study"), by its provenance.json; empty if that does not say.
-std::string command_of(const fs::path& folder) {
+/// The words of the command line in provenance.json; none if it does not say.
+std::vector<std::string> command_line_of(const fs::path& folder) {
   std::ifstream in(folder / "provenance.json", std::ios::binary);
   const auto origin = nlohmann::json::parse(in, nullptr, false);
-  if (!origin.is_object() || !origin.contains("command_line") || !origin["command_line"].is_array()) return {};
+  std::vector<std::string> words;
+  if (!origin.is_object() || !origin.contains("command_line") || !origin["command_line"].is_array()) return words;
   for (const auto& word : origin["command_line"])
+    if (word.is_string()) words.push_back(word.get<std::string>());
+  return words;
+}
+
+/// The command that has written the folder ("run", "study"), by its provenance.json; empty if that does not say.
+std::string command_of(const fs::path& folder) {
+  for (const std::string& word : command_line_of(folder))
     for (const char* command : {"run", "bem", "study", "sweep", "creep-curve", "mesh"})
       if (word == command) return command;
   return {};
@@ -50,11 +58,18 @@ Diagnostic begun(const fs::path& folder, const std::string& command) {
     return {"", fmt::format("{}: this run is not finished, it has a checkpoint and no summary.json", name),
             fmt::format("railstrata run --resume {}", word)};
   return {"", fmt::format("{}: this folder was begun by `railstrata {}` and has no results yet", name, command),
-          fmt::format("wait until it has ended; if it was stopped, start it again: railstrata {} {} --out {} --force",
-                      command, command == "run" || command == "bem" ? "CASE" : "...", word)};
+          fmt::format("wait until it has ended; if it was stopped, start it again: {}", command_again(folder))};
 }
 
 }  // namespace
+
+std::string command_again(const fs::path& folder) {
+  const std::vector<std::string> words = command_line_of(folder);
+  if (words.size() < 2) return fmt::format("railstrata run CASE --out {} --force", shell_word(folder.string()));
+  std::string out = "railstrata";
+  for (std::size_t i = 1; i < words.size(); ++i) out += " " + shell_word(words[i]);
+  return std::find(words.begin(), words.end(), "--force") == words.end() ? out + " --force" : out;
+}
 
 Diagnostic no_result_here(const fs::path& folder) {
   const std::string name = folder.string(), word = shell_word(name);

@@ -69,8 +69,8 @@ RunResult roll(const RollingSystem& system, const RunObserver& observer, const R
   } catch (const Interrupted&) {
     if (!control.limit_reached()) throw;
     throw EnvironmentError(
-        "the static preload alone takes longer than --max-time allows: there is nothing to resume yet; give the run "
-        "more time");
+        "the static preload alone takes longer than --max-time allows: there is nothing to resume yet",
+        "give the run more time");
   }
 }
 

@@ -84,6 +84,13 @@ fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& 
   const fs::path home = folder_of_case(folder);
   fs::path out = home / kReferenceFolder;
   if (fs::exists(out / "summary.json") && same_text(home / "case.toml", out / "case.toml")) return out;
+  if (!fs::exists(home / "case.toml")) {
+    notes.push_back(
+        fmt::format("no half-space reference: {} has no case.toml; put back the one of the run, or leave "
+                    "the reference out with --no-reference",
+                    home.string()));
+    return {};
+  }
   try {
     solve_reference(home / "case.toml", out);
     return out;

@@ -1,6 +1,9 @@
 #include "case/case_file.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <utility>
 
 #include "case/option_table.hpp"
 #include "core/faults.hpp"
@@ -220,6 +223,12 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:2:24: drive.traction_coefficient = 0.5: must be below drive.friction_coefficient = 0.5\n    2 | "
        "traction_coefficient = 0.5\n      |                        ^\n    remedy: the wheel "
        "would slide: lower the traction or raise the friction"},
+      {"[drive]\ntraction_coefficient = -0.1\nfriction_coefficient = 0\n",
+       "a.toml:2:24: drive.traction_coefficient = -0.1: its magnitude must be below drive.friction_coefficient = 0\n   "
+       " "
+       "2 | traction_coefficient = -0.1\n      |                        ^\n    remedy: the wheel would slide: lower "
+       "the "
+       "traction or raise the friction"},
       {"[[layer]]\nthickness = \"1 mm\"\n",
        "a.toml:1:1: layer.0 has no modulus\n    1 | [[layer]]\n      | ^\n    remedy: add young = \"420 GPa\", or "
        "young_ratio = 2.0 for twice the body's"},
@@ -270,9 +279,10 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[layer]\nyoung_ratio = 2\n",
        "a.toml:1:2: layer must be a list of tables\n    1 | [layer]\n      |  ^\n    remedy: write [[layer]] with two "
        "brackets"},
-      {"[[layer]]\nyoung_ratio = 2\n[[layer]]\nyoung_ratio = 2\n",
-       "a.toml:3:1: layer.1.name = \"layer\": another layer of the rail has this name\n    3 | [[layer]]\n      | ^\n  "
-       "  remedy: give every layer a name of its own"},
+      {"[[layer]]\nyoung_ratio = 2\nname = \"a\"\n[[layer]]\nyoung_ratio = 2\nname = \"a\"\n",
+       "a.toml:6:8: layer.1.name = \"a\": another layer of the rail has this name\n    6 | name = \"a\"\n      |       "
+       " ^"
+       "\n    remedy: give every layer a name of its own"},
       {"[mesh]\nfine_width = \"2 mm\"\n",
        "a.toml:2:14: mesh.fine_width = 2 mm: must be at least 4 mm (four elements)\n    2 | fine_width = \"2 mm\"\n    "
        "  |              ^\n    remedy: make it larger, or mesh.element_size smaller"},
@@ -328,6 +338,36 @@ TEST(CaseFile, AllErrorsOfAFileComeAtOnceInItsOrder) {
   }
 }
 
+std::vector<std::string> layer_names(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  std::vector<std::string> out;
+  for (const LayerSpec& layer : parse_case(text, "a.toml", overrides).spec.layers) out.push_back(layer.name);
+  return out;
+}
+
+TEST(CaseFile, LayersWithoutANameGetOneEach) {
+  using Names = std::vector<std::string>;
+  const std::string plain = "[[layer]]\nyoung_ratio = 2\n", wheel = plain + "on = \"wheel\"\n";
+  EXPECT_EQ(layer_names(plain), Names{"layer"});
+  EXPECT_EQ(layer_names(plain + wheel), (Names{"layer", "layer"})) << "one of each body, as always";
+  EXPECT_EQ(layer_names(plain + plain), (Names{"layer 1", "layer 2"}));
+  EXPECT_EQ(layer_names(plain + wheel + plain), (Names{"layer 1", "layer", "layer 2"}));
+  EXPECT_EQ(layer_names(plain + plain + "name = \"layer 1\"\n" + plain), (Names{"layer 2", "layer 1", "layer 3"}));
+  EXPECT_EQ(layer_names(plain + "name = \"layer\"\n" + plain), (Names{"layer", "layer 1"}));
+  EXPECT_EQ(layer_names(plain + "name = \"top\"\n" + plain), (Names{"top", "layer"}));
+  EXPECT_EQ(layer_names(plain, {"layer.1.young_ratio=3"}), (Names{"layer 1", "layer 2"}));
+  const std::string resolved = parse_case(plain + plain, "a.toml").resolved_toml;
+  EXPECT_EQ(parse_case(resolved, "b.toml").resolved_toml, resolved);
+}
+
+TEST(CaseFile, ANameThatManyLayersHaveIsToldOnce) {
+  std::string text;
+  for (int i = 0; i < 10; ++i) text += "[[layer]]\nyoung_ratio = 2\nname = \"a\"\nthickness = \"1 mm\"\n";
+  const std::string error = error_of(text);
+  EXPECT_TRUE(error.starts_with("a.toml:7:8: layer.1.name = \"a\": 9 other layers of the rail have this name\n"))
+      << error;
+  EXPECT_EQ(error.find("layer.2"), std::string::npos) << error;
+}
+
 TEST(Overrides, AreReadLikeTheFileAndQuotesMayBeLeftOut) {
   const std::string text = "[[layer]]\nyoung_ratio = 2\n[run]\npositions = [\"0.3 m\"]\n";
   const CaseSpec spec = parse_case(text, "a.toml",
@@ -358,13 +398,53 @@ TEST(Overrides, FaultsAreLocatedAtTheCommandLine) {
   EXPECT_EQ(error_of("[[layer]]\nyoung_ratio=2\n", {"layer.2.thickness=1 mm"}),
             "--set layer.2.thickness=1 mm: layer has 1 entry, counted from 0; layer.1 adds one" + remedy);
   EXPECT_EQ(error_of("[mesh]\nelement_size=\"1 mm\"\n", {"mesh.element_size.x=1"}),
-            "--set mesh.element_size.x=1: element_size is not a table" + remedy);
+            "--set mesh.element_size.x=1: mesh.element_size is not a table" + remedy);
+  EXPECT_EQ(error_of("", {"mesh.element_size.x=1"}),
+            "--set mesh.element_size.x=1: mesh.element_size is not a table" + remedy);
+}
+
+TEST(Overrides, OfOneEntryOfAListAreAnsweredByTheWholeList) {
+  for (const char* text : {"", "[run]\npositions = [\"0.3 m\"]\n"})
+    EXPECT_EQ(
+        error_of(text, {"run.positions.0=0.3 m"}),
+        "--set run.positions.0=0.3 m: run.positions is one list, its values have no keys of their own\n    remedy: "
+        "give the whole list, e.g. --set run.positions='[\"0.1 m\", \"0.3 m\"]'");
+  EXPECT_EQ(error_of("", {"layer.0.young_table.0.1=3 GPa"}),
+            "--set layer.0.young_table.0.1=3 GPa: layer.0.young_table is one list, its values have no keys of their "
+            "own\n    remedy: give the whole list, e.g. --set layer.0.young_table='[[\"0 mm\", \"420 GPa\"], [\"3 "
+            "mm\", \"210 GPa\"]]'");
+}
+
+TEST(Overrides, OfATextAreItsWordsEvenIfTheyCouldBeANumber) {
+  EXPECT_EQ(parse_case("", "a.toml", {"case.title=2026"}).spec.title, "2026");
+  EXPECT_EQ(parse_case("", "a.toml", {"case.title=true"}).spec.title, "true");
+  EXPECT_EQ(parse_case("", "a.toml", {"case.title=\"60E1\""}).spec.title, "60E1");
+  EXPECT_EQ(parse_case("", "a.toml", {"case.title='60E1'"}).spec.title, "60E1");
+  EXPECT_EQ(parse_case("", "a.toml", {"layer.0.young_ratio=2", "layer.0.name=3"}).spec.layers[0].name, "3");
+  for (const auto& [name, meant] : {std::pair{"60E1", "UIC60"}, {"54E1", "UIC54"}, {"UIC60E1", "UIC60"}}) {
+    const std::string error = error_of("", {fmt::format("geometry.rail_profile={}", name)});
+    EXPECT_NE(error.find(fmt::format("geometry.rail_profile = \"{}\": neither a built-in profile nor a file", name)),
+              std::string::npos)
+        << error;
+    EXPECT_NE(error.find(fmt::format("did you mean \"{}\"?", meant)), std::string::npos) << error;
+  }
+  EXPECT_NE(error_of("", {"contact.method=3"}).find("contact.method = \"3\": must be one of"), std::string::npos);
 }
 
 TEST(CaseFile, SettingsWithoutEffectAreNoted) {
   const std::vector<std::string> notes = parse_case("[contact]\npenalty_scale = 0.2\n", "a.toml").notes;
   EXPECT_EQ(notes,
             std::vector<std::string>{"contact.penalty_scale has no effect: it needs contact.method = \"penalty\""});
+}
+
+TEST(CaseFile, AnEmptyFileIsNoted) {
+  for (const char* text : {"", "\n \t\r\n", "# [mesh]\n  # nothing\n"})
+    EXPECT_EQ(parse_case(text, "a.toml").notes,
+              std::vector<std::string>{"the case file a.toml is empty: the default case is computed"});
+  EXPECT_EQ(parse_case("", "a.toml", {"mesh.element_size=2 mm"}).notes,
+            std::vector<std::string>{
+                "the case file a.toml is empty: the default case is computed, but for what --set gives"});
+  EXPECT_TRUE(parse_case("[mesh]\n", "a.toml").notes.empty());
 }
 
 TEST(CaseFile, AMissingFileIsToldByName) {

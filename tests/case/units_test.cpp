@@ -117,6 +117,7 @@ TEST(Units, AModulusInMegapascalIsAnsweredWithGigapascal) {
   EXPECT_EQ(suggest_quantity("210 MPa", kPressure, within(1e9, 2000e9)), "210 GPa");
   EXPECT_EQ(suggest_quantity("430 m", kLength, within(0.1, 1.0)), "430 mm");
   EXPECT_EQ(suggest_quantity("-3 mm", kLength, within(0.1, 1.0)), "");
+  EXPECT_EQ(suggest_quantity("500 mm", kLength, within(-0.05, 0.05)), "") << "not 500 µm: a length was meant";
   EXPECT_EQ(suggest_quantity("0 km/h", kSpeed, within(0, 200)), "") << "zero has no other unit";
 }
 

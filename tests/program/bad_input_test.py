@@ -66,6 +66,26 @@ class InTheCase(Refusal):
         self.assertEqual(rc, 2, err)
         self.assertIn("this is not TOML: ", json.loads(out)["errors"][0]["message"])
 
+    def test_a_file_that_is_no_text(self):
+        (self.folder / "case.toml").write_bytes(b"\x7fELF\x02\x00\x1b[31m = ")
+        self.refused(2, ["check", self.folder / "case.toml"],
+                     f"error: {self.folder}/case.toml is not a text: line 1 has the byte 0x7F\n    remedy: was another ")
+
+    def test_no_control_character_reaches_the_terminal(self):
+        cases = {"case.toml": '[contact]\nmethod = "\\u001b[31m"\n', "b\x1b[2J.toml": '[mesh]\nlargest = "\x9b"\n',
+                 "c\x1b[2J.toml": ""}
+        seen = ""
+        for name, text in cases.items():
+            (self.folder / name).write_text(text, encoding="utf-8")
+            rc, out, err = railstrata("check", self.folder / name, "--threads", "1", "--set", "mesh.element_size=4 mm",
+                                      "--set", "mesh.fine_depth=12 mm", "--set", "case.title=t\x1b[2J")
+            self.assertEqual(rc, 0 if name.startswith("c\x1b") else 2, err)
+            seen += out + err
+        self.assertEqual([c for c in seen if ord(c) < 32 and c != "\n" or 0x7F <= ord(c) < 0xA0], [])
+        self.assertIn('contact.method = "\\x1b[31m"', seen)
+        self.assertIn("c\\x1b[2J.toml is empty", seen)
+        self.assertIn(": t\\x1b[2J\n", seen)
+
     def test_a_name_too_long(self):
         self.refused(2, ["check", "a" * 5000], "File name too long")
 
@@ -83,6 +103,12 @@ class InProfiles(Refusal):
                      'FOLDER/case.toml:2:16: error: geometry.rail_profile = "rail.csv": neither a built-in profile '
                      'nor a file (looked for FOLDER/rail.csv)',
                      "built in: CN60, UIC54, UIC60, flat, arc:R=300 mm")
+
+    def test_a_file_that_is_no_text(self):
+        (self.folder / "rail.csv").write_bytes(bytes(range(256)))
+        self.answers('[geometry]\nrail_profile = "rail.csv"\n',
+                     "FOLDER/rail.csv: error: this is not a text: line 1 has the byte 0x00",
+                     "give a table of y and z as a text, or a file of Simpack or MiniProf")
 
     def test_metres_under_a_heading_of_millimetres(self):
         self.profile([(1e-3 * y, 1e-3 * z) for y, z in CROWN],
@@ -143,9 +169,13 @@ class Folders(FromOutside):
         for words in commands:
             with self.subTest(words[0]):
                 self.refused(2, [*words, "--out", out], "is not empty", "--force")
-        self.refused(2, ["report", results, "--out", out / "case.toml"],
-                     f"error: --out {out}/case.toml: there is a file of this name\n    remedy: choose another name, "
+        self.refused(2, ["report", results, "--out", out / "report.html"],
+                     f"error: --out {out}/report.html: there is a file of this name\n    remedy: choose another name, "
                      f"or replace it with --force\n")
+        for name in ("case.toml", "summary.json", "patch.csv", "page"):
+            self.refused(2, ["report", results, "--out", out / name, "--force"],
+                         f"error: --out {out}/{name}: a page has a name that ends in .html\n    remedy: write for "
+                         f"example --out {(out / name).with_suffix('.html')}\n")
         self.assertEqual({f.name: f.read_text() for f in out.iterdir()}, {"case.toml": "mine", "report.html": "mine"})
         rc, _, err = railstrata("report", results, "--out", out / "report.html", "--force", "--no-reference")
         self.assertEqual(rc, 0, err)

@@ -87,7 +87,7 @@ class FullDisk(Faults):
         for name in reference:
             code, _, err = railstrata(*words, env=with_fault("write", f"/out/{name}", errno.ENOSPC))
             self.assertEqual(code, 4, f"{name}: {err}")
-            self.assertIn(f"error: cannot write {self.out}/{name}: {NO_ROOM}\n", err)
+            self.assertIn(f"error: cannot write {self.out}/{name}: {NO_ROOM}, then start it again with --force\n", err)
             self.assert_unfinished_and_sound()
         self.assertEqual(railstrata(*words)[0], rc)
         self.assert_same(reference)

@@ -185,7 +185,17 @@ class NoResults(FromOutside):
         for file in out.glob("checkpoint*"):
             file.unlink()
         self.refused_by_both(out, ": this folder was begun by `railstrata run` and has no results yet",
-                             "wait until it has ended; if it was stopped, start it again: railstrata run CASE --out")
+                             "wait until it has ended; if it was stopped, start it again: railstrata run ")
+
+    def test_a_result_without_its_case_says_what_is_missing(self):
+        out = self.folder / "run"
+        rc, _, err = railstrata("run", self.case(SMALL), "--threads", "1", "--no-report", "--out", out)
+        self.assertIn(rc, (0, 1), err)
+        (out / "case.toml").unlink()
+        rc, _, err = railstrata("report", out)
+        self.assertEqual(rc, 0, err)
+        self.assertIn(f"no half-space reference: {out} has no case.toml; put back the one of the run", err)
+        self.assertNotIn("shipped cases", err)
 
     def test_studies_sweeps_and_creep_curves_are_called_so(self):
         case = self.case(HALF_SPACE.format("arc:R=430 mm"))

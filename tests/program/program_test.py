@@ -36,12 +36,21 @@ class Program(FromOutside):
                                                             "did you mean --cell? options: --cell, --force, --help, ")
         self.refused(2, ["bem", "a.toml", "--cell", "1", "mm"], 'error: "mm" is one word too many for railstrata bem\n'
                                                                 '    remedy: put what has blanks into quotes')
+        self.refused(2, ["check", "a.toml", "--set", "case.title=a", "mesh.element_size=2 mm"],
+                     'error: "mesh.element_size=2 mm" is one word too many for railstrata check\n    remedy: write --set '
+                     "once for each key: --set 'mesh.element_size=2 mm'\n")
+        self.assertRegex(railstrata("check", "--help")[1], r"--set KEY=VALUE +Override")
         self.refused(2, ["--json"], "error: no command is given\n    remedy: commands: demo, check, mesh, run, ")
         self.refused(2, ["check"], "error: railstrata check: case is required (Case file, or a folder with "
                                    "case.toml)\n    remedy: what it takes: railstrata check --help\n")
         self.refused(2, ["check", "a.toml", "--threads", "many"], "error: railstrata check: ", "--threads", "remedy: ")
         errors = json.loads(self.refused(2, ["bem", "a.toml", "--cel", "1 mm", "--json"]))["errors"]
         self.assertEqual(errors[0]["message"], "railstrata bem has no option --cel")
+
+    def test_an_empty_out_is_refused(self):
+        for words in (["bem", "a"], ["study", "a"], ["report", "a"], ["compare", "a", "b"]):
+            for out in (["--out", ""], ["-o", ""], ["--out="]):
+                self.refused(2, [*words, *out], f"error: railstrata {words[0]}: --out", f"railstrata {words[0]} --help")
 
     def test_the_bare_program_shows_its_commands(self):
         rc, out, err = railstrata()
@@ -149,6 +158,23 @@ class Program(FromOutside):
         for case in cases:
             rc, _, err = railstrata("check", case, *COARSE)
             self.assertEqual(rc, 0, f"{case}: {err}")
+
+    def test_compare_names_the_folder_that_it_writes(self):
+        self.assertIn("(default: results/<folder A>-against-<folder B>)", re.sub(r"\s+", " ", railstrata(
+            "compare", "--help")[1]))
+
+    def test_the_readme_compares_folders_that_its_other_lines_have_written(self):
+        lines = re.findall(r"\./railstrata (run|bem|compare) ([^#\n]+)", (SOURCE / "README.md").read_text())
+        written = set()
+        for command, words in lines:
+            if command == "compare":
+                self.assertLessEqual(set(words.split()), written)
+                break
+            case = pathlib.PurePath(words.split()[0])
+            out = re.search(r"--out (\S+)", words)
+            written.add(out[1] if out else f"results/{case.stem}" + ("-bem" if command == "bem" else ""))
+        else:
+            self.fail("no comparison")
 
     def test_every_command_named_in_the_readme_exists(self):
         readme = (SOURCE / "README.md").read_text()

@@ -4,7 +4,9 @@
 KILLS: how many times the run is killed at a random moment (default 4)."""
 import pathlib
 import random
+import re
 import resource
+import shlex
 import signal
 import subprocess
 import sys
@@ -148,7 +150,12 @@ class Resume(FromOutside):
         self.assertIn("error: stopped during the static preload: there is nothing to resume yet\n", err)
         self.assertEqual(sorted(f.name for f in self.out.iterdir()),
                          ["case.original.toml", "case.toml", "provenance.json"])
-        self.refused(2, self.resume(), "there is nothing to resume in")
+        again = re.search(r"\n    remedy: start it again: railstrata (.+)\n$", err)[1]
+        self.refused(2, self.resume(), "there is nothing to resume in", f"remedy: start it again: railstrata {again}\n")
+        self.refused(2, ["report", self.out], f"start it again: railstrata {again}\n")
+        rc, _, err = railstrata(*shlex.split(again))
+        self.assertEqual(rc, self.rc, err)
+        self.same_as_whole()
 
     def test_a_full_disk_costs_a_checkpoint_and_not_the_run(self):
         def small_files():
@@ -178,6 +185,9 @@ class Resume(FromOutside):
         self.refused(2, self.resume("--set", "mesh.element_size=2 mm"),
                      "--resume goes on with the run of a folder as it was begun")
         self.refused(2, ["run", "--resume", self.folder / "no"], "there is no such folder")
+        (self.folder / "empty").mkdir()
+        self.refused(2, ["run", "--resume", self.folder / "empty"], f"error: {self.folder}/empty has no case.toml",
+                     "remedy: name the result folder of a run that was interrupted")
         self.refused(2, ["run"], "run: no case was named")
         self.refused(2, ["run", self.case(TWO), "--checkpoint-every", "5 mm"],
                      '--checkpoint-every "5 mm": "mm" is not the unit of a time')
