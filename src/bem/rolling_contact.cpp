@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bem/leading_edge.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -44,9 +45,11 @@ void add_displacement_by_pressure(const InfluenceOperator& influence, const Patc
 }
 
 TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
-                                  const RollingContact& contact, const Plane& pressure) {
-  TangentialProblem t{contact.kind, pressure,           contact.x,    contact.y,
-                      contact.spin, contact.extra_slip, contact.step, contact.before};
+                                  const RollingContact& contact, const NormalSolution& normal) {
+  const Plane& pressure = normal.pressure;
+  TangentialProblem t{contact.kind,       pressure,     contact.x,      contact.y, contact.spin,
+                      contact.extra_slip, contact.step, contact.before, {}};
+  if (contact.leading_edge == LeadingEdge::sub_cell) t.leading_weight = leading_weights(grid, normal);
   for (std::size_t i = 0; i < t.traction_bound.size(); ++i)
     t.traction_bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
   if (influence.couples()) add_displacement_by_pressure(influence, grid, pressure, t);
@@ -113,7 +116,7 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
       }
     }
     replace(s.tangential,
-            solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), further,
+            solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal), further,
                              first ? nullptr : &s.tangential));
     if (settled) return s;
     NormalSolution next = pressure(s.normal.pressure);
@@ -131,7 +134,7 @@ RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGri
   RollingSolution s;
   s.normal = solve_normal(influence, grid, contact.gap, contact.target, options.normal,
                           start ? start->normal.pressure : Plane{});
-  s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure),
+  s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal),
                                   options.tangential, start ? &start->tangential : nullptr);
   return s;
 }
