@@ -10,8 +10,17 @@
 // The slip in the first empty cell, over its step from the second, has the same law. So the slip of the first cell less
 // lambda times that of the empty cell ahead is the slip of the part of the step inside the patch, with
 //   lambda = s^1.5/((s + dx)^1.5 - s^1.5) = g_1/(g_2 - g_1)
-// g_1, g_2 the deformed gap in the first and second empty cell: it opens with s^1.5 as well [Johnson1985 sec. 5.1], and
-// carries the same errors of the cells, so that no edge has to be found. Layers change C, not the law.
+// g_1, g_2 the deformed gap in the first and second empty cell: it opens with s^1.5 as well and carries the same errors
+// of the cells, so that no edge has to be found. Layers change C, not the law.
+//
+// Layers and dissimilar bodies: pressure displaces the surfaces sideways, near a straight edge by u' = -beta A p along
+// its normal, where the gap opens by g' = A K sqrt(s) for p = K sqrt(distance). In stick, traction has to take that
+// back, and what does so slips ahead of the edge by -(beta/pi) ∫ g' ln s ds besides the part with s^1.5, which takes up
+// the unit of the logarithm. (Of z^1/2 ln z the jump across the cut z < 0 is 2 i t^1/2 ln t, the mean -pi t^1/2.) After
+// lambda of the second empty cell's slip,
+//   (2/3) (beta/pi) (1 + lambda) g_1 ln(g_2/g_1)
+// of it is left to the first cell, along the normal; to first order in beta, Dundurs' constant of what lies within a
+// cell of the surface: the ratio of the influences of pressure one cell away.
 #include "bem/normal_problem.hpp"
 
 namespace railstrata {
@@ -20,5 +29,10 @@ namespace railstrata {
 /// do not lie on the grid, or their gap does not open. Between 0 and 0.64: 0.55 for an edge at the centre of the first
 /// cell; what is more is the staircase's.
 Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal);
+
+/// The last term above [m]: what the step of each first cell slips ahead of the edge by pressure; weight from
+/// leading_weights. The normal is that of the gap's contours.
+PlanePair leading_slip_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid,
+                                   const NormalSolution& normal, const Plane& weight);
 
 }  // namespace railstrata

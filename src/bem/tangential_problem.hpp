@@ -12,7 +12,8 @@
 //   load that may come and go.
 // The leading edge lies somewhere between the first cell of a row and the empty cell ahead of it (leading_edge.hpp).
 // With weights lambda, the slip of a first cell counts less lambda times that of the empty cell ahead of it:
-//   s <- (s - lambda s_ahead)/(1 - lambda),     steady and transient rolling; divided so that a creepage stays what it is
+//   s <- (s - lambda s_ahead)/(1 - lambda),     steady and transient rolling; divided so that a creepage stays what it
+//   is
 // and the spin's lateral slip is its mean over the step, phi (x + dq/2), in stick. In slip the cell stands for itself,
 // not for the step ahead of it: (0, -phi dq/3) min(1, |s|/(3 |phi| dq)) is added to the slip that gives the direction.
 // Without weights (whole cells, the scheme of Kalker and CONTACT) it is phi (x + dq/6) everywhere.
@@ -43,8 +44,8 @@ struct TangentialProblem {
   Plane traction_bound;  ///< f p in each cell [Pa]; 0 outside the patch
   CreepOrForce x, y;
   double spin = 0;       ///< 1/m
-  PlanePair extra_slip;  ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies; mean over
-                         ///< the step
+  PlanePair extra_slip;  ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies; mean
+                         ///< over the step
   double step = 0;       ///< rolled distance dq [m]: transient only
   PlanePair before;      ///< m, history: rail minus wheel displacement of the state before; transient: at (x + dq, y);
                          ///< shift: at (x, y)
