@@ -17,13 +17,14 @@ HalfSpaceMaterial half_space(const MaterialSpec& m) { return {m.young, m.poisson
 struct Touches {
   bool x = false, y = false;
 };
-/// At which ends of the grid a cell of the outermost ring carries pressure.
+/// At which ends of the grid a cell of the outermost ring carries pressure; ahead one of the two outermost columns, for
+/// leading_weights looks at two.
 Touches touches(const PatchGrid& g, const Plane& pressure) {
   Touches out;
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {
       if (!(pressure[g.index(i, j)] > 0)) continue;
-      out.x |= i == 0 || i == g.nx - 1;
+      out.x |= i == 0 || i >= g.nx - 2;
       out.y |= j == 0 || j == g.ny - 1;
     }
   return out;
@@ -110,6 +111,7 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
   contact.gap = patch.profile.gap;
   contact.target.load = normal;
   contact.friction = spec.drive.friction_coefficient;
+  contact.leading_edge = spec.bem.leading_edge;
   contact.spin = -std::sin(placement.contact.angle) / placement.contact.rolling_radius;
   contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, contact.spin);
   return patch;

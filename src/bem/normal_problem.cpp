@@ -236,6 +236,8 @@ class ActiveSetSolver {
   NormalSolution solution() const {
     NormalSolution s;
     s.pressure = p_;
+    s.gap.resize(n_);
+    for_cells(n_, [&](std::size_t i) { s.gap[i] = active_[i] ? 0.0 : gap_[i] + displacement_[i] - approach_; });
     s.approach = approach_;
     s.load = sum(p_) * grid_.cell_area();
     s.iterations = iterations_;

@@ -26,6 +26,7 @@ struct NormalOptions {
 
 struct NormalSolution {
   Plane pressure;             ///< Pa
+  Plane gap;                  ///< m, deformed: gap + u_n - approach, 0 in the patch
   double approach = 0;        ///< m
   double load = 0;            ///< N
   int iterations = 0;         ///< products with the influence operator

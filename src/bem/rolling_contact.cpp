@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bem/leading_edge.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -43,13 +44,28 @@ void add_displacement_by_pressure(const InfluenceOperator& influence, const Patc
   }
 }
 
+/// Steps of one cell alone, and no shifts, have first cells that lambda fits.
+void cut_leading_cells(const InfluenceOperator& influence, const PatchGrid& grid, const NormalSolution& normal,
+                       TangentialProblem& t) {
+  if (t.kind == RollingKind::shift || (t.kind == RollingKind::transient && t.step != grid.dx)) return;
+  t.leading_weight = leading_weights(grid, normal);
+  if (!influence.couples()) return;
+  const PlanePair ahead = leading_slip_by_pressure(influence, grid, normal, t.leading_weight);
+  t.extra_slip.x.resize(grid.size(), 0.0);
+  t.extra_slip.y.resize(grid.size(), 0.0);
+  add_scaled(t.extra_slip.x, -1 / grid.dx, ahead.x);
+  add_scaled(t.extra_slip.y, -1 / grid.dx, ahead.y);
+}
+
 TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
-                                  const RollingContact& contact, const Plane& pressure) {
-  TangentialProblem t{contact.kind, pressure,           contact.x,    contact.y,
-                      contact.spin, contact.extra_slip, contact.step, contact.before};
+                                  const RollingContact& contact, const NormalSolution& normal) {
+  const Plane& pressure = normal.pressure;
+  TangentialProblem t{contact.kind,       pressure,     contact.x,      contact.y, contact.spin,
+                      contact.extra_slip, contact.step, contact.before, {}};
   for (std::size_t i = 0; i < t.traction_bound.size(); ++i)
     t.traction_bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
   if (influence.couples()) add_displacement_by_pressure(influence, grid, pressure, t);
+  if (contact.leading_edge == LeadingEdge::sub_cell) cut_leading_cells(influence, grid, normal, t);
   return t;
 }
 
@@ -112,9 +128,8 @@ RollingSolution solve_coupled(const InfluenceOperator& influence, const PatchGri
         further.partial = true;
       }
     }
-    replace(s.tangential,
-            solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure), further,
-                             first ? nullptr : &s.tangential));
+    replace(s.tangential, solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal),
+                                           further, first ? nullptr : &s.tangential));
     if (settled) return s;
     NormalSolution next = pressure(s.normal.pressure);
     change = std::max(kSharper * change, largest_change(next.pressure, s.normal.pressure));
@@ -131,7 +146,7 @@ RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGri
   RollingSolution s;
   s.normal = solve_normal(influence, grid, contact.gap, contact.target, options.normal,
                           start ? start->normal.pressure : Plane{});
-  s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal.pressure),
+  s.tangential = solve_tangential(influence, grid, tangential_part(influence, grid, contact, s.normal),
                                   options.tangential, start ? &start->tangential : nullptr);
   return s;
 }

@@ -8,6 +8,7 @@
 // change of the pressure. So the coupled problem costs little more Newton steps than the tangential problem alone.
 #include "bem/normal_problem.hpp"
 #include "bem/tangential_problem.hpp"
+#include "case/case_spec.hpp"
 
 namespace railstrata {
 
@@ -22,6 +23,7 @@ struct RollingContact {
   PlanePair extra_slip;  ///< further rigid slip, see TangentialProblem
   double step = 0;       ///< rolled distance [m]: transient only
   PlanePair before;      ///< history: displacement by pressure and traction of the state before, see TangentialProblem
+  LeadingEdge leading_edge = LeadingEdge::sub_cell;
 };
 
 struct RollingOptions {

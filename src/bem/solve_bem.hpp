@@ -19,7 +19,7 @@ namespace railstrata {
 
 /// Sums and extremes over the cells.
 struct PatchTotals {
-  double p_max = 0, q_max = 0;     ///< Pa
+  double p_max = 0, q_max = 0;     ///< Pa, of a cell
   double area = 0, slip_area = 0;  ///< m²
 };
 

@@ -56,6 +56,7 @@ class Solver {
     self_ = (influence.of_one_cell(0).xx - (steady() ? influence.of_one_cell(1).xx : 0.0)) / step_length();
     force_row_ = self_ / static_cast<double>(n_);  // a force residual weighs like a slip residual
     fill_fixed_slip();
+    find_leading_cells();
   }
 
   /// Newton steps until the slip conditions hold. The linear systems are solved roughly while cells change sets, and as
@@ -89,9 +90,11 @@ class Solver {
   }
 
   void fill_fixed_slip() {
-    // The spin's lateral slip is taken a sixth of a step ahead: between the cell and the middle of the step this
-    // cancels most of the leading edge's discretisation error.
-    const double ahead = problem_.kind == RollingKind::shift ? 0.0 : step_length() / 6;
+    // With whole cells a sixth of a step ahead: between the cell and the middle of the step this cancels most of the
+    // leading edge's discretisation error.
+    const bool rolls = problem_.kind != RollingKind::shift, whole_cells = problem_.leading_weight.empty();
+    const double ahead = !rolls ? 0.0 : step_length() / (whole_cells ? 6 : 2);
+    if (rolls && !whole_cells) to_own_place_ = -problem_.spin * step_length() / 3;
     for (int i = 0; i < grid_.nx; ++i)
       for (int j = 0; j < grid_.ny; ++j) {
         const std::size_t k = grid_.index(i, j);
@@ -101,6 +104,21 @@ class Solver {
         if (!problem_.before.x.empty()) history_[k] = problem_.before.x[k] / step_length();
         if (!problem_.before.y.empty()) history_[n_ + k] = problem_.before.y[k] / step_length();
       }
+  }
+
+  /// The fixed parts of the slip in the first cells of the rows, and where these are.
+  void find_leading_cells() {
+    if (problem_.leading_weight.empty() || problem_.kind == RollingKind::shift) return;
+    first_step_.assign(n_, step_length());
+    for (std::size_t k = 0; k + ahead_ < n_; ++k) {
+      const double lambda = problem_.leading_weight[k];
+      if (!(lambda > 0 && problem_.traction_bound[k] > 0)) continue;
+      const double weight = lambda / (1 - lambda);
+      leading_.push_back({k, weight});
+      first_step_[k] *= 1 - lambda;
+      for (Plane* fixed : {&rigid_, &history_})
+        for (const std::size_t c : {k, n_ + k}) (*fixed)[c] += weight * ((*fixed)[c] - (*fixed)[c + ahead_]);
+    }
   }
 
   void check_forces() {
@@ -159,6 +177,19 @@ class Solver {
   void elastic_displacement(const double* in) {
     A_.tangential(in, in + n_, u_.data(), u_.data() + n_ + ahead_, steady() ? grid_.nx + 1 : grid_.nx);
     ++iterations_;
+    extrapolate_at_leading_cells();
+  }
+
+  /// L + lambda/(1 - lambda) (L - L ahead) in the first cells: written into the displacement that L takes from the
+  /// empty cell ahead (steady), or into the cell's own. No other cell reads them.
+  void extrapolate_at_leading_cells() {
+    for (const LeadingCell& first : leading_)
+      for (double* u : {u_.data() + first.index, u_.data() + n_ + ahead_ + first.index}) {
+        if (steady())
+          u[ahead_] -= first.weight * (u[0] - 2 * u[ahead_] + u[2 * ahead_]);
+        else
+          u[0] += first.weight * (u[0] - u[ahead_]);
+      }
   }
 
   void update_slip() {
@@ -198,6 +229,14 @@ class Solver {
            ordered_sum_of(n_, [&](std::size_t i) { return q[i]; });
   }
 
+  /// Lateral slip of a slipping cell at its own place: slip_ has the spin's mean over the step ahead. A small slip is
+  /// changed by a ninth of itself at most, so that Newton's method, which does not see the change, still contracts.
+  double lateral_slip(std::size_t i) const {
+    const double y = slip_[n_ + i];
+    if (to_own_place_ == 0 || set_[i] != kSlip) return y;
+    return y + to_own_place_ * std::min(1.0, length(slip_[i], y) / (9 * std::abs(to_own_place_)));
+  }
+
   /// Unit traction direction and the stabilising diagonal (s·n)/g of slipping cells.
   void prepare_slip_cells() {
     for_both([&](std::size_t i) {
@@ -205,7 +244,7 @@ class Solver {
       const double g = problem_.traction_bound[i];
       normal_[i] = q_[i] / g;
       normal_[n_ + i] = q_[n_ + i] / g;
-      diagonal_[i] = std::max(0.0, slip_[i] * normal_[i] + slip_[n_ + i] * normal_[n_ + i]) / g;
+      diagonal_[i] = std::max(0.0, slip_[i] * normal_[i] + lateral_slip(i) * normal_[n_ + i]) / g;
     });
   }
 
@@ -228,7 +267,7 @@ class Solver {
     right_side_.resize(2 * n_ + m);
     for_both([&](std::size_t i) {
       right_side_[i] = slip_[i];
-      right_side_[n_ + i] = slip_[n_ + i];
+      right_side_[n_ + i] = lateral_slip(i);
       project(i, right_side_[i], right_side_[n_ + i]);
     });
     for (std::size_t c = 0; c < m; ++c) right_side_[2 * n_ + c] = force_row_ * missing_force(directions_[c]);
@@ -274,6 +313,8 @@ class Solver {
     });
   }
 
+  double first_step(std::size_t k) const { return first_step_.empty() ? step_length() : first_step_[k]; }
+
   /// u(x) from u(x) - u(x + dx) = dx r along each run of sticking cells, zero ahead of it and elsewhere.
   void integrate_from_leading_edge(const double* r) {
     constexpr int strip = 32;  // columns
@@ -283,7 +324,7 @@ class Solver {
           const std::size_t k = grid_.index(i, j);
           const bool sticks = set_[k] == kStick, continues = sticks && i + 1 < grid_.nx && set_[k + ahead_] == kStick;
           for (std::size_t c : {k, n_ + k})
-            integral_[c] = sticks ? grid_.dx * r[c] + (continues ? integral_[c + ahead_] : 0.0) : 0.0;
+            integral_[c] = !sticks ? 0.0 : continues ? grid_.dx * r[c] + integral_[c + ahead_] : first_step(k) * r[c];
         }
     });
   }
@@ -371,7 +412,7 @@ class Solver {
             if (set_[i] == kOutside) continue;
             const double x = rigid_[i] + creepage_[0], y = rigid_[n_ + i] + creepage_[1],
                          g = problem_.traction_bound[i];
-            const double across = (slip_[i] * q_[n_ + i] - slip_[n_ + i] * q_[i]) / g;
+            const double across = (slip_[i] * q_[n_ + i] - lateral_slip(i) * q_[i]) / g;
             part[k].rigid = std::max({part[k].rigid, x * x + y * y,
                                       1e-4 * (history_[i] * history_[i] + history_[n_ + i] * history_[n_ + i])});
             part[k].wrong =
@@ -407,7 +448,7 @@ class Solver {
         (set_[k] == kStick ? s.stick_area : s.slip_area) += dA;
         if (set_[k] == kSlip) {
           s.slip_x[k] = slip_[k];
-          s.slip_y[k] = slip_[n_ + k];
+          s.slip_y[k] = lateral_slip(k);
         }
         s.dissipation += (q_[k] * s.slip_x[k] + q_[n_ + k] * s.slip_y[k]) * dA;
         s.moment += (grid_.x(i) * q_[n_ + k] - grid_.y(j) * q_[k]) * dA;
@@ -419,6 +460,11 @@ class Solver {
     return s;
   }
 
+  struct LeadingCell {
+    std::size_t index;
+    double weight;  // lambda/(1 - lambda)
+  };
+
   const InfluenceOperator& A_;
   const PatchGrid& grid_;
   const TangentialProblem& problem_;
@@ -428,6 +474,9 @@ class Solver {
   Plane rigid_, history_;    // fixed parts of the slip
   Plane normal_, diagonal_;  // of slipping cells: unit traction; (s.n)/g
   Plane step_, right_side_, integral_;
+  std::vector<LeadingCell> leading_;
+  Plane first_step_;         // of the first cells (1 - lambda) times the step; empty: the step everywhere
+  double to_own_place_ = 0;  // -phi dq/3
   Mask set_;
   Plane u_;
   double inverse_step_;

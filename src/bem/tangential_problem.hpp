@@ -10,6 +10,13 @@
 //   transient rolling  L q = u(x)/dq, history = u_before(x + dq)/dq, one step of rolled distance dq
 //   shift              L q = u(x), history = u_before(x), s and w are distances [m], no rolling: one increment of a
 //   load that may come and go.
+// The leading edge lies somewhere between the first cell of a row and the empty cell ahead of it (leading_edge.hpp).
+// With weights lambda, the slip of a first cell counts less lambda times that of the empty cell ahead of it:
+//   s <- (s - lambda s_ahead)/(1 - lambda),     steady and transient rolling; divided so that a creepage stays what it
+//   is
+// and the spin's lateral slip is its mean over the step, phi (x + dq/2), in stick. In slip the cell stands for itself,
+// not for the step ahead of it: (0, -phi dq/3) min(1, |s|/(3 |phi| dq)) is added to the slip that gives the direction.
+// Without weights (whole cells, the scheme of Kalker and CONTACT) it is phi (x + dq/6) everywhere.
 // Solved by an active-set Newton method: unknown are both components in stick and the direction in slip; each linear
 // system by GMRES with FFT products. L has a positive semi-definite symmetric part, and slip along the traction adds a
 // positive diagonal, so every linear system is solvable.
@@ -37,10 +44,13 @@ struct TangentialProblem {
   Plane traction_bound;  ///< f p in each cell [Pa]; 0 outside the patch
   CreepOrForce x, y;
   double spin = 0;       ///< 1/m
-  PlanePair extra_slip;  ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies
+  PlanePair extra_slip;  ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies; mean
+                         ///< over the step
   double step = 0;       ///< rolled distance dq [m]: transient only
   PlanePair before;      ///< m, history: rail minus wheel displacement of the state before; transient: at (x + dq, y);
                          ///< shift: at (x, y)
+  Plane leading_weight;  ///< lambda in each cell (leading_weights), 0 but in the first cells of the rows; empty: whole
+                         ///< cells
 };
 
 struct TangentialOptions {
@@ -52,7 +62,7 @@ struct TangentialOptions {
 
 struct TangentialSolution {
   Plane q_x, q_y;        ///< Pa, on the rail
-  Plane slip_x, slip_y;  ///< relative to V (shift: m)
+  Plane slip_x, slip_y;  ///< relative to V (shift: m), of the slipping cells, along their traction
   std::vector<ContactState> state;
   double creepage_x = 0, creepage_y = 0;
   double force_x = 0, force_y = 0;       ///< N, on the rail

@@ -25,6 +25,12 @@ enum class TimeStepMethod { automatic, uniform, mass_scaling, local };
 /// Of the element arithmetic while rolling; nodal values and the static preload stay double.
 enum class ArithmeticPrecision { double_precision, single_precision };
 
+/// Where the half-space engine takes the leading edge of the patch (bem/leading_edge.hpp).
+enum class LeadingEdge {
+  sub_cell,   ///< inside a cell, told by the gap ahead of it
+  whole_cell  ///< between two cells, as Kalker and CONTACT do
+};
+
 struct GeometrySpec {
   std::string rail_profile = "CN60";  ///< a built-in name or a file
   std::string wheel_profile = "LMA";
@@ -108,6 +114,10 @@ struct RunSpec {
   bool rolling = true;               ///< false: stop after the static preload
 };
 
+struct BemSpec {
+  LeadingEdge leading_edge = LeadingEdge::sub_cell;
+};
+
 struct OutputSpec {
   bool volume = true;        ///< VTU of the fine zone
   bool patch_series = true;  ///< VTP series of the patch during the rolling, PVD
@@ -124,6 +134,7 @@ struct CaseSpec {
   MeshSpec mesh;
   ContactSpec contact;
   RunSpec run;
+  BemSpec bem;
   OutputSpec output;
 };
 

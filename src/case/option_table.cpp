@@ -337,6 +337,16 @@ OptionTable run_table() {
        {"rolling", at<&C::run, &R::rolling>, "false stops after the static preload"}}};
 }
 
+OptionTable bem_table() {
+  return {"bem",
+          "The half-space engine",
+          {choice_at<&C::bem, &BemSpec::leading_edge>(
+              "leading_edge",
+              "Where rows of cells meet the leading edge of the patch: inside a cell, as the gap tells, or between two "
+              "cells, as Kalker's method and CONTACT have it",
+              {{"sub_cell", LeadingEdge::sub_cell}, {"whole_cell", LeadingEdge::whole_cell}})}};
+}
+
 OptionTable output_table() {
   return {"output",
           "Files",
@@ -374,6 +384,7 @@ const std::vector<OptionTable>& case_tables() {
       mesh_table(),
       contact_table(),
       run_table(),
+      bem_table(),
       output_table()};
   return tables;
 }

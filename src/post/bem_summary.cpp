@@ -81,6 +81,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   ContactSummary& c = s.contact;
   const PatchMeasures measured = measure_patch(r.field);
   c.patch = measured;
+  c.patch.q_max = shear_at_front_of_slip(r.field);
   c.F_x = 0.0 - r.force.x;
   c.F_y = 0.0 - r.force.y;
   c.F_z = 0.0 - r.force.z;

@@ -119,6 +119,23 @@ PatchMeasures measure_patch(const ContactField& f) {
   return m;
 }
 
+double shear_at_front_of_slip(const ContactField& f) {
+  const auto q = [&](int i) { return std::hypot(f.q_x[i], f.q_y[i]); };
+  double largest = 0;
+  for (int i = 0; i < f.size(); ++i) {
+    largest = std::max(largest, q(i));
+    const int behind = i - f.columns, ahead = i + f.columns;
+    if (behind < 0 || ahead >= f.size() || !(f.p[behind] > 0) || f.state[behind] != ContactState::slip ||
+        f.state[i] != ContactState::stick || f.state[ahead] != ContactState::stick)
+      continue;
+    const double friction = q(behind) / f.p[behind], margin = friction * f.p[i] - q(i),
+                 margin_ahead = friction * f.p[ahead] - q(ahead), rise = margin_ahead * margin_ahead - margin * margin;
+    const double back = rise > 0 ? std::min(margin * margin / rise, 1.0) : 1.0;  // of the front, in points
+    largest = std::max(largest, friction * ((1 - back) * f.p[i] + back * f.p[behind]));
+  }
+  return largest;
+}
+
 CentreLine centre_line(const ContactField& f) {
   CentreLine line;
   if (f.size() == 0) return line;

@@ -47,10 +47,18 @@ std::vector<ResultNumber> traction_numbers() {
            .value = patch<&P::q_max>,
            .label = "q_max",
            .name = "Largest shear |q|",
-           .doc = "Largest magnitude of the tangential traction at a point",
+           .doc = "Largest magnitude of the tangential traction; half-spaces: at the front of slip, else at a point",
            .column = true,
            .shown = true,
-           .comparable = true}};
+           .comparable = true},
+          {.group = "contact",
+           .symbol = "q_max_point",
+           .unit = kMPa,
+           .value = patch<&P::q_max_point>,
+           .label = "q_max of a point",
+           .name = "Largest shear |q| of a point",
+           .doc = "Misses the cusp at the front of slip: to be compared between elements and cells of one size",
+           .column = true}};
 }
 
 std::vector<ResultNumber> extent_numbers() {

@@ -53,12 +53,14 @@ fs::path folder_of_case(const fs::path& folder) {
   return full.filename().string().starts_with(kPositionFolder) ? full.parent_path() : full;
 }
 
-/// The largest shear of half-spaces on cells as large as the elements [Pa]; NaN where there is no such solution.
+/// The largest shear of half-spaces on cells as large as the elements [Pa], whose leading edge lies between cells as
+/// that of the elements lies between nodes; NaN where there is no such solution.
 double shear_on_elements(const fs::path& case_file) {
   constexpr double kFinest = 0.1e-3;  // m: below, the peak hardly changes any more, and a solution takes seconds
   try {
     const LoadedCase loaded = load_case(case_file);
-    const CaseSpec spec = half_space_case(loaded.spec);
+    CaseSpec spec = half_space_case(loaded.spec);
+    spec.bem.leading_edge = LeadingEdge::whole_cell;
     BemOptions bem;
     bem.cell = std::max(loaded.spec.mesh.element_size, kFinest);
     return solve_bem(spec, place(spec, loaded.folder()), bem).patch.q_max;

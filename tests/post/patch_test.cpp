@@ -54,6 +54,35 @@ TEST(Patch, MeasuresConvergeWithTheSpacing) {
   EXPECT_NEAR(fine.length / (2 * kA), 1, 4e-3);
 }
 
+// Carter's traction: f p in slip, f p less a Hertzian part over the stick in front of it. [Johnson1985 sec. 8.3]
+TEST(Patch, ShearAtTheFrontOfSlipIsFoundBetweenThePointsWhateverTheirPlace) {
+  const double f = 0.4, front = -1.3e-3, middle = 0.5 * (kA + front), half = 0.5 * (kA - front);
+  const double exact = f * kPeak * std::sqrt(1 - std::pow(front / kA, 2));
+  double worst_point = 0;
+  for (const double place : {0.0, 0.1, 0.3, 0.5, 0.7, 0.9}) {
+    ContactField field = hertz_field(0.5e-3, 0, 0);
+    for (double& x : field.x) x += 0.5e-3 * place;
+    for (int i = 0; i < field.size(); ++i) {
+      const double x = field.x[i], y = field.y[i], p2 = 1 - std::pow(x / kA, 2),
+                   s2 = 1 - std::pow((x - middle) / half, 2);
+      const bool touches = p2 > 0 && std::abs(y) < 0.1e-3, sticks = touches && s2 > 0;
+      field.p[i] = touches ? kPeak * std::sqrt(p2) : 0;
+      field.q_x[i] = -f * (field.p[i] - (sticks ? kPeak * half / kA * std::sqrt(s2) : 0.0));
+      field.state[i] = sticks ? ContactState::stick : touches ? ContactState::slip : ContactState::separated;
+    }
+    EXPECT_NEAR(shear_at_front_of_slip(field) / exact, 1, 5e-3) << place;
+    worst_point = std::max(worst_point, std::abs(measure_patch(field).q_max_point / exact - 1));
+  }
+  EXPECT_GT(worst_point, 0.03);
+}
+
+TEST(Patch, WithoutAFrontOfSlipTheLargestShearIsThatOfAPoint) {
+  ContactField field = hertz_field(0.5e-3, 0, 0);
+  for (ContactState& s : field.state)
+    if (s == ContactState::stick) s = ContactState::slip;
+  EXPECT_EQ(shear_at_front_of_slip(field), measure_patch(field).q_max_point);
+}
+
 TEST(Patch, ForcesAreSumsOverTheFieldAndTheWheelGetsTheReaction) {
   const PatchMeasures m = measure_patch(hertz_field(0.5e-3, 0, 0));
   EXPECT_NEAR(m.force_z / (2.0 / 3.0 * std::numbers::pi * kA * kB * kPeak), 1, 5e-3);

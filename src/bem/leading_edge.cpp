@@ -1,0 +1,44 @@
+#include "bem/leading_edge.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace railstrata {
+
+Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal) {
+  constexpr double kLargest = 0.64;
+  Plane weight(grid.size(), 0.0);
+  for (int i = 0; i + 2 < grid.nx; ++i)
+    for (int j = 0; j < grid.ny; ++j) {
+      const std::size_t first = grid.index(i, j), ahead = grid.index(i + 1, j), next = grid.index(i + 2, j);
+      if (!(normal.pressure[first] > 0) || normal.pressure[ahead] > 0 || normal.pressure[next] > 0) continue;
+      const double gap = std::max(0.0, normal.gap[ahead]), opening = normal.gap[next] - gap;
+      if (opening > gap) weight[first] = std::min(gap / opening, kLargest);
+    }
+  return weight;
+}
+
+PlanePair leading_slip_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid,
+                                   const NormalSolution& normal, const Plane& weight) {
+  const double beta = influence.of_one_cell(1).nx / influence.of_one_cell(1).nn;
+  const auto gap = [&](int i, int j) { return std::max(0.0, normal.gap[grid.index(i, j)]); };
+  PlanePair slip{Plane(grid.size(), 0.0), Plane(grid.size(), 0.0)};
+  for (int i = 0; i + 2 < grid.nx; ++i)
+    for (int j = 0; j < grid.ny; ++j) {
+      const std::size_t first = grid.index(i, j);
+      if (!(weight[first] > 0)) continue;
+      const double next = gap(i + 1, j), beyond = gap(i + 2, j);
+      const double left = 2 * beta / (3 * std::numbers::pi) * (1 + weight[first]) * next * std::log(beyond / next);
+      const int low = std::max(j - 1, 0), high = std::min(j + 1, grid.ny - 1);
+      const double slope_x = (beyond - next) / grid.dx,
+                   slope_y = 0.5 * (gap(i + 1, high) - gap(i + 1, low) + gap(i + 2, high) - gap(i + 2, low)) /
+                             ((high - low) * grid.dy);
+      const double slope = std::hypot(slope_x, slope_y);
+      slip.x[first] = left * slope_x / slope;
+      slip.y[first] = left * slope_y / slope;
+    }
+  return slip;
+}
+
+}  // namespace railstrata
