@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "case/engine_scope.hpp"
 #include "case/option_table.hpp"
 #include "core/faults.hpp"
 
@@ -573,6 +574,8 @@ TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
   EXPECT_EQ(loaded.not_in_fem[2].where, "a.toml:3:2") << "the table of the force";
   EXPECT_EQ(loaded.not_in_fem[0].remedy, "take it out, or solve the case with `railstrata bem`");
   EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.01\n[run]\nrolling = false\n", "a.toml").not_in_fem.empty());
+  EXPECT_THROW(require_finite_elements(loaded.spec), CaseError);
+  EXPECT_NO_THROW(require_finite_elements(CaseSpec()));
 }
 
 TEST(CaseFile, WhatNoCaseHasIsAnsweredByWhatToDoInstead) {
