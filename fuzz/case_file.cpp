@@ -22,6 +22,7 @@ struct InBounds {
   bool operator()(const ChoiceSlot& v) const {
     return std::any_of(option.choices.begin(), option.choices.end(), [&](const Choice& c) { return c.value == *v; });
   }
+  bool operator()(const std::optional<double>* v) const { return !*v || option.range.holds(**v); }
   bool operator()(const std::vector<double>* v) const {
     return !v->empty() && std::all_of(v->begin(), v->end(), [&](double x) { return option.range.holds(x); });
   }
@@ -37,7 +38,7 @@ void each_option(CaseSpec& spec, Visit&& visit) {
   for (const OptionTable& table : case_tables())
     for (std::size_t i = 0; i < (table.repeated ? spec.layers.size() : 1); ++i)
       for (const Option& option : table.options)
-        if (!option.multiple_of && (!option.applies || option.applies(spec, i))) visit(option, i);
+        if (!option.derivation && (!option.applies || option.applies(spec, i))) visit(option, i);
 }
 
 void check(LoadedCase& loaded) {

@@ -16,6 +16,10 @@ LoadedCase load_case_of(const CommandOptions& options) {
   return loaded;
 }
 
+void require_finite_elements(const LoadedCase& loaded) {
+  if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
+}
+
 std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,
                                        const std::string& suffix) {
   if (!options.out.empty()) return options.out;

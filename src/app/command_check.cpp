@@ -16,19 +16,22 @@
 namespace railstrata {
 namespace {
 
-void print_geometry(const Model& m) {
-  const RigidContact& c = m.placement.contact;
-  fmt::print("profiles       {} on {}\n", m.placement.wheel.name(), m.placement.rail.name());
+void print_geometry(const CaseSpec& spec, const Placement& placement) {
+  const RigidContact& c = placement.contact;
+  const HertzContact hertz = hertz_estimate(spec, c);
+  fmt::print("profiles       {} on {}\n", placement.wheel.name(), placement.rail.name());
   fmt::print("contact point  y = {:.3f} mm, z = {:.3f} mm; on the wheel at y = {:.3f} mm\n", 1e3 * c.point.y,
              1e3 * c.point.z, 1e3 * (c.point.y - c.wheel_offset_y));
   fmt::print("contact angle  {:.2f} mrad; rolling radius {:.3f} mm\n", 1e3 * c.angle, 1e3 * c.rolling_radius);
-  fmt::print("static load    {:.3f} kN\n", 1e-3 * m.load);
-  fmt::print("Hertz estimate a = {:.2f} mm, b = {:.2f} mm, p0 = {:.0f} MPa (local curvatures only)\n", 1e3 * m.hertz.a,
-             1e3 * m.hertz.b, 1e-6 * m.hertz.p0);
+  if (c.yaw != 0)
+    fmt::print("yaw            {:.3f} mrad; the contact lies {:.3f} mm before the axle\n", 1e3 * c.yaw, 1e3 * c.x);
+  fmt::print("static load    {:.3f} kN\n", 1e-3 * static_load(spec));
+  fmt::print("Hertz estimate a = {:.2f} mm, b = {:.2f} mm, p0 = {:.0f} MPa (local curvatures only)\n", 1e3 * hertz.a,
+             1e3 * hertz.b, 1e-6 * hertz.p0);
 }
 
-void print_layers(const Model& m) {
-  for (const LayerSpec& l : m.spec.layers) {
+void print_layers(const CaseSpec& spec) {
+  for (const LayerSpec& l : spec.layers) {
     const std::string young = l.graded() ? fmt::format("{:.4g} to {:.4g}", 1e-9 * l.young_table.front().young,
                                                        1e-9 * l.young_table.back().young)
                                          : fmt::format("{:.4g}", 1e-9 * l.material.young);
@@ -69,37 +72,65 @@ nlohmann::ordered_json as_json(const std::vector<Warning>& warnings) {
   return out;
 }
 
-nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
-  const RigidContact& c = m.placement.contact;
-  return {{"title", m.spec.title},
+nlohmann::ordered_json as_json(const CaseSpec& spec, const Placement& placement) {
+  const RigidContact& c = placement.contact;
+  const HertzContact hertz = hertz_estimate(spec, c);
+  return {{"title", spec.title},
           {"contact",
-           {{"y_m", c.point.y},
+           {{"x_m", c.x},
+            {"y_m", c.point.y},
             {"z_m", c.point.z},
             {"wheel_y_m", c.point.y - c.wheel_offset_y},
             {"angle_rad", c.angle},
+            {"yaw_rad", c.yaw},
             {"rolling_radius_m", c.rolling_radius}}},
-          {"load_N", m.load},
-          {"hertz", {{"a_m", m.hertz.a}, {"b_m", m.hertz.b}, {"p0_Pa", m.hertz.p0}}},
-          {"elements", m.rail.elements() + m.wheel.elements()},
-          {"nodes", m.rail.nodes() + m.wheel.nodes()},
-          {"stable_step_s", e.limits.lanczos},
-          {"unscaled_step_s", e.limits.unscaled},
-          {"added_mass_kg", e.limits.added_mass},
-          {"local_stages", e.limits.stages},
-          {"fine_elements", e.limits.fine_elements},
-          {"element_step_bound_s", e.limits.element},
-          {"limited_by", e.limits.where},
-          {"step_s", e.limits.chosen},
-          {"steps", e.steps},
-          {"rolling_wall_s", e.seconds},
-          {"memory_bytes", e.memory_bytes},
-          {"warnings", as_json(warnings_of(m, e))}};
+          {"load_N", static_load(spec)},
+          {"hertz", {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}}}};
+}
+
+nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
+  nlohmann::ordered_json out = as_json(m.spec, m.placement);
+  out.update({{"elements", m.rail.elements() + m.wheel.elements()},
+              {"nodes", m.rail.nodes() + m.wheel.nodes()},
+              {"stable_step_s", e.limits.lanczos},
+              {"unscaled_step_s", e.limits.unscaled},
+              {"added_mass_kg", e.limits.added_mass},
+              {"local_stages", e.limits.stages},
+              {"fine_elements", e.limits.fine_elements},
+              {"element_step_bound_s", e.limits.element},
+              {"limited_by", e.limits.where},
+              {"step_s", e.limits.chosen},
+              {"steps", e.steps},
+              {"rolling_wall_s", e.seconds},
+              {"memory_bytes", e.memory_bytes},
+              {"warnings", as_json(warnings_of(m, e))}});
+  return out;
+}
+
+/// Of a case for the half-space engine alone: where the bodies touch, and why `run` refuses it.
+ExitCode check_without_mesh(const LoadedCase& loaded, bool json) {
+  const Placement placement = place(loaded.spec, loaded.folder());
+  for (const std::string& note : placement.notes) spdlog::info("{}", note);
+  if (json) {
+    nlohmann::ordered_json out = as_json(loaded.spec, placement);
+    out["not_in_fem"] = nlohmann::ordered_json::array();
+    for (const Diagnostic& d : loaded.not_in_fem) out["not_in_fem"].push_back(d.message);
+    fmt::print("{}\n", out.dump(2));
+    return ExitCode::ok;
+  }
+  fmt::print("{}: {}\n\n", loaded.file.string(), loaded.spec.title);
+  print_geometry(loaded.spec, placement);
+  print_layers(loaded.spec);
+  fmt::print("\nfor `railstrata bem` alone; `run` refuses it:\n");
+  for (const Diagnostic& d : loaded.not_in_fem) fmt::print("{}: {}\n", d.where, d.message);
+  return ExitCode::ok;
 }
 
 }  // namespace
 
 ExitCode command_check(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
+  if (!loaded.not_in_fem.empty()) return check_without_mesh(loaded, options.json);
   const Model model = build_model(loaded.spec, loaded.folder());
   for (const std::string& note : model.placement.notes) spdlog::info("{}", note);
   require_memory(model);
@@ -109,8 +140,8 @@ ExitCode command_check(const CommandOptions& options) {
     return ExitCode::ok;
   }
   fmt::print("{}\n\n", printable(fmt::format("{}: {}", loaded.file.string(), loaded.spec.title)));
-  print_geometry(model);
-  print_layers(model);
+  print_geometry(loaded.spec, model.placement);
+  print_layers(loaded.spec);
   print_estimate(model, estimate);
   for (const Warning& w : warnings_of(model, estimate)) fmt::print("warning        {}: {}\n", w.name, w.text);
   fmt::print("\n{}", mesh_table(mesh_rows(model)));

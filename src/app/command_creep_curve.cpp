@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 
@@ -20,13 +23,39 @@ namespace {
 
 constexpr double kDecades = 2.5;
 
-// Creepages of a driving wheel: negative.
-std::vector<double> creepages(const CommandOptions& options) {
-  std::vector<double> out;
-  for (int i = 0; i < options.creep_curve.points; ++i)
-    out.push_back(-options.creep_curve.largest *
-                  std::pow(10.0, -kDecades * (options.creep_curve.points - 1 - i) / (options.creep_curve.points - 1)));
+/// What a curve varies. `side`: of a curve to one side, driving.
+struct Curve {
+  std::string_view word;
+  VariedCreepage varied;
+  const char *column, *force;
+  double side, largest, bound;
+};
+constexpr Curve kCurves[] = {
+    {"creepage", VariedCreepage::longitudinal, "creepage", "F_x", -1, 0.02, 0.5},
+    {"lateral_creepage", VariedCreepage::lateral, "lateral_creepage", "lateral force", 1, 0.02, 0.5},
+    {"spin", VariedCreepage::spin, "spin_per_m", "lateral force", 1, 5, 1000}};
+
+Curve curve_of(const CreepCurveOptions& options) {
+  Curve out =
+      *std::find_if(std::begin(kCurves), std::end(kCurves), [&](const Curve& c) { return c.word == options.of; });
+  if (options.largest > out.bound)
+    throw CaseError(fmt::format("--largest {:g} is out of range", options.largest),
+                    fmt::format("write at most {:g} for --of {}", out.bound, out.word));
+  if (options.largest > 0) out.largest = options.largest;
   return out;
+}
+
+std::vector<double> creepages(const Curve& curve, const CreepCurveOptions& options) {
+  std::vector<double> out;
+  for (int i = 0; i < options.points; ++i)
+    out.push_back(curve.side * curve.largest *
+                  std::pow(10.0, -kDecades * (options.points - 1 - i) / (options.points - 1)));
+  if (!options.both_sides) return out;
+  std::vector<double> whole;
+  for (auto c = out.rbegin(); c != out.rend(); ++c) whole.push_back(-std::abs(*c));
+  whole.push_back(0);
+  for (const double c : out) whole.push_back(std::abs(c));
+  return whole;
 }
 
 // Forces on the wheel, a driving one's positive.
@@ -34,16 +63,19 @@ struct Column {
   const char* name;
   double (*value)(const CreepCurvePoint&);
 };
-constexpr Column kColumns[] = {{"creepage", [](const CreepCurvePoint& p) { return p.creepage; }},
-                               {"full", [](const CreepCurvePoint& p) { return -p.full; }},
-                               {"fastsim", [](const CreepCurvePoint& p) { return -p.fastsim; }},
-                               {"polach", [](const CreepCurvePoint& p) { return -p.polach; }},
-                               {"vermeulen_johnson", [](const CreepCurvePoint& p) { return -p.vermeulen_johnson; }},
-                               {"linear", [](const CreepCurvePoint& p) { return -p.linear; }},
-                               {"slip_area_fraction", [](const CreepCurvePoint& p) { return p.slip_fraction; }}};
+constexpr Column kColumns[] = {
+    {"full", [](const CreepCurvePoint& p) { return 0.0 - p.full; }},
+    {"fastsim", [](const CreepCurvePoint& p) { return 0.0 - p.fastsim; }},
+    {"polach", [](const CreepCurvePoint& p) { return 0.0 - p.polach; }},
+    {"vermeulen_johnson", [](const CreepCurvePoint& p) { return 0.0 - p.vermeulen_johnson; }},
+    {"linear", [](const CreepCurvePoint& p) { return 0.0 - p.linear; }},
+    {"slip_area_fraction", [](const CreepCurvePoint& p) { return p.slip_fraction; }},
+    {"full_across", [](const CreepCurvePoint& p) { return 0.0 - p.across; }},
+    {"full_moment_mm", [](const CreepCurvePoint& p) { return 0.0 - 1e3 * p.moment; }}};
 
-std::vector<CsvColumn> table_of(const std::vector<CreepCurvePoint>& curve) {
-  std::vector<CsvColumn> out;
+std::vector<CsvColumn> table_of(const char* varied, const std::vector<CreepCurvePoint>& curve) {
+  std::vector<CsvColumn> out{{varied, {}}};
+  for (const CreepCurvePoint& p : curve) out.back().values.push_back(p.creepage);
   for (const Column& c : kColumns) {
     out.push_back({c.name, {}});
     for (const CreepCurvePoint& p : curve) out.back().values.push_back(c.value(p));
@@ -51,16 +83,19 @@ std::vector<CsvColumn> table_of(const std::vector<CreepCurvePoint>& curve) {
   return out;
 }
 
-void print_table(const std::vector<CsvColumn>& table) {
-  fmt::print("F_x/(f F_z) on the wheel; a driving wheel has creepage < 0 and F_x > 0\n\n");
-  for (const CsvColumn& c : table) fmt::print("{:>{}}", c.name, c.name.size() > 10 ? 20 : 12);
+/// Wide enough for the name and a blank.
+std::size_t width(const CsvColumn& c) { return c.name.size() > 10 ? 20 : 12; }
+
+void print_table(const Curve& curve, const std::vector<CsvColumn>& table) {
+  fmt::print("{}/(f F_n) on the wheel; a driving wheel has creepage < 0 and F_x > 0\n\n", curve.force);
+  for (const CsvColumn& c : table) fmt::print("{:>{}}", c.name, width(c));
   fmt::print("\n");
   for (std::size_t i = 0; i < table.front().values.size(); ++i) {
     for (const CsvColumn& c : table) {
       if (&c == &table.front())
-        fmt::print("{:>12.3e}", c.values[i]);
+        fmt::print("{:>{}.3e}", c.values[i], width(c));
       else
-        fmt::print("{:>{}.4f}", c.values[i], c.name.size() > 10 ? 20 : 12);
+        fmt::print("{:>{}.4f}", c.values[i], width(c));
     }
     fmt::print("\n");
   }
@@ -74,7 +109,15 @@ nlohmann::ordered_json as_json(const std::string& title, const std::vector<CsvCo
 
 }  // namespace
 
+std::vector<std::string> creep_curve_words() {
+  std::vector<std::string> out;
+  for (const Curve& c : kCurves) out.emplace_back(c.word);
+  return out;
+}
+
 ExitCode command_creep_curve(const CommandOptions& options) {
+  const Curve curve = curve_of(options.creep_curve);
+  const std::vector<double> varied = creepages(curve, options.creep_curve);
   const LoadedCase loaded = load_case_of(options);
   const std::filesystem::path out = output_folder_of(options, loaded, "-creep-curve");
   BemOptions bem;
@@ -83,22 +126,23 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   require_memory(half_space_need(loaded.spec, placement, bem.cell), bem.cell);
   answer_interrupt_with("\nstopped: nothing was written\n");
   const std::vector<CsvColumn> table = [&] {
-    const Waiting waiting(fmt::format("creep curve of {} points", options.creep_curve.points),
+    const Waiting waiting(fmt::format("creep curve of {} points", varied.size()),
                           spdlog::should_log(spdlog::level::info));
-    return table_of(creep_curve(loaded.spec, placement, creepages(options), bem));
+    return table_of(curve.column, creep_curve(loaded.spec, placement, curve.varied, varied, bem));
   }();
 
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   std::vector<std::string> origin = table_origin(loaded);
-  origin.back() =
-      "F_x/(f F_z) on the wheel against longitudinal creepage; full: half-space theory with the case's layers; the "
-      "others: the Hertz ellipse, homogeneous bodies";
+  origin.back() = fmt::format(
+      "{}/(f F_n) on the wheel against {}; full: half-space theory with the case's layers, its other force and its "
+      "moment over f F_n beside it; the others: the Hertz ellipse, homogeneous bodies",
+      curve.force, curve.column);
   write_csv(out / "creep_curve.csv", origin, table);
   if (options.json)
     fmt::print("{}\n", as_json(loaded.spec.title, table).dump(2));
   else
-    print_table(table);
+    print_table(curve, table);
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
 }

@@ -40,6 +40,7 @@ nlohmann::ordered_json as_json(const std::vector<MeshRow>& rows) {
 
 ExitCode command_mesh(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
+  require_finite_elements(loaded);
   const Model model = build_model(loaded.spec, loaded.folder());
   const std::filesystem::path out = output_folder_of(options, loaded);
   const FolderHold hold = prepare_output_folder(out, options.force);

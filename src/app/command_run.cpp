@@ -122,6 +122,7 @@ RunJob resumed_job(const CommandOptions& options) {
 
 RunJob new_job(const CommandOptions& options) {
   LoadedCase loaded = load_case_of(options);
+  require_finite_elements(loaded);
   const std::filesystem::path out = output_folder_of(options, loaded);
   place(loaded.spec, loaded.folder());  // faults of the input before a folder is made
   require_apart(out, loaded);

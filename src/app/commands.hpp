@@ -16,8 +16,10 @@ struct RunOptions {
   std::string max_time = "never";           ///< --max-time: a wall time
 };
 struct CreepCurveOptions {
-  double largest = 0.02;  ///< --largest: creepage
-  int points = 21;        ///< --points
+  std::string of = "creepage";  ///< --of: the word of what varies
+  double largest = 0;           ///< --largest: creepage, or spin in 1/m; 0: chosen
+  int points = 21;              ///< --points
+  bool both_sides = false;      ///< --both-sides: braking and driving, left and right
 };
 struct SweepCommandOptions {
   std::vector<std::string> vary;  ///< --vary
@@ -58,6 +60,9 @@ struct CommandOptions {
   ReportOptions report;
   SchemaOptions schema;
 };
+
+/// The words of --of.
+std::vector<std::string> creep_curve_words();
 
 ExitCode command_demo(const CommandOptions& options);
 ExitCode command_check(const CommandOptions& options);

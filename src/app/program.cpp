@@ -125,12 +125,18 @@ void add_creep_curve(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-creep-curve");
   add_cell(sub, options);
-  sub.add_option("--largest", options.creep_curve.largest, "Largest creepage (default: 0.02)")
-      ->check(CLI::Range(1e-6, 0.5))
+  sub.add_option(
+         "--of", options.creep_curve.of,
+         "What varies: creepage (longitudinal, default), lateral_creepage or spin; the rest is as the case says")
+      ->check(CLI::IsMember(creep_curve_words()));
+  sub.add_option("--largest", options.creep_curve.largest, "Largest creepage (default: 0.02), or spin in 1/m (5)")
+      ->check(CLI::Range(1e-6, 1000.0))
       ->check(finite());
   sub.add_option("--points", options.creep_curve.points,
                  "Creepages, spaced geometrically over two and a half decades (default: 21)")
       ->check(CLI::Range(2, 1000));
+  sub.add_flag("--both-sides", options.creep_curve.both_sides,
+               "The curve through zero: driving and braking, slip to the gauge and to the field side");
 }
 
 void add_sweep(CLI::App& sub, CommandOptions& options) {
@@ -218,9 +224,11 @@ constexpr Entry kEntries[] = {
      "Examples:\n  railstrata compare results/quick results/quick-bem\n  railstrata compare results/thin results/thick "
      "--out results/thin-against-thick\n",
      add_compare, command_compare},
-    {"creep-curve", "Force against creepage by the full half-space theory and by the fast ones",
+    {"creep-curve",
+     "Force against longitudinal or lateral creepage or spin, by the full half-space theory and by the fast ones",
      "Examples:\n  railstrata creep-curve cases/paper/base.toml\n  railstrata creep-curve cases/quick --largest 0.01 "
-     "--points 11 --cell \"0.5 mm\" --out results/creep\n",
+     "--points 11 --cell \"0.5 mm\" --out results/creep\n  railstrata creep-curve cases/paper/layer_3mm_2E0.toml --of "
+     "lateral_creepage --both-sides --set drive.traction_coefficient=0\n",
      add_creep_curve, command_creep_curve},
     {"sweep", "Half-space solutions over every combination of values, one table out",
      "Examples:\n  railstrata sweep cases/paper/layer_3mm_2E0.toml --vary layer.0.thickness=\"1 mm,2 mm,3 mm\" --vary "

@@ -96,6 +96,24 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
   return out;
 }
 
+double wheel_spin(const RigidContact& contact) { return -std::sin(contact.angle) / contact.rolling_radius; }
+
+double geometric_spin(const CaseSpec& spec, const RigidContact& contact) {
+  const std::optional<double>& radius = spec.geometry.curve_radius;
+  return wheel_spin(contact) + (radius ? std::cos(contact.angle) / *radius : 0.0);
+}
+
+double yaw_creepage(const RigidContact& contact) { return 0.0 - std::tan(contact.yaw) / std::cos(contact.angle); }
+
+void drive_contact(const CaseSpec& spec, const RigidContact& contact, double weight, RollingContact& problem) {
+  const DriveSpec& drive = spec.drive;
+  problem.x = {drive.creepage.value_or(0), {}};
+  problem.y = {drive.lateral_creepage.value_or(yaw_creepage(contact)), {}};
+  if (!(problem.friction > 0)) return;
+  if (drive.traction()) problem.x.force = -*drive.traction() * weight;
+  if (drive.lateral_traction_coefficient) problem.y.force = -*drive.lateral_traction_coefficient * weight;
+}
+
 double normal_load(double weight, double lateral, const RigidContact& contact) {
   return (weight + lateral * std::sin(contact.angle)) / std::cos(contact.angle);
 }
@@ -112,8 +130,8 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
   contact.target.load = normal;
   contact.friction = spec.drive.friction_coefficient;
   contact.leading_edge = spec.bem.leading_edge;
-  contact.spin = -std::sin(placement.contact.angle) / placement.contact.rolling_radius;
-  contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, contact.spin);
+  contact.spin = spec.drive.spin.value_or(geometric_spin(spec, placement.contact));
+  contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, wheel_spin(placement.contact));
   return patch;
 }
 

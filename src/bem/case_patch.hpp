@@ -16,7 +16,7 @@ struct CasePatch {
   ProfileGap profile;
   std::shared_ptr<const InfluenceOperator> influence;
   RollingContact contact;  ///< gap, load, friction, spin and rigid slip of the geometry; creepages and forces are left
-                           ///< to the caller
+                           ///< to the caller (drive_contact)
   LayeredHalfSpace wheel, rail;
   std::vector<std::string> notes;
 };
@@ -26,6 +26,19 @@ PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const Bem
 
 /// Layers of one body from the case, from the surface down; a graded one cut to its grading_tolerance.
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
+
+/// Spin that the geometry gives, 1/m: of the wheel on its contact angle delta, -sin(delta)/r; of a curve of radius R
+/// (positive with its centre on the field side), in which the wheelset turns about the vertical, + cos(delta)/R.
+double wheel_spin(const RigidContact& contact);
+double geometric_spin(const CaseSpec& spec, const RigidContact& contact);
+
+/// Lateral creepage in the contact plane of a wheel with the yaw psi: -tan(psi)/cos(delta), for its surface cannot move
+/// into the rail. Like all creepages here without products of creepages.
+double yaw_creepage(const RigidContact& contact);
+
+/// Gives the problem the case's drive: creepages, or forces on the rail over the weight [N]. Without friction there are
+/// no forces.
+void drive_contact(const CaseSpec& spec, const RigidContact& contact, double weight, RollingContact& problem);
 
 /// The normal force [N] that balances the weight G together with a lateral force T_y on the rail, in the contact plane
 /// at the angle delta: N cos(delta) - T_y sin(delta) = G.

@@ -5,24 +5,39 @@
 #include "halfspace/creep_theories.hpp"
 
 namespace railstrata {
+namespace {
 
-std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement,
+void vary(VariedCreepage varied, double creepage, RollingContact& contact) {
+  if (varied == VariedCreepage::longitudinal) contact.x = {creepage, {}};
+  if (varied == VariedCreepage::lateral) contact.y = {creepage, {}};
+  if (varied == VariedCreepage::spin) contact.spin = creepage;
+}
+
+}  // namespace
+
+std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, VariedCreepage varied,
                                          const std::vector<double>& creepages, const BemOptions& options) {
   if (!(spec.drive.friction_coefficient > 0))
     throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero");
-  CasePatch patch = make_case_patch(spec, placement, options, normal_load(static_load(spec), 0, placement.contact));
+  const double weight = static_load(spec);
+  CasePatch patch = make_case_patch(spec, placement, options, normal_load(weight, 0, placement.contact));
   const RollingEllipse ellipse = rolling_ellipse(hertz_estimate(spec, placement.contact), patch.contact.friction,
                                                  patch.wheel.substrate, patch.rail.substrate);
+  const double hertz_bound = ellipse.friction * ellipse.contact.load;
+  const bool along_x = varied == VariedCreepage::longitudinal;
+  const auto share = [&](const CreepForce& force) { return (along_x ? force.x : force.y) / hertz_bound; };
+  drive_contact(spec, placement.contact, weight, patch.contact);
   std::vector<CreepCurvePoint> curve;
   for (double creepage : creepages) {
-    patch.contact.x = {creepage, {}};
+    vary(varied, creepage, patch.contact);
     const RollingSolution s = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling);
     const TangentialSolution& t = s.tangential;
-    const Creepage c{creepage, 0, patch.contact.spin};
-    const double bound = patch.contact.friction * s.normal.load, hertz_bound = ellipse.friction * ellipse.contact.load;
-    curve.push_back({creepage, t.force_x / bound, fastsim(ellipse, c).x / hertz_bound,
-                     polach(ellipse, c).x / hertz_bound, vermeulen_johnson(ellipse, c).x / hertz_bound,
-                     linear_theory(ellipse, c).x / hertz_bound, t.slip_area / (t.slip_area + t.stick_area)});
+    const Creepage c{t.creepage_x, t.creepage_y, patch.contact.spin};
+    const double bound = patch.contact.friction * s.normal.load;
+    curve.push_back({creepage, (along_x ? t.force_x : t.force_y) / bound, share(fastsim(ellipse, c)),
+                     share(polach(ellipse, c)), share(vermeulen_johnson(ellipse, c)), share(linear_theory(ellipse, c)),
+                     t.slip_area / (t.slip_area + t.stick_area), (along_x ? t.force_y : t.force_x) / bound,
+                     t.moment / bound});
   }
   return curve;
 }

@@ -31,18 +31,23 @@ struct RailCurve {
   }
 };
 
-/// The wheel cut at x: every point of the profile moves on its circle about the axle.
+/// The wheel cut at x from the contact point: every point of the profile moves on its circle about the axle, which is
+/// turned by the yaw.
 struct WheelCurve {
   const Profile& profile;
   const RigidContact& contact;
   PlaneAxes axes;
+  double sine = std::sin(contact.yaw), cosine = std::cos(contact.yaw), slope = std::tan(contact.yaw);
   PlanePoint at(double s, double x) const {
     const ProfilePoint p = profile.at(s);
+    const double along = (contact.x + x + p.position.y * sine) / cosine,  // in the wheel's own frame
+        across = p.position.y * cosine + along * sine;
     const double r = contact.axle_height - contact.wheel_offset_z - p.position.z,
-                 below = std::sqrt(std::max(0.0, (r - x) * (r + x)));
-    const Vec2 d = Vec2{contact.wheel_offset_y + p.position.y, contact.axle_height - below} - axes.origin;
+                 below = std::sqrt(std::max(0.0, (r - along) * (r + along)));
+    const Vec2 d = Vec2{contact.wheel_offset_y + across, contact.axle_height - below} - axes.origin;
     return {dot(d, axes.tangent), dot(d, axes.normal),
-            p.tangent.y * axes.tangent.y + r / below * p.tangent.z * axes.tangent.z};
+            p.tangent.y / cosine * axes.tangent.y +
+                (r / below * p.tangent.z + along / below * slope * p.tangent.y) * axes.tangent.z};
   }
 };
 
@@ -94,7 +99,7 @@ ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeo
                        const RigidContact& contact, const PatchGrid& grid) {
   const PlaneAxes axes(contact);
   const RailCurve rail_curve{rail, track, axes};
-  const WheelCurve wheel_curve{wheel, contact, axes};
+  const WheelCurve wheel_curve{.profile = wheel, .contact = contact, .axes = axes};
   const HeightOverPlane rail_height(rail_curve, contact.rail_s);
   const HeightOverPlane wheel_height(wheel_curve, contact.wheel_s);
   ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size())};

@@ -2,8 +2,8 @@
 // The undeformed gap of a wheel of revolution on an extruded rail, measured along the normal of the contact plane.
 //
 // Contact frame: origin at the rigid contact point, x rolling direction, y along the common tangent (rising by the
-// contact angle to the field side), n from the rail to the wheel. The wheel is its profile turned about the axle, so
-// its curvature along x and the change of rolling radius across the patch are exact.
+// contact angle to the field side), n from the rail to the wheel. The wheel is its profile turned about the axle, the
+// axle by the yaw, so the curvatures and the change of rolling radius across the patch are exact.
 #include "bem/patch_grid.hpp"
 #include "bem/plane_algebra.hpp"
 #include "geometry/placement.hpp"

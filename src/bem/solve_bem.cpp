@@ -16,13 +16,14 @@ namespace railstrata {
 namespace {
 
 void check_friction(const CaseSpec& spec, double load, double normal) {
-  const double wanted = std::abs(spec.drive.traction_coefficient) * load,
-               available = spec.drive.friction_coefficient * normal;
-  if (wanted > 0 && wanted >= available)
-    throw CaseError(fmt::format("a traction coefficient of {:g} needs {:.0f} N of friction, a friction coefficient of "
-                                "{:g} gives at most {:.0f} N",
-                                spec.drive.traction_coefficient, wanted, spec.drive.friction_coefficient, available),
-                    "lower drive.traction_coefficient or raise drive.friction_coefficient");
+  const double along = spec.drive.traction().value_or(0), across = spec.drive.lateral_traction_coefficient.value_or(0),
+               wanted = std::hypot(along, across) * load, available = spec.drive.friction_coefficient * normal;
+  if (wanted == 0 || wanted < available) return;
+  const std::string sideways = across == 0 ? "" : fmt::format(" along and {:g} across the rail", across);
+  throw CaseError(fmt::format("a traction coefficient of {:g}{} needs {:.0f} N of friction, a friction coefficient of "
+                              "{:g} gives at most {:.0f} N",
+                              along, sideways, wanted, spec.drive.friction_coefficient, available),
+                  "lower drive.traction_coefficient or raise drive.friction_coefficient");
 }
 
 void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidContact& contact, double speed,
@@ -89,7 +90,7 @@ void solve_under(double normal, double weight, const CaseSpec& spec, const Place
     if (!out.solution.normal.touches_edge) return;
   }
   out.patch = make_case_patch(spec, placement, options, normal);
-  if (spec.drive.friction_coefficient > 0) out.patch.contact.x.force = -spec.drive.traction_coefficient * weight;
+  drive_contact(spec, placement.contact, weight, out.patch.contact);
   solve();
 }
 

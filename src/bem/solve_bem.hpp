@@ -2,8 +2,9 @@
 // The half-space solution of a case: the same case file the finite elements run, answered by Kalker's method.
 //
 // What it takes of a case: profiles and track, wheel radius, moduli, layers (unbounded sideways), load G = (wheel +
-// sprung mass) g as the vertical force, friction and traction coefficients. Steady rolling: F_x = traction_coefficient
-// G on the wheel, no lateral creepage, spin and the variation of the rolling radius across the patch from the geometry.
+// sprung mass) g as the vertical force, friction and the drive. Steady rolling: along and across the rail a force on
+// the wheel (over G) or a creepage; what is not given follows from the geometry: lateral creepage from the yaw, spin
+// from contact angle and curve, the variation of the rolling radius across the patch from the profiles.
 // The normal force is such that normal and lateral force together bear the load. Not in it: inertia, the bodies' shape
 // outside the patch, the layer's edges.
 #include <string>

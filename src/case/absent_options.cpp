@@ -10,17 +10,14 @@ struct Absent {
 };
 
 constexpr std::string_view
-    kLoad =
-        "the load is (vehicle.wheel_mass + vehicle.sprung_mass) * vehicle.gravity: set the masses; `railstrata check` "
-        "shows it",
+    kLoad = "vehicle.wheel_load and vehicle.axle_load give the load, or the masses do; `railstrata check` shows it",
     kCreepage =
-        "creepage follows from drive.traction_coefficient; drive.creepage_start is the one at "
-        "the start, and `railstrata creep-curve` gives traction against creepage",
-    kStraight =
-        "the track is straight and the wheel runs upright along it; geometry.lateral_shift and "
-        "geometry.cant place them",
-    kElastic = "all materials are linear elastic; results warn where rail steel would yield",
-    kTrack = "gauge, cant and lateral_shift are keys of [geometry]";
+        "drive.creepage, lateral_creepage and spin give creepages, and `railstrata creep-curve` traction against them",
+    kYaw = "geometry.yaw is the angle of attack", kCurve = "geometry.curve_radius is the radius of the track's curve",
+    kUpright = "the wheel stands upright on the track; geometry.lateral_shift, yaw and cant place it";
+
+constexpr std::string_view kElastic = "all materials are linear elastic; results warn where rail steel would yield",
+                           kTrack = "gauge, cant and lateral_shift are keys of [geometry]";
 
 constexpr std::array kAbsent{
     Absent{"load", kLoad},
@@ -32,12 +29,12 @@ constexpr std::array kAbsent{
     Absent{"lateral_creepage", kCreepage},
     Absent{"spin", kCreepage},
     Absent{"slip", kCreepage},
-    Absent{"curve_radius", kStraight},
-    Absent{"curvature", kStraight},
-    Absent{"yaw", kStraight},
-    Absent{"yaw_angle", kStraight},
-    Absent{"angle_of_attack", kStraight},
-    Absent{"roll", kStraight},
+    Absent{"curve_radius", kCurve},
+    Absent{"curvature", kCurve},
+    Absent{"yaw", kYaw},
+    Absent{"yaw_angle", kYaw},
+    Absent{"angle_of_attack", kYaw},
+    Absent{"roll", kUpright},
     Absent{"yield_stress", kElastic},
     Absent{"yield_strength", kElastic},
     Absent{"hardening", kElastic},

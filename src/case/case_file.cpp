@@ -9,6 +9,7 @@
 #include "case/case_rules.hpp"
 #include "case/case_source.hpp"
 #include "case/case_tree.hpp"
+#include "case/engine_scope.hpp"
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
 #include "core/nearest_word.hpp"
@@ -68,6 +69,8 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   resolve_profile(ProfileKind::wheel, "wheel_profile", loaded.spec.geometry.wheel_profile, loaded, source);
   check_case_rules(loaded.spec, source);
   source.finish();
+  for (const BeyondEngine& b : beyond_finite_elements(loaded.spec))
+    loaded.not_in_fem.push_back(source.diagnosis(b.key, b.message, b.remedy));
   loaded.resolved_toml = resolved_case(loaded.spec);
   if (says_nothing(text))
     loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),
@@ -90,8 +93,9 @@ std::string resolved_case(const CaseSpec& given) {
     for (std::size_t i = 0; i < (table.repeated ? spec.layers.size() : 1); ++i) {
       out += fmt::format(fmt::runtime(table.repeated ? "{}[[{}]]\n" : "{}[{}]\n"), out.empty() ? "" : "\n", table.name);
       for (const Option& option : table.options)
-        if (!option.multiple_of && (!option.applies || option.applies(spec, i)))
-          out += fmt::format("{} = {}\n", option.key, toml_value(option, spec, i));
+        if (!option.derivation && (!option.applies || option.applies(spec, i)))
+          if (const std::string value = toml_value(option, spec, i); !value.empty())
+            out += fmt::format("{} = {}\n", option.key, value);
     }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "case/case_spec.hpp"
+#include "core/faults.hpp"
 
 namespace railstrata {
 
@@ -16,6 +17,7 @@ struct LoadedCase {
   std::string resolved_toml;                  ///< every option with its value: reads back to the same spec, bit for bit
   std::vector<std::string> notes;             ///< what is allowed and yet worth saying
   std::vector<std::filesystem::path> inputs;  ///< every file that went in: the case and the profile files
+  std::vector<Diagnostic> not_in_fem;         ///< what the finite element engine refuses (case/engine_scope.hpp)
   /// Folder against which relative profile names are understood.
   std::filesystem::path folder() const { return file.parent_path(); }
 };

@@ -17,13 +17,35 @@ std::string length(double value) { return format_quantity(std::round(value / kNa
 
 void check_drive(const CaseSpec& spec, CaseSource& source) {
   const DriveSpec& d = spec.drive;
-  if (spec.run.rolling && source.sound({"drive.traction_coefficient", "drive.friction_coefficient"}) &&
-      d.traction_coefficient != 0 && !(std::abs(d.traction_coefficient) < d.friction_coefficient))
+  if (!spec.run.rolling ||
+      !source.sound({"drive.traction_coefficient", "drive.tractive_force", "drive.creepage", "drive.lateral_creepage",
+                     "drive.lateral_force", "drive.lateral_traction_coefficient", "drive.friction_coefficient"}))
+    return;
+  const double along = d.traction().value_or(0), across = d.lateral_traction_coefficient.value_or(0),
+               wanted = std::hypot(along, across);
+  if (wanted == 0 || wanted < d.friction_coefficient) return;
+  const auto refuse = [&](const char* key, const std::string& value, const char* what) {
     source.complain(
-        "drive.traction_coefficient",
-        fmt::format("drive.traction_coefficient = {}: {}must be below drive.friction_coefficient = {}",
-                    d.traction_coefficient, d.traction_coefficient < 0 ? "its magnitude " : "", d.friction_coefficient),
+        key, fmt::format("{}: {}must be below drive.friction_coefficient = {}", value, what, d.friction_coefficient),
         "the wheel would slide: lower the traction or raise the friction");
+  };
+  if (across == 0)
+    refuse("drive.traction_coefficient", fmt::format("drive.traction_coefficient = {}", along),
+           along < 0 ? "its magnitude " : "");
+  else
+    refuse(
+        "drive.lateral_traction_coefficient",
+        fmt::format("traction coefficients of {} along and {} across the rail, {:.4g} together", along, across, wanted),
+        "");
+}
+
+void check_curve(const GeometrySpec& g, CaseSource& source) {
+  constexpr double kTightest = 5;
+  if (g.curve_radius && source.sound({"geometry.curve_radius"}) && !(std::abs(*g.curve_radius) >= kTightest))
+    source.complain("geometry.curve_radius",
+                    fmt::format("geometry.curve_radius = {}: must be at least {} to either side",
+                                length(*g.curve_radius), length(kTightest)),
+                    "leave it out for straight track");
 }
 
 void check_path(const RunSpec& run, CaseSource& source) {
@@ -97,6 +119,7 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
 
 void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_drive(spec, source);
+  check_curve(spec.geometry, source);
   check_path(spec.run, source);
   check_wheel(spec.geometry, source);
   check_mesh(spec.mesh, source);

@@ -37,6 +37,7 @@ Json quantity_schema(const Option& option) {
 struct TypeSchema {
   const Option& option;
   Json operator()(const double*) const { return quantity_schema(option); }
+  Json operator()(const std::optional<double>*) const { return quantity_schema(option); }
   Json operator()(const int*) const {
     Json s = number_schema(option);
     s["type"] = "integer";
@@ -62,7 +63,7 @@ std::string allowed(const Option& option) {
 
 /// A layer's modulus has no default: it must be said.
 std::string default_text(const OptionTable& table, const Option& option, CaseSpec& spec) {
-  return option.multiple_of || (table.repeated && option.key.starts_with("young")) ? "" : toml_value(option, spec, 0);
+  return option.derivation || (table.repeated && option.key.starts_with("young")) ? "" : toml_value(option, spec, 0);
 }
 
 Json option_schema(const OptionTable& table, const Option& option, CaseSpec& spec) {
@@ -88,6 +89,21 @@ std::string more_about(const OptionTable& table) {
     return "\n`rail_profile` and `wheel_profile` also take an arc, `\"arc:R=200 mm\"`: convex of this radius, hollow "
            "with `R=-450 mm`;\n`\"flat\"` is a plane. Profile files: "
            "[data/profiles](../data/profiles/README.md).\n";
+  if (table.name == "vehicle")
+    return "\nThe static load of the wheel on the rail is G = (wheel_mass + sprung_mass) gravity. `wheel_load` and "
+           "`axle_load` set\n`sprung_mass` so that G is the load; in a rolling finite element case that mass also "
+           "rides "
+           "on the suspension. Loads\nare written as forces (`\"110 kN\"`) or masses (`\"11.2 t\"`). Give at most one "
+           "of "
+           "`sprung_mass`, `wheel_load` and `axle_load`.\n";
+  if (table.name == "drive")
+    return "\nAlong the rail give at most one of `traction_coefficient`, `tractive_force` and `creepage`; across it at "
+           "most one of\n`lateral_traction_coefficient`, `lateral_force` and `lateral_creepage`. What is not given "
+           "follows from the geometry:\nthe lateral creepage from the yaw, the spin from the contact angle and the "
+           "curve. With `--set`, a key takes the place of\nthe file's other keys of its kind. Creepages, lateral "
+           "forces "
+           "and spin are the half-space engine's\n(`railstrata bem`); `run` refuses them. Signs: "
+           "[conventions](conventions.md#axes-and-signs).\n";
   if (table.name == "layer")
     return "\n`young_table` gives a modulus that varies with depth, row by row from the layer's top, linear between "
            "the rows:\n\n"

@@ -41,10 +41,26 @@ std::string CaseSource::caret_lines(TextPlace place) const {
   return fmt::format("\n{:5} | {}\n      | {}^", place.line, printable(line), indent);
 }
 
+CaseSource::Found CaseSource::found_at(TextPlace place, const std::string& message, const std::string& remedy) const {
+  return {place,
+          {fmt::format("{}:{}:{}", file_.string(), place.line, place.column), message + caret_lines(place), remedy}};
+}
+
+CaseSource::Found CaseSource::found_at(const std::string& key, const std::string& message,
+                                       const std::string& remedy) const {
+  // an override replaces all that the text has below its key
+  if (const std::string* origin = nearest(origins_, key))
+    return {{std::numeric_limits<int>::max(), 0}, {*origin, message, remedy}};
+  if (const TextPlace* place = nearest(places_, key)) return found_at(*place, message, remedy);
+  return {{}, {file_.string(), message, remedy}};
+}
+
 void CaseSource::complain_at(TextPlace place, const std::string& message, const std::string& remedy) {
-  found_.push_back(
-      {place,
-       {fmt::format("{}:{}:{}", file_.string(), place.line, place.column), message + caret_lines(place), remedy}});
+  found_.push_back(found_at(place, message, remedy));
+}
+
+Diagnostic CaseSource::diagnosis(const std::string& key, const std::string& message, const std::string& remedy) const {
+  return found_at(key, message, remedy).diagnostic;
 }
 
 bool CaseSource::sound(std::initializer_list<std::string_view> keys) const {
@@ -57,13 +73,7 @@ bool CaseSource::sound(std::initializer_list<std::string_view> keys) const {
 
 void CaseSource::complain(const std::string& key, const std::string& message, const std::string& remedy) {
   unsound_.push_back(key);
-  // an override replaces all that the text has below its key
-  if (const std::string* origin = nearest(origins_, key))
-    found_.push_back({{std::numeric_limits<int>::max(), 0}, {*origin, message, remedy}});
-  else if (const TextPlace* place = nearest(places_, key))
-    complain_at(*place, message, remedy);
-  else
-    found_.push_back({{}, {file_.string(), message, remedy}});
+  found_.push_back(found_at(key, message, remedy));
 }
 
 void CaseSource::finish() const {

@@ -28,9 +28,13 @@ class CaseSource {
   void remember(const std::string& key, TextPlace place) { places_[key] = place; }
   void remember_origin(const std::string& key, std::string origin) { origins_[key] = std::move(origin); }
 
+  bool has_origin(const std::string& key) const { return origins_.contains(key); }
+
   /// Records an error at a key, or at the nearest table above it that the file has. `message` is followed by the source
   /// line and a caret.
   void complain(const std::string& key, const std::string& message, const std::string& remedy);
+  /// The same, given back instead of recorded.
+  Diagnostic diagnosis(const std::string& key, const std::string& message, const std::string& remedy) const;
   /// Records an error at a place of the text.
   void complain_at(TextPlace place, const std::string& message, const std::string& remedy);
   /// Throws CaseError with everything recorded, in the order of the file; overrides last.
@@ -45,6 +49,8 @@ class CaseSource {
     Diagnostic diagnostic;
   };
   std::string caret_lines(TextPlace place) const;
+  Found found_at(const std::string& key, const std::string& message, const std::string& remedy) const;
+  Found found_at(TextPlace place, const std::string& message, const std::string& remedy) const;
   std::filesystem::path file_;
   std::string text_;
   std::vector<std::string> lines_;

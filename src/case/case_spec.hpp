@@ -1,6 +1,7 @@
 #pragma once
 // What a case file says, in SI units, with every default. case/case_file reads it; case/option_table gives names,
 // units, ranges, the words of the choices and documentation.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,8 @@ struct GeometrySpec {
   double gauge = 1.435, gauge_depth = 0.016, back_to_back = 1.353, flange_back_to_tape = 0.070;
   double cant = 0.025;  ///< tangent (1:40)
   double lateral_shift = 0.0;
+  double yaw = 0.0;                    ///< tangent of the angle of attack, positive towards the field side
+  std::optional<double> curve_radius;  ///< m, positive with the centre on the field side; none: straight track
   double wheel_radius = 0.430;
   double block_width = 0.06, block_height = 0.06;
   double rim_thickness = 0.060, web_thickness = 0.030, web_offset = 0.0, hub_radius = 0.135, hub_width = 0.17,
@@ -77,12 +80,21 @@ struct VehicleSpec {
                                    ///< and does not add inertia to it)
 };
 
+/// Each direction is driven by a force or by a creepage. Forces act on the wheel, creepages are rigid slips of the
+/// wheel over the rail divided by the speed; lateral ones lie in the contact plane.
 struct DriveSpec {
   double speed = 27.78;
-  double traction_coefficient = 0.2;  ///< F_T / G
+  double traction_coefficient = 0.2;                                     ///< F_T / G, unless a creepage is given
+  std::optional<double> creepage;                                        ///< longitudinal: negative drives
+  std::optional<double> lateral_creepage, lateral_traction_coefficient;  ///< at most one; neither: no lateral creepage
+  std::optional<double> spin;                                            ///< 1/m; if not given, of the geometry
   double friction_coefficient = 0.5;
   double torque_ramp = 4e-3;    ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
   double creepage_start = 0.0;  ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
+  /// The longitudinal force on the wheel over the load G, if it is given.
+  std::optional<double> traction() const {
+    return creepage ? std::optional<double>() : std::optional<double>(traction_coefficient);
+  }
 };
 
 struct MeshSpec {

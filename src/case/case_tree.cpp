@@ -51,6 +51,7 @@ std::string wanted(const Option& option) {
   struct Say {
     const Option& option;
     std::string operator()(const double*) const { return describe(option.dimension); }
+    std::string operator()(const std::optional<double>*) const { return describe(option.dimension); }
     std::string operator()(const int*) const { return "a whole number"; }
     std::string operator()(const bool*) const { return "true or false"; }
     std::string operator()(const std::string*) const { return "a text in quotes"; }
@@ -81,15 +82,17 @@ class TreeReader {
 
   void read(const toml::table& document) {
     for (const auto& [key, node] : document) read_top(std::string(key.str()), key, node);
-    finish_multiples();
+    finish_derived();
   }
 
  private:
-  struct Multiple {
+  struct Derived {
+    const OptionTable* table;
     const Option* option;
-    std::string key;
+    std::string key, shown;
     std::size_t index;
-    double factor;
+    double written;
+    bool mass;  ///< for a force
   };
 
   void read_top(const std::string& name, const toml::key& key, const toml::node& node) {
@@ -167,8 +170,22 @@ class TreeReader {
         continue;
       }
       remember(full, key, node);
-      read_value(*option, full, index, node);
+      if (option->derivation)
+        read_derived(table, *option, full, index, node);
+      else
+        read_value(*option, full, index, node);
     }
+    for (const auto& rivals : table.rivals) check_rivals(rivals, name, entries);
+  }
+
+  void check_rivals(const std::vector<std::string_view>& rivals, const std::string& name, const toml::table& entries) {
+    std::vector<std::string_view> given;
+    for (const std::string_view key : rivals)
+      if (entries.contains(key)) given.push_back(key);
+    if (given.size() > 1)
+      source_.complain(fmt::format("{}.{}", name, given.back()),
+                       fmt::format("[{}] has {}: a case has one of them", name, fmt::join(given, " and ")),
+                       "keep one of them");
   }
 
   /// A layer's stiffness is its whole point: no silent default.
@@ -194,13 +211,30 @@ class TreeReader {
     std::visit([&](auto target) { assign(option, key, index, node, target); }, option.slot(spec_, index));
   }
 
-  void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node, double* target) {
-    double value = 0;
-    if (!number(option, key, node, value)) return;
-    if (option.multiple_of)
-      multiples_.push_back({&option, key, index, value});
-    else
-      *target = value;
+  void read_derived(const OptionTable& table, const Option& option, const std::string& key, std::size_t index,
+                    const toml::node& node) {
+    Derived derived{&table, &option, key, shown(node), index, 0, false};
+    if (option.derivation.takes_mass) derived.mass = is_mass(node);
+    const Option as_mass{option.key, option.slot, option.doc, dimension::kMass};
+    if (number(derived.mass ? as_mass : option, key, node, derived.written)) derived_.push_back(std::move(derived));
+  }
+
+  static bool is_mass(const toml::node& node) {
+    const auto written = node.value_exact<std::string>();
+    try {
+      return written && std::isfinite(parse_quantity(*written, dimension::kMass));
+    } catch (const UnitError&) {
+      return false;
+    }
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, double* target) {
+    number(option, key, node, *target);
+  }
+
+  void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node,
+              std::optional<double>* target) {
+    if (double value = 0; number(option, key, node, value)) *target = value;
   }
 
   void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, int* target) {
@@ -397,26 +431,34 @@ class TreeReader {
                        [&](const OptionTable& t) { return t.name.starts_with(name + "."); });
   }
 
-  /// After everything else, because what they multiply may stand further down.
-  void finish_multiples() {
-    for (const Multiple& m : multiples_) {
-      const Slot slot = m.option->slot(spec_, m.index);
-      const double value = m.factor * m.option->multiple_of(spec_, m.index);
-      for (const OptionTable& table : case_tables())
-        for (const Option& whole : table.options)
-          if (!whole.multiple_of && table.repeated && whole.slot(spec_, m.index) == slot && !whole.range.holds(value))
-            source_.complain(
-                m.key,
-                fmt::format("{} = {}: makes {} {}, which must be {}", m.key, m.factor, whole.key,
-                            format_quantity(value, whole.dimension), describe(whole.range, whole.dimension)),
-                "choose a multiple in this range");
+  /// After everything else, because what they depend on may stand further down; in the tables' order, because forces
+  /// over the load depend on the load.
+  void finish_derived() {
+    for (const OptionTable& table : case_tables())
+      for (const Derived& d : derived_)
+        if (d.table == &table) finish(d);
+  }
+
+  void finish(const Derived& d) {
+    const double written = d.mass ? d.written * spec_.vehicle.gravity : d.written;
+    if (!d.option->range.holds(written)) return out_of_range(*d.option, d.key, d.shown, "");
+    const Slot slot = d.option->slot(spec_, d.index);
+    const double value = d.option->derivation.value(spec_, d.index, written);
+    for (const Option& whole : d.table->options)
+      if (!whole.derivation && whole.slot(spec_, d.index) == slot && !whole.range.holds(value))
+        source_.complain(d.key,
+                         fmt::format("{} = {}: makes {} {}, which must be {}", d.key, d.shown, whole.key,
+                                     format_quantity(value, whole.dimension), describe(whole.range, whole.dimension)),
+                         std::string(d.option->derivation.remedy));
+    if (auto* const* maybe = std::get_if<std::optional<double>*>(&slot))
+      **maybe = value;
+    else
       *std::get<double*>(slot) = value;
-    }
   }
 
   CaseSource& source_;
   CaseSpec& spec_;
-  std::vector<Multiple> multiples_;
+  std::vector<Derived> derived_;
 };
 
 [[noreturn]] void refuse_override(const std::string& text, const std::string& why) {
@@ -533,6 +575,19 @@ toml::table& descend(toml::table& document, const std::vector<std::string>& part
   return *table;
 }
 
+/// What is set takes the place of the file's other ways of saying it; two that are set contradict each other.
+void remove_rivals(toml::table& table, const std::vector<std::string>& parts, const CaseSource& source) {
+  const std::string& key = parts.back();
+  const std::string name = fmt::format("{}", fmt::join(parts.begin(), parts.end() - 1, "."));
+  const OptionTable* options = find_table(name);
+  if (!options) return;
+  for (const auto& rivals : options->rivals) {
+    if (std::find(rivals.begin(), rivals.end(), key) == rivals.end()) continue;
+    for (const std::string_view rival : rivals)
+      if (rival != key && !source.has_origin(fmt::format("{}.{}", name, rival))) table.erase(rival);
+  }
+}
+
 void apply_override(toml::table& document, const std::string& text, CaseSource& source) {
   const auto equals = text.find('=');
   if (equals == std::string::npos || equals == 0) refuse_override(text, "is not key=value");
@@ -549,6 +604,7 @@ void apply_override(toml::table& document, const std::string& text, CaseSource& 
   if (parts.size() < 2 && !whole_list) refuse_override(text, "names no table");
   toml::table& table = descend(document, parts, text, source);
   value.get("value")->visit([&](auto& node) { table.insert_or_assign(toml::key(parts.back()), node); });
+  remove_rivals(table, parts, source);
   source.remember_origin(key, "--set " + text);
 }
 

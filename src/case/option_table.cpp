@@ -58,9 +58,24 @@ Option choice_at(std::string_view key, std::string_view doc, std::initializer_li
   return choice<Member>(key, at<Part, Member>, doc, words);
 }
 
-double matrix_modulus(const CaseSpec& spec, std::size_t index) {
-  return (spec.layers.at(index).on == BodyId::wheel ? spec.wheel_material : spec.rail_material).young;
+double of_matrix_modulus(const CaseSpec& spec, std::size_t index, double ratio) {
+  return ratio * (spec.layers.at(index).on == BodyId::wheel ? spec.wheel_material : spec.rail_material).young;
 }
+
+/// A load is given by the sprung mass that makes it.
+double sprung_mass_under(const CaseSpec& spec, std::size_t, double wheel_load) {
+  return wheel_load / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+}
+double sprung_mass_under_axle(const CaseSpec& spec, std::size_t index, double axle_load) {
+  return sprung_mass_under(spec, index, 0.5 * axle_load);
+}
+double over_static_load(const CaseSpec& spec, std::size_t, double force) {
+  return force / ((spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity);
+}
+constexpr std::string_view kMoreLoad = "give more load, or less vehicle.wheel_mass",
+                           kLessForce = "give less force, or more load";
+
+bool traction_given(const CaseSpec& spec, std::size_t) { return spec.drive.traction().has_value(); }
 
 bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).graded(); }
 bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).graded(); }
@@ -106,6 +121,18 @@ std::vector<Option> track_options() {
        "Of the wheel, positive to the field side",
        kLength,
        {-0.05, 0.05}},
+      {"yaw",
+       at<&C::geometry, &G::yaw>,
+       "Angle of attack: the wheel's rolling direction, turned about the vertical through the middle of its tape "
+       "circle, positive towards the field side; half-space engine",
+       kSlope,
+       {-0.05, 0.05}},
+      {"curve_radius",
+       at<&C::geometry, &G::curve_radius>,
+       "Of the track, positive with the centre on the field side (the inner wheel); none: straight. Adds to the spin "
+       "alone; half-space engine",
+       kLength,
+       {-1e6, 1e6}},
       {"wheel_radius", at<&C::geometry, &G::wheel_radius>, "At the tape circle", kLength, {0.05, 2.0}}};
 }
 
@@ -169,24 +196,24 @@ OptionTable layer_table() {
             kLength,
             kLayerThickness,
             {},
-            nullptr,
+            {},
             uniform},
            {"width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength, {kMilli, 0.2}},
-           {"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung, {}, nullptr, uniform},
+           {"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung, {}, {}, uniform},
            {"young_ratio",
             layer<&L::material, &M::young>,
             "Young's modulus as a multiple of the carrying body's",
             kNumber,
             {0.01, 100},
             {},
-            matrix_modulus},
+            {of_matrix_modulus, "choose a multiple in this range"}},
            {"young_table",
             layer<&L::young_table>,
             "A modulus that varies with depth: depths below the layer's top and moduli, linear between",
             {},
             {},
             {},
-            nullptr,
+            {},
             graded},
            {"grading_tolerance",
             layer<&L::grading_tolerance>,
@@ -211,6 +238,21 @@ OptionTable vehicle_table() {
       {{"wheel_mass", at<&C::vehicle, &V::wheel_mass>, "Mass of the wheel with its share of the axle", kMass,
         above(0, 1e5)},
        {"sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6}},
+       {"wheel_load",
+        at<&C::vehicle, &V::sprung_mass>,
+        "Load of the wheel on the rail, a force or a mass, instead of the sprung mass: that is load / gravity - "
+        "wheel_mass",
+        kForce,
+        above(0, 1e7),
+        {},
+        {sprung_mass_under, kMoreLoad, true}},
+       {"axle_load",
+        at<&C::vehicle, &V::sprung_mass>,
+        "Load of both wheels on the track, a force or a mass, instead of the sprung mass; each wheel carries half",
+        kForce,
+        above(0, 2e7),
+        {},
+        {sprung_mass_under_axle, kMoreLoad, true}},
        {"suspension_stiffness",
         at<&C::vehicle, &V::suspension_stiffness>,
         "Of all groups together",
@@ -224,25 +266,74 @@ OptionTable vehicle_table() {
         {1, 64}},
        {"gravity", at<&C::vehicle, &V::gravity>, "Acceleration of gravity", kAcceleration, above(0, 100)},
        {"couple_sprung_mass", at<&C::vehicle, &V::couple_sprung_mass>,
-        "The sprung mass rides along with the axle lengthwise and adds its inertia to it"}}};
+        "The sprung mass rides along with the axle lengthwise and adds its inertia to it"}},
+      false,
+      {{"sprung_mass", "wheel_load", "axle_load"}}};
+}
+
+/// Only the half-space engine has these (case/engine_scope.hpp).
+std::vector<Option> creepage_options() {
+  return {{"creepage",
+           at<&C::drive, &D::creepage>,
+           "Longitudinal creepage (V - omega r) / V, instead of the traction; negative drives, 1 is a locked wheel",
+           kNumber,
+           {-10, 1}},
+          {"lateral_force",
+           at<&C::drive, &D::lateral_traction_coefficient>,
+           "Friction force F_y on the wheel along the contact plane; positive towards the field side",
+           kForce,
+           {-1e7, 1e7},
+           {},
+           {over_static_load, kLessForce}},
+          {"lateral_traction_coefficient",
+           at<&C::drive, &D::lateral_traction_coefficient>,
+           "The same force over G",
+           kNumber,
+           {-1, 1}},
+          {"lateral_creepage",
+           at<&C::drive, &D::lateral_creepage>,
+           "Along the contact plane, positive where the wheel slips towards the field side",
+           kNumber,
+           {-10, 10}},
+          {"spin",
+           at<&C::drive, &D::spin>,
+           "About the normal of the contact plane, over V, positive from the rolling direction towards the field side",
+           kSpin,
+           {-1000, 1000}}};
 }
 
 OptionTable drive_table() {
-  return {"drive",
-          "Speed, traction and friction",
-          {{"speed", at<&C::drive, &D::speed>, "Rolling speed", kSpeed, above(0, 200)},
-           {"traction_coefficient",
-            at<&C::drive, &D::traction_coefficient>,
-            "Wanted F_T / G; positive drives, negative brakes",
-            kNumber,
-            {-1, 1}},
-           {"friction_coefficient", at<&C::drive, &D::friction_coefficient>, "Coulomb's coefficient", kNumber, {0, 2}},
-           {"torque_ramp", at<&C::drive, &D::torque_ramp>, "Smooth rise of the torque at the start", kTime, {0, 1}},
-           {"creepage_start",
-            at<&C::drive, &D::creepage_start>,
-            "Longitudinal creepage at the start, (V - omega r) / V: negative drives",
-            kNumber,
-            {-0.1, 0.1}}}};
+  OptionTable out{
+      "drive",
+      "Speed, traction and friction",
+      {{"speed", at<&C::drive, &D::speed>, "Rolling speed", kSpeed, above(0, 200)},
+       {"traction_coefficient",
+        at<&C::drive, &D::traction_coefficient>,
+        "Wanted F_T / G; positive drives, negative brakes",
+        kNumber,
+        {-1, 1},
+        {},
+        {},
+        traction_given},
+       {"tractive_force",
+        at<&C::drive, &D::traction_coefficient>,
+        "Wanted F_T, instead of the coefficient",
+        kForce,
+        {-1e7, 1e7},
+        {},
+        {over_static_load, kLessForce}},
+       {"friction_coefficient", at<&C::drive, &D::friction_coefficient>, "Coulomb's coefficient", kNumber, {0, 2}},
+       {"torque_ramp", at<&C::drive, &D::torque_ramp>, "Smooth rise of the torque at the start", kTime, {0, 1}},
+       {"creepage_start",
+        at<&C::drive, &D::creepage_start>,
+        "Longitudinal creepage at the start, (V - omega r) / V: negative drives",
+        kNumber,
+        {-0.1, 0.1}}},
+      false,
+      {{"traction_coefficient", "tractive_force", "creepage"},
+       {"lateral_traction_coefficient", "lateral_force", "lateral_creepage"}}};
+  for (const Option& option : creepage_options()) out.options.push_back(option);
+  return out;
 }
 
 OptionTable mesh_table() {
@@ -423,6 +514,9 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
   struct Writer {
     const Option& option;
     std::string operator()(const double* v) const { return quantity(*v, option.dimension); }
+    std::string operator()(const std::optional<double>* v) const {
+      return *v ? quantity(**v, option.dimension) : std::string();
+    }
     std::string operator()(const int* v) const { return fmt::format("{}", *v); }
     std::string operator()(const bool* v) const { return *v ? "true" : "false"; }
     std::string operator()(const std::string* v) const { return toml_quoted(*v); }

@@ -3,6 +3,7 @@
 // mean", the resolved case, the JSON schema and the reference page all come from these tables, so that a new option is
 // one member in case_spec.hpp and one row here.
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -32,9 +33,10 @@ class ChoiceSlot {
 };
 
 /// Where an option lives in a case, by type. A double or a list of doubles is a quantity of the option's dimension, in
-/// SI; a table of moduli has rows of a depth and a modulus.
-using Slot =
-    std::variant<double*, int*, bool*, std::string*, ChoiceSlot, std::vector<double>*, std::vector<ModulusPoint>*>;
+/// SI; an optional one has no default, the case is another one without it; a table of moduli has rows of a depth and a
+/// modulus.
+using Slot = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, ChoiceSlot, std::vector<double>*,
+                          std::vector<ModulusPoint>*>;
 
 /// A word of a case file and the value of the option's enum that it stands for.
 struct Choice {
@@ -49,6 +51,16 @@ struct Range {
   bool holds(double v) const { return (open ? v > min : v >= min) && v <= max; }
 };
 
+/// Of an option that is a second way of giving the slot of another one: young_ratio, a multiple of the body's modulus,
+/// gives young; wheel_load gives the sprung mass.
+struct Derivation {
+  /// The slot's value for the number written, SI; all other options are read by then.
+  double (*value)(const CaseSpec&, std::size_t index, double written) = nullptr;
+  std::string_view remedy = "choose a value that does";  ///< of a value that the slot must not have
+  bool takes_mass = false;                               ///< of a force: a mass stands for its weight
+  explicit operator bool() const { return value != nullptr; }
+};
+
 struct Option {
   std::string_view key;
   Slot (*slot)(CaseSpec&, std::size_t index);  ///< index: which element of a list of tables ([[layer]]); else unused
@@ -56,9 +68,7 @@ struct Option {
   Dimension dimension{};
   Range range{};
   std::vector<Choice> choices{};  ///< of a ChoiceSlot, the only place where its words stand
-  /// Set for a second way of giving the slot of another option: the number written is a multiple of this (young_ratio
-  /// of the body's modulus).
-  double (*multiple_of)(const CaseSpec&, std::size_t index) = nullptr;
+  Derivation derivation{};
   /// Set for an option that only some cases have (the thickness of a layer, unless a table tells it): whether this case
   /// does. Else the resolved case leaves it out.
   bool (*applies)(const CaseSpec&, std::size_t index) = nullptr;
@@ -73,6 +83,8 @@ struct OptionTable {
   std::string_view doc;
   std::vector<Option> options;
   bool repeated = false;  ///< [[name]], any number of times
+  /// Groups of keys that say the same thing in different ways: a case gives at most one of each.
+  std::vector<std::vector<std::string_view>> rivals{};
 };
 
 /// The words of an option with choices, in the table's order.
@@ -85,6 +97,7 @@ const std::vector<OptionTable>& case_tables();
 std::string toml_quoted(std::string_view text);
 
 /// A value as text that the case file's reader turns back into the same value: "2 mm" in quotes, 3, true, ["0.3 m"].
+/// Empty for an optional one that is not given.
 std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index);
 
 /// "between 0.05 mm and 10 mm", "above 0 s and at most 1 s"; empty when everything is allowed.

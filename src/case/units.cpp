@@ -74,6 +74,8 @@ const std::vector<Customary>& customary() {
       {dimension::kDensity, "a density", "7800 kg/m^3", {"kg/m^3", "t/m^3", "g/cm^3"}},
       {dimension::kStiffness, "a stiffness", "0.95 MN/m", {"MN/m", "kN/mm", "kN/m", "N/mm", "N/m"}},
       {dimension::kDamping, "a damping", "10.4 kN s/m", {"kN s/m", "N s/m"}},
+      {dimension::kForce, "a force", "85 kN", {"kN", "N", "MN"}},
+      {dimension::kSpin, "a spin", "0.1 1/m", {"1/m", "rad/m", "1/mm", "rad/mm"}},
       {dimension::kSlope, "an inclination", "1:40", {"", "mrad", "rad", "deg"}},
   };
   return all;
@@ -107,6 +109,7 @@ std::size_t number_length(std::string_view text) {
 }
 
 constexpr int kHugeExponent = 1'000'000;
+constexpr Dimension kAngleOverLength{0, -1, 0, 1};
 
 /// The number times 10^decimals, rounded once.
 double scaled_number(std::string_view number, int decimals) {
@@ -249,7 +252,9 @@ double parse_quantity(std::string_view whole, const Dimension& expected) {
   }
   if (starts_with_comma(text.substr(length))) throw comma_in_number(text, length);
   const Unit unit = parse_unit(unit_text, expected);
-  if (unit.dimension != expected && !(expected == dimension::kSlope && unit.dimension == dimension::kNumber))
+  const bool without_radian = expected == dimension::kSlope && unit.dimension == dimension::kNumber,
+             with_radian = expected == dimension::kSpin && unit.dimension == kAngleOverLength;
+  if (unit.dimension != expected && !without_radian && !with_radian)
     throw UnitError(fmt::format("\"{}\" is not the unit of {}", unit_text, customary(expected).noun),
                     how_to_write(expected));
   const double scaled = scaled_number(number, unit.decimals);

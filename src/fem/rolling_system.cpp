@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "case/engine_scope.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 
@@ -116,7 +117,7 @@ ContactSurface wheel_surface_of(const Model& m, const Body& wheel) {
 }  // namespace
 
 RollingSystem::RollingSystem(const Model& m)
-    : model(m),
+    : model((require_finite_elements(m.spec), m)),
       options(explicit_options(m)),
       bodies{Body(m.rail, m.rail_materials, element_options(m.spec)),
              Body(m.wheel, m.wheel_materials, element_options(m.spec))},

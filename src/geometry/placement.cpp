@@ -24,6 +24,29 @@ Rotation<double> rotation_of_tangent(double tangent) {
   return {c, tangent * c};
 }
 
+/// Lowest point of the yawed wheel in a plane y = const: its coordinates in the wheel's own frame.
+struct LowestPoint {
+  double x = 0, y = 0;
+};
+
+/// At the distance y from the middle of the tape circle. On the wheel's circle of radius r, at x of its own frame, the
+/// height is stationary along the rail where x = r (dz/dy) tan(psi).
+LowestPoint lowest_point(const Profile& wheel, const TrackGeometry& track, double y) {
+  constexpr double kClose = 1e-13;
+  constexpr int kMostSteps = 50;
+  const double yaw = std::atan(track.yaw), sine = std::sin(yaw), cosine = std::cos(yaw);
+  LowestPoint p{0, y};
+  for (int i = 0; i < kMostSteps; ++i) {
+    const ProfilePoint w = wheel.at(wheel.s_at_y(p.y));
+    p.x = (track.wheel_radius - w.position.z) * w.tangent.z / w.tangent.y * track.yaw;
+    const double next = std::clamp((y - p.x * sine) / cosine, wheel.y_min(), wheel.y_max());
+    const bool settled = std::abs(next - p.y) < kClose;
+    p.y = next;
+    if (settled) break;
+  }
+  return p;
+}
+
 /// Vertical gap between the wheel, its tape circle at (offset_y, 0), and the canted rail.
 class Gap {
  public:
@@ -36,17 +59,38 @@ class Gap {
         wheel_end_(wheel.y_max()) {}
 
   double wheel_y(double s) const { return rail_to_model(track_, rail_.at(s).position).y - offset_y_; }
+  LowestPoint on_wheel(double s) const {
+    return track_.yaw == 0 ? LowestPoint{0, wheel_y(s)} : lowest_point(wheel_, track_, wheel_y(s));
+  }
   bool faces_wheel(double s) const {
     const double y = wheel_y(s);
     return y >= wheel_begin_ && y <= wheel_end_;
   }
-  double value(double s) const { return wheel_.height(wheel_y(s)) - rail_to_model(track_, rail_.at(s).position).z; }
+  double value(double s) const {
+    const LowestPoint p = on_wheel(s);
+    return wheel_.height(p.y) + rise(p) - rail_to_model(track_, rail_.at(s).position).z;
+  }
   double derivative(double s) const {
-    const Vec2 t = rail_to_model(track_, rail_.at(s).tangent), w = wheel_.at(wheel_.s_at_y(wheel_y(s))).tangent;
-    return t.y * w.z / w.y - t.z;
+    const LowestPoint p = on_wheel(s);
+    const Vec2 t = rail_to_model(track_, rail_.at(s).tangent), w = wheel_.at(wheel_.s_at_y(p.y)).tangent;
+    return t.y * w.z / w.y * steeper(p) - t.z;
+  }
+  /// Of a point of the wheel, below the axle.
+  double depth(const LowestPoint& p) const {
+    const double radius = track_.wheel_radius - wheel_.height(p.y);
+    return std::sqrt((radius - p.x) * (radius + p.x));
   }
 
  private:
+  /// By how much the point lies above the lowest one of its circle.
+  double rise(const LowestPoint& p) const {
+    return p.x == 0 ? 0.0 : track_.wheel_radius - wheel_.height(p.y) - depth(p);
+  }
+  /// Slope of the yawed wheel's lower outline over the profile's.
+  double steeper(const LowestPoint& p) const {
+    return track_.yaw == 0 ? 1.0 : (track_.wheel_radius - wheel_.height(p.y)) / depth(p) * std::hypot(1.0, track_.yaw);
+  }
+
   const Profile &wheel_, &rail_;
   const TrackGeometry& track_;
   double offset_y_, wheel_begin_, wheel_end_;
@@ -172,12 +216,15 @@ RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackG
   out.wheel_offset_z = -gap.value(s);
   out.axle_height = out.wheel_offset_z + track.wheel_radius;
   out.rail_s = s;
-  out.wheel_s = wheel.s_at_y(gap.wheel_y(s));
+  const LowestPoint touched = gap.on_wheel(s);
+  out.wheel_s = wheel.s_at_y(touched.y);
   const ProfilePoint w = wheel.at(out.wheel_s);
   const Vec2 tangent = rail_to_model(track, r.tangent);
   out.point = rail_to_model(track, r.position);
   out.angle = std::atan2(tangent.z, tangent.y);
-  out.rolling_radius = track.wheel_radius - w.position.z;
+  out.yaw = std::atan(track.yaw);
+  out.x = touched.x * std::cos(out.yaw) - touched.y * std::sin(out.yaw);
+  out.rolling_radius = track.yaw == 0 ? track.wheel_radius - w.position.z : gap.depth(touched);
   out.curvature_wheel_lateral = w.curvature;
   out.curvature_rail_lateral = r.curvature;
   out.curvature_rolling =

@@ -16,6 +16,7 @@ struct TrackGeometry {
   double cant = 1.0 / 40.0;            ///< tangent of the rail's inclination towards the track centre
   double lateral_shift = 0.0;          ///< of the wheel to the field side
   double wheel_radius = 0.430;         ///< nominal, at the tape circle
+  double yaw = 0.0;  ///< tangent of the angle by which the wheel's rolling direction is turned to the field side
 };
 
 /// The wheel just touching the rail.
@@ -25,9 +26,11 @@ struct RigidContact {
   double axle_height = 0;     ///< z of the axle = wheel_offset_z + wheel_radius
   double rail_s = 0, wheel_s = 0;  ///< arc lengths of the contact point on both profiles
   Vec2 point;                      ///< contact point, model frame
+  double x = 0;      ///< of the contact point, from the middle of the tape circle along the rail; 0 without yaw
+  double yaw = 0;    ///< rad, positive towards the field side
   double angle = 0;  ///< contact angle [rad]: inclination of the common tangent to the y axis, positive when rising to
                      ///< the field side
-  double rolling_radius = 0;  ///< distance of the contact point from the axle
+  double rolling_radius = 0;  ///< distance of the contact point from the axle; of a yawed wheel its depth below it
   double curvature_wheel_lateral = 0,
          curvature_rail_lateral = 0;  ///< of the profiles at the contact, 1/m, convex positive
   double curvature_rolling = 0;       ///< of the wheel across them, cos(angle) / rolling_radius [1/m]
@@ -38,12 +41,14 @@ Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point);
 Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point);
 
 /// Lowers the wheel vertically until it touches: the smallest vertical gap over the rail's whole running surface, found
-/// to 1e-9 m where the contact is a single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. Yaw
-/// is zero, so the contact lies below the axle. The tape circle stands at back_to_back / 2 + flange_back_to_tape from
-/// the track's centre, the gauge face (gauge_depth below the highest point of the canted rail) at gauge / 2, and
-/// lateral_shift moves the wheel from there. A plane or arc (Profile::primitive) has neither flange nor gauge face:
-/// with one in the pair the tape circle stands over the rail's axis, moved by lateral_shift. Throws CaseError if the
-/// wheel misses the rail, touches at the end of a profile, or the rail's profile ends above the gauge depth.
+/// to 1e-9 m where the contact is a single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. The
+/// wheel is turned by the yaw psi about the vertical through the middle of its tape circle; the contact, at the angle
+/// delta, then lies before the axle by about r tan(delta) tan(psi). The tape circle stands at back_to_back / 2 +
+/// flange_back_to_tape from the track's centre, the gauge face (gauge_depth below the highest point of the canted rail)
+/// at gauge / 2, and lateral_shift moves the wheel from there. A plane or arc (Profile::primitive) has neither flange
+/// nor gauge face: with one in the pair the tape circle stands over the rail's axis, moved by lateral_shift. Throws
+/// CaseError if the wheel misses the rail, touches at the end of a profile, or the rail's profile ends above the gauge
+/// depth.
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track);
 
 }  // namespace railstrata

@@ -45,7 +45,10 @@ VtkQuads wheel_surface(const Placement& placement, double wheel_x) {
   const RigidContact& c = placement.contact;
   return swept(outline(placement.wheel, c.wheel_s), kAngles, [&](Vec2 p, int s) {
     const double radius = placement.track.wheel_radius - p.z, t = 2 * std::numbers::pi * s / (kAngles - 1);
-    return Vec3{wheel_x + radius * std::sin(t), p.y + c.wheel_offset_y, c.axle_height - radius * std::cos(t)};
+    const double along = radius * std::sin(t);
+    return Vec3{wheel_x - c.x + along * std::cos(c.yaw) - p.y * std::sin(c.yaw),
+                c.wheel_offset_y + p.y * std::cos(c.yaw) + along * std::sin(c.yaw),
+                c.axle_height - radius * std::cos(t)};
   });
 }
 

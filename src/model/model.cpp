@@ -118,7 +118,7 @@ Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
   Profile wheel = find_profile(ProfileKind::wheel, g.wheel_profile, folder, notes);
   Profile rail = find_profile(ProfileKind::rail, g.rail_profile, folder, notes);
   TrackGeometry track{g.gauge, g.gauge_depth,   g.back_to_back, g.flange_back_to_tape,
-                      g.cant,  g.lateral_shift, g.wheel_radius};
+                      g.cant,  g.lateral_shift, g.wheel_radius, g.yaw};
   const RigidContact contact = place_wheel(wheel, rail, track);
   return {std::move(wheel), std::move(rail), track, contact, std::move(notes)};
 }

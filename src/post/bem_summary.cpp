@@ -49,9 +49,8 @@ Check bem_check(std::string_view name, double value) { return at_most(name, valu
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchMeasures& m) {
   const double load = static_load(spec);
   std::vector<Check> out{bem_check("F_z_relative_to_weight", std::abs(-r.force.z / load - 1))};
-  if (spec.drive.friction_coefficient > 0 && spec.drive.traction_coefficient != 0)
-    out.push_back(
-        bem_check("traction_coefficient_reached", std::abs(m.force_x / load / spec.drive.traction_coefficient - 1)));
+  if (const double wanted = spec.drive.traction().value_or(0); spec.drive.friction_coefficient > 0 && wanted != 0)
+    out.push_back(bem_check("traction_coefficient_reached", std::abs(m.force_x / load / wanted - 1)));
   out.push_back(bem_check("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0));
   return out;
 }
@@ -86,6 +85,7 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   c.F_y = 0.0 - r.force.y;
   c.F_z = 0.0 - r.force.z;
   turn_into_contact_plane(c, r.contact.angle);
+  c.spin_moment = 0.0 - r.force.moment;
   c.approach = r.approach;
   if (friction) {
     c.creepage_x = r.rigid_slip.x;

@@ -134,8 +134,11 @@ std::vector<ResultNumber> force_numbers() {
            .doc = "Contact force on the wheel, upwards",
            .column = true,
            .shown = true,
-           .comparable = true},
-          {.group = "contact",
+           .comparable = true}};
+}
+
+std::vector<ResultNumber> contact_plane_numbers() {
+  return {{.group = "contact",
            .symbol = "contact_angle",
            .unit = kDegrees,
            .value = contact<&C::contact_angle>,
@@ -160,6 +163,15 @@ std::vector<ResultNumber> force_numbers() {
            .name = "Lateral force in the contact plane",
            .doc = "(F_y, F_z) along the lateral tangent of the contact plane",
            .column = true,
+           .shown = true},
+          {.group = "contact",
+           .symbol = "spin_moment",
+           .unit = kNewtonMetres,
+           .value = contact<&C::spin_moment>,
+           .label = "spin moment",
+           .name = "Moment about the contact normal",
+           .doc = "Of the friction on the wheel, about the normal at the rigid contact point",
+           .engine = HadBy::half_spaces,
            .shown = true}};
 }
 
@@ -181,7 +193,8 @@ std::vector<ResultNumber> motion_numbers() {
        .value = contact<&C::creepage_y>,
        .label = "lateral creepage",
        .name = "Lateral creepage",
-       .doc = "0: the axle is guided",
+       .doc = "Along the contact plane, positive where the wheel slips to the field side; finite elements: 0, the axle "
+              "is guided",
        .shown = true},
       {.group = "contact",
        .symbol = "spin",
@@ -427,8 +440,8 @@ const std::vector<ResultNumber>& result_numbers() {
          .label = "position",
          .name = "Position of the wheel",
          .doc = "Of the axle along the rail; half-space: the case's last one, static cases 0"}};
-    for (const auto& part : {traction_numbers(), extent_numbers(), force_numbers(), motion_numbers(), energy_numbers(),
-                             time_numbers(), step_numbers(), effort_numbers()})
+    for (const auto& part : {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(),
+                             motion_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();

@@ -16,6 +16,7 @@ struct ResultUnit {
   constexpr std::string_view si() const {
     if (key_ending == "_per_m") return "1/m";
     if (key_ending == "_per_s") return "1/s";
+    if (key_ending == "_N_m") return "N m";
     return key_ending.empty() ? key_ending : key_ending == "_m2" ? "m²" : key_ending.substr(1);
   }
 };
@@ -32,6 +33,7 @@ inline constexpr ResultUnit kSquareMillimetres{"_m2", "_mm2", 1e6, "mm²", 1e6};
 inline constexpr ResultUnit kMicrometres{"_m", "_um", 1e6, "µm", 1e6};
 inline constexpr ResultUnit kNanometres{"_m", "_nm", 1e9, "nm", 1e9};
 inline constexpr ResultUnit kKilonewtons{"_N", "_kN", 1e-3, "kN", 1e-3};
+inline constexpr ResultUnit kNewtonMetres{"_N_m", "_N_m", 1, "N m", 1};
 inline constexpr ResultUnit kWatts{"_W", "_W", 1, "W", 1};
 inline constexpr ResultUnit kDegrees{"_rad", "_deg", 180 / std::numbers::pi, "°", 180 / std::numbers::pi};
 inline constexpr ResultUnit kPerMetre{"_per_m", "_per_m", 1, "1/m", 1};

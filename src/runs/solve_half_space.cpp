@@ -10,7 +10,9 @@
 namespace railstrata {
 
 CaseSpec half_space_case(CaseSpec spec) {
-  if (!spec.run.rolling) spec.drive.traction_coefficient = spec.drive.friction_coefficient = 0;
+  if (spec.run.rolling) return spec;
+  spec.drive.creepage = spec.drive.lateral_creepage = spec.drive.lateral_traction_coefficient = std::nullopt;
+  spec.drive.traction_coefficient = spec.drive.friction_coefficient = 0;
   return spec;
 }
 

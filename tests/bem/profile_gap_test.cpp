@@ -64,6 +64,56 @@ TEST(ProfileGap, WhereAProfileEndsThereIsNoSurface) {
   }
 }
 
+TEST(ProfileGap, OfABallDoesNotChangeWithItsYaw) {
+  const double R = 0.4;
+  const Profile wheel = circular_profile(ProfileKind::wheel, R), rail = circular_profile(ProfileKind::rail, 0.3);
+  TrackGeometry track;
+  track.cant = 0;
+  track.wheel_radius = R;
+  track.lateral_shift = 30e-3;
+  const PatchGrid g = centred_grid(20, 20, 0.5e-3, 0.5e-3);
+  const RigidContact straight = place_wheel(wheel, rail, track);
+  ASSERT_GT(std::abs(straight.angle), 0.04);
+  const ProfileGap before = profile_gap(wheel, rail, track, straight, g);
+  track.yaw = 0.02;
+  const ProfileGap after = profile_gap(wheel, rail, track, place_wheel(wheel, rail, track), g);
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    EXPECT_NEAR(after.gap[k], before.gap[k], 1e-9 + 1e-5 * before.gap[k]);
+    EXPECT_NEAR(after.radius[k], before.radius[k], 1e-9);
+  }
+}
+
+// A point of a wheel's profile, turned about the axle and with the axle about the vertical, above the rail's plane.
+TEST(ProfileGap, OfAYawedConeOnAPlaneIsItsHeightThere) {
+  const Profile wheel = builtin_profile(ProfileKind::wheel, "LMA"), rail = builtin_profile(ProfileKind::rail, "CN60");
+  TrackGeometry track;
+  track.lateral_shift = 9e-3;
+  track.yaw = 0.02;
+  const RigidContact c = place_wheel(wheel, rail, track);
+  const PatchGrid g = centred_grid(12, 12, 0.5e-3, 0.5e-3);
+  const ProfileGap gap = profile_gap(wheel, rail, track, c, g);
+  EXPECT_NEAR(gap.gap[g.index(12, 12)], 0, 1e-9);
+  const Vec2 tangent{std::cos(c.angle), std::sin(c.angle)}, normal{-tangent.z, tangent.y};
+  int met = 0;
+  for (double s = c.wheel_s - 3e-3; s < c.wheel_s + 3e-3; s += 0.1e-3)
+    for (double turn = -0.01; turn < 0.03; turn += 0.5e-3) {
+      const Vec2 p = wheel.at(s).position;
+      const double radius = track.wheel_radius - p.z, along = radius * std::sin(turn),
+                   x = along * std::cos(c.yaw) - p.y * std::sin(c.yaw) - c.x;
+      const Vec2 d = Vec2{c.wheel_offset_y + p.y * std::cos(c.yaw) + along * std::sin(c.yaw),
+                          c.axle_height - radius * std::cos(turn)} -
+                     c.point;
+      const double i = (x - g.x0) / g.dx, j = (dot(d, tangent) - g.y0) / g.dy;
+      if (std::abs(i - std::round(i)) > 0.02 || std::abs(j - std::round(j)) > 0.02) continue;
+      if (i < 0 || j < 0 || i > g.nx - 1 || j > g.ny - 1) continue;
+      const std::size_t k = g.index(static_cast<int>(std::round(i)), static_cast<int>(std::round(j)));
+      // within a fiftieth of a cell, where the heights change by a few hundredths of it
+      EXPECT_NEAR(gap.gap[k] + gap.rail_height[k], dot(d, normal), 2e-6);
+      ++met;
+    }
+  EXPECT_GT(met, 3);
+}
+
 // notes of the project: half-space solution of the exact profiles, E = 210 GPa, nu = 0.3, 84.95 kN, wheel radius 430
 // mm.
 TEST(ProfileGap, LmaOnCn60PeakPressureAtFourLateralShifts) {

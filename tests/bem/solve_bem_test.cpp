@@ -159,7 +159,8 @@ TEST(SolveBem, InteriorPeakOfTheBaseCaseIs062OfThePeakPressure3MillimetresDown) 
 TEST(CreepCurve, OfTheBaseCaseRisesToTheBound) {
   BemOptions options;
   options.cell = 0.5e-3;
-  const auto curve = creep_curve(paper_base(), place(paper_base(), {}), {-2e-4, -1e-3, -3e-3, -2e-2}, options);
+  const auto curve = creep_curve(paper_base(), place(paper_base(), {}), VariedCreepage::longitudinal,
+                                 {-2e-4, -1e-3, -3e-3, -2e-2}, options);
   for (std::size_t i = 1; i < curve.size(); ++i) {
     EXPECT_LT(curve[i].full, curve[i - 1].full);
     EXPECT_GT(curve[i].slip_fraction, curve[i - 1].slip_fraction);

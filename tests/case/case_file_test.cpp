@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "case/engine_scope.hpp"
 #include "case/option_table.hpp"
 #include "core/faults.hpp"
 
@@ -118,6 +119,7 @@ void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
       return o.range.holds(other) ? other : v * 0.9876543211;
     }
     void operator()(double* v) const { *v = inside(*v); }
+    void operator()(std::optional<double>*) const {}  // has no value to disturb
     void operator()(int* v) const { *v += 1; }
     void operator()(bool* v) const { *v = !*v; }
     void operator()(std::string* v) const { *v += " \"2\"\n"; }
@@ -134,7 +136,7 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   spec.layers[1].on = BodyId::wheel;
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options)
-      if (!option.multiple_of && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)))
+      if (!option.derivation && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)))
         disturb(option, spec, 0);
   const std::string text = resolved_case(spec);
   const LoadedCase back = parse_case(text, "a.toml");
@@ -154,7 +156,7 @@ TEST(CaseFile, EveryDefaultLiesInItsRange) {
     for (const Option& option : table.options) {
       const Slot slot = option.slot(spec, 0);
       double value = option.range.max;
-      if (const auto* real = std::get_if<double*>(&slot)) value = option.multiple_of ? 1.0 : **real;
+      if (const auto* real = std::get_if<double*>(&slot)) value = option.derivation ? 1.0 : **real;
       if (const auto* whole = std::get_if<int*>(&slot)) value = **whole;
       EXPECT_TRUE(option.range.holds(value)) << table.name << "." << option.key;
     }
@@ -169,7 +171,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[geometry]\nguage = \"1.435 m\"\n",
        "a.toml:2:1: unknown key geometry.guage\n    2 | guage = \"1.435 m\"\n      | ^\n    remedy: did you mean "
        "gauge? keys of [geometry]: rail_profile, wheel_profile, rail_shape, "
-       "wheel_shape, gauge, gauge_depth, back_to_back, flange_back_to_tape, cant, lateral_shift, wheel_radius, "
+       "wheel_shape, gauge, gauge_depth, back_to_back, flange_back_to_tape, cant, lateral_shift, yaw, curve_radius, "
+       "wheel_radius, "
        "block_width, block_height, rim_thickness, web_thickness, web_offset, "
        "hub_radius, hub_width, bore_radius"},
       {"[meshes]\n",
@@ -558,14 +561,111 @@ TEST(Overrides, GiveAllLayersAsAList) {
   EXPECT_TRUE(error_of("", {"layer=3"}).starts_with("--set layer=3: layer must be a list of tables\n"));
 }
 
+double load_of(const CaseSpec& spec) {
+  return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
+}
+
+TEST(CaseFile, ALoadIsAForceOrAMassAndSetsTheSprungMass) {
+  const auto spec = [](const std::string& text) { return parse_case("[vehicle]\n" + text, "a.toml").spec; };
+  EXPECT_NEAR(load_of(spec("wheel_load = \"110 kN\"\n")), 110e3, 1e-6);
+  EXPECT_NEAR(load_of(spec("axle_load = \"220 kN\"\nwheel_mass = \"700 kg\"\n")), 110e3, 1e-6);
+  EXPECT_NEAR(spec("wheel_load = \"11.25 t\"\n").vehicle.sprung_mass, 11250 - 660, 1e-8);
+  EXPECT_NEAR(load_of(spec("axle_load = \"22.5 t\"\ngravity = \"10 m/s^2\"\n")), 112.5e3, 1e-6);
+  const LoadedCase loaded = parse_case("[vehicle]\nwheel_load = \"110 kN\"\n", "a.toml");
+  EXPECT_EQ(parse_case(loaded.resolved_toml, "a.toml").spec.vehicle.sprung_mass, loaded.spec.vehicle.sprung_mass);
+  EXPECT_TRUE(error_of("[vehicle]\nwheel_load = \"5 kN\"\n")
+                  .starts_with("a.toml:2:14: vehicle.wheel_load = \"5 kN\": makes sprung_mass -150.3"));
+  EXPECT_NE(error_of("[vehicle]\nwheel_load = \"5 kN\"\n").find("remedy: give more load, or less vehicle.wheel_mass"),
+            std::string::npos);
+  EXPECT_NE(error_of("[vehicle]\nwheel_load = \"5 mm\"\n").find("\"mm\" is not the unit of a force"),
+            std::string::npos);
+  EXPECT_NE(error_of("[vehicle]\nwheel_load = \"2e6 t\"\n").find("must be above 0 kN and at most 10000 kN"),
+            std::string::npos);
+}
+
+TEST(CaseFile, ADriveIsGivenByForcesOrByCreepages) {
+  const DriveSpec given =
+      parse_case("[drive]\ncreepage = -0.001\nlateral_force = \"8.49546 kN\"\nspin = \"0.2 rad/m\"\n", "a.toml")
+          .spec.drive;
+  EXPECT_EQ(given.creepage, -0.001);
+  EXPECT_FALSE(given.traction());
+  EXPECT_NEAR(given.lateral_traction_coefficient.value(), 0.1, 1e-12);
+  EXPECT_EQ(given.spin, 0.2);
+  const DriveSpec forces =
+      parse_case("[drive]\ntractive_force = \"11 kN\"\n[vehicle]\nwheel_load = \"110 kN\"\n", "a.toml").spec.drive;
+  EXPECT_NEAR(forces.traction().value(), 0.1, 1e-12);
+  EXPECT_FALSE(forces.lateral_creepage || forces.lateral_traction_coefficient || forces.spin);
+}
+
+TEST(CaseFile, ADriveReadsBackToTheSameBits) {
+  for (const char* lateral : {"lateral_force = \"3.3 kN\"\n", "lateral_creepage = 0.0033\n", ""}) {
+    const LoadedCase loaded = parse_case(
+        std::string("[geometry]\nyaw = \"3.3 mrad\"\ncurve_radius = \"-333.3 m\"\n[drive]\ncreepage = -1.1e-3\nspin = "
+                    "\"0.33 1/m\"\n") +
+            lateral,
+        "a.toml");
+    const LoadedCase back = parse_case(loaded.resolved_toml, "a.toml");
+    EXPECT_EQ(back.resolved_toml, loaded.resolved_toml);
+    EXPECT_EQ(back.spec.drive.creepage, loaded.spec.drive.creepage);
+    EXPECT_EQ(back.spec.drive.lateral_creepage, loaded.spec.drive.lateral_creepage);
+    EXPECT_EQ(back.spec.drive.lateral_traction_coefficient, loaded.spec.drive.lateral_traction_coefficient);
+    EXPECT_EQ(back.spec.drive.spin, loaded.spec.drive.spin);
+    EXPECT_EQ(back.spec.geometry.yaw, loaded.spec.geometry.yaw);
+    EXPECT_EQ(back.spec.geometry.curve_radius, loaded.spec.geometry.curve_radius);
+    EXPECT_EQ(loaded.resolved_toml.find("\ntraction_coefficient"), std::string::npos);
+  }
+}
+
+TEST(CaseFile, OfTwoWaysOfSayingOneThingTheFileHasOneAndTheCommandLineGoesFirst) {
+  EXPECT_TRUE(error_of("[drive]\ntraction_coefficient = 0.1\ncreepage = -0.001\n")
+                  .starts_with("a.toml:3:12: [drive] has traction_coefficient and creepage: a case has one of them"));
+  EXPECT_NE(error_of("[drive]\nlateral_creepage = 0.1\nlateral_force = \"1 kN\"\n").find("a case has one of them"),
+            std::string::npos);
+  EXPECT_NE(error_of("[vehicle]\nwheel_load = \"100 kN\"\nsprung_mass = \"8 t\"\n").find("a case has one of them"),
+            std::string::npos);
+  const CaseSpec spec = parse_case("[drive]\ntraction_coefficient = 0.1\n[vehicle]\nsprung_mass = \"8 t\"\n", "a.toml",
+                                   {"drive.creepage=-0.001", "vehicle.axle_load=20 t"})
+                            .spec;
+  EXPECT_EQ(spec.drive.creepage, -0.001);
+  EXPECT_NEAR(spec.vehicle.sprung_mass, 10e3 - 660, 1e-8);
+  EXPECT_NE(error_of("", {"drive.creepage=-0.001", "drive.traction_coefficient=0.1"}).find("a case has one of them"),
+            std::string::npos);
+}
+
+TEST(CaseFile, ForcesBeyondFrictionAndTooTightCurvesAreRefused) {
+  EXPECT_NE(error_of("[drive]\ntraction_coefficient = 0.4\nlateral_traction_coefficient = 0.4\n")
+                .find("0.5657 together: must be below drive.friction_coefficient = 0.5"),
+            std::string::npos);
+  EXPECT_EQ(parse_case("[drive]\ncreepage = 1\nfriction_coefficient = 0.1\n", "a.toml").spec.drive.creepage, 1.0)
+      << "full sliding is a creepage";
+  EXPECT_NE(error_of("[geometry]\ncurve_radius = \"2 m\"\n").find("must be at least 5000 mm to either side"),
+            std::string::npos);
+}
+
+TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
+  EXPECT_TRUE(parse_case("[vehicle]\naxle_load = \"22.5 t\"\n", "a.toml").not_in_fem.empty());
+  const LoadedCase loaded = parse_case("[geometry]\nyaw = \"5 mrad\"\n[drive]\nlateral_force = \"1 kN\"\n", "a.toml",
+                                       {"drive.creepage=-0.001"});
+  ASSERT_EQ(loaded.not_in_fem.size(), 3u);
+  EXPECT_EQ(loaded.not_in_fem[0].where, "a.toml:2:7");
+  EXPECT_TRUE(loaded.not_in_fem[0].message.starts_with(
+      "yaw (geometry.yaw) is not in this engine: in the finite elements the wheel runs straight along the rail"));
+  EXPECT_EQ(loaded.not_in_fem[1].where, "--set drive.creepage=-0.001");
+  EXPECT_EQ(loaded.not_in_fem[2].where, "a.toml:3:2") << "the table of the force";
+  EXPECT_EQ(loaded.not_in_fem[0].remedy, "take it out, or solve the case with `railstrata bem`");
+  EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.01\n[run]\nrolling = false\n", "a.toml").not_in_fem.empty());
+  EXPECT_THROW(require_finite_elements(loaded.spec), CaseError);
+  EXPECT_NO_THROW(require_finite_elements(CaseSpec()));
+}
+
 TEST(CaseFile, WhatNoCaseHasIsAnsweredByWhatToDoInstead) {
   const auto remedy = [](const std::string& text) {
     const std::string error = error_of(text);
     return error.substr(error.find("remedy: ") + 8);
   };
-  EXPECT_TRUE(remedy("[drive]\ncreepage = 0.01\n").starts_with("creepage follows from drive.traction_coefficient"));
-  EXPECT_TRUE(remedy("[geometry]\ncurve_radius = \"300 m\"\n").starts_with("the track is straight"));
-  EXPECT_TRUE(remedy("[vehicle]\naxle_load = \"22.5 t\"\n").starts_with("the load is (vehicle.wheel_mass +"));
+  EXPECT_TRUE(remedy("[run]\ncreepage = 0.01\n").starts_with("drive.creepage, lateral_creepage and spin give"));
+  EXPECT_TRUE(remedy("[drive]\nangle_of_attack = \"5 mrad\"\n").starts_with("geometry.yaw is the angle of attack"));
+  EXPECT_TRUE(remedy("[drive]\naxle_load = \"22.5 t\"\n").starts_with("vehicle.wheel_load and vehicle.axle_load"));
   EXPECT_TRUE(
       remedy("[track]\ngauge = \"1435 mm\"\n").starts_with("gauge, cant and lateral_shift are keys of [geometry]"));
   EXPECT_EQ(remedy("[drive]\nspeed = \"0 km/h\"\n"), "choose a value in this range");

@@ -43,6 +43,9 @@ TEST(Units, EveryWayOfWritingGivesTheVeryDoubleOfItsSiLiteral) {
                          {" 8 t ", kMass, 8000},
                          {"2.5 %", kSlope, 0.025},
                          {"1 : 20", kSlope, 0.05},
+                         {"84.9546 kN", kForce, 84954.6},
+                         {"0.12 1/m", kSpin, 0.12},
+                         {"0.00012 rad/mm", kSpin, 0.12},
                          {"1/40", kSlope, 1.0 / 40}};
   for (const Written& w : all) EXPECT_EQ(parse_quantity(w.text, w.dimension), w.si) << w.text;
 }

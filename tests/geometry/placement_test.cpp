@@ -98,6 +98,56 @@ TEST(Placement, arcs_touch_where_their_centres_are_in_line) {  // plane on a cir
   EXPECT_NEAR(std::sin(-hollow.angle), -4e-3 / 0.15, 1e-8);
 }
 
+// A ball of the wheel's radius, turned about its own vertical, is the same ball.
+TEST(Placement, yaw_does_not_move_the_contact_of_a_ball) {
+  TrackGeometry track = upright();
+  track.lateral_shift = 30 * mm;
+  track.wheel_radius = 0.4;
+  const Profile ball = wheel("arc:R=400 mm"), head = rail("arc:R=300 mm");
+  const RigidContact straight = place_wheel(ball, head, track);
+  ASSERT_GT(std::abs(straight.angle), 0.04);
+  for (const double yaw : {-0.05, 0.005, 0.05}) {
+    track.yaw = yaw;
+    const RigidContact c = place_wheel(ball, head, track);
+    EXPECT_NEAR(c.x, 0, 1e-9) << yaw;
+    EXPECT_NEAR(norm(c.point - straight.point), 0, 1e-9) << yaw;
+    EXPECT_NEAR(c.axle_height, straight.axle_height, 1e-12) << yaw;
+    EXPECT_NEAR(c.rolling_radius, c.axle_height - c.point.z, 1e-12) << yaw;
+  }
+}
+
+/// The same over the wheel's lower surface around the contact, turned about the vertical by the yaw.
+double brute_force_gap_of_yawed(const Profile& w, const Profile& r, const TrackGeometry& track, const RigidContact& c) {
+  const double yaw = std::atan(track.yaw);
+  double smallest = 1;
+  for (double s = c.wheel_s - 10 * mm; s < std::min(w.s_max(), c.wheel_s + 10 * mm); s += 1e-5) {
+    const Vec2 p = w.at(s).position;
+    const double radius = track.wheel_radius - p.z;
+    for (double x = -4 * mm; x <= 8 * mm; x += 0.1 * mm) {
+      const double y = c.wheel_offset_y + p.y * std::cos(yaw) + x * std::sin(yaw),
+                   z = c.axle_height - std::sqrt(radius * radius - x * x);
+      const Vec2 on_rail = model_to_rail(track, {y, z});
+      if (on_rail.y > r.y_min() && on_rail.y < r.y_max())
+        smallest = std::min(smallest, on_rail.z - r.height(on_rail.y));
+    }
+  }
+  return smallest;
+}
+
+TEST(Placement, a_yawed_wheel_just_touches_and_before_the_axle_where_the_contact_is_steep) {
+  const Profile lma = wheel("LMA"), cn60 = rail("CN60");
+  for (const double shift : {0.0, 9.5}) {
+    TrackGeometry track;
+    track.lateral_shift = shift * mm;
+    track.yaw = 0.01;
+    const RigidContact c = place_wheel(lma, cn60, track);
+    EXPECT_NEAR(brute_force_gap_of_yawed(lma, cn60, track, c), 0, 1e-7) << shift;
+    const double sideways = lma.at(c.wheel_s).position.y * std::sin(c.yaw);
+    EXPECT_NEAR((c.x + sideways) / (c.rolling_radius * std::tan(c.angle) * std::tan(c.yaw)), 1, 1e-3) << shift;
+    EXPECT_GT(c.x + sideways, 0) << shift;
+  }
+}
+
 TEST(Placement, a_plane_touches_a_canted_crown_at_its_top) {
   TrackGeometry track;
   const RigidContact c = place_wheel(wheel("flat"), rail("arc:R=300 mm"), track);

@@ -72,6 +72,29 @@ class HalfSpaceCommands(FromOutside):
         self.assertEqual((contact["q_max_Pa"], contact["F_x_N"]), (0, 0))
         self.assertIsNone(contact["creepage_x"])
 
+    def test_creepages_forces_and_yaw_are_the_half_spaces_alone(self):
+        drive = ["--set", "drive.creepage=-0.001", "--set", "drive.lateral_force=-5 kN", "--set", "geometry.yaw=5 mrad",
+                 "--set", "vehicle.axle_load=20 t"]
+        out = self.bem("driven", *drive)
+        summary = json.loads((out / "summary.json").read_text())
+        contact = summary["contact"]
+        self.assertEqual(contact["creepage_x"], -0.001)
+        self.assertAlmostEqual(contact["lateral_force_N"], -5000, delta=1)
+        self.assertAlmostEqual(contact["F_z_N"] / (1e4 * 9.81), 1, delta=1e-5)
+        self.assertNotIn("traction_coefficient_reached", [check["name"] for check in summary["checks"]])
+        self.assertIsNotNone(contact["spin_moment_N_m"])
+        again = json.loads(self.done("bem", out / "case.toml", *COARSE, "--out", self.folder / "again", "--json", "-q"))
+        self.assertEqual(again["contact"], contact)
+        for command in ["run", "mesh"]:
+            self.refused(2, [command, BASE, *drive, "--out", self.folder / command],
+                         "--set geometry.yaw=5 mrad: error: yaw (geometry.yaw) is not in this engine",
+                         "a given creepage (drive.creepage) is not in this engine: in the finite elements a torque",
+                         "remedy: take it out, or solve the case with `railstrata bem`")
+        told = self.done("check", BASE, *drive)
+        for words in ["static load    98.100 kN", "yaw            5.000 mrad", "`run` refuses it"]:
+            self.assertIn(words, told)
+        self.assertEqual(len(json.loads(self.done("check", BASE, *drive, "--json"))["not_in_fem"]), 3)
+
     def test_bem_refuses_what_half_space_theory_cannot_answer(self):
         out = ["--out", self.folder / "out"]
         self.refused(2, ["bem", BASE, *COARSE, *out, "--set", "drive.traction_coefficient=0.6"],
@@ -204,7 +227,40 @@ young_ratio = 2.0
             for theory in ["fastsim", "polach", "vermeulen_johnson"]:
                 self.assertAlmostEqual(row[theory], row["full"], delta=0.12, msg=f"{theory} at {row['creepage']}")
 
+    def curve(self, name, *words):
+        case = SOURCE / "cases" / "verification" / "hertz_crossed_cylinders.toml"
+        self.done("creep-curve", case, "--threads", 1, "--cell", "0.75 mm", "--points", 5, "--out", self.folder / name,
+                  "--set", "layer.0.young_ratio=2", "--set", "layer.0.thickness=2 mm", *words)
+        return [{k: float(v) for k, v in row.items()} for row in table(self.folder / name / "creep_curve.csv")]
+
+    def test_lateral_and_spin_curves_have_two_sides_under_layers(self):
+        rows = self.curve("lateral", "--of", "lateral_creepage", "--both-sides", "--set", "drive.creepage=-0.0005")
+        self.assertEqual([row["lateral_creepage"] for row in rows], sorted(row["lateral_creepage"] for row in rows))
+        self.assertEqual((len(rows), rows[5]["lateral_creepage"]), (11, 0))
+        for left, right in zip(rows, reversed(rows)):
+            self.assertAlmostEqual(left["full"], -right["full"], delta=2e-3)
+            self.assertAlmostEqual(left["full_across"], right["full_across"], delta=2e-3)
+            self.assertLessEqual(math.hypot(left["full"], left["full_across"]), 1 + 1e-5)
+        self.assertAlmostEqual(rows[-1]["full"], -0.02 / math.hypot(0.02, 0.0005), delta=2e-3)
+        bem = ["--set", "layer.0.young_ratio=2", "--set", "layer.0.thickness=2 mm", "--set", "run.rolling=true",
+               "--set", "drive.creepage=-0.0005", "--set", f"drive.lateral_creepage={rows[7]['lateral_creepage']!r}"]
+        case = SOURCE / "cases" / "verification" / "hertz_crossed_cylinders.toml"
+        contact = json.loads(self.done("bem", case, "--threads", 1, "--cell", "0.75 mm", *bem, "--json", "-q", "--out",
+                                       self.folder / "point"))["contact"]
+        self.assertAlmostEqual(contact["lateral_force_N"] / (0.5 * LOAD), rows[7]["full"], delta=1e-4)
+        self.assertAlmostEqual(contact["F_x_N"] / (0.5 * LOAD), rows[7]["full_across"], delta=1e-4)
+
+    def test_spin_alone_makes_a_lateral_force_that_falls_again_and_a_moment_that_grows(self):
+        rows = self.curve("spin", "--of", "spin", "--set", "drive.traction_coefficient=0")
+        self.assertAlmostEqual(rows[-1]["spin_per_m"], 5)
+        force, moment = [-row["full"] for row in rows], [-row["full_moment_mm"] for row in rows]
+        self.assertLess(force[-1], max(force))
+        self.assertEqual(moment, sorted(moment))
+        self.assertAlmostEqual(rows[0]["full"] / rows[0]["linear"], 1, delta=0.2)  # Kalker's C23, without the layer
+
     def test_a_creep_curve_needs_a_range(self):
+        self.refused(2, ["creep-curve", BASE, "--largest", 0.6], "--largest 0.6 is out of range")
+        self.refused(2, ["creep-curve", BASE, "--of", "yaw"], "--of")
         self.refused(2, ["creep-curve", BASE, "--points", 1], "--points")
         self.refused(2, ["creep-curve", BASE, "--largest", 0], "--largest")
         self.refused(2, ["creep-curve", BASE, *COARSE, "--set", "drive.friction_coefficient=0", "--set",

@@ -108,6 +108,15 @@ class Program(FromOutside):
             self.assertAlmostEqual(contact["lateral_force_N"] / contact["normal_force_N"], 0, delta=1e-6, msg=engine)
             self.assertAlmostEqual(contact["F_z_N"], 8500 * 9.81, delta=5)
 
+    def test_an_axle_load_is_carried_by_the_contact_of_both_engines(self):
+        coarse = ["--set", "mesh.element_size=8 mm", "--set", "mesh.largest=30 mm", "--set", "run.rolling=false"]
+        for engine, words in [("run", ["--threads", "1"]), ("bem", ["--cell", "1 mm"])]:
+            rc, _, err = railstrata(engine, self.case(TINY), *words, *coarse, "--set", "vehicle.axle_load=20 t",
+                                    "--quiet", "--out", self.folder / engine)
+            self.assertIn(rc, (0, 1), err)  # 1: a check of a result so coarse may fail
+            contact = json.loads((self.folder / engine / "summary.json").read_text())["contact"]
+            self.assertAlmostEqual(contact["F_z_N"] / (10e3 * 9.81), 1, delta=1e-4, msg=engine)
+
     def test_mesh_writes_its_files_and_where_they_come_from(self):
         case = self.case('[case]\ntitle = "m"\n')
         rc, out, err = railstrata("mesh", case, *COARSE, cwd=self.folder)
