@@ -147,8 +147,7 @@ ExitCode command_compare(const CommandOptions& options) {
       options.out.empty() ? fs::path("results") / fmt::format("{}-against-{}", last_name(a.folder), last_name(b.folder))
                           : options.out;
   for (const ResultFolder* side : {&a, &b})
-    for (const ResultDoubt& doubt : result_doubts(side->folder))
-      spdlog::warn("{}: {}", side->folder.string(), doubt.text);
+    for (const ResultDoubt& doubt : result_doubts(*side)) spdlog::warn("{}: {}", side->folder.string(), doubt.text);
   const FieldComparison comparison = compare_fields_of(a, b);
   const std::vector<Row> rows = rows_of(a, b);
   const nlohmann::ordered_json json = as_json(a, b, rows, comparison);

@@ -3,17 +3,21 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
 #include <nlohmann/json.hpp>
 
 #include "io/provenance.hpp"
+#include "post/patch.hpp"
 
 namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kContradicted = "summary_contradicted";
 
 fs::path folder_of_origin(const fs::path& folder) {
   const fs::path full = fs::absolute(folder / "").lexically_normal().parent_path();
@@ -55,13 +59,53 @@ void doubt_case(const nlohmann::json& origin, const fs::path& folder, std::vecto
                  true});
 }
 
+void doubt_checks(const ResultFolder& result, std::vector<ResultDoubt>& out) {
+  const std::vector<Check> checks = checks_of(result.summary);
+  std::size_t k = 0;
+  for (const Check& c : checks) {
+    while (!result.summary["checks"][k].is_object()) ++k;
+    const nlohmann::json& entry = result.summary["checks"][k++];
+    if (c.value <= c.limit || !entry.contains("ok") || entry["ok"] != true) continue;
+    out.push_back(
+        {kContradicted,
+         fmt::format("summary.json says that the check {} holds, and its value is {:.4g}, its limit {:.4g}: it "
+                     "was changed after the run",
+                     c.name, c.value, c.limit),
+         true});
+  }
+}
+
+/// Both files come from one computation. `tolerance`: how far the two numbers may be apart, relative.
+void doubt_number(const ResultFolder& result, const char* path, double scale, const char* what, double of_patch,
+                  double tolerance, std::vector<ResultDoubt>& out) {
+  const double said = result.number(path);
+  if (!std::isfinite(said) || std::abs(of_patch - said) <= tolerance * std::abs(said)) return;
+  out.push_back(
+      {kContradicted,
+       fmt::format("summary.json has {} {:.6g}, patch.csv gives {:.6g}: one of them was changed, cut off or is "
+                   "another run's",
+                   what, scale * said, scale * of_patch),
+       true});
+}
+
+void doubt_patch(const ResultFolder& result, std::vector<ResultDoubt>& out) {
+  constexpr double kRoundOff = 1e-9;   // of a table in MPa and mm
+  constexpr double kOneNormal = 0.05;  // the sum takes the pressures of a curved surface as parallel
+  const PatchMeasures patch = measure_patch(result.field);
+  doubt_number(result, "/contact/p_max_Pa", 1e-6, "p_max [MPa]", patch.p_max, kRoundOff, out);
+  doubt_number(result, "/contact/q_max_Pa", 1e-6, "q_max [MPa]", patch.q_max, kRoundOff, out);
+  doubt_number(result, "/contact/normal_force_N", 1e-3, "a normal force [kN] of", patch.force_z, kOneNormal, out);
+}
+
 }  // namespace
 
-std::vector<ResultDoubt> result_doubts(const fs::path& folder) {
-  const fs::path home = folder_of_origin(folder);
+std::vector<ResultDoubt> result_doubts(const ResultFolder& result) {
+  const fs::path home = folder_of_origin(result.folder);
   std::ifstream in(home / "provenance.json", std::ios::binary);
   const auto origin = nlohmann::json::parse(in, nullptr, false);
   std::vector<ResultDoubt> out;
+  doubt_checks(result, out);
+  doubt_patch(result, out);
   if (!origin.is_object()) return out;
   doubt_case(origin, home, out);
   doubt_version(origin, out);

@@ -1,20 +1,22 @@
 #pragma once
 // What speaks against believing a result folder although its files can be read.
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "io/result_folder.hpp"
+
 namespace railstrata {
 
-/// name: "case_edited" or "other_version"; `grave`: the page must not call such a result sound.
+/// name: "case_edited", "other_version" or "summary_contradicted"; `grave`: the page must not call such a result sound.
 struct ResultDoubt {
   std::string name, text;
   bool grave = false;
 };
 
 /// By provenance.json: another version of the program wrote the result; case.toml is not the one of the run (its
-/// SHA-256 differs). Folders from before 0.2.0 do not have that hash and are not asked for it. A position_<mm> folder
-/// has both files in the folder it stands in.
-std::vector<ResultDoubt> result_doubts(const std::filesystem::path& folder);
+/// SHA-256 differs); summary.json says of a check that it holds whose value is beyond its limit, or has other largest
+/// tractions or another normal force than patch.csv. Folders from before 0.2.0 do not have that hash and are not asked
+/// for it. A position_<mm> folder has both files in the folder it stands in.
+std::vector<ResultDoubt> result_doubts(const ResultFolder& result);
 
 }  // namespace railstrata

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <sstream>
+#include <utility>
 
 #include "core/engine.hpp"
 #include "core/faults.hpp"
@@ -98,6 +99,22 @@ double ResultFolder::number(const std::string& path) const {
   const nlohmann::json::json_pointer at(path);
   return summary.contains(at) && summary[at].is_number() ? summary[at].get<double>()
                                                          : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<Check> checks_of(const nlohmann::json& summary) {
+  std::vector<Check> out;
+  if (!summary.contains("checks") || !summary["checks"].is_array()) return out;
+  for (const nlohmann::json& entry : summary["checks"]) {
+    if (!entry.is_object()) continue;
+    const auto number = [&](const char* key) {
+      return entry.contains(key) && entry[key].is_number() ? entry[key].get<double>() : kNotApplicable;
+    };
+    const std::string name = text_at(entry, "/name");
+    Check check = at_most(name.empty() ? "check" : name, number("value"), number("limit"));
+    check.ok = check.ok && entry.contains("ok") && entry["ok"].is_boolean() && entry["ok"].get<bool>();
+    out.push_back(std::move(check));
+  }
+  return out;
 }
 
 ResultFolder parse_results(const std::string& summary, const std::string& patch, const fs::path& folder) {

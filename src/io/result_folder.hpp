@@ -2,10 +2,12 @@
 // A result folder read back: what `run` and `bem` wrote.
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "contact/contact_field.hpp"
+#include "post/summary.hpp"
 
 namespace railstrata {
 
@@ -19,6 +21,9 @@ struct ResultFolder {  // NOLINT(bugprone-exception-escape): the move of json is
   /// A number of the summary by its path ("/contact/p_max_Pa"); NaN if it is null or not there.
   double number(const std::string& path) const;
 };
+
+/// The checks of summary.json. One holds if it says so and its value is within its limit.
+std::vector<Check> checks_of(const nlohmann::json& summary);
 
 /// Throws CaseError when the folder is not there, holds no summary.json or patch.csv, or they are not as this program
 /// writes them.

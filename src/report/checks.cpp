@@ -140,12 +140,8 @@ void add_warnings(const ReportRun& run, int index, std::vector<ReportCheck>& out
 }
 
 void add_own(const ReportRun& run, int index, std::vector<ReportCheck>& out) {
-  for (const auto& c : objects_of(run, "checks"))
-    out.push_back({.name = c.value("name", "check"),
-                   .runs = {index},
-                   .ok = c.value("ok", false),
-                   .value = number_in(c, "value"),
-                   .limit = number_in(c, "limit")});
+  for (const Check& c : checks_of(run.result.summary))
+    out.push_back({.name = c.name, .runs = {index}, .ok = c.ok, .value = c.value, .limit = c.limit});
 }
 
 void add_pair(const std::vector<ReportRun>& runs, int fem, int bem, std::vector<ReportCheck>& out) {

@@ -100,7 +100,7 @@ ReportRun read_report_run(const fs::path& folder) {
     run.options = options_of(text_of(file));
     run.profile_sha256 = profiles_of(run, file.parent_path());
   }
-  run.doubts = result_doubts(folder);
+  run.doubts = result_doubts(run.result);
   run.provenance = json_of(file_of(folder, "provenance.json"));
   run.geometry = json_of(file_of(folder, "geometry.json"));
   run.depth_line = table_of(file_of(folder, "depth_line.csv"));

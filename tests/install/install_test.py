@@ -174,6 +174,19 @@ class PkgConfigConsumer(Consumer):
         self.run_it(self.folder / "consumer")
 
 
+    def test_the_example_of_the_manual_runs_as_the_manual_says(self):
+        manual = (SOURCE / "docs/library.md").read_text()
+        rpath = "-Wl,-rpath,$(pkg-config --variable=libdir railstrata)"
+        self.assertIn(rpath, manual)
+        includes, body = re.search(r"```cpp\n(.*?)```", manual, re.S)[1].split("\n\n", 1)
+        (self.folder / "mine.cpp").write_text(f"{includes}\nint main() {{\n{body}}}\n")
+        shutil.copy(PREFIX / "share/railstrata/cases/quick/case.toml", self.folder)
+        here = environment(PKG_CONFIG_PATH=str(only("railstrata.pc").parent), LD_LIBRARY_PATH=None)
+        done("sh", "-c", f"{CXX} -std=c++20 mine.cpp $(pkg-config --cflags --libs railstrata) {rpath} -o mine",
+             cwd=self.folder, env=here)
+        done(self.folder / "mine", cwd=self.folder, env=here)
+
+
 class Moved(unittest.TestCase):
     """The prefix in another place than it was installed to, the program called from a folder where nothing is."""
     def setUp(self):

@@ -143,6 +143,39 @@ class Edited(FromOutside):
         self.assertIn("case.toml was changed after the run",
                       self.told("compare", self.out, self.out, "--out", self.folder / "c"))
 
+    def doubted(self, text):
+        err = self.told("report", self.out)
+        self.assertIn(f"warning: {self.out}: {text}", err)
+        self.assertRegex(err, r"warning: verdict of the page: \d of \d+ checks fails?: ")
+        self.assertFalse(self.checks()["summary_contradicted"]["ok"])
+        self.assertIn(f"warning: {self.out}: {text}", self.told("compare", self.out, self.out, "--force", "--out",
+                                                                self.folder / "c"))
+
+    def test_a_check_that_is_said_to_hold_beyond_its_limit_fails(self):
+        summary = json.loads((self.out / "summary.json").read_text())
+        summary["checks"][0]["value"] = 0.5
+        (self.out / "summary.json").write_text(json.dumps(summary))
+        name = summary["checks"][0]["name"]
+        self.doubted(f"summary.json says that the check {name} holds, and its value is 0.5, its limit ")
+        self.assertFalse(self.checks()[name]["ok"])
+
+    def test_another_largest_pressure_than_that_of_the_patch_is_named(self):
+        summary = json.loads((self.out / "summary.json").read_text())
+        p_max = summary["contact"]["p_max_Pa"]
+        summary["contact"]["p_max_Pa"] = 1.001 * p_max
+        (self.out / "summary.json").write_text(json.dumps(summary))
+        self.doubted(f"summary.json has p_max [MPa] {1.001e-6 * p_max:.6g}, patch.csv gives {1e-6 * p_max:.6g}: ")
+
+    def test_a_patch_that_is_cut_off_at_the_end_of_a_line_is_named(self):
+        lines = (self.out / "patch.csv").read_text().splitlines(keepends=True)
+        table = [line for line in lines if not line.startswith("#")][1:]
+        pressure = [float(row.split(",")[4]) for row in table]
+        columns = next(i for i, row in enumerate(table) if row.split(",")[0] != table[0].split(",")[0])
+        kept = (pressure.index(max(pressure)) // columns + 2) * columns  # the largest pressure and its neighbours stay
+        self.assertLess(kept, len(table))
+        (self.out / "patch.csv").write_text("".join(lines[:len(lines) - len(table) + kept]))
+        self.doubted("summary.json has a normal force [kN] of ")
+
     def test_another_version_is_named(self):
         version = json.loads((self.out / "provenance.json").read_text())["version"]
         self.edit("provenance.json", f'"version": "{version}"', '"version": "9.7.3"')

@@ -37,8 +37,8 @@ class Program(FromOutside):
         self.refused(2, ["bem", "a.toml", "--cell", "1", "mm"], 'error: "mm" is one word too many for railstrata bem\n'
                                                                 '    remedy: put what has blanks into quotes')
         self.refused(2, ["check", "a.toml", "--set", "case.title=a", "mesh.element_size=2 mm"],
-                     'error: "mesh.element_size=2 mm" is one word too many for railstrata check\n    remedy: write --set '
-                     "once for each key: --set 'mesh.element_size=2 mm'\n")
+                     'error: "mesh.element_size=2 mm" is one word too many for railstrata check\n    remedy: write '
+                     "--set once for each key: --set 'mesh.element_size=2 mm'\n")
         self.assertRegex(railstrata("check", "--help")[1], r"--set KEY=VALUE +Override")
         self.refused(2, ["--json"], "error: no command is given\n    remedy: commands: demo, check, mesh, run, ")
         self.refused(2, ["check"], "error: railstrata check: case is required (Case file, or a folder with "
