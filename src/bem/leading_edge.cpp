@@ -21,9 +21,12 @@ Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal) {
 
 PlanePair leading_slip_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid,
                                    const NormalSolution& normal, const Plane& weight) {
-  const double beta = influence.of_one_cell(1).nx / influence.of_one_cell(1).nn;
+  const RectangleInfluence& near = influence.of_one_cell(1);
   const auto gap = [&](int i, int j) { return std::max(0.0, normal.gap[grid.index(i, j)]); };
   PlanePair slip{Plane(grid.size(), 0.0), Plane(grid.size(), 0.0)};
+  constexpr double kLargest = 0.5;  // of Dundurs' constant
+  if (!(std::abs(near.nx) <= kLargest * near.nn)) return slip;
+  const double beta = near.nx / near.nn;
   for (int i = 0; i + 2 < grid.nx; ++i)
     for (int j = 0; j < grid.ny; ++j) {
       const std::size_t first = grid.index(i, j);
@@ -33,7 +36,7 @@ PlanePair leading_slip_by_pressure(const InfluenceOperator& influence, const Pat
       const int low = std::max(j - 1, 0), high = std::min(j + 1, grid.ny - 1);
       const double slope_x = (beyond - next) / grid.dx,
                    slope_y = 0.5 * (gap(i + 1, high) - gap(i + 1, low) + gap(i + 2, high) - gap(i + 2, low)) /
-                             ((high - low) * grid.dy);
+                             (std::max(high - low, 1) * grid.dy);
       const double slope = std::hypot(slope_x, slope_y);
       slip.x[first] = left * slope_x / slope;
       slip.y[first] = left * slope_y / slope;

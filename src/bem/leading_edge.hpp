@@ -31,7 +31,8 @@ namespace railstrata {
 Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal);
 
 /// The last term above [m]: what the step of each first cell slips ahead of the edge by pressure; weight from
-/// leading_weights. The normal is that of the gap's contours.
+/// leading_weights. The normal is that of the gap's contours. Nothing where beta is beyond 1/2, Dundurs' bound: under
+/// an incompressible layer as thin as a cell, which is no half-space at any distance that cells know.
 PlanePair leading_slip_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid,
                                    const NormalSolution& normal, const Plane& weight);
 
