@@ -195,6 +195,7 @@ std::vector<ResultNumber> motion_numbers() {
        .name = "Lateral creepage",
        .doc = "Along the contact plane, positive where the wheel slips to the field side; finite elements: 0, the axle "
               "is guided",
+       .column = true,
        .shown = true},
       {.group = "contact",
        .symbol = "spin",
