@@ -176,6 +176,28 @@ TEST(LeadingEdge, StripesOnLayersAreAFewPercentOfThePlainSchemesAndForcesNearer)
   }
 }
 
+TEST(LeadingEdge, OfACaseLeavesNoStripesAndTheCreepageOfFinerCellsUnlessWholeCellsAreAskedFor) {
+  CaseSpec spec;
+  spec.geometry.lateral_shift = 1.5e-3;
+  const auto solve = [&](double cell, LeadingEdge edge) {
+    spec.bem.leading_edge = edge;
+    BemOptions options;
+    options.cell = cell;
+    return solve_bem(spec, place(spec, {}), options);
+  };
+  const auto of = [](const BemResult& r) { return stripes(r.grid, r.field.q_x, r.field.q_y, r.field.state, 1.2e-3); };
+  const BemResult base = solve(0.25e-3, kNew), fine = solve(0.125e-3, kNew), plain = solve(0.25e-3, kPlain);
+  EXPECT_LT(of(base), 0.01);
+  EXPECT_GT(of(plain), 0.1);
+  EXPECT_NEAR(base.rigid_slip.x / fine.rigid_slip.x, 1, 2e-3);
+  EXPECT_NEAR(solve(1e-3, kNew).rigid_slip.x / fine.rigid_slip.x, 1, 1e-2);
+  EXPECT_GT(std::abs(plain.rigid_slip.x / fine.rigid_slip.x - 1), 1e-2);
+  spec.layers.push_back({});
+  spec.layers[0].thickness = 2e-3;
+  spec.layers[0].material.young = 420e9;
+  EXPECT_LT(of(solve(0.25e-3, kNew)), 0.03) << "cases/quick";
+}
+
 TEST(LeadingEdge, AGivenForceIsMetAndItsCreepageIsThatOfTheForceOfTheCreepage) {
   const Patch p(6e-3, 4e-3, 12, 0.28, 0.4);
   const TangentialSolution given = p.solve(kNew, 0.2 * p.slope, 0.1 * p.slope, 0.05);

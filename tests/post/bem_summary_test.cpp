@@ -83,6 +83,18 @@ TEST(BemSummary, ForcesInTheContactPlaneAreThePressuresAndTheFrictionsResultants
   EXPECT_NEAR(c.contact_angle, 0.025, 1e-4);
 }
 
+// 395.8 MPa in the largest of cells of 0.0625 mm, 399 MPa at the front: the cusp that cells miss.
+TEST(BemSummary, TheLargestShearOnCoarseCellsIsThatOfFineOnesWithin1Percent) {
+  CaseSpec spec;
+  spec.geometry.lateral_shift = 1.5e-3;
+  const auto shear = [&](double cell) {
+    return bem_contact_summary(spec, solve_bem(spec, place(spec, {}), cells(cell))).contact.patch;
+  };
+  const PatchMeasures fine = shear(0.125e-3);
+  for (const double cell : {1e-3, 0.5e-3, 0.25e-3}) EXPECT_NEAR(shear(cell).q_max / fine.q_max, 1, 1e-2) << cell;
+  EXPECT_LT(shear(0.5e-3).q_max_point / fine.q_max, 0.95);
+}
+
 TEST(BemSummary, ChecksFailForAResultThatMissesItsCase) {
   CaseSpec spec;
   const BemResult good = solve_bem(spec, place(spec, {}), cells(1e-3));
