@@ -73,10 +73,6 @@ LoadedCase case_of_folder(const CommandOptions& options) {
   if (!std::filesystem::exists(options.run.resume / "case.toml"))
     throw CaseError(fmt::format("{} has no case.toml, which a run goes on with", options.run.resume.string()),
                     "name the result folder of a run that was interrupted, or put its case.toml back");
-  if (!has_checkpoint(options.run.resume))
-    throw CaseError(fmt::format("there is nothing to resume in {}: the run was stopped before its first checkpoint",
-                                options.run.resume.string()),
-                    fmt::format("start it again: {}", command_again(options.run.resume)));
   return load_case(options.run.resume / "case.toml");
 }
 
@@ -108,6 +104,10 @@ RunJob resumed_job(const CommandOptions& options) {
   const std::filesystem::path& out = options.run.resume;
   CheckpointOrigin origin = origin_of(loaded, identity_in_folder(out, loaded));
   FolderHold hold(out);
+  if (!has_checkpoint(out))
+    throw CaseError(
+        fmt::format("there is nothing to resume in {}: the run was stopped before its first checkpoint", out.string()),
+        fmt::format("start it again: {}", command_again(out)));
   FoundCheckpoint found = read_checkpoint(out, origin.case_sha256);
   for (const std::string& note : found.notes) spdlog::warn("{}; the checkpoint before it is taken", note);
   if (found.checkpoint.origin.program != origin.program)

@@ -93,7 +93,7 @@ void doubt_patch(const ResultFolder& result, std::vector<ResultDoubt>& out) {
   constexpr double kOneNormal = 0.05;  // the sum takes the pressures of a curved surface as parallel
   const PatchMeasures patch = measure_patch(result.field);
   doubt_number(result, "/contact/p_max_Pa", 1e-6, "p_max [MPa]", patch.p_max, kRoundOff, out);
-  doubt_number(result, "/contact/q_max_Pa", 1e-6, "q_max [MPa]", patch.q_max, kRoundOff, out);
+  doubt_number(result, "/contact/q_max_point_Pa", 1e-6, "q_max of a point [MPa]", patch.q_max_point, kRoundOff, out);
   doubt_number(result, "/contact/normal_force_N", 1e-3, "a normal force [kN] of", patch.force_z, kOneNormal, out);
 }
 

@@ -178,7 +178,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[meshes]\n",
        "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: "
        "case, geometry, material.rail, material.wheel, layer, vehicle, drive, mesh, "
-       "contact, run, output"},
+       "contact, run, bem, output"},
       {"[mesh]\nelement_size = \"1 MPa\"\n",
        "a.toml:2:16: mesh.element_size = \"1 MPa\": \"MPa\" is not the unit of a length\n    2 | element_size = \"1 "
        "MPa\"\n      |                ^\n    remedy: write a length, e.g. "
@@ -303,7 +303,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[material]\nyoung = \"210 GPa\"\n",
        "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: "
        "tables: case, geometry, material.rail, material.wheel, layer, vehicle, drive, mesh, "
-       "contact, run, output"},
+       "contact, run, bem, output"},
   };
   for (const Bad& bad : all) {
     const std::string told = error_of(bad.text);
