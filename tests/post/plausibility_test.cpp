@@ -7,24 +7,15 @@
 #include <string>
 #include <vector>
 
+#include "crossed_cylinders.hpp"
 #include "post/bem_summary.hpp"
 #include "post/check_limits.hpp"
 
 namespace railstrata {
 namespace {
 
-/// A sphere of 420 mm on a block of 60 mm: the patch has a diameter of 12 mm.
-CaseSpec sphere() {
-  CaseSpec spec;
-  spec.geometry.rail_profile = "arc:R=420 mm";
-  spec.geometry.wheel_profile = "flat";
-  spec.geometry.rail_shape = RailShape::block;
-  spec.geometry.wheel_shape = WheelShape::disc;
-  spec.geometry.wheel_radius = 0.420;
-  spec.geometry.cant = 0;
-  spec.drive.traction_coefficient = spec.drive.friction_coefficient = 0;
-  return spec;
-}
+/// A circular contact on a block of 60 mm: the patch has a diameter of 12 mm.
+CaseSpec sphere() { return post_checks::crossed_cylinders(); }
 
 Summary solved(const CaseSpec& spec, double cell = 0.5e-3) {
   BemOptions options;
