@@ -287,7 +287,7 @@ void sixteen_layered_cases(benchmark::State& state) {
             options.cell = 0.25e-3;
             options.cache = &cache;
             const BemResult r = solve_bem(spec, place(spec, {}), options);
-            benchmark::DoNotOptimize(rail_interior(r).peaks(layer.thickness + 12e-3));
+            benchmark::DoNotOptimize(rail_interior(r).peaks({0.5 * options.cell, layer.thickness + 12e-3}));
           },
           true);
     });

@@ -71,6 +71,18 @@ void fill_totals(const RollingSolution& s, double speed, BemResult& r) {
   }
 }
 
+SolvedPatch solved_patch(const BemResult& r) {
+  const PatchGrid& g = r.grid;
+  SolvedPatch out{g.y(g.ny - 1), g.y(0), g.y(0) - 0.5 * g.dy, g.y(g.ny - 1) + 0.5 * g.dy, r.force.normal, r.approach};
+  for (std::size_t k = 0; k < r.field.p.size(); ++k) {
+    if (!(r.field.p[k] > 0)) continue;
+    const double y = g.y(static_cast<int>(k) % g.ny);
+    out.low = std::min(out.low, y - 0.5 * g.dy);
+    out.high = std::max(out.high, y + 0.5 * g.dy);
+  }
+  return out;
+}
+
 struct LoadedPatch {
   CasePatch patch;
   RollingSolution solution;
@@ -142,6 +154,7 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   r.effort.load_iterations = loaded.load_iterations;
   fill_field(patch, s, r.contact, spec.drive.speed, r.field);
   fill_totals(s, spec.drive.speed, r);
+  r.surroundings = patch_surroundings(spec, placement, solved_patch(r));
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return r;
 }

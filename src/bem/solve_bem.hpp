@@ -15,6 +15,7 @@
 #include "contact/contact_field.hpp"
 #include "halfspace/layered.hpp"
 #include "model/model.hpp"
+#include "model/surroundings.hpp"
 
 namespace railstrata {
 
@@ -55,6 +56,7 @@ struct BemResult {
   double approach = 0;     ///< m
   double dissipation = 0;  ///< W
   SolverEffort effort;
+  PatchSurroundings surroundings;
   std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
 };
 

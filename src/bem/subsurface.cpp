@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -411,7 +413,7 @@ bool covers(const PatchGrid& g, const Vec3& at) {
 
 }  // namespace
 
-Subsurface Subsurface::widened(int more_x, int more_y) const {
+std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {
   PatchGrid g{grid_.nx + 2 * more_x,        grid_.ny + 2 * more_y,       grid_.dx, grid_.dy,
               grid_.x0 - more_x * grid_.dx, grid_.y0 - more_y * grid_.dy};
   const auto padded = [&](const Plane& v) {
@@ -421,7 +423,27 @@ Subsurface Subsurface::widened(int more_x, int more_y) const {
                   wide.begin() + static_cast<std::ptrdiff_t>(g.index(i + more_x, more_y)));
     return wide;
   };
-  return {body_, g, padded(p_), padded(q_x_), padded(q_y_), period_};
+  return std::make_unique<Subsurface>(body_, g, padded(p_), padded(q_x_), padded(q_y_), period_);
+}
+
+std::unique_ptr<Subsurface> Subsurface::coarsened() const {
+  constexpr int kCells = 3;
+  const double middle_x = grid_.x0 + 0.5 * (grid_.nx - 1) * grid_.dx,
+               middle_y = grid_.y0 + 0.5 * (grid_.ny - 1) * grid_.dy;
+  PatchGrid g = centred_grid(grid_.nx / 2, grid_.ny / 2, kCells * grid_.dx, kCells * grid_.dy);
+  g.x0 += middle_x;
+  g.y0 += middle_y;
+  const auto means = [&](const Plane& v) {
+    Plane out(g.size(), 0.0);
+    for (int i = 0; i < grid_.nx; ++i)
+      for (int j = 0; j < grid_.ny; ++j) {
+        const auto x = static_cast<int>(std::lround((grid_.x(i) - g.x0) / g.dx)),
+                   y = static_cast<int>(std::lround((grid_.y(j) - g.y0) / g.dy));
+        out[g.index(x, y)] += v[grid_.index(i, j)] / (kCells * kCells);
+      }
+    return out;
+  };
+  return std::make_unique<Subsurface>(body_, g, means(p_), means(q_x_), means(q_y_), std::max(2.5, period_ / kCells));
 }
 
 // Points outside the grid: the same tractions on a grid widened with empty cells. Points are taken by depth, since a
@@ -439,7 +461,7 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
     more_x = std::max(more_x, static_cast<int>(std::ceil(x)) + 2);
     more_y = std::max(more_y, static_cast<int>(std::ceil(y)) + 2);
   }
-  if (more_x > 0 || more_y > 0) return widened(std::max(more_x, 0), std::max(more_y, 0)).at(points, below_interface);
+  if (more_x > 0 || more_y > 0) return widened(std::max(more_x, 0), std::max(more_y, 0))->at(points, below_interface);
 
   std::vector<std::size_t> order(points.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
@@ -464,32 +486,63 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
 
 namespace {
 
-StressPeak peak_of(const Plane& v, const PatchGrid& g, double depth) {
-  const auto k = static_cast<std::size_t>(std::max_element(v.begin(), v.end()) - v.begin());
+double largest_at_rim(const Plane& v, const PatchGrid& g) {
+  double most = 0;
+  for (int i = 0; i < g.nx; ++i) most = std::max({most, v[g.index(i, 0)], v[g.index(i, g.ny - 1)]});
+  for (int j = 0; j < g.ny; ++j) most = std::max({most, v[g.index(0, j)], v[g.index(g.nx - 1, j)]});
+  return most;
+}
+
+bool lies_in(const PatchGrid& g, double x, double y) {
+  return x >= g.x0 && x <= g.x(g.nx - 1) && y >= g.y0 && y <= g.y(g.ny - 1);
+}
+
+/// without: a grid whose cells do not count; may be null.
+StressPeak peak_of(const Plane& v, const PatchGrid& g, double depth, const PatchGrid* without) {
+  std::size_t k = 0;
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j)
+      if (v[g.index(i, j)] > v[k] && !(without && lies_in(*without, g.x(i), g.y(j)))) k = g.index(i, j);
   const int i = static_cast<int>(k) / g.ny, j = static_cast<int>(k) % g.ny;
-  StressPeak peak{v[k], g.x(i), g.y(j), depth};
-  if (i > 0 && i + 1 < g.nx) {
-    const ParabolaTop t = parabola_top(v[g.index(i - 1, j)], v[k], v[g.index(i + 1, j)]);
-    peak.x += t.at * g.dx;
+  StressPeak peak{v[k], g.x(i), g.y(j), depth, largest_at_rim(v, g)};
+  const auto refine = [&](std::size_t before, std::size_t after, double size, double& place) {
+    if (v[before] > v[k] || v[after] > v[k]) return;  // a slope that goes on within the other grid
+    const ParabolaTop t = parabola_top(v[before], v[k], v[after]);
+    place += t.at * size;
     peak.value += t.above;
-  }
-  if (j > 0 && j + 1 < g.ny) {
-    const ParabolaTop t = parabola_top(v[k - 1], v[k], v[k + 1]);
-    peak.y += t.at * g.dy;
-    peak.value += t.above;
-  }
+  };
+  if (i > 0 && i + 1 < g.nx) refine(g.index(i - 1, j), g.index(i + 1, j), g.dx, peak.x);
+  if (j > 0 && j + 1 < g.ny) refine(k - 1, k + 1, g.dy, peak.y);
   return peak;
 }
 
+void keep_larger(StressPeak& best, const StressPeak& other) {
+  const double rim = std::max(best.at_rim, other.at_rim);
+  if (other.value > best.value) best = other;
+  best.at_rim = rim;
+}
 void keep_larger(ZonePeaks& zone, const ZonePeaks& other) {
-  if (other.von_mises.value > zone.von_mises.value) zone.von_mises = other.von_mises;
-  if (other.sigma1.value > zone.sigma1.value) zone.sigma1 = other.sigma1;
+  keep_larger(zone.von_mises, other.von_mises);
+  keep_larger(zone.sigma1, other.sigma1);
 }
 
-/// Evaluates planes once, however often a depth is asked for.
-class PeakSearch {
+/// Which of the two maxima is wanted.
+struct Wanted {
+  bool von_mises = true, sigma1 = true;
+  bool any() const { return von_mises || sigma1; }
+};
+
+/// Which maxima to look for on a wider grid: those of which the rim has a good share. The von Mises stress falls from
+/// its maximum on; tension may have a second, larger maximum outside.
+Wanted beyond(const ZonePeaks& z) {
+  return {z.von_mises.at_rim > 0.9 * z.von_mises.value, z.sigma1.at_rim > 0.5 * z.sigma1.value};
+}
+
+/// On one grid. Evaluates planes once, however often a depth is asked for.
+class GridSearch {
  public:
-  PeakSearch(const Subsurface& body, const PatchGrid& grid) : body_(body), grid_(grid) {}
+  explicit GridSearch(const Subsurface& body, const PatchGrid* without = nullptr)
+      : body_(body), grid_(body.grid()), without_(without) {}
 
   ZonePeaks at(double depth, bool below) {
     const auto key = std::make_pair(depth, below);
@@ -501,18 +554,18 @@ class PeakSearch {
       mises[k] = von_mises(s);
       sigma1[k] = principal_stresses(s).x;
     }
-    return known_[key] = {peak_of(mises, grid_, depth), peak_of(sigma1, grid_, depth)};
+    return known_[key] = {peak_of(mises, grid_, depth, without_), peak_of(sigma1, grid_, depth, without_)};
   }
 
   /// Largest values for depths in [top, bottom] of one material; at the top its own (lower) side is taken.
-  ZonePeaks zone(double top, double bottom) {
+  ZonePeaks zone(double top, double bottom, Wanted wanted) {
     const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / (2 * grid_.dx))), 2, 16);
     std::vector<double> depth;
     for (int i = 0; i <= pieces; ++i) depth.push_back(i == pieces ? bottom : top + (bottom - top) * i / pieces);
     ZonePeaks best;
     for (double z : depth) keep_larger(best, at(z, z == top));
-    refine(depth, top, best, &ZonePeaks::von_mises);
-    refine(depth, top, best, &ZonePeaks::sigma1);
+    if (wanted.von_mises) refine(depth, top, best, &ZonePeaks::von_mises);
+    if (wanted.sigma1) refine(depth, top, best, &ZonePeaks::sigma1);
     return best;
   }
 
@@ -546,27 +599,83 @@ class PeakSearch {
 
   const Subsurface& body_;
   const PatchGrid& grid_;
+  const PatchGrid* without_;
   StatePlane plane_;
   std::map<std::pair<double, bool>, ZonePeaks> known_;
 };
 
+/// Goes outside of the grid where its rim has a good share of a maximum, and deeper where one lies at the lower end.
+class PeakSearch {
+ public:
+  using Coarsen = std::function<std::unique_ptr<Subsurface>()>;
+  PeakSearch(const Subsurface& body, Coarsen coarsen) : grid_(body.grid()), near_(body), coarsen_(std::move(coarsen)) {}
+
+  ZonePeaks at(double depth, bool below) {
+    return widening([&](GridSearch& grid, Wanted) { return grid.at(depth, below); });
+  }
+
+  ZonePeaks zone(double top, double bottom) {
+    return widening([&](GridSearch& grid, Wanted wanted) { return grid.zone(top, bottom, wanted); });
+  }
+
+  /// A zone without a floor, looked at from `top` to `bottom` and, while a maximum lies there, to twice that depth.
+  ZonePeaks zone_without_floor(double top, double bottom) {
+    constexpr int kDeepenings = 3;
+    ZonePeaks best = zone(top, bottom);
+    const auto at_floor = [&] { return best.von_mises.depth >= bottom || best.sigma1.depth >= bottom; };
+    for (int i = 0; i < kDeepenings && at_floor(); ++i) {
+      top = bottom;
+      bottom *= 2;
+      keep_larger(best, zone(top, bottom));
+    }
+    for (StressPeak* peak : {&best.von_mises, &best.sigma1})
+      if (peak->depth >= bottom) peak->at_rim = peak->value;
+    return best;
+  }
+
+ private:
+  template <class Search>
+  ZonePeaks widening(Search&& search) {
+    ZonePeaks best = search(near_, Wanted{});
+    const Wanted wanted = beyond(best);
+    if (!wanted.any()) return best;
+    if (!far_) {
+      far_body_ = coarsen_();
+      far_.emplace(*far_body_, &grid_);
+    }
+    const ZonePeaks outside = search(*far_, wanted);
+    const auto take = [](StressPeak& peak, const StressPeak& other) {
+      if (other.value > peak.value) peak = other;
+      peak.at_rim = other.at_rim;
+    };
+    if (wanted.von_mises) take(best.von_mises, outside.von_mises);
+    if (wanted.sigma1) take(best.sigma1, outside.sigma1);
+    return best;
+  }
+
+  const PatchGrid& grid_;
+  GridSearch near_;
+  Coarsen coarsen_;
+  std::unique_ptr<Subsurface> far_body_;
+  std::optional<GridSearch> far_;
+};
+
 }  // namespace
 
-SubsurfacePeaks Subsurface::peaks(double deepest) const {
-  PeakSearch search(*this, grid_);
+SubsurfacePeaks Subsurface::peaks(SearchDepths depths) const {
+  PeakSearch search(*this, [this] { return coarsened(); });
   SubsurfacePeaks out;
   out.surface = search.at(0, true);
-  const double shallow = 0.5 * std::min(grid_.dx, grid_.dy);
   double top = 0;
   for (const LayerExtent& layer : layer_extents(body_)) {
-    const double from = top == 0 ? std::min(shallow, 0.5 * layer.bottom) : top;
+    const double from = top == 0 ? std::min(depths.from, 0.5 * layer.bottom) : top;
     out.layers.push_back(search.zone(from, layer.bottom));
-    if (layer.bottom > shallow) keep_larger(out.subsurface, out.layers.back());
+    if (layer.bottom > depths.from) keep_larger(out.subsurface, out.layers.back());
     out.above_interface.push_back(search.at(layer.bottom, false));
     out.below_interface.push_back(search.at(layer.bottom, true));
     top = layer.bottom;
   }
-  out.matrix = search.zone(std::max(top, shallow), std::max(deepest, top + 4 * grid_.dx));
+  out.matrix = search.zone_without_floor(std::max(top, depths.from), std::max(depths.deepest, top + 4 * grid_.dx));
   keep_larger(out.subsurface, out.matrix);
   return out;
 }

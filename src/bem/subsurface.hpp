@@ -40,18 +40,25 @@ struct StressPeak {
   double value = 0;     ///< Pa
   double x = 0, y = 0;  ///< m, in the grid's frame
   double depth = 0;     ///< m
+  double at_rim = 0;  ///< Pa, largest value at the rim of what was searched; near `value`: a larger one may lie beyond
 };
 struct ZonePeaks {
   StressPeak von_mises, sigma1;
 };
 
+/// How far to look for maxima, m.
+struct SearchDepths {
+  double from = 0;     ///< what lies nearer to the surface is the surface's
+  double deepest = 0;  ///< to begin with
+};
+
 /// Maxima by zone. Depths are refined by parabolas until they move by less than 1 % of the cell, positions in plan by
 /// one parabola through the neighbouring cells.
 struct SubsurfacePeaks {
-  ZonePeaks surface;     ///< depth 0, the material at the surface
-  ZonePeaks subsurface;  ///< below half a cell, whatever the material
-  std::vector<ZonePeaks>
-      layers;  ///< inside each layer (a graded one with all its cuts), from the surface (excluded) to its bottom
+  ZonePeaks surface;              ///< depth 0, the material at the surface
+  ZonePeaks subsurface;           ///< below SearchDepths::from, whatever the material
+  std::vector<ZonePeaks> layers;  ///< inside each layer (a graded one with all its cuts), the first one from
+                                  ///< SearchDepths::from (at most half its depth), to its bottom
   std::vector<ZonePeaks> above_interface,
       below_interface;  ///< the two sides of each interface; the cuts of a graded layer are none
   ZonePeaks matrix;     ///< the substrate; of a homogeneous body as `subsurface`
@@ -66,6 +73,7 @@ class Subsurface {
   Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y, double period = 4);
   ~Subsurface();
 
+  const PatchGrid& grid() const { return grid_; }
   StatePlane plane(double depth) const;
   DisplacementPlane displacement(double depth) const;
   /// Stresses in cell k of a plane; at an interface those of the layer above, or below if asked.
@@ -78,8 +86,9 @@ class Subsurface {
   /// surface or more than about a thousand cells away.
   std::vector<InteriorPoint> at(const std::vector<Vec3>& points, bool below_interface = false) const;
 
-  /// deepest: how far down to look [m].
-  SubsurfacePeaks peaks(double deepest) const;
+  /// Where the rim of the grid has a good share of the maximum the search goes on outside of it, on a grid three times
+  /// as wide with cells three times as large; where the maximum lies at `deepest`, down to eight times that depth.
+  SubsurfacePeaks peaks(SearchDepths depths) const;
 
  private:
   struct Layered;
@@ -87,7 +96,10 @@ class Subsurface {
   void straighten_steps(double depth, StatePlane& out) const;
   void add_layer_difference(double depth, StatePlane& out) const;
   void add_layer_difference(double depth, DisplacementPlane& out) const;
-  Subsurface widened(int more_x, int more_y) const;
+  /// On a grid with so many more cells on each side, empty ones.
+  std::unique_ptr<Subsurface> widened(int more_x, int more_y) const;
+  /// On as many cells three times as large: each takes the mean of nine.
+  std::unique_ptr<Subsurface> coarsened() const;
 
   LayeredHalfSpace body_;
   PatchGrid grid_;

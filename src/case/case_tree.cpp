@@ -240,7 +240,8 @@ class TreeReader {
   void assign(const Option& option, const std::string& key, std::size_t, const toml::node& node, int* target) {
     const auto value = node.value_exact<int64_t>();
     if (!value) return mismatch(option, key, node);
-    if (!option.range.holds(static_cast<double>(*value))) return out_of_range(option, key, shown(node), "");
+    const auto number = static_cast<double>(*value);
+    if (!option.range.holds(number)) return out_of_range(option, key, shown(node), "", number);
     *target = static_cast<int>(*value);
   }
 
@@ -337,7 +338,7 @@ class TreeReader {
       return refuse(fmt::format("{}.{}", key, rows.size() - 1),
                     fmt::format("{}: the last depth, the layer's thickness, must be {}", key,
                                 describe(thickness->range, thickness->dimension)),
-                    "choose depths in this range");
+                    std::string(thickness->beyond));
     return true;
   }
 
@@ -376,7 +377,7 @@ class TreeReader {
       return false;
     }
     if (!std::isfinite(value) || !option.range.holds(value)) {
-      out_of_range(option, key, shown(node), text);
+      out_of_range(option, key, shown(node), text, value);
       return false;
     }
     out = value;
@@ -388,14 +389,25 @@ class TreeReader {
                      fmt::format("write {}", wanted(option)));
   }
 
-  void out_of_range(const Option& option, const std::string& key, const std::string& value,
-                    const std::string& quantity) {
-    const std::string instead = quantity.empty() ? "" : suggest_quantity(quantity, option.dimension, [&](double v) {
-      return option.range.holds(v);
-    });
+  void out_of_range(const Option& option, const std::string& key, const std::string& written,
+                    const std::string& quantity, double value) {
     const std::string allowed = describe(option.range, option.dimension);
-    source_.complain(key, fmt::format("{} = {}: must be {}", key, value, allowed.empty() ? "finite" : allowed),
-                     instead.empty() ? "choose a value in this range" : fmt::format("did you mean \"{}\"?", instead));
+    source_.complain(key, fmt::format("{} = {}: must be {}", key, written, allowed.empty() ? "finite" : allowed),
+                     remedy_beyond(option, quantity, value));
+  }
+
+  /// Another unit is offered where the value lies far from the range: who misses it by less means what he wrote.
+  static std::string remedy_beyond(const Option& option, const std::string& quantity, double value) {
+    constexpr double kClose = 3;
+    const bool close = option.range.holds(kClose * value) || option.range.holds(value / kClose);
+    const std::string instead =
+        quantity.empty() || close
+            ? ""
+            : suggest_quantity(quantity, option.dimension, [&](double v) { return option.range.holds(v); });
+    const std::string otherwise(option.beyond);
+    if (instead.empty()) return otherwise.empty() ? "choose a value in this range" : otherwise;
+    const std::string question = fmt::format("did you mean \"{}\"?", instead);
+    return otherwise.empty() ? question : fmt::format("{} If not: {}", question, otherwise);
   }
 
   void unknown_key(const OptionTable& table, const std::string& full, const std::string& key) {
@@ -441,7 +453,7 @@ class TreeReader {
 
   void finish(const Derived& d) {
     const double written = d.mass ? d.written * spec_.vehicle.gravity : d.written;
-    if (!d.option->range.holds(written)) return out_of_range(*d.option, d.key, d.shown, "");
+    if (!d.option->range.holds(written)) return out_of_range(*d.option, d.key, d.shown, "", written);
     const Slot slot = d.option->slot(spec_, d.index);
     const double value = d.option->derivation.value(spec_, d.index, written);
     for (const Option& whole : d.table->options)

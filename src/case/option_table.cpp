@@ -169,15 +169,21 @@ OptionTable geometry_table() {
   return out;
 }
 
-const Range kYoung{1e9, 1e13}, kPoisson{0.0, 0.495}, kDensityRange{100, 30000},
-    kLayerThickness{0.05 * kMilli, 10 * kMilli};
+// Thickness, Poisson's ratio and the ratio of moduli: what tests/bem/layer_range_test.cpp and
+// tests/halfspace/layered_test.cpp hold against closed forms. The modulus leaves room for every ratio of steel's.
+const Range kYoung{1e9, 1e14}, kPoisson{0.0, 0.499}, kYoungRatio{0.01, 100}, kDensityRange{100, 30000},
+    kLayerThickness{0.01 * kMilli, 50 * kMilli};
+constexpr std::string_view kBeyondPoisson = "0.5 is incompressible: take 0.499 for it",
+                           kBeyondRatio = "the engines are verified in this range: take its end nearest to your layer",
+                           kBeyondThickness =
+                               "leave a thinner layer out; give a thicker one's modulus to the body that carries it";
 
 template <auto Member>
 OptionTable material_table(std::string_view name, std::string_view doc) {
   return {name,
           doc,
           {{"young", at<Member, &M::young>, "Young's modulus", kPressure, kYoung},
-           {"poisson", at<Member, &M::poisson>, "Poisson's ratio", kNumber, kPoisson},
+           {"poisson", at<Member, &M::poisson>, "Poisson's ratio", kNumber, kPoisson, {}, {}, nullptr, kBeyondPoisson},
            {"density", at<Member, &M::density>, "Mass density", kDensity, kDensityRange}}};
 }
 
@@ -197,16 +203,19 @@ OptionTable layer_table() {
             kLayerThickness,
             {},
             {},
-            uniform},
+            uniform,
+            kBeyondThickness},
            {"width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength, {kMilli, 0.2}},
            {"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung, {}, {}, uniform},
            {"young_ratio",
             layer<&L::material, &M::young>,
             "Young's modulus as a multiple of the carrying body's",
             kNumber,
-            {0.01, 100},
+            kYoungRatio,
             {},
-            {of_matrix_modulus, "choose a multiple in this range"}},
+            {of_matrix_modulus, "choose a multiple in this range"},
+            nullptr,
+            kBeyondRatio},
            {"young_table",
             layer<&L::young_table>,
             "A modulus that varies with depth: depths below the layer's top and moduli, linear between",
@@ -220,7 +229,15 @@ OptionTable layer_table() {
             "young_table, half-space engine: largest relative change of the modulus within a sub-layer",
             kNumber,
             {1e-3, 1.0}},
-           {"poisson", layer<&L::material, &M::poisson>, "Poisson's ratio", kNumber, kPoisson},
+           {"poisson",
+            layer<&L::material, &M::poisson>,
+            "Poisson's ratio",
+            kNumber,
+            kPoisson,
+            {},
+            {},
+            nullptr,
+            kBeyondPoisson},
            {"density", layer<&L::material, &M::density>, "Mass density", kDensity, kDensityRange},
            {"elements",
             layer<&L::elements>,

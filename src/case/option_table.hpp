@@ -72,6 +72,7 @@ struct Option {
   /// Set for an option that only some cases have (the thickness of a layer, unless a table tells it): whether this case
   /// does. Else the resolved case leaves it out.
   bool (*applies)(const CaseSpec&, std::size_t index) = nullptr;
+  std::string_view beyond{};  ///< what to do who needs a value out of the range
 };
 
 /// A row of a table of moduli by depth: what its two numbers must be.

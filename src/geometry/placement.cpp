@@ -96,9 +96,9 @@ class Gap {
   double offset_y_, wheel_begin_, wheel_end_;
 };
 
-/// y of the gauge face in the model frame: where the rail, canted, passes the gauge depth below its highest point, on
-/// the gauge side.
-double gauge_face(const Profile& rail, const TrackGeometry& track) {
+}  // namespace
+
+double gauge_face_y(const Profile& rail, const TrackGeometry& track) {
   const auto at = [&](double s) { return rail_to_model(track, rail.at(s).position); };
   double top = -std::numeric_limits<double>::infinity(), top_s = 0;
   const int n = static_cast<int>(std::ceil((rail.s_max() - rail.s_min()) / kSearchStep));
@@ -123,10 +123,12 @@ double gauge_face(const Profile& rail, const TrackGeometry& track) {
   return at(above).y;
 }
 
+namespace {
+
 double lateral_offset(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
   if (wheel.primitive() || rail.primitive()) return track.lateral_shift;
   const double tape_circle = 0.5 * track.back_to_back + track.flange_back_to_tape,
-               rail_axis = 0.5 * track.gauge - gauge_face(rail, track);
+               rail_axis = 0.5 * track.gauge - gauge_face_y(rail, track);
   return tape_circle - rail_axis + track.lateral_shift;
 }
 

@@ -40,6 +40,10 @@ struct RigidContact {
 Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point);
 Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point);
 
+/// y of the gauge face in the model frame: where the rail, canted, passes the gauge depth below its highest point, on
+/// the gauge side. Throws CaseError if its profile ends above that.
+double gauge_face_y(const Profile& rail, const TrackGeometry& track);
+
 /// Lowers the wheel vertically until it touches: the smallest vertical gap over the rail's whole running surface, found
 /// to 1e-9 m where the contact is a single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. The
 /// wheel is turned by the yaw psi about the vertical through the middle of its tape circle; the contact, at the angle

@@ -159,9 +159,29 @@ void require_sound_mesh(const SweptBody& body, BodyId id, const CaseSpec& spec) 
   }
 }
 
+/// Finite elements take less than the half-space engine, for which the ranges of a case are made.
+void refuse_beyond_elements(const CaseSpec& spec) {
+  constexpr double kThinnestLayer = 0.05e-3, kLargestPoisson = 0.495;
+  for (const LayerSpec& layer : spec.layers)
+    if (layer.thickness < kThinnestLayer)
+      throw CaseError(fmt::format("layer \"{}\" is {:g} mm thick; finite elements take layers from {:g} mm on",
+                                  layer.name, 1e3 * layer.thickness, 1e3 * kThinnestLayer),
+                      "`railstrata bem` takes it");
+  const auto check = [&](const std::string& what, double poisson) {
+    if (poisson > kLargestPoisson)
+      throw CaseError(
+          fmt::format("Poisson's ratio of {} is {:g}; finite elements take up to {:g}", what, poisson, kLargestPoisson),
+          "`railstrata bem` takes it; to the contact the difference is small");
+  };
+  check("the rail", spec.rail_material.poisson);
+  check("the wheel", spec.wheel_material.poisson);
+  for (const LayerSpec& layer : spec.layers) check(fmt::format("layer \"{}\"", layer.name), layer.material.poisson);
+}
+
 }  // namespace
 
 Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
+  refuse_beyond_elements(spec);
   Model m{spec,
           place(spec, folder),
           {},

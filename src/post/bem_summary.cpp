@@ -11,7 +11,7 @@
 namespace railstrata {
 namespace {
 
-StressMaximum maximum(const StressPeak& p) { return {p.value, p.x, p.y, p.depth}; }
+StressMaximum maximum(const StressPeak& p) { return {p.value, p.x, p.y, p.depth, p.at_rim >= p.value}; }
 StressPair pair(const ZonePeaks& z) { return {maximum(z.von_mises), maximum(z.sigma1)}; }
 
 std::optional<StressPair> largest(const std::vector<const std::vector<ZonePeaks>*>& groups) {
@@ -52,6 +52,7 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchM
   if (const double wanted = spec.drive.traction().value_or(0); spec.drive.friction_coefficient > 0 && wanted != 0)
     out.push_back(bem_check("traction_coefficient_reached", std::abs(m.force_x / load / wanted - 1)));
   out.push_back(bem_check("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0));
+  out.push_back(bem_check("cell_of_patch", r.grid.dy / std::min(m.length, m.width)));
   return out;
 }
 
@@ -66,10 +67,15 @@ int cell(double at, double first, double size, int count) {
 
 }  // namespace
 
-double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact) {
-  double depth = std::max(contact.patch.length, contact.patch.width);
-  for (const HalfSpaceLayer& layer : body.layers) depth += layer.thickness;
-  return depth;
+SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact) {
+  const std::vector<LayerExtent> layers = layer_extents(body);
+  const double bottom = layers.empty() ? 0.0 : layers.back().bottom,
+               first = layers.empty() ? HUGE_VAL : layers.front().bottom;
+  return {subsurface_begin(contact.patch, first), bottom + std::max(contact.patch.length, contact.patch.width)};
+}
+
+std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& r) {
+  return implausible(summary, spec, r.surroundings, r.grid.dx);
 }
 
 Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
@@ -98,22 +104,23 @@ Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   s.run.wall_s = r.effort.wall_s;
   s.run.elements = static_cast<long>(r.grid.size());
   s.checks = checks(spec, r, measured);
-  s.warnings = implausible(s, spec);
+  s.warnings = bem_warnings(s, spec, r);
   return s;
 }
 
 StressSummary bem_rail_stress(const BemResult& r, const ContactSummary& contact) {
-  return stress_summary(rail_interior(r).peaks(depth_of_interest(r.rail, contact)));
+  return stress_summary(rail_interior(r).peaks(depths_of_interest(r.rail, contact)));
 }
 
 StressSummary bem_wheel_stress(const BemResult& r, const ContactSummary& contact) {
-  return stress_summary(wheel_interior(r).peaks(depth_of_interest(r.wheel, contact)));
+  return stress_summary(wheel_interior(r).peaks(depths_of_interest(r.wheel, contact)));
 }
 
 Summary bem_summary(const CaseSpec& spec, const BemResult& r) {
   Summary s = bem_contact_summary(spec, r);
   s.rail = bem_rail_stress(r, s.contact);
   s.wheel = bem_wheel_stress(r, s.contact);
+  s.warnings = bem_warnings(s, spec, r);
   return s;
 }
 

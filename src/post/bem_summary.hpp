@@ -6,20 +6,23 @@
 
 namespace railstrata {
 
-/// How far below the surface stresses are looked for, m: under all layers by the longer side of the patch (the largest
-/// von Mises stress of any Hertzian ellipse lies above 0.4 of it).
-double depth_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact);
+/// Where below the surface stresses are looked for: from subsurface_begin, under all layers by the longer side of the
+/// patch (the largest von Mises stress of any Hertzian ellipse lies above 0.4 of it), deeper while they rise.
+SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact);
 
 /// Contact, stresses of both bodies and checks; commit, threads and peak memory are the program's to add. run.elements
 /// counts the cells of the grid. Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface`
-/// starts half a cell below the surface; `interface` takes either side. NaN: penetration and scatter; without friction
-/// also slip area and creepages. Steady rolling is the same everywhere: position is the case's last one, of a static
-/// case 0. Checks (limits: check_limits.hpp): F_z against G, F_x/G against the wanted traction coefficient, the patch
-/// inside the grid.
+/// starts at subsurface_begin (plausibility.hpp); `interface` takes either side. NaN: penetration and scatter; without
+/// friction also slip area and creepages. Steady rolling is the same everywhere: position is the case's last one, of a
+/// static case 0. Checks (limits: check_limits.hpp): F_z against G, F_x/G against the wanted traction coefficient, the
+/// patch inside the grid.
 Summary bem_summary(const CaseSpec& spec, const BemResult& result);
 
 /// Contact and checks alone, without the stresses, which cost more than the contact itself.
 Summary bem_contact_summary(const CaseSpec& spec, const BemResult& result);
+
+/// What of a summary, with the stresses it has, is not plausible.
+std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& result);
 
 /// The stresses of one body.
 StressSummary bem_rail_stress(const BemResult& result, const ContactSummary& contact);

@@ -4,6 +4,7 @@
 // `railstrata schema --results`, which tools read, all take them from here.
 #include <array>
 #include <limits>
+#include <numbers>
 #include <stdexcept>
 #include <string_view>
 
@@ -42,6 +43,17 @@ struct CheckRow {
 /// the 0.2 % proof stress of common as-rolled rail steels (grade R260). Heat-treated grades stand more, so it is a
 /// warning, not a check.
 inline constexpr double kCommonRailYield = 500e6;
+
+/// A cell or element, of the patch's shorter axis: where results suffer, and where they mean nothing. Reasons and
+/// figures of this and of the following limits: docs/bem.md, "What is checked".
+inline constexpr double kCellOfPatch = 0.1, kElementOfPatch = 0.2, kUnresolvedPatch = 0.35;
+inline constexpr double kLargestAngleSpanned = 20 * std::numbers::pi / 180;
+inline constexpr double kLargestOfRadius = 0.05;
+inline constexpr double kLargestOfEdgeDistance = 0.5;
+/// m, below its crest a flange has its working face. [EN15313]
+inline constexpr double kFlangeTip = 2e-3;
+/// Of the largest pressure: a tension smaller than this that goes on rising at the rim of the search is not told.
+inline constexpr double kTellingTension = 0.01;
 
 inline constexpr std::array kCheckRows{
     CheckRow{.key = "preload_residual",
@@ -85,6 +97,10 @@ inline constexpr std::array kCheckRows{
              .what = "outside once it touches the border of the grid",
              .unit = result_unit::kInside,
              .bem_limit = 0},
+    CheckRow{.key = "cell_of_patch",
+             .name = "Patch resolved",
+             .what = "a cell, of the patch's shorter axis",
+             .bem_limit = kUnresolvedPatch},
     CheckRow::of_engines("p_max", "Largest pressure", "finite elements against half-space", 0.04),
     CheckRow::of_engines("patch_length", "Patch length", "finite elements against half-space", 0.06),
     CheckRow::of_engines("q_max", "Largest shear", "finite elements against half-space", 0.07),
@@ -93,8 +109,8 @@ inline constexpr std::array kCheckRows{
                          "half-space’s largest lies deeper than one element",
                          0.08),
     CheckRow{.key = "patch_wider_than_layer",
-             .name = "Patch wider than the layer",
-             .what = "the contact patch is wider than the layer",
+             .name = "Patch beyond the layer",
+             .what = "twice the distance of the patch's far edge from the layer's middle",
              .kind = CheckKind::warning,
              .unit = result_unit::kMillimetres,
              .case_option = "layer.width",
@@ -114,6 +130,66 @@ inline constexpr std::array kCheckRows{
              .fem_limit = kCommonRailYield,
              .bem_limit = kCommonRailYield,
              .advice = "a real rail would yield there, and shake down or wear"},
+    CheckRow{.key = "few_cells_over_patch",
+             .name = "Few cells over the patch",
+             .what = "a cell or element, of the patch's shorter axis",
+             .kind = CheckKind::warning,
+             .fem_limit = kElementOfPatch,
+             .bem_limit = kCellOfPatch,
+             .advice = "slip area, largest shear and surface stresses err by more than a few per cent; a smaller "
+                       "--cell or mesh.element_size resolves it"},
+    CheckRow{.key = "patch_spans_angle",
+             .name = "Patch on a turning profile",
+             .what = "angle that the profiles' normal spans over the patch",
+             .kind = CheckKind::warning,
+             .unit = result_unit::kDegrees,
+             .bem_limit = kLargestAngleSpanned,
+             .advice = "conformal contact, which one contact plane does not describe; the finite elements follow the "
+                       "profiles"},
+    CheckRow{.key = "patch_large_against_radius",
+             .name = "Patch large against the radius",
+             .what = "half the patch, of the relative radius of the bodies there",
+             .kind = CheckKind::warning,
+             .bem_limit = kLargestOfRadius,
+             .advice = "strains of this size are beyond linear elasticity and half-spaces"},
+    CheckRow{.key = "patch_near_edge",
+             .name = "Patch near an edge",
+             .what = "half the patch's width, of the distance from its middle to the edge of a body or layer",
+             .kind = CheckKind::warning,
+             .bem_limit = kLargestOfEdgeDistance,
+             .advice = "half-spaces have no edge; the finite elements have",
+             .own_text = true},
+    CheckRow{.key = "second_contact",
+             .name = "Second contact",
+             .what = "overlap of the bodies at a second place, which is left out",
+             .kind = CheckKind::warning,
+             .unit = result_unit::kMicrometres,
+             .fem_limit = 0,
+             .bem_limit = 0,
+             .advice = "the load is shared there; these results have it on one patch",
+             .own_text = true},
+    CheckRow{.key = "contact_on_flange_crest",
+             .name = "Contact on the flange's crest",
+             .what = "the wheel touches with its flange's crest, this far below the tape circle",
+             .kind = CheckKind::warning,
+             .unit = result_unit::kMillimetres,
+             .case_option = "height of the flange less 2 mm",
+             .advice = "check lateral_shift, gauge and back_to_back"},
+    CheckRow{.key = "flange_outside_gauge",
+             .name = "Flange outside the gauge",
+             .what = "the flange's crest stands beyond the rail's gauge face",
+             .kind = CheckKind::warning,
+             .unit = result_unit::kMillimetres,
+             .fem_limit = 0,
+             .bem_limit = 0,
+             .advice = "such a wheel is derailed; check lateral_shift, gauge and back_to_back"},
+    CheckRow{.key = "stress_maximum_at_rim",
+             .name = "Stress maximum at the rim",
+             .what = "stress that still rises at the rim of the search, of the largest pressure",
+             .kind = CheckKind::warning,
+             .bem_limit = kTellingTension,
+             .advice = "a larger one may lie beyond",
+             .own_text = true},
     CheckRow{.key = "measured_within_torque_ramp",
              .name = "Measured while the torque rises",
              .what = "the measuring window begins before the torque has its full value",

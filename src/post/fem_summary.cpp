@@ -1,5 +1,6 @@
 #include "post/fem_summary.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "post/check_limits.hpp"
@@ -50,6 +51,24 @@ RunSummary run_summary(const RunResult& run) {
   return r;
 }
 
+PatchSurroundings surroundings(const Model& model, const MeanContact& m) {
+  const Placement& p = model.placement;
+  const Vec2 tangent{std::cos(p.contact.angle), std::sin(p.contact.angle)};
+  const double half = 0.5 * model.spec.mesh.fine_width;
+  SolvedPatch patch{half, -half, -half, half, model.load / tangent.y, model.hertz.approach};
+  for (int i = 0; i < m.field.size(); ++i) {
+    if (!(m.field.p[i] > m.field.p_noise)) continue;
+    const double t = dot(Vec2{m.field.y[i], m.field.z[i]} - p.contact.point, tangent);
+    patch.low = std::min(patch.low, t);
+    patch.high = std::max(patch.high, t);
+  }
+  // pressures reach beyond the outermost nodes that bear: as far as the width of the patch says
+  const double beyond = std::max(0.0, 0.5 * (m.patch.width - (patch.high - patch.low)));
+  patch.low -= beyond;
+  patch.high += beyond;
+  return patch_surroundings(model.spec, p, patch);
+}
+
 }  // namespace
 
 std::vector<Check> finite_element_checks(const Model& model, const RunResult& run, const MeanContact& m) {
@@ -82,7 +101,7 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   s.energy = {.closure = spec.run.rolling ? run.closure : kNotApplicable, .hourglass_share = run.hourglass_share};
   s.run = run_summary(run);
   s.checks = finite_element_checks(sys.model, run, m);
-  s.warnings = implausible(s, spec);
+  s.warnings = implausible(s, spec, surroundings(sys.model, m), spec.mesh.element_size);
   add_run_advice(s, spec, run.limits);
   return s;
 }

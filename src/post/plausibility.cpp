@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "post/check_limits.hpp"
 
@@ -17,26 +19,97 @@ double largest_von_mises(const StressSummary& s) {
   return most;
 }
 
+double shorter_axis(const PatchMeasures& patch) { return std::min(patch.length, patch.width); }
+
+class Warnings {
+ public:
+  explicit Warnings(Engine engine) : fem_(engine == Engine::fem) {}
+
+  /// With the table's words, which end with what `more` says.
+  void above(std::string_view name, double value, double limit, const std::string& more = "") {
+    const CheckRow& row = check_row(name);
+    if (!(value > limit)) return;
+    const std::string unit = row.unit.si().empty() ? "" : fmt::format(" [{}]", row.unit.si());
+    out_.push_back({.name = std::string(name),
+                    .value = value,
+                    .limit = limit,
+                    .text = fmt::format("{}{}{}: {}", row.what, unit, more, row.advice)});
+  }
+  /// Against the table's limit for this engine, if it has one.
+  void above(std::string_view name, double value, const std::string& more = "") {
+    const double limit = fem_ ? check_row(name).fem_limit : check_row(name).bem_limit;
+    if (!std::isnan(limit)) above(name, value, limit, more);
+  }
+  std::vector<Warning> take() { return std::move(out_); }
+
+ private:
+  bool fem_;
+  std::vector<Warning> out_;
+};
+
+void warn_of_layers(const CaseSpec& spec, const PatchSurroundings& around, Warnings& out) {
+  double beyond = 0, reach = 0, width = 0;
+  for (const LayerSpec& layer : spec.layers) {
+    const double twice = 2 * (layer.on == BodyId::rail ? around.rail_reach : around.wheel_reach);
+    if (twice - layer.width <= beyond) continue;
+    beyond = twice - layer.width;
+    reach = twice;
+    width = layer.width;
+  }
+  out.above("patch_wider_than_layer", reach, width);
+}
+
+std::string place(double rail_y, double wheel_y, double angle) {
+  return fmt::format("y = {:.1f} mm of the rail, {:.1f} mm of the wheel, at {:.1f}°", 1e3 * rail_y, 1e3 * wheel_y,
+                     result_unit::kDegrees.factor * angle);
+}
+
+void warn_of_second_contact(const PatchSurroundings& around, double angle, Warnings& out) {
+  if (!around.second) return;
+  const SecondContact& second = *around.second;
+  out.above("second_contact", second.overlap,
+            fmt::format("; first place: {}; second place: {}", place(around.rail_y, around.wheel_y, angle),
+                        place(second.rail_y, second.wheel_y, second.angle)));
+}
+
+void warn_of_flange(const PatchSurroundings& around, Warnings& out) {
+  if (!around.flange) return;
+  out.above("contact_on_flange_crest", around.flange->contact_depth, around.flange->height - kFlangeTip);
+  out.above("flange_outside_gauge", around.flange->beyond_gauge);
+}
+
+void warn_of_stress(const Summary& s, Warnings& out) {
+  out.above("von_mises_above_common_rail_yield", largest_von_mises(s.rail));
+  double rising = 0;
+  for (const StressSummary* body : {&s.rail, &s.wheel})
+    for (const auto& pair : {body->surface, body->subsurface, body->layer, body->interface, body->matrix})
+      for (const StressMaximum& m : pair ? std::array{pair->von_mises, pair->sigma1} : std::array<StressMaximum, 2>{})
+        if (m.at_rim) rising = std::max(rising, m.value);
+  out.above("stress_maximum_at_rim", rising / s.contact.patch.p_max);
+}
+
 }  // namespace
 
-std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec) {
-  std::vector<Warning> out;
-  const double width = s.contact.patch.width;
-  const auto warn_above = [&](std::string_view name, double value, double limit) {
-    const CheckRow& row = check_row(name);
-    if (value > limit)
-      out.push_back({.name = std::string(name),
-                     .value = value,
-                     .limit = limit,
-                     .text = fmt::format("{} [{}]: {}", row.what, row.unit.si(), row.advice)});
-  };
-  double narrowest = HUGE_VAL;
-  for (const LayerSpec& layer : spec.layers) narrowest = std::min(narrowest, layer.width);
-  warn_above("patch_wider_than_layer", width, narrowest);
+double subsurface_begin(const PatchMeasures& patch, double first_layer) {
+  return std::min(0.05 * shorter_axis(patch), 0.5 * first_layer);
+}
+
+std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const PatchSurroundings& around,
+                                 double element) {
+  Warnings out(s.run.engine);
+  const PatchMeasures& patch = s.contact.patch;
+  out.above("few_cells_over_patch", element / shorter_axis(patch));
+  out.above("patch_spans_angle", around.edges.angle_spanned);
+  out.above("patch_large_against_radius",
+            std::max(around.edges.half_width_over_radius, 0.5 * patch.length * around.curvature_rolling));
+  out.above("patch_near_edge", around.edges.edge_share, fmt::format(", here {}", around.edges.edge));
+  warn_of_layers(spec, around, out);
   if (s.run.engine == Engine::fem)
-    warn_above("patch_near_border_of_fine_zone", width, spec.mesh.fine_width - 2 * spec.mesh.element_size);
-  warn_above("von_mises_above_common_rail_yield", largest_von_mises(s.rail), kCommonRailYield);
-  return out;
+    out.above("patch_near_border_of_fine_zone", patch.width, spec.mesh.fine_width - 2 * spec.mesh.element_size);
+  warn_of_second_contact(around, s.contact.contact_angle, out);
+  warn_of_flange(around, out);
+  warn_of_stress(s, out);
+  return out.take();
 }
 
 }  // namespace railstrata

@@ -3,13 +3,22 @@
 #include <vector>
 
 #include "case/case_spec.hpp"
+#include "model/surroundings.hpp"
 #include "post/summary.hpp"
 
 namespace railstrata {
 
-/// patch_wider_than_layer (of either body), patch_near_border_of_fine_zone (finite elements: nearer than an element on
-/// each side), von_mises_above_common_rail_yield.
-/// Limits and words: check_limits.hpp.
-std::vector<Warning> implausible(const Summary& summary, const CaseSpec& spec);
+/// m, where "below the surface" begins: a tenth of the patch's shorter semi-axis, or half of a thinner surface layer.
+/// Nearer to the surface a stress is the surface's, whatever the cell: tension behind the patch dies out within a few
+/// hundredths of the patch.
+double subsurface_begin(const PatchMeasures& patch, double first_layer);
+
+/// What a summary and the surroundings of its patch say; element: edge of a cell or element, m. Of both engines:
+/// few_cells_over_patch, second_contact, contact_on_flange_crest, flange_outside_gauge, patch_wider_than_layer,
+/// von_mises_above_common_rail_yield; of finite elements patch_near_border_of_fine_zone (nearer than an element on each
+/// side); of half-spaces patch_spans_angle, patch_large_against_radius, patch_near_edge, stress_maximum_at_rim. Limits
+/// and words: check_limits.hpp; reasons: docs/bem.md.
+std::vector<Warning> implausible(const Summary& summary, const CaseSpec& spec, const PatchSurroundings& around,
+                                 double element);
 
 }  // namespace railstrata

@@ -458,7 +458,10 @@ const std::vector<StressZone>& stress_zones() {
   using S = StressSummary;
   static const std::vector<StressZone> zones{
       {"surface", &S::surface, "at the surface", "At the running surface, from its tractions and strains"},
-      {"subsurface", &S::subsurface, "below the surface", "Deeper than one element edge; half-space: than half a cell"},
+      {"subsurface", &S::subsurface, "below the surface",
+       "Deeper than a tenth of the patch's shorter semi-axis, or half a thinner surface layer; finite elements: and "
+       "than "
+       "one element edge"},
       {"layer", &S::layer, "in the layers", "In the layers, from their own points"},
       {"interface", &S::interface, "at the interfaces", "On either side of every border between materials"},
       {"matrix", &S::matrix, "in the matrix", "Below all layers"}};

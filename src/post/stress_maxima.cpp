@@ -7,6 +7,7 @@
 #include "contact/enforcement.hpp"
 #include "core/parabola.hpp"
 #include "material/elastic.hpp"
+#include "post/plausibility.hpp"
 
 namespace railstrata {
 namespace {
@@ -87,8 +88,8 @@ StressPair at_interfaces(const BandStress& b) {
   return best;
 }
 
-void below_surface(const BandStress& b, double element_size, bool layered, StressSummary& out) {
-  const auto deep = [&](int, int r) { return b.centre_depth[r] > element_size; };
+void below_surface(const BandStress& b, double begin, bool layered, StressSummary& out) {
+  const auto deep = [&](int, int r) { return b.centre_depth[r] > begin; };
   out.subsurface = largest_pair(b, deep);
   if (!layered) return;
   out.layer = largest_pair(b, [&](int c, int r) { return layer_of(b, c, r) > 0; });
@@ -184,6 +185,14 @@ StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sam
   return best;
 }
 
+/// Where the subsurface begins: subsurface_begin, no nearer than an element.
+double begin_of(const CaseSpec& spec, BodyId body, const MeanContact& m) {
+  double first_layer = HUGE_VAL;
+  for (const LayerSpec& layer : spec.layers)
+    if (layer.on == body && std::isinf(first_layer)) first_layer = layer.thickness;
+  return std::max(spec.mesh.element_size, subsurface_begin(m.patch, first_layer));
+}
+
 }  // namespace
 
 std::vector<Sym3> rail_surface_stress(const RollingSystem& sys, const MeanContact& m) {
@@ -207,7 +216,7 @@ StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m
   StressSummary out;
   const double contact_y = sys.model.placement.contact.point.y - sys.model.rail.origin.y;
   const BandStress b = band_stress(sys.model.rail, m.rail, contact_y);
-  below_surface(b, sys.model.spec.mesh.element_size, sys.model.rail_materials.size() > 1, out);
+  below_surface(b, begin_of(sys.model.spec, BodyId::rail, m), sys.model.rail_materials.size() > 1, out);
   out.surface =
       surface_maxima(rail_surface_stress(sys, m), m.rail, sys.rail_surface(), sys.model.placement.contact.point.y);
   return out;
@@ -216,7 +225,7 @@ StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m
 StressSummary wheel_stress_summary(const RollingSystem& sys, const MeanContact& m) {
   StressSummary out;
   const double contact_y = sys.model.placement.contact.point.y - sys.model.wheel.origin.y;
-  below_surface(band_stress(sys.model.wheel, m.wheel, contact_y), sys.model.spec.mesh.element_size,
+  below_surface(band_stress(sys.model.wheel, m.wheel, contact_y), begin_of(sys.model.spec, BodyId::wheel, m),
                 sys.model.wheel_materials.size() > 1, out);
   out.surface =
       surface_maxima(wheel_surface_stress(sys, m), m.wheel, sys.wheel_surface(), sys.model.placement.contact.point.y);

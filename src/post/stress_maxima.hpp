@@ -37,7 +37,7 @@ std::vector<Sym3> wheel_surface_stress(const RollingSystem& system, const MeanCo
 Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12,
                     Vec3 traction);
 
-/// subsurface: deeper than one element edge (mesh.element_size).
+/// subsurface: deeper than subsurface_begin (plausibility.hpp) and than one element edge (mesh.element_size).
 StressSummary rail_stress_summary(const RollingSystem& system, const MeanContact& mean);
 StressSummary wheel_stress_summary(const RollingSystem& system, const MeanContact& mean);
 

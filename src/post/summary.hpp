@@ -38,6 +38,7 @@ inline void turn_into_contact_plane(ContactSummary& c, double angle) {
 /// surface along its normal.
 struct StressMaximum {
   double value = kNotApplicable, x = kNotApplicable, y = kNotApplicable, depth = kNotApplicable;
+  bool at_rim = false;  ///< of what was searched: a larger one may lie beyond
 };
 struct StressPair {
   StressMaximum von_mises, sigma1;

@@ -18,8 +18,8 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
   write_view_script(folder);
   write_patch_tables(folder, provenance, result.field);
   const StressMaximum& deepest = summary.rail.subsurface->von_mises;
-  const double rail_depth = depth_of_interest(result.rail, summary.contact);
-  const double wheel_depth = depth_of_interest(result.wheel, summary.contact);
+  const double rail_depth = depths_of_interest(result.rail, summary.contact).deepest;
+  const double wheel_depth = depths_of_interest(result.wheel, summary.contact).deepest;
   write_depth_line(folder / "depth_line.csv", provenance, rail_depth_line(result, deepest.x, deepest.y, rail_depth));
   const double centre_y = centre_line(result.field).y;
   write_sections(folder, "rail", provenance, rail_sections(result, deepest.x, centre_y, rail_depth));

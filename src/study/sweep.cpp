@@ -28,7 +28,10 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
     const CaseSpec spec = half_space_case(c.loaded->spec);
     const BemResult result = solve_bem(spec, place(spec, c.loaded->folder()), bem);
     Summary summary = bem_contact_summary(spec, result);
-    if (stresses) summary.rail = bem_rail_stress(result, summary.contact);
+    if (stresses) {
+      summary.rail = bem_rail_stress(result, summary.contact);
+      summary.warnings = bem_warnings(summary, spec, result);
+    }
     c.summary = summary_json(summary);
     c.fault = failed_check(c.summary);
   } catch (const CaseError& e) {

@@ -190,11 +190,11 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:2:16: mesh.element_size = \"1\": has no unit\n    2 | element_size = \"1\"\n      |                ^\n  "
        "  remedy: write a length, e.g. \"0.2 mm\""},
       {"[material.rail]\nyoung = \"210 MPa\"\n",
-       "a.toml:2:9: material.rail.young = \"210 MPa\": must be between 1 GPa and 10000 GPa\n    2 | young = \"210 "
+       "a.toml:2:9: material.rail.young = \"210 MPa\": must be between 1 GPa and 100000 GPa\n    2 | young = \"210 "
        "MPa\"\n      |         ^\n    remedy: did you mean \"210 GPa\"?"},
       {"[material.rail]\npoisson = 0.6\n",
-       "a.toml:2:11: material.rail.poisson = 0.6: must be between 0 and 0.495\n    2 | poisson = 0.6\n      |          "
-       " ^\n    remedy: choose a value in this range"},
+       "a.toml:2:11: material.rail.poisson = 0.6: must be between 0 and 0.499\n    2 | poisson = 0.6\n      |          "
+       " ^\n    remedy: 0.5 is incompressible: take 0.499 for it"},
       {"[contact]\nmethod = \"motar\"\n",
        "a.toml:2:10: contact.method = \"motar\": must be one of \"mortar\", \"penalty\"\n    2 | method = \"motar\"\n  "
        "    |          ^\n    remedy: did you mean \"mortar\"?"},
@@ -271,14 +271,25 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:2:15: layer.0.young_table: needs at least two rows\n    2 | young_table = [[\"0 mm\", \"420 GPa\"]]\n   "
        "   |               ^\n    remedy: write a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", "
        "\"210 GPa\"]]"},
-      {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"0.01 mm\", \"210 GPa\"]]\n",
-       "a.toml:2:37: layer.0.young_table: the last depth, the layer's thickness, must be between 0.05 mm and 10 mm\n   "
-       " 2 | young_table = [[\"0 mm\", \"420 GPa\"], [\"0.01 mm\", \"210 GPa\"]]\n      |                              "
+      {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"5 µm\", \"210 GPa\"]]\n",
+       "a.toml:2:37: layer.0.young_table: the last depth, the layer's thickness, must be between 0.01 mm and 50 mm\n   "
+       " 2 | young_table = [[\"0 mm\", \"420 GPa\"], [\"5 µm\", \"210 GPa\"]]\n      |                              "
        "       ^\n    remedy: "
-       "choose depths in this range"},
-      {"[[layer]]\nyoung_ratio = 2\nthickness = \"20 mm\"\n",
-       "a.toml:3:13: layer.0.thickness = \"20 mm\": must be between 0.05 mm and 10 mm\n    3 | thickness = \"20 mm\"\n "
-       "     |             ^\n    remedy: choose a value in this range"},
+       "leave a thinner layer out; give a thicker one's modulus to the body that carries it"},
+      {"[[layer]]\nyoung_ratio = 2\nthickness = \"80 mm\"\n",
+       "a.toml:3:13: layer.0.thickness = \"80 mm\": must be between 0.01 mm and 50 mm\n    3 | thickness = \"80 mm\"\n "
+       "     |             ^\n    remedy: leave a thinner layer out; give a thicker one's modulus to the body that "
+       "carries "
+       "it"},
+      {"[[layer]]\nyoung_ratio = 2\nthickness = \"0.008 mm\"\n",
+       "a.toml:3:13: layer.0.thickness = \"0.008 mm\": must be between 0.01 mm and 50 mm\n    3 | thickness = \"0.008 "
+       "mm\"\n      |             ^\n    remedy: leave a thinner layer out; give a thicker one's modulus to the body "
+       "that carries it"},
+      {"[[layer]]\nyoung_ratio = 2\nthickness = \"2 m\"\n",
+       "a.toml:3:13: layer.0.thickness = \"2 m\": must be between 0.01 mm and 50 mm\n    3 | thickness = \"2 m\"\n     "
+       " "
+       "|             ^\n    remedy: did you mean \"2 mm\"? If not: leave a thinner layer out; give a thicker one's "
+       "modulus to the body that carries it"},
       {"[layer]\nyoung_ratio = 2\n",
        "a.toml:1:2: layer must be a list of tables\n    1 | [layer]\n      |  ^\n    remedy: write [[layer]] with two "
        "brackets"},
@@ -460,12 +471,19 @@ TEST(CaseFile, AMissingFileIsToldByName) {
   }
 }
 
+// Steel's modulus times either end of the ratio's range.
+TEST(CaseFile, EveryRatioThatThePageAllowsIsTakenForSteel) {
+  for (const double ratio : {0.01, 100.0}) {
+    const CaseSpec spec = parse_case(fmt::format("[[layer]]\nyoung_ratio = {}\n", ratio), "a.toml").spec;
+    EXPECT_DOUBLE_EQ(spec.layers.at(0).material.young, ratio * 210e9);
+  }
+}
+
 TEST(CaseFile, ARatioMayNotTakeTheModulusOutOfItsRange) {
   const std::string error = error_of("[material.rail]\nyoung = \"10000 GPa\"\n[[layer]]\nyoung_ratio = 100\n");
-  EXPECT_NE(
-      error.find(
-          "a.toml:4:15: layer.0.young_ratio = 100: makes young 1000000 GPa, which must be between 1 GPa and 10000 GPa"),
-      std::string::npos)
+  EXPECT_NE(error.find("a.toml:4:15: layer.0.young_ratio = 100: makes young 1000000 GPa, which must be between 1 GPa "
+                       "and 100000 GPa"),
+            std::string::npos)
       << error;
 }
 

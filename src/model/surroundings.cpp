@@ -1,0 +1,183 @@
+#include "model/surroundings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace railstrata {
+namespace {
+
+constexpr double kStep = 0.1e-3;  // m, along the profiles
+
+double turned_angle(Vec2 tangent) { return std::atan2(tangent.z, tangent.y); }
+
+/// One of the two profiles as it stands in the track.
+struct PlacedProfile {
+  const Profile& profile;
+  const TrackGeometry& track;
+  bool is_rail;
+  double contact_s;
+
+  Vec2 in_track(Vec2 v) const { return is_rail ? rail_to_model(track, v) : v; }
+  double angle(double s) const { return turned_angle(in_track(profile.at(s).tangent)); }
+  double clamped(double s) const { return std::clamp(s, profile.s_min(), profile.s_max()); }
+  /// By how much a convex body has turned away from the contact plane, walking in a direction.
+  double turned_away(double s, int direction) const {
+    const double change = (angle(s) - angle(contact_s)) * direction;
+    return is_rail ? -change : change;
+  }
+  /// Distance in the contact plane to where the body ends on one side of the contact.
+  double reach(int direction) const {
+    constexpr double kAway = std::numbers::pi / 4;
+    const double last = direction > 0 ? profile.s_max() : profile.s_min();
+    double s = contact_s;
+    while ((last - s) * direction > kStep && turned_away(s, direction) < kAway) s += direction * kStep;
+    const ProfilePoint contact = profile.at(contact_s);
+    return std::abs(dot(profile.at(s).position - contact.position, contact.tangent));
+  }
+};
+
+struct Range {
+  double low, high;
+  void add(double v) {
+    low = std::min(low, v);
+    high = std::max(high, v);
+  }
+  double length() const { return high - low; }
+};
+
+void measure_turn(const PlacedProfile& rail, const PlacedProfile& wheel, const SolvedPatch& patch, PatchEdges& out) {
+  constexpr int kPieces = 64;
+  const auto at = [&](const PlacedProfile& body, int i) {
+    return body.angle(body.clamped(body.contact_s + patch.low + (patch.high - patch.low) * i / kPieces));
+  };
+  const double first_rail = at(rail, 0), first_wheel = at(wheel, 0);
+  Range of_rail{first_rail, first_rail}, of_wheel{first_wheel, first_wheel},
+      between{first_wheel - first_rail, first_wheel - first_rail};
+  for (int i = 1; i <= kPieces; ++i) {
+    const double r = at(rail, i), w = at(wheel, i);
+    of_rail.add(r);
+    of_wheel.add(w);
+    between.add(w - r);
+  }
+  out.angle_spanned = std::max(of_rail.length(), of_wheel.length());
+  out.half_width_over_radius = 0.5 * between.length();
+}
+
+/// The nearest edge so far.
+class NearestEdge {
+ public:
+  NearestEdge(const SolvedPatch& patch, PatchEdges& out)
+      : middle_(0.5 * (patch.low + patch.high)), half_(0.5 * (patch.high - patch.low)), out_(out) {}
+  /// At t in the contact plane, on the side of `direction`.
+  void offer(double t, int direction, const std::string& what) {
+    const double distance = std::max((t - middle_) * direction, 1e-3 * half_), share = half_ / distance;
+    if (share <= out_.edge_share) return;
+    out_.edge_share = share;
+    out_.edge = what;
+  }
+
+ private:
+  double middle_, half_;
+  PatchEdges& out_;
+};
+
+void measure_edges(const CaseSpec& spec, const PlacedProfile& rail, const PlacedProfile& wheel,
+                   const SolvedPatch& patch, PatchEdges& out) {
+  NearestEdge nearest(patch, out);
+  const auto lateral = [&](const PlacedProfile& body, double y) {
+    const ProfilePoint contact = body.profile.at(body.contact_s);
+    return (y - contact.position.y) / std::max(contact.tangent.y, 0.05);
+  };
+  for (const int direction : {-1, 1}) {
+    nearest.offer(direction * rail.reach(direction), direction, "the side of the rail");
+    nearest.offer(direction * wheel.reach(direction), direction, "the side of the wheel");
+    if (spec.geometry.rail_shape == RailShape::block)
+      nearest.offer(lateral(rail, 0.5 * direction * spec.geometry.block_width), direction, "the side of the block");
+    for (const LayerSpec& layer : spec.layers)
+      nearest.offer(lateral(layer.on == BodyId::rail ? rail : wheel, 0.5 * direction * layer.width), direction,
+                    fmt::format("the edge of the {}'s layer \"{}\"", body_word(layer.on), layer.name));
+  }
+}
+
+std::optional<FlangePlace> flange_place(const Placement& p) {
+  if (p.wheel.primitive() || p.rail.primitive()) return {};
+  Vec2 crest = p.wheel.at(p.wheel.s_min()).position;
+  for (double s = p.wheel.s_min(); s <= p.wheel.s_max(); s += kStep)
+    if (const Vec2 at = p.wheel.at(s).position; at.z < crest.z) crest = at;
+  return FlangePlace{-crest.z, -p.wheel.at(p.contact.wheel_s).position.z,
+                     crest.y + p.contact.wheel_offset_y - gauge_face_y(p.rail, p.track)};
+}
+
+/// The overlap of the rigid bodies after the descent, place by place over the rail's running surface.
+struct OverlapSample {
+  double s = 0;
+  bool overlaps = false;  ///< of the rigid bodies
+  bool covered = false;
+  SecondContact place;  ///< less the depression by the patch
+};
+
+OverlapSample overlap_at(double s, double descent, double depression, const Placement& p, const SolvedPatch& patch) {
+  OverlapSample out;
+  out.s = s;
+  const ProfilePoint rail = p.rail.at(s);
+  const Vec2 point = rail_to_model(p.track, rail.position);
+  const double wheel_y = point.y - p.contact.wheel_offset_y;
+  if (wheel_y < p.wheel.y_min() || wheel_y > p.wheel.y_max()) return out;
+  const double gap = p.wheel.height(wheel_y) + p.contact.wheel_offset_z - point.z,
+               angle = turned_angle(rail_to_model(p.track, rail.tangent));
+  const Vec2 from_contact = point - p.contact.point, tangent{std::cos(p.contact.angle), std::sin(p.contact.angle)};
+  const double t = dot(from_contact, tangent),
+               distance = std::hypot(t - 0.5 * (patch.low + patch.high), dot(from_contact, {-tangent.z, tangent.y}));
+  out.overlaps = gap < descent;
+  out.covered = t >= patch.covered_low && t <= patch.covered_high;
+  out.place = {(descent - gap) * std::cos(angle) - depression / std::max(distance, kStep), rail.position.y, wheel_y,
+               angle};
+  return out;
+}
+
+std::optional<SecondContact> second_contact(const CaseSpec& spec, const Placement& p, const SolvedPatch& patch) {
+  const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
+                                         {spec.rail_material.young, spec.rail_material.poisson});
+  const double depression = patch.normal_force / (std::numbers::pi * modulus),
+               descent = patch.approach / std::cos(p.contact.angle);
+  const double begin = p.rail.s_at_y(p.rail.y_min()), end = p.rail.s_at_y(p.rail.y_max());
+  std::vector<OverlapSample> samples;
+  for (double s = begin; s <= end; s += kStep) samples.push_back(overlap_at(s, descent, depression, p, patch));
+
+  // the stretch of overlap around the rigid contact is the patch's own
+  const auto contact =
+      std::find_if(samples.begin(), samples.end(), [&](const OverlapSample& o) { return o.s >= p.contact.rail_s; });
+  for (auto o = contact; o != samples.end() && o->overlaps; ++o) o->covered = true;
+  for (auto o = contact; o != samples.begin() && std::prev(o)->overlaps; --o) std::prev(o)->covered = true;
+
+  std::optional<SecondContact> out;
+  for (const OverlapSample& o : samples)
+    if (o.overlaps && !o.covered && o.place.overlap > (out ? out->overlap : 0)) out = o.place;
+  return out;
+}
+
+}  // namespace
+
+PatchSurroundings patch_surroundings(const CaseSpec& spec, const Placement& p, const SolvedPatch& patch) {
+  const PlacedProfile rail{p.rail, p.track, true, p.contact.rail_s}, wheel{p.wheel, p.track, false, p.contact.wheel_s};
+  PatchSurroundings out;
+  measure_turn(rail, wheel, patch, out.edges);
+  measure_edges(spec, rail, wheel, patch, out.edges);
+  out.curvature_rolling = p.contact.curvature_rolling;
+  out.flange = flange_place(p);
+  out.second = second_contact(spec, p, patch);
+  const auto locate = [&](const PlacedProfile& body, double& y, double& reach) {
+    const ProfilePoint contact = body.profile.at(body.contact_s);
+    y = contact.position.y;
+    reach = std::max(std::abs(y + patch.low * contact.tangent.y), std::abs(y + patch.high * contact.tangent.y));
+  };
+  locate(rail, out.rail_y, out.rail_reach);
+  locate(wheel, out.wheel_y, out.wheel_reach);
+  return out;
+}
+
+}  // namespace railstrata
