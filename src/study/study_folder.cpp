@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/printable.hpp"
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
 
@@ -30,7 +31,11 @@ FolderHold prepare_study_folder(const fs::path& folder, const LoadedStudy& study
   for (const StudyGroup& g : study.spec.groups)
     if (std::find(inputs.begin(), inputs.end(), g.base) == inputs.end()) inputs.push_back(g.base);
   write_whole_file(folder / "provenance.json", provenance_json(command_line, overrides, inputs, threads));
-  write_whole_file(folder / "study.toml", study.source_text);
+  write_whole_file(
+      folder / "study.toml",
+      fmt::format("# A copy for the record of {}: run that one, for its base and published are named relative "
+                  "to its folder.\n{}",
+                  printable(study.file.filename().string()), study.source_text));
   return hold;
 }
 

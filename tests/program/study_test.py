@@ -83,6 +83,9 @@ class StudyTest(FromOutside):
 class Cases(StudyTest):
     def test_its_numbers_are_those_of_bem_and_every_case_has_its_folder(self):
         self.solve(GRID)
+        note, copy = (self.out / "study.toml").read_text().split("\n", 1)
+        self.assertRegex(note, r"^# A copy for the record of \S+\.toml: run that one, ")
+        self.assertEqual(copy, GRID)
         rows = self.rows()
         self.assertEqual([(r["layer.0.thickness"], r["layer.0.young_ratio"]) for r in rows],
                          [(h, e) for h in ("1 mm", "2 mm") for e in ("1.5", "2", "4")])
