@@ -16,6 +16,10 @@
 namespace railstrata {
 namespace {
 
+void print_title(const LoadedCase& loaded) {
+  fmt::print("{}\n\n", printable(fmt::format("{}: {}", loaded.file.string(), loaded.spec.title)));
+}
+
 void print_geometry(const CaseSpec& spec, const Placement& placement) {
   const RigidContact& c = placement.contact;
   const HertzContact hertz = hertz_estimate(spec, c);
@@ -118,11 +122,12 @@ ExitCode check_without_mesh(const LoadedCase& loaded, bool json) {
     fmt::print("{}\n", out.dump(2));
     return ExitCode::ok;
   }
-  fmt::print("{}: {}\n\n", loaded.file.string(), loaded.spec.title);
+  print_title(loaded);
   print_geometry(loaded.spec, placement);
   print_layers(loaded.spec);
   fmt::print("\nfor `railstrata bem` alone; `run` refuses it:\n");
-  for (const Diagnostic& d : loaded.not_in_fem) fmt::print("{}: {}\n", d.where, d.message);
+  for (const Diagnostic& d : loaded.not_in_fem)
+    fmt::print("{}\n", printable(fmt::format("{}: {}", d.where, d.message)));
   return ExitCode::ok;
 }
 
@@ -139,7 +144,7 @@ ExitCode command_check(const CommandOptions& options) {
     fmt::print("{}\n", as_json(model, estimate).dump(2));
     return ExitCode::ok;
   }
-  fmt::print("{}\n\n", printable(fmt::format("{}: {}", loaded.file.string(), loaded.spec.title)));
+  print_title(loaded);
   print_geometry(loaded.spec, model.placement);
   print_layers(loaded.spec);
   print_estimate(model, estimate);

@@ -52,7 +52,7 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchM
   if (const double wanted = spec.drive.traction().value_or(0); spec.drive.friction_coefficient > 0 && wanted != 0)
     out.push_back(bem_check("traction_coefficient_reached", std::abs(m.force_x / load / wanted - 1)));
   out.push_back(bem_check("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0));
-  out.push_back(bem_check("cell_of_patch", r.grid.dy / std::min(m.length, m.width)));
+  out.push_back(bem_check("cell_of_patch", r.grid.dy / shorter_axis(m)));
   return out;
 }
 

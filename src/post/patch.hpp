@@ -20,6 +20,9 @@ struct PatchMeasures {
   double force_x = 0, force_y = 0, force_z = 0;  ///< N on the wheel, sums of area times traction (z: normal)
 };
 
+/// m, of length and width.
+inline double shorter_axis(const PatchMeasures& patch) { return std::min(patch.length, patch.width); }
+
 /// The share of one point in the sums and extremes over all points.
 inline void add_point(PatchMeasures& m, const ContactField& f, int i) {
   m.q_max = m.q_max_point = std::max(m.q_max_point, std::hypot(f.q_x[i], f.q_y[i]));

@@ -19,8 +19,6 @@ double largest_von_mises(const StressSummary& s) {
   return most;
 }
 
-double shorter_axis(const PatchMeasures& patch) { return std::min(patch.length, patch.width); }
-
 class Warnings {
  public:
   explicit Warnings(Engine engine) : fem_(engine == Engine::fem) {}
