@@ -75,6 +75,7 @@ export interface Geometry {
 export interface Summary {
   position_m: number|null;
   contact: Record<string, number|null>;
+  patches?: Record<string, number|null>[];  // where the wheel touches at several places
   stress: Record<BodyName, Zones>;
   run: Record<string, number|string|null>;
 }
@@ -89,6 +90,7 @@ export interface Run {
   provenance: Record<string, unknown>;
   geometry: Geometry|null;
   patch: Grid;
+  further_patches: Grid[];
   centre_line: Columns&{y: number[]};
   depth_line: Columns|null;
   history: Columns|null;

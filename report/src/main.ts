@@ -3,7 +3,7 @@ import type {BodyName, Chart, ChartSeries, Maps, Report, Run, Span, Table} from 
 import {details, element, note, part, table} from "./dom";
 import {drawAll, forget, frame, kDark, kLight, setOrigin, type Figure, type Theme} from "./figures";
 import {linesFigure, type Series} from "./lines";
-import {centreLines, patchMaps} from "./patch";
+import {centreLines, patchesTable, patchMaps} from "./patch";
 import {geometryFigures, geometryTable, historyFigures, numbersTable, origin, tiles, verdict} from "./sections";
 import {depthLines, maximaTable, sectionMaps} from "./stress";
 import {engineName, numberText, plotText, runLabel, setWords} from "./text";
@@ -26,7 +26,8 @@ const grid = (figures: Figure[]) => element("div", {class: "grid"}, ...figures.m
 
 function mapsOf(m: Maps): Figure[] {
   const runs = m.runs.map((k) => report.runs[k]);
-  const all = m.kind === "state" ? patchMaps(runs) : sectionMaps(runs, "rail");
+  const first = runs.map((run) => ({...run, further_patches: []}));
+  const all = m.kind === "state" ? patchMaps(first) : sectionMaps(runs, "rail");
   const wanted = m.kind === "state" ? "map-state-" : `section-rail-longitudinal-${m.kind}-`;
   return all.filter((f) => f.id.startsWith(wanted));
 }
@@ -97,7 +98,7 @@ function geometryPart(run: Run): HTMLElement {
 
 function patchPart(runs: Run[]): HTMLElement {
   const words = note(`${kAxes} The cross marks the rigid contact point.`);
-  return part("patch", "The patch", words, grid(patchMaps(runs)), grid(centreLines(runs)));
+  return part("patch", "The patch", words, patchesTable(runs), grid(patchMaps(runs)), grid(centreLines(runs)));
 }
 
 function stressPart(runs: Run[]): HTMLElement {

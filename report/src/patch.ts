@@ -1,14 +1,15 @@
 // The contact patch: maps of pressure, traction, slip and state, and the centre line.
-import {columnsOf, option, unpack, type Run, type Span, type Values} from "./data";
-import {element} from "./dom";
+import {columnsOf, option, unpack, type Grid, type Run, type Span, type Values} from "./data";
+import {element, table} from "./dom";
 import type {Figure, Theme} from "./figures";
 import {linesFigure, type Series} from "./lines";
 import {magnitudeColours, mapFigure, type MapSpec} from "./maps";
-import {minus, runLabel} from "./text";
+import {minus, numberText, runLabel} from "./text";
 
-/// A run's patch, y from the rigid contact point as in the tables; nothing outside the contact.
+/// A patch of a run, y from the rigid contact point as in the tables; nothing outside the contact.
 interface Patch {
   run: Run;
+  number: number;  // of several from 1 on, else 0
   x: number[];
   y: number[];
   p: Values[];
@@ -17,17 +18,22 @@ interface Patch {
   state: Values[];
 }
 
-export function contactY(run: Run): number { return 1e3 * (run.geometry?.contact.y_m ?? 0); }
+/// Of the rigid contact point of the k-th patch [mm].
+export function contactY(run: Run, k = 0): number {
+  return 1e3 * (run.summary.patches?.[k]?.y_m ?? run.geometry?.contact.y_m ?? 0);
+}
 
-function patchOf(run: Run): Patch {
-  const g = run.patch;
+function patchesOf(run: Run): Patch[] { return [run.patch, ...run.further_patches].map((g, k) => patchOf(run, g, k)); }
+
+function patchOf(run: Run, g: Grid, k: number): Patch {
   const touching = (v: number|null, k: number) => (g.state[k] === "0" ? null : v);
   const size = (a: Values, b: Values) => a.map((v, k) => touching(Math.hypot(v ?? 0, b[k] ?? 0), k));
   const shape = (values: Values) => columnsOf(values, g.y.length);
   return {
     run,
+    number: run.further_patches.length ? k + 1 : 0,
     x: g.x,
-    y: g.y.map((y) => y - contactY(run)),
+    y: g.y.map((y) => y - contactY(run, k)),
     p: shape(unpack(g.p).map(touching)),
     q: shape(size(unpack(g.q_x), unpack(g.q_y))),
     slip: shape(size(unpack(g.slip_x), unpack(g.slip_y))),
@@ -109,14 +115,20 @@ function scaleOf(kind: Kind, top: number): Pick<MapSpec, "words"|"range"|"colour
   return {words: [stateLegend()], range: [0.5, 2.5], colours: stateColours, discrete: true, valueWords};
 }
 
-/// Four maps for each run, those of one quantity on one scale.
+/// What a map is called: by its run where there are several, by its patch likewise.
+function mapTitle(kind: Kind, patch: Patch, several: boolean): string {
+  const whose = several ? `, ${runLabel(patch.run)}` : "";
+  return `${kind.name}${whose}${patch.number ? `, patch ${patch.number}` : ""}`;
+}
+
+/// Four maps for each patch of each run, those of one quantity on one scale.
 export function patchMaps(runs: Run[]): Figure[] {
-  const patches = runs.map(patchOf);
+  const patches = runs.flatMap(patchesOf);
   const windowX = touchingWindow(patches, (p) => p.x, (p, i) => p.p.some((row) => row[i] !== null));
   const windowY = touchingWindow(patches, (p) => p.y, (p, j) => p.p[j].some((v) => v !== null));
   const mapOf = (kind: Kind, top: number, patch: Patch, n: number) => mapFigure({
     id: `map-${kind.id}-${n}`,
-    title: runs.length > 1 ? `${kind.name}, ${runLabel(patch.run)}` : kind.name,
+    title: mapTitle(kind, patch, runs.length > 1),
     x: patch.x,
     y: patch.y,
     z: kind.values(patch),
@@ -203,4 +215,19 @@ export function centreLines(runs: Run[]): Figure[] {
     words: [kAboutTraction],
   });
   return [pressureFigure, tractionFigure];
+}
+
+/// The patches of wheels that touch at several places, a row each.
+export function patchesTable(runs: Run[]): HTMLElement|null {
+  const head = ["patch", "y of the rail", "angle", "F_x", "F_y", "F_z", "p_max", "area", "spin"];
+  const units = ["", "mm", "°", "kN", "kN", "kN", "MPa", "mm²", "rad/m"];
+  const keys = ["rail_y_m", "contact_angle_rad", "F_x_N", "F_y_N", "F_z_N", "p_max_Pa", "patch_area_m2", "spin_per_m"];
+  const factors = [1e3, 180 / Math.PI, 1e-3, 1e-3, 1e-3, 1e-6, 1e6, 1];
+  const rows = runs.flatMap((run) => (run.summary.patches ?? []).map((patch, k) => {
+    const numbers = keys.map((key, n) => numberText(patch[key] === null ? null : factors[n] * patch[key]));
+    return [`${runs.length > 1 ? `${runLabel(run)}, ` : ""}${k + 1}`, ...numbers];
+  }));
+  if (!rows.length) return null;
+  const names = head.map((name, n) => (units[n] ? `${name} [${units[n]}]` : name));
+  return table("The patches share the load", names, rows, {class: "numbers", id: "patches"});
 }

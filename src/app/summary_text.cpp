@@ -36,6 +36,20 @@ std::string numbers_text(const Summary& s) {
   return out + fmt::format("  {}{:>10.4f}\n", padded("F_x/F_z", 18), s.contact.F_x / s.contact.F_z);
 }
 
+std::string patches_text(const Summary& s) {
+  std::string out;
+  for (std::size_t k = 0; k < s.patches.size(); ++k) {
+    const PatchSummary& p = s.patches[k];
+    const ContactSummary& c = p.contact;
+    out += fmt::format(
+        "  patch {} at y = {:.1f} mm of the rail, {:.1f} mm of the wheel, at {:.1f}°: p_max {:.0f} MPa, F_x {:.2f}, "
+        "normal force {:.2f}, lateral force {:.2f} kN, {:.1f} mm2, spin {:.3f} rad/m\n",
+        k + 1, 1e3 * p.rail_y, 1e3 * p.wheel_y, result_unit::kDegrees.factor * c.contact_angle, 1e-6 * c.patch.p_max,
+        1e-3 * c.F_x, 1e-3 * c.normal_force, 1e-3 * c.lateral_force, 1e6 * c.patch.area, c.spin_per_m);
+  }
+  return out;
+}
+
 std::string maximum_text(const StressMaximum& m) {
   return fmt::format("{:7.1f} MPa at x {:+.2f}, y {:+.2f}, depth {:.2f} mm", 1e-6 * m.value, 1e3 * m.x, 1e3 * m.y,
                      1e3 * m.depth);
@@ -103,7 +117,7 @@ std::string checks_text(const Summary& s) {
 std::string summary_text(const Summary& s) {
   return fmt::format("\n{}{}\n", printable(s.title),
                      std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "") +
-         numbers_text(s) + stresses_text(s) + steps_text(s.run) + checks_text(s);
+         numbers_text(s) + patches_text(s) + stresses_text(s) + steps_text(s.run) + checks_text(s);
 }
 
 void print_summary(const Summary& s, bool json) {

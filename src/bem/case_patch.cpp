@@ -30,15 +30,27 @@ Touches touches(const PatchGrid& g, const Plane& pressure) {
   return out;
 }
 
-void fit_grid(const Placement& placement, double normal, const BemOptions& options, InfluenceCache& cache,
-              CasePatch& patch) {
+/// Takes the surface outside of the room away.
+void keep_to_room(const PatchGrid& g, const PatchRoom& room, Plane& gap) {
+  for (int j = 0; j < g.ny; ++j)
+    if (g.y(j) < room.low || g.y(j) > room.high)
+      for (int i = 0; i < g.nx; ++i) gap[g.index(i, j)] = ProfileGap::kNoSurface;
+}
+
+std::string target_text(const NormalTarget& target) {
+  return target.load ? fmt::format("the load of {:.1f} kN", 1e-3 * *target.load)
+                     : fmt::format("the approach of {:.0f} um", 1e6 * *target.approach);
+}
+
+void fit_grid(const Placement& placement, const NormalTarget& target, const PatchRoom& room, const BemOptions& options,
+              InfluenceCache& cache, CasePatch& patch) {
   const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
   for (int grown = 0;; ++grown) {
     PatchGrid& g = patch.grid;
     patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, g);
+    keep_to_room(g, room, patch.profile.gap);
     patch.influence = cache.get(patch.wheel, patch.rail, g);
-    const NormalSolution s =
-        solve_normal(*patch.influence, g, patch.profile.gap, {.load = normal, .approach = {}}, options.rolling.normal);
+    const NormalSolution s = solve_normal(*patch.influence, g, patch.profile.gap, target, options.rolling.normal);
     const Touches edge = touches(g, s.pressure);
     if (!edge.x && !edge.y) {
       if (grown > 0)
@@ -49,11 +61,25 @@ void fit_grid(const Placement& placement, double normal, const BemOptions& optio
     const int half_x = edge.x ? std::min(g.nx * 7 / 10 + 1, most) : g.nx / 2,
               half_y = edge.y ? std::min(g.ny * 7 / 10 + 1, most) : g.ny / 2;
     if (half_x == g.nx / 2 && half_y == g.ny / 2)
-      throw CaseError(fmt::format("the load of {:.1f} kN flattens the whole potential contact area of {:.0f} mm",
-                                  1e-3 * normal, 1e3 * options.largest_patch),
+      throw CaseError(fmt::format("{} flattens the whole potential contact area of {:.0f} mm", target_text(target),
+                                  1e3 * options.largest_patch),
                       "check the load, the profiles and the moduli; half-space theory no longer applies");
     g = centred_grid(half_x, half_y, options.cell, options.cell);
   }
+}
+
+/// A little larger than the ellipse of Hertz under the weight, or at the approach; no smaller than what it has to hold.
+PatchGrid grid_for(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                   const NormalTarget& target, const PatchRoom& room) {
+  const HertzContact estimate = hertz_estimate(spec, placement.contact);
+  const double scale = target.approach ? std::sqrt(*target.approach / estimate.approach) : 1.0,
+               held = std::max(-room.held_low, room.held_high);
+  const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
+  const auto cells = [&](double half) {
+    return static_cast<int>(std::min(std::ceil(half / options.cell) + 2, static_cast<double>(most)));
+  };
+  return centred_grid(cells(1.15 * scale * estimate.a), cells(std::max(1.15 * scale * estimate.b, held)), options.cell,
+                      options.cell);
 }
 
 /// Rigid slip of the wheel's surface beyond creepage: each point moves with its local rolling radius. The part linear
@@ -71,12 +97,7 @@ Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidConta
 }  // namespace
 
 PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  const HertzContact estimate = hertz_estimate(spec, placement.contact);
-  const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
-  const auto cells = [&](double semi_axis) {
-    return static_cast<int>(std::min(std::ceil(1.15 * semi_axis / options.cell) + 2, static_cast<double>(most)));
-  };
-  return centred_grid(cells(estimate.a), cells(estimate.b), options.cell, options.cell);
+  return grid_for(spec, placement, options, {}, {});
 }
 
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
@@ -118,16 +139,17 @@ double normal_load(double weight, double lateral, const RigidContact& contact) {
   return (weight + lateral * std::sin(contact.angle)) / std::cos(contact.angle);
 }
 
-CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double normal) {
+CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                          NormalTarget target, const PatchRoom& room) {
   CasePatch patch;
   patch.wheel = layered_body(spec, BodyId::wheel);
   patch.rail = layered_body(spec, BodyId::rail);
-  patch.grid = first_grid(spec, placement, options);
+  patch.grid = grid_for(spec, placement, options, target, room);
   InfluenceCache own;
-  fit_grid(placement, normal, options, options.cache ? *options.cache : own, patch);
+  fit_grid(placement, target, room, options, options.cache ? *options.cache : own, patch);
   RollingContact& contact = patch.contact;
   contact.gap = patch.profile.gap;
-  contact.target.load = normal;
+  contact.target = target;
   contact.friction = spec.drive.friction_coefficient;
   contact.leading_edge = spec.bem.leading_edge;
   contact.spin = spec.drive.spin.value_or(geometric_spin(spec, placement.contact));

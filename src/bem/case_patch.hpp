@@ -1,5 +1,6 @@
 #pragma once
 // From a case to the problem on a grid: what solve_bem and creep_curve share.
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,13 @@
 #include "model/model.hpp"
 
 namespace railstrata {
+
+/// The part of the surfaces that belongs to one patch, in the contact plane: t along the common tangent from the rigid
+/// contact point, m. What lies beyond belongs to a neighbour.
+struct PatchRoom {
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();
+  double held_low = 0, held_high = 0;  ///< the grid reaches over these
+};
 
 struct CasePatch {
   PatchGrid grid;
@@ -44,8 +52,9 @@ void drive_contact(const CaseSpec& spec, const RigidContact& contact, double wei
 /// at the angle delta: N cos(delta) - T_y sin(delta) = G.
 double normal_load(double weight, double lateral, const RigidContact& contact);
 
-/// Places the grid and grows it until the frictionless patch under the normal load [N], with a ring to spare, lies
-/// inside. Throws CaseError as solve_bem.
-CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double normal);
+/// Places the grid and grows it until the frictionless patch under the normal load or approach, with a ring to spare,
+/// lies inside. Throws CaseError as solve_bem.
+CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                          NormalTarget target, const PatchRoom& room = {});
 
 }  // namespace railstrata

@@ -20,7 +20,8 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
   if (!(spec.drive.friction_coefficient > 0))
     throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero");
   const double weight = static_load(spec);
-  CasePatch patch = make_case_patch(spec, placement, options, normal_load(weight, 0, placement.contact));
+  CasePatch patch =
+      make_case_patch(spec, placement, options, {.load = normal_load(weight, 0, placement.contact), .approach = {}});
   const RollingEllipse ellipse = rolling_ellipse(hertz_estimate(spec, placement.contact), patch.contact.friction,
                                                  patch.wheel.substrate, patch.rail.substrate);
   const double hertz_bound = ellipse.friction * ellipse.contact.load;

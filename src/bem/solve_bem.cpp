@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "bem/case_patch.hpp"
+#include "bem/several_patches.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -48,7 +48,7 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
     }
 }
 
-void fill_totals(const RollingSolution& s, double speed, BemResult& r) {
+void fill_totals(const RollingSolution& s, double speed, BemPatch& r) {
   const TangentialSolution& t = s.tangential;
   const double c = std::cos(r.contact.angle), sn = std::sin(r.contact.angle);
   const double normal = s.normal.load;
@@ -57,8 +57,6 @@ void fill_totals(const RollingSolution& s, double speed, BemResult& r) {
   r.rigid_slip.x = t.creepage_x;
   r.rigid_slip.y = t.creepage_y;
   r.dissipation = t.dissipation * speed;
-  r.effort.outer_iterations = s.outer_iterations;
-  r.effort.iterations = s.normal.iterations + t.iterations;
   r.patch.slip_area = t.slip_area;
   for (std::size_t k = 0; k < r.field.p.size(); ++k) {
     r.patch.p_max = std::max(r.patch.p_max, r.field.p[k]);
@@ -71,11 +69,10 @@ void fill_totals(const RollingSolution& s, double speed, BemResult& r) {
   }
 }
 
-SolvedPatch solved_patch(const BemResult& r) {
-  const PatchGrid& g = r.grid;
-  SolvedPatch out{g.y(g.ny - 1), g.y(0), g.y(0) - 0.5 * g.dy, g.y(g.ny - 1) + 0.5 * g.dy, r.force.normal, r.approach};
-  for (std::size_t k = 0; k < r.field.p.size(); ++k) {
-    if (!(r.field.p[k] > 0)) continue;
+SolvedPatch solved_patch(const PatchGrid& g, const NormalSolution& s) {
+  SolvedPatch out{g.y(g.ny - 1), g.y(0), g.y(0) - 0.5 * g.dy, g.y(g.ny - 1) + 0.5 * g.dy, s.load, s.approach};
+  for (std::size_t k = 0; k < s.pressure.size(); ++k) {
+    if (!(s.pressure[k] > 0)) continue;
     const double y = g.y(static_cast<int>(k) % g.ny);
     out.low = std::min(out.low, y - 0.5 * g.dy);
     out.high = std::max(out.high, y + 0.5 * g.dy);
@@ -83,15 +80,43 @@ SolvedPatch solved_patch(const BemResult& r) {
   return out;
 }
 
-struct LoadedPatch {
-  CasePatch patch;
-  RollingSolution solution;
+/// Pressure beside a cell where a profile has ended or turned away, or beyond the block.
+bool cut_off(const CaseSpec& spec, const PatchOnWheel& p, const PatchSurroundings& around) {
+  if (spec.geometry.rail_shape == RailShape::block && around.rail_reach > 0.5 * spec.geometry.block_width) return true;
+  const PatchGrid& g = p.patch.grid;
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 1; j < g.ny; ++j) {
+      const std::size_t one = g.index(i, j - 1), other = g.index(i, j);
+      const auto ends = [&](std::size_t at, std::size_t beside) {
+        return p.solution.normal.pressure[at] > 0 && p.patch.profile.gap[beside] == ProfileGap::kNoSurface;
+      };
+      if (ends(one, other) || ends(other, one)) return true;
+    }
+  return false;
+}
+
+BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& p) {
+  BemPatch r;
+  r.contact = p.contact;
+  r.grid = p.patch.grid;
+  r.rigid_slip.spin = p.patch.contact.spin;
+  fill_field(p.patch, p.solution, r.contact, spec.drive.speed, r.field);
+  fill_totals(p.solution, spec.drive.speed, r);
+  Placement own = placement;
+  own.contact = p.contact;
+  r.surroundings = patch_surroundings(spec, own, solved_patch(r.grid, p.solution.normal));
+  r.surroundings.cut_off = cut_off(spec, p, r.surroundings);
+  return r;
+}
+
+struct LoadedPatch : PatchOnWheel {
   int load_iterations = 1;
+  bool wedged = false;  ///< the solution is that of the last normal load tried
 };
 
 /// Solves under a normal load [N]: on the grid of the load before, on a new one if there is none or the patch reached
 /// its edge.
-void solve_under(double normal, double weight, const CaseSpec& spec, const Placement& placement,
+void solve_under(double normal, double weight, const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
                  const BemOptions& options, LoadedPatch& out) {
   const auto solve = [&] {
     out.patch.contact.target.load = normal;
@@ -101,7 +126,7 @@ void solve_under(double normal, double weight, const CaseSpec& spec, const Place
     solve();
     if (!out.solution.normal.touches_edge) return;
   }
-  out.patch = make_case_patch(spec, placement, options, normal);
+  out.patch = make_case_patch(spec, placement, options, {.load = normal, .approach = {}}, room);
   drive_contact(spec, placement.contact, weight, out.patch.contact);
   solve();
 }
@@ -109,52 +134,77 @@ void solve_under(double normal, double weight, const CaseSpec& spec, const Place
 /// Finds the normal force N with N cos(delta) - T_y(N) sin(delta) = G by secants (case_patch.hpp): lateral friction T_y
 /// carries a share of the weight that grows with the contact angle, and itself depends on N. Where that share grows as
 /// fast as N does, the slope of the left side is zero and no N is large enough: the wheel is wedged.
-LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                                  double weight) {
+LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
+                                  const BemOptions& options, double weight) {
   constexpr double kTolerance = 1e-5, kWedged = 0.02;
   constexpr int kMostIterations = 20;
   const RigidContact& contact = placement.contact;
   const double cosine = std::cos(contact.angle), sine = std::sin(contact.angle);
   double normal = normal_load(weight, 0, contact), slope = cosine, previous_normal = 0, previous_excess = 0;
   LoadedPatch out;
+  out.contact = contact;
   for (;; ++out.load_iterations) {
-    solve_under(normal, weight, spec, placement, options, out);
+    solve_under(normal, weight, spec, placement, room, options, out);
     const double excess = normal * cosine - out.solution.tangential.force_y * sine - weight;
     if (std::abs(excess) <= kTolerance * weight) return out;
     if (out.load_iterations > 1) slope = (excess - previous_excess) / (normal - previous_normal);
-    if (!(slope > kWedged * cosine) || out.load_iterations == kMostIterations)
-      throw CaseError(
-          fmt::format(
-              "no normal force balances the weight at a contact angle of {:.1f} degrees: friction wedges the wheel",
-              std::abs(contact.angle) * 180 / std::numbers::pi),
-          "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+    out.wedged = !(slope > kWedged * cosine) || out.load_iterations == kMostIterations;
+    if (out.wedged) return out;
     previous_normal = normal;
     previous_excess = excess;
     normal -= excess / slope;
   }
 }
 
+[[noreturn]] void refuse_wedged(const RigidContact& contact) {
+  throw CaseError(
+      fmt::format("no normal force balances the weight at a contact angle of {:.1f} degrees: friction wedges the wheel",
+                  std::abs(contact.angle) * 180 / std::numbers::pi),
+      "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+}
+
+bool holds(const PatchGrid& g, const PatchRoom& room) {
+  return g.y(0) <= room.held_low && g.y(g.ny - 1) >= room.held_high;
+}
+
 }  // namespace
+
+Vec3 force_on_rail(const BemResult& result) {
+  Vec3 sum{result.force.x, result.force.y, result.force.z};
+  for (const BemPatch& p : result.further) sum = sum + Vec3{p.force.x, p.force.y, p.force.z};
+  return sum;
+}
 
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
   const double load = static_load(spec);
   check_friction(spec, load, normal_load(load, 0, placement.contact));
-  const LoadedPatch loaded = balance_vertical_load(spec, placement, options, load);
-  const CasePatch& patch = loaded.patch;
-  const RollingSolution& s = loaded.solution;
+  LoadedPatch alone = balance_vertical_load(spec, placement, {}, options, load);
+  SharedLoad shared = share_load(spec, placement, solved_patch(alone.patch.grid, alone.solution.normal), options);
+  if (shared.patches.empty() && !holds(alone.patch.grid, shared.room))
+    alone = balance_vertical_load(spec, placement, shared.room, options, load);
+  if (shared.patches.empty()) {
+    if (alone.wedged) refuse_wedged(placement.contact);
+    shared.load_iterations = alone.load_iterations;
+    shared.patches.push_back(std::move(alone));
+  }
 
   BemResult r;
-  r.contact = placement.contact;
-  r.grid = patch.grid;
-  r.wheel = patch.wheel;
-  r.rail = patch.rail;
-  r.rigid_slip.spin = patch.contact.spin;
-  r.notes = patch.notes;
-  r.effort.load_iterations = loaded.load_iterations;
-  fill_field(patch, s, r.contact, spec.drive.speed, r.field);
-  fill_totals(s, spec.drive.speed, r);
-  r.surroundings = patch_surroundings(spec, placement, solved_patch(r));
+  r.wheel = shared.patches.front().patch.wheel;
+  r.rail = shared.patches.front().patch.rail;
+  r.effort.load_iterations = shared.load_iterations;
+  r.effort.outer_iterations = 0;
+  for (const PatchOnWheel& p : shared.patches) {
+    r.further.push_back(patch_result(spec, placement, p));
+    r.further.back().surroundings.bent_by_others = bending_by_others(spec, shared.patches, p);
+    r.notes.insert(r.notes.end(), p.patch.notes.begin(), p.patch.notes.end());
+    r.effort.outer_iterations = std::max(r.effort.outer_iterations, p.solution.outer_iterations);
+    r.effort.iterations += p.solution.normal.iterations + p.solution.tangential.iterations;
+  }
+  std::sort(r.further.begin(), r.further.end(),
+            [](const BemPatch& a, const BemPatch& b) { return a.patch.p_max > b.patch.p_max; });
+  static_cast<BemPatch&>(r) = std::move(r.further.front());
+  r.further.erase(r.further.begin());
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return r;
 }

@@ -5,8 +5,9 @@
 // sprung mass) g as the vertical force, friction and the drive. Steady rolling: along and across the rail a force on
 // the wheel (over G) or a creepage; what is not given follows from the geometry: lateral creepage from the yaw, spin
 // from contact angle and curve, the variation of the rolling radius across the patch from the profiles.
-// The normal force is such that normal and lateral force together bear the load. Not in it: inertia, the bodies' shape
-// outside the patch, the layer's edges.
+// The normal force is such that normal and lateral force together bear the load. Where the wheel touches at several
+// places they share it, each in its own plane (several_patches.hpp). Not in it: inertia, the bodies' shape outside the
+// patches, the layer's edges.
 #include <string>
 #include <vector>
 
@@ -45,23 +46,33 @@ struct SolverEffort {
   double wall_s = 0;
 };
 
-struct BemResult {
+/// One patch in its own contact plane.
+struct BemPatch {
   ContactField field;
   PatchGrid grid;  ///< contact frame: x rolling, y along the common tangent, origin at the rigid contact point
   RigidContact contact;
-  LayeredHalfSpace wheel, rail;
   PatchTotals patch;
   RailForces force;
   RigidSlip rigid_slip;
   double approach = 0;     ///< m
   double dissipation = 0;  ///< W
-  SolverEffort effort;
   PatchSurroundings surroundings;
+};
+
+/// A result is its patch, where the wheel touches at several places the one with the largest pressure; the others
+/// follow in that order. Their forces together are force_on_rail().
+struct BemResult : BemPatch {
+  LayeredHalfSpace wheel, rail;
+  std::vector<BemPatch> further;
+  SolverEffort effort;
   std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
 };
 
+/// N, model frame: of all patches together.
+Vec3 force_on_rail(const BemResult& result);
+
 /// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears
-/// the weight whatever the normal force (a wedged wheel).
+/// the weight whatever the normal force (a wedged wheel), a lateral force on several contacts.
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {});
 
 /// The stresses inside the rail or the wheel of a result. Axes x rolling, y along the common tangent, z into the body

@@ -185,6 +185,53 @@ double first_contact(const Gap& gap, const Samples& samples) {
   return best_s;
 }
 
+/// The wheel lowered until it touches at s, a lowest place of the gap.
+RigidContact contact_at(const Gap& gap, const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                        double offset_y, double s) {
+  const ProfilePoint r = rail.at(s);
+  RigidContact out;
+  out.wheel_offset_y = offset_y;
+  out.wheel_offset_z = -gap.value(s);
+  out.axle_height = out.wheel_offset_z + track.wheel_radius;
+  out.rail_s = s;
+  const LowestPoint touched = gap.on_wheel(s);
+  out.wheel_s = wheel.s_at_y(touched.y);
+  const ProfilePoint w = wheel.at(out.wheel_s);
+  const Vec2 tangent = rail_to_model(track, r.tangent);
+  out.point = rail_to_model(track, r.position);
+  out.angle = std::atan2(tangent.z, tangent.y);
+  out.yaw = std::atan(track.yaw);
+  out.x = touched.x * std::cos(out.yaw) - touched.y * std::sin(out.yaw);
+  out.rolling_radius = track.yaw == 0 ? track.wheel_radius - w.position.z : gap.depth(touched);
+  out.curvature_wheel_lateral = w.curvature;
+  out.curvature_rail_lateral = r.curvature;
+  out.curvature_rolling =
+      std::cos(out.angle) / out.rolling_radius;  // Meusnier: the parallel's plane is not normal to the surface
+  return out;
+}
+
+/// Places of the samples that are lower than their neighbours.
+std::vector<std::size_t> lowest_samples(const Samples& samples, double highest) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 1; i + 1 < samples.s.size(); ++i)
+    if (samples.gap[i] <= highest && samples.gap[i] < samples.gap[i - 1] && samples.gap[i] <= samples.gap[i + 1])
+      out.push_back(i);
+  std::sort(out.begin(), out.end(), [&](std::size_t a, std::size_t b) { return samples.gap[a] < samples.gap[b]; });
+  return out;
+}
+
+/// Sample of the largest gap between two of them.
+std::size_t ridge_sample(const Samples& samples, std::size_t a, std::size_t b) {
+  const auto [first, last] = std::minmax(a, b);
+  const auto at = [&](std::size_t i) { return samples.gap.begin() + static_cast<std::ptrdiff_t>(i); };
+  return static_cast<std::size_t>(std::max_element(at(first), at(last) + 1) - samples.gap.begin());
+}
+
+std::size_t sample_near(const Samples& samples, double s) {
+  const auto next = std::lower_bound(samples.s.begin(), samples.s.end() - 1, s);
+  return static_cast<std::size_t>(next - samples.s.begin());
+}
+
 std::string pair_name(const Profile& wheel, const Profile& rail) {
   return fmt::format("wheel {} on rail {}", wheel.name(), rail.name());
 }
@@ -212,26 +259,32 @@ RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackG
                                 pair_name(wheel, rail), 1e3 * gap.wheel_y(s)),
                     "check lateral_shift, gauge, back_to_back and cant, or give profiles that reach further");
 
-  const ProfilePoint r = rail.at(s);
-  RigidContact out;
-  out.wheel_offset_y = offset_y;
-  out.wheel_offset_z = -gap.value(s);
-  out.axle_height = out.wheel_offset_z + track.wheel_radius;
-  out.rail_s = s;
-  const LowestPoint touched = gap.on_wheel(s);
-  out.wheel_s = wheel.s_at_y(touched.y);
-  const ProfilePoint w = wheel.at(out.wheel_s);
-  const Vec2 tangent = rail_to_model(track, r.tangent);
-  out.point = rail_to_model(track, r.position);
-  out.angle = std::atan2(tangent.z, tangent.y);
-  out.yaw = std::atan(track.yaw);
-  out.x = touched.x * std::cos(out.yaw) - touched.y * std::sin(out.yaw);
-  out.rolling_radius = track.yaw == 0 ? track.wheel_radius - w.position.z : gap.depth(touched);
-  out.curvature_wheel_lateral = w.curvature;
-  out.curvature_rail_lateral = r.curvature;
-  out.curvature_rolling =
-      std::cos(out.angle) / out.rolling_radius;  // Meusnier: the parallel's plane is not normal to the surface
+  return contact_at(gap, wheel, rail, track, offset_y, s);
+}
+
+std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                                           const RigidContact& first, double descent) {
+  constexpr double kRidge = 1e-6;  // m
+  const Gap gap(wheel, rail, track, first.wheel_offset_y);
+  const Samples samples = sample_overlap(gap, rail);
+  std::vector<std::size_t> places{sample_near(samples, first.rail_s)};
+  std::vector<RigidContact> out;
+  for (const std::size_t i : lowest_samples(samples, descent - first.wheel_offset_z)) {
+    const bool own = std::all_of(places.begin(), places.end(), [&](std::size_t place) {
+      return samples.gap[ridge_sample(samples, i, place)] > samples.gap[i] + kRidge;
+    });
+    if (!own) continue;
+    places.push_back(i);
+    const double s = refine(gap, samples.s[i - 1], samples.s[i], samples.s[i + 1]);
+    out.push_back(contact_at(gap, wheel, rail, track, first.wheel_offset_y, s));
+  }
   return out;
+}
+
+double ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
+                     const RigidContact& b) {
+  const Samples samples = sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), rail);
+  return samples.s[ridge_sample(samples, sample_near(samples, a.rail_s), sample_near(samples, b.rail_s))];
 }
 
 }  // namespace railstrata

@@ -3,6 +3,8 @@
 //
 // Model frame: x rolling direction, y lateral, positive to the field side (a left-hand wheel, so that x, y, z is
 // right-handed), z up. Its origin is the crown point of the (canted) rail in the plane of the wheel's start.
+#include <vector>
+
 #include "geometry/profile.hpp"
 
 namespace railstrata {
@@ -54,5 +56,17 @@ double gauge_face_y(const Profile& rail, const TrackGeometry& track);
 /// CaseError if the wheel misses the rail, touches at the end of a profile, or the rail's profile ends above the gauge
 /// depth.
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track);
+
+/// Where the wheel touches if it is lowered further, through the rail: the lowest places of the vertical gap besides
+/// `first` (of place_wheel) whose gap is at most `descent` [m], nearest first. Each is a contact of the lowered wheel:
+/// its axle stands lower than that of `first` by the gap there. Places between which the gap rises by less than a
+/// micrometre are one.
+std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                                           const RigidContact& first, double descent);
+
+/// Rail arc length of the largest vertical gap between two contacts: where the surface of the one ends and that of the
+/// other begins.
+double ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
+                     const RigidContact& b);
 
 }  // namespace railstrata

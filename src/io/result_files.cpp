@@ -16,13 +16,6 @@ std::vector<double> scaled(const std::vector<double>& v, double factor) {
   return out;
 }
 
-std::vector<float> to_floats(const std::vector<double>& v, double factor) {
-  std::vector<float> out;
-  out.reserve(v.size());
-  for (double x : v) out.push_back(static_cast<float>(factor * x));
-  return out;
-}
-
 std::vector<double> state_numbers(const ContactField& f) {
   std::vector<double> out;
   for (ContactState s : f.state) out.push_back(static_cast<double>(s));
@@ -61,6 +54,37 @@ void write_section(const std::filesystem::path& file, const std::vector<std::str
   write_csv(file, provenance, columns);
 }
 
+std::vector<CsvColumn> patch_columns(const ContactField& f) {
+  return {{"x_mm", scaled(f.x, kMilli)},
+          {"y_mm", scaled(f.y, kMilli)},
+          {"z_mm", scaled(f.z, kMilli)},
+          {"area_mm2", scaled(f.area, 1e6)},
+          {"p_MPa", scaled(f.p, kMega)},
+          {"q_x_MPa", scaled(f.q_x, kMega)},
+          {"q_y_MPa", scaled(f.q_y, kMega)},
+          {"slip_x_mm_s", scaled(f.slip_x, kMilli)},
+          {"slip_y_mm_s", scaled(f.slip_y, kMilli)},
+          {"state_0separated_1stick_2slip", state_numbers(f)}};
+}
+
+/// The rows of a further table of the same columns.
+void append(std::vector<CsvColumn>& columns, const std::vector<CsvColumn>& more) {
+  if (columns.empty()) {
+    columns = more;
+    return;
+  }
+  for (std::size_t k = 0; k < columns.size(); ++k)
+    columns[k].values.insert(columns[k].values.end(), more[k].values.begin(), more[k].values.end());
+}
+
+/// Of every point the number of its patch, from 1 on.
+std::vector<double> patch_numbers(const std::vector<const ContactField*>& fields) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < fields.size(); ++k)
+    out.insert(out.end(), static_cast<std::size_t>(fields[k]->size()), static_cast<double>(k + 1));
+  return out;
+}
+
 }  // namespace
 
 void write_sections(const std::filesystem::path& folder, const std::string& body,
@@ -70,18 +94,12 @@ void write_sections(const std::filesystem::path& folder, const std::string& body
 }
 
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
-                        const ContactField& f) {
-  write_csv(folder / "patch.csv", provenance,
-            {{"x_mm", scaled(f.x, kMilli)},
-             {"y_mm", scaled(f.y, kMilli)},
-             {"z_mm", scaled(f.z, kMilli)},
-             {"area_mm2", scaled(f.area, 1e6)},
-             {"p_MPa", scaled(f.p, kMega)},
-             {"q_x_MPa", scaled(f.q_x, kMega)},
-             {"q_y_MPa", scaled(f.q_y, kMega)},
-             {"slip_x_mm_s", scaled(f.slip_x, kMilli)},
-             {"slip_y_mm_s", scaled(f.slip_y, kMilli)},
-             {"state_0separated_1stick_2slip", state_numbers(f)}});
+                        const std::vector<const ContactField*>& fields) {
+  std::vector<CsvColumn> columns;
+  for (const ContactField* field : fields) append(columns, patch_columns(*field));
+  if (fields.size() > 1) columns.insert(columns.begin(), {"patch", patch_numbers(fields)});
+  write_csv(folder / "patch.csv", provenance, columns);
+  const ContactField& f = *fields.front();
   const CentreLine line = centre_line(f);
   write_csv(folder / "centre_line.csv", provenance,
             {{"x_mm", scaled(line.x, kMilli)},
@@ -118,22 +136,27 @@ void write_depth_line(const std::filesystem::path& file, const std::vector<std::
   write_csv(file, provenance, columns);
 }
 
-VtkQuads patch_mesh(const ContactField& f, double wheel_x) {
+VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel_x) {
   VtkQuads mesh;
-  std::vector<float> traction, slip;
+  std::vector<float> pressure, traction, slip;
   std::vector<std::int32_t> state;
-  for (int i = 0; i < f.size(); ++i) {
-    mesh.points.push_back({wheel_x + f.x[i], f.y[i], f.z[i]});
-    for (double v : {f.q_x[i], f.q_y[i], 0.0}) traction.push_back(static_cast<float>(kMega * v));
-    for (double v : {f.slip_x[i], f.slip_y[i], 0.0}) slip.push_back(static_cast<float>(kMilli * v));
-    state.push_back(static_cast<std::int32_t>(f.state[i]));
-  }
-  for (long long s = 0; s + 1 < f.stations; ++s)
-    for (long long c = 0; c + 1 < f.columns; ++c) {
-      const long long a = s * f.columns + c;
-      mesh.cells.push_back({a, a + f.columns, a + f.columns + 1, a + 1});
+  for (const ContactField* field : fields) {
+    const ContactField& f = *field;
+    const auto first = static_cast<long long>(mesh.points.size());
+    for (int i = 0; i < f.size(); ++i) {
+      mesh.points.push_back({wheel_x + f.x[i], f.y[i], f.z[i]});
+      pressure.push_back(static_cast<float>(kMega * f.p[i]));
+      for (double v : {f.q_x[i], f.q_y[i], 0.0}) traction.push_back(static_cast<float>(kMega * v));
+      for (double v : {f.slip_x[i], f.slip_y[i], 0.0}) slip.push_back(static_cast<float>(kMilli * v));
+      state.push_back(static_cast<std::int32_t>(f.state[i]));
     }
-  mesh.point_fields = {{"pressure_MPa", 1, to_floats(f.p, kMega)},
+    for (long long s = 0; s + 1 < f.stations; ++s)
+      for (long long c = 0; c + 1 < f.columns; ++c) {
+        const long long a = first + s * f.columns + c;
+        mesh.cells.push_back({a, a + f.columns, a + f.columns + 1, a + 1});
+      }
+  }
+  mesh.point_fields = {{"pressure_MPa", 1, pressure},
                        {"traction_MPa", 3, traction},
                        {"slip_velocity_mm_s", 3, slip},
                        {"state", 1, state}};

@@ -13,9 +13,10 @@
 
 namespace railstrata {
 
-/// patch.csv: every point of the field; centre_line.csv: along the rolling direction through the largest pressure.
+/// patch.csv: every point of the fields, of several patches one after the other with their numbers from 1 on in the
+/// column `patch`; centre_line.csv: along the rolling direction through the largest pressure of the first.
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
-                        const ContactField& field);
+                        const std::vector<const ContactField*>& fields);
 
 /// depth_line.csv: the six stresses, von Mises and the principal stresses against depth.
 void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -28,7 +29,7 @@ void write_sections(const std::filesystem::path& folder, const std::string& body
                     const std::vector<std::string>& provenance, const StressSections& sections);
 
 /// The patch as quadrilaterals with pressure_MPa, traction_MPa, slip_velocity_mm_s, state.
-VtkQuads patch_mesh(const ContactField& field, double wheel_x);
+VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel_x);
 
 /// A body's contact band around the wheel: nodes displaced by displacement_mm (a point field, not applied to the
 /// points), cell fields stress_MPa, von_mises_MPa, sigma1_MPa, material; the same stresses averaged to the points

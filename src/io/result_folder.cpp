@@ -37,6 +37,26 @@ std::string text_of(const fs::path& file) {
   throw CaseError(what, "write the results anew with `railstrata run` or `railstrata bem`", file.string());
 }
 
+/// The tables of the patches, which the column `patch` numbers in order; without it there is one.
+std::vector<CsvTable> tables_of_patches(const CsvTable& table) {
+  const auto numbered =
+      std::find_if(table.columns.begin(), table.columns.end(), [](const CsvColumn& c) { return c.name == "patch"; });
+  if (numbered == table.columns.end()) return {table};
+  std::vector<CsvTable> out;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double number = numbered->values[row];
+    if (number != static_cast<double>(out.size())) {
+      if (number != static_cast<double>(out.size() + 1)) refuse(table.file, "the patches are not numbered in order");
+      out.push_back({table.file, {}});
+      for (const CsvColumn& c : table.columns) out.back().columns.push_back({c.name, {}});
+    }
+    for (std::size_t c = 0; c < table.columns.size(); ++c)
+      out.back().columns[c].values.push_back(table.columns[c].values[row]);
+  }
+  if (out.empty()) refuse(table.file, "there is no patch");
+  return out;
+}
+
 ContactField patch_of(const CsvTable& table) {
   const fs::path& file = table.file;
   ContactField f;
@@ -87,6 +107,14 @@ void require_numbers(const nlohmann::json& v, const std::string& name, const fs:
 void require_kinds(const nlohmann::json& summary, const fs::path& file) {
   for (const char* table : {"contact", "stress", "energy", "position_m"})
     if (summary.contains(table)) require_numbers(summary[table], table, file);
+  if (summary.contains("patches")) {
+    if (!summary["patches"].is_array())
+      refuse(file, fmt::format("patches is {}, not a list", kind_of(summary["patches"])));
+    for (const nlohmann::json& patch : summary["patches"]) {
+      if (!patch.is_object()) refuse(file, fmt::format("a patch is {}, not a table", kind_of(patch)));
+      require_numbers(patch, "patches", file);
+    }
+  }
   const std::string engine = text_at(summary, "/run/engine");
   if (!engine.empty() && !engine_of(engine))
     refuse(file, fmt::format("the engine is \"{}\": no engine of this program, they are {}", engine,
@@ -126,7 +154,9 @@ ResultFolder parse_results(const std::string& summary, const std::string& patch,
   require_kinds(r.summary, folder / "summary.json");
   r.title = text_at(r.summary, "/title");
   r.engine = text_at(r.summary, "/run/engine");
-  r.field = patch_of(parse_csv(patch, folder / "patch.csv"));
+  const std::vector<CsvTable> tables = tables_of_patches(parse_csv(patch, folder / "patch.csv"));
+  r.field = patch_of(tables.front());
+  for (std::size_t k = 1; k < tables.size(); ++k) r.further.push_back(patch_of(tables[k]));
   return r;
 }
 

@@ -14,9 +14,10 @@ namespace railstrata {
 struct ResultFolder {  // NOLINT(bugprone-exception-escape): the move of json is declared not to throw, and does not
   std::filesystem::path folder;
   std::string title;
-  std::string engine;      ///< its word, as it stands in the file
-  nlohmann::json summary;  ///< summary.json
-  ContactField field;      ///< patch.csv
+  std::string engine;                 ///< its word, as it stands in the file
+  nlohmann::json summary;             ///< summary.json
+  ContactField field;                 ///< patch.csv; of several patches the first
+  std::vector<ContactField> further;  ///< the others
 
   /// A number of the summary by its path ("/contact/p_max_Pa"); NaN if it is null or not there.
   double number(const std::string& path) const;

@@ -1,6 +1,7 @@
 #include "io/summary_json.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "io/output_file.hpp"
 #include "post/result_table.hpp"
@@ -17,6 +18,18 @@ Json number(long v) { return v; }
 void add_numbers(std::string_view group, const Summary& s, Json& out) {
   for (const ResultNumber& n : result_numbers())
     if (n.group == group) out[n.key()] = std::visit([](auto v) { return number(v); }, n.value(s));
+}
+
+Json patches(const Summary& s) {
+  Json out = Json::array();
+  for (const PatchSummary& p : s.patches) {
+    Summary of_patch;
+    of_patch.contact = p.contact;
+    Json patch{{"y_m", number(p.y)}, {"rail_y_m", number(p.rail_y)}, {"wheel_y_m", number(p.wheel_y)}};
+    add_numbers("contact", of_patch, patch);
+    out.push_back(std::move(patch));
+  }
+  return out;
 }
 
 Json maximum(const StressMaximum& m) {
@@ -49,6 +62,7 @@ Json summary_json(const Summary& s) {
   out["title"] = s.title;
   add_numbers("", s, out);
   add_numbers("contact", s, out["contact"]);
+  if (!s.patches.empty()) out["patches"] = patches(s);
   out["stress"] = stress(s);
   add_numbers("energy", s, out["energy"]);
   Json& run = out["run"];

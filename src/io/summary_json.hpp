@@ -1,5 +1,6 @@
 #pragma once
-// summary.json: stable keys, SI units, the same from both engines; what does not apply is null.
+// summary.json: stable keys, SI units, the same from both engines; what does not apply is null. Where the wheel touches
+// at several places `patches` has the numbers of `contact` for each, that of the largest pressure first.
 #include <filesystem>
 
 #include <nlohmann/json.hpp>

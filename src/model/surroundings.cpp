@@ -29,14 +29,18 @@ struct PlacedProfile {
     const double change = (angle(s) - angle(contact_s)) * direction;
     return is_rail ? -change : change;
   }
-  /// Distance in the contact plane to where the body ends on one side of the contact.
-  double reach(int direction) const {
+  /// Where the body ends on one side of the contact.
+  Vec2 end(int direction) const {
     constexpr double kAway = std::numbers::pi / 4;
     const double last = direction > 0 ? profile.s_max() : profile.s_min();
     double s = contact_s;
     while ((last - s) * direction > kStep && turned_away(s, direction) < kAway) s += direction * kStep;
+    return profile.at(s).position;
+  }
+  /// t of a point in the contact plane.
+  double along_plane(Vec2 point) const {
     const ProfilePoint contact = profile.at(contact_s);
-    return std::abs(dot(profile.at(s).position - contact.position, contact.tangent));
+    return dot(point - contact.position, contact.tangent);
   }
 };
 
@@ -72,12 +76,12 @@ class NearestEdge {
  public:
   NearestEdge(const SolvedPatch& patch, PatchEdges& out)
       : middle_(0.5 * (patch.low + patch.high)), half_(0.5 * (patch.high - patch.low)), out_(out) {}
-  /// At t in the contact plane, on the side of `direction`.
-  void offer(double t, int direction, const std::string& what) {
+  /// At t in the contact plane, on the side of `direction`; y in its body's own frame.
+  void offer(double t, int direction, const std::string& what, double y) {
     const double distance = std::max((t - middle_) * direction, 1e-3 * half_), share = half_ / distance;
     if (share <= out_.edge_share) return;
     out_.edge_share = share;
-    out_.edge = what;
+    out_.edge = fmt::format("{} at y = {:.1f} mm", what, 1e3 * y);
   }
 
  private:
@@ -93,13 +97,18 @@ void measure_edges(const CaseSpec& spec, const PlacedProfile& rail, const Placed
     return (y - contact.position.y) / std::max(contact.tangent.y, 0.05);
   };
   for (const int direction : {-1, 1}) {
-    nearest.offer(direction * rail.reach(direction), direction, "the side of the rail");
-    nearest.offer(direction * wheel.reach(direction), direction, "the side of the wheel");
-    if (spec.geometry.rail_shape == RailShape::block)
-      nearest.offer(lateral(rail, 0.5 * direction * spec.geometry.block_width), direction, "the side of the block");
-    for (const LayerSpec& layer : spec.layers)
-      nearest.offer(lateral(layer.on == BodyId::rail ? rail : wheel, 0.5 * direction * layer.width), direction,
-                    fmt::format("the edge of the {}'s layer \"{}\"", body_word(layer.on), layer.name));
+    for (const PlacedProfile* body : {&rail, &wheel}) {
+      const Vec2 end = body->end(direction);
+      nearest.offer(body->along_plane(end), direction, body->is_rail ? "the side of the rail" : "the side of the wheel",
+                    end.y);
+    }
+    if (const double y = 0.5 * direction * spec.geometry.block_width; spec.geometry.rail_shape == RailShape::block)
+      nearest.offer(lateral(rail, y), direction, "the side of the block", y);
+    for (const LayerSpec& layer : spec.layers) {
+      const double y = 0.5 * direction * layer.width;
+      nearest.offer(lateral(layer.on == BodyId::rail ? rail : wheel, y), direction,
+                    fmt::format("the edge of the {}'s layer \"{}\"", body_word(layer.on), layer.name), y);
+    }
   }
 }
 
@@ -139,6 +148,25 @@ OverlapSample overlap_at(double s, double descent, double depression, const Plac
   return out;
 }
 
+}  // namespace
+
+PatchSurroundings patch_surroundings(const CaseSpec& spec, const Placement& p, const SolvedPatch& patch) {
+  const PlacedProfile rail{p.rail, p.track, true, p.contact.rail_s}, wheel{p.wheel, p.track, false, p.contact.wheel_s};
+  PatchSurroundings out;
+  measure_turn(rail, wheel, patch, out.edges);
+  measure_edges(spec, rail, wheel, patch, out.edges);
+  out.curvature_rolling = p.contact.curvature_rolling;
+  out.flange = flange_place(p);
+  const auto locate = [&](const PlacedProfile& body, double& y, double& reach) {
+    const ProfilePoint contact = body.profile.at(body.contact_s);
+    y = contact.position.y;
+    reach = std::max(std::abs(y + patch.low * contact.tangent.y), std::abs(y + patch.high * contact.tangent.y));
+  };
+  locate(rail, out.rail_y, out.rail_reach);
+  locate(wheel, out.wheel_y, out.wheel_reach);
+  return out;
+}
+
 std::optional<SecondContact> second_contact(const CaseSpec& spec, const Placement& p, const SolvedPatch& patch) {
   const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
                                          {spec.rail_material.young, spec.rail_material.poisson});
@@ -157,26 +185,6 @@ std::optional<SecondContact> second_contact(const CaseSpec& spec, const Placemen
   std::optional<SecondContact> out;
   for (const OverlapSample& o : samples)
     if (o.overlaps && !o.covered && o.place.overlap > (out ? out->overlap : 0)) out = o.place;
-  return out;
-}
-
-}  // namespace
-
-PatchSurroundings patch_surroundings(const CaseSpec& spec, const Placement& p, const SolvedPatch& patch) {
-  const PlacedProfile rail{p.rail, p.track, true, p.contact.rail_s}, wheel{p.wheel, p.track, false, p.contact.wheel_s};
-  PatchSurroundings out;
-  measure_turn(rail, wheel, patch, out.edges);
-  measure_edges(spec, rail, wheel, patch, out.edges);
-  out.curvature_rolling = p.contact.curvature_rolling;
-  out.flange = flange_place(p);
-  out.second = second_contact(spec, p, patch);
-  const auto locate = [&](const PlacedProfile& body, double& y, double& reach) {
-    const ProfilePoint contact = body.profile.at(body.contact_s);
-    y = contact.position.y;
-    reach = std::max(std::abs(y + patch.low * contact.tangent.y), std::abs(y + patch.high * contact.tangent.y));
-  };
-  locate(rail, out.rail_y, out.rail_reach);
-  locate(wheel, out.wheel_y, out.wheel_reach);
   return out;
 }
 

@@ -23,7 +23,7 @@ struct PatchEdges {
   double half_width_over_radius = 0;
   double edge_share =
       0;             ///< half-width, of the distance from the patch's middle to the nearest edge of a body or layer
-  std::string edge;  ///< what edge that is
+  std::string edge;  ///< what edge that is and at which y of its body
 };
 
 /// The flange of a wheel that stands on a rail with a gauge face.
@@ -44,19 +44,22 @@ struct PatchSurroundings {
   PatchEdges edges;
   double curvature_rolling = 0;  ///< 1/m, of the wheel across the profiles
   std::optional<FlangePlace> flange;
-  std::optional<SecondContact> second;
-  double rail_y = 0, wheel_y = 0;          ///< m, the rigid contact point in each profile's own frame
+  std::optional<SecondContact> second;  ///< that the engine leaves out
+  bool cut_off = false;                 ///< pressure reaches where a profile or the block ends
+  double bent_by_others = 0;       ///< curvature that the wheel's other patches give the surfaces, of the contact's
+  double rail_y = 0, wheel_y = 0;  ///< m, the rigid contact point in each profile's own frame
   double rail_reach = 0, wheel_reach = 0;  ///< m, largest |y| of the patch in each profile's own frame
 };
 
 /// A body ends where its profile ends or has turned away from the contact plane by 45 degrees, a block also at its
-/// sides.
-///
+/// sides. Without `second`, `cut_off` and `bent_by_others`, which are the engines' to add.
+PatchSurroundings patch_surroundings(const CaseSpec& spec, const Placement& placement, const SolvedPatch& patch);
+
 /// Second contact: an axle that is guided sideways descends by d = approach / cos(angle). At a place with the vertical
 /// gap g, the tangent's angle alpha and the distance r from the patch the bodies overlap by
 ///   (d - g) cos(alpha) - N/(pi E* r),
 /// the last term being the depression of both surfaces by the force N of the patch. [Johnson1985 eq. 3.22a] The largest
 /// overlap > 0 is told, of places that hang together neither with the patch nor lie in what the engine has covered.
-PatchSurroundings patch_surroundings(const CaseSpec& spec, const Placement& placement, const SolvedPatch& patch);
+std::optional<SecondContact> second_contact(const CaseSpec& spec, const Placement& placement, const SolvedPatch& patch);
 
 }  // namespace railstrata

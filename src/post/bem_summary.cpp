@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/rotation.hpp"
 #include "post/check_limits.hpp"
@@ -46,14 +47,59 @@ bool reaches_edge(const ContactField& f) {
 
 Check bem_check(std::string_view name, double value) { return at_most(name, value, check_row(name).bem_limit); }
 
-std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchMeasures& m) {
-  const double load = static_load(spec);
-  std::vector<Check> out{bem_check("F_z_relative_to_weight", std::abs(-r.force.z / load - 1))};
-  if (const double wanted = spec.drive.traction().value_or(0); spec.drive.friction_coefficient > 0 && wanted != 0)
-    out.push_back(bem_check("traction_coefficient_reached", std::abs(m.force_x / load / wanted - 1)));
-  out.push_back(bem_check("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0));
-  out.push_back(bem_check("cell_of_patch", r.grid.dy / shorter_axis(m)));
+/// The patches' own, the result's first.
+std::vector<const BemPatch*> patches_of(const BemResult& r) {
+  std::vector<const BemPatch*> out{&r};
+  for (const BemPatch& p : r.further) out.push_back(&p);
   return out;
+}
+
+std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
+  const double load = static_load(spec);
+  double force_x = 0, reached = 0, cut_off = 0, cell = 0;
+  for (const BemPatch* p : patches_of(r)) {
+    const PatchMeasures m = measure_patch(p->field);
+    force_x += m.force_x;
+    if (reaches_edge(p->field)) reached = 1;
+    if (p->surroundings.cut_off) cut_off = 1;
+    cell = std::max(cell, p->grid.dy / shorter_axis(m));
+  }
+  std::vector<Check> out{bem_check("F_z_relative_to_weight", std::abs(-force_on_rail(r).z / load - 1))};
+  if (const double wanted = spec.drive.traction().value_or(0); spec.drive.friction_coefficient > 0 && wanted != 0)
+    out.push_back(bem_check("traction_coefficient_reached", std::abs(force_x / load / wanted - 1)));
+  out.push_back(bem_check("patch_reaches_edge_of_grid", reached));
+  out.push_back(bem_check("patch_cut_off", cut_off));
+  out.push_back(bem_check("cell_of_patch", cell));
+  return out;
+}
+
+ContactSummary patch_numbers(const CaseSpec& spec, const BemPatch& r) {
+  ContactSummary c;
+  c.patch = measure_patch(r.field);
+  c.patch.q_max = shear_at_front_of_slip(r.field);
+  c.F_x = 0.0 - r.force.x;
+  c.F_y = 0.0 - r.force.y;
+  c.F_z = 0.0 - r.force.z;
+  turn_into_contact_plane(c, r.contact.angle);
+  c.spin_moment = 0.0 - r.force.moment;
+  c.approach = r.approach;
+  if (spec.drive.friction_coefficient > 0) {
+    c.creepage_x = r.rigid_slip.x;
+    c.creepage_y = r.rigid_slip.y;
+    c.spin_per_m = r.rigid_slip.spin;
+  } else {
+    c.patch.slip_area_fraction = kNotApplicable;
+  }
+  return c;
+}
+
+/// The worse of two warnings of one name.
+void add_warning(Warning warning, std::vector<Warning>& out) {
+  const auto same = std::find_if(out.begin(), out.end(), [&](const Warning& w) { return w.name == warning.name; });
+  if (same == out.end())
+    out.push_back(std::move(warning));
+  else if (warning.value > same->value)
+    *same = std::move(warning);
 }
 
 /// From the rail's own axes (y along the common tangent, z down) to the model frame.
@@ -75,35 +121,35 @@ SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSumma
 }
 
 std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& r) {
-  return implausible(summary, spec, r.surroundings, r.grid.dx);
+  std::vector<Warning> out = implausible(summary, spec, r.surroundings, r.grid.dx);
+  for (std::size_t k = 0; k < r.further.size(); ++k) {
+    Summary of_patch;
+    of_patch.run.engine = Engine::bem;
+    of_patch.contact = summary.patches.at(k + 1).contact;
+    for (Warning& w : implausible(of_patch, spec, r.further[k].surroundings, r.further[k].grid.dx))
+      add_warning(std::move(w), out);
+  }
+  return out;
 }
 
 Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
   Summary s;
   s.title = spec.title;
   s.position = spec.run.rolling && !spec.run.positions.empty() ? spec.run.positions.back() : 0.0;
-  const bool friction = spec.drive.friction_coefficient > 0;
-  ContactSummary& c = s.contact;
-  const PatchMeasures measured = measure_patch(r.field);
-  c.patch = measured;
-  c.patch.q_max = shear_at_front_of_slip(r.field);
-  c.F_x = 0.0 - r.force.x;
-  c.F_y = 0.0 - r.force.y;
-  c.F_z = 0.0 - r.force.z;
-  turn_into_contact_plane(c, r.contact.angle);
-  c.spin_moment = 0.0 - r.force.moment;
-  c.approach = r.approach;
-  if (friction) {
-    c.creepage_x = r.rigid_slip.x;
-    c.creepage_y = r.rigid_slip.y;
-    c.spin_per_m = r.rigid_slip.spin;
-  } else {
-    c.patch.slip_area_fraction = kNotApplicable;
+  s.contact = patch_numbers(spec, r);
+  if (!r.further.empty()) {
+    for (const BemPatch* p : patches_of(r))
+      s.patches.push_back(
+          {p->contact.point.y, p->surroundings.rail_y, p->surroundings.wheel_y, patch_numbers(spec, *p)});
+    const Vec3 all = force_on_rail(r);
+    s.contact.F_x = 0.0 - all.x;
+    s.contact.F_y = 0.0 - all.y;
+    s.contact.F_z = 0.0 - all.z;
   }
   s.run.engine = Engine::bem;
   s.run.wall_s = r.effort.wall_s;
-  s.run.elements = static_cast<long>(r.grid.size());
-  s.checks = checks(spec, r, measured);
+  for (const BemPatch* p : patches_of(r)) s.run.elements += static_cast<long>(p->grid.size());
+  s.checks = checks(spec, r);
   s.warnings = bem_warnings(s, spec, r);
   return s;
 }

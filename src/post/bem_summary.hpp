@@ -11,7 +11,8 @@ namespace railstrata {
 SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact);
 
 /// Contact, stresses of both bodies and checks; commit, threads and peak memory are the program's to add. run.elements
-/// counts the cells of the grid. Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface`
+/// counts the cells of the grids. Of several patches: stresses are those below the first, F_x, F_y and F_z of all,
+/// warnings of the worse. Stress maxima: x, y in the contact plane from the rigid contact point; `subsurface`
 /// starts at subsurface_begin (plausibility.hpp); `interface` takes either side. NaN: penetration and scatter; without
 /// friction also slip area and creepages. Steady rolling is the same everywhere: position is the case's last one, of a
 /// static case 0. Checks (limits: check_limits.hpp): F_z against G, F_x/G against the wanted traction coefficient, the

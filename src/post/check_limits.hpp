@@ -50,6 +50,8 @@ inline constexpr double kCellOfPatch = 0.1, kElementOfPatch = 0.2, kUnresolvedPa
 inline constexpr double kLargestAngleSpanned = 20 * std::numbers::pi / 180;
 inline constexpr double kLargestOfRadius = 0.05;
 inline constexpr double kLargestOfEdgeDistance = 0.5;
+/// Of the contact's curvature: what other patches may bend it.
+inline constexpr double kLargestBending = 0.02;
 /// m, below its crest a flange has its working face. [EN15313]
 inline constexpr double kFlangeTip = 2e-3;
 /// Of the largest pressure: a tension smaller than this that goes on rising at the rim of the search is not told.
@@ -95,6 +97,11 @@ inline constexpr std::array kCheckRows{
     CheckRow{.key = "patch_reaches_edge_of_grid",
              .name = "Patch inside the grid",
              .what = "outside once it touches the border of the grid",
+             .unit = result_unit::kInside,
+             .bem_limit = 0},
+    CheckRow{.key = "patch_cut_off",
+             .name = "Patch within the profiles",
+             .what = "outside once pressure reaches where a profile or the block ends",
              .unit = result_unit::kInside,
              .bem_limit = 0},
     CheckRow{.key = "cell_of_patch",
@@ -165,9 +172,14 @@ inline constexpr std::array kCheckRows{
              .kind = CheckKind::warning,
              .unit = result_unit::kMicrometres,
              .fem_limit = 0,
-             .bem_limit = 0,
-             .advice = "the load is shared there; these results have it on one patch",
+             .advice = "the load is shared there; `railstrata bem` shares it between both",
              .own_text = true},
+    CheckRow{.key = "patches_near_each_other",
+             .name = "Patches near each other",
+             .what = "curvature that the other patches give the surfaces, of the contact's own",
+             .kind = CheckKind::warning,
+             .bem_limit = kLargestBending,
+             .advice = "each patch is solved on its own; its largest pressure errs by about half as much"},
     CheckRow{.key = "contact_on_flange_crest",
              .name = "Contact on the flange's crest",
              .what = "the wheel touches with its flange's crest, this far below the tape circle",

@@ -66,7 +66,9 @@ PatchSurroundings surroundings(const Model& model, const MeanContact& m) {
   const double beyond = std::max(0.0, 0.5 * (m.patch.width - (patch.high - patch.low)));
   patch.low -= beyond;
   patch.high += beyond;
-  return patch_surroundings(model.spec, p, patch);
+  PatchSurroundings out = patch_surroundings(model.spec, p, patch);
+  out.second = second_contact(model.spec, p, patch);
+  return out;
 }
 
 }  // namespace

@@ -104,6 +104,7 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const P
   warn_of_layers(spec, around, out);
   if (s.run.engine == Engine::fem)
     out.above("patch_near_border_of_fine_zone", patch.width, spec.mesh.fine_width - 2 * spec.mesh.element_size);
+  out.above("patches_near_each_other", around.bent_by_others);
   warn_of_second_contact(around, s.contact.contact_angle, out);
   warn_of_flange(around, out);
   warn_of_stress(s, out);

@@ -26,6 +26,13 @@ struct ContactSummary {
   double spin_moment = kNotApplicable;  ///< N m, on the wheel about the normal at the rigid contact point
 };
 
+/// One of several patches of a wheel.
+struct PatchSummary {
+  double y = kNotApplicable;                                 ///< m, of its rigid contact point, model frame
+  double rail_y = kNotApplicable, wheel_y = kNotApplicable;  ///< m, the same in each profile's own frame
+  ContactSummary contact;                                    ///< its own numbers
+};
+
 /// normal_force = F_z cos(angle) - F_y sin(angle), lateral_force = F_y cos(angle) + F_z sin(angle): of the half-space
 /// engine the pressure's and the lateral friction's resultants.
 inline void turn_into_contact_plane(ContactSummary& c, double angle) {
@@ -84,7 +91,8 @@ struct Warning {
 struct Summary {
   std::string title;
   double position = kNotApplicable;
-  ContactSummary contact;
+  ContactSummary contact;             ///< of several patches those of the largest pressure, F_x, F_y and F_z of all
+  std::vector<PatchSummary> patches;  ///< where there are several
   StressSummary rail, wheel;
   EnergySummary energy;
   RunSummary run;

@@ -114,6 +114,12 @@ Json patch(const ContactField& f) {
   return out;
 }
 
+Json further_patches(const std::vector<ContactField>& fields) {
+  Json out = Json::array();
+  for (const ContactField& f : fields) out.push_back(patch(f));
+  return out;
+}
+
 Json centre(const ContactField& field) {
   const CentreLine line = centre_line(field);
   return {{"x_mm", numbers(line.x, kMilli)},
@@ -216,6 +222,7 @@ Json run_json(const ReportRun& run) {
           {"provenance", origin(run)},
           {"geometry", geometry(run)},
           {"patch", patch(run.result.field)},
+          {"further_patches", further_patches(run.result.further)},
           {"centre_line", centre(run.result.field)},
           {"depth_line", columns(run.depth_line)},
           {"history", columns(run.history)},

@@ -32,7 +32,8 @@ class PatchSeries {
   }
   void add(const RollingSample& sample) {
     const fs::path file = next_file();
-    write_vtp(file, patch_mesh(contact_field(system_, sample), sample.position));
+    const ContactField field = contact_field(system_, sample);
+    write_vtp(file, patch_mesh({&field}, sample.position));
     series_.add(sample.time, file);
   }
 
@@ -50,7 +51,7 @@ fs::path position_folder(double position) { return fmt::format("{}{:.10g}mm", kP
 void write_position(const Model& model, const FemPosition& position, const fs::path& folder,
                     const std::vector<std::string>& provenance) {
   const auto& [contact, rail, wheel, summary] = position;
-  write_patch_tables(folder, provenance, contact.field);
+  write_patch_tables(folder, provenance, {&contact.field});
   const StressMaximum& deepest = summary.rail.subsurface->von_mises;
   write_depth_line(folder / "depth_line.csv", provenance, depth_line(rail, deepest.x, deepest.y));
   const double centre_y = centre_line(contact.field).y;
@@ -59,7 +60,7 @@ void write_position(const Model& model, const FemPosition& position, const fs::p
   write_geometry(folder / "geometry.json", model.spec, model.placement);
   write_placed_surfaces(folder, model.placement, contact.position);
   write_view_script(folder);
-  write_vtp(folder / "patch.vtp", patch_mesh(contact.field, contact.position));
+  write_vtp(folder / "patch.vtp", patch_mesh({&contact.field}, contact.position));
   if (model.spec.output.volume) {
     write_vtu(folder / "rail.vtu", band_mesh(rail, contact.position));
     write_vtu(folder / "wheel.vtu", band_mesh(wheel, contact.position));

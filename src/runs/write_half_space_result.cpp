@@ -16,7 +16,9 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
   write_geometry(folder / "geometry.json", spec, placement);
   write_placed_surfaces(folder, placement, summary.position);
   write_view_script(folder);
-  write_patch_tables(folder, provenance, result.field);
+  std::vector<const ContactField*> fields{&result.field};
+  for (const BemPatch& p : result.further) fields.push_back(&p.field);
+  write_patch_tables(folder, provenance, fields);
   const StressMaximum& deepest = summary.rail.subsurface->von_mises;
   const double rail_depth = depths_of_interest(result.rail, summary.contact).deepest;
   const double wheel_depth = depths_of_interest(result.wheel, summary.contact).deepest;
@@ -25,7 +27,7 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
   write_sections(folder, "rail", provenance, rail_sections(result, deepest.x, centre_y, rail_depth));
   write_sections(folder, "wheel", provenance,
                  wheel_sections(result, summary.wheel.subsurface->von_mises.x, centre_y, wheel_depth));
-  write_vtp(folder / "patch.vtp", patch_mesh(result.field, summary.position));
+  write_vtp(folder / "patch.vtp", patch_mesh(fields, summary.position));
   write_summary(folder / "summary.json", summary);
 }
 

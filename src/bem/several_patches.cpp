@@ -1,0 +1,399 @@
+#include "bem/several_patches.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+
+namespace {
+
+constexpr double kLeastApproach = 1e-9;  // m
+constexpr double kDegrees = 180 / std::numbers::pi;
+
+double modulus_of(const CaseSpec& spec) {
+  return contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
+                         {spec.rail_material.young, spec.rail_material.poisson});
+}
+
+double distance(const RigidContact& a, const RigidContact& b) {
+  const Vec2 d = a.point - b.point;
+  return std::hypot(a.x - b.x, std::hypot(d.y, d.z));
+}
+
+/// Depression of both surfaces at a contact, along its normal, by a force on another.
+double depression(double force, const RigidContact& at, const RigidContact& by, double modulus) {
+  return force * std::cos(at.angle - by.angle) / (std::numbers::pi * modulus * distance(at, by));
+}
+
+/// t of a point of the section in a contact's plane.
+double along_plane(const RigidContact& contact, Vec2 point) {
+  return dot(point - contact.point, {std::cos(contact.angle), std::sin(contact.angle)});
+}
+
+/// A lowest place of the gap and the patch that it belongs to: by its number in order of descent.
+struct Place {
+  RigidContact contact;
+  std::size_t patch = 0;
+};
+
+/// The first contact and those beside it that carry load, as far as can be told from the first one alone. What lies on
+/// the first one's grid and nearly in its plane belongs to it.
+std::vector<Place> places_of(const CaseSpec& spec, const Placement& p, const SolvedPatch& first) {
+  const double descent = first.approach / std::cos(p.contact.angle), modulus = modulus_of(spec);
+  std::vector<Place> out{{p.contact, 0}};
+  for (const RigidContact& c : further_contacts(p.wheel, p.rail, p.track, p.contact, descent)) {
+    const double t = along_plane(p.contact, c.point), below = p.contact.axle_height - c.axle_height;
+    const bool covered = t >= first.covered_low && t <= first.covered_high;
+    if (covered && std::abs(c.angle - p.contact.angle) <= kAngleOfOnePlane)
+      out.push_back({c, 0});
+    else if (covered || (descent - below) * std::cos(c.angle) > depression(first.normal_force, c, p.contact, modulus))
+      out.push_back({c, out.size()});
+  }
+  return out;
+}
+
+/// The patches' numbers without gaps, and the places in order along the rail.
+void put_in_order(std::vector<Place>& places) {
+  std::vector<std::size_t> numbers;
+  for (const Place& p : places) numbers.push_back(p.patch);
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  for (Place& p : places)
+    p.patch = static_cast<std::size_t>(std::lower_bound(numbers.begin(), numbers.end(), p.patch) - numbers.begin());
+  std::sort(places.begin(), places.end(),
+            [](const Place& a, const Place& b) { return a.contact.rail_s < b.contact.rail_s; });
+}
+
+/// One patch of the wheel while the load is being shared.
+struct Member {
+  Placement placement;
+  PatchRoom room;
+  std::optional<std::size_t> beside_low, beside_high;  ///< the patches that its room ends at
+  HertzContact estimate{};                             ///< under the weight
+  double below = 0;                                    ///< h, m
+  double approach = 0, laid_for = 0;                   ///< m; the approach for which the grid was laid
+  double normal = 0;                                   ///< N, of the last solution; to begin with an estimate
+  CasePatch patch{};
+  RollingSolution solution{};
+
+  const RigidContact& contact() const { return placement.contact; }
+  bool loaded() const { return approach > kLeastApproach; }
+  double vertical() const {
+    return normal * std::cos(contact().angle) - solution.tangential.force_y * std::sin(contact().angle);
+  }
+};
+
+std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement, const std::vector<Place>& places) {
+  std::vector<Member> out;
+  for (std::size_t k = 0; std::any_of(places.begin(), places.end(), [&](const Place& p) { return p.patch == k; });
+       ++k) {
+    const Place* deepest = nullptr;
+    for (const Place& p : places)
+      if (p.patch == k && (!deepest || p.contact.axle_height > deepest->contact.axle_height)) deepest = &p;
+    Member m{.placement = placement, .room = {}, .beside_low = {}, .beside_high = {}};
+    m.placement.contact = deepest->contact;
+    m.estimate = hertz_estimate(spec, m.contact());
+    m.below = placement.contact.axle_height - m.contact().axle_height;
+    for (const Place& p : places)
+      if (p.patch == k) {
+        const double t = along_plane(m.contact(), p.contact.point);
+        m.room.held_low = std::min(m.room.held_low, t);
+        m.room.held_high = std::max(m.room.held_high, t);
+      }
+    out.push_back(std::move(m));
+  }
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const std::size_t left = places[i].patch, right = places[i + 1].patch;
+    if (left == right) continue;
+    const double s =
+        ridge_between(placement.wheel, placement.rail, placement.track, places[i].contact, places[i + 1].contact);
+    const Vec2 ridge = rail_to_model(placement.track, placement.rail.at(s).position);
+    out[left].room.high = along_plane(out[left].contact(), ridge);
+    out[left].beside_high = right;
+    out[right].room.low = along_plane(out[right].contact(), ridge);
+    out[right].beside_low = left;
+  }
+  return out;
+}
+
+/// The wheel on its patches: descent and creepage are sought.
+class WheelOnPatches {
+ public:
+  WheelOnPatches(const CaseSpec& spec, std::vector<Member> members, const BemOptions& options)
+      : spec_(spec),
+        members_(std::move(members)),
+        options_(options),
+        weight_(static_load(spec)),
+        modulus_(modulus_of(spec)),
+        creepage_(spec.drive.creepage.value_or(0)) {
+    options_.rolling.tangential.tolerance = std::min(options_.rolling.tangential.tolerance, kSharp);
+    options_.cache = options.cache ? options.cache : &cache_;
+  }
+
+  void settle() {
+    double descent = first_descent(), slope = 0, previous_descent = 0, previous_excess = 0;
+    for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
+      const double moved = solve_at(descent), excess = vertical() - weight_;
+      if (std::abs(excess) <= kClosure * weight_ && moved <= kSharp * weight_) return;
+      const double of_hertz = stiffness();
+      slope = iterations_ == 1 ? of_hertz : (excess - previous_excess) / (descent - previous_descent);
+      if (!(slope > 0.3 * of_hertz && slope < 3 * of_hertz)) slope = of_hertz;
+      previous_descent = descent;
+      previous_excess = excess;
+      descent -= std::clamp(excess / slope, -descent, 0.5 * descent);
+    }
+    throw CaseError("no descent of the wheel balances the weight on its contacts: friction wedges the wheel",
+                    "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+  }
+
+  /// Two patches that have grown together at the ridge between them.
+  std::optional<std::pair<std::size_t, std::size_t>> merged() const {
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      const Member& m = members_[k];
+      if (!m.loaded()) continue;
+      const PatchGrid& g = m.patch.grid;
+      for (int j = 0; j < g.ny; ++j) {
+        if (!carries(m, j)) continue;
+        if (m.beside_low && g.y(j) - g.dy < m.room.low) return {{k, *m.beside_low}};
+        if (m.beside_high && g.y(j) + g.dy > m.room.high) return {{k, *m.beside_high}};
+      }
+    }
+    return {};
+  }
+
+  SharedLoad take() {
+    SharedLoad out;
+    out.load_iterations = iterations_;
+    for (Member& m : members_)
+      if (m.loaded()) out.patches.push_back({m.contact(), std::move(m.patch), std::move(m.solution)});
+    return out;
+  }
+
+ private:
+  static constexpr double kClosure = 5e-7, kSharp = 1e-6;  // of the weight
+  static constexpr int kMostIterations = 60;
+
+  static bool carries(const Member& m, int column) {
+    const PatchGrid& g = m.patch.grid;
+    for (int i = 0; i < g.nx; ++i)
+      if (m.solution.normal.pressure[g.index(i, column)] > 0) return true;
+    return false;
+  }
+
+  double vertical() const {
+    double sum = 0;
+    for (const Member& m : members_)
+      if (m.loaded()) sum += m.vertical();
+    return sum;
+  }
+
+  /// Change of the vertical force with the descent, of Hertz's contacts.
+  double stiffness() const {
+    double sum = 0, least = 0;
+    for (const Member& m : members_) {
+      if (!m.loaded()) continue;
+      const double cosine = std::cos(m.contact().angle), rate = 1.5 * cosine / m.approach;
+      sum += rate * m.vertical();
+      least += 0.1 * rate * m.normal * cosine;
+    }
+    return std::max(sum, least);
+  }
+
+  /// Where Hertz's contacts without friction bear the weight.
+  double first_descent() {
+    const auto lay = [&](double descent) {
+      double sum = 0;
+      for (Member& m : members_) {
+        m.approach = (descent - m.below) * std::cos(m.contact().angle);
+        m.normal = m.loaded() ? weight_ * std::pow(m.approach / m.estimate.approach, 1.5) : 0.0;
+        sum += m.normal * std::cos(m.contact().angle);
+      }
+      return sum;
+    };
+    double low = 0, high = members_.front().estimate.approach;
+    while (lay(high) < weight_) high *= 2;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (low + high);
+      (lay(middle) < weight_ ? low : high) = middle;
+    }
+    static_cast<void>(lay(high));
+    return high;
+  }
+
+  /// Solves all patches at a descent, with the depressions of the normal forces before. Returns the largest change of
+  /// one of these, N.
+  double solve_at(double descent) {
+    for (Member& m : members_) {
+      m.approach = (descent - m.below) * std::cos(m.contact().angle);
+      for (const Member& other : members_)
+        if (&other != &m) m.approach -= depression(other.normal, m.contact(), other.contact(), modulus_);
+    }
+    std::vector<double> before;
+    for (Member& m : members_) {
+      before.push_back(m.normal);
+      if (m.loaded()) lay_grid(m);
+    }
+    balance_traction();
+    double moved = 0;
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      Member& m = members_[k];
+      m.normal = m.loaded() ? m.solution.normal.load : 0.0;
+      moved = std::max(moved, std::abs(m.normal - before[k]));
+    }
+    return moved;
+  }
+
+  /// A patch smaller than ten cells gets smaller ones.
+  void lay_grid(Member& m) {
+    if (m.approach < 2 * m.laid_for && m.approach > 0.5 * m.laid_for) return;
+    BemOptions own = options_;
+    const double semi_axis = std::min(m.estimate.a, m.estimate.b) * std::sqrt(m.approach / m.estimate.approach);
+    own.cell = std::clamp(0.2 * semi_axis, std::min(kSmallestCell, options_.cell), options_.cell);
+    m.patch = make_case_patch(spec_, m.placement, own, {.load = {}, .approach = m.approach}, m.room);
+    m.laid_for = m.approach;
+    m.solution = {};
+  }
+
+  void drive(Member& m, double creepage) const {
+    const RigidContact &first = members_.front().contact(), &own = m.contact();
+    const double cosines = std::cos(first.angle) / std::cos(own.angle);
+    RollingContact& problem = m.patch.contact;
+    problem.target.approach = m.approach;
+    problem.x = {1 - (1 - creepage) * own.rolling_radius / first.rolling_radius, {}};
+    problem.y = {spec_.drive.lateral_creepage ? *spec_.drive.lateral_creepage * cosines : yaw_creepage(own), {}};
+    if (spec_.drive.spin) problem.spin = wheel_spin(own) + (*spec_.drive.spin - wheel_spin(first)) / cosines;
+  }
+
+  void solve(Member& m) const {
+    const bool fresh = m.solution.normal.pressure.empty();
+    m.solution = solve_rolling(*m.patch.influence, m.patch.grid, m.patch.contact, options_.rolling,
+                               fresh ? nullptr : &m.solution);
+  }
+
+  /// Sum of the longitudinal forces on the rail at a creepage less what is wanted, N.
+  double excess_traction(double creepage) {
+    double sum = 0;
+    for (Member& m : members_) {
+      if (!m.loaded()) continue;
+      drive(m, creepage);
+      solve(m);
+      if (m.solution.normal.touches_edge) {
+        m.laid_for = 0;
+        lay_grid(m);
+        drive(m, creepage);
+        solve(m);
+      }
+      sum += m.solution.tangential.force_x;
+    }
+    return sum + spec_.drive.traction().value_or(0) * weight_;
+  }
+
+  /// Finds the creepage under which the forces have the wanted sum, where one is wanted: by the secant, kept between
+  /// two sides (Illinois), for the sum rises with the creepage and hardly does where all patches slide.
+  void balance_traction() {
+    double a = creepage_, at_a = excess_traction(a);
+    if (!spec_.drive.traction() || !(spec_.drive.friction_coefficient > 0)) return;
+    const double close = 0.5 * kClosure * weight_;
+    if (std::abs(at_a) <= close) return;
+    double step = compliance_ > 0 ? 1.5 * std::abs(at_a) * compliance_ : 1e-4, b = a, at_b = at_a;
+    while (at_a * at_b > 0) {
+      if (std::abs(b) > 1) refuse_traction();
+      a = b;
+      at_a = at_b;
+      b = a + (at_a > 0 ? -step : step);
+      at_b = excess_traction(b);
+      step *= 3;
+    }
+    compliance_ = (b - a) / (at_b - at_a);
+    for (int i = 0; i < 100; ++i) {
+      creepage_ = (a * at_b - b * at_a) / (at_b - at_a);
+      const double excess = excess_traction(creepage_);
+      if (std::abs(excess) <= close) return;
+      if (excess * at_b < 0) {
+        a = b;
+        at_a = at_b;
+      } else {
+        at_a *= 0.5;
+      }
+      b = creepage_;
+      at_b = excess;
+    }
+    throw NumericalError("the creepage of a wheel on several contacts was not found");
+  }
+
+  [[noreturn]] void refuse_traction() const {
+    double available = 0;
+    for (const Member& m : members_)
+      if (m.loaded()) available += spec_.drive.friction_coefficient * m.solution.normal.load;
+    throw CaseError(fmt::format("a traction coefficient of {:g} needs {:.0f} N of friction, the {} contacts of the "
+                                "wheel, rolling on different radii, give less than {:.0f} N together",
+                                spec_.drive.traction().value_or(0), spec_.drive.traction().value_or(0) * weight_,
+                                members_.size(), available),
+                    "lower drive.traction_coefficient or raise drive.friction_coefficient");
+  }
+
+  const CaseSpec& spec_;
+  std::vector<Member> members_;
+  InfluenceCache cache_;
+  BemOptions options_;
+  double weight_, modulus_, creepage_;
+  double compliance_ = 0;  ///< change of the creepage with the force, 1/N, of the last balance
+  int iterations_ = 0;
+};
+
+void refuse_lateral_force(const CaseSpec& spec, const std::vector<Member>& members) {
+  if (!spec.drive.lateral_traction_coefficient) return;
+  std::string places;
+  for (const Member& m : members)
+    places += fmt::format("{}y = {:.1f} mm of the rail at {:.1f} degrees", places.empty() ? "" : ", ",
+                          1e3 * m.placement.rail.at(m.contact().rail_s).position.y, m.contact().angle * kDegrees);
+  throw CaseError(fmt::format("a lateral force in the contact plane is given, and the wheel touches in {} planes: {}",
+                              members.size(), places),
+                  "give drive.lateral_creepage or geometry.yaw instead");
+}
+
+}  // namespace
+
+SharedLoad share_load(const CaseSpec& spec, const Placement& placement, const SolvedPatch& first,
+                      const BemOptions& options) {
+  std::vector<Place> places = places_of(spec, placement, first);
+  for (;;) {
+    put_in_order(places);
+    std::vector<Member> members = members_of(spec, placement, places);
+    if (members.size() == 1) return {{}, members.front().room, 0};
+    refuse_lateral_force(spec, members);
+    WheelOnPatches wheel(spec, std::move(members), options);
+    wheel.settle();
+    const auto merged = wheel.merged();
+    if (!merged) {
+      SharedLoad out = wheel.take();
+      if (out.patches.size() > 1 || std::abs(out.patches.front().contact.rail_s - placement.contact.rail_s) > 0)
+        return out;
+      return {};
+    }
+    const auto [into, from] = std::minmax(merged->first, merged->second);
+    for (Place& p : places)
+      if (p.patch == from) p.patch = into;
+  }
+}
+
+double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& patches, const PatchOnWheel& one) {
+  const RigidContact& c = one.contact;
+  const double own =
+      std::min(c.curvature_rolling, std::max(c.curvature_wheel_lateral + c.curvature_rail_lateral, 0.02));
+  double bent = 0;
+  for (const PatchOnWheel& other : patches)
+    if (&other != &one)
+      bent += 2 * other.solution.normal.load /
+              (std::numbers::pi * modulus_of(spec) * std::pow(distance(c, other.contact), 3));
+  return bent / own;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,180 @@
+#include "bem/several_patches.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "bem/solve_bem.hpp"
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kCrown = 0.1, kHalfDistance = 12e-3;  // m
+
+/// A rail with two crowns of R = 100 mm at y = -12 and 12 mm and a hollow between them; the wheel a cone (of the rail's
+/// inclination) or a cylinder.
+Placement two_crowns(double cant, double wheel_slope) {
+  constexpr double kOuter = 22e-3;
+  const double h = std::sqrt(4 * kCrown * kCrown - kHalfDistance * kHalfDistance) - kCrown,  // of the hollow's centre
+      join = 0.5 * (h - kCrown), end = std::sqrt(kCrown * kCrown - 1e-4) - kCrown, half = 0.5 * kHalfDistance;
+  const Vec2 along = (1 / std::hypot(1.0, wheel_slope)) * Vec2{1, wheel_slope};
+  Placement p{Profile::from_segments(ProfileKind::wheel, "cone", {{-40e-3 * along, 40e-3 * along, {}, 0}}),
+              Profile::from_segments(ProfileKind::rail, "two crowns",
+                                     {{{-kOuter, end}, {-half, join}, {-kHalfDistance, -kCrown}, kCrown},
+                                      {{-half, join}, {half, join}, {0, h}, kCrown},
+                                      {{half, join}, {kOuter, end}, {kHalfDistance, -kCrown}, kCrown}}),
+              {},
+              {},
+              {}};
+  p.track.gauge_depth = 0.3e-3;
+  p.track.cant = cant;
+  const double tape = 0.5 * p.track.back_to_back + p.track.flange_back_to_tape,
+               axis = 0.5 * p.track.gauge - gauge_face_y(p.rail, p.track);
+  p.track.lateral_shift = axis - tape;  // the tape circle over the rail's axis
+  p.contact = place_wheel(p.wheel, p.rail, p.track);
+  return p;
+}
+
+/// Two crowns with contacts of one angle, atan(cant).
+Placement level_crowns(double cant) {
+  TrackGeometry track;
+  track.cant = cant;
+  const Vec2 tangent = rail_to_model(track, {1, 0});
+  return two_crowns(cant, tangent.z / tangent.y);
+}
+
+CaseSpec driven(double traction) {
+  CaseSpec spec;
+  spec.drive.friction_coefficient = 0.3;
+  spec.drive.traction_coefficient = traction;
+  return spec;
+}
+
+BemOptions coarse() {
+  BemOptions options;
+  options.cell = 0.5e-3;
+  return options;
+}
+
+TEST(SeveralPatches, TwoEqualOnesShareTheLoadInHalves) {
+  const CaseSpec spec = driven(0.1);
+  const BemResult both = solve_bem(spec, two_crowns(0, 0), BemOptions{});
+  ASSERT_EQ(both.further.size(), 1U);
+  const BemPatch& other = both.further[0];
+  const double weight = static_load(spec);
+  EXPECT_NEAR(both.force.normal / other.force.normal, 1, 1e-6);
+  EXPECT_NEAR(both.force.x / other.force.x, 1, 1e-6);
+  EXPECT_NEAR(both.force.normal / weight, 0.5, 1e-6);
+  EXPECT_NEAR(both.contact.point.y + other.contact.point.y, 0, 1e-9);
+
+  CaseSpec half = spec;
+  half.vehicle.sprung_mass = 0.5 * weight / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  half.geometry.rail_profile = "arc:R=100 mm";
+  half.geometry.wheel_profile = "flat";
+  half.geometry.cant = 0;
+  const BemResult alone = solve_bem(half, place(half, {}), BemOptions{});
+  ASSERT_TRUE(alone.further.empty());
+  EXPECT_NEAR(both.patch.p_max / alone.patch.p_max, 1, 2e-5);
+  EXPECT_NEAR(both.patch.q_max / alone.patch.q_max, 1, 1e-4);
+  EXPECT_NEAR(both.rigid_slip.x / alone.rigid_slip.x, 1, 1e-3);
+  EXPECT_EQ(both.patch.area, alone.patch.area);
+  // each is pressed down by the other's N/(pi E* r) besides, which is no approach of its own
+  EXPECT_NEAR(both.approach / alone.approach, 1, 1e-4);
+}
+
+// By Hertz: one crown lies lower by h = 2 c tan(cant); the loads are N ~ (approach)^1.5, each approach less the other's
+// N/(pi E* 2c).
+TEST(SeveralPatches, ALowerCrownTakesWhatHertzGivesIt) {
+  const CaseSpec spec = driven(0);
+  const double weight = static_load(spec), modulus = contact_modulus({210e9, 0.3}, {210e9, 0.3});
+  const double radius = CaseSpec{}.geometry.wheel_radius;
+  const auto load_at = [&](double approach) {
+    const HertzContact under = hertz_contact(0.5 / radius, 0.5 / kCrown, modulus, weight);
+    return approach > 0 ? weight * std::pow(approach / under.approach, 1.5) : 0.0;
+  };
+  for (const double cant : {0.5e-3, 1e-3, 1.5e-3}) {
+    const BemResult r = solve_bem(spec, two_crowns(cant, 0), coarse());
+    ASSERT_EQ(r.further.size(), 1U) << cant;
+    const double lower = 2 * kHalfDistance * cant, by_other = 1 / (std::numbers::pi * modulus * 2 * kHalfDistance);
+    double low = 0, high = 1e-3, upper_load = 0, lower_load = 0;
+    for (int i = 0; i < 100; ++i) {
+      const double descent = 0.5 * (low + high);
+      for (int k = 0; k < 50; ++k) {
+        upper_load = load_at(descent - lower_load * by_other);
+        lower_load = load_at(descent - lower - upper_load * by_other);
+      }
+      (upper_load + lower_load < weight ? low : high) = descent;
+    }
+    EXPECT_NEAR(r.force.normal / weight, upper_load / weight, 5e-3) << cant;
+    EXPECT_NEAR(r.further[0].force.normal / weight, lower_load / weight, 5e-3) << cant;
+  }
+}
+
+// From one patch to two and back the loads are continuous; the second begins with none.
+TEST(SeveralPatches, TheSecondStartsFromNoLoad) {
+  const CaseSpec spec = driven(0.05);
+  double previous = 0.5;
+  bool ended = false;
+  for (double cant = 0; cant < 6e-3; cant += 0.25e-3) {
+    const BemResult r = solve_bem(spec, two_crowns(cant, 0), coarse());
+    const double second = r.further.empty() ? 0.0 : r.further[0].force.normal / static_load(spec);
+    EXPECT_LT(second, previous + 1e-9) << cant;
+    EXPECT_GT(second, previous - 0.09) << cant;
+    EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-5) << cant;
+    if (second == 0 && previous > 0) {
+      EXPECT_LT(previous, 0.03) << cant;
+    }
+    ended |= second == 0;
+    previous = second;
+  }
+  EXPECT_TRUE(ended);
+}
+
+// The patch on the larger radius drives, that on the smaller one brakes.
+TEST(SeveralPatches, OnDifferentRadiiTheirForcesAreOppositeWithoutTraction) {
+  const CaseSpec spec = driven(0);
+  const BemResult r = solve_bem(spec, level_crowns(0.05), coarse());
+  ASSERT_EQ(r.further.size(), 1U);
+  const bool first_larger = r.contact.rolling_radius > r.further[0].contact.rolling_radius;
+  const BemPatch &larger = first_larger ? static_cast<const BemPatch&>(r) : r.further[0],
+                 &smaller = first_larger ? r.further[0] : r;
+  const double weight = static_load(spec);
+  EXPECT_NEAR(larger.contact.rolling_radius - smaller.contact.rolling_radius,
+              2 * kHalfDistance * std::sin(std::atan(0.05)), 1e-6);
+  EXPECT_NEAR((larger.force.x + smaller.force.x) / weight, 0, 1e-6);
+  EXPECT_LT(larger.force.x, -0.05 * weight) << "on the rail: backwards";
+  EXPECT_NEAR(-force_on_rail(r).z / weight, 1, 1e-6);
+  // (1 - xi_k)/r_k is the turn of the wheel over its way
+  EXPECT_NEAR((1 - larger.rigid_slip.x) / larger.contact.rolling_radius,
+              (1 - smaller.rigid_slip.x) / smaller.contact.rolling_radius, 1e-12);
+}
+
+TEST(SeveralPatches, ALateralForceInOneOfTwoPlanesIsRefused) {
+  CaseSpec spec = driven(0);
+  spec.drive.lateral_traction_coefficient = 0.05;
+  EXPECT_THROW(solve_bem(spec, two_crowns(0, 0), coarse()), CaseError);
+  spec.drive.lateral_traction_coefficient.reset();
+  spec.drive.lateral_creepage = 1e-3;
+  const BemResult r = solve_bem(spec, two_crowns(0, 0), coarse());
+  EXPECT_NEAR(r.rigid_slip.y / r.further.at(0).rigid_slip.y, 1, 1e-9);
+  EXPECT_GT(r.force.tangential, 0);
+}
+
+TEST(SeveralPatches, TractionBeyondBothIsRefusedAndLayersAreCoupled) {
+  CaseSpec spec = driven(0.29);
+  EXPECT_THROW(solve_bem(spec, level_crowns(0.05), coarse()), CaseError);
+  spec = driven(0.05);
+  spec.layers.push_back({});
+  spec.layers[0].material.young = 2 * 210e9;
+  const BemResult r = solve_bem(spec, level_crowns(0.05), coarse());
+  ASSERT_EQ(r.further.size(), 1U);
+  EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-6);
+  EXPECT_NEAR(force_on_rail(r).x / (-0.05 * static_load(spec)), 1, 2e-5);
+}
+
+}  // namespace
+}  // namespace railstrata
