@@ -22,14 +22,48 @@ double modulus_of(const CaseSpec& spec) {
                          {spec.rail_material.young, spec.rail_material.poisson});
 }
 
-double distance(const RigidContact& a, const RigidContact& b) {
-  const Vec2 d = a.point - b.point;
-  return std::hypot(a.x - b.x, std::hypot(d.y, d.z));
-}
+/// A pressure where it stands: of a patch that has not been solved yet a force at the rigid contact point.
+struct PressureOnRail {
+  const RigidContact& contact;
+  const PatchGrid& grid;
+  const Plane& pressure;
+  double force;
 
-/// Depression of both surfaces at a contact, along its normal, by a force on another.
-double depression(double force, const RigidContact& at, const RigidContact& by, double modulus) {
-  return force * std::cos(at.angle - by.angle) / (std::numbers::pi * modulus * distance(at, by));
+  Vec3 point(double x, double t) const {
+    return {contact.x + x, contact.point.y + t * std::cos(contact.angle),
+            contact.point.z + t * std::sin(contact.angle)};
+  }
+  /// Calls share(force, place) for every cell that bears.
+  template <class Share>
+  void for_each_share(Share&& share) const {
+    if (pressure.empty()) return share(force, point(0, 0));
+    for (int i = 0; i < grid.nx; ++i)
+      for (int j = 0; j < grid.ny; ++j)
+        if (const double p = pressure[grid.index(i, j)]; p > 0)
+          share(p * grid.cell_area(), point(grid.x(i), grid.y(j)));
+  }
+  Vec3 centre() const {
+    Vec3 sum;
+    double total = 0;
+    for_each_share([&](double f, Vec3 place) {
+      sum += f * place;
+      total += f;
+    });
+    return total > 0 ? (1 / total) * sum : point(0, 0);
+  }
+  /// The sum of force/distance^power at a place, over pi E*.
+  double at(Vec3 place, int power, double modulus) const {
+    double sum = 0;
+    for_each_share([&](double f, Vec3 from) {
+      const Vec3 d = place - from;
+      sum += f / std::pow(std::hypot(d.x, d.y, d.z), power);
+    });
+    return sum / (std::numbers::pi * modulus);
+  }
+};
+
+PressureOnRail pressure_of(const PatchOnWheel& p) {
+  return {p.contact, p.patch.grid, p.solution.normal.pressure, p.solution.normal.load};
 }
 
 /// t of a point of the section in a contact's plane.
@@ -43,18 +77,16 @@ struct Place {
   std::size_t patch = 0;
 };
 
-/// The first contact and those beside it that carry load, as far as can be told from the first one alone. What lies on
-/// the first one's grid and nearly in its plane belongs to it.
-std::vector<Place> places_of(const CaseSpec& spec, const Placement& p, const SolvedPatch& first) {
-  const double descent = first.approach / std::cos(p.contact.angle), modulus = modulus_of(spec);
+/// The first contact and those beside it that the wheel overlaps after a descent. Neighbours nearly in one plane are
+/// one patch where it overlaps the rail all the way between them.
+std::vector<Place> places_of(const Placement& p, double descent) {
   std::vector<Place> out{{p.contact, 0}};
   for (const RigidContact& c : further_contacts(p.wheel, p.rail, p.track, p.contact, descent)) {
-    const double t = along_plane(p.contact, c.point), below = p.contact.axle_height - c.axle_height;
-    const bool covered = t >= first.covered_low && t <= first.covered_high;
-    if (covered && std::abs(c.angle - p.contact.angle) <= kAngleOfOnePlane)
-      out.push_back({c, 0});
-    else if (covered || (descent - below) * std::cos(c.angle) > depression(first.normal_force, c, p.contact, modulus))
-      out.push_back({c, out.size()});
+    const auto with = std::find_if(out.begin(), out.end(), [&](const Place& other) {
+      return std::abs(c.angle - other.contact.angle) <= kAngleOfOnePlane &&
+             ridge_between(p.wheel, p.rail, p.track, c, other.contact).gap < descent - p.contact.wheel_offset_z;
+    });
+    out.push_back({c, with != out.end() ? with->patch : out.size()});
   }
   return out;
 }
@@ -85,6 +117,7 @@ struct Member {
 
   const RigidContact& contact() const { return placement.contact; }
   bool loaded() const { return approach > kLeastApproach; }
+  PressureOnRail on_rail() const { return {contact(), patch.grid, solution.normal.pressure, normal}; }
   double vertical() const {
     return normal * std::cos(contact().angle) - solution.tangential.force_y * std::sin(contact().angle);
   }
@@ -113,7 +146,8 @@ std::vector<Member> members_of(const CaseSpec& spec, const Placement& placement,
     const std::size_t left = places[i].patch, right = places[i + 1].patch;
     if (left == right) continue;
     const double s =
-        ridge_between(placement.wheel, placement.rail, placement.track, places[i].contact, places[i + 1].contact);
+        ridge_between(placement.wheel, placement.rail, placement.track, places[i].contact, places[i + 1].contact)
+            .rail_s;
     const Vec2 ridge = rail_to_model(placement.track, placement.rail.at(s).position);
     out[left].room.high = along_plane(out[left].contact(), ridge);
     out[left].beside_high = right;
@@ -141,7 +175,7 @@ class WheelOnPatches {
     double descent = first_descent(), slope = 0, previous_descent = 0, previous_excess = 0;
     for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
       const double moved = solve_at(descent), excess = vertical() - weight_;
-      if (std::abs(excess) <= kClosure * weight_ && moved <= kSharp * weight_) return;
+      if (std::abs(excess) <= kClosure * weight_ && moved <= kMoved * weight_) return;
       const double of_hertz = stiffness();
       slope = iterations_ == 1 ? of_hertz : (excess - previous_excess) / (descent - previous_descent);
       if (!(slope > 0.3 * of_hertz && slope < 3 * of_hertz)) slope = of_hertz;
@@ -177,7 +211,9 @@ class WheelOnPatches {
   }
 
  private:
-  static constexpr double kClosure = 5e-7, kSharp = 1e-6;  // of the weight
+  static constexpr double kClosure = 5e-7, kMoved = 1e-5;  // of the weight
+  static constexpr double kSharp = 1e-7;                   // of friction: forces are to be known better than they close
+  static constexpr double kNoWidth = 1e-13;                // of a creepage
   static constexpr int kMostIterations = 60;
 
   static bool carries(const Member& m, int column) {
@@ -232,8 +268,10 @@ class WheelOnPatches {
   double solve_at(double descent) {
     for (Member& m : members_) {
       m.approach = (descent - m.below) * std::cos(m.contact().angle);
+      const Vec3 centre = m.on_rail().centre();
       for (const Member& other : members_)
-        if (&other != &m) m.approach -= depression(other.normal, m.contact(), other.contact(), modulus_);
+        if (&other != &m && other.normal > 0)
+          m.approach -= std::cos(m.contact().angle - other.contact().angle) * other.on_rail().at(centre, 1, modulus_);
     }
     std::vector<double> before;
     for (Member& m : members_) {
@@ -255,7 +293,7 @@ class WheelOnPatches {
     if (m.approach < 2 * m.laid_for && m.approach > 0.5 * m.laid_for) return;
     BemOptions own = options_;
     const double semi_axis = std::min(m.estimate.a, m.estimate.b) * std::sqrt(m.approach / m.estimate.approach);
-    own.cell = std::clamp(0.2 * semi_axis, std::min(kSmallestCell, options_.cell), options_.cell);
+    own.cell = std::clamp(0.15 * semi_axis, std::min(kSmallestCell, options_.cell), options_.cell);
     m.patch = make_case_patch(spec_, m.placement, own, {.load = {}, .approach = m.approach}, m.room);
     m.laid_for = m.approach;
     m.solution = {};
@@ -315,7 +353,7 @@ class WheelOnPatches {
     for (int i = 0; i < 100; ++i) {
       creepage_ = (a * at_b - b * at_a) / (at_b - at_a);
       const double excess = excess_traction(creepage_);
-      if (std::abs(excess) <= close) return;
+      if (std::abs(excess) <= close || std::abs(b - a) < kNoWidth) return;
       if (excess * at_b < 0) {
         a = b;
         at_a = at_b;
@@ -361,9 +399,8 @@ void refuse_lateral_force(const CaseSpec& spec, const std::vector<Member>& membe
 
 }  // namespace
 
-SharedLoad share_load(const CaseSpec& spec, const Placement& placement, const SolvedPatch& first,
-                      const BemOptions& options) {
-  std::vector<Place> places = places_of(spec, placement, first);
+SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options) {
+  std::vector<Place> places = places_of(placement, approach / std::cos(placement.contact.angle));
   for (;;) {
     put_in_order(places);
     std::vector<Member> members = members_of(spec, placement, places);
@@ -390,9 +427,7 @@ double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& 
       std::min(c.curvature_rolling, std::max(c.curvature_wheel_lateral + c.curvature_rail_lateral, 0.02));
   double bent = 0;
   for (const PatchOnWheel& other : patches)
-    if (&other != &one)
-      bent += 2 * other.solution.normal.load /
-              (std::numbers::pi * modulus_of(spec) * std::pow(distance(c, other.contact), 3));
+    if (&other != &one) bent += 2 * pressure_of(other).at(pressure_of(one).centre(), 3, modulus_of(spec));
   return bent / own;
 }
 

@@ -3,23 +3,23 @@
 //
 // The axle is guided sideways and lies by d below the place where it touches first; the patch k touches from h_k on.
 // With the contact angle delta_k, the rolling radius r_k, the resultants N_k of the pressure and T_k, X_k of the
-// friction (on the rail) and the distance r_jk of two rigid contact points
-//   approach_k = (d - h_k) cos(delta_k) - sum over j of N_j cos(delta_k - delta_j)/(pi E* r_jk),
+// friction (on the rail)
+//   approach_k = (d - h_k) cos(delta_k) - sum over j of cos(delta_k - delta_j)/(pi E*) ∫ p_j/r_jk dA,
 //   xi_k = 1 - (1 - xi) r_k/r_1,   eta_k = eta_1 cos(delta_1)/cos(delta_k),
 //   sum of N_k cos(delta_k) - T_k sin(delta_k) = G,   sum of X_k = X where a force is given.
-// The sum in approach_k is the depression of both surfaces by the other patches [Johnson1985 eq. 3.22a]: exact to first
-// order where the planes are one, an estimate where they are not. Its curvature over the patch is left out
-// (interaction_of_patches). xi, eta and a given spin are those of the contact that touches first; a given spin turns
-// the wheel about the vertical.
+// The sum in approach_k is the depression of both surfaces at the patch's centre of pressure by the other patches
+// [Johnson1985 eq. 3.22a]: exact to first order where the planes are one, an estimate where they are not. Its curvature
+// over the patch is left out (bending_by_others). xi, eta and a given spin are those of the contact that touches first;
+// a given spin turns the wheel about the vertical.
 #include <vector>
 
 #include "bem/case_patch.hpp"
-#include "model/surroundings.hpp"
 
 namespace railstrata {
 
-/// Contacts nearer to each other in angle than this, on one grid, are solved in one plane with all their interaction:
-/// half of the angle that one patch may span without a warning.
+/// Neighbouring contacts nearer to each other in angle than this are solved in one plane with all their interaction
+/// where the wheel overlaps the rail all the way between them: half of the angle that one patch may span without a
+/// warning.
 inline constexpr double kAngleOfOnePlane = 10 * std::numbers::pi / 180;
 
 struct PatchOnWheel {
@@ -34,14 +34,14 @@ struct SharedLoad {
   int load_iterations = 0;
 };
 
-/// Looks for contacts beside a first one that was solved alone under the whole load, and shares the load if there are.
+/// Looks for contacts beside a first one that was solved alone under the whole load, where its approach is `approach`
+/// [m], and shares the load if there are.
 /// Patches that grow together become one, in the plane of the one that touches first. Throws CaseError: a lateral force
 /// is given, traction above friction, friction that bears the weight (a wedged wheel).
-SharedLoad share_load(const CaseSpec& spec, const Placement& placement, const SolvedPatch& first,
-                      const BemOptions& options);
+SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options);
 
 /// By how much the other patches bend the surfaces over one patch, of the contact's own smaller curvature kappa:
-/// the sum of 2 N_j/(pi E* r_j³)/kappa, of the depression at the distance r_j the second derivative.
+/// the sum of 2/(pi E*) ∫ p_j/r_j³ dA over kappa, in the plane the second derivative of the depression.
 double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& patches, const PatchOnWheel& one);
 
 }  // namespace railstrata

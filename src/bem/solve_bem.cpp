@@ -180,7 +180,7 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   const double load = static_load(spec);
   check_friction(spec, load, normal_load(load, 0, placement.contact));
   LoadedPatch alone = balance_vertical_load(spec, placement, {}, options, load);
-  SharedLoad shared = share_load(spec, placement, solved_patch(alone.patch.grid, alone.solution.normal), options);
+  SharedLoad shared = share_load(spec, placement, alone.solution.normal.approach, options);
   if (shared.patches.empty() && !holds(alone.patch.grid, shared.room))
     alone = balance_vertical_load(spec, placement, shared.room, options, load);
   if (shared.patches.empty()) {

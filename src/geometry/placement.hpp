@@ -64,9 +64,12 @@ RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackG
 std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
                                            const RigidContact& first, double descent);
 
-/// Rail arc length of the largest vertical gap between two contacts: where the surface of the one ends and that of the
-/// other begins.
-double ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
+/// The largest vertical gap between two contacts: where the surface of the one ends and that of the other begins. gap
+/// [m] is that of a wheel with its tape circle at the height 0.
+struct Ridge {
+  double rail_s = 0, gap = 0;
+};
+Ridge ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
                      const RigidContact& b);
 
 }  // namespace railstrata

@@ -153,6 +153,45 @@ TEST(SeveralPatches, OnDifferentRadiiTheirForcesAreOppositeWithoutTraction) {
               (1 - smaller.rigid_slip.x) / smaller.contact.rolling_radius, 1e-12);
 }
 
+/// The load of the patch on the flange's root, of the weight; 0 where there is none.
+double flange_load(const CaseSpec& spec, const BemResult& r) {
+  double sum = 0;
+  for (const BemPatch* p : {static_cast<const BemPatch*>(&r), r.further.empty() ? nullptr : &r.further[0]})
+    if (p && p->contact.angle > 0.3) sum += p->force.normal;
+  return sum / static_load(spec);
+}
+
+// S1002 on UIC60 inclined by 1:20 goes over to the flange within half a millimetre: one patch on the tread (of two
+// lobes), that and one in the flange's root 22 degrees steep, the root alone.
+TEST(SeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
+  CaseSpec spec = driven(0.02);
+  spec.geometry.rail_profile = "UIC60";
+  spec.geometry.wheel_profile = "S1002";
+  spec.geometry.cant = 0.05;
+  spec.geometry.gauge_depth = 14e-3;
+  BemOptions options;
+  options.cell = 1e-3;
+  double previous = 0, first = 0;
+  int shared = 0;
+  for (double shift = 9.43e-3; shift < 9.925e-3; shift += 0.03e-3) {
+    spec.geometry.lateral_shift = shift;
+    const BemResult r = solve_bem(spec, place(spec, {}), options);
+    const double load = flange_load(spec, r);
+    EXPECT_GT(load, previous - 1e-9) << shift;
+    EXPECT_LT(load, previous + 0.12) << shift;
+    if (!r.further.empty()) {
+      ++shared;
+      EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-6) << shift;
+      EXPECT_NEAR(force_on_rail(r).x / static_load(spec), -0.02, 1e-6) << shift;
+      if (first == 0) first = load;
+    }
+    previous = load;
+  }
+  EXPECT_GE(shared, 12);
+  EXPECT_LT(first, 0.03) << "it begins with no load";
+  EXPECT_GT(previous, 1) << "and bears all in the end";
+}
+
 TEST(SeveralPatches, ALateralForceInOneOfTwoPlanesIsRefused) {
   CaseSpec spec = driven(0);
   spec.drive.lateral_traction_coefficient = 0.05;

@@ -51,6 +51,35 @@ TEST(BemSummary, OfCrossedCylindersIsHertzs) {
   EXPECT_EQ(s.position, spec.run.positions.back());
 }
 
+TEST(BemSummary, OfTwoPatchesHasThatOfTheLargestPressureAndTheForcesOfBoth) {
+  CaseSpec spec;
+  spec.geometry.rail_profile = "UIC60";
+  spec.geometry.wheel_profile = "S1002";
+  spec.geometry.cant = 0.05;
+  spec.geometry.gauge_depth = 14e-3;
+  spec.geometry.lateral_shift = 9.6e-3;
+  spec.drive.friction_coefficient = 0.3;
+  spec.drive.traction_coefficient = 0.02;
+  const BemResult r = solve_bem(spec, place(spec, {}), cells(1e-3));
+  const Summary s = bem_contact_summary(spec, r);
+  ASSERT_EQ(s.patches.size(), 2U);
+  const ContactSummary &first = s.patches[0].contact, &second = s.patches[1].contact;
+  const double load = static_load(spec);
+  EXPECT_GT(first.patch.p_max, second.patch.p_max);
+  EXPECT_EQ(s.contact.patch.p_max, first.patch.p_max);
+  EXPECT_EQ(s.contact.contact_angle, first.contact_angle);
+  EXPECT_EQ(s.contact.normal_force, first.normal_force);
+  EXPECT_NEAR(s.contact.F_x / load, 0.02, 1e-6);
+  EXPECT_NEAR(s.contact.F_z / load, 1, 1e-6);
+  EXPECT_NEAR((first.F_y + second.F_y) / load, s.contact.F_y / load, 1e-12);
+  EXPECT_GT(first.contact_angle, 0.35) << "the flange's root";
+  EXPECT_LT(s.patches[0].rail_y, -25e-3);
+  EXPECT_GT(s.patches[1].rail_y, -15e-3);
+  for (const Check& c : s.checks) EXPECT_TRUE(c.ok) << c.name;
+  EXPECT_TRUE(std::any_of(s.warnings.begin(), s.warnings.end(),
+                          [](const Warning& w) { return w.name == "patches_near_each_other"; }));
+}
+
 TEST(BemSummary, ForcesOfADrivingWheelActOnTheWheelAndItsCreepageIsNegative) {
   CaseSpec spec;
   spec.geometry.lateral_shift = 1.5e-3;

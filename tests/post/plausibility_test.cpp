@@ -84,9 +84,9 @@ TEST(Plausibility, EachLimitSpeaksAboveAndIsSilentBelow) {
   s.around.flange->beyond_gauge = 1e-3;
   EXPECT_EQ(s.warnings(), Names{"flange_outside_gauge"});
   s.around.flange->beyond_gauge = -1e-3;
-  s.around.second = SecondContact{5e-6, -33e-3, -38e-3, 1.0};
-  EXPECT_EQ(s.warnings(), Names{"second_contact"});
-  s.around.second.reset();
+  s.around.bent_by_others = 1.01 * kLargestBending;
+  EXPECT_EQ(s.warnings(), Names{"patches_near_each_other"});
+  s.around.bent_by_others *= 0.98;
   EXPECT_EQ(s.warnings(), Names{});
 }
 
@@ -125,6 +125,8 @@ TEST(Plausibility, ASecondContactNamesBothPlaces) {
   Sound s;
   s.around.rail_y = -4e-3;
   s.around.wheel_y = 6e-3;
+  s.summary.run.engine = Engine::fem;
+  s.spec.mesh.element_size = 1e-3;
   s.around.second = SecondContact{5e-6, -33e-3, -38e-3, 0.5};
   const std::string text = implausible(s.summary, s.spec, s.around, 0.25e-3).at(0).text;
   for (const char* part : {"first place: y = -4.0 mm of the rail, 6.0 mm of the wheel, at 0.0°",
@@ -150,6 +152,35 @@ TEST(Plausibility, APatchAsWideAsItsBlockIsTold) {
   EXPECT_NE(find(s, "patch_near_edge")->text.find("the side of the block"), std::string::npos);
   EXPECT_NE(find(s, "patch_large_against_radius"), nullptr);
   EXPECT_EQ(find(solved(sphere()), "patch_near_edge"), nullptr);
+}
+
+// A wheel hollow by 301 mm fills an arc of 300 mm: the patch would be wider than the 60 mm of both.
+TEST(Plausibility, APatchCutOffByTheEndOfAProfileFailsAndIsTold) {
+  CaseSpec spec = sphere();
+  spec.geometry.rail_profile = "arc:R=300 mm";
+  spec.geometry.wheel_profile = "arc:R=-301 mm";
+  spec.geometry.rail_shape = RailShape::rail;
+  const Summary cut = solved(spec, 1e-3);
+  EXPECT_FALSE(holds(cut, "patch_cut_off"));
+  ASSERT_NE(find(cut, "patch_near_edge"), nullptr);
+  EXPECT_NE(find(cut, "patch_near_edge")->text.find("here the side of the rail at y = -30.0 mm"), std::string::npos)
+      << find(cut, "patch_near_edge")->text;
+  EXPECT_GT(find(cut, "patch_near_edge")->value, 0.95);
+  EXPECT_TRUE(holds(cut, "patch_reaches_edge_of_grid")) << "the grid is larger";
+
+  spec.geometry.wheel_profile = "arc:R=-310 mm";  // 50 mm of the 60
+  const Summary near = solved(spec, 1e-3);
+  EXPECT_TRUE(holds(near, "patch_cut_off"));
+  EXPECT_NE(find(near, "patch_near_edge"), nullptr);
+  spec.geometry.wheel_profile = "flat";
+  const Summary far = solved(spec, 1e-3);
+  EXPECT_TRUE(holds(far, "patch_cut_off"));
+  EXPECT_EQ(find(far, "patch_near_edge"), nullptr);
+
+  spec.geometry.wheel_profile = "arc:R=-310 mm";
+  spec.geometry.rail_shape = RailShape::block;
+  spec.geometry.block_width = 48e-3;
+  EXPECT_FALSE(holds(solved(spec, 1e-3), "patch_cut_off")) << "pressure beyond the block";
 }
 
 // Elastic stresses of 3 GPa are no steel's: half-spaces say so as finite elements do.

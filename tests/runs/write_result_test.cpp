@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,7 +11,9 @@
 
 #include "core/faults.hpp"
 #include "io/csv.hpp"
+#include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
+#include "post/patch.hpp"
 #include "runs/write_fem_result.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "tests/runs/small_run.hpp"
@@ -114,6 +117,44 @@ TEST_F(WriteResult, AHalfSpaceSolutionHasTheFilesOfAPosition) {
   write_half_space_result(folder, {"a case"}, loaded.spec, placement, solution);
   EXPECT_EQ(names_in(folder), kPosition);
   EXPECT_EQ(read_result_folder(folder).number("/contact/p_max_Pa"), solution.summary.contact.patch.p_max);
+  EXPECT_EQ(read_csv(folder / "patch.csv").columns[0].name, "x_mm") << "one patch needs no number";
+}
+
+TEST_F(WriteResult, SeveralPatchesAreWrittenAndReadOneAfterTheOther) {
+  const LoadedCase loaded = parse_case(
+      "[geometry]\nrail_profile = \"UIC60\"\nwheel_profile = \"S1002\"\ncant = 0.05\ngauge_depth = \"14 mm\"\n"
+      "lateral_shift = \"9.6 mm\"\n[drive]\ntraction_coefficient = 0.02\n",
+      "two.toml");
+  const Placement placement = place(loaded.spec, ".");
+  BemOptions options;
+  options.cell = 1e-3;
+  const HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, options);
+  write_half_space_result(folder, {"a case"}, loaded.spec, placement, solution);
+  EXPECT_EQ(names_in(folder), kPosition);
+  const ResultFolder read = read_result_folder(folder);
+  ASSERT_EQ(read.further.size(), 1U);
+  EXPECT_EQ(read.field.size(), static_cast<int>(solution.result.grid.size()));
+  EXPECT_EQ(read.further[0].size(), static_cast<int>(solution.result.further[0].grid.size()));
+  EXPECT_EQ(measure_patch(read.field).p_max, measure_patch(solution.result.field).p_max);
+  EXPECT_EQ(read.number("/patches/1/p_max_Pa"), solution.summary.patches[1].contact.patch.p_max);
+  EXPECT_TRUE(result_doubts(read).empty());
+}
+
+TEST_F(WriteResult, PatchesOutOfOrderAreRefused) {
+  const std::string head =
+      "patch,x_mm,y_mm,z_mm,area_mm2,p_MPa,q_x_MPa,q_y_MPa,slip_x_mm_s,slip_y_mm_s,"
+      "state_0separated_1stick_2slip\n";
+  const auto with = [&](const char* first, const char* second) {
+    std::string text = head;
+    for (const char* patch : {first, second})
+      for (const char* y : {"0", "1"}) text += fmt::format("{},0,{},0,1,1,0,0,0,0,1\n", patch, y);
+    return text;
+  };
+  EXPECT_EQ(parse_results("{\"contact\": {}}", with("1", "2"), "a").further.size(), 1U);
+  EXPECT_THROW(parse_results("{\"contact\": {}}", with("2", "1"), "a"), CaseError);
+  EXPECT_THROW(parse_results("{\"contact\": {}}", with("1", "3"), "a"), CaseError);
+  EXPECT_THROW(parse_results("{\"contact\": {}, \"patches\": 3}", with("1", "2"), "a"), CaseError);
+  EXPECT_THROW(parse_results("{\"contact\": {}, \"patches\": [{\"p\": \"x\"}]}", with("1", "2"), "a"), CaseError);
 }
 
 }  // namespace railstrata
