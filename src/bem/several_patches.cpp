@@ -8,6 +8,8 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/LU>
+
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -112,6 +114,8 @@ struct Member {
   double below = 0;                                    ///< h, m
   double approach = 0, laid_for = 0;                   ///< m; the approach for which the grid was laid
   double normal = 0;                                   ///< N, of the last solution; to begin with an estimate
+  double expected = 0;                                 ///< N, of the next
+  double approach_before = 0, normal_before = 0;       ///< of the solution before
   CasePatch patch{};
   RollingSolution solution{};
 
@@ -172,16 +176,12 @@ class WheelOnPatches {
   }
 
   void settle() {
-    double descent = first_descent(), slope = 0, previous_descent = 0, previous_excess = 0;
+    double descent = first_descent();
     for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
-      const double moved = solve_at(descent), excess = vertical() - weight_;
-      if (std::abs(excess) <= kClosure * weight_ && moved <= kMoved * weight_) return;
-      const double of_hertz = stiffness();
-      slope = iterations_ == 1 ? of_hertz : (excess - previous_excess) / (descent - previous_descent);
-      if (!(slope > 0.3 * of_hertz && slope < 3 * of_hertz)) slope = of_hertz;
-      previous_descent = descent;
-      previous_excess = excess;
-      descent -= std::clamp(excess / slope, -descent, 0.5 * descent);
+      const Eigen::MatrixXd bent = depressions();
+      const double moved = solve_at(descent, bent);
+      if (std::abs(vertical() - weight_) <= kClosure * weight_ && moved <= kMoved * weight_) return;
+      descent += step(descent, bent);
     }
     throw CaseError("no descent of the wheel balances the weight on its contacts: friction wedges the wheel",
                     "lower drive.friction_coefficient, or check lateral_shift and the profiles");
@@ -230,16 +230,56 @@ class WheelOnPatches {
     return sum;
   }
 
-  /// Change of the vertical force with the descent, of Hertz's contacts.
-  double stiffness() const {
-    double sum = 0, least = 0;
-    for (const Member& m : members_) {
-      if (!m.loaded()) continue;
-      const double cosine = std::cos(m.contact().angle), rate = 1.5 * cosine / m.approach;
-      sum += rate * m.vertical();
-      least += 0.1 * rate * m.normal * cosine;
+  /// Change of a patch's normal force with its approach, N/m: of the last two solutions, if they agree with Hertz's.
+  static double stiffness(const Member& m) {
+    if (!m.loaded()) return 0;
+    const double of_hertz = 1.5 * m.normal / m.approach,
+                 secant = (m.normal - m.normal_before) / (m.approach - m.approach_before);
+    return secant > 0.5 * of_hertz && secant < 2 * of_hertz ? secant : of_hertz;
+  }
+
+  /// Approach [m] of every patch that a force of 1 N on every other one takes away: row by column.
+  Eigen::MatrixXd depressions() const {
+    const auto n = static_cast<Eigen::Index>(members_.size());
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(n, n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Member& m = members_[static_cast<std::size_t>(k)];
+      const Vec3 centre = m.on_rail().centre();
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const Member& other = members_[static_cast<std::size_t>(j)];
+        if (j != k && other.normal > 0)
+          out(k, j) = std::cos(m.contact().angle - other.contact().angle) * other.on_rail().at(centre, 1, modulus_) /
+                      other.normal;
+      }
     }
-    return std::max(sum, least);
+    return out;
+  }
+
+  /// Newton's step of the descent. With the stiffnesses S and the depressions C by a unit force the normal forces move
+  /// by dN = S (cos(delta) dd + r - C dN), r what the approach lacks of that of the forces N now. The forces expected
+  /// after the step go into the next approaches.
+  double step(double descent, const Eigen::MatrixXd& bent) {
+    const auto n = static_cast<Eigen::Index>(members_.size());
+    Eigen::VectorXd normal(n), lacking(n), cosine(n), share(n), stiff(n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const Member& m = members_[static_cast<std::size_t>(k)];
+      normal(k) = m.normal;
+      cosine(k) = std::cos(m.contact().angle);
+      lacking(k) = (descent - m.below) * cosine(k) - m.approach;
+      share(k) = m.loaded() ? m.vertical() / m.normal : 0.0;
+      stiff(k) = stiffness(m);
+    }
+    lacking -= bent * normal;
+    const Eigen::MatrixXd system = Eigen::MatrixXd::Identity(n, n) + stiff.asDiagonal() * bent;
+    const Eigen::PartialPivLU<Eigen::MatrixXd> solver(system);
+    const Eigen::VectorXd as_is = solver.solve(stiff.cwiseProduct(lacking)),
+                          by_descent = solver.solve(stiff.cwiseProduct(cosine));
+    const double rise = std::max(share.dot(by_descent), 0.1 * cosine.dot(by_descent)),
+                 wanted = (weight_ - vertical() - share.dot(as_is)) / rise,
+                 step = std::clamp(wanted, -0.5 * descent, descent);
+    for (Eigen::Index k = 0; k < n; ++k)
+      members_[static_cast<std::size_t>(k)].expected = std::max(0.0, normal(k) + as_is(k) + step * by_descent(k));
+    return step;
   }
 
   /// Where Hertz's contacts without friction bear the weight.
@@ -249,6 +289,7 @@ class WheelOnPatches {
       for (Member& m : members_) {
         m.approach = (descent - m.below) * std::cos(m.contact().angle);
         m.normal = m.loaded() ? weight_ * std::pow(m.approach / m.estimate.approach, 1.5) : 0.0;
+        m.expected = m.normal;
         sum += m.normal * std::cos(m.contact().angle);
       }
       return sum;
@@ -263,37 +304,35 @@ class WheelOnPatches {
     return high;
   }
 
-  /// Solves all patches at a descent, with the depressions of the normal forces before. Returns the largest change of
-  /// one of these, N.
-  double solve_at(double descent) {
-    for (Member& m : members_) {
+  /// Solves all patches at a descent, with the depressions of the normal forces that are expected. Returns by how much
+  /// one of these was missed at most, N.
+  double solve_at(double descent, const Eigen::MatrixXd& bent) {
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+      Member& m = members_[k];
+      m.approach_before = m.approach;
+      m.normal_before = m.normal;
       m.approach = (descent - m.below) * std::cos(m.contact().angle);
-      const Vec3 centre = m.on_rail().centre();
-      for (const Member& other : members_)
-        if (&other != &m && other.normal > 0)
-          m.approach -= std::cos(m.contact().angle - other.contact().angle) * other.on_rail().at(centre, 1, modulus_);
-    }
-    std::vector<double> before;
-    for (Member& m : members_) {
-      before.push_back(m.normal);
+      for (std::size_t j = 0; j < members_.size(); ++j)
+        m.approach -= bent(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(j)) * members_[j].expected;
       if (m.loaded()) lay_grid(m);
     }
     balance_traction();
     double moved = 0;
-    for (std::size_t k = 0; k < members_.size(); ++k) {
-      Member& m = members_[k];
+    for (Member& m : members_) {
       m.normal = m.loaded() ? m.solution.normal.load : 0.0;
-      moved = std::max(moved, std::abs(m.normal - before[k]));
+      moved = std::max(moved, std::abs(m.normal - m.expected));
     }
     return moved;
   }
 
-  /// A patch smaller than ten cells gets smaller ones.
+  /// A patch smaller than ten cells gets smaller ones, as far as its longer semi-axis has no more than fifty.
   void lay_grid(Member& m) {
     if (m.approach < 2 * m.laid_for && m.approach > 0.5 * m.laid_for) return;
     BemOptions own = options_;
-    const double semi_axis = std::min(m.estimate.a, m.estimate.b) * std::sqrt(m.approach / m.estimate.approach);
-    own.cell = std::clamp(0.15 * semi_axis, std::min(kSmallestCell, options_.cell), options_.cell);
+    const double scale = std::sqrt(m.approach / m.estimate.approach),
+                 shorter = scale * std::min(m.estimate.a, m.estimate.b),
+                 longer = scale * std::max(m.estimate.a, m.estimate.b);
+    own.cell = std::min(options_.cell, std::max({0.15 * shorter, 0.02 * longer, kSmallestCell}));
     m.patch = make_case_patch(spec_, m.placement, own, {.load = {}, .approach = m.approach}, m.room);
     m.laid_for = m.approach;
     m.solution = {};

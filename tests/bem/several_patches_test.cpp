@@ -122,7 +122,7 @@ TEST(SeveralPatches, TheSecondStartsFromNoLoad) {
   for (double cant = 0; cant < 6e-3; cant += 0.25e-3) {
     const BemResult r = solve_bem(spec, two_crowns(cant, 0), coarse());
     const double second = r.further.empty() ? 0.0 : r.further[0].force.normal / static_load(spec);
-    EXPECT_LT(second, previous + 1e-9) << cant;
+    EXPECT_LT(second, previous + 1e-6) << cant;
     EXPECT_GT(second, previous - 0.09) << cant;
     EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-5) << cant;
     if (second == 0 && previous > 0) {
@@ -173,12 +173,12 @@ TEST(SeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
   options.cell = 1e-3;
   double previous = 0, first = 0;
   int shared = 0;
-  for (double shift = 9.43e-3; shift < 9.925e-3; shift += 0.03e-3) {
+  for (double shift = 9.43e-3; shift < 9.935e-3; shift += 0.05e-3) {
     spec.geometry.lateral_shift = shift;
     const BemResult r = solve_bem(spec, place(spec, {}), options);
     const double load = flange_load(spec, r);
     EXPECT_GT(load, previous - 1e-9) << shift;
-    EXPECT_LT(load, previous + 0.12) << shift;
+    EXPECT_LT(load, previous + 0.18) << shift;
     if (!r.further.empty()) {
       ++shared;
       EXPECT_NEAR(-force_on_rail(r).z / static_load(spec), 1, 1e-6) << shift;
@@ -187,7 +187,7 @@ TEST(SeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
     }
     previous = load;
   }
-  EXPECT_GE(shared, 12);
+  EXPECT_GE(shared, 8);
   EXPECT_LT(first, 0.03) << "it begins with no load";
   EXPECT_GT(previous, 1) << "and bears all in the end";
 }
