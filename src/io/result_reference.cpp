@@ -126,6 +126,14 @@ std::string check_rows(CheckKind kind, std::string_view text, Cells&& cells) {
   return out;
 }
 
+constexpr std::string_view kSeveralPatches =
+    "\nWhere the wheel touches at several places (half-spaces), `contact` has the numbers of the patch with the "
+    "largest "
+    "pressure,\nbut `F_x_N`, `F_y_N` and `F_z_N` of all, and `patches` lists every patch, that one first: the keys of "
+    "`contact`, and\n`y_m`, `rail_y_m`, `wheel_y_m` of its rigid contact point in the model's and in each profile's "
+    "own "
+    "frame. Stresses are\nthose below the first.\n";
+
 std::string checks_markdown() {
   return check_rows(
              CheckKind::run,
@@ -167,7 +175,7 @@ std::string results_reference_markdown() {
       numbers_markdown("");
   for (const std::string_view group : {"contact", "energy", "run"}) {
     out += fmt::format("\n## {}\n", group) + numbers_markdown(group);
-    if (group == "contact") out += stress_markdown();
+    if (group == "contact") out += std::string(kSeveralPatches) + stress_markdown();
   }
   return out + checks_markdown();
 }

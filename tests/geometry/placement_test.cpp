@@ -163,6 +163,48 @@ TEST(Placement, of_equal_gaps_the_one_nearest_the_tape_circle_is_taken) {
   EXPECT_EQ(c.wheel_offset_z, 0);
 }
 
+/// Two crowns of R = 100 mm at y = -12 and 12 mm with a hollow of the same radius between them.
+Profile two_crowns() {
+  constexpr double kR = 100 * mm, kC = 12 * mm;
+  const double h = std::sqrt(4 * kR * kR - kC * kC) - kR, join = 0.5 * (h - kR),
+               end = std::sqrt(kR * kR - 100 * mm * mm) - kR;
+  return Profile::from_segments(ProfileKind::rail, "two crowns",
+                                {{{-22 * mm, end}, {-6 * mm, join}, {-kC, -kR}, kR},
+                                 {{-6 * mm, join}, {6 * mm, join}, {0, h}, kR},
+                                 {{6 * mm, join}, {22 * mm, end}, {kC, -kR}, kR}});
+}
+
+// A cylinder on two crowns, one of which stands lower by h = 24 mm sin(cant): lowered by h it touches there too; the
+// ridge of the gap lies in the middle of the hollow, sqrt(4 R² - c²) - 2 R above the line of the crowns' tops.
+TEST(Placement, further_contacts_are_those_of_the_lowered_wheel) {
+  TrackGeometry track = upright();
+  track.cant = 1e-3;
+  const Profile crowns = two_crowns(), cylinder = wheel("flat");
+  const RigidContact first = place_wheel(cylinder, crowns, track);
+  const double lower = 24 * mm * std::sin(std::atan(track.cant));
+  EXPECT_TRUE(further_contacts(cylinder, crowns, track, first, 0.99 * lower).empty());
+  const auto further = further_contacts(cylinder, crowns, track, first, 1.01 * lower);
+  ASSERT_EQ(further.size(), 1U);
+  const RigidContact& other = further[0];
+  EXPECT_NEAR(first.axle_height - other.axle_height, lower, 1e-12);
+  EXPECT_NEAR(std::abs(first.point.y - other.point.y), 24 * mm * std::cos(std::atan(track.cant)), 1e-9);
+  EXPECT_NEAR(first.point.z - other.point.z, lower, 1e-12);
+  EXPECT_NEAR(other.angle, 0, 1e-9);
+  EXPECT_EQ(other.rolling_radius, first.rolling_radius);
+  const Ridge ridge = ridge_between(cylinder, crowns, track, first, other);
+  EXPECT_NEAR(ridge.rail_s, 0, 0.15 * mm) << "tilted by the cant and sampled by 0.05 mm";
+  const double depth = 2 * 0.1 - std::sqrt(0.04 - 144 * mm * mm);
+  EXPECT_NEAR(ridge.gap + first.wheel_offset_z, depth + 0.5 * lower, 1e-6);
+}
+
+TEST(Placement, a_wheel_on_its_tread_touches_nowhere_else) {
+  TrackGeometry track;
+  const Profile lma = wheel("LMA"), cn60 = rail("CN60");
+  EXPECT_TRUE(further_contacts(lma, cn60, track, place_wheel(lma, cn60, track), 0.2 * mm).empty());
+  const Profile plane = wheel("flat"), flat = rail("flat");  // equal everywhere: one place, not a thousand
+  EXPECT_TRUE(further_contacts(plane, flat, upright(), place_wheel(plane, flat, upright()), 0.2 * mm).empty());
+}
+
 TEST(Placement, rail_and_model_frame_invert_each_other) {
   TrackGeometry track;
   const Vec2 p{0.013, -0.027}, back = model_to_rail(track, rail_to_model(track, p));
