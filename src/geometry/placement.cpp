@@ -282,7 +282,7 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
 }
 
 Ridge ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
-                     const RigidContact& b) {
+                    const RigidContact& b) {
   const Samples samples = sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), rail);
   const std::size_t i = ridge_sample(samples, sample_near(samples, a.rail_s), sample_near(samples, b.rail_s));
   return {samples.s[i], samples.gap[i]};

@@ -70,6 +70,6 @@ struct Ridge {
   double rail_s = 0, gap = 0;
 };
 Ridge ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
-                     const RigidContact& b);
+                    const RigidContact& b);
 
 }  // namespace railstrata

@@ -127,12 +127,10 @@ std::string check_rows(CheckKind kind, std::string_view text, Cells&& cells) {
 }
 
 constexpr std::string_view kSeveralPatches =
-    "\nWhere the wheel touches at several places (half-spaces), `contact` has the numbers of the patch with the "
-    "largest "
-    "pressure,\nbut `F_x_N`, `F_y_N` and `F_z_N` of all, and `patches` lists every patch, that one first: the keys of "
-    "`contact`, and\n`y_m`, `rail_y_m`, `wheel_y_m` of its rigid contact point in the model's and in each profile's "
-    "own "
-    "frame. Stresses are\nthose below the first.\n";
+    "\nWhere the wheel touches at several places (half-spaces), `contact` has the numbers of the patch with the\n"
+    "largest pressure, but `F_x_N`, `F_y_N` and `F_z_N` of all, and `patches` lists every patch, that one first: the\n"
+    "keys of `contact`, and `y_m`, `rail_y_m`, `wheel_y_m` of its rigid contact point in the model's and in each\n"
+    "profile's own frame. Stresses are those below the first.\n";
 
 std::string checks_markdown() {
   return check_rows(
