@@ -187,7 +187,7 @@ class WheelOnPatches {
                     "lower drive.friction_coefficient, or check lateral_shift and the profiles");
   }
 
-  /// Two patches that have grown together at the ridge between them.
+  /// Two patches of which one reaches the ridge between them.
   std::optional<std::pair<std::size_t, std::size_t>> merged() const {
     for (std::size_t k = 0; k < members_.size(); ++k) {
       const Member& m = members_[k];

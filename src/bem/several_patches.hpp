@@ -36,8 +36,8 @@ struct SharedLoad {
 
 /// Looks for contacts beside a first one that was solved alone under the whole load, where its approach is `approach`
 /// [m], and shares the load if there are.
-/// Patches that grow together become one, in the plane of the one that touches first. Throws CaseError: a lateral force
-/// is given, traction above friction, friction that bears the weight (a wedged wheel).
+/// Patches that reach the ridge between them become one, in the plane of the one that touches first. Throws CaseError:
+/// a lateral force is given, traction above friction, friction that bears the weight (a wedged wheel).
 SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options);
 
 /// By how much the other patches bend the surfaces over one patch, of the contact's own smaller curvature kappa:

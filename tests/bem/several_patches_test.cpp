@@ -192,6 +192,31 @@ TEST(SeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
   EXPECT_GT(previous, 1) << "and bears all in the end";
 }
 
+// UIC60 inclined by 1:40: solved apart, the patch in the flange's root at 17 degrees and that on the gauge corner at 7
+// both reach the ridge between them.
+TEST(SeveralPatches, PatchesThatReachTheRidgeBetweenThemAreOneInThePlaneOfTheFirst) {
+  CaseSpec spec = driven(0);
+  spec.geometry.rail_profile = "UIC60";
+  spec.geometry.wheel_profile = "S1002";
+  spec.geometry.gauge_depth = 14e-3;
+  spec.geometry.lateral_shift = 8.7e-3;
+  const Placement p = place(spec, {});
+  const BemResult r = solve_bem(spec, p, coarse());
+  const auto further = further_contacts(p.wheel, p.rail, p.track, p.contact, r.approach / std::cos(p.contact.angle));
+  const auto aslant = std::find_if(further.begin(), further.end(), [&](const RigidContact& c) {
+    return std::abs(c.angle - p.contact.angle) > kAngleOfOnePlane;
+  });
+  ASSERT_NE(aslant, further.end());
+  EXPECT_TRUE(r.further.empty());
+  EXPECT_EQ(r.contact.rail_s, p.contact.rail_s);
+  for (const RigidContact& c : {p.contact, *aslant}) {
+    double most = 0;
+    for (std::size_t k = 0; k < r.field.p.size(); ++k)
+      if (std::abs(r.field.y[k] - c.point.y) < 1e-3) most = std::max(most, r.field.p[k]);
+    EXPECT_GT(most, 0.2 * r.patch.p_max) << c.angle;
+  }
+}
+
 TEST(SeveralPatches, ALateralForceInOneOfTwoPlanesIsRefused) {
   CaseSpec spec = driven(0);
   spec.drive.lateral_traction_coefficient = 0.05;

@@ -232,6 +232,16 @@ TEST(ReportPayload, PacksAMapToSixteenBitsOfItsRange) {
   EXPECT_EQ(patch["p"]["u16"], base64_of(bytes));
 }
 
+TEST(ReportPayload, HasAMapForEveryPatch) {
+  Report report;
+  report.runs.push_back(sample("bem"));
+  EXPECT_EQ(report_payload(report)["runs"][0]["further_patches"], Json::array());
+  report.runs[0].result.further.push_back(report.runs[0].result.field);
+  const Json run = report_payload(report)["runs"][0];
+  ASSERT_EQ(run["further_patches"].size(), 1U);
+  EXPECT_EQ(run["further_patches"][0], run["patch"]);
+}
+
 TEST(ReportPayload, CarriesTablesAndChartsOfAStudy) {
   Report report;
   report.tables.push_back({"trend", "Trend", "a note", {"h", "p_max"}, {{"1 mm", 1100.0}, {"2 mm", nullptr}}});
