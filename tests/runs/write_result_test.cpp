@@ -108,13 +108,18 @@ TEST_F(WriteResult, ACheckpointThatCannotBeWrittenIsAWarningUnlessTheRunStops) {
   EXPECT_THROW(solve_fem(system, observer, options), EnvironmentError);
 }
 
-TEST_F(WriteResult, AHalfSpaceSolutionHasTheFilesOfAPosition) {
-  const LoadedCase loaded = run_checks::small_case();
+/// The half-space solution of a case, written into the folder.
+HalfSpaceSolution written(const LoadedCase& loaded, double cell, const fs::path& folder) {
   const Placement placement = place(loaded.spec, ".");
   BemOptions options;
-  options.cell = 0.5e-3;
-  const HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, options);
+  options.cell = cell;
+  HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, options);
   write_half_space_result(folder, {"a case"}, loaded.spec, placement, solution);
+  return solution;
+}
+
+TEST_F(WriteResult, AHalfSpaceSolutionHasTheFilesOfAPosition) {
+  const HalfSpaceSolution solution = written(run_checks::small_case(), 0.5e-3, folder);
   EXPECT_EQ(names_in(folder), kPosition);
   EXPECT_EQ(read_result_folder(folder).number("/contact/p_max_Pa"), solution.summary.contact.patch.p_max);
   EXPECT_EQ(read_csv(folder / "patch.csv").columns[0].name, "x_mm") << "one patch needs no number";
@@ -125,11 +130,7 @@ TEST_F(WriteResult, SeveralPatchesAreWrittenAndReadOneAfterTheOther) {
       "[geometry]\nrail_profile = \"UIC60\"\nwheel_profile = \"S1002\"\ncant = 0.05\ngauge_depth = \"14 mm\"\n"
       "lateral_shift = \"9.6 mm\"\n[drive]\ntraction_coefficient = 0.02\n",
       "two.toml");
-  const Placement placement = place(loaded.spec, ".");
-  BemOptions options;
-  options.cell = 1e-3;
-  const HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, options);
-  write_half_space_result(folder, {"a case"}, loaded.spec, placement, solution);
+  const HalfSpaceSolution solution = written(loaded, 1e-3, folder);
   EXPECT_EQ(names_in(folder), kPosition);
   const ResultFolder read = read_result_folder(folder);
   ASSERT_EQ(read.further.size(), 1U);
