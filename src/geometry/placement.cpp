@@ -271,7 +271,8 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
   std::vector<RigidContact> out;
   for (const std::size_t i : lowest_samples(samples, descent - first.wheel_offset_z)) {
     const bool own = std::all_of(places.begin(), places.end(), [&](std::size_t place) {
-      return samples.gap[ridge_sample(samples, i, place)] > samples.gap[i] + kRidge;
+      const std::size_t apart = std::max(i, place) - std::min(i, place);
+      return apart > 1 && samples.gap[ridge_sample(samples, i, place)] > samples.gap[i] + kRidge;
     });
     if (!own) continue;
     places.push_back(i);

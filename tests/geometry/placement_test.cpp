@@ -203,6 +203,14 @@ TEST(Placement, a_wheel_on_its_tread_touches_nowhere_else) {
   EXPECT_TRUE(further_contacts(lma, cn60, track, place_wheel(lma, cn60, track), 0.2 * mm).empty());
   const Profile plane = wheel("flat"), flat = rail("flat");  // equal everywhere: one place, not a thousand
   EXPECT_TRUE(further_contacts(plane, flat, upright(), place_wheel(plane, flat, upright()), 0.2 * mm).empty());
+  for (int i = 0; i < 20; ++i) {  // a crown so sharp that the gap rises by more than a micrometre between two samples
+    TrackGeometry track_of_edge = upright();
+    track_of_edge.cant = 0.003 * i;
+    const Profile sharp = circular_profile(ProfileKind::rail, 0.5 * mm);
+    EXPECT_TRUE(
+        further_contacts(plane, sharp, track_of_edge, place_wheel(plane, sharp, track_of_edge), 0.1 * mm).empty())
+        << i;
+  }
 }
 
 TEST(Placement, rail_and_model_frame_invert_each_other) {
