@@ -124,7 +124,7 @@ std::vector<Option> track_options() {
       {"yaw",
        at<&C::geometry, &G::yaw>,
        "Angle of attack: the wheel's rolling direction, turned about the vertical through the middle of its tape "
-       "circle, positive towards the field side; half-space engine",
+       "circle, positive towards the field side",
        kSlope,
        {-0.05, 0.05}},
       {"curve_radius",
@@ -288,7 +288,7 @@ OptionTable vehicle_table() {
       {{"sprung_mass", "wheel_load", "axle_load"}}};
 }
 
-/// Only the half-space engine has these (case/engine_scope.hpp).
+/// Not all of them are in both engines (case/engine_scope.hpp).
 std::vector<Option> creepage_options() {
   return {{"creepage",
            at<&C::drive, &D::creepage>,
@@ -309,12 +309,14 @@ std::vector<Option> creepage_options() {
            {-1, 1}},
           {"lateral_creepage",
            at<&C::drive, &D::lateral_creepage>,
-           "Along the contact plane, positive where the wheel slips towards the field side",
+           "Along the contact plane, positive where the wheel slips towards the field side; finite elements: the wheel moves "
+           "sideways on its way",
            kNumber,
            {-10, 10}},
           {"spin",
            at<&C::drive, &D::spin>,
-           "About the normal of the contact plane, over V, positive from the rolling direction towards the field side",
+           "About the normal of the contact plane, over V, positive from the rolling direction towards the field side; "
+           "half-space engine",
            kSpin,
            {-1000, 1000}}};
 }

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <functional>
 
+#include "core/rotation.hpp"
 #include "mesh/layout.hpp"
 #include "mesh/swept.hpp"
 
@@ -23,6 +24,7 @@ struct SurfaceIndex {
 struct ContactSurface {
   SweepKind kind = SweepKind::extrude;
   Vec3 origin;
+  Rotation<double> yaw;  ///< of the body's axes about the vertical through its origin, from the model's
   int columns = 0;  ///< nodes across
   Stations stations;
   std::vector<Vec2> node;         ///< section coordinates of the surface nodes, y increasing

@@ -200,7 +200,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   const double last = spec.run.rolling ? *std::max_element(spec.run.positions.begin(), spec.run.positions.end()) : 0.0;
   m.x_end = spec.run.rolling ? last + 0.5 * spec.run.window : 0.0;
   // The fine range holds the patch and room for its search at both ends of the path.
-  const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size;
+  const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size + std::abs(contact.x);
   const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio,
                         spec.mesh.largest};
 

@@ -51,6 +51,9 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchM
   std::vector<Check> out{bem_check("F_z_relative_to_weight", std::abs(-r.force.z / load - 1))};
   if (const double wanted = spec.drive.traction().value_or(0); spec.drive.friction_coefficient > 0 && wanted != 0)
     out.push_back(bem_check("traction_coefficient_reached", std::abs(m.force_x / load / wanted - 1)));
+  if (const double wanted = spec.drive.lateral_traction_coefficient.value_or(0);
+      spec.drive.friction_coefficient > 0 && wanted != 0)
+    out.push_back(bem_check("lateral_traction_reached", std::abs(m.force_y / load / wanted - 1)));
   out.push_back(bem_check("patch_reaches_edge_of_grid", reaches_edge(r.field) ? 1 : 0));
   out.push_back(bem_check("cell_of_patch", r.grid.dy / shorter_axis(m)));
   return out;

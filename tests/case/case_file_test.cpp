@@ -661,17 +661,20 @@ TEST(CaseFile, ForcesBeyondFrictionAndTooTightCurvesAreRefused) {
 }
 
 TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
-  EXPECT_TRUE(parse_case("[vehicle]\naxle_load = \"22.5 t\"\n", "a.toml").not_in_fem.empty());
-  const LoadedCase loaded = parse_case("[geometry]\nyaw = \"5 mrad\"\n[drive]\nlateral_force = \"1 kN\"\n", "a.toml",
-                                       {"drive.creepage=-0.001"});
+  EXPECT_TRUE(parse_case("[vehicle]\naxle_load = \"22.5 t\"\n[geometry]\nyaw = \"5 mrad\"\n"
+                         "[drive]\nlateral_force = \"1 kN\"\ncreepage = -0.001\n",
+                         "a.toml")
+                  .not_in_fem.empty());
+  const LoadedCase loaded = parse_case("[geometry]\ncurve_radius = \"300 m\"\n[drive]\nlateral_creepage = 0.2\n", "a.toml",
+                                       {"drive.creepage=-0.5"});
   ASSERT_EQ(loaded.not_in_fem.size(), 3u);
-  EXPECT_EQ(loaded.not_in_fem[0].where, "a.toml:2:7");
+  EXPECT_EQ(loaded.not_in_fem[0].where, "a.toml:2:16");
   EXPECT_TRUE(loaded.not_in_fem[0].message.starts_with(
-      "yaw (geometry.yaw) is not in this engine: in the finite elements the wheel runs straight along the rail"));
-  EXPECT_EQ(loaded.not_in_fem[1].where, "--set drive.creepage=-0.001");
-  EXPECT_EQ(loaded.not_in_fem[2].where, "a.toml:3:2") << "the table of the force";
+      "a curve (geometry.curve_radius) is not in this engine: in the finite elements the track is straight"));
+  EXPECT_EQ(loaded.not_in_fem[1].where, "--set drive.creepage=-0.5");
+  EXPECT_EQ(loaded.not_in_fem[2].where, "a.toml:4:20");
   EXPECT_EQ(loaded.not_in_fem[0].remedy, "take it out, or solve the case with `railstrata bem`");
-  EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.01\n[run]\nrolling = false\n", "a.toml").not_in_fem.empty());
+  EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.5\n[run]\nrolling = false\n", "a.toml").not_in_fem.empty());
   EXPECT_THROW(require_finite_elements(loaded.spec), CaseError);
   EXPECT_NO_THROW(require_finite_elements(CaseSpec()));
 }

@@ -82,7 +82,7 @@ class HalfSpaceCommands(FromOutside):
         self.assertEqual((contact["q_max_Pa"], contact["F_x_N"]), (0, 0))
         self.assertIsNone(contact["creepage_x"])
 
-    def test_creepages_forces_and_yaw_are_the_half_spaces_alone(self):
+    def test_creepages_forces_and_yaw_drive_half_spaces(self):
         drive = ["--set", "drive.creepage=-0.001", "--set", "drive.lateral_force=-5 kN", "--set", "geometry.yaw=5 mrad",
                  "--set", "vehicle.axle_load=20 t"]
         out = self.bem("driven", *drive)
