@@ -309,7 +309,8 @@ std::vector<Option> creepage_options() {
            {-1, 1}},
           {"lateral_creepage",
            at<&C::drive, &D::lateral_creepage>,
-           "Along the contact plane, positive where the wheel slips towards the field side; finite elements: the wheel moves "
+           "Along the contact plane, positive where the wheel slips towards the field side; finite elements: the wheel "
+           "moves "
            "sideways on its way",
            kNumber,
            {-10, 10}},

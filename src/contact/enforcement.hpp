@@ -50,7 +50,7 @@ struct ContactSide {
   const SurfaceResponse* response = nullptr;  ///< if nodes answer one another; needs `nodes` then
   std::vector<SurfaceNode> nodes;
   Rotation<double> yaw{};  ///< of the body's axes; the nodes' frames are counted from these
-  int ring_stations = 0;  ///< of a surface that closes to a ring; 0: it does not
+  int ring_stations = 0;   ///< of a surface that closes to a ring; 0: it does not
 
   /// Signed number of stations from one node to another, round a ring the shorter way.
   int apart(const SurfaceNode& from, const SurfaceNode& to) const {

@@ -111,8 +111,8 @@ AxlePose MortarContact::in_wheel_axes(AxlePose pose) const {
   return {travel.x, travel.y, travel.z, pose.psi};
 }
 
-// The wheel's surface opposite a point of the rail, all in the wheel's axes. The correction takes off the tangential mismatch that the radial
-// projection had the last time.
+// The wheel's surface opposite a point of the rail, all in the wheel's axes. The correction takes off the tangential
+// mismatch that the radial projection had the last time.
 MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose, Vec3 p, Tangential correction) const {
   const Vec3 arm{p.x - wheel_.origin.x - pose.x, p.y - wheel_.origin.y - pose.y, p.z - wheel_.origin.z - pose.z};
   Hit h = facet_below(pose, arm, correction);

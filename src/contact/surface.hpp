@@ -25,7 +25,7 @@ struct ContactSurface {
   SweepKind kind = SweepKind::extrude;
   Vec3 origin;
   Rotation<double> yaw;  ///< of the body's axes about the vertical through its origin, from the model's
-  int columns = 0;  ///< nodes across
+  int columns = 0;       ///< nodes across
   Stations stations;
   std::vector<Vec2> node;         ///< section coordinates of the surface nodes, y increasing
   std::vector<Vec2> outward;      ///< unit normals there

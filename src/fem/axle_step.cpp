@@ -28,10 +28,11 @@ double advance_axle(const RollingSystem& system, const AxleLoads& loads, const A
   const SuspensionForce spring = step_suspension(v, a.z - rest_z, a.vz, dt, groups);
   const double suspension = -v.sprung_mass * system.gravity - spring.on_masses;
   const double vx = a.vx, vy = a.vy, vz = a.vz, spin = a.spin;
-  const bool keeps_pace = system.options.keeps_pace, free_sideways = system.options.lateral_force.has_value();
+  const bool keeps_pace = system.options.keeps_pace, free_sideways = system.options.free_sideways;
   const double torque = keeps_pace ? -loads.moment : drive.torque;
   if (!keeps_pace) a.vx += dt * loads.fx / axle.mass_x;
-  if (free_sideways) a.vy += dt * (loads.fy + drive.lateral) / axle.mass_z;
+  const double drift = free_sideways ? vy - system.options.lateral_speed : 0.0;
+  if (free_sideways) a.vy += dt * ((loads.fy + drive.lateral) / axle.mass_z - rate * drift);
   a.vz += dt * ((loads.fz + suspension) / axle.mass_z - system.gravity - rate * a.vz);
   a.spin += dt * (loads.moment + torque) / axle.inertia;
   a.x += dt * a.vx;
@@ -42,6 +43,7 @@ double advance_axle(const RollingSystem& system, const AxleLoads& loads, const A
   book.torque_work = std::fma(dt * torque * 0.5, spin + a.spin, book.torque_work);
   const double pull = keeps_pace ? -loads.fx : 0.0, side = free_sideways ? drive.lateral : -loads.fy;
   book.guide_work += dt * (pull * a.vx + side * 0.5 * (vy + a.vy));
+  book.damping += dt * rate * axle.mass_z * drift * 0.5 * (vy + a.vy);
   book.damping = std::fma(dt * rate * axle.mass_z * vz * 0.5, vz + a.vz, book.damping);
   double kinetic = 0.5 * (axle.mass_x * vx * a.vx + axle.mass_z * vz * a.vz + axle.inertia * spin * a.spin);
   kinetic += 0.5 * axle.mass_z * vy * a.vy;

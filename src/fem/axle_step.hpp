@@ -19,16 +19,16 @@ struct AxleMotion {
 /// Forces on the axle from the bore and about it from the ties' offsets, model frame.
 struct AxleLoads {
   double fx = 0, fy = 0, fz = 0;  ///< N
-  double moment = 0;      ///< N m, positive rolling forward
+  double moment = 0;              ///< N m, positive rolling forward
 };
 
 /// Smooth rise from 0 to 1 over [0, 1] with zero slope at both ends.
 inline double smooth_rise(double t) { return t <= 0 ? 0 : t >= 1 ? 1 : t * t * (3 - 2 * t); }
 
-/// Share of the drive's forces at `time` [s].
-inline double drive_share(const RollingSystem& system, double time) {
+/// Drive torque at `time` [s], N m.
+inline double drive_torque(const RollingSystem& system, double time) {
   const double ramp = system.options.torque_ramp;
-  return ramp > 0 ? smooth_rise(time / ramp) : 1.0;
+  return ramp > 0 ? system.torque * smooth_rise(time / ramp) : system.torque;
 }
 
 /// Forces that drive the axle.
@@ -42,9 +42,10 @@ struct AxleDrive {
 AxleLoads bore_loads(const Axle& axle, const Field& f_wheel, Rotation<double> drift, double tie_moment,
                      const ReferenceFrame& frame);
 
-/// One central-difference step; rest_z: height of the axle in static equilibrium [m]. Where the creepage is given, speed
-/// and spin stay as they are; where the axle is not free sideways, its lateral speed does. Adds the work of torque and
-/// guides and the losses to the book and returns the kinetic energy of axle and sprung mass, v(n-1/2) v(n+1/2)/2 [J].
+/// One central-difference step; rest_z: height of the axle in static equilibrium [m]. Where the creepage is given,
+/// speed and spin stay as they are; where the axle is not free sideways, its lateral speed does. Adds the work of
+/// torque and guides and the losses to the book and returns the kinetic energy of axle and sprung mass, v(n-1/2)
+/// v(n+1/2)/2 [J].
 double advance_axle(const RollingSystem& system, const AxleLoads& loads, const AxleDrive& drive, double rest_z,
                     const StepScope& scope, AxleMotion& axle, std::vector<MassGroup>& groups, EnergyBalance& book);
 

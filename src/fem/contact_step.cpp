@@ -71,7 +71,7 @@ void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b
     side.before.push_back(frame.velocity() + frame.to_model(frame.step_back(w + frame.rigid_rate(arm))));
     Vec3 a = free_acceleration(b, state, scope.gravity, i);
     if (scope.damping_rate > 0) {
-      const Vec3 mean{b.mean.x + b.mean.spin * arm.z, b.mean.y, b.mean.z - b.mean.spin * arm.x};
+      const Vec3 mean{b.mean.x + b.mean.spin * arm.z, 0, b.mean.z - b.mean.spin * arm.x};
       a = fused(-scope.damping_rate, frame.to_model(frame.step_back(w - mean)), a);
     }
     side.velocity.push_back(fused(scope.dt, a, side.before.back()));

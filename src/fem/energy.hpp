@@ -25,7 +25,8 @@ struct EnergyBalance {
 /// Work and losses are summed over whole steps; the moment between two steps has half of the one that follows.
 inline EnergyBalance halfway(const EnergyBalance& before, EnergyBalance now) {
   using E = EnergyBalance;
-  for (double E::*sum : {&E::torque_work, &E::guide_work, &E::friction, &E::contact_normal, &E::damping, &E::absorbed, &E::dashpot})
+  for (double E::*sum :
+       {&E::torque_work, &E::guide_work, &E::friction, &E::contact_normal, &E::damping, &E::absorbed, &E::dashpot})
     now.*sum = 0.5 * (before.*sum + now.*sum);
   return now;
 }

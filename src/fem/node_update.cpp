@@ -58,7 +58,6 @@ inline PlaneAndLateral run_up_damping(double rate, const MeanMotion& mean, Rotat
   double rx = rate * wx, ry = rate * wy, rz = rate * wz;
   if constexpr (turning) {
     rx -= rate * (mean.x + mean.spin * radius * cosine);
-    ry -= rate * mean.y;
     rz -= rate * (mean.z + mean.spin * radius * sine);
     const double r = rx;
     rx = step.c * r - step.s * rz;
@@ -80,14 +79,14 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
   const double push = turning ? frame.centrifugal * radius : 0.0;
   const double gx = turning ? frame.turn.s * scope.gravity : 0.0;
   const double gz = turning ? -frame.turn.c * scope.gravity : -scope.gravity;
-  double twice_kinetic = 0, power = 0, px = 0, py = 0, pz = 0, angular = 0;
+  double twice_kinetic = 0, power = 0, px = 0, pz = 0, angular = 0;
   RAILSTRATA_INDEPENDENT
   for (int j = begin; j < end; ++j) {
     const double m = n.inverse_mass[j];
     const double wx = n.vx[j], wy = n.vy[j], wz = n.vz[j];
     double ax = gx - m * n.fx[j], ay = -m * n.fy[j], az = gz - m * n.fz[j];
-    double bx = wx, bz = wz;  // before, in the frame of this step
-    [[maybe_unused]] PlaneAndLateral damped{};
+    double bx = wx, bz = wz;               // before, in the frame of this step
+    [[maybe_unused]] PlaneAndLateral d{};  // run-up damping
     if constexpr (turning) {
       ax -= push * n.sine[j];
       az += push * n.cosine[j];
@@ -95,11 +94,11 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
       bz = sd * wx + cd * wz;
     }
     if constexpr (measured) {
-      damped = run_up_damping<turning>(rate, mean, frame.step, radius, turning ? n.cosine[j] : 1.0,
-                                       turning ? n.sine[j] : 0.0, wx, wy, wz);
-      ax -= damped.x;
-      ay -= damped.y;
-      az -= damped.z;
+      d = run_up_damping<turning>(rate, mean, frame.step, radius, turning ? n.cosine[j] : 1.0,
+                                  turning ? n.sine[j] : 0.0, wx, wy, wz);
+      ax -= d.x;
+      ay -= d.y;
+      az -= d.z;
     }
     const double qx = bx + dt * ax, qy = wy + dt * ay, qz = bz + dt * az;
     n.vx[j] = qx;
@@ -121,16 +120,14 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
         after_y += rigid.y;
         after_z += rigid.after_z;
         px += mass * qx;
-        py += mass * qy;
         pz += mass * qz;
         angular += mass * radius * (n.cosine[j] * qx + n.sine[j] * qz);
       }
       twice_kinetic += mass * (before_x * after_x + before_y * after_y + before_z * after_z);
-      power += 0.5 * mass *
-               (damped.x * (before_x + after_x) + damped.y * (before_y + after_y) + damped.z * (before_z + after_z));
+      power += 0.5 * mass * (d.x * (before_x + after_x) + d.y * (before_y + after_y) + d.z * (before_z + after_z));
     }
   }
-  if constexpr (measured) sums += {0.5 * twice_kinetic, power, px, py, pz, angular};
+  if constexpr (measured) sums += {0.5 * twice_kinetic, power, px, pz, angular};
 }
 
 void advance(RollingBody& b, BodyState& state, const StepScope& scope, SectionNode node, int begin, int end,

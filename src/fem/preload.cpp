@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -67,8 +68,9 @@ class Preload {
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
-      tractions_.at(row.column, row.station) = {pressure_[k], 0, 0, 0, 0};
-      out.contact_force += (row.area * pressure_[k]) * row.normal;
+      const NodeTraction t{pressure_[k], 0, friction_ratio() * pressure_[k], 0, 0};
+      tractions_.at(row.column, row.station) = t;
+      out.contact_force -= row.area * traction_vector(t, row.normal);
     }
     out.tractions = tractions_;
     return out;
@@ -174,6 +176,33 @@ class Preload {
     }
   }
 
+  // Lateral friction of the pressures, over them.
+  double friction_ratio() const {
+    if (sys_.options.lateral_friction == 0) return 0;
+    double normal = 0;
+    for (std::size_t k = 0; k < rows_->rows.size(); ++k) normal += rows_->rows[k].area * pressure_[k];
+    return std::clamp(sys_.options.lateral_friction / std::max(normal, std::abs(sys_.options.lateral_friction)),
+                      -sys_.options.contact.friction_coefficient, sys_.options.contact.friction_coefficient);
+  }
+  // It is a load of the step, not a part of its stiffness: pressures hardly know it.
+  void apply_lateral_friction(StaticVector& f) const {
+    const double ratio = friction_ratio();
+    if (ratio == 0) return;
+    for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
+      const ContactRow& row = rows_->rows[k];
+      const Vec3 on_rail = (row.area * ratio * pressure_[k]) * tangent_frame(row.normal).t2;
+      const Vec3 on_wheel = -yaw_back(sys_.wheel_surface().yaw, on_rail);
+      add_force(f.body[kRail], row.rail, sys_.rail_surface().stride, on_rail);
+      for (int w = row.first; w < row.first + row.count; ++w)
+        add_force(f.body[kWheel], rows_->weights[w].wheel, sys_.wheel_surface().stride, rows_->weights[w].m * on_wheel);
+    }
+  }
+  static void add_force(Field& f, std::ptrdiff_t x, int stride, Vec3 force) {
+    f[x] += force.x;
+    f[x + stride] += force.y;
+    f[x + 2 * stride] += force.z;
+  }
+
   // Forces on constrained nodes go to what carries them.
   void reduce(StaticVector& f) const {
     for (std::size_t k = 0; k < f.body.size(); ++k) sys_.bodies[k].ties.apply_transpose(f.body[k]);
@@ -198,6 +227,7 @@ class Preload {
     }
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
       if (pressure_[k] > 0) apply_pressure(k, pressure_[k], r);
+    apply_lateral_friction(r);
     reduce(r);
     add(r, 1.0, loads());
     return r;

@@ -1,17 +1,17 @@
 #pragma once
-// Uniform travel and turn, which a body's displacements are followed in (fem/stepper.hpp). The turn is about the lateral
-// axis of the body's own axes; those stand at the yaw to the model's and travel with the frame. A frame without speed,
-// spin and yaw is the model frame: every function then returns its argument to the last bit.
+// Uniform travel and turn, which a body's displacements are followed in (fem/stepper.hpp). The turn is about the
+// lateral axis of the body's own axes; those stand at the yaw to the model's and travel with the frame. A frame without
+// speed, spin and yaw is the model frame: every function then returns its argument to the last bit.
 #include "core/rotation.hpp"
 
 namespace railstrata {
 
 struct ReferenceFrame {
-  double speed = 0;          ///< m/s, along the rail
-  double lateral_speed = 0;  ///< m/s
-  double spin = 0;           ///< rad/s, positive rolling forward
-  double x = 0, y = 0;       ///< m travelled
-  double psi = 0;            ///< rad turned
+  double speed = 0;           ///< m/s, along the rail
+  double lateral_speed = 0;   ///< m/s
+  double spin = 0;            ///< rad/s, positive rolling forward
+  double x = 0, y = 0;        ///< m travelled
+  double psi = 0;             ///< rad turned
   Rotation<double> yaw_turn;  ///< from the body's axes to the model's
   Rotation<double> turn;
   Rotation<double> step;   ///< of one time step

@@ -187,18 +187,14 @@ MeanMotion mean_motion(const RollingBody& b, const UpdateSums& sums) {
   // the mean travel along the wheel and the mean spin, not the vertical motion
   const double travel = (b.frame.turn.c * sums.momentum_x + b.frame.turn.s * sums.momentum_z) / b.free_mass;
   const Vec3 in_frame = rotate_back(b.frame.turn, {travel, 0, 0});
-  const double sideways = b.free_sideways ? sums.momentum_y / b.free_mass : 0.0;
-  return {in_frame.x, sideways, in_frame.z, sums.angular / b.free_inertia};
+  return {in_frame.x, in_frame.z, sums.angular / b.free_inertia};
 }
 
 MeanMotion mean_motion(const RollingBody& b, const BodyState& state) {
   if (!b.turns()) return {};
   UpdateSums all;
   for (const NodeLine& l : b.body.lines) {
-    if (l.component == 1) {
-      for (int j = 0; j < l.count; ++j) all.momentum_y += b.body.mass[l.first + j] * state.v[l.first + j];
-      continue;
-    }
+    if (l.component == 1) continue;
     const double z = line_radius(b.body, l.block, l.node);
     const std::vector<double>& turn = (l.component == 0 ? b.cos_node : b.sin_node)[l.block];
     for (int j = 0; j < l.count; ++j) {

@@ -12,13 +12,11 @@ namespace railstrata {
 /// What an update adds up.
 struct UpdateSums {
   double kinetic = 0, damping = 0;                     ///< J, W
-  double momentum_x = 0, momentum_y = 0, momentum_z = 0,
-         angular = 0;  ///< of the velocities in the frame; revolved bodies only
+  double momentum_x = 0, momentum_z = 0, angular = 0;  ///< of the velocities in the frame; revolved bodies only
   UpdateSums& operator+=(const UpdateSums& o) {
     kinetic += o.kinetic;
     damping += o.damping;
     momentum_x += o.momentum_x;
-    momentum_y += o.momentum_y;
     momentum_z += o.momentum_z;
     angular += o.angular;
     return *this;
@@ -26,9 +24,8 @@ struct UpdateSums {
 };
 
 /// Mean motion of a revolved body's free nodes relative to its frame, in its components; the run-up damping spares it.
-/// The lateral one is zero unless the axle is free sideways.
 struct MeanMotion {
-  double x = 0, y = 0, z = 0, spin = 0;
+  double x = 0, z = 0, spin = 0;
 };
 
 /// When a body's nodes are updated: as soon as their forces are complete, or after the contact.
@@ -53,7 +50,6 @@ struct RollingBody {
   Traversal elements;
   UpdateSchedule schedule;
   MeanMotion mean;
-  bool free_sideways = false;  ///< nothing guides its axle laterally
   std::vector<std::vector<double>> cos_node, sin_node;  ///< of the station angles, per block; 1 and 0 if extruded
   double free_mass = 0, free_inertia = 0;               ///< kg, kg m², of the free nodes of a revolved body
   Field surface_u;          ///< m, of a revolved body: displacements in the model frame, valid on the surface lines

@@ -244,8 +244,7 @@ PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& pre
   const Field rail = initial_history(sys.rail()), wheel = initial_history(sys.wheel());
   const Field u_wheel = yawed_displacement(sys.wheel(), sys.wheel_surface().yaw, preload.u[kWheel]);
   const AxlePose pose{0, 0, preload.axle_z, 0};
-  PositionSamples still{
-      0.0, {take_sample(sys, {preload.u[kRail], rail}, {u_wheel, wheel}, preload.tractions, pose)}};
+  PositionSamples still{0.0, {take_sample(sys, {preload.u[kRail], rail}, {u_wheel, wheel}, preload.tractions, pose)}};
   RollingSample& sample = still.samples.front();
   sample.axle.z = preload.axle_z;
   const Vec3 force = preload.contact_force;

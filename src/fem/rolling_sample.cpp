@@ -127,8 +127,8 @@ RollingSample take_sample(const Stepper& st) {
   const RollingState& state = st.state();
   const BodyState &rail = state.bodies[kRail], &wheel = state.bodies[kWheel];
   const Field u_wheel = st.displacement(BodyId::wheel);
-  RollingSample s = take_sample(st.system(), {rail.u, rail.history}, {u_wheel, wheel.history}, state.tractions,
-                                state.axle.pose());
+  RollingSample s =
+      take_sample(st.system(), {rail.u, rail.history}, {u_wheel, wheel.history}, state.tractions, state.axle.pose());
   s.time = state.time;
   s.axle = state.axle;
   s.forces = st.forces();
@@ -141,7 +141,8 @@ HistoryRow history_row(const Stepper& st, const EnergyBalance& start) {
   const RollingState& s = st.state();
   const EnergyBalance& now = st.energy();
   return {s.time,    st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(),
-          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total(), st.lateral_creepage(), s.axle.y};
+          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total(),   st.lateral_creepage(),
+          s.axle.y};
 }
 
 }  // namespace railstrata

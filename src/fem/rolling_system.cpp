@@ -7,6 +7,7 @@
 #include "case/engine_scope.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "fem/lateral_start.hpp"
 
 namespace railstrata {
 
@@ -103,10 +104,11 @@ ExplicitOptions explicit_options(const Model& m) {
   const DriveSpec& drive = spec.drive;
   const RigidContact& contact = m.placement.contact;
   out.keeps_pace = drive.creepage.has_value();
-  if (drive.lateral_creepage)
-    out.lateral_speed = drive.speed * (*drive.lateral_creepage * std::cos(contact.angle) + std::tan(contact.yaw));
-  if (drive.lateral_traction_coefficient)
-    out.lateral_force = -*drive.lateral_traction_coefficient * m.load / std::cos(contact.angle);
+  const LateralStart lateral = lateral_start(m);
+  out.free_sideways = drive.lateral_traction_coefficient.has_value();
+  if (lateral.creepage != 0)
+    out.lateral_speed = drive.speed * (lateral.creepage * std::cos(contact.angle) + std::tan(contact.yaw));
+  out.lateral_friction = lateral.friction;
   out.contact.penalty = spec.contact.method == ContactMethod::penalty;
   out.contact.penalty_stiffness = penalty_rule(m);
   out.contact.friction_coefficient = spec.drive.friction_coefficient;
@@ -145,7 +147,8 @@ RollingSystem::RollingSystem(const Model& m)
     for (int j = 0; j < l.count; ++j) spin_inertia += wheel().mass[l.first + j] * radius * radius;
   }
   const DriveSpec& drive = m.spec.drive;
-  if (m.spec.run.rolling) start_spin = drive.speed * (1 - drive.creepage.value_or(drive.creepage_start)) / rolling_radius;
+  if (m.spec.run.rolling)
+    start_spin = drive.speed * (1 - drive.creepage.value_or(drive.creepage_start)) / rolling_radius;
   const double traction = drive.traction().value_or(0) * m.load;
   torque = traction * (rolling_radius + spin_inertia / (travel_mass * rolling_radius));
   absorbers = end_absorbers(rail());

@@ -3,15 +3,13 @@
 // the wheel's bore, the suspension and its masses, the track's support, and the contact surfaces.
 //
 // Axle: a rigid body in the bore with the degrees of freedom x, z and the spin psi (positive rolling forward, about
-// +y); it does not tilt (the other wheel of the set and the bearings hold it). Sideways
-// it is guided, at rest or with the speed that makes a given lateral creepage, or it is free under a given force: the
-// friction's lateral force T at the contact angle delta asks for -T/cos(delta) beyond the static G tan(delta). A yawed
-// wheel has axes of its own, turned about the vertical through the axle's start. It has what the given
-// wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius. Suspension: groups of a spring and a
-// dashpot with a share of the sprung mass each, vertical, around the axle's (non-rotating) box. In x the sprung mass
-// rides along with the axle if the case says so.
+// +y); it does not tilt (the other wheel of the set and the bearings hold it). Sideways it is guided, at rest or with
+// the speed that makes a given lateral creepage, or it is free under the lateral force that holds it in the static
+// equilibrium with the given friction. A yawed wheel has axes of its own, turned about the vertical through the axle's
+// start. The axle has what the given wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius.
+// Suspension: groups of a spring and a dashpot with a share of the sprung mass each, vertical, around the axle's
+// (non-rotating) box. In x the sprung mass rides along with the axle if the case says so.
 #include <array>
-#include <optional>
 
 #include "body/body.hpp"
 #include "contact/enforcement.hpp"
@@ -53,9 +51,10 @@ struct ExplicitOptions {
   double element_size = 0;     ///< m, of the contact's zone
   EnforcementOptions contact;  ///< penalty stiffness and friction included
   VehicleSpec vehicle;
-  bool keeps_pace = false;   ///< the creepage is given: travel and spin of the axle go on as they started
-  double lateral_speed = 0;  ///< m/s, of a guided axle
-  std::optional<double> lateral_force;  ///< N, on the axle beyond what the static contact asks for: it is free sideways
+  bool keeps_pace = false;      ///< the creepage is given: travel and spin of the axle go on as they started
+  bool free_sideways = false;   ///< the axle keeps the lateral force of the start, not its lateral speed
+  double lateral_speed = 0;     ///< m/s, of a guided axle; at the start of one that is free sideways
+  double lateral_friction = 0;  ///< N, on the rail at the start (fem/lateral_start.hpp)
 };
 
 struct RollingSystem {

@@ -45,9 +45,7 @@ Stepper::Stepper(const RollingSystem& system)
       bodies_{RollingBody(system.rail(), system.rail_surface(), plan_.bodies[kRail], {}),
               RollingBody(system.wheel(), system.wheel_surface(), plan_.bodies[kWheel],
                           rolling_frame(system, plan_.limits.chosen))},
-      contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)) {
-  bodies_[kWheel].free_sideways = system.options.lateral_force.has_value();
-}
+      contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)) {}
 
 Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : Stepper(system) { start(preload); }
 
@@ -85,10 +83,8 @@ RestartState Stepper::restart_state() const {
 
 void Stepper::start(const PreloadResult& preload) {
   state_.tractions = preload.tractions;
-  state_.axle = {.z = preload.axle_z,
-                 .vx = sys_.options.speed,
-                 .vy = sys_.options.lateral_speed,
-                 .spin = sys_.start_spin};
+  state_.axle = {
+      .z = preload.axle_z, .vx = sys_.options.speed, .vy = sys_.options.lateral_speed, .spin = sys_.start_spin};
   side_force_ = -preload.contact_force.y;
   axle_rest_z_ = preload.axle_z;
   state_.groups.assign(sys_.options.vehicle.suspension_groups, MassGroup{});
@@ -120,10 +116,7 @@ AxlePose Stepper::pose_in_frame() const {
   return {at.x, at.y, at.z, state_.axle.psi - frame.psi};
 }
 
-AxleDrive Stepper::axle_drive() const {
-  const double share = drive_share(sys_, state_.time);
-  return {sys_.torque * share, side_force_ + sys_.options.lateral_force.value_or(0) * share};
-}
+AxleDrive Stepper::axle_drive() const { return {drive_torque(sys_, state_.time), side_force_}; }
 
 double Stepper::lateral_creepage() const {
   const RigidContact& contact = sys_.model.placement.contact;

@@ -45,8 +45,8 @@ struct RestartState {
   MeanMotion mean;  ///< of the wheel
   std::vector<MortarContact::Facet> facets;
   double axle_z0 = 0;     ///< m, height of the axle at the start of the rolling
-  double side_force = 0;  ///< N, on the axle, that the static contact asks for
-  double dt = 0;       ///< s
+  double side_force = 0;  ///< N, on the axle, that holds it in the static equilibrium
+  double dt = 0;          ///< s
   bool reached_edge = false;
 };
 

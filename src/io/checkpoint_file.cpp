@@ -335,7 +335,6 @@ void describe(Archive& a, RestartState& m) {
     on("side_force", v.side_force);
     on("reached_edge", v.reached_edge);
     on("mean_x", v.mean.x);
-    on("mean_y", v.mean.y);
     on("mean_z", v.mean.z);
     on("mean_spin", v.mean.spin);
   });

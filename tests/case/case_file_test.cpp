@@ -665,8 +665,8 @@ TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
                          "[drive]\nlateral_force = \"1 kN\"\ncreepage = -0.001\n",
                          "a.toml")
                   .not_in_fem.empty());
-  const LoadedCase loaded = parse_case("[geometry]\ncurve_radius = \"300 m\"\n[drive]\nlateral_creepage = 0.2\n", "a.toml",
-                                       {"drive.creepage=-0.5"});
+  const LoadedCase loaded = parse_case("[geometry]\ncurve_radius = \"300 m\"\n[drive]\nlateral_creepage = 0.2\n",
+                                       "a.toml", {"drive.creepage=-0.5"});
   ASSERT_EQ(loaded.not_in_fem.size(), 3u);
   EXPECT_EQ(loaded.not_in_fem[0].where, "a.toml:2:16");
   EXPECT_TRUE(loaded.not_in_fem[0].message.starts_with(
