@@ -104,7 +104,7 @@ class HalfSpaceCommands(FromOutside):
         told = self.done("check", BASE, *beyond)
         for words in ["static load    98.100 kN", "yaw            5.000 mrad", "`run` refuses it"]:
             self.assertIn(words, told)
-        self.assertEqual(json.loads(self.done("check", BASE, *drive, "--json"))["not_in_fem"], [])
+        self.assertNotIn("not_in_fem", json.loads(self.done("check", BASE, *drive, "--json")))
         self.assertEqual(len(json.loads(self.done("check", BASE, *beyond, "--json"))["not_in_fem"]), 2)
 
     def test_bem_refuses_what_half_space_theory_cannot_answer(self):
