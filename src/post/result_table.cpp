@@ -263,6 +263,7 @@ std::vector<ResultNumber> transient_numbers() {
            .name = "Friction work since the start",
            .doc = "Of a transient: heat that friction has made on the way",
            .engine = HadBy::half_spaces,
+           .column = true,
            .shown = true}};
 }
 
