@@ -172,6 +172,25 @@ TEST(TransientCase, FrettingFollowsMindlinsAndDeresiewiczsLoopAndLosesItsEnergy)
   EXPECT_TRUE(run.fields.back().slip_is_distance);
 }
 
+// Where the tangential force rises by less than f times the normal force nothing slips: ring by ring comes into contact
+// and sticks, dδ/dQ = S/(8 a) with the half-width a of the moment, S as above. [Johnson1985 sec. 7.4]
+TEST(TransientCase, ForcesThatRiseTogetherBelowFrictionDoNotSlip) {
+  const double begin = 40e3, end = 85e3, ratio = 0.2;
+  const Followed run =
+      follow(circle(end, 0.5, kNoPoisson) +
+                 fmt::format("[transient]\nkind = \"shift\"\nincrements = 40\nwheel_load = [\"{} N\", \"{} N\"]\n"
+                             "lateral_force = [\"0 N\", \"{} N\"]\n",
+                             begin, end, ratio * (end - begin)),
+             0.25e-3);
+  const HertzContact hertz = hertz_estimate(run.spec, run.placement.contact);
+  const double s = 2 * 2 / (0.5 * kBody.young),
+               exact = ratio * s / (8 * hertz.a) * 1.5 * (end - std::pow(begin, 2.0 / 3) * std::cbrt(end));
+  const TransientRow& last = run.rows().back();
+  EXPECT_NEAR(-last.displacement_y / exact, 1, 5e-3) << "of first order in the increment";
+  EXPECT_LT(last.friction_work, 1e-4 * 0.5 * ratio * (end - begin) * exact);
+  EXPECT_LT(last.slip_area / last.contact_area, 0.01);
+}
+
 TEST(TransientCase, RollingFromRestArrivesAtTheSteadyAnswerAndSteadyRollingStaysThere) {
   const std::string driven = circle() + "traction_coefficient = 0.2\nlateral_creepage = 0.0004\nspin = \"0.1 1/m\"\n";
   const ContactSummary steady = follow(driven, 0.5e-3).solution.summary.contact;
