@@ -30,15 +30,19 @@ Touches touches(const PatchGrid& g, const Plane& pressure) {
   return out;
 }
 
-void fit_grid(const Placement& placement, double normal, const BemOptions& options, InfluenceCache& cache,
+std::string in_words(const NormalTarget& target) {
+  return target.load ? fmt::format("load of {:.1f} kN", 1e-3 * *target.load)
+                     : fmt::format("approach of {:.3g} mm", 1e3 * *target.approach);
+}
+
+void fit_grid(const Placement& placement, const NormalTarget& target, const BemOptions& options, InfluenceCache& cache,
               CasePatch& patch) {
   const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
   for (int grown = 0;; ++grown) {
     PatchGrid& g = patch.grid;
     patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, g);
     patch.influence = cache.get(patch.wheel, patch.rail, g);
-    const NormalSolution s =
-        solve_normal(*patch.influence, g, patch.profile.gap, {.load = normal, .approach = {}}, options.rolling.normal);
+    const NormalSolution s = solve_normal(*patch.influence, g, patch.profile.gap, target, options.rolling.normal);
     const Touches edge = touches(g, s.pressure);
     if (!edge.x && !edge.y) {
       if (grown > 0)
@@ -49,8 +53,8 @@ void fit_grid(const Placement& placement, double normal, const BemOptions& optio
     const int half_x = edge.x ? std::min(g.nx * 7 / 10 + 1, most) : g.nx / 2,
               half_y = edge.y ? std::min(g.ny * 7 / 10 + 1, most) : g.ny / 2;
     if (half_x == g.nx / 2 && half_y == g.ny / 2)
-      throw CaseError(fmt::format("the load of {:.1f} kN flattens the whole potential contact area of {:.0f} mm",
-                                  1e-3 * normal, 1e3 * options.largest_patch),
+      throw CaseError(fmt::format("the {} flattens the whole potential contact area of {:.0f} mm", in_words(target),
+                                  1e3 * options.largest_patch),
                       "check the load, the profiles and the moduli; half-space theory no longer applies");
     g = centred_grid(half_x, half_y, options.cell, options.cell);
   }
@@ -119,15 +123,25 @@ double normal_load(double weight, double lateral, const RigidContact& contact) {
 }
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double normal) {
+  return make_case_patch(spec, placement, options, NormalTarget{normal, {}});
+}
+
+double frictionless_load(const CasePatch& patch, const BemOptions& options) {
+  return solve_normal(*patch.influence, patch.grid, patch.contact.gap, patch.contact.target, options.rolling.normal)
+      .load;
+}
+
+CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                          const NormalTarget& target) {
   CasePatch patch;
   patch.wheel = layered_body(spec, BodyId::wheel);
   patch.rail = layered_body(spec, BodyId::rail);
   patch.grid = first_grid(spec, placement, options);
   InfluenceCache own;
-  fit_grid(placement, normal, options, options.cache ? *options.cache : own, patch);
+  fit_grid(placement, target, options, options.cache ? *options.cache : own, patch);
   RollingContact& contact = patch.contact;
   contact.gap = patch.profile.gap;
-  contact.target.load = normal;
+  contact.target = target;
   contact.friction = spec.drive.friction_coefficient;
   contact.leading_edge = spec.bem.leading_edge;
   contact.spin = spec.drive.spin.value_or(geometric_spin(spec, placement.contact));

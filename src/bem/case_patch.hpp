@@ -44,8 +44,14 @@ void drive_contact(const CaseSpec& spec, const RigidContact& contact, double wei
 /// at the angle delta: N cos(delta) - T_y sin(delta) = G.
 double normal_load(double weight, double lateral, const RigidContact& contact);
 
-/// Places the grid and grows it until the frictionless patch under the normal load [N], with a ring to spare, lies
-/// inside. Throws CaseError as solve_bem.
+/// Places the grid and grows it until the frictionless patch under the target, with a ring to spare, lies inside.
+/// Throws CaseError as solve_bem.
+CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                          const NormalTarget& target);
+/// The same under a normal load [N].
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options, double normal);
+
+/// The normal load [N] of the patch without friction, under its target.
+double frictionless_load(const CasePatch& patch, const BemOptions& options);
 
 }  // namespace railstrata

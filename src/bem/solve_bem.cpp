@@ -30,6 +30,8 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
                 ContactField& field) {
   const PatchGrid& g = patch.grid;
   field.resize(g.ny, g.nx);
+  field.slip_is_distance = patch.contact.kind == RollingKind::shift;
+  const double over_time = field.slip_is_distance ? 1.0 : speed;
   const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {
@@ -42,8 +44,8 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
       field.p[k] = s.normal.pressure[k];
       field.q_x[k] = s.tangential.q_x[k];
       field.q_y[k] = s.tangential.q_y[k];
-      field.slip_x[k] = speed * s.tangential.slip_x[k];
-      field.slip_y[k] = speed * s.tangential.slip_y[k];
+      field.slip_x[k] = over_time * s.tangential.slip_x[k];
+      field.slip_y[k] = over_time * s.tangential.slip_y[k];
       field.state[k] = s.tangential.state[k];
     }
 }
@@ -56,7 +58,7 @@ void fill_totals(const RollingSolution& s, double speed, BemResult& r) {
   r.approach = s.normal.approach;
   r.rigid_slip.x = t.creepage_x;
   r.rigid_slip.y = t.creepage_y;
-  r.dissipation = t.dissipation * speed;
+  r.dissipation = t.dissipation * (r.field.slip_is_distance ? 1.0 : speed);
   r.effort.outer_iterations = s.outer_iterations;
   r.effort.iterations = s.normal.iterations + t.iterations;
   r.patch.slip_area = t.slip_area;
@@ -134,16 +136,35 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placeme
   }
 }
 
+/// Under a given approach the vertical force F_z is a result. Forces of the drive count over it: F_z and they are found
+/// in turn, from the frictionless contact on.
+LoadedPatch press_to_approach(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  constexpr double kTolerance = 1e-5;
+  constexpr int kMostIterations = 40;
+  const RigidContact& contact = placement.contact;
+  LoadedPatch out;
+  CasePatch& patch = out.patch;
+  patch = make_case_patch(spec, placement, options, NormalTarget{{}, spec.vehicle.approach});
+  double vertical = std::cos(contact.angle) * frictionless_load(patch, options);
+  for (;; ++out.load_iterations) {
+    drive_contact(spec, contact, vertical, patch.contact);
+    out.solution = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling,
+                                 out.load_iterations > 1 ? &out.solution : nullptr);
+    const double before = vertical;
+    vertical =
+        std::cos(contact.angle) * out.solution.normal.load - std::sin(contact.angle) * out.solution.tangential.force_y;
+    const bool driven = patch.contact.x.force.value_or(0) != 0 || patch.contact.y.force.value_or(0) != 0;
+    if (!driven || std::abs(vertical - before) <= kTolerance * std::abs(vertical)) return out;
+    if (out.load_iterations == kMostIterations)
+      throw CaseError("the forces over the load that comes out do not settle under this approach",
+                      "lower the traction coefficients, or give a load instead of vehicle.approach");
+  }
+}
+
 }  // namespace
 
-BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
-  const double load = static_load(spec);
-  check_friction(spec, load, normal_load(load, 0, placement.contact));
-  const LoadedPatch loaded = balance_vertical_load(spec, placement, options, load);
-  const CasePatch& patch = loaded.patch;
-  const RollingSolution& s = loaded.solution;
-
+BemResult bem_result(const CaseSpec& spec, const Placement& placement, const CasePatch& patch,
+                     const RollingSolution& s) {
   BemResult r;
   r.contact = placement.contact;
   r.grid = patch.grid;
@@ -151,10 +172,21 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   r.rail = patch.rail;
   r.rigid_slip.spin = patch.contact.spin;
   r.notes = patch.notes;
-  r.effort.load_iterations = loaded.load_iterations;
   fill_field(patch, s, r.contact, spec.drive.speed, r.field);
   fill_totals(s, spec.drive.speed, r);
   r.surroundings = patch_surroundings(spec, placement, solved_patch(r));
+  return r;
+}
+
+BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const double load = static_load(spec);
+  const bool load_given = !spec.vehicle.approach;
+  if (load_given) check_friction(spec, load, normal_load(load, 0, placement.contact));
+  const LoadedPatch loaded =
+      load_given ? balance_vertical_load(spec, placement, options, load) : press_to_approach(spec, placement, options);
+  BemResult r = bem_result(spec, placement, loaded.patch, loaded.solution);
+  r.effort.load_iterations = loaded.load_iterations;
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return r;
 }

@@ -5,12 +5,14 @@
 // sprung mass) g as the vertical force, friction and the drive. Steady rolling: along and across the rail a force on
 // the wheel (over G) or a creepage; what is not given follows from the geometry: lateral creepage from the yaw, spin
 // from contact angle and curve, the variation of the rolling radius across the patch from the profiles.
-// The normal force is such that normal and lateral force together bear the load. Not in it: inertia, the bodies' shape
+// The normal force is such that normal and lateral force together bear the load. Where the approach is given instead,
+// the load is a result, and forces of the drive count over it. Not in it: inertia, the bodies' shape
 // outside the patch, the layer's edges.
 #include <string>
 #include <vector>
 
 #include "bem/bem_options.hpp"
+#include "bem/case_patch.hpp"
 #include "bem/subsurface.hpp"
 #include "contact/contact_field.hpp"
 #include "halfspace/layered.hpp"
@@ -54,7 +56,7 @@ struct BemResult {
   RailForces force;
   RigidSlip rigid_slip;
   double approach = 0;     ///< m
-  double dissipation = 0;  ///< W
+  double dissipation = 0;  ///< W; of a shift J, of its last increment
   SolverEffort effort;
   PatchSurroundings surroundings;
   std::vector<std::string> notes;  ///< what the user should know: a grown grid, …
@@ -63,6 +65,10 @@ struct BemResult {
 /// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears
 /// the weight whatever the normal force (a wedged wheel).
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {});
+
+/// A solved patch as a result; the effort's iterations of the load and time are left to the caller.
+BemResult bem_result(const CaseSpec& spec, const Placement& placement, const CasePatch& patch,
+                     const RollingSolution& solution);
 
 /// The stresses inside the rail or the wheel of a result. Axes x rolling, y along the common tangent, z into the body
 /// (rail: down, wheel: up).

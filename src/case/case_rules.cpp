@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/transient_rules.hpp"
 #include "case/units.hpp"
 
 namespace railstrata {
@@ -15,8 +16,20 @@ constexpr double kNanometre = 1e-9;
 /// For messages: sums of lengths carry round-off that nobody wants to read.
 std::string length(double value) { return format_quantity(std::round(value / kNanometre) / 1e9, dimension::kLength); }
 
+/// Under a given approach the load is a result, and a force over it is not known beforehand.
+void check_approach(const CaseSpec& spec, CaseSource& source) {
+  if (!spec.vehicle.approach) return;
+  for (const char* key : {"drive.tractive_force", "drive.lateral_force"})
+    if (source.has(key))
+      source.complain(key,
+                      fmt::format("{}: under vehicle.approach the load is a result, a force may be beyond it", key),
+                      "give drive.traction_coefficient or lateral_traction_coefficient, which then count over the load "
+                      "that comes out, or a creepage");
+}
+
 void check_drive(const CaseSpec& spec, CaseSource& source) {
   const DriveSpec& d = spec.drive;
+  if (spec.transient.kind == TransientKind::shift) return;  // it takes nothing of the drive but friction
   if (!spec.run.rolling ||
       !source.sound({"drive.traction_coefficient", "drive.tractive_force", "drive.creepage", "drive.lateral_creepage",
                      "drive.lateral_force", "drive.lateral_traction_coefficient", "drive.friction_coefficient"}))
@@ -119,6 +132,8 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
 
 void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_drive(spec, source);
+  check_approach(spec, source);
+  check_transient(spec, source);
   check_curve(spec.geometry, source);
   check_path(spec.run, source);
   check_wheel(spec.geometry, source);
@@ -137,6 +152,18 @@ std::vector<std::string> idle_settings(const CaseSpec& spec) {
   idle(spec.mesh.element != ElementFormulation::one_point &&
            spec.mesh.hourglass_coefficient != defaults.mesh.hourglass_coefficient,
        "mesh.hourglass_coefficient", "mesh.element = \"one_point\"");
+  const DriveSpec& d = spec.drive;
+  const char* const rolling = "a case that rolls, transient.kind = \"shift\" does not";
+  if (spec.transient.kind == TransientKind::none)
+    for (const GivenColumn& c : given_columns(spec))
+      idle(true, ("transient." + c.key).c_str(), "transient.kind = \"rolling\" or \"shift\"");
+  if (spec.transient.kind == TransientKind::shift) {
+    idle(d.creepage.has_value(), "drive.creepage", rolling);
+    idle(d.traction_coefficient != defaults.drive.traction_coefficient, "drive.traction_coefficient", rolling);
+    idle(d.lateral_creepage.has_value(), "drive.lateral_creepage", rolling);
+    idle(d.lateral_traction_coefficient.has_value(), "drive.lateral_traction_coefficient", rolling);
+    idle(d.spin.has_value(), "drive.spin", rolling);
+  }
   for (std::size_t i = 0; i < spec.layers.size(); ++i)
     idle(!spec.layers[i].graded() && spec.layers[i].grading_tolerance != LayerSpec{}.grading_tolerance,
          fmt::format("layer.{}.grading_tolerance", i).c_str(), "a young_table");

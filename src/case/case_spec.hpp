@@ -32,6 +32,17 @@ enum class LeadingEdge {
   whole_cell  ///< between two cells, as Kalker and CONTACT do
 };
 
+/// What the half-space engine follows in time (bem/transient.hpp).
+enum class TransientKind {
+  none,     ///< steady rolling
+  rolling,  ///< rolling from a beginning, step by step
+  shift     ///< loads and displacements sideways without rolling: presliding, fretting
+};
+enum class TransientStart {
+  rest,   ///< pressed together, then shifted by the first forces
+  steady  ///< as if it had rolled so for ever
+};
+
 struct GeometrySpec {
   std::string rail_profile = "CN60";  ///< a built-in name or a file
   std::string wheel_profile = "LMA";
@@ -76,6 +87,7 @@ struct VehicleSpec {
   double suspension_stiffness = 0.95e6, suspension_damping = 10.4e3;
   int suspension_groups = 8;
   double gravity = 9.81;
+  std::optional<double> approach;  ///< m, of the bodies along the contact normal: then the load is a result
   bool couple_sprung_mass = true;  ///< the sprung mass rides along with the axle in x (else it only moves vertically
                                    ///< and does not add inertia to it)
 };
@@ -130,6 +142,21 @@ struct BemSpec {
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
 };
 
+/// A history of loads and motions, linear between its rows: columns of one length, an empty one is not given. What
+/// rolls takes from the drive what has no column; what is shifted is held where nothing is given.
+struct TransientSpec {
+  TransientKind kind = TransientKind::none;
+  TransientStart start = TransientStart::rest;
+  std::optional<double> distance;               ///< m, rolled altogether; not given: to the last row
+  int increments = 10;                          ///< shift: from row to row
+  std::string history_file;                     ///< empty once it is read into the columns
+  std::vector<double> at_distance, at_time;     ///< m, s: where the rows are
+  std::vector<double> wheel_load, load_factor;  ///< N; over the static load
+  std::vector<double> traction_coefficient, tractive_force, creepage, displacement;
+  std::vector<double> lateral_traction_coefficient, lateral_force, lateral_creepage, lateral_displacement;
+  std::vector<double> spin;  ///< 1/m
+};
+
 struct OutputSpec {
   bool volume = true;        ///< VTU of the fine zone
   bool patch_series = true;  ///< VTP series of the patch during the rolling, PVD
@@ -147,6 +174,7 @@ struct CaseSpec {
   ContactSpec contact;
   RunSpec run;
   BemSpec bem;
+  TransientSpec transient;
   OutputSpec output;
 };
 

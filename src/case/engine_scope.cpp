@@ -23,6 +23,10 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   };
   const GeometrySpec& g = spec.geometry;
   const DriveSpec& d = spec.drive;
+  beyond(spec.vehicle.approach.has_value(), "vehicle.approach", "a given approach",
+         "masses press the wheel down, and the approach follows");
+  beyond(spec.transient.kind != TransientKind::none, "transient.kind", "a history of loads and motions",
+         "one drive leads to the wanted positions, with inertia");
   if (!spec.run.rolling) return out;
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
   beyond(std::abs(d.creepage.value_or(0)) > kLargestCreepage, "drive.creepage", "so large a creepage",

@@ -19,6 +19,7 @@ using V = VehicleSpec;
 using D = DriveSpec;
 using H = MeshSpec;
 using R = RunSpec;
+using T = TransientSpec;
 using O = OutputSpec;
 
 template <class T>
@@ -76,6 +77,16 @@ constexpr std::string_view kMoreLoad = "give more load, or less vehicle.wheel_ma
                            kLessForce = "give less force, or more load";
 
 bool traction_given(const CaseSpec& spec, std::size_t) { return spec.drive.traction().has_value(); }
+
+bool load_given(const CaseSpec& spec, std::size_t) { return !spec.vehicle.approach; }
+bool transient(const CaseSpec& spec, std::size_t) { return spec.transient.kind != TransientKind::none; }
+bool starts(const CaseSpec& spec, std::size_t) {
+  return spec.transient.kind == TransientKind::rolling || spec.transient.start != TransientStart::rest;
+}
+bool shifts(const CaseSpec& spec, std::size_t) {
+  return spec.transient.kind == TransientKind::shift || spec.transient.increments != TransientSpec{}.increments;
+}
+bool never(const CaseSpec&, std::size_t) { return false; }
 
 bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).graded(); }
 bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).graded(); }
@@ -254,7 +265,7 @@ OptionTable vehicle_table() {
       "Masses and primary suspension of one wheel",
       {{"wheel_mass", at<&C::vehicle, &V::wheel_mass>, "Mass of the wheel with its share of the axle", kMass,
         above(0, 1e5)},
-       {"sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6}},
+       {"sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6}, {}, {}, load_given},
        {"wheel_load",
         at<&C::vehicle, &V::sprung_mass>,
         "Load of the wheel on the rail, a force or a mass, instead of the sprung mass: that is load / gravity - "
@@ -270,6 +281,10 @@ OptionTable vehicle_table() {
         above(0, 2e7),
         {},
         {sprung_mass_under_axle, kMoreLoad, true}},
+       {"approach", at<&C::vehicle, &V::approach>,
+        "By how much wheel and rail come together along the contact normal, instead of a load, which is then a result; "
+        "half-space engine",
+        kLength, above(0, 0.01)},
        {"suspension_stiffness",
         at<&C::vehicle, &V::suspension_stiffness>,
         "Of all groups together",
@@ -285,7 +300,7 @@ OptionTable vehicle_table() {
        {"couple_sprung_mass", at<&C::vehicle, &V::couple_sprung_mass>,
         "The sprung mass rides along with the axle lengthwise and adds its inertia to it"}},
       false,
-      {{"sprung_mass", "wheel_load", "axle_load"}}};
+      {{"sprung_mass", "wheel_load", "axle_load", "approach"}}};
 }
 
 /// Not all of them are in both engines (case/engine_scope.hpp).
@@ -458,6 +473,90 @@ OptionTable bem_table() {
               {{"sub_cell", LeadingEdge::sub_cell}, {"whole_cell", LeadingEdge::whole_cell}})}};
 }
 
+template <auto Member>
+Option column(std::string_view key, std::string_view doc, const Dimension& dimension, const Range& range) {
+  return {key, at<&C::transient, Member>, doc, dimension, range};
+}
+
+std::vector<Option> row_columns() {
+  return {
+      column<&T::at_distance>("at_distance", "kind = \"rolling\": rolled distance of each row, from 0 on", kLength,
+                              {0, 20}),
+      column<&T::at_time>("at_time", "Time of each row, from 0 on; what rolls does so at drive.speed", kTime, {0, 1e6}),
+      column<&T::wheel_load>("wheel_load", "Load of the wheel on the rail", kForce, above(0, 1e7)),
+      column<&T::load_factor>("load_factor", "The same over the static load G", kNumber, above(0, 100))};
+}
+
+std::vector<Option> driven_columns() {
+  return {
+      column<&T::traction_coefficient>("traction_coefficient", "F_T over the static load G", kNumber, {-10, 10}),
+      column<&T::tractive_force>("tractive_force", "F_T on the wheel; positive drives", kForce, {-1e7, 1e7}),
+      column<&T::creepage>("creepage", "kind = \"rolling\": longitudinal creepage; negative drives", kNumber, {-10, 1}),
+      column<&T::displacement>(
+          "displacement", "kind = \"shift\": of the wheel over the rail in the rolling direction, from the start on",
+          kLength, {-0.01, 0.01}),
+      column<&T::lateral_traction_coefficient>("lateral_traction_coefficient", "F_y over the static load G", kNumber,
+                                               {-10, 10}),
+      column<&T::lateral_force>("lateral_force", "Friction force F_y on the wheel along the contact plane", kForce,
+                                {-1e7, 1e7}),
+      column<&T::lateral_creepage>("lateral_creepage", "kind = \"rolling\": along the contact plane", kNumber,
+                                   {-10, 10}),
+      column<&T::lateral_displacement>("lateral_displacement",
+                                       "kind = \"shift\": of the wheel over the rail towards the field side, along "
+                                       "the contact plane",
+                                       kLength, {-0.01, 0.01}),
+      column<&T::spin>("spin", "kind = \"rolling\": about the normal of the contact plane", kSpin, {-1000, 1000})};
+}
+
+/// One of several words, of a case that has it.
+Option only_where(bool (*applies)(const CaseSpec&, std::size_t), Option option) {
+  option.applies = applies;
+  return option;
+}
+
+std::vector<Option> course_options() {
+  return {
+      only_where(
+          transient,
+          choice_at<&C::transient, &T::kind>(
+              "kind",
+              "Steady rolling; rolling from a beginning in steps of one cell; a shift without rolling "
+              "(presliding, fretting)",
+              {{"none", TransientKind::none}, {"rolling", TransientKind::rolling}, {"shift", TransientKind::shift}})),
+      only_where(starts, choice_at<&C::transient, &T::start>(
+                             "start",
+                             "kind = \"rolling\" begins pressed together and shifted by the first forces, or in "
+                             "steady rolling under the first row",
+                             {{"rest", TransientStart::rest}, {"steady", TransientStart::steady}})),
+      {"distance", at<&C::transient, &T::distance>,
+       "kind = \"rolling\": rolled distance; that of the last row where it is not given", kLength, above(0, 20)},
+      only_where(shifts, {"increments",
+                          at<&C::transient, &T::increments>,
+                          "kind = \"shift\": steps from row to row",
+                          kNumber,
+                          {1, 1000}}),
+      only_where(never, {"history_file", at<&C::transient, &T::history_file>,
+                         "A CSV file with the columns below, relative to the case file, instead of the lists; the "
+                         "resolved case has what it says"})};
+}
+
+OptionTable transient_table() {
+  OptionTable out{"transient",
+                  "A history of loads and motions, followed step by step; half-space engine",
+                  course_options(),
+                  false,
+                  {{"at_distance", "at_time"},
+                   {"wheel_load", "load_factor"},
+                   {"traction_coefficient", "tractive_force", "creepage", "displacement"},
+                   {"lateral_traction_coefficient", "lateral_force", "lateral_creepage", "lateral_displacement"}}};
+  for (const auto& columns : {row_columns(), driven_columns()})
+    for (const Option& option : columns) {
+      out.rivals.push_back({"history_file", option.key});
+      out.options.push_back(option);
+    }
+  return out;
+}
+
 OptionTable output_table() {
   return {"output",
           "Files",
@@ -496,6 +595,7 @@ const std::vector<OptionTable>& case_tables() {
       contact_table(),
       run_table(),
       bem_table(),
+      transient_table(),
       output_table()};
   return tables;
 }
@@ -543,6 +643,7 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
     std::string operator()(const ChoiceSlot& v) const { return toml_quoted(word_of(option, v)); }
     std::string operator()(const std::vector<double>* v) const {
       std::string out;
+      if (v->empty()) return out;
       for (double x : *v) out += (out.empty() ? "" : ", ") + quantity(x, option.dimension);
       return "[" + out + "]";
     }

@@ -1,5 +1,7 @@
 #include "io/result_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,6 +29,10 @@ std::vector<double> state_numbers(const ContactField& f) {
   std::vector<double> out;
   for (ContactState s : f.state) out.push_back(static_cast<double>(s));
   return out;
+}
+
+std::string slip_column(const char* direction, const ContactField& f) {
+  return fmt::format("slip_{}_{}", direction, f.slip_is_distance ? "mm" : "mm_s");
 }
 
 void push(std::vector<float>& out, const Sym3& s) {
@@ -79,8 +85,8 @@ void write_patch_tables(const std::filesystem::path& folder, const std::vector<s
              {"p_MPa", scaled(f.p, kMega)},
              {"q_x_MPa", scaled(f.q_x, kMega)},
              {"q_y_MPa", scaled(f.q_y, kMega)},
-             {"slip_x_mm_s", scaled(f.slip_x, kMilli)},
-             {"slip_y_mm_s", scaled(f.slip_y, kMilli)},
+             {slip_column("x", f), scaled(f.slip_x, kMilli)},
+             {slip_column("y", f), scaled(f.slip_y, kMilli)},
              {"state_0separated_1stick_2slip", state_numbers(f)}});
   const CentreLine line = centre_line(f);
   write_csv(folder / "centre_line.csv", provenance,
@@ -88,7 +94,7 @@ void write_patch_tables(const std::filesystem::path& folder, const std::vector<s
              {"p_MPa", scaled(line.p, kMega)},
              {"q_x_MPa", scaled(line.q_x, kMega)},
              {"q_y_MPa", scaled(line.q_y, kMega)},
-             {"slip_x_mm_s", scaled(line.slip_x, kMilli)}});
+             {slip_column("x", f), scaled(line.slip_x, kMilli)}});
 }
 
 void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -135,7 +141,7 @@ VtkQuads patch_mesh(const ContactField& f, double wheel_x) {
     }
   mesh.point_fields = {{"pressure_MPa", 1, to_floats(f.p, kMega)},
                        {"traction_MPa", 3, traction},
-                       {"slip_velocity_mm_s", 3, slip},
+                       {f.slip_is_distance ? "slip_mm" : "slip_velocity_mm_s", 3, slip},
                        {"state", 1, state}};
   return mesh;
 }

@@ -47,6 +47,7 @@ Json stress(const Summary& s) {
 Json summary_json(const Summary& s) {
   Json out;
   out["title"] = s.title;
+  if (!s.state.empty()) out["state"] = s.state;
   add_numbers("", s, out);
   add_numbers("contact", s, out["contact"]);
   out["stress"] = stress(s);

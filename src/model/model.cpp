@@ -131,7 +131,12 @@ HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
   const double lateral = c.curvature_wheel_lateral + c.curvature_rail_lateral;
   const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
                                          {spec.rail_material.young, spec.rail_material.poisson});
-  return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, static_load(spec));
+  const auto under = [&](double load) {
+    return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, load);
+  };
+  if (!spec.vehicle.approach) return under(static_load(spec));
+  constexpr double kAnyLoad = 1e5;
+  return under(kAnyLoad * std::pow(*spec.vehicle.approach / under(kAnyLoad).approach, 1.5));
 }
 
 namespace {

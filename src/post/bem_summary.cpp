@@ -47,8 +47,10 @@ bool reaches_edge(const ContactField& f) {
 Check bem_check(std::string_view name, double value) { return at_most(name, value, check_row(name).bem_limit); }
 
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r, const PatchMeasures& m) {
-  const double load = static_load(spec);
-  std::vector<Check> out{bem_check("F_z_relative_to_weight", std::abs(-r.force.z / load - 1))};
+  const bool load_given = !spec.vehicle.approach;
+  const double load = load_given ? static_load(spec) : -r.force.z;
+  std::vector<Check> out;
+  if (load_given) out.push_back(bem_check("F_z_relative_to_weight", std::abs(-r.force.z / load - 1)));
   if (const double wanted = spec.drive.traction().value_or(0); spec.drive.friction_coefficient > 0 && wanted != 0)
     out.push_back(bem_check("traction_coefficient_reached", std::abs(m.force_x / load / wanted - 1)));
   if (const double wanted = spec.drive.lateral_traction_coefficient.value_or(0);
