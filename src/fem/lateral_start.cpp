@@ -7,21 +7,30 @@
 namespace railstrata {
 namespace {
 
+constexpr double kLargestCreepage = 0.1;  // of what a run may be given (case/engine_scope.cpp)
+
 RollingEllipse ellipse_of(const Model& m) {
   const auto half_space = [](const MaterialSpec& s) { return HalfSpaceMaterial{s.young, s.poisson}; };
   return rolling_ellipse(m.hertz, m.spec.drive.friction_coefficient, half_space(m.spec.wheel_material),
                          half_space(m.spec.rail_material));
 }
 
-/// The longitudinal creepage at which the force along the rail is `wanted`, between the bounds of what a run may start
-/// with; it falls short where friction does.
-double longitudinal_creepage(const RollingEllipse& e, Creepage c, double wanted) {
-  double low = -0.1, high = 0.1;
-  for (int i = 0; i < 60; ++i) {
-    c.x = 0.5 * (low + high);
-    (vermeulen_johnson(e, c).x < wanted ? low : high) = c.x;
+/// Where a force that grows with the creepage is `wanted`; the end of the range where friction falls short of it.
+template <class Force>
+double creepage_at(double wanted, Force&& force) {
+  constexpr int kHalvings = 24;  // to 1e-8
+  double low = -kLargestCreepage, high = kLargestCreepage;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (force(middle) < wanted ? low : high) = middle;
   }
-  return c.x;
+  return 0.5 * (low + high);
+}
+
+/// Lateral force on the rail at a lateral creepage and spin, while the drive along the rail is that of the case.
+double lateral_force(const RollingEllipse& e, const DriveSpec& drive, double along, double creepage, double spin) {
+  const auto at = [&](double x) { return fastsim(e, {x, creepage, spin}); };
+  return at(drive.creepage ? *drive.creepage : creepage_at(along, [&](double x) { return at(x).x; })).y;
 }
 
 }  // namespace
@@ -32,16 +41,13 @@ LateralStart lateral_start(const Model& m) {
   if (!m.spec.run.rolling || !(drive.friction_coefficient > 0)) return {};
   const double along = -drive.traction().value_or(0) * m.load, spin = -std::sin(contact.angle) / contact.rolling_radius;
   if (drive.lateral_traction_coefficient) {
+    const RollingEllipse e = ellipse_of(m);
     const double across = -*drive.lateral_traction_coefficient * m.load;
-    return {lateral_creepage_of_force(ellipse_of(m), {along, across}, spin), across};
+    return {creepage_at(across, [&](double y) { return lateral_force(e, drive, along, y, spin); }), across};
   }
-  LateralStart out{drive.lateral_creepage.value_or(0.0 - std::tan(contact.yaw) / std::cos(contact.angle)), 0};
-  if (out.creepage == 0) return out;
-  const RollingEllipse e = ellipse_of(m);
-  Creepage c{drive.creepage.value_or(0), out.creepage, spin};
-  if (!drive.creepage) c.x = longitudinal_creepage(e, c, along);
-  out.friction = vermeulen_johnson(e, c).y;
-  return out;
+  const double creepage = drive.lateral_creepage.value_or(0.0 - std::tan(contact.yaw) / std::cos(contact.angle));
+  if (creepage == 0) return {};
+  return {creepage, lateral_force(ellipse_of(m), drive, along, creepage, spin)};
 }
 
 }  // namespace railstrata

@@ -127,13 +127,6 @@ CreepForce vermeulen_johnson(const RollingEllipse& e, const Creepage& c) {
   return {scale * linear.x, scale * linear.y};
 }
 
-double lateral_creepage_of_force(const RollingEllipse& e, const CreepForce& force, double spin) {
-  const double size = std::hypot(force.x, force.y), bound = e.friction * e.contact.load, used = size / bound;
-  const double linear = size > 0 ? 3 * bound * (1 - std::cbrt(1 - used)) * force.y / size : 0.0;
-  const double area = e.contact.a * e.contact.b;
-  return (linear / (e.shear * area) - std::sqrt(area) * e.coefficient.c23 * spin) / e.coefficient.c22;
-}
-
 CreepForce polach(const RollingEllipse& e, const Creepage& c) {
   const double a = e.contact.a, b = e.contact.b, G = e.shear, bound = e.friction * e.contact.load;
   const double with_spin = c.y + c.spin * a, side = std::abs(with_spin) > std::abs(c.y) ? with_spin : c.y;

@@ -40,9 +40,6 @@ CreepForce linear_theory(const RollingEllipse& ellipse, const Creepage& creepage
 /// [VermeulenJohnson1964, ShenHedrickElkins1983]
 CreepForce vermeulen_johnson(const RollingEllipse& ellipse, const Creepage& creepage);
 
-/// Its inverse: the lateral creepage at a force on the rail and a spin; friction times load must exceed the force.
-double lateral_creepage_of_force(const RollingEllipse& ellipse, const CreepForce& force, double spin);
-
 /// Polach's formula with its spin term. [Polach2000]
 CreepForce polach(const RollingEllipse& ellipse, const Creepage& creepage);
 

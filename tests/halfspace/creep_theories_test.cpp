@@ -55,12 +55,6 @@ TEST(FastTheories, SaturateAtTheFrictionBound) {
   }
 }
 
-TEST(FastTheories, TheLateralCreepageOfAForceGivesTheForceBack) {
-  const RollingEllipse e = ellipse(6e-3, 4e-3);
-  for (const Creepage c : {Creepage{-1e-3, 5e-4, 0}, Creepage{0, -2e-3, 0.1}, Creepage{5e-4, 0, -0.2}})
-    EXPECT_NEAR(lateral_creepage_of_force(e, vermeulen_johnson(e, c), c.spin), c.y, 1e-12);
-}
-
 TEST(FastTheories, FastsimIsConvergedAt50By50) {
   const RollingEllipse e = ellipse(6e-3, 4e-3);
   const Creepage c{-1e-3, 5e-4, 0.12};
