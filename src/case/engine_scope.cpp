@@ -22,6 +22,10 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   const DriveSpec& d = spec.drive;
   beyond(g.yaw != 0, "geometry.yaw", "yaw", "the wheel runs straight along the rail");
   if (!spec.run.rolling) return out;
+  beyond(spec.friction.law != FrictionForm::coulomb, "friction.law", "friction that falls with slip",
+         "surfaces chatter on a law without memory that falls faster than waves carry away");
+  beyond(spec.third_body.thickness.has_value(), "third_body.thickness", "a third-body layer",
+         "surfaces touch without a film between them");
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
   beyond(d.creepage.has_value(), "drive.creepage", "a given creepage",
          "a torque drives the wheel, and the creepage follows");
