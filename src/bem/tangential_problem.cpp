@@ -94,9 +94,11 @@ class Solver {
       error = violation();
     }
     if (error <= options_.tolerance || options_.partial) return solution();
-    if (problem_.falling.falls() && !directions_.empty())
-      throw CaseError("no steady state was found under the given force: friction that falls with slip may not carry it",
-                      "give drive.creepage, which has an answer on either side of the largest force");
+    if (varying_ && !directions_.empty())
+      throw CaseError(
+          fmt::format("no steady state was found under the given force: {} may not carry it",
+                      problem_.falling.falls() ? "friction that falls with slip" : "a third-body layer that yields"),
+          "give drive.creepage instead, which has an answer beyond the largest force too");
     throw NumericalError("the tangential contact problem did not converge");
   }
 
