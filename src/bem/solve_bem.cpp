@@ -30,6 +30,7 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
                 ContactField& field) {
   const PatchGrid& g = patch.grid;
   field.resize(g.ny, g.nx);
+  field.bound = s.tangential.bound;
   const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {

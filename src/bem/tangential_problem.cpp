@@ -230,11 +230,12 @@ class Solver {
   /// A bound that varies takes the slip along the traction; cells that stick are bound by its value at rest.
   void follow_slip() {
     if (!varying_) return;
-    Plane along(n_, 0.0);
+    Plane& along = varying_->along();
     for_both([&](std::size_t i) {
-      if (set_[i] == kSlip) along[i] = (slip_[i] * q_[i] + lateral_slip(i) * q_[n_ + i]) / length(q_[i], q_[n_ + i]);
+      const double x = q_[i], y = q_[n_ + i];
+      along[i] = set_[i] == kSlip ? (slip_[i] * x + lateral_slip(i) * y) / length(x, y) : 0.0;
     });
-    varying_->follow(along);
+    varying_->follow();
     for_both([&](std::size_t i) {
       if (set_[i] == kStick) carried_[i] = varying_->at_rest(i);
     });
@@ -246,10 +247,21 @@ class Solver {
     return std::clamp(carried_[i] + along, 0.5 * carried_[i], problem_.traction_bound[i]);
   }
 
-  /// Adds the row along the normal of a slipping cell: elastic is L dq - dxi there, out has the row across alone.
-  void add_row_along(std::size_t i, double elastic_x, double elastic_y, const Plane& in, Plane& out) const {
+  /// Prepares the change of every slipping cell's bound by the slip (x, y)(i) of all cells.
+  template <class Slip>
+  void change_bound(Slip&& slip) {
+    Plane& along = varying_->along();
+    for_both([&](std::size_t i) {
+      const auto [x, y] = set_[i] == kSlip ? slip(i) : std::pair(0.0, 0.0);
+      along[i] = x * normal_[i] + y * normal_[n_ + i];
+    });
+    varying_->change();
+  }
+
+  /// Adds the row along the normal of a slipping cell, after change_bound by L dq - dxi; out has the row across alone.
+  void add_row_along(std::size_t i, const Plane& in, Plane& out) const {
     const double x = normal_[i], y = normal_[n_ + i], size = in[i] * x + in[n_ + i] * y,
-                 row = self_ * (size + varying_->by_slip(i) * (elastic_x * x + elastic_y * y)) - diagonal_[i] * size;
+                 row = self_ * (size + varying_->change(i)) - diagonal_[i] * size;
     out[i] += row * x;
     out[n_ + i] += row * y;
   }
@@ -302,14 +314,14 @@ class Solver {
     const std::size_t m = directions_.size();
     double creep[2] = {0, 0};
     for (std::size_t c = 0; c < m; ++c) creep[directions_[c]] = in[2 * n_ + c];
+    if (varying_) change_bound([&](std::size_t i) { return std::pair(L_x(i) - creep[0], L_y(i) - creep[1]); });
     const Components force = for_both_summed(in.data(), [&](std::size_t i) {
-      const double elastic_x = L_x(i) - creep[0], elastic_y = L_y(i) - creep[1];
-      double x = elastic_x, y = elastic_y;
+      double x = L_x(i) - creep[0], y = L_y(i) - creep[1];
       project(i, x, y);
       const double d = set_[i] == kSlip ? diagonal_[i] : 0.0;
       out[i] = x + d * in[i];
       out[n_ + i] = y + d * in[n_ + i];
-      if (varying_ && set_[i] == kSlip) add_row_along(i, elastic_x, elastic_y, in, out);
+      if (varying_ && set_[i] == kSlip) add_row_along(i, in, out);
     });
     for (std::size_t c = 0; c < m; ++c) out[2 * n_ + c] = force_row_ * force[directions_[c]];
   }
@@ -364,12 +376,14 @@ class Solver {
     border_.resize(directions_.size());
     right_side_.resize(2 * n_);
     for (std::size_t c = 0; c < directions_.size(); ++c) {
+      const double e_x = directions_[c] == 0, e_y = directions_[c] == 1;
+      if (varying_) change_bound([&](std::size_t) { return std::pair(e_x, e_y); });
       for_both([&](std::size_t i) {
-        right_side_[i] = directions_[c] == 0;
-        right_side_[n_ + i] = directions_[c] == 1;
+        right_side_[i] = e_x;
+        right_side_[n_ + i] = e_y;
         project(i, right_side_[i], right_side_[n_ + i]);
         if (!varying_ || set_[i] != kSlip) return;
-        const double along = self_ * varying_->by_slip(i) * normal_[directions_[c] == 0 ? i : n_ + i];
+        const double along = self_ * varying_->change(i);
         right_side_[i] += along * normal_[i];
         right_side_[n_ + i] += along * normal_[n_ + i];
       });
@@ -496,7 +510,10 @@ class Solver {
       }
     s.force_x = sum(s.q_x) * dA;
     s.force_y = sum(s.q_y) * dA;
-    if (varying_) s.plastic = varying_->plastic();
+    if (varying_) {
+      s.plastic = varying_->plastic();
+      s.bound = varying_->at_rest();
+    }
     s.outer_iterations = outer_;
     s.iterations = iterations_;
     return s;

@@ -73,6 +73,7 @@ struct TangentialSolution {
   Plane slip_x, slip_y;             ///< relative to V (shift: m), of the slipping cells, along their traction
   std::vector<ContactState> state;  ///< a cell whose third body yields slips
   Plane plastic;                    ///< m, plastic shear of the third body; empty: none that yields
+  Plane bound;                      ///< Pa, what sticking cells carry at most; empty: the problem's traction_bound
   double creepage_x = 0, creepage_y = 0;
   double force_x = 0, force_y = 0;       ///< N, on the rail
   double moment = 0;                     ///< N m about the normal at the grid's origin, on the rail

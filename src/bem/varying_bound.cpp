@@ -10,9 +10,19 @@
 namespace railstrata {
 
 VaryingBound::VaryingBound(const PatchGrid& grid, const TangentialProblem& problem, const GivenSlip& given)
-    : grid_(grid), problem_(problem), given_(given), rest_(grid.size()), wanted_(grid.size()), by_slip_(grid.size()) {
-  if (problem.third_body.yields()) plastic_.assign(grid.size(), 0.0);
-  follow(Plane(grid.size(), 0.0));
+    : grid_(grid),
+      problem_(problem),
+      given_(given),
+      along_(grid.size(), 0.0),
+      rest_(grid.size()),
+      wanted_(grid.size()),
+      by_slip_(grid.size()),
+      change_(grid.size()) {
+  if (problem.third_body.yields()) {
+    plastic_.assign(grid.size(), 0.0);
+    slides_.assign(grid.size(), 0);
+  }
+  follow();
 }
 
 void VaryingBound::require_unique_slip(const TangentialProblem& problem, double largest) {
@@ -39,12 +49,12 @@ double VaryingBound::plastic_before(int i, std::size_t k) const {
   return i + 1 < grid_.nx ? plastic_[k + static_cast<std::size_t>(grid_.ny)] : 0.0;
 }
 
-void VaryingBound::follow(const Plane& along) {
+void VaryingBound::follow() {
   const double step = step_length(grid_, problem_);
   for (int i = grid_.nx - 1; i >= 0; --i)
     for (int j = 0; j < grid_.ny; ++j) {
       const std::size_t k = grid_.index(i, j);
-      const double slip = std::max(0.0, along[k]), bound = problem_.traction_bound[k];
+      const double slip = std::max(0.0, along_[k]), bound = problem_.traction_bound[k];
       const FrictionShare share = friction_share(problem_.falling, {slip * problem_.speed});
       rest_[k] = bound;
       wanted_[k] = share.value * bound;
@@ -56,7 +66,21 @@ void VaryingBound::follow(const Plane& along) {
       wanted_[k] = film.bound;
       by_slip_[k] = film.by_slip * length;
       plastic_[k] = bound > 0 ? film.plastic : before;
+      slides_[k] = film.by_slip == 0 && film.plastic > before;
     }
+}
+
+void VaryingBound::change() {
+  for (std::size_t k = 0; k < change_.size(); ++k) change_[k] = by_slip_[k] * along_[k];
+  if (!(problem_.third_body.hardening > 0) || problem_.kind != RollingKind::steady) return;
+  for (int j = 0; j < grid_.ny; ++j) {
+    double ahead = 0;
+    for (int i = grid_.nx - 1; i >= 0; --i) {
+      const std::size_t k = grid_.index(i, j);
+      if (slides_[k]) ahead = 0;
+      if (by_slip_[k] > 0 && along_[k] != 0) ahead = change_[k] += ahead;
+    }
+  }
 }
 
 }  // namespace railstrata

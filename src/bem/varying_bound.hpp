@@ -6,9 +6,9 @@
 namespace railstrata {
 
 /// With v the slip of a cell along its traction, g(v) is what the cell carries, and Newton's method takes
-///   |q| + n·dq = g(v) + g'(v) dv,    dv = -n·(L dq - creepage).
-/// Falling friction follows v alone. The film's path of plastic shear adds up along each row, from the leading edge
-/// on: a cell takes it from the cell ahead of it as that has slipped last.
+///   |q| + n·dq = g(v) + dg,    dg = g'(v) dv,    dv = -n·(L dq - dxi).
+/// Falling friction follows v alone. The film's path of plastic shear adds up along each row, from the leading edge on:
+/// of a film that hardens dg has the changes of the cells ahead too.
 class VaryingBound {
  public:
   VaryingBound(const PatchGrid& grid, const TangentialProblem& problem, const GivenSlip& given);
@@ -21,12 +21,17 @@ class VaryingBound {
   /// falling friction jumps.
   static void require_unique_slip(const TangentialProblem& problem, double largest);
 
-  /// Takes the slip along the traction of every cell, 0 where it sticks.
-  void follow(const Plane& along);
+  /// To be filled with the slip along the traction of each cell, 0 where it sticks, before `follow`; with a change of
+  /// it before `change`.
+  Plane& along() { return along_; }
+  void follow();
+  void change();
 
-  double at_rest(std::size_t k) const { return rest_[k]; }     ///< Pa, what a sticking cell carries at most
+  const Plane& at_rest() const { return rest_; }  ///< Pa, what a sticking cell carries at most
+  double at_rest(std::size_t k) const { return rest_[k]; }
   double wanted(std::size_t k) const { return wanted_[k]; }    ///< Pa, g(v)
-  double by_slip(std::size_t k) const { return by_slip_[k]; }  ///< Pa, g'(v)
+  double by_slip(std::size_t k) const { return by_slip_[k]; }  ///< Pa, g'(v) by the cell's own slip
+  double change(std::size_t k) const { return change_[k]; }    ///< Pa, dg by the last `change`
   const Plane& plastic() const { return plastic_; }            ///< m, u_pl; empty without a film that yields
 
  private:
@@ -34,7 +39,8 @@ class VaryingBound {
   const PatchGrid& grid_;
   const TangentialProblem& problem_;
   const GivenSlip& given_;
-  Plane rest_, wanted_, by_slip_, plastic_;
+  Plane along_, rest_, wanted_, by_slip_, change_, plastic_;
+  Mask slides_;  // friction has taken over from a film that yields: what lies ahead no longer matters
 };
 
 }  // namespace railstrata

@@ -79,6 +79,12 @@ void check_third_body(const CaseSpec& spec, CaseSource& source) {
         "give the film's thickness, e.g. \"20 µm\"");
   needs("third_body.hardening", t.hardening > 0, "third_body.yield_shear", t.yield_shear.has_value(),
         "give the stress at which the film begins to yield");
+  if (t.thickness && t.shear_modulus && t.hardening > *t.shear_modulus / *t.thickness)
+    source.complain("third_body.hardening",
+                    fmt::format("third_body.hardening = {}: must be at most shear_modulus / thickness = {}",
+                                format_quantity(t.hardening, dimension::kPressureGradient),
+                                format_quantity(*t.shear_modulus / *t.thickness, dimension::kPressureGradient)),
+                    "a film that yields is softer than an elastic one: lower the hardening");
   if (t.thickness && spec.friction.law != FrictionForm::coulomb)
     source.complain("third_body.thickness",
                     "a third-body layer under friction that falls with slip has no steady state: it would jump",

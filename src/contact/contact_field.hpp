@@ -20,7 +20,8 @@ struct ContactField {
   std::vector<double> p, q_x, q_y;     ///< Pa
   std::vector<double> slip_x, slip_y;  ///< m/s
   std::vector<ContactState> state;
-  double p_noise = 0;  ///< Pa, points with p below this count as separated in areas and ratios
+  std::vector<double> bound;  ///< Pa, what a sticking point carries at most; empty: in proportion to p
+  double p_noise = 0;         ///< Pa, points with p below this count as separated in areas and ratios
 
   int size() const { return columns * stations; }
   void resize(int columns_, int stations_) {

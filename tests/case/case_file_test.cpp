@@ -274,6 +274,12 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:5:13: third_body.hardening = \"-1 MPa/mm\": must be between 0 MPa/mm and 1000000 MPa/mm\n    5 | "
        "hardening = \"-1 MPa/mm\"\n      |             ^\n    remedy: a film that softens shears in one place and has "
        "no steady state: take 0"},
+      {"[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"0.1 GPa\"\nyield_shear = \"0.2 GPa\"\nhardening = "
+       "\"6 GPa/mm\"\n",
+       "a.toml:5:13: third_body.hardening = 6000 MPa/mm: must be at most shear_modulus / thickness = 5000 MPa/mm\n    "
+       "5 | "
+       "hardening = \"6 GPa/mm\"\n      |             ^\n    remedy: a film that yields is softer than an elastic "
+       "one: lower the hardening"},
       {"[[layer]]\nthickness = \"1 mm\"\n",
        "a.toml:1:1: layer.0 has no modulus\n    1 | [[layer]]\n      | ^\n    remedy: add young = \"420 GPa\", or "
        "young_ratio = 2.0 for twice the body's"},
