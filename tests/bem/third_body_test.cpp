@@ -87,7 +87,7 @@ TEST(ThirdBody, SlopeOfTheCreepCurveIsThatOfTheCompliancesAdded) {
   }
 }
 
-// Half-spaces and a film need no more than the sum of what each needs alone, and no less than the film.
+// What a film leaves of the slope is the bodies' and the film's, not the cells'.
 TEST(ThirdBody, FilmLowersTheSlopeOnEveryCellAlike) {
   double last = 0;
   for (const double cell : {1e-3, 0.5e-3, 0.25e-3}) {
@@ -162,6 +162,27 @@ TEST(ThirdBody, HardensAlongItsWayThroughThePatch) {
     }
   EXPECT_GT(yielding, 50);
   EXPECT_GT(*std::max_element(t.plastic.begin(), t.plastic.end()), 0.02e-3);
+}
+
+// A film's shear travels with its particles: steps of rolling at one creepage, from rest, end in the steady state.
+TEST(ThirdBody, StepsOfRollingEndInTheSteadyStateWithItsPlasticShear) {
+  const ReferenceContact c(1.2, 1.2, 1e-3);
+  const ThirdBody film{20e-6, 106.25 * kMPa, 150 * kMPa, 435 * kPerMm};
+  const InfluenceOperator influence(pair_of(kSteel, kSteel), c.grid.nx, c.grid.ny, 1e-3, 1e-3, film.flexibility());
+  TangentialProblem p = c.rolling();
+  p.third_body = film;
+  p.x.creepage = 0.01;
+  const TangentialSolution steady = solve_tangential(influence, c.grid, p);
+  TangentialSolution s;
+  s.q_x.assign(c.grid.size(), 0.0);
+  s.q_y = s.q_x;
+  for (int step = 0; step < 60; ++step) {
+    roll_on_one_cell(influence, c.grid, s, p);
+    s = solve_tangential(influence, c.grid, p);
+  }
+  EXPECT_NEAR(s.force_x / steady.force_x, 1, 1e-4);
+  EXPECT_NEAR(peak(s.plastic) / peak(steady.plastic), 1, 1e-3);
+  EXPECT_GT(peak(s.plastic), 0.01e-3);
 }
 
 }  // namespace

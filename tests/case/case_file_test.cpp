@@ -720,6 +720,15 @@ TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
   EXPECT_EQ(loaded.not_in_fem[2].where, "a.toml:3:2") << "the table of the force";
   EXPECT_EQ(loaded.not_in_fem[0].remedy, "take it out, or solve the case with `railstrata bem`");
   EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.01\n[run]\nrolling = false\n", "a.toml").not_in_fem.empty());
+  const LoadedCase laws = parse_case(
+      "[friction]\nlaw = \"falling_rational\"\nkinetic_coefficient = 0.2\nhalf_velocity = \"1 m/s\"\n", "a.toml");
+  ASSERT_EQ(laws.not_in_fem.size(), 1u);
+  EXPECT_EQ(laws.not_in_fem[0].where, "a.toml:2:7");
+  EXPECT_TRUE(laws.not_in_fem[0].message.starts_with("friction that falls with slip (friction.law) is not in this"));
+  const LoadedCase film = parse_case("[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"100 MPa\"\n", "a.toml");
+  ASSERT_EQ(film.not_in_fem.size(), 1u);
+  EXPECT_TRUE(
+      film.not_in_fem[0].message.starts_with("a third-body layer (third_body.thickness) is not in this engine"));
   EXPECT_THROW(require_finite_elements(loaded.spec), CaseError);
   EXPECT_NO_THROW(require_finite_elements(CaseSpec()));
 }
