@@ -41,7 +41,7 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const BemO
   for (int grown = 0;; ++grown) {
     PatchGrid& g = patch.grid;
     patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, g);
-    patch.influence = cache.get(patch.wheel, patch.rail, g);
+    patch.influence = cache.get(patch.wheel, patch.rail, g, patch.contact.third_body.flexibility());
     const NormalSolution s = solve_normal(*patch.influence, g, patch.profile.gap, target, options.rolling.normal);
     const Touches edge = touches(g, s.pressure);
     if (!edge.x && !edge.y) {
@@ -70,6 +70,19 @@ Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidConta
       slip[g.index(i, j)] = (contact.rolling_radius - radius) / contact.rolling_radius + spin * g.y(j);
     }
   return slip;
+}
+
+/// Sliding on a law that falls by more traction with velocity than plane shear waves carry away from both surfaces,
+/// G/(2 c_s), is unstable.
+std::string note_of_instability(const CaseSpec& spec, const FallingFriction& law, double p0) {
+  const MaterialSpec& m = spec.rail_material;
+  const double shear = m.young / (2 * (1 + m.poisson)), carried = 0.5 * std::sqrt(shear * m.density),
+               fall = -friction_share(law, {}).by_slip_velocity * spec.drive.friction_coefficient * p0;
+  if (fall <= carried) return {};
+  return fmt::format(
+      "friction falls with slip by {:.3g} MPa s/m, more than the {:.3g} MPa s/m that waves carry away: "
+      "the steady state may break up into vibration (squeal)",
+      1e-6 * fall, 1e-6 * carried);
 }
 
 }  // namespace
@@ -101,6 +114,20 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
 }
 
 double wheel_spin(const RigidContact& contact) { return -std::sin(contact.angle) / contact.rolling_radius; }
+
+Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidContact& contact) {
+  Plane spin(static_cast<std::size_t>(grid.ny), 0.0);
+  const auto row = [&](int j) { return grid.index(grid.nx / 2, j); };
+  const auto present = [&](int j) { return profile.gap[row(j)] < ProfileGap::kNoSurface; };
+  const auto middle = [&](int j) { return profile.rail_height[row(j)] + 0.5 * profile.gap[row(j)]; };
+  for (int j = 0; j < grid.ny; ++j) {
+    const int low = std::max(j - 1, 0), high = std::min(j + 1, grid.ny - 1);
+    if (!present(low) || !present(j) || !present(high)) continue;
+    const double angle = contact.angle + std::atan((middle(high) - middle(low)) / ((high - low) * grid.dy));
+    spin[static_cast<std::size_t>(j)] = -std::sin(angle) / contact.rolling_radius - wheel_spin(contact);
+  }
+  return spin;
+}
 
 double geometric_spin(const CaseSpec& spec, const RigidContact& contact) {
   const std::optional<double>& radius = spec.geometry.curve_radius;
@@ -138,14 +165,22 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
   patch.rail = layered_body(spec, BodyId::rail);
   patch.grid = first_grid(spec, placement, options);
   InfluenceCache own;
-  fit_grid(placement, target, options, options.cache ? *options.cache : own, patch);
   RollingContact& contact = patch.contact;
+  contact.third_body = third_body(spec);
+  fit_grid(placement, target, options, options.cache ? *options.cache : own, patch);
   contact.gap = patch.profile.gap;
   contact.target = target;
   contact.friction = spec.drive.friction_coefficient;
   contact.leading_edge = spec.bem.leading_edge;
   contact.spin = spec.drive.spin.value_or(geometric_spin(spec, placement.contact));
   contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, wheel_spin(placement.contact));
+  if (spec.bem.spin_angle == SpinAngle::local)
+    contact.local_spin = local_spin(patch.grid, patch.profile, placement.contact);
+  contact.falling = falling_friction(spec);
+  if (const std::string note = note_of_instability(spec, contact.falling, hertz_estimate(spec, placement.contact).p0);
+      !note.empty())
+    patch.notes.push_back(note);
+  contact.speed = spec.drive.speed;
   return patch;
 }
 

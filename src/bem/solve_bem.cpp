@@ -32,6 +32,7 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
   field.resize(g.ny, g.nx);
   field.slip_is_distance = patch.contact.kind == RollingKind::shift;
   const double over_time = field.slip_is_distance ? 1.0 : speed;
+  field.bound = s.tangential.bound;
   const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {

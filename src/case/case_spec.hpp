@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/body_id.hpp"
+#include "friction/falling_friction.hpp"
 #include "geometry/body_shapes.hpp"
 
 namespace railstrata {
@@ -109,6 +110,20 @@ struct DriveSpec {
   }
 };
 
+/// Friction at rest is drive.friction_coefficient.
+struct FrictionSpec {
+  FrictionForm law = FrictionForm::coulomb;
+  std::optional<double> kinetic_coefficient;  ///< limit of fast slip; with a falling law
+  std::optional<double> half_velocity;        ///< m/s, where half of the fall is done; with a falling law
+};
+
+/// A layer of wear debris, sand, … between wheel and rail; none without a thickness.
+struct ThirdBodySpec {
+  std::optional<double> thickness, shear_modulus;
+  std::optional<double> yield_shear;  ///< Pa; none: elastic
+  double hardening = 0;               ///< Pa/m, by plastic shear
+};
+
 struct MeshSpec {
   double element_size = 1e-3, fine_width = 24e-3, fine_depth = 8e-3, largest = 12e-3;
   int coarse_ratio = 3;
@@ -138,8 +153,15 @@ struct RunSpec {
   bool rolling = true;               ///< false: stop after the static preload
 };
 
+/// Angle of the surfaces that the lateral slip of spin is taken with (bem/case_patch.hpp).
+enum class SpinAngle {
+  local,  ///< of each place of the patch
+  patch   ///< of the contact plane everywhere
+};
+
 struct BemSpec {
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
+  SpinAngle spin_angle = SpinAngle::local;
 };
 
 /// A history of loads and motions, linear between its rows: columns of one length, an empty one is not given. What
@@ -170,6 +192,8 @@ struct CaseSpec {
   std::vector<LayerSpec> layers;
   VehicleSpec vehicle;
   DriveSpec drive;
+  FrictionSpec friction;
+  ThirdBodySpec third_body;
   MeshSpec mesh;
   ContactSpec contact;
   RunSpec run;

@@ -28,6 +28,10 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   beyond(spec.transient.kind != TransientKind::none, "transient.kind", "a history of loads and motions",
          "one drive leads to the wanted positions, with inertia");
   if (!spec.run.rolling) return out;
+  beyond(spec.friction.law != FrictionForm::coulomb, "friction.law", "friction that falls with slip",
+         "surfaces chatter on a law without memory that falls faster than waves carry away");
+  beyond(spec.third_body.thickness.has_value(), "third_body.thickness", "a third-body layer",
+         "surfaces touch without a film between them");
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
   beyond(std::abs(d.creepage.value_or(0)) > kLargestCreepage, "drive.creepage", "so large a creepage",
          "it reaches to 0.1");

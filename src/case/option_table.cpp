@@ -357,7 +357,11 @@ OptionTable drive_table() {
         {-1e7, 1e7},
         {},
         {over_static_load, kLessForce}},
-       {"friction_coefficient", at<&C::drive, &D::friction_coefficient>, "Coulomb's coefficient", kNumber, {0, 2}},
+       {"friction_coefficient",
+        at<&C::drive, &D::friction_coefficient>,
+        "Coulomb's coefficient; of friction that falls with slip the one at rest",
+        kNumber,
+        {0, 2}},
        {"torque_ramp", at<&C::drive, &D::torque_ramp>, "Smooth rise of the torque at the start", kTime, {0, 1}},
        {"creepage_start",
         at<&C::drive, &D::creepage_start>,
@@ -369,6 +373,58 @@ OptionTable drive_table() {
        {"lateral_traction_coefficient", "lateral_force", "lateral_creepage"}}};
   for (const Option& option : creepage_options()) out.options.push_back(option);
   return out;
+}
+
+bool falls(const CaseSpec& spec, std::size_t) { return spec.friction.law != FrictionForm::coulomb; }
+
+OptionTable friction_table() {
+  using F = FrictionSpec;
+  return {"friction",
+          "How friction depends on slip; at rest it is drive.friction_coefficient. Falling friction: half-space engine",
+          {choice_at<&C::friction, &F::law>("law",
+                                            "Coulomb's constant coefficient, or one that falls with the slip velocity "
+                                            "v: by 2^(-v/half_velocity), or by 1/(1 + v/half_velocity)",
+                                            {{"coulomb", FrictionForm::coulomb},
+                                             {"falling_exponential", FrictionForm::falling_exponential},
+                                             {"falling_rational", FrictionForm::falling_rational}}),
+           {"kinetic_coefficient",
+            at<&C::friction, &F::kinetic_coefficient>,
+            "Falling laws: the coefficient's limit for fast slip",
+            kNumber,
+            {0, 2},
+            {},
+            {},
+            falls},
+           {"half_velocity",
+            at<&C::friction, &F::half_velocity>,
+            "Falling laws: slip velocity at which half of the fall is done",
+            kSpeed,
+            above(0, 100),
+            {},
+            {},
+            falls}}};
+}
+
+bool has_film(const CaseSpec& spec, std::size_t) { return spec.third_body.thickness.has_value(); }
+
+OptionTable third_body_table() {
+  using T = ThirdBodySpec;
+  return {"third_body",
+          "A layer of wear debris, sand, … between the surfaces, an elastic-plastic film in shear; none without a "
+          "thickness. Half-space engine",
+          {{"thickness", at<&C::third_body, &T::thickness>, "Of the film", kLength, above(0, kMilli)},
+           {"shear_modulus", at<&C::third_body, &T::shear_modulus>, "Of the film", kPressure, above(0, 1e12)},
+           {"yield_shear", at<&C::third_body, &T::yield_shear>,
+            "Shear stress at which the film yields; none: it is elastic", kPressure, above(0, 1e11)},
+           {"hardening",
+            at<&C::third_body, &T::hardening>,
+            "Rise of yield_shear by plastic shear displacement",
+            kPressureGradient,
+            {0, 1e15},
+            {},
+            {},
+            has_film,
+            "a film that softens shears in one place and has no steady state: take 0"}}};
 }
 
 OptionTable mesh_table() {
@@ -464,13 +520,19 @@ OptionTable run_table() {
 }
 
 OptionTable bem_table() {
-  return {"bem",
-          "The half-space engine",
-          {choice_at<&C::bem, &BemSpec::leading_edge>(
-              "leading_edge",
-              "Where rows of cells meet the leading edge of the patch: inside a cell, as the gap tells, or between two "
-              "cells, as Kalker's method and CONTACT have it",
-              {{"sub_cell", LeadingEdge::sub_cell}, {"whole_cell", LeadingEdge::whole_cell}})}};
+  return {
+      "bem",
+      "The half-space engine",
+      {choice_at<&C::bem, &BemSpec::leading_edge>(
+           "leading_edge",
+           "Where rows of cells meet the leading edge of the patch: inside a cell, as the gap tells, or between two "
+           "cells, as Kalker's method and CONTACT have it",
+           {{"sub_cell", LeadingEdge::sub_cell}, {"whole_cell", LeadingEdge::whole_cell}}),
+       choice_at<&C::bem, &BemSpec::spin_angle>(
+           "spin_angle",
+           "The angle that the lateral slip of spin is taken with: the surfaces' own at each place of the patch, "
+           "or that of the contact plane",
+           {{"local", SpinAngle::local}, {"patch", SpinAngle::patch}})}};
 }
 
 template <auto Member>
@@ -591,6 +653,8 @@ const std::vector<OptionTable>& case_tables() {
       layer_table(),
       vehicle_table(),
       drive_table(),
+      friction_table(),
+      third_body_table(),
       mesh_table(),
       contact_table(),
       run_table(),

@@ -123,6 +123,19 @@ Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
   return {std::move(wheel), std::move(rail), track, contact, std::move(notes)};
 }
 
+FallingFriction falling_friction(const CaseSpec& spec) {
+  const FrictionSpec& f = spec.friction;
+  const double at_rest = spec.drive.friction_coefficient;
+  if (f.law == FrictionForm::coulomb || !(at_rest > 0)) return {};
+  return {f.law, f.kinetic_coefficient.value() / at_rest, f.half_velocity.value()};
+}
+
+ThirdBody third_body(const CaseSpec& spec) {
+  const ThirdBodySpec& t = spec.third_body;
+  if (!t.thickness) return {};
+  return {*t.thickness, t.shear_modulus.value(), t.yield_shear.value_or(0), t.hardening};
+}
+
 double static_load(const CaseSpec& spec) {
   return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
 }
