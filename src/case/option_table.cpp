@@ -408,16 +408,16 @@ OptionTable friction_table() {
 bool has_film(const CaseSpec& spec, std::size_t) { return spec.third_body.thickness.has_value(); }
 
 OptionTable third_body_table() {
-  using T = ThirdBodySpec;
+  using Film = ThirdBodySpec;
   return {"third_body",
           "A layer of wear debris, sand, … between the surfaces, an elastic-plastic film in shear; none without a "
           "thickness. Half-space engine",
-          {{"thickness", at<&C::third_body, &T::thickness>, "Of the film", kLength, above(0, kMilli)},
-           {"shear_modulus", at<&C::third_body, &T::shear_modulus>, "Of the film", kPressure, above(0, 1e12)},
-           {"yield_shear", at<&C::third_body, &T::yield_shear>,
+          {{"thickness", at<&C::third_body, &Film::thickness>, "Of the film", kLength, above(0, kMilli)},
+           {"shear_modulus", at<&C::third_body, &Film::shear_modulus>, "Of the film", kPressure, above(0, 1e12)},
+           {"yield_shear", at<&C::third_body, &Film::yield_shear>,
             "Shear stress at which the film yields; none: it is elastic", kPressure, above(0, 1e11)},
            {"hardening",
-            at<&C::third_body, &T::hardening>,
+            at<&C::third_body, &Film::hardening>,
             "Rise of yield_shear by plastic shear displacement",
             kPressureGradient,
             {0, 1e15},
