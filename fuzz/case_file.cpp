@@ -24,7 +24,9 @@ struct InBounds {
   }
   bool operator()(const std::optional<double>* v) const { return !*v || option.range.holds(**v); }
   bool operator()(const std::vector<double>* v) const {
-    return !v->empty() && std::all_of(v->begin(), v->end(), [&](double x) { return option.range.holds(x); });
+    const bool may_be_empty = option.key != "positions";  // a column of a transient that is not given
+    return (may_be_empty || !v->empty()) &&
+           std::all_of(v->begin(), v->end(), [&](double x) { return option.range.holds(x); });
   }
   bool operator()(const std::vector<ModulusPoint>* v) const {
     return std::all_of(v->begin(), v->end(), [](const ModulusPoint& p) {

@@ -24,10 +24,11 @@ import time
 import records
 
 ROOT = records.ROOT
-READERS = ["profile", "case_file", "study_file", "published", "results", "checkpoint", "checkpoint_content"]
+READERS = ["profile", "case_file", "history_table", "study_file", "published", "results", "checkpoint",
+           "checkpoint_content"]
 # bytes of an input
-LONGEST = {"profile": 1200, "case_file": 1200, "study_file": 1600, "published": 1400, "results": 1200,
-           "checkpoint": 700, "checkpoint_content": 700}
+LONGEST = {"profile": 1200, "case_file": 1200, "history_table": 600, "study_file": 1600, "published": 1400,
+           "results": 1200, "checkpoint": 700, "checkpoint_content": 700}
 LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-malloc_limit_mb=512"]
 # HDF5 asks for what a forged file says, is refused, and says so
 OWN_LIMITS = {"checkpoint_content": ["-malloc_limit_mb=2147483647"]}

@@ -21,7 +21,15 @@ export interface Grid {
   q_y: PackedNumbers;
   slip_x: PackedNumbers;
   slip_y: PackedNumbers;
-  state: string;  // one digit a point: 0 separated, 1 stick, 2 slip
+  slip_unit: string;  // "mm/s"; of a shift "µm", over its last increment
+  state: string;      // one digit a point: 0 separated, 1 stick, 2 slip
+}
+
+/// The patch of a transient on its way: states on one grid, index as in Grid.
+export interface Film {
+  x: number[];
+  y: number[];
+  frames: {step: number; distance_mm: number; q: PackedNumbers; state: string}[];
 }
 
 /// Values at cell centres, index along + along.length * row; rows go down from the surface.
@@ -73,6 +81,7 @@ export interface Geometry {
 }
 
 export interface Summary {
+  state?: string;  // of a transient: which of its states this is
   position_m: number|null;
   contact: Record<string, number|null>;
   patches?: Record<string, number|null>[];  // where the wheel touches at several places
@@ -94,6 +103,7 @@ export interface Run {
   centre_line: Columns&{y: number[]};
   depth_line: Columns|null;
   history: Columns|null;
+  film: Film|null;
   sections: Partial<Record<BodyName, BodySections>>;
 }
 

@@ -142,18 +142,28 @@ export function forget(inside: HTMLElement): void {
   }
 }
 
+function draw({figure, plot}: Shown, theme: Theme, space: number): void {
+  if (space <= 0) return;  // folded away: drawn when it is opened
+  const {data, layout} = figure.draw(theme, space);
+  void Plotly.react(plot as never, data as never, layout as never, {
+    displaylogo: false,
+    showSendToCloud: false,
+    plotlyServerURL: "",
+    modeBarButtons: [["zoom2d", "pan2d", "resetScale2d", "toImage"]],
+    toImageButtonOptions: {format: "png", scale: 2, filename: figure.id},
+  } as never);
+}
+
+let lastTheme: Theme = kLight;
+
 /// Draws everything on the page; `width` for print, else what the frame offers.
 export function drawAll(theme: Theme, width?: (wide: boolean) => number): void {
-  for (const {figure, plot} of shown.values()) {
-    const space = width ? width(figure.wide ?? false) : plot.clientWidth;
-    if (space <= 0) continue;  // folded away: drawn when it is opened
-    const {data, layout} = figure.draw(theme, space);
-    void Plotly.react(plot as never, data as never, layout as never, {
-      displaylogo: false,
-      showSendToCloud: false,
-      plotlyServerURL: "",
-      modeBarButtons: [["zoom2d", "pan2d", "resetScale2d", "toImage"]],
-      toImageButtonOptions: {format: "png", scale: 2, filename: figure.id},
-    } as never);
-  }
+  lastTheme = theme;
+  for (const one of shown.values()) draw(one, theme, width ? width(one.figure.wide ?? false) : one.plot.clientWidth);
+}
+
+/// Draws a figure again whose values have changed.
+export function redraw(id: string): void {
+  const one = shown.get(id);
+  if (one) draw(one, lastTheme, one.plot.clientWidth);
 }

@@ -6,6 +6,7 @@ import {linesFigure, type Series} from "./lines";
 import {centreLines, patchesTable, patchMaps} from "./patch";
 import {geometryFigures, geometryTable, historyFigures, numbersTable, origin, tiles, verdict} from "./sections";
 import {depthLines, maximaTable, sectionMaps} from "./stress";
+import {filmParts, transientFigures} from "./transient";
 import {engineName, numberText, plotText, runLabel, setWords} from "./text";
 
 const report = JSON.parse(document.getElementById("data")!.textContent!) as Report;
@@ -112,13 +113,14 @@ function stressPart(runs: Run[]): HTMLElement {
 
 /// Everything about the runs that are looked at: one, or two side by side.
 function runParts(runs: Run[]): HTMLElement[] {
-  const history = historyFigures(runs);
+  const history = [...historyFigures(runs), ...transientFigures(runs)];
+  const way = [...filmParts(runs), ...(history.length ? [grid(history)] : [])];
   return [
     part("numbers", "Numbers", numbersTable(runs)),
     geometryPart(runs[0]),
     patchPart(runs),
     stressPart(runs),
-    ...(history.length ? [part("history", "On the way", grid(history))] : []),
+    ...(way.length ? [part("history", "On the way", ...way)] : []),
     part("origin", "Origin", ...origin(runs)),
   ];
 }
@@ -179,8 +181,9 @@ function subtitle(): HTMLElement {
   const engines = runs.map((r) => `${r.name}: ${engineName(r.engine)}`).join(" · ");
   const position = runs.length < 3 && runs[0].engine === "fem" ? runs[0].summary.position_m : null;
   const where = position === null ? "" : `, wheel at ${numberText(1e3 * position)} mm`;
+  const state = runs.length === 1 && runs[0].summary.state ? `, ${runs[0].summary.state}` : "";
   const what = runs.length > 2 ? `${runs.length} runs` : engines;
-  return element("p", {class: "sub"}, what, `${where} · RailStrata ${program}`);
+  return element("p", {class: "sub"}, what, `${where}${state} · RailStrata ${program}`);
 }
 
 function header(): HTMLElement {

@@ -106,7 +106,7 @@ const kKinds: Kind[] = [
   },
 ];
 
-const stateColours = (t: Theme) => [[0, t.stick], [0.5, t.stick], [0.5, t.slip], [1, t.slip]];
+export const stateColours = (t: Theme) => [[0, t.stick], [0.5, t.stick], [0.5, t.slip], [1, t.slip]];
 
 /// What a map of states has other than one of numbers up to `top`.
 function scaleOf(kind: Kind, top: number): Pick<MapSpec, "words"|"range"|"colours"|"discrete"|"valueWords"> {
@@ -121,7 +121,14 @@ function mapTitle(kind: Kind, patch: Patch, several: boolean): string {
   return `${kind.name}${whose}${patch.number ? `, patch ${patch.number}` : ""}`;
 }
 
-/// Four maps for each patch of each run, those of one quantity on one scale.
+/// Slip of a shift is a distance.
+function kindOf(kind: Kind, run: Run): Kind {
+  const unit = run.patch.slip_unit;
+  if (kind.id !== "slip" || unit === "mm/s") return kind;
+  return {...kind, name: "Slip of the last increment", column: "slip_um", hover: `slip %{z:.4f} ${unit}`, bar: unit};
+}
+
+/// Four maps for each patch of each run, those of one quantity in one unit on one scale.
 export function patchMaps(runs: Run[]): Figure[] {
   const patches = runs.flatMap(patchesOf);
   const windowX = touchingWindow(patches, (p) => p.x, (p, i) => p.p.some((row) => row[i] !== null));
@@ -144,10 +151,11 @@ export function patchMaps(runs: Run[]): Figure[] {
     windowY,
     marker: {x: 0, y: 0, text: "rigid contact point"},
   });
-  return kKinds.slice(0, hasTraction(runs) ? 4 : 1).flatMap((kind) => {
-    const top = largest(patches, kind.values);
-    return patches.map((patch, n) => mapOf(kind, top, patch, n));
-  });
+  return kKinds.slice(0, hasTraction(runs) ? 4 : 1).flatMap((kind) => patches.map((patch, n) => {
+    const own = kindOf(kind, patch.run);
+    const alike = patches.filter((p) => kindOf(kind, p.run).bar === own.bar);
+    return mapOf(own, largest(alike, kind.values), patch, n);
+  }));
 }
 
 /// A line of each run along x.

@@ -155,8 +155,8 @@ function patchTile(run: Run): HTMLElement {
 function tractionTile(run: Run): HTMLElement {
   const fx = numberAt(run, "contact/F_x_N");
   const fz = numberAt(run, "contact/F_z_N");
-  const wanted = option(run, "drive", "traction_coefficient") ?? "–";
-  return tile("Traction F_x / F_z", numberText(fx !== null && fz ? fx / fz : null), "", `wanted ${wanted}`);
+  const wanted = `wanted ${option(run, "drive", "traction_coefficient") ?? "–"}`;
+  return tile("Traction F_x / F_z", numberText(fx !== null && fz ? fx / fz : null), "", run.summary.state ?? wanted);
 }
 
 function insideTile(run: Run): HTMLElement {
@@ -327,6 +327,13 @@ function radiusText(curvature: number): string {
   return Math.abs(curvature) < 1e-9 ? "straight" : `${numberText(1e3 / curvature)} mm`;
 }
 
+/// Which load geometry.json has: the case's, or what stands for it.
+function loadWords(run: Run): string {
+  const approach = option(run, "vehicle", "approach");
+  if (approach) return `load by Hertz for the given approach of ${approach}`;
+  return run.summary.state ? "load at the end" : "static load";
+}
+
 export function geometryTable(run: Run): HTMLElement|null {
   const g = run.geometry;
   if (!g) return null;
@@ -342,7 +349,7 @@ export function geometryTable(run: Run): HTMLElement|null {
     ["contact angle", `${numberText(1e3 * c.angle_rad)} mrad`],
     ["rolling radius", `${(1e3 * c.rolling_radius_m).toFixed(3)} mm`],
     ["lateral radius of wheel, of rail (convex positive)", radii],
-    ["static load", `${numberText(1e-3 * g.load_N, 5)} kN`],
+    [loadWords(run), `${numberText(1e-3 * g.load_N, 5)} kN`],
     ["Hertz’s ellipse, no layer", hertzWords(g.hertz)],
     ...g.layers.map(layerRow),
   ];
@@ -351,7 +358,7 @@ export function geometryTable(run: Run): HTMLElement|null {
 
 // ---- history
 
-interface HistoryLine {
+export interface HistoryLine {
   column: string;
   name: string;
   scale?: number;
@@ -432,16 +439,22 @@ const kHistory: HistoryFigure[] = [
   },
 ];
 
+/// What the charts of a history have along x.
+export interface Along {
+  column: string;
+  hover: string;
+}
+
 /// One run: a colour a line; two: a colour a run, dots for all lines but the first.
-function historySeries(runs: Run[], lines: HistoryLine[]): Series[] {
+export function historySeries(runs: Run[], lines: HistoryLine[], along: Along): Series[] {
   const several = runs.length > 1;
   const seriesOf = (run: Run, n: number, {column, name, scale = 1, hover}: HistoryLine, k: number): Series => ({
     name: several ? `${name}, ${runLabel(run)}` : name,
-    x: run.history!.position_mm,
-    y: run.history![column].map((v) => scale * v),
+    x: run.history![along.column],
+    y: run.history![column].map((v) => (v === null ? null : scale * v)),
     colour: (t) => t.series[(several ? n : k) % t.series.length],
     dash: several && k > 0 ? "dot" : "solid",
-    hover: `wheel at %{x:.1f} mm<br>${hover}`,
+    hover: `${along.hover}<br>${hover}`,
   });
   return runs.flatMap((run, n) => lines.map((line, k) => seriesOf(run, n, line, k)));
 }
@@ -467,7 +480,7 @@ export function historyFigures(runs: Run[]): Figure[] {
     band,
     leastSpan: f.leastSpan,
     words: [f.words + (n === 0 ? shaded : "")],
-    series: historySeries(given, f.lines),
+    series: historySeries(given, f.lines, {column: "position_mm", hover: "wheel at %{x:.1f} mm"}),
   });
   return kHistory.map(figure);
 }

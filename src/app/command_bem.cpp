@@ -1,47 +1,105 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <optional>
+
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/option_values.hpp"
+#include "app/progress.hpp"
+#include "app/signals.hpp"
 #include "app/summary_text.hpp"
 #include "app/waiting.hpp"
 #include "app/write_page.hpp"
+#include "core/faults.hpp"
+#include "io/folder_kind.hpp"
 #include "io/output_folder.hpp"
 #include "runs/half_space_need.hpp"
 #include "runs/write_half_space_result.hpp"
+#include "runs/write_transient.hpp"
 
 namespace railstrata {
+namespace {
+
+bool shown() { return spdlog::should_log(spdlog::level::info); }
+
+/// What `bem` computes, and where its results go.
+struct HalfSpaceJob {
+  LoadedCase loaded;
+  Placement placement;
+  std::filesystem::path out;
+  BemOptions bem;
+  HalfSpaceNeed need;
+};
+
+HalfSpaceJob job_of(const CommandOptions& options) {
+  LoadedCase loaded = load_case_of(options);
+  Placement placement = place(loaded.spec, loaded.folder());
+  HalfSpaceJob job{std::move(loaded), std::move(placement), {}, {}, {}};
+  job.out = output_folder_of(options, job.loaded, "-bem");
+  job.bem.cell = cell_size(options.cell);
+  job.need = half_space_need(job.loaded.spec, job.placement, job.bem.cell);
+  require_memory(job.need, job.bem.cell);
+  return job;
+}
+
+HalfSpaceSolution solve_steady(const HalfSpaceJob& job) {
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)), shown());
+  return solve_half_space(job.loaded.spec, job.placement, job.bem);
+}
+
+/// Its history and pictures are there while it is followed, and after Ctrl-C up to there.
+HalfSpaceSolution solve_and_show(const HalfSpaceJob& job) {
+  const std::atomic<bool>& stop = stop_flag();
+  TransientWriter writer(job.loaded.spec, job.out, table_origin(job.loaded));
+  spdlog::info("{}: {} steps, {}; results go to {}", job.loaded.spec.title,
+               transient_steps(job.loaded.spec, job.placement, job.bem.cell), need_text(job.need), job.out.string());
+  std::optional<Progress> bar;
+  bar.emplace("steps", shown());
+  HalfSpaceSolution solution =
+      solve_half_space(job.loaded.spec, job.placement, job.bem, [&](const TransientState& state) {
+        writer.add(state);
+        bar->update(static_cast<double>(state.step) / state.steps);
+        return !stop;
+      });
+  bar.reset();
+  if (solution.stopped)
+    throw Interrupted(
+        fmt::format("stopped {}: history.csv and the patch on its way are in {} up to there\n    remedy: "
+                    "start it again: {}",
+                    solution.summary.state, job.out.string(), command_again(job.out)));
+  return solution;
+}
+
+constexpr const char* kHalfWritten =
+    "\nstopped while the results were written: they are not complete; start again with --force\n";
+
+}  // namespace
 
 ExitCode command_bem(const CommandOptions& options) {
-  const LoadedCase loaded = load_case_of(options);
-  const std::filesystem::path out = output_folder_of(options, loaded, "-bem");
-  BemOptions bem;
-  bem.cell = cell_size(options.cell);
-  const Placement placement = place(loaded.spec, loaded.folder());
-  const HalfSpaceNeed need = half_space_need(loaded.spec, placement, bem.cell);
-  require_memory(need, bem.cell);
-  answer_interrupt_with("\nstopped: nothing was written\n");
-  const HalfSpaceSolution solution = [&] {
-    const Waiting waiting(fmt::format("half-spaces, {}", need_text(need)), spdlog::should_log(spdlog::level::info));
-    return solve_half_space(loaded.spec, placement, bem);
-  }();
-  for (const std::string& note : solution.result.notes) spdlog::info("{}", note);
+  const HalfSpaceJob job = job_of(options);
+  const bool steady = job.loaded.spec.transient.kind == TransientKind::none;
+  HalfSpaceSolution solution;
+  if (steady) solution = solve_steady(job);
 
-  require_apart(out, loaded);
-  const FolderHold hold = prepare_output_folder(out, options.force);
-  answer_interrupt_with("\nstopped while the results were written: they are not complete; start again with --force\n");
+  require_apart(job.out, job.loaded);
+  const FolderHold hold = prepare_output_folder(job.out, options.force);
   try {
-    clear_old_results(out);
-    write_origin(out, loaded, options.command_line, options.threads);
-    write_half_space_result(out, table_origin(loaded), loaded.spec, placement, solution);
+    if (steady) answer_interrupt_with(kHalfWritten);
+    clear_old_results(job.out);
+    write_origin(job.out, job.loaded, options.command_line, options.threads);
+    if (!steady) solution = solve_and_show(job);
+    answer_interrupt_with(kHalfWritten);
+    write_half_space_result(job.out, table_origin(job.loaded), job.loaded.spec, job.placement, solution);
   } catch (EnvironmentError& e) {
     if (!e.remedy.empty()) e.remedy += ", then start it again with --force";
     throw;
   }
+  for (const std::string& note : solution.result.notes) spdlog::info("{}", note);
   print_summary(solution.summary, options.json);
-  spdlog::info("results are in {}", out.string());
-  if (options.page) add_report(out);
+  spdlog::info("results are in {}", job.out.string());
+  if (options.page) add_report(job.out);
   const bool ok = all_checks_hold(solution.summary);
   if (!ok) spdlog::warn("a check failed: read the results with care");
   return ok ? ExitCode::ok : ExitCode::failed_checks;

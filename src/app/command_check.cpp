@@ -29,7 +29,11 @@ void print_geometry(const CaseSpec& spec, const Placement& placement) {
   fmt::print("contact angle  {:.2f} mrad; rolling radius {:.3f} mm\n", 1e3 * c.angle, 1e3 * c.rolling_radius);
   if (c.yaw != 0)
     fmt::print("yaw            {:.3f} mrad; the contact lies {:.3f} mm before the axle\n", 1e3 * c.yaw, 1e3 * c.x);
-  fmt::print("static load    {:.3f} kN\n", 1e-3 * static_load(spec));
+  if (spec.vehicle.approach)
+    fmt::print("approach       {:.4g} mm, given: the load is a result, {:.3f} kN by Hertz\n",
+               1e3 * *spec.vehicle.approach, 1e-3 * hertz.load);
+  else
+    fmt::print("static load    {:.3f} kN\n", 1e-3 * static_load(spec));
   fmt::print("Hertz estimate a = {:.2f} mm, b = {:.2f} mm, p0 = {:.0f} MPa (local curvatures only)\n", 1e3 * hertz.a,
              1e3 * hertz.b, 1e-6 * hertz.p0);
 }
@@ -88,7 +92,7 @@ nlohmann::ordered_json as_json(const CaseSpec& spec, const Placement& placement)
             {"angle_rad", c.angle},
             {"yaw_rad", c.yaw},
             {"rolling_radius_m", c.rolling_radius}}},
-          {"load_N", static_load(spec)},
+          {"load_N", hertz.load},
           {"hertz", {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}}}};
 }
 

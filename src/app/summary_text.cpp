@@ -115,9 +115,9 @@ std::string checks_text(const Summary& s) {
 }  // namespace
 
 std::string summary_text(const Summary& s) {
-  return fmt::format("\n{}{}\n", printable(s.title),
-                     std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "") +
-         numbers_text(s) + patches_text(s) + stresses_text(s) + steps_text(s.run) + checks_text(s);
+  const std::string place = std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "";
+  return fmt::format("\n{}{}\n", printable(s.title), s.state.empty() ? place : ", " + s.state) + numbers_text(s) +
+         patches_text(s) + stresses_text(s) + steps_text(s.run) + checks_text(s);
 }
 
 void print_summary(const Summary& s, bool json) {

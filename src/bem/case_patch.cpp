@@ -37,9 +37,9 @@ void keep_to_room(const PatchGrid& g, const PatchRoom& room, Plane& gap) {
       for (int i = 0; i < g.nx; ++i) gap[g.index(i, j)] = ProfileGap::kNoSurface;
 }
 
-std::string target_text(const NormalTarget& target) {
-  return target.load ? fmt::format("the load of {:.1f} kN", 1e-3 * *target.load)
-                     : fmt::format("the approach of {:.0f} um", 1e6 * *target.approach);
+std::string in_words(const NormalTarget& target) {
+  return target.load ? fmt::format("load of {:.1f} kN", 1e-3 * *target.load)
+                     : fmt::format("approach of {:.3g} mm", 1e3 * *target.approach);
 }
 
 void fit_grid(const Placement& placement, const NormalTarget& target, const PatchRoom& room, const BemOptions& options,
@@ -49,7 +49,7 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
     PatchGrid& g = patch.grid;
     patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, g);
     keep_to_room(g, room, patch.profile.gap);
-    patch.influence = cache.get(patch.wheel, patch.rail, g);
+    patch.influence = cache.get(patch.wheel, patch.rail, g, patch.contact.third_body.flexibility());
     const NormalSolution s = solve_normal(*patch.influence, g, patch.profile.gap, target, options.rolling.normal);
     const Touches edge = touches(g, s.pressure);
     if (!edge.x && !edge.y) {
@@ -61,7 +61,7 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
     const int half_x = edge.x ? std::min(g.nx * 7 / 10 + 1, most) : g.nx / 2,
               half_y = edge.y ? std::min(g.ny * 7 / 10 + 1, most) : g.ny / 2;
     if (half_x == g.nx / 2 && half_y == g.ny / 2)
-      throw CaseError(fmt::format("{} flattens the whole potential contact area of {:.0f} mm", target_text(target),
+      throw CaseError(fmt::format("the {} flattens the whole potential contact area of {:.0f} mm", in_words(target),
                                   1e3 * options.largest_patch),
                       "check the load, the profiles and the moduli; half-space theory no longer applies");
     g = centred_grid(half_x, half_y, options.cell, options.cell);
@@ -94,6 +94,19 @@ Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidConta
   return slip;
 }
 
+/// Sliding on a law that falls by more traction with velocity than plane shear waves carry away from both surfaces,
+/// G/(2 c_s), is unstable.
+std::string note_of_instability(const CaseSpec& spec, const FallingFriction& law, double p0) {
+  const MaterialSpec& m = spec.rail_material;
+  const double shear = m.young / (2 * (1 + m.poisson)), carried = 0.5 * std::sqrt(shear * m.density),
+               fall = -friction_share(law, {}).by_slip_velocity * spec.drive.friction_coefficient * p0;
+  if (fall <= carried) return {};
+  return fmt::format(
+      "friction falls with slip by {:.3g} MPa s/m, more than the {:.3g} MPa s/m that waves carry away: "
+      "the steady state may break up into vibration (squeal)",
+      1e-6 * fall, 1e-6 * carried);
+}
+
 }  // namespace
 
 PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
@@ -119,6 +132,20 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
 
 double wheel_spin(const RigidContact& contact) { return -std::sin(contact.angle) / contact.rolling_radius; }
 
+Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidContact& contact) {
+  Plane spin(static_cast<std::size_t>(grid.ny), 0.0);
+  const auto row = [&](int j) { return grid.index(grid.nx / 2, j); };
+  const auto present = [&](int j) { return profile.gap[row(j)] < ProfileGap::kNoSurface; };
+  const auto middle = [&](int j) { return profile.rail_height[row(j)] + 0.5 * profile.gap[row(j)]; };
+  for (int j = 0; j < grid.ny; ++j) {
+    const int low = std::max(j - 1, 0), high = std::min(j + 1, grid.ny - 1);
+    if (!present(low) || !present(j) || !present(high)) continue;
+    const double angle = contact.angle + std::atan((middle(high) - middle(low)) / ((high - low) * grid.dy));
+    spin[static_cast<std::size_t>(j)] = -std::sin(angle) / contact.rolling_radius - wheel_spin(contact);
+  }
+  return spin;
+}
+
 double geometric_spin(const CaseSpec& spec, const RigidContact& contact) {
   const std::optional<double>& radius = spec.geometry.curve_radius;
   return wheel_spin(contact) + (radius ? std::cos(contact.angle) / *radius : 0.0);
@@ -139,21 +166,34 @@ double normal_load(double weight, double lateral, const RigidContact& contact) {
   return (weight + lateral * std::sin(contact.angle)) / std::cos(contact.angle);
 }
 
+double frictionless_load(const CasePatch& patch, const BemOptions& options) {
+  return solve_normal(*patch.influence, patch.grid, patch.contact.gap, patch.contact.target, options.rolling.normal)
+      .load;
+}
+
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                          NormalTarget target, const PatchRoom& room) {
+                          const NormalTarget& target, const PatchRoom& room) {
   CasePatch patch;
   patch.wheel = layered_body(spec, BodyId::wheel);
   patch.rail = layered_body(spec, BodyId::rail);
   patch.grid = grid_for(spec, placement, options, target, room);
   InfluenceCache own;
-  fit_grid(placement, target, room, options, options.cache ? *options.cache : own, patch);
   RollingContact& contact = patch.contact;
+  contact.third_body = third_body(spec);
+  fit_grid(placement, target, room, options, options.cache ? *options.cache : own, patch);
   contact.gap = patch.profile.gap;
   contact.target = target;
   contact.friction = spec.drive.friction_coefficient;
   contact.leading_edge = spec.bem.leading_edge;
   contact.spin = spec.drive.spin.value_or(geometric_spin(spec, placement.contact));
   contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, wheel_spin(placement.contact));
+  if (spec.bem.spin_angle == SpinAngle::local)
+    contact.local_spin = local_spin(patch.grid, patch.profile, placement.contact);
+  contact.falling = falling_friction(spec);
+  if (const std::string note = note_of_instability(spec, contact.falling, hertz_estimate(spec, placement.contact).p0);
+      !note.empty())
+    patch.notes.push_back(note);
+  contact.speed = spec.drive.speed;
   return patch;
 }
 

@@ -40,6 +40,11 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 double wheel_spin(const RigidContact& contact);
 double geometric_spin(const CaseSpec& spec, const RigidContact& contact);
 
+/// Spin that the lateral slip of each row of cells has beyond wheel_spin, 1/m: -sin(delta(y))/r with the angle of the
+/// middle between the two surfaces there. The wheel turns by V/r about its axle, so that a point at x moves up or down
+/// by x/r, over V, and slips by what of that lies along the surface. 0 where a profile has ended.
+Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidContact& contact);
+
 /// Lateral creepage in the contact plane of a wheel with the yaw psi: -tan(psi)/cos(delta), for its surface cannot move
 /// into the rail. Like all creepages here without products of creepages.
 double yaw_creepage(const RigidContact& contact);
@@ -55,6 +60,9 @@ double normal_load(double weight, double lateral, const RigidContact& contact);
 /// Places the grid and grows it until the frictionless patch under the normal load or approach, with a ring to spare,
 /// lies inside. Throws CaseError as solve_bem.
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                          NormalTarget target, const PatchRoom& room = {});
+                          const NormalTarget& target, const PatchRoom& room = {});
+
+/// The normal load [N] of the patch without friction, under its target.
+double frictionless_load(const CasePatch& patch, const BemOptions& options);
 
 }  // namespace railstrata

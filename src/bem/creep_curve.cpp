@@ -1,5 +1,8 @@
 #include "bem/creep_curve.hpp"
 
+#include <cmath>
+#include <optional>
+
 #include "bem/case_patch.hpp"
 #include "core/faults.hpp"
 #include "halfspace/creep_theories.hpp"
@@ -19,9 +22,12 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
                                          const std::vector<double>& creepages, const BemOptions& options) {
   if (!(spec.drive.friction_coefficient > 0))
     throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero");
-  const double weight = static_load(spec);
-  CasePatch patch =
-      make_case_patch(spec, placement, options, {.load = normal_load(weight, 0, placement.contact), .approach = {}});
+  const std::optional<double>& approach = spec.vehicle.approach;
+  CasePatch patch = make_case_patch(
+      spec, placement, options,
+      approach ? NormalTarget{{}, approach} : NormalTarget{normal_load(static_load(spec), 0, placement.contact), {}});
+  const double weight =
+      approach ? std::cos(placement.contact.angle) * frictionless_load(patch, options) : static_load(spec);
   const RollingEllipse ellipse = rolling_ellipse(hertz_estimate(spec, placement.contact), patch.contact.friction,
                                                  patch.wheel.substrate, patch.rail.substrate);
   const double hertz_bound = ellipse.friction * ellipse.contact.load;

@@ -21,7 +21,7 @@ struct InfluenceCache::State {
   struct Entry {
     LayeredHalfSpace wheel, rail;
     int nx, ny;
-    double dx, dy;
+    double dx, dy, film;
     std::shared_ptr<const InfluenceOperator> op;
   };
   static constexpr std::size_t kEntries = 32;
@@ -33,21 +33,22 @@ InfluenceCache::InfluenceCache() : state_(std::make_unique<State>()) {}
 InfluenceCache::~InfluenceCache() = default;
 
 std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSpace& wheel,
-                                                             const LayeredHalfSpace& rail, const PatchGrid& g) {
+                                                             const LayeredHalfSpace& rail, const PatchGrid& g,
+                                                             double film) {
   {
     const std::lock_guard lock(state_->mutex);
     for (auto it = state_->entries.begin(); it != state_->entries.end(); ++it) {
-      if (it->nx != g.nx || it->ny != g.ny || it->dx != g.dx || it->dy != g.dy || !same(it->wheel, wheel) ||
-          !same(it->rail, rail))
+      if (it->nx != g.nx || it->ny != g.ny || it->dx != g.dx || it->dy != g.dy || it->film != film ||
+          !same(it->wheel, wheel) || !same(it->rail, rail))
         continue;
       state_->entries.splice(state_->entries.begin(), state_->entries, it);
       return it->op;
     }
   }
   auto op = std::make_shared<const InfluenceOperator>(
-      combined_compliance(layered_compliance(wheel), layered_compliance(rail)), g.nx, g.ny, g.dx, g.dy);
+      combined_compliance(layered_compliance(wheel), layered_compliance(rail)), g.nx, g.ny, g.dx, g.dy, film);
   const std::lock_guard lock(state_->mutex);
-  state_->entries.push_front({wheel, rail, g.nx, g.ny, g.dx, g.dy, op});
+  state_->entries.push_front({wheel, rail, g.nx, g.ny, g.dx, g.dy, film, op});
   if (state_->entries.size() > State::kEntries) state_->entries.pop_back();
   return op;
 }

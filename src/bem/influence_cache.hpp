@@ -13,8 +13,9 @@ class InfluenceCache {
  public:
   InfluenceCache();
   ~InfluenceCache();
+  /// film: flexibility of a third-body layer, m/Pa.
   std::shared_ptr<const InfluenceOperator> get(const LayeredHalfSpace& wheel, const LayeredHalfSpace& rail,
-                                               const PatchGrid& grid);
+                                               const PatchGrid& grid, double film = 0);
 
  private:
   struct State;

@@ -27,9 +27,11 @@ bool couples_at_all(const SurfaceCompliance& pair) {
 
 }  // namespace
 
-InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy)
-    : fft_(nx, ny), dx_(dx), dy_(dy) {
-  const auto table = rectangle_influence_table(pair, fft_.mx() / 2 + 1, fft_.my() / 2 + 1, dx, dy);
+InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film)
+    : fft_(nx, ny), dx_(dx), dy_(dy), film_(film) {
+  auto table = rectangle_influence_table(pair, fft_.mx() / 2 + 1, fft_.my() / 2 + 1, dx, dy);
+  table[0].xx += film;
+  table[0].yy += film;
   using I = RectangleInfluence;
   near_[0] = table[0];
   near_[1] = table[fft_.my() / 2 + 1];  // the table has index j + (my/2 + 1) i

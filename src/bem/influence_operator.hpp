@@ -15,7 +15,9 @@ namespace railstrata {
 /// members may be called from several threads at once.
 class InfluenceOperator {
  public:
-  InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy);
+  /// film: what a third-body layer between the surfaces adds to the displacement by traction of a cell itself [m/Pa],
+  /// ThirdBody::flexibility.
+  InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film = 0);
 
   int nx() const { return fft_.nx(); }
   int ny() const { return fft_.ny(); }
@@ -23,6 +25,7 @@ class InfluenceOperator {
   double dy() const { return dy_; }
   /// Displacement at (i dx, 0), i = 0 or 1, from the centre of a cell under unit traction.
   const RectangleInfluence& of_one_cell(int i) const { return near_[i]; }
+  double film() const { return film_; }              ///< m/Pa
   bool couples() const { return !nx_hat_.empty(); }  ///< normal and tangential problems interact
 
   /// Normal elastic displacement u_n = u_z'(rail) + u_z'(wheel) by pressure, each into its body: nx x ny.
@@ -40,7 +43,7 @@ class InfluenceOperator {
 
  private:
   PlaneFft fft_;
-  double dx_, dy_;
+  double dx_, dy_, film_;
   RectangleInfluence near_[2];
   std::vector<double> nn_hat_, xx_hat_, xy_hat_, yy_hat_, nx_hat_, ny_hat_;  // nx, ny: imaginary parts
   std::vector<double> inv_nn_, inv_xx_, inv_xy_, inv_yy_;

@@ -25,10 +25,15 @@
 
 namespace railstrata {
 
+/// Third-body layer: what shears in it starts in proportion to the distance from the edge, so that the slip ahead of
+/// the edge starts with a step there and lambda is the share s/dx of the step itself. film: the film's share of the
+/// flexibility at the scale of a cell, between the two laws.
 /// lambda in the first cell of every row of cells under pressure, 0 elsewhere; 0 too where two empty cells ahead of it
 /// do not lie on the grid, or their gap does not open. Between 0 and 0.64: 0.55 for an edge at the centre of the first
 /// cell; what is more is the staircase's.
-Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal);
+Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal, double film = 0);
+/// That share for an operator.
+double film_share(const InfluenceOperator& influence);
 
 /// The last term above [m]: what the step of each first cell slips ahead of the edge by pressure; weight from
 /// leading_weights. The normal is that of the gap's contours. Nothing where beta is beyond 1/2, Dundurs' bound: under

@@ -48,7 +48,7 @@ void add_displacement_by_pressure(const InfluenceOperator& influence, const Patc
 void cut_leading_cells(const InfluenceOperator& influence, const PatchGrid& grid, const NormalSolution& normal,
                        TangentialProblem& t) {
   if (t.kind == RollingKind::shift || (t.kind == RollingKind::transient && t.step != grid.dx)) return;
-  t.leading_weight = leading_weights(grid, normal);
+  t.leading_weight = leading_weights(grid, normal, film_share(influence));
   if (!influence.couples()) return;
   const PlanePair ahead = leading_slip_by_pressure(influence, grid, normal, t.leading_weight);
   t.extra_slip.x.resize(grid.size(), 0.0);
@@ -60,8 +60,20 @@ void cut_leading_cells(const InfluenceOperator& influence, const PatchGrid& grid
 TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
                                   const RollingContact& contact, const NormalSolution& normal) {
   const Plane& pressure = normal.pressure;
-  TangentialProblem t{contact.kind,       pressure,     contact.x,      contact.y, contact.spin,
-                      contact.extra_slip, contact.step, contact.before, {}};
+  TangentialProblem t;
+  t.kind = contact.kind;
+  t.traction_bound = pressure;
+  t.x = contact.x;
+  t.y = contact.y;
+  t.spin = contact.spin;
+  t.extra_slip = contact.extra_slip;
+  t.step = contact.step;
+  t.before = contact.before;
+  t.local_spin = contact.local_spin;
+  t.falling = contact.falling;
+  t.speed = contact.speed;
+  t.third_body = contact.third_body;
+  t.plastic_before = contact.plastic_before;
   for (std::size_t i = 0; i < t.traction_bound.size(); ++i)
     t.traction_bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
   if (influence.couples()) add_displacement_by_pressure(influence, grid, pressure, t);
@@ -159,6 +171,7 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   contact.step = grid.dx;
   contact.before.x.assign(u.x.begin() + row, u.x.end());
   contact.before.y.assign(u.y.begin() + row, u.y.end());
+  contact.plastic_before = rolled_on(grid, before.tangential.plastic);
 }
 
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,
@@ -168,6 +181,7 @@ void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const R
   contact.kind = RollingKind::shift;
   contact.before.x.assign(u.x.begin(), u.x.end() - row);
   contact.before.y.assign(u.y.begin(), u.y.end() - row);
+  contact.plastic_before = before.tangential.plastic;
 }
 
 }  // namespace railstrata

@@ -460,6 +460,17 @@ SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double a
   }
 }
 
+void require_one_plane(const Placement& p, double approach, const std::string& remedy) {
+  for (const RigidContact& c :
+       further_contacts(p.wheel, p.rail, p.track, p.contact, approach / std::cos(p.contact.angle)))
+    if (std::abs(c.angle - p.contact.angle) > kAngleOfOnePlane)
+      throw CaseError(
+          fmt::format("the wheel touches at y = {:.1f} mm and, under an approach of {:.3g} mm, at another angle at y = "
+                      "{:.1f} mm",
+                      1e3 * p.contact.point.y, 1e3 * approach, 1e3 * c.point.y),
+          remedy);
+}
+
 double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& patches, const PatchOnWheel& one) {
   const RigidContact& c = one.contact;
   const double own =

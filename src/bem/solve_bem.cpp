@@ -30,6 +30,9 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
                 ContactField& field) {
   const PatchGrid& g = patch.grid;
   field.resize(g.ny, g.nx);
+  field.slip_is_distance = patch.contact.kind == RollingKind::shift;
+  const double over_time = field.slip_is_distance ? 1.0 : speed;
+  field.bound = s.tangential.bound;
   const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, normal{-tangent.z, tangent.y};
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {
@@ -42,8 +45,8 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
       field.p[k] = s.normal.pressure[k];
       field.q_x[k] = s.tangential.q_x[k];
       field.q_y[k] = s.tangential.q_y[k];
-      field.slip_x[k] = speed * s.tangential.slip_x[k];
-      field.slip_y[k] = speed * s.tangential.slip_y[k];
+      field.slip_x[k] = over_time * s.tangential.slip_x[k];
+      field.slip_y[k] = over_time * s.tangential.slip_y[k];
       field.state[k] = s.tangential.state[k];
     }
 }
@@ -56,7 +59,7 @@ void fill_totals(const RollingSolution& s, double speed, BemPatch& r) {
   r.approach = s.normal.approach;
   r.rigid_slip.x = t.creepage_x;
   r.rigid_slip.y = t.creepage_y;
-  r.dissipation = t.dissipation * speed;
+  r.dissipation = t.dissipation * (r.field.slip_is_distance ? 1.0 : speed);
   r.patch.slip_area = t.slip_area;
   for (std::size_t k = 0; k < r.field.p.size(); ++k) {
     r.patch.p_max = std::max(r.patch.p_max, r.field.p[k]);
@@ -167,36 +170,54 @@ bool holds(const PatchGrid& g, const PatchRoom& room) {
   return g.y(0) <= room.held_low && g.y(g.ny - 1) >= room.held_high;
 }
 
-}  // namespace
-
-Vec3 force_on_rail(const BemResult& result) {
-  Vec3 sum{result.force.x, result.force.y, result.force.z};
-  for (const BemPatch& p : result.further) sum = sum + Vec3{p.force.x, p.force.y, p.force.z};
-  return sum;
-}
-
-BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const double load = static_load(spec);
   check_friction(spec, load, normal_load(load, 0, placement.contact));
   LoadedPatch alone = balance_vertical_load(spec, placement, {}, options, load);
   SharedLoad shared = share_load(spec, placement, alone.solution.normal.approach, options);
-  if (shared.patches.empty() && !holds(alone.patch.grid, shared.room))
-    alone = balance_vertical_load(spec, placement, shared.room, options, load);
-  if (shared.patches.empty()) {
-    if (alone.wedged) refuse_wedged(placement.contact);
-    shared.load_iterations = alone.load_iterations;
-    shared.patches.push_back(std::move(alone));
-  }
+  if (!shared.patches.empty()) return shared;
+  if (!holds(alone.patch.grid, shared.room)) alone = balance_vertical_load(spec, placement, shared.room, options, load);
+  if (alone.wedged) refuse_wedged(placement.contact);
+  shared.load_iterations = alone.load_iterations;
+  shared.patches.push_back(std::move(alone));
+  return shared;
+}
 
+/// Under a given approach the vertical force F_z is a result. Forces of the drive count over it: F_z and they are found
+/// in turn, from the frictionless contact on.
+SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  constexpr double kTolerance = 1e-5;
+  constexpr int kMostIterations = 40;
+  const RigidContact& contact = placement.contact;
+  require_one_plane(placement, *spec.vehicle.approach,
+                    "give a load instead of vehicle.approach: the contacts share it");
+  SharedLoad out{{PatchOnWheel{contact, {}, {}}}, {}, 1};
+  CasePatch& patch = out.patches.front().patch;
+  RollingSolution& solution = out.patches.front().solution;
+  patch = make_case_patch(spec, placement, options, NormalTarget{{}, spec.vehicle.approach});
+  double vertical = std::cos(contact.angle) * frictionless_load(patch, options);
+  for (;; ++out.load_iterations) {
+    drive_contact(spec, contact, vertical, patch.contact);
+    solution = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling,
+                             out.load_iterations > 1 ? &solution : nullptr);
+    const double before = vertical;
+    vertical = std::cos(contact.angle) * solution.normal.load - std::sin(contact.angle) * solution.tangential.force_y;
+    const bool driven = patch.contact.x.force.value_or(0) != 0 || patch.contact.y.force.value_or(0) != 0;
+    if (!driven || std::abs(vertical - before) <= kTolerance * std::abs(vertical)) return out;
+    if (out.load_iterations == kMostIterations)
+      throw CaseError("the forces over the load that comes out do not settle under this approach",
+                      "lower the traction coefficients, or give a load instead of vehicle.approach");
+  }
+}
+
+BemResult result_of(const CaseSpec& spec, const Placement& placement, const std::vector<PatchOnWheel>& patches) {
   BemResult r;
-  r.wheel = shared.patches.front().patch.wheel;
-  r.rail = shared.patches.front().patch.rail;
-  r.effort.load_iterations = shared.load_iterations;
+  r.wheel = patches.front().patch.wheel;
+  r.rail = patches.front().patch.rail;
   r.effort.outer_iterations = 0;
-  for (const PatchOnWheel& p : shared.patches) {
+  for (const PatchOnWheel& p : patches) {
     r.further.push_back(patch_result(spec, placement, p));
-    r.further.back().surroundings.bent_by_others = bending_by_others(spec, shared.patches, p);
+    r.further.back().surroundings.bent_by_others = bending_by_others(spec, patches, p);
     r.notes.insert(r.notes.end(), p.patch.notes.begin(), p.patch.notes.end());
     r.effort.outer_iterations = std::max(r.effort.outer_iterations, p.solution.outer_iterations);
     r.effort.iterations += p.solution.normal.iterations + p.solution.tangential.iterations;
@@ -205,6 +226,27 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
             [](const BemPatch& a, const BemPatch& b) { return a.patch.p_max > b.patch.p_max; });
   static_cast<BemPatch&>(r) = std::move(r.further.front());
   r.further.erase(r.further.begin());
+  return r;
+}
+
+}  // namespace
+
+Vec3 force_on_rail(const BemResult& result) {
+  Vec3 sum{result.force.x, result.force.y, result.force.z};
+  for (const BemPatch& p : result.further) sum = sum + Vec3{p.force.x, p.force.y, p.force.z};
+  return sum;
+}
+
+BemResult bem_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& patch) {
+  return result_of(spec, placement, {patch});
+}
+
+BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  const auto begin = std::chrono::steady_clock::now();
+  const SharedLoad shared =
+      spec.vehicle.approach ? press_to_approach(spec, placement, options) : bear_weight(spec, placement, options);
+  BemResult r = result_of(spec, placement, shared.patches);
+  r.effort.load_iterations = shared.load_iterations;
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return r;
 }

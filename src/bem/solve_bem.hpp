@@ -6,12 +6,14 @@
 // the wheel (over G) or a creepage; what is not given follows from the geometry: lateral creepage from the yaw, spin
 // from contact angle and curve, the variation of the rolling radius across the patch from the profiles.
 // The normal force is such that normal and lateral force together bear the load. Where the wheel touches at several
-// places they share it, each in its own plane (several_patches.hpp). Not in it: inertia, the bodies' shape outside the
-// patches, the layer's edges.
+// places they share it, each in its own plane (several_patches.hpp). Where the approach is given instead, the load is a
+// result, and forces of the drive count over it. Not in it: inertia, the bodies' shape outside the patches, the layer's
+// edges.
 #include <string>
 #include <vector>
 
 #include "bem/bem_options.hpp"
+#include "bem/case_patch.hpp"
 #include "bem/subsurface.hpp"
 #include "contact/contact_field.hpp"
 #include "halfspace/layered.hpp"
@@ -55,7 +57,7 @@ struct BemPatch {
   RailForces force;
   RigidSlip rigid_slip;
   double approach = 0;     ///< m
-  double dissipation = 0;  ///< W
+  double dissipation = 0;  ///< W; of a shift J, of its last increment
   PatchSurroundings surroundings;
 };
 
@@ -74,6 +76,10 @@ Vec3 force_on_rail(const BemResult& result);
 /// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears
 /// the weight whatever the normal force (a wedged wheel), a lateral force on several contacts.
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {});
+
+struct PatchOnWheel;
+/// A solved patch as a result; the effort's iterations of the load and time are left to the caller.
+BemResult bem_result(const CaseSpec& spec, const Placement& placement, const PatchOnWheel& patch);
 
 /// The stresses inside the rail or the wheel of a result. Axes x rolling, y along the common tangent, z into the body
 /// (rail: down, wheel: up).

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bem/given_slip.hpp"
 #include "bem/gmres.hpp"
+#include "bem/varying_bound.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -29,6 +32,9 @@ double length(double x, double y) { return std::sqrt(x * x + y * y); }
 /// Where a force is given its creepage is a further unknown, and the equation sum of dq dA = missing force a further
 /// row. Vectors of the Newton system hold the planes x and y one after the other, then one entry for each such
 /// direction.
+///
+/// Where the bound varies with slip (VaryingBound), the size of the traction of a slipping cell is unknown as well:
+///   n·dq + g' n·(L dq - dxi) = g(s·n) - |q|,   weighed like a row of slip, with L of a cell on itself.
 class Solver {
  public:
   Solver(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem,
@@ -41,22 +47,30 @@ class Solver {
         ahead_(static_cast<std::size_t>(grid.ny)),
         q_(2 * n_, 0.0),
         slip_(2 * n_),
-        rigid_(2 * n_),
-        history_(2 * n_, 0.0),
         normal_(2 * n_, 0.0),
         diagonal_(n_, 0.0),
         integral_(2 * n_),
+        given_(given_slip(grid, problem)),
         set_(n_, kOutside),
         u_(2 * (n_ + ahead_)),
-        inverse_step_(1 / step_length()) {
+        inverse_step_(1 / step_length()),
+        bound_(problem.traction_bound.data()) {
     if (problem.x.force) directions_.push_back(0);
     if (problem.y.force) directions_.push_back(1);
     creepage_[0] = problem.x.creepage;
     creepage_[1] = problem.y.creepage;
     self_ = (influence.of_one_cell(0).xx - (steady() ? influence.of_one_cell(1).xx : 0.0)) / step_length();
     force_row_ = self_ / static_cast<double>(n_);  // a force residual weighs like a slip residual
-    fill_fixed_slip();
-    find_leading_cells();
+    if (!VaryingBound::needed(problem)) return;
+    // Largest eigenvalue of L's symmetric part over L of one cell, across, square cells: that of lateral traction in
+    // waves along x of nearly two cells; 1.9 for Poisson's ratio 0, 2.1 for 0.3, 2.25 for 0.5.
+    constexpr double kLargest = 2.25;
+    VaryingBound::require_unique_slip(
+        problem, kLargest * (influence.of_one_cell(0).yy - influence.of_one_cell(1).yy) / step_length());
+    varying_.emplace(grid, problem, given_);
+    carried_.resize(n_);
+    for (std::size_t i = 0; i < n_; ++i) carried_[i] = varying_->at_rest(i);
+    bound_ = carried_.data();
   }
 
   /// Newton steps until the slip conditions hold. The linear systems are solved roughly while cells change sets, and as
@@ -68,6 +82,7 @@ class Solver {
     update_slip();
     if (start && fill_new_cells(*start)) update_slip();
     int changed = update_sets();
+    follow_slip();
     double error = violation();
     for (; error > options_.tolerance && outer_ < options_.max_outer; ++outer_) {
       prepare_slip_cells();
@@ -75,60 +90,32 @@ class Solver {
       advance();
       update_slip();
       changed = update_sets();
+      follow_slip();
       error = violation();
     }
     if (error <= options_.tolerance || options_.partial) return solution();
+    if (varying_ && !directions_.empty())
+      throw CaseError(
+          fmt::format("no steady state was found under the given force: {} may not carry it",
+                      problem_.falling.falls() ? "friction that falls with slip" : "a third-body layer that yields"),
+          "give drive.creepage instead, which has an answer beyond the largest force too");
     throw NumericalError("the tangential contact problem did not converge");
   }
 
  private:
   bool steady() const { return problem_.kind == RollingKind::steady; }
-  double step_length() const {
-    return problem_.kind == RollingKind::transient ? problem_.step
-           : problem_.kind == RollingKind::shift   ? 1.0
-                                                   : grid_.dx;
-  }
-
-  void fill_fixed_slip() {
-    // With whole cells a sixth of a step ahead: between the cell and the middle of the step this cancels most of the
-    // leading edge's discretisation error.
-    const bool rolls = problem_.kind != RollingKind::shift, whole_cells = problem_.leading_weight.empty();
-    const double ahead = !rolls ? 0.0 : step_length() / (whole_cells ? 6 : 2);
-    if (rolls && !whole_cells) to_own_place_ = -problem_.spin * step_length() / 3;
-    for (int i = 0; i < grid_.nx; ++i)
-      for (int j = 0; j < grid_.ny; ++j) {
-        const std::size_t k = grid_.index(i, j);
-        rigid_[k] = -problem_.spin * grid_.y(j) + (problem_.extra_slip.x.empty() ? 0.0 : problem_.extra_slip.x[k]);
-        rigid_[n_ + k] =
-            problem_.spin * (grid_.x(i) + ahead) + (problem_.extra_slip.y.empty() ? 0.0 : problem_.extra_slip.y[k]);
-        if (!problem_.before.x.empty()) history_[k] = problem_.before.x[k] / step_length();
-        if (!problem_.before.y.empty()) history_[n_ + k] = problem_.before.y[k] / step_length();
-      }
-  }
-
-  /// The fixed parts of the slip in the first cells of the rows, and where these are.
-  void find_leading_cells() {
-    if (problem_.leading_weight.empty() || problem_.kind == RollingKind::shift) return;
-    first_step_.assign(n_, step_length());
-    for (std::size_t k = 0; k + ahead_ < n_; ++k) {
-      const double lambda = problem_.leading_weight[k];
-      if (!(lambda > 0 && problem_.traction_bound[k] > 0)) continue;
-      const double weight = lambda / (1 - lambda);
-      leading_.push_back({k, weight});
-      first_step_[k] *= 1 - lambda;
-      for (Plane* fixed : {&rigid_, &history_})
-        for (const std::size_t c : {k, n_ + k}) (*fixed)[c] += weight * ((*fixed)[c] - (*fixed)[c + ahead_]);
-    }
-  }
+  double step_length() const { return railstrata::step_length(grid_, problem_); }
 
   void check_forces() {
-    available_ = sum(problem_.traction_bound);
+    available_ = sum(problem_.third_body.hardening > 0 || !varying_ ? problem_.traction_bound : carried_);
     const double available = available_ * grid_.cell_area(),
                  wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
     if (wanted >= available && wanted > 0)
       throw CaseError(fmt::format("friction cannot carry the tangential force: {:.4g} kN of at most {:.4g} kN",
                                   1e-3 * wanted, 1e-3 * available),
-                      "lower the traction or raise the friction coefficient");
+                      varying_ && problem_.third_body.yields()
+                          ? "lower the traction or raise the friction coefficient or third_body.yield_shear"
+                          : "lower the traction or raise the friction coefficient");
   }
 
   /// Takes over the traction of a similar problem. Its traction bound differs: cells that slipped are put on the new
@@ -136,8 +123,10 @@ class Solver {
   void adopt(const TangentialSolution& start) {
     for (std::size_t i = 0; i < n_; ++i) {
       if (set_[i] == kOutside) continue;
-      const double size = length(start.q_x[i], start.q_y[i]), g = problem_.traction_bound[i];
+      const double size = length(start.q_x[i], start.q_y[i]);
+      double g = bound_[i];
       const bool slips = start.state[i] == ContactState::slip && size > 0;
+      if (varying_ && slips) carried_[i] = g = std::min(g, size);
       const double scale = slips || size > g ? g / size : 1.0;
       q_[i] = scale * start.q_x[i];
       q_[n_ + i] = scale * start.q_y[i];
@@ -154,7 +143,7 @@ class Solver {
     for (std::size_t i = 0; i < n_; ++i) {
       const double slip = length(slip_[i], slip_[n_ + i]);
       if (set_[i] == kOutside || start.state[i] != ContactState::separated || slip == 0) continue;
-      const double g = problem_.traction_bound[i], q = std::min(g, slip / self_);
+      const double g = bound_[i], q = std::min(g, slip / self_);
       if (q == g) set_[i] = kSlip;
       q_[i] = q * slip_[i] / slip;
       q_[n_ + i] = q * slip_[n_ + i] / slip;
@@ -183,7 +172,7 @@ class Solver {
   /// L + lambda/(1 - lambda) (L - L ahead) in the first cells: written into the displacement that L takes from the
   /// empty cell ahead (steady), or into the cell's own. No other cell reads them.
   void extrapolate_at_leading_cells() {
-    for (const LeadingCell& first : leading_)
+    for (const LeadingCell& first : given_.leading)
       for (double* u : {u_.data() + first.index, u_.data() + n_ + ahead_ + first.index}) {
         if (steady())
           u[ahead_] -= first.weight * (u[0] - 2 * u[ahead_] + u[2 * ahead_]);
@@ -196,8 +185,8 @@ class Solver {
     elastic_displacement(q_.data());
     for_both([&](std::size_t i) {
       const bool in_patch = set_[i] != kOutside;
-      slip_[i] = in_patch ? rigid_[i] + creepage_[0] + history_[i] - L_x(i) : 0.0;
-      slip_[n_ + i] = in_patch ? rigid_[n_ + i] + creepage_[1] + history_[n_ + i] - L_y(i) : 0.0;
+      slip_[i] = in_patch ? given_.rigid[i] + creepage_[0] + given_.history[i] - L_x(i) : 0.0;
+      slip_[n_ + i] = in_patch ? given_.rigid[n_ + i] + creepage_[1] + given_.history[n_ + i] - L_y(i) : 0.0;
     });
   }
 
@@ -233,15 +222,55 @@ class Solver {
   /// changed by a ninth of itself at most, so that Newton's method, which does not see the change, still contracts.
   double lateral_slip(std::size_t i) const {
     const double y = slip_[n_ + i];
-    if (to_own_place_ == 0 || set_[i] != kSlip) return y;
-    return y + to_own_place_ * std::min(1.0, length(slip_[i], y) / (9 * std::abs(to_own_place_)));
+    if (given_.to_own_place.empty() || set_[i] != kSlip) return y;
+    const double change = given_.to_own_place[i];
+    return change == 0 ? y : y + change * std::min(1.0, length(slip_[i], y) / (9 * std::abs(change)));
+  }
+
+  /// A bound that varies takes the slip along the traction; cells that stick are bound by its value at rest.
+  void follow_slip() {
+    if (!varying_) return;
+    Plane& along = varying_->along();
+    for_both([&](std::size_t i) {
+      const double x = q_[i], y = q_[n_ + i];
+      along[i] = set_[i] == kSlip ? (slip_[i] * x + lateral_slip(i) * y) / length(x, y) : 0.0;
+    });
+    varying_->follow();
+    for_both([&](std::size_t i) {
+      if (set_[i] == kStick) carried_[i] = varying_->at_rest(i);
+    });
+  }
+
+  /// |q| of a slipping cell after the step along its normal; a step too far would turn the traction round.
+  double next_carried(std::size_t i) const {
+    const double along = step_[i] * normal_[i] + step_[n_ + i] * normal_[n_ + i];
+    return std::clamp(carried_[i] + along, 0.5 * carried_[i], problem_.traction_bound[i]);
+  }
+
+  /// Prepares the change of every slipping cell's bound by the slip (x, y)(i) of all cells.
+  template <class Slip>
+  void change_bound(Slip&& slip) {
+    Plane& along = varying_->along();
+    for_both([&](std::size_t i) {
+      const auto [x, y] = set_[i] == kSlip ? slip(i) : std::pair(0.0, 0.0);
+      along[i] = x * normal_[i] + y * normal_[n_ + i];
+    });
+    varying_->change();
+  }
+
+  /// Adds the row along the normal of a slipping cell, after change_bound by L dq - dxi; out has the row across alone.
+  void add_row_along(std::size_t i, const Plane& in, Plane& out) const {
+    const double x = normal_[i], y = normal_[n_ + i], size = in[i] * x + in[n_ + i] * y,
+                 row = self_ * (size + varying_->change(i)) - diagonal_[i] * size;
+    out[i] += row * x;
+    out[n_ + i] += row * y;
   }
 
   /// Unit traction direction and the stabilising diagonal (s·n)/g of slipping cells.
   void prepare_slip_cells() {
     for_both([&](std::size_t i) {
       if (set_[i] != kSlip) return;
-      const double g = problem_.traction_bound[i];
+      const double g = bound_[i];
       normal_[i] = q_[i] / g;
       normal_[n_ + i] = q_[n_ + i] / g;
       diagonal_[i] = std::max(0.0, slip_[i] * normal_[i] + lateral_slip(i) * normal_[n_ + i]) / g;
@@ -269,6 +298,10 @@ class Solver {
       right_side_[i] = slip_[i];
       right_side_[n_ + i] = lateral_slip(i);
       project(i, right_side_[i], right_side_[n_ + i]);
+      if (!varying_ || set_[i] != kSlip) return;
+      const double missing = self_ * (varying_->wanted(i) - carried_[i]);
+      right_side_[i] += missing * normal_[i];
+      right_side_[n_ + i] += missing * normal_[n_ + i];
     });
     for (std::size_t c = 0; c < m; ++c) right_side_[2 * n_ + c] = force_row_ * missing_force(directions_[c]);
     gmres([&](const Plane& in, Plane& out) { newton_product(in, out); },
@@ -281,12 +314,14 @@ class Solver {
     const std::size_t m = directions_.size();
     double creep[2] = {0, 0};
     for (std::size_t c = 0; c < m; ++c) creep[directions_[c]] = in[2 * n_ + c];
+    if (varying_) change_bound([&](std::size_t i) { return std::pair(L_x(i) - creep[0], L_y(i) - creep[1]); });
     const Components force = for_both_summed(in.data(), [&](std::size_t i) {
       double x = L_x(i) - creep[0], y = L_y(i) - creep[1];
       project(i, x, y);
       const double d = set_[i] == kSlip ? diagonal_[i] : 0.0;
       out[i] = x + d * in[i];
       out[n_ + i] = y + d * in[n_ + i];
+      if (varying_ && set_[i] == kSlip) add_row_along(i, in, out);
     });
     for (std::size_t c = 0; c < m; ++c) out[2 * n_ + c] = force_row_ * force[directions_[c]];
   }
@@ -310,10 +345,16 @@ class Solver {
       const double scale = set_[i] == kSlip ? 1 / (self_ + diagonal_[i]) : 0.0;
       out[i] = scale * in[i];
       out[n_ + i] = scale * in[n_ + i];
+      if (varying_ && set_[i] == kSlip) {
+        const double x = normal_[i], y = normal_[n_ + i], along = in[i] * x + in[n_ + i] * y,
+                     more = along / (self_ * (1 + self_ * varying_->by_slip(i))) - scale * along;
+        out[i] += more * x;
+        out[n_ + i] += more * y;
+      }
     });
   }
 
-  double first_step(std::size_t k) const { return first_step_.empty() ? step_length() : first_step_[k]; }
+  double first_step(std::size_t k) const { return given_.first_step.empty() ? step_length() : given_.first_step[k]; }
 
   /// u(x) from u(x) - u(x + dx) = dx r along each run of sticking cells, zero ahead of it and elsewhere.
   void integrate_from_leading_edge(const double* r) {
@@ -335,10 +376,16 @@ class Solver {
     border_.resize(directions_.size());
     right_side_.resize(2 * n_);
     for (std::size_t c = 0; c < directions_.size(); ++c) {
+      const double e_x = directions_[c] == 0, e_y = directions_[c] == 1;
+      if (varying_) change_bound([&](std::size_t) { return std::pair(e_x, e_y); });
       for_both([&](std::size_t i) {
-        right_side_[i] = directions_[c] == 0;
-        right_side_[n_ + i] = directions_[c] == 1;
+        right_side_[i] = e_x;
+        right_side_[n_ + i] = e_y;
         project(i, right_side_[i], right_side_[n_ + i]);
+        if (!varying_ || set_[i] != kSlip) return;
+        const double along = self_ * varying_->change(i);
+        right_side_[i] += along * normal_[i];
+        right_side_[n_ + i] += along * normal_[n_ + i];
       });
       border_[c].resize(2 * n_);
       const Components force = precondition_block(right_side_.data(), border_[c].data());
@@ -374,7 +421,8 @@ class Solver {
       if (set_[i] == kOutside) return;
       q_[i] += step_[i];
       q_[n_ + i] += step_[n_ + i];
-      const double size = length(q_[i], q_[n_ + i]), g = problem_.traction_bound[i];
+      if (varying_ && set_[i] == kSlip) carried_[i] = next_carried(i);
+      const double size = length(q_[i], q_[n_ + i]), g = bound_[i];
       if (set_[i] == kSlip || size > g) {
         if (set_[i] == kStick) set_[i] = kLoosened;
         q_[i] *= g / size;
@@ -391,9 +439,7 @@ class Solver {
         set_[i] = kSlip;
         return 1;
       }
-      if (set_[i] != kSlip ||
-          slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i] >= -1e-9 * scale_ * problem_.traction_bound[i])
-        return 0;
+      if (set_[i] != kSlip || slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i] >= -1e-9 * scale_ * bound_[i]) return 0;
       set_[i] = kStick;
       return 1;
     }));
@@ -410,11 +456,11 @@ class Solver {
         [&](std::size_t k, std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
             if (set_[i] == kOutside) continue;
-            const double x = rigid_[i] + creepage_[0], y = rigid_[n_ + i] + creepage_[1],
-                         g = problem_.traction_bound[i];
+            const double x = given_.rigid[i] + creepage_[0], y = given_.rigid[n_ + i] + creepage_[1], g = bound_[i];
             const double across = (slip_[i] * q_[n_ + i] - lateral_slip(i) * q_[i]) / g;
-            part[k].rigid = std::max({part[k].rigid, x * x + y * y,
-                                      1e-4 * (history_[i] * history_[i] + history_[n_ + i] * history_[n_ + i])});
+            part[k].rigid = std::max(
+                {part[k].rigid, x * x + y * y,
+                 1e-4 * (given_.history[i] * given_.history[i] + given_.history[n_ + i] * given_.history[n_ + i])});
             part[k].wrong =
                 std::max(part[k].wrong,
                          set_[i] == kStick ? slip_[i] * slip_[i] + slip_[n_ + i] * slip_[n_ + i] : across * across);
@@ -424,9 +470,18 @@ class Solver {
     Largest all;
     for (const Largest& p : part) all = {std::max(all.wrong, p.wrong), std::max(all.rigid, p.rigid)};
     scale_ = std::sqrt(all.rigid);
-    double force = 0;
+    double force = bound_violation() * available_;
     for (int direction : directions_) force = std::max(force, std::abs(missing_force(direction)));
     return std::max(all.wrong > 0 ? std::sqrt(all.wrong / all.rigid) : 0.0, force > 0 ? force / available_ : 0.0);
+  }
+
+  /// Largest deviation of a cell's traction from a bound that varies, over that bound.
+  double bound_violation() const {
+    double worst = 0;
+    if (varying_)
+      for (std::size_t i = 0; i < n_; ++i)
+        if (set_[i] == kSlip) worst = std::max(worst, std::abs(carried_[i] / varying_->wanted(i) - 1));
+    return worst;
   }
 
   TangentialSolution solution() const {
@@ -455,15 +510,14 @@ class Solver {
       }
     s.force_x = sum(s.q_x) * dA;
     s.force_y = sum(s.q_y) * dA;
+    if (varying_) {
+      s.plastic = varying_->plastic();
+      s.bound = varying_->at_rest();
+    }
     s.outer_iterations = outer_;
     s.iterations = iterations_;
     return s;
   }
-
-  struct LeadingCell {
-    std::size_t index;
-    double weight;  // lambda/(1 - lambda)
-  };
 
   const InfluenceOperator& A_;
   const PatchGrid& grid_;
@@ -471,15 +525,15 @@ class Solver {
   TangentialOptions options_;
   std::size_t n_, ahead_;
   Plane q_, slip_;           // unknown traction; its slip
-  Plane rigid_, history_;    // fixed parts of the slip
   Plane normal_, diagonal_;  // of slipping cells: unit traction; (s.n)/g
   Plane step_, right_side_, integral_;
-  std::vector<LeadingCell> leading_;
-  Plane first_step_;         // of the first cells (1 - lambda) times the step; empty: the step everywhere
-  double to_own_place_ = 0;  // -phi dq/3
+  GivenSlip given_;
+  std::optional<VaryingBound> varying_;
+  Plane carried_;  // with it: the bound of sticking cells, |q| of slipping ones
   Mask set_;
   Plane u_;
   double inverse_step_;
+  const double* bound_;  // of each cell: carried_, or the problem's own
   std::vector<Plane> border_;
   std::vector<int> directions_;  // 0 x, 1 y: those whose force is given
   double border_force_[2][2] = {{1, 0}, {0, 1}};
@@ -500,6 +554,13 @@ TangentialSolution solve_tangential(const InfluenceOperator& influence, const Pa
   return Solver(influence, grid, problem, options).solve(start);
 }
 
+Plane rolled_on(const PatchGrid& grid, const Plane& values) {
+  if (values.empty()) return {};
+  Plane out(values.begin() + grid.ny, values.end());
+  out.resize(values.size(), 0.0);
+  return out;
+}
+
 void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
                       TangentialProblem& problem) {
   const std::size_t n = grid.size(), row = static_cast<std::size_t>(grid.ny);
@@ -509,6 +570,7 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   problem.step = grid.dx;
   problem.before.x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
   problem.before.y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
+  problem.plastic_before = rolled_on(grid, before.plastic);
 }
 
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
@@ -517,6 +579,7 @@ void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const T
   problem.before.x.resize(grid.size());
   problem.before.y.resize(grid.size());
   influence.tangential(before.q_x.data(), before.q_y.data(), problem.before.x.data(), problem.before.y.data(), grid.nx);
+  problem.plastic_before = before.plastic;
 }
 
 }  // namespace railstrata

@@ -17,6 +17,7 @@
 // and the spin's lateral slip is its mean over the step, phi (x + dq/2), in stick. In slip the cell stands for itself,
 // not for the step ahead of it: (0, -phi dq/3) min(1, |s|/(3 |phi| dq)) is added to the slip that gives the direction.
 // Without weights (whole cells, the scheme of Kalker and CONTACT) it is phi (x + dq/6) everywhere.
+// Where friction falls with slip or a third-body layer yields, g is a function of the cell's slip (varying_bound.hpp).
 // Solved by an active-set Newton method: unknown are both components in stick and the direction in slip; each linear
 // system by GMRES with FFT products. L has a positive semi-definite symmetric part, and slip along the traction adds a
 // positive diagonal, so every linear system is solvable.
@@ -27,6 +28,8 @@
 #include "bem/patch_grid.hpp"
 #include "bem/plane_algebra.hpp"
 #include "contact/contact_field.hpp"
+#include "friction/falling_friction.hpp"
+#include "friction/third_body.hpp"
 
 namespace railstrata {
 
@@ -51,6 +54,11 @@ struct TangentialProblem {
                          ///< shift: at (x, y)
   Plane leading_weight;  ///< lambda in each cell (leading_weights), 0 but in the first cells of the rows; empty: whole
                          ///< cells
+  Plane local_spin;  ///< 1/m, what the lateral slip has for a spin beyond `spin` in each row of cells, [j]; empty: none
+  FallingFriction falling;  ///< steady rolling; traction_bound is the bound at rest
+  double speed = 0;         ///< V [m/s], for the slip velocity of `falling`
+  ThirdBody third_body;     ///< where it yields; its elastic part is the influence operator's
+  Plane plastic_before;     ///< m, history of the third body: as `before` (rolled_on); empty: none yet
 };
 
 struct TangentialOptions {
@@ -61,9 +69,11 @@ struct TangentialOptions {
 };
 
 struct TangentialSolution {
-  Plane q_x, q_y;        ///< Pa, on the rail
-  Plane slip_x, slip_y;  ///< relative to V (shift: m), of the slipping cells, along their traction
-  std::vector<ContactState> state;
+  Plane q_x, q_y;                   ///< Pa, on the rail
+  Plane slip_x, slip_y;             ///< relative to V (shift: m), of the slipping cells, along their traction
+  std::vector<ContactState> state;  ///< a cell whose third body yields slips
+  Plane plastic;                    ///< m, plastic shear of the third body; empty: none that yields
+  Plane bound;                      ///< Pa, what sticking cells carry at most; empty: the problem's traction_bound
   double creepage_x = 0, creepage_y = 0;
   double force_x = 0, force_y = 0;       ///< N, on the rail
   double moment = 0;                     ///< N m about the normal at the grid's origin, on the rail
@@ -78,6 +88,9 @@ struct TangentialSolution {
 TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid,
                                     const TangentialProblem& problem, const TangentialOptions& options = {},
                                     const TangentialSolution* start = nullptr);
+
+/// Values of cells after the wheel has rolled on by one cell; new ones are zero.
+Plane rolled_on(const PatchGrid& grid, const Plane& values);
 
 /// Makes `problem` the transient step in which the wheel rolls on by one cell (dx) from the state `before`, at the same
 /// pressure.

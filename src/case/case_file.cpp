@@ -10,6 +10,7 @@
 #include "case/case_source.hpp"
 #include "case/case_tree.hpp"
 #include "case/engine_scope.hpp"
+#include "case/history_table.hpp"
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
 #include "core/nearest_word.hpp"
@@ -46,6 +47,28 @@ void resolve_profile(ProfileKind kind, const char* key, std::string& name, Loade
                               near.empty() ? "" : fmt::format("did you mean \"{}\"? ", near), fmt::join(names, ", ")));
 }
 
+/// The columns of transient.history_file take the place of its name.
+void read_history(LoadedCase& loaded, CaseSource& source) {
+  std::string& name = loaded.spec.transient.history_file;
+  if (name.empty() && !source.has("transient.history_file")) return;
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    source.complain("transient.history_file", fmt::format("transient.history_file = {}: {}", toml_quoted(name), what),
+                    remedy);
+  };
+  if (name.empty() || name.find('\0') != std::string::npos)
+    return refuse("not a file's name", "name a CSV file, relative to the case file");
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
+  try {
+    read_history_table(read_text_file(file, "name a CSV file, relative to the case file"), file, loaded.spec);
+    loaded.inputs.push_back(file);
+  } catch (const CaseError& e) {
+    for (const Diagnostic& d : e.diagnostics)
+      refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
+  }
+  name.clear();
+}
+
 /// Only blanks and comments.
 bool says_nothing(const std::string& text) {
   std::istringstream lines(text);
@@ -67,6 +90,7 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   loaded.spec = read_case_tree(source, overrides);
   resolve_profile(ProfileKind::rail, "rail_profile", loaded.spec.geometry.rail_profile, loaded, source);
   resolve_profile(ProfileKind::wheel, "wheel_profile", loaded.spec.geometry.wheel_profile, loaded, source);
+  read_history(loaded, source);
   check_case_rules(loaded.spec, source);
   source.finish();
   for (const BeyondEngine& b : beyond_finite_elements(loaded.spec))
@@ -91,11 +115,14 @@ std::string resolved_case(const CaseSpec& given) {
   std::string out;
   for (const OptionTable& table : case_tables())
     for (std::size_t i = 0; i < (table.repeated ? spec.layers.size() : 1); ++i) {
-      out += fmt::format(fmt::runtime(table.repeated ? "{}[[{}]]\n" : "{}[{}]\n"), out.empty() ? "" : "\n", table.name);
+      std::string lines;
       for (const Option& option : table.options)
         if (!option.derivation && (!option.applies || option.applies(spec, i)))
           if (const std::string value = toml_value(option, spec, i); !value.empty())
-            out += fmt::format("{} = {}\n", option.key, value);
+            lines += fmt::format("{} = {}\n", option.key, value);
+      if (lines.empty()) continue;
+      out += fmt::format(fmt::runtime(table.repeated ? "{}[[{}]]\n" : "{}[{}]\n"), out.empty() ? "" : "\n", table.name);
+      out += lines;
     }
   return out;
 }

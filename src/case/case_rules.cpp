@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/transient_rules.hpp"
 #include "case/units.hpp"
 
 namespace railstrata {
@@ -15,8 +16,20 @@ constexpr double kNanometre = 1e-9;
 /// For messages: sums of lengths carry round-off that nobody wants to read.
 std::string length(double value) { return format_quantity(std::round(value / kNanometre) / 1e9, dimension::kLength); }
 
+/// Under a given approach the load is a result, and a force over it is not known beforehand.
+void check_approach(const CaseSpec& spec, CaseSource& source) {
+  if (!spec.vehicle.approach) return;
+  for (const char* key : {"drive.tractive_force", "drive.lateral_force"})
+    if (source.has(key))
+      source.complain(key,
+                      fmt::format("{}: under vehicle.approach the load is a result, a force may be beyond it", key),
+                      "give drive.traction_coefficient or lateral_traction_coefficient, which then count over the load "
+                      "that comes out, or a creepage");
+}
+
 void check_drive(const CaseSpec& spec, CaseSource& source) {
   const DriveSpec& d = spec.drive;
+  if (spec.transient.kind == TransientKind::shift) return;  // it takes nothing of the drive but friction
   if (!spec.run.rolling ||
       !source.sound({"drive.traction_coefficient", "drive.tractive_force", "drive.creepage", "drive.lateral_creepage",
                      "drive.lateral_force", "drive.lateral_traction_coefficient", "drive.friction_coefficient"}))
@@ -37,6 +50,58 @@ void check_drive(const CaseSpec& spec, CaseSource& source) {
         "drive.lateral_traction_coefficient",
         fmt::format("traction coefficients of {} along and {} across the rail, {:.4g} together", along, across, wanted),
         "");
+}
+
+void check_friction_law(const CaseSpec& spec, CaseSource& source) {
+  const FrictionSpec& f = spec.friction;
+  if (!source.sound(
+          {"friction.law", "friction.kinetic_coefficient", "friction.half_velocity", "drive.friction_coefficient"}))
+    return;
+  const auto needs = [&](const char* key, bool given, const char* remedy) {
+    if (f.law != FrictionForm::coulomb && !given)
+      source.complain("friction.law", fmt::format("friction that falls with slip needs {}", key), remedy);
+    if (f.law == FrictionForm::coulomb && given)
+      source.complain(key, fmt::format("{} has no meaning with friction.law = \"coulomb\"", key),
+                      "take it out, or take friction.law = \"falling_exponential\" or \"falling_rational\"");
+  };
+  needs("friction.kinetic_coefficient", f.kinetic_coefficient.has_value(),
+        "give the coefficient of fast slip, e.g. 0.4 times drive.friction_coefficient");
+  needs("friction.half_velocity", f.half_velocity.has_value(),
+        "give the slip velocity at which half of the fall is done, e.g. \"1 m/s\"");
+  if (f.kinetic_coefficient && *f.kinetic_coefficient > spec.drive.friction_coefficient)
+    source.complain("friction.kinetic_coefficient",
+                    fmt::format("friction.kinetic_coefficient = {}: must be at most drive.friction_coefficient = {}, "
+                                "the coefficient at rest",
+                                *f.kinetic_coefficient, spec.drive.friction_coefficient),
+                    "friction falls with slip: exchange the two");
+}
+
+void check_third_body(const CaseSpec& spec, CaseSource& source) {
+  const ThirdBodySpec& t = spec.third_body;
+  if (!source.sound({"third_body.thickness", "third_body.shear_modulus", "third_body.yield_shear",
+                     "third_body.hardening", "friction.law"}))
+    return;
+  const auto needs = [&](const char* key, bool given, const char* other, bool other_given, const char* remedy) {
+    if (given && !other_given) source.complain(key, fmt::format("{} needs {}", key, other), remedy);
+  };
+  needs("third_body.thickness", t.thickness.has_value(), "third_body.shear_modulus", t.shear_modulus.has_value(),
+        "give the film's shear modulus, e.g. \"100 MPa\"");
+  needs("third_body.shear_modulus", t.shear_modulus.has_value(), "third_body.thickness", t.thickness.has_value(),
+        "give the film's thickness, e.g. \"20 µm\"");
+  needs("third_body.yield_shear", t.yield_shear.has_value(), "third_body.thickness", t.thickness.has_value(),
+        "give the film's thickness, e.g. \"20 µm\"");
+  needs("third_body.hardening", t.hardening > 0, "third_body.yield_shear", t.yield_shear.has_value(),
+        "give the stress at which the film begins to yield");
+  if (t.thickness && t.shear_modulus && t.hardening > *t.shear_modulus / *t.thickness)
+    source.complain("third_body.hardening",
+                    fmt::format("third_body.hardening = {}: must be at most shear_modulus / thickness = {}",
+                                format_quantity(t.hardening, dimension::kPressureGradient),
+                                format_quantity(*t.shear_modulus / *t.thickness, dimension::kPressureGradient)),
+                    "a film that yields is softer than an elastic one: lower the hardening");
+  if (t.thickness && spec.friction.law != FrictionForm::coulomb)
+    source.complain("third_body.thickness",
+                    "a third-body layer under friction that falls with slip has no steady state: it would jump",
+                    "take friction.law = \"coulomb\", or leave out third_body");
 }
 
 void check_curve(const GeometrySpec& g, CaseSource& source) {
@@ -119,6 +184,10 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
 
 void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_drive(spec, source);
+  check_approach(spec, source);
+  check_transient(spec, source);
+  check_friction_law(spec, source);
+  check_third_body(spec, source);
   check_curve(spec.geometry, source);
   check_path(spec.run, source);
   check_wheel(spec.geometry, source);
@@ -137,6 +206,18 @@ std::vector<std::string> idle_settings(const CaseSpec& spec) {
   idle(spec.mesh.element != ElementFormulation::one_point &&
            spec.mesh.hourglass_coefficient != defaults.mesh.hourglass_coefficient,
        "mesh.hourglass_coefficient", "mesh.element = \"one_point\"");
+  const DriveSpec& d = spec.drive;
+  const char* const rolling = "a case that rolls, transient.kind = \"shift\" does not";
+  if (spec.transient.kind == TransientKind::none)
+    for (const GivenColumn& c : given_columns(spec))
+      idle(true, ("transient." + c.key).c_str(), "transient.kind = \"rolling\" or \"shift\"");
+  if (spec.transient.kind == TransientKind::shift) {
+    idle(d.creepage.has_value(), "drive.creepage", rolling);
+    idle(d.traction_coefficient != defaults.drive.traction_coefficient, "drive.traction_coefficient", rolling);
+    idle(d.lateral_creepage.has_value(), "drive.lateral_creepage", rolling);
+    idle(d.lateral_traction_coefficient.has_value(), "drive.lateral_traction_coefficient", rolling);
+    idle(d.spin.has_value(), "drive.spin", rolling);
+  }
   for (std::size_t i = 0; i < spec.layers.size(); ++i)
     idle(!spec.layers[i].graded() && spec.layers[i].grading_tolerance != LayerSpec{}.grading_tolerance,
          fmt::format("layer.{}.grading_tolerance", i).c_str(), "a young_table");

@@ -83,6 +83,17 @@ Json table_schema(const OptionTable& table, CaseSpec& spec) {
   return s;
 }
 
+constexpr const char* kAboutTransient =
+    "\nEvery key from `at_distance` on is a column: a list with a value for each row, linear between the rows; two "
+    "rows at "
+    "one place\nare a jump. A row of what rolls stands at `at_distance` or `at_time`, the first at 0; what has no "
+    "column is "
+    "that of [drive].\nA shift begins at rest under the first row's load and goes from row to row; a direction without "
+    "a "
+    "column is held.\n`history_file` has the columns under their names with units, `distance [mm]` or `distance_mm`, a "
+    "line a row. How it is\nfollowed and what comes out: [docs/bem.md](bem.md#transients). Signs: "
+    "[conventions](conventions.md#axes-and-signs).\n";
+
 /// What a table's rows cannot say: how values of more than one number are written.
 std::string more_about(const OptionTable& table) {
   if (table.name == "geometry")
@@ -95,7 +106,9 @@ std::string more_about(const OptionTable& table) {
            "rides "
            "on the suspension. Loads\nare written as forces (`\"110 kN\"`) or masses (`\"11.2 t\"`). Give at most one "
            "of "
-           "`sprung_mass`, `wheel_load` and `axle_load`.\n";
+           "`sprung_mass`, `wheel_load`,\n`axle_load` and `approach`. Under an `approach` the load is a result, and "
+           "the "
+           "traction coefficients of [drive] count over it.\n";
   if (table.name == "drive")
     return "\nAlong the rail give at most one of `traction_coefficient`, `tractive_force` and `creepage`; across it at "
            "most one of\n`lateral_traction_coefficient`, `lateral_force` and `lateral_creepage`. What is not given "
@@ -104,6 +117,7 @@ std::string more_about(const OptionTable& table) {
            "forces "
            "and spin are the half-space engine's\n(`railstrata bem`); `run` refuses them. Signs: "
            "[conventions](conventions.md#axes-and-signs).\n";
+  if (table.name == "transient") return kAboutTransient;
   if (table.name == "layer")
     return "\n`young_table` gives a modulus that varies with depth, row by row from the layer's top, linear between "
            "the rows:\n\n"

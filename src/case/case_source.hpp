@@ -28,6 +28,8 @@ class CaseSource {
   void remember(const std::string& key, TextPlace place) { places_[key] = place; }
   void remember_origin(const std::string& key, std::string origin) { origins_[key] = std::move(origin); }
 
+  /// The text or an override gives this very key.
+  bool has(const std::string& key) const { return places_.contains(key) || origins_.contains(key); }
   bool has_origin(const std::string& key) const { return origins_.contains(key); }
 
   /// Records an error at a key, or at the nearest table above it that the file has. `message` is followed by the source

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/body_id.hpp"
+#include "friction/falling_friction.hpp"
 #include "geometry/body_shapes.hpp"
 
 namespace railstrata {
@@ -30,6 +31,17 @@ enum class ArithmeticPrecision { double_precision, single_precision };
 enum class LeadingEdge {
   sub_cell,   ///< inside a cell, told by the gap ahead of it
   whole_cell  ///< between two cells, as Kalker and CONTACT do
+};
+
+/// What the half-space engine follows in time (bem/transient.hpp).
+enum class TransientKind {
+  none,     ///< steady rolling
+  rolling,  ///< rolling from a beginning, step by step
+  shift     ///< loads and displacements sideways without rolling: presliding, fretting
+};
+enum class TransientStart {
+  rest,   ///< pressed together, then shifted by the first forces
+  steady  ///< as if it had rolled so for ever
 };
 
 struct GeometrySpec {
@@ -76,6 +88,7 @@ struct VehicleSpec {
   double suspension_stiffness = 0.95e6, suspension_damping = 10.4e3;
   int suspension_groups = 8;
   double gravity = 9.81;
+  std::optional<double> approach;  ///< m, of the bodies along the contact normal: then the load is a result
   bool couple_sprung_mass = true;  ///< the sprung mass rides along with the axle in x (else it only moves vertically
                                    ///< and does not add inertia to it)
 };
@@ -95,6 +108,20 @@ struct DriveSpec {
   std::optional<double> traction() const {
     return creepage ? std::optional<double>() : std::optional<double>(traction_coefficient);
   }
+};
+
+/// Friction at rest is drive.friction_coefficient.
+struct FrictionSpec {
+  FrictionForm law = FrictionForm::coulomb;
+  std::optional<double> kinetic_coefficient;  ///< limit of fast slip; with a falling law
+  std::optional<double> half_velocity;        ///< m/s, where half of the fall is done; with a falling law
+};
+
+/// A layer of wear debris, sand, … between wheel and rail; none without a thickness.
+struct ThirdBodySpec {
+  std::optional<double> thickness, shear_modulus;
+  std::optional<double> yield_shear;  ///< Pa; none: elastic
+  double hardening = 0;               ///< Pa/m, by plastic shear
 };
 
 struct MeshSpec {
@@ -126,8 +153,30 @@ struct RunSpec {
   bool rolling = true;               ///< false: stop after the static preload
 };
 
+/// Angle of the surfaces that the lateral slip of spin is taken with (bem/case_patch.hpp).
+enum class SpinAngle {
+  local,  ///< of each place of the patch
+  patch   ///< of the contact plane everywhere
+};
+
 struct BemSpec {
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
+  SpinAngle spin_angle = SpinAngle::local;
+};
+
+/// A history of loads and motions, linear between its rows: columns of one length, an empty one is not given. What
+/// rolls takes from the drive what has no column; what is shifted is held where nothing is given.
+struct TransientSpec {
+  TransientKind kind = TransientKind::none;
+  TransientStart start = TransientStart::rest;
+  std::optional<double> distance;               ///< m, rolled altogether; not given: to the last row
+  int increments = 10;                          ///< shift: from row to row
+  std::string history_file;                     ///< empty once it is read into the columns
+  std::vector<double> at_distance, at_time;     ///< m, s: where the rows are
+  std::vector<double> wheel_load, load_factor;  ///< N; over the static load
+  std::vector<double> traction_coefficient, tractive_force, creepage, displacement;
+  std::vector<double> lateral_traction_coefficient, lateral_force, lateral_creepage, lateral_displacement;
+  std::vector<double> spin;  ///< 1/m
 };
 
 struct OutputSpec {
@@ -143,10 +192,13 @@ struct CaseSpec {
   std::vector<LayerSpec> layers;
   VehicleSpec vehicle;
   DriveSpec drive;
+  FrictionSpec friction;
+  ThirdBodySpec third_body;
   MeshSpec mesh;
   ContactSpec contact;
   RunSpec run;
   BemSpec bem;
+  TransientSpec transient;
   OutputSpec output;
 };
 

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "core/faults.hpp"
 
 namespace railstrata {
 namespace {
 
+constexpr double kLargestCreepage = 0.1;
 constexpr const char* kWithHalfSpaces = "take it out, or solve the case with `railstrata bem`";
 
 }  // namespace
@@ -20,15 +23,20 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   };
   const GeometrySpec& g = spec.geometry;
   const DriveSpec& d = spec.drive;
-  beyond(g.yaw != 0, "geometry.yaw", "yaw", "the wheel runs straight along the rail");
+  beyond(spec.vehicle.approach.has_value(), "vehicle.approach", "a given approach",
+         "masses press the wheel down, and the approach follows");
+  beyond(spec.transient.kind != TransientKind::none, "transient.kind", "a history of loads and motions",
+         "one drive leads to the wanted positions, with inertia");
   if (!spec.run.rolling) return out;
+  beyond(spec.friction.law != FrictionForm::coulomb, "friction.law", "friction that falls with slip",
+         "surfaces chatter on a law without memory that falls faster than waves carry away");
+  beyond(spec.third_body.thickness.has_value(), "third_body.thickness", "a third-body layer",
+         "surfaces touch without a film between them");
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
-  beyond(d.creepage.has_value(), "drive.creepage", "a given creepage",
-         "a torque drives the wheel, and the creepage follows");
-  beyond(d.lateral_traction_coefficient.has_value(), "drive.lateral_traction_coefficient", "a given lateral force",
-         "the axle is guided and takes the lateral force that comes");
-  beyond(d.lateral_creepage.has_value(), "drive.lateral_creepage", "lateral creepage",
-         "the axle does not move sideways");
+  beyond(std::abs(d.creepage.value_or(0)) > kLargestCreepage, "drive.creepage", "so large a creepage",
+         "it reaches to 0.1");
+  beyond(std::abs(d.lateral_creepage.value_or(0)) > kLargestCreepage, "drive.lateral_creepage",
+         "so large a lateral creepage", "the wheel moves sideways on its way, and it reaches to 0.1");
   beyond(d.spin.has_value(), "drive.spin", "a given spin", "it follows from the geometry");
   return out;
 }

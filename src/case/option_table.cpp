@@ -19,6 +19,7 @@ using V = VehicleSpec;
 using D = DriveSpec;
 using H = MeshSpec;
 using R = RunSpec;
+using T = TransientSpec;
 using O = OutputSpec;
 
 template <class T>
@@ -77,6 +78,16 @@ constexpr std::string_view kMoreLoad = "give more load, or less vehicle.wheel_ma
 
 bool traction_given(const CaseSpec& spec, std::size_t) { return spec.drive.traction().has_value(); }
 
+bool load_given(const CaseSpec& spec, std::size_t) { return !spec.vehicle.approach; }
+bool transient(const CaseSpec& spec, std::size_t) { return spec.transient.kind != TransientKind::none; }
+bool starts(const CaseSpec& spec, std::size_t) {
+  return spec.transient.kind == TransientKind::rolling || spec.transient.start != TransientStart::rest;
+}
+bool shifts(const CaseSpec& spec, std::size_t) {
+  return spec.transient.kind == TransientKind::shift || spec.transient.increments != TransientSpec{}.increments;
+}
+bool never(const CaseSpec&, std::size_t) { return false; }
+
 bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).graded(); }
 bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).graded(); }
 
@@ -124,7 +135,7 @@ std::vector<Option> track_options() {
       {"yaw",
        at<&C::geometry, &G::yaw>,
        "Angle of attack: the wheel's rolling direction, turned about the vertical through the middle of its tape "
-       "circle, positive towards the field side; half-space engine",
+       "circle, positive towards the field side",
        kSlope,
        {-0.05, 0.05}},
       {"curve_radius",
@@ -254,7 +265,7 @@ OptionTable vehicle_table() {
       "Masses and primary suspension of one wheel",
       {{"wheel_mass", at<&C::vehicle, &V::wheel_mass>, "Mass of the wheel with its share of the axle", kMass,
         above(0, 1e5)},
-       {"sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6}},
+       {"sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6}, {}, {}, load_given},
        {"wheel_load",
         at<&C::vehicle, &V::sprung_mass>,
         "Load of the wheel on the rail, a force or a mass, instead of the sprung mass: that is load / gravity - "
@@ -270,6 +281,10 @@ OptionTable vehicle_table() {
         above(0, 2e7),
         {},
         {sprung_mass_under_axle, kMoreLoad, true}},
+       {"approach", at<&C::vehicle, &V::approach>,
+        "By how much wheel and rail come together along the contact normal, instead of a load, which is then a result; "
+        "half-space engine",
+        kLength, above(0, 0.01)},
        {"suspension_stiffness",
         at<&C::vehicle, &V::suspension_stiffness>,
         "Of all groups together",
@@ -285,10 +300,10 @@ OptionTable vehicle_table() {
        {"couple_sprung_mass", at<&C::vehicle, &V::couple_sprung_mass>,
         "The sprung mass rides along with the axle lengthwise and adds its inertia to it"}},
       false,
-      {{"sprung_mass", "wheel_load", "axle_load"}}};
+      {{"sprung_mass", "wheel_load", "axle_load", "approach"}}};
 }
 
-/// Only the half-space engine has these (case/engine_scope.hpp).
+/// Not all of them are in both engines (case/engine_scope.hpp).
 std::vector<Option> creepage_options() {
   return {{"creepage",
            at<&C::drive, &D::creepage>,
@@ -309,12 +324,15 @@ std::vector<Option> creepage_options() {
            {-1, 1}},
           {"lateral_creepage",
            at<&C::drive, &D::lateral_creepage>,
-           "Along the contact plane, positive where the wheel slips towards the field side",
+           "Along the contact plane, positive where the wheel slips towards the field side; finite elements: the wheel "
+           "moves "
+           "sideways on its way",
            kNumber,
            {-10, 10}},
           {"spin",
            at<&C::drive, &D::spin>,
-           "About the normal of the contact plane, over V, positive from the rolling direction towards the field side",
+           "About the normal of the contact plane, over V, positive from the rolling direction towards the field side; "
+           "half-space engine",
            kSpin,
            {-1000, 1000}}};
 }
@@ -339,7 +357,11 @@ OptionTable drive_table() {
         {-1e7, 1e7},
         {},
         {over_static_load, kLessForce}},
-       {"friction_coefficient", at<&C::drive, &D::friction_coefficient>, "Coulomb's coefficient", kNumber, {0, 2}},
+       {"friction_coefficient",
+        at<&C::drive, &D::friction_coefficient>,
+        "Coulomb's coefficient; of friction that falls with slip the one at rest",
+        kNumber,
+        {0, 2}},
        {"torque_ramp", at<&C::drive, &D::torque_ramp>, "Smooth rise of the torque at the start", kTime, {0, 1}},
        {"creepage_start",
         at<&C::drive, &D::creepage_start>,
@@ -351,6 +373,58 @@ OptionTable drive_table() {
        {"lateral_traction_coefficient", "lateral_force", "lateral_creepage"}}};
   for (const Option& option : creepage_options()) out.options.push_back(option);
   return out;
+}
+
+bool falls(const CaseSpec& spec, std::size_t) { return spec.friction.law != FrictionForm::coulomb; }
+
+OptionTable friction_table() {
+  using F = FrictionSpec;
+  return {"friction",
+          "How friction depends on slip; at rest it is drive.friction_coefficient. Falling friction: half-space engine",
+          {choice_at<&C::friction, &F::law>("law",
+                                            "Coulomb's constant coefficient, or one that falls with the slip velocity "
+                                            "v: by 2^(-v/half_velocity), or by 1/(1 + v/half_velocity)",
+                                            {{"coulomb", FrictionForm::coulomb},
+                                             {"falling_exponential", FrictionForm::falling_exponential},
+                                             {"falling_rational", FrictionForm::falling_rational}}),
+           {"kinetic_coefficient",
+            at<&C::friction, &F::kinetic_coefficient>,
+            "Falling laws: the coefficient's limit for fast slip",
+            kNumber,
+            {0, 2},
+            {},
+            {},
+            falls},
+           {"half_velocity",
+            at<&C::friction, &F::half_velocity>,
+            "Falling laws: slip velocity at which half of the fall is done",
+            kSpeed,
+            above(0, 100),
+            {},
+            {},
+            falls}}};
+}
+
+bool has_film(const CaseSpec& spec, std::size_t) { return spec.third_body.thickness.has_value(); }
+
+OptionTable third_body_table() {
+  using Film = ThirdBodySpec;
+  return {"third_body",
+          "A layer of wear debris, sand, … between the surfaces, an elastic-plastic film in shear; none without a "
+          "thickness. Half-space engine",
+          {{"thickness", at<&C::third_body, &Film::thickness>, "Of the film", kLength, above(0, kMilli)},
+           {"shear_modulus", at<&C::third_body, &Film::shear_modulus>, "Of the film", kPressure, above(0, 1e12)},
+           {"yield_shear", at<&C::third_body, &Film::yield_shear>,
+            "Shear stress at which the film yields; none: it is elastic", kPressure, above(0, 1e11)},
+           {"hardening",
+            at<&C::third_body, &Film::hardening>,
+            "Rise of yield_shear by plastic shear displacement",
+            kPressureGradient,
+            {0, 1e15},
+            {},
+            {},
+            has_film,
+            "a film that softens shears in one place and has no steady state: take 0"}}};
 }
 
 OptionTable mesh_table() {
@@ -446,13 +520,103 @@ OptionTable run_table() {
 }
 
 OptionTable bem_table() {
-  return {"bem",
-          "The half-space engine",
-          {choice_at<&C::bem, &BemSpec::leading_edge>(
-              "leading_edge",
-              "Where rows of cells meet the leading edge of the patch: inside a cell, as the gap tells, or between two "
-              "cells, as Kalker's method and CONTACT have it",
-              {{"sub_cell", LeadingEdge::sub_cell}, {"whole_cell", LeadingEdge::whole_cell}})}};
+  return {
+      "bem",
+      "The half-space engine",
+      {choice_at<&C::bem, &BemSpec::leading_edge>(
+           "leading_edge",
+           "Where rows of cells meet the leading edge of the patch: inside a cell, as the gap tells, or between two "
+           "cells, as Kalker's method and CONTACT have it",
+           {{"sub_cell", LeadingEdge::sub_cell}, {"whole_cell", LeadingEdge::whole_cell}}),
+       choice_at<&C::bem, &BemSpec::spin_angle>(
+           "spin_angle",
+           "The angle that the lateral slip of spin is taken with: the surfaces' own at each place of the patch, "
+           "or that of the contact plane",
+           {{"local", SpinAngle::local}, {"patch", SpinAngle::patch}})}};
+}
+
+template <auto Member>
+Option column(std::string_view key, std::string_view doc, const Dimension& dimension, const Range& range) {
+  return {key, at<&C::transient, Member>, doc, dimension, range};
+}
+
+std::vector<Option> row_columns() {
+  return {
+      column<&T::at_distance>("at_distance", "kind = \"rolling\": rolled distance of each row, from 0 on", kLength,
+                              {0, 20}),
+      column<&T::at_time>("at_time", "Time of each row, from 0 on; what rolls does so at drive.speed", kTime, {0, 1e6}),
+      column<&T::wheel_load>("wheel_load", "Load of the wheel on the rail", kForce, above(0, 1e7)),
+      column<&T::load_factor>("load_factor", "The same over the static load G", kNumber, above(0, 100))};
+}
+
+std::vector<Option> driven_columns() {
+  return {
+      column<&T::traction_coefficient>("traction_coefficient", "F_T over the static load G", kNumber, {-10, 10}),
+      column<&T::tractive_force>("tractive_force", "F_T on the wheel; positive drives", kForce, {-1e7, 1e7}),
+      column<&T::creepage>("creepage", "kind = \"rolling\": longitudinal creepage; negative drives", kNumber, {-10, 1}),
+      column<&T::displacement>(
+          "displacement", "kind = \"shift\": of the wheel over the rail in the rolling direction, from the start on",
+          kLength, {-0.01, 0.01}),
+      column<&T::lateral_traction_coefficient>("lateral_traction_coefficient", "F_y over the static load G", kNumber,
+                                               {-10, 10}),
+      column<&T::lateral_force>("lateral_force", "Friction force F_y on the wheel along the contact plane", kForce,
+                                {-1e7, 1e7}),
+      column<&T::lateral_creepage>("lateral_creepage", "kind = \"rolling\": along the contact plane", kNumber,
+                                   {-10, 10}),
+      column<&T::lateral_displacement>("lateral_displacement",
+                                       "kind = \"shift\": of the wheel over the rail towards the field side, along "
+                                       "the contact plane",
+                                       kLength, {-0.01, 0.01}),
+      column<&T::spin>("spin", "kind = \"rolling\": about the normal of the contact plane", kSpin, {-1000, 1000})};
+}
+
+/// One of several words, of a case that has it.
+Option only_where(bool (*applies)(const CaseSpec&, std::size_t), Option option) {
+  option.applies = applies;
+  return option;
+}
+
+std::vector<Option> course_options() {
+  return {
+      only_where(
+          transient,
+          choice_at<&C::transient, &T::kind>(
+              "kind",
+              "Steady rolling; rolling from a beginning in steps of one cell; a shift without rolling "
+              "(presliding, fretting)",
+              {{"none", TransientKind::none}, {"rolling", TransientKind::rolling}, {"shift", TransientKind::shift}})),
+      only_where(starts, choice_at<&C::transient, &T::start>(
+                             "start",
+                             "kind = \"rolling\" begins pressed together and shifted by the first forces, or in "
+                             "steady rolling under the first row",
+                             {{"rest", TransientStart::rest}, {"steady", TransientStart::steady}})),
+      {"distance", at<&C::transient, &T::distance>,
+       "kind = \"rolling\": rolled distance; that of the last row where it is not given", kLength, above(0, 20)},
+      only_where(shifts, {"increments",
+                          at<&C::transient, &T::increments>,
+                          "kind = \"shift\": steps from row to row",
+                          kNumber,
+                          {1, 1000}}),
+      only_where(never, {"history_file", at<&C::transient, &T::history_file>,
+                         "A CSV file with the columns below, relative to the case file, instead of the lists; the "
+                         "resolved case has what it says"})};
+}
+
+OptionTable transient_table() {
+  OptionTable out{"transient",
+                  "A history of loads and motions, followed step by step; half-space engine",
+                  course_options(),
+                  false,
+                  {{"at_distance", "at_time"},
+                   {"wheel_load", "load_factor"},
+                   {"traction_coefficient", "tractive_force", "creepage", "displacement"},
+                   {"lateral_traction_coefficient", "lateral_force", "lateral_creepage", "lateral_displacement"}}};
+  for (const auto& columns : {row_columns(), driven_columns()})
+    for (const Option& option : columns) {
+      out.rivals.push_back({"history_file", option.key});
+      out.options.push_back(option);
+    }
+  return out;
 }
 
 OptionTable output_table() {
@@ -489,10 +653,13 @@ const std::vector<OptionTable>& case_tables() {
       layer_table(),
       vehicle_table(),
       drive_table(),
+      friction_table(),
+      third_body_table(),
       mesh_table(),
       contact_table(),
       run_table(),
       bem_table(),
+      transient_table(),
       output_table()};
   return tables;
 }
@@ -540,6 +707,7 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
     std::string operator()(const ChoiceSlot& v) const { return toml_quoted(word_of(option, v)); }
     std::string operator()(const std::vector<double>* v) const {
       std::string out;
+      if (v->empty()) return out;
       for (double x : *v) out += (out.empty() ? "" : ", ") + quantity(x, option.dimension);
       return "[" + out + "]";
     }

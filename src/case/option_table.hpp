@@ -98,7 +98,7 @@ const std::vector<OptionTable>& case_tables();
 std::string toml_quoted(std::string_view text);
 
 /// A value as text that the case file's reader turns back into the same value: "2 mm" in quotes, 3, true, ["0.3 m"].
-/// Empty for an optional one that is not given.
+/// Empty for an optional one that is not given and for a list without values.
 std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index);
 
 /// "between 0.05 mm and 10 mm", "above 0 s and at most 1 s"; empty when everything is allowed.

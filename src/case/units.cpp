@@ -74,6 +74,7 @@ const std::vector<Customary>& customary() {
       {dimension::kDensity, "a density", "7800 kg/m^3", {"kg/m^3", "t/m^3", "g/cm^3"}},
       {dimension::kStiffness, "a stiffness", "0.95 MN/m", {"MN/m", "kN/mm", "kN/m", "N/mm", "N/m"}},
       {dimension::kDamping, "a damping", "10.4 kN s/m", {"kN s/m", "N s/m"}},
+      {dimension::kPressureGradient, "a stress by displacement", "400 MPa/mm", {"MPa/mm", "N/mm^3", "GPa/m"}},
       {dimension::kForce, "a force", "85 kN", {"kN", "N", "MN"}},
       {dimension::kSpin, "a spin", "0.1 1/m", {"1/m", "rad/m", "1/mm", "rad/mm"}},
       {dimension::kSlope, "an inclination", "1:40", {"", "mrad", "rad", "deg"}},

@@ -23,6 +23,7 @@ inline constexpr Dimension kSpeed{0, 1, -1, 0}, kRate{0, 0, -1, 0}, kAcceleratio
 inline constexpr Dimension kPressure{1, -1, -2, 0}, kDensity{1, -3, 0, 0};
 inline constexpr Dimension kStiffness{1, 0, -2, 0}, kDamping{1, 0, -1, 0};
 inline constexpr Dimension kForce{1, 1, -2, 0};
+inline constexpr Dimension kPressureGradient{1, -2, -2, 0};
 inline constexpr Dimension kSpin{0, -1, 0, 0};  ///< rotation over rolled distance; "rad/m" is "1/m"
 /// An inclination, kept as its tangent; written "1:40", "1/40", "25 mrad", "1.4 deg" or as the bare tangent.
 inline constexpr Dimension kSlope{0, 0, 0, 1};

@@ -18,9 +18,11 @@ struct ContactField {
   std::vector<double> x, y, z;         ///< m, position of the points (z: model frame)
   std::vector<double> area;            ///< m², of the surface each point stands for
   std::vector<double> p, q_x, q_y;     ///< Pa
-  std::vector<double> slip_x, slip_y;  ///< m/s
+  std::vector<double> slip_x, slip_y;  ///< m/s, or m: see slip_is_distance
   std::vector<ContactState> state;
-  double p_noise = 0;  ///< Pa, points with p below this count as separated in areas and ratios
+  std::vector<double> bound;      ///< Pa, what a sticking point carries at most; empty: in proportion to p
+  bool slip_is_distance = false;  ///< of a shift, which has no speed: m, over its last increment
+  double p_noise = 0;             ///< Pa, points with p below this count as separated in areas and ratios
 
   int size() const { return columns * stations; }
   void resize(int columns_, int stations_) {

@@ -37,10 +37,10 @@ void apply_impulse(ContactSide& side, std::size_t node, Vec3 impulse) {
     return;
   }
   const SurfaceNode from = side.nodes[node];
-  const Vec3 own = rotate(from.frame, impulse);
+  const Vec3 own = rotate(from.frame, yaw_back(side.yaw, impulse));
   for (std::size_t n = 0; n < side.nodes.size(); ++n) {
     const Vec3 v = side.response->velocity(from.column, side.nodes[n].column, side.apart(from, side.nodes[n]), own);
-    side.velocity[n] += rotate_back(from.frame, v);
+    side.velocity[n] += yaw(side.yaw, rotate_back(from.frame, v));
   }
 }
 

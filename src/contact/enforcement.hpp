@@ -39,7 +39,7 @@ inline Vec3 traction_vector(const NodeTraction& t, Vec3 n) {
 /// A node of a body's running surface.
 struct SurfaceNode {
   int column, station;
-  Rotation<double> frame{};  ///< forward: components of the model to those of the station's frame
+  Rotation<double> frame{};  ///< forward: components of the body's axes to those of the station's frame
 };
 
 /// One body's nodes in the contact.
@@ -49,7 +49,8 @@ struct ContactSide {
   std::vector<double> inverse_mass;           ///< 1/kg; with a response the largest answer of a node to its own impulse
   const SurfaceResponse* response = nullptr;  ///< if nodes answer one another; needs `nodes` then
   std::vector<SurfaceNode> nodes;
-  int ring_stations = 0;  ///< of a surface that closes to a ring; 0: it does not
+  Rotation<double> yaw{};  ///< of the body's axes; the nodes' frames are counted from these
+  int ring_stations = 0;   ///< of a surface that closes to a ring; 0: it does not
 
   /// Signed number of stations from one node to another, round a ring the shorter way.
   int apart(const SurfaceNode& from, const SurfaceNode& to) const {

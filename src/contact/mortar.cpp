@@ -101,17 +101,27 @@ Vec3 MortarContact::wheel_point(const Field& u, const AxlePose& pose, const Hit&
   return x;
 }
 
-// The wheel's surface opposite a point of the rail. The correction takes off the tangential mismatch that the radial
-// projection had the last time.
+Vec3 MortarContact::in_wheel_axes(Vec3 point) const {
+  if (wheel_.yaw.s == 0) return point;
+  return wheel_.origin + yaw_back(wheel_.yaw, point - wheel_.origin);
+}
+
+AxlePose MortarContact::in_wheel_axes(AxlePose pose) const {
+  const Vec3 travel = yaw_back(wheel_.yaw, {pose.x, pose.y, pose.z});
+  return {travel.x, travel.y, travel.z, pose.psi};
+}
+
+// The wheel's surface opposite a point of the rail, all in the wheel's axes. The correction takes off the tangential
+// mismatch that the radial projection had the last time.
 MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose, Vec3 p, Tangential correction) const {
-  const Vec3 arm{p.x - wheel_.origin.x - pose.x, p.y - wheel_.origin.y, p.z - wheel_.origin.z - pose.z};
+  const Vec3 arm{p.x - wheel_.origin.x - pose.x, p.y - wheel_.origin.y - pose.y, p.z - wheel_.origin.z - pose.z};
   Hit h = facet_below(pose, arm, correction);
   h.offset = wheel_point(u, pose, h) - p;
   return h;
 }
 
 Vec3 MortarContact::gauss_point(const Field& u_rail, const Facet& facet, int g) const {
-  return rail_point(u_rail, facet.column, facet.station, kPoint[g % 2], kPoint[g / 2]);
+  return in_wheel_axes(rail_point(u_rail, facet.column, facet.station, kPoint[g % 2], kPoint[g / 2]));
 }
 
 void MortarContact::move_window(double centre, double half_length) {
@@ -145,10 +155,11 @@ void MortarContact::test_nodes(const Field& u_rail, const Field& u_wheel, const 
   for_each(window_stations_, [&](std::ptrdiff_t w) {
     const int j = window_first_ + static_cast<int>(w);
     for (int c = 1; c <= inner_columns_; ++c) {
-      const Vec3 p = rail_point(u_rail, c, j, 0, 0);
+      const Vec3 p = in_wheel_axes(rail_point(u_rail, c, j, 0, 0));
+      const Vec3 normal = yaw_back(wheel_.yaw, {0, rail_.outward[c].y, rail_.outward[c].z});
       Hit h = opposite(u_wheel, pose, p, {});
       h = opposite(u_wheel, pose, p, {h.offset.x, h.offset.y});
-      const double gap = rail_.outward[c].y * h.offset.y + rail_.outward[c].z * h.offset.z;
+      const double gap = dot(normal, h.offset);
       const std::size_t k = static_cast<std::size_t>(w) * inner_columns_ + (c - 1);
       near_[k] = gap < gap_limit && h.inside;
       edge_[k] = gap < 0 && (!h.inside || c == 1 || c == inner_columns_ || w == 0 || w == window_stations_ - 1);
@@ -210,10 +221,11 @@ void MortarContact::start_corrections(const Field& u_rail, const Field& u_wheel,
   });
 }
 
-void MortarContact::search(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double half_length,
+void MortarContact::search(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model, double half_length,
                            double gap_limit) {
+  const AxlePose pose = in_wheel_axes(in_model);
   turned_ = rotation_by(pose.psi);
-  move_window(wheel_.origin.x + pose.x - rail_.origin.x, half_length);
+  move_window(wheel_.origin.x + in_model.x - rail_.origin.x, half_length);
   reserve_window();
   test_nodes(u_rail, u_wheel, pose, gap_limit);
   std::swap(before_, facets_);
@@ -272,7 +284,7 @@ void MortarContact::integrate(const FacetsAroundNode& around, const WheelPatch& 
       const double ty = kPoint[g % 2], tx = kPoint[g / 2];
       const double weight = 0.25 * facet_area * dual(side_y, ty) * dual(side_x, tx);
       area += 0.25 * facet_area * shape(side_y, ty) * shape(side_x, tx);
-      gap += weight * dot(h.offset, row.normal);
+      gap += weight * dot(h.offset, row.on_wheel);
       const int station = stations_from(patch.anchor, h.station) - patch.first, column = h.column - patch.column;
       assert(station >= 0 && station + 1 < patch.stations);
       assert(column >= 0 && column + 1 < nc);
@@ -297,7 +309,8 @@ void MortarContact::append_weights(const WheelPatch& patch, double area) {
   }
 }
 
-const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel, const AxlePose& pose) {
+const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model) {
+  const AxlePose pose = in_wheel_axes(in_model);
   turned_ = rotation_by(pose.psi);
   update_hits(u_rail, u_wheel, pose);
   result_.rows.clear();
@@ -310,6 +323,7 @@ const MortarRows& MortarContact::rows(const Field& u_rail, const Field& u_wheel,
     row.rail = rail_.index(c, j);
     row.first = static_cast<int>(result_.weights.size());
     row.normal = {0, rail_.outward[c].y, rail_.outward[c].z};
+    row.on_wheel = yaw_back(wheel_.yaw, row.normal);
     const FacetsAroundNode around = facets_around(c, j);
     const WheelPatch patch = wheel_patch(around);
     integrate(around, patch, row);

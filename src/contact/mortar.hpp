@@ -12,6 +12,9 @@
 // exact circle of revolution, displaced by the interpolated nodal displacements: the facets of a polygonal wheel do not
 // knock.
 //
+// A yawed wheel is met in its own axes: rail points, normals and the axle's travel are turned back about the vertical
+// through the axle's start, and all that follows is that of a straight wheel.
+//
 // Search: both surfaces are sweeps, so the wheel's facet under a rail point follows from the wheel's angle; a small
 // tangential correction is carried from step to step.
 #include <array>
@@ -26,7 +29,7 @@ namespace railstrata {
 /// Rigid position of the axle: displacement from the start and rotation psi (positive rolling forward, any number of
 /// turns).
 struct AxlePose {
-  double x = 0, z = 0, psi = 0;
+  double x = 0, y = 0, z = 0, psi = 0;
 };
 
 /// One rail node that may be in contact.
@@ -37,6 +40,7 @@ struct ContactRow {
   double area;          ///< a_A, m²
   double gap;           ///< g_A, m, negative: penetration
   Vec3 normal;          ///< out of the rail
+  Vec3 on_wheel;        ///< the same in the wheel's axes, which the yaw turns
 };
 
 struct WheelWeight {
@@ -57,11 +61,14 @@ class MortarContact {
   const ContactSurface& rail() const { return rail_; }
   const ContactSurface& wheel() const { return wheel_; }
 
+  /// Displacements are those of the model frame, for the wheel in its own axes; the pose is that of the model frame.
+
   /// Chooses the rail nodes whose gap is below `gap_limit` (m) within `half_length` (m) of the axle; call it every few
   /// steps, before rows().
-  void search(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double half_length, double gap_limit);
+  void search(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model, double half_length,
+              double gap_limit);
   /// Gaps and weights of the chosen nodes at the present positions. The result is reused by the next call.
-  const MortarRows& rows(const Field& u_rail, const Field& u_wheel, const AxlePose& pose);
+  const MortarRows& rows(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model);
 
   /// A facet of the rail with a chosen node at one of its corners.
   struct Facet {
@@ -77,7 +84,7 @@ class MortarContact {
   struct Hit {                  // the wheel's surface opposite a rail point
     int column, station;        // facet
     double weight_y, weight_t;  // bilinear coordinates in it
-    Vec3 offset;                // x_wheel - x_rail
+    Vec3 offset;                // x_wheel - x_rail, wheel's axes
     bool inside;                // within the wheel's contact band
   };
   using FacetHits = std::array<Hit, 4>;         // at the Gauss points of a rail facet
@@ -91,6 +98,8 @@ class MortarContact {
 
   Vec3 rail_point(const Field& u, int column, int station, double weight_y, double weight_x) const;
   Vec3 gauss_point(const Field& u_rail, const Facet& facet, int g) const;
+  Vec3 in_wheel_axes(Vec3 point) const;
+  AxlePose in_wheel_axes(AxlePose pose) const;
   Hit opposite(const Field& u_wheel, const AxlePose& pose, Vec3 point, Tangential correction) const;
   Hit facet_below(const AxlePose& pose, Vec3 arm, Tangential correction) const;
   Vec3 wheel_point(const Field& u_wheel, const AxlePose& pose, const Hit& hit) const;

@@ -4,6 +4,7 @@
 #include <cassert>
 #include <functional>
 
+#include "core/rotation.hpp"
 #include "mesh/layout.hpp"
 #include "mesh/swept.hpp"
 
@@ -23,7 +24,8 @@ struct SurfaceIndex {
 struct ContactSurface {
   SweepKind kind = SweepKind::extrude;
   Vec3 origin;
-  int columns = 0;  ///< nodes across
+  Rotation<double> yaw;  ///< of the body's axes about the vertical through its origin, from the model's
+  int columns = 0;       ///< nodes across
   Stations stations;
   std::vector<Vec2> node;         ///< section coordinates of the surface nodes, y increasing
   std::vector<Vec2> outward;      ///< unit normals there

@@ -74,6 +74,16 @@ constexpr Vec3 rotate(const Rotation<double>& r, Vec3 v) { return {r.c * v.x + r
 constexpr Vec3 rotate_back(const Rotation<double>& r, Vec3 v) {
   return {r.c * v.x - r.s * v.z, v.y, r.s * v.x + r.c * v.z};
 }
+/// About the vertical axis z of the model frame: x turns towards y (yaw).
+constexpr Vec3 yaw(const Rotation<double>& r, Vec3 v) { return {r.c * v.x - r.s * v.y, r.s * v.x + r.c * v.y, v.z}; }
+/// The inverse: y turns towards x.
+constexpr Vec3 yaw_back(const Rotation<double>& r, Vec3 v) {
+  return {r.c * v.x + r.s * v.y, r.c * v.y - r.s * v.x, v.z};
+}
+/// (R - 1) arm of the same yaw.
+constexpr Vec3 yaw_displacement(const Rotation<double>& r, Vec3 arm) {
+  return {(r.c - 1) * arm.x - r.s * arm.y, r.s * arm.x + (r.c - 1) * arm.y, 0};
+}
 /// In a section plane: y turns towards z.
 constexpr Vec2 roll(const Rotation<double>& r, Vec2 v) { return {r.c * v.y - r.s * v.z, r.s * v.y + r.c * v.z}; }
 /// R s R^T of the same rotation about x.

@@ -63,11 +63,12 @@ void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b
   side.clear();
   side.response = response_of(b);
   const ReferenceFrame& frame = b.frame;
+  side.yaw = frame.yaw_turn;
   const int block = b.body.mesh.contact.block;
   for (std::ptrdiff_t i : nodes) {
     const SurfaceIndex at = b.surface.node_at(i);
     const Vec3 arm = b.arm(block, at.column, at.station), w = vector_at(state.v, i, b.surface.stride);
-    side.before.push_back(Vec3{frame.speed, 0, 0} + frame.to_model(frame.step_back(w + frame.rigid_rate(arm))));
+    side.before.push_back(frame.velocity() + frame.to_model(frame.step_back(w + frame.rigid_rate(arm))));
     Vec3 a = free_acceleration(b, state, scope.gravity, i);
     if (scope.damping_rate > 0) {
       const Vec3 mean{b.mean.x + b.mean.spin * arm.z, 0, b.mean.z - b.mean.spin * arm.x};

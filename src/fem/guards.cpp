@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/faults.hpp"
@@ -12,7 +13,7 @@ namespace {
 // Nothing of a sound run moves by an element in one step; false for NaN too.
 bool axle_keeps_pace(const Stepper& st) {
   const AxleMotion& a = st.state().axle;
-  const double travel = st.dt() * std::max(std::abs(a.vx), std::abs(a.vz));
+  const double travel = st.dt() * std::max({std::abs(a.vx), std::abs(a.vy), std::abs(a.vz)});
   return std::isfinite(a.x) && std::isfinite(a.spin) && travel < st.system().model.spec.mesh.element_size;
 }
 

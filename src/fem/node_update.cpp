@@ -35,16 +35,17 @@ NodeRows rows_of(const RollingBody& b, BodyState& state, SectionNode node, const
 
 // Rigid travel and turn of the frame at a node, as velocities in the components of this step's frame.
 struct RigidVelocity {
-  double before_x = 0, before_z = 0, after_x = 0, after_z = 0;
+  double before_x = 0, before_z = 0, after_x = 0, after_z = 0, y = 0;
 };
 inline RigidVelocity rigid_velocity(const ReferenceFrame& frame, double radius, double cosine, double sine) {
   const double cd = frame.step.c, sd = frame.step.s;
   const double armx = -radius * sine, armz = radius * cosine;
   const double slope_x = frame.slope_cos * armx + frame.slope_sin * armz;
   const double slope_z = frame.slope_cos * armz - frame.slope_sin * armx;
-  const double travel_x = frame.turn.c * frame.speed, travel_z = frame.turn.s * frame.speed;
+  const Vec3 own = frame.own_velocity();
+  const double travel_x = frame.turn.c * own.x, travel_z = frame.turn.s * own.x;
   return {cd * slope_x - sd * slope_z + travel_x, sd * slope_x + cd * slope_z + travel_z, slope_x + travel_x,
-          slope_z + travel_z};
+          slope_z + travel_z, own.y};
 }
 
 struct PlaneAndLateral {
@@ -84,8 +85,8 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
     const double m = n.inverse_mass[j];
     const double wx = n.vx[j], wy = n.vy[j], wz = n.vz[j];
     double ax = gx - m * n.fx[j], ay = -m * n.fy[j], az = gz - m * n.fz[j];
-    double bx = wx, bz = wz;  // before, in the frame of this step
-    [[maybe_unused]] PlaneAndLateral damped{};
+    double bx = wx, bz = wz;               // before, in the frame of this step
+    [[maybe_unused]] PlaneAndLateral d{};  // run-up damping
     if constexpr (turning) {
       ax -= push * n.sine[j];
       az += push * n.cosine[j];
@@ -93,11 +94,11 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
       bz = sd * wx + cd * wz;
     }
     if constexpr (measured) {
-      damped = run_up_damping<turning>(rate, mean, frame.step, radius, turning ? n.cosine[j] : 1.0,
-                                       turning ? n.sine[j] : 0.0, wx, wy, wz);
-      ax -= damped.x;
-      ay -= damped.y;
-      az -= damped.z;
+      d = run_up_damping<turning>(rate, mean, frame.step, radius, turning ? n.cosine[j] : 1.0,
+                                  turning ? n.sine[j] : 0.0, wx, wy, wz);
+      ax -= d.x;
+      ay -= d.y;
+      az -= d.z;
     }
     const double qx = bx + dt * ax, qy = wy + dt * ay, qz = bz + dt * az;
     n.vx[j] = qx;
@@ -109,19 +110,21 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
     n.uz[j] = turning ? sd * dx + cd * dz : dz;
     if constexpr (measured) {
       const double mass = 1 / m;
-      double before_x = bx, before_z = bz, after_x = qx, after_z = qz;
+      double before_x = bx, before_y = wy, before_z = bz, after_x = qx, after_y = qy, after_z = qz;
       if constexpr (turning) {
         const RigidVelocity rigid = rigid_velocity(frame, radius, n.cosine[j], n.sine[j]);
         before_x += rigid.before_x;
+        before_y += rigid.y;
         before_z += rigid.before_z;
         after_x += rigid.after_x;
+        after_y += rigid.y;
         after_z += rigid.after_z;
         px += mass * qx;
         pz += mass * qz;
         angular += mass * radius * (n.cosine[j] * qx + n.sine[j] * qz);
       }
-      twice_kinetic += mass * (before_x * after_x + wy * qy + before_z * after_z);
-      power += 0.5 * mass * (damped.x * (before_x + after_x) + damped.y * (wy + qy) + damped.z * (before_z + after_z));
+      twice_kinetic += mass * (before_x * after_x + before_y * after_y + before_z * after_z);
+      power += 0.5 * mass * (d.x * (before_x + after_x) + d.y * (before_y + after_y) + d.z * (before_z + after_z));
     }
   }
   if constexpr (measured) sums += {0.5 * twice_kinetic, power, px, pz, angular};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -67,8 +68,9 @@ class Preload {
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
-      tractions_.at(row.column, row.station) = {pressure_[k], 0, 0, 0, 0};
-      out.contact_force += (row.area * pressure_[k]) * row.normal;
+      const NodeTraction t{pressure_[k], 0, friction_ratio() * pressure_[k], 0, 0};
+      tractions_.at(row.column, row.station) = t;
+      out.contact_force -= row.area * traction_vector(t, row.normal);
     }
     out.tractions = tractions_;
     return out;
@@ -87,7 +89,7 @@ class Preload {
     u_.axle = -kVirtualPenetration * sys_.model.hertz.approach;
     for (const NodeLine& l : sys_.wheel().lines)
       if (l.component == 2) std::fill_n(u_.body[kWheel].begin() + l.first, l.count, u_.axle);
-    sys_.apply_constraints(u_.body[kRail], u_.body[kWheel], {0, u_.axle, 0});
+    sys_.apply_constraints(u_.body[kRail], u_.body[kWheel], {0, 0, u_.axle, 0});
   }
 
   // Weight of everything on its nodes and on the axle; centrifugal forces of a wheel that rolls.
@@ -118,7 +120,7 @@ class Preload {
   }
 
   void update_contact() {
-    const AxlePose pose{0, u_.axle, 0};
+    const AxlePose pose{0, 0, u_.axle, 0};
     const double h = sys_.options.element_size;
     contact_.search(u_.body[kRail], u_.body[kWheel], pose, 2 * sys_.model.hertz.a + 4 * h,
                     0.3 * sys_.model.hertz.approach);
@@ -152,7 +154,7 @@ class Preload {
       if (active_[k] && !compliant_)
         tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = spring_[k] - penalty_ * gap_change(k, step);
     add(u_, 1.0, step);
-    sys_.apply_constraints(u_.body[kRail], u_.body[kWheel], {0, u_.axle, 0});
+    sys_.apply_constraints(u_.body[kRail], u_.body[kWheel], {0, 0, u_.axle, 0});
   }
   double penetration() const {
     double worst = 0;
@@ -164,13 +166,41 @@ class Preload {
   // Adds a_A p_A on both surfaces: the rail down and the wheel up.
   void apply_pressure(std::size_t k, double p, StaticVector& f) const {
     const ContactRow& row = rows_->rows[k];
-    const double n[3] = {row.normal.x, row.normal.y, row.normal.z};
+    const double on_rail[3] = {row.normal.x, row.normal.y, row.normal.z};
+    const double on_wheel[3] = {row.on_wheel.x, row.on_wheel.y, row.on_wheel.z};
     for (int i = 0; i < 3; ++i) {
-      const double force = row.area * p * n[i];
-      f.body[kRail][row.rail + i * sys_.rail_surface().stride] -= force;
+      f.body[kRail][row.rail + i * sys_.rail_surface().stride] -= row.area * p * on_rail[i];
+      const double force = row.area * p * on_wheel[i];
       for (int w = row.first; w < row.first + row.count; ++w)
         f.body[kWheel][rows_->weights[w].wheel + i * sys_.wheel_surface().stride] += rows_->weights[w].m * force;
     }
+  }
+
+  // Lateral friction of the pressures, over them.
+  double friction_ratio() const {
+    if (sys_.options.lateral_friction == 0) return 0;
+    double normal = 0;
+    for (std::size_t k = 0; k < rows_->rows.size(); ++k) normal += rows_->rows[k].area * pressure_[k];
+    return std::clamp(sys_.options.lateral_friction / std::max(normal, std::abs(sys_.options.lateral_friction)),
+                      -sys_.options.contact.friction_coefficient, sys_.options.contact.friction_coefficient);
+  }
+  // It is a load of the step, not a part of its stiffness: pressures hardly know it.
+  void apply_lateral_friction(StaticVector& f) const {
+    const double ratio = friction_ratio();
+    if (ratio == 0) return;
+    for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
+      const ContactRow& row = rows_->rows[k];
+      const Vec3 on_rail = (row.area * ratio * pressure_[k]) * tangent_frame(row.normal).t2;
+      const Vec3 on_wheel = -yaw_back(sys_.wheel_surface().yaw, on_rail);
+      add_force(f.body[kRail], row.rail, sys_.rail_surface().stride, on_rail);
+      for (int w = row.first; w < row.first + row.count; ++w)
+        add_force(f.body[kWheel], rows_->weights[w].wheel, sys_.wheel_surface().stride, rows_->weights[w].m * on_wheel);
+    }
+  }
+  static void add_force(Field& f, std::ptrdiff_t x, int stride, Vec3 force) {
+    f[x] += force.x;
+    f[x + stride] += force.y;
+    f[x + 2 * stride] += force.z;
   }
 
   // Forces on constrained nodes go to what carries them.
@@ -197,6 +227,7 @@ class Preload {
     }
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
       if (pressure_[k] > 0) apply_pressure(k, pressure_[k], r);
+    apply_lateral_friction(r);
     reduce(r);
     add(r, 1.0, loads());
     return r;
@@ -230,12 +261,15 @@ class Preload {
   }
   double gap_change(std::size_t k, const StaticVector& x) const {
     const ContactRow& row = rows_->rows[k];
-    const double n[3] = {row.normal.x, row.normal.y, row.normal.z};
+    const ContactSurface& wheel = sys_.wheel_surface();
+    const Vec3 rail = yaw_back(wheel.yaw, -vector_at(x.body[kRail], row.rail, sys_.rail_surface().stride));
+    const double away[3] = {rail.x, rail.y, rail.z};
+    const double n[3] = {row.on_wheel.x, row.on_wheel.y, row.on_wheel.z};
     double g = 0;
     for (int i = 0; i < 3; ++i) {
-      double w = -x.body[kRail][row.rail + i * sys_.rail_surface().stride];
+      double w = away[i];
       for (int j = row.first; j < row.first + row.count; ++j)
-        w += rows_->weights[j].m * x.body[kWheel][rows_->weights[j].wheel + i * sys_.wheel_surface().stride];
+        w += rows_->weights[j].m * x.body[kWheel][rows_->weights[j].wheel + i * wheel.stride];
       g += n[i] * w;
     }
     return g;

@@ -1,6 +1,7 @@
 #pragma once
 // Equilibrium before the rolling: gravity, the centrifugal forces of the wheel's starting spin (they widen the rim by
-// some 10 um, a tenth of the approach: a wheel set spinning without them rings), frictionless contact.
+// some 10 um, a tenth of the approach: a wheel set spinning without them rings), contact without friction, or with a
+// given lateral friction (fem/lateral_start.hpp) in the ratio of the pressures.
 //
 // Unknown: the displacements of both bodies, the axle's height and the pressures. A primal-dual active set: a node is
 // in contact where p - c g > 0 (c: stiffness of a surface element); a step solves the equilibrium of the undeformed
@@ -24,7 +25,7 @@ struct PreloadResult {
   SurfaceTractions tractions{0, 0};
   double residual = 0;                      ///< |r| / |load vector|
   double penetration = 0;                   ///< m, largest of the nodes in contact
-  Vec3 contact_force;                       ///< N, on the wheel
+  Vec3 contact_force;                       ///< N, on the wheel, with the lateral friction
   int newton_steps = 0, cg_iterations = 0;  ///< steps: evaluations of the exact residual
   double wall_seconds = 0;
 };

@@ -1,15 +1,18 @@
 #pragma once
-// Uniform travel and turn, which a body's displacements are followed in (fem/stepper.hpp). A frame without speed and
-// spin is the model frame: every function then returns its argument to the last bit.
+// Uniform travel and turn, which a body's displacements are followed in (fem/stepper.hpp). The turn is about the
+// lateral axis of the body's own axes; those stand at the yaw to the model's and travel with the frame. A frame without
+// speed, spin and yaw is the model frame: every function then returns its argument to the last bit.
 #include "core/rotation.hpp"
 
 namespace railstrata {
 
 struct ReferenceFrame {
-  double speed = 0;  ///< m/s
-  double spin = 0;   ///< rad/s, positive rolling forward
-  double x = 0;      ///< m travelled
-  double psi = 0;    ///< rad turned
+  double speed = 0;           ///< m/s, along the rail
+  double lateral_speed = 0;   ///< m/s
+  double spin = 0;            ///< rad/s, positive rolling forward
+  double x = 0, y = 0;        ///< m travelled
+  double psi = 0;             ///< rad turned
+  Rotation<double> yaw_turn;  ///< from the body's axes to the model's
   Rotation<double> turn;
   Rotation<double> step;   ///< of one time step
   double centrifugal = 0;  ///< 1/s², 2 (1 - cos omega dt)/dt^2
@@ -25,11 +28,18 @@ struct ReferenceFrame {
   }
   void move_to(double time) {
     x = speed * time;
+    y = lateral_speed * time;
     psi = spin * time;
     turn = rotation_by(psi);
   }
-  Vec3 to_model(Vec3 v) const { return rotate(turn, v); }
-  Vec3 to_frame(Vec3 v) const { return rotate_back(turn, v); }
+  Vec3 to_model(Vec3 v) const { return yaw(yaw_turn, rotate(turn, v)); }
+  Vec3 to_frame(Vec3 v) const { return rotate_back(turn, yaw_back(yaw_turn, v)); }
+  /// Velocity and travel, model frame.
+  Vec3 velocity() const { return {speed, lateral_speed, 0}; }
+  Vec3 travel() const { return {x, y, 0}; }
+  /// The same in the body's own axes.
+  Vec3 own_velocity() const { return yaw_back(yaw_turn, velocity()); }
+  Vec3 own_travel() const { return yaw_back(yaw_turn, travel()); }
   /// D^T v, D the rotation of one step.
   Vec3 step_back(Vec3 v) const { return rotate_back(step, v); }
   /// (D - 1) X / dt

@@ -128,14 +128,15 @@ const Field& surface_displacement(RollingBody& b, const BodyState& state) {
   const double* cosine = b.cos_node[block].data();
   const double* sine = b.sin_node[block].data();
   const double c = b.frame.turn.c, s = b.frame.turn.s;
+  const Vec3 travel = b.frame.own_travel();
   for (int column = 0; column < surface.columns; ++column) {
     const std::ptrdiff_t x = surface.index(column, 0), y = x + surface.stride, z = y + surface.stride;
     const double radius = surface.node[column].z;
     for (int j = 0; j < stations; ++j) {
       const double ax = -radius * sine[j], az = radius * cosine[j];
       const double px = ax + state.u[x + j], pz = az + state.u[z + j];
-      b.surface_u[x + j] = b.frame.x + c * px + s * pz - ax;
-      b.surface_u[y + j] = state.u[y + j];
+      b.surface_u[x + j] = travel.x + c * px + s * pz - ax;
+      b.surface_u[y + j] = travel.y + state.u[y + j];
       b.surface_u[z + j] = c * pz - s * px - az;
     }
   }
@@ -146,8 +147,19 @@ Field model_displacement(const RollingBody& b, const BodyState& state) {
   if (!b.turns()) return state.u;
   Field out = b.body.layout.field();
   each_node(b.body, [&](int block, int node, int station, std::ptrdiff_t x, int stride) {
-    const Vec3 arm = b.arm(block, node, station);
-    set_vector(out, x, stride, Vec3{b.frame.x, 0, 0} + b.frame.to_model(arm + vector_at(state.u, x, stride)) - arm);
+    const Vec3 arm = b.arm(block, node, station), across{0, b.body.mesh.blocks[block].section.nodes[node].y, 0};
+    const Vec3 turned = b.frame.travel() + b.frame.to_model(arm + vector_at(state.u, x, stride)) - arm;
+    set_vector(out, x, stride, turned + yaw_displacement(b.frame.yaw_turn, across));
+  });
+  return out;
+}
+
+Field yawed_displacement(const Body& body, const Rotation<double>& yaw_turn, const Field& u) {
+  Field out = u;
+  if (yaw_turn.s == 0) return out;
+  each_node(body, [&](int block, int node, int station, std::ptrdiff_t x, int stride) {
+    const Vec3 arm = reference_position(body, block, node, station) - body.mesh.origin;
+    set_vector(out, x, stride, yaw(yaw_turn, vector_at(u, x, stride)) + yaw_displacement(yaw_turn, arm));
   });
   return out;
 }
@@ -172,9 +184,9 @@ void start_velocities(const RollingBody& b, double rate, BodyState& state) {
 
 MeanMotion mean_motion(const RollingBody& b, const UpdateSums& sums) {
   if (!b.turns()) return {};
-  // the mean travel along the rail and the mean spin, not the vertical motion
+  // the mean travel along the wheel and the mean spin, not the vertical motion
   const double travel = (b.frame.turn.c * sums.momentum_x + b.frame.turn.s * sums.momentum_z) / b.free_mass;
-  const Vec3 in_frame = b.frame.to_frame({travel, 0, 0});
+  const Vec3 in_frame = rotate_back(b.frame.turn, {travel, 0, 0});
   return {in_frame.x, in_frame.z, sums.angular / b.free_inertia};
 }
 

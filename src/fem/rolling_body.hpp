@@ -68,6 +68,9 @@ const Field& surface_displacement(RollingBody& body, const BodyState& state);
 
 /// Displacements of the whole body in the model frame, u = x - X.
 Field model_displacement(const RollingBody& body, const BodyState& state);
+/// The same of a revolved body at rest, from those in its own axes: turned by the yaw, about the vertical through the
+/// axle.
+Field yawed_displacement(const Body& body, const Rotation<double>& yaw_turn, const Field& u);
 
 /// Velocities relative to the frame's travel, in this step's frame components: of the half step before, or the one
 /// after the update. Only found where they differ from v and added mass asks for them.

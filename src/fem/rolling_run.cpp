@@ -242,9 +242,9 @@ RunResult Roller::finish() {
 // A static case has one position with one sample.
 PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& preload) {
   const Field rail = initial_history(sys.rail()), wheel = initial_history(sys.wheel());
-  PositionSamples still{0.0,
-                        {take_sample(sys, {preload.u[kRail], rail}, {preload.u[kWheel], wheel}, preload.tractions,
-                                     {0, preload.axle_z, 0})}};
+  const Field u_wheel = yawed_displacement(sys.wheel(), sys.wheel_surface().yaw, preload.u[kWheel]);
+  const AxlePose pose{0, 0, preload.axle_z, 0};
+  PositionSamples still{0.0, {take_sample(sys, {preload.u[kRail], rail}, {u_wheel, wheel}, preload.tractions, pose)}};
   RollingSample& sample = still.samples.front();
   sample.axle.z = preload.axle_z;
   const Vec3 force = preload.contact_force;

@@ -49,13 +49,15 @@ class BandPlanes {
 
 // A wheel's motion with its axle.
 struct RigidMotion {
-  explicit RigidMotion(const AxlePose& pose) : shift{pose.x, pose.z}, turn(rotation_by(pose.psi)) {}
+  RigidMotion(const AxlePose& pose, const Rotation<double>& yaw_turn)
+      : shift{pose.x, pose.y, pose.z}, turn(rotation_by(pose.psi)), yaw_by(yaw_turn) {}
   Vec3 displacement(Vec3 arm) const {
-    const PlaneVector<double> d = rigid_displacement(shift, turn, {arm.x, arm.z});
-    return {d.x, 0, d.z};
+    const PlaneVector<double> d = rigid_displacement({shift.x, shift.z}, turn, {arm.x, arm.z});
+    const Vec3 straight{d.x, shift.y, d.z};
+    return straight + yaw_displacement(yaw_by, rotate(turn, arm));
   }
-  PlaneVector<double> shift;
-  Rotation<double> turn;
+  Vec3 shift;
+  Rotation<double> turn, yaw_by;
 };
 
 // Displacement of a node without the rigid motion of a body that turns.
@@ -70,7 +72,7 @@ Vec3 elastic_displacement(const Body& body, const Field& u, SectionNode node, in
 
 // radius: metres per unit of the sweep coordinate.
 BandSample band_sample(const Body& body, const ContactBand& band, const SampledBody& at, double centre, double radius,
-                       const AxlePose& pose, double half_length) {
+                       const AxlePose& pose, const Rotation<double>& yaw_turn, double half_length) {
   const BandPlanes planes(body.mesh.blocks[band.block]);
   const int elements = body.layout.blocks[band.block].elements;
   centre = planes.in_first_turn(centre);
@@ -90,7 +92,7 @@ BandSample band_sample(const Body& body, const ContactBand& band, const SampledB
   for (int j = first; j < last; ++j)
     for (int q = 0; q < band.rows * band.columns; ++q)
       s.stress.push_back(element_stress(body, at.u, at.history, band.block, q, planes.station(j)));
-  const RigidMotion motion(pose);
+  const RigidMotion motion(pose, yaw_turn);
   for (int j = first; j <= last; ++j)
     for (int k = 0; k < (band.rows + 1) * (band.columns + 1); ++k)
       s.displacement.push_back(elastic_displacement(body, at.u, {band.block, k}, planes.station(j), motion));
@@ -110,8 +112,9 @@ RollingSample take_sample(const RollingSystem& sys, const SampledBody& rail, con
   RollingSample out;
   const double half = sample_half_length(sys);
   out.position = pose.x;
-  out.rail = band_sample(sys.rail(), sys.model.rail.contact, rail, pose.x, 1.0, {}, half);
-  out.wheel = band_sample(sys.wheel(), sys.model.wheel.contact, wheel, pose.psi, sys.rolling_radius, pose, half);
+  out.rail = band_sample(sys.rail(), sys.model.rail.contact, rail, pose.x, 1.0, {}, {}, half);
+  out.wheel = band_sample(sys.wheel(), sys.model.wheel.contact, wheel, pose.psi, sys.rolling_radius, pose,
+                          sys.wheel_surface().yaw, half);
   const auto& at = sys.rail_surface().stations.at;
   const int first =
       static_cast<int>(std::lower_bound(at.begin(), at.end(), out.rail.along.front() + pose.x - 1e-9) - at.begin());
@@ -124,12 +127,13 @@ RollingSample take_sample(const Stepper& st) {
   const RollingState& state = st.state();
   const BodyState &rail = state.bodies[kRail], &wheel = state.bodies[kWheel];
   const Field u_wheel = st.displacement(BodyId::wheel);
-  RollingSample s = take_sample(st.system(), {rail.u, rail.history}, {u_wheel, wheel.history}, state.tractions,
-                                {state.axle.x, state.axle.z, state.axle.psi});
+  RollingSample s =
+      take_sample(st.system(), {rail.u, rail.history}, {u_wheel, wheel.history}, state.tractions, state.axle.pose());
   s.time = state.time;
   s.axle = state.axle;
   s.forces = st.forces();
   s.creepage = st.creepage();
+  s.lateral_creepage = st.lateral_creepage();
   return s;
 }
 
@@ -137,7 +141,8 @@ HistoryRow history_row(const Stepper& st, const EnergyBalance& start) {
   const RollingState& s = st.state();
   const EnergyBalance& now = st.energy();
   return {s.time,    st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(),
-          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total()};
+          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total(),   st.lateral_creepage(),
+          s.axle.y};
 }
 
 }  // namespace railstrata

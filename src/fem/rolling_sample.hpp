@@ -23,7 +23,7 @@ struct RollingSample {
   double time = 0, position = 0;
   AxleMotion axle;
   ContactForces forces;
-  double creepage = 0;
+  double creepage = 0, lateral_creepage = 0;
   BandSample rail, wheel;
   std::vector<NodeTraction>
       tractions;  ///< rail surface nodes of the band sample, index station * (columns + 1) + column
@@ -35,7 +35,9 @@ struct HistoryRow {
   ContactForces forces;
   double p_max, creepage, axle_vx, axle_vz, spin;
   EnergyBalance energy;
-  double closure;  ///< change of the balance's total since the start, J
+  double closure;           ///< change of the balance's total since the start, J
+  double lateral_creepage;  ///< in the contact plane
+  double axle_y;            ///< m, travel sideways
 };
 
 /// A body as it is sampled.

@@ -7,6 +7,7 @@
 #include "case/engine_scope.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "fem/lateral_start.hpp"
 
 namespace railstrata {
 
@@ -93,9 +94,21 @@ Axle axle_of(const Body& wheel, const CaseSpec& spec) {
 
 ExplicitOptions explicit_options(const Model& m) {
   const CaseSpec& spec = m.spec;
-  ExplicitOptions out{
-      spec.drive.speed, spec.drive.torque_ramp, spec.run.run_up, spec.run.run_up_damping, spec.mesh.element_size, {},
-      spec.vehicle};
+  ExplicitOptions out;
+  out.speed = spec.drive.speed;
+  out.torque_ramp = spec.drive.torque_ramp;
+  out.run_up = spec.run.run_up;
+  out.run_up_damping = spec.run.run_up_damping;
+  out.element_size = spec.mesh.element_size;
+  out.vehicle = spec.vehicle;
+  const DriveSpec& drive = spec.drive;
+  const RigidContact& contact = m.placement.contact;
+  out.keeps_pace = drive.creepage.has_value();
+  const LateralStart lateral = lateral_start(m);
+  out.free_sideways = drive.lateral_traction_coefficient.has_value();
+  if (lateral.creepage != 0)
+    out.lateral_speed = drive.speed * (lateral.creepage * std::cos(contact.angle) + std::tan(contact.yaw));
+  out.lateral_friction = lateral.friction;
   out.contact.penalty = spec.contact.method == ContactMethod::penalty;
   out.contact.penalty_stiffness = penalty_rule(m);
   out.contact.friction_coefficient = spec.drive.friction_coefficient;
@@ -133,11 +146,15 @@ RollingSystem::RollingSystem(const Model& m)
     const double radius = line_radius(wheel(), l.block, l.node);
     for (int j = 0; j < l.count; ++j) spin_inertia += wheel().mass[l.first + j] * radius * radius;
   }
-  if (m.spec.run.rolling) start_spin = m.spec.drive.speed * (1 - m.spec.drive.creepage_start) / rolling_radius;
-  const double traction = m.spec.drive.traction_coefficient * m.load;
+  const DriveSpec& drive = m.spec.drive;
+  if (m.spec.run.rolling)
+    start_spin = drive.speed * (1 - drive.creepage.value_or(drive.creepage_start)) / rolling_radius;
+  const double traction = drive.traction().value_or(0) * m.load;
   torque = traction * (rolling_radius + spin_inertia / (travel_mass * rolling_radius));
   absorbers = end_absorbers(rail());
   surfaces = {rail_surface_of(m, rail()), wheel_surface_of(m, wheel())};
+  const double yaw_angle = m.placement.contact.yaw;
+  surfaces[kWheel].yaw = {std::cos(yaw_angle), std::sin(yaw_angle)};
 }
 
 void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose) const {
@@ -145,7 +162,7 @@ void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxleP
   for (const BoreNode& n : axle.bore) {
     const auto shift = rigid_displacement({pose.x, pose.z}, turn, {n.arm.x, n.arm.z});
     u_wheel[n.index] = shift.x;
-    u_wheel[n.index + n.stride] = 0;
+    u_wheel[n.index + n.stride] = pose.y;
     u_wheel[n.index + 2 * n.stride] = shift.z;
   }
   for_each(6, [&](std::ptrdiff_t k) {

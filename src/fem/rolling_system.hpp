@@ -3,10 +3,12 @@
 // the wheel's bore, the suspension and its masses, the track's support, and the contact surfaces.
 //
 // Axle: a rigid body in the bore with the degrees of freedom x, z and the spin psi (positive rolling forward, about
-// +y); it does not move laterally or tilt (the other wheel of the set and the bearings hold it). It has what the given
-// wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius. Suspension: groups of a spring and a
-// dashpot with a share of the sprung mass each, vertical, around the axle's (non-rotating) box. In x the sprung mass
-// rides along with the axle if the case says so.
+// +y); it does not tilt (the other wheel of the set and the bearings hold it). Sideways it is guided, at rest or with
+// the speed that makes a given lateral creepage, or it is free under the lateral force that holds it in the static
+// equilibrium with the given friction. A yawed wheel has axes of its own, turned about the vertical through the axle's
+// start. The axle has what the given wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius.
+// Suspension: groups of a spring and a dashpot with a share of the sprung mass each, vertical, around the axle's
+// (non-rotating) box. In x the sprung mass rides along with the axle if the case says so.
 #include <array>
 
 #include "body/body.hpp"
@@ -49,6 +51,10 @@ struct ExplicitOptions {
   double element_size = 0;     ///< m, of the contact's zone
   EnforcementOptions contact;  ///< penalty stiffness and friction included
   VehicleSpec vehicle;
+  bool keeps_pace = false;      ///< the creepage is given: travel and spin of the axle go on as they started
+  bool free_sideways = false;   ///< the axle keeps the lateral force of the start, not its lateral speed
+  double lateral_speed = 0;     ///< m/s, of a guided axle; at the start of one that is free sideways
+  double lateral_friction = 0;  ///< N, on the rail at the start (fem/lateral_start.hpp)
 };
 
 struct RollingSystem {
@@ -75,7 +81,7 @@ struct RollingSystem {
   const ContactSurface& rail_surface() const { return surface(BodyId::rail); }
   const ContactSurface& wheel_surface() const { return surface(BodyId::wheel); }
 
-  /// Moves the bore's nodes with the axle and the slaves with their masters; u_wheel and pose in the same frame.
+  /// Moves the bore's nodes with the axle and the slaves with their masters; u_wheel and pose in the same axes.
   void apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose) const;
 };
 

@@ -141,13 +141,15 @@ void StaticPreconditioner::gather_gaps(const MortarRows& rows, const std::vector
   for (std::size_t k = 0; k < rows.rows.size(); ++k) {
     if (!active[k]) continue;
     const ContactRow& row = rows.rows[k];
-    const double n[3] = {row.normal.x, row.normal.y, row.normal.z};
+    const double on_rail[3] = {row.normal.x, row.normal.y, row.normal.z};
+    const double on_wheel[3] = {row.on_wheel.x, row.on_wheel.y, row.on_wheel.z};
     GapRow g{{}, penalty * row.area};
     for (int i = 0; i < 3; ++i) {
-      if (n[i] == 0) continue;
-      g.entry.push_back({kRail, row.rail + i * sys_.rail_surface().stride, -n[i]});
+      if (on_rail[i] != 0) g.entry.push_back({kRail, row.rail + i * sys_.rail_surface().stride, -on_rail[i]});
+      if (on_wheel[i] == 0) continue;
       for (int w = row.first; w < row.first + row.count; ++w)
-        g.entry.push_back({kWheel, rows.weights[w].wheel + i * sys_.wheel_surface().stride, n[i] * rows.weights[w].m});
+        g.entry.push_back(
+            {kWheel, rows.weights[w].wheel + i * sys_.wheel_surface().stride, on_wheel[i] * rows.weights[w].m});
     }
     gaps_.push_back(std::move(g));
   }

@@ -13,14 +13,17 @@ namespace {
 ReferenceFrame rolling_frame(const RollingSystem& sys, double dt) {
   ReferenceFrame frame;
   frame.speed = sys.options.speed;
+  frame.lateral_speed = sys.options.lateral_speed;
   frame.spin = sys.start_spin;
+  frame.yaw_turn = sys.wheel_surface().yaw;
   frame.set_step(dt);
   return frame;
 }
 
 SearchWindow search_window(const RollingSystem& sys) {
   const HertzContact& hertz = sys.model.hertz;
-  return {1.5 * hertz.a + 3 * sys.options.element_size, 0.25 * hertz.approach};
+  const double ahead = std::abs(sys.model.placement.contact.x);  // of the axle: a yawed wheel's contact
+  return {1.5 * hertz.a + 3 * sys.options.element_size + ahead, 0.25 * hertz.approach};
 }
 
 bool same_sizes(const RestartState& r, const RollingSystem& sys) {
@@ -57,6 +60,7 @@ Stepper::Stepper(const RollingSystem& system, RestartState restart) : Stepper(sy
   balance_ = restart.balance;
   bodies_[kWheel].mean = restart.mean;
   axle_rest_z_ = restart.axle_z0;
+  side_force_ = restart.side_force;
   contact_.restore({std::move(restart.facets), restart.reached_edge});
 }
 
@@ -69,6 +73,7 @@ RestartState Stepper::restart_state() const {
   out.balance = balance_;
   out.mean = bodies_[kWheel].mean;
   out.axle_z0 = axle_rest_z_;
+  out.side_force = side_force_;
   out.dt = dt();
   ContactStep::Restart contact = contact_.restart();
   out.facets = std::move(contact.facets);
@@ -78,7 +83,9 @@ RestartState Stepper::restart_state() const {
 
 void Stepper::start(const PreloadResult& preload) {
   state_.tractions = preload.tractions;
-  state_.axle = {0, preload.axle_z, 0, sys_.options.speed, 0, sys_.start_spin};
+  state_.axle = {
+      .z = preload.axle_z, .vx = sys_.options.speed, .vy = sys_.options.lateral_speed, .spin = sys_.start_spin};
+  side_force_ = -preload.contact_force.y;
   axle_rest_z_ = preload.axle_z;
   state_.groups.assign(sys_.options.vehicle.suspension_groups, MassGroup{});
   const double rate[2] = {sys_.options.speed, sys_.start_spin};  // of the pattern against the material: m/s, rad/s
@@ -105,15 +112,23 @@ std::array<double, 2> Stepper::drift() const { return {0.0, state_.axle.psi - bo
 
 AxlePose Stepper::pose_in_frame() const {
   const ReferenceFrame& frame = bodies_[kWheel].frame;
-  const Vec3 at = frame.to_frame({state_.axle.x - frame.x, 0, state_.axle.z});
-  return {at.x, at.z, state_.axle.psi - frame.psi};
+  const Vec3 at = frame.to_frame({state_.axle.x - frame.x, state_.axle.y - frame.y, state_.axle.z});
+  return {at.x, at.y, at.z, state_.axle.psi - frame.psi};
+}
+
+AxleDrive Stepper::axle_drive() const { return {drive_torque(sys_, state_.time), side_force_}; }
+
+double Stepper::lateral_creepage() const {
+  const RigidContact& contact = sys_.model.placement.contact;
+  const AxleMotion& a = state_.axle;
+  return (a.vy - a.spin * sys_.rolling_radius * std::tan(contact.yaw)) / (a.vx * std::cos(contact.angle));
 }
 
 void Stepper::step() {
   const EnergyBalance before = balance_;
   const StepScope scope{dt(), sys_.gravity, damping_rate(), want_energy_};
   const std::array<double, 2> turned = drift();
-  const AxlePose pose{state_.axle.x, state_.axle.z, state_.axle.psi};
+  const AxlePose pose = state_.axle.pose();
 
   evaluate_elements(bodies_, state_.bodies, turned, scope);
   if (want_energy_) book_stored_energy(turned);
@@ -135,7 +150,7 @@ void Stepper::step() {
   update_waiting_nodes(bodies_, state_.bodies, scope);
   book_update(scope);
   const double axle_kinetic =
-      advance_axle(sys_, loads, torque(), axle_rest_z_, scope, state_.axle, state_.groups, balance_);
+      advance_axle(sys_, loads, axle_drive(), axle_rest_z_, scope, state_.axle, state_.groups, balance_);
   if (want_energy_) {
     book_kinetic_energy(axle_kinetic);
     recorded_ = halfway(before, balance_);

@@ -44,8 +44,9 @@ struct RestartState {
   EnergyBalance balance;
   MeanMotion mean;  ///< of the wheel
   std::vector<MortarContact::Facet> facets;
-  double axle_z0 = 0;  ///< m, height of the axle at the start of the rolling
-  double dt = 0;       ///< s
+  double axle_z0 = 0;     ///< m, height of the axle at the start of the rolling
+  double side_force = 0;  ///< N, on the axle, that holds it in the static equilibrium
+  double dt = 0;          ///< s
   bool reached_edge = false;
 };
 
@@ -74,7 +75,9 @@ class Stepper {
   double position() const { return state_.axle.x; }
   /// Rigid slip of wheel against rail over the speed, (V - omega r)/V: negative when driving.
   double creepage() const { return (state_.axle.vx - state_.axle.spin * sys_.rolling_radius) / state_.axle.vx; }
-  double torque() const { return drive_torque(sys_, state_.time); }
+  /// Rigid slip in the contact plane over the speed, positive where the wheel slides to the field side.
+  double lateral_creepage() const;
+  double torque() const { return axle_drive().torque; }
   double damping_rate() const;
   /// Energies at the beginning of the last step (kinetic energy v(n-1/2).v(n+1/2)/2, exact for the scheme).
   const EnergyBalance& energy() const { return recorded_; }
@@ -90,6 +93,7 @@ class Stepper {
   explicit Stepper(const RollingSystem& system);
   void start(const PreloadResult& preload);
   std::array<double, 2> drift() const;
+  AxleDrive axle_drive() const;
   AxlePose pose_in_frame() const;
   void book_stored_energy(const std::array<double, 2>& drift);
   double reduce_ties(const std::array<double, 2>& drift);
@@ -105,7 +109,7 @@ class Stepper {
   ContactStep contact_;
   EnergyBalance balance_, recorded_;
   std::array<UpdateSums, 2> sums_;  // of this step
-  double axle_rest_z_ = 0;
+  double axle_rest_z_ = 0, side_force_ = 0;
   bool want_energy_ = false;
 };
 

@@ -265,9 +265,11 @@ constexpr auto visit_traction = [](auto& t, auto&& on) {
 };
 constexpr auto visit_axle = [](auto& a, auto&& on) {
   on("x", a.x);
+  on("y", a.y);
   on("z", a.z);
   on("psi", a.psi);
   on("vx", a.vx);
+  on("vy", a.vy);
   on("vz", a.vz);
   on("spin", a.spin);
 };
@@ -287,6 +289,7 @@ constexpr auto visit_energy = [](auto& e, auto&& on) {
   on("weight", e.weight);
   on("spring", e.spring);
   on("torque_work", e.torque_work);
+  on("guide_work", e.guide_work);
   on("friction", e.friction);
   on("contact_normal", e.contact_normal);
   on("damping", e.damping);
@@ -305,6 +308,8 @@ constexpr auto visit_history = [](auto& h, auto&& on) {
   on("spin", h.spin);
   visit_energy(h.energy, on);
   on("closure", h.closure);
+  on("lateral_creepage", h.lateral_creepage);
+  on("axle_y", h.axle_y);
 };
 constexpr auto visit_facet = [](auto& f, auto&& on) {
   on("column", f.column);
@@ -327,6 +332,7 @@ void describe(Archive& a, RestartState& m) {
     on("step", v.state.step);
     on("dt", v.dt);
     on("axle_z0", v.axle_z0);
+    on("side_force", v.side_force);
     on("reached_edge", v.reached_edge);
     on("mean_x", v.mean.x);
     on("mean_z", v.mean.z);
@@ -369,6 +375,7 @@ void describe(Archive& a, RollingSample& s) {
     visit_axle(v.axle, on);
     visit_forces(v.forces, on);
     on("creepage", v.creepage);
+    on("lateral_creepage", v.lateral_creepage);
   });
   a.group("rail", [&](auto& inner) { describe(inner, s.rail); });
   a.group("wheel", [&](auto& inner) { describe(inner, s.wheel); });

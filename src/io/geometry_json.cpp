@@ -38,7 +38,7 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement) {
   Json out;
   out["rail_profile"] = placement.rail.name();
   out["wheel_profile"] = placement.wheel.name();
-  out["load_N"] = static_load(spec);
+  out["load_N"] = hertz.load;
   out["contact"] = {{"y_m", c.point.y},
                     {"z_m", c.point.z},
                     {"wheel_y_m", c.point.y - c.wheel_offset_y},

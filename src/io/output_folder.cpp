@@ -25,9 +25,9 @@ void remove_results(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const char* name :
        {"centre_line.csv", "depth_line.csv", "geometry.json", "history.csv", "patch.csv", "patch.pvd", "patch.vtp",
-        "rail.vtu", "rail_cross_section.csv", "rail_longitudinal_section.csv", "rail_surface.vtp", "report.html",
-        "summary.json", "view.py", "wheel.vtu", "wheel_cross_section.csv", "wheel_longitudinal_section.csv",
-        "wheel_surface.vtp"})
+        "patch_film.csv", "rail.vtu", "rail_cross_section.csv", "rail_longitudinal_section.csv", "rail_surface.vtp",
+        "report.html", "summary.json", "view.py", "wheel.vtu", "wheel_cross_section.csv",
+        "wheel_longitudinal_section.csv", "wheel_surface.vtp"})
     std::filesystem::remove(folder / name, ignored);
   std::vector<std::filesystem::path> frames;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))

@@ -1,5 +1,7 @@
 #include "io/result_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -20,6 +22,10 @@ std::vector<double> state_numbers(const ContactField& f) {
   std::vector<double> out;
   for (ContactState s : f.state) out.push_back(static_cast<double>(s));
   return out;
+}
+
+std::string slip_column(const char* direction, const ContactField& f) {
+  return fmt::format("slip_{}_{}", direction, f.slip_is_distance ? "mm" : "mm_s");
 }
 
 void push(std::vector<float>& out, const Sym3& s) {
@@ -62,8 +68,8 @@ std::vector<CsvColumn> patch_columns(const ContactField& f) {
           {"p_MPa", scaled(f.p, kMega)},
           {"q_x_MPa", scaled(f.q_x, kMega)},
           {"q_y_MPa", scaled(f.q_y, kMega)},
-          {"slip_x_mm_s", scaled(f.slip_x, kMilli)},
-          {"slip_y_mm_s", scaled(f.slip_y, kMilli)},
+          {slip_column("x", f), scaled(f.slip_x, kMilli)},
+          {slip_column("y", f), scaled(f.slip_y, kMilli)},
           {"state_0separated_1stick_2slip", state_numbers(f)}};
 }
 
@@ -106,7 +112,7 @@ void write_patch_tables(const std::filesystem::path& folder, const std::vector<s
              {"p_MPa", scaled(line.p, kMega)},
              {"q_x_MPa", scaled(line.q_x, kMega)},
              {"q_y_MPa", scaled(line.q_y, kMega)},
-             {"slip_x_mm_s", scaled(line.slip_x, kMilli)}});
+             {slip_column("x", f), scaled(line.slip_x, kMilli)}});
 }
 
 void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -158,7 +164,7 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
   }
   mesh.point_fields = {{"pressure_MPa", 1, pressure},
                        {"traction_MPa", 3, traction},
-                       {"slip_velocity_mm_s", 3, slip},
+                       {fields.front()->slip_is_distance ? "slip_mm" : "slip_velocity_mm_s", 3, slip},
                        {"state", 1, state}};
   return mesh;
 }
@@ -218,31 +224,13 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
 }
 
 HistoryLog::HistoryLog(const std::filesystem::path& file, const std::vector<std::string>& provenance)
-    : log_(file, provenance, {"time_ms",
-                              "position_mm",
-                              "torque_N_m",
-                              "F_x_N",
-                              "F_y_N",
-                              "F_z_N",
-                              "p_max_MPa",
-                              "creepage",
-                              "penetration_um",
-                              "contact_nodes",
-                              "axle_vx_m_s",
-                              "axle_vz_m_s",
-                              "spin_rad_s",
-                              "kinetic_J",
-                              "strain_J",
-                              "hourglass_J",
-                              "weight_J",
-                              "spring_J",
-                              "torque_work_J",
-                              "friction_J",
-                              "contact_normal_J",
-                              "run_up_damping_J",
-                              "absorbed_J",
-                              "dashpot_J",
-                              "closure_J"}) {}
+    : log_(
+          file, provenance,
+          {"time_ms",          "position_mm", "torque_N_m",       "F_x_N",          "F_y_N",         "F_z_N",
+           "p_max_MPa",        "creepage",    "lateral_creepage", "penetration_um", "contact_nodes", "axle_y_mm",
+           "axle_vx_m_s",      "axle_vz_m_s", "spin_rad_s",       "kinetic_J",      "strain_J",      "hourglass_J",
+           "weight_J",         "spring_J",    "torque_work_J",    "guide_work_J",   "friction_J",    "contact_normal_J",
+           "run_up_damping_J", "absorbed_J",  "dashpot_J",        "closure_J"}) {}
 
 void HistoryLog::add(const HistoryRow& r) {
   const EnergyBalance& e = r.energy;
@@ -254,8 +242,10 @@ void HistoryLog::add(const HistoryRow& r) {
             r.forces.z,
             kMega * r.p_max,
             r.creepage,
+            r.lateral_creepage,
             1e6 * r.forces.penetration,
             static_cast<double>(r.forces.nodes),
+            kMilli * r.axle_y,
             r.axle_vx,
             r.axle_vz,
             r.spin,
@@ -265,6 +255,7 @@ void HistoryLog::add(const HistoryRow& r) {
             e.weight,
             e.spring,
             e.torque_work,
+            e.guide_work,
             e.friction,
             e.contact_normal,
             e.damping,

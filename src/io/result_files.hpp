@@ -14,7 +14,8 @@
 namespace railstrata {
 
 /// patch.csv: every point of the fields, of several patches one after the other with their numbers from 1 on in the
-/// column `patch`; centre_line.csv: along the rolling direction through the largest pressure of the first.
+/// column `patch`; centre_line.csv: along the rolling direction through the largest pressure of the first. Slip stands
+/// in mm/s, of a shift in mm.
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                         const std::vector<const ContactField*>& fields);
 
@@ -28,7 +29,7 @@ void write_depth_line(const std::filesystem::path& file, const std::vector<std::
 void write_sections(const std::filesystem::path& folder, const std::string& body,
                     const std::vector<std::string>& provenance, const StressSections& sections);
 
-/// The patch as quadrilaterals with pressure_MPa, traction_MPa, slip_velocity_mm_s, state.
+/// The patches as quadrilaterals with pressure_MPa, traction_MPa, slip_velocity_mm_s (of a shift slip_mm), state.
 VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel_x);
 
 /// A body's contact band around the wheel: nodes displaced by displacement_mm (a point field, not applied to the

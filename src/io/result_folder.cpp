@@ -67,8 +67,10 @@ ContactField patch_of(const CsvTable& table) {
   f.p = table.column("p_MPa", 1e6);
   f.q_x = table.column("q_x_MPa", 1e6);
   f.q_y = table.column("q_y_MPa", 1e6);
-  f.slip_x = table.column("slip_x_mm_s", 1e-3);
-  f.slip_y = table.column("slip_y_mm_s", 1e-3);
+  f.slip_is_distance =
+      std::any_of(table.columns.begin(), table.columns.end(), [](const CsvColumn& c) { return c.name == "slip_x_mm"; });
+  f.slip_x = table.column(f.slip_is_distance ? "slip_x_mm" : "slip_x_mm_s", 1e-3);
+  f.slip_y = table.column(f.slip_is_distance ? "slip_y_mm" : "slip_y_mm_s", 1e-3);
   for (const auto* values : {&f.x, &f.y, &f.z, &f.area, &f.p, &f.q_x, &f.q_y, &f.slip_x, &f.slip_y})
     if (!std::all_of(values->begin(), values->end(), [](double v) { return std::isfinite(v); }))
       refuse(file, "a value is not a finite number");

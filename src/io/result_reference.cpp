@@ -169,7 +169,8 @@ std::string results_reference_markdown() {
       "that does\nnot apply is null. The key names the unit. Tables (`sweep.csv`, `study.csv`) hold those with a "
       "column, "
       "in the unit that\nits name ends with. Engine: `fem` or `bem` where only one of them has the number.\n\n"
-      "`title` is the case's; of `run`, `engine` is `fem` or `bem` and `commit` the program's.\n" +
+      "`title` is the case's; `state` says of a transient which of its states this is; of `run`, `engine` is `fem`\nor "
+      "`bem` and `commit` the program's.\n" +
       numbers_markdown("");
   for (const std::string_view group : {"contact", "energy", "run"}) {
     out += fmt::format("\n## {}\n", group) + numbers_markdown(group);

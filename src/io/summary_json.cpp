@@ -60,6 +60,7 @@ Json stress(const Summary& s) {
 Json summary_json(const Summary& s) {
   Json out;
   out["title"] = s.title;
+  if (!s.state.empty()) out["state"] = s.state;
   add_numbers("", s, out);
   add_numbers("contact", s, out["contact"]);
   if (!s.patches.empty()) out["patches"] = patches(s);

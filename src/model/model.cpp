@@ -123,6 +123,19 @@ Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
   return {std::move(wheel), std::move(rail), track, contact, std::move(notes)};
 }
 
+FallingFriction falling_friction(const CaseSpec& spec) {
+  const FrictionSpec& f = spec.friction;
+  const double at_rest = spec.drive.friction_coefficient;
+  if (f.law == FrictionForm::coulomb || !(at_rest > 0)) return {};
+  return {f.law, f.kinetic_coefficient.value() / at_rest, f.half_velocity.value()};
+}
+
+ThirdBody third_body(const CaseSpec& spec) {
+  const ThirdBodySpec& t = spec.third_body;
+  if (!t.thickness) return {};
+  return {*t.thickness, t.shear_modulus.value(), t.yield_shear.value_or(0), t.hardening};
+}
+
 double static_load(const CaseSpec& spec) {
   return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
 }
@@ -131,7 +144,12 @@ HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
   const double lateral = c.curvature_wheel_lateral + c.curvature_rail_lateral;
   const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
                                          {spec.rail_material.young, spec.rail_material.poisson});
-  return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, static_load(spec));
+  const auto under = [&](double load) {
+    return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, load);
+  };
+  if (!spec.vehicle.approach) return under(static_load(spec));
+  constexpr double kAnyLoad = 1e5;
+  return under(kAnyLoad * std::pow(*spec.vehicle.approach / under(kAnyLoad).approach, 1.5));
 }
 
 namespace {
@@ -200,7 +218,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   const double last = spec.run.rolling ? *std::max_element(spec.run.positions.begin(), spec.run.positions.end()) : 0.0;
   m.x_end = spec.run.rolling ? last + 0.5 * spec.run.window : 0.0;
   // The fine range holds the patch and room for its search at both ends of the path.
-  const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size;
+  const double margin = 1.5 * m.hertz.a + 4 * spec.mesh.element_size + std::abs(contact.x);
   const MeshSizes sizes{spec.mesh.element_size, spec.mesh.fine_width, spec.mesh.fine_depth, spec.mesh.coarse_ratio,
                         spec.mesh.largest};
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "case/case_spec.hpp"
+#include "friction/third_body.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile.hpp"
 #include "halfspace/hertz.hpp"
@@ -25,6 +26,10 @@ Placement place(const CaseSpec& spec, const std::filesystem::path& folder);
 
 /// Static weight on the rail, G = (wheel + sprung mass) g, N.
 double static_load(const CaseSpec& spec);
+
+/// The laws of friction that a case asks for.
+FallingFriction falling_friction(const CaseSpec& spec);
+ThirdBody third_body(const CaseSpec& spec);
 
 /// Hertz with the curvatures at the rigid contact point: an estimate for search distances and checks, not a result.
 HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& contact);

@@ -55,18 +55,24 @@ std::vector<const BemPatch*> patches_of(const BemResult& r) {
 }
 
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
-  const double load = static_load(spec);
-  double force_x = 0, reached = 0, cut_off = 0, cell = 0;
+  const bool load_given = !spec.vehicle.approach;
+  const double load = load_given ? static_load(spec) : -force_on_rail(r).z;
+  double force_x = 0, force_y = 0, reached = 0, cut_off = 0, cell = 0;
   for (const BemPatch* p : patches_of(r)) {
     const PatchMeasures m = measure_patch(p->field);
     force_x += m.force_x;
+    force_y += m.force_y;
     if (reaches_edge(p->field)) reached = 1;
     if (p->surroundings.cut_off) cut_off = 1;
     cell = std::max(cell, p->grid.dy / shorter_axis(m));
   }
-  std::vector<Check> out{bem_check("F_z_relative_to_weight", std::abs(-force_on_rail(r).z / load - 1))};
-  if (const double wanted = spec.drive.traction().value_or(0); spec.drive.friction_coefficient > 0 && wanted != 0)
+  std::vector<Check> out;
+  if (load_given) out.push_back(bem_check("F_z_relative_to_weight", std::abs(-force_on_rail(r).z / load - 1)));
+  const bool friction = spec.drive.friction_coefficient > 0;
+  if (const double wanted = spec.drive.traction().value_or(0); friction && wanted != 0)
     out.push_back(bem_check("traction_coefficient_reached", std::abs(force_x / load / wanted - 1)));
+  if (const double wanted = spec.drive.lateral_traction_coefficient.value_or(0); friction && wanted != 0)
+    out.push_back(bem_check("lateral_traction_reached", std::abs(force_y / load / wanted - 1)));
   out.push_back(bem_check("patch_reaches_edge_of_grid", reached));
   out.push_back(bem_check("patch_cut_off", cut_off));
   out.push_back(bem_check("cell_of_patch", cell));

@@ -24,7 +24,7 @@ ContactSummary contact_summary(const RollingSystem& sys, const RunResult& run, c
   c.penetration_max = run.penetration;
   if (!sys.model.spec.run.rolling) return c;
   c.creepage_x = m.creepage;
-  c.creepage_y = 0.0;
+  c.creepage_y = m.lateral_creepage;
   c.spin_per_m = m.spin_per_m;
   c.p_max_scatter = m.p_max_scatter;
   return c;
@@ -78,9 +78,10 @@ std::vector<Check> finite_element_checks(const Model& model, const RunResult& ru
   std::vector<Check> out;
   out.push_back(at_most("preload_residual", run.preload.residual, spec.run.preload_tolerance));
   out.push_back(fem_check("F_z_relative_to_weight", std::abs(m.F_z / model.load - 1)));
-  if (spec.run.rolling && spec.drive.traction_coefficient != 0)
-    out.push_back(
-        fem_check("traction_coefficient_reached", std::abs(m.F_x / m.F_z / spec.drive.traction_coefficient - 1)));
+  if (const double wanted = spec.drive.traction().value_or(0); spec.run.rolling && wanted != 0)
+    out.push_back(fem_check("traction_coefficient_reached", std::abs(m.F_x / m.F_z / wanted - 1)));
+  if (const double wanted = spec.drive.lateral_traction_coefficient.value_or(0); spec.run.rolling && wanted != 0)
+    out.push_back(fem_check("lateral_traction_reached", std::abs(m.patch.force_y / model.load / wanted - 1)));
   out.push_back(fem_check("penetration_over_approach", run.penetration / model.hertz.approach));
   if (spec.run.rolling) {
     out.push_back(fem_check("energy_closure", run.closure));

@@ -128,10 +128,13 @@ double shear_at_front_of_slip(const ContactField& f) {
     if (behind < 0 || ahead >= f.size() || !(f.p[behind] > 0) || f.state[behind] != ContactState::slip ||
         f.state[i] != ContactState::stick || f.state[ahead] != ContactState::stick)
       continue;
-    const double friction = q(behind) / f.p[behind], margin = friction * f.p[i] - q(i),
-                 margin_ahead = friction * f.p[ahead] - q(ahead), rise = margin_ahead * margin_ahead - margin * margin;
+    const double friction = q(behind) / f.p[behind];
+    const auto bound = [&](int k) { return f.bound.empty() ? friction * f.p[k] : f.bound[k]; };
+    const double margin = bound(i) - q(i), margin_ahead = bound(ahead) - q(ahead),
+                 rise = margin_ahead * margin_ahead - margin * margin;
     const double back = rise > 0 ? std::min(margin * margin / rise, 1.0) : 1.0;  // of the front, in points
-    largest = std::max(largest, friction * ((1 - back) * f.p[i] + back * f.p[behind]));
+    largest = std::max(largest, f.bound.empty() ? friction * ((1 - back) * f.p[i] + back * f.p[behind])
+                                                : (1 - back) * bound(i) + back * bound(behind));
   }
   return largest;
 }

@@ -236,6 +236,37 @@ std::vector<ResultNumber> motion_numbers() {
        .engine = HadBy::finite_elements}};
 }
 
+std::vector<ResultNumber> transient_numbers() {
+  return {{.group = "contact",
+           .symbol = "displacement_x",
+           .unit = kMicrometres,
+           .value = contact<&C::displacement_x>,
+           .label = "displacement",
+           .name = "Displacement of the wheel over the rail",
+           .doc = "In the rolling direction, by a shift since its start",
+           .engine = HadBy::half_spaces,
+           .shown = true},
+          {.group = "contact",
+           .symbol = "displacement_y",
+           .unit = kMicrometres,
+           .value = contact<&C::displacement_y>,
+           .label = "lateral displ.",
+           .name = "Lateral displacement of the wheel over the rail",
+           .doc = "Along the contact plane, by a shift since its start",
+           .engine = HadBy::half_spaces,
+           .shown = true},
+          {.group = "contact",
+           .symbol = "friction_work",
+           .unit = kJoules,
+           .value = contact<&C::friction_work>,
+           .label = "friction work",
+           .name = "Friction work since the start",
+           .doc = "Of a transient: heat that friction has made on the way",
+           .engine = HadBy::half_spaces,
+           .column = true,
+           .shown = true}};
+}
+
 std::vector<ResultNumber> energy_numbers() {
   return {{.group = "energy",
            .symbol = "closure",
@@ -300,7 +331,7 @@ std::vector<ResultNumber> time_numbers() {
            .value = count<&R::steps>,
            .label = "steps",
            .name = "Time steps",
-           .doc = "Half-space and static cases: 0"}};
+           .doc = "Half-space: of a transient, else 0; static cases: 0"}};
 }
 
 std::vector<ResultNumber> step_numbers() {
@@ -440,9 +471,12 @@ const std::vector<ResultNumber>& result_numbers() {
          .value = at<&Summary::position>,
          .label = "position",
          .name = "Position of the wheel",
-         .doc = "Of the axle along the rail; half-space: the case's last one, static cases 0"}};
-    for (const auto& part : {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(),
-                             motion_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
+         .doc =
+             "Of the axle along the rail; half-space: the case's last one, of a transient what it has rolled, static "
+             "cases 0"}};
+    for (const auto& part :
+         {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
+          transient_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();

@@ -34,6 +34,7 @@ inline constexpr ResultUnit kMicrometres{"_m", "_um", 1e6, "µm", 1e6};
 inline constexpr ResultUnit kNanometres{"_m", "_nm", 1e9, "nm", 1e9};
 inline constexpr ResultUnit kKilonewtons{"_N", "_kN", 1e-3, "kN", 1e-3};
 inline constexpr ResultUnit kNewtonMetres{"_N_m", "_N_m", 1, "N m", 1};
+inline constexpr ResultUnit kJoules{"_J", "_J", 1, "J", 1};
 inline constexpr ResultUnit kWatts{"_W", "_W", 1, "W", 1};
 inline constexpr ResultUnit kDegrees{"_rad", "_deg", 180 / std::numbers::pi, "°", 180 / std::numbers::pi};
 inline constexpr ResultUnit kPerMetre{"_per_m", "_per_m", 1, "1/m", 1};

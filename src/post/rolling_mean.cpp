@@ -100,6 +100,7 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     m.F_y += weight * s.forces.y;
     m.F_z += weight * s.forces.z;
     m.creepage += weight * s.creepage;
+    m.lateral_creepage += weight * s.lateral_creepage;
     m.axle_z += weight * s.axle.z;
     if (s.axle.vx > 0) m.spin_per_m -= weight * s.axle.spin / s.axle.vx * std::sin(sys.model.placement.contact.angle);
     add(m.rail, s.rail, weight);

@@ -23,7 +23,10 @@ struct ContactSummary {
   double contact_angle = kNotApplicable;  ///< rad, of the common tangent at the rigid contact point
   /// N, on the wheel: (F_y, F_z) along the contact plane's normal and along its lateral tangent
   double normal_force = kNotApplicable, lateral_force = kNotApplicable;
-  double spin_moment = kNotApplicable;  ///< N m, on the wheel about the normal at the rigid contact point
+  double displacement_x = kNotApplicable,
+         displacement_y = kNotApplicable;  ///< m, of the wheel over the rail: a shift's
+  double friction_work = kNotApplicable;   ///< J, of a transient since its start
+  double spin_moment = kNotApplicable;     ///< N m, on the wheel about the normal at the rigid contact point
 };
 
 /// One of several patches of a wheel.
@@ -90,6 +93,7 @@ struct Warning {
 
 struct Summary {
   std::string title;
+  std::string state;  ///< of a transient: which of its states this is
   double position = kNotApplicable;
   ContactSummary contact;             ///< of several patches those of the largest pressure, F_x, F_y and F_z of all
   std::vector<PatchSummary> patches;  ///< where there are several

@@ -20,7 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kMostPoints = 300, kMostRows = 1500;
-constexpr double kMilli = 1e3, kMega = 1e-6;
+constexpr double kMilli = 1e3, kMicro = 1e6, kMega = 1e-6;
 
 Json number(double v) { return std::isfinite(v) ? Json(std::stod(fmt::format("{:.6g}", v))) : Json(nullptr); }
 
@@ -105,8 +105,10 @@ Json patch(const ContactField& f) {
   out["p"] = values(f.p, kMega);
   out["q_x"] = values(f.q_x, kMega);
   out["q_y"] = values(f.q_y, kMega);
-  out["slip_x"] = values(f.slip_x, kMilli);
-  out["slip_y"] = values(f.slip_y, kMilli);
+  const double slip_unit = f.slip_is_distance ? kMicro : kMilli;
+  out["slip_x"] = values(f.slip_x, slip_unit);
+  out["slip_y"] = values(f.slip_y, slip_unit);
+  out["slip_unit"] = f.slip_is_distance ? "µm" : "mm/s";
   std::string state;
   for (int s : stations)
     for (int c : columns) state += static_cast<char>('0' + static_cast<int>(f.state[at(s, c)]));
@@ -137,6 +139,39 @@ Json columns(const std::optional<CsvTable>& table) {
     std::vector<double> v;
     for (std::size_t i = 0; i < c.values.size(); i += step) v.push_back(c.values[i]);
     out[c.name] = numbers(v);
+  }
+  return out;
+}
+
+std::vector<double> unique(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+/// The states of patch_film.csv on the grid of all their cells, index as in `patch`.
+Json film(const std::optional<CsvTable>& table) {
+  if (!table) return nullptr;
+  const std::vector<double> step = table->column("step"), distance = table->column("distance_mm"),
+                            x = table->column("x_mm"), y = table->column("y_mm");
+  const std::vector<double> q_x = table->column("q_x_MPa"), q_y = table->column("q_y_MPa"),
+                            state = table->column("state_0separated_1stick_2slip");
+  const std::vector<double> all_x = unique(x), all_y = unique(y);
+  const auto at = [](const std::vector<double>& all, double v) {
+    return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), v) - all.begin());
+  };
+  Json out{{"x", numbers(all_x)}, {"y", numbers(all_y)}, {"frames", Json::array()}};
+  for (std::size_t i = 0; i < step.size();) {
+    const std::size_t first = i;
+    std::vector<double> q(all_x.size() * all_y.size(), std::numeric_limits<double>::quiet_NaN());
+    std::string states(q.size(), '0');
+    for (; i < step.size() && step[i] == step[first]; ++i) {
+      const std::size_t k = at(all_x, x[i]) * all_y.size() + at(all_y, y[i]);
+      q[k] = std::hypot(q_x[i], q_y[i]);
+      states[k] = static_cast<char>('0' + static_cast<int>(std::clamp(state[i], 0.0, 2.0)));
+    }
+    out["frames"].push_back(
+        {{"step", step[first]}, {"distance_mm", number(distance[first])}, {"q", packed(q)}, {"state", states}});
   }
   return out;
 }
@@ -226,6 +261,7 @@ Json run_json(const ReportRun& run) {
           {"centre_line", centre(run.result.field)},
           {"depth_line", columns(run.depth_line)},
           {"history", columns(run.history)},
+          {"film", film(run.film)},
           {"sections", sections(run)}};
 }
 

@@ -29,7 +29,7 @@ struct ReportRun {                                    // NOLINT(bugprone-excepti
   std::map<std::string, std::string> profile_sha256;  ///< of the content of profile files, by "rail_profile" and
                                                       ///< "wheel_profile"; none for built-in profiles and lost files
   nlohmann::ordered_json provenance, geometry;        ///< provenance.json, geometry.json
-  std::optional<CsvTable> depth_line, history;
+  std::optional<CsvTable> depth_line, history, film;  ///< film: patch_film.csv of a transient
   double shear_on_elements = std::numeric_limits<double>::quiet_NaN();  ///< of a finite element run: q_max [Pa] of the
                                                                         ///< half-space solution on cells as large as
                                                                         ///< its elements; NaN: not solved

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "bem/case_patch.hpp"
+#include "bem/transient.hpp"
 #include "core/faults.hpp"
 #include "runs/memory_need.hpp"
 
@@ -31,6 +32,10 @@ HalfSpaceNeed half_space_need(const CaseSpec& spec, const Placement& placement, 
   need.cells = static_cast<double>(grid.nx) * grid.ny;
   need.memory_bytes = kBaseBytes + kBytesPerCell * need.cells;
   need.seconds = kSecondsPerCell * need.cells * std::pow(need.cells / kCells, kGrowth);
+  // a step takes about six tenths of a steady solution, whose iterations begin far off
+  constexpr double kOfSteady = 0.6;
+  if (spec.transient.kind != TransientKind::none)
+    need.seconds *= 1 + kOfSteady * transient_steps(spec, placement, cell);
   return need;
 }
 

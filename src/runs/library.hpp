@@ -24,8 +24,8 @@ struct HalfSpaceSettings {
 };
 
 /// Solves a case by half-space theory [Kalker1990], as `railstrata bem` does. A static case (run.rolling = false) has
-/// frictionless contact. Several threads may solve at a time. Throws CaseError (an input, or a patch that theory cannot
-/// give), NumericalError, EnvironmentError.
+/// frictionless contact; of a transient the result is its last state. Several threads may solve at a time. Throws
+/// CaseError (an input, or a patch that theory cannot give), NumericalError, EnvironmentError.
 CaseResult solve_by_half_spaces(const LoadedCase& loaded, const HalfSpaceSettings& settings = {});
 
 }  // namespace railstrata

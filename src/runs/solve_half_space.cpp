@@ -8,6 +8,37 @@
 #include "runs/peak_memory.hpp"
 
 namespace railstrata {
+namespace {
+
+/// The last state of a transient is judged as what it is in steady rolling: its load and its forces are those wanted.
+void summarise(const CaseSpec& spec, const TransientState& last, HalfSpaceSolution& out) {
+  Summary& s = out.summary;
+  s = bem_contact_summary(case_of_moment(spec, last.moment), out.result);
+  s.state = state_words(spec, last);
+  s.position = last.distance;
+  s.run.steps = last.step;
+  ContactSummary& c = s.contact;
+  c.friction_work = last.friction_work;
+  if (spec.transient.kind != TransientKind::shift) return;
+  c.creepage_x = c.creepage_y = c.spin_per_m = kNotApplicable;
+  c.displacement_x = last.displacement_x;
+  c.displacement_y = last.displacement_y;
+}
+
+void follow(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+            const TransientObserver& observer, HalfSpaceSolution& out) {
+  TransientState last = solve_transient(spec, placement, options, [&](const TransientState& state) {
+    out.history.push_back(transient_row(state));
+    out.stopped = observer && !observer(state);
+    return !out.stopped;
+  });
+  out.moment = last.moment;
+  out.stopped = out.stopped && last.step < last.steps;
+  out.result = std::move(last.result);
+  summarise(spec, last, out);
+}
+
+}  // namespace
 
 CaseSpec half_space_case(CaseSpec spec) {
   if (spec.run.rolling) return spec;
@@ -16,14 +47,30 @@ CaseSpec half_space_case(CaseSpec spec) {
   return spec;
 }
 
-HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+HalfSpaceSolution solve_half_space_contact(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                                           const TransientObserver& observer) {
   const CaseSpec solved = half_space_case(spec);
   HalfSpaceSolution out;
-  out.result = solve_bem(solved, placement, options);
-  out.summary = bem_summary(solved, out.result);
-  out.summary.run.commit = commit_text();
-  out.summary.run.threads = max_threads();
-  out.summary.run.peak_memory_bytes = peak_memory();
+  if (solved.transient.kind == TransientKind::none) {
+    out.result = solve_bem(solved, placement, options);
+    out.summary = bem_contact_summary(solved, out.result);
+  } else {
+    follow(solved, placement, options, observer, out);
+  }
+  return out;
+}
+
+HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                                   const TransientObserver& observer) {
+  HalfSpaceSolution out = solve_half_space_contact(spec, placement, options, observer);
+  if (out.stopped) return out;
+  Summary& s = out.summary;
+  s.rail = bem_rail_stress(out.result, s.contact);
+  s.wheel = bem_wheel_stress(out.result, s.contact);
+  s.warnings = bem_warnings(s, spec, out.result);
+  s.run.commit = commit_text();
+  s.run.threads = max_threads();
+  s.run.peak_memory_bytes = peak_memory();
   return out;
 }
 

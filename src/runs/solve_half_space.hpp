@@ -1,21 +1,38 @@
 #pragma once
-// The half-space solution of a case as values: patch, forces, stresses and summary. Nothing is written or printed here.
+// The half-space solution of a case as values: patch, forces, stresses and summary, of a transient its history too.
+// Nothing is written or printed here.
+#include <optional>
+#include <vector>
+
 #include "bem/solve_bem.hpp"
+#include "bem/transient.hpp"
 #include "post/summary.hpp"
+#include "post/transient_row.hpp"
 
 namespace railstrata {
 
 struct HalfSpaceSolution {
-  BemResult result;  ///< patch and forces; rail_interior() and wheel_interior() give the stresses at any point
+  BemResult result;  ///< patch and forces; rail_interior() and wheel_interior() give the stresses at any point. Of a
+                     ///< transient those of its last state
   Summary summary;   ///< with the largest stresses of both bodies
+  std::vector<TransientRow> history = {};   ///< a row a step; empty in steady rolling
+  std::optional<LoadedMoment> moment = {};  ///< of a transient: what holds in its last state
+  bool stopped = false;                     ///< the observer ended the transient before its end
 };
 
 /// What half-space theory takes of a case. A static case (run.rolling = false) has frictionless contact, as the finite
 /// elements' preload has.
 CaseSpec half_space_case(CaseSpec spec);
 
-/// Solves half_space_case(spec). summary.run.threads is the number of threads of the calling thread
-/// (core/parallel.hpp), commit that of the program. Several threads may solve at a time. Throws as solve_bem.
-HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {});
+/// Solves half_space_case(spec): steady rolling, or the case's transient, whose states the observer hears of.
+/// summary.run.threads is the number of threads of the calling thread (core/parallel.hpp), commit that of the program.
+/// A transient that was stopped has no stresses. Several threads may solve at a time. Throws as solve_bem and
+/// solve_transient.
+HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {},
+                                   const TransientObserver& observer = {});
+
+/// The same without the stresses, which cost more than the contact of steady rolling.
+HalfSpaceSolution solve_half_space_contact(const CaseSpec& spec, const Placement& placement,
+                                           const BemOptions& options = {}, const TransientObserver& observer = {});
 
 }  // namespace railstrata

@@ -12,8 +12,9 @@ namespace railstrata {
 
 void write_half_space_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                              const CaseSpec& spec, const Placement& placement, const HalfSpaceSolution& solution) {
-  const auto& [result, summary] = solution;
-  write_geometry(folder / "geometry.json", spec, placement);
+  const BemResult& result = solution.result;
+  const Summary& summary = solution.summary;
+  write_geometry(folder / "geometry.json", solution.moment ? case_of_moment(spec, *solution.moment) : spec, placement);
   write_placed_surfaces(folder, placement, summary.position);
   write_view_script(folder);
   std::vector<const ContactField*> fields{&result.field};

@@ -5,7 +5,6 @@
 #include <mutex>
 #include <utility>
 
-#include "bem/solve_bem.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "io/csv.hpp"
@@ -26,8 +25,9 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
   if (!c.loaded) return;
   try {
     const CaseSpec spec = half_space_case(c.loaded->spec);
-    const BemResult result = solve_bem(spec, place(spec, c.loaded->folder()), bem);
-    Summary summary = bem_contact_summary(spec, result);
+    const HalfSpaceSolution solution = solve_half_space_contact(spec, place(spec, c.loaded->folder()), bem);
+    const BemResult& result = solution.result;
+    Summary summary = solution.summary;
     if (stresses) {
       summary.rail = bem_rail_stress(result, summary.contact);
       summary.warnings = bem_warnings(summary, spec, result);

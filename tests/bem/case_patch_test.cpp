@@ -34,6 +34,38 @@ TEST(YawCreepage, IsTheVelocityOfTheRigidWheelAlongTheContactPlane) {
     }
 }
 
+// The lateral slip of a wheel that turns about its axle is its surface's velocity along the surface, at every place of
+// a patch whose angle turns by some degrees (S1002 on UIC60 in the throat).
+TEST(LocalSpin, IsTheVelocityOfTheWheelAlongTheSurfaceAtEachPlace) {
+  CaseSpec spec;
+  spec.geometry.rail_profile = "UIC60";
+  spec.geometry.wheel_profile = "S1002";
+  spec.geometry.wheel_radius = 0.46;
+  spec.geometry.back_to_back = 1.36;
+  spec.geometry.lateral_shift = 4e-3;
+  const Placement placement = place(spec, {});
+  const RigidContact& c = placement.contact;
+  const PatchGrid grid = centred_grid(4, 24, 0.25e-3, 0.25e-3);
+  const ProfileGap profile = profile_gap(placement.wheel, placement.rail, placement.track, c, grid);
+  const Plane spin = local_spin(grid, profile, c);
+  const auto height = [&](int j) {
+    const std::size_t k = grid.index(4, j);
+    return profile.rail_height[k] + 0.5 * profile.gap[k];
+  };
+  const double x = grid.x(8);
+  double turns = 0;
+  for (int j = 1; j + 1 < grid.ny; ++j) {
+    const double angle = c.angle + std::atan2(height(j + 1) - height(j - 1), 2 * grid.dy);
+    const Vec3 omega{0, 1 / c.rolling_radius, 0},
+        arm{x, 0, 0};  // of the rolled distance; the rest does not depend on x
+    const double up = omega.x * arm.y - omega.y * arm.x;
+    EXPECT_NEAR(x * (wheel_spin(c) + spin[static_cast<std::size_t>(j)]), up * std::sin(angle), 1e-12);
+    turns = std::max(turns, std::abs(angle - c.angle));
+  }
+  EXPECT_GT(turns, 0.03);
+  EXPECT_NEAR(spin[24], 0, 1e-3 * std::abs(wheel_spin(c))) << "the rigid contact point has the patch's own";
+}
+
 TEST(DriveContact, GivesEachDirectionAForceOrACreepage) {
   CaseSpec spec;
   const RigidContact contact = place(spec, {}).contact;

@@ -56,6 +56,32 @@ TEST(SolveBem, NormalAndLateralForceTogetherBearTheWeightAtSteepContactAngles) {
   }
 }
 
+// S1002 on UIC60 in the middle of the track: the surfaces' angle turns from 0.3 to 4.6 degrees over the patch, 1.4 at
+// the rigid contact point. CONTACT with the slip of the actual surfaces (its conformal mode, commit d431cdb, cells of
+// 0.25 mm, the profiles' files of the Manchester benchmark, F_x = 0): 2405 N of lateral friction; in one plane at the
+// mean angle 2489 N.
+TEST(SolveBem, SpinWithTheSurfacesOwnAnglesHasContactsLateralFriction) {
+  CaseSpec spec;
+  spec.geometry.wheel_profile = "S1002";
+  spec.geometry.rail_profile = "UIC60";
+  spec.geometry.wheel_radius = 0.46;
+  spec.geometry.back_to_back = 1.36;
+  spec.geometry.gauge_depth = 0.014;
+  for (MaterialSpec* m : {&spec.rail_material, &spec.wheel_material}) {
+    m->young = 2 * 82e9 * 1.28;
+    m->poisson = 0.28;
+  }
+  spec.vehicle.sprung_mass = 85e3 / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  spec.drive.traction_coefficient = 0;
+  spec.drive.friction_coefficient = 0.3;
+  const auto lateral_friction = [&](SpinAngle angle) {
+    spec.bem.spin_angle = angle;
+    return std::abs(solve_bem(spec, place(spec, {})).force.tangential);
+  };
+  EXPECT_NEAR(lateral_friction(SpinAngle::local) / 2405, 1, 0.03);
+  EXPECT_LT(lateral_friction(SpinAngle::patch) / 2405, 0.75) << "one spin for the patch, of its rigid contact point";
+}
+
 TEST(SolveBem, StiffLayerRaisesThePeakPressureAndSoftLayerLowersIt) {
   CaseSpec spec = paper_base();
   const double bare = solve_bem(spec, place(spec, {})).patch.p_max;

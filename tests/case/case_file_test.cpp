@@ -51,6 +51,10 @@ suspension_damping = "12 kN·s/m"
 [drive]
 speed = "90 km/h"
 traction_coefficient = "15 %"
+[friction]
+law = "falling_rational"
+kinetic_coefficient = 0.2
+half_velocity = "800 mm/s"
 [mesh]
 coarse_ratio = 2
 elements_through_layer_one = true
@@ -74,11 +78,27 @@ volume = false
   EXPECT_EQ(spec.vehicle.suspension_damping, 12e3);
   EXPECT_DOUBLE_EQ(spec.drive.speed, 25.0);
   EXPECT_EQ(spec.drive.traction_coefficient, 0.15);
+  EXPECT_EQ(spec.friction.law, FrictionForm::falling_rational);
+  EXPECT_EQ(spec.friction.kinetic_coefficient, 0.2);
+  EXPECT_EQ(spec.friction.half_velocity, 0.8);
   EXPECT_EQ(spec.mesh.coarse_ratio, 2);
   EXPECT_TRUE(spec.mesh.elements_through_layer_one);
   EXPECT_EQ(spec.contact.method, ContactMethod::penalty);
   EXPECT_EQ(spec.run.positions, (std::vector<double>{0.2, 0.3}));
   EXPECT_FALSE(spec.output.volume);
+}
+
+TEST(CaseFile, AThirdBodyIsReadInSiUnits) {
+  const LoadedCase loaded = parse_case(
+      "[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"106.3 MPa\"\nyield_shear = \"200 MPa\"\n"
+      "hardening = \"400 N/mm^3\"\n",
+      "a.toml");
+  const ThirdBodySpec& t = loaded.spec.third_body;
+  EXPECT_EQ(t.thickness, 20e-6);
+  EXPECT_EQ(t.shear_modulus, 106.3e6);
+  EXPECT_EQ(t.yield_shear, 200e6);
+  EXPECT_EQ(t.hardening, 400e9);
+  EXPECT_NE(loaded.resolved_toml.find("hardening = \"400 MPa/mm\""), std::string::npos) << loaded.resolved_toml;
 }
 
 TEST(CaseFile, TheRatioOfALayerUsesAModulusWrittenFurtherDown) {
@@ -134,9 +154,11 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
   CaseSpec spec;
   spec.layers.resize(2);
   spec.layers[1].on = BodyId::wheel;
+  spec.friction = {FrictionForm::coulomb, 0.1, 0.7};  // for the law that `disturb` gives
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options)
-      if (!option.derivation && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)))
+      if (!option.derivation && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)) &&
+          table.name != "transient")  // its keys exclude each other: transient_case_file_test.cpp
         disturb(option, spec, 0);
   const std::string text = resolved_case(spec);
   const LoadedCase back = parse_case(text, "a.toml");
@@ -177,8 +199,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "hub_radius, hub_width, bore_radius"},
       {"[meshes]\n",
        "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: "
-       "case, geometry, material.rail, material.wheel, layer, vehicle, drive, mesh, "
-       "contact, run, bem, output"},
+       "case, geometry, material.rail, material.wheel, layer, vehicle, drive, friction, third_body, mesh, "
+       "contact, run, bem, transient, output"},
       {"[mesh]\nelement_size = \"1 MPa\"\n",
        "a.toml:2:16: mesh.element_size = \"1 MPa\": \"MPa\" is not the unit of a length\n    2 | element_size = \"1 "
        "MPa\"\n      |                ^\n    remedy: write a length, e.g. "
@@ -232,6 +254,33 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "2 | traction_coefficient = -0.1\n      |                        ^\n    remedy: the wheel would slide: lower "
        "the "
        "traction or raise the friction"},
+      {"[friction]\nlaw = \"falling_exponential\"\nkinetic_coefficient = 0.6\n",
+       "a.toml:2:7: friction that falls with slip needs friction.half_velocity\n    2 | law = "
+       "\"falling_exponential\"\n      |       ^\n    remedy: give the slip velocity at which half of the fall is "
+       "done, e.g. \"1 m/s\"\n"
+       "a.toml:3:23: friction.kinetic_coefficient = 0.6: must be at most drive.friction_coefficient = 0.5, the "
+       "coefficient at rest\n    3 | kinetic_coefficient = 0.6\n      |                       ^\n    remedy: friction "
+       "falls with slip: exchange the two"},
+      {"[friction]\nhalf_velocity = \"1 m/s\"\n",
+       "a.toml:2:17: friction.half_velocity has no meaning with friction.law = \"coulomb\"\n    2 | half_velocity = "
+       "\"1 m/s\"\n      |                 ^\n    remedy: take it out, or take friction.law = "
+       "\"falling_exponential\" or \"falling_rational\""},
+      {"[third_body]\nthickness = \"20 µm\"\nhardening = \"1 MPa/mm\"\n",
+       "a.toml:2:13: third_body.thickness needs third_body.shear_modulus\n    2 | thickness = \"20 µm\"\n      |     "
+       "        ^\n    remedy: give the film's shear modulus, e.g. \"100 MPa\"\n"
+       "a.toml:3:13: third_body.hardening needs third_body.yield_shear\n    3 | hardening = \"1 MPa/mm\"\n      |    "
+       "         ^\n    remedy: give the stress at which the film begins to yield"},
+      {"[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"0.1 GPa\"\nyield_shear = \"0.2 GPa\"\nhardening = "
+       "\"-1 MPa/mm\"\n",
+       "a.toml:5:13: third_body.hardening = \"-1 MPa/mm\": must be between 0 MPa/mm and 1000000 MPa/mm\n    5 | "
+       "hardening = \"-1 MPa/mm\"\n      |             ^\n    remedy: a film that softens shears in one place and has "
+       "no steady state: take 0"},
+      {"[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"0.1 GPa\"\nyield_shear = \"0.2 GPa\"\nhardening = "
+       "\"6 GPa/mm\"\n",
+       "a.toml:5:13: third_body.hardening = 6000 MPa/mm: must be at most shear_modulus / thickness = 5000 MPa/mm\n    "
+       "5 | "
+       "hardening = \"6 GPa/mm\"\n      |             ^\n    remedy: a film that yields is softer than an elastic "
+       "one: lower the hardening"},
       {"[[layer]]\nthickness = \"1 mm\"\n",
        "a.toml:1:1: layer.0 has no modulus\n    1 | [[layer]]\n      | ^\n    remedy: add young = \"420 GPa\", or "
        "young_ratio = 2.0 for twice the body's"},
@@ -313,8 +362,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "keys"},
       {"[material]\nyoung = \"210 GPa\"\n",
        "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: "
-       "tables: case, geometry, material.rail, material.wheel, layer, vehicle, drive, mesh, "
-       "contact, run, bem, output"},
+       "tables: case, geometry, material.rail, material.wheel, layer, vehicle, drive, friction, third_body, mesh, "
+       "contact, run, bem, transient, output"},
   };
   for (const Bad& bad : all) {
     const std::string told = error_of(bad.text);
@@ -661,17 +710,29 @@ TEST(CaseFile, ForcesBeyondFrictionAndTooTightCurvesAreRefused) {
 }
 
 TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
-  EXPECT_TRUE(parse_case("[vehicle]\naxle_load = \"22.5 t\"\n", "a.toml").not_in_fem.empty());
-  const LoadedCase loaded = parse_case("[geometry]\nyaw = \"5 mrad\"\n[drive]\nlateral_force = \"1 kN\"\n", "a.toml",
-                                       {"drive.creepage=-0.001"});
+  EXPECT_TRUE(parse_case("[vehicle]\naxle_load = \"22.5 t\"\n[geometry]\nyaw = \"5 mrad\"\n"
+                         "[drive]\nlateral_force = \"1 kN\"\ncreepage = -0.001\n",
+                         "a.toml")
+                  .not_in_fem.empty());
+  const LoadedCase loaded = parse_case("[geometry]\ncurve_radius = \"300 m\"\n[drive]\nlateral_creepage = 0.2\n",
+                                       "a.toml", {"drive.creepage=-0.5"});
   ASSERT_EQ(loaded.not_in_fem.size(), 3u);
-  EXPECT_EQ(loaded.not_in_fem[0].where, "a.toml:2:7");
+  EXPECT_EQ(loaded.not_in_fem[0].where, "a.toml:2:16");
   EXPECT_TRUE(loaded.not_in_fem[0].message.starts_with(
-      "yaw (geometry.yaw) is not in this engine: in the finite elements the wheel runs straight along the rail"));
-  EXPECT_EQ(loaded.not_in_fem[1].where, "--set drive.creepage=-0.001");
-  EXPECT_EQ(loaded.not_in_fem[2].where, "a.toml:3:2") << "the table of the force";
+      "a curve (geometry.curve_radius) is not in this engine: in the finite elements the track is straight"));
+  EXPECT_EQ(loaded.not_in_fem[1].where, "--set drive.creepage=-0.5");
+  EXPECT_EQ(loaded.not_in_fem[2].where, "a.toml:4:20");
   EXPECT_EQ(loaded.not_in_fem[0].remedy, "take it out, or solve the case with `railstrata bem`");
-  EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.01\n[run]\nrolling = false\n", "a.toml").not_in_fem.empty());
+  EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.5\n[run]\nrolling = false\n", "a.toml").not_in_fem.empty());
+  const LoadedCase laws = parse_case(
+      "[friction]\nlaw = \"falling_rational\"\nkinetic_coefficient = 0.2\nhalf_velocity = \"1 m/s\"\n", "a.toml");
+  ASSERT_EQ(laws.not_in_fem.size(), 1u);
+  EXPECT_EQ(laws.not_in_fem[0].where, "a.toml:2:7");
+  EXPECT_TRUE(laws.not_in_fem[0].message.starts_with("friction that falls with slip (friction.law) is not in this"));
+  const LoadedCase film = parse_case("[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"100 MPa\"\n", "a.toml");
+  ASSERT_EQ(film.not_in_fem.size(), 1u);
+  EXPECT_TRUE(
+      film.not_in_fem[0].message.starts_with("a third-body layer (third_body.thickness) is not in this engine"));
   EXPECT_THROW(require_finite_elements(loaded.spec), CaseError);
   EXPECT_NO_THROW(require_finite_elements(CaseSpec()));
 }

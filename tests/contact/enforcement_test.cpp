@@ -26,7 +26,7 @@ struct Impact {
   SurfaceTractions memory{surfaces.rail.columns, surfaces.rail.stations.nodes()};
 
   explicit Impact(const EnforcementOptions& options, double lift = -0.5e-6) {
-    const AxlePose pose{0, lift, 0};
+    const AxlePose pose{0, 0, lift, 0};
     contact.search(surfaces.rail_field(), surfaces.rolled(pose), pose, 20e-3, 30e-6);
     rows = contact.rows(surfaces.rail_field(), surfaces.rolled(pose), pose);
     WheelNumbering numbering;
@@ -225,7 +225,7 @@ std::vector<NodeTraction> tractions_of_a_ring(int station) {
       for (int apart = -kReach; apart <= kReach; ++apart)
         for (int k = 0; k < 3; ++k)
           response.entry(from, to, apart, k, k) = 1e5 * std::pow(0.3, std::abs(to - from) + std::abs(apart));
-  const AxlePose pose{0, -0.5e-6, 2 * std::numbers::pi * station / ring};
+  const AxlePose pose{0, 0, -0.5e-6, 2 * std::numbers::pi * station / ring};
   MortarContact contact(s.rail, s.wheel);
   contact.search(s.rail_field(), s.rolled(pose), pose, 20e-3, 30e-6);
   const MortarRows rows = contact.rows(s.rail_field(), s.rolled(pose), pose);

@@ -42,7 +42,7 @@ TEST(Mortar, WeightedGapOfACylinderOverAFlatRailIsTheIntegralOfTheExactGapAtEver
   for (double psi : {0.0, 0.0013, -0.02, 3.0})
     for (double x : {0.0, 0.37e-3}) {
       MortarContact contact(s.rail, s.wheel);
-      const AxlePose pose{x, -5e-6, psi};
+      const AxlePose pose{x, 0, -5e-6, psi};
       const MortarRows& rows = settled_rows(contact, s.rail_field(), s.rolled(pose), pose);
       ASSERT_GT(rows.rows.size(), 50u);
       for (const ContactRow& row : rows.rows) {
@@ -61,7 +61,7 @@ TEST(Mortar, RowsAreTheSameWhereTheWheelsRingCloses) {
   const int ring = s.close_ring();
   const auto rows_at = [&](int station) {
     MortarContact contact(s.rail, s.wheel);
-    const AxlePose pose{0, -0.5e-6, 2 * std::numbers::pi * station / ring};
+    const AxlePose pose{0, 0, -0.5e-6, 2 * std::numbers::pi * station / ring};
     return settled_rows(contact, s.rail_field(), s.rolled(pose), pose);
   };
   const MortarRows away = rows_at(ring / 3);
@@ -113,7 +113,7 @@ TEST(Mortar, WeightsOfARowSumToOneAndReproduceLinearFieldsOnNonMatchingMeshes) {
   for (double ratio : {0.6, 1.0, 1.37, 2.3}) {
     const Surfaces s(ratio);
     MortarContact contact(s.rail, s.wheel);
-    const AxlePose pose{0.2e-3, 0, 0.0004};
+    const AxlePose pose{0.2e-3, 0, 0, 0.0004};
     for (const MortarRows& rows = settled_rows(contact, s.rail_field(), s.rolled(pose), pose);
          const ContactRow& row : rows.rows) {
       double one = 0, y = 0;
@@ -184,7 +184,7 @@ TEST(Mortar, ContactAtTheBorderOfTheFineZoneIsReported) {
   const Surfaces s;
   MortarContact contact(s.rail, s.wheel);
   for (const AxlePose& pose :
-       {AxlePose{0, 1e-6, 0}, AxlePose{0, -1e-6, 0}}) {  // a cylinder that touches does so across the whole width
+       {AxlePose{0, 0, 1e-6, 0}, AxlePose{0, 0, -1e-6, 0}}) {  // a cylinder that touches does so across the whole width
     contact.search(s.rail_field(), s.rolled(pose), pose, 20e-3, 20e-6);
     EXPECT_EQ(contact.rows(s.rail_field(), s.rolled(pose), pose).reached_edge, pose.z < 0);
   }

@@ -62,7 +62,7 @@ TEST(Preload, PressuresAndGapsAreComplementary) {
   const RollingSystem sys = small_system(static_case());
   PreloadResult r = solve_preload(sys, 1e-8);
   MortarContact contact(sys.rail_surface(), sys.wheel_surface());
-  const AxlePose pose{0, r.axle_z, 0};
+  const AxlePose pose{0, 0, r.axle_z, 0};
   contact.search(r.u[0], r.u[1], pose, 4 * sys.model.hertz.a, sys.model.hertz.approach);
   const double thin = 1e-4 * sys.model.hertz.approach;
   int shut = 0, open = 0;

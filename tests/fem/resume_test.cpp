@@ -73,6 +73,20 @@ TEST(Resume, WithScaledMassesToo) { expect_same_bits(thinly_layered(damped_case(
 
 TEST(Resume, WithLocalStepsToo) { expect_same_bits(thinly_layered(damped_case(), TimeStepMethod::local)); }
 
+TEST(Resume, OfAYawedWheelThatIsFreeSidewaysToo) {
+  CaseSpec spec = damped_case();
+  spec.geometry.yaw = 5e-3;
+  spec.drive.lateral_traction_coefficient = 0.1;
+  expect_same_bits(spec);
+}
+
+TEST(Resume, OfAWheelThatMovesSidewaysAtAGivenCreepageToo) {
+  CaseSpec spec = damped_case();
+  spec.drive.lateral_creepage = 1e-3;
+  spec.drive.creepage = -1e-3;
+  expect_same_bits(spec);
+}
+
 TEST(Resume, WithAPenaltyToo) {
   CaseSpec spec = damped_case();
   spec.contact.method = ContactMethod::penalty;

@@ -76,6 +76,23 @@ TEST(Patch, ShearAtTheFrontOfSlipIsFoundBetweenThePointsWhateverTheirPlace) {
   EXPECT_GT(worst_point, 0.01);
 }
 
+// A film that yields bounds the shear whatever the pressure: where the pressure is larger at the front than behind it,
+// q/p of the point behind says more than the film carries.
+TEST(Patch, ShearAtTheFrontOfSlipIsNoMoreThanWhatAPointMayCarry) {
+  const double yield = 0.3 * kPeak;
+  ContactField field = hertz_field(0.5e-3, 0, 0);
+  for (int i = 0; i < field.size(); ++i) {
+    if (!(field.p[i] > 0)) continue;
+    const bool sticks = field.x[i] > -2e-3;
+    field.state[i] = sticks ? ContactState::stick : ContactState::slip;
+    field.q_x[i] = -yield * (sticks ? 0.8 - 50 * field.x[i] : 1.0);
+    field.q_y[i] = 0;
+  }
+  EXPECT_GT(shear_at_front_of_slip(field), 1.001 * yield) << "in proportion to p";
+  field.bound.assign(field.p.size(), yield);
+  EXPECT_DOUBLE_EQ(shear_at_front_of_slip(field), yield);
+}
+
 TEST(Patch, WithoutAFrontOfSlipTheLargestShearIsThatOfAPoint) {
   ContactField field = hertz_field(0.5e-3, 0, 0);
   for (ContactState& s : field.state)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Result folders for the tests of the report: fem (a wheel on a layered block, 30 mm of rolling), its reference
-fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), old (what folders held before they had sections and
-geometry), study (both engines). usage: make_results.py BINARY FOLDER"""
+fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), rest and fretting (the shipped transients), old (what
+folders held before they had sections and geometry), study (both engines). usage: make_results.py BINARY FOLDER"""
 import pathlib
 import shutil
 import subprocess
@@ -160,6 +160,11 @@ FOLDER.mkdir(parents=True)
 (FOLDER / "layers.toml").write_text(HALF_SPACE)
 railstrata("run", FOLDER / "rolling.toml", "--out", FOLDER / "fem", "--threads", "1", "--quiet")
 railstrata("bem", FOLDER / "layers.toml", "--out", FOLDER / "bem", "--cell", "0.4 mm", "--threads", "1", "--quiet")
+TRANSIENTS = pathlib.Path(__file__).resolve().parents[2] / "cases" / "transient"
+railstrata("bem", TRANSIENTS / "from_rest.toml", "--out", FOLDER / "rest", "--cell", "0.5 mm", "--threads", "1",
+           "--set", "output.series_frames=8", "--quiet")
+railstrata("bem", TRANSIENTS / "fretting.toml", "--out", FOLDER / "fretting", "--cell", "0.4 mm", "--threads", "1",
+           "--quiet")
 shutil.copytree(FOLDER / "fem", FOLDER / "old")
 for file in [*(FOLDER / "old").glob("*_section.csv"), FOLDER / "old" / "geometry.json", FOLDER / "old" / "report.html"]:
     file.unlink(missing_ok=True)

@@ -366,6 +366,93 @@ class HalfSpace(Page):
         self.assertEqual(self.first_words + self.browser.console(), [])
 
 
+class Rest(Page):
+    """Rolling from rest by half-spaces: its history and its film."""
+
+    file = RESULTS / "rest" / "report.html"
+
+    def show(self, k):
+        self.js("""const s = document.getElementById('film-slider'); s.value = arguments[0];
+                   s.dispatchEvent(new Event('input'));""", str(k))
+
+    def film_peak(self):
+        return max(v for row in self.trace("plot-film-q")["z"] for v in row if v is not None)
+
+    def test_its_charts_are_the_folder_s_history(self):
+        history = read_table(RESULTS / "rest" / "history.csv")
+        for plot, k, column, scale in [("transient-forces", 0, "F_z_N", 1e-3), ("transient-forces", 1, "F_x_N", 1e-3),
+                                       ("transient-creepage", 0, "creepage", 1e3),
+                                       ("transient-stress", 1, "q_max_MPa", 1),
+                                       ("transient-areas", 2, "slip_area_mm2", 1),
+                                       ("transient-work", 0, "friction_work_J", 1)]:
+            shown = self.trace(f"plot-{plot}", k)
+            self.assertEqual(len(shown["x"]), len(history["step"]))
+            for at, value, d, want in zip(shown["x"], shown["y"], history["distance_mm"], history[column]):
+                self.assertAlmostEqual(at, d, delta=1e-4)
+                if want == want:  # the beginning has no creepage
+                    self.assertAlmostEqual(value, scale * want, delta=1e-5 * abs(scale * want))
+                else:
+                    self.assertIsNone(value)
+
+    def test_the_film_shows_the_state_that_the_slider_names(self):
+        film = read_table(RESULTS / "rest" / "patch_film.csv")
+        steps = sorted(set(film["step"]))
+        self.assertEqual(len(steps), 9)
+        self.assertEqual(self.js("return document.getElementById('film-slider').max"), "8")
+        for k in (8, 0, 4):
+            self.show(k)
+            frame = [i for i, s in enumerate(film["step"]) if s == steps[k]]
+            self.assertEqual(self.browser.text("#film-at"), f"after {film['distance_mm'][frame[0]]:.2f} mm")
+            q = max((film["q_x_MPa"][i]**2 + film["q_y_MPa"][i]**2)**0.5 for i in frame)
+            self.assertAlmostEqual(self.film_peak(), q, delta=1e-3 * q)
+            slipping = sum(film["state_0separated_1stick_2slip"][i] == 2 for i in frame)
+            states = [v for row in self.trace("plot-film-state")["z"] for v in row if v is not None]
+            self.assertEqual((states.count(2), len(states)), (slipping, len(frame)))
+
+    def test_the_film_plays_to_its_end(self):
+        self.show(0)
+        self.js("document.getElementById('film-play').click()")
+        self.browser.wait(lambda: self.js("return document.getElementById('film-slider').value === '8'"), "the end", 10)
+        self.browser.wait(lambda: self.browser.text("#film-play") == "play", "the film stands", 10)
+
+    def test_the_page_says_which_state_its_numbers_are(self):
+        self.assertIn("after 40 mm of rolling from rest", self.browser.text(".sub"))
+        self.assertRegex(self.browser.text("#verdict h2"), r"^✓ All \d+ checks hold")
+
+    def test_the_console_is_silent(self):
+        self.assertEqual(self.first_words + self.browser.console(), [])
+
+
+class Fretting(Page):
+    """A cycle of fretting: its loop."""
+
+    file = RESULTS / "fretting" / "report.html"
+
+    def test_the_loop_is_that_of_the_history_and_closes(self):
+        history = read_table(RESULTS / "fretting" / "history.csv")
+        shown = self.trace("plot-loop-x")
+        for x, y, d, force in zip(shown["x"], shown["y"], history["displacement_um"], history["F_x_N"]):
+            self.assertAlmostEqual(x, d, delta=1e-4)
+            self.assertAlmostEqual(y, -1e-3 * force, delta=1e-3)
+        self.assertAlmostEqual(shown["x"][-1], shown["x"][12], delta=1e-2)
+        self.assertGreater(min(y for x, y in zip(shown["x"], shown["y"]) if x > 19), 0, "force and displacement agree")
+        self.assertIsNone(self.js("return document.getElementById('loop-y')"), "nothing moves sideways")
+
+    def test_slip_is_a_distance(self):
+        self.assertEqual(self.browser.text("#map-slip-0 h3"), "Slip of the last increment")
+        patch = read_table(RESULTS / "fretting" / "patch.csv")
+        slip = 1e3 * max((x * x + y * y)**0.5 for x, y in zip(patch["slip_x_mm"], patch["slip_y_mm"]))
+        self.assertAlmostEqual(self.map_peak("plot-map-slip-0")[2], slip, delta=1e-3 * slip)
+
+    def test_no_creepage_is_told(self):
+        numbers = self.browser.text("#contact-numbers")
+        self.assertNotIn("creepage", numbers)
+        self.assertIn("Friction work", numbers)
+
+    def test_the_console_is_silent(self):
+        self.assertEqual(self.first_words + self.browser.console(), [])
+
+
 class Old(Page):
     """A folder from before there were sections and geometry."""
 

@@ -71,6 +71,44 @@ TEST(DrivenCase, MeetsContactForGivenForcesCreepagesAndSpin) {
   EXPECT_EQ(compared, 18);
 }
 
+// A locked wheel slides by its speed: the law's coefficient there, N as it is.
+TEST(DrivenCase, ALockedWheelHasTheCoefficientOfItsSpeed) {
+  const std::string pair = quadratic_pair(1000.0 / 840, 1000.0 / 840) +
+                           "wheel_load = \"85 kN\"\n[drive]\nspeed = \"10 m/s\"\ncreepage = 1\nspin = \"0 1/m\"\n"
+                           "friction_coefficient = 0.4\n[friction]\nkinetic_coefficient = 0.1\n"
+                           "half_velocity = \"5 m/s\"\n";
+  const ContactSummary exponential = solved(pair + "law = \"falling_exponential\"\n", 0.5e-3).summary.contact,
+                       rational = solved(pair + "law = \"falling_rational\"\n", 0.5e-3).summary.contact;
+  EXPECT_NEAR(exponential.F_x / -85e3, 0.1 + 0.3 / 4, 1e-4);
+  EXPECT_NEAR(rational.F_x / -85e3, 0.1 + 0.3 / 3, 1e-4);
+}
+
+// A film of no stiffness to speak of has all the creep: the brush, F = 8/3 a² b G/h xi; one that yields carries no more
+// than its yield shear over the patch. And steep laws are told of as such.
+TEST(DrivenCase, AThirdBodyTakesTheCreepAndBoundsTheShear) {
+  const std::string pair = quadratic_pair(1000.0 / 840, 1000.0 / 840) +
+                           "wheel_load = \"84954.6 N\"\n[drive]\ncreepage = -0.001\nspin = \"0 1/m\"\n[third_body]\n"
+                           "thickness = \"20 µm\"\n";
+  const double a = 6.143981e-3;
+  const ContactSummary soft = solved(pair + "shear_modulus = \"1 MPa\"\n", 0.25e-3).summary.contact;
+  EXPECT_NEAR(soft.F_x / (8.0 / 3 * a * a * a * 1e6 / 20e-6 * 1e-3), 1, 0.02);
+  const ContactSummary yields =
+      solved(pair + "shear_modulus = \"1 GPa\"\nyield_shear = \"20 MPa\"\n", 0.25e-3).summary.contact;
+  EXPECT_NEAR(yields.patch.q_max / 20e6, 1, 1e-4);
+  EXPECT_GT(yields.patch.slip_area_fraction, 0.5);
+}
+
+TEST(DrivenCase, ASteepLawIsNotedAsUnstableAndAGentleOneIsNot) {
+  const std::string pair = quadratic_pair(1000.0 / 840, 1000.0 / 840) +
+                           "wheel_load = \"85 kN\"\n[drive]\nfriction_coefficient = 0.4\n[friction]\n"
+                           "law = \"falling_rational\"\nkinetic_coefficient = 0.3\n";
+  const auto notes = [&](const char* half) { return solved(pair + half, 1e-3).result.notes; };
+  ASSERT_EQ(notes("half_velocity = \"1 m/s\"\n").size(), 1u);
+  EXPECT_NE(notes("half_velocity = \"1 m/s\"\n")[0].find("more than the 12.5 MPa s/m that waves carry away"),
+            std::string::npos);
+  EXPECT_TRUE(notes("half_velocity = \"20 m/s\"\n").empty());
+}
+
 // A force found for a creepage gives that creepage back, along and across, whichever of the two is given.
 TEST(DrivenCase, ForcesAndCreepagesAreTwoWaysOfSayingOneState) {
   const std::string pair =

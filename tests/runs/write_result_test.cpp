@@ -16,6 +16,7 @@
 #include "post/patch.hpp"
 #include "runs/write_fem_result.hpp"
 #include "runs/write_half_space_result.hpp"
+#include "runs/write_transient.hpp"
 #include "tests/runs/small_run.hpp"
 
 namespace railstrata {
@@ -57,6 +58,22 @@ const Names kPosition{"centre_line.csv",
 Names with(Names names, const Names& more) {
   names.insert(more.begin(), more.end());
   return names;
+}
+
+/// A transient of the small case, with the files that it writes on its way and at its end.
+HalfSpaceSolution solve_and_write(const fs::path& folder, const std::vector<std::string>& overrides) {
+  const LoadedCase loaded = run_checks::small_case(overrides);
+  const Placement placement = place(loaded.spec, ".");
+  BemOptions options;
+  options.cell = 0.5e-3;
+  TransientWriter writer(loaded.spec, folder, {"a case"});
+  HalfSpaceSolution solution = solve_half_space(loaded.spec, placement, options, [&](const TransientState& state) {
+    writer.add(state);
+    EXPECT_EQ(read_csv(folder / "history.csv").rows(), static_cast<std::size_t>(state.step) + 1);
+    return true;
+  });
+  write_half_space_result(folder, {"a case"}, loaded.spec, placement, solution);
+  return solution;
 }
 
 }  // namespace
@@ -156,6 +173,31 @@ TEST_F(WriteResult, PatchesOutOfOrderAreRefused) {
   EXPECT_THROW(parse_results("{\"contact\": {}}", with("1", "3"), "a"), CaseError);
   EXPECT_THROW(parse_results("{\"contact\": {}, \"patches\": 3}", with("1", "2"), "a"), CaseError);
   EXPECT_THROW(parse_results("{\"contact\": {}, \"patches\": [{\"p\": \"x\"}]}", with("1", "2"), "a"), CaseError);
+}
+
+TEST_F(WriteResult, ATransientLeavesItsHistoryAndFramesAsItGoes) {
+  const HalfSpaceSolution solution =
+      solve_and_write(folder, {"transient.kind=rolling", "transient.distance=6 mm", "output.series_frames=3",
+                               "drive.traction_coefficient=0.1"});
+  EXPECT_EQ(names_in(folder / "patch_series"),
+            (Names{"patch_0000.vtp", "patch_0001.vtp", "patch_0002.vtp", "patch_0003.vtp"}));
+  EXPECT_EQ(names_in(folder), with(kPosition, {"history.csv", "patch.pvd", "patch_film.csv", "patch_series"}));
+  const std::vector<double> step = read_csv(folder / "patch_film.csv").column("step");
+  EXPECT_EQ(std::set<double>(step.begin(), step.end()), (std::set<double>{0, 4, 8, 12}));
+  EXPECT_EQ(read_csv(folder / "history.csv").column("creepage").back(), solution.summary.contact.creepage_x);
+}
+
+TEST_F(WriteResult, TheSlipOfAShiftIsReadBackAsADistance) {
+  const HalfSpaceSolution solution = solve_and_write(
+      folder, {"transient.kind=shift", "transient.displacement=[\"2 um\"]", "output.patch_series=false"});
+  EXPECT_EQ(names_in(folder), with(kPosition, {"history.csv"})) << "no series is wanted";
+  const ContactField back = read_result_folder(folder).field;
+  EXPECT_TRUE(back.slip_is_distance);
+  for (std::size_t k = 0; k < back.slip_x.size(); ++k)
+    EXPECT_NEAR(back.slip_x[k], solution.result.field.slip_x[k], 1e-20);
+  const CsvTable history = read_csv(folder / "history.csv");
+  EXPECT_NEAR(history.column("displacement_um").back(), 2, 1e-12);
+  EXPECT_THROW(history.column("creepage"), CaseError);
 }
 
 }  // namespace railstrata

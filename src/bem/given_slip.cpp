@@ -1,0 +1,54 @@
+#include "bem/given_slip.hpp"
+
+namespace railstrata {
+
+namespace {
+
+void fill_rigid_slip(const PatchGrid& grid, const TangentialProblem& problem, double step, GivenSlip& out) {
+  // With whole cells a sixth of a step ahead: between the cell and the middle of the step this cancels most of the
+  // leading edge's discretisation error.
+  const bool rolls = problem.kind != RollingKind::shift, whole_cells = problem.leading_weight.empty();
+  const double ahead = !rolls ? 0.0 : step / (whole_cells ? 6 : 2);
+  const bool turns = problem.spin != 0 || !problem.local_spin.empty();
+  if (rolls && !whole_cells && turns) out.to_own_place.resize(grid.size());
+  const std::size_t n = grid.size();
+  for (int i = 0; i < grid.nx; ++i)
+    for (int j = 0; j < grid.ny; ++j) {
+      const std::size_t k = grid.index(i, j);
+      const double local =
+          problem.local_spin.empty() ? problem.spin : problem.spin + problem.local_spin[static_cast<std::size_t>(j)];
+      out.rigid[k] = -problem.spin * grid.y(j) + (problem.extra_slip.x.empty() ? 0.0 : problem.extra_slip.x[k]);
+      out.rigid[n + k] = local * (grid.x(i) + ahead) + (problem.extra_slip.y.empty() ? 0.0 : problem.extra_slip.y[k]);
+      if (!out.to_own_place.empty()) out.to_own_place[k] = -local * step / 3;
+      if (!problem.before.x.empty()) out.history[k] = problem.before.x[k] / step;
+      if (!problem.before.y.empty()) out.history[n + k] = problem.before.y[k] / step;
+    }
+}
+
+/// Where the first cells of the rows are, and their parts of the slip.
+void cut_first_cells(const PatchGrid& grid, const TangentialProblem& problem, double step, GivenSlip& out) {
+  if (problem.leading_weight.empty() || problem.kind == RollingKind::shift) return;
+  const std::size_t n = grid.size(), ahead = static_cast<std::size_t>(grid.ny);
+  out.first_step.assign(n, step);
+  for (std::size_t k = 0; k + ahead < n; ++k) {
+    const double lambda = problem.leading_weight[k];
+    if (!(lambda > 0 && problem.traction_bound[k] > 0)) continue;
+    const double weight = lambda / (1 - lambda);
+    out.leading.push_back({k, weight});
+    out.first_step[k] *= 1 - lambda;
+    for (Plane* fixed : {&out.rigid, &out.history})
+      for (const std::size_t c : {k, n + k}) (*fixed)[c] += weight * ((*fixed)[c] - (*fixed)[c + ahead]);
+  }
+}
+
+}  // namespace
+
+GivenSlip given_slip(const PatchGrid& grid, const TangentialProblem& problem) {
+  GivenSlip out{Plane(2 * grid.size()), Plane(2 * grid.size(), 0.0), {}, {}, {}};
+  const double step = step_length(grid, problem);
+  fill_rigid_slip(grid, problem, step, out);
+  cut_first_cells(grid, problem, step, out);
+  return out;
+}
+
+}  // namespace railstrata

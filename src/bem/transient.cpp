@@ -1,0 +1,203 @@
+#include "bem/transient.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "bem/several_patches.hpp"
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+int step_count(const LoadHistory& history, const CaseSpec& spec, double cell) {
+  if (!history.rolls()) return spec.transient.increments * static_cast<int>(std::lround(history.end()));
+  return std::max(1, static_cast<int>(std::lround(history.end() / cell)));
+}
+
+/// Lateral friction on an inclined plane may add to the normal force; a wheel near wedging is told when it comes.
+double largest_normal_load(const LoadHistory& history, double friction, const RigidContact& contact) {
+  constexpr double kMostOfNormal = 2;
+  const double alone = normal_load(history.largest_load(), 0, contact), c = std::cos(contact.angle),
+               share = friction * std::abs(std::sin(contact.angle));
+  return share < c ? std::min(alone * c / (c - share), kMostOfNormal * alone) : kMostOfNormal * alone;
+}
+
+/// What a step lacks of a given force the next one makes up for, within a cell: the first creepage from rest errs by
+/// twenty times the force's tolerance over friction.
+RollingOptions sharper(RollingOptions options) {
+  options.tangential.tolerance *= 0.1;
+  return options;
+}
+
+class Course {
+ public:
+  Course(const CaseSpec& spec, const Placement& placement, const BemOptions& options)
+      : spec_(spec),
+        placement_(placement),
+        options_(sharper(options.rolling)),
+        history_(spec, placement.contact),
+        patch_(
+            make_case_patch(spec, placement, options,
+                            {.load = largest_normal_load(history_, spec.drive.friction_coefficient, placement.contact),
+                             .approach = {}})),
+        rolling_(patch_.contact) {
+    const NormalSolution deepest =
+        solve_normal(*patch_.influence, patch_.grid, patch_.contact.gap, patch_.contact.target, options_.normal);
+    require_one_plane(placement, deepest.approach, "transient.kind is followed in one plane: take it out");
+    state_.steps = step_count(history_, spec, options.cell);
+  }
+
+  TransientState run(const TransientObserver& observer) {
+    const auto begin = std::chrono::steady_clock::now();
+    start();
+    while (tell(observer) && state_.step < state_.steps) advance();
+    state_.result = result();
+    state_.result.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return std::move(state_);
+  }
+
+ private:
+  double place(int step) const { return history_.end() * step / state_.steps; }
+
+  /// What rolls is at whole cells; its history ends within half a cell of the last.
+  double place_at_end(int step) const { return history_.rolls() ? step * patch_.grid.dx : place(step); }
+
+  bool tell(const TransientObserver& observer) {
+    const double at = place_at_end(state_.step);
+    state_.time = history_.time(at);
+    state_.distance = history_.rolls() ? at : 0.0;
+    if (!observer) return true;
+    state_.result = result();
+    return observer(state_);
+  }
+
+  /// The increment of a shift is no slip over V.
+  BemResult result() const {
+    BemResult out = bem_result(spec_, placement_, {placement_.contact, patch_, solution_});
+    if (patch_.contact.kind == RollingKind::shift) out.rigid_slip = {};
+    return out;
+  }
+
+  /// Without rolling there is no rigid slip but the shift.
+  RollingContact without_rolling() const {
+    RollingContact out = rolling_;
+    out.kind = RollingKind::shift;
+    out.spin = 0;
+    out.extra_slip = {};
+    return out;
+  }
+
+  void start() {
+    state_.moment = history_.at(0);
+    const LoadedMoment& m = state_.moment;
+    const bool steady = history_.rolls() && spec_.transient.start == TransientStart::steady;
+    patch_.contact = steady ? rolling_ : without_rolling();
+    RollingContact& c = patch_.contact;
+    c.x = m.x;
+    c.y = m.y;
+    if (steady) {
+      c.spin = m.spin;
+    } else {
+      c.x.creepage = c.y.creepage = 0;
+    }
+    solve(nullptr);
+    if (!steady) add_shift();
+  }
+
+  void advance() {
+    const double from = place_at_end(state_.step), to = place_at_end(++state_.step);
+    const LoadedMoment before = state_.moment, there = history_.at(to);
+    const RollingSolution last = solution_;
+    if (history_.rolls())
+      roll(last, from, to, there);
+    else
+      shift(last, before, there);
+    state_.moment = there;
+    if (history_.rolls()) {
+      state_.moment.x.creepage = patch_.contact.x.creepage;
+      state_.moment.y.creepage = patch_.contact.y.creepage;
+      state_.moment.spin = patch_.contact.spin;
+    }
+    solve(&last);
+    if (history_.rolls())
+      state_.friction_work += solution_.tangential.dissipation * patch_.grid.dx;
+    else
+      add_shift();
+  }
+
+  void roll(const RollingSolution& last, double from, double to, const LoadedMoment& there) {
+    const LoadedMoment middle = history_.at(0.5 * (from + to));
+    patch_.contact = rolling_;
+    RollingContact& c = patch_.contact;
+    c.x = {middle.x.creepage, there.x.force};
+    c.y = {middle.y.creepage, there.y.force};
+    c.spin = middle.spin;
+    c.target.load = there.load;
+    roll_on_one_cell(*patch_.influence, patch_.grid, last, c);
+  }
+
+  void shift(const RollingSolution& last, const LoadedMoment& before, const LoadedMoment& there) {
+    patch_.contact = without_rolling();
+    RollingContact& c = patch_.contact;
+    c.x = {there.x.creepage - before.x.creepage, there.x.force};
+    c.y = {there.y.creepage - before.y.creepage, there.y.force};
+    shift_on(*patch_.influence, patch_.grid, last, c);
+  }
+
+  void add_shift() {
+    state_.displacement_x += solution_.tangential.creepage_x;
+    state_.displacement_y += solution_.tangential.creepage_y;
+    state_.friction_work += solution_.tangential.dissipation;
+  }
+
+  /// N cos(delta) - T_y sin(delta) = G in turn: the lateral friction T_y follows the normal force N by at most f, so
+  /// that each turn leaves f tan(delta) of the error.
+  void solve(const RollingSolution* last) {
+    constexpr double kTolerance = 1e-5;
+    constexpr int kMostIterations = 60;
+    const RigidContact& rigid = placement_.contact;
+    const double load = state_.moment.load;
+    RollingContact& c = patch_.contact;
+    double lateral = c.y.force ? *c.y.force : last ? last->tangential.force_y : 0.0;
+    for (int i = 0; i < kMostIterations; ++i) {
+      c.target.load = normal_load(load, lateral, rigid);
+      solution_ = solve_rolling(*patch_.influence, patch_.grid, c, options_, last);
+      if (solution_.normal.touches_edge)
+        throw NumericalError("the patch has left its grid: friction changes it more than was foreseen");
+      lateral = solution_.tangential.force_y;
+      if (std::abs(normal_load(load, lateral, rigid) - *c.target.load) * std::cos(rigid.angle) <= kTolerance * load)
+        return;
+    }
+    throw CaseError(fmt::format("no normal force balances the load at a contact angle of {:.1f} degrees: friction "
+                                "wedges the wheel",
+                                std::abs(rigid.angle) * 180 / std::numbers::pi),
+                    "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+  }
+
+  const CaseSpec& spec_;
+  const Placement& placement_;
+  RollingOptions options_;
+  LoadHistory history_;
+  CasePatch patch_;
+  RollingContact rolling_;  // of steady rolling: the geometry's slip
+  RollingSolution solution_;
+  TransientState state_;
+};
+
+}  // namespace
+
+int transient_steps(const CaseSpec& spec, const Placement& placement, double cell) {
+  return step_count(LoadHistory(spec, placement.contact), spec, cell);
+}
+
+TransientState solve_transient(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                               const TransientObserver& observer) {
+  return Course(spec, placement, options).run(observer);
+}
+
+}  // namespace railstrata

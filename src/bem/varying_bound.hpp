@@ -1,0 +1,46 @@
+#pragma once
+// The traction bound of cells where it depends on their slip: friction that falls with the slip velocity, a third-body
+// layer that yields (friction/).
+#include "bem/given_slip.hpp"
+
+namespace railstrata {
+
+/// With v the slip of a cell along its traction, g(v) is what the cell carries, and Newton's method takes
+///   |q| + n·dq = g(v) + dg,    dg = g'(v) dv,    dv = -n·(L dq - dxi).
+/// Falling friction follows v alone. The film's path of plastic shear adds up along each row, from the leading edge on:
+/// of a film that hardens dg has the changes of the cells ahead too.
+class VaryingBound {
+ public:
+  VaryingBound(const PatchGrid& grid, const TangentialProblem& problem, const GivenSlip& given);
+
+  static bool needed(const TangentialProblem& problem) {
+    return problem.falling.falls() || problem.third_body.yields();
+  }
+  /// Throws CaseError for friction that falls too steeply: with L's symmetric part up to `largest` [1/Pa] the slip of a
+  /// cell has one value for every traction around it only while largest |g'| < 1. And for steps of history, in which
+  /// falling friction jumps.
+  static void require_unique_slip(const TangentialProblem& problem, double largest);
+
+  /// To be filled with the slip along the traction of each cell, 0 where it sticks, before `follow`; with a change of
+  /// it before `change`.
+  Plane& along() { return along_; }
+  void follow();
+  void change();
+
+  const Plane& at_rest() const { return rest_; }  ///< Pa, what a sticking cell carries at most
+  double at_rest(std::size_t k) const { return rest_[k]; }
+  double wanted(std::size_t k) const { return wanted_[k]; }    ///< Pa, g(v)
+  double by_slip(std::size_t k) const { return by_slip_[k]; }  ///< Pa, g'(v) by the cell's own slip
+  double change(std::size_t k) const { return change_[k]; }    ///< Pa, dg by the last `change`
+  const Plane& plastic() const { return plastic_; }            ///< m, u_pl; empty without a film that yields
+
+ private:
+  double plastic_before(int i, std::size_t k) const;
+  const PatchGrid& grid_;
+  const TangentialProblem& problem_;
+  const GivenSlip& given_;
+  Plane along_, rest_, wanted_, by_slip_, change_, plastic_;
+  Mask slides_;  // friction has taken over from a film that yields: what lies ahead no longer matters
+};
+
+}  // namespace railstrata

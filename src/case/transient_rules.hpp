@@ -1,0 +1,21 @@
+#pragma once
+// What a transient asks of its rows and of the other options.
+#include <string>
+#include <vector>
+
+#include "case/case_source.hpp"
+#include "case/case_spec.hpp"
+
+namespace railstrata {
+
+/// Records every broken rule in `source`.
+void check_transient(const CaseSpec& spec, CaseSource& source);
+
+/// A column of [transient] that the case gives.
+struct GivenColumn {
+  std::string key;
+  std::vector<double> values;
+};
+std::vector<GivenColumn> given_columns(CaseSpec spec);
+
+}  // namespace railstrata
