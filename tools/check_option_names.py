@@ -12,7 +12,7 @@ import subprocess
 import sys
 
 TEXT = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
-FILE_ENDINGS = (".toml", ".json", ".csv", ".h5", ".html")
+FILE_ENDINGS = (".toml", ".json", ".csv", ".h5", ".html", ".md")
 PLACEHOLDER = "key"  # "layer.0.key" stands for any key
 
 

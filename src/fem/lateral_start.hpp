@@ -5,8 +5,8 @@
 // would first have to creep that far, and its axle would ring on these springs (some 40 Hz) for longer than a run. So
 // the static equilibrium before the rolling has the lateral friction already, spread like the pressure, and the axle
 // starts with the lateral creepage that belongs to it. What the case does not give of the two is an estimate:
-// Kalker's simplified theory on Hertz's ellipse, with the spin of the contact angle [Kalker1982]. It is what the rolling
-// starts from; what it comes to is the contact's own answer.
+// Kalker's simplified theory on Hertz's ellipse, with the spin of the contact angle [Kalker1982]. It is what the
+// rolling starts from; what it comes to is the contact's own answer.
 #include "model/model.hpp"
 
 namespace railstrata {

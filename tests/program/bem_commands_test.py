@@ -146,7 +146,7 @@ class HalfSpaceCommands(FromOutside):
         beyond = [*drive, "--set", "geometry.curve_radius=300 m", "--set", "drive.spin=0.1 1/m"]
         for command in ["run", "mesh"]:
             self.refused(2, [command, BASE, *beyond, "--out", self.folder / command],
-                         "--set geometry.curve_radius=300 m: error: a curve (geometry.curve_radius) is not in this engine",
+                         "--set geometry.curve_radius=300 m: error: a curve (geometry.curve_radius) is not in this",
                          "a given spin (drive.spin) is not in this engine: in the finite elements it follows",
                          "remedy: take it out, or solve the case with `railstrata bem`")
         told = self.done("check", BASE, *beyond)
