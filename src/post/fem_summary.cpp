@@ -20,6 +20,7 @@ ContactSummary contact_summary(const RollingSystem& sys, const RunResult& run, c
   c.F_y = m.F_y;
   c.F_z = m.F_z;
   turn_into_contact_plane(c, sys.model.placement.contact.angle);
+  c.lateral_force = m.patch.force_y;
   c.approach = -run.preload.axle_z;
   c.penetration_max = run.penetration;
   if (!sys.model.spec.run.rolling) return c;
@@ -51,6 +52,12 @@ RunSummary run_summary(const RunResult& run) {
   return r;
 }
 
+/// N, what the torque drives with: of a yawed wheel not quite F_x.
+double along_wheel(const Model& model, const MeanContact& m) {
+  const double yaw = model.placement.contact.yaw;
+  return m.F_x * std::cos(yaw) + m.F_y * std::sin(yaw);
+}
+
 PatchSurroundings surroundings(const Model& model, const MeanContact& m) {
   const Placement& p = model.placement;
   const Vec2 tangent{std::cos(p.contact.angle), std::sin(p.contact.angle)};
@@ -79,7 +86,7 @@ std::vector<Check> finite_element_checks(const Model& model, const RunResult& ru
   out.push_back(at_most("preload_residual", run.preload.residual, spec.run.preload_tolerance));
   out.push_back(fem_check("F_z_relative_to_weight", std::abs(m.F_z / model.load - 1)));
   if (const double wanted = spec.drive.traction().value_or(0); spec.run.rolling && wanted != 0)
-    out.push_back(fem_check("traction_coefficient_reached", std::abs(m.F_x / m.F_z / wanted - 1)));
+    out.push_back(fem_check("traction_coefficient_reached", std::abs(along_wheel(model, m) / m.F_z / wanted - 1)));
   if (const double wanted = spec.drive.lateral_traction_coefficient.value_or(0); spec.run.rolling && wanted != 0)
     out.push_back(fem_check("lateral_traction_reached", std::abs(m.patch.force_y / model.load / wanted - 1)));
   out.push_back(fem_check("penetration_over_approach", run.penetration / model.hertz.approach));

@@ -161,7 +161,9 @@ std::vector<ResultNumber> contact_plane_numbers() {
            .value = contact<&C::lateral_force>,
            .label = "lateral force",
            .name = "Lateral force in the contact plane",
-           .doc = "(F_y, F_z) along the lateral tangent of the contact plane",
+           .doc = "Lateral friction: of half-spaces (F_y, F_z) along the lateral tangent of the contact plane, of "
+                  "finite elements "
+                  "the sum over the nodes, each in its own plane",
            .column = true,
            .shown = true},
           {.group = "contact",
