@@ -113,9 +113,8 @@ std::string more_about(const OptionTable& table) {
     return "\nAlong the rail give at most one of `traction_coefficient`, `tractive_force` and `creepage`; across it at "
            "most one of\n`lateral_traction_coefficient`, `lateral_force` and `lateral_creepage`. What is not given "
            "follows from the geometry:\nthe lateral creepage from the yaw, the spin from the contact angle and the "
-           "curve. With `--set`, a key takes the place of\nthe file's other keys of its kind. Creepages, lateral "
-           "forces "
-           "and spin are the half-space engine's\n(`railstrata bem`); `run` refuses them. Signs: "
+           "curve. With `--set`, a key takes the place of\nthe file's other keys of its kind. Finite elements "
+           "take creepages to ±0.1; a\ngiven spin is the half-space engine's (`railstrata bem`). Signs: "
            "[conventions](conventions.md#axes-and-signs).\n";
   if (table.name == "transient") return kAboutTransient;
   if (table.name == "layer")

@@ -145,6 +145,7 @@ void read_history_table(const std::string& text, const std::filesystem::path& fi
   int number = 0, rows = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     line = line.substr(0, line.find('#'));
     if (trimmed(line).empty()) continue;
     const Place at{file, number};

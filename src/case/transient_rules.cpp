@@ -89,6 +89,12 @@ class Rules {
       refuse("transient.kind", "how far does it roll?", "add distance = \"25 mm\", or rows with at_distance");
     if (!at.empty() && at.front() != 0)
       refuse(key, "the first row must be the start, 0", "begin with the values at the start");
+    constexpr double kLongest = 20;  // m, as of distance and at_distance
+    if (!t_.at_time.empty() && t_.at_time.back() * spec_.drive.speed > kLongest)
+      refuse(key,
+             fmt::format("the last row is {:.4g} m from the start at drive.speed; a transient rolls {:g} m at most",
+                         t_.at_time.back() * spec_.drive.speed, kLongest),
+             "give earlier times or a lower speed; a longer way has the steady answer");
     if (!at.empty() && !t_.distance && !(at.back() > 0))
       refuse(key, "the last row is at the start", "add a later row, or transient.distance");
   }

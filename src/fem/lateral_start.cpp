@@ -38,7 +38,7 @@ double lateral_force(const RollingEllipse& e, const DriveSpec& drive, double alo
 LateralStart lateral_start(const Model& m) {
   const DriveSpec& drive = m.spec.drive;
   const RigidContact& contact = m.placement.contact;
-  if (!m.spec.run.rolling || !(drive.friction_coefficient > 0)) return {};
+  if (!m.spec.run.rolling) return {};
   const double along = -drive.traction().value_or(0) * m.load, spin = -std::sin(contact.angle) / contact.rolling_radius;
   if (drive.lateral_traction_coefficient) {
     const RollingEllipse e = ellipse_of(m);
@@ -46,7 +46,7 @@ LateralStart lateral_start(const Model& m) {
     return {creepage_at(across, [&](double y) { return lateral_force(e, drive, along, y, spin); }), across};
   }
   const double creepage = drive.lateral_creepage.value_or(0.0 - std::tan(contact.yaw) / std::cos(contact.angle));
-  if (creepage == 0) return {};
+  if (creepage == 0 || !(drive.friction_coefficient > 0)) return {creepage, 0};
   return {creepage, lateral_force(ellipse_of(m), drive, along, creepage, spin)};
 }
 

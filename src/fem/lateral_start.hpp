@@ -16,7 +16,7 @@ struct LateralStart {
   double friction = 0;  ///< N, lateral friction on the rail
 };
 
-/// Zero for a wheel that neither is yawed nor moves or is pushed sideways, in a static case, and without friction.
+/// Zero for a wheel that neither is yawed nor moves or is pushed sideways, and in a static case.
 LateralStart lateral_start(const Model& model);
 
 }  // namespace railstrata

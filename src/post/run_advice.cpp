@@ -11,7 +11,7 @@ constexpr const char* kWithinRamp = "measured_within_torque_ramp";
 
 void warn_within_ramp(const CaseSpec& spec, double position, std::vector<Warning>& out) {
   const DriveSpec& drive = spec.drive;
-  if (!spec.run.rolling || drive.traction_coefficient == 0) return;
+  if (!spec.run.rolling || drive.traction().value_or(0) == 0) return;
   const double ramp = drive.torque_ramp * drive.speed, begin = position - 0.5 * spec.run.window;
   constexpr double kRounding = 1e-9;  // of the ramp: 105 mm less 5 mm is a little less than 100 mm in binary
   if (ramp <= begin + kRounding * ramp) return;

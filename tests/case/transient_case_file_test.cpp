@@ -25,6 +25,11 @@ void expect_says(const std::string& text, std::initializer_list<const char*> wor
   for (const char* word : words) EXPECT_NE(said.find(word), std::string::npos) << said << "\n  lacks: " << word;
 }
 
+TEST(TransientCaseFile, ATimeTooFarAwayIsRefused) {
+  expect_says("[transient]\nkind = \"rolling\"\nat_time = [\"0 ms\", \"1000000 ms\"]\ncreepage = [0, 0.01]\n",
+              {"a.toml:3", "transient.at_time", "the last row is 2.778e+04 m from the start", "rolls 20 m at most"});
+}
+
 TEST(TransientCaseFile, ColumnsAreReadInSiUnitsAndWrittenOutAgain) {
   const LoadedCase loaded = parse_case(
       "[transient]\nkind = \"rolling\"\nstart = \"steady\"\ndistance = \"30 mm\"\nat_distance = [\"0 mm\", \"10 mm\"]\n"
@@ -60,7 +65,8 @@ TEST(TransientCaseFile, AHistoryFileStandsForItsColumns) {
 
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "history_file";
   std::filesystem::create_directories(folder);
-  std::ofstream(folder / "h.csv") << "displacement [um],lateral_displacement_um\n2,0\n-2,1\n";
+  std::ofstream(folder / "h.csv") << "\xEF\xBB\xBF"
+                                     "displacement [um],lateral_displacement_um\n2,0\n-2,1\n";
   const LoadedCase loaded = parse_case("[transient]\nkind = \"shift\"\nhistory_file = \"h.csv\"\n", folder / "a.toml");
   EXPECT_EQ(loaded.spec.transient.displacement, (std::vector<double>{2e-6, -2e-6}));
   EXPECT_EQ(loaded.spec.transient.lateral_displacement, (std::vector<double>{0, 1e-6}));

@@ -144,6 +144,16 @@ TEST(Lateral, AGivenLateralForceIsHeldByCreeping) {
   EXPECT_LT(m.closure, 1e-3);
 }
 
+TEST(Lateral, WithoutFrictionTheWheelMovesSidewaysAllTheSame) {
+  CaseSpec spec = ball_case();
+  spec.drive.friction_coefficient = 0;
+  spec.drive.lateral_creepage = 0.01;
+  const RollingSystem system = small_system(spec);
+  const Stepper start(system, solve_preload(system, 1e-4));
+  EXPECT_NEAR(start.lateral_creepage(), 0.01, 1e-12);
+  EXPECT_EQ(system.options.lateral_friction, 0);
+}
+
 TEST(Lateral, AGivenCreepageIsKept) {
   CaseSpec spec = ball_case();
   spec.drive.creepage = -1e-3;

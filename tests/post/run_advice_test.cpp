@@ -38,6 +38,9 @@ TEST(RunAdvice, IsSilentOnTheRampOfAWheelThatIsNotDrivenOrDoesNotRoll) {
   free.drive.traction_coefficient = 0;
   still.run.rolling = false;
   EXPECT_TRUE(run_advice(free, 0.05, {}).empty());
+  CaseSpec guided = rolling_case(4e-3, 25);
+  guided.drive.creepage = -1e-3;
+  EXPECT_TRUE(run_advice(guided, 0.05, {}).empty()) << "no torque drives it";
   EXPECT_TRUE(run_advice(still, 0, {}).empty());
 }
 
