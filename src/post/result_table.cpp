@@ -412,6 +412,41 @@ std::vector<ResultNumber> effort_numbers() {
            .doc = "Largest resident memory of the program"}};
 }
 
+template <auto Member>
+ResultValue shakedown(const Summary& s) {
+  return s.shakedown.least(Member);
+}
+
+/// Left out of summary.json, and of tables, where no strength is known.
+std::vector<ResultNumber> shakedown_numbers() {
+  using F = ShakedownFactors;
+  const auto row = [](std::string_view symbol, ResultValue (*value)(const Summary&), std::string_view name,
+                      std::string_view doc) {
+    return ResultNumber{.group = kShakedownGroup,
+                        .symbol = symbol,
+                        .unit = kNone,
+                        .value = value,
+                        .label = symbol,
+                        .name = name,
+                        .doc = doc,
+                        .column = true,
+                        .shown = true,
+                        .comparable = true};
+  };
+  return {row("first_yield", shakedown<&F::first_yield>, "Load factor to first yield",
+              "What the elastic stress may be multiplied by until the first point yields, residual stress of the "
+              "process included"),
+          row("wandering", shakedown<&F::wandering>, "Load factor to shakedown, any traffic",
+              "Elastic shakedown with residual stresses of depth alone: safe for every traffic, the limit itself where "
+              "wheels wander sideways over more than the patch"),
+          row("single_track", shakedown<&F::single_track>, "Load factor to shakedown, one track",
+              "Elastic shakedown where every wheel runs in the same place; null where it was not asked for"),
+          row("upper", shakedown<&F::upper>, "Upper bound of shakedown",
+              "No load beyond it can shake down elastically, whatever the residual stress"),
+          row("kinematic", shakedown<&F::kinematic>, "Load factor to ratchetting with hardening",
+              "Elastic shakedown of a material with unlimited linear kinematic hardening")};
+}
+
 /// The stresses that tables hold, in their order.
 struct StressColumn {
   std::string_view body, zone, measure, number;
@@ -436,7 +471,8 @@ ResultColumn column_of(const ResultNumber& n) {
           .unit = same ? n.unit.shown : "",
           .shown_unit = n.unit,
           .doc = n.name,
-          .of_stress = false,
+          .of_stress = n.group == kShakedownGroup,
+          .of_strength = n.group == kShakedownGroup,
           .comparable = n.comparable,
           .digits = n.digits};
 }
@@ -462,7 +498,9 @@ ResultColumn column_of(const StressColumn& c) {
 
 std::string ResultNumber::key() const { return fmt::format("{}{}", symbol, unit.key_ending); }
 std::string ResultNumber::path() const { return fmt::format("{}{}/{}", group.empty() ? "" : "/", group, key()); }
-std::string ResultNumber::column_name() const { return fmt::format("{}{}", symbol, unit.column_ending); }
+std::string ResultNumber::column_name() const {
+  return fmt::format("{}{}{}", group == kShakedownGroup ? "shakedown_" : "", symbol, unit.column_ending);
+}
 
 const std::vector<ResultNumber>& result_numbers() {
   static const std::vector<ResultNumber> numbers = [] {
@@ -478,7 +516,7 @@ const std::vector<ResultNumber>& result_numbers() {
              "cases 0"}};
     for (const auto& part :
          {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
-          transient_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
+          transient_numbers(), shakedown_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();
@@ -520,11 +558,16 @@ const std::vector<StressNumber>& stress_numbers() {
 }
 
 std::vector<ResultColumn> table_columns() {
-  std::vector<ResultColumn> contact_columns, run_columns;
+  std::vector<ResultColumn> contact_columns, strength_columns, run_columns;
   for (const ResultNumber& n : result_numbers())
-    if (n.column) (n.group == "run" ? run_columns : contact_columns).push_back(column_of(n));
+    if (n.column)
+      (n.group == "run"             ? run_columns
+       : n.group == kShakedownGroup ? strength_columns
+                                    : contact_columns)
+          .push_back(column_of(n));
   std::vector<ResultColumn> out = std::move(contact_columns);
   for (const StressColumn& c : kStressColumns) out.push_back(column_of(c));
+  out.insert(out.end(), strength_columns.begin(), strength_columns.end());
   out.insert(out.end(), run_columns.begin(), run_columns.end());
   return out;
 }

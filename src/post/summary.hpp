@@ -61,6 +61,48 @@ struct EnergySummary {
   double closure = kNotApplicable, hourglass_share = kNotApplicable;
 };
 
+/// By what the elastic stress of the case may be multiplied (damage/shakedown.hpp).
+struct ShakedownFactors {
+  double first_yield = kNotApplicable, wandering = kNotApplicable, single_track = kNotApplicable,
+         upper = kNotApplicable, kinematic = kNotApplicable;
+};
+/// A layer or what lies below, by name.
+struct ZoneShakedown {
+  std::string zone;
+  ShakedownFactors factors;
+  double depth = kNotApplicable;  ///< m, where `wandering` is decided
+};
+struct BodyShakedown {
+  std::string body;  ///< "rail", "wheel"
+  ShakedownFactors factors;
+  std::string zone;                                   ///< that decides `wandering`, and where
+  double depth = kNotApplicable, y = kNotApplicable;  ///< m; y from the rigid contact point
+  std::vector<ZoneShakedown> zones;
+  std::vector<std::string> notes;  ///< strengths that are estimates
+};
+/// Of the bodies whose strength is known.
+struct ShakedownSummary {
+  std::vector<BodyShakedown> bodies;
+  /// Of a factor over the bodies; NaN without bodies, or where one of them lacks it.
+  double least(double ShakedownFactors::*factor) const;
+  /// The body that decides the factor for wandering traffic; null without bodies.
+  const BodyShakedown* governing() const;
+};
+
+inline double ShakedownSummary::least(double ShakedownFactors::*factor) const {
+  double out = bodies.empty() ? kNotApplicable : std::numeric_limits<double>::infinity();
+  for (const BodyShakedown& b : bodies)
+    out = b.factors.*factor < out || std::isnan(b.factors.*factor) ? b.factors.*factor : out;
+  return out;
+}
+
+inline const BodyShakedown* ShakedownSummary::governing() const {
+  const BodyShakedown* out = nullptr;
+  for (const BodyShakedown& b : bodies)
+    if (!out || b.factors.wandering < out->factors.wandering) out = &b;
+  return out;
+}
+
 struct RunSummary {
   Engine engine = Engine::fem;
   std::string commit;
@@ -99,6 +141,7 @@ struct Summary {
   std::vector<PatchSummary> patches;  ///< where there are several
   StressSummary rail, wheel;
   EnergySummary energy;
+  ShakedownSummary shakedown;
   RunSummary run;
   std::vector<Check> checks;
   std::vector<Warning> warnings;

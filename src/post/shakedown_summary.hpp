@@ -1,0 +1,33 @@
+#pragma once
+// Does it last? Shakedown of rail and wheel (damage/shakedown.hpp) under a contact, from either engine.
+#include <vector>
+
+#include "bem/solve_bem.hpp"
+#include "case/case_spec.hpp"
+#include "damage/shakedown.hpp"
+#include "post/row_strength.hpp"
+#include "post/stress_maxima.hpp"
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+/// A body's section: its rows, what they bear and the factors.
+struct SectionShakedown {
+  BodyId body = BodyId::rail;
+  std::vector<double> y, depth;  ///< m, of columns and rows
+  std::vector<int> zone;         ///< of rows
+  RowStrength strength;
+  Shakedown found;
+  double single_track = kNotApplicable;
+};
+
+/// Of the bodies whose strength the case says; of several patches the one that decides. Throws CaseError where a table
+/// of strengths ends too early.
+std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result);
+std::vector<SectionShakedown> fem_shakedown(const RollingSystem& system, const MeanContact& contact,
+                                            const BandStress& rail, const BandStress& wheel);
+
+/// Empty without sections.
+ShakedownSummary shakedown_summary(const CaseSpec& spec, const std::vector<SectionShakedown>& sections);
+
+}  // namespace railstrata
