@@ -1,0 +1,107 @@
+#include "damage/wear.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+void check(const Streamline& line) {
+  const std::size_t n = line.p.size();
+  for (const auto* values : {&line.q_x, &line.q_y, &line.slip_x, &line.slip_y})
+    if (values->size() != n) throw std::invalid_argument("the rows of a streamline differ in length");
+  if (!(line.dx > 0 && line.speed > 0)) throw std::invalid_argument("a streamline needs dx > 0 and a speed > 0");
+}
+
+double power(const Streamline& line, std::size_t i) {
+  return line.q_x[i] * line.slip_x[i] + line.q_y[i] * line.slip_y[i];
+}
+double slip(const Streamline& line, std::size_t i) { return std::hypot(line.slip_x[i], line.slip_y[i]); }
+
+double positive(double value, const char* what) {
+  if (!(value > 0)) throw std::invalid_argument(std::string(what) + " must be positive");
+  return value;
+}
+
+}  // namespace
+
+std::vector<double> friction_power(const Streamline& line) {
+  check(line);
+  std::vector<double> out(line.p.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = power(line, i);
+  return out;
+}
+
+FrictionEnergy friction_energy(const Streamline& line) {
+  FrictionEnergy sum;
+  for (const double w : friction_power(line)) {
+    sum.energy += w * line.dx / line.speed;
+    sum.power_max = std::max(sum.power_max, w);
+  }
+  return sum;
+}
+
+double usfd_rate(double t_gamma_per_area) {
+  constexpr double pascal = 1e6, rate = 1e-3;  // N/mm², µg/(m mm²)
+  constexpr double severe = 55.0, slope = 61.9, offset = slope * (kUsfdCatastrophicFrom / pascal) - severe;
+  const double x = std::abs(t_gamma_per_area) / pascal;
+  if (t_gamma_per_area > kUsfdCatastrophicFrom) return rate * (slope * x - offset);
+  return rate * (x < kUsfdSevereFrom / pascal ? 5.3 * x : severe);
+}
+
+double usfd_depth(const Streamline& line, double density) {
+  check(line);
+  positive(density, "density");
+  double mass = 0;  // kg/m²
+  for (std::size_t i = 0; i < line.p.size(); ++i) mass += usfd_rate(std::abs(power(line, i)) / line.speed) * line.dx;
+  return mass / density;
+}
+
+ArchardMap laboratory_dry_archard() {
+  return {.note = "laboratory, dry", .slow = 5e-4, .middle = 35e-4, .fast = 5e-4, .seizure = 350e-4};
+}
+
+void check(const ArchardMap& map) {
+  for (const double k : {map.slow, map.middle, map.fast, map.seizure})
+    if (!(k >= 0)) throw CaseError("a wear coefficient is negative", "coefficients are 0 or more, some 1e-4 to 4e-2");
+  if (!(map.middle_from >= 0 && map.fast_from >= map.middle_from))
+    throw CaseError("the slip velocities of the wear map do not ascend", "give them in ascending order, m/s");
+  if (!(map.seizure_pressure > 0))
+    throw CaseError("the wear map's pressure of seizure is not positive", "give its share of the hardness, some 0.8");
+}
+
+double archard_coefficient(const ArchardMap& map, double p, double slip_velocity, double hardness) {
+  if (p > map.seizure_pressure * hardness) return map.seizure;
+  if (slip_velocity < map.middle_from) return map.slow;
+  return slip_velocity <= map.fast_from ? map.middle : map.fast;
+}
+
+double archard_depth(const Streamline& line, const ArchardMap& map, double hardness, double scale) {
+  check(line);
+  check(map);
+  positive(hardness, "hardness");
+  double depth = 0;
+  for (std::size_t i = 0; i < line.p.size(); ++i) {
+    if (!(line.p[i] > 0)) continue;
+    const double s = slip(line, i);
+    depth += archard_coefficient(map, line.p[i], s, hardness) * line.p[i] * s * line.dx / line.speed;
+  }
+  return scale * depth / hardness;
+}
+
+LocalFatigue local_fatigue(const Streamline& line, double cyclic_shear_yield) {
+  check(line);
+  LocalFatigue worst;
+  for (std::size_t i = 0; i < line.p.size(); ++i) {
+    if (!(line.p[i] > 0)) continue;
+    const double index = (std::hypot(line.q_x[i], line.q_y[i]) - cyclic_shear_yield) / line.p[i];
+    if (worst.cell < 0 || index > worst.index) worst = {index, static_cast<int>(i)};
+  }
+  return worst;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,77 @@
+#pragma once
+// Wear and friction's energy of one passage, cell by cell along the streamlines of a contact patch.
+//
+// Steady rolling: a point of the surface passes the cells of its row one after the other, dx each, dx/V long. What it
+// loses is the sum over the row. Depth is positive into the body.
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace railstrata {
+
+/// A row of the patch along x, in any order of x. Tractions act on the rail, slip is the wheel's over the rail's
+/// surface (docs/conventions.md): q·slip >= 0 where friction dissipates.
+struct Streamline {
+  std::span<const double> p, q_x, q_y;     ///< Pa
+  std::span<const double> slip_x, slip_y;  ///< m/s
+  double dx = 0;                           ///< m, length of a cell
+  double speed = 0;                        ///< V [m/s], > 0
+};
+
+/// q·s, W/m², of every cell; below zero only by a fault of the solution.
+std::vector<double> friction_power(const Streamline& line);
+
+struct FrictionEnergy {
+  double energy = 0;     ///< J/m² per passage: the sum of q·s dx/V
+  double power_max = 0;  ///< W/m², of the cell with most
+};
+FrictionEnergy friction_energy(const Streamline& line);
+
+// -- University of Sheffield (USFD) -------------------------------------------------------------------------------
+
+/// kg lost per m rolled and m² of a cell (1 µg/(m mm²) = 1e-3 kg/m³), from x = |q·s|/V [Pa], T-gamma over the area. In
+/// µg/(m mm²) with x in N/mm²: 5.3 x below 10.4 (mild), 55.0 to 77.2 (severe), 61.9 x - 4723.68 beyond (catastrophic).
+/// R8T wheel steel on UIC 900A rail steel, dry, twin discs. [LewisDwyerJoyce2004]
+///
+/// The last branch goes on from 55.0 at 77.2. In circulation is also the constant 4778.7, with which the rate falls to
+/// zero there. At 10.4 the published branches differ by 0.2 % (55.12 and 55.0).
+double usfd_rate(double t_gamma_per_area);
+inline constexpr double kUsfdSevereFrom = 10.4e6, kUsfdCatastrophicFrom = 77.2e6;  // Pa
+
+/// m worn off per passage; density kg/m³ (steel 7800: 1 µg/mm² = 128 nm).
+double usfd_depth(const Streamline& line, double density);
+
+// -- Archard with Jendel's map (KTH) ------------------------------------------------------------------------------
+
+/// Wear coefficient over pressure and slip velocity: `seizure` where p > seizure_pressure H, else `slow`, `middle` or
+/// `fast` by the slip velocity. [Jendel2002]
+struct ArchardMap {
+  std::string_view note;          ///< what the numbers stand for: shown wherever they are used
+  double seizure_pressure = 0.8;  ///< share of the hardness H
+  double middle_from = 0.2;       ///< m/s
+  double fast_from = 0.7;         ///< m/s
+  double slow = 0, middle = 0, fast = 0, seizure = 0;
+};
+/// 5e-4, 35e-4, 5e-4 and 350e-4, the middle of the published ranges (1 to 10, 30 to 40, 1 to 10 and 300 to 400e-4): dry
+/// laboratory surfaces. Lubrication of a track by nature divides them by some 5, and nobody knows by how much: scale.
+ArchardMap laboratory_dry_archard();
+
+/// Throws CaseError unless coefficients are >= 0, the velocities ascend and the pressure's share is positive.
+void check(const ArchardMap& map);
+double archard_coefficient(const ArchardMap& map, double p, double slip_velocity, double hardness);
+
+/// m worn off per passage, the sum of k p |s| (dx/V)/H; H [Pa] the hardness of what wears, as a pressure (HV 9.80665
+/// MPa; 2.6 to 3 GPa of rails). `scale` multiplies every coefficient: lubrication, a layer's share of its rail's.
+double archard_depth(const Streamline& line, const ArchardMap& map, double hardness, double scale = 1);
+
+// -- Local fatigue index ------------------------------------------------------------------------------------------
+
+/// |q|/p - k/p of a cell: Ekberg's surface index without the patch's mean; k [Pa] the yield strength in cyclic shear.
+/// > 0: more traction than the surface carries elastically. Cells with p <= 0 have none. [EkbergKaboAndersson2002]
+struct LocalFatigue {
+  double index = 0;
+  int cell = -1;  ///< of the largest; -1: no contact in this row
+};
+LocalFatigue local_fatigue(const Streamline& line, double cyclic_shear_yield);
+
+}  // namespace railstrata
