@@ -74,6 +74,22 @@ std::string stresses_text(const Summary& s) {
   return out;
 }
 
+std::string factor_text(double value) { return std::isfinite(value) ? fmt::format("{:.3f}", value) : "-"; }
+
+/// Of every body the zones from the surface down, with what decides them.
+std::string shakedown_text(const Summary& s) {
+  std::string out;
+  for (const BodyShakedown& b : s.shakedown.bodies) {
+    for (const ZoneShakedown& z : b.zones)
+      out += fmt::format("  {}load factors: first yield {}, shakedown {} to {}, kinematic {}; decided {:.2f} mm deep\n",
+                         padded(z.zone == b.body ? b.body : b.body + ", " + z.zone, 24),
+                         factor_text(z.factors.first_yield), factor_text(z.factors.wandering),
+                         factor_text(z.factors.upper), factor_text(z.factors.kinematic), 1e3 * z.depth);
+    for (const std::string& note : b.notes) out += fmt::format("  {}\n", printable(note));
+  }
+  return out;
+}
+
 std::string steps_text(const RunSummary& r) {
   std::string out;
   const auto instead = [&] {
@@ -117,7 +133,7 @@ std::string checks_text(const Summary& s) {
 std::string summary_text(const Summary& s) {
   const std::string place = std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "";
   return fmt::format("\n{}{}\n", printable(s.title), s.state.empty() ? place : ", " + s.state) + numbers_text(s) +
-         patches_text(s) + stresses_text(s) + steps_text(s.run) + checks_text(s);
+         patches_text(s) + stresses_text(s) + shakedown_text(s) + steps_text(s.run) + checks_text(s);
 }
 
 void print_summary(const Summary& s, bool json) {

@@ -53,11 +53,18 @@ Option table_of(std::string_view key, Slot (*slot)(CaseSpec&, std::size_t), std:
   return out;
 }
 
+Option grade_option(Slot (*slot)(CaseSpec&, std::size_t)) {
+  return {
+      "grade", slot,
+      "A steel grade (R260, R350HT, ER8, …; `railstrata info` lists them), for the strength that no other key gives"};
+}
+
 template <class Place>
 std::vector<Option> yield_options(const Depths& depths) {
   const Option strength{"strength", nullptr, "", kPressure, kStrength, {}, {}, nullptr, kBeyondStrength},
       hardness{"hardness", nullptr, "", kHardness, kHardnessRange, {}, {}, nullptr, kBeyondHardness};
   return {
+      grade_option(Place::template slot<&S::grade>),
       {"yield_strength",
        Place::template slot<&S::yield_strength>,
        "Uniaxial yield strength (0.2 % proof stress); shakedown and fatigue are computed where it is known",

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "case/units.hpp"
+#include "core/faults.hpp"
+#include "damage/grades.hpp"
 
 namespace railstrata {
 namespace {
@@ -23,6 +25,7 @@ class Rules {
       : table_(std::move(table)), s_(strength), source_(source) {}
 
   void check() const {
+    check_grade();
     check_pair();
     check_against_tensile();
     check_against_hardness();
@@ -39,6 +42,15 @@ class Rules {
   std::string key(const char* name) const { return fmt::format("{}.{}", table_, name); }
   void complain(const char* name, const std::string& what, const std::string& remedy) const {
     if (source_.sound({key(name)})) source_.complain(key(name), fmt::format("{}{}", key(name), what), remedy);
+  }
+
+  void check_grade() const {
+    if (s_.grade.empty()) return;
+    try {
+      grade(s_.grade);
+    } catch (const CaseError& e) {
+      complain("grade", fmt::format(": {}", e.diagnostics.front().message), e.diagnostics.front().remedy);
+    }
   }
 
   void check_pair() const {

@@ -447,6 +447,51 @@ std::vector<ResultNumber> shakedown_numbers() {
               "Elastic shakedown of a material with unlimited linear kinematic hardening")};
 }
 
+template <auto Member>
+constexpr auto damage = &at<&Summary::damage, Member>;
+
+std::vector<ResultNumber> damage_numbers() {
+  using D = DamageSummary;
+  const auto row = [](std::string_view symbol, const ResultUnit& unit, ResultValue (*value)(const Summary&),
+                      std::string_view label, std::string_view name, std::string_view doc, bool shown) {
+    return ResultNumber{.group = "damage",
+                        .symbol = symbol,
+                        .unit = unit,
+                        .value = value,
+                        .label = label,
+                        .name = name,
+                        .doc = doc,
+                        .column = shown,
+                        .shown = shown,
+                        .comparable = true};
+  };
+  return {row("t_gamma", kNewtons, damage<&D::t_gamma>, "T-gamma", "T-gamma",
+              "|F_x creepage_x| + |F_y creepage_y|, of several patches their sum; J per m rolled", true),
+          row("t_gamma_with_spin", kNewtons, damage<&D::t_gamma_with_spin>, "with spin", "T-gamma with spin",
+              "And |M_z spin|", false),
+          row("friction_energy", kJoulesPerMetre, damage<&D::friction_energy>, "friction energy",
+              "Friction energy per distance", "Sum over the points of traction times slip times area, over the speed",
+              false),
+          row("rcf_damage", kNone, damage<&D::rcf_damage>, "RCF damage", "RCF damage of a passage",
+              "Burstow's function of T-gamma for R260, break points 15, 65 and 175 N; 1 is a visible crack, below zero "
+              "wear removes",
+              false),
+          row("brr_wear", kWornArea, damage<&D::brr_wear>, "BRR wear", "BRR wear",
+              "Area worn off over distance, of T-gamma and the wheel's diameter", false),
+          row("usfd_depth", kNanometres, damage<&D::usfd_depth>, "USFD wear", "Wear of a passage, USFD",
+              "Deepest, R8T wheel on 900A rail, dry, laboratory", true),
+          row("kth_depth", kNanometres, damage<&D::kth_depth>, "KTH wear", "Wear of a passage, KTH map",
+              "Deepest, Jendel's map for dry laboratory surfaces over the rail's hardness", false),
+          row("archard_depth", kNanometres, damage<&D::archard_depth>, "Archard wear", "Wear of a passage, Archard",
+              "Deepest, with the rail's wear_coefficient over its hardness", false),
+          row("temperature_rise", kKelvins, damage<&D::temperature_rise>, "flash temperature", "Flash temperature",
+              "Largest rise of the surfaces' temperature in the patch", true),
+          row("surface_fatigue", kNone, damage<&D::surface_fatigue>, "FI_surf", "Surface fatigue index",
+              "Utilised friction less k over p_max; above zero surface fatigue is to be expected", false),
+          row("local_fatigue", kNone, damage<&D::local_fatigue>, "local FI", "Local fatigue index",
+              "Largest |q|/p - k/p of a point", false)};
+}
+
 /// The stresses that tables hold, in their order.
 struct StressColumn {
   std::string_view body, zone, measure, number;
@@ -514,9 +559,9 @@ const std::vector<ResultNumber>& result_numbers() {
          .doc =
              "Of the axle along the rail; half-space: the case's last one, of a transient what it has rolled, static "
              "cases 0"}};
-    for (const auto& part :
-         {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
-          transient_numbers(), shakedown_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
+    for (const auto& part : {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(),
+                             motion_numbers(), transient_numbers(), damage_numbers(), shakedown_numbers(),
+                             energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();

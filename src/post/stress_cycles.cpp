@@ -182,7 +182,8 @@ StressHistory band_cycles(const BandStress& b, const std::vector<Sym3>& surface,
   for (int c = 1; c + 1 < b.sample.columns; ++c) out.y.push_back(b.centre_y[c] - b.contact_y);
   for (const BandRow& row : rows) {
     out.depth.push_back(depth_of(b, row));
-    out.zone.push_back(layer_of(b, b.sample.columns / 2, row.from == BandRow::From::interface_above ? row.row - 1 : row.row));
+    out.zone.push_back(
+        layer_of(b, b.sample.columns / 2, row.from == BandRow::From::interface_above ? row.row - 1 : row.row));
   }
   out.stress.resize(rows.size() * out.x.size() * out.y.size());
   for (int r = 0; r < out.rows(); ++r)

@@ -103,6 +103,18 @@ inline const BodyShakedown* ShakedownSummary::governing() const {
   return out;
 }
 
+/// What one passage does to the rail's surface (post/streamlines.hpp); NaN where friction or data are missing.
+struct DamageSummary {
+  double t_gamma = kNotApplicable, t_gamma_with_spin = kNotApplicable;  ///< N
+  double friction_energy = kNotApplicable;  ///< J per m of rail, from the cells: with spin the same as T-gamma
+  double rcf_damage = kNotApplicable;       ///< per axle passage
+  double brr_wear = kNotApplicable;         ///< m² per m rolled
+  double usfd_depth = kNotApplicable, archard_depth = kNotApplicable,
+         kth_depth = kNotApplicable;         ///< m per passage, the deepest
+  double temperature_rise = kNotApplicable;  ///< K
+  double surface_fatigue = kNotApplicable, local_fatigue = kNotApplicable;
+};
+
 struct RunSummary {
   Engine engine = Engine::fem;
   std::string commit;
@@ -142,6 +154,7 @@ struct Summary {
   StressSummary rail, wheel;
   EnergySummary energy;
   ShakedownSummary shakedown;
+  DamageSummary damage;
   RunSummary run;
   std::vector<Check> checks;
   std::vector<Warning> warnings;

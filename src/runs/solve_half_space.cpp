@@ -38,6 +38,13 @@ void follow(const CaseSpec& spec, const Placement& placement, const BemOptions& 
   summarise(spec, last, out);
 }
 
+void add_streamlines(const CaseSpec& spec, HalfSpaceSolution& out) {
+  out.streamlines = streamlines(spec, out.result.field);
+  for (const BemPatch& p : out.result.further)
+    for (const StreamlineRow& row : streamlines(spec, p.field)) out.streamlines.push_back(row);
+  out.summary.damage = damage_summary(spec, out.summary, out.streamlines);
+}
+
 }  // namespace
 
 CaseSpec half_space_case(CaseSpec spec) {
@@ -57,6 +64,7 @@ HalfSpaceSolution solve_half_space_contact(const CaseSpec& spec, const Placement
   } else {
     follow(solved, placement, options, observer, out);
   }
+  add_streamlines(solved, out);
   return out;
 }
 
@@ -68,6 +76,8 @@ HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placem
   s.rail = bem_rail_stress(out.result, s.contact);
   s.wheel = bem_wheel_stress(out.result, s.contact);
   s.warnings = bem_warnings(s, spec, out.result);
+  out.shakedown = half_space_shakedown(spec, out.result);
+  s.shakedown = shakedown_summary(spec, out.shakedown);
   s.run.commit = commit_text();
   s.run.threads = max_threads();
   s.run.peak_memory_bytes = peak_memory();
