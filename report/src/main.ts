@@ -172,6 +172,7 @@ function contents(): [id: string, name: string][] {
     ["geometry", "geometry", true],
     ["patch", "patch", true],
     ["stress", "stress", true],
+    ["lasts", "does it last?", report.runs.some((r) => r.summary.shakedown)],
     ["history", "history", report.runs.some((r) => r.history)],
     ["origin", "origin", true],
   ];
