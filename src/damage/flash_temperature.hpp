@@ -5,9 +5,8 @@
 // A body that moves fast through the heat flux q_f conducts in depth alone:
 //   dT(t) = integral of q(t') G(t - t') dt',    G(t) = 1/(e sqrt(pi t)),    e = sqrt(lambda rho c)
 // t = s/V the time since the leading edge. Where the surfaces touch they have one temperature, so that bodies without
-// layers share the heat as their effusivities e; ½ each for like bodies, a known mistake to forget. A layer of
-// thickness h on a base adds images, with alpha = (e_layer - e_base)/(e_layer + e_base) and kappa of the layer
-// [CarslawJaeger1959 ch. 12.8]:
+// layers share the heat as their effusivities e, like bodies by halves. A layer of thickness h on a base adds images,
+// with alpha = (e_layer - e_base)/(e_layer + e_base) and kappa of the layer [CarslawJaeger1959 ch. 12]:
 //   G(t) = 1/(e_layer sqrt(pi t)) (1 + 2 sum over n of alpha^n exp(-n² h²/(kappa t)))
 //
 // Range: Peclet number V a/(2 kappa) > 10 (wheel and rail: some 1000), material data of one temperature, no heat of

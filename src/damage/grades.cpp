@@ -15,10 +15,13 @@ namespace {
 constexpr double kMPa = 1e6;
 constexpr double kTensilePerVickers = 3.2 * kMPa, kPressurePerVickers = 9.80665 * kMPa, kBrinellPerVickers = 0.95;
 
-constexpr std::string_view kRail = "EN 13674-1, minimum", kRailHardness = "EN 13674-1, range of the running surface",
-                           kRailYield = "usual Rp0.2; EN 13674-1 asks for none",
-                           kWheel = "EN 13262, minimum of the rim", kWheelTensile = "EN 13262, range of the rim",
-                           kHadfield = "usual values, cast, not hardened", kBainitic = "usual values";
+constexpr std::string_view kRail = "EN 13674-1, minimum";
+constexpr std::string_view kRailHardness = "EN 13674-1, range of the running surface";
+constexpr std::string_view kRailYield = "usual Rp0.2; EN 13674-1 asks for none";
+constexpr std::string_view kWheel = "EN 13262, minimum of the rim";
+constexpr std::string_view kWheelTensile = "EN 13262, range of the rim";
+constexpr std::string_view kHadfield = "usual values, cast, not hardened";
+constexpr std::string_view kBainitic = "usual values";
 
 GradeNumber standard(double low, double high, double unit, std::string_view source) {
   return {low * unit, high * unit, Certainty::standard_minimum, source};

@@ -57,7 +57,7 @@ double yield_from_vickers(double vickers, double yield_to_tensile);
 double vickers_from_yield(double yield, double yield_to_tensile);
 /// Flow stress at some 8 % strain [Pa], Y = H/3, with the hardness as a pressure, H = 9.80665 MPa HV; so k = H/(3
 /// sqrt(3)). [Tabor1951] An upper bound of the yield strength: near it for martensite, which hardly hardens; for
-/// pearlite the 0.2 % proof stress is little more than half of it.
+/// pearlite the 0.2 % proof stress is 0.5 to 0.7 of it.
 double flow_stress_from_vickers(double vickers);
 double vickers_from_flow_stress(double flow_stress);
 

@@ -49,7 +49,7 @@ double usfd_rate(double t_gamma_per_area) {
   constexpr double pascal = 1e6, rate = 1e-3;  // N/mm², µg/(m mm²)
   constexpr double severe = 55.0, slope = 61.9, offset = slope * (kUsfdCatastrophicFrom / pascal) - severe;
   const double x = std::abs(t_gamma_per_area) / pascal;
-  if (t_gamma_per_area > kUsfdCatastrophicFrom) return rate * (slope * x - offset);
+  if (x > kUsfdCatastrophicFrom / pascal) return rate * (slope * x - offset);
   return rate * (x < kUsfdSevereFrom / pascal ? 5.3 * x : severe);
 }
 

@@ -25,6 +25,7 @@ TEST(UsfdWear, HasItsPublishedBranches) {
   EXPECT_NEAR(usfd_rate(10.39e6), 55.067 * microgram, 1e-9);
   EXPECT_NEAR(usfd_rate(40e6), 55.0 * microgram, 1e-12);
   EXPECT_NEAR(usfd_rate(100e6), (6190 - 4723.68) * microgram, 1e-9);
+  EXPECT_EQ(usfd_rate(-100e6), usfd_rate(100e6));
 }
 
 // With the constant 4778.7 of other programs the rate would fall from 55 to 0 at 77.2 N/mm².
