@@ -244,6 +244,7 @@ Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plan
 }
 
 Subsurface::~Subsurface() = default;
+Subsurface::Subsurface(Subsurface&&) noexcept = default;
 
 StatePlane Subsurface::plane(double depth) const {
   StatePlane out;

@@ -72,6 +72,7 @@ class Subsurface {
   /// with the fourth power of the period. The cost grows with its square.
   Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y, double period = 4);
   ~Subsurface();
+  Subsurface(Subsurface&&) noexcept;
 
   const PatchGrid& grid() const { return grid_; }
   StatePlane plane(double depth) const;

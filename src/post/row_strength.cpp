@@ -78,6 +78,12 @@ class ZoneStrength {
     return s_.hardness ? yield_from_vickers(*s_.hardness, s_.yield_to_tensile) : kUnknown;
   }
 
+  /// m, the depth where the table that says the strength ends; infinite without one.
+  double end() const {
+    const std::vector<DepthPoint>& table = !s_.strength_table.empty() ? s_.strength_table : s_.hardness_table;
+    return table.empty() ? std::numeric_limits<double>::infinity() : zone_.top + table.back().depth;
+  }
+
   StressPoint residual(double depth) const {
     if (!s_.initial_stress.empty()) return {depth, s_.initial_stress[0], s_.initial_stress[1]};
     if (s_.initial_stress_table.empty()) return {depth, 0, 0};
@@ -130,6 +136,21 @@ bool strength_given(const CaseSpec& spec, BodyId body) {
   for (int zone = 0; zone <= layers; ++zone)
     if (says_strength(zone_material(spec, body, zone).strength)) return true;
   return false;
+}
+
+std::function<double(double, bool)> shear_strength_by_depth(const CaseSpec& spec, BodyId body) {
+  std::vector<double> bottoms;
+  for (const std::size_t i : layers_on(spec, body))
+    bottoms.push_back((bottoms.empty() ? 0.0 : bottoms.back()) + spec.layers[i].thickness);
+  std::vector<ZoneStrength> zones;
+  for (int zone = 0; zone <= static_cast<int>(bottoms.size()); ++zone) zones.emplace_back(zone_of(spec, body, zone));
+  return [bottoms, zones](double depth, bool below) {
+    constexpr double kRoundOff = 1e-9;
+    std::size_t layer = 0;
+    while (layer < bottoms.size() && depth > bottoms[layer] + (below ? -kRoundOff : kRoundOff)) ++layer;
+    const ZoneStrength& zone = zones[layer < bottoms.size() ? layer + 1 : 0];
+    return zone.yield(std::min(depth, zone.end())) / std::numbers::sqrt3;
+  };
 }
 
 RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory& rows) {

@@ -1,5 +1,6 @@
 #pragma once
 // What the rows of a section bear, from the strengths of a case.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,9 @@ bool strength_given(const CaseSpec& spec, BodyId body);
 /// Of a zone a yield strength, a table of them, a grade, else an estimate from hardness, in this order. Depths of rail
 /// and wheel count from the running surface. Throws CaseError where a table ends above the deepest row of its zone.
 RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory& rows);
+
+/// Pa, in shear, at a depth, of an interface above or below it; below the end of a table its last value.
+std::function<double(double depth, bool below_interface)> shear_strength_by_depth(const CaseSpec& spec, BodyId body);
 
 /// Of a body's zone: 0 the matrix, then its layers from the surface down.
 const MaterialSpec& zone_material(const CaseSpec& spec, BodyId body, int zone);

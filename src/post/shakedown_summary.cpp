@@ -17,6 +17,8 @@ SectionShakedown section_shakedown(const CaseSpec& spec, BodyId body, const Stre
   out.y = history.y;
   out.depth = history.depth;
   out.zone = history.zone;
+  out.x_first = history.x.front();
+  out.x_last = history.x.back();
   out.strength = row_strength(spec, body, history);
   out.found = shakedown({history, out.strength.shear, out.strength.residual_x, out.strength.residual_y});
   return out;
@@ -27,12 +29,14 @@ SectionShakedown least_of_patches(const CaseSpec& spec, BodyId body, const BemRe
   std::vector<const BemPatch*> patches{&r};
   for (const BemPatch& p : r.further) patches.push_back(&p);
   std::optional<SectionShakedown> least;
-  for (const BemPatch* patch : patches) {
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const BemPatch* patch = patches[k];
     const PatchMeasures m = measure_patch(patch->field);
     const LayeredHalfSpace& half_space = body == BodyId::rail ? r.rail : r.wheel;
     const std::vector<CycleRow> rows = cycle_rows(half_space, 0.5 * shorter_axis(m));
     SectionShakedown section = section_shakedown(
         spec, body, body == BodyId::rail ? rail_cycles(r, *patch, rows) : wheel_cycles(r, *patch, rows));
+    section.patch = k;
     if (!least || section.found.wandering.value < least->found.wandering.value) least = std::move(section);
   }
   return std::move(*least);

@@ -19,6 +19,8 @@ struct SectionShakedown {
   RowStrength strength;
   Shakedown found;
   double single_track = kNotApplicable;
+  std::size_t patch = 0;           ///< of several patches the one that decides; 0: the largest pressure's
+  double x_first = 0, x_last = 0;  ///< m, of the cycle
 };
 
 /// Of the bodies whose strength the case says; of several patches the one that decides. Throws CaseError where a table

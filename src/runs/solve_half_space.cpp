@@ -5,6 +5,7 @@
 #include "core/parallel.hpp"
 #include "io/provenance.hpp"
 #include "post/bem_summary.hpp"
+#include "post/half_space_track.hpp"
 #include "runs/peak_memory.hpp"
 
 namespace railstrata {
@@ -66,6 +67,12 @@ HalfSpaceSolution solve_half_space_contact(const CaseSpec& spec, const Placement
   }
   add_streamlines(solved, out);
   return out;
+}
+
+void complete_shakedown(const CaseSpec& spec, HalfSpaceSolution& solution) {
+  if (solution.shakedown.empty()) return;
+  add_single_track(spec, solution.result, solution.shakedown);
+  solution.summary.shakedown = shakedown_summary(spec, solution.shakedown);
 }
 
 HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options,

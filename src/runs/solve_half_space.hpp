@@ -35,6 +35,10 @@ CaseSpec half_space_case(CaseSpec spec);
 HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {},
                                    const TransientObserver& observer = {});
 
+/// Adds to a solution what takes some seconds more where the case says strengths: the limit of shakedown for traffic on
+/// one line.
+void complete_shakedown(const CaseSpec& spec, HalfSpaceSolution& solution);
+
 /// The same without the stresses, which cost more than the contact of steady rolling.
 HalfSpaceSolution solve_half_space_contact(const CaseSpec& spec, const Placement& placement,
                                            const BemOptions& options = {}, const TransientObserver& observer = {});
