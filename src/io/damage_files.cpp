@@ -45,6 +45,31 @@ Json body_json(const BodyShakedown& b) {
   return out;
 }
 
+Json value_json(const std::optional<FatigueValue>& v, const char* key) {
+  if (!v) return nullptr;
+  return {{key, number(v->value)}, {"zone", v->zone}, {"depth_m", number(v->depth)}, {"y_m", number(v->y)}};
+}
+
+Json brittle_json(const BrittleSummary& z) {
+  return {{"zone", z.zone},
+          {"sigma1_max_Pa", number(z.sigma1)},
+          {"depth_m", number(z.depth)},
+          {"share_of_tensile_strength", number(z.share_of_tensile)},
+          {"critical_flaw_m", number(z.critical_flaw)}};
+}
+
+Json interface_json(const InterfaceSummary& i) {
+  return {{"above", i.above},
+          {"below", i.below},
+          {"depth_m", number(i.depth)},
+          {"tension_Pa", number(i.tension)},
+          {"shear_Pa", number(i.shear)},
+          {"shear_range_Pa", number(i.shear_range)},
+          {"sigma_xx_range_above_Pa", number(i.sigma_xx_range_above)},
+          {"sigma_xx_range_below_Pa", number(i.sigma_xx_range_below)},
+          {"delamination", number(i.delamination)}};
+}
+
 /// Of pure shear to uniaxial, in MPa.
 std::vector<double> uniaxial(const std::vector<double>& shear) {
   std::vector<double> out(shear);
@@ -118,6 +143,21 @@ Json shakedown_json(const Summary& summary) {
     if (n.group == kShakedownGroup) out["factors"][n.key()] = number(std::get<double>(n.value(summary)));
   out["governing"] = governing_json(*governing);
   for (const BodyShakedown& b : summary.shakedown.bodies) out["bodies"].push_back(body_json(b));
+  return out;
+}
+
+Json fatigue_json(const Summary& summary) {
+  Json out = Json::array();
+  for (const BodyFatigue& b : summary.fatigue) {
+    Json body{{"body", b.body},
+              {"dang_van", value_json(b.dang_van, "utilisation")},
+              {"smith_watson_topper", value_json(b.smith_watson_topper, "value_Pa")},
+              {"fatemi_socie", value_json(b.fatemi_socie, "value")},
+              {"jiang_sehitoglu", value_json(b.jiang_sehitoglu, "value_Pa")}};
+    for (const BrittleSummary& z : b.brittle) body["zones"].push_back(brittle_json(z));
+    for (const InterfaceSummary& i : b.interfaces) body["interfaces"].push_back(interface_json(i));
+    out.push_back(std::move(body));
+  }
   return out;
 }
 

@@ -15,6 +15,9 @@ namespace railstrata {
 /// {"factors": {...}, "governing": {body, zone, depth_m, y_m}, "bodies": [...]}; null without bodies.
 nlohmann::ordered_json shakedown_json(const Summary& summary);
 
+/// Of every body its fatigue parameters with their places, zones and interfaces.
+nlohmann::ordered_json fatigue_json(const Summary& summary);
+
 /// shakedown.json; shakedown_<body>.csv, a row a depth: yield strengths there and asked for by each level; and
 /// shakedown_<body>_map.csv, a row a point: the share of the strength there that the load uses of the upper bound.
 /// Nothing without sections.

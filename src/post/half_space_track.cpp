@@ -116,6 +116,7 @@ double track_factor(const CaseSpec& spec, const BemResult& r, const SectionShake
 
 void add_single_track(const CaseSpec& spec, const BemResult& result, std::vector<SectionShakedown>& sections) {
   for (SectionShakedown& section : sections) {
+    if (!section.strength.any()) continue;
     const double safe = section.found.wandering.value, most = section.found.upper.value;
     section.single_track =
         most <= kNearEnough * safe ? safe : std::clamp(track_factor(spec, result, section), safe, most);

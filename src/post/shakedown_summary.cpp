@@ -21,8 +21,11 @@ SectionShakedown section_shakedown(const CaseSpec& spec, BodyId body, const Stre
   out.x_last = history.x.back();
   out.strength = row_strength(spec, body, history);
   out.found = shakedown({history, out.strength.shear, out.strength.residual_x, out.strength.residual_y});
+  out.fatigue = section_fatigue(spec, body, history, out.strength);
   return out;
 }
+
+bool wanted(const CaseSpec& spec, BodyId body) { return strength_given(spec, body) || fatigue_given(spec, body); }
 
 /// The same of every patch: the one that bears least.
 SectionShakedown least_of_patches(const CaseSpec& spec, BodyId body, const BemResult& r) {
@@ -74,7 +77,7 @@ BodyShakedown body_shakedown(const CaseSpec& spec, const SectionShakedown& secti
 std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result) {
   std::vector<SectionShakedown> out;
   for (const BodyId body : {BodyId::rail, BodyId::wheel})
-    if (strength_given(spec, body)) out.push_back(least_of_patches(spec, body, result));
+    if (wanted(spec, body)) out.push_back(least_of_patches(spec, body, result));
   return out;
 }
 
@@ -82,9 +85,9 @@ std::vector<SectionShakedown> fem_shakedown(const RollingSystem& system, const M
                                             const BandStress& rail, const BandStress& wheel) {
   const CaseSpec& spec = system.model.spec;
   std::vector<SectionShakedown> out;
-  if (strength_given(spec, BodyId::rail))
+  if (wanted(spec, BodyId::rail))
     out.push_back(section_shakedown(spec, BodyId::rail, band_cycles(rail, rail_surface_stress(system, contact), 0)));
-  if (strength_given(spec, BodyId::wheel))
+  if (wanted(spec, BodyId::wheel))
     out.push_back(section_shakedown(spec, BodyId::wheel,
                                     band_cycles(wheel, wheel_surface_stress(system, contact), system.rolling_radius)));
   return out;
@@ -92,7 +95,8 @@ std::vector<SectionShakedown> fem_shakedown(const RollingSystem& system, const M
 
 ShakedownSummary shakedown_summary(const CaseSpec& spec, const std::vector<SectionShakedown>& sections) {
   ShakedownSummary out;
-  for (const SectionShakedown& section : sections) out.bodies.push_back(body_shakedown(spec, section));
+  for (const SectionShakedown& section : sections)
+    if (section.strength.any()) out.bodies.push_back(body_shakedown(spec, section));
   return out;
 }
 

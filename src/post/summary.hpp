@@ -103,6 +103,38 @@ inline const BodyShakedown* ShakedownSummary::governing() const {
   return out;
 }
 
+/// A fatigue parameter and its place.
+struct FatigueValue {
+  double value = kNotApplicable;
+  double depth = kNotApplicable, y = kNotApplicable;  ///< m
+  std::string zone;
+};
+/// Largest principal stress of a zone over the cycle, residual stress included.
+struct BrittleSummary {
+  std::string zone;
+  double sigma1 = kNotApplicable, depth = kNotApplicable;  ///< Pa, m
+  double share_of_tensile = kNotApplicable;                ///< sigma_1 over the tensile strength
+  double critical_flaw = kNotApplicable;                   ///< m, depth of a surface crack that runs under sigma_1
+};
+/// The largest over an interface and the cycle.
+struct InterfaceSummary {
+  std::string above, below;
+  double depth = kNotApplicable;                            ///< m
+  double tension = kNotApplicable, shear = kNotApplicable;  ///< Pa
+  double shear_range = kNotApplicable;                      ///< Pa, of tau_xz over a passage
+  double sigma_xx_range_above = kNotApplicable, sigma_xx_range_below = kNotApplicable;  ///< Pa, where shear_range is
+  double delamination = kNotApplicable;                                                 ///< 1: begins
+};
+struct BodyFatigue {
+  std::string body;
+  std::optional<FatigueValue> dang_van;             ///< utilisation of the fatigue limit
+  std::optional<FatigueValue> smith_watson_topper;  ///< Pa
+  std::optional<FatigueValue> fatemi_socie;
+  std::optional<FatigueValue> jiang_sehitoglu;  ///< Pa
+  std::vector<BrittleSummary> brittle;
+  std::vector<InterfaceSummary> interfaces;
+};
+
 /// What one passage does to the rail's surface (post/streamlines.hpp); NaN where friction or data are missing.
 struct DamageSummary {
   double t_gamma = kNotApplicable, t_gamma_with_spin = kNotApplicable;  ///< N
@@ -155,6 +187,7 @@ struct Summary {
   EnergySummary energy;
   ShakedownSummary shakedown;
   DamageSummary damage;
+  std::vector<BodyFatigue> fatigue;  ///< of the bodies whose strength or fatigue limits are known
   RunSummary run;
   std::vector<Check> checks;
   std::vector<Warning> warnings;

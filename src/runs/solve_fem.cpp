@@ -60,6 +60,7 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
   out.summary.damage = damage_summary(model.spec, out.summary, out.streamlines);
   out.shakedown = fem_shakedown(system, out.contact, out.rail, out.wheel);
   out.summary.shakedown = shakedown_summary(model.spec, out.shakedown);
+  for (const SectionShakedown& section : out.shakedown) out.summary.fatigue.push_back(section.fatigue);
   out.summary.run.commit = commit_text();
   out.summary.run.threads = max_threads();
   out.summary.run.peak_memory_bytes = peak_memory();

@@ -85,6 +85,7 @@ HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placem
   s.warnings = bem_warnings(s, spec, out.result);
   out.shakedown = half_space_shakedown(spec, out.result);
   s.shakedown = shakedown_summary(spec, out.shakedown);
+  for (const SectionShakedown& section : out.shakedown) s.fatigue.push_back(section.fatigue);
   s.run.commit = commit_text();
   s.run.threads = max_threads();
   s.run.peak_memory_bytes = peak_memory();
