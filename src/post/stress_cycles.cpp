@@ -9,8 +9,8 @@
 namespace railstrata {
 namespace {
 
-constexpr double kBehind = 3, kBeside = 1.5;  // semi-axes of the patch that cycles are followed to
-constexpr int kMostSamples = 90, kMostColumns = 50;
+constexpr double kBehind = 3, kNear = 1.15, kBeside = 1.5;  // semi-axes of the patch that cycles are followed to
+constexpr int kMostSamples = 160, kMostColumns = 50, kFarSamples = 12;
 
 /// First and last cell of a direction that carry pressure.
 struct Extent {
@@ -44,6 +44,17 @@ std::vector<int> sampled(const Extent& e, double reach, int most) {
   return out;
 }
 
+/// Densely as far as the patch and a little beyond, then every few cells.
+std::vector<int> sampled_along(const Extent& e) {
+  const std::vector<int> near = sampled(e, kNear, kMostSamples);
+  const int apart = std::max(1, static_cast<int>((kBehind - kNear) * e.half() / kFarSamples));
+  std::vector<int> out;
+  for (int k = kFarSamples; k > 0; --k) out.push_back(near.front() - k * apart);
+  out.insert(out.end(), near.begin(), near.end());
+  for (int k = 1; k <= kFarSamples; ++k) out.push_back(near.back() + k * apart);
+  return out;
+}
+
 struct Sampling {
   std::vector<int> x, y;  ///< cells of the patch's grid
   int more_x = 0, more_y = 0;
@@ -51,7 +62,7 @@ struct Sampling {
 
 Sampling sampling_of(const BemPatch& patch) {
   const PatchExtent e = extent_of(patch.field);
-  Sampling s{sampled(e.x, kBehind, kMostSamples), sampled(e.y, kBeside, kMostColumns)};
+  Sampling s{sampled_along(e.x), sampled(e.y, kBeside, kMostColumns)};
   s.more_x = std::max({0, -s.x.front(), s.x.back() - patch.grid.nx + 1});
   s.more_y = std::max({0, -s.y.front(), s.y.back() - patch.grid.ny + 1});
   return s;
@@ -60,6 +71,55 @@ Sampling sampling_of(const BemPatch& patch) {
 bool below_interface(const std::vector<CycleRow>& rows, std::size_t r) {
   return r > 0 && rows[r].depth == rows[r - 1].depth;
 }
+
+/// The surface at the edge of the patch. Cells miss the peak there: inside it rises as the root of the distance to the
+/// edge, as the pressure falls. What is left of sigma_xx + p and sigma_yy + 2 nu p is smooth (of a circular contact:
+/// [Johnson1985 eq. 3.43]); it is extrapolated from the two cells behind the outermost to the edge, where p² is zero.
+/// The first sample beyond the edge takes it.
+class SurfaceEdges {
+ public:
+  SurfaceEdges(const BemPatch& patch, const StatePlane& surface, const Subsurface& body, const Sampling& at)
+      : patch_(patch), surface_(surface), body_(body), at_(at), poisson_(body.material_at(0).poisson) {}
+
+  /// Samples of one column of the patch's cells.
+  void put(int column, Sym3* cycle) const {
+    if (column < 0 || column >= patch_.grid.ny) return;
+    int first = 0, last = patch_.grid.nx - 1;
+    while (first <= last && !(pressure(first, column) > 0)) ++first;
+    while (last >= first && !(pressure(last, column) > 0)) --last;
+    constexpr int kLeastCells = 4;
+    if (last - first + 1 < kLeastCells) return;
+    const auto begin = at_.x.begin(), behind = std::lower_bound(begin, at_.x.end(), first),
+               ahead = std::upper_bound(begin, at_.x.end(), last);
+    if (behind != begin) cycle[behind - begin - 1] = at_edge(first, column, 1);
+    if (ahead != at_.x.end()) cycle[ahead - begin] = at_edge(last, column, -1);
+  }
+
+ private:
+  double pressure(int i, int column) const { return patch_.field.p[patch_.grid.index(i, column)]; }
+
+  Sym3 smooth(int i, int column) const {
+    Sym3 s = body_.stress(surface_, body_.grid().index(i + at_.more_x, column + at_.more_y));
+    s.xx += pressure(i, column);
+    s.yy += 2 * poisson_ * pressure(i, column);
+    s.zz = s.xz = s.yz = 0;
+    return s;
+  }
+
+  Sym3 at_edge(int outermost, int column, int inward) const {
+    const double outer = std::pow(pressure(outermost, column), 2),
+                 inner = std::pow(pressure(outermost + inward, column), 2);
+    const double beyond = inner > outer ? std::min(outer / (inner - outer), 1.0) : 1.0;  // cells, from the outermost
+    const Sym3 a = smooth(outermost + inward, column), b = smooth(outermost + 2 * inward, column);
+    return a + (1 + beyond) * (a - b);
+  }
+
+  const BemPatch& patch_;
+  const StatePlane& surface_;
+  const Subsurface& body_;
+  const Sampling& at_;
+  double poisson_;
+};
 
 StressHistory half_space_cycles(const Subsurface& interior, const BemPatch& patch, const std::vector<CycleRow>& rows) {
   const Sampling at = sampling_of(patch);
@@ -81,6 +141,7 @@ StressHistory half_space_cycles(const Subsurface& interior, const BemPatch& patc
       Sym3* cycle = out.cycle(static_cast<int>(r), static_cast<int>(c));
       for (std::size_t s = 0; s < at.x.size(); ++s)
         cycle[s] = wide->stress(plane, g.index(at.x[s] + at.more_x, at.y[c] + at.more_y), below);
+      if (rows[r].depth == 0) SurfaceEdges(patch, plane, *wide, at).put(at.y[c], cycle);
     }
   }
   return out;

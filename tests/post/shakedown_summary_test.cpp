@@ -73,7 +73,8 @@ TEST(ShakedownSummary, HalfTheCellsGiveTheSameFactors) {
   const Found coarse = shakedown_of(spec, 0.25e-3), fine = shakedown_of(spec, 0.125e-3);
   for (const auto factor : {&ShakedownFactors::first_yield, &ShakedownFactors::wandering, &ShakedownFactors::upper,
                             &ShakedownFactors::kinematic})
-    EXPECT_NEAR(coarse.factors.*factor / (fine.factors.*factor), 1, 5e-3);
+    EXPECT_NEAR(coarse.factors.*factor / (fine.factors.*factor), 1, 5e-3)
+        << coarse.factors.*factor << " at " << coarse.body.depth;
 }
 
 TEST(ShakedownSummary, OneTrackLiesBetweenAnyTrafficAndTheUpperBound) {
