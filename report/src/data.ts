@@ -80,12 +80,29 @@ export interface Geometry {
   layers: Layer[];
 }
 
+/// By what the elastic stress may be multiplied; null where it was not computed or nothing decides.
+export type Factors = Record<"first_yield"|"wandering"|"single_track"|"upper"|"kinematic", number|null>;
+
+export interface ZoneShakedown {
+  zone: string;
+  depth_m: number|null;
+  factors: Factors;
+}
+
+export interface BodyShakedown {
+  body: string;
+  factors: Factors;
+  zones?: ZoneShakedown[];
+  notes: string[];
+}
+
 export interface Summary {
   state?: string;  // of a transient: which of its states this is
   position_m: number|null;
   contact: Record<string, number|null>;
   patches?: Record<string, number|null>[];  // where the wheel touches at several places
   stress: Record<BodyName, Zones>;
+  shakedown?: {factors: Factors; bodies: BodyShakedown[]};  // where a strength is known
   run: Record<string, number|string|null>;
 }
 
@@ -105,6 +122,7 @@ export interface Run {
   history: Columns|null;
   film: Film|null;
   sections: Partial<Record<BodyName, BodySections>>;
+  shakedown: Partial<Record<BodyName, {profile: Columns; map: Columns}>>;
 }
 
 export interface Check {

@@ -2,6 +2,7 @@
 import type {BodyName, Chart, ChartSeries, Maps, Report, Run, Span, Table} from "./data";
 import {details, element, note, part, table} from "./dom";
 import {drawAll, forget, frame, kDark, kLight, setOrigin, type Figure, type Theme} from "./figures";
+import {lastsPart} from "./lasts";
 import {linesFigure, type Series} from "./lines";
 import {centreLines, patchesTable, patchMaps} from "./patch";
 import {geometryFigures, geometryTable, historyFigures, numbersTable, origin, tiles, verdict} from "./sections";
@@ -114,12 +115,14 @@ function stressPart(runs: Run[]): HTMLElement {
 /// Everything about the runs that are looked at: one, or two side by side.
 function runParts(runs: Run[]): HTMLElement[] {
   const history = [...historyFigures(runs), ...transientFigures(runs)];
+  const lasts = lastsPart(runs);
   const way = [...filmParts(runs), ...(history.length ? [grid(history)] : [])];
   return [
     part("numbers", "Numbers", numbersTable(runs)),
     geometryPart(runs[0]),
     patchPart(runs),
     stressPart(runs),
+    ...(lasts ? [lasts] : []),
     ...(way.length ? [part("history", "On the way", ...way)] : []),
     part("origin", "Origin", ...origin(runs)),
   ];
@@ -169,6 +172,7 @@ function contents(): [id: string, name: string][] {
     ["geometry", "geometry", true],
     ["patch", "patch", true],
     ["stress", "stress", true],
+    ["lasts", "does it last?", report.runs.some((r) => r.summary.shakedown)],
     ["history", "history", report.runs.some((r) => r.history)],
     ["origin", "origin", true],
   ];

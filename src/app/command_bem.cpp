@@ -46,7 +46,9 @@ HalfSpaceJob job_of(const CommandOptions& options) {
 HalfSpaceSolution solve_steady(const HalfSpaceJob& job) {
   answer_interrupt_with("\nstopped: nothing was written\n");
   const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)), shown());
-  return solve_half_space(job.loaded.spec, job.placement, job.bem);
+  HalfSpaceSolution solution = solve_half_space(job.loaded.spec, job.placement, job.bem);
+  complete_shakedown(job.loaded.spec, solution);
+  return solution;
 }
 
 /// Its history and pictures are there while it is followed, and after Ctrl-C up to there.

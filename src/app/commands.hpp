@@ -32,6 +32,9 @@ struct StudyOptions {
   std::vector<std::string> groups;  ///< --group; empty: all
   bool dry_run = false;             ///< --dry-run
 };
+struct ShakedownOptions {
+  std::string engine = "bem";  ///< --engine
+};
 struct ReportOptions {
   std::vector<std::filesystem::path> folders;
   bool reference = true;  ///< --no-reference: without the half-space solution beside a single result
@@ -57,6 +60,7 @@ struct CommandOptions {
   CreepCurveOptions creep_curve;
   SweepCommandOptions sweep;
   StudyOptions study;
+  ShakedownOptions shakedown;
   ReportOptions report;
   SchemaOptions schema;
 };
@@ -69,6 +73,7 @@ ExitCode command_check(const CommandOptions& options);
 ExitCode command_mesh(const CommandOptions& options);
 ExitCode command_run(const CommandOptions& options);
 ExitCode command_bem(const CommandOptions& options);
+ExitCode command_shakedown(const CommandOptions& options);
 ExitCode command_compare(const CommandOptions& options);
 ExitCode command_creep_curve(const CommandOptions& options);
 ExitCode command_sweep(const CommandOptions& options);

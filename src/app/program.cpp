@@ -169,6 +169,16 @@ void add_study(CLI::App& sub, CommandOptions& options) {
   add_no_report(sub, options);
 }
 
+void add_shakedown(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-shakedown");
+  sub.add_option("--engine", options.shakedown.engine, fmt::format("Where the stresses come from: {}", engines_text()))
+      ->check(CLI::IsMember(engine_words()))
+      ->capture_default_str();
+  add_cell(sub, options);
+  add_no_report(sub, options);
+}
+
 void add_compare(CLI::App& sub, CommandOptions& options) {
   sub.add_option("a", options.case_file, "Result folder A")->required();
   sub.add_option("b", options.reference, "Result folder B: differences are relative to it")->required();
@@ -220,6 +230,12 @@ constexpr Entry kEntries[] = {
      "Examples:\n  railstrata bem cases/paper/base.toml\n  railstrata bem cases/quick --cell \"0.5 mm\" --out "
      "results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n",
      add_bem, command_bem},
+    {"shakedown",
+     "Does it last? Load factors to first yield and to shakedown, by layer, and the strength that every depth asks for",
+     "Examples:\n  railstrata shakedown cases/paper/base.toml --set material.rail.grade=R260\n  railstrata shakedown "
+     "cases/quick --set material.rail.yield_strength=\"480 MPa\" --set layer.0.yield_strength=\"900 MPa\" --engine fem "
+     "--out results/quick-shakedown\n",
+     add_shakedown, command_shakedown},
     {"compare", "Two results, of either engine, on one grid: a table, the differences of the fields, a picture",
      "Examples:\n  railstrata compare results/quick results/quick-bem\n  railstrata compare results/thin results/thick "
      "--out results/thin-against-thick\n",

@@ -74,6 +74,59 @@ std::string stresses_text(const Summary& s) {
   return out;
 }
 
+std::string factor_text(double value) { return std::isfinite(value) ? fmt::format("{:.3f}", value) : "-"; }
+
+std::string mpa(double value) { return fmt::format("{:.0f} MPa", 1e-6 * value); }
+
+std::string value_text(const char* name, const std::optional<FatigueValue>& v, double factor, const char* unit) {
+  if (!v) return {};
+  return fmt::format(", {} {:.3g}{} at {:.2f} mm", name, factor * v->value, unit, 1e3 * v->depth);
+}
+
+std::string interface_text(const InterfaceSummary& i) {
+  std::string out = fmt::format("    interface {} on {} at {:.2f} mm: tension {}, shear {}, its range {} a passage",
+                                printable(i.above), printable(i.below), 1e3 * i.depth, mpa(i.tension), mpa(i.shear),
+                                mpa(i.shear_range));
+  if (std::isfinite(i.delamination)) out += fmt::format(", delamination index {:.2f}", i.delamination);
+  return out + "\n";
+}
+
+std::string brittle_text(const BrittleSummary& z) {
+  if (!std::isfinite(z.share_of_tensile) && !std::isfinite(z.critical_flaw)) return {};
+  std::string out = fmt::format("    {}: sigma_1 {} at {:.2f} mm", printable(z.zone), mpa(z.sigma1), 1e3 * z.depth);
+  if (std::isfinite(z.share_of_tensile)) out += fmt::format(", {:.2f} of its tensile strength", z.share_of_tensile);
+  if (std::isfinite(z.critical_flaw)) out += fmt::format(", opens flaws deeper than {:.3f} mm", 1e3 * z.critical_flaw);
+  return out + "\n";
+}
+
+std::string fatigue_text(const Summary& s) {
+  std::string out;
+  for (const BodyFatigue& b : s.fatigue) {
+    const std::string values = value_text("Dang Van", b.dang_van, 1, " of its limit") +
+                               value_text("Smith-Watson-Topper", b.smith_watson_topper, 1e-6, " MPa") +
+                               value_text("Fatemi-Socie", b.fatemi_socie, 1, "") +
+                               value_text("Jiang-Sehitoglu", b.jiang_sehitoglu, 1e-6, " MPa");
+    if (!values.empty()) out += fmt::format("  {}{}\n", padded(b.body + " fatigue", 24), values.substr(2));
+    for (const BrittleSummary& z : b.brittle) out += brittle_text(z);
+    for (const InterfaceSummary& i : b.interfaces) out += interface_text(i);
+  }
+  return out;
+}
+
+/// Of every body the zones from the surface down, with what decides them.
+std::string shakedown_text(const Summary& s) {
+  std::string out;
+  for (const BodyShakedown& b : s.shakedown.bodies) {
+    for (const ZoneShakedown& z : b.zones)
+      out += fmt::format("  {}load factors: first yield {}, shakedown {} to {}, kinematic {}; decided {:.2f} mm deep\n",
+                         padded(z.zone == b.body ? b.body : b.body + ", " + z.zone, 24),
+                         factor_text(z.factors.first_yield), factor_text(z.factors.wandering),
+                         factor_text(z.factors.upper), factor_text(z.factors.kinematic), 1e3 * z.depth);
+    for (const std::string& note : b.notes) out += fmt::format("  {}\n", printable(note));
+  }
+  return out;
+}
+
 std::string steps_text(const RunSummary& r) {
   std::string out;
   const auto instead = [&] {
@@ -117,7 +170,7 @@ std::string checks_text(const Summary& s) {
 std::string summary_text(const Summary& s) {
   const std::string place = std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "";
   return fmt::format("\n{}{}\n", printable(s.title), s.state.empty() ? place : ", " + s.state) + numbers_text(s) +
-         patches_text(s) + stresses_text(s) + steps_text(s.run) + checks_text(s);
+         patches_text(s) + stresses_text(s) + shakedown_text(s) + fatigue_text(s) + steps_text(s.run) + checks_text(s);
 }
 
 void print_summary(const Summary& s, bool json) {

@@ -251,13 +251,18 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
   return r;
 }
 
-Subsurface rail_interior(const BemResult& r) { return {r.rail, r.grid, r.field.p, r.field.q_x, r.field.q_y}; }
+Subsurface rail_interior(const LayeredHalfSpace& rail, const BemPatch& patch) {
+  return {rail, patch.grid, patch.field.p, patch.field.q_x, patch.field.q_y};
+}
 
-Subsurface wheel_interior(const BemResult& r) {
-  Plane q_x = r.field.q_x, q_y = r.field.q_y;
+Subsurface wheel_interior(const LayeredHalfSpace& wheel, const BemPatch& patch) {
+  Plane q_x = patch.field.q_x, q_y = patch.field.q_y;
   for (Plane* q : {&q_x, &q_y})
     for (double& v : *q) v = -v;
-  return {r.wheel, r.grid, r.field.p, std::move(q_x), std::move(q_y)};
+  return {wheel, patch.grid, patch.field.p, std::move(q_x), std::move(q_y)};
 }
+
+Subsurface rail_interior(const BemResult& r) { return rail_interior(r.rail, r); }
+Subsurface wheel_interior(const BemResult& r) { return wheel_interior(r.wheel, r); }
 
 }  // namespace railstrata

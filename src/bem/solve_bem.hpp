@@ -85,5 +85,8 @@ BemResult bem_result(const CaseSpec& spec, const Placement& placement, const Pat
 /// (rail: down, wheel: up).
 Subsurface rail_interior(const BemResult& result);
 Subsurface wheel_interior(const BemResult& result);
+/// The same under one of several patches.
+Subsurface rail_interior(const LayeredHalfSpace& rail, const BemPatch& patch);
+Subsurface wheel_interior(const LayeredHalfSpace& wheel, const BemPatch& patch);
 
 }  // namespace railstrata

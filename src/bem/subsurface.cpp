@@ -244,6 +244,7 @@ Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plan
 }
 
 Subsurface::~Subsurface() = default;
+Subsurface::Subsurface(Subsurface&&) noexcept = default;
 
 StatePlane Subsurface::plane(double depth) const {
   StatePlane out;
@@ -407,11 +408,20 @@ struct Around {
   }
 };
 
-bool covers(const PatchGrid& g, const Vec3& at) {
+bool has_cells_around(const PatchGrid& g, const Vec3& at) {
   return at.x >= g.x(1) && at.x <= g.x(g.nx - 2) && at.y >= g.y(1) && at.y <= g.y(g.ny - 2);
 }
 
 }  // namespace
+
+bool Subsurface::covers(const Vec3& at) const { return has_cells_around(grid_, at); }
+
+Sym3 Subsurface::stress_at(const StatePlane& s, const Vec3& at, bool below_interface) const {
+  const Around near(grid_, at);
+  const auto of = [&](const Plane& v) { return near.of(grid_, v); };
+  return stress_of({of(s.e_xx), of(s.e_yy), of(s.e_xy), of(s.s_xz), of(s.s_yz), of(s.s_zz)},
+                   material_at(s.depth, below_interface));
+}
 
 std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {
   PatchGrid g{grid_.nx + 2 * more_x,        grid_.ny + 2 * more_y,       grid_.dx, grid_.dy,
@@ -453,7 +463,7 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
   int more_x = 0, more_y = 0;
   for (const Vec3& p : points) {
     if (!(p.z >= 0)) throw std::out_of_range("Subsurface::at: a point above the surface");
-    if (covers(grid_, p)) continue;
+    if (covers(p)) continue;
     const double x = std::max(grid_.x0 - p.x, p.x - grid_.x(grid_.nx - 1)) / grid_.dx,
                  y = std::max(grid_.y0 - p.y, p.y - grid_.y(grid_.ny - 1)) / grid_.dy;
     if (!((grid_.nx + 2 * std::max(x, 0.0)) * (grid_.ny + 2 * std::max(y, 0.0)) < kMostCells))
@@ -478,8 +488,7 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
     const Around near(grid_, p);
     const auto of = [&](const Plane& v) { return near.of(grid_, v); };
     out[k].displacement = {of(u.u_x), of(u.u_y), of(u.u_z)};
-    out[k].stress = stress_of({of(s.e_xx), of(s.e_yy), of(s.e_xy), of(s.s_xz), of(s.s_yz), of(s.s_zz)},
-                              material_at(p.z, below_interface));
+    out[k].stress = stress_at(s, p, below_interface);
   }
   return out;
 }

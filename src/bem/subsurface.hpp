@@ -72,6 +72,7 @@ class Subsurface {
   /// with the fourth power of the period. The cost grows with its square.
   Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y, double period = 4);
   ~Subsurface();
+  Subsurface(Subsurface&&) noexcept;
 
   const PatchGrid& grid() const { return grid_; }
   StatePlane plane(double depth) const;
@@ -86,6 +87,16 @@ class Subsurface {
   /// surface or more than about a thousand cells away.
   std::vector<InteriorPoint> at(const std::vector<Vec3>& points, bool below_interface = false) const;
 
+  /// Whether a point (x, y) lies so that four cells each way are around it.
+  bool covers(const Vec3& at) const;
+  /// Stresses at a point (x, y) of a plane, bicubic between cells; as `stress` at an interface.
+  Sym3 stress_at(const StatePlane& plane, const Vec3& at, bool below_interface = false) const;
+
+  /// The same tractions on a grid with so many more cells on each side, empty ones.
+  std::unique_ptr<Subsurface> widened(int more_x, int more_y) const;
+  /// The same on as many cells three times as large: each takes the mean of nine.
+  std::unique_ptr<Subsurface> coarsened() const;
+
   /// Where the rim of the grid has a good share of the maximum the search goes on outside of it, on a grid three times
   /// as wide with cells three times as large; where the maximum lies at `deepest`, down to eight times that depth.
   SubsurfacePeaks peaks(SearchDepths depths) const;
@@ -96,10 +107,6 @@ class Subsurface {
   void straighten_steps(double depth, StatePlane& out) const;
   void add_layer_difference(double depth, StatePlane& out) const;
   void add_layer_difference(double depth, DisplacementPlane& out) const;
-  /// On a grid with so many more cells on each side, empty ones.
-  std::unique_ptr<Subsurface> widened(int more_x, int more_y) const;
-  /// On as many cells three times as large: each takes the mean of nine.
-  std::unique_ptr<Subsurface> coarsened() const;
 
   LayeredHalfSpace body_;
   PatchGrid grid_;

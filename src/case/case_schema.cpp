@@ -46,10 +46,11 @@ struct TypeSchema {
   Json operator()(const bool*) const { return {{"type", "boolean"}}; }
   Json operator()(const std::string*) const { return {{"type", "string"}}; }
   Json operator()(const ChoiceSlot&) const { return {{"type", "string"}, {"enum", words_of(option)}}; }
-  Json operator()(const std::vector<ModulusPoint>*) const {
+  Json operator()(const RowsSlot&) const {
+    const std::size_t width = option.columns.size();
     return {{"type", "array"},
             {"minItems", 2},
-            {"items", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}, {"items", {{"type", "string"}}}}}};
+            {"items", {{"type", "array"}, {"minItems", width}, {"maxItems", width}, {"items", {{"type", "string"}}}}}};
   }
   Json operator()(const std::vector<double>*) const {
     return {{"type", "array"}, {"minItems", 1}, {"items", quantity_schema(option)}};

@@ -1,10 +1,12 @@
 #pragma once
 // What a case file says, in SI units, with every default. case/case_file reads it; case/option_table gives names,
 // units, ranges, the words of the choices and documentation.
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "case/strength_spec.hpp"
 #include "core/body_id.hpp"
 #include "friction/falling_friction.hpp"
 #include "geometry/body_shapes.hpp"
@@ -62,6 +64,7 @@ struct GeometrySpec {
 
 struct MaterialSpec {
   double young = 210e9, poisson = 0.3, density = 7800.0;
+  StrengthSpec strength;
 };
 
 /// Young's modulus at a depth below a layer's top; linear between two of them.
@@ -69,6 +72,7 @@ struct ModulusPoint {
   double depth = 0, young = 0;
   friend bool operator==(const ModulusPoint&, const ModulusPoint&) = default;
 };
+inline std::array<double*, 2> columns(ModulusPoint& p) { return {&p.depth, &p.young}; }
 
 struct LayerSpec {
   std::string name = "layer";  ///< of several of a body that have none in the file: "layer 1", "layer 2", …

@@ -43,8 +43,18 @@ std::string_view kind(const toml::node& node) {
   return node.is_number() ? "a number" : "a date or time";
 }
 
-constexpr const char *kExampleOfList = R"(["0.1 m", "0.3 m"])",
-                     *kExampleOfModuli = R"([["0 mm", "420 GPa"], ["3 mm", "210 GPa"]])";
+/// Of a list or of a table by depth.
+std::string_view example_of(const Option& option) {
+  return option.example.empty() ? R"(["0.1 m", "0.3 m"])" : option.example;
+}
+
+/// "a depth and a modulus".
+std::string columns_text(const Option& option) {
+  std::string out;
+  for (std::size_t k = 0; k < option.columns.size(); ++k)
+    out += fmt::format("{}a {}", k == 0 ? "" : k + 1 == option.columns.size() ? " and " : ", ", option.columns[k].key);
+  return out;
+}
 
 /// What the value of an option must look like, with an example.
 std::string wanted(const Option& option) {
@@ -58,9 +68,11 @@ std::string wanted(const Option& option) {
     std::string operator()(const ChoiceSlot&) const {
       return fmt::format("one of \"{}\"", fmt::join(words_of(option), "\", \""));
     }
-    std::string operator()(const std::vector<double>*) const { return fmt::format("a list, e.g. {}", kExampleOfList); }
-    std::string operator()(const std::vector<ModulusPoint>*) const {
-      return fmt::format("a list of depths and moduli, e.g. {}", kExampleOfModuli);
+    std::string operator()(const std::vector<double>*) const {
+      return fmt::format("a list, e.g. {}", example_of(option));
+    }
+    std::string operator()(const RowsSlot&) const {
+      return fmt::format("a table whose rows have {}, e.g. {}", columns_text(option), example_of(option));
     }
   };
   CaseSpec any;
@@ -75,7 +87,7 @@ const OptionTable* find_table(std::string_view name) {
 }
 
 class TreeReader {
-  static constexpr double kThinnestStep = 1e-6;  // m, of depth in a table of moduli
+  static constexpr double kThinnestStep = 1e-6;  // m, of depth in a table by depth
 
  public:
   TreeReader(CaseSource& source, CaseSpec& spec) : source_(source), spec_(spec) {}
@@ -287,62 +299,69 @@ class TreeReader {
   }
 
   void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node,
-              std::vector<ModulusPoint>* target) {
+              const RowsSlot& target) {
     const toml::array* list = node.as_array();
     if (!list) return mismatch(option, key, node);
-    std::vector<ModulusPoint> rows;
+    RowsSlot::Rows rows;
     bool sound = true;
-    for (std::size_t i = 0; i < list->size(); ++i) {
-      const std::string item = fmt::format("{}.{}", key, i);
-      const toml::node& row = (*list)[i];
-      remember_place(item, row);
-      const toml::array* pair = row.as_array();
-      if (!pair || pair->size() != 2) {
-        source_.complain(item, fmt::format("{}: must be a depth and a modulus", item), "write [\"3 mm\", \"210 GPa\"]");
-        sound = false;
-        continue;
-      }
-      ModulusPoint point;
-      for (std::size_t k = 0; k < 2; ++k) {
-        const std::string part = fmt::format("{}.{}", item, k);
-        remember_place(part, (*pair)[k]);
-        sound &= number(k == 0 ? table_depth() : table_young(), part, (*pair)[k], k == 0 ? point.depth : point.young);
-      }
-      rows.push_back(point);
-    }
-    if (sound && fits(option, key, rows)) take_table(spec_.layers.at(index), rows);
-    *target = rows;
+    for (std::size_t i = 0; i < list->size(); ++i)
+      sound &= read_row(option, fmt::format("{}.{}", key, i), (*list)[i], rows.emplace_back());
+    if (!sound || !fits(option, key, rows)) return;
+    target.set(rows);
+    if (option.key == "young_table") take_moduli(key, spec_.layers.at(index));
   }
 
-  /// From the top down, at least two rows, as thick as a layer may be.
-  bool fits(const Option& option, const std::string& key, const std::vector<ModulusPoint>& rows) {
+  /// A row of a table by depth.
+  bool read_row(const Option& option, const std::string& item, const toml::node& row, std::vector<double>& numbers) {
+    remember_place(item, row);
+    const std::size_t width = option.columns.size();
+    numbers.assign(width, 0.0);
+    const toml::array* written = row.as_array();
+    if (!written || written->size() != width) {
+      source_.complain(item, fmt::format("{}: must be {}", item, columns_text(option)),
+                       fmt::format("write {}", wanted(option)));
+      return false;
+    }
+    bool sound = true;
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::string part = fmt::format("{}.{}", item, k);
+      remember_place(part, (*written)[k]);
+      sound &= number(option.columns[k], part, (*written)[k], numbers[k]);
+    }
+    return sound;
+  }
+
+  /// From depth 0 down, at least two rows.
+  bool fits(const Option& option, const std::string& key, const RowsSlot::Rows& rows) {
     const auto refuse = [&](const std::string& at, const std::string& what, const std::string& remedy) {
       source_.complain(at, what, remedy);
       return false;
     };
     if (rows.size() < 2)
       return refuse(key, fmt::format("{}: needs at least two rows", key), fmt::format("write {}", wanted(option)));
-    if (rows.front().depth != 0)
-      return refuse(key + ".0", fmt::format("{}: the first depth must be 0 mm, the layer's top", key),
-                    "begin with the modulus at the top");
+    if (rows.front()[0] != 0)
+      return refuse(key + ".0", fmt::format("{}: the first depth must be 0 mm, {}", key, option.columns[0].doc),
+                    fmt::format("begin with the {} at the top", option.columns[1].key));
     for (std::size_t i = 1; i < rows.size(); ++i)
-      if (!(rows[i].depth - rows[i - 1].depth >= kThinnestStep))
+      if (!(rows[i][0] - rows[i - 1][0] >= kThinnestStep))
         return refuse(fmt::format("{}.{}", key, i),
                       fmt::format("{}: depths must increase, by {} at least", key,
                                   format_quantity(kThinnestStep, dimension::kLength)),
                       "sort the rows by depth; for a jump write two layers");
+    return true;
+  }
+
+  /// A graded layer is as thick as its table says, and as stiff on the mean.
+  void take_moduli(const std::string& key, LayerSpec& layer) {
+    const std::vector<ModulusPoint>& rows = layer.young_table;
     const OptionTable& table = *find_table("layer");
     const auto thickness =
         std::find_if(table.options.begin(), table.options.end(), [](const Option& o) { return o.key == "thickness"; });
     if (!thickness->range.holds(rows.back().depth))
-      return refuse(fmt::format("{}.{}", key, rows.size() - 1),
-                    fmt::format("{}: the last depth, the layer's thickness, must be {}", key,
-                                describe(thickness->range, thickness->dimension)),
-                    std::string(thickness->beyond));
-    return true;
-  }
-
-  static void take_table(LayerSpec& layer, const std::vector<ModulusPoint>& rows) {
+      return source_.complain(fmt::format("{}.{}", key, rows.size() - 1),
+                              fmt::format("{}: the last depth, the layer's thickness, must be {}", key,
+                                          describe(thickness->range, thickness->dimension)),
+                              std::string(thickness->beyond));
     double area = 0;
     for (std::size_t i = 1; i < rows.size(); ++i)
       area += 0.5 * (rows[i].young + rows[i - 1].young) * (rows[i].depth - rows[i - 1].depth);
@@ -515,12 +534,11 @@ bool is_text(const Option& option) {
                                 const std::string& text) {
   const std::string key = fmt::format("{}", fmt::join(parts.begin(), parts.begin() + static_cast<long>(count), "."));
   const Slot slot = any_slot(option);
-  const bool table = std::holds_alternative<std::vector<ModulusPoint>*>(slot);
+  const bool table = std::holds_alternative<RowsSlot>(slot);
   if (!table && !std::holds_alternative<std::vector<double>*>(slot))
     refuse_override(text, fmt::format("{} is not a table", key));
-  throw CaseError(
-      fmt::format("--set {}: {} is one list, its values have no keys of their own", text, key),
-      fmt::format("give the whole list, e.g. --set {}='{}'", key, table ? kExampleOfModuli : kExampleOfList));
+  throw CaseError(fmt::format("--set {}: {} is one list, its values have no keys of their own", text, key),
+                  fmt::format("give the whole list, e.g. --set {}='{}'", key, example_of(option)));
 }
 
 /// TOML where it is TOML, else a text: quotes may be left out. Of an option that is a text the words are the text, also

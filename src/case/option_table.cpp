@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <type_traits>
+
+#include "case/option_slots.hpp"
+#include "case/strength_options.hpp"
 
 namespace railstrata {
 namespace {
 
 using namespace dimension;
+using namespace option_slot;
 using C = CaseSpec;
 using G = GeometrySpec;
 using M = MaterialSpec;
@@ -21,43 +24,6 @@ using H = MeshSpec;
 using R = RunSpec;
 using T = TransientSpec;
 using O = OutputSpec;
-
-template <class T>
-Slot slot_of(T& member) {
-  if constexpr (std::is_enum_v<T>)
-    return ChoiceSlot(member);
-  else
-    return &member;
-}
-template <auto Part, auto Member>
-Slot at(CaseSpec& spec, std::size_t) {
-  return slot_of(spec.*Part.*Member);
-}
-template <auto... Path>
-Slot layer(CaseSpec& spec, std::size_t index) {
-  return slot_of((spec.layers.at(index).*....*Path));
-}
-
-template <class Struct, class T>
-T type_of(T Struct::*);
-/// A word and the value it stands for, of the same enum as the member.
-template <auto Member>
-struct Word {
-  std::string_view word;
-  decltype(type_of(Member)) value;
-};
-template <auto Member>
-Option choice(std::string_view key, Slot (*slot)(CaseSpec&, std::size_t), std::string_view doc,
-              std::initializer_list<Word<Member>> words) {
-  Option out{key, slot, doc};
-  for (const Word<Member>& w : words) out.choices.push_back({w.word, static_cast<int>(w.value)});
-  return out;
-}
-/// One of several words in a table that stands once in a case.
-template <auto Part, auto Member>
-Option choice_at(std::string_view key, std::string_view doc, std::initializer_list<Word<Member>> words) {
-  return choice<Member>(key, at<Part, Member>, doc, words);
-}
 
 double of_matrix_modulus(const CaseSpec& spec, std::size_t index, double ratio) {
   return ratio * (spec.layers.at(index).on == BodyId::wheel ? spec.wheel_material : spec.rail_material).young;
@@ -92,7 +58,6 @@ bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(i
 bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).graded(); }
 
 constexpr double kMilli = 1e-3;
-Range above(double min, double max = std::numeric_limits<double>::infinity()) { return {min, max, true}; }
 
 std::vector<Option> track_options() {
   return {
@@ -190,73 +155,86 @@ constexpr std::string_view kBeyondPoisson = "0.5 is incompressible: take 0.499 f
                                "leave a thinner layer out; give a thicker one's modulus to the body that carries it";
 
 template <auto Member>
-OptionTable material_table(std::string_view name, std::string_view doc) {
-  return {name,
-          doc,
-          {{"young", at<Member, &M::young>, "Young's modulus", kPressure, kYoung},
-           {"poisson", at<Member, &M::poisson>, "Poisson's ratio", kNumber, kPoisson, {}, {}, nullptr, kBeyondPoisson},
-           {"density", at<Member, &M::density>, "Mass density", kDensity, kDensityRange}}};
+OptionTable material_table(std::string_view name, std::string_view doc, StrengthPlace place) {
+  OptionTable out{
+      name,
+      doc,
+      {{"young", at<Member, &M::young>, "Young's modulus", kPressure, kYoung},
+       {"poisson", at<Member, &M::poisson>, "Poisson's ratio", kNumber, kPoisson, {}, {}, nullptr, kBeyondPoisson},
+       {"density", at<Member, &M::density>, "Mass density", kDensity, kDensityRange}},
+      false,
+      strength_rivals()};
+  for (const Option& option : strength_options(place)) out.options.push_back(option);
+  return out;
 }
 
 OptionTable layer_table() {
-  return {"layer",
-          "A bonded layer; the first of a body is its surface, the next lies below it. Each needs one of young, "
-          "young_ratio and young_table",
-          {{"name", layer<&L::name>,
-            "What results call the layer; several of a body without one are \"layer 1\", \"layer 2\", … from the "
-            "surface down"},
-           choice<&L::on>("on", layer<&L::on>, "The body that carries the layer",
-                          {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
-           {"thickness",
-            layer<&L::thickness>,
-            "Along the normal of the surface; a young_table tells it itself",
-            kLength,
-            kLayerThickness,
-            {},
-            {},
-            uniform,
-            kBeyondThickness},
-           {"width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength, {kMilli, 0.2}},
-           {"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung, {}, {}, uniform},
-           {"young_ratio",
-            layer<&L::material, &M::young>,
-            "Young's modulus as a multiple of the carrying body's",
-            kNumber,
-            kYoungRatio,
-            {},
-            {of_matrix_modulus, "choose a multiple in this range"},
-            nullptr,
-            kBeyondRatio},
-           {"young_table",
-            layer<&L::young_table>,
-            "A modulus that varies with depth: depths below the layer's top and moduli, linear between",
-            {},
-            {},
-            {},
-            {},
-            graded},
-           {"grading_tolerance",
-            layer<&L::grading_tolerance>,
-            "young_table, half-space engine: largest relative change of the modulus within a sub-layer",
-            kNumber,
-            {1e-3, 1.0}},
-           {"poisson",
-            layer<&L::material, &M::poisson>,
-            "Poisson's ratio",
-            kNumber,
-            kPoisson,
-            {},
-            {},
-            nullptr,
-            kBeyondPoisson},
-           {"density", layer<&L::material, &M::density>, "Mass density", kDensity, kDensityRange},
-           {"elements",
-            layer<&L::elements>,
-            "Through the thickness; 0 chooses (height at most 1 mm, at least 2, at least 3 from 3 mm on). Of a "
-            "young_table each row of elements has the mean modulus over its height",
-            kNumber,
-            {0, 50}}},
-          true};
+  OptionTable out{
+      "layer",
+      "A bonded layer; the first of a body is its surface, the next lies below it. Each needs one of young, "
+      "young_ratio and young_table",
+      {{"name", layer<&L::name>,
+        "What results call the layer; several of a body without one are \"layer 1\", \"layer 2\", … from the "
+        "surface down"},
+       choice<&L::on>("on", layer<&L::on>, "The body that carries the layer",
+                      {{body_word(BodyId::rail), BodyId::rail}, {body_word(BodyId::wheel), BodyId::wheel}}),
+       {"thickness",
+        layer<&L::thickness>,
+        "Along the normal of the surface; a young_table tells it itself",
+        kLength,
+        kLayerThickness,
+        {},
+        {},
+        uniform,
+        kBeyondThickness},
+       {"width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength, {kMilli, 0.2}},
+       {"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung, {}, {}, uniform},
+       {"young_ratio",
+        layer<&L::material, &M::young>,
+        "Young's modulus as a multiple of the carrying body's",
+        kNumber,
+        kYoungRatio,
+        {},
+        {of_matrix_modulus, "choose a multiple in this range"},
+        nullptr,
+        kBeyondRatio},
+       {"young_table",
+        layer<&L::young_table>,
+        "A modulus that varies with depth: depths below the layer's top and moduli, linear between",
+        {},
+        {},
+        {},
+        {},
+        graded,
+        {},
+        {depth_column("the layer's top", kLayerThickness.max),
+         {"modulus", nullptr, "Young's modulus", kPressure, kYoung}},
+        R"([["0 mm", "420 GPa"], ["3 mm", "210 GPa"]])"},
+       {"grading_tolerance",
+        layer<&L::grading_tolerance>,
+        "young_table, half-space engine: largest relative change of the modulus within a sub-layer",
+        kNumber,
+        {1e-3, 1.0}},
+       {"poisson",
+        layer<&L::material, &M::poisson>,
+        "Poisson's ratio",
+        kNumber,
+        kPoisson,
+        {},
+        {},
+        nullptr,
+        kBeyondPoisson},
+       {"density", layer<&L::material, &M::density>, "Mass density", kDensity, kDensityRange},
+       {"elements",
+        layer<&L::elements>,
+        "Through the thickness; 0 chooses (height at most 1 mm, at least 2, at least 3 from 3 mm on). Of a "
+        "young_table each row of elements has the mean modulus over its height",
+        kNumber,
+        {0, 50}}},
+      true,
+      strength_rivals()};
+  for (const Option& option : strength_options(StrengthPlace::layer)) out.options.push_back(option);
+  return out;
 }
 
 OptionTable vehicle_table() {
@@ -648,8 +626,8 @@ const std::vector<OptionTable>& case_tables() {
   static const std::vector<OptionTable> tables{
       {"case", "What the case is", {{"title", title, "One line for reports"}}},
       geometry_table(),
-      material_table<&C::rail_material>("material.rail", "The rail below its layers (the matrix)"),
-      material_table<&C::wheel_material>("material.wheel", "The wheel below its layers"),
+      material_table<&C::rail_material>("material.rail", "The rail below its layers (the matrix)", StrengthPlace::rail),
+      material_table<&C::wheel_material>("material.wheel", "The wheel below its layers", StrengthPlace::wheel),
       layer_table(),
       vehicle_table(),
       drive_table(),
@@ -668,16 +646,6 @@ std::vector<std::string> words_of(const Option& option) {
   std::vector<std::string> out;
   for (const Choice& c : option.choices) out.emplace_back(c.word);
   return out;
-}
-
-const Option& table_depth() {
-  static const Option option{"depth", layer<&L::thickness>, "Below the layer's top", kLength, {0, kLayerThickness.max}};
-  return option;
-}
-
-const Option& table_young() {
-  static const Option option{"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung};
-  return option;
 }
 
 std::string toml_quoted(std::string_view text) {
@@ -711,12 +679,15 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
       for (double x : *v) out += (out.empty() ? "" : ", ") + quantity(x, option.dimension);
       return "[" + out + "]";
     }
-    std::string operator()(const std::vector<ModulusPoint>* v) const {
+    std::string operator()(const RowsSlot& v) const {
       std::string out;
-      for (const ModulusPoint& p : *v)
-        out += fmt::format("{}[{}, {}]", out.empty() ? "" : ", ", quantity(p.depth, kLength),
-                           quantity(p.young, kPressure));
-      return "[" + out + "]";
+      for (const std::vector<double>& numbers : *v) {
+        std::string row;
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+          row += (k == 0 ? "" : ", ") + quantity(numbers[k], option.columns.at(k).dimension);
+        out += fmt::format("{}[{}]", out.empty() ? "" : ", ", row);
+      }
+      return out.empty() ? out : "[" + out + "]";
     }
   };
   return std::visit(Writer{option}, option.slot(spec, index));

@@ -32,11 +32,47 @@ class ChoiceSlot {
   void (*write_)(void*, int);
 };
 
+/// A member that is a table by depth: rows of a type whose numbers `columns(row)` lists.
+class RowsSlot {
+ public:
+  using Rows = std::vector<std::vector<double>>;
+  template <class Row>
+  explicit RowsSlot(std::vector<Row>& member) : member_(&member), read_(read<Row>), write_(write<Row>) {}
+  Rows operator*() const { return read_(member_); }
+  void set(const Rows& rows) const { write_(member_, rows); }
+  friend bool operator==(const RowsSlot& a, const RowsSlot& b) { return a.member_ == b.member_; }
+
+ private:
+  template <class Row>
+  static Rows read(const void* member) {
+    Rows out;
+    for (Row row : *static_cast<const std::vector<Row>*>(member)) {
+      out.emplace_back();
+      for (const double* number : columns(row)) out.back().push_back(*number);
+    }
+    return out;
+  }
+  template <class Row>
+  static void write(void* member, const Rows& rows) {
+    auto& out = *static_cast<std::vector<Row>*>(member);
+    out.clear();
+    for (const std::vector<double>& numbers : rows) {
+      Row row;
+      std::size_t k = 0;
+      for (double* number : columns(row)) *number = numbers.at(k++);
+      out.push_back(row);
+    }
+  }
+  void* member_;
+  Rows (*read_)(const void*);
+  void (*write_)(void*, const Rows&);
+};
+
 /// Where an option lives in a case, by type. A double or a list of doubles is a quantity of the option's dimension, in
-/// SI; an optional one has no default, the case is another one without it; a table of moduli has rows of a depth and a
-/// modulus.
+/// SI; an optional one has no default, the case is another one without it; a table by depth has rows of the option's
+/// columns.
 using Slot = std::variant<double*, std::optional<double>*, int*, bool*, std::string*, ChoiceSlot, std::vector<double>*,
-                          std::vector<ModulusPoint>*>;
+                          RowsSlot>;
 
 /// A word of a case file and the value of the option's enum that it stands for.
 struct Choice {
@@ -73,11 +109,10 @@ struct Option {
   /// does. Else the resolved case leaves it out.
   bool (*applies)(const CaseSpec&, std::size_t index) = nullptr;
   std::string_view beyond{};  ///< what to do who needs a value out of the range
+  /// Of a table by depth: what each number of a row must be, the depth first; its `doc` says where depth 0 is.
+  std::vector<Option> columns{};
+  std::string_view example{};  ///< of a list or a table by depth
 };
-
-/// A row of a table of moduli by depth: what its two numbers must be.
-const Option& table_depth();
-const Option& table_young();
 
 struct OptionTable {
   std::string_view name;  ///< "geometry", "material.rail", "layer"

@@ -30,6 +30,8 @@ struct Symbol {
   bool takes_prefix;
 };
 
+constexpr double kBrinellOverVickers = 0.95;
+
 const std::array kSymbols{
     Symbol{"kg", {1, 0, dimension::kMass}, false},
     Symbol{"g", {1, -3, dimension::kMass}, true},
@@ -41,6 +43,13 @@ const std::array kSymbols{
     Symbol{"N", {1, 0, {1, 1, -2, 0}}, true},
     Symbol{"Pa", {1, 0, dimension::kPressure}, true},
     Symbol{"Hz", {1, 0, dimension::kRate}, true},
+    Symbol{"J", {1, 0, {1, 2, -2, 0}}, true},
+    Symbol{"W", {1, 0, {1, 2, -3, 0}}, true},
+    Symbol{"K", {1, 0, dimension::kTemperature}, false},
+    Symbol{"√m", {1, 0, {0, 0, 0, 0, 0, 1}}, false},
+    Symbol{"HV", {1, 0, dimension::kHardness}, false},
+    Symbol{"HBW", {1 / kBrinellOverVickers, 0, dimension::kHardness}, false},
+    Symbol{"HB", {1 / kBrinellOverVickers, 0, dimension::kHardness}, false},
     Symbol{"rad", {1, 0, dimension::kSlope}, true},
     Symbol{"deg", {std::numbers::pi / 180, 0, dimension::kSlope}, false},
     Symbol{"°", {std::numbers::pi / 180, 0, dimension::kSlope}, false},
@@ -77,6 +86,11 @@ const std::vector<Customary>& customary() {
       {dimension::kPressureGradient, "a stress by displacement", "400 MPa/mm", {"MPa/mm", "N/mm^3", "GPa/m"}},
       {dimension::kForce, "a force", "85 kN", {"kN", "N", "MN"}},
       {dimension::kSpin, "a spin", "0.1 1/m", {"1/m", "rad/m", "1/mm", "rad/mm"}},
+      {dimension::kToughness, "a fracture toughness", "15 MPa √m", {"MPa √m", "MPa m^0.5"}},
+      {dimension::kConductivity, "a thermal conductivity", "50 W/(m K)", {"W/(m K)"}},
+      {dimension::kHeatCapacity, "a specific heat capacity", "460 J/(kg K)", {"J/(kg K)"}},
+      {dimension::kTemperature, "a temperature difference", "700 K", {"K"}},
+      {dimension::kHardness, "a hardness", "380 HV", {"HV", "HBW"}},
       {dimension::kSlope, "an inclination", "1:40", {"", "mrad", "rad", "deg"}},
   };
   return all;
@@ -180,6 +194,9 @@ void multiply(Unit& total, const Unit& u, int power) {
   total.dimension.length += power * u.dimension.length;
   total.dimension.time += power * u.dimension.time;
   total.dimension.angle += power * u.dimension.angle;
+  total.dimension.temperature += power * u.dimension.temperature;
+  total.dimension.root_length += power * u.dimension.root_length;
+  total.dimension.hardness += power * u.dimension.hardness;
 }
 
 /// "m^3", "m³", "m3" is not a power: it stays an unknown symbol. Returns the power and cuts it off.
@@ -192,7 +209,34 @@ int take_power(std::string_view& symbol) {
   return 1;
 }
 
+/// "MPa√m" and "MPa m^0.5" as "MPa √m".
+std::string with_root_sign(std::string_view unit) {
+  std::string out(unit);
+  const auto replace_all = [&](std::string_view from, std::string_view to) {
+    for (auto at = out.find(from); at != std::string::npos; at = out.find(from, at + to.size()))
+      out.replace(at, from.size(), to);
+  };
+  for (const std::string_view power : {"m^0.5", "m^(1/2)", "m^½"}) replace_all(power, "√m");
+  replace_all("√m", " √m");
+  return out;
+}
+
+Unit parse_unit(std::string_view whole, const Dimension& expected);
+
+/// "W/(m K)": what stands in brackets behind the only solidus is divided; without brackets nothing is.
+std::optional<Unit> parse_divided_group(std::string_view whole, const Dimension& expected) {
+  const auto at = whole.find("/(");
+  if (at == std::string_view::npos || !whole.ends_with(')')) return std::nullopt;
+  const std::string_view above = whole.substr(0, at), group = whole.substr(at + 2, whole.size() - at - 3);
+  if (above.find('/') != std::string_view::npos || group.find_first_of("/()") != std::string_view::npos)
+    return std::nullopt;
+  Unit total = parse_unit(above, expected);
+  multiply(total, parse_unit(group, expected), -1);
+  return total;
+}
+
 Unit parse_unit(std::string_view whole, const Dimension& expected) {
+  if (const auto divided = parse_divided_group(whole, expected)) return *divided;
   static constexpr std::array<std::string_view, 6> kSeparators{" ", "\t", "*", "·", "⋅", "/"};
   Unit total;
   bool divide = false, after_solidus = false;
@@ -252,7 +296,7 @@ double parse_quantity(std::string_view whole, const Dimension& expected) {
     return scaled_number(number, 0);
   }
   if (starts_with_comma(text.substr(length))) throw comma_in_number(text, length);
-  const Unit unit = parse_unit(unit_text, expected);
+  const Unit unit = parse_unit(with_root_sign(unit_text), expected);
   const bool without_radian = expected == dimension::kSlope && unit.dimension == dimension::kNumber,
              with_radian = expected == dimension::kSpin && unit.dimension == kAngleOverLength;
   if (unit.dimension != expected && !without_radian && !with_radian)

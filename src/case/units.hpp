@@ -1,8 +1,9 @@
 #pragma once
-// Quantities as people write them: "210 GPa", "0.2 mm", "100 km/h", "10.4 kN s/m", "7800 kg/m³", "1:40", "20 %".
+// Quantities as people write them: "210 GPa", "0.2 mm", "100 km/h", "10.4 kN s/m", "7800 kg/m³", "1:40", "20 %",
+// "15 MPa √m", "380 HV".
 //
 // A text is a decimal number and a unit: symbols with SI prefixes, multiplied by a blank, * or ·, at most one / before
-// the last symbol, powers as ^3 or ³. Its value is rounded once: "0.2 mm" is exactly the double 0.2e-3.
+// the last symbol or a bracket, powers as ^3 or ³. Its value is rounded once: "0.2 mm" is exactly the double 0.2e-3.
 #include <functional>
 #include <stdexcept>
 #include <string>
@@ -10,9 +11,10 @@
 
 namespace railstrata {
 
-/// Exponents of kilogram, metre, second and plane angle. All zero: a plain number.
+/// Exponents of kilogram, metre, second, plane angle, kelvin, square root of a metre and hardness number. All zero: a
+/// plain number.
 struct Dimension {
-  int mass = 0, length = 0, time = 0, angle = 0;
+  int mass = 0, length = 0, time = 0, angle = 0, temperature = 0, root_length = 0, hardness = 0;
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
@@ -24,7 +26,11 @@ inline constexpr Dimension kPressure{1, -1, -2, 0}, kDensity{1, -3, 0, 0};
 inline constexpr Dimension kStiffness{1, 0, -2, 0}, kDamping{1, 0, -1, 0};
 inline constexpr Dimension kForce{1, 1, -2, 0};
 inline constexpr Dimension kPressureGradient{1, -2, -2, 0};
-inline constexpr Dimension kSpin{0, -1, 0, 0};  ///< rotation over rolled distance; "rad/m" is "1/m"
+inline constexpr Dimension kSpin{0, -1, 0, 0};              ///< rotation over rolled distance; "rad/m" is "1/m"
+inline constexpr Dimension kToughness{1, -1, -2, 0, 0, 1};  ///< "15 MPa √m"
+inline constexpr Dimension kConductivity{1, 1, -3, 0, -1}, kHeatCapacity{0, 2, -2, 0, -1}, kTemperature{0, 0, 0, 0, 1};
+/// Of Vickers, in HV; "300 HBW" is 300 / 0.95 HV, good to 5 % up to 450 HV. [ISO18265]
+inline constexpr Dimension kHardness{0, 0, 0, 0, 0, 0, 1};
 /// An inclination, kept as its tangent; written "1:40", "1/40", "25 mrad", "1.4 deg" or as the bare tangent.
 inline constexpr Dimension kSlope{0, 0, 0, 1};
 }  // namespace dimension

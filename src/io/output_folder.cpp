@@ -23,12 +23,31 @@ constexpr const char* kProbe = ".writable";  // is made and removed: whether a f
 /// What `run` and `bem` write into a folder or one below it, but for the case and its origin.
 void remove_results(const std::filesystem::path& folder) {
   std::error_code ignored;
-  for (const char* name :
-       {"centre_line.csv", "depth_line.csv", "geometry.json", "history.csv", "patch.csv", "patch.pvd", "patch.vtp",
-        "patch_film.csv", "rail.vtu", "rail_cross_section.csv", "rail_longitudinal_section.csv", "rail_surface.vtp",
-        "report.html", "summary.json", "view.py", "wheel.vtu", "wheel_cross_section.csv",
-        "wheel_longitudinal_section.csv", "wheel_surface.vtp"})
+  for (const char* name : {"centre_line.csv",
+                           "depth_line.csv",
+                           "geometry.json",
+                           "history.csv",
+                           "patch.csv",
+                           "patch.pvd",
+                           "patch.vtp",
+                           "patch_film.csv",
+                           "rail.vtu",
+                           "rail_cross_section.csv",
+                           "rail_longitudinal_section.csv",
+                           "rail_surface.vtp",
+                           "report.html",
+                           "shakedown.json",
+                           "streamlines.csv",
+                           "summary.json",
+                           "view.py",
+                           "wheel.vtu",
+                           "wheel_cross_section.csv",
+                           "wheel_longitudinal_section.csv",
+                           "wheel_surface.vtp"})
     std::filesystem::remove(folder / name, ignored);
+  for (const char* body : {"rail", "wheel"})
+    for (const char* ending : {".csv", "_map.csv"})
+      std::filesystem::remove(folder / fmt::format("shakedown_{}{}", body, ending), ignored);
   std::vector<std::filesystem::path> frames;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
     if (const std::string name = entry.path().filename().string(); name.starts_with("patch_") && name.ends_with(".vtp"))

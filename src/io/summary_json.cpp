@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "io/damage_files.hpp"
 #include "io/output_file.hpp"
 #include "post/result_table.hpp"
 
@@ -65,6 +66,9 @@ Json summary_json(const Summary& s) {
   add_numbers("contact", s, out["contact"]);
   if (!s.patches.empty()) out["patches"] = patches(s);
   out["stress"] = stress(s);
+  add_numbers("damage", s, out["damage"]);
+  if (!s.shakedown.bodies.empty()) out["shakedown"] = shakedown_json(s);
+  if (!s.fatigue.empty()) out["fatigue"] = fatigue_json(s);
   add_numbers("energy", s, out["energy"]);
   Json& run = out["run"];
   run["engine"] = s.run.engine;

@@ -412,6 +412,86 @@ std::vector<ResultNumber> effort_numbers() {
            .doc = "Largest resident memory of the program"}};
 }
 
+template <auto Member>
+ResultValue shakedown(const Summary& s) {
+  return s.shakedown.least(Member);
+}
+
+/// Left out of summary.json, and of tables, where no strength is known.
+std::vector<ResultNumber> shakedown_numbers() {
+  using F = ShakedownFactors;
+  const auto row = [](std::string_view symbol, ResultValue (*value)(const Summary&), std::string_view name,
+                      std::string_view doc) {
+    return ResultNumber{.group = kShakedownGroup,
+                        .symbol = symbol,
+                        .unit = kNone,
+                        .value = value,
+                        .label = symbol,
+                        .name = name,
+                        .doc = doc,
+                        .column = true,
+                        .shown = true,
+                        .comparable = true};
+  };
+  return {row("first_yield", shakedown<&F::first_yield>, "Load factor to first yield",
+              "What the elastic stress may be multiplied by until the first point yields, residual stress of the "
+              "process included"),
+          row("wandering", shakedown<&F::wandering>, "Load factor to shakedown, any traffic",
+              "Elastic shakedown with residual stresses of depth alone: safe for every traffic, the limit itself where "
+              "wheels wander sideways over more than the patch"),
+          row("single_track", shakedown<&F::single_track>, "Load factor to shakedown, one track",
+              "Elastic shakedown where every wheel runs in the same place; null where it was not asked for"),
+          row("upper", shakedown<&F::upper>, "Upper bound of shakedown",
+              "No load beyond it can shake down elastically, whatever the residual stress"),
+          row("kinematic", shakedown<&F::kinematic>, "Load factor to ratchetting with hardening",
+              "Elastic shakedown of a material with unlimited linear kinematic hardening")};
+}
+
+template <auto Member>
+constexpr auto damage = &at<&Summary::damage, Member>;
+
+std::vector<ResultNumber> damage_numbers() {
+  using D = DamageSummary;
+  const auto row = [](std::string_view symbol, const ResultUnit& unit, ResultValue (*value)(const Summary&),
+                      std::string_view label, std::string_view name, std::string_view doc, bool shown) {
+    return ResultNumber{.group = "damage",
+                        .symbol = symbol,
+                        .unit = unit,
+                        .value = value,
+                        .label = label,
+                        .name = name,
+                        .doc = doc,
+                        .column = shown,
+                        .shown = shown,
+                        .comparable = true};
+  };
+  return {row("t_gamma", kNewtons, damage<&D::t_gamma>, "T-gamma", "T-gamma",
+              "|F_x creepage_x| + |F_y creepage_y|, of several patches their sum; J per m rolled", true),
+          row("t_gamma_with_spin", kNewtons, damage<&D::t_gamma_with_spin>, "with spin", "T-gamma with spin",
+              "And |M_z spin|", false),
+          row("friction_energy", kJoulesPerMetre, damage<&D::friction_energy>, "friction energy",
+              "Friction energy per distance", "Sum over the points of traction times slip times area, over the speed",
+              false),
+          row("rcf_damage", kNone, damage<&D::rcf_damage>, "RCF damage", "RCF damage of a passage",
+              "Burstow's function of T-gamma for R260, break points 15, 65 and 175 N; 1 is a visible crack, below zero "
+              "wear removes",
+              false),
+          row("brr_wear", kWornArea, damage<&D::brr_wear>, "BRR wear", "BRR wear",
+              "Area worn off over distance, of T-gamma and the wheel's diameter", false),
+          row("usfd_depth", kNanometres, damage<&D::usfd_depth>, "USFD wear", "Wear of a passage, USFD",
+              "Deepest, R8T wheel on 900A rail, dry, laboratory", true),
+          row("kth_depth", kNanometres, damage<&D::kth_depth>, "KTH wear", "Wear of a passage, KTH map",
+              "Deepest, Jendel's map for dry laboratory surfaces over the rail's hardness", false),
+          row("archard_depth", kNanometres, damage<&D::archard_depth>, "Archard wear", "Wear of a passage, Archard",
+              "Deepest, with the rail's wear_coefficient over its hardness", false),
+          row("temperature_rise", kKelvins, damage<&D::temperature_rise>, "flash temperature", "Flash temperature",
+              "Largest rise of the surfaces' temperature in the patch", true),
+          row("surface_fatigue", kNone, damage<&D::surface_fatigue>, "FI_surf", "Surface fatigue index",
+              "Utilised friction less k over p_max; above zero surface fatigue is to be expected", false),
+          row("local_fatigue", kNone, damage<&D::local_fatigue>, "local FI", "Local fatigue index",
+              "Largest |q|/p - k/p of a point", false)};
+}
+
 /// The stresses that tables hold, in their order.
 struct StressColumn {
   std::string_view body, zone, measure, number;
@@ -436,7 +516,8 @@ ResultColumn column_of(const ResultNumber& n) {
           .unit = same ? n.unit.shown : "",
           .shown_unit = n.unit,
           .doc = n.name,
-          .of_stress = false,
+          .of_stress = n.group == kShakedownGroup,
+          .of_strength = n.group == kShakedownGroup,
           .comparable = n.comparable,
           .digits = n.digits};
 }
@@ -462,7 +543,9 @@ ResultColumn column_of(const StressColumn& c) {
 
 std::string ResultNumber::key() const { return fmt::format("{}{}", symbol, unit.key_ending); }
 std::string ResultNumber::path() const { return fmt::format("{}{}/{}", group.empty() ? "" : "/", group, key()); }
-std::string ResultNumber::column_name() const { return fmt::format("{}{}", symbol, unit.column_ending); }
+std::string ResultNumber::column_name() const {
+  return fmt::format("{}{}{}", group == kShakedownGroup ? "shakedown_" : "", symbol, unit.column_ending);
+}
 
 const std::vector<ResultNumber>& result_numbers() {
   static const std::vector<ResultNumber> numbers = [] {
@@ -476,9 +559,9 @@ const std::vector<ResultNumber>& result_numbers() {
          .doc =
              "Of the axle along the rail; half-space: the case's last one, of a transient what it has rolled, static "
              "cases 0"}};
-    for (const auto& part :
-         {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
-          transient_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
+    for (const auto& part : {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(),
+                             motion_numbers(), transient_numbers(), damage_numbers(), shakedown_numbers(),
+                             energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();
@@ -520,11 +603,16 @@ const std::vector<StressNumber>& stress_numbers() {
 }
 
 std::vector<ResultColumn> table_columns() {
-  std::vector<ResultColumn> contact_columns, run_columns;
+  std::vector<ResultColumn> contact_columns, strength_columns, run_columns;
   for (const ResultNumber& n : result_numbers())
-    if (n.column) (n.group == "run" ? run_columns : contact_columns).push_back(column_of(n));
+    if (n.column)
+      (n.group == "run"             ? run_columns
+       : n.group == kShakedownGroup ? strength_columns
+                                    : contact_columns)
+          .push_back(column_of(n));
   std::vector<ResultColumn> out = std::move(contact_columns);
   for (const StressColumn& c : kStressColumns) out.push_back(column_of(c));
+  out.insert(out.end(), strength_columns.begin(), strength_columns.end());
   out.insert(out.end(), run_columns.begin(), run_columns.end());
   return out;
 }

@@ -15,6 +15,9 @@
 
 namespace railstrata {
 
+/// Of the factors in summary.json, /shakedown/factors.
+inline constexpr std::string_view kShakedownGroup = "shakedown/factors";
+
 enum class HadBy { both_engines, finite_elements, half_spaces };
 
 /// Counts are whole numbers.
@@ -74,11 +77,12 @@ const std::vector<StressNumber>& stress_numbers();
 struct ResultColumn {
   std::string name, path{};
   double factor = 1;
-  std::string title{};      ///< what an axis or the head of a column calls it: "p_max"
-  std::string_view unit{};  ///< in the column, for people: "MPa"
-  ResultUnit shown_unit{};  ///< for people, where it is not the column's own: a share as per cent
-  std::string_view doc{};   ///< one line
-  bool of_stress = false;   ///< costs more than the contact
+  std::string title{};       ///< what an axis or the head of a column calls it: "p_max"
+  std::string_view unit{};   ///< in the column, for people: "MPa"
+  ResultUnit shown_unit{};   ///< for people, where it is not the column's own: a share as per cent
+  std::string_view doc{};    ///< one line
+  bool of_stress = false;    ///< costs more than the contact
+  bool of_strength = false;  ///< empty where no case says a strength
   bool comparable = true;
   int digits = 4;
 };

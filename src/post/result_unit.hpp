@@ -17,6 +17,7 @@ struct ResultUnit {
     if (key_ending == "_per_m") return "1/m";
     if (key_ending == "_per_s") return "1/s";
     if (key_ending == "_N_m") return "N m";
+    if (key_ending == "_J_per_m") return "J/m";
     return key_ending.empty() ? key_ending : key_ending == "_m2" ? "m²" : key_ending.substr(1);
   }
 };
@@ -35,6 +36,10 @@ inline constexpr ResultUnit kNanometres{"_m", "_nm", 1e9, "nm", 1e9};
 inline constexpr ResultUnit kKilonewtons{"_N", "_kN", 1e-3, "kN", 1e-3};
 inline constexpr ResultUnit kNewtonMetres{"_N_m", "_N_m", 1, "N m", 1};
 inline constexpr ResultUnit kJoules{"_J", "_J", 1, "J", 1};
+inline constexpr ResultUnit kNewtons{"_N", "_N", 1, "N", 1};
+inline constexpr ResultUnit kJoulesPerMetre{"_J_per_m", "_J_per_m", 1, "J/m", 1};
+inline constexpr ResultUnit kKelvins{"_K", "_K", 1, "K", 1};
+inline constexpr ResultUnit kWornArea{"_m", "_mm2_per_km", 1e9, "mm²/km", 1e9};  ///< m² per m
 inline constexpr ResultUnit kWatts{"_W", "_W", 1, "W", 1};
 inline constexpr ResultUnit kDegrees{"_rad", "_deg", 180 / std::numbers::pi, "°", 180 / std::numbers::pi};
 inline constexpr ResultUnit kPerMetre{"_per_m", "_per_m", 1, "1/m", 1};

@@ -10,16 +10,25 @@
 #include "post/plausibility.hpp"
 
 namespace railstrata {
-namespace {
-
-double largest_principal(const Sym3& s) { return principal_stresses(s).x; }
-using Measure = double (*)(const Sym3&);
 
 int layer_of(const BandStress& b, int column, int row) {
   const ContactBand& band = b.body->contact;
   return b.body->layer_of(
       b.body->blocks[band.block].section.quad_material[static_cast<std::size_t>(row) * band.columns + column]);
 }
+
+Sym3 stress_at_interface(const BandStress& b, int column, int row, int station, bool below) {
+  const int near = below ? row : row - 1, far = below ? row + 1 : row - 2;
+  const Sym3 stress = b.at(column, near, station);
+  if (far < 0 || far >= b.sample.rows || layer_of(b, column, far) != layer_of(b, column, near)) return stress;
+  const double t = (b.body->contact.depth[row] - b.centre_depth[near]) / (b.centre_depth[near] - b.centre_depth[far]);
+  return stress + t * (stress - b.at(column, far, station));
+}
+
+namespace {
+
+double largest_principal(const Sym3& s) { return principal_stresses(s).x; }
+using Measure = double (*)(const Sym3&);
 
 void offer(StressMaximum& best, double value, double x, double y, double depth) {
   if (std::isnan(best.value) || value > best.value) best = {value, x, y, depth};
@@ -62,11 +71,6 @@ StressPair largest_pair(const BandStress& b, const std::function<bool(int, int)>
   return {largest(b, von_mises, wanted), largest(b, largest_principal, wanted)};
 }
 
-Sym3 extrapolate(const Sym3& near, const Sym3& far, double d_near, double d_far, double d) {
-  const double t = (d - d_near) / (d_near - d_far);
-  return near + t * (near - far);
-}
-
 // Largest value on either side of every interface between layers.
 StressPair at_interfaces(const BandStress& b) {
   StressPair best;
@@ -75,11 +79,8 @@ StressPair at_interfaces(const BandStress& b) {
     for (int c = 0; c < b.sample.columns; ++c) {
       if (layer_of(b, c, r - 1) == layer_of(b, c, r)) continue;
       for (int s = 0; s < b.sample.stations; ++s)
-        for (int side = 0; side < 2; ++side) {
-          const int near = side ? r : r - 1, far = side ? r + 1 : r - 2;
-          Sym3 stress = b.at(c, near, s);
-          if (far >= 0 && far < b.sample.rows && layer_of(b, c, far) == layer_of(b, c, near))
-            stress = extrapolate(stress, b.at(c, far, s), b.centre_depth[near], b.centre_depth[far], depth[r]);
+        for (const bool below : {false, true}) {
+          const Sym3 stress = stress_at_interface(b, c, r, s, below);
           const double x = b.x(s), y = b.centre_y[c] - b.contact_y;
           offer(best.von_mises, von_mises(stress), x, y, depth[r]);
           offer(best.sigma1, largest_principal(stress), x, y, depth[r]);

@@ -26,6 +26,13 @@ struct BandStress {
 };
 BandStress band_stress(const SweptBody& body, BandSample sample, double contact_y);
 
+/// Of an element of the band: 0 the matrix, then the layers from the surface down.
+int layer_of(const BandStress& band, int column, int row);
+
+/// Stress at the upper face of row `row`, which is an interface: extrapolated linearly from the two nearest centres
+/// above it or below.
+Sym3 stress_at_interface(const BandStress& band, int column, int row, int station, bool below);
+
 /// Recovered stress tensors at the surface nodes of a body (zero on the border of the sample), index station * (columns
 /// + 1) + column, model frame.
 std::vector<Sym3> rail_surface_stress(const RollingSystem& system, const MeanContact& mean);

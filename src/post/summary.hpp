@@ -61,6 +61,92 @@ struct EnergySummary {
   double closure = kNotApplicable, hourglass_share = kNotApplicable;
 };
 
+/// By what the elastic stress of the case may be multiplied (damage/shakedown.hpp).
+struct ShakedownFactors {
+  double first_yield = kNotApplicable, wandering = kNotApplicable, single_track = kNotApplicable,
+         upper = kNotApplicable, kinematic = kNotApplicable;
+};
+/// A layer or what lies below, by name.
+struct ZoneShakedown {
+  std::string zone;
+  ShakedownFactors factors;
+  double depth = kNotApplicable;  ///< m, where `wandering` is decided
+};
+struct BodyShakedown {
+  std::string body;  ///< "rail", "wheel"
+  ShakedownFactors factors;
+  std::string zone;                                   ///< that decides `wandering`, and where
+  double depth = kNotApplicable, y = kNotApplicable;  ///< m; y from the rigid contact point
+  std::vector<ZoneShakedown> zones;
+  std::vector<std::string> notes;  ///< strengths that are estimates
+};
+/// Of the bodies whose strength is known.
+struct ShakedownSummary {
+  std::vector<BodyShakedown> bodies;
+  /// Of a factor over the bodies; NaN without bodies, or where one of them lacks it.
+  double least(double ShakedownFactors::*factor) const;
+  /// The body that decides the factor for wandering traffic; null without bodies.
+  const BodyShakedown* governing() const;
+};
+
+inline double ShakedownSummary::least(double ShakedownFactors::*factor) const {
+  double out = bodies.empty() ? kNotApplicable : std::numeric_limits<double>::infinity();
+  for (const BodyShakedown& b : bodies)
+    out = b.factors.*factor < out || std::isnan(b.factors.*factor) ? b.factors.*factor : out;
+  return out;
+}
+
+inline const BodyShakedown* ShakedownSummary::governing() const {
+  const BodyShakedown* out = nullptr;
+  for (const BodyShakedown& b : bodies)
+    if (!out || b.factors.wandering < out->factors.wandering) out = &b;
+  return out;
+}
+
+/// A fatigue parameter and its place.
+struct FatigueValue {
+  double value = kNotApplicable;
+  double depth = kNotApplicable, y = kNotApplicable;  ///< m
+  std::string zone;
+};
+/// Largest principal stress of a zone over the cycle, residual stress included.
+struct BrittleSummary {
+  std::string zone;
+  double sigma1 = kNotApplicable, depth = kNotApplicable;  ///< Pa, m
+  double share_of_tensile = kNotApplicable;                ///< sigma_1 over the tensile strength
+  double critical_flaw = kNotApplicable;                   ///< m, depth of a surface crack that runs under sigma_1
+};
+/// The largest over an interface and the cycle.
+struct InterfaceSummary {
+  std::string above, below;
+  double depth = kNotApplicable;                            ///< m
+  double tension = kNotApplicable, shear = kNotApplicable;  ///< Pa
+  double shear_range = kNotApplicable;                      ///< Pa, of tau_xz over a passage
+  double sigma_xx_range_above = kNotApplicable, sigma_xx_range_below = kNotApplicable;  ///< Pa, where shear_range is
+  double delamination = kNotApplicable;                                                 ///< 1: begins
+};
+struct BodyFatigue {
+  std::string body;
+  std::optional<FatigueValue> dang_van;             ///< utilisation of the fatigue limit
+  std::optional<FatigueValue> smith_watson_topper;  ///< Pa
+  std::optional<FatigueValue> fatemi_socie;
+  std::optional<FatigueValue> jiang_sehitoglu;  ///< Pa
+  std::vector<BrittleSummary> brittle;
+  std::vector<InterfaceSummary> interfaces;
+};
+
+/// What one passage does to the rail's surface (post/streamlines.hpp); NaN where friction or data are missing.
+struct DamageSummary {
+  double t_gamma = kNotApplicable, t_gamma_with_spin = kNotApplicable;  ///< N
+  double friction_energy = kNotApplicable;  ///< J per m of rail, from the cells: with spin the same as T-gamma
+  double rcf_damage = kNotApplicable;       ///< per axle passage
+  double brr_wear = kNotApplicable;         ///< m² per m rolled
+  double usfd_depth = kNotApplicable, archard_depth = kNotApplicable,
+         kth_depth = kNotApplicable;         ///< m per passage, the deepest
+  double temperature_rise = kNotApplicable;  ///< K
+  double surface_fatigue = kNotApplicable, local_fatigue = kNotApplicable;
+};
+
 struct RunSummary {
   Engine engine = Engine::fem;
   std::string commit;
@@ -99,6 +185,9 @@ struct Summary {
   std::vector<PatchSummary> patches;  ///< where there are several
   StressSummary rail, wheel;
   EnergySummary energy;
+  ShakedownSummary shakedown;
+  DamageSummary damage;
+  std::vector<BodyFatigue> fatigue;  ///< of the bodies whose strength or fatigue limits are known
   RunSummary run;
   std::vector<Check> checks;
   std::vector<Warning> warnings;

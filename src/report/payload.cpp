@@ -213,6 +213,23 @@ Json sections(const ReportRun& run) {
   return out;
 }
 
+/// Every row: kMostRows is for histories.
+Json all_columns(const CsvTable& table) {
+  Json out = Json::object();
+  for (const CsvColumn& c : table.columns) out[c.name] = numbers(c.values);
+  return out;
+}
+
+Json shakedown(const ReportRun& run) {
+  Json out = Json::object();
+  for (const char* body : {"rail", "wheel"}) {
+    const auto profile = run.shakedown.find(body), map = run.shakedown.find(std::string(body) + "_map");
+    if (profile != run.shakedown.end() && map != run.shakedown.end())
+      out[body] = {{"profile", all_columns(profile->second)}, {"map", all_columns(map->second)}};
+  }
+  return out;
+}
+
 /// The name alone of what is an absolute path: a page is sent to others, where the folders of one's machine lie is not.
 std::string without_folders(const std::string& word) {
   const std::filesystem::path path = word;
@@ -262,7 +279,8 @@ Json run_json(const ReportRun& run) {
           {"depth_line", columns(run.depth_line)},
           {"history", columns(run.history)},
           {"film", film(run.film)},
-          {"sections", sections(run)}};
+          {"sections", sections(run)},
+          {"shakedown", shakedown(run)}};
 }
 
 Json finite(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }

@@ -56,6 +56,11 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
   out.rail = band_stress(model.rail, out.contact.rail, contact_y - model.rail.origin.y);
   out.wheel = band_stress(model.wheel, out.contact.wheel, contact_y - model.wheel.origin.y);
   out.summary = fem_summary(system, run, out.contact);
+  out.streamlines = streamlines(model.spec, out.contact.field);
+  out.summary.damage = damage_summary(model.spec, out.summary, out.streamlines);
+  out.shakedown = fem_shakedown(system, out.contact, out.rail, out.wheel);
+  out.summary.shakedown = shakedown_summary(model.spec, out.shakedown);
+  for (const SectionShakedown& section : out.shakedown) out.summary.fatigue.push_back(section.fatigue);
   out.summary.run.commit = commit_text();
   out.summary.run.threads = max_threads();
   out.summary.run.peak_memory_bytes = peak_memory();

@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "post/shakedown_summary.hpp"
+#include "post/streamlines.hpp"
 #include "post/stress_maxima.hpp"
 #include "post/summary.hpp"
 #include "runs/run_control.hpp"
@@ -32,6 +34,8 @@ struct FemOptions {
 struct FemPosition {
   MeanContact contact;     ///< patch: pressure, traction, slip; mean of the samples around the position
   BandStress rail, wheel;  ///< stresses of the bodies below the patch; they refer to the system's meshes
+  std::vector<StreamlineRow> streamlines;   ///< of what rolls
+  std::vector<SectionShakedown> shakedown;  ///< of the bodies whose strength the case says
   Summary summary;
 };
 

@@ -5,6 +5,7 @@
 #include "core/parallel.hpp"
 #include "io/provenance.hpp"
 #include "post/bem_summary.hpp"
+#include "post/half_space_track.hpp"
 #include "runs/peak_memory.hpp"
 
 namespace railstrata {
@@ -38,6 +39,13 @@ void follow(const CaseSpec& spec, const Placement& placement, const BemOptions& 
   summarise(spec, last, out);
 }
 
+void add_streamlines(const CaseSpec& spec, HalfSpaceSolution& out) {
+  out.streamlines = streamlines(spec, out.result.field);
+  for (const BemPatch& p : out.result.further)
+    for (const StreamlineRow& row : streamlines(spec, p.field)) out.streamlines.push_back(row);
+  out.summary.damage = damage_summary(spec, out.summary, out.streamlines);
+}
+
 }  // namespace
 
 CaseSpec half_space_case(CaseSpec spec) {
@@ -57,7 +65,14 @@ HalfSpaceSolution solve_half_space_contact(const CaseSpec& spec, const Placement
   } else {
     follow(solved, placement, options, observer, out);
   }
+  add_streamlines(solved, out);
   return out;
+}
+
+void complete_shakedown(const CaseSpec& spec, HalfSpaceSolution& solution) {
+  if (solution.shakedown.empty()) return;
+  add_single_track(spec, solution.result, solution.shakedown);
+  solution.summary.shakedown = shakedown_summary(spec, solution.shakedown);
 }
 
 HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
@@ -68,6 +83,9 @@ HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placem
   s.rail = bem_rail_stress(out.result, s.contact);
   s.wheel = bem_wheel_stress(out.result, s.contact);
   s.warnings = bem_warnings(s, spec, out.result);
+  out.shakedown = half_space_shakedown(spec, out.result);
+  s.shakedown = shakedown_summary(spec, out.shakedown);
+  for (const SectionShakedown& section : out.shakedown) s.fatigue.push_back(section.fatigue);
   s.run.commit = commit_text();
   s.run.threads = max_threads();
   s.run.peak_memory_bytes = peak_memory();

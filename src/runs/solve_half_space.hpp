@@ -6,6 +6,8 @@
 
 #include "bem/solve_bem.hpp"
 #include "bem/transient.hpp"
+#include "post/shakedown_summary.hpp"
+#include "post/streamlines.hpp"
 #include "post/summary.hpp"
 #include "post/transient_row.hpp"
 
@@ -15,9 +17,11 @@ struct HalfSpaceSolution {
   BemResult result;  ///< patch and forces; rail_interior() and wheel_interior() give the stresses at any point. Of a
                      ///< transient those of its last state
   Summary summary;   ///< with the largest stresses of both bodies
-  std::vector<TransientRow> history = {};   ///< a row a step; empty in steady rolling
-  std::optional<LoadedMoment> moment = {};  ///< of a transient: what holds in its last state
-  bool stopped = false;                     ///< the observer ended the transient before its end
+  std::vector<TransientRow> history = {};        ///< a row a step; empty in steady rolling
+  std::optional<LoadedMoment> moment = {};       ///< of a transient: what holds in its last state
+  std::vector<StreamlineRow> streamlines = {};   ///< of all patches, of what rolls
+  std::vector<SectionShakedown> shakedown = {};  ///< of the bodies whose strength the case says
+  bool stopped = false;                          ///< the observer ended the transient before its end
 };
 
 /// What half-space theory takes of a case. A static case (run.rolling = false) has frictionless contact, as the finite
@@ -30,6 +34,10 @@ CaseSpec half_space_case(CaseSpec spec);
 /// solve_transient.
 HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {},
                                    const TransientObserver& observer = {});
+
+/// Adds to a solution what takes some seconds more where the case says strengths: the limit of shakedown for traffic on
+/// one line.
+void complete_shakedown(const CaseSpec& spec, HalfSpaceSolution& solution);
 
 /// The same without the stresses, which cost more than the contact of steady rolling.
 HalfSpaceSolution solve_half_space_contact(const CaseSpec& spec, const Placement& placement,

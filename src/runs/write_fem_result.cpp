@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/faults.hpp"
+#include "io/damage_files.hpp"
 #include "io/geometry_json.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
@@ -50,7 +51,7 @@ fs::path position_folder(double position) { return fmt::format("{}{:.10g}mm", kP
 
 void write_position(const Model& model, const FemPosition& position, const fs::path& folder,
                     const std::vector<std::string>& provenance) {
-  const auto& [contact, rail, wheel, summary] = position;
+  const auto& [contact, rail, wheel, streamlines, shakedown, summary] = position;
   write_patch_tables(folder, provenance, {&contact.field});
   const StressMaximum& deepest = summary.rail.subsurface->von_mises;
   write_depth_line(folder / "depth_line.csv", provenance, depth_line(rail, deepest.x, deepest.y));
@@ -65,6 +66,8 @@ void write_position(const Model& model, const FemPosition& position, const fs::p
     write_vtu(folder / "rail.vtu", band_mesh(rail, contact.position));
     write_vtu(folder / "wheel.vtu", band_mesh(wheel, contact.position));
   }
+  write_streamlines(folder / "streamlines.csv", provenance, streamlines);
+  write_shakedown(folder, provenance, summary, shakedown);
   write_summary(folder / "summary.json", summary);
 }
 

@@ -1,5 +1,6 @@
 #include "runs/write_half_space_result.hpp"
 
+#include "io/damage_files.hpp"
 #include "io/geometry_json.hpp"
 #include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
@@ -29,6 +30,8 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
   write_sections(folder, "wheel", provenance,
                  wheel_sections(result, summary.wheel.subsurface->von_mises.x, centre_y, wheel_depth));
   write_vtp(folder / "patch.vtp", patch_mesh(fields, summary.position));
+  write_streamlines(folder / "streamlines.csv", provenance, solution.streamlines);
+  write_shakedown(folder, provenance, summary, solution.shakedown);
   write_summary(folder / "summary.json", summary);
 }
 

@@ -144,8 +144,13 @@ void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
     void operator()(bool* v) const { *v = !*v; }
     void operator()(std::string* v) const { *v += " \"2\"\n"; }
     void operator()(const ChoiceSlot& v) const { v.set(o.choices.back().value); }
-    void operator()(std::vector<double>* v) const { *v = {0.2, 1.0 / 3}; }
-    void operator()(std::vector<ModulusPoint>* v) const { *v = {{0, 1e11 / 3}, {0.7e-3, 3e11}, {1e-3, 1.1e11}}; }
+    // strengths and initial stresses exclude other keys: strength_case_test.cpp
+    void operator()(std::vector<double>* v) const {
+      if (o.key != "initial_stress") *v = {0.2, 1.0 / 3};
+    }
+    void operator()(const RowsSlot& v) const {
+      if (o.key == "young_table") v.set({{0, 1e11 / 3}, {0.7e-3, 3e11}, {1e-3, 1.1e11}});
+    }
   };
   std::visit(Change{option}, option.slot(spec, index));
 }
@@ -294,12 +299,16 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "a.toml:2:13: layer.0 has both young_table and thickness\n    2 | thickness = \"3 mm\"\n      |             ^\n "
        "   remedy: leave thickness out: the layer ends at the table's last depth"},
       {"[[layer]]\nyoung_table = \"420 GPa\"\n",
-       "a.toml:2:15: layer.0.young_table = \"420 GPa\": is a text, must be a list of depths and moduli, e.g. [[\"0 "
+       "a.toml:2:15: layer.0.young_table = \"420 GPa\": is a text, must be a table whose rows have a depth and a "
+       "modulus, e.g. [[\"0 "
        "mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]\n    2 | young_table = \"420 GPa\"\n      |               ^\n"
-       "    remedy: write a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", \"210 GPa\"]]"},
+       "    remedy: write a table whose rows have a depth and a modulus, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", "
+       "\"210 GPa\"]]"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"3 mm\"]]\n",
        "a.toml:2:37: layer.0.young_table.1: must be a depth and a modulus\n    2 | young_table = [[\"0 mm\", \"420 "
-       "GPa\"], [\"3 mm\"]]\n      |                                     ^\n    remedy: write [\"3 mm\", \"210 GPa\"]"},
+       "GPa\"], [\"3 mm\"]]\n      |                                     ^\n    remedy: write a table whose rows have "
+       "a depth and a modulus, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", "
+       "\"210 GPa\"]]"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", 420], [\"3 mm\", \"210 mm\"]]\n",
        "a.toml:2:25: layer.0.young_table.0.1 = 420: a bare number has no unit\n    2 | young_table = [[\"0 mm\", 420], "
        "[\"3 mm\", \"210 mm\"]]\n      |                         ^\n    remedy: write a pressure or modulus, e.g. "
@@ -318,7 +327,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "the rows by depth; for a jump write two layers"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"]]\n",
        "a.toml:2:15: layer.0.young_table: needs at least two rows\n    2 | young_table = [[\"0 mm\", \"420 GPa\"]]\n   "
-       "   |               ^\n    remedy: write a list of depths and moduli, e.g. [[\"0 mm\", \"420 GPa\"], [\"3 mm\", "
+       "   |               ^\n    remedy: write a table whose rows have a depth and a modulus, e.g. [[\"0 mm\", \"420 "
+       "GPa\"], [\"3 mm\", "
        "\"210 GPa\"]]"},
       {"[[layer]]\nyoung_table = [[\"0 mm\", \"420 GPa\"], [\"5 µm\", \"210 GPa\"]]\n",
        "a.toml:2:37: layer.0.young_table: the last depth, the layer's thickness, must be between 0.01 mm and 50 mm\n   "

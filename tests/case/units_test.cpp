@@ -46,6 +46,13 @@ TEST(Units, EveryWayOfWritingGivesTheVeryDoubleOfItsSiLiteral) {
                          {"84.9546 kN", kForce, 84954.6},
                          {"0.12 1/m", kSpin, 0.12},
                          {"0.00012 rad/mm", kSpin, 0.12},
+                         {"15 MPa √m", kToughness, 15e6},
+                         {"15 MPa√m", kToughness, 15e6},
+                         {"15 MPa m^0.5", kToughness, 15e6},
+                         {"50 W/(m K)", kConductivity, 50},
+                         {"0.46 kJ/(kg K)", kHeatCapacity, 460},
+                         {"700 K", kTemperature, 700},
+                         {"380 HV", kHardness, 380},
                          {"1/40", kSlope, 1.0 / 40}};
   for (const Written& w : all) EXPECT_EQ(parse_quantity(w.text, w.dimension), w.si) << w.text;
 }
@@ -54,6 +61,7 @@ TEST(Units, HundredKilometresPerHourAreTheirSiValueToRoundOff) {
   EXPECT_DOUBLE_EQ(parse_quantity("100 km/h", kSpeed), 100e3 / 3600);
   EXPECT_DOUBLE_EQ(parse_quantity("23 mrad", kSlope), std::tan(0.023));
   EXPECT_DOUBLE_EQ(parse_quantity("45 deg", kSlope), 1.0);
+  EXPECT_DOUBLE_EQ(parse_quantity("285 HBW", kHardness), 300);
   for (const char* upright : {"90 deg", "-181 deg", "1.6 rad"})
     EXPECT_THROW(parse_quantity(upright, kSlope), UnitError) << upright;
 }
@@ -61,8 +69,9 @@ TEST(Units, HundredKilometresPerHourAreTheirSiValueToRoundOff) {
 TEST(Units, WhatIsShownReadsBackToTheSameBits) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> exponent(-9, 12);
-  for (const Dimension& d : {kNumber, kLength, kMass, kTime, kSpeed, kRate, kAcceleration, kPressure, kDensity,
-                             kStiffness, kDamping, kSlope})
+  for (const Dimension& d :
+       {kNumber, kLength, kMass, kTime, kSpeed, kRate, kAcceleration, kPressure, kDensity, kStiffness, kDamping, kSlope,
+        kToughness, kConductivity, kHeatCapacity, kTemperature, kHardness})
     for (int i = 0; i < 500; ++i) {
       const double value = std::pow(10.0, exponent(random));
       EXPECT_EQ(parse_quantity(format_quantity(value, d), d), value) << format_quantity(value, d);
@@ -103,6 +112,9 @@ TEST(Units, EveryBadTextIsRefusedWithItsRuleAndRemedy) {
       {"2 mm", kNumber, "\"mm\" is not the unit of a number", "write a number, e.g. 0.2"},
       {"1:0", kSlope, "unknown unit \":0\"", "write an inclination, e.g. \"1:40\" (units: mrad, rad, deg)"},
       {"1/0", kSlope, "unknown unit \"/0\"", "write an inclination, e.g. \"1:40\" (units: mrad, rad, deg)"},
+      {"380", kHardness, "has no unit", "write a hardness, e.g. \"380 HV\""},
+      {"15 MPa", kToughness, "\"MPa\" is not the unit of a fracture toughness",
+       "write a fracture toughness, e.g. \"15 MPa √m\" (units: MPa √m, MPa m^0.5)"},
       {"5 m/", kSpeed, "unknown unit \"m/\"", "did you mean m/s?"}};
   for (const Refused& r : all) {
     try {

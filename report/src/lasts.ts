@@ -1,0 +1,197 @@
+// Does it last? Shakedown factors, the strength that depths ask for, and where most of it is used.
+import type {BodyName, Columns, Factors, Run, Values, ZoneShakedown} from "./data";
+import {element, note, part, table, type Cell} from "./dom";
+import {frame, type Figure} from "./figures";
+import {linesFigure, type Series} from "./lines";
+import {magnitudeColours, mapFigure} from "./maps";
+import {minus, numberText, runLabel} from "./text";
+
+interface Verdict {
+  words: string;
+  says: string;
+  state: "ok"|"failed"|"remark";
+}
+
+const atLeastOne = (v: number|null) => v === null || v >= 1;
+
+/// What becomes of a zone whose load factors are these, from the best to the worst.
+function verdictOf(f: Factors): Verdict {
+  if (atLeastOne(f.first_yield)) return {words: "stays elastic", says: "it never yields", state: "ok"};
+  if (atLeastOne(f.wandering))
+    return {words: "shakes down", says: "it yields in the first passages and then no more", state: "ok"};
+  if (f.single_track !== null && f.single_track >= 1)
+    return {
+      words: "shakes down in one track",
+      says: "only if every wheel runs in the same place; wheels that wander sideways make it yield again and again",
+      state: "failed",
+    };
+  if (atLeastOne(f.upper))
+    return {
+      words: "may shake down in one track",
+      says: "beyond the limit for wandering traffic; below the bound that no load exceeds",
+      state: "failed",
+    };
+  if (atLeastOne(f.kinematic))
+    return {
+      words: "yields in every passage",
+      says: "back and forth if the material hardens kinematically, drifting if it does not",
+      state: "failed",
+    };
+  return {words: "ratchets", says: "every passage adds strain, until it cracks or flows away", state: "failed"};
+}
+
+const kFactors: [key: keyof Factors, name: string][] = [
+  ["first_yield", "first yield"],
+  ["wandering", "shakedown, any traffic"],
+  ["single_track", "shakedown, one track"],
+  ["upper", "upper bound"],
+  ["kinematic", "with hardening"],
+];
+
+function zoneRow(run: Run, runs: Run[], body: string, z: ZoneShakedown): (string|Cell)[] {
+  const verdict = verdictOf(z.factors);
+  const name = z.zone === body ? body : `${body}, ${z.zone}`;
+  return [
+    runs.length > 1 ? `${name}, ${runLabel(run)}` : name,
+    {text: verdict.words, attributes: {class: verdict.state, "data-verdict": verdict.words}},
+    ...kFactors.map(([key]) => ({text: numberText(z.factors[key], 3)})),
+    {text: z.depth_m === null ? "–" : (1e3 * z.depth_m).toFixed(2)},
+    {text: verdict.says, attributes: {class: "words"}},
+  ];
+}
+
+function factorsTable(runs: Run[]): HTMLElement {
+  const rows = runs.flatMap(
+      (run) => (run.summary.shakedown?.bodies ?? [])
+                   .flatMap((b) => (b.zones ?? []).map((z) => zoneRow(run, runs, b.body, z))));
+  const head = ["zone", "so it", ...kFactors.map(([, name]) => name), "decided at depth [mm]", "which means"];
+  return table("By what the elastic stress of this case may be multiplied", head, rows, {
+    class: "numbers",
+    id: "shakedown",
+  });
+}
+
+/// One line of a table by depth, broken where the zone changes.
+function byDepth(profile: Columns, column: string): {x: Values; y: Values} {
+  const x: Values = [];
+  const y: Values = [];
+  profile[column].forEach((v, i) => {
+    if (i > 0 && profile.zone[i] !== profile.zone[i - 1]) {
+      x.push(null);
+      y.push(null);
+    }
+    x.push(v);
+    y.push(profile.depth_mm[i]);
+  });
+  return {x, y};
+}
+
+const kLines: [column: string, name: string, dash: string][] = [
+  ["yield_strength_MPa", "there is", "solid"],
+  ["required_first_yield_MPa", "asked for to stay elastic", "dot"],
+  ["required_wandering_MPa", "asked for to shake down, any traffic", "dash"],
+  ["required_upper_MPa", "asked for to shake down at best", "dashdot"],
+];
+
+function strengthFigure(runs: Run[], body: BodyName): Figure|null {
+  const given = runs.filter((run) => run.shakedown[body]);
+  if (!given.length) return null;
+  const series = given.flatMap((run, n) => kLines.map(([column, name, dash], k): Series => ({
+    ...byDepth(run.shakedown[body]!.profile, column),
+    name: given.length > 1 ? `${name}, ${runLabel(run)}` : name,
+    dash,
+    colour: (t) => t.series[(given.length > 1 ? n : k) % t.series.length],
+    hover: `depth %{y:.2f} mm<br>${name} %{x:.0f} MPa`,
+  })));
+  return linesFigure({
+    id: `strength-${body}`,
+    title: `Yield strength against depth, ${body}`,
+    words: ["Uniaxial yield strength. Where the solid line lies right of a broken one there is enough."],
+    labels: ["yield strength [MPa]", "depth [mm]"],
+    names: ["yield_strength_MPa", "depth_mm"],
+    downwards: true,
+    height: 420,
+    series,
+  });
+}
+
+function edges(centres: number[]): number[] {
+  const n = centres.length;
+  const middle = centres.slice(1).map((c, i) => 0.5 * (c + centres[i]));
+  return [centres[0], ...middle, centres[n - 1]];
+}
+
+function usedFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
+  const map = run.shakedown[body]?.map;
+  if (!map) return null;
+  const {y_mm: y, depth_mm: depth, used} = map;
+  let width = 1;
+  while (width < y.length && y[width] > y[width - 1]) ++width;
+  const across = y.slice(0, width);
+  const down: number[] = [];
+  const z: Values[] = [];
+  let best = {x: 0, y: 0, value: -Infinity};
+  for (let i = 0; i + width <= used.length; i += width) {
+    down.push(depth[i]);
+    z.push(used.slice(i, i + width).map((v) => (Number.isFinite(v) && v !== null ? v : null)));
+    z[z.length - 1].forEach((v, k) => {
+      if (v !== null && v > best.value) best = {x: across[k], y: depth[i], value: v};
+    });
+  }
+  if (best.value === -Infinity) return null;
+  const where = `y ${minus(best.x.toFixed(2))}, depth ${best.y.toFixed(2)} mm`;
+  const rowEdges = edges(down);
+  return mapFigure({
+    id: `strength-used-${body}-${runs.indexOf(run)}`,
+    title: ["Share of the strength that is used", body, ...(runs.length > 1 ? [runLabel(run)] : [])].join(", "),
+    words: [
+      "Of the strength that shakedown asks for at best (upper bound), in the section across the track. Circle: the " +
+          `largest, ${best.value.toFixed(2)} at ${where}. Beyond 1 no residual stress can help.`,
+    ],
+    x: edges(across),
+    y: rowEdges,
+    z,
+    centresX: across,
+    centresY: down,
+    names: ["y_mm", "depth_mm", "used"],
+    labels: ["y, field side right [mm]", "depth [mm]"],
+    hover: "used %{z:.2f}",
+    hoverY: "depth",
+    bar: "used",
+    range: [0, best.value],
+    colours: magnitudeColours,
+    reversed: body === "rail",
+    windowX: [across[0], across[width - 1]],
+    windowY: [0, down[down.length - 1]],
+    marker: {x: best.x, y: best.y, text: `used ${best.value.toFixed(2)}<br>${where}`, symbol: "circle"},
+  });
+}
+
+/// Strengths that are estimates, each once.
+function notes(runs: Run[]): HTMLElement[] {
+  const all = runs.flatMap((run) => (run.summary.shakedown?.bodies ?? []).flatMap((b) => b.notes));
+  return [...new Set(all)].map((text) => note(text));
+}
+
+/// The part of the page, where a run's case says how strong something is.
+export function lastsPart(runs: Run[]): HTMLElement|null {
+  const given = runs.filter((run) => run.summary.shakedown);
+  if (!given.length) return null;
+  const bodies: BodyName[] = ["rail", "wheel"];
+  const figures = bodies.flatMap((body) => [
+    strengthFigure(given, body),
+    ...given.map((run) => usedFigure(run, given, body)),
+  ]);
+  const words = note(
+      "A factor of 1.2 says: 20 % more stress of this contact can be borne, its patch and friction staying as they " +
+      "are. The steel yields in the first passages beyond the factor of first yield; residual stresses that build up " +
+      "then may stop it (shakedown). Computed on elastic stresses; see docs/damage.md.");
+  return part(
+      "lasts",
+      "Does it last?",
+      factorsTable(given),
+      words,
+      ...notes(given),
+      element("div", {class: "grid"}, ...figures.filter((f) => f !== null).map(frame)),
+  );
+}

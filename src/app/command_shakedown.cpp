@@ -1,0 +1,28 @@
+#include "app/case_of.hpp"
+#include "app/commands.hpp"
+#include "core/faults.hpp"
+#include "post/row_strength.hpp"
+
+namespace railstrata {
+namespace {
+
+/// Without a strength there is nothing to hold the stresses against.
+void require_strength(const LoadedCase& loaded) {
+  if (strength_given(loaded.spec, BodyId::rail) || strength_given(loaded.spec, BodyId::wheel)) return;
+  throw CaseError("the case does not say how strong rail, wheel or layers are",
+                  "give yield_strength = \"500 MPa\", or grade = \"R260\", in [material.rail], [material.wheel] or a "
+                  "[[layer]]",
+                  loaded.file.string());
+}
+
+}  // namespace
+
+ExitCode command_shakedown(const CommandOptions& options) {
+  const LoadedCase loaded = load_case_of(options);
+  require_strength(loaded);
+  CommandOptions solve = options;
+  solve.out = output_folder_of(options, loaded, "-shakedown");
+  return options.shakedown.engine == "fem" ? command_run(solve) : command_bem(solve);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,54 @@
+#pragma once
+// How the rows of the option tables name their place in a case.
+#include <initializer_list>
+#include <string_view>
+#include <type_traits>
+
+#include "case/option_table.hpp"
+
+namespace railstrata::option_slot {
+
+template <class T>
+Slot slot_of(T& member) {
+  if constexpr (std::is_enum_v<T>)
+    return ChoiceSlot(member);
+  else if constexpr (requires(typename T::value_type & row) { columns(row); })
+    return RowsSlot(member);
+  else
+    return &member;
+}
+/// A member of a table that stands once in a case, by the members on the way to it.
+template <auto... Path>
+Slot at(CaseSpec& spec, std::size_t) {
+  return slot_of((spec.*....*Path));
+}
+/// The same of an entry of [[layer]].
+template <auto... Path>
+Slot layer(CaseSpec& spec, std::size_t index) {
+  return slot_of((spec.layers.at(index).*....*Path));
+}
+
+template <class Struct, class T>
+T type_of(T Struct::*);
+/// A word and the value it stands for, of the same enum as the member.
+template <auto Member>
+struct Word {
+  std::string_view word;
+  decltype(type_of(Member)) value;
+};
+template <auto Member>
+Option choice(std::string_view key, Slot (*slot)(CaseSpec&, std::size_t), std::string_view doc,
+              std::initializer_list<Word<Member>> words) {
+  Option out{key, slot, doc};
+  for (const Word<Member>& w : words) out.choices.push_back({w.word, static_cast<int>(w.value)});
+  return out;
+}
+/// One of several words in a table that stands once in a case.
+template <auto Part, auto Member>
+Option choice_at(std::string_view key, std::string_view doc, std::initializer_list<Word<Member>> words) {
+  return choice<Member>(key, at<Part, Member>, doc, words);
+}
+
+inline Range above(double min, double max = std::numeric_limits<double>::infinity()) { return {min, max, true}; }
+
+}  // namespace railstrata::option_slot

@@ -1,0 +1,49 @@
+#pragma once
+// What a material bears, as the case says it. Nothing of it enters a contact solution: shakedown, fatigue, wear and
+// heat are computed from what is given, and what would need more is left out.
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace railstrata {
+
+/// A strength or a hardness at a depth; linear between two of them.
+struct DepthPoint {
+  double depth = 0, value = 0;
+  friend bool operator==(const DepthPoint&, const DepthPoint&) = default;
+};
+
+/// Residual stress of the process at a depth, tension positive; linear between two of them.
+struct StressPoint {
+  double depth = 0, longitudinal = 0, lateral = 0;
+  friend bool operator==(const StressPoint&, const StressPoint&) = default;
+};
+
+/// The numbers of a row, in the order in which a case file writes them.
+inline std::array<double*, 2> columns(DepthPoint& p) { return {&p.depth, &p.value}; }
+inline std::array<double*, 3> columns(StressPoint& p) { return {&p.depth, &p.longitudinal, &p.lateral}; }
+
+/// Depths of a layer's tables count from its top, those of rail and wheel from the running surface.
+struct StrengthSpec {
+  std::string grade;                     ///< a name of damage/grades.hpp; it gives what is not given otherwise
+  std::optional<double> yield_strength;  ///< Pa, uniaxial; that in pure shear is a sqrt(3)-th of it
+  std::vector<DepthPoint> strength_table;
+  double yield_to_tensile = 0.55;  ///< of a strength that is estimated from hardness
+  std::optional<double> hardness;  ///< HV
+  std::vector<DepthPoint> hardness_table;
+  std::vector<double> initial_stress;                 ///< Pa, longitudinal and lateral; empty: none
+  std::vector<StressPoint> initial_stress_table;      ///< instead
+  std::optional<double> tensile_strength;             ///< Pa
+  std::optional<double> fracture_toughness;           ///< Pa √m, K_Ic
+  std::optional<double> fatigue_limit;                ///< Pa, of Dang Van: in alternating shear
+  std::optional<double> dang_van_coefficient;         ///< weight of the hydrostatic stress
+  std::optional<double> fatemi_socie_coefficient;     ///< k of the term k sigma_n / yield strength
+  std::optional<double> jiang_sehitoglu_coefficient;  ///< J
+  std::optional<double> wear_coefficient;             ///< Archard's k, volume = k force distance / hardness
+  std::optional<double> bond_tension, bond_shear;     ///< Pa, of a layer's lower interface
+  double conductivity = 50;                           ///< W/(m K)
+  double heat_capacity = 460;                         ///< J/(kg K)
+};
+
+}  // namespace railstrata

@@ -1,0 +1,31 @@
+#pragma once
+// What shakedown has found, as files: shakedown.json, and of each body what every depth asks for and the map of the
+// section.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "post/shakedown_summary.hpp"
+#include "post/streamlines.hpp"
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+/// {"factors": {...}, "governing": {body, zone, depth_m, y_m}, "bodies": [...]}; null without bodies.
+nlohmann::ordered_json shakedown_json(const Summary& summary);
+
+/// Of every body its fatigue parameters with their places, zones and interfaces.
+nlohmann::ordered_json fatigue_json(const Summary& summary);
+
+/// shakedown.json; shakedown_<body>.csv, a row a depth: yield strengths there and asked for by each level; and
+/// shakedown_<body>_map.csv, a row a point: the share of the strength there that the load uses of the upper bound.
+/// Nothing without sections.
+void write_shakedown(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                     const Summary& summary, const std::vector<SectionShakedown>& sections);
+
+/// What one passage does along each streamline: a row each, y ascending. Nothing without rows.
+void write_streamlines(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                       const std::vector<StreamlineRow>& rows);
+
+}  // namespace railstrata

@@ -1,0 +1,126 @@
+#include "post/half_space_track.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "damage/single_track.hpp"
+#include "post/patch.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kNearEnough = 1.02;  // upper over wandering
+constexpr double kBox = 6;            // half-widths and half-lengths that the residual stress reaches
+
+/// Stresses of a half-space at any point: from the patch's own cells near it, from cells three times as large farther
+/// away. Planes are kept: the same depths are asked for again and again.
+class StressOfHalfSpace {
+ public:
+  StressOfHalfSpace(Subsurface near, std::vector<double> interfaces, double reach_x, double reach_y)
+      : near_(std::move(near)), interfaces_(std::move(interfaces)) {
+    const std::unique_ptr<Subsurface> coarse = near_.coarsened();
+    const PatchGrid& g = coarse->grid();
+    constexpr int kRim = 3;  // cells that bicubic interpolation asks for
+    const auto more = [&](double reach, double first, double last, double cell) {
+      return std::max(0, static_cast<int>(std::ceil((reach - std::min(-first, last)) / cell)) + kRim);
+    };
+    far_ = coarse->widened(more(reach_x, g.x(0), g.x(g.nx - 1), g.dx), more(reach_y, g.y(0), g.y(g.ny - 1), g.dy));
+  }
+
+  std::vector<Sym3> operator()(const std::vector<Vec3>& points, bool below) {
+    std::vector<Sym3> out;
+    out.reserve(points.size());
+    for (Vec3 p : points) {
+      p.z = snapped(p.z);
+      const bool near = near_.covers(p);
+      if (!near && !far_->covers(p)) {
+        out.push_back({});  // beyond the box: as good as unloaded
+        continue;
+      }
+      const Subsurface& body = near ? near_ : *far_;
+      out.push_back(body.stress_at(plane_of(body, near, p.z), p, below));
+    }
+    return out;
+  }
+
+ private:
+  /// An interface by its own depth: one rounded to the other side of it would have the other material's stress.
+  double snapped(double depth) const {
+    constexpr double kRoundOff = 1e-9;
+    for (const double z : interfaces_)
+      if (std::abs(depth - z) < kRoundOff) return z;
+    return depth;
+  }
+
+  const StatePlane& plane_of(const Subsurface& body, bool near, double depth) {
+    auto& known = near ? near_planes_ : far_planes_;
+    const auto found = known.find(depth);
+    return found != known.end() ? found->second : known.emplace(depth, body.plane(depth)).first->second;
+  }
+
+  Subsurface near_;
+  std::vector<double> interfaces_;
+  std::unique_ptr<Subsurface> far_;
+  std::map<double, StatePlane> near_planes_, far_planes_;
+};
+
+/// First and last place with pressure of every column of a patch.
+class PatchEnds {
+ public:
+  explicit PatchEnds(const BemPatch& patch) : grid_(patch.grid) {
+    for (int j = 0; j < grid_.ny; ++j) {
+      ends_.push_back({0, 0});
+      bool touched = false;
+      for (int i = 0; i < grid_.nx; ++i) {
+        if (!(patch.field.p[grid_.index(i, j)] > 0)) continue;
+        if (!touched) ends_.back()[0] = grid_.x(i) - 0.5 * grid_.dx;
+        ends_.back()[1] = grid_.x(i) + 0.5 * grid_.dx;
+        touched = true;
+      }
+    }
+  }
+  std::array<double, 2> operator()(double y) const {
+    const double v = std::clamp((y - grid_.y0) / grid_.dy, 0.0, grid_.ny - 1.001);
+    const auto j = static_cast<std::size_t>(v);
+    const double t = v - static_cast<double>(j);
+    return {(1 - t) * ends_[j][0] + t * ends_[j + 1][0], (1 - t) * ends_[j][1] + t * ends_[j + 1][1]};
+  }
+
+ private:
+  PatchGrid grid_;
+  std::vector<std::array<double, 2>> ends_;
+};
+
+double track_factor(const CaseSpec& spec, const BemResult& r, const SectionShakedown& section) {
+  const BemPatch& patch = section.patch == 0 ? r : r.further.at(section.patch - 1);
+  const LayeredHalfSpace& body = section.body == BodyId::rail ? r.rail : r.wheel;
+  const PatchMeasures m = measure_patch(patch.field);
+  SingleTrackInput in;
+  in.half_length = 0.5 * m.length;
+  in.half_width = 0.5 * m.width;
+  in.centre_x = 0.5 * (section.x_first + section.x_last);
+  in.centre_y = 0.5 * (section.y.front() + section.y.back());
+  for (const LayerExtent& layer : layer_extents(body)) in.interfaces.push_back(layer.bottom);
+  const auto stress = std::make_shared<StressOfHalfSpace>(
+      section.body == BodyId::rail ? rail_interior(body, patch) : wheel_interior(body, patch), in.interfaces,
+      4.2 * in.half_length + std::abs(in.centre_x), kBox * in.half_width + std::abs(in.centre_y));
+  in.stress = [stress](const std::vector<Vec3>& points, bool below) { return (*stress)(points, below); };
+  in.shear_strength = shear_strength_by_depth(spec, section.body);
+  in.ends = PatchEnds(patch);
+  return single_track(in).factor;
+}
+
+}  // namespace
+
+void add_single_track(const CaseSpec& spec, const BemResult& result, std::vector<SectionShakedown>& sections) {
+  for (SectionShakedown& section : sections) {
+    if (!section.strength.any()) continue;
+    const double safe = section.found.wandering.value, most = section.found.upper.value;
+    section.single_track =
+        most <= kNearEnough * safe ? safe : std::clamp(track_factor(spec, result, section), safe, most);
+  }
+}
+
+}  // namespace railstrata

@@ -1,0 +1,173 @@
+#include "post/row_strength.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "case/units.hpp"
+#include "core/faults.hpp"
+#include "damage/grades.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+/// The layers of a body from the surface down, by their place in the case.
+std::vector<std::size_t> layers_on(const CaseSpec& spec, BodyId body) {
+  std::vector<std::size_t> out;
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    if (spec.layers[i].on == body) out.push_back(i);
+  return out;
+}
+
+/// A zone with what its depths count from.
+struct Zone {
+  const StrengthSpec& strength;
+  std::string name, key;  ///< "rail", "material.rail"
+  double top = 0;         ///< m, where depth 0 of its tables is
+};
+
+Zone zone_of(const CaseSpec& spec, BodyId body, int zone) {
+  const StrengthSpec& strength = zone_material(spec, body, zone).strength;
+  const std::string name = zone_name(spec, body, zone);
+  if (zone == 0) return {strength, name, fmt::format("material.{}", body_word(body)), 0};
+  const std::vector<std::size_t> layers = layers_on(spec, body);
+  double top = 0;
+  for (int k = 0; k + 1 < zone; ++k) top += spec.layers[layers[k]].thickness;
+  return {strength, name, fmt::format("layer.{}", layers.at(zone - 1)), top};
+}
+
+/// Linear between the rows of a table by depth.
+template <class Row>
+double at_depth(const std::vector<Row>& rows, double depth, double Row::*column, const std::string& key) {
+  constexpr double kRoundOff = 1e-9;
+  if (depth > rows.back().depth + kRoundOff)
+    throw CaseError(fmt::format("{}: ends at {}, stresses are looked at down to {}", key,
+                                format_quantity(rows.back().depth, dimension::kLength),
+                                format_quantity(std::round(1e6 * depth) / 1e6, dimension::kLength)),
+                    fmt::format("add a row at {} or deeper, with what the material has there",
+                                format_quantity(std::ceil(1e3 * depth) / 1e3, dimension::kLength)));
+  std::size_t i = 1;
+  while (i + 1 < rows.size() && rows[i].depth < depth) ++i;
+  const Row &a = rows[i - 1], &b = rows[i];
+  const double t = std::clamp((depth - a.depth) / (b.depth - a.depth), 0.0, 1.0);
+  return a.*column + t * (b.*column - a.*column);
+}
+
+class ZoneStrength {
+ public:
+  explicit ZoneStrength(Zone zone) : zone_(std::move(zone)), s_(zone_.strength) {
+    if (!s_.grade.empty()) grade_ = grade(s_.grade);
+  }
+
+  /// Pa, uniaxial; NaN where the case does not say it.
+  double yield(double depth) const {
+    const double z = depth - zone_.top;
+    if (s_.yield_strength) return *s_.yield_strength;
+    if (!s_.strength_table.empty())
+      return at_depth(s_.strength_table, z, &DepthPoint::value, zone_.key + ".strength_table");
+    if (grade_ && grade_->yield.known()) return grade_->yield.low;
+    if (!s_.hardness_table.empty())
+      return yield_from_vickers(at_depth(s_.hardness_table, z, &DepthPoint::value, zone_.key + ".hardness_table"),
+                                s_.yield_to_tensile);
+    return s_.hardness ? yield_from_vickers(*s_.hardness, s_.yield_to_tensile) : kUnknown;
+  }
+
+  /// m, the depth where the table that says the strength ends; infinite without one.
+  double end() const {
+    const std::vector<DepthPoint>& table = !s_.strength_table.empty() ? s_.strength_table : s_.hardness_table;
+    return table.empty() ? std::numeric_limits<double>::infinity() : zone_.top + table.back().depth;
+  }
+
+  StressPoint residual(double depth) const {
+    if (!s_.initial_stress.empty()) return {depth, s_.initial_stress[0], s_.initial_stress[1]};
+    if (s_.initial_stress_table.empty()) return {depth, 0, 0};
+    const double z = std::min(depth - zone_.top, s_.initial_stress_table.back().depth);  // below it there is none told
+    const std::string key = zone_.key + ".initial_stress_table";
+    return {depth, at_depth(s_.initial_stress_table, z, &StressPoint::longitudinal, key),
+            at_depth(s_.initial_stress_table, z, &StressPoint::lateral, key)};
+  }
+
+  /// How a strength that was not given is known; empty if it was, or is not known.
+  std::string note() const {
+    if (s_.yield_strength || !s_.strength_table.empty()) return {};
+    if (grade_ && grade_->yield.known())
+      return fmt::format("yield strength of {}: {:.0f} MPa of grade {}, {} ({})", zone_.name, 1e-6 * grade_->yield.low,
+                         grade_->name, certainty_text(grade_->yield.certainty), grade_->yield.source);
+    if (s_.hardness || !s_.hardness_table.empty())
+      return fmt::format("yield strength of {}: estimated from hardness as {:g} x 3.2 MPa x HV", zone_.name,
+                         s_.yield_to_tensile);
+    return {};
+  }
+
+ private:
+  Zone zone_;
+  const StrengthSpec& s_;
+  std::optional<Grade> grade_;
+};
+
+bool says_strength(const StrengthSpec& s) {
+  return s.yield_strength || s.hardness || !s.strength_table.empty() || !s.hardness_table.empty() || !s.grade.empty();
+}
+
+}  // namespace
+
+bool RowStrength::any() const {
+  return std::any_of(shear.begin(), shear.end(), [](double k) { return std::isfinite(k); });
+}
+
+const MaterialSpec& zone_material(const CaseSpec& spec, BodyId body, int zone) {
+  if (zone == 0) return body == BodyId::rail ? spec.rail_material : spec.wheel_material;
+  return spec.layers.at(layers_on(spec, body).at(zone - 1)).material;
+}
+
+std::string zone_name(const CaseSpec& spec, BodyId body, int zone) {
+  if (zone == 0) return std::string(body_word(body));
+  return spec.layers.at(layers_on(spec, body).at(zone - 1)).name;
+}
+
+bool strength_given(const CaseSpec& spec, BodyId body) {
+  const int layers = static_cast<int>(layers_on(spec, body).size());
+  for (int zone = 0; zone <= layers; ++zone)
+    if (says_strength(zone_material(spec, body, zone).strength)) return true;
+  return false;
+}
+
+std::function<double(double, bool)> shear_strength_by_depth(const CaseSpec& spec, BodyId body) {
+  std::vector<double> bottoms;
+  for (const std::size_t i : layers_on(spec, body))
+    bottoms.push_back((bottoms.empty() ? 0.0 : bottoms.back()) + spec.layers[i].thickness);
+  std::vector<ZoneStrength> zones;
+  for (int zone = 0; zone <= static_cast<int>(bottoms.size()); ++zone) zones.emplace_back(zone_of(spec, body, zone));
+  return [bottoms, zones](double depth, bool below) {
+    constexpr double kRoundOff = 1e-9;
+    std::size_t layer = 0;
+    while (layer < bottoms.size() && depth > bottoms[layer] + (below ? -kRoundOff : kRoundOff)) ++layer;
+    const ZoneStrength& zone = zones[layer < bottoms.size() ? layer + 1 : 0];
+    return zone.yield(std::min(depth, zone.end())) / std::numbers::sqrt3;
+  };
+}
+
+RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory& rows) {
+  std::vector<ZoneStrength> zones;
+  const int layers = static_cast<int>(layers_on(spec, body).size());
+  for (int zone = 0; zone <= layers; ++zone) zones.emplace_back(zone_of(spec, body, zone));
+  RowStrength out;
+  for (std::size_t r = 0; r < rows.depth.size(); ++r) {
+    const ZoneStrength& zone = zones.at(rows.zone[r]);
+    const StressPoint residual = zone.residual(rows.depth[r]);
+    out.shear.push_back(zone.yield(rows.depth[r]) / std::numbers::sqrt3);
+    out.residual_x.push_back(residual.longitudinal);
+    out.residual_y.push_back(residual.lateral);
+  }
+  for (const ZoneStrength& zone : zones)
+    if (std::string note = zone.note(); !note.empty()) out.notes.push_back(std::move(note));
+  return out;
+}
+
+}  // namespace railstrata

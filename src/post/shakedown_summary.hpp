@@ -1,0 +1,37 @@
+#pragma once
+// Does it last? Shakedown of rail and wheel (damage/shakedown.hpp) under a contact, from either engine.
+#include <vector>
+
+#include "bem/solve_bem.hpp"
+#include "case/case_spec.hpp"
+#include "damage/shakedown.hpp"
+#include "post/row_strength.hpp"
+#include "post/section_fatigue.hpp"
+#include "post/stress_maxima.hpp"
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+/// A body's section: its rows, what they bear and the factors.
+struct SectionShakedown {
+  BodyId body = BodyId::rail;
+  std::vector<double> y, depth;  ///< m, of columns and rows
+  std::vector<int> zone;         ///< of rows
+  RowStrength strength;
+  Shakedown found;  ///< without a strength: no factors
+  BodyFatigue fatigue;
+  double single_track = kNotApplicable;
+  std::size_t patch = 0;           ///< of several patches the one that decides; 0: the largest pressure's
+  double x_first = 0, x_last = 0;  ///< m, of the cycle
+};
+
+/// Of the bodies whose strength or fatigue limits the case says; of several patches the one that decides. Throws
+/// CaseError where a table of strengths ends too early.
+std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result);
+std::vector<SectionShakedown> fem_shakedown(const RollingSystem& system, const MeanContact& contact,
+                                            const BandStress& rail, const BandStress& wheel);
+
+/// Of the sections that have a strength.
+ShakedownSummary shakedown_summary(const CaseSpec& spec, const std::vector<SectionShakedown>& sections);
+
+}  // namespace railstrata

@@ -1,0 +1,178 @@
+#include "post/streamlines.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "damage/flash_temperature.hpp"
+#include "damage/grades.hpp"
+#include "damage/wear.hpp"
+#include "damage/wear_indices.hpp"
+#include "post/row_strength.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kPascalOfVickers = 9.80665e6;
+
+/// A column's cells along x, copied so that they stand next to each other.
+struct Cells {
+  std::vector<double> x, p, q_x, q_y, slip_x, slip_y;
+  double area = 0;
+};
+
+Cells cells_of(const ContactField& f, int column) {
+  Cells out;
+  for (int s = 0; s < f.stations; ++s) {
+    const std::size_t i = static_cast<std::size_t>(s) * f.columns + column;
+    out.x.push_back(f.x[i]);
+    out.p.push_back(f.p[i]);
+    out.q_x.push_back(f.q_x[i]);
+    out.q_y.push_back(f.q_y[i]);
+    out.slip_x.push_back(f.p[i] > 0 ? f.slip_x[i] : 0);
+    out.slip_y.push_back(f.p[i] > 0 ? f.slip_y[i] : 0);
+    out.area = std::max(out.area, f.area[i]);
+  }
+  return out;
+}
+
+/// What the running surface of a body is made of: its first layer, or itself.
+const MaterialSpec& surface_material(const CaseSpec& spec, BodyId body) {
+  for (const LayerSpec& layer : spec.layers)
+    if (layer.on == body) return layer.material;
+  return body == BodyId::rail ? spec.rail_material : spec.wheel_material;
+}
+
+ThermalMaterial thermal(const MaterialSpec& m) {
+  return {m.strength.conductivity, m.density, m.strength.heat_capacity};
+}
+
+ThermalBody thermal_body(const CaseSpec& spec, BodyId body) {
+  ThermalBody out;
+  out.base = thermal(body == BodyId::rail ? spec.rail_material : spec.wheel_material);
+  for (const LayerSpec& layer : spec.layers)
+    if (layer.on == body && out.layer_thickness == 0) {
+      out.layer_thickness = layer.thickness;
+      out.layer = thermal(layer.material);
+    }
+  return out;
+}
+
+/// Pa, as a pressure; NaN where the case does not say it.
+double hardness_of(const StrengthSpec& s) {
+  if (s.hardness) return kPascalOfVickers * *s.hardness;
+  if (!s.hardness_table.empty()) return kPascalOfVickers * s.hardness_table.front().value;
+  if (s.grade.empty() || !grade(s.grade).hardness.known()) return kNotApplicable;
+  return kPascalOfVickers * vickers_from_brinell(grade(s.grade).hardness.low);
+}
+
+/// Pa, in shear, of the rail's running surface.
+double surface_shear_strength(const CaseSpec& spec) {
+  StressHistory top;
+  top.depth = {0};
+  top.zone = {0};
+  for (const LayerSpec& layer : spec.layers)
+    if (layer.on == BodyId::rail) top.zone = {1};
+  return row_strength(spec, BodyId::rail, top).shear.front();
+}
+
+/// The data of a case that every streamline needs.
+struct SurfaceData {
+  ThermalBody rail, wheel;
+  double density = 0, hardness = kNotApplicable, shear_strength = kNotApplicable;
+  std::optional<double> wear_coefficient;
+};
+
+SurfaceData surface_data(const CaseSpec& spec) {
+  const MaterialSpec& rail = surface_material(spec, BodyId::rail);
+  return {thermal_body(spec, BodyId::rail), thermal_body(spec, BodyId::wheel), rail.density,
+          hardness_of(rail.strength),       surface_shear_strength(spec),      rail.strength.wear_coefficient};
+}
+
+/// One coefficient whatever the pressure and the slip.
+ArchardMap constant_archard(double k) {
+  ArchardMap map;
+  map.slow = map.middle = map.fast = map.seizure = k;
+  return map;
+}
+
+double largest_rise(const SurfaceData& data, const Streamline& line) {
+  std::vector<double> flux = friction_power(line);
+  std::reverse(flux.begin(), flux.end());  // the leading edge comes first
+  for (double& q : flux) q = std::max(q, 0.0);
+  return flash_temperature({flux, line.dx, line.speed}, data.rail, data.wheel).max;
+}
+
+StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double y, double speed) {
+  const double dx = (cells.x.back() - cells.x.front()) / static_cast<double>(cells.x.size() - 1);
+  const Streamline line{cells.p, cells.q_x, cells.q_y, cells.slip_x, cells.slip_y, dx, speed};
+  StreamlineRow row;
+  row.y = y;
+  row.width = cells.area / dx;
+  row.friction_energy = friction_energy(line).energy;
+  row.usfd_depth = usfd_depth(line, data.density);
+  if (std::isfinite(data.hardness)) {
+    row.kth_depth = archard_depth(line, laboratory_dry_archard(), data.hardness);
+    if (data.wear_coefficient)
+      row.archard_depth = archard_depth(line, constant_archard(*data.wear_coefficient), data.hardness);
+  }
+  row.temperature_rise = largest_rise(data, line);
+  if (std::isfinite(data.shear_strength)) row.local_fatigue = local_fatigue(line, data.shear_strength).index;
+  return row;
+}
+
+double largest(const std::vector<StreamlineRow>& rows, double StreamlineRow::*member) {
+  double out = kNotApplicable;
+  for (const StreamlineRow& r : rows)
+    if (std::isfinite(r.*member) && !(r.*member <= out)) out = r.*member;
+  return out;
+}
+
+/// What follows from the forces and creepages of the patches.
+void add_patches(const CaseSpec& spec, const Summary& summary, DamageSummary& out) {
+  const double strength = surface_shear_strength(spec);
+  std::vector<ContactSummary> patches;
+  for (const PatchSummary& p : summary.patches) patches.push_back(p.contact);
+  if (patches.empty()) patches.push_back(summary.contact);
+  out.t_gamma = out.t_gamma_with_spin = 0;
+  for (const ContactSummary& c : patches) {
+    const PatchMeasures& m = c.patch;
+    const TGamma t = t_gamma({m.force_x, m.force_y, c.spin_moment, c.creepage_x, c.creepage_y, c.spin_per_m});
+    out.t_gamma += t.without_spin;
+    out.t_gamma_with_spin += t.with_spin;
+    const double index = std::hypot(m.force_x, m.force_y) / m.force_z - strength / m.p_max;
+    if (std::isfinite(index) && !(index <= out.surface_fatigue)) out.surface_fatigue = index;
+  }
+  out.rcf_damage = rcf_damage(rcf_damage_15(), out.t_gamma);
+  out.brr_wear = brr_wear(out.t_gamma, 2 * spec.geometry.wheel_radius);
+}
+
+}  // namespace
+
+std::vector<StreamlineRow> streamlines(const CaseSpec& spec, const ContactField& f) {
+  std::vector<StreamlineRow> out;
+  if (f.slip_is_distance || f.stations < 2 || !(spec.drive.speed > 0)) return out;
+  const SurfaceData data = surface_data(spec);
+  for (int c = 0; c < f.columns; ++c) {
+    const Cells cells = cells_of(f, c);
+    if (std::none_of(cells.p.begin(), cells.p.end(), [](double p) { return p > 0; })) continue;
+    out.push_back(streamline_row(data, cells, f.y[c], spec.drive.speed));
+  }
+  return out;
+}
+
+DamageSummary damage_summary(const CaseSpec& spec, const Summary& summary, const std::vector<StreamlineRow>& rows) {
+  DamageSummary out;
+  if (rows.empty() || !std::isfinite(summary.contact.creepage_x)) return out;
+  add_patches(spec, summary, out);
+  out.friction_energy = 0;
+  for (const StreamlineRow& r : rows) out.friction_energy += r.friction_energy * r.width;
+  out.usfd_depth = largest(rows, &StreamlineRow::usfd_depth);
+  out.archard_depth = largest(rows, &StreamlineRow::archard_depth);
+  out.kth_depth = largest(rows, &StreamlineRow::kth_depth);
+  out.temperature_rise = largest(rows, &StreamlineRow::temperature_rise);
+  out.local_fatigue = largest(rows, &StreamlineRow::local_fatigue);
+  return out;
+}
+
+}  // namespace railstrata

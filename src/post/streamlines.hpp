@@ -1,0 +1,30 @@
+#pragma once
+// What one passage does to the surface: wear, friction's energy, heat and local fatigue, streamline by streamline
+// across the rail, from the contact field of either engine.
+#include <vector>
+
+#include "case/case_spec.hpp"
+#include "contact/contact_field.hpp"
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+/// A column of the field: what a strip of the rail along x sees. Numbers that the case gives no data for are NaN.
+struct StreamlineRow {
+  double y = 0;                           ///< m, model frame
+  double width = 0;                       ///< m, across, of the surface
+  double friction_energy = 0;             ///< J/m² per passage
+  double usfd_depth = kNotApplicable;     ///< m per passage [LewisDwyerJoyce2004]
+  double archard_depth = kNotApplicable;  ///< m per passage, with the rail's wear_coefficient over its hardness
+  double kth_depth = kNotApplicable;      ///< m per passage, Jendel's map, dry laboratory surfaces
+  double temperature_rise = 0;            ///< K
+  double local_fatigue = kNotApplicable;  ///< largest |q|/p - k/p
+};
+
+/// Of every column with contact, y ascending. Empty for a shift, which rolls nowhere.
+std::vector<StreamlineRow> streamlines(const CaseSpec& spec, const ContactField& field);
+
+/// Of the whole contact: `rows` are those of all its patches. Empty without friction.
+DamageSummary damage_summary(const CaseSpec& spec, const Summary& summary, const std::vector<StreamlineRow>& rows);
+
+}  // namespace railstrata

@@ -1,0 +1,207 @@
+#include "post/stress_cycles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/rotation.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kBehind = 3, kBeside = 1.5;  // semi-axes of the patch that cycles are followed to
+constexpr int kMostSamples = 90, kMostColumns = 50;
+
+/// First and last cell of a direction that carry pressure.
+struct Extent {
+  int first = 0, last = 0;
+  double middle() const { return 0.5 * (first + last); }
+  double half() const { return 0.5 * (last - first + 1); }
+};
+
+struct PatchExtent {
+  Extent x, y;  ///< in cells
+};
+
+PatchExtent extent_of(const ContactField& f) {
+  PatchExtent e{{f.stations, -1}, {f.columns, -1}};
+  for (int s = 0; s < f.stations; ++s)
+    for (int c = 0; c < f.columns; ++c) {
+      if (!(f.p[static_cast<std::size_t>(s) * f.columns + c] > 0)) continue;
+      e.x = {std::min(e.x.first, s), std::max(e.x.last, s)};
+      e.y = {std::min(e.y.first, c), std::max(e.y.last, c)};
+    }
+  return e;
+}
+
+/// Every n-th cell of a direction out to `reach` semi-axes; cells may lie outside the grid (negative, or beyond it).
+std::vector<int> sampled(const Extent& e, double reach, int most) {
+  const int from = static_cast<int>(std::floor(e.middle() - reach * e.half())),
+            to = static_cast<int>(std::ceil(e.middle() + reach * e.half())),
+            stride = std::max(1, (to - from) / most + 1);
+  std::vector<int> out;
+  for (int i = from; i <= to; i += stride) out.push_back(i);
+  return out;
+}
+
+struct Sampling {
+  std::vector<int> x, y;  ///< cells of the patch's grid
+  int more_x = 0, more_y = 0;
+};
+
+Sampling sampling_of(const BemPatch& patch) {
+  const PatchExtent e = extent_of(patch.field);
+  Sampling s{sampled(e.x, kBehind, kMostSamples), sampled(e.y, kBeside, kMostColumns)};
+  s.more_x = std::max({0, -s.x.front(), s.x.back() - patch.grid.nx + 1});
+  s.more_y = std::max({0, -s.y.front(), s.y.back() - patch.grid.ny + 1});
+  return s;
+}
+
+bool below_interface(const std::vector<CycleRow>& rows, std::size_t r) {
+  return r > 0 && rows[r].depth == rows[r - 1].depth;
+}
+
+StressHistory half_space_cycles(const Subsurface& interior, const BemPatch& patch, const std::vector<CycleRow>& rows) {
+  const Sampling at = sampling_of(patch);
+  const std::unique_ptr<Subsurface> wide = interior.widened(at.more_x, at.more_y);
+  const PatchGrid& g = wide->grid();
+  StressHistory out;
+  for (const int i : at.x) out.x.push_back(patch.grid.x(i));
+  for (const int j : at.y) out.y.push_back(patch.grid.y(j));
+  for (const CycleRow& row : rows) {
+    out.depth.push_back(row.depth);
+    out.zone.push_back(row.zone);
+  }
+  out.stress.resize(rows.size() * at.x.size() * at.y.size());
+  StatePlane plane;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const bool below = below_interface(rows, r);
+    if (!below) plane = wide->plane(rows[r].depth);
+    for (std::size_t c = 0; c < at.y.size(); ++c) {
+      Sym3* cycle = out.cycle(static_cast<int>(r), static_cast<int>(c));
+      for (std::size_t s = 0; s < at.x.size(); ++s)
+        cycle[s] = wide->stress(plane, g.index(at.x[s] + at.more_x, at.y[c] + at.more_y), below);
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter) {
+  constexpr double kFirst = 0.02, kStep = 0.04, kFineTo = 1.6, kGrowth = 1.15, kDeepest = 4;
+  std::vector<double> wanted{0, kFirst * shorter};
+  for (double z = kStep; z <= kFineTo; z += kStep) wanted.push_back(z * shorter);
+  while (wanted.back() < kDeepest * shorter) wanted.push_back(kGrowth * wanted.back());
+  std::vector<CycleRow> rows;
+  const auto add = [&](double top, double bottom, int zone, int least) {
+    std::vector<double> inside{top, bottom};
+    const double apart = 0.5 * kFirst * shorter;
+    for (const double z : wanted)
+      if (z > top + apart && z < bottom - apart) inside.push_back(z);
+    for (int k = 1; k + 1 < least && static_cast<int>(inside.size()) < least; ++k)
+      inside.push_back(top + (bottom - top) * k / (least - 1));
+    std::sort(inside.begin(), inside.end());
+    for (const double z : inside) rows.push_back({z, zone});
+  };
+  constexpr int kLeastRows = 4;
+  double top = 0;
+  int zone = 0;
+  for (const LayerExtent& layer : layer_extents(body)) {
+    add(layer.top, layer.bottom, ++zone, kLeastRows);
+    top = layer.bottom;
+  }
+  add(top, std::max(wanted.back(), top + shorter), 0, kLeastRows);
+  return rows;
+}
+
+namespace {
+
+/// Rows of a band: where each takes its stresses from.
+struct BandRow {
+  enum class From { surface, centre, interface_above, interface_below } from;
+  int row;
+};
+
+std::vector<BandRow> band_rows(const BandStress& b) {
+  std::vector<BandRow> rows{{BandRow::From::surface, 0}};
+  for (int r = 0; r < b.sample.rows; ++r) {
+    if (r > 0 && layer_of(b, b.sample.columns / 2, r) != layer_of(b, b.sample.columns / 2, r - 1)) {
+      rows.push_back({BandRow::From::interface_above, r});
+      rows.push_back({BandRow::From::interface_below, r});
+    }
+    rows.push_back({BandRow::From::centre, r});
+  }
+  return rows;
+}
+
+/// The rail's z axis points down into it, the wheel's up: stresses of the model frame in the axes of a column whose
+/// surface rises with `angle` towards the field side, and of the wheel's station at x.
+Sym3 in_column_frame(const Sym3& stress, double angle, double radius, double x) {
+  Sym3 s = roll(rotation_by(-angle), stress);
+  if (radius > 0) {  // about y, by the station's azimuth; small
+    const double t = x / radius, c = std::cos(t), d = std::sin(t);
+    s = {c * c * s.xx + 2 * c * d * s.xz + d * d * s.zz,
+         s.yy,
+         d * d * s.xx - 2 * c * d * s.xz + c * c * s.zz,
+         c * s.xy + d * s.yz,
+         c * s.yz - d * s.xy,
+         (c * c - d * d) * s.xz + c * d * (s.zz - s.xx)};
+    return s;
+  }
+  s.yz = -s.yz;
+  s.xz = -s.xz;
+  return s;
+}
+
+Sym3 band_stress_of(const BandStress& b, const std::vector<Sym3>& surface, const BandRow& row, int c, int s) {
+  switch (row.from) {
+    case BandRow::From::surface: {
+      const std::size_t nodes = static_cast<std::size_t>(b.sample.columns) + 1, k = s * nodes + c;
+      return 0.25 * (surface[k] + surface[k + 1] + surface[k + nodes] + surface[k + nodes + 1]);
+    }
+    case BandRow::From::centre:
+      return b.at(c, row.row, s);
+    default:
+      return stress_at_interface(b, c, row.row, s, row.from == BandRow::From::interface_below);
+  }
+}
+
+double depth_of(const BandStress& b, const BandRow& row) {
+  if (row.from == BandRow::From::surface) return 0;
+  return row.from == BandRow::From::centre ? b.centre_depth[row.row] : b.body->contact.depth[row.row];
+}
+
+}  // namespace
+
+StressHistory band_cycles(const BandStress& b, const std::vector<Sym3>& surface, double radius) {
+  const auto& nodes = b.body->blocks[b.body->contact.block].section.nodes;
+  const std::vector<BandRow> rows = band_rows(b);
+  StressHistory out;  // without the border, where no surface stress is recovered
+  for (int s = 1; s + 1 < b.sample.stations; ++s) out.x.push_back(b.x(s));
+  for (int c = 1; c + 1 < b.sample.columns; ++c) out.y.push_back(b.centre_y[c] - b.contact_y);
+  for (const BandRow& row : rows) {
+    out.depth.push_back(depth_of(b, row));
+    out.zone.push_back(
+        layer_of(b, b.sample.columns / 2, row.from == BandRow::From::interface_above ? row.row - 1 : row.row));
+  }
+  out.stress.resize(rows.size() * out.x.size() * out.y.size());
+  for (int r = 0; r < out.rows(); ++r)
+    for (int c = 0; c < out.columns(); ++c) {
+      const double angle = std::atan2(nodes[c + 2].z - nodes[c + 1].z, nodes[c + 2].y - nodes[c + 1].y);
+      for (int s = 0; s < out.samples(); ++s)
+        out.cycle(r, c)[s] =
+            in_column_frame(band_stress_of(b, surface, rows[r], c + 1, s + 1), angle, radius, out.x[s]);
+    }
+  return out;
+}
+
+StressHistory rail_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows) {
+  return half_space_cycles(rail_interior(result.rail, patch), patch, rows);
+}
+
+StressHistory wheel_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows) {
+  return half_space_cycles(wheel_interior(result.wheel, patch), patch, rows);
+}
+
+}  // namespace railstrata

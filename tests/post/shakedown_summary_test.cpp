@@ -1,0 +1,131 @@
+#include "post/shakedown_summary.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/faults.hpp"
+#include "crossed_cylinders.hpp"
+#include "post/half_space_track.hpp"
+
+namespace railstrata {
+namespace {
+
+using post_checks::crossed_cylinders;
+
+BemOptions cells(double size) {
+  BemOptions options;
+  options.cell = size;
+  return options;
+}
+
+struct Found {
+  double p0_over_k = 0;
+  ShakedownFactors factors;
+  BodyShakedown body;
+  /// p0/k at which the contact would reach the limit.
+  double limit(double ShakedownFactors::*factor) const { return p0_over_k * factors.*factor; }
+};
+
+Found shakedown_of(const CaseSpec& spec, double cell, bool track = false) {
+  const BemResult r = solve_bem(spec, place(spec, {}), cells(cell));
+  std::vector<SectionShakedown> sections = half_space_shakedown(spec, r);
+  if (track) add_single_track(spec, r, sections);
+  const ShakedownSummary s = shakedown_summary(spec, sections);
+  const double k = spec.rail_material.strength.yield_strength.value() / std::numbers::sqrt3;
+  return {r.patch.p_max / k, s.bodies.at(0).factors, s.bodies.at(0)};
+}
+
+CaseSpec frictionless() {
+  CaseSpec spec = crossed_cylinders();
+  spec.rail_material.strength.yield_strength = 500e6;
+  return spec;
+}
+
+// Circular Hertz pressure, nu = 0.3: first yield at p0/k = 2.795, shakedown 4.632 (residual stress of depth alone) and
+// at most 4.677 [Johnson1985 sec. 9.2]; docs/damage.md.
+TEST(ShakedownSummary, OfACircularContactIsThatOfHertzsStresses) {
+  const Found found = shakedown_of(frictionless(), 0.25e-3);
+  EXPECT_NEAR(found.limit(&ShakedownFactors::first_yield) / 2.795, 1, 5e-3);
+  EXPECT_NEAR(found.limit(&ShakedownFactors::wandering) / 4.632, 1, 5e-3);
+  EXPECT_NEAR(found.limit(&ShakedownFactors::upper) / 4.677, 1, 5e-3);
+  EXPECT_EQ(found.body.zone, "rail");
+}
+
+TEST(ShakedownSummary, ALayerOfTheRailsOwnStiffnessAndStrengthChangesNothing) {
+  const CaseSpec plain = frictionless();
+  CaseSpec layered = plain;
+  layered.layers.resize(1);
+  layered.layers[0].thickness = 1.3e-3;
+  layered.layers[0].material = plain.rail_material;
+  const Found a = shakedown_of(plain, 0.25e-3), b = shakedown_of(layered, 0.25e-3);
+  for (const auto factor : {&ShakedownFactors::first_yield, &ShakedownFactors::wandering, &ShakedownFactors::upper,
+                            &ShakedownFactors::kinematic})
+    EXPECT_NEAR(a.factors.*factor / (b.factors.*factor), 1, 1e-3);
+  EXPECT_EQ(b.body.zones.size(), 2u);
+}
+
+TEST(ShakedownSummary, HalfTheCellsGiveTheSameFactors) {
+  CaseSpec spec = frictionless();
+  spec.drive.friction_coefficient = 0.25;
+  spec.drive.traction_coefficient = 0.2;
+  const Found coarse = shakedown_of(spec, 0.25e-3), fine = shakedown_of(spec, 0.125e-3);
+  for (const auto factor : {&ShakedownFactors::first_yield, &ShakedownFactors::wandering, &ShakedownFactors::upper,
+                            &ShakedownFactors::kinematic})
+    EXPECT_NEAR(coarse.factors.*factor / (fine.factors.*factor), 1, 5e-3);
+}
+
+TEST(ShakedownSummary, OneTrackLiesBetweenAnyTrafficAndTheUpperBound) {
+  CaseSpec spec = frictionless();
+  const Found free = shakedown_of(spec, 0.5e-3, true);
+  EXPECT_EQ(free.factors.single_track, free.factors.wandering) << "within 2 % of the bound";
+  spec.layers.resize(1);
+  spec.layers[0].thickness = 2e-3;
+  spec.layers[0].material = spec.rail_material;
+  spec.layers[0].material.young *= 2;
+  spec.layers[0].material.strength.yield_strength = 900e6;
+  const Found layered = shakedown_of(spec, 0.25e-3, true);
+  EXPECT_GT(layered.factors.single_track, 1.01 * layered.factors.wandering) << "what the interface's two sides allow";
+  EXPECT_LE(layered.factors.single_track, layered.factors.upper);
+}
+
+TEST(ShakedownSummary, ProcessStressMovesFirstYieldAlone) {
+  CaseSpec spec = frictionless();
+  const Found without = shakedown_of(spec, 0.5e-3);
+  spec.rail_material.strength.initial_stress = {-200e6, -100e6};
+  const Found with = shakedown_of(spec, 0.5e-3);
+  EXPECT_NE(with.factors.first_yield, without.factors.first_yield);
+  EXPECT_EQ(with.factors.wandering, without.factors.wandering);
+}
+
+TEST(ShakedownSummary, AStrengthTableThatEndsTooEarlyIsToldWithItsPlace) {
+  CaseSpec spec = frictionless();
+  spec.rail_material.strength.yield_strength.reset();
+  spec.rail_material.strength.strength_table = {{0, 800e6}, {3e-3, 500e6}};
+  try {
+    half_space_shakedown(spec, solve_bem(spec, place(spec, {}), cells(0.5e-3)));
+    FAIL();
+  } catch (const CaseError& e) {
+    EXPECT_NE(std::string(e.what()).find("material.rail.strength_table: ends at 3 mm, stresses are looked at down to"),
+              std::string::npos)
+        << e.what();
+  }
+  spec.rail_material.strength.strength_table.push_back({0.1, 500e6});
+  EXPECT_EQ(half_space_shakedown(spec, solve_bem(spec, place(spec, {}), cells(0.5e-3))).size(), 1u);
+}
+
+TEST(ShakedownSummary, OfBodiesWithoutAStrengthThereIsNone) {
+  CaseSpec spec = frictionless();
+  spec.rail_material.strength.yield_strength.reset();
+  const BemResult r = solve_bem(spec, place(spec, {}), cells(0.5e-3));
+  EXPECT_TRUE(half_space_shakedown(spec, r).empty());
+  spec.wheel_material.strength.grade = "ER8";
+  const std::vector<SectionShakedown> wheel = half_space_shakedown(spec, r);
+  ASSERT_EQ(wheel.size(), 1u);
+  EXPECT_EQ(wheel[0].body, BodyId::wheel);
+  EXPECT_FALSE(wheel[0].strength.notes.empty()) << "an estimate is told";
+}
+
+}  // namespace
+}  // namespace railstrata
