@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/parallel.hpp"
+#include "core/vectorize.hpp"
 #include "damage/deviator.hpp"
 #include "damage/enclosing_ball.hpp"
 #include "material/elastic.hpp"
@@ -21,7 +22,34 @@ constexpr double kFine = 0.2 * kDegree;
 // Of the largest so far: what may become the largest on planes at 2.5 degrees, and on the finest.
 constexpr double kNear = 0.9, kNearFine = 0.98;
 
+constexpr std::array<double Sym3::*, 6> kComponents{&Sym3::xx, &Sym3::yy, &Sym3::zz, &Sym3::xy, &Sym3::yz, &Sym3::xz};
+
 double tension(double stress) { return std::max(stress, 0.0); }
+
+struct Extremes {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  double middle() const { return 0.5 * (low + high); }
+};
+/// In eight lanes, so that compilers have vectors without leave to reorder.
+Extremes extremes(const std::vector<double>& values) {
+  constexpr std::size_t lanes = 8;
+  double low[lanes], high[lanes];
+  std::fill_n(low, lanes, HUGE_VAL);
+  std::fill_n(high, lanes, -HUGE_VAL);
+  std::size_t i = 0;
+  for (; i + lanes <= values.size(); i += lanes)
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const double v = values[i + k];
+      low[k] = low[k] < v ? low[k] : v;
+      high[k] = high[k] > v ? high[k] : v;
+    }
+  Extremes all{*std::min_element(low, low + lanes), *std::max_element(high, high + lanes)};
+  for (; i < values.size(); ++i) {
+    all.low = std::min(all.low, values[i]);
+    all.high = std::max(all.high, values[i]);
+  }
+  return all;
+}
 
 /// Two unit vectors that complete n to a frame.
 std::array<Vec3, 2> plane_axes(Vec3 n) {
@@ -55,7 +83,11 @@ class PointCycle {
         poisson_(poisson),
         shear_modulus_(young / (2 * (1 + poisson))),
         along_(cycle.size()),
-        across_(cycle.size()) {
+        across_(cycle.size()),
+        normal_(cycle.size()),
+        strain_(cycle.size()) {
+    for (std::size_t c = 0; c < components_.size(); ++c)
+      for (const Sym3& s : cycle) components_[c].push_back(s.*kComponents[c]);
     for (const Sym3& s : cycle) volume_.push_back(poisson / young * (s.xx + s.yy + s.zz));
   }
 
@@ -63,36 +95,54 @@ class PointCycle {
 
   /// Normal part; shear_bound() and shear_range() are of the plane last looked at.
   PlaneCycle look_at(Vec3 n) {
-    const auto [first, second] = plane_axes(n);
-    double stress_high = -HUGE_VAL, strain_low = HUGE_VAL, strain_high = -HUGE_VAL;
-    for (std::size_t i = 0; i < cycle_.size(); ++i) {
-      const Vec3 t = cycle_[i] * n;
-      const double normal = dot(t, n), strain = normal / (2 * shear_modulus_) - volume_[i];
-      along_[i] = dot(t, first);
-      across_[i] = dot(t, second);
-      stress_high = std::max(stress_high, normal);
-      strain_low = std::min(strain_low, strain);
-      strain_high = std::max(strain_high, strain);
+    const auto [u, v] = plane_axes(n);
+    const double* xx = components_[0].data();
+    const double* yy = components_[1].data();
+    const double* zz = components_[2].data();
+    const double* xy = components_[3].data();
+    const double* yz = components_[4].data();
+    const double* xz = components_[5].data();
+    const double* volume = volume_.data();
+    double *along = along_.data(), *across = across_.data(), *normal = normal_.data(), *strain = strain_.data();
+    const double by_two_g = 0.5 / shear_modulus_;
+    const std::size_t samples = cycle_.size();
+    RAILSTRATA_INDEPENDENT
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double x = xx[i] * n.x + xy[i] * n.y + xz[i] * n.z, y = xy[i] * n.x + yy[i] * n.y + yz[i] * n.z,
+                   z = xz[i] * n.x + yz[i] * n.y + zz[i] * n.z;
+      normal[i] = x * n.x + y * n.y + z * n.z;
+      strain[i] = normal[i] * by_two_g - volume[i];
+      along[i] = x * u.x + y * u.y + z * u.z;
+      across[i] = x * v.x + y * v.y + z * v.z;
     }
-    return {stress_high + dot(residual_ * n, n), strain_high - strain_low, 0};
+    const Extremes strains = extremes(strain_);
+    return {extremes(normal_).high + dot(residual_ * n, n), strains.high - strains.low, 0};
   }
   /// Diameter of a circle that holds the shear vector's path: the smallest one is not wider.
-  double shear_bound() const {
-    const auto middle = [](const std::vector<double>& v) {
-      const auto [low, high] = std::minmax_element(v.begin(), v.end());
-      return 0.5 * (*low + *high);
-    };
-    const double first = middle(along_), second = middle(across_);
-    double most = 0;
-    for (std::size_t i = 0; i < along_.size(); ++i) {
-      const double a = along_[i] - first, b = across_[i] - second;
-      most = std::max(most, a * a + b * b);
+  double shear_bound() {
+    const double middle_a = extremes(along_).middle(), middle_b = extremes(across_).middle();
+    const double *along = along_.data(), *across = across_.data();
+    double* squared = normal_.data();
+    const std::size_t samples = cycle_.size();
+    RAILSTRATA_INDEPENDENT
+    for (std::size_t i = 0; i < samples; ++i) {
+      const double a = along[i] - middle_a, b = across[i] - middle_b;
+      squared[i] = a * a + b * b;
     }
-    return 2 * std::sqrt(most);
+    return 2 * std::sqrt(extremes(normal_).high);
   }
+  /// The smallest circle, of the few points that can lie on it. One of radius r around any centre c that holds all, and
+  /// half a chord, h: the smallest circle's centre is at most sqrt(r² - h²) from c, its radius at least h.
   double shear_range() {
-    path_.resize(along_.size());
-    for (std::size_t i = 0; i < along_.size(); ++i) path_[i] = {along_[i], across_[i], 0, 0, 0};
+    const std::size_t one = farthest(along_[0], across_[0]), other = farthest(along_[one], across_[one]);
+    const double a = 0.5 * (along_[one] + along_[other]), b = 0.5 * (across_[one] + across_[other]);
+    const std::size_t rim = farthest(a, b);
+    const double least = squared_distance(one, a, b), most = squared_distance(rim, a, b);
+    const double inside = std::sqrt(least) * (1 - 1e-12) - std::sqrt(std::max(0.0, most - least));
+    path_.clear();
+    for (std::size_t i = 0; i < along_.size(); ++i)
+      if (inside <= 0 || squared_distance(i, a, b) >= inside * inside)
+        path_.push_back({along_[i], across_[i], 0, 0, 0});
     return 2 * enclosing_ball(path_, free_directions(0, 1)).radius;
   }
 
@@ -115,11 +165,24 @@ class PointCycle {
   }
 
  private:
+  double squared_distance(std::size_t i, double a, double b) const {
+    return (along_[i] - a) * (along_[i] - a) + (across_[i] - b) * (across_[i] - b);
+  }
+  std::size_t farthest(double a, double b) const {
+    std::size_t found = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < along_.size(); ++i)
+      if (const double d = squared_distance(i, a, b); d > most) {
+        most = d;
+        found = i;
+      }
+    return found;
+  }
   /// Of the smallest and largest value of every component.
   Sym3 middle() const {
     Sym3 low = cycle_[0], high = cycle_[0];
     for (const Sym3& s : cycle_)
-      for (double Sym3::*c : {&Sym3::xx, &Sym3::yy, &Sym3::zz, &Sym3::xy, &Sym3::yz, &Sym3::xz}) {
+      for (double Sym3::*c : kComponents) {
         low.*c = std::min(low.*c, s.*c);
         high.*c = std::max(high.*c, s.*c);
       }
@@ -129,8 +192,9 @@ class PointCycle {
   std::span<const Sym3> cycle_;
   Sym3 residual_;
   double young_, poisson_, shear_modulus_;
-  std::vector<double> volume_;  ///< nu/E times the trace
-  std::vector<double> along_, across_;
+  std::array<std::vector<double>, 6> components_;
+  std::vector<double> volume_;                            ///< nu/E times the trace
+  std::vector<double> along_, across_, normal_, strain_;  ///< on the plane last looked at; normal_ is scratch too
   std::vector<Vec5> path_;
 };
 

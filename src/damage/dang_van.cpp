@@ -1,6 +1,7 @@
 #include "damage/dang_van.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
 
@@ -73,7 +74,7 @@ DangVanSection dang_van(const StressHistory& history, ResidualRows residual, std
     const auto worst = std::max_element(
         first, first + columns, [](const DangVanStress& a, const DangVanStress& b) { return a.stress < b.stress; });
     section.worst_column.push_back(static_cast<int>(worst - first));
-    if (columns == 0) continue;
+    if (columns == 0 || std::isinf(limits[row].limit)) continue;
     const double utilisation = worst->stress / limits[row].limit;
     if (section.row < 0 || utilisation > section.utilisation) {
       section.row = row;

@@ -19,7 +19,7 @@ namespace railstrata {
 
 struct DangVanLimit {
   double c = 0;      ///< >= 0; 0.3 to 0.4 are said for rail and wheel steel
-  double limit = 0;  ///< Pa, > 0: the fatigue limit in alternating torsion
+  double limit = 0;  ///< Pa, > 0: the fatigue limit in alternating torsion; infinite: this row does not count
 };
 /// From the fatigue limits of alternating torsion and tension [Pa]. Throws CaseError unless torsion is 0.5 to 1 of
 /// tension (c from 0 to 1.5).
@@ -36,7 +36,7 @@ DangVanStress dang_van_stress(std::span<const Sym3> cycle, const Sym3& residual,
 struct DangVanSection {
   std::vector<DangVanStress> point;  ///< row by row
   std::vector<int> worst_column;     ///< of each row
-  int row = -1;                      ///< with the largest utilisation
+  int row = -1;                      ///< with the largest utilisation; -1: no row counts
   double utilisation = 0;            ///< s_DV/limit there; > 1: fatigue. Negative where pressure outweighs shear
 };
 /// Limits by row. In parallel; the bits do not depend on the number of threads. Throws std::invalid_argument when rows

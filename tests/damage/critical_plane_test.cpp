@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/parallel.hpp"
+#include "damage/enclosing_ball.hpp"
 #include "tests/damage/hertz_stress.hpp"
 
 namespace railstrata {
@@ -104,6 +105,22 @@ TEST(CriticalPlanes, ShearRangeIsTheDiameterOfTheSmallestCircle) {
   EXPECT_NEAR(plane_cycle(corners, {}, kSteel, {0, 0, 1}).shear_range, 2e8, 1);
   EXPECT_NEAR(plane_cycle({{Sym3{.xz = -3e7}, Sym3{.xz = 5e7}, Sym3{.xz = 1e7}}}, {}, kSteel, {0, 0, 2}).shear_range,
               8e7, 1);
+}
+
+// Points that cannot lie on the circle are left out: the circle is that of all points.
+TEST(CriticalPlanes, ShearRangeIsThatOfAllPoints) {
+  for (int seed = 0; seed < 200; ++seed) {
+    std::vector<Sym3> cycle;
+    std::vector<Vec5> all;
+    const double flat = seed % 4 == 0 ? 1 : 0.02 * (seed % 7);  // from circles to lines
+    for (int i = 0; i < 40; ++i) {
+      const double a = std::sin(seed + i * i * 1.3), b = flat * std::sin(2.0 * seed + i * i * 0.7 + i);
+      cycle.push_back({.yz = 1e8 * (a + b), .xz = 1e8 * (a - b)});
+      all.push_back({cycle.back().xz, cycle.back().yz, 0, 0, 0});
+    }
+    const double radius = enclosing_ball(all, free_directions(0, 1)).radius;
+    EXPECT_NEAR(plane_cycle(cycle, {}, kSteel, {0, 0, 1}).shear_range / (2 * radius), 1, 1e-9) << seed;
+  }
 }
 
 // Orthogonal shear of a frictionless line contact: range p0/2 at 0.5 a on the plane of the surface, and no plane and

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -86,6 +87,17 @@ TEST(DangVan, TheWorstRowIsThatOfTheLargestUtilisation) {
   const DangVanSection s = dang_van(h, {}, weak_below);
   EXPECT_EQ(s.row, 2);
   EXPECT_EQ(s.worst_column.size(), 3u);
+}
+
+// Pressure outweighs shear in every row: the worst utilisation is negative, and a row without a limit is not it.
+TEST(DangVan, RowsWithoutALimitDoNotCount) {
+  const auto h = testing::history_of(testing::LineLoad{}, {-1, 0, 1}, {0}, {0.3, 0.5});
+  const std::vector<Sym3> pressed(2, {-9, -9, -9});
+  const double none = std::numeric_limits<double>::infinity();
+  const DangVanSection s = dang_van(h, pressed, std::vector<DangVanLimit>{{0.3, 1}, {0.3, none}});
+  EXPECT_EQ(s.row, 0);
+  EXPECT_LT(s.utilisation, 0);
+  EXPECT_EQ(dang_van(h, pressed, std::vector<DangVanLimit>(2, {0.3, none})).row, -1);
 }
 
 TEST(DangVan, HasTheSameBitsForAnyThreads) {
