@@ -90,6 +90,26 @@ TEST(HistoryStress, ASingleTrackOnAHistoryHasTheLimitOfTheLine) {
   EXPECT_NEAR(single_track(in).factor, 2 * 3.202, 0.005 * 2 * 3.202);
 }
 
+// In metres (depth over half-length times half-length is not the depth to the last bit): a soft layer on a hard body.
+TEST(HistoryStress, ASingleTrackKeepsTheSidesOfAnInterface) {
+  const double depth = 0.0018, a = 0.00515;
+  ASSERT_GT(depth / a * a, depth);
+  std::vector<double> z = steps(0, depth, depth / 20), k(21, 0.5e9);
+  z.back() = depth;
+  for (const double below : steps(depth, 0.02, 0.0182 / 60)) {
+    z.push_back(z.size() == 21 ? depth : below);
+    k.push_back(2e9);
+  }
+  StressHistory h = history_of(LineLoad{}, rolling_samples(0.05), {0}, z);
+  for (int row = 0; row < h.rows(); ++row)
+    for (int i = 0; i < h.samples(); ++i) h.cycle(row, 0)[i] = 1e9 * LineLoad{}.at(h.x[i], 0, z[row] / a);
+  for (double& x : h.x) x *= a;
+  SingleTrackInput in = single_track_input(h, k, a, a);
+  in.sides = TrackSides::endless;
+  const double limit = shakedown({h, k, {}, {}}).wandering.value;
+  EXPECT_NEAR(single_track(in).factor, limit, 0.005 * limit);
+}
+
 TEST(HistoryStress, RejectsWhatItCannotUse) {
   const StressHistory h = history_of(CubicStress{}, {-1, 1}, {-1, 1}, {0.1, 1}),
                       good = history_of(CubicStress{}, {-1, 1}, {-1, 1}, {0, 1});
