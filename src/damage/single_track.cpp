@@ -18,6 +18,7 @@ namespace {
 /// Lengths in half-lengths of the patch, y and x from its centre.
 struct Row {
   double depth = 0;
+  double metres = 0;  ///< depth in m; of an interface as it was given, to the bit
   bool below = false;
   double strength = 0;  ///< Pa
 };
@@ -179,8 +180,9 @@ std::vector<Row> Track::rows(int parts) const {
     const auto interface =
         std::find_if(in_.interfaces.begin(), in_.interfaces.end(), [&](double d) { return d / in_.half_length == z; });
     const bool two = interface != in_.interfaces.end();
+    const double metres = two ? *interface : z * in_.half_length;
     for (const bool below : {false, true})
-      if (two || below) all.push_back({z, two ? below : false, in_.shear_strength(z * in_.half_length, two && below)});
+      if (two || below) all.push_back({z, metres, two && below, in_.shear_strength(metres, two && below)});
   }
   return all;
 }
@@ -257,8 +259,7 @@ std::vector<std::vector<Vec5>> Track::paths(const Row& row, const std::vector<do
   std::vector<std::size_t> begin = {0};
   for (const double v : y) {
     for (const double x : samples(v, refined))
-      at.push_back(
-          {x * in_.half_length + in_.centre_x, v * in_.half_length + in_.centre_y, row.depth * in_.half_length});
+      at.push_back({x * in_.half_length + in_.centre_x, v * in_.half_length + in_.centre_y, row.metres});
     begin.push_back(at.size());
   }
   const std::vector<Sym3> stress = in_.stress(at, row.below);
@@ -413,12 +414,12 @@ void Track::report(const std::vector<Point>& fine, const ConeSolution& solution,
   out.factor = 1 / worst->worst;
   out.program_factor = 1 / solution.radius;
   out.y = worst->y * in_.half_length + in_.centre_y;
-  out.depth = worst->row.depth * in_.half_length;
+  out.depth = worst->row.metres;
   out.below_interface = worst->row.below;
   out.points.clear();
   for (std::size_t p = 0; p < solution.work.size(); ++p)
     out.points.push_back({.y = points_[p].y * in_.half_length + in_.centre_y,
-                          .depth = points_[p].row.depth * in_.half_length,
+                          .depth = points_[p].row.metres,
                           .below_interface = points_[p].row.below,
                           .utilisation = points_[p].worst * out.factor,
                           .work = solution.work[p]});

@@ -473,7 +473,8 @@ std::vector<ResultNumber> damage_numbers() {
               "Friction energy per distance", "Sum over the points of traction times slip times area, over the speed",
               false),
           row("rcf_damage", kNone, damage<&D::rcf_damage>, "RCF damage", "RCF damage of a passage",
-              "Burstow's function of T-gamma for R260, break points 15, 65 and 175 N; 1 is a visible crack, below zero "
+              "Burstow's function of a patch's T-gamma for R260, of several the largest; break points 15, 65 and 175 "
+              "N; 1 is a visible crack, below zero "
               "wear removes",
               false),
           row("brr_wear", kWornArea, damage<&D::brr_wear>, "BRR wear", "BRR wear",

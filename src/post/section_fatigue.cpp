@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "damage/brittle.hpp"
@@ -25,9 +26,9 @@ bool any_zone(const CaseSpec& spec, BodyId body, const std::function<bool(const 
 
 bool says_dang_van(const StrengthSpec& s) { return s.fatigue_limit && s.dang_van_coefficient; }
 
-/// Rows without a limit have one that nothing reaches.
+/// Rows without a limit do not count.
 std::vector<DangVanLimit> dang_van_limits(const CaseSpec& spec, BodyId body, const StressHistory& history) {
-  constexpr double kNever = 1e30;  // Pa
+  constexpr double kNever = std::numeric_limits<double>::infinity();
   std::vector<DangVanLimit> out;
   for (int r = 0; r < history.rows(); ++r) {
     const StrengthSpec& s = strength_of_row(spec, body, history, r);
@@ -44,6 +45,7 @@ void add_dang_van(const CaseSpec& spec, BodyId body, const StressHistory& histor
                   BodyFatigue& out) {
   if (!any_zone(spec, body, says_dang_van)) return;
   const DangVanSection found = dang_van(history, residual, dang_van_limits(spec, body, history));
+  if (found.row < 0) return;
   const int column = found.worst_column[found.row];
   out.dang_van = place(spec, body, history, found.row, column, found.utilisation);
 }

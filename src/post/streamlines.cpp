@@ -139,11 +139,12 @@ void add_patches(const CaseSpec& spec, const Summary& summary, DamageSummary& ou
     const PatchMeasures& m = c.patch;
     const TGamma t = t_gamma({m.force_x, m.force_y, c.spin_moment, c.creepage_x, c.creepage_y, c.spin_per_m});
     out.t_gamma += t.without_spin;
+    const double damage = rcf_damage(rcf_damage_15(), t.without_spin);
+    if (!(damage <= out.rcf_damage)) out.rcf_damage = damage;
     out.t_gamma_with_spin += t.with_spin;
     const double index = std::hypot(m.force_x, m.force_y) / m.force_z - strength / m.p_max;
     if (std::isfinite(index) && !(index <= out.surface_fatigue)) out.surface_fatigue = index;
   }
-  out.rcf_damage = rcf_damage(rcf_damage_15(), out.t_gamma);
   out.brr_wear = brr_wear(out.t_gamma, 2 * spec.geometry.wheel_radius);
 }
 

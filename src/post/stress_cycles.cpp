@@ -76,9 +76,13 @@ bool below_interface(const std::vector<CycleRow>& rows, std::size_t r) {
 /// edge, as the pressure falls. What is left of sigma_xx + p and sigma_yy + 2 nu p is smooth (of a circular contact:
 /// [Johnson1985 eq. 3.43]); it is extrapolated from the two cells behind the outermost to the edge, where p² is zero.
 /// The first sample beyond the edge takes it.
-class SurfaceEdges {
+///
+/// And at the front of slip, where |q| has a cusp (post/patch.hpp, shear_at_front_of_slip): its stresses rise as a root
+/// on the slipping side and are smooth on the sticking one, from where they are extrapolated; shear is f p there. The
+/// sticking sample next to the front takes it.
+class SurfacePeaks {
  public:
-  SurfaceEdges(const BemPatch& patch, const StatePlane& surface, const Subsurface& body, const Sampling& at)
+  SurfacePeaks(const BemPatch& patch, const StatePlane& surface, const Subsurface& body, const Sampling& at)
       : patch_(patch), surface_(surface), body_(body), at_(at), poisson_(body.material_at(0).poisson) {}
 
   /// Samples of one column of the patch's cells.
@@ -93,13 +97,48 @@ class SurfaceEdges {
                ahead = std::upper_bound(begin, at_.x.end(), last);
     if (behind != begin) cycle[behind - begin - 1] = at_edge(first, column, 1);
     if (ahead != at_.x.end()) cycle[ahead - begin] = at_edge(last, column, -1);
+    for (int i = first; i < last; ++i) {
+      if (slips(i, column) && sticks(i + 1, column)) put_front(i, 1, last, column, cycle);
+      if (sticks(i, column) && slips(i + 1, column)) put_front(i + 1, -1, first, column, cycle);
+    }
   }
 
  private:
   double pressure(int i, int column) const { return patch_.field.p[patch_.grid.index(i, column)]; }
+  double shear(int i, int column) const {
+    const std::size_t k = patch_.grid.index(i, column);
+    return std::hypot(patch_.field.q_x[k], patch_.field.q_y[k]);
+  }
+  bool slips(int i, int column) const { return patch_.field.state[patch_.grid.index(i, column)] == ContactState::slip; }
+  bool sticks(int i, int column) const {
+    return patch_.field.state[patch_.grid.index(i, column)] == ContactState::stick;
+  }
+  Sym3 stress(int i, int column) const {
+    return body_.stress(surface_, body_.grid().index(i + at_.more_x, column + at_.more_y));
+  }
+
+  /// The front between a slipping cell and the sticking ones at `slipping` + `on`, + 2 `on`, … to `end`.
+  void put_front(int slipping, int on, int end, int column, Sym3* cycle) const {
+    const int near = slipping + on, next = near + on, far = next + on;
+    const auto sample = std::lower_bound(at_.x.begin(), at_.x.end(), near);
+    const bool room = on > 0 ? far <= end : far >= end;
+    if (!room || !sticks(next, column) || !sticks(far, column) || !(shear(slipping, column) > 0)) return;
+    if (sample == at_.x.end() || *sample != near) return;
+    const double f = shear(slipping, column) / pressure(slipping, column);
+    const auto left = [&](int i) { return std::pow(f * pressure(i, column) - shear(i, column), 2); };
+    const double rise = left(next) - left(near), back = rise > 0 ? std::min(left(near) / rise, 1.0) : 1.0;
+    const double p = pressure(near, column) + back * (pressure(slipping, column) - pressure(near, column));
+    const Sym3 slip = stress(slipping, column), a = stress(next, column), b = stress(far, column);
+    const double share = f * p / shear(slipping, column);
+    Sym3 front = a + (1 + back) * (a - b);
+    front.zz = -p;
+    front.xz = share * slip.xz;
+    front.yz = share * slip.yz;
+    cycle[sample - at_.x.begin()] = front;
+  }
 
   Sym3 smooth(int i, int column) const {
-    Sym3 s = body_.stress(surface_, body_.grid().index(i + at_.more_x, column + at_.more_y));
+    Sym3 s = stress(i, column);
     s.xx += pressure(i, column);
     s.yy += 2 * poisson_ * pressure(i, column);
     s.zz = s.xz = s.yz = 0;
@@ -141,7 +180,7 @@ StressHistory half_space_cycles(const Subsurface& interior, const BemPatch& patc
       Sym3* cycle = out.cycle(static_cast<int>(r), static_cast<int>(c));
       for (std::size_t s = 0; s < at.x.size(); ++s)
         cycle[s] = wide->stress(plane, g.index(at.x[s] + at.more_x, at.y[c] + at.more_y), below);
-      if (rows[r].depth == 0) SurfaceEdges(patch, plane, *wide, at).put(at.y[c], cycle);
+      if (rows[r].depth == 0) SurfacePeaks(patch, plane, *wide, at).put(at.y[c], cycle);
     }
   }
   return out;
