@@ -46,7 +46,7 @@ void take_ball(const EnclosingBall& ball, int column, int samples, Need& need) {
 
 RowNeeds needs_of_row(const ShakedownInput& in, int row, double* pointwise) {
   const StressHistory& h = in.elastic;
-  const int samples = h.samples();
+  const int samples = std::max(1, h.samples());  // check() has seen that there are some
   const double k = in.shear_strength[row];
   const Vec5 process = deviator(
       {.xx = in.residual_x.empty() ? 0 : in.residual_x[row], .yy = in.residual_y.empty() ? 0 : in.residual_y[row]});
