@@ -77,18 +77,17 @@ TEST(ShakedownSummary, HalfTheCellsGiveTheSameFactors) {
         << coarse.factors.*factor << " at " << coarse.body.depth;
 }
 
+// The residual stress of one track holds shear that depth alone cannot: with slip at 0.2 by 16 % (docs/damage.md).
 TEST(ShakedownSummary, OneTrackLiesBetweenAnyTrafficAndTheUpperBound) {
   CaseSpec spec = frictionless();
   const Found free = shakedown_of(spec, 0.5e-3, true);
   EXPECT_EQ(free.factors.single_track, free.factors.wandering) << "within 2 % of the bound";
-  spec.layers.resize(1);
-  spec.layers[0].thickness = 2e-3;
-  spec.layers[0].material = spec.rail_material;
-  spec.layers[0].material.young *= 2;
-  spec.layers[0].material.strength.yield_strength = 900e6;
-  const Found layered = shakedown_of(spec, 0.25e-3, true);
-  EXPECT_GT(layered.factors.single_track, 1.01 * layered.factors.wandering) << "what the interface's two sides allow";
-  EXPECT_LE(layered.factors.single_track, layered.factors.upper);
+  spec.drive.friction_coefficient = 0.2;
+  spec.drive.creepage = -0.3;
+  const Found sliding = shakedown_of(spec, 0.5e-3, true);
+  EXPECT_NEAR(sliding.limit(&ShakedownFactors::wandering) / 3.683, 1, 0.01);
+  EXPECT_NEAR(sliding.limit(&ShakedownFactors::single_track) / 4.29, 1, 0.02);
+  EXPECT_LE(sliding.factors.single_track, sliding.factors.upper);
 }
 
 TEST(ShakedownSummary, ProcessStressMovesFirstYieldAlone) {
