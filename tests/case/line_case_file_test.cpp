@@ -1,6 +1,7 @@
 // What a line contact asks of a case, and what of it the engines refuse.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "case/case_file.hpp"
@@ -59,6 +60,13 @@ TEST(LineCaseFile, WhatItCannotHaveIsRefusedInWords) {
             std::string::npos);
   EXPECT_NE(fault_of("[geometry]\nline_length = \"1 mm\"\n").find("no meaning with geometry.contact = \"point\""),
             std::string::npos);
+}
+
+TEST(RollInACase, IsReadAndNotInTheFiniteElements) {
+  const LoadedCase rolled = parse_case("[geometry]\nroll = \"5 mrad\"\n", "a.toml");
+  EXPECT_NEAR(rolled.spec.geometry.roll, std::tan(0.005), 1e-9);
+  ASSERT_EQ(rolled.not_in_fem.size(), 1u);
+  EXPECT_TRUE(rolled.not_in_fem[0].message.starts_with("a roll of the wheelset (geometry.roll) is not in this engine"));
 }
 
 // Displacements of distant points have no meaning in plane strain.
