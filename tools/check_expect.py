@@ -3,7 +3,7 @@
 
 usage: check_expect.py CASE RESULTS            CASE: a case file, or a folder with case.toml; RESULTS: the run's folder
        check_expect.py CASE --run BINARY       runs the case first, in a folder of its own, and wants exit code 0; one
-                                               with a [transient] table by half-spaces
+                                               with a [transient] table or a line contact by half-spaces
 
 The expectations of NAME.toml stand beside it in NAME.expect.toml, those of case.toml in expect.toml; one table a
 quantity:
@@ -92,7 +92,9 @@ def compare(summary, expectations):
 
 
 def run_case(binary, case, out):
-    command = "bem" if "transient" in tomllib.loads(case.read_text()) else "run"
+    tables = tomllib.loads(case.read_text())
+    by_half_spaces = "transient" in tables or tables.get("geometry", {}).get("contact") == "line"
+    command = "bem" if by_half_spaces else "run"
     done = subprocess.run([binary, "--quiet", command, case, "--out", out], capture_output=True, text=True)
     if done.returncode != 0:
         print(f"{done.stdout}{done.stderr}FAILED exit code {done.returncode}, wanted 0")

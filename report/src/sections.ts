@@ -319,7 +319,10 @@ function layerRow(l: Layer): string[] {
 }
 
 function hertzWords({a_m, b_m, p0_Pa, approach_m}: Geometry["hertz"]): string {
-  const axes = `a ${numberText(1e3 * a_m, 3)}, b ${numberText(1e3 * b_m, 3)} mm`;
+  const a = `a ${numberText(1e3 * a_m, 3)}`;
+  if (approach_m === null)
+    return `${a} mm, p₀ ${numberText(1e-6 * p0_Pa)} MPa, a line of ${numberText(2e3 * b_m, 3)} mm`;
+  const axes = `${a}, b ${numberText(1e3 * b_m, 3)} mm`;
   return `${axes}, p₀ ${numberText(1e-6 * p0_Pa)} MPa, approach ${numberText(1e6 * approach_m, 3)} µm`;
 }
 
@@ -339,18 +342,20 @@ export function geometryTable(run: Run): HTMLElement|null {
   if (!g) return null;
   const c = g.contact;
   const mm = (metres: number) => `${minus((1e3 * metres).toFixed(3))} mm`;
+  const roll = option(run, "geometry", "roll");
   const radii = [c.curvature_wheel_lateral_per_m, c.curvature_rail_lateral_per_m].map(radiusText).join(", ");
   const rows: string[][] = [
     ["wheel on rail", `${g.wheel_profile} on ${g.rail_profile}`],
     ["lateral shift of the wheel", option(run, "geometry", "lateral_shift") ?? "–"],
     ["cant of the rail", option(run, "geometry", "cant") ?? "–"],
+    ...(roll && Number(roll) !== 0 ? [["roll of the wheelset, field side up", roll]] : []),
     ["contact point on the rail", `y ${mm(c.y_m)}, z ${mm(c.z_m)}`],
     ["contact point on the wheel, from the tape circle", `y ${mm(c.wheel_y_m)}`],
     ["contact angle", `${numberText(1e3 * c.angle_rad)} mrad`],
     ["rolling radius", `${(1e3 * c.rolling_radius_m).toFixed(3)} mm`],
     ["lateral radius of wheel, of rail (convex positive)", radii],
     [loadWords(run), `${numberText(1e-3 * g.load_N, 5)} kN`],
-    ["Hertz’s ellipse, no layer", hertzWords(g.hertz)],
+    [g.hertz.approach_m === null ? "Hertz, no layer" : "Hertz’s ellipse, no layer", hertzWords(g.hertz)],
     ...g.layers.map(layerRow),
   ];
   return table("Placement", ["", ""], rows, {class: "facts"});

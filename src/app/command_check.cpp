@@ -20,22 +20,32 @@ void print_title(const LoadedCase& loaded) {
   fmt::print("{}\n\n", printable(fmt::format("{}: {}", loaded.file.string(), loaded.spec.title)));
 }
 
+/// Of the contact point, from the tape circle.
+double wheel_y(const Placement& p) {
+  return p.contact.roll == 0 ? p.contact.point.y - p.contact.wheel_offset_y : p.wheel.at(p.contact.wheel_s).position.y;
+}
+
 void print_geometry(const CaseSpec& spec, const Placement& placement) {
   const RigidContact& c = placement.contact;
   const HertzContact hertz = hertz_estimate(spec, c);
   fmt::print("profiles       {} on {}\n", placement.wheel.name(), placement.rail.name());
   fmt::print("contact point  y = {:.3f} mm, z = {:.3f} mm; on the wheel at y = {:.3f} mm\n", 1e3 * c.point.y,
-             1e3 * c.point.z, 1e3 * (c.point.y - c.wheel_offset_y));
+             1e3 * c.point.z, 1e3 * wheel_y(placement));
   fmt::print("contact angle  {:.2f} mrad; rolling radius {:.3f} mm\n", 1e3 * c.angle, 1e3 * c.rolling_radius);
   if (c.yaw != 0)
     fmt::print("yaw            {:.3f} mrad; the contact lies {:.3f} mm before the axle\n", 1e3 * c.yaw, 1e3 * c.x);
+  if (c.roll != 0) fmt::print("roll           {:.3f} mrad, field side up\n", 1e3 * c.roll);
   if (spec.vehicle.approach)
     fmt::print("approach       {:.4g} mm, given: the load is a result, {:.3f} kN by Hertz\n",
                1e3 * *spec.vehicle.approach, 1e-3 * hertz.load);
   else
     fmt::print("static load    {:.3f} kN\n", 1e-3 * static_load(spec));
-  fmt::print("Hertz estimate a = {:.2f} mm, b = {:.2f} mm, p0 = {:.0f} MPa (local curvatures only)\n", 1e3 * hertz.a,
-             1e3 * hertz.b, 1e-6 * hertz.p0);
+  if (spec.geometry.in_line())
+    fmt::print("Hertz          a = {:.2f} mm, p0 = {:.0f} MPa on a line of {:.4g} mm\n", 1e3 * hertz.a, 1e-6 * hertz.p0,
+               2e3 * hertz.b);
+  else
+    fmt::print("Hertz estimate a = {:.2f} mm, b = {:.2f} mm, p0 = {:.0f} MPa (local curvatures only)\n", 1e3 * hertz.a,
+               1e3 * hertz.b, 1e-6 * hertz.p0);
 }
 
 void print_layers(const CaseSpec& spec) {
@@ -88,9 +98,10 @@ nlohmann::ordered_json as_json(const CaseSpec& spec, const Placement& placement)
            {{"x_m", c.x},
             {"y_m", c.point.y},
             {"z_m", c.point.z},
-            {"wheel_y_m", c.point.y - c.wheel_offset_y},
+            {"wheel_y_m", wheel_y(placement)},
             {"angle_rad", c.angle},
             {"yaw_rad", c.yaw},
+            {"roll_rad", c.roll},
             {"rolling_radius_m", c.rolling_radius}}},
           {"load_N", hertz.load},
           {"hertz", {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}}}};

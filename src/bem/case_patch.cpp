@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/faults.hpp"
+#include "geometry/turned_wheel.hpp"
 
 namespace railstrata {
 
@@ -25,7 +26,7 @@ Touches touches(const PatchGrid& g, const Plane& pressure) {
     for (int j = 0; j < g.ny; ++j) {
       if (!(pressure[g.index(i, j)] > 0)) continue;
       out.x |= i == 0 || i >= g.nx - 2;
-      out.y |= j == 0 || j == g.ny - 1;
+      out.y |= !g.line && (j == 0 || j == g.ny - 1);
     }
   return out;
 }
@@ -64,7 +65,7 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
       throw CaseError(fmt::format("the {} flattens the whole potential contact area of {:.0f} mm", in_words(target),
                                   1e3 * options.largest_patch),
                       "check the load, the profiles and the moduli; half-space theory no longer applies");
-    g = centred_grid(half_x, half_y, options.cell, options.cell);
+    g = g.line ? line_grid(half_x, g.dx, g.dy) : centred_grid(half_x, half_y, options.cell, options.cell);
   }
 }
 
@@ -78,8 +79,9 @@ PatchGrid grid_for(const CaseSpec& spec, const Placement& placement, const BemOp
   const auto cells = [&](double half) {
     return static_cast<int>(std::min(std::ceil(half / options.cell) + 2, static_cast<double>(most)));
   };
-  return centred_grid(cells(1.15 * scale * estimate.a), cells(std::max(1.15 * scale * estimate.b, held)), options.cell,
-                      options.cell);
+  const int half_x = cells(1.15 * scale * estimate.a);
+  if (spec.geometry.in_line()) return line_grid(half_x, options.cell, *spec.geometry.line_length);
+  return centred_grid(half_x, cells(std::max(1.15 * scale * estimate.b, held)), options.cell, options.cell);
 }
 
 /// Rigid slip of the wheel's surface beyond creepage: each point moves with its local rolling radius. The part linear
@@ -130,7 +132,9 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
   return out;
 }
 
-double wheel_spin(const RigidContact& contact) { return -std::sin(contact.angle) / contact.rolling_radius; }
+double wheel_spin(const RigidContact& contact) {
+  return -std::sin(contact.angle - contact.roll) / contact.rolling_radius;
+}
 
 Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidContact& contact) {
   Plane spin(static_cast<std::size_t>(grid.ny), 0.0);
@@ -141,7 +145,7 @@ Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidCo
     const int low = std::max(j - 1, 0), high = std::min(j + 1, grid.ny - 1);
     if (!present(low) || !present(j) || !present(high)) continue;
     const double angle = contact.angle + std::atan((middle(high) - middle(low)) / ((high - low) * grid.dy));
-    spin[static_cast<std::size_t>(j)] = -std::sin(angle) / contact.rolling_radius - wheel_spin(contact);
+    spin[static_cast<std::size_t>(j)] = -std::sin(angle - contact.roll) / contact.rolling_radius - wheel_spin(contact);
   }
   return spin;
 }
@@ -151,7 +155,9 @@ double geometric_spin(const CaseSpec& spec, const RigidContact& contact) {
   return wheel_spin(contact) + (radius ? std::cos(contact.angle) / *radius : 0.0);
 }
 
-double yaw_creepage(const RigidContact& contact) { return 0.0 - std::tan(contact.yaw) / std::cos(contact.angle); }
+double yaw_creepage(const RigidContact& contact) {
+  return 0.0 - (contact.roll == 0 ? std::tan(contact.yaw) / std::cos(contact.angle) : lateral_motion(contact));
+}
 
 void drive_contact(const CaseSpec& spec, const RigidContact& contact, double weight, RollingContact& problem) {
   const DriveSpec& drive = spec.drive;
@@ -187,7 +193,7 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
   contact.leading_edge = spec.bem.leading_edge;
   contact.spin = spec.drive.spin.value_or(geometric_spin(spec, placement.contact));
   contact.extra_slip.x = slip_of_radius(patch.grid, patch.profile, placement.contact, wheel_spin(placement.contact));
-  if (spec.bem.spin_angle == SpinAngle::local)
+  if (spec.bem.spin_angle == SpinAngle::local && !patch.grid.line)
     contact.local_spin = local_spin(patch.grid, patch.profile, placement.contact);
   contact.falling = falling_friction(spec);
   if (const std::string note = note_of_instability(spec, contact.falling, hertz_estimate(spec, placement.contact).p0);

@@ -35,8 +35,9 @@ PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const Bem
 /// Layers of one body from the case, from the surface down; a graded one cut to its grading_tolerance.
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 
-/// Spin that the geometry gives, 1/m: of the wheel on its contact angle delta, -sin(delta)/r; of a curve of radius R
-/// (positive with its centre on the field side), in which the wheelset turns about the vertical, + cos(delta)/R.
+/// Spin that the geometry gives, 1/m: of the wheel on its contact angle delta less its roll, -sin(delta - phi)/r; of a
+/// curve of radius R (positive with its centre on the field side), in which the wheelset turns about the vertical, +
+/// cos(delta)/R.
 double wheel_spin(const RigidContact& contact);
 double geometric_spin(const CaseSpec& spec, const RigidContact& contact);
 

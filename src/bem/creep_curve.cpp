@@ -22,6 +22,9 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
                                          const std::vector<double>& creepages, const BemOptions& options) {
   if (!(spec.drive.friction_coefficient > 0))
     throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero");
+  if (spec.geometry.in_line())
+    throw CaseError("the fast theories of a creep curve are those of ellipses, not of a line contact",
+                    "take `railstrata sweep` over drive.creepage, or geometry.contact = \"point\"");
   const std::optional<double>& approach = spec.vehicle.approach;
   CasePatch patch = make_case_patch(
       spec, placement, options,

@@ -22,6 +22,7 @@ struct InfluenceCache::State {
     LayeredHalfSpace wheel, rail;
     int nx, ny;
     double dx, dy, film;
+    bool line;
     std::shared_ptr<const InfluenceOperator> op;
   };
   static constexpr std::size_t kEntries = 32;
@@ -39,16 +40,16 @@ std::shared_ptr<const InfluenceOperator> InfluenceCache::get(const LayeredHalfSp
     const std::lock_guard lock(state_->mutex);
     for (auto it = state_->entries.begin(); it != state_->entries.end(); ++it) {
       if (it->nx != g.nx || it->ny != g.ny || it->dx != g.dx || it->dy != g.dy || it->film != film ||
-          !same(it->wheel, wheel) || !same(it->rail, rail))
+          it->line != g.line || !same(it->wheel, wheel) || !same(it->rail, rail))
         continue;
       state_->entries.splice(state_->entries.begin(), state_->entries, it);
       return it->op;
     }
   }
   auto op = std::make_shared<const InfluenceOperator>(
-      combined_compliance(layered_compliance(wheel), layered_compliance(rail)), g.nx, g.ny, g.dx, g.dy, film);
+      combined_compliance(layered_compliance(wheel), layered_compliance(rail)), g.nx, g.ny, g.dx, g.dy, film, g.line);
   const std::lock_guard lock(state_->mutex);
-  state_->entries.push_front({wheel, rail, g.nx, g.ny, g.dx, g.dy, film, op});
+  state_->entries.push_front({wheel, rail, g.nx, g.ny, g.dx, g.dy, film, g.line, op});
   if (state_->entries.size() > State::kEntries) state_->entries.pop_back();
   return op;
 }

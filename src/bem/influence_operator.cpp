@@ -4,6 +4,8 @@
 #include <cmath>
 #include <complex>
 
+#include "halfspace/line_contact.hpp"
+
 namespace railstrata {
 
 namespace {
@@ -25,11 +27,19 @@ bool couples_at_all(const SurfaceCompliance& pair) {
   return rz > 1e-12 * zz;
 }
 
+std::vector<RectangleInfluence> influence_table(const SurfaceCompliance& pair, const PlaneFft& fft, double dx,
+                                                double dy, bool line) {
+  const int nx = fft.mx() / 2 + 1, ny = fft.my() / 2 + 1;
+  return line ? in_first_column(strip_influence_table(pair, nx, dx), ny)
+              : rectangle_influence_table(pair, nx, ny, dx, dy);
+}
+
 }  // namespace
 
-InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film)
+InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film,
+                                     bool line)
     : fft_(nx, ny), dx_(dx), dy_(dy), film_(film) {
-  auto table = rectangle_influence_table(pair, fft_.mx() / 2 + 1, fft_.my() / 2 + 1, dx, dy);
+  auto table = influence_table(pair, fft_, dx, dy, line);
   table[0].xx += film;
   table[0].yy += film;
   using I = RectangleInfluence;

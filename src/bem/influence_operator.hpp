@@ -17,7 +17,9 @@ class InfluenceOperator {
  public:
   /// film: what a third-body layer between the surfaces adds to the displacement by traction of a cell itself [m/Pa],
   /// ThirdBody::flexibility.
-  InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film = 0);
+  /// line: plane strain (halfspace/line_contact.hpp), ny = 1.
+  InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film = 0,
+                    bool line = false);
 
   int nx() const { return fft_.nx(); }
   int ny() const { return fft_.ny(); }

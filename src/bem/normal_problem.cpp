@@ -243,7 +243,8 @@ class ActiveSetSolver {
     s.iterations = iterations_;
     for (int i = 0; i < grid_.nx; ++i)
       for (int j = 0; j < grid_.ny; ++j)
-        if ((i == 0 || j == 0 || i == grid_.nx - 1 || j == grid_.ny - 1) && p_[grid_.index(i, j)] > 0)
+        if ((i == 0 || i == grid_.nx - 1 || (!grid_.line && (j == 0 || j == grid_.ny - 1))) &&
+            p_[grid_.index(i, j)] > 0)
           s.touches_edge = true;
     return s;
   }

@@ -80,4 +80,12 @@ class PlaneFft {
   std::unique_ptr<Plans> plans_;
 };
 
+/// The table of a kernel of planes of one column, from its values along x: nothing beside it. columns: my/2 + 1.
+template <class Value>
+std::vector<Value> in_first_column(const std::vector<Value>& along, int columns) {
+  std::vector<Value> table(along.size() * static_cast<std::size_t>(columns));
+  for (std::size_t i = 0; i < along.size(); ++i) table[i * static_cast<std::size_t>(columns)] = along[i];
+  return table;
+}
+
 }  // namespace railstrata

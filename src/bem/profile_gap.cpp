@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/turned_wheel.hpp"
+
 namespace railstrata {
 
 namespace {
@@ -51,6 +53,19 @@ struct WheelCurve {
   }
 };
 
+/// The same of a wheel that has a roll too.
+struct RolledWheelCurve {
+  const Profile& profile;
+  const RigidContact& contact;
+  PlaneAxes axes;
+  TurnedWheel wheel;
+  PlanePoint at(double s, double x) const {
+    const TurnedPoint p = wheel.cut(s, contact.x + x);
+    const Vec2 d = Vec2{contact.wheel_offset_y + p.position.y, contact.wheel_offset_z + p.position.z} - axes.origin;
+    return {dot(d, axes.tangent), dot(d, axes.normal), dot(p.along, axes.tangent)};
+  }
+};
+
 struct Found {
   double s, w;
 };
@@ -93,13 +108,12 @@ class HeightOverPlane {
   double contact_s_, low_, high_;
 };
 
-}  // namespace
-
-ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
-                       const RigidContact& contact, const PatchGrid& grid) {
+/// from_axle: distance of a point of the section plane (model frame) from the axle.
+template <class WheelSection, class FromAxle>
+ProfileGap gap_to(const WheelSection& wheel_curve, const Profile& rail, const TrackGeometry& track,
+                  const RigidContact& contact, const PatchGrid& grid, FromAxle&& from_axle) {
   const PlaneAxes axes(contact);
   const RailCurve rail_curve{rail, track, axes};
-  const WheelCurve wheel_curve{.profile = wheel, .contact = contact, .axes = axes};
   const HeightOverPlane rail_height(rail_curve, contact.rail_s);
   const HeightOverPlane wheel_height(wheel_curve, contact.wheel_s);
   ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size())};
@@ -115,10 +129,24 @@ ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeo
       out.gap[k] = present ? on_wheel->w - on_rail->w : ProfileGap::kNoSurface;
       out.rail_height[k] = on_rail ? on_rail->w : 0.0;
       const double middle = present ? 0.5 * (on_rail->w + on_wheel->w) : 0.0;
-      out.radius[k] = std::hypot(x, contact.axle_height - (axes.origin + t * axes.tangent + middle * axes.normal).z);
+      out.radius[k] = std::hypot(x, from_axle(axes.origin + t * axes.tangent + middle * axes.normal));
     }
   });
   return out;
+}
+
+}  // namespace
+
+ProfileGap profile_gap(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
+                       const RigidContact& contact, const PatchGrid& grid) {
+  const PlaneAxes axes(contact);
+  if (contact.roll == 0)
+    return gap_to(WheelCurve{.profile = wheel, .contact = contact, .axes = axes}, rail, track, contact, grid,
+                  [&](Vec2 point) { return contact.axle_height - point.z; });
+  const RolledWheelCurve rolled{wheel, contact, axes, TurnedWheel(wheel, track)};
+  return gap_to(rolled, rail, track, contact, grid, [&](Vec2 point) {
+    return rolled.wheel.from_axle({point.y - contact.wheel_offset_y, point.z - contact.wheel_offset_z});
+  });
 }
 
 }  // namespace railstrata

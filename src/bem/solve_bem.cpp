@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -51,12 +52,43 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
     }
 }
 
+/// The one column of a line contact as three: at the ends of the line, which stand for a quarter of it each, and in its
+/// middle.
+void spread_over_line(double length, ContactField& f) {
+  constexpr int kColumns = 3;
+  const auto thrice = [](auto& values) {
+    auto all = values;
+    all.clear();
+    for (const auto& v : values) all.insert(all.end(), kColumns, v);
+    values = std::move(all);
+  };
+  for (auto* values : {&f.x, &f.y, &f.z, &f.area, &f.p, &f.q_x, &f.q_y, &f.slip_x, &f.slip_y, &f.bound})
+    thrice(*values);
+  thrice(f.state);
+  f.columns = kColumns;
+  f.line_length = length;
+  for (std::size_t k = 0; k < f.y.size(); ++k) {
+    const int column = static_cast<int>(k) % kColumns;
+    f.y[k] += 0.5 * length * (column - 1);
+    f.area[k] *= column == 1 ? 0.5 : 0.25;
+  }
+}
+
+/// Of every cell.
+Plane of_cells(const BemPatch& r, const Plane& of_points) {
+  if (r.field.line_length == 0) return of_points;
+  Plane out;
+  for (std::size_t k = 0; k < of_points.size(); k += static_cast<std::size_t>(r.field.columns))
+    out.push_back(of_points[k]);
+  return out;
+}
+
 void fill_totals(const RollingSolution& s, double speed, BemPatch& r) {
   const TangentialSolution& t = s.tangential;
   const double c = std::cos(r.contact.angle), sn = std::sin(r.contact.angle);
   const double normal = s.normal.load;
   r.force = {t.force_x, normal * sn + t.force_y * c, -normal * c + t.force_y * sn, normal, t.force_y, t.moment};
-  r.approach = s.normal.approach;
+  r.approach = r.grid.line ? std::numeric_limits<double>::quiet_NaN() : s.normal.approach;
   r.rigid_slip.x = t.creepage_x;
   r.rigid_slip.y = t.creepage_y;
   r.dissipation = t.dissipation * (r.field.slip_is_distance ? 1.0 : speed);
@@ -104,11 +136,13 @@ BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const Pa
   r.grid = p.patch.grid;
   r.rigid_slip.spin = p.patch.contact.spin;
   fill_field(p.patch, p.solution, r.contact, spec.drive.speed, r.field);
+  if (r.grid.line) spread_over_line(r.grid.dy, r.field);
   fill_totals(p.solution, spec.drive.speed, r);
   Placement own = placement;
   own.contact = p.contact;
   r.surroundings = patch_surroundings(spec, own, solved_patch(r.grid, p.solution.normal));
   r.surroundings.cut_off = cut_off(spec, p, r.surroundings);
+  if (r.grid.line) r.surroundings.edges = {};  // its theory knows none
   return r;
 }
 
@@ -174,7 +208,8 @@ SharedLoad bear_weight(const CaseSpec& spec, const Placement& placement, const B
   const double load = static_load(spec);
   check_friction(spec, load, normal_load(load, 0, placement.contact));
   LoadedPatch alone = balance_vertical_load(spec, placement, {}, options, load);
-  SharedLoad shared = share_load(spec, placement, alone.solution.normal.approach, options);
+  SharedLoad shared;
+  if (!alone.patch.grid.line) shared = share_load(spec, placement, alone.solution.normal.approach, options);
   if (!shared.patches.empty()) return shared;
   if (!holds(alone.patch.grid, shared.room)) alone = balance_vertical_load(spec, placement, shared.room, options, load);
   if (alone.wedged) refuse_wedged(placement.contact);
@@ -252,14 +287,15 @@ BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemO
 }
 
 Subsurface rail_interior(const LayeredHalfSpace& rail, const BemPatch& patch) {
-  return {rail, patch.grid, patch.field.p, patch.field.q_x, patch.field.q_y};
+  return {rail, patch.grid, of_cells(patch, patch.field.p), of_cells(patch, patch.field.q_x),
+          of_cells(patch, patch.field.q_y)};
 }
 
 Subsurface wheel_interior(const LayeredHalfSpace& wheel, const BemPatch& patch) {
-  Plane q_x = patch.field.q_x, q_y = patch.field.q_y;
+  Plane q_x = of_cells(patch, patch.field.q_x), q_y = of_cells(patch, patch.field.q_y);
   for (Plane* q : {&q_x, &q_y})
     for (double& v : *q) v = -v;
-  return {wheel, patch.grid, patch.field.p, std::move(q_x), std::move(q_y)};
+  return {wheel, patch.grid, of_cells(patch, patch.field.p), std::move(q_x), std::move(q_y)};
 }
 
 Subsurface rail_interior(const BemResult& r) { return rail_interior(r.rail, r); }

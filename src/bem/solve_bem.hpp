@@ -56,7 +56,7 @@ struct BemPatch {
   PatchTotals patch;
   RailForces force;
   RigidSlip rigid_slip;
-  double approach = 0;     ///< m
+  double approach = 0;     ///< m; of a line contact NaN: distant points come together without end
   double dissipation = 0;  ///< W; of a shift J, of its last increment
   PatchSurroundings surroundings;
 };

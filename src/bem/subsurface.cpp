@@ -5,6 +5,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include "bem/plane_fft.hpp"
 #include "core/parabola.hpp"
 #include "halfspace/layer_waves.hpp"
+#include "halfspace/line_contact.hpp"
 #include "material/elastic.hpp"
 
 namespace railstrata {
@@ -104,23 +106,29 @@ WaveResponse response(const LayerWaves& waves, double depth) {
 struct Subsurface::Layered {
   static constexpr int kNodes = 240;
   PlaneFft fft;  // over a square: its period
+  bool line;
   double unit_x, unit_y, log_low, log_step;
   std::vector<LayerWaves> stack, plain;  // at wave numbers spaced geometrically
 
-  /// `extents` times the grid, up to twice that for thick layers, whose strains reach farther.
+  /// `extents` times the grid, up to twice that for thick layers, whose strains reach farther. Those of a line contact
+  /// reach still farther, and its waves run along x alone.
   static double period(const LayeredHalfSpace& body, const PatchGrid& g, double extents) {
+    constexpr double kFarther = 8;
     double thickness = 0;
     for (const HalfSpaceLayer& layer : body.layers) thickness += layer.thickness;
+    if (g.line) return kFarther * std::max(8 * thickness, extents * g.nx * g.dx);
     const double extent = std::max(g.nx * g.dx, g.ny * g.dy);
     return std::clamp(8 * thickness, extents * extent, 2 * extents * extent);
   }
 
   Layered(const LayeredHalfSpace& body, const PatchGrid& g, double extents)
       : fft(static_cast<int>(period(body, g, extents) / (2 * g.dx)),
-            static_cast<int>(period(body, g, extents) / (2 * g.dy))),
+            g.line ? 1 : static_cast<int>(period(body, g, extents) / (2 * g.dy))),
+        line(g.line),
         unit_x(2 * std::numbers::pi / (fft.mx() * g.dx)),
-        unit_y(2 * std::numbers::pi / (fft.my() * g.dy)) {
-    const double low = 1e-3 * std::min(unit_x, unit_y), high = std::numbers::pi * std::hypot(1 / g.dx, 1 / g.dy) * 1.01;
+        unit_y(line ? 0 : 2 * std::numbers::pi / (fft.my() * g.dy)) {
+    const double low = 1e-3 * (line ? unit_x : std::min(unit_x, unit_y)),
+                 high = std::numbers::pi * (line ? 1 / g.dx : std::hypot(1 / g.dx, 1 / g.dy)) * 1.01;
     log_low = std::log(low);
     log_step = (std::log(high) - log_low) / (kNodes - 1);
     const LayeredHalfSpace homogeneous{{}, body.substrate};
@@ -151,6 +159,7 @@ struct Subsurface::Layered {
   /// opposite sign to the mean k = 0, which the sum leaves free, it takes the images away. Of the responses over
   /// k^power: 0 for strains and tractions, 1 for displacements.
   Means mean(const std::vector<WaveResponse>& node, int power = 0) const {
+    if (line) return {mean_along(node), {}};
     const double unit = std::sqrt(unit_x * unit_y), cut = 4 * unit;
     const auto add = [&](double weight_x, double weight_y, double k, Means& to) {
       const WaveResponse w = between(node, k);
@@ -173,6 +182,21 @@ struct Subsurface::Layered {
       const double weight = std::numbers::pi * std::exp(2 * t) * step / (unit * unit);
       add(weight, weight, std::exp(t), out);
     }
+    return out;
+  }
+
+  /// The same of waves along x alone, power 0.
+  WaveResponse mean_along(const std::vector<WaveResponse>& node) const {
+    WaveResponse out;
+    const auto add = [&](double weight, double k) {
+      const WaveResponse w = between(node, k);
+      const double cut = std::exp(-k * k / (16 * unit_x * unit_x));
+      for (auto m : kResponse) out.*m += weight * cut * w.*m;
+    };
+    constexpr int reach = 20;
+    for (int i = 1; i <= reach; ++i) add(-2, i * unit_x);
+    constexpr double step = 0.02;  // of ln k; 2 ∫ k f dln k
+    for (double t = log_low; t < std::log(reach * unit_x); t += step) add(2 * std::exp(t) * step / unit_x, std::exp(t));
     return out;
   }
 
@@ -207,7 +231,7 @@ struct Subsurface::Layered {
                   const Complex P = weight * z[0][e], X = weight * z[1][e], Y = weight * z[2][e];
                   if (k == 0)
                     zero(P, X, Y, value);
-                  else if (2 * i == mx || 2 * j >= my)
+                  else if (2 * i == mx || (!line && 2 * j >= my))
                     value.fill(0);  // the highest waves have no direction
                   else
                     wave(P, X, Y, kx / k, ky / k, k, between(node, k), value);
@@ -250,8 +274,9 @@ StatePlane Subsurface::plane(double depth) const {
   StatePlane out;
   out.depth = depth;
   const PlaneFft fft(grid_.nx, grid_.ny);
-  const auto table =
-      rectangle_interior_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
+  const int nx = fft.mx() / 2 + 1, ny = fft.my() / 2 + 1;
+  const auto table = grid_.line ? in_first_column(strip_interior_table(body_.substrate, depth, nx, grid_.dx), ny)
+                                : rectangle_interior_table(body_.substrate, depth, nx, ny, grid_.dx, grid_.dy);
   convolve(fft, {p_.data(), q_x_.data(), q_y_.data()}, table, kParity, pointers(out, grid_.size()),
            [](const InteriorInfluence& t, std::size_t load, std::size_t s) { return t[load].*kState[s]; });
   straighten_steps(depth, out);
@@ -262,6 +287,10 @@ StatePlane Subsurface::plane(double depth) const {
 DisplacementPlane Subsurface::displacement(double depth) const {
   DisplacementPlane out;
   out.depth = depth;
+  if (grid_.line) {
+    for (Plane* u : planes_of(out)) u->assign(grid_.size(), std::numeric_limits<double>::quiet_NaN());
+    return out;
+  }
   const PlaneFft fft(grid_.nx, grid_.ny);
   const auto table =
       rectangle_displacement_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
@@ -288,15 +317,19 @@ void Subsurface::straighten_steps(double depth, StatePlane& out) const {
         d / (2 * std::numbers::pi * G) * alternating, 2 * depth * once};
   };
   const Tooth tx = tooth(grid_.dx), ty = tooth(grid_.dy);
+  const int rim = grid_.line ? 0 : 1;
   for (int i = 1; i + 1 < grid_.nx; ++i)
-    for (int j = 1; j + 1 < grid_.ny; ++j) {
+    for (int j = rim; j + rim < grid_.ny; ++j) {
       const std::size_t k = grid_.index(i, j), n = grid_.index(i + 1, j), s = grid_.index(i - 1, j);
       const double xx = (q_x_[n] - q_x_[s]) / (2 * grid_.dx), yx = (q_y_[n] - q_y_[s]) / (2 * grid_.dx);
-      const double xy = (q_x_[k + 1] - q_x_[k - 1]) / (2 * grid_.dy), yy = (q_y_[k + 1] - q_y_[k - 1]) / (2 * grid_.dy);
       out.e_xx[k] += tx.normal_strain * xx;
+      out.e_xy[k] += tx.shear_strain * yx;
+      out.s_zz[k] += tx.s_zz * xx;
+      if (grid_.line) continue;
+      const double xy = (q_x_[k + 1] - q_x_[k - 1]) / (2 * grid_.dy), yy = (q_y_[k + 1] - q_y_[k - 1]) / (2 * grid_.dy);
       out.e_yy[k] += ty.normal_strain * yy;
-      out.e_xy[k] += tx.shear_strain * yx + ty.shear_strain * xy;
-      out.s_zz[k] += tx.s_zz * xx + ty.s_zz * yy;
+      out.e_xy[k] += ty.shear_strain * xy;
+      out.s_zz[k] += ty.s_zz * yy;
     }
 }
 
@@ -395,21 +428,25 @@ struct Around {
   Around(const PatchGrid& g, const Vec3& at) {
     const double u = (at.x - g.x0) / g.dx, v = (at.y - g.y0) / g.dy;
     const int i = std::clamp(static_cast<int>(std::floor(u)) - 1, 0, g.nx - 4),
-              j = std::clamp(static_cast<int>(std::floor(v)) - 1, 0, g.ny - 4);
+              j = g.line ? 0 : std::clamp(static_cast<int>(std::floor(v)) - 1, 0, g.ny - 4);
     first = g.index(i, j);
     x = cubic_weights(u - i);
-    y = cubic_weights(v - j);
+    if (g.line)
+      y = {1, 0, 0, 0};
+    else
+      y = cubic_weights(v - j);
   }
   double of(const PatchGrid& g, const Plane& v) const {
     double sum = 0;
+    const std::size_t columns = g.line ? 1 : 4;
     for (std::size_t a = 0; a < 4; ++a)
-      for (std::size_t b = 0; b < 4; ++b) sum += x[a] * y[b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
+      for (std::size_t b = 0; b < columns; ++b) sum += x[a] * y[b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
     return sum;
   }
 };
 
 bool has_cells_around(const PatchGrid& g, const Vec3& at) {
-  return at.x >= g.x(1) && at.x <= g.x(g.nx - 2) && at.y >= g.y(1) && at.y <= g.y(g.ny - 2);
+  return at.x >= g.x(1) && at.x <= g.x(g.nx - 2) && (g.line || (at.y >= g.y(1) && at.y <= g.y(g.ny - 2)));
 }
 
 }  // namespace
@@ -424,8 +461,8 @@ Sym3 Subsurface::stress_at(const StatePlane& s, const Vec3& at, bool below_inter
 }
 
 std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {
-  PatchGrid g{grid_.nx + 2 * more_x,        grid_.ny + 2 * more_y,       grid_.dx, grid_.dy,
-              grid_.x0 - more_x * grid_.dx, grid_.y0 - more_y * grid_.dy};
+  PatchGrid g{grid_.nx + 2 * more_x,        grid_.ny + 2 * more_y,        grid_.dx,  grid_.dy,
+              grid_.x0 - more_x * grid_.dx, grid_.y0 - more_y * grid_.dy, grid_.line};
   const auto padded = [&](const Plane& v) {
     Plane wide(g.size(), 0.0);
     for (int i = 0; i < grid_.nx; ++i)
@@ -440,7 +477,9 @@ std::unique_ptr<Subsurface> Subsurface::coarsened() const {
   constexpr int kCells = 3;
   const double middle_x = grid_.x0 + 0.5 * (grid_.nx - 1) * grid_.dx,
                middle_y = grid_.y0 + 0.5 * (grid_.ny - 1) * grid_.dy;
-  PatchGrid g = centred_grid(grid_.nx / 2, grid_.ny / 2, kCells * grid_.dx, kCells * grid_.dy);
+  PatchGrid g = grid_.line ? line_grid(grid_.nx / 2, kCells * grid_.dx, grid_.dy)
+                           : centred_grid(grid_.nx / 2, grid_.ny / 2, kCells * grid_.dx, kCells * grid_.dy);
+  const double cells = grid_.line ? kCells : kCells * kCells;
   g.x0 += middle_x;
   g.y0 += middle_y;
   const auto means = [&](const Plane& v) {
@@ -449,7 +488,7 @@ std::unique_ptr<Subsurface> Subsurface::coarsened() const {
       for (int j = 0; j < grid_.ny; ++j) {
         const auto x = static_cast<int>(std::lround((grid_.x(i) - g.x0) / g.dx)),
                    y = static_cast<int>(std::lround((grid_.y(j) - g.y0) / g.dy));
-        out[g.index(x, y)] += v[grid_.index(i, j)] / (kCells * kCells);
+        out[g.index(x, y)] += v[grid_.index(i, j)] / cells;
       }
     return out;
   };
@@ -465,11 +504,11 @@ std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool 
     if (!(p.z >= 0)) throw std::out_of_range("Subsurface::at: a point above the surface");
     if (covers(p)) continue;
     const double x = std::max(grid_.x0 - p.x, p.x - grid_.x(grid_.nx - 1)) / grid_.dx,
-                 y = std::max(grid_.y0 - p.y, p.y - grid_.y(grid_.ny - 1)) / grid_.dy;
+                 y = grid_.line ? 0.0 : std::max(grid_.y0 - p.y, p.y - grid_.y(grid_.ny - 1)) / grid_.dy;
     if (!((grid_.nx + 2 * std::max(x, 0.0)) * (grid_.ny + 2 * std::max(y, 0.0)) < kMostCells))
       throw std::out_of_range("Subsurface::at: a point too far away for cells of this size");
     more_x = std::max(more_x, static_cast<int>(std::ceil(x)) + 2);
-    more_y = std::max(more_y, static_cast<int>(std::ceil(y)) + 2);
+    if (!grid_.line) more_y = std::max(more_y, static_cast<int>(std::ceil(y)) + 2);
   }
   if (more_x > 0 || more_y > 0) return widened(std::max(more_x, 0), std::max(more_y, 0))->at(points, below_interface);
 
@@ -497,7 +536,7 @@ namespace {
 
 double largest_at_rim(const Plane& v, const PatchGrid& g) {
   double most = 0;
-  for (int i = 0; i < g.nx; ++i) most = std::max({most, v[g.index(i, 0)], v[g.index(i, g.ny - 1)]});
+  for (int i = 0; i < g.nx && !g.line; ++i) most = std::max({most, v[g.index(i, 0)], v[g.index(i, g.ny - 1)]});
   for (int j = 0; j < g.ny; ++j) most = std::max({most, v[g.index(0, j)], v[g.index(g.nx - 1, j)]});
   return most;
 }

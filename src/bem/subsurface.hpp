@@ -3,7 +3,8 @@
 //
 // On a plane at any depth, by convolution: the closed form of a homogeneous half-space of the substrate's material,
 // plus for layers the difference of the Fourier-domain solutions (layer_waves.hpp), which dies out away from the patch,
-// so that the periodic images of its grid do not reach back.
+// so that the periodic images of its grid do not reach back. Of a line contact (PatchGrid::line) in plane strain, the
+// same along every y.
 #include <map>
 #include <memory>
 #include <string>
@@ -25,7 +26,8 @@ struct StatePlane {
   InteriorState at(std::size_t k) const { return {e_xx[k], e_yy[k], e_xy[k], s_xz[k], s_yz[k], s_zz[k]}; }
 };
 
-/// Displacement [m] in every cell of the grid at one depth, u_z into the body. The half-space is at rest far away.
+/// Displacement [m] in every cell of the grid at one depth, u_z into the body. The half-space is at rest far away;
+/// below a line contact it is nowhere, and the displacement NaN.
 struct DisplacementPlane {
   double depth = 0;
   Plane u_x, u_y, u_z;

@@ -11,6 +11,7 @@
 
 #include "bem/given_slip.hpp"
 #include "bem/gmres.hpp"
+#include "bem/largest_influence.hpp"
 #include "bem/varying_bound.hpp"
 #include "core/faults.hpp"
 
@@ -62,11 +63,7 @@ class Solver {
     self_ = (influence.of_one_cell(0).xx - (steady() ? influence.of_one_cell(1).xx : 0.0)) / step_length();
     force_row_ = self_ / static_cast<double>(n_);  // a force residual weighs like a slip residual
     if (!VaryingBound::needed(problem)) return;
-    // Largest eigenvalue of L's symmetric part over L of one cell, across, square cells: that of lateral traction in
-    // waves along x of nearly two cells; 1.9 for Poisson's ratio 0, 2.1 for 0.3, 2.25 for 0.5.
-    constexpr double kLargest = 2.25;
-    VaryingBound::require_unique_slip(
-        problem, kLargest * (influence.of_one_cell(0).yy - influence.of_one_cell(1).yy) / step_length());
+    if (problem.falling.falls()) VaryingBound::require_unique_slip(problem, largest_slip_by_traction());
     varying_.emplace(grid, problem, given_);
     carried_.resize(n_);
     for (std::size_t i = 0; i < n_; ++i) carried_[i] = varying_->at_rest(i);
@@ -104,6 +101,16 @@ class Solver {
 
  private:
   bool steady() const { return problem_.kind == RollingKind::steady; }
+
+  /// Largest eigenvalue of L's symmetric part, 1/Pa.
+  double largest_slip_by_traction() const {
+    // Steady: over L of one cell, across, square cells, that of lateral traction in waves along x of nearly two cells:
+    // 1.9 for Poisson's ratio 0, 2.1 for 0.3, 2.25 for 0.5; strips of a line contact 1.415.
+    const double largest = grid_.line ? 1.42 : 2.25;
+    return (steady() ? largest * (A_.of_one_cell(0).yy - A_.of_one_cell(1).yy)
+                     : largest_tangential_influence(A_, problem_.traction_bound)) /
+           step_length();
+  }
   double step_length() const { return railstrata::step_length(grid_, problem_); }
 
   void check_forces() {

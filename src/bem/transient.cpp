@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "bem/several_patches.hpp"
@@ -48,8 +50,10 @@ class Course {
         rolling_(patch_.contact) {
     const NormalSolution deepest =
         solve_normal(*patch_.influence, patch_.grid, patch_.contact.gap, patch_.contact.target, options_.normal);
-    require_one_plane(placement, deepest.approach, "transient.kind is followed in one plane: take it out");
+    if (!patch_.grid.line)
+      require_one_plane(placement, deepest.approach, "transient.kind is followed in one plane: take it out");
     state_.steps = step_count(history_, spec, options.cell);
+    require_a_cell();
   }
 
   TransientState run(const TransientObserver& observer) {
@@ -67,6 +71,15 @@ class Course {
   /// What rolls is at whole cells; its history ends within half a cell of the last.
   double place_at_end(int step) const { return history_.rolls() ? step * patch_.grid.dx : place(step); }
 
+  void require_a_cell() const {
+    const double cell = patch_.grid.dx;
+    if (!history_.rolls() || history_.end() >= 0.5 * cell) return;
+    throw CaseError(
+        fmt::format("{:.3g} mm of rolling are less than half a cell of {:.3g} mm, and steps are whole cells",
+                    1e3 * history_.end(), 1e3 * cell),
+        "give a longer transient.distance, or smaller cells with --cell");
+  }
+
   bool tell(const TransientObserver& observer) {
     const double at = place_at_end(state_.step);
     state_.time = history_.time(at);
@@ -80,6 +93,7 @@ class Course {
   BemResult result() const {
     BemResult out = bem_result(spec_, placement_, {placement_.contact, patch_, solution_});
     if (patch_.contact.kind == RollingKind::shift) out.rigid_slip = {};
+    if (patch_.grid.line && state_.moment.x.force != force_before_) out.rigid_slip.x = kUnknown;
     return out;
   }
 
@@ -94,6 +108,7 @@ class Course {
 
   void start() {
     state_.moment = history_.at(0);
+    force_before_ = state_.moment.x.force;
     const LoadedMoment& m = state_.moment;
     const bool steady = history_.rolls() && spec_.transient.start == TransientStart::steady;
     patch_.contact = steady ? rolling_ : without_rolling();
@@ -110,6 +125,7 @@ class Course {
   }
 
   void advance() {
+    force_before_ = state_.moment.x.force;
     const double from = place_at_end(state_.step), to = place_at_end(++state_.step);
     const LoadedMoment before = state_.moment, there = history_.at(to);
     const RollingSolution last = solution_;
@@ -150,7 +166,7 @@ class Course {
   }
 
   void add_shift() {
-    state_.displacement_x += solution_.tangential.creepage_x;
+    state_.displacement_x += patch_.grid.line ? kUnknown : solution_.tangential.creepage_x;
     state_.displacement_y += solution_.tangential.creepage_y;
     state_.friction_work += solution_.tangential.dissipation;
   }
@@ -179,6 +195,9 @@ class Course {
                     "lower drive.friction_coefficient, or check lateral_shift and the profiles");
   }
 
+  /// Of a line contact: how far a force that changes moves distant points, and the creepage of such a step.
+  static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
   const CaseSpec& spec_;
   const Placement& placement_;
   RollingOptions options_;
@@ -187,6 +206,7 @@ class Course {
   RollingContact rolling_;  // of steady rolling: the geometry's slip
   RollingSolution solution_;
   TransientState state_;
+  std::optional<double> force_before_;  // along the rail
 };
 
 }  // namespace

@@ -27,21 +27,24 @@ VaryingBound::VaryingBound(const PatchGrid& grid, const TangentialProblem& probl
 
 void VaryingBound::require_unique_slip(const TangentialProblem& problem, double largest) {
   if (!problem.falling.falls() || problem.traction_bound.empty()) return;
-  if (problem.kind != RollingKind::steady)
-    throw CaseError("friction that falls with slip has no answer in steps of a history: massless bodies jump",
-                    "ask for steady rolling, or take friction.law = \"coulomb\"");
+  if (problem.kind == RollingKind::shift)
+    throw CaseError("friction that falls with slip velocity has no meaning in a shift, whose slip has no velocity",
+                    "let it roll, or take friction.law = \"coulomb\"");
   if (problem.third_body.thickness > 0)
     throw CaseError("friction that falls with slip has no steady answer on an elastic third-body layer: it would jump",
                     "leave out third_body.thickness, or take friction.law = \"coulomb\"");
   const double bound = *std::max_element(problem.traction_bound.begin(), problem.traction_bound.end()),
                fall = -friction_share(problem.falling, {}).by_slip_velocity,
                steepness = bound * fall * problem.speed * largest;
+  const bool steady = problem.kind == RollingKind::steady;
   if (!(steepness < 1))
     throw CaseError(
-        fmt::format("friction falls too steeply with slip: below a half-value velocity of {:.3g} m/s steady rolling "
-                    "has several answers here",
-                    problem.falling.half_velocity * steepness),
-        "raise friction.half_velocity or friction.kinetic_coefficient, or lower drive.speed");
+        fmt::format("friction falls too steeply with slip: below a half-value velocity of {:.3g} m/s {} here",
+                    problem.falling.half_velocity * steepness,
+                    steady ? "steady rolling has several answers" : "massless surfaces jump from step to step"),
+        steady ? "raise friction.half_velocity or friction.kinetic_coefficient, or lower drive.speed"
+               : "raise friction.half_velocity or friction.kinetic_coefficient, lower drive.speed, take larger cells, "
+                 "or ask for steady rolling, which bears a steeper fall");
 }
 
 double VaryingBound::plastic_before(int i, std::size_t k) const {

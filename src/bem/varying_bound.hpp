@@ -17,8 +17,8 @@ class VaryingBound {
     return problem.falling.falls() || problem.third_body.yields();
   }
   /// Throws CaseError for friction that falls too steeply: with L's symmetric part up to `largest` [1/Pa] the slip of a
-  /// cell has one value for every traction around it only while largest |g'| < 1. And for steps of history, in which
-  /// falling friction jumps.
+  /// cell has one value for every traction around it only while largest |g'| < 1; in a step of history L is the whole
+  /// displacement over the step, and beyond that the surfaces jump. And for shifts, whose slip has no velocity.
   static void require_unique_slip(const TangentialProblem& problem, double largest);
 
   /// To be filled with the slip along the traction of each cell, 0 where it sticks, before `follow`; with a change of

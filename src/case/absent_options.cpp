@@ -14,7 +14,7 @@ constexpr std::string_view
     kCreepage =
         "drive.creepage, lateral_creepage and spin give creepages, and `railstrata creep-curve` traction against them",
     kYaw = "geometry.yaw is the angle of attack", kCurve = "geometry.curve_radius is the radius of the track's curve",
-    kUpright = "the wheel stands upright on the track; geometry.lateral_shift, yaw and cant place it";
+    kRoll = "geometry.roll is the roll of the wheelset";
 
 constexpr std::string_view kElastic = "all materials are linear elastic; results warn where rail steel would yield",
                            kTrack = "gauge, cant and lateral_shift are keys of [geometry]";
@@ -34,7 +34,8 @@ constexpr std::array kAbsent{
     Absent{"yaw", kYaw},
     Absent{"yaw_angle", kYaw},
     Absent{"angle_of_attack", kYaw},
-    Absent{"roll", kUpright},
+    Absent{"roll", kRoll},
+    Absent{"roll_angle", kRoll},
     Absent{"yield_stress", kElastic},
     Absent{"yield_strength", kElastic},
     Absent{"hardening", kElastic},

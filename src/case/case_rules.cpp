@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/line_rules.hpp"
 #include "case/strength_rules.hpp"
 #include "case/transient_rules.hpp"
 #include "case/units.hpp"
@@ -190,6 +191,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_friction_law(spec, source);
   check_third_body(spec, source);
   check_curve(spec.geometry, source);
+  check_line_contact(spec, source);
   check_path(spec.run, source);
   check_wheel(spec.geometry, source);
   check_mesh(spec.mesh, source);
@@ -220,6 +222,8 @@ std::vector<std::string> idle_settings(const CaseSpec& spec) {
     idle(d.lateral_traction_coefficient.has_value(), "drive.lateral_traction_coefficient", rolling);
     idle(d.spin.has_value(), "drive.spin", rolling);
   }
+  idle(spec.transient.kind != TransientKind::shift && spec.transient.increments != defaults.transient.increments,
+       "transient.increments", "transient.kind = \"shift\"; what rolls goes on by one cell a step");
   for (std::size_t i = 0; i < spec.layers.size(); ++i)
     idle(!spec.layers[i].graded() && spec.layers[i].grading_tolerance != LayerSpec{}.grading_tolerance,
          fmt::format("layer.{}.grading_tolerance", i).c_str(), "a young_table");

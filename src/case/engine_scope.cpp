@@ -27,6 +27,8 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
          "masses press the wheel down, and the approach follows");
   beyond(spec.transient.kind != TransientKind::none, "transient.kind", "a history of loads and motions",
          "one drive leads to the wanted positions, with inertia");
+  beyond(g.in_line(), "geometry.contact", "a line contact", "bodies have ends across, and patches too");
+  beyond(g.roll != 0, "geometry.roll", "a roll of the wheelset", "the wheel is meshed upright");
   if (!spec.run.rolling) return out;
   beyond(spec.friction.law != FrictionForm::coulomb, "friction.law", "friction that falls with slip",
          "surfaces chatter on a law without memory that falls faster than waves carry away");

@@ -59,7 +59,7 @@ bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(ind
 
 constexpr double kMilli = 1e-3;
 
-std::vector<Option> track_options() {
+std::vector<Option> shape_options() {
   return {
       {"rail_profile", at<&C::geometry, &G::rail_profile>,
        "A built-in name (see `railstrata info`), an arc, or a file (two columns, Simpack, MiniProf), relative to the "
@@ -71,6 +71,19 @@ std::vector<Option> track_options() {
                                               {{"rail", RailShape::rail}, {"block", RailShape::block}}),
       choice_at<&C::geometry, &G::wheel_shape>("wheel_shape", "Rim, web and hub, or a plain disc (verification)",
                                                {{"wheel", WheelShape::wheel}, {"disc", WheelShape::disc}}),
+      choice_at<&C::geometry, &G::contact>("contact",
+                                           "A patch, closed all round; or a line: a cylinder on a plane in plane "
+                                           "strain (both profiles \"flat\", half-space engine)",
+                                           {{"point", ContactShape::point}, {"line", ContactShape::line}}),
+      {"line_length",
+       at<&C::geometry, &G::line_length>,
+       "contact = \"line\": length that bears the load evenly",
+       kLength,
+       {0.1 * kMilli, 10.0}}};
+}
+
+std::vector<Option> track_options() {
+  return {
       {"gauge", at<&C::geometry, &G::gauge>, "Track gauge between the gauge faces", kLength, {0.5, 2.0}},
       {"gauge_depth",
        at<&C::geometry, &G::gauge_depth>,
@@ -103,6 +116,12 @@ std::vector<Option> track_options() {
        "circle, positive towards the field side",
        kSlope,
        {-0.05, 0.05}},
+      {"roll",
+       at<&C::geometry, &G::roll>,
+       "Of the wheelset, about the rolling direction through the middle of the tape circle's tread, positive with the "
+       "field side up (a tangent); half-space engine",
+       kSlope,
+       {-0.1, 0.1}},
       {"curve_radius",
        at<&C::geometry, &G::curve_radius>,
        "Of the track, positive with the centre on the field side (the inner wheel); none: straight. Adds to the spin "
@@ -140,8 +159,9 @@ std::vector<Option> body_options() {
 }
 
 OptionTable geometry_table() {
-  OptionTable out{"geometry", "Profiles, track and wheel", track_options()};
-  for (const Option& option : body_options()) out.options.push_back(option);
+  OptionTable out{"geometry", "Profiles, track and wheel", shape_options()};
+  for (const auto& further : {track_options(), body_options()})
+    out.options.insert(out.options.end(), further.begin(), further.end());
   return out;
 }
 

@@ -44,9 +44,9 @@ class Rules {
     if (spec_.vehicle.approach)
       refuse("vehicle.approach", "a transient is followed under loads, not under an approach",
              "give vehicle.wheel_load, or the rows transient.wheel_load");
-    if (spec_.friction.law != FrictionForm::coulomb)
-      refuse("friction.law", "a transient is followed with Coulomb's friction, not with one that falls with slip",
-             "give friction.law = \"coulomb\", or take transient.kind out for the steady answer");
+    if (spec_.friction.law != FrictionForm::coulomb && !rolls())
+      refuse("friction.law", "friction falls with slip velocity, and the slip of a shift has none",
+             "give friction.law = \"coulomb\", or transient.kind = \"rolling\"");
   }
 
   /// Keys of one kind in a transient of the other.

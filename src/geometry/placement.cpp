@@ -10,6 +10,7 @@
 
 #include "core/faults.hpp"
 #include "core/rotation.hpp"
+#include "geometry/turned_wheel.hpp"
 
 namespace railstrata {
 namespace {
@@ -55,8 +56,14 @@ class Gap {
         rail_(rail),
         track_(track),
         offset_y_(offset_y),
-        wheel_begin_(wheel.y_min()),
-        wheel_end_(wheel.y_max()) {}
+        turned_(wheel, track),
+        wheel_begin_(rolled() ? turned_.y_begin() : wheel.y_min()),
+        wheel_end_(rolled() ? turned_.y_end() : wheel.y_max()) {}
+
+  /// A rolled wheel has its own way through `outline`; the members about its upright one then do not apply.
+  bool rolled() const { return track_.roll != 0; }
+  double wheel_s(double s) const { return turned_.s_at_y(wheel_y(s)); }
+  TurnedPoint outline(double s) const { return turned_.outline(wheel_s(s)); }
 
   double wheel_y(double s) const { return rail_to_model(track_, rail_.at(s).position).y - offset_y_; }
   LowestPoint on_wheel(double s) const {
@@ -67,10 +74,15 @@ class Gap {
     return y >= wheel_begin_ && y <= wheel_end_;
   }
   double value(double s) const {
+    if (rolled()) return outline(s).position.z - rail_to_model(track_, rail_.at(s).position).z;
     const LowestPoint p = on_wheel(s);
     return wheel_.height(p.y) + rise(p) - rail_to_model(track_, rail_.at(s).position).z;
   }
   double derivative(double s) const {
+    if (rolled()) {
+      const Vec2 rail = rail_to_model(track_, rail_.at(s).tangent), wheel = outline(s).along;
+      return rail.y * wheel.z / wheel.y - rail.z;
+    }
     const LowestPoint p = on_wheel(s);
     const Vec2 t = rail_to_model(track_, rail_.at(s).tangent), w = wheel_.at(wheel_.s_at_y(p.y)).tangent;
     return t.y * w.z / w.y * steeper(p) - t.z;
@@ -93,7 +105,9 @@ class Gap {
 
   const Profile &wheel_, &rail_;
   const TrackGeometry& track_;
-  double offset_y_, wheel_begin_, wheel_end_;
+  double offset_y_;
+  TurnedWheel turned_;
+  double wheel_begin_, wheel_end_;
 };
 
 }  // namespace
@@ -194,19 +208,26 @@ RigidContact contact_at(const Gap& gap, const Profile& wheel, const Profile& rai
   out.wheel_offset_z = -gap.value(s);
   out.axle_height = out.wheel_offset_z + track.wheel_radius;
   out.rail_s = s;
-  const LowestPoint touched = gap.on_wheel(s);
-  out.wheel_s = wheel.s_at_y(touched.y);
-  const ProfilePoint w = wheel.at(out.wheel_s);
   const Vec2 tangent = rail_to_model(track, r.tangent);
   out.point = rail_to_model(track, r.position);
   out.angle = std::atan2(tangent.z, tangent.y);
   out.yaw = std::atan(track.yaw);
-  out.x = touched.x * std::cos(out.yaw) - touched.y * std::sin(out.yaw);
-  out.rolling_radius = track.yaw == 0 ? track.wheel_radius - w.position.z : gap.depth(touched);
-  out.curvature_wheel_lateral = w.curvature;
+  out.roll = std::atan(track.roll);
+  if (gap.rolled()) {
+    const TurnedPoint touched = gap.outline(s);
+    out.wheel_s = gap.wheel_s(s);
+    out.x = touched.position.x;
+    out.rolling_radius = touched.depth;
+  } else {
+    const LowestPoint touched = gap.on_wheel(s);
+    out.wheel_s = wheel.s_at_y(touched.y);
+    out.x = touched.x * std::cos(out.yaw) - touched.y * std::sin(out.yaw);
+    out.rolling_radius = track.yaw == 0 ? track.wheel_radius - wheel.at(out.wheel_s).position.z : gap.depth(touched);
+  }
+  out.curvature_wheel_lateral = wheel.at(out.wheel_s).curvature;
   out.curvature_rail_lateral = r.curvature;
-  out.curvature_rolling =
-      std::cos(out.angle) / out.rolling_radius;  // Meusnier: the parallel's plane is not normal to the surface
+  out.curvature_rolling = std::cos(out.angle - out.roll) /
+                          out.rolling_radius;  // Meusnier: the parallel's plane is not normal to the surface
   return out;
 }
 

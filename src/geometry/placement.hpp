@@ -18,7 +18,8 @@ struct TrackGeometry {
   double cant = 1.0 / 40.0;            ///< tangent of the rail's inclination towards the track centre
   double lateral_shift = 0.0;          ///< of the wheel to the field side
   double wheel_radius = 0.430;         ///< nominal, at the tape circle
-  double yaw = 0.0;  ///< tangent of the angle by which the wheel's rolling direction is turned to the field side
+  double yaw = 0.0;   ///< tangent of the angle by which the wheel's rolling direction is turned to the field side
+  double roll = 0.0;  ///< tangent of the angle by which the wheel is turned about x, positive with its field side up
 };
 
 /// The wheel just touching the rail.
@@ -30,6 +31,7 @@ struct RigidContact {
   Vec2 point;                      ///< contact point, model frame
   double x = 0;      ///< of the contact point, from the middle of the tape circle along the rail; 0 without yaw
   double yaw = 0;    ///< rad, positive towards the field side
+  double roll = 0;   ///< rad, positive with the field side up
   double angle = 0;  ///< contact angle [rad]: inclination of the common tangent to the y axis, positive when rising to
                      ///< the field side
   double rolling_radius = 0;  ///< distance of the contact point from the axle; of a yawed wheel its depth below it
@@ -49,12 +51,12 @@ double gauge_face_y(const Profile& rail, const TrackGeometry& track);
 /// Lowers the wheel vertically until it touches: the smallest vertical gap over the rail's whole running surface, found
 /// to 1e-9 m where the contact is a single point; of equal gaps (within 1e-12 m) the one nearest the tape circle. The
 /// wheel is turned by the yaw psi about the vertical through the middle of its tape circle; the contact, at the angle
-/// delta, then lies before the axle by about r tan(delta) tan(psi). The tape circle stands at back_to_back / 2 +
-/// flange_back_to_tape from the track's centre, the gauge face (gauge_depth below the highest point of the canted rail)
-/// at gauge / 2, and lateral_shift moves the wheel from there. A plane or arc (Profile::primitive) has neither flange
-/// nor gauge face: with one in the pair the tape circle stands over the rail's axis, moved by lateral_shift. Throws
-/// CaseError if the wheel misses the rail, touches at the end of a profile, or the rail's profile ends above the gauge
-/// depth.
+/// delta, then lies before the axle by about r tan(delta) tan(psi). A roll comes first (turned_wheel.hpp). The tape
+/// circle stands at back_to_back / 2 + flange_back_to_tape from the track's centre, the gauge face (gauge_depth below
+/// the highest point of the canted rail) at gauge / 2, and lateral_shift moves the wheel from there. A plane or arc
+/// (Profile::primitive) has neither flange nor gauge face: with one in the pair the tape circle stands over the rail's
+/// axis, moved by lateral_shift. Throws CaseError if the wheel misses the rail, touches at the end of a profile, or the
+/// rail's profile ends above the gauge depth.
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track);
 
 /// Where the wheel touches if it is lowered further, through the rail: the lowest places of the vertical gap besides

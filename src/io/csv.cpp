@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -20,6 +22,17 @@ std::string heading(const std::vector<std::string>& provenance, const std::vecto
     if (name.empty() || name.find_first_of(",\"#\r\n") != std::string::npos)
       throw std::invalid_argument("bad name of a CSV column: '" + name + "'");
   return out + fmt::format("{}\n", fmt::join(names, ","));
+}
+
+/// What does not apply (NaN) is left empty, but in the last column: a row that ends with a comma is torn.
+std::string row_text(std::span<const double> row) {
+  std::string text;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const bool last = k + 1 == row.size();
+    if (last || !std::isnan(row[k])) fmt::format_to(std::back_inserter(text), "{}", row[k]);
+    text += last ? '\n' : ',';
+  }
+  return text;
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& what) {
@@ -41,9 +54,9 @@ std::vector<CsvColumn> columns_named(const std::string& line) {
 void read_row(const std::string& text, const std::filesystem::path& file, int line, std::vector<CsvColumn>& columns) {
   const char *at = text.data(), *end = at + text.size();
   for (std::size_t k = 0; k < columns.size(); ++k) {
-    double value = 0;
-    const auto [next, error] = std::from_chars(at, end, value);
-    const bool last = k + 1 == columns.size();
+    double value = std::numeric_limits<double>::quiet_NaN();
+    const bool last = k + 1 == columns.size(), empty = !last && at != end && *at == ',';
+    const auto [next, error] = empty ? std::from_chars_result{at, std::errc{}} : std::from_chars(at, end, value);
     if (error != std::errc{} || (last ? next != end && *next != '\r' : next == end || *next != ','))
       refuse(file, line, fmt::format("a row of {} numbers is expected", columns.size()));
     columns[k].values.push_back(value);
@@ -104,9 +117,11 @@ void write_csv(const std::filesystem::path& file, const std::vector<std::string>
   const std::size_t rows = columns.empty() ? 0 : columns.front().values.size();
   for (const CsvColumn& c : columns)
     if (c.values.size() != rows) throw std::invalid_argument("CSV column '" + c.name + "' is not as long as the first");
-  for (std::size_t i = 0; i < rows; ++i)
-    for (std::size_t j = 0; j < columns.size(); ++j)
-      fmt::format_to(std::back_inserter(text), "{}{}", columns[j].values[i], j + 1 < columns.size() ? ',' : '\n');
+  std::vector<double> row(columns.size());
+  for (std::size_t i = 0; i < rows; ++i) {
+    std::transform(columns.begin(), columns.end(), row.begin(), [i](const CsvColumn& c) { return c.values[i]; });
+    text += row_text(row);
+  }
   write_whole_file(file, text);
 }
 
@@ -119,7 +134,7 @@ CsvLog::CsvLog(const std::filesystem::path& file, const std::vector<std::string>
 void CsvLog::add(std::span<const double> row) {
   if (row.size() != columns_)
     throw std::invalid_argument("a CSV row has another number of values than there are columns");
-  file_.write(fmt::format("{}\n", fmt::join(row, ",")));
+  file_.write(row_text(row));
 }
 
 }  // namespace railstrata

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/turned_wheel.hpp"
 #include "io/output_file.hpp"
 
 namespace railstrata {
@@ -34,19 +35,24 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement) {
   const RigidContact& c = placement.contact;
   const HertzContact hertz = hertz_estimate(spec, c);
   const auto rail = [&](Vec2 p) { return rail_to_model(placement.track, p); };
-  const auto wheel = [&](Vec2 p) { return Vec2{p.y + c.wheel_offset_y, p.z + c.wheel_offset_z}; };
+  const TurnedWheel turned(placement.wheel, placement.track);
+  const auto wheel = [&](Vec2 p) {
+    const Vec2 at = turned.section(p);
+    return Vec2{at.y + c.wheel_offset_y, at.z + c.wheel_offset_z};
+  };
   Json out;
   out["rail_profile"] = placement.rail.name();
   out["wheel_profile"] = placement.wheel.name();
   out["load_N"] = hertz.load;
-  out["contact"] = {{"y_m", c.point.y},
-                    {"z_m", c.point.z},
-                    {"wheel_y_m", c.point.y - c.wheel_offset_y},
-                    {"angle_rad", c.angle},
-                    {"rolling_radius_m", c.rolling_radius},
-                    {"curvature_rolling_per_m", c.curvature_rolling},
-                    {"curvature_wheel_lateral_per_m", c.curvature_wheel_lateral},
-                    {"curvature_rail_lateral_per_m", c.curvature_rail_lateral}};
+  out["contact"] = {
+      {"y_m", c.point.y},
+      {"z_m", c.point.z},
+      {"wheel_y_m", c.roll == 0 ? c.point.y - c.wheel_offset_y : placement.wheel.at(c.wheel_s).position.y},
+      {"angle_rad", c.angle},
+      {"rolling_radius_m", c.rolling_radius},
+      {"curvature_rolling_per_m", c.curvature_rolling},
+      {"curvature_wheel_lateral_per_m", c.curvature_wheel_lateral},
+      {"curvature_rail_lateral_per_m", c.curvature_rail_lateral}};
   out["hertz"] = {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}, {"approach_m", hertz.approach}};
   out["rail_m"] = curve(placement.rail, c.rail_s, 0, kReach, rail);
   out["wheel_m"] = curve(placement.wheel, c.wheel_s, 0, kReach, wheel);

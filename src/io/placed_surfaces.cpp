@@ -5,6 +5,8 @@
 #include <functional>
 #include <numbers>
 
+#include "geometry/turned_wheel.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -43,12 +45,13 @@ VtkQuads rail_surface(const Placement& placement, double wheel_x) {
 
 VtkQuads wheel_surface(const Placement& placement, double wheel_x) {
   const RigidContact& c = placement.contact;
+  const TurnedWheel turned(placement.wheel, placement.track);
   return swept(outline(placement.wheel, c.wheel_s), kAngles, [&](Vec2 p, int s) {
     const double radius = placement.track.wheel_radius - p.z, t = 2 * std::numbers::pi * s / (kAngles - 1);
     const double along = radius * std::sin(t);
-    return Vec3{wheel_x - c.x + along * std::cos(c.yaw) - p.y * std::sin(c.yaw),
-                c.wheel_offset_y + p.y * std::cos(c.yaw) + along * std::sin(c.yaw),
-                c.axle_height - radius * std::cos(t)};
+    const Vec2 section = turned.section({p.y, placement.track.wheel_radius - radius * std::cos(t)});
+    return Vec3{wheel_x - c.x + along * std::cos(c.yaw) - section.y * std::sin(c.yaw),
+                c.wheel_offset_y + section.y * std::cos(c.yaw) + along * std::sin(c.yaw), c.wheel_offset_z + section.z};
   });
 }
 

@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/body_id.hpp"
 #include "core/faults.hpp"
 #include "geometry/profile_names.hpp"
 #include "geometry/read_profile.hpp"
+#include "halfspace/line_contact.hpp"
 #include "mesh/quality.hpp"
 
 namespace railstrata {
@@ -117,8 +119,8 @@ Placement place(const CaseSpec& spec, const std::filesystem::path& folder) {
   std::vector<std::string> notes;
   Profile wheel = find_profile(ProfileKind::wheel, g.wheel_profile, folder, notes);
   Profile rail = find_profile(ProfileKind::rail, g.rail_profile, folder, notes);
-  TrackGeometry track{g.gauge, g.gauge_depth,   g.back_to_back, g.flange_back_to_tape,
-                      g.cant,  g.lateral_shift, g.wheel_radius, g.yaw};
+  TrackGeometry track{g.gauge,        g.gauge_depth, g.back_to_back, g.flange_back_to_tape, g.cant, g.lateral_shift,
+                      g.wheel_radius, g.yaw,         g.roll};
   const RigidContact contact = place_wheel(wheel, rail, track);
   return {std::move(wheel), std::move(rail), track, contact, std::move(notes)};
 }
@@ -140,10 +142,22 @@ double static_load(const CaseSpec& spec) {
   return (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
 }
 
+namespace {
+
+/// A line contact as an ellipse whose semi-axis across is half the line. Without an approach.
+HertzContact line_estimate(const CaseSpec& spec, const RigidContact& c, double modulus) {
+  const double load = static_load(spec), length = *spec.geometry.line_length;
+  const LineHertz line = hertz_line(0.5 * c.curvature_rolling, modulus, load / length);
+  return {line.a, 0.5 * length, line.p0, std::numeric_limits<double>::quiet_NaN(), load};
+}
+
+}  // namespace
+
 HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& c) {
   const double lateral = c.curvature_wheel_lateral + c.curvature_rail_lateral;
   const double modulus = contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
                                          {spec.rail_material.young, spec.rail_material.poisson});
+  if (spec.geometry.in_line()) return line_estimate(spec, c, modulus);
   const auto under = [&](double load) {
     return hertz_contact(0.5 * c.curvature_rolling, 0.5 * std::max(lateral, 0.02), modulus, load);
   };

@@ -31,7 +31,8 @@ double static_load(const CaseSpec& spec);
 FallingFriction falling_friction(const CaseSpec& spec);
 ThirdBody third_body(const CaseSpec& spec);
 
-/// Hertz with the curvatures at the rigid contact point: an estimate for search distances and checks, not a result.
+/// Hertz with the curvatures at the rigid contact point: an estimate for search distances and checks, not a result. A
+/// line contact's b is half the line, its approach NaN.
 HertzContact hertz_estimate(const CaseSpec& spec, const RigidContact& contact);
 
 struct Model {

@@ -7,6 +7,9 @@
 #include <numbers>
 #include <vector>
 
+#include "core/rotation.hpp"
+#include "geometry/turned_wheel.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -21,7 +24,9 @@ struct PlacedProfile {
   bool is_rail;
   double contact_s;
 
-  Vec2 in_track(Vec2 v) const { return is_rail ? rail_to_model(track, v) : v; }
+  Vec2 in_track(Vec2 v) const {
+    return is_rail ? rail_to_model(track, v) : roll(rotation_by(std::atan(track.roll)), v);
+  }
   double angle(double s) const { return turned_angle(in_track(profile.at(s).tangent)); }
   double clamped(double s) const { return std::clamp(s, profile.s_min(), profile.s_max()); }
   /// By how much a convex body has turned away from the contact plane, walking in a direction.
@@ -114,10 +119,12 @@ void measure_edges(const CaseSpec& spec, const PlacedProfile& rail, const Placed
 
 std::optional<FlangePlace> flange_place(const Placement& p) {
   if (p.wheel.primitive() || p.rail.primitive()) return {};
-  Vec2 crest = p.wheel.at(p.wheel.s_min()).position;
+  const TurnedWheel wheel(p.wheel, p.track);
+  const auto section = [&](double s) { return wheel.section(p.wheel.at(s).position); };
+  Vec2 crest = section(p.wheel.s_min());
   for (double s = p.wheel.s_min(); s <= p.wheel.s_max(); s += kStep)
-    if (const Vec2 at = p.wheel.at(s).position; at.z < crest.z) crest = at;
-  return FlangePlace{-crest.z, -p.wheel.at(p.contact.wheel_s).position.z,
+    if (const Vec2 at = section(s); at.z < crest.z) crest = at;
+  return FlangePlace{-crest.z, -section(p.contact.wheel_s).z,
                      crest.y + p.contact.wheel_offset_y - gauge_face_y(p.rail, p.track)};
 }
 

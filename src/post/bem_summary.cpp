@@ -41,7 +41,9 @@ StressSummary stress_summary(const SubsurfacePeaks& p) {
 bool reaches_edge(const ContactField& f) {
   for (int s = 0; s < f.stations; ++s)
     for (int c = 0; c < f.columns; ++c)
-      if ((s == 0 || c == 0 || s + 1 == f.stations || c + 1 == f.columns) && f.p[c + f.columns * s] > 0) return true;
+      if ((s == 0 || s + 1 == f.stations || (f.line_length == 0 && (c == 0 || c + 1 == f.columns))) &&
+          f.p[c + f.columns * s] > 0)
+        return true;
   return false;
 }
 
@@ -64,7 +66,7 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
     force_y += m.force_y;
     if (reaches_edge(p->field)) reached = 1;
     if (p->surroundings.cut_off) cut_off = 1;
-    cell = std::max(cell, p->grid.dy / shorter_axis(m));
+    cell = std::max(cell, p->grid.dx / shorter_axis(m));
   }
   std::vector<Check> out;
   if (load_given) out.push_back(bem_check("F_z_relative_to_weight", std::abs(-force_on_rail(r).z / load - 1)));
@@ -123,7 +125,7 @@ SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSumma
   const std::vector<LayerExtent> layers = layer_extents(body);
   const double bottom = layers.empty() ? 0.0 : layers.back().bottom,
                first = layers.empty() ? HUGE_VAL : layers.front().bottom;
-  return {subsurface_begin(contact.patch, first), bottom + std::max(contact.patch.length, contact.patch.width)};
+  return {subsurface_begin(contact.patch, first), bottom + longer_axis(contact.patch)};
 }
 
 std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& r) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/parabola.hpp"
 
@@ -39,6 +40,14 @@ Chord chord(int n, double noise, T&& t, P&& p) {
     c.begin = last > first ? edge(t(first + 1), p(first + 1), t(first), p(first), t(first - 1))
                            : 0.5 * (t(first) + t(first - 1));
   return c;
+}
+
+/// The point of largest pressure; of several beside one another with the same, as along a line contact, the middle one.
+int point_of_largest_pressure(const ContactField& f) {
+  const int top = static_cast<int>(std::max_element(f.p.begin(), f.p.end()) - f.p.begin());
+  int equal = 0;
+  while (top % f.columns + equal + 1 < f.columns && f.p[top + equal + 1] == f.p[top]) ++equal;
+  return top + equal / 2;
 }
 
 /// p_max and its place, refined from the point of largest pressure along both directions.
@@ -97,6 +106,11 @@ void find_extent(const ContactField& f, int peak_station, PatchMeasures& m) {
     }
   }
   if (first < 0) return;
+  if (f.line_length > 0) {
+    m.width = std::numeric_limits<double>::quiet_NaN();
+    m.area = m.length * f.line_length;
+    return;
+  }
   const int s = peak_station;
   for (int c = first; c < last; ++c)
     m.area += 0.5 * (along[c].length() + along[c + 1].length()) * (f.y[at(c + 1, s)] - f.y[at(c, s)]);
@@ -111,7 +125,7 @@ void find_extent(const ContactField& f, int peak_station, PatchMeasures& m) {
 PatchMeasures measure_patch(const ContactField& f) {
   PatchMeasures m;
   if (f.size() == 0) return m;
-  const int top = static_cast<int>(std::max_element(f.p.begin(), f.p.end()) - f.p.begin());
+  const int top = point_of_largest_pressure(f);
   find_peak(f, top, m);
   for (int i = 0; i < f.size(); ++i) add_point(m, f, i);
   m.slip_area_fraction = slip_share(f);
@@ -142,7 +156,7 @@ double shear_at_front_of_slip(const ContactField& f) {
 CentreLine centre_line(const ContactField& f) {
   CentreLine line;
   if (f.size() == 0) return line;
-  const int column = static_cast<int>(std::max_element(f.p.begin(), f.p.end()) - f.p.begin()) % f.columns;
+  const int column = point_of_largest_pressure(f) % f.columns;
   for (int s = 0; s < f.stations; ++s) {
     const int i = s * f.columns + column;
     line.x.push_back(f.x[i]);

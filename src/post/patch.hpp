@@ -12,7 +12,8 @@ struct PatchMeasures {
   double p_max_x = 0, p_max_y = 0;
   double q_max = 0;        ///< Pa, largest magnitude of the tangential traction; half-spaces: shear_at_front_of_slip
   double q_max_point = 0;  ///< Pa, the largest of a point
-  /// m, in and across the rolling direction; edges where p² extrapolates to zero, as Hertz's pressure does
+  /// m, in and across the rolling direction; edges where p² extrapolates to zero, as Hertz's pressure does. A line
+  /// contact has no width: NaN
   double length = 0, width = 0;
   double area = 0;  ///< m², from the chords of the columns
   /// area of slipping points / area of points in contact (those with p above ContactField::p_noise)
@@ -20,8 +21,13 @@ struct PatchMeasures {
   double force_x = 0, force_y = 0, force_z = 0;  ///< N on the wheel, sums of area times traction (z: normal)
 };
 
-/// m, of length and width.
-inline double shorter_axis(const PatchMeasures& patch) { return std::min(patch.length, patch.width); }
+/// m, of length and width; without a width the length.
+inline double shorter_axis(const PatchMeasures& patch) {
+  return patch.width < patch.length ? patch.width : patch.length;
+}
+inline double longer_axis(const PatchMeasures& patch) {
+  return patch.width > patch.length ? patch.width : patch.length;
+}
 
 /// The share of one point in the sums and extremes over all points.
 inline void add_point(PatchMeasures& m, const ContactField& f, int i) {

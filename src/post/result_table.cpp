@@ -78,7 +78,7 @@ std::vector<ResultNumber> extent_numbers() {
            .value = patch<&P::width>,
            .label = "width",
            .name = "Patch width (along y)",
-           .doc = "Longest chord across the rolling direction",
+           .doc = "Longest chord across the rolling direction; a line contact has none",
            .column = true,
            .shown = true,
            .comparable = true},
@@ -216,7 +216,7 @@ std::vector<ResultNumber> motion_numbers() {
        .label = "approach",
        .name = "Approach (finite elements: with the bending of rail and wheel)",
        .doc = "Of the bodies under the load; finite elements: descent of the axle in the static preload, bending of "
-              "rail and wheel included",
+              "rail and wheel included. A line contact has none: its distant points come together without end",
        .column = true,
        .shown = true},
       {.group = "contact",

@@ -43,7 +43,9 @@ StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& bod
   StressSections out;
   StressSection &along = out.longitudinal, &across = out.cross;
   for (int i = 0; i < g.nx; ++i) along.along.push_back(g.x(i));
-  for (int j = 0; j < g.ny; ++j) across.along.push_back(r.contact.point.y + g.y(j) * std::cos(r.contact.angle));
+  const int columns = g.line ? 3 : g.ny;  // of a line the same at both ends and in the middle
+  const auto y_of = [&](int j) { return g.line ? 0.5 * g.dy * (j - 1) : g.y(j); };
+  for (int j = 0; j < columns; ++j) across.along.push_back(r.contact.point.y + y_of(j) * std::cos(r.contact.angle));
   const int i0 = nearest(along.along, x), j0 = nearest(across.along, y);
   along.at = across.along[j0];
   across.at = along.along[i0];
@@ -56,8 +58,8 @@ StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& bod
       section.stress.push_back(roll(rotation_by(r.contact.angle), s));
       section.material.push_back(row.material);
     };
-    for (int i = 0; i < g.nx; ++i) add(along, g.index(i, j0));
-    for (int j = 0; j < g.ny; ++j) add(across, g.index(i0, j));
+    for (int i = 0; i < g.nx; ++i) add(along, g.index(i, g.line ? 0 : j0));
+    for (int j = 0; j < columns; ++j) add(across, g.index(i0, g.line ? 0 : j));
     along.depth.push_back(row.depth);
     across.depth.push_back(row.depth);
   }

@@ -214,7 +214,111 @@ TEST(FallingFriction, WhatHasSeveralAnswersIsRefusedWithWords) {
   EXPECT_NE(refusal(c, p).find("on an elastic third-body layer"), std::string::npos);
   p.third_body = {};
   p.kind = RollingKind::shift;
-  EXPECT_NE(refusal(c, p).find("no answer in steps of a history"), std::string::npos);
+  EXPECT_NE(refusal(c, p).find("no meaning in a shift, whose slip has no velocity"), std::string::npos);
+}
+
+/// A wheel that rolls from rest under falling friction, gentle enough for massless surfaces.
+struct RollingFromRest {
+  static constexpr double kSpeed = 5;
+  ReferenceContact c{1.2, 0.9, 0.6e-3};
+  FallingFriction law{FrictionForm::falling_exponential, 0.5, 1.0};
+  RollingContact contact(LeadingEdge edge) const {
+    RollingContact p;
+    p.gap = quadratic_gap(c.grid, 1.2, 0.9);
+    p.target.load = c.kLoad;
+    p.friction = c.kFriction;
+    p.falling = law;
+    p.speed = kSpeed;
+    p.x.creepage = -4e-3;
+    p.y.creepage = 2e-3;
+    p.spin = 0.2;
+    p.leading_edge = edge;
+    return p;
+  }
+  RollingSolution at_rest() const {
+    RollingContact p = contact(LeadingEdge::whole_cell);
+    p.kind = RollingKind::shift;
+    p.falling = {};
+    p.x = p.y = {};
+    p.spin = 0;
+    return solve_rolling(c.influence, c.grid, p);
+  }
+};
+
+TEST(FallingFriction, RollingFromRestEndsInTheSteadyState) {
+  const RollingFromRest r;
+  for (const LeadingEdge edge : {LeadingEdge::whole_cell, LeadingEdge::sub_cell})
+    for (const bool by_force : {false, true}) {
+      RollingContact p = r.contact(edge);
+      if (by_force) p.x.force = -0.5 * r.c.kFriction * r.c.kLoad;
+      const TangentialSolution steady = solve_rolling(r.c.influence, r.c.grid, p).tangential;
+      EXPECT_GT(steady.slip_area, 0.3 * steady.stick_area);
+      RollingSolution s = r.at_rest();
+      for (int i = 0; i < 80; ++i) {
+        roll_on_one_cell(r.c.influence, r.c.grid, s, p);
+        s = solve_rolling(r.c.influence, r.c.grid, p, {}, &s);
+      }
+      EXPECT_NEAR(s.tangential.force_x / steady.force_x, 1, 1e-3);
+      EXPECT_NEAR(s.tangential.force_y / steady.force_y, 1, 1e-3);
+      EXPECT_NEAR(s.tangential.creepage_x / steady.creepage_x, 1, 2e-3);
+    }
+}
+
+// A step by whole cells, q~ the tractions of the state before, rolled on by a cell: what creepages and spin put in is
+// what friction takes, what the elastic energy E = q·A q/2 gains, and (q - q~)·A (q - q~)/2, which the step loses. And
+// every slipping point carries the coefficient of its own slip.
+TEST(FallingFriction, WorkOfAStepIsFrictionEnergyAndTheStepsOwnLoss) {
+  const RollingFromRest r;
+  const PatchGrid& g = r.c.grid;
+  RollingContact p = r.contact(LeadingEdge::whole_cell);
+  p.spin = 0;
+  const auto energy = [&](const Plane& q_x, const Plane& q_y) {
+    Plane u_x(g.size()), u_y(g.size());
+    r.c.influence.tangential(q_x.data(), q_y.data(), u_x.data(), u_y.data(), g.nx);
+    return 0.5 * (dot(q_x, u_x) + dot(q_y, u_y)) * g.cell_area();
+  };
+  RollingSolution s = r.at_rest();
+  double most_fallen = 1;
+  for (int i = 0; i < 12; ++i) {
+    const Plane before_x = rolled_on(g, s.tangential.q_x), before_y = rolled_on(g, s.tangential.q_y);
+    roll_on_one_cell(r.c.influence, g, s, p);
+    RollingOptions sharp;
+    sharp.tangential.tolerance = 1e-8;
+    s = solve_rolling(r.c.influence, g, p, sharp, &s);
+    const TangentialSolution& t = s.tangential;
+    Plane change_x = t.q_x, change_y = t.q_y;
+    add_scaled(change_x, -1, before_x);
+    add_scaled(change_y, -1, before_y);
+    const double in = (t.force_x * p.x.creepage + t.force_y * p.y.creepage) * g.dx;
+    EXPECT_NEAR(
+        (t.dissipation * g.dx + energy(t.q_x, t.q_y) - energy(before_x, before_y) + energy(change_x, change_y)) / in, 1,
+        1e-5);
+    for (std::size_t k = 0; k < g.size(); ++k) {
+      if (t.state[k] != ContactState::slip) continue;
+      const double share = friction_share(r.law, {r.kSpeed * std::hypot(t.slip_x[k], t.slip_y[k])}).value;
+      EXPECT_NEAR(std::hypot(t.q_x[k], t.q_y[k]) / (share * r.c.kFriction * s.normal.pressure[k]), 1, 1e-5);
+      most_fallen = std::min(most_fallen, share);
+    }
+  }
+  EXPECT_LT(most_fallen, 0.995);
+}
+
+// Too steep a fall lets massless surfaces jump, and a shift has no velocity.
+TEST(FallingFriction, HistoriesAreRefusedWhereTheyHaveNoAnswer) {
+  const RollingFromRest r;
+  RollingContact p = r.contact(LeadingEdge::whole_cell);
+  const RollingSolution rest = r.at_rest();
+  roll_on_one_cell(r.c.influence, r.c.grid, rest, p);
+  p.falling.half_velocity = 0.02;
+  try {
+    solve_rolling(r.c.influence, r.c.grid, p);
+    FAIL();
+  } catch (const CaseError& e) {
+    EXPECT_NE(std::string(e.what()).find("jump from step to step"), std::string::npos) << e.what();
+  }
+  RollingContact shift = r.contact(LeadingEdge::whole_cell);
+  shift.kind = RollingKind::shift;
+  EXPECT_THROW(solve_rolling(r.c.influence, r.c.grid, shift), CaseError);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bem/case_patch.hpp"
 #include "bem/normal_problem.hpp"
 #include "geometry/profile_names.hpp"
 
@@ -108,6 +109,61 @@ TEST(ProfileGap, OfAYawedConeOnAPlaneIsItsHeightThere) {
       if (i < 0 || j < 0 || i > g.nx - 1 || j > g.ny - 1) continue;
       const std::size_t k = g.index(static_cast<int>(std::round(i)), static_cast<int>(std::round(j)));
       // within a fiftieth of a cell, where the heights change by a few hundredths of it
+      EXPECT_NEAR(gap.gap[k] + gap.rail_height[k], dot(d, normal), 2e-6);
+      ++met;
+    }
+  EXPECT_GT(met, 3);
+}
+
+// Wheel and rail turned together: a roll is the opposite cant, also for the gap and the radius rolled on.
+TEST(ProfileGap, OfARolledWheelIsThatOnTheRailWithTheOppositeCant) {
+  const Profile wheel = builtin_profile(ProfileKind::wheel, "S1002"),
+                rail = builtin_profile(ProfileKind::rail, "UIC60");
+  const double phi = 0.02;
+  TrackGeometry rolled, canted;
+  rolled.roll = std::tan(phi);
+  rolled.cant = 0.03;
+  canted.cant = std::tan(std::atan(0.03) - phi);
+  const RigidContact c = place_wheel(wheel, rail, rolled);
+  canted.lateral_shift = c.wheel_offset_y * std::cos(phi) + c.wheel_offset_z * std::sin(phi) -
+                         place_wheel(wheel, rail, canted).wheel_offset_y;
+  RigidContact other = place_wheel(wheel, rail, canted);
+  EXPECT_NEAR(wheel_spin(other) / wheel_spin(c), 1, 1e-4);
+  const PatchGrid g = centred_grid(12, 12, 0.5e-3, 0.5e-3);
+  const ProfileGap one = profile_gap(wheel, rail, rolled, c, g), two = profile_gap(wheel, rail, canted, other, g);
+  for (std::size_t k = 0; k < g.size(); ++k) {
+    EXPECT_NEAR(one.gap[k], two.gap[k], 2e-8);
+    EXPECT_NEAR(one.radius[k], two.radius[k], 2e-7);
+  }
+}
+
+// A point of the profile, turned about the axle, by the roll about x and by the yaw about the vertical.
+TEST(ProfileGap, OfAWheelWithRollAndYawIsItsHeightThere) {
+  const Profile wheel = builtin_profile(ProfileKind::wheel, "LMA"), rail = builtin_profile(ProfileKind::rail, "CN60");
+  TrackGeometry track;
+  track.lateral_shift = 6e-3;
+  track.yaw = 0.02;
+  track.roll = 0.03;
+  const RigidContact c = place_wheel(wheel, rail, track);
+  const PatchGrid g = centred_grid(12, 12, 0.5e-3, 0.5e-3);
+  const ProfileGap gap = profile_gap(wheel, rail, track, c, g);
+  EXPECT_NEAR(gap.gap[g.index(12, 12)], 0, 1e-9);
+  const Vec2 tangent{std::cos(c.angle), std::sin(c.angle)}, normal{-tangent.z, tangent.y};
+  int met = 0;
+  for (double s = c.wheel_s - 3e-3; s < c.wheel_s + 3e-3; s += 0.1e-3)
+    for (double turn = -0.015; turn < 0.03; turn += 0.25e-3) {
+      const Vec2 p = wheel.at(s).position;
+      const double radius = track.wheel_radius - p.z, along = radius * std::sin(turn),
+                   up = track.wheel_radius - radius * std::cos(turn),
+                   across = p.y * std::cos(c.roll) - up * std::sin(c.roll),
+                   x = along * std::cos(c.yaw) - across * std::sin(c.yaw) - c.x;
+      const Vec2 d = Vec2{c.wheel_offset_y + across * std::cos(c.yaw) + along * std::sin(c.yaw),
+                          c.wheel_offset_z + p.y * std::sin(c.roll) + up * std::cos(c.roll)} -
+                     c.point;
+      const double i = (x - g.x0) / g.dx, j = (dot(d, tangent) - g.y0) / g.dy;
+      if (std::abs(i - std::round(i)) > 0.02 || std::abs(j - std::round(j)) > 0.02) continue;
+      if (i < 0 || j < 0 || i > g.nx - 1 || j > g.ny - 1) continue;
+      const std::size_t k = g.index(static_cast<int>(std::round(i)), static_cast<int>(std::round(j)));
       EXPECT_NEAR(gap.gap[k] + gap.rail_height[k], dot(d, normal), 2e-6);
       ++met;
     }

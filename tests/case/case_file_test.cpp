@@ -199,7 +199,8 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[geometry]\nguage = \"1.435 m\"\n",
        "a.toml:2:1: unknown key geometry.guage\n    2 | guage = \"1.435 m\"\n      | ^\n    remedy: did you mean "
        "gauge? keys of [geometry]: rail_profile, wheel_profile, rail_shape, "
-       "wheel_shape, gauge, gauge_depth, back_to_back, flange_back_to_tape, cant, lateral_shift, yaw, curve_radius, "
+       "wheel_shape, contact, line_length, gauge, gauge_depth, back_to_back, flange_back_to_tape, cant, lateral_shift, "
+       "yaw, roll, curve_radius, "
        "wheel_radius, "
        "block_width, block_height, rim_thickness, web_thickness, web_offset, "
        "hub_radius, hub_width, bore_radius"},

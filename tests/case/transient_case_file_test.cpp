@@ -151,6 +151,20 @@ TEST(TransientCaseFile, WhatHasNoEffectIsSaid) {
   EXPECT_EQ(parse_case(idle.resolved_toml, "b.toml").spec.transient.creepage, idle.spec.transient.creepage);
   ASSERT_EQ(held.notes.size(), 1u);
   EXPECT_NE(held.notes[0].find("drive.creepage has no effect"), std::string::npos) << held.notes[0];
+  const LoadedCase steps =
+      parse_case("[transient]\nkind = \"rolling\"\ndistance = \"5 mm\"\nincrements = 7\n", "a.toml");
+  ASSERT_EQ(steps.notes.size(), 1u);
+  EXPECT_NE(steps.notes[0].find("transient.increments has no effect: it needs transient.kind = \"shift\""),
+            std::string::npos)
+      << steps.notes[0];
+}
+
+TEST(TransientCaseFile, FrictionThatFallsGoesWithRollingAlone) {
+  const std::string falling =
+      "[friction]\nlaw = \"falling_rational\"\nkinetic_coefficient = 0.2\nhalf_velocity = \"1 m/s\"\n";
+  EXPECT_NO_THROW(parse_case(falling + "[transient]\nkind = \"rolling\"\ndistance = \"5 mm\"\n", "a.toml"));
+  expect_says(falling + "[transient]\nkind = \"shift\"\ndisplacement = [\"1 um\"]\n",
+              {"friction falls with slip velocity, and the slip of a shift has none"});
 }
 
 TEST(TransientCaseFile, AndApproachAreNotInTheFiniteElements) {

@@ -73,6 +73,22 @@ TEST_F(Csv, a_table_reads_back_with_its_names_and_numbers) {
   EXPECT_THROW(table.column("c"), CaseError);
 }
 
+TEST_F(Csv, what_does_not_apply_is_left_empty_and_read_back_as_no_number) {
+  {
+    CsvLog log(file_, {}, {"a", "b", "c"});
+    log.add({1, std::nan(""), 3});
+    log.add({std::nan(""), 2, std::nan("")});
+  }
+  std::ifstream in(file_);
+  std::stringstream text;
+  text << in.rdbuf();
+  EXPECT_EQ(text.str(), "a,b,c\n1,,3\n,2,nan\n");
+  const CsvTable table = read_csv(file_);
+  EXPECT_TRUE(std::isnan(table.column("b")[0]));
+  EXPECT_EQ(table.column("b")[1], 2);
+  EXPECT_TRUE(std::isnan(table.column("a")[1]));
+}
+
 TEST_F(Csv, a_broken_table_is_refused_with_its_line) {
   EXPECT_THROW(read_csv(file_), CaseError) << "no such file";
   for (const char* row : {"1", "1,2,3", "1,x", "1,", "1;2"}) {

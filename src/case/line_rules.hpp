@@ -1,0 +1,11 @@
+#pragma once
+// What a line contact (geometry.contact = "line") cannot have: anything that turns or moves the cylinder sideways, and
+// whatever asks for a displacement of distant points, which plane strain does not know.
+#include "case/case_source.hpp"
+#include "case/case_spec.hpp"
+
+namespace railstrata {
+
+void check_line_contact(const CaseSpec& spec, CaseSource& source);
+
+}  // namespace railstrata
