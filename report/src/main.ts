@@ -4,7 +4,9 @@ import {details, element, note, part, table} from "./dom";
 import {drawAll, forget, frame, kDark, kLight, setOrigin, type Figure, type Theme} from "./figures";
 import {linesFigure, type Series} from "./lines";
 import {centreLines, patchesTable, patchMaps} from "./patch";
-import {geometryFigures, geometryTable, historyFigures, numbersTable, origin, tiles, verdict} from "./sections";
+import {geometryFigures, geometryTable} from "./geometry";
+import {historyFigures} from "./history";
+import {numbersTable, origin, tiles, verdict} from "./sections";
 import {depthLines, maximaTable, sectionMaps} from "./stress";
 import {filmParts, transientFigures} from "./transient";
 import {engineName, numberText, plotText, runLabel, setWords} from "./text";
@@ -116,7 +118,7 @@ function runParts(runs: Run[]): HTMLElement[] {
   const history = [...historyFigures(runs), ...transientFigures(runs)];
   const way = [...filmParts(runs), ...(history.length ? [grid(history)] : [])];
   return [
-    part("numbers", "Numbers", numbersTable(runs)),
+    part("numbers", "Numbers", ...numbersTable(runs)),
     geometryPart(runs[0]),
     patchPart(runs),
     stressPart(runs),
