@@ -530,7 +530,8 @@ TEST(CaseFile, EveryRatioThatThePageAllowsIsTakenForSteel) {
 
 TEST(CaseFile, ARatioMayNotTakeTheModulusOutOfItsRange) {
   const std::string error = error_of("[material.rail]\nyoung = \"10000 GPa\"\n[[layer]]\nyoung_ratio = 100\n");
-  EXPECT_NE(error.find("a.toml:4:15: layer.0.young_ratio = 100: makes young 1000000 GPa, which must be between 1 GPa "
+  EXPECT_NE(error.find("a.toml:4:15: layer.0.young_ratio = 100: must be between 0.01 and 10 here: it makes young "
+                       "1000000 GPa, which must be between 1 GPa "
                        "and 100000 GPa"),
             std::string::npos)
       << error;
