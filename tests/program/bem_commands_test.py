@@ -242,6 +242,14 @@ young_ratio = 2.0
         self.refused(2, ["bem", case, "--set", "layer.0.young_table=[[\"0 mm\", \"420 GPa\"]]"],
                      "layer.0.young_table: needs at least two rows", "remedy: write a list of depths and moduli")
 
+    def test_a_note_of_one_of_two_patches_names_it(self):
+        words = ["--set", "friction.law=falling_exponential", "--set", "friction.kinetic_coefficient=0.1", "--set",
+                 "friction.half_velocity=1 m/s"]
+        _, _, err = railstrata("bem", self.case(TWO_PATCHES), *COARSE, *words, "--no-report", "--out",
+                               self.folder / "two")
+        for place in ("-27.8", "-12.7"):
+            self.assertIn(f"info: patch at y = {place} mm of the rail: friction falls with slip by", err)
+
     # compare
 
     def test_a_result_compared_with_itself_differs_by_nothing(self):
