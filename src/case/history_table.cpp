@@ -36,21 +36,26 @@ std::string trimmed(std::string_view text) {
   return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
 }
 
-/// By the line of names. One column alone has nothing to separate: its commas are decimal.
+/// By the line of names. One column alone has nothing to separate.
 char separator_of(const std::string& names) {
-  const bool commas = names.find(';') == std::string::npos && names.find(',') != std::string::npos;
-  return commas ? ',' : ';';
+  for (const char c : {';', '\t', ','})
+    if (names.find(c) != std::string::npos) return c;
+  return ';';
 }
 
+/// Between quotes nothing separates. Spreadsheets end lines with an empty cell: it is none.
 std::vector<std::string> cells_of(const std::string& line, char separator) {
   std::vector<std::string> out(1);
+  bool quoted = false;
   for (const char c : line) {
-    if (c == separator)
+    quoted = quoted != (c == '"');
+    if (c == separator && !quoted)
       out.emplace_back();
     else
       out.back() += c;
   }
   for (std::string& cell : out) cell = trimmed(cell);
+  if (out.size() > 1 && out.back().empty()) out.pop_back();
   return out;
 }
 
@@ -80,10 +85,10 @@ std::optional<std::string> unit_after(const std::string& name, std::string_view 
 }
 
 /// A number with its column's unit, rounded once. What is no separator may be a decimal comma.
-double quantity(const Column& column, const std::string& given, char separator, const Place& at) {
+double quantity(const Column& column, const std::string& given, const Place& at) {
   double value = 0;
   std::string number = given;
-  if (separator != ',' && given.find('.') == std::string::npos && std::count(given.begin(), given.end(), ',') == 1)
+  if (given.find('.') == std::string::npos && std::count(given.begin(), given.end(), ',') == 1)
     number[given.find(',')] = '.';
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(value))
@@ -124,7 +129,7 @@ Column column_named(const std::string& name, CaseSpec& spec, const Place& at) {
   if (best->unit.empty() && !plain)
     at.refuse(fmt::format("the column \"{}\" has no unit", name),
               fmt::format("write it into the column's name: {}", describe(best->option->dimension)));
-  quantity(Column{best->option, best->unit, nullptr}, best->option->range.holds(0) ? "0" : "1e-3", ',', at);
+  quantity(Column{best->option, best->unit, nullptr}, best->option->range.holds(0) ? "0" : "1e-3", at);
   return *best;
 }
 
@@ -152,7 +157,7 @@ std::vector<Column> columns_of(const std::string& line, char separator, CaseSpec
                         columns == 1 ? "column" : "columns"),
             separator == ',' ? "give every row one value a column; decimal commas need semicolons between the columns, "
                                "in the line of names too"
-                             : "give every row one value a column, separated by semicolons as the names are");
+                             : "give every row one value a column, separated as the names are");
 }
 
 }  // namespace
@@ -177,8 +182,7 @@ std::vector<int> read_history_table(const std::string& text, const std::filesyst
     }
     const std::vector<std::string> cells = cells_of(line, separator);
     if (cells.size() != columns.size()) refuse_width(cells.size(), columns.size(), separator, at);
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      columns[k].values->push_back(quantity(columns[k], cells[k], separator, at));
+    for (std::size_t k = 0; k < cells.size(); ++k) columns[k].values->push_back(quantity(columns[k], cells[k], at));
   }
   if (lines.size() < 2)
     Place{file, std::max(number, 1)}.refuse(

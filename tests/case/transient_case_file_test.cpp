@@ -75,7 +75,7 @@ TEST(TransientCaseFile, AHistoryFileStandsForItsColumns) {
             loaded.spec.transient.displacement);
 }
 
-TEST(TransientCaseFile, NumbersBetweenSemicolonsMayHaveDecimalCommas) {
+TEST(TransientCaseFile, TablesOfSpreadsheetsAreRead) {
   CaseSpec spec;
   EXPECT_EQ(
       read_history_table("# of a spreadsheet\n\ndistance [mm];wheel_load [kN];creepage\n0;80;0\n2,5;100,25;-1e-3\n",
@@ -84,6 +84,13 @@ TEST(TransientCaseFile, NumbersBetweenSemicolonsMayHaveDecimalCommas) {
   EXPECT_EQ(spec.transient.at_distance, (std::vector<double>{0, 2.5e-3}));
   EXPECT_EQ(spec.transient.wheel_load, (std::vector<double>{80e3, 100.25e3}));
   EXPECT_EQ(spec.transient.creepage, (std::vector<double>{0, -1e-3}));
+  CaseSpec tabs, quoted;
+  read_history_table("displacement [um]\tlateral_displacement [um]\n0\t0\n2,5\t1.5\n", "h.csv", tabs);
+  EXPECT_EQ(tabs.transient.displacement, (std::vector<double>{0, 2.5e-6}));
+  EXPECT_EQ(tabs.transient.lateral_displacement, (std::vector<double>{0, 1.5e-6}));
+  read_history_table("\"displacement [um]\",\"lateral_displacement [um]\",\n\"2,5\",\"1\",\n", "h.csv", quoted);
+  EXPECT_EQ(quoted.transient.displacement, (std::vector<double>{2.5e-6}));
+  EXPECT_EQ(quoted.transient.lateral_displacement, (std::vector<double>{1e-6}));
   CaseSpec alone;
   read_history_table("displacement [um]\n1,5\n-1.5\n", "h.csv", alone);
   EXPECT_EQ(alone.transient.displacement, (std::vector<double>{1.5e-6, -1.5e-6}));
@@ -140,7 +147,7 @@ TEST(TransientCaseFile, AFaultOfAHistoryFileIsToldWithItsLine) {
       {"distance [mm], creepage\n0,5, 0,001\n", "decimal commas need semicolons between the columns"},
       {"distance [mm]; creepage\n0, 0\n",
        "1 value in a table of 2 columns\n    remedy: give every row one value a "
-       "column, separated by semicolons"},
+       "column, separated as the names are"},
       {"distance [mm]; creepage\n1.000,5; 0\n", "\"1.000,5\" is not a number"},
       {"distance [mm], creepage\n", "the table has no rows"},
       {"", "h.csv:1: the table has no rows"},
