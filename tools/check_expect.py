@@ -95,7 +95,8 @@ def run_case(binary, case, out):
     tables = tomllib.loads(case.read_text())
     by_half_spaces = "transient" in tables or tables.get("geometry", {}).get("contact") == "line"
     command = "bem" if by_half_spaces else "run"
-    done = subprocess.run([binary, "--quiet", command, case, "--out", out], capture_output=True, text=True)
+    words = [binary, "--quiet", command, case, "--no-report", "--out", out]
+    done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode != 0:
         print(f"{done.stdout}{done.stderr}FAILED exit code {done.returncode}, wanted 0")
     return done.returncode == 0

@@ -2,11 +2,15 @@
 """Keeps the small results of a finished study: tables, centre lines and summaries as a few files of text, a picture.
 
     tools/record_study.py results/study cases/paper/recorded/study [--equal-cells results/equal_cells]
+    tools/record_study.py results/study cases/paper/recorded/study --anew bem [--equal-cells results/equal_cells]
 
 Copies study.csv, published.csv, claims.csv and, without folders, provenance.json; gathers every case's centre line in
 centre_lines.csv (five digits) and every summary in summaries.json; with --equal-cells also the half-space cases on
 cells as large as the elements and the agreement of the engines (tools/engine_agreement.py). Files that are not there
 are left out and named.
+
+--anew bem records the half-space results alone (`railstrata study … --engine bem`); what is there of the finite
+elements stays, with the program that computed it in provenance.json, that of the half-spaces in provenance_bem.json.
 """
 import argparse
 import csv
@@ -15,6 +19,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tomllib
 
 
 def table(path):
@@ -38,12 +43,114 @@ def without_folders(value):
     return pathlib.Path(value).name if isinstance(value, str) and "/" in value else value
 
 
+def remarks(path):
+    with open(path, encoding="utf-8") as file:
+        return [line for line in file if line.startswith("#")]
+
+
+def write_table(path, head, names, rows):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        file.writelines(head)
+        out = csv.DictWriter(file, names, restval="", lineterminator="\n")
+        out.writeheader()
+        out.writerows(rows)
+
+
+def case_of(row):
+    return row["group"], row["case"], row["engine"]
+
+
+def study_anew(old, new, to):
+    """Rows of half-spaces from `new`, the others of `old`, in the order of `old`; the columns of `new`."""
+    theirs = {case_of(row): row for row in table(new)}
+    rows = [theirs[case_of(row)] if row["engine"] == "bem" else row for row in table(old)]
+    names = list(next(iter(theirs.values())))
+    lost = [name for name in rows[0] if name not in names]
+    if lost:
+        sys.exit(f"columns that are no more: {', '.join(lost)}")
+    program = remarks(new)[0].removeprefix("# ")
+    head = [line for line in remarks(old) if not line.startswith("# half-spaces: ")] + [f"# half-spaces: {program}"]
+    write_table(to, head, names, rows)
+    return {case_of(row): row for row in rows}
+
+
+def published_anew(old, new, numbers, study, published):
+    """The half-space's column from `new`; where that is a part of a finite element answer (`engines`) that too. What
+    the reason says must not change by it: it is not made anew."""
+    asked = {(n["section"], n["quantity"]): n for n in published["number"]}
+    prefixes = {c["name"]: c.get("prefix", "") for c in published["column"] if c["engine"] == "fem"}
+    out = []
+    for ours, theirs in zip(table(old), table(new), strict=True):
+        number = asked[ours["section"], ours["quantity"]]
+        before = dict(ours)
+        if not any(ours[name] for name in prefixes):
+            ours.update(theirs)
+        ours["half-space"] = theirs["half-space"]
+        if number.get("engines"):
+            group, case = number["given"].split("/")
+            half_space = float(study[group, case, "bem"][number["column"]])
+            for name, prefix in prefixes.items():
+                row = study.get((prefix + group, case, "fem")) or study[group, case, "fem"]
+                value = float(row[number["column"]])
+                ours[name] = str(100 * abs(value / half_space - 1))
+                if number.get("bound") == "at most" and ((float(ours[name]) <= number["value"])
+                                                         != (float(before[name]) <= number["value"])):
+                    sys.exit(f"{ours['quantity']}: agrees no more, or does now; record the whole study")
+            if ours["difference"]:
+                ours["difference"] = f"{float(ours['finite elements, converged']) - number['value']:+.1f} points"
+        out.append(ours)
+    write_table(numbers, [], list(out[0]), out)
+
+
+def claims_anew(old, new, to):
+    rows = [ours | {"half-space": theirs["half-space"]} for ours, theirs in zip(table(old), table(new), strict=True)]
+    write_table(to, [], list(rows[0]), rows)
+
+
+def half_spaces_anew(args):
+    """Returns the study's rows for what follows."""
+    study = study_anew(args.to / "study.csv", args.study / "study.csv", args.to / "study.csv")
+    source = pathlib.Path(__file__).resolve().parent.parent / "data/paper/published.toml"
+    published = tomllib.loads(source.read_text(encoding="utf-8"))
+    published_anew(args.to / "published.csv", args.study / "published.csv", args.to / "published.csv", study, published)
+    claims_anew(args.to / "claims.csv", args.study / "claims.csv", args.to / "claims.csv")
+    recorded = table(args.to / "centre_lines.csv")
+    names, lines = list(recorded[0]), []
+    summaries = json.loads((args.to / "summaries.json").read_text(encoding="utf-8"))
+    for (group, case, engine), row in study.items():
+        if engine != "bem":
+            lines += [line for line in recorded if case_of(line) == (group, case, engine)]
+            continue
+        folder = args.study / row["folder"]
+        where = dict(zip(names, (group, case, engine)))
+        lines += [where | {name: five_digits(r[name]) for name in names if name in r}
+                  for r in table(folder / "centre_line.csv")]
+        summaries[f"{group}/{case}/bem"] = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    write_table(args.to / "centre_lines.csv", [], names, lines)
+    (args.to / "summaries.json").write_text(json.dumps(summaries, indent=1) + "\n", encoding="utf-8")
+    provenance = without_folders(json.loads((args.study / "provenance.json").read_text(encoding="utf-8")))
+    (args.to / "provenance_bem.json").write_text(json.dumps(provenance, indent=1) + "\n", encoding="utf-8")
+
+
+def record_agreement(args, study):
+    shutil.copyfile(args.equal_cells / "study.csv", args.to / "equal_cells.csv")
+    tool = pathlib.Path(__file__).with_name("engine_agreement.py")
+    subprocess.run([tool, study, "--equal-cells", args.equal_cells / "study.csv", "--csv", args.to / "agreement.csv"],
+                   check=False, stdout=subprocess.DEVNULL)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("study", type=pathlib.Path)
     parser.add_argument("to", type=pathlib.Path)
     parser.add_argument("--equal-cells", type=pathlib.Path)
+    parser.add_argument("--anew", choices=["bem"])
     args = parser.parse_args()
+    if args.anew:
+        half_spaces_anew(args)
+        if args.equal_cells:
+            record_agreement(args, args.to / "study.csv")
+        return 0
     args.to.mkdir(parents=True, exist_ok=True)
 
     missing = []
@@ -71,10 +178,7 @@ def main():
     (args.to / "summaries.json").write_text(text + "\n", encoding="utf-8")
 
     if args.equal_cells:
-        shutil.copyfile(args.equal_cells / "study.csv", args.to / "equal_cells.csv")
-        tool = pathlib.Path(__file__).with_name("engine_agreement.py")
-        subprocess.run([tool, args.study / "study.csv", "--equal-cells", args.equal_cells / "study.csv", "--csv",
-                        args.to / "agreement.csv"], check=False, stdout=subprocess.DEVNULL)
+        record_agreement(args, args.study / "study.csv")
     for name in missing:
         print(f"not there: {name}", file=sys.stderr)
     return 1 if missing else 0

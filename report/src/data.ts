@@ -48,6 +48,7 @@ export interface BodySections {
 }
 
 export type Columns = Record<string, number[]>;
+export type CentreLine = Columns&{y: number[]};
 
 export interface StressMaximum {
   value_Pa: number;
@@ -69,12 +70,18 @@ export interface Layer {
   bottom_m: [number, number][];
 }
 
-export interface Geometry {
+/// A place where the wheel touches, with what it bears there.
+export interface LoadedContact {
+  contact: Record<string, number>;
+  load_N: number;
+  hertz: {a_m: number; b_m: number; p0_Pa: number; approach_m: number|null};  // a line contact has no approach
+}
+
+/// The contact is that of the rigid bodies; `patches`: where the loaded wheel touches at several places.
+export interface Geometry extends LoadedContact {
   rail_profile: string;
   wheel_profile: string;
-  load_N: number;
-  contact: Record<string, number>;
-  hertz: {a_m: number; b_m: number; p0_Pa: number; approach_m: number|null};  // a line contact has no approach
+  patches?: LoadedContact[];
   rail_m: [number, number][];
   wheel_m: [number, number][];
   layers: Layer[];
@@ -117,7 +124,8 @@ export interface Run {
   geometry: Geometry|null;
   patch: Grid;
   further_patches: Grid[];
-  centre_line: Columns&{y: number[]};
+  centre_line: CentreLine;
+  further_centre_lines: CentreLine[];
   depth_line: Columns|null;
   history: Columns|null;
   film: Film|null;
@@ -185,6 +193,7 @@ export interface Quantity {
   unit: Unit;
   digits: number;  // significant ones
   shown: boolean;
+  round_off: {share: number; of: string[]}|null;  // below share times the numbers at these paths nothing is a result
   comparable: boolean;  // false: a small remainder, or another thing in the other engine: no difference is shown
 }
 

@@ -5,7 +5,9 @@ import {drawAll, forget, frame, kDark, kLight, setOrigin, type Figure, type Them
 import {lastsPart} from "./lasts";
 import {linesFigure, type Series} from "./lines";
 import {centreLines, patchesTable, patchMaps} from "./patch";
-import {geometryFigures, geometryTable, historyFigures, numbersTable, origin, tiles, verdict} from "./sections";
+import {geometryFigures, geometryTable} from "./geometry";
+import {historyFigures} from "./history";
+import {numbersTable, origin, tiles, verdict} from "./sections";
 import {depthLines, maximaTable, sectionMaps} from "./stress";
 import {filmParts, transientFigures} from "./transient";
 import {engineName, numberText, plotText, runLabel, setWords} from "./text";
@@ -118,7 +120,7 @@ function runParts(runs: Run[]): HTMLElement[] {
   const lasts = lastsPart(runs);
   const way = [...filmParts(runs), ...(history.length ? [grid(history)] : [])];
   return [
-    part("numbers", "Numbers", numbersTable(runs)),
+    part("numbers", "Numbers", ...numbersTable(runs)),
     geometryPart(runs[0]),
     patchPart(runs),
     stressPart(runs),

@@ -1,7 +1,7 @@
 // Coloured maps with millimetres of equal length on both axes.
 import type {Span, Values} from "./data";
 import {axis, baseLayout, type DataTable, type Drawing, type Figure, type Theme} from "./figures";
-import {minus} from "./text";
+import {fixedText} from "./text";
 
 export interface Line {
   x: Values;
@@ -48,7 +48,7 @@ const kRight = 100;  // margin, room for the colour bar
 /// Marks of the colour bar where values below its range exist: its lowest says so.
 function floorTicks(m: MapSpec): Record<string, unknown> {
   const shares = [-1, -0.5, 0, 0.5, 1];
-  const text = (share: number) => `${share === -1 ? "≤ " : ""}${minus((share * m.range[1]).toFixed(0))}`;
+  const text = (share: number) => `${share === -1 ? "≤ " : ""}${fixedText(share * m.range[1], 0)}`;
   return {tickmode: "array", tickvals: shares.map((share) => share * m.range[1]), ticktext: shares.map(text)};
 }
 

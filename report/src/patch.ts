@@ -1,10 +1,21 @@
 // The contact patch: maps of pressure, traction, slip and state, and the centre line.
-import {columnsOf, option, unpack, type Grid, type Run, type Span, type Values} from "./data";
+import {
+  columnsOf,
+  option,
+  unpack,
+  type CentreLine,
+  type Geometry,
+  type Grid,
+  type LoadedContact,
+  type Run,
+  type Span,
+  type Values
+} from "./data";
 import {element, table} from "./dom";
 import type {Figure, Theme} from "./figures";
 import {linesFigure, type Series} from "./lines";
 import {magnitudeColours, mapFigure, type MapSpec} from "./maps";
-import {minus, numberText, runLabel} from "./text";
+import {fixedText, numberText, runLabel, withoutRoundOff} from "./text";
 
 /// A patch of a run, y from the rigid contact point as in the tables; nothing outside the contact.
 interface Patch {
@@ -158,31 +169,47 @@ export function patchMaps(runs: Run[]): Figure[] {
   }));
 }
 
-/// A line of each run along x.
-function runLines(runs: Run[], values: (run: Run) => number[], symbol: string): Series[] {
-  return runs.map((run, n): Series => {
-    const x = run.centre_line.x_mm;
-    const colour = (t: Theme) => t.series[n % t.series.length];
-    const hover = `x %{x:.2f} mm<br>${symbol} %{y:.1f} MPa`;
-    return {name: runLabel(run), x, y: values(run), markers: x.length < 60, colour, hover};
-  });
+/// The centre lines of a run's patches, the first has the largest pressure.
+function linesOf(run: Run): CentreLine[] { return [run.centre_line, ...run.further_centre_lines]; }
+
+/// ", patch 2" where there are several.
+function ofPatch(run: Run, k: number): string { return run.further_centre_lines.length ? `, patch ${k + 1}` : ""; }
+
+/// A line of each run and patch along x.
+function runLines(runs: Run[], values: (line: CentreLine) => number[], symbol: string): Series[] {
+  const hover = `x %{x:.2f} mm<br>${symbol} %{y:.1f} MPa`;
+  return runs.flatMap((run, n) => linesOf(run).map((line, k): Series => ({
+                                                     name: runLabel(run) + ofPatch(run, k),
+                                                     x: line.x_mm,
+                                                     y: values(line),
+                                                     markers: line.x_mm.length < 60,
+                                                     colour: (t) => t.series[(n + runs.length * k) % t.series.length],
+                                                     hover,
+                                                   })));
 }
 
-function tractionOf({centre_line: line}: Run): number[] {
+function tractionOf(line: CentreLine): number[] {
   return line.p_MPa.map((_, i) => Math.hypot(line.q_x_MPa[i], line.q_y_MPa[i]));
 }
 
-function hertzLine({a_m, p0_Pa}: {a_m: number; p0_Pa: number}): Series {
+function hertzLine({a_m, p0_Pa}: LoadedContact["hertz"], name: string): Series {
   const x = Array.from({length: 121}, (_, i) => 1e3 * a_m * -Math.cos((Math.PI * i) / 120));
   const y = x.map((v) => 1e-6 * p0_Pa * Math.sqrt(Math.max(0, 1 - (v / (1e3 * a_m)) ** 2)));
   const hover = "x %{x:.2f} mm<br>p %{y:.1f} MPa";
-  return {name: "Hertz, no layer", x, y, colour: (t) => t.reference, dash: "dot", hover};
+  return {name, x, y, colour: (t) => t.reference, dash: name.endsWith("2") ? "dashdot" : "dot", hover};
 }
 
-function limitLine({centre_line: line}: Run, friction: number): Series {
+/// Hertz's pressure of each contact, under the load that it bears.
+function hertzLines(g: Geometry): Series[] {
+  if (!g.patches) return [hertzLine(g.hertz, "Hertz, no layer")];
+  return g.patches.map((p, k) => hertzLine(p.hertz, `Hertz, no layer, patch ${k + 1}`));
+}
+
+function limitLine(run: Run, line: CentreLine, k: number, friction: number): Series {
   const y = line.p_MPa.map((v) => friction * v);
   const hover = "x %{x:.2f} mm<br>f p %{y:.1f} MPa";
-  return {name: `limit f p, f = ${friction}`, x: line.x_mm, y, colour: (t) => t.reference, dash: "dash", hover};
+  const name = `limit f p, f = ${friction}${ofPatch(run, k)}`;
+  return {name, x: line.x_mm, y, colour: (t) => t.reference, dash: k === 0 ? "dash" : "dashdot", hover};
 }
 
 const kAboutHertz = " Hertz’s ellipse takes the curvatures at the rigid contact point and knows no layer: " +
@@ -192,15 +219,17 @@ const kAboutTraction = "Magnitude of the tangential traction on the rail. " +
 
 /// Pressure and traction along x through the largest pressure, all runs and Hertz's.
 export function centreLines(runs: Run[]): Figure[] {
-  const pressure = runLines(runs, (r) => r.centre_line.p_MPa, "p");
+  const pressure = runLines(runs, (line) => line.p_MPa, "p");
   const traction = runLines(runs, tractionOf, "|q|");
   const geometry = runs.find((r) => r.geometry)?.geometry;
-  if (geometry) pressure.push(hertzLine(geometry.hertz));
+  if (geometry) pressure.push(...hertzLines(geometry));
   const friction = Number(option(runs[0], "drive", "friction_coefficient") ?? NaN);
-  if (Number.isFinite(friction) && friction > 0) traction.push(limitLine(runs[0], friction));
-  const touching = runs.flatMap((r) => r.centre_line.x_mm.filter((_, i) => r.centre_line.p_MPa[i] > 0));
+  if (Number.isFinite(friction) && friction > 0)
+    traction.push(...linesOf(runs[0]).map((line, k) => limitLine(runs[0], line, k, friction)));
+  const touching = runs.flatMap(linesOf).flatMap((line) => line.x_mm.filter((_, i) => line.p_MPa[i] > 0));
   const window: Span = [Math.min(...touching) - 2, Math.max(...touching) + 2];
-  const at = runs.map((r) => `${minus((r.centre_line.y[0] - contactY(r)).toFixed(2))} mm`).join(" and ");
+  const placesOf = (r: Run) => linesOf(r).map((line, k) => `${fixedText(line.y[0] - contactY(r, k), 2)} mm`);
+  const at = runs.flatMap(placesOf).join(" and ");
   const line = `Along the rolling direction through the largest pressure, at y = ${at} from the rigid contact point; ` +
       "the leading edge is on the right.";
   const pressureFigure = linesFigure({
@@ -232,7 +261,11 @@ export function patchesTable(runs: Run[]): HTMLElement|null {
   const keys = ["rail_y_m", "contact_angle_rad", "F_x_N", "F_y_N", "F_z_N", "p_max_Pa", "patch_area_m2", "spin_per_m"];
   const factors = [1e3, 180 / Math.PI, 1e-3, 1e-3, 1e-3, 1e-6, 1e6, 1];
   const rows = runs.flatMap((run) => (run.summary.patches ?? []).map((patch, k) => {
-    const numbers = keys.map((key, n) => numberText(patch[key] === null ? null : factors[n] * patch[key]));
+    const numberOf = (path: string) => patch[path.replace("contact/", "")] ?? null;
+    const numbers = keys.map((key, n) => {
+      const value = withoutRoundOff(`contact/${key}`, patch[key] ?? null, numberOf);
+      return numberText(value === null ? null : factors[n] * value);
+    });
     return [`${runs.length > 1 ? `${runLabel(run)}, ` : ""}${k + 1}`, ...numbers];
   }));
   if (!rows.length) return null;

@@ -1,5 +1,5 @@
 // Stresses below the surface: sections, depth lines, table of maxima.
-import {measures, minus, numberText, percentText, runLabel, zones} from "./text";
+import {fixedText, measures, numberText, percentText, runLabel, zones} from "./text";
 import {
   rowsOf,
   unpack,
@@ -133,10 +133,10 @@ function scaleOf(cuts: Cut[], kind: Kind): Scale {
 /// Along the section: the axis, its words, the name of the plane and where it lies.
 function planeWords({plane, section, run}: Cut): {along: string; label: string; name: string; at: string} {
   if (plane === "longitudinal") {
-    const at = `plane y = ${minus((section.at - contactY(run)).toFixed(2))} mm`;
+    const at = `plane y = ${fixedText(section.at - contactY(run), 2)} mm`;
     return {along: "x", label: "x, rolling direction [mm]", name: "longitudinal section", at};
   }
-  const at = `plane x = ${minus(section.at.toFixed(2))} mm`;
+  const at = `plane x = ${fixedText(section.at, 2)} mm`;
   return {along: "y", label: "y, field side right [mm]", name: "cross section", at};
 }
 
@@ -148,11 +148,11 @@ export function sectionMaps(runs: Run[], body: BodyName): Figure[] {
   const mapOf = (cut: Cut, kind: Kind, scale: Scale, windowX: Span, windowY: Span) => {
     const plane = planeWords(cut);
     const best = place(cut, kind.key, windowX, windowY);
-    const where = `${plane.along} ${minus(best.x.toFixed(2))}, depth ${best.y.toFixed(2)} mm`;
+    const where = `${plane.along} ${fixedText(best.x, 2)}, depth ${best.y.toFixed(2)} mm`;
     const borders = materialBorders(cut.section, cut.x, cut.depth);
     const words = [
       `${body === "rail" ? "Rail" : "Wheel"}, ${plane.at}.`,
-      `Circle: the largest shown, ${minus(best.value.toFixed(0))} MPa at ${where}.`,
+      `Circle: the largest shown, ${fixedText(best.value, 0)} MPa at ${where}.`,
       ...(borders.length ? ["Dashed: border of the layer."] : []),
     ];
     const largest = `largest here: ${best.value.toFixed(1)} MPa<br>${where}`;
@@ -220,7 +220,7 @@ function depthSeries(run: Run, [column, name]: Component, n: number, dash: strin
 function placeWords(run: Run): string {
   const m = run.summary.stress.rail.subsurface?.von_mises_max;
   if (!m) return runLabel(run);
-  const mm = (v: number|null) => minus((1e3 * (v ?? 0)).toFixed(2));
+  const mm = (v: number|null) => fixedText(1e3 * (v ?? 0), 2);
   return `${runLabel(run)}: x ${mm(m.x_m)}, y ${mm(m.y_m)} mm`;
 }
 
@@ -276,7 +276,7 @@ export function depthLines(runs: Run[]): Figure[] {
 
 function maximumCells(m: StressMaximum|null|undefined): Cell[] {
   if (!m) return [{text: "–"}, {text: ""}];
-  const mm = (v: number|null) => (v === null ? "–" : minus((1e3 * v).toFixed(2)));
+  const mm = (v: number|null) => (v === null ? "–" : fixedText(1e3 * v, 2));
   return [
     {text: numberText(1e-6 * m.value_Pa), attributes: {"data-value": String(m.value_Pa)}},
     {text: `${mm(m.x_m)}, ${mm(m.y_m)}, ${mm(m.depth_m)}`, attributes: {class: "place"}},

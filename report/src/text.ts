@@ -26,6 +26,12 @@ export function countText(value: number|null): string {
   return value === null ? "–" : String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, "\u202f");
 }
 
+/// So many decimals, never "−0.00".
+export function fixedText(value: number, decimals: number): string {
+  const text = value.toFixed(decimals);
+  return minus(Number(text) === 0 ? text.replace("-", "") : text);
+}
+
 export function minus(text: string): string { return text.replace("-", "−"); }
 
 function superscript(n: number): string {
@@ -75,8 +81,22 @@ function inUnit(value: number|null, unit: Unit, text: (shown: number) => string)
 export function shownQuantities(): Quantity[] { return words.numbers.filter((q) => q.shown); }
 
 export function quantityAt(path: string): Quantity {
-  const unknown = {path, name: path, unit: kPlain, digits: 4, shown: true, comparable: false};
+  const unknown = {path, name: path, unit: kPlain, digits: 4, shown: true, comparable: false, round_off: null};
   return words.numbers.find((q) => q.path === path) ?? unknown;
+}
+
+/// A number by its path for people: 0 where it is what round-off leaves beside others of the same result.
+export function withoutRoundOff(path: string, value: number|null, numberOf: (path: string) => number | null): number|
+    null {
+  const rule = quantityAt(path).round_off;
+  if (value === null || !rule) return value;
+  const size = rule.of.reduce((product, other) => product * Math.abs(numberOf(other) ?? 0), rule.share);
+  return Math.abs(value) <= size ? 0 : value;
+}
+
+/// The value of a check for people: 0 where it is below a millionth of its limit.
+export function shownBesideLimit(value: number|null, limit: number|null): number|null {
+  return value !== null && limit !== null && Math.abs(value) < 1e-6 * limit ? 0 : value;
 }
 
 /// Where stresses are looked for: key and name of each zone, of each measure.

@@ -2,32 +2,18 @@
 import {columnsOf, unpack, type Columns, type Film, type Run, type Span, type Values} from "./data";
 import {element, note} from "./dom";
 import {frame, redraw, type Figure, type Theme} from "./figures";
+import {historyFigure, type Along, type HistoryChart, type HistoryLine} from "./history";
 import {linesFigure, type Series} from "./lines";
 import {magnitudeColours, mapFigure, type MapSpec} from "./maps";
 import {contactY, stateColours, stateLegend} from "./patch";
-import {historySeries, type Along, type HistoryLine} from "./sections";
-import {minus, runLabel} from "./text";
+import {fixedText, runLabel} from "./text";
 
-interface Chart {
-  id: string;
-  title: string;
-  label: string;
-  column: string;
-  words: string;
-  lines: HistoryLine[];
-}
-
-/// Along x, with its words for axis and table.
-interface Course extends Along {
-  label: string;
-}
-
-const kDistance: Course = {
+const kDistance: Along = {
   column: "distance_mm",
   label: "rolled distance [mm]",
   hover: "after %{x:.2f} mm"
 };
-const kStep: Course = {
+const kStep: Along = {
   column: "step",
   label: "increment",
   hover: "increment %{x}"
@@ -37,7 +23,7 @@ function line(column: string, name: string, scale: number, unit: string): Histor
   return {column, name, scale, hover: `${name} %{y:.4g} ${unit}`};
 }
 
-const forces: Chart = {
+const forces: HistoryChart = {
   id: "transient-forces",
   title: "Forces on the wheel",
   label: "force [kN]",
@@ -49,7 +35,7 @@ const forces: Chart = {
     line("lateral_force_N", "lateral force", 1e-3, "kN"),
   ],
 };
-const creepages: Chart = {
+const creepages: HistoryChart = {
   id: "transient-creepage",
   title: "Creepage",
   label: "creepage [10⁻³]",
@@ -60,7 +46,7 @@ const creepages: Chart = {
     line("lateral_creepage", "lateral", 1e3, "× 10⁻³"),
   ],
 };
-const stresses: Chart = {
+const stresses: HistoryChart = {
   id: "transient-stress",
   title: "Largest pressure and shear",
   label: "[MPa]",
@@ -71,7 +57,7 @@ const stresses: Chart = {
     line("q_max_MPa", "q_max", 1, "MPa"),
   ],
 };
-const areas: Chart = {
+const areas: HistoryChart = {
   id: "transient-areas",
   title: "Contact, stick and slip",
   label: "area [mm²]",
@@ -83,7 +69,7 @@ const areas: Chart = {
     line("slip_area_mm2", "slip", 1, "mm²"),
   ],
 };
-const work: Chart = {
+const work: HistoryChart = {
   id: "transient-work",
   title: "Friction work",
   label: "work [J]",
@@ -91,17 +77,6 @@ const work: Chart = {
   words: "Since the start.",
   lines: [line("friction_work_J", "friction work", 1, "J")],
 };
-
-function chartFigure(runs: Run[], along: Course, chart: Chart): Figure {
-  return linesFigure({
-    id: chart.id,
-    title: chart.title,
-    labels: [along.label, chart.label],
-    names: [along.column, chart.column],
-    words: [chart.words],
-    series: historySeries(runs, chart.lines, along),
-  });
-}
 
 const largest = (values: Values) => Math.max(0, ...values.map((v) => Math.abs(v ?? 0)));
 
@@ -130,14 +105,14 @@ function loop(runs: Run[], id: string, title: string, displacement: string, forc
 }
 
 /// The load would be a flat line far above the forces of a shift.
-const sideways: Chart = {
+const sideways: HistoryChart = {
   ...forces,
   words: "F_x in the rolling direction, the lateral force in the contact plane.",
   lines: forces.lines.filter((l) => l.column !== "F_z_N"),
 };
 
 /// A line of nothing but round-off says nothing.
-function withoutZeros(runs: Run[], chart: Chart): Chart {
+function withoutZeros(runs: Run[], chart: HistoryChart): HistoryChart {
   const top = Math.max(...runs.flatMap((run) => chart.lines.map((l) => largest(run.history![l.column]))));
   const lines = chart.lines.filter((l) => runs.some((run) => changes(run.history![l.column], top)));
   return {...chart, lines: lines.length ? lines : chart.lines.slice(0, 1)};
@@ -153,7 +128,7 @@ export function transientFigures(runs: Run[]): Figure[] {
   const rolling = rolls(all[0].history!);
   const given = all.filter((run) => rolls(run.history!) === rolling);
   const along = rolling ? kDistance : kStep;
-  const figure = (chart: Chart) => chartFigure(given, along, withoutZeros(given, chart));
+  const figure = (chart: HistoryChart) => historyFigure(given, along, withoutZeros(given, chart));
   if (rolling) return [forces, creepages, stresses, areas, work].map(figure);
   return [
     ...loop(given, "loop-x", "Force against displacement, rolling direction", "displacement_um", "F_x_N"),
@@ -171,7 +146,7 @@ function span(at: number[]): Span {
 
 function frameWords(run: Run, film: Film, k: number): string {
   const {step, distance_mm} = film.frames[k];
-  return rolls(run.history!) ? `after ${minus(distance_mm.toFixed(2))} mm` : `increment ${step}`;
+  return rolls(run.history!) ? `after ${fixedText(distance_mm, 2)} mm` : `increment ${step}`;
 }
 
 /// Two maps that show one frame, and the slider that chooses it.

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "app/commands.hpp"
 #include "core/faults.hpp"
@@ -16,6 +19,7 @@
 #include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
 #include "post/compare.hpp"
+#include "post/result_table.hpp"
 #include "report/comparison_picture.hpp"
 
 namespace railstrata {
@@ -50,14 +54,62 @@ constexpr Quantity kQuantities[] = {
 
 struct Row {
   const Quantity& quantity;
-  double a, b;  ///< SI
-  double relative() const { return (a - b) / std::abs(b); }
+  double a, b;         ///< SI
+  double noise = 0;    ///< below it is what round-off leaves
+  std::string of_a{};  ///< patch
+  std::string of_b{};
+  double shown(double v) const { return std::abs(v) <= noise ? 0 : v; }
+  /// Of noise there is no share.
+  double relative() const {
+    return std::abs(b) <= noise ? std::numeric_limits<double>::quiet_NaN() : (a - b) / std::abs(b);
+  }
 };
+
+std::size_t patches_of(const ResultFolder& r) { return 1 + r.further.size(); }
+
+/// What a number of a result is of: "patch", "patch 1 of 2", "2 patches".
+std::string of_text(const ResultFolder& r, const ResultNumber* n) {
+  const std::size_t patches = patches_of(r);
+  if (patches == 1) return "patch";
+  return n && n->of_all_patches ? fmt::format("{} patches", patches) : fmt::format("patch 1 of {}", patches);
+}
+
+double noise_of(const ResultFolder& r, const ResultNumber* n) {
+  if (!n) return 0;
+  return round_off_size(n->round_off, [&](std::string_view path) { return r.number(std::string(path)); });
+}
 
 std::vector<Row> rows_of(const ResultFolder& a, const ResultFolder& b) {
   std::vector<Row> rows;
-  for (const Quantity& q : kQuantities) rows.push_back({q, a.number(q.path), b.number(q.path)});
+  for (const Quantity& q : kQuantities) {
+    const ResultNumber* n = find_number(q.path);
+    rows.push_back({q, a.number(q.path), b.number(q.path), std::max(noise_of(a, n), noise_of(b, n)), of_text(a, n),
+                    of_text(b, n)});
+  }
   return rows;
+}
+
+/// Of the largest pressure, m.
+double place_of(const ResultFolder& r) {
+  return r.field.y[static_cast<std::size_t>(std::max_element(r.field.p.begin(), r.field.p.end()) - r.field.p.begin())];
+}
+
+/// What the table cannot say.
+std::vector<std::string> notes_of(const ResultFolder& a, const ResultFolder& b) {
+  std::vector<std::string> out;
+  for (const auto& [name, r] : {std::pair{"A", &a}, std::pair{"B", &b}})
+    if (patches_of(*r) > 1)
+      out.push_back(fmt::format(
+          "{} touches at {} places: compared is the patch with the largest pressure (patch 1), but F_x, F_y "
+          "and F_z are those of all",
+          name, patches_of(*r)));
+  const double apart = std::abs(place_of(a) - place_of(b)), width = a.number("/contact/patch_width_m");
+  if (apart > 0.5 * width)
+    out.push_back(
+        fmt::format("the patches lie at different places: the largest pressure of A at y = {} mm, of B at y = {} mm "
+                    "(model frame)",
+                    fixed(1e3 * place_of(a), 1), fixed(1e3 * place_of(b), 1)));
+  return out;
 }
 
 std::string number(double v, const char* format) {
@@ -67,17 +119,18 @@ std::string number(double v, const char* format) {
 void print_table(const ResultFolder& a, const ResultFolder& b, const std::vector<Row>& rows, const FieldComparison& g) {
   fmt::print("A  {} ({}): {}\nB  {} ({}): {}\n\n", printable(a.folder.string()), a.engine, printable(a.title),
              printable(b.folder.string()), b.engine, printable(b.title));
-  fmt::print("  {:<36} {:>12} {:>12} {:>12}\n", "", "A", "B", "(A-B)/|B|");
+  const bool several = patches_of(a) > 1 || patches_of(b) > 1;
+  fmt::print("  {:<36} {:>12} {:>12} {:>12}{}\n", "", "A", "B", "(A-B)/|B|", several ? "  of" : "");
   for (const Row& r : rows) {
     const Quantity& q = r.quantity;
-    fmt::print("  {:<36} {:>12} {:>12} {:>12}\n", fmt::format("{}{}{}", q.name, *q.unit ? ", " : "", q.unit),
-               number(q.scale * r.a, "{:.4g}"), number(q.scale * r.b, "{:.4g}"),
-               number(100 * r.relative(), "{:+.2f} %"));
+    fmt::print("  {:<36} {:>12} {:>12} {:>12}{}\n", fmt::format("{}{}{}", q.name, *q.unit ? ", " : "", q.unit),
+               number(q.scale * r.shown(r.a), "{:.4g}"), number(q.scale * r.shown(r.b), "{:.4g}"),
+               number(100 * r.relative(), "{:+.2f} %"), several ? fmt::format("  A: {}, B: {}", r.of_a, r.of_b) : "");
   }
   const auto field = [](const char* name, const FieldDifference& d) {
     if (std::isfinite(d.rms))
-      fmt::print("  {:<4} over the patch: rms {:.2f} %, largest {:.2f} % of B's maximum, at x {:+.2f}, y {:+.2f} mm\n",
-                 name, 100 * d.rms, 100 * d.largest, 1e3 * d.x, 1e3 * d.y);
+      fmt::print("  {:<4} over the patch: rms {:.2f} %, largest {:.2f} % of B's maximum, at x {}, y {} mm\n", name,
+                 100 * d.rms, 100 * d.largest, fixed(1e3 * d.x, 2), fixed(1e3 * d.y, 2));
   };
   fmt::print("\n");
   field("p", g.p);
@@ -91,7 +144,8 @@ nlohmann::ordered_json value(double v) {
 nlohmann::ordered_json as_json(const ResultFolder& a, const ResultFolder& b, const std::vector<Row>& rows,
                                const FieldComparison& g) {
   const auto side = [](const ResultFolder& r) {
-    return nlohmann::ordered_json{{"folder", r.folder.string()}, {"engine", r.engine}, {"title", r.title}};
+    return nlohmann::ordered_json{
+        {"folder", r.folder.string()}, {"engine", r.engine}, {"title", r.title}, {"patches", patches_of(r)}};
   };
   const auto field = [](const FieldDifference& d) {
     return nlohmann::ordered_json{
@@ -99,18 +153,22 @@ nlohmann::ordered_json as_json(const ResultFolder& a, const ResultFolder& b, con
   };
   nlohmann::ordered_json out{{"a", side(a)}, {"b", side(b)}};
   for (const Row& r : rows)
-    out["numbers"][r.quantity.key] = {
-        {"a", value(r.a)}, {"b", value(r.b)}, {"relative_difference", value(r.relative())}};
+    out["numbers"][r.quantity.key] = {{"a", value(r.a)},
+                                      {"b", value(r.b)},
+                                      {"relative_difference", value(r.relative())},
+                                      {"of_a", r.of_a},
+                                      {"of_b", r.of_b}};
   out["fields"] = {{"pressure", field(g.p)}, {"traction", field(g.q)}};
+  out["notes"] = notes_of(a, b);
   return out;
 }
 
 std::string csv_text(const std::vector<Row>& rows) {
-  std::string out = "quantity,unit,a,b,relative_difference\n";
+  std::string out = "quantity,unit,a,b,relative_difference,of_a,of_b\n";
   for (const Row& r : rows) {
     const Quantity& q = r.quantity;
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n", q.name, q.unit, q.scale * r.a, q.scale * r.b,
-                   r.relative());
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{}\n", q.name, q.unit, q.scale * r.a, q.scale * r.b,
+                   r.relative(), r.of_a, r.of_b);
   }
   return out;
 }
@@ -168,6 +226,7 @@ ExitCode command_compare(const CommandOptions& options) {
     fmt::print("{}", text);
   else
     print_table(a, b, rows, comparison);
+  for (const std::string& note : notes_of(a, b)) spdlog::info("{}", note);
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
 }

@@ -16,6 +16,7 @@
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/output_folder.hpp"
+#include "post/result_table.hpp"
 #include "runs/half_space_need.hpp"
 
 namespace railstrata {
@@ -95,15 +96,27 @@ void print_table(const Curve& curve, const std::vector<CsvColumn>& table) {
       if (&c == &table.front())
         fmt::print("{:>{}.3e}", c.values[i], width(c));
       else
-        fmt::print("{:>{}.4f}", c.values[i], width(c));
+        fmt::print("{:>{}}", fixed(c.values[i], 4), width(c));
     }
     fmt::print("\n");
   }
 }
 
-nlohmann::ordered_json as_json(const std::string& title, const std::vector<CsvColumn>& table) {
+nlohmann::ordered_json as_json(const std::string& title, const std::vector<CsvColumn>& table,
+                               const std::vector<std::string>& notes) {
   nlohmann::ordered_json out{{"title", title}};
   for (const CsvColumn& c : table) out[c.name] = c.values;
+  out["notes"] = notes;
+  return out;
+}
+
+/// What of the case a curve leaves out.
+std::vector<std::string> notes_of(const CaseSpec& spec) {
+  std::vector<std::string> out;
+  if (spec.transient.kind != TransientKind::none)
+    out.emplace_back("[transient] has no effect: a creep curve is of steady rolling");
+  if (!spec.run.rolling)
+    out.emplace_back("run.rolling = false has no effect: a creep curve is of steady rolling, with the case's friction");
   return out;
 }
 
@@ -138,9 +151,12 @@ ExitCode command_creep_curve(const CommandOptions& options) {
       "{}/(f F_n) on the wheel against {}; full: half-space theory with the case's layers, its other force and its "
       "moment over f F_n beside it; the others: the Hertz ellipse, homogeneous bodies",
       curve.force, curve.column);
+  const std::vector<std::string> notes = notes_of(loaded.spec);
+  origin.insert(origin.end(), notes.begin(), notes.end());
   write_csv(out / "creep_curve.csv", origin, table);
+  for (const std::string& note : notes) spdlog::warn("{}", note);
   if (options.json)
-    fmt::print("{}\n", as_json(loaded.spec.title, table).dump(2));
+    fmt::print("{}\n", as_json(loaded.spec.title, table, notes).dump(2));
   else
     print_table(curve, table);
   spdlog::info("results are in {}", out.string());

@@ -52,10 +52,11 @@ ExitCode command_report(const CommandOptions& options) {
     if (!std::filesystem::exists(folder / "summary.json"))
       throw CaseError(std::vector<Diagnostic>{no_result_here(folder)});
   if (page.has_parent_path()) make_folder(page.parent_path());
-  log_page(write_report(page, options.report.folders, options.report.reference));
+  const WrittenPage written = write_report(page, options.report.folders, options.report.reference);
+  log_page(written);
   if (options.json) fmt::print("{}\n", json_text(nlohmann::json{{"report", page.generic_string()}}));
   spdlog::info("the report is {}", page.string());
-  return ExitCode::ok;
+  return written.verdict.ok ? ExitCode::ok : ExitCode::failed_checks;
 }
 
 }  // namespace railstrata

@@ -209,8 +209,8 @@ ExitCode command_run(const CommandOptions& options) {
                  resume_command(job.out));
     return outcome.limit_reached ? ExitCode::unfinished : ExitCode::interrupted;
   }
-  if (options.page) add_report(job.out);
-  const bool all_ok = std::all_of(outcome.summaries.begin(), outcome.summaries.end(), all_checks_hold);
+  const bool page_ok = !options.page || add_report(job.out),
+             all_ok = page_ok && std::all_of(outcome.summaries.begin(), outcome.summaries.end(), all_checks_hold);
   if (!all_ok) spdlog::warn("a check failed: read the results with care");
   return all_ok ? ExitCode::ok : ExitCode::failed_checks;
 }

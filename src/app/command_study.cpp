@@ -130,17 +130,18 @@ void compute(const CommandOptions& options, const LoadedStudy& study, const fs::
   run_cases(run, to_do);
 }
 
-void add_study_page(const fs::path& out, const LoadedStudy& study, const Published& published,
+/// Returns whether its verdict holds.
+bool add_study_page(const fs::path& out, const LoadedStudy& study, const Published& published,
                     const std::vector<StudyRow>& rows) {
-  if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return;
+  if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return true;
   const fs::path page = out / "report.html";
-  write_page_or_warn(page, [&] { write_study_page(page, study, published, rows); });
+  return write_page_or_warn(page, [&] { return WrittenPage{write_study_page(page, study, published, rows), {}}; });
 }
 
 ExitCode warn_of_faults(const std::vector<StudyRow>& rows) {
   const auto faults = std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return !r.fault.empty(); });
   if (faults == 0) return ExitCode::ok;
-  spdlog::warn("{} of {} cases failed or have a failed check: see the last column", faults, rows.size());
+  spdlog::warn("{} of {} cases failed or have a failed check: see the column fault", faults, rows.size());
   return ExitCode::failed_checks;
 }
 
@@ -168,11 +169,12 @@ ExitCode command_study(const CommandOptions& options) {
     spdlog::warn("stopped; the same command goes on where it was");
     return ExitCode::interrupted;
   }
-  if (options.page) add_study_page(out, study, published, rows);
+  const bool page_ok = !options.page || add_study_page(out, study, published, rows);
   const std::vector<StudyRow> our_rows = rows_of(rows, ours);
   print_list(our_rows, options.json);
   spdlog::info("the table is {}", (out / "study.csv").string());
-  return warn_of_faults(our_rows);
+  const ExitCode code = warn_of_faults(our_rows);
+  return page_ok ? code : ExitCode::failed_checks;
 }
 
 }  // namespace railstrata

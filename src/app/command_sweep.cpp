@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <nlohmann/json.hpp>
 
@@ -12,13 +13,14 @@
 #include "app/progress.hpp"
 #include "app/signals.hpp"
 #include "io/output_folder.hpp"
+#include "post/check_limits.hpp"
 #include "study/sweep.hpp"
 
 namespace railstrata {
 namespace {
 
 std::string cell_text(double v, int width, int digits) {
-  return std::isfinite(v) ? fmt::format("  {:>{}.{}f}", v, width, digits) : fmt::format("  {:>{}}", "-", width);
+  return fmt::format("  {:>{}}", std::isfinite(v) ? fixed(v, digits) : "-", width);
 }
 
 /// What the terminal shows of a case.
@@ -33,6 +35,19 @@ constexpr Shown kShown[] = {{"p_max MPa", "/contact/p_max_Pa", 1e-6, 9, 1},
                             {"slip %", "/contact/slip_area_fraction", 100, 6, 1},
                             {"creep 1e-3", "/contact/creepage_x", 1e3, 10, 3}};
 
+/// Each once, with the number of cases that have it.
+void print_warnings(const std::vector<SweepCase>& cases) {
+  std::map<std::string, int> count;
+  for (const SweepCase& c : cases)
+    if (c.done && c.summary.contains("warnings"))
+      for (const auto& w : c.summary["warnings"]) ++count[w.value("name", "?")];
+  if (!count.empty()) fmt::print("\nwarnings (column warnings of sweep.csv):\n");
+  for (const auto& [name, cases_with] : count) {
+    const CheckRow* row = find_check(name);
+    fmt::print("  {} of {} cases: {}\n", cases_with, cases.size(), row ? std::string(row->name) : name);
+  }
+}
+
 void print_table(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys) {
   std::vector<std::size_t> width;
   for (std::size_t k = 0; k < keys.size(); ++k) {
@@ -40,16 +55,25 @@ void print_table(const std::vector<SweepCase>& cases, const std::vector<VariedKe
     for (const std::string& v : keys[k].values) width[k] = std::max(width[k], v.size());
     fmt::print("{:<{}}  ", keys[k].key, width[k]);
   }
+  const bool several =
+      std::any_of(cases.begin(), cases.end(), [](const SweepCase& c) { return remarks_of(c.summary).patches > 1; });
   for (const Shown& s : kShown) fmt::print("  {:>{}}", s.heading, s.width);
-  fmt::print("\n");
+  fmt::print("{}\n", several ? "  patches" : "");
   for (const SweepCase& c : cases) {
     if (!c.done) continue;
     for (std::size_t k = 0; k < keys.size(); ++k) fmt::print("{:<{}}  ", c.values[k], width[k]);
-    if (!c.summary.is_null())
+    if (!c.summary.is_null()) {
       for (const Shown& s : kShown)
         fmt::print("{}", cell_text(column_value({s.heading, s.path, s.factor}, c.summary), s.width, s.digits));
+      if (several) fmt::print("  {:>7}", remarks_of(c.summary).patches);
+    }
     fmt::print("{}\n", c.fault.empty() ? "" : "  " + c.fault);
   }
+  if (several)
+    fmt::print(
+        "\nof several patches: the numbers of the one with the largest pressure; sweep.csv has F_x, F_y and F_z of "
+        "all\n");
+  print_warnings(cases);
 }
 
 nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys,
@@ -64,6 +88,10 @@ nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::v
       row[column.name] = std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
     }
     row["fault"] = c.fault.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(c.fault);
+    const ResultRemarks remarks = remarks_of(c.summary);
+    row["patches"] = remarks.patches;
+    row["checks"] = remarks.checks;
+    row["warnings"] = remarks.warnings;
     out.push_back(std::move(row));
   }
   return out;
@@ -107,7 +135,7 @@ ExitCode command_sweep(const CommandOptions& options) {
     return ExitCode::interrupted;
   }
   const auto faults = std::count_if(cases.begin(), cases.end(), [](const SweepCase& c) { return !c.fault.empty(); });
-  if (faults > 0) spdlog::warn("{} of {} cases failed: see the last column", faults, cases.size());
+  if (faults > 0) spdlog::warn("{} of {} cases failed: see the column fault", faults, cases.size());
   return faults > 0 ? ExitCode::failed_checks : ExitCode::ok;
 }
 

@@ -26,14 +26,12 @@ std::string numbers_text(const Summary& s) {
   std::string out;
   for (const ResultNumber& n : result_numbers()) {
     if (!n.shown) continue;
-    const ResultValue value = n.value(s);
-    const double v =
-        std::holds_alternative<long>(value) ? static_cast<double>(std::get<long>(value)) : std::get<double>(value);
+    const double v = shown_value(n, s);
     if (!std::isfinite(v)) continue;
     out += fmt::format("  {}{:>10} {}{}\n", padded(std::string(n.label), 18), significant(n.unit.factor * v, n.digits),
                        padded(std::string(n.unit.shown), 7), n.name);
   }
-  return out + fmt::format("  {}{:>10.4f}\n", padded("F_x/F_z", 18), s.contact.F_x / s.contact.F_z);
+  return out + fmt::format("  {}{:>10}\n", padded("F_x/F_z", 18), fixed(s.contact.F_x / s.contact.F_z, 4));
 }
 
 std::string patches_text(const Summary& s) {
@@ -42,17 +40,27 @@ std::string patches_text(const Summary& s) {
     const PatchSummary& p = s.patches[k];
     const ContactSummary& c = p.contact;
     out += fmt::format(
-        "  patch {} at y = {:.1f} mm of the rail, {:.1f} mm of the wheel, at {:.1f}°: p_max {:.0f} MPa, F_x {:.2f}, "
-        "normal force {:.2f}, lateral force {:.2f} kN, {:.1f} mm2, spin {:.3f} rad/m\n",
-        k + 1, 1e3 * p.rail_y, 1e3 * p.wheel_y, result_unit::kDegrees.factor * c.contact_angle, 1e-6 * c.patch.p_max,
-        1e-3 * c.F_x, 1e-3 * c.normal_force, 1e-3 * c.lateral_force, 1e6 * c.patch.area, c.spin_per_m);
+        "  patch {} at y = {} mm of the rail, {} mm of the wheel, at {}°: p_max {:.0f} MPa, F_x {}, normal force {}, "
+        "lateral force {} kN, {:.1f} mm2, spin {} rad/m\n",
+        k + 1, fixed(1e3 * p.rail_y, 1), fixed(1e3 * p.wheel_y, 1),
+        fixed(result_unit::kDegrees.factor * c.contact_angle, 1), 1e-6 * c.patch.p_max, fixed(1e-3 * c.F_x, 2),
+        fixed(1e-3 * c.normal_force, 2), fixed(1e-3 * c.lateral_force, 2), 1e6 * c.patch.area, fixed(c.spin_per_m, 3));
   }
+  if (!out.empty())
+    out +=
+        "  above: the numbers of patch 1, which has the largest pressure, but F_x, F_y and F_z of all patches; below: "
+        "the stresses under patch 1\n";
   return out;
 }
 
+std::string signed_mm(double metres) {
+  const std::string text = fixed(1e3 * metres, 2);
+  return text.starts_with('-') ? text : "+" + text;
+}
+
 std::string maximum_text(const StressMaximum& m) {
-  return fmt::format("{:7.1f} MPa at x {:+.2f}, y {:+.2f}, depth {:.2f} mm", 1e-6 * m.value, 1e3 * m.x, 1e3 * m.y,
-                     1e3 * m.depth);
+  return fmt::format("{:7.1f} MPa at x {}, y {}, depth {} mm", 1e-6 * m.value, signed_mm(m.x), signed_mm(m.y),
+                     fixed(1e3 * m.depth, 2));
 }
 
 /// Zones that the case has; of the wheel only if one of its layers makes more of them than the surface and below.
@@ -155,7 +163,8 @@ std::string checks_text(const Summary& s) {
   std::string out = "  checks\n";
   for (const Check& k : s.checks)
     out += fmt::format("    {:<6} {}{:>10}  (limit {})\n", k.ok ? "ok" : "FAILED", padded(name_of(k.name), 34),
-                       with_unit(unit_of(k.name), k.value, 3), limit_text(unit_of(k.name), k.limit));
+                       with_unit(unit_of(k.name), shown_beside_limit(k.value, k.limit), 3),
+                       limit_text(unit_of(k.name), k.limit));
   for (const Warning& w : s.warnings) {
     const CheckRow* row = find_check(w.name);
     out += fmt::format("    warn   {}{:>10}  (above {}): {}\n", padded(name_of(w.name), 34),

@@ -8,15 +8,18 @@
 
 namespace railstrata {
 
-void write_page_or_warn(const std::filesystem::path& page, const std::function<void()>& write) {
+bool write_page_or_warn(const std::filesystem::path& page, const std::function<WrittenPage()>& write) {
   try {
-    write();
+    const WrittenPage written = write();
+    log_page(written);
     spdlog::info("everything on one page: {}", page.string());
+    return written.verdict.ok;
   } catch (const CaseError& e) {
     spdlog::warn("no report: {}", e.what());
   } catch (const EnvironmentError& e) {
     spdlog::warn("no report: {}{}{}", e.what(), e.remedy.empty() ? "" : "\n    remedy: ", e.remedy);
   }
+  return true;
 }
 
 void log_page(const WrittenPage& page) {
@@ -25,9 +28,9 @@ void log_page(const WrittenPage& page) {
               page.verdict.text);
 }
 
-void add_report(const std::filesystem::path& folder) {
+bool add_report(const std::filesystem::path& folder) {
   const std::filesystem::path page = folder / "report.html";
-  write_page_or_warn(page, [&] { log_page(write_report(page, {folder}, true)); });
+  return write_page_or_warn(page, [&] { return write_report(page, {folder}, true); });
 }
 
 }  // namespace railstrata

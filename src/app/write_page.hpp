@@ -7,13 +7,15 @@
 
 namespace railstrata {
 
-/// write(), which makes `page`, and logs where it is. Failing, it warns: the results are there without a page.
-void write_page_or_warn(const std::filesystem::path& page, const std::function<void()>& write);
+/// write(), which makes `page`, and logs its verdict and where it is. Failing, it warns: the results are there without
+/// a page. Returns whether the page's verdict holds, true without a page: the exit code says what the page says.
+bool write_page_or_warn(const std::filesystem::path& page, const std::function<WrittenPage()>& write);
 
 /// Logs what a written page has to say: its notes and its verdict, a failed one as a warning.
 void log_page(const WrittenPage& page);
 
-/// What `run` and `bem` do when they are done: report.html in the folder, or a warning.
-void add_report(const std::filesystem::path& folder);
+/// What `run` and `bem` do when they are done: report.html in the folder, or a warning. Returns whether
+/// its verdict holds, true without a page.
+bool add_report(const std::filesystem::path& folder);
 
 }  // namespace railstrata

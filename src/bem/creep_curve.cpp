@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "bem/case_patch.hpp"
+#include "bem/several_patches.hpp"
 #include "core/faults.hpp"
 #include "halfspace/creep_theories.hpp"
 
@@ -37,6 +38,14 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
   const bool along_x = varied == VariedCreepage::longitudinal;
   const auto share = [&](const CreepForce& force) { return (along_x ? force.x : force.y) / hertz_bound; };
   drive_contact(spec, placement.contact, weight, patch.contact);
+  require_one_plane(
+      placement,
+      approach.value_or(
+          solve_normal(*patch.influence, patch.grid, patch.contact.gap, patch.contact.target, options.rolling.normal)
+              .approach),
+      "a creep curve is that of one patch: move the wheel (geometry.lateral_shift), or lower the load, until it "
+      "touches "
+      "at one place; `railstrata bem` solves several patches together");
   std::vector<CreepCurvePoint> curve;
   for (double creepage : creepages) {
     vary(varied, creepage, patch.contact);

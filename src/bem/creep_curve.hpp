@@ -23,7 +23,7 @@ struct CreepCurvePoint {
 /// The fast theories stand on the Hertz ellipse of the curvatures at the rigid contact point and on homogeneous bodies;
 /// the full one on the real gap and the layers. The fast ones take the creepages that the full one has. The normal
 /// force is the weight's, or that of the given approach without friction, and does not change. Throws CaseError if
-/// friction is zero.
+/// friction is zero or the wheel touches in a further plane under this load.
 std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, VariedCreepage varied,
                                          const std::vector<double>& creepages, const BemOptions& options = {});
 

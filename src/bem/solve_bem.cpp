@@ -253,7 +253,10 @@ BemResult result_of(const CaseSpec& spec, const Placement& placement, const std:
   for (const PatchOnWheel& p : patches) {
     r.further.push_back(patch_result(spec, placement, p));
     r.further.back().surroundings.bent_by_others = bending_by_others(spec, patches, p);
-    r.notes.insert(r.notes.end(), p.patch.notes.begin(), p.patch.notes.end());
+    for (const std::string& note : p.patch.notes)
+      r.notes.push_back(patches.size() < 2 ? note
+                                           : fmt::format("patch at y = {:.1f} mm of the rail: {}",
+                                                         1e3 * r.further.back().surroundings.rail_y, note));
     r.effort.outer_iterations = std::max(r.effort.outer_iterations, p.solution.outer_iterations);
     r.effort.iterations += p.solution.normal.iterations + p.solution.tangential.iterations;
   }

@@ -8,8 +8,10 @@ BodyState::BodyState(const Body& body, int history_entries) {
 
 std::size_t array_size(const Body& body, const StateArray& array, int history_entries) {
   const bool nodal = array.values != &BodyState::history;
-  return static_cast<std::size_t>(nodal ? body.layout.size
-                                        : HistoryLayout(body.layout, body.mesh, history_entries).size);
+  if (nodal) return static_cast<std::size_t>(body.layout.size);
+  const bool own = history_entries == body.history.entries;
+  return static_cast<std::size_t>(own ? body.history.size
+                                      : HistoryLayout(body.layout, body.mesh, history_entries).size);
 }
 
 }  // namespace railstrata

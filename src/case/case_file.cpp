@@ -13,6 +13,7 @@
 #include "case/history_table.hpp"
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
+#include "case/transient_rules.hpp"
 #include "core/nearest_word.hpp"
 #include "geometry/profile_names.hpp"
 
@@ -50,23 +51,36 @@ void resolve_profile(ProfileKind kind, const char* key, std::string& name, Loade
 /// The columns of transient.history_file take the place of its name.
 void read_history(LoadedCase& loaded, CaseSource& source) {
   std::string& name = loaded.spec.transient.history_file;
-  if (name.empty() && !source.has("transient.history_file")) return;
+  if (name.empty() && !source.has(kHistoryFile)) return;
   const auto refuse = [&](const std::string& what, const std::string& remedy) {
-    source.complain("transient.history_file", fmt::format("transient.history_file = {}: {}", toml_quoted(name), what),
-                    remedy);
+    source.complain(kHistoryFile, fmt::format("transient.history_file = {}: {}", toml_quoted(name), what), remedy);
   };
   if (name.empty() || name.find('\0') != std::string::npos)
     return refuse("not a file's name", "name a CSV file, relative to the case file");
   std::error_code error;
-  const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
-  try {
-    read_history_table(read_text_file(file, "name a CSV file, relative to the case file"), file, loaded.spec);
-    loaded.inputs.push_back(file);
-  } catch (const CaseError& e) {
-    for (const Diagnostic& d : e.diagnostics)
-      refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
-  }
+  const std::filesystem::path said = loaded.folder() / name,
+                              file = std::filesystem::absolute(said, error).lexically_normal();
+  const std::string text = [&] {
+    try {
+      return read_text_file(file, "name a CSV file, relative to the case file");
+    } catch (const CaseError& e) {
+      for (const Diagnostic& d : e.diagnostics)
+        refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
+      return std::string();
+    }
+  }();
   name.clear();
+  if (!source.sound({kHistoryFile})) return;
+  loaded.inputs.push_back(file);
+  try {
+    const std::vector<int> lines = read_history_table(text, said, loaded.spec);
+    for (const GivenColumn& column : given_columns(loaded.spec))
+      for (std::size_t row = 0; row < lines.size(); ++row)
+        source.remember_origin(fmt::format("transient.{}{}", column.key, row == 0 ? "" : fmt::format(".{}", row)),
+                               fmt::format("{}:{}", said.string(), lines[row]));
+  } catch (const CaseError& e) {
+    for (const Diagnostic& d : e.diagnostics) source.complain_elsewhere(kHistoryFile, d);
+  }
 }
 
 /// Only blanks and comments.

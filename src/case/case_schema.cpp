@@ -92,7 +92,8 @@ constexpr const char* kAboutTransient =
     "that of [drive].\nA shift begins at rest under the first row's load and goes from row to row; a direction without "
     "a "
     "column is held.\n`history_file` has the columns under their names with units, `distance [mm]` or `distance_mm`, a "
-    "line a row. How it is\nfollowed and what comes out: [docs/bem.md](bem.md#transients). Signs: "
+    "line a row, commas,\nsemicolons or tabs between them, with the last two decimal commas too (`2,5; 102`). How it "
+    "is\nfollowed and what comes out: [docs/bem.md](bem.md#transients). Signs: "
     "[conventions](conventions.md#axes-and-signs).\n";
 
 /// What a table's rows cannot say: how values of more than one number are written.

@@ -76,6 +76,11 @@ void CaseSource::complain(const std::string& key, const std::string& message, co
   found_.push_back(found_at(key, message, remedy));
 }
 
+void CaseSource::complain_elsewhere(const std::string& key, Diagnostic elsewhere) {
+  unsound_.push_back(key);
+  found_.push_back({found_at(key, {}, {}).place, std::move(elsewhere)});
+}
+
 void CaseSource::finish() const {
   if (found_.empty()) return;
   std::vector<Found> sorted = found_;

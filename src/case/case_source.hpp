@@ -37,6 +37,8 @@ class CaseSource {
   void complain(const std::string& key, const std::string& message, const std::string& remedy);
   /// The same, given back instead of recorded.
   Diagnostic diagnosis(const std::string& key, const std::string& message, const std::string& remedy) const;
+  /// Records an error of a file that the value of `key` names, at its own place there.
+  void complain_elsewhere(const std::string& key, Diagnostic elsewhere);
   /// Records an error at a place of the text.
   void complain_at(TextPlace place, const std::string& message, const std::string& remedy);
   /// Throws CaseError with everything recorded, in the order of the file; overrides last.

@@ -470,6 +470,17 @@ class TreeReader {
         if (d.table == &table) finish(d);
   }
 
+  static double rounded(double value) { return std::stod(fmt::format("{:.5g}", value)); }
+
+  /// What may be written where the slot has this range; every derivation is linear.
+  Range range_behind(const Derived& d, const Range& slot) const {
+    const auto value = [&](double written) { return d.option->derivation.value(spec_, d.index, written); };
+    const double at_zero = value(0), slope = value(1) - at_zero;
+    const auto written = [&](double end) { return rounded((end - at_zero) / slope); };
+    return {std::max(d.option->range.min, written(slot.min)), std::min(d.option->range.max, written(slot.max)),
+            slot.open};
+  }
+
   void finish(const Derived& d) {
     const double written = d.mass ? d.written * spec_.vehicle.gravity : d.written;
     if (!d.option->range.holds(written)) return out_of_range(*d.option, d.key, d.shown, "", written);
@@ -477,10 +488,12 @@ class TreeReader {
     const double value = d.option->derivation.value(spec_, d.index, written);
     for (const Option& whole : d.table->options)
       if (!whole.derivation && whole.slot(spec_, d.index) == slot && !whole.range.holds(value))
-        source_.complain(d.key,
-                         fmt::format("{} = {}: makes {} {}, which must be {}", d.key, d.shown, whole.key,
-                                     format_quantity(value, whole.dimension), describe(whole.range, whole.dimension)),
-                         std::string(d.option->derivation.remedy));
+        source_.complain(
+            d.key,
+            fmt::format("{} = {}: must be {} here: it makes {} {}, which must be {}", d.key, d.shown,
+                        describe(range_behind(d, whole.range), d.option->dimension), whole.key,
+                        format_quantity(rounded(value), whole.dimension), describe(whole.range, whole.dimension)),
+            std::string(d.option->derivation.remedy));
     if (auto* const* maybe = std::get_if<std::optional<double>*>(&slot))
       **maybe = value;
     else

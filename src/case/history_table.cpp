@@ -21,7 +21,7 @@ struct Place {
   const std::filesystem::path& file;
   int line;
   [[noreturn]] void refuse(const std::string& what, const std::string& remedy) const {
-    throw CaseError(printable(what), remedy, fmt::format("{}:{}", file.filename().string(), line));
+    throw CaseError(printable(what), remedy, fmt::format("{}:{}", file.string(), line));
   }
 };
 
@@ -36,15 +36,26 @@ std::string trimmed(std::string_view text) {
   return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
+/// By the line of names. One column alone has nothing to separate.
+char separator_of(const std::string& names) {
+  for (const char c : {';', '\t', ','})
+    if (names.find(c) != std::string::npos) return c;
+  return ';';
+}
+
+/// Between quotes nothing separates. Spreadsheets end lines with an empty cell: it is none.
+std::vector<std::string> cells_of(const std::string& line, char separator) {
   std::vector<std::string> out(1);
+  bool quoted = false;
   for (const char c : line) {
-    if (c == ',' || c == ';')
+    quoted = quoted != (c == '"');
+    if (c == separator && !quoted)
       out.emplace_back();
     else
       out.back() += c;
   }
   for (std::string& cell : out) cell = trimmed(cell);
+  if (out.size() > 1 && out.back().empty()) out.pop_back();
   return out;
 }
 
@@ -73,20 +84,24 @@ std::optional<std::string> unit_after(const std::string& name, std::string_view 
   return rest;
 }
 
-/// A number with the column's unit, rounded once.
-double quantity(const Column& column, const std::string& number, const Place& at) {
+/// A number with its column's unit, rounded once. What is no separator may be a decimal comma.
+double quantity(const Column& column, const std::string& given, const Place& at) {
   double value = 0;
+  std::string number = given;
+  if (given.find('.') == std::string::npos && std::count(given.begin(), given.end(), ',') == 1)
+    number[given.find(',')] = '.';
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
   if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(value))
-    at.refuse(fmt::format("\"{}\" is not a number, in the column {}", number.substr(0, 40), column.option->key),
-              "write numbers with a decimal point; the unit stands in the column's name");
+    at.refuse(fmt::format("\"{}\" is not a number, in the column {}", given.substr(0, 40), column.option->key),
+              "write numbers with a decimal point, or with a decimal comma between semicolons; the unit stands in the "
+              "column's name");
   try {
     value = parse_quantity(column.unit.empty() ? number : number + " " + column.unit, column.option->dimension);
   } catch (const UnitError& e) {
     at.refuse(fmt::format("the column {}: {}", column.option->key, e.what()), e.remedy);
   }
   if (!column.option->range.holds(value))
-    at.refuse(fmt::format("{} = {}{}{}: must be {}", column.option->key, number, column.unit.empty() ? "" : " ",
+    at.refuse(fmt::format("{} = {}{}{}: must be {}", column.option->key, given, column.unit.empty() ? "" : " ",
                           column.unit, describe(column.option->range, column.option->dimension)),
               "choose a value in this range, or another unit in the column's name");
   return value;
@@ -118,9 +133,9 @@ Column column_named(const std::string& name, CaseSpec& spec, const Place& at) {
   return *best;
 }
 
-std::vector<Column> columns_of(const std::string& line, CaseSpec& spec, const Place& at) {
+std::vector<Column> columns_of(const std::string& line, char separator, CaseSpec& spec, const Place& at) {
   std::vector<Column> out;
-  for (const std::string& name : cells_of(line)) {
+  for (const std::string& name : cells_of(line, separator)) {
     out.push_back(column_named(name, spec, at));
     for (std::size_t k = 0; k + 1 < out.size(); ++k)
       if (out[k].values == out.back().values)
@@ -137,34 +152,44 @@ std::vector<Column> columns_of(const std::string& line, CaseSpec& spec, const Pl
   return out;
 }
 
+[[noreturn]] void refuse_width(std::size_t cells, std::size_t columns, char separator, const Place& at) {
+  at.refuse(fmt::format("{} {} in a table of {} {}", cells, cells == 1 ? "value" : "values", columns,
+                        columns == 1 ? "column" : "columns"),
+            separator == ',' ? "give every row one value a column; decimal commas need semicolons between the columns, "
+                               "in the line of names too"
+                             : "give every row one value a column, separated as the names are");
+}
+
 }  // namespace
 
-void read_history_table(const std::string& text, const std::filesystem::path& file, CaseSpec& spec) {
-  std::istringstream lines(text);
+std::vector<int> read_history_table(const std::string& text, const std::filesystem::path& file, CaseSpec& spec) {
+  std::istringstream stream(text);
   std::vector<Column> columns;
-  int number = 0, rows = 0;
-  for (std::string line; std::getline(lines, line);) {
+  std::vector<int> lines;
+  char separator = ',';
+  int number = 0;
+  for (std::string line; std::getline(stream, line);) {
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     line = line.substr(0, line.find('#'));
     if (trimmed(line).empty()) continue;
     const Place at{file, number};
+    lines.push_back(number);
     if (columns.empty()) {
-      columns = columns_of(line, spec, at);
+      separator = separator_of(line);
+      columns = columns_of(line, separator, spec, at);
       continue;
     }
-    const std::vector<std::string> cells = cells_of(line);
-    if (cells.size() != columns.size())
-      at.refuse(fmt::format("{} values in a table of {} columns", cells.size(), columns.size()),
-                "give every row one value a column");
+    const std::vector<std::string> cells = cells_of(line, separator);
+    if (cells.size() != columns.size()) refuse_width(cells.size(), columns.size(), separator, at);
     for (std::size_t k = 0; k < cells.size(); ++k) columns[k].values->push_back(quantity(columns[k], cells[k], at));
-    ++rows;
   }
-  if (rows == 0)
+  if (lines.size() < 2)
     Place{file, std::max(number, 1)}.refuse(
         "the table has no rows",
         "write a line of column names, e.g. \"distance [mm], tractive_force [kN]\", "
         "then a line for each row");
+  return lines;
 }
 
 }  // namespace railstrata

@@ -267,14 +267,15 @@ OptionTable vehicle_table() {
        {"wheel_load",
         at<&C::vehicle, &V::sprung_mass>,
         "Load of the wheel on the rail, a force or a mass, instead of the sprung mass: that is load / gravity - "
-        "wheel_mass",
+        "wheel_mass; at least the wheel's own weight",
         kForce,
         above(0, 1e7),
         {},
         {sprung_mass_under, kMoreLoad, true}},
        {"axle_load",
         at<&C::vehicle, &V::sprung_mass>,
-        "Load of both wheels on the track, a force or a mass, instead of the sprung mass; each wheel carries half",
+        "Load of both wheels on the track, a force or a mass, instead of the sprung mass; each wheel carries half, at "
+        "least its own weight",
         kForce,
         above(0, 2e7),
         {},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "case/history_table.hpp"
 #include "case/option_table.hpp"
 
 namespace railstrata {
@@ -22,6 +23,7 @@ class Rules {
 
   void check() {
     check_others();
+    if (!source_.sound({kHistoryFile})) return;  // rows that end at a fault would be blamed for it
     check_kind();
     check_rows();
     if (source_.sound({"transient"})) check_friction();
@@ -31,6 +33,11 @@ class Rules {
   bool rolls() const { return t_.kind == TransientKind::rolling; }
   void refuse(const std::string& key, const std::string& what, const std::string& remedy) {
     source_.complain(key, fmt::format("{}: {}", key, what), remedy);
+  }
+
+  /// Of a row, from 1 on: a history file has a line for it.
+  void refuse_row(const std::string& key, std::size_t row, const std::string& what, const std::string& remedy) {
+    source_.complain(fmt::format("{}.{}", key, row), fmt::format("{}: {}", key, what), remedy);
   }
 
   /// Other tables that a transient cannot go with.
@@ -79,8 +86,9 @@ class Rules {
                "give every column one value a row");
     const std::vector<double>& at = t_.at_time.empty() ? t_.at_distance : t_.at_time;
     const std::string key = t_.at_time.empty() ? "transient.at_distance" : "transient.at_time";
-    if (!std::is_sorted(at.begin(), at.end()))
-      refuse(key, "must not decrease from row to row", "sort the rows; two rows at one place are a jump");
+    if (const auto back = std::is_sorted_until(at.begin(), at.end()); back != at.end())
+      refuse_row(key, static_cast<std::size_t>(back - at.begin()) + 1, "must not decrease from row to row",
+                 "sort the rows; two rows at one place are a jump");
     if (!rolls() || !source_.sound({"transient"})) return;
     if (at.empty() && !columns_.empty())
       refuse("transient." + columns_[0].key, "where are these rows? There is neither at_distance nor at_time",
@@ -88,15 +96,15 @@ class Rules {
     if (at.empty() && !t_.distance)
       refuse("transient.kind", "how far does it roll?", "add distance = \"25 mm\", or rows with at_distance");
     if (!at.empty() && at.front() != 0)
-      refuse(key, "the first row must be the start, 0", "begin with the values at the start");
+      refuse_row(key, 1, "the first row must be the start, 0", "begin with the values at the start");
     constexpr double kLongest = 20;  // m, as of distance and at_distance
     if (!t_.at_time.empty() && t_.at_time.back() * spec_.drive.speed > kLongest)
-      refuse(key,
-             fmt::format("the last row is {:.4g} m from the start at drive.speed; a transient rolls {:g} m at most",
-                         t_.at_time.back() * spec_.drive.speed, kLongest),
-             "give earlier times or a lower speed; a longer way has the steady answer");
+      refuse_row(key, at.size(),
+                 fmt::format("the last row is {:.4g} m from the start at drive.speed; a transient rolls {:g} m at most",
+                             t_.at_time.back() * spec_.drive.speed, kLongest),
+                 "give earlier times or a lower speed; a longer way has the steady answer");
     if (!at.empty() && !t_.distance && !(at.back() > 0))
-      refuse(key, "the last row is at the start", "add a later row, or transient.distance");
+      refuse_row(key, at.size(), "the last row is at the start", "add a later row, or transient.distance");
   }
 
   double row_of(const std::vector<double>& column, std::size_t row, double otherwise) const {
@@ -119,13 +127,15 @@ class Rules {
                    wanted = std::hypot(along, across), available = d.friction_coefficient * load;
       if (wanted == 0 || wanted < available) continue;
       const bool listed = !t_.tractive_force.empty() || !t_.traction_coefficient.empty();
-      return refuse(listed ? (t_.tractive_force.empty() ? "transient.traction_coefficient" : "transient.tractive_force")
-                           : "transient.kind",
-                    fmt::format("row {} wants {:.4g} kN of friction, a friction coefficient of {:g} gives at most "
-                                "{:.4g} kN under its load",
-                                i + 1, 1e-3 * wanted, d.friction_coefficient, 1e-3 * available),
-                    "the wheel would slide: lower the force, or raise the friction or the load; full sliding is a "
-                    "creepage or a displacement");
+      return refuse_row(
+          listed ? (t_.tractive_force.empty() ? "transient.traction_coefficient" : "transient.tractive_force")
+                 : "transient.kind",
+          i + 1,
+          fmt::format("row {} wants {:.4g} kN of friction, a friction coefficient of {:g} gives at most {:.4g} kN "
+                      "under its load",
+                      i + 1, 1e-3 * wanted, d.friction_coefficient, 1e-3 * available),
+          "the wheel would slide: lower the force, or raise the friction or the load; full sliding is a "
+          "creepage or a displacement");
     }
   }
 

@@ -29,9 +29,31 @@ Json curve(const Profile& profile, double contact_s, double depth, double half_w
   return points;
 }
 
+Json contact_json(const RigidContact& c, const Placement& placement) {
+  return {{"y_m", c.point.y},
+          {"z_m", c.point.z},
+          {"wheel_y_m", c.roll == 0 ? c.point.y - c.wheel_offset_y : placement.wheel.at(c.wheel_s).position.y},
+          {"angle_rad", c.angle},
+          {"rolling_radius_m", c.rolling_radius},
+          {"curvature_rolling_per_m", c.curvature_rolling},
+          {"curvature_wheel_lateral_per_m", c.curvature_wheel_lateral},
+          {"curvature_rail_lateral_per_m", c.curvature_rail_lateral}};
+}
+
+Json hertz_json(const HertzContact& hertz) {
+  return {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}, {"approach_m", hertz.approach}};
+}
+
+/// Without layers, under this load.
+HertzContact hertz_under(CaseSpec spec, const LoadedContact& patch) {
+  spec.vehicle.approach.reset();
+  spec.vehicle.sprung_mass = patch.load / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  return hertz_estimate(spec, patch.contact);
+}
+
 }  // namespace
 
-Json geometry_json(const CaseSpec& spec, const Placement& placement) {
+Json geometry_json(const CaseSpec& spec, const Placement& placement, const std::vector<LoadedContact>& patches) {
   const RigidContact& c = placement.contact;
   const HertzContact hertz = hertz_estimate(spec, c);
   const auto rail = [&](Vec2 p) { return rail_to_model(placement.track, p); };
@@ -44,16 +66,13 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement) {
   out["rail_profile"] = placement.rail.name();
   out["wheel_profile"] = placement.wheel.name();
   out["load_N"] = hertz.load;
-  out["contact"] = {
-      {"y_m", c.point.y},
-      {"z_m", c.point.z},
-      {"wheel_y_m", c.roll == 0 ? c.point.y - c.wheel_offset_y : placement.wheel.at(c.wheel_s).position.y},
-      {"angle_rad", c.angle},
-      {"rolling_radius_m", c.rolling_radius},
-      {"curvature_rolling_per_m", c.curvature_rolling},
-      {"curvature_wheel_lateral_per_m", c.curvature_wheel_lateral},
-      {"curvature_rail_lateral_per_m", c.curvature_rail_lateral}};
-  out["hertz"] = {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}, {"approach_m", hertz.approach}};
+  out["contact"] = contact_json(c, placement);
+  out["hertz"] = hertz_json(hertz);
+  if (patches.size() > 1)
+    for (const LoadedContact& p : patches)
+      out["patches"].push_back({{"contact", contact_json(p.contact, placement)},
+                                {"load_N", p.load},
+                                {"hertz", hertz_json(hertz_under(spec, p))}});
   out["rail_m"] = curve(placement.rail, c.rail_s, 0, kReach, rail);
   out["wheel_m"] = curve(placement.wheel, c.wheel_s, 0, kReach, wheel);
   out["layers"] = Json::array();
@@ -77,8 +96,9 @@ Json geometry_json(const CaseSpec& spec, const Placement& placement) {
   return out;
 }
 
-void write_geometry(const std::filesystem::path& file, const CaseSpec& spec, const Placement& placement) {
-  write_whole_file(file, geometry_json(spec, placement).dump() + "\n");
+void write_geometry(const std::filesystem::path& file, const CaseSpec& spec, const Placement& placement,
+                    const std::vector<LoadedContact>& patches) {
+  write_whole_file(file, geometry_json(spec, placement, patches).dump() + "\n");
 }
 
 }  // namespace railstrata

@@ -2,6 +2,7 @@
 // geometry.json: profiles in their places, contact point, layers and Hertz's estimate, so that a result folder can be
 // drawn without its profile files.
 #include <filesystem>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -9,10 +10,18 @@
 
 namespace railstrata {
 
+/// One of several contacts of a wheel and its normal force, N.
+struct LoadedContact {
+  RigidContact contact;
+  double load = 0;
+};
+
 /// SI units, model frame. Profiles and the lower borders of the layers are lists of points [y, z] half a millimetre
 /// apart, at most 80 mm to either side of the contact. "hertz" holds the ellipse of the curvatures at the rigid contact
-/// point, without layers.
-nlohmann::ordered_json geometry_json(const CaseSpec& spec, const Placement& placement);
-void write_geometry(const std::filesystem::path& file, const CaseSpec& spec, const Placement& placement);
+/// point under the whole load, without layers. Of several `patches`, "patches" lists each with its own ellipse.
+nlohmann::ordered_json geometry_json(const CaseSpec& spec, const Placement& placement,
+                                     const std::vector<LoadedContact>& patches = {});
+void write_geometry(const std::filesystem::path& file, const CaseSpec& spec, const Placement& placement,
+                    const std::vector<LoadedContact>& patches = {});
 
 }  // namespace railstrata

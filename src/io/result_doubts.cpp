@@ -60,19 +60,14 @@ void doubt_case(const nlohmann::json& origin, const fs::path& folder, std::vecto
 }
 
 void doubt_checks(const ResultFolder& result, std::vector<ResultDoubt>& out) {
-  const std::vector<Check> checks = checks_of(result.summary);
-  std::size_t k = 0;
-  for (const Check& c : checks) {
-    while (!result.summary["checks"][k].is_object()) ++k;
-    const nlohmann::json& entry = result.summary["checks"][k++];
-    if (c.value <= c.limit || !entry.contains("ok") || entry["ok"] != true) continue;
-    out.push_back(
-        {kContradicted,
-         fmt::format("summary.json says that the check {} holds, and its value is {:.4g}, its limit {:.4g}: it "
-                     "was changed after the run",
-                     c.name, c.value, c.limit),
-         true});
-  }
+  for (const KeptCheck& c : checks_of(result.summary))
+    if (c.said_ok && !c.ok)
+      out.push_back(
+          {kContradicted,
+           fmt::format("summary.json says that the check {} holds, and its value is {:.4g}, its limit {:.4g}: it "
+                       "was changed after the run",
+                       c.name, c.value, c.limit),
+           true});
 }
 
 /// Both files come from one computation. `tolerance`: how far the two numbers may be apart, relative.

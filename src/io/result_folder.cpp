@@ -131,8 +131,8 @@ double ResultFolder::number(const std::string& path) const {
                                                          : std::numeric_limits<double>::quiet_NaN();
 }
 
-std::vector<Check> checks_of(const nlohmann::json& summary) {
-  std::vector<Check> out;
+std::vector<KeptCheck> checks_of(const nlohmann::json& summary) {
+  std::vector<KeptCheck> out;
   if (!summary.contains("checks") || !summary["checks"].is_array()) return out;
   for (const nlohmann::json& entry : summary["checks"]) {
     if (!entry.is_object()) continue;
@@ -140,9 +140,9 @@ std::vector<Check> checks_of(const nlohmann::json& summary) {
       return entry.contains(key) && entry[key].is_number() ? entry[key].get<double>() : kNotApplicable;
     };
     const std::string name = text_at(entry, "/name");
-    Check check = at_most(name.empty() ? "check" : name, number("value"), number("limit"));
-    check.ok = check.ok && entry.contains("ok") && entry["ok"].is_boolean() && entry["ok"].get<bool>();
-    out.push_back(std::move(check));
+    const Check check = at_most(name.empty() ? "check" : name, number("value"), number("limit"));
+    out.push_back({check, entry.contains("ok") && entry["ok"].is_boolean() && entry["ok"].get<bool>()});
+    out.back().ok = check.ok && out.back().said_ok;
   }
   return out;
 }

@@ -23,8 +23,13 @@ struct ResultFolder {  // NOLINT(bugprone-exception-escape): the move of json is
   double number(const std::string& path) const;
 };
 
+/// A check as summary.json has it.
+struct KeptCheck : Check {
+  bool said_ok = false;  ///< the file says that it holds
+};
+
 /// The checks of summary.json. One holds if it says so and its value is within its limit.
-std::vector<Check> checks_of(const nlohmann::json& summary);
+std::vector<KeptCheck> checks_of(const nlohmann::json& summary);
 
 /// Throws CaseError when the folder is not there, holds no summary.json or patch.csv, or they are not as this program
 /// writes them.

@@ -36,6 +36,15 @@ Json unit_json(const ResultUnit& unit) { return {{"si", unit.si()}, {"shown", un
 
 Json limit_json(double limit) { return std::isfinite(limit) ? Json(limit) : Json(nullptr); }
 
+/// Null: every digit is one of the result.
+Json round_off_json(const RoundOff& r) {
+  if (!(r.share > 0)) return nullptr;
+  Json of = Json::array();
+  for (const std::string_view path : {r.of, r.times})
+    if (!path.empty()) of.push_back(path.substr(1));
+  return {{"share", r.share}, {"of", of}};
+}
+
 Json number_json(const ResultNumber& n) {
   return {{"path", n.path().substr(1)},
           {"name", n.name},
@@ -46,7 +55,9 @@ Json number_json(const ResultNumber& n) {
           {"comparable", n.comparable},
           {"column", n.column ? Json(n.column_name()) : Json(nullptr)},
           {"engine", n.engine == HadBy::both_engines ? Json(nullptr) : Json(engine_words(n.engine))},
-          {"doc", n.doc}};
+          {"doc", n.doc},
+          {"round_off", round_off_json(n.round_off)},
+          {"of_all_patches", n.of_all_patches}};
 }
 
 template <class Row>
@@ -126,17 +137,25 @@ std::string check_rows(CheckKind kind, std::string_view text, Cells&& cells) {
   return out;
 }
 
+constexpr std::string_view kRoundOff =
+    "\nScreen and page show 0 for what solvers and round-off leave: forces below 1e-7 of the normal force, tractions,\n"
+    "moments, displacements and work likewise, creepages below 1e-10, a spin below 1e-8 1/m, the value of a check "
+    "below\n"
+    "1e-6 of its limit. Files keep every digit; `schema --results` has the rule of each number (`round_off`).\n";
+
 constexpr std::string_view kSeveralPatches =
     "\nWhere the wheel touches at several places (half-spaces), `contact` has the numbers of the patch with the\n"
     "largest pressure, but `F_x_N`, `F_y_N` and `F_z_N` of all, and `patches` lists every patch, that one first: the\n"
     "keys of `contact`, and `y_m`, `rail_y_m`, `wheel_y_m` of its rigid contact point in the model's and in each\n"
-    "profile's own frame. Stresses are those below the first.\n";
+    "profile's own frame. Stresses are those below the first. The same holds for the columns of tables; their column\n"
+    "`patches` says how many there are.\n";
 
 std::string checks_markdown() {
   return check_rows(
              CheckKind::run,
              "\n## checks\n\nEach has `name`, `ok`, `value` and `limit`; it holds where the value is at most the "
-             "limit. When one fails, the exit code\nis 1. An empty limit: the engine does not ask for it.\n\n"
+             "limit. When one fails, the exit code\nis 1 (and where one of the page fails, below). An empty limit: the "
+             "engine does not ask for it.\n\n"
              "| name | finite elements | half-space | called | value |\n|---|---|---|---|---|\n",
              [](const CheckRow& c) {
                return fmt::format("{} | {} | {} | {}", limit_cell(c, c.fem_limit),
@@ -171,7 +190,7 @@ std::string results_reference_markdown() {
       "in the unit that\nits name ends with. Engine: `fem` or `bem` where only one of them has the number.\n\n"
       "`title` is the case's; `state` says of a transient which of its states this is; of `run`, `engine` is `fem`\nor "
       "`bem` and `commit` the program's.\n" +
-      numbers_markdown("");
+      std::string(kRoundOff) + numbers_markdown("");
   for (const std::string_view group : {"contact", "damage", "shakedown/factors", "energy", "run"}) {
     out += fmt::format("\n## {}\n", group) + numbers_markdown(group);
     if (group == "contact") out += std::string(kSeveralPatches) + stress_markdown();

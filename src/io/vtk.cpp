@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "io/markup_text.hpp"
 #include "io/output_file.hpp"
 
 namespace railstrata {
@@ -155,21 +156,6 @@ void add_data(Document& document, const VtkMesh<Corners>& mesh) {
   add_points(document, mesh.points);
 }
 
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
-  return out;
-}
-
 }  // namespace
 
 void write_vtu(const std::filesystem::path& file, const VtkHexahedra& mesh) {
@@ -201,7 +187,8 @@ void PvdSeries::add(double time, const std::filesystem::path& frame) {
   const std::string relative = std::filesystem::absolute(frame)
                                    .lexically_proximate(std::filesystem::absolute(file_).parent_path())
                                    .generic_string();
-  entries_ += fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, escaped(relative));
+  entries_ +=
+      fmt::format("<DataSet timestep=\"{}\" group=\"\" part=\"0\" file=\"{}\"/>\n", time, markup_text(relative));
   write_whole_file(file_, "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" +
                               entries_ + "</Collection>\n</VTKFile>\n");
 }

@@ -118,8 +118,9 @@ void add_single_track(const CaseSpec& spec, const BemResult& result, std::vector
   for (SectionShakedown& section : sections) {
     if (!section.strength.any()) continue;
     const double safe = section.found.wandering.value, most = section.found.upper.value;
-    section.single_track =
-        most <= kNearEnough * safe ? safe : std::clamp(track_factor(spec, result, section), safe, most);
+    section.single_track = result.grid.line || most <= kNearEnough * safe
+                               ? safe
+                               : std::clamp(track_factor(spec, result, section), safe, most);
   }
 }
 

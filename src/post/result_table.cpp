@@ -30,6 +30,15 @@ constexpr auto energy = &at<&Summary::energy, Member>;
 template <auto Member>
 constexpr auto run = &at<&Summary::run, Member>;
 
+// The forces of several patches close to 1e-6 of the load (docs/bem.md), those that symmetry cancels to 1e-9: below
+// 1e-7 of the normal force there is no result, nor in what follows from forces. A creepage of 1e-10 is a slip of a
+// picometre over a patch of 10 mm, a spin of 1e-8/m as much.
+constexpr std::string_view kNormalForce = "/contact/normal_force_N";
+constexpr double kNoise = 1e-7;
+constexpr RoundOff kOfForce{kNoise, kNormalForce}, kOfMoment{kNoise, kNormalForce, "/contact/patch_length_m"},
+    kOfPressure{kNoise, "/contact/p_max_Pa"}, kOfApproach{kNoise, "/contact/approach_m"},
+    kOfWork{kNoise, kNormalForce, "/contact/approach_m"}, kOfCreepage{1e-10}, kOfSpin{1e-8}, kOfAngle{1e-9};
+
 std::vector<ResultNumber> traction_numbers() {
   return {{.group = "contact",
            .symbol = "p_max",
@@ -50,7 +59,8 @@ std::vector<ResultNumber> traction_numbers() {
            .doc = "Largest magnitude of the tangential traction; half-spaces: at the front of slip, else at a point",
            .column = true,
            .shown = true,
-           .comparable = true},
+           .comparable = true,
+           .round_off = kOfPressure},
           {.group = "contact",
            .symbol = "q_max_point",
            .unit = kMPa,
@@ -58,7 +68,8 @@ std::vector<ResultNumber> traction_numbers() {
            .label = "q_max of a point",
            .name = "Largest shear |q| of a point",
            .doc = "Misses the cusp at the front of slip: to be compared between elements and cells of one size",
-           .column = true}};
+           .column = true,
+           .round_off = kOfPressure}};
 }
 
 std::vector<ResultNumber> extent_numbers() {
@@ -115,7 +126,9 @@ std::vector<ResultNumber> force_numbers() {
            .doc = "Contact force on the wheel, rolling direction; positive drives",
            .column = true,
            .shown = true,
-           .comparable = true},
+           .comparable = true,
+           .round_off = kOfForce,
+           .of_all_patches = true},
           {.group = "contact",
            .symbol = "F_y",
            .unit = kKilonewtons,
@@ -124,7 +137,9 @@ std::vector<ResultNumber> force_numbers() {
            .name = "F_y on the wheel",
            .doc = "Contact force on the wheel towards the field side, model frame",
            .column = true,
-           .shown = true},
+           .shown = true,
+           .round_off = kOfForce,
+           .of_all_patches = true},
           {.group = "contact",
            .symbol = "F_z",
            .unit = kKilonewtons,
@@ -134,7 +149,8 @@ std::vector<ResultNumber> force_numbers() {
            .doc = "Contact force on the wheel, upwards",
            .column = true,
            .shown = true,
-           .comparable = true}};
+           .comparable = true,
+           .of_all_patches = true}};
 }
 
 std::vector<ResultNumber> contact_plane_numbers() {
@@ -144,7 +160,8 @@ std::vector<ResultNumber> contact_plane_numbers() {
            .value = contact<&C::contact_angle>,
            .label = "contact angle",
            .name = "Contact angle",
-           .doc = "Of the common tangent at the rigid contact point"},
+           .doc = "Of the common tangent at the rigid contact point",
+           .round_off = kOfAngle},
           {.group = "contact",
            .symbol = "normal_force",
            .unit = kKilonewtons,
@@ -165,7 +182,8 @@ std::vector<ResultNumber> contact_plane_numbers() {
                   "finite elements "
                   "the sum over the nodes, each in its own plane",
            .column = true,
-           .shown = true},
+           .shown = true,
+           .round_off = kOfForce},
           {.group = "contact",
            .symbol = "spin_moment",
            .unit = kNewtonMetres,
@@ -174,7 +192,8 @@ std::vector<ResultNumber> contact_plane_numbers() {
            .name = "Moment about the contact normal",
            .doc = "Of the friction on the wheel, about the normal at the rigid contact point",
            .engine = HadBy::half_spaces,
-           .shown = true}};
+           .shown = true,
+           .round_off = kOfMoment}};
 }
 
 std::vector<ResultNumber> motion_numbers() {
@@ -188,7 +207,8 @@ std::vector<ResultNumber> motion_numbers() {
        .doc = "(V - ω r)/V with the rolling radius r",
        .column = true,
        .shown = true,
-       .comparable = true},
+       .comparable = true,
+       .round_off = kOfCreepage},
       {.group = "contact",
        .symbol = "creepage_y",
        .unit = kPerMille,
@@ -198,7 +218,8 @@ std::vector<ResultNumber> motion_numbers() {
        .doc = "Along the contact plane, positive where the wheel slips to the field side; finite elements: 0, the axle "
               "is guided",
        .column = true,
-       .shown = true},
+       .shown = true,
+       .round_off = kOfCreepage},
       {.group = "contact",
        .symbol = "spin",
        .unit = kPerMetre,
@@ -208,7 +229,8 @@ std::vector<ResultNumber> motion_numbers() {
        .doc = "Spin of the wheel about the contact normal, over V",
        .column = true,
        .shown = true,
-       .comparable = true},
+       .comparable = true,
+       .round_off = kOfSpin},
       {.group = "contact",
        .symbol = "approach",
        .unit = kMicrometres,
@@ -247,7 +269,8 @@ std::vector<ResultNumber> transient_numbers() {
            .name = "Displacement of the wheel over the rail",
            .doc = "In the rolling direction, by a shift since its start",
            .engine = HadBy::half_spaces,
-           .shown = true},
+           .shown = true,
+           .round_off = kOfApproach},
           {.group = "contact",
            .symbol = "displacement_y",
            .unit = kMicrometres,
@@ -256,7 +279,8 @@ std::vector<ResultNumber> transient_numbers() {
            .name = "Lateral displacement of the wheel over the rail",
            .doc = "Along the contact plane, by a shift since its start",
            .engine = HadBy::half_spaces,
-           .shown = true},
+           .shown = true,
+           .round_off = kOfApproach},
           {.group = "contact",
            .symbol = "friction_work",
            .unit = kJoules,
@@ -266,7 +290,8 @@ std::vector<ResultNumber> transient_numbers() {
            .doc = "Of a transient: heat that friction has made on the way",
            .engine = HadBy::half_spaces,
            .column = true,
-           .shown = true}};
+           .shown = true,
+           .round_off = kOfWork}};
 }
 
 std::vector<ResultNumber> energy_numbers() {
@@ -519,6 +544,7 @@ ResultColumn column_of(const ResultNumber& n) {
           .doc = n.name,
           .of_stress = n.group == kShakedownGroup,
           .of_strength = n.group == kShakedownGroup,
+          .of_all_patches = n.of_all_patches,
           .comparable = n.comparable,
           .digits = n.digits};
 }
@@ -616,6 +642,39 @@ std::vector<ResultColumn> table_columns() {
   out.insert(out.end(), strength_columns.begin(), strength_columns.end());
   out.insert(out.end(), run_columns.begin(), run_columns.end());
   return out;
+}
+
+const ResultNumber* find_number(std::string_view path) {
+  const std::vector<ResultNumber>& all = result_numbers();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const ResultNumber& n) { return n.path() == path; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+double round_off_size(const RoundOff& row, const std::function<double(std::string_view)>& number) {
+  double size = row.share;
+  for (const std::string_view path : {row.of, row.times})
+    if (!path.empty()) size *= std::abs(number(path));
+  return std::isfinite(size) ? size : 0;
+}
+
+double shown_value(const ResultNumber& row, const Summary& s) {
+  const auto number = [&](const ResultNumber& n) {
+    return std::visit([](auto v) { return static_cast<double>(v); }, n.value(s));
+  };
+  const double value = number(row);
+  const auto at = [&](std::string_view path) { return number(*find_number(path)); };
+  return row.round_off.share > 0 && std::abs(value) <= round_off_size(row.round_off, at) ? 0 : value;
+}
+
+double shown_beside_limit(double value, double limit) {
+  constexpr double kTelling = 1e-6;
+  return std::abs(value) < kTelling * limit ? 0 : value;
+}
+
+std::string fixed(double value, int decimals) {
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const bool zero = text.find_first_of("123456789") == std::string::npos;
+  return zero && text.starts_with('-') ? text.substr(1) : text;
 }
 
 std::string significant(double value, int digits) {

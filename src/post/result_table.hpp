@@ -5,6 +5,7 @@
 // here.
 //
 // The table stands in this room because it is the lowest one that knows a Summary; io, report, study and app see it.
+#include <functional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -19,6 +20,13 @@ namespace railstrata {
 inline constexpr std::string_view kShakedownGroup = "shakedown/factors";
 
 enum class HadBy { both_engines, finite_elements, half_spaces };
+
+/// Below which size a number is what round-off and the solvers' tolerances leave, and screen and page show 0: `share`
+/// times the numbers at these paths of the same result ("" none). Files keep every digit.
+struct RoundOff {
+  double share = 0;
+  std::string_view of{}, times{};
+};
 
 /// Counts are whole numbers.
 using ResultValue = std::variant<double, long>;
@@ -37,6 +45,8 @@ struct ResultNumber {
   bool comparable = false;  ///< a difference between two results means something: not of a small remainder, nor of
                             ///< another thing in the other engine
   int digits = 4;           ///< significant ones, where it is shown
+  RoundOff round_off{};
+  bool of_all_patches = false;  ///< where a wheel touches at several places; else of the one with the largest pressure
 
   std::string key() const;          ///< "p_max_Pa"
   std::string path() const;         ///< "/contact/p_max_Pa", a JSON pointer
@@ -45,6 +55,18 @@ struct ResultNumber {
 
 /// In the order of summary.json.
 const std::vector<ResultNumber>& result_numbers();
+
+/// The row of a number by its path; null if there is none.
+const ResultNumber* find_number(std::string_view path);
+
+/// Below which size a number is round-off; `number` gives others of the same result by path, NaN where there is none.
+double round_off_size(const RoundOff& row, const std::function<double(std::string_view)>& number);
+
+/// The value of a number, of a count too, for people: 0 where it is round-off.
+double shown_value(const ResultNumber& row, const Summary& summary);
+
+/// The value of a check for people: 0 where it is below a millionth of its limit.
+double shown_beside_limit(double value, double limit);
 
 /// The largest stresses: for every body, zone and measure a value and its place, null where the zone does not exist.
 /// They stand in summary.json as /stress/<body>/<zone>/<measure>/<number>.
@@ -83,6 +105,7 @@ struct ResultColumn {
   std::string_view doc{};    ///< one line
   bool of_stress = false;    ///< costs more than the contact
   bool of_strength = false;  ///< empty where no case says a strength
+  bool of_all_patches = false;
   bool comparable = true;
   int digits = 4;
 };
@@ -92,6 +115,9 @@ std::vector<ResultColumn> table_columns();
 
 /// A number of so many significant digits without an exponent where it can be avoided: "1067", "0.04381", "1.2e-09".
 std::string significant(double value, int digits);
+
+/// So many decimals, never "-0.00".
+std::string fixed(double value, int decimals);
 
 /// "1067 MPa", "24.6 %", "inside".
 std::string with_unit(const ResultUnit& unit, double value_si, int digits);

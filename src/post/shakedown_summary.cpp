@@ -36,7 +36,7 @@ SectionShakedown least_of_patches(const CaseSpec& spec, BodyId body, const BemRe
     const BemPatch* patch = patches[k];
     const PatchMeasures m = measure_patch(patch->field);
     const LayeredHalfSpace& half_space = body == BodyId::rail ? r.rail : r.wheel;
-    const std::vector<CycleRow> rows = cycle_rows(half_space, 0.5 * shorter_axis(m));
+    const std::vector<CycleRow> rows = cycle_rows(half_space, 0.5 * (patch->grid.line ? m.length : shorter_axis(m)));
     SectionShakedown section = section_shakedown(
         spec, body, body == BodyId::rail ? rail_cycles(r, *patch, rows) : wheel_cycles(r, *patch, rows));
     section.patch = k;

@@ -62,7 +62,7 @@ struct Sampling {
 
 Sampling sampling_of(const BemPatch& patch) {
   const PatchExtent e = extent_of(patch.field);
-  Sampling s{sampled_along(e.x), sampled(e.y, kBeside, kMostColumns)};
+  Sampling s{sampled_along(e.x), patch.grid.line ? std::vector<int>{0} : sampled(e.y, kBeside, kMostColumns)};
   s.more_x = std::max({0, -s.x.front(), s.x.back() - patch.grid.nx + 1});
   s.more_y = std::max({0, -s.y.front(), s.y.back() - patch.grid.ny + 1});
   return s;
@@ -104,15 +104,16 @@ class SurfacePeaks {
   }
 
  private:
-  double pressure(int i, int column) const { return patch_.field.p[patch_.grid.index(i, column)]; }
+  /// Of the field, which has several columns for the one of a line contact.
+  std::size_t point(int i, int column) const {
+    return static_cast<std::size_t>(i) * patch_.field.columns + static_cast<std::size_t>(column);
+  }
+  double pressure(int i, int column) const { return patch_.field.p[point(i, column)]; }
   double shear(int i, int column) const {
-    const std::size_t k = patch_.grid.index(i, column);
-    return std::hypot(patch_.field.q_x[k], patch_.field.q_y[k]);
+    return std::hypot(patch_.field.q_x[point(i, column)], patch_.field.q_y[point(i, column)]);
   }
-  bool slips(int i, int column) const { return patch_.field.state[patch_.grid.index(i, column)] == ContactState::slip; }
-  bool sticks(int i, int column) const {
-    return patch_.field.state[patch_.grid.index(i, column)] == ContactState::stick;
-  }
+  bool slips(int i, int column) const { return patch_.field.state[point(i, column)] == ContactState::slip; }
+  bool sticks(int i, int column) const { return patch_.field.state[point(i, column)] == ContactState::stick; }
   Sym3 stress(int i, int column) const {
     return body_.stress(surface_, body_.grid().index(i + at_.more_x, column + at_.more_y));
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "io/markup_text.hpp"
 #include "post/patch.hpp"
 
 namespace railstrata {
@@ -32,19 +33,6 @@ std::string colour(const std::array<Rgb, 5>& stops, double t) {
   const auto mix = [&](double u, double v) { return static_cast<int>(std::lround(u + w * (v - u))); };
   return fmt::format("#{:02x}{:02x}{:02x}", mix(stops[k].r, stops[k + 1].r), mix(stops[k].g, stops[k + 1].g),
                      mix(stops[k].b, stops[k + 1].b));
-}
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (char c : text) {
-    if (c == '<')
-      out += "&lt;";
-    else if (c == '&')
-      out += "&amp;";
-    else
-      out += c;
-  }
-  return out;
 }
 
 /// 1, 2 or 5 times a power of ten: about five of them fill the length.
@@ -77,7 +65,7 @@ class Page {
   }
   void text(double x, double y, const std::string& words, const char* anchor = "start", const char* fill = "#222") {
     add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n", x, y, anchor, fill,
-        escaped(words));
+        markup_text(words));
   }
   void axes(const Frame& f, const std::string& x_label, const std::string& y_label) {
     add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#888\"/>\n", f.left,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/json_text.hpp"
+#include "io/markup_text.hpp"
 #include "io/provenance.hpp"
 #include "report/assets.hpp"
 #include "report/base64.hpp"
@@ -10,19 +11,6 @@
 
 namespace railstrata {
 namespace {
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else
-      out += c;
-  }
-  return out;
-}
 
 /// Inside a script element nothing may look like a tag; in JSON "<" stands in texts only, where \u003c means the same.
 std::string without_tags(const std::string& json) {
@@ -61,8 +49,8 @@ std::string report_page(const Report& report) {
       "<body>\n<noscript>This page draws its figures with a script of its own; allow scripts to see it.</noscript>\n"
       "<script type=\"application/json\" id=\"data\">{}</script>\n<template "
       "id=\"licences\"><pre>{}</pre></template>\n<script>{}</script>\n</body>\n</html>\n",
-      policy, version_text(), escaped(report.title), report_style(), without_tags(json_text(report_payload(report))),
-      escaped(report_licences()), report_script());
+      policy, version_text(), markup_text(report.title), report_style(),
+      without_tags(json_text(report_payload(report))), markup_text(report_licences()), report_script());
 }
 
 }  // namespace railstrata

@@ -116,12 +116,6 @@ Json patch(const ContactField& f) {
   return out;
 }
 
-Json further_patches(const std::vector<ContactField>& fields) {
-  Json out = Json::array();
-  for (const ContactField& f : fields) out.push_back(patch(f));
-  return out;
-}
-
 Json centre(const ContactField& field) {
   const CentreLine line = centre_line(field);
   return {{"x_mm", numbers(line.x, kMilli)},
@@ -129,6 +123,12 @@ Json centre(const ContactField& field) {
           {"q_x_MPa", numbers(line.q_x, kMega)},
           {"q_y_MPa", numbers(line.q_y, kMega)},
           {"y", Json::array({number(kMilli * line.y)})}};
+}
+
+Json of_each(const std::vector<ContactField>& fields, Json (*part)(const ContactField&)) {
+  Json out = Json::array();
+  for (const ContactField& f : fields) out.push_back(part(f));
+  return out;
 }
 
 Json columns(const std::optional<CsvTable>& table) {
@@ -274,8 +274,9 @@ Json run_json(const ReportRun& run) {
           {"provenance", origin(run)},
           {"geometry", geometry(run)},
           {"patch", patch(run.result.field)},
-          {"further_patches", further_patches(run.result.further)},
+          {"further_patches", of_each(run.result.further, patch)},
           {"centre_line", centre(run.result.field)},
+          {"further_centre_lines", of_each(run.result.further, centre)},
           {"depth_line", columns(run.depth_line)},
           {"history", columns(run.history)},
           {"film", film(run.film)},

@@ -1,6 +1,7 @@
 #include "study/result_columns.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -74,6 +75,36 @@ std::string csv_cell(const std::string& given) {
 }
 
 std::string csv_cell(double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; }
+
+ResultRemarks remarks_of(const nlohmann::ordered_json& summary) {
+  if (!summary.is_object()) return {};
+  const auto names = [&](const char* list, auto&& wanted) {
+    std::string out;
+    if (!summary.contains(list) || !summary[list].is_array()) return out;
+    for (const auto& entry : summary[list])
+      if (wanted(entry)) out += fmt::format("{}{}", out.empty() ? "" : "; ", entry.value("name", "?"));
+    return out;
+  };
+  ResultRemarks out;
+  out.patches = summary.contains("patches") ? static_cast<int>(summary["patches"].size()) : 1;
+  out.checks = names("checks", [](const auto& check) { return !check.value("ok", false); });
+  if (out.checks.empty()) out.checks = "ok";
+  out.warnings = names("warnings", [](const auto&) { return true; });
+  return out;
+}
+
+std::string patches_remark(const std::vector<ResultColumn>& columns) {
+  std::vector<std::string> of_all;
+  bool stresses = false;
+  for (const ResultColumn& c : columns) {
+    if (c.of_all_patches) of_all.push_back(c.name);
+    stresses = stresses || c.of_stress;
+  }
+  return fmt::format(
+      "where a wheel touches at several places (column patches): {} of all patches together, every other column of the "
+      "contact of the patch with the largest pressure{}",
+      fmt::join(of_all, ", "), stresses ? ", stresses below that one" : "");
+}
 
 std::string failed_check(const nlohmann::ordered_json& summary) {
   std::string out;

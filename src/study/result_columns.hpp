@@ -30,6 +30,17 @@ std::string csv_cell(const std::string& text);
 /// Empty for a number that does not apply.
 std::string csv_cell(double value);
 
+/// What stands beside the numbers of a result in a table: its patches (0: no result), "ok" or the checks that fail, the
+/// warnings; names separated by "; ".
+struct ResultRemarks {
+  int patches = 0;
+  std::string checks, warnings;
+};
+ResultRemarks remarks_of(const nlohmann::ordered_json& summary);
+
+/// A line for the head of a table: what its columns are of where a wheel touches at several places.
+std::string patches_remark(const std::vector<ResultColumn>& columns);
+
 /// "check failed: p_max_scatter": what is wrong with a result that is there; empty if nothing is.
 std::string failed_check(const nlohmann::ordered_json& summary);
 

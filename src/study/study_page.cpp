@@ -32,13 +32,14 @@ void write_table(const std::filesystem::path& file, const ReportTable& t) {
 
 }  // namespace
 
-void write_study_page(const std::filesystem::path& page, const LoadedStudy& study, const Published& published,
-                      const std::vector<StudyRow>& rows) {
+ReportVerdict write_study_page(const std::filesystem::path& page, const LoadedStudy& study, const Published& published,
+                               const std::vector<StudyRow>& rows) {
   const std::filesystem::path out = page.parent_path();
   const Report report = study_report(study.spec, published, entries_of(out, rows));
   for (const ReportTable& t : report.tables)
     if (t.id == "published" || t.id == "claims") write_table(out / (t.id + ".csv"), t);
   write_whole_file(page, report_page(report));
+  return verdict_of(report);
 }
 
 }  // namespace railstrata

@@ -245,11 +245,12 @@ std::vector<StudyRow> study_rows(const fs::path& out, const std::vector<StudyCas
   const std::vector<ResultColumn> columns = result_columns(true);
   std::vector<StudyRow> rows;
   for (const StudyCase& c : cases) {
-    StudyRow row{&c, "to do", last_failure(out, c), {}};
+    StudyRow row{&c, "to do", last_failure(out, c), {}, {}};
     if (is_done(out, c)) {
       const Json summary = read_json(out / c.folder / "summary.json"), study = read_json(out / c.folder / kStudyFile);
       row.state = "done";
       row.fault = failed_check(summary);
+      row.remarks = remarks_of(summary);
       for (const ResultColumn& column : columns)
         if (column.name != "wall_s") row.numbers.emplace_back(column.name, column_value(column, summary));
       for (const auto& [name, value] : study["numbers"].items())
@@ -279,10 +280,10 @@ void write_study_table(const fs::path& file, const std::vector<std::string>& ori
   for (const StudyRow& row : rows)
     for (const auto& [name, value] : row.numbers)
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  std::string text = csv_remarks(origin) + "group,case,engine,";
+  std::string text = csv_remarks(origin) + csv_remarks({patches_remark(result_columns(true))}) + "group,case,engine,";
   for (const std::string& key : keys) text += csv_cell(key) + ',';
   for (const std::string& name : names) text += name + ',';
-  text += "folder,state,fault\n";
+  text += "folder,state,fault,patches,checks,warnings\n";
   for (const StudyRow& row : rows) {
     const StudyCase& c = *row.study_case;
     text += csv_cell(c.group) + ',' + csv_cell(c.name) + ',' + std::string(engine_word(c.engine)) + ',';
@@ -295,7 +296,8 @@ void write_study_table(const fs::path& file, const std::vector<std::string>& ori
           std::find_if(row.numbers.begin(), row.numbers.end(), [&](const auto& nv) { return nv.first == name; });
       text += (v == row.numbers.end() ? "" : csv_cell(v->second)) + ',';
     }
-    text += csv_cell(c.folder.generic_string()) + ',' + row.state + ',' + csv_cell(row.fault) + '\n';
+    text += fmt::format("{},{},{},{},{},{}\n", csv_cell(c.folder.generic_string()), row.state, csv_cell(row.fault),
+                        row.remarks.patches, csv_cell(row.remarks.checks), csv_cell(row.remarks.warnings));
   }
   write_whole_file(file, text);
 }

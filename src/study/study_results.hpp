@@ -18,6 +18,7 @@ struct StudyRow {
   std::string state;  ///< "done", "failed", "to do"
   std::string fault;  ///< of a failed case its reason; of a result the check that fails
   std::vector<std::pair<std::string, double>> numbers;  ///< columns of the table; empty unless done
+  ResultRemarks remarks;
 };
 
 /// A result that stands where another case of the same key would put it (the groups have changed their order) is taken

@@ -1,5 +1,7 @@
 #include "study/sweep.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -88,10 +90,10 @@ void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options) {
 SweepTable::SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin,
                        const std::vector<VariedKey>& keys, std::vector<ResultColumn> columns)
     : file_(file), columns_(std::move(columns)) {
-  std::string head = csv_remarks(origin);
+  std::string head = csv_remarks(origin) + csv_remarks({patches_remark(columns_)});
   for (const VariedKey& k : keys) head += k.key + ',';
   for (const ResultColumn& c : columns_) head += std::string(c.name) + ',';
-  file_.write(head + "fault\n");
+  file_.write(head + "fault,patches,checks,warnings\n");
 }
 
 void SweepTable::add_done(const std::vector<SweepCase>& cases) {
@@ -102,7 +104,9 @@ std::string SweepTable::row(const SweepCase& c) const {
   std::string out;
   for (const std::string& v : c.values) out += csv_cell(v) + ',';
   for (const ResultColumn& column : columns_) out += csv_cell(column_value(column, c.summary)) + ',';
-  return out + csv_cell(c.fault) + '\n';
+  const ResultRemarks remarks = remarks_of(c.summary);
+  return out + fmt::format("{},{},{},{}\n", csv_cell(c.fault), remarks.patches, csv_cell(remarks.checks),
+                           csv_cell(remarks.warnings));
 }
 
 }  // namespace railstrata

@@ -42,7 +42,8 @@ struct SweepOptions {
 /// is its fault; what `ended` throws, the last one of it, is thrown at the end.
 void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options);
 
-/// sweep.csv, which grows in the order of the cases, whatever the order in which they end.
+/// sweep.csv, whose head says what is of one patch and what of all; it grows in the order of the cases, whatever the
+/// order in which they end.
 class SweepTable {
  public:
   SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin,

@@ -542,7 +542,8 @@ TEST(CaseFile, EveryRatioThatThePageAllowsIsTakenForSteel) {
 
 TEST(CaseFile, ARatioMayNotTakeTheModulusOutOfItsRange) {
   const std::string error = error_of("[material.rail]\nyoung = \"10000 GPa\"\n[[layer]]\nyoung_ratio = 100\n");
-  EXPECT_NE(error.find("a.toml:4:15: layer.0.young_ratio = 100: makes young 1000000 GPa, which must be between 1 GPa "
+  EXPECT_NE(error.find("a.toml:4:15: layer.0.young_ratio = 100: must be between 0.01 and 10 here: it makes young "
+                       "1000000 GPa, which must be between 1 GPa "
                        "and 100000 GPa"),
             std::string::npos)
       << error;
@@ -653,7 +654,8 @@ TEST(CaseFile, ALoadIsAForceOrAMassAndSetsTheSprungMass) {
   const LoadedCase loaded = parse_case("[vehicle]\nwheel_load = \"110 kN\"\n", "a.toml");
   EXPECT_EQ(parse_case(loaded.resolved_toml, "a.toml").spec.vehicle.sprung_mass, loaded.spec.vehicle.sprung_mass);
   EXPECT_TRUE(error_of("[vehicle]\nwheel_load = \"5 kN\"\n")
-                  .starts_with("a.toml:2:14: vehicle.wheel_load = \"5 kN\": makes sprung_mass -150.3"));
+                  .starts_with("a.toml:2:14: vehicle.wheel_load = \"5 kN\": must be between 6.4746 kN and "
+                               "9816.5 kN here: it makes sprung_mass -150.32 kg, which must be between 0 kg and"));
   EXPECT_NE(error_of("[vehicle]\nwheel_load = \"5 kN\"\n").find("remedy: give more load, or less vehicle.wheel_mass"),
             std::string::npos);
   EXPECT_NE(error_of("[vehicle]\nwheel_load = \"5 mm\"\n").find("\"mm\" is not the unit of a force"),

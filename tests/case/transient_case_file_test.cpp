@@ -75,6 +75,53 @@ TEST(TransientCaseFile, AHistoryFileStandsForItsColumns) {
             loaded.spec.transient.displacement);
 }
 
+TEST(TransientCaseFile, TablesOfSpreadsheetsAreRead) {
+  CaseSpec spec;
+  EXPECT_EQ(
+      read_history_table("# of a spreadsheet\n\ndistance [mm];wheel_load [kN];creepage\n0;80;0\n2,5;100,25;-1e-3\n",
+                         "h.csv", spec),
+      (std::vector<int>{3, 4, 5}));
+  EXPECT_EQ(spec.transient.at_distance, (std::vector<double>{0, 2.5e-3}));
+  EXPECT_EQ(spec.transient.wheel_load, (std::vector<double>{80e3, 100.25e3}));
+  EXPECT_EQ(spec.transient.creepage, (std::vector<double>{0, -1e-3}));
+  CaseSpec tabs, quoted;
+  read_history_table("displacement [um]\tlateral_displacement [um]\n0\t0\n2,5\t1.5\n", "h.csv", tabs);
+  EXPECT_EQ(tabs.transient.displacement, (std::vector<double>{0, 2.5e-6}));
+  EXPECT_EQ(tabs.transient.lateral_displacement, (std::vector<double>{0, 1.5e-6}));
+  read_history_table("\"displacement [um]\",\"lateral_displacement [um]\",\n\"2,5\",\"1\",\n", "h.csv", quoted);
+  EXPECT_EQ(quoted.transient.displacement, (std::vector<double>{2.5e-6}));
+  EXPECT_EQ(quoted.transient.lateral_displacement, (std::vector<double>{1e-6}));
+  CaseSpec alone;
+  read_history_table("displacement [um]\n1,5\n-1.5\n", "h.csv", alone);
+  EXPECT_EQ(alone.transient.displacement, (std::vector<double>{1.5e-6, -1.5e-6}));
+}
+
+/// What is said of a case beside a history file of this text.
+std::string refusal_of_history(const std::string& table, const std::string& kind = "shift") {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "history_refused";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "h.csv") << table;
+  try {
+    parse_case("[transient]\nkind = \"" + kind + "\"\nhistory_file = \"h.csv\"\n", folder / "a.toml");
+  } catch (const CaseError& e) {
+    EXPECT_EQ(e.diagnostics.size(), 1u) << e.what();
+    return e.diagnostics.front().where.substr(folder.string().size() + 1) + ": " + e.diagnostics.front().message;
+  }
+  return "taken";
+}
+
+TEST(TransientCaseFile, AFaultInAHistoryFileIsOneErrorAtItsOwnLine) {
+  EXPECT_EQ(refusal_of_history("displacement_um, lateral_displacement_um\n0, 0\n1, x\n"),
+            "h.csv:3: \"x\" is not a number, in the column lateral_displacement");
+  EXPECT_EQ(refusal_of_history("distance [mm], creepage\n0, 0\n# a remark\n5, 0.001\n4, 0.001\n", "rolling"),
+            "h.csv:5: transient.at_distance: must not decrease from row to row");
+  EXPECT_EQ(refusal_of_history("distance [mm], creepage\n1, 0\n5, 0.001\n", "rolling"),
+            "h.csv:2: transient.at_distance: the first row must be the start, 0");
+  EXPECT_NE(refusal_of_history("tractive_force_kN\n10\n50\n").find("h.csv:3: transient.tractive_force: row 2 wants"),
+            std::string::npos);
+  EXPECT_EQ(refusal_of_history("creepage\n0\n"), "h.csv:1: transient.creepage: a shift does not roll");
+}
+
 std::string table_refusal(const std::string& text) {
   CaseSpec spec;
   try {
@@ -93,10 +140,15 @@ TEST(TransientCaseFile, AFaultOfAHistoryFileIsToldWithItsLine) {
       {"distance [kN], creepage\n", "h.csv:1: the column at_distance:"},
       {"distance [mm], at_distance_mm\n", "two columns are at_distance"},
       {"tractive_force_kN, creepage\n", "the table has tractive_force and creepage"},
-      {"distance [mm], creepage\n0, 0\n1\n", "h.csv:3: 1 values in a table of 2 columns"},
+      {"distance [mm], creepage\n0, 0\n1\n", "folder/h.csv:3: 1 value in a table of 2 columns"},
       {"distance [mm], creepage\n0, x\n", "h.csv:2: \"x\" is not a number, in the column creepage"},
       {"distance [mm], creepage\n0, 5\n", "h.csv:2: creepage = 5: must be between -10 and 1"},
       {"distance [mm], creepage\n0, nan\n", "is not a number"},
+      {"distance [mm], creepage\n0,5, 0,001\n", "decimal commas need semicolons between the columns"},
+      {"distance [mm]; creepage\n0, 0\n",
+       "1 value in a table of 2 columns\n    remedy: give every row one value a "
+       "column, separated as the names are"},
+      {"distance [mm]; creepage\n1.000,5; 0\n", "\"1.000,5\" is not a number"},
       {"distance [mm], creepage\n", "the table has no rows"},
       {"", "h.csv:1: the table has no rows"},
   };

@@ -15,6 +15,16 @@ SOURCE = pathlib.Path(sys.argv[2]).resolve()
 BASE = SOURCE / "cases" / "paper" / "base.toml"
 COARSE = ["--threads", "1", "--cell", "1 mm"]
 LOAD = 8660 * 9.81
+TWO_PATCHES = """
+[geometry]
+rail_profile = "UIC60"
+wheel_profile = "S1002"
+cant = 0.05
+gauge_depth = "14 mm"
+lateral_shift = "9.7 mm"
+[drive]
+traction_coefficient = 0.02
+"""
 
 
 def table(file):
@@ -109,6 +119,14 @@ class HalfSpaceCommands(FromOutside):
         self.assertEqual(summary["contact"]["approach_m"], 0.09e-3)
         self.assertAlmostEqual(summary["contact"]["F_x_N"] / summary["contact"]["F_z_N"], 0.2, delta=1e-5)
         self.assertNotIn("F_z_relative_to_weight", {c["name"] for c in summary["checks"]})
+
+    def test_what_symmetry_cancels_is_zero_on_the_screen_and_whole_in_the_file(self):
+        out = self.done("bem", SOURCE / "cases" / "transient" / "from_rest.toml", *COARSE, "--set",
+                        "transient.distance=3 mm", "--no-report", "--out", self.folder / "rest")
+        self.assertRegex(out, r"F_y +0 kN")
+        self.assertRegex(out, r"spin +0 1/m")
+        self.assertNotRegex(out, r"e-\d\d k?N|-0\.00[ ,;]")
+        self.assertNotEqual(json.loads((self.folder / "rest" / "summary.json").read_text())["contact"]["F_y_N"], 0)
 
     def test_the_table_is_that_of_run_and_json_is_the_summary(self):
         out = self.done("bem", BASE, *COARSE, "--out", self.folder / "a")
@@ -224,6 +242,14 @@ young_ratio = 2.0
         self.refused(2, ["bem", case, "--set", "layer.0.young_table=[[\"0 mm\", \"420 GPa\"]]"],
                      "layer.0.young_table: needs at least two rows", "remedy: write a list of depths and moduli")
 
+    def test_a_note_of_one_of_two_patches_names_it(self):
+        words = ["--set", "friction.law=falling_exponential", "--set", "friction.kinetic_coefficient=0.1", "--set",
+                 "friction.half_velocity=1 m/s"]
+        _, _, err = railstrata("bem", self.case(TWO_PATCHES), *COARSE, *words, "--no-report", "--out",
+                               self.folder / "two")
+        for place in ("-27.8", "-12.7"):
+            self.assertIn(f"info: patch at y = {place} mm of the rail: friction falls with slip by", err)
+
     # compare
 
     def test_a_result_compared_with_itself_differs_by_nothing(self):
@@ -251,6 +277,27 @@ young_ratio = 2.0
         picture = xml.etree.ElementTree.parse(self.folder / "ab" / "compare.svg").getroot()
         lines = [e for e in picture.iter() if e.tag.endswith("polyline")]
         self.assertEqual(len(lines), 4, "p and |q| of both")
+
+    def test_compare_gives_no_shares_of_round_off_and_says_which_patch(self):
+        for name, cell in (("one", "1 mm"), ("other", "0.8 mm")):
+            self.done("bem", SOURCE / "cases" / "transient" / "from_rest.toml", "--threads", 1, "--cell", cell, "--set",
+                      "transient.distance=3 mm", "--no-report", "--out", self.folder / name)
+        out = self.done("compare", self.folder / "one", self.folder / "other", "--out", self.folder / "c")
+        numbers = json.loads((self.folder / "c" / "compare.json").read_text())["numbers"]
+        for key, name in (("F_y_N", "F_y, kN"), ("spin_per_m", "spin, 1/m")):
+            self.assertLess(abs(numbers[key]["a"]), 1e-3)
+            self.assertIsNone(numbers[key]["relative_difference"])
+            self.assertRegex(out, rf"{name} +0 +0 +-\n")
+        self.assertNotIn("patch 1", out)
+        self.done("bem", self.case(TWO_PATCHES), *COARSE, "--no-report", "--out", self.folder / "two")
+        out = self.done("compare", self.folder / "two", self.folder / "one", "--out", self.folder / "d")
+        result = json.loads((self.folder / "d" / "compare.json").read_text())
+        self.assertEqual((result["a"]["patches"], result["b"]["patches"]), (2, 1))
+        self.assertEqual((result["numbers"]["p_max_Pa"]["of_a"], result["numbers"]["p_max_Pa"]["of_b"]),
+                         ("patch 1 of 2", "patch"))
+        self.assertEqual(result["numbers"]["F_x_N"]["of_a"], "2 patches")
+        self.assertEqual(len(result["notes"]), 2, "two patches, and at another place")
+        self.assertIn("A: patch 1 of 2, B: patch", out)
 
     def test_compare_refuses_what_is_no_result_folder(self):
         base = self.bem("base")
@@ -326,7 +373,38 @@ young_ratio = 2.0
         self.refused(2, ["creep-curve", BASE, *COARSE, "--set", "drive.friction_coefficient=0", "--set",
                          "drive.traction_coefficient=0"], "error: ")
 
+    def test_a_creep_curve_is_of_steady_rolling_and_of_one_patch(self):
+        out = self.folder / "creep"
+        rc, text, err = railstrata("creep-curve", SOURCE / "cases" / "transient" / "fretting.toml", *COARSE, "--points",
+                                   2, "--json", "--out", out)
+        self.assertEqual(rc, 0, err)
+        self.assertIn("warning: [transient] has no effect: a creep curve is of steady rolling", err)
+        self.assertEqual(json.loads(text)["notes"], ["[transient] has no effect: a creep curve is of steady rolling"])
+        self.assertIn("# [transient] has no effect", (out / "creep_curve.csv").read_text())
+        _, _, err = railstrata("creep-curve", BASE, *COARSE, "--points", 2, "--set", "run.rolling=false", "--out", out,
+                               "--force")
+        self.assertIn("run.rolling = false has no effect", err)
+        self.refused(2, ["creep-curve", self.case(TWO_PATCHES), *COARSE, "--out", self.folder / "no"],
+                     "the wheel touches at y = -27.6 mm", "at another angle at y = -12.7 mm",
+                     "a creep curve is that of one patch")
+
     # sweep
+
+    def test_a_sweep_says_how_many_patches_a_case_has_and_what_its_columns_are_of(self):
+        out = self.folder / "sweep"
+        text = self.done("sweep", self.case(TWO_PATCHES), *COARSE, "--vary", "geometry.lateral_shift=2 mm,9.7 mm",
+                         "--out", out)
+        self.assertIn("# where a wheel touches at several places (column patches): F_x_kN, F_y_kN, F_z_kN of all",
+                      (out / "sweep.csv").read_text())
+        one, two = table(out / "sweep.csv")
+        self.assertEqual(list(one)[-4:], ["fault", "patches", "checks", "warnings"])
+        self.assertEqual([(row["patches"], row["checks"], row["fault"]) for row in (one, two)],
+                         [("1", "ok", ""), ("2", "ok", "")])
+        self.assertIn("patches_near_each_other", two["warnings"])
+        self.assertAlmostEqual(1e3 * float(two["F_z_kN"]) / LOAD, 1, delta=1e-5)
+        self.assertLess(1e3 * float(two["normal_force_kN"]), 0.6 * LOAD, "that of one patch")
+        self.assertIn("of several patches: the numbers of the one with the largest pressure", text)
+        self.assertIn("1 of 2 cases: Patches near each other", text)
 
     def test_a_sweep_s_table_runs_nothing_in_a_spreadsheet(self):
         out = self.folder / "sweep"

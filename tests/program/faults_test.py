@@ -131,7 +131,7 @@ class FullDisk(Faults):
         self.assertIn(f"warning: no report: cannot write {self.out}/report.html: {NO_ROOM}\n", err)
         self.assertEqual(broken_files(self.out), [])
         self.assertFalse((self.out / "report.html").exists())
-        self.assertEqual(railstrata("report", self.out)[0], 0)
+        self.assertEqual(railstrata("report", self.out)[0], code)
         self.assertTrue((self.out / "report.html").exists())
 
     def test_a_study_takes_up_again_when_there_is_room(self):

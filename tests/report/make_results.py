@@ -54,6 +54,19 @@ thickness = "1.5 mm"
 young_ratio = 0.8
 """
 
+TWO_PATCHES = """
+[case]
+title = "tread and flange"
+[geometry]
+rail_profile = "UIC60"
+wheel_profile = "S1002"
+cant = 0.05
+gauge_depth = "14 mm"
+lateral_shift = "9.7 mm"
+[drive]
+traction_coefficient = 0.02
+"""
+
 STUDY = """
 [study]
 title = "a small <i>study</i>"
@@ -165,6 +178,8 @@ railstrata("bem", TRANSIENTS / "from_rest.toml", "--out", FOLDER / "rest", "--ce
            "--set", "output.series_frames=8", "--quiet")
 railstrata("bem", TRANSIENTS / "fretting.toml", "--out", FOLDER / "fretting", "--cell", "0.4 mm", "--threads", "1",
            "--quiet")
+(FOLDER / "two.toml").write_text(TWO_PATCHES)
+railstrata("bem", FOLDER / "two.toml", "--out", FOLDER / "two", "--cell", "0.5 mm", "--threads", "1", "--quiet")
 shutil.copytree(FOLDER / "fem", FOLDER / "old")
 for file in [*(FOLDER / "old").glob("*_section.csv"), FOLDER / "old" / "geometry.json", FOLDER / "old" / "report.html"]:
     file.unlink(missing_ok=True)

@@ -35,6 +35,25 @@ TEST(Sweep, SolvesTheCasesThatTakeTheirValuesAndNamesTheFaultOfTheOthers) {
   EXPECT_TRUE(cases[1].summary.is_null() && cases[2].summary.is_null());
 }
 
+TEST(Sweep, SaysOfItsColumnsWhatTheyAreOfAndOfItsCasesWhatIsWrong) {
+  const std::string said = patches_remark(result_columns(true));
+  EXPECT_NE(said.find("F_x_kN, F_y_kN, F_z_kN of all patches together"), std::string::npos) << said;
+  EXPECT_NE(said.find("stresses below that one"), std::string::npos) << said;
+  EXPECT_EQ(patches_remark(result_columns(false)).find("stresses"), std::string::npos);
+  const auto summary = nlohmann::ordered_json::parse(R"({"patches": [{}, {}],
+      "checks": [{"name": "a", "ok": false}, {"name": "b", "ok": true}, {"name": "c", "ok": false}],
+      "warnings": [{"name": "w"}]})");
+  const ResultRemarks two = remarks_of(summary), none = remarks_of(nullptr),
+                      plain = remarks_of(nlohmann::ordered_json::parse(R"({"checks": [{"name": "a", "ok": true}]})"));
+  EXPECT_EQ(two.patches, 2);
+  EXPECT_EQ(two.checks, "a; c");
+  EXPECT_EQ(two.warnings, "w");
+  EXPECT_EQ(none.patches, 0);
+  EXPECT_EQ(none.checks + none.warnings, "");
+  EXPECT_EQ(plain.patches, 1);
+  EXPECT_EQ(plain.checks, "ok");
+}
+
 TEST(Sweep, IsRefusedIfNoCaseTakesItsValues) {
   EXPECT_THROW(plan_sweep(base(), {}, {{"drive.no_such_key", {"1", "2"}}}), CaseError);
 }
