@@ -74,7 +74,7 @@ export interface Layer {
 export interface LoadedContact {
   contact: Record<string, number>;
   load_N: number;
-  hertz: {a_m: number; b_m: number; p0_Pa: number; approach_m: number|null};  // a line contact has no approach
+  hertz: {a_m: number; b_m: number; p0_Pa: number; approach_m: number | null};  // a line contact has no approach
 }
 
 /// The contact is that of the rigid bodies; `patches`: where the loaded wheel touches at several places.
@@ -130,7 +130,11 @@ export interface Run {
   history: Columns|null;
   film: Film|null;
   sections: Partial<Record<BodyName, BodySections>>;
-  shakedown: Partial<Record<BodyName, {profile: Columns; map: Columns}>>;
+  shakedown: Partial < Record < BodyName, {
+    profile: Columns;
+    map: Columns
+  }
+  >> ;
 }
 
 export interface Check {

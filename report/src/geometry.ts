@@ -187,7 +187,8 @@ function contactRows(contacts: LoadedContact[]): string[][] {
     row("rolling radius", ({contact: c}) => `${(1e3 * c.rolling_radius_m).toFixed(3)} mm`),
     row("lateral radius of wheel, of rail (convex positive)", radii),
     ...(contacts.length > 1 ? [load] : []),
-    row(contacts[0].hertz.approach_m === null ? "Hertz, no layer" : "Hertz’s ellipse, no layer", (c) => hertzWords(c.hertz)),
+    row(contacts[0].hertz.approach_m === null ? "Hertz, no layer" : "Hertz’s ellipse, no layer",
+        (c) => hertzWords(c.hertz)),
   ];
 }
 

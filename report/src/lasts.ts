@@ -62,8 +62,8 @@ function zoneRow(run: Run, runs: Run[], body: string, z: ZoneShakedown): (string
 
 function factorsTable(runs: Run[]): HTMLElement {
   const rows = runs.flatMap(
-      (run) => (run.summary.shakedown?.bodies ?? [])
-                   .flatMap((b) => (b.zones ?? []).map((z) => zoneRow(run, runs, b.body, z))));
+      (run) => (run.summary.shakedown?.bodies ??
+                []).flatMap((b) => (b.zones ?? []).map((z) => zoneRow(run, runs, b.body, z))));
   const head = ["zone", "so it", ...kFactors.map(([, name]) => name), "decided at depth [mm]", "which means"];
   return table("By what the elastic stress of this case may be multiplied", head, rows, {
     class: "numbers",
@@ -96,13 +96,14 @@ const kLines: [column: string, name: string, dash: string][] = [
 function strengthFigure(runs: Run[], body: BodyName): Figure|null {
   const given = runs.filter((run) => run.shakedown[body]);
   if (!given.length) return null;
-  const series = given.flatMap((run, n) => kLines.map(([column, name, dash], k): Series => ({
-    ...byDepth(run.shakedown[body]!.profile, column),
-    name: given.length > 1 ? `${name}, ${runLabel(run)}` : name,
-    dash,
-    colour: (t) => t.series[(given.length > 1 ? n : k) % t.series.length],
-    hover: `depth %{y:.2f} mm<br>${name} %{x:.0f} MPa`,
-  })));
+  const series =
+      given.flatMap((run, n) => kLines.map(([column, name, dash], k): Series => ({
+                                             ...byDepth(run.shakedown[body]!.profile, column),
+                                             name: given.length > 1 ? `${name}, ${runLabel(run)}` : name,
+                                             dash,
+                                             colour: (t) => t.series[(given.length > 1 ? n : k) % t.series.length],
+                                             hover: `depth %{y:.2f} mm<br>${name} %{x:.0f} MPa`,
+                                           })));
   return linesFigure({
     id: `strength-${body}`,
     title: `Yield strength against depth, ${body}`,
@@ -178,9 +179,10 @@ export function lastsPart(runs: Run[]): HTMLElement|null {
   const given = runs.filter((run) => run.summary.shakedown);
   if (!given.length) return null;
   const bodies: BodyName[] = ["rail", "wheel"];
-  const figures = bodies.flatMap((body) => [
-    strengthFigure(given, body),
-    ...given.map((run) => usedFigure(run, given, body)),
+  const figures = bodies.flatMap(
+      (body) =>
+          [strengthFigure(given, body),
+           ...given.map((run) => usedFigure(run, given, body)),
   ]);
   const words = note(
       "A factor of 1.2 says: 20 % more stress of this contact can be borne, its patch and friction staying as they " +

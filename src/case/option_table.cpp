@@ -188,6 +188,36 @@ OptionTable material_table(std::string_view name, std::string_view doc, Strength
   return out;
 }
 
+std::vector<Option> layer_modulus_options() {
+  return {{"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung, {}, {}, uniform},
+          {"young_ratio",
+           layer<&L::material, &M::young>,
+           "Young's modulus as a multiple of the carrying body's",
+           kNumber,
+           kYoungRatio,
+           {},
+           {of_matrix_modulus, "choose a multiple in this range"},
+           nullptr,
+           kBeyondRatio},
+          {"young_table",
+           layer<&L::young_table>,
+           "A modulus that varies with depth: depths below the layer's top and moduli, linear between",
+           {},
+           {},
+           {},
+           {},
+           graded,
+           {},
+           {depth_column("the layer's top", kLayerThickness.max),
+            {"modulus", nullptr, "Young's modulus", kPressure, kYoung}},
+           R"([["0 mm", "420 GPa"], ["3 mm", "210 GPa"]])"},
+          {"grading_tolerance",
+           layer<&L::grading_tolerance>,
+           "young_table, half-space engine: largest relative change of the modulus within a sub-layer",
+           kNumber,
+           {1e-3, 1.0}}};
+}
+
 OptionTable layer_table() {
   OptionTable out{
       "layer",
@@ -208,33 +238,6 @@ OptionTable layer_table() {
         uniform,
         kBeyondThickness},
        {"width", layer<&L::width>, "Lateral extent, centred on the body's profile origin", kLength, {kMilli, 0.2}},
-       {"young", layer<&L::material, &M::young>, "Young's modulus", kPressure, kYoung, {}, {}, uniform},
-       {"young_ratio",
-        layer<&L::material, &M::young>,
-        "Young's modulus as a multiple of the carrying body's",
-        kNumber,
-        kYoungRatio,
-        {},
-        {of_matrix_modulus, "choose a multiple in this range"},
-        nullptr,
-        kBeyondRatio},
-       {"young_table",
-        layer<&L::young_table>,
-        "A modulus that varies with depth: depths below the layer's top and moduli, linear between",
-        {},
-        {},
-        {},
-        {},
-        graded,
-        {},
-        {depth_column("the layer's top", kLayerThickness.max),
-         {"modulus", nullptr, "Young's modulus", kPressure, kYoung}},
-        R"([["0 mm", "420 GPa"], ["3 mm", "210 GPa"]])"},
-       {"grading_tolerance",
-        layer<&L::grading_tolerance>,
-        "young_table, half-space engine: largest relative change of the modulus within a sub-layer",
-        kNumber,
-        {1e-3, 1.0}},
        {"poisson",
         layer<&L::material, &M::poisson>,
         "Poisson's ratio",
@@ -253,6 +256,10 @@ OptionTable layer_table() {
         {0, 50}}},
       true,
       strength_rivals()};
+  const std::vector<Option> modulus = layer_modulus_options();
+  const auto poisson =
+      std::find_if(out.options.begin(), out.options.end(), [](const Option& o) { return o.key == "poisson"; });
+  out.options.insert(poisson, modulus.begin(), modulus.end());
   for (const Option& option : strength_options(StrengthPlace::layer)) out.options.push_back(option);
   return out;
 }

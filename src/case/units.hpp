@@ -14,7 +14,8 @@ namespace railstrata {
 /// Exponents of kilogram, metre, second, plane angle, kelvin, square root of a metre and hardness number. All zero: a
 /// plain number.
 struct Dimension {
-  int mass = 0, length = 0, time = 0, angle = 0, temperature = 0, root_length = 0, hardness = 0;
+  int mass = 0, length = 0, time = 0, angle = 0;
+  int temperature = 0, root_length = 0, hardness = 0;
   friend bool operator==(const Dimension&, const Dimension&) = default;
 };
 
