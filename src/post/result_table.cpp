@@ -37,7 +37,8 @@ constexpr std::string_view kNormalForce = "/contact/normal_force_N";
 constexpr double kNoise = 1e-7;
 constexpr RoundOff kOfForce{kNoise, kNormalForce}, kOfMoment{kNoise, kNormalForce, "/contact/patch_length_m"},
     kOfPressure{kNoise, "/contact/p_max_Pa"}, kOfApproach{kNoise, "/contact/approach_m"},
-    kOfWork{kNoise, kNormalForce, "/contact/approach_m"}, kOfCreepage{1e-10}, kOfSpin{1e-8}, kOfAngle{1e-9};
+    kOfWork{kNoise, kNormalForce, "/contact/approach_m"};
+constexpr RoundOff kOfCreepage{1e-10}, kOfSpin{1e-8}, kOfAngle{1e-9};
 
 std::vector<ResultNumber> traction_numbers() {
   return {{.group = "contact",
@@ -230,7 +231,11 @@ std::vector<ResultNumber> motion_numbers() {
        .column = true,
        .shown = true,
        .comparable = true,
-       .round_off = kOfSpin},
+       .round_off = kOfSpin}};
+}
+
+std::vector<ResultNumber> approach_numbers() {
+  return {
       {.group = "contact",
        .symbol = "approach",
        .unit = kMicrometres,
@@ -587,8 +592,8 @@ const std::vector<ResultNumber>& result_numbers() {
              "Of the axle along the rail; half-space: the case's last one, of a transient what it has rolled, static "
              "cases 0"}};
     for (const auto& part : {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(),
-                             motion_numbers(), transient_numbers(), damage_numbers(), shakedown_numbers(),
-                             energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
+                             motion_numbers(), approach_numbers(), transient_numbers(), damage_numbers(),
+                             shakedown_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();
