@@ -74,7 +74,7 @@ export interface Geometry {
   wheel_profile: string;
   load_N: number;
   contact: Record<string, number>;
-  hertz: {a_m: number; b_m: number; p0_Pa: number; approach_m: number|null};
+  hertz: {a_m: number; b_m: number; p0_Pa: number; approach_m: number | null};
   rail_m: [number, number][];
   wheel_m: [number, number][];
   layers: Layer[];
