@@ -52,8 +52,7 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
     }
 }
 
-/// The one column of a line contact as three: at the ends of the line, which stand for a quarter of it each, and in its
-/// middle.
+/// The one column of a line contact as three, each in the middle of a third of the line.
 void spread_over_line(double length, ContactField& f) {
   constexpr int kColumns = 3;
   const auto thrice = [](auto& values) {
@@ -69,8 +68,8 @@ void spread_over_line(double length, ContactField& f) {
   f.line_length = length;
   for (std::size_t k = 0; k < f.y.size(); ++k) {
     const int column = static_cast<int>(k) % kColumns;
-    f.y[k] += 0.5 * length * (column - 1);
-    f.area[k] *= column == 1 ? 0.5 : 0.25;
+    f.y[k] += length * (column - 1) / kColumns;
+    f.area[k] /= kColumns;
   }
 }
 

@@ -23,7 +23,7 @@ struct ContactField {
   std::vector<double> bound;      ///< Pa, what a sticking point carries at most; empty: in proportion to p
   bool slip_is_distance = false;  ///< of a shift, which has no speed: m, over its last increment
   double p_noise = 0;             ///< Pa, points with p below this count as separated in areas and ratios
-  double line_length = 0;         ///< m, of a line contact: columns at its ends and its middle; 0: none
+  double line_length = 0;         ///< m, of a line contact: its columns are equal; 0: none
 
   int size() const { return columns * stations; }
   void resize(int columns_, int stations_) {

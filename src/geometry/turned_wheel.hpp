@@ -43,7 +43,9 @@ class TurnedWheel {
  private:
   Vec3 turned(Vec3 p) const;
   const Profile& wheel_;
-  double radius_, roll_cosine_, roll_sine_, yaw_cosine_, yaw_sine_, slope_, begin_, end_;
+  double radius_;
+  double roll_cosine_, roll_sine_, yaw_cosine_, yaw_sine_, slope_;
+  double begin_, end_;  // arc lengths of the running surface
 };
 
 /// Direction in which the wheel's surface moves where it touches: lateral over longitudinal component in the plane of

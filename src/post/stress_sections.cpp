@@ -43,8 +43,8 @@ StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& bod
   StressSections out;
   StressSection &along = out.longitudinal, &across = out.cross;
   for (int i = 0; i < g.nx; ++i) along.along.push_back(g.x(i));
-  const int columns = g.line ? 3 : g.ny;  // of a line the same at both ends and in the middle
-  const auto y_of = [&](int j) { return g.line ? 0.5 * g.dy * (j - 1) : g.y(j); };
+  const int columns = g.line ? 3 : g.ny;  // of a line the same in each third of it
+  const auto y_of = [&](int j) { return g.line ? g.dy * (j - 1) / columns : g.y(j); };
   for (int j = 0; j < columns; ++j) across.along.push_back(r.contact.point.y + y_of(j) * std::cos(r.contact.angle));
   const int i0 = nearest(along.along, x), j0 = nearest(across.along, y);
   along.at = across.along[j0];
