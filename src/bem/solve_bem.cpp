@@ -45,8 +45,8 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
       field.p[k] = s.normal.pressure[k];
       field.q_x[k] = s.tangential.q_x[k];
       field.q_y[k] = s.tangential.q_y[k];
-      field.slip_x[k] = over_time * s.tangential.slip_x[k];
-      field.slip_y[k] = over_time * s.tangential.slip_y[k];
+      field.slip_x[k] = over_time * s.tangential.cell_slip.x[k];
+      field.slip_y[k] = over_time * s.tangential.cell_slip.y[k];
       field.state[k] = s.tangential.state[k];
     }
 }

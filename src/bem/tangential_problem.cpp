@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bem/cell_slip.hpp"
 #include "bem/given_slip.hpp"
 #include "bem/gmres.hpp"
 #include "bem/varying_bound.hpp"
@@ -484,6 +485,20 @@ class Solver {
     return worst;
   }
 
+  /// With the spin's lateral slip in the middle of the step; after update_slip.
+  StepSlip step_slip() const {
+    StepSlip out{Plane(n_, 0.0), Plane(n_, 0.0)};
+    const bool rolls = problem_.kind != RollingKind::shift;
+    for (std::size_t k = 0; k < n_; ++k) {
+      const bool leaves = set_[k] == kOutside && rolls && k + ahead_ < n_ && problem_.traction_bound[k + ahead_] > 0;
+      if (set_[k] != kSlip && !leaves) continue;
+      out.x[k] = leaves ? given_.rigid[k] + creepage_[0] + given_.history[k] - L_x(k) : slip_[k];
+      out.y[k] = leaves ? given_.rigid[n_ + k] + creepage_[1] + given_.history[n_ + k] - L_y(k) : slip_[n_ + k];
+      if (!given_.to_middle_of_step.empty()) out.y[k] += given_.to_middle_of_step[k % ahead_];
+    }
+    return out;
+  }
+
   TangentialSolution solution() const {
     TangentialSolution s;
     const auto half = static_cast<std::ptrdiff_t>(n_);
@@ -505,11 +520,13 @@ class Solver {
           s.slip_x[k] = slip_[k];
           s.slip_y[k] = lateral_slip(k);
         }
-        s.dissipation += (q_[k] * s.slip_x[k] + q_[n_ + k] * s.slip_y[k]) * dA;
         s.moment += (grid_.x(i) * q_[n_ + k] - grid_.y(j) * q_[k]) * dA;
       }
     s.force_x = sum(s.q_x) * dA;
     s.force_y = sum(s.q_y) * dA;
+    const StepSlip steps = step_slip();
+    s.cell_slip = slip_of_cells(grid_, problem_.kind, s.state, steps);
+    s.dissipation = dissipated(grid_, problem_.kind, s.q_x, s.q_y, problem_.traction_before, steps);
     if (varying_) {
       s.plastic = varying_->plastic();
       s.bound = varying_->at_rest();
@@ -571,6 +588,7 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   problem.before.x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
   problem.before.y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
   problem.plastic_before = rolled_on(grid, before.plastic);
+  problem.traction_before = {rolled_on(grid, before.q_x), rolled_on(grid, before.q_y)};
 }
 
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
