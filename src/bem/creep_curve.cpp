@@ -21,13 +21,13 @@ void vary(VariedCreepage varied, double creepage, RollingContact& contact) {
 std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, VariedCreepage varied,
                                          const std::vector<double>& creepages, const BemOptions& options) {
   if (!(spec.drive.friction_coefficient > 0))
-    throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero");
+    throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero",
+                    "drive.friction_coefficient");
   const std::optional<double>& approach = spec.vehicle.approach;
   CasePatch patch = make_case_patch(
       spec, placement, options,
       approach ? NormalTarget{{}, approach} : NormalTarget{normal_load(static_load(spec), 0, placement.contact), {}});
-  const double weight =
-      approach ? std::cos(placement.contact.angle) * frictionless_load(patch, options) : static_load(spec);
+  const double weight = approach ? std::cos(placement.contact.angle) * patch.frictionless.load : static_load(spec);
   const RollingEllipse ellipse = rolling_ellipse(hertz_estimate(spec, placement.contact), patch.contact.friction,
                                                  patch.wheel.substrate, patch.rail.substrate);
   const double hertz_bound = ellipse.friction * ellipse.contact.load;

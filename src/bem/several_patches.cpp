@@ -184,7 +184,8 @@ class WheelOnPatches {
       descent += step(descent, bent);
     }
     throw CaseError("no descent of the wheel balances the weight on its contacts: friction wedges the wheel",
-                    "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+                    "lower drive.friction_coefficient, or check lateral_shift and the profiles",
+                    "drive.friction_coefficient");
   }
 
   /// Two patches of which one reaches the ridge between them.
@@ -489,7 +490,7 @@ SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double a
   }
 }
 
-void require_one_plane(const Placement& p, double approach, const std::string& remedy) {
+void require_one_plane(const Placement& p, double approach, const std::string& key, const std::string& remedy) {
   for (const RigidContact& c :
        further_contacts(p.wheel, p.rail, p.track, p.contact, approach / std::cos(p.contact.angle)))
     if (std::abs(c.angle - p.contact.angle) > kAngleOfOnePlane)
@@ -497,7 +498,7 @@ void require_one_plane(const Placement& p, double approach, const std::string& r
           fmt::format("the wheel touches at y = {:.1f} mm and, under an approach of {:.3g} mm, at another angle at y = "
                       "{:.1f} mm",
                       1e3 * p.contact.point.y, 1e3 * approach, 1e3 * c.point.y),
-          remedy);
+          remedy, key);
 }
 
 double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& patches, const PatchOnWheel& one) {

@@ -41,9 +41,9 @@ struct SharedLoad {
 /// traction above friction, friction that bears the weight (a wedged wheel).
 SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options);
 
-/// Throws CaseError with both places and the remedy where a wheel that comes down by `approach` [m] touches in a
-/// further plane: for what follows one patch alone.
-void require_one_plane(const Placement& placement, double approach, const std::string& remedy);
+/// Throws CaseError with both places, the case's key and the remedy where a wheel that comes down by `approach` [m]
+/// touches in a further plane: for what follows one patch alone.
+void require_one_plane(const Placement& placement, double approach, const std::string& key, const std::string& remedy);
 
 /// By how much the other patches bend the surfaces over one patch, of the contact's own smaller curvature kappa:
 /// the sum of 2/(pi E*) ∫ p_j/r_j³ dA over kappa, in the plane the second derivative of the depression.

@@ -99,7 +99,8 @@ class Solver {
       throw CaseError(
           fmt::format("no steady state was found under the given force: {} may not carry it",
                       problem_.falling.falls() ? "friction that falls with slip" : "a third-body layer that yields"),
-          "give drive.creepage instead, which has an answer beyond the largest force too");
+          "give drive.creepage instead, which has an answer beyond the largest force too",
+          problem_.falling.falls() ? "friction.law" : "third_body.yield_shear");
     throw NumericalError("the tangential contact problem did not converge");
   }
 
@@ -112,11 +113,13 @@ class Solver {
     const double available = available_ * grid_.cell_area(),
                  wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
     if (wanted >= available && wanted > 0)
-      throw CaseError(fmt::format("friction cannot carry the tangential force: {:.4g} kN of at most {:.4g} kN",
-                                  1e-3 * wanted, 1e-3 * available),
-                      varying_ && problem_.third_body.yields()
-                          ? "lower the traction or raise the friction coefficient or third_body.yield_shear"
-                          : "lower the traction or raise the friction coefficient");
+      throw CaseError(
+          fmt::format("friction cannot carry the tangential force: {:.4g} kN of at most {:.4g} kN", 1e-3 * wanted,
+                      1e-3 * available),
+          varying_ && problem_.third_body.yields()
+              ? "lower the traction or raise the friction coefficient or third_body.yield_shear"
+              : "lower the traction or raise the friction coefficient",
+          varying_ && problem_.third_body.yields() ? "third_body.yield_shear" : "drive.friction_coefficient");
   }
 
   /// Takes over the traction of a similar problem. Its traction bound differs: cells that slipped are put on the new

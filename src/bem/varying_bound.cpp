@@ -29,10 +29,10 @@ void VaryingBound::require_unique_slip(const TangentialProblem& problem, double 
   if (!problem.falling.falls() || problem.traction_bound.empty()) return;
   if (problem.kind != RollingKind::steady)
     throw CaseError("friction that falls with slip has no answer in steps of a history: massless bodies jump",
-                    "ask for steady rolling, or take friction.law = \"coulomb\"");
+                    "ask for steady rolling, or take friction.law = \"coulomb\"", "friction.law");
   if (problem.third_body.thickness > 0)
     throw CaseError("friction that falls with slip has no steady answer on an elastic third-body layer: it would jump",
-                    "leave out third_body.thickness, or take friction.law = \"coulomb\"");
+                    "leave out third_body.thickness, or take friction.law = \"coulomb\"", "third_body.thickness");
   const double bound = *std::max_element(problem.traction_bound.begin(), problem.traction_bound.end()),
                fall = -friction_share(problem.falling, {}).by_slip_velocity,
                steepness = bound * fall * problem.speed * largest;
@@ -41,7 +41,7 @@ void VaryingBound::require_unique_slip(const TangentialProblem& problem, double 
         fmt::format("friction falls too steeply with slip: below a half-value velocity of {:.3g} m/s steady rolling "
                     "has several answers here",
                     problem.falling.half_velocity * steepness),
-        "raise friction.half_velocity or friction.kinetic_coefficient, or lower drive.speed");
+        "raise friction.half_velocity or friction.kinetic_coefficient, or lower drive.speed", "friction.half_velocity");
 }
 
 double VaryingBound::plastic_before(int i, std::size_t k) const {

@@ -169,6 +169,47 @@ TEST(SolveBem, TractionAboveFrictionIsACaseError) {
   EXPECT_EQ(solve_bem(spec, place(spec, {})).patch.q_max, 0);
 }
 
+/// The key of the case that an error is about.
+template <class Work>
+std::string blamed(Work&& work) {
+  try {
+    work();
+  } catch (const CaseError& e) {
+    return e.diagnostics.at(0).where;
+  }
+  return "nothing";
+}
+
+TEST(SolveBem, ErrorsNameTheKeyTheyAreAbout) {
+  const auto of = [](auto&& change) {
+    CaseSpec spec = paper_base();
+    change(spec);
+    BemOptions options;
+    options.cell = 1e-3;
+    return blamed([&] { solve_bem(spec, place(spec, {}), options); });
+  };
+  EXPECT_EQ(of([](CaseSpec&) {}), "nothing");
+  EXPECT_EQ(of([](CaseSpec& s) { s.drive.traction_coefficient = 0.51; }), "drive.traction_coefficient");
+  EXPECT_EQ(of([](CaseSpec& s) { s.drive.lateral_traction_coefficient = 0.5; }), "drive.lateral_traction_coefficient");
+  EXPECT_EQ(of([](CaseSpec& s) {
+              s.third_body = {.thickness = 20e-6, .shear_modulus = 100e6, .yield_shear = 1e6, .hardening = 0};
+            }),
+            "third_body.yield_shear");
+  EXPECT_EQ(of([](CaseSpec& s) {
+              s.friction = {.law = FrictionForm::falling_rational, .kinetic_coefficient = 0.1, .half_velocity = 1e-3};
+            }),
+            "friction.half_velocity");
+  EXPECT_EQ(of([](CaseSpec& s) {
+              s.geometry.wheel_profile = "S1002";
+              s.geometry.rail_profile = "UIC60";
+              s.geometry.gauge_depth = 14e-3;
+              s.geometry.cant = 0.05;
+              s.geometry.lateral_shift = 9.65e-3;
+              s.vehicle.approach = 0.1e-3;
+            }),
+            "vehicle.approach");
+}
+
 TEST(SolveBem, InteriorPeakOfTheBaseCaseIs062OfThePeakPressure3MillimetresDown) {
   BemOptions options;
   options.cell = 0.5e-3;
