@@ -11,6 +11,7 @@
 #include "app/summary_text.hpp"
 #include "app/waiting.hpp"
 #include "app/write_page.hpp"
+#include "bem/film_capacity.hpp"
 #include "core/faults.hpp"
 #include "io/folder_kind.hpp"
 #include "io/output_folder.hpp"
@@ -83,7 +84,12 @@ ExitCode command_bem(const CommandOptions& options) {
   const HalfSpaceJob job = job_of(options);
   const bool steady = job.loaded.spec.transient.kind == TransientKind::none;
   HalfSpaceSolution solution;
-  if (steady) solution = solve_steady(job);
+  with_places(job.loaded, [&] {
+    if (steady)
+      solution = solve_steady(job);
+    else
+      require_film_carries(job.loaded.spec, job.placement, job.bem);
+  });
 
   require_apart(job.out, job.loaded);
   const FolderHold hold = prepare_output_folder(job.out, options.force);
@@ -91,7 +97,7 @@ ExitCode command_bem(const CommandOptions& options) {
     if (steady) answer_interrupt_with(kHalfWritten);
     clear_old_results(job.out);
     write_origin(job.out, job.loaded, options.command_line, options.threads);
-    if (!steady) solution = solve_and_show(job);
+    if (!steady) solution = with_places(job.loaded, [&] { return solve_and_show(job); });
     answer_interrupt_with(kHalfWritten);
     write_half_space_result(job.out, table_origin(job.loaded), job.loaded.spec, job.placement, solution);
   } catch (EnvironmentError& e) {

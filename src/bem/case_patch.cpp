@@ -51,8 +51,8 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
     patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, g);
     keep_to_room(g, room, patch.profile.gap);
     patch.influence = cache.get(patch.wheel, patch.rail, g, patch.contact.third_body.flexibility());
-    const NormalSolution s = solve_normal(*patch.influence, g, patch.profile.gap, target, options.rolling.normal);
-    const Touches edge = touches(g, s.pressure);
+    patch.frictionless = solve_normal(*patch.influence, g, patch.profile.gap, target, options.rolling.normal);
+    const Touches edge = touches(g, patch.frictionless.pressure);
     if (!edge.x && !edge.y) {
       if (grown > 0)
         patch.notes.push_back(fmt::format("the potential contact area was grown to {:.1f} mm x {:.1f} mm",
@@ -64,7 +64,8 @@ void fit_grid(const Placement& placement, const NormalTarget& target, const Patc
     if (half_x == g.nx / 2 && half_y == g.ny / 2)
       throw CaseError(fmt::format("the {} flattens the whole potential contact area of {:.0f} mm", in_words(target),
                                   1e3 * options.largest_patch),
-                      "check the load, the profiles and the moduli; half-space theory no longer applies");
+                      "check the load, the profiles and the moduli; half-space theory no longer applies",
+                      target.load ? "vehicle.wheel_load" : "vehicle.approach");
     g = g.line ? line_grid(half_x, g.dx, g.dy) : centred_grid(half_x, half_y, options.cell, options.cell);
   }
 }
@@ -170,11 +171,6 @@ void drive_contact(const CaseSpec& spec, const RigidContact& contact, double wei
 
 double normal_load(double weight, double lateral, const RigidContact& contact) {
   return (weight + lateral * std::sin(contact.angle)) / std::cos(contact.angle);
-}
-
-double frictionless_load(const CasePatch& patch, const BemOptions& options) {
-  return solve_normal(*patch.influence, patch.grid, patch.contact.gap, patch.contact.target, options.rolling.normal)
-      .load;
 }
 
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,

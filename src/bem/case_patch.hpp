@@ -25,6 +25,7 @@ struct CasePatch {
   std::shared_ptr<const InfluenceOperator> influence;
   RollingContact contact;  ///< gap, load, friction, spin and rigid slip of the geometry; creepages and forces are left
                            ///< to the caller (drive_contact)
+  NormalSolution frictionless;  ///< under its target, as the grid was fitted to it
   LayeredHalfSpace wheel, rail;
   std::vector<std::string> notes;
 };
@@ -62,8 +63,5 @@ double normal_load(double weight, double lateral, const RigidContact& contact);
 /// lies inside. Throws CaseError as solve_bem.
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                           const NormalTarget& target, const PatchRoom& room = {});
-
-/// The normal load [N] of the patch without friction, under its target.
-double frictionless_load(const CasePatch& patch, const BemOptions& options);
 
 }  // namespace railstrata

@@ -22,16 +22,16 @@ void vary(VariedCreepage varied, double creepage, RollingContact& contact) {
 std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& placement, VariedCreepage varied,
                                          const std::vector<double>& creepages, const BemOptions& options) {
   if (!(spec.drive.friction_coefficient > 0))
-    throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero");
+    throw CaseError("a creep curve needs friction", "set drive.friction_coefficient above zero",
+                    "drive.friction_coefficient");
   if (spec.geometry.in_line())
     throw CaseError("the fast theories of a creep curve are those of ellipses, not of a line contact",
-                    "take `railstrata sweep` over drive.creepage, or geometry.contact = \"point\"");
+                    "take `railstrata sweep` over drive.creepage, or geometry.contact = \"point\"", "geometry.contact");
   const std::optional<double>& approach = spec.vehicle.approach;
   CasePatch patch = make_case_patch(
       spec, placement, options,
       approach ? NormalTarget{{}, approach} : NormalTarget{normal_load(static_load(spec), 0, placement.contact), {}});
-  const double weight =
-      approach ? std::cos(placement.contact.angle) * frictionless_load(patch, options) : static_load(spec);
+  const double weight = approach ? std::cos(placement.contact.angle) * patch.frictionless.load : static_load(spec);
   const RollingEllipse ellipse = rolling_ellipse(hertz_estimate(spec, placement.contact), patch.contact.friction,
                                                  patch.wheel.substrate, patch.rail.substrate);
   const double hertz_bound = ellipse.friction * ellipse.contact.load;
@@ -39,10 +39,7 @@ std::vector<CreepCurvePoint> creep_curve(const CaseSpec& spec, const Placement& 
   const auto share = [&](const CreepForce& force) { return (along_x ? force.x : force.y) / hertz_bound; };
   drive_contact(spec, placement.contact, weight, patch.contact);
   require_one_plane(
-      placement,
-      approach.value_or(
-          solve_normal(*patch.influence, patch.grid, patch.contact.gap, patch.contact.target, options.rolling.normal)
-              .approach),
+      placement, patch.frictionless.approach, "geometry.lateral_shift",
       "a creep curve is that of one patch: move the wheel (geometry.lateral_shift), or lower the load, until it "
       "touches "
       "at one place; `railstrata bem` solves several patches together");

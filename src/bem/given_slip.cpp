@@ -11,6 +11,7 @@ void fill_rigid_slip(const PatchGrid& grid, const TangentialProblem& problem, do
   const double ahead = !rolls ? 0.0 : step / (whole_cells ? 6 : 2);
   const bool turns = problem.spin != 0 || !problem.local_spin.empty();
   if (rolls && !whole_cells && turns) out.to_own_place.resize(grid.size());
+  if (rolls && whole_cells && turns) out.to_middle_of_step.resize(static_cast<std::size_t>(grid.ny));
   const std::size_t n = grid.size();
   for (int i = 0; i < grid.nx; ++i)
     for (int j = 0; j < grid.ny; ++j) {
@@ -20,6 +21,7 @@ void fill_rigid_slip(const PatchGrid& grid, const TangentialProblem& problem, do
       out.rigid[k] = -problem.spin * grid.y(j) + (problem.extra_slip.x.empty() ? 0.0 : problem.extra_slip.x[k]);
       out.rigid[n + k] = local * (grid.x(i) + ahead) + (problem.extra_slip.y.empty() ? 0.0 : problem.extra_slip.y[k]);
       if (!out.to_own_place.empty()) out.to_own_place[k] = -local * step / 3;
+      if (!out.to_middle_of_step.empty()) out.to_middle_of_step[static_cast<std::size_t>(j)] = local * step / 3;
       if (!problem.before.x.empty()) out.history[k] = problem.before.x[k] / step;
       if (!problem.before.y.empty()) out.history[n + k] = problem.before.y[k] / step;
     }
@@ -44,7 +46,7 @@ void cut_first_cells(const PatchGrid& grid, const TangentialProblem& problem, do
 }  // namespace
 
 GivenSlip given_slip(const PatchGrid& grid, const TangentialProblem& problem) {
-  GivenSlip out{Plane(2 * grid.size()), Plane(2 * grid.size(), 0.0), {}, {}, {}};
+  GivenSlip out{Plane(2 * grid.size()), Plane(2 * grid.size(), 0.0), {}, {}, {}, {}};
   const double step = step_length(grid, problem);
   fill_rigid_slip(grid, problem, step, out);
   cut_first_cells(grid, problem, step, out);

@@ -16,6 +16,8 @@ struct GivenSlip {
   Plane history;       ///< of the state before
   Plane to_own_place;  ///< -phi dq/3 in each cell: from the spin's mean over the step to the cell itself; empty: no
                        ///< spin, or whole cells
+  Plane to_middle_of_step;  ///< phi dq/3 in each row of cells, [j]: to the spin's mean over the step; empty: no spin,
+                            ///< or `rigid` has it
   std::vector<LeadingCell> leading;
   Plane first_step;  ///< m, of the first cells (1 - lambda) times the step; empty: the step everywhere
 };

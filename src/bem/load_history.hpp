@@ -27,6 +27,7 @@ class LoadHistory {
   bool rolls() const { return rolls_; }
   double end() const { return end_; }  ///< m, rolled; of a shift the number of rows
   LoadedMoment at(double place) const;
+  const std::vector<double>& places() const { return places_; }  ///< of the rows
   /// s; NaN where it is not known.
   double time(double place) const;
   double largest_load() const;

@@ -65,7 +65,8 @@ class ActiveSetSolver {
     const double lowest = *std::min_element(gap_.begin(), gap_.end());
     if (!load_given()) {
       if (*target_.approach <= lowest)
-        throw CaseError("the bodies do not touch at this approach", "increase the approach or the load");
+        throw CaseError("the bodies do not touch at this approach", "increase the approach or the load",
+                        "vehicle.approach");
       set_pressure(lowest + 0.5 * (*target_.approach - lowest));
       influence_.normal(p_.data(), displacement_.data());
       scale_by(p_, (*target_.approach - lowest) / *std::max_element(displacement_.begin(), displacement_.end()));
@@ -229,7 +230,7 @@ class ActiveSetSolver {
       }
     }
     if (std::none_of(active_.begin(), active_.end(), [](unsigned char a) { return a; }))
-      throw CaseError("the bodies do not touch", "increase the approach or the load");
+      throw CaseError("the bodies do not touch", "increase the approach or the load", "vehicle");
     return changed;
   }
 
@@ -268,7 +269,7 @@ NormalSolution solve_normal(const InfluenceOperator& influence, const PatchGrid&
                             NormalTarget target, const NormalOptions& options, const Plane& start) {
   assert(target.load.has_value() != target.approach.has_value());
   if (target.load && !(*target.load > 0))
-    throw CaseError("the load must press the bodies together", "give a positive load");
+    throw CaseError("the load must press the bodies together", "give a positive load", "vehicle.wheel_load");
   return ActiveSetSolver(influence, grid, gap, target, options).solve(start);
 }
 

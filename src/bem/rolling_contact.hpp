@@ -27,8 +27,9 @@ struct RollingContact {
   double step = 0;       ///< rolled distance [m]: transient only
   PlanePair before;      ///< history: displacement by pressure and traction of the state before, see TangentialProblem
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
-  Plane local_spin;      ///< 1/m, beyond `spin` in each row of cells, see TangentialProblem
-  Plane plastic_before;  ///< m, history of a third body that yields
+  Plane local_spin;           ///< 1/m, beyond `spin` in each row of cells, see TangentialProblem
+  Plane plastic_before;       ///< m, history of a third body that yields
+  PlanePair traction_before;  ///< Pa, transient: of the state before, see TangentialProblem
 };
 
 struct RollingOptions {

@@ -17,7 +17,6 @@ namespace railstrata {
 namespace {
 
 constexpr double kLeastApproach = 1e-9;  // m
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 double modulus_of(const CaseSpec& spec) {
   return contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
@@ -170,7 +169,8 @@ class WheelOnPatches {
         options_(options),
         weight_(static_load(spec)),
         modulus_(modulus_of(spec)),
-        creepage_(spec.drive.creepage.value_or(0)) {
+        along_{spec.drive.creepage.value_or(0), 0},
+        across_{spec.drive.lateral_creepage.value_or(yaw_creepage(members_.front().contact())), 0} {
     options_.rolling.tangential.tolerance = std::min(options_.rolling.tangential.tolerance, kSharp);
     options_.cache = options.cache ? options.cache : &cache_;
   }
@@ -184,7 +184,8 @@ class WheelOnPatches {
       descent += step(descent, bent);
     }
     throw CaseError("no descent of the wheel balances the weight on its contacts: friction wedges the wheel",
-                    "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+                    "lower drive.friction_coefficient, or check lateral_shift and the profiles",
+                    "drive.friction_coefficient");
   }
 
   /// Two patches of which one reaches the ridge between them.
@@ -338,13 +339,13 @@ class WheelOnPatches {
     m.solution = {};
   }
 
-  void drive(Member& m, double creepage) const {
+  void drive(Member& m) const {
     const RigidContact &first = members_.front().contact(), &own = m.contact();
     const double cosines = std::cos(first.angle) / std::cos(own.angle);
     RollingContact& problem = m.patch.contact;
     problem.target.approach = m.approach;
-    problem.x = {1 - (1 - creepage) * own.rolling_radius / first.rolling_radius, {}};
-    problem.y = {spec_.drive.lateral_creepage ? *spec_.drive.lateral_creepage * cosines : yaw_creepage(own), {}};
+    problem.x = {1 - (1 - along_.creepage) * own.rolling_radius / first.rolling_radius, {}};
+    problem.y = {across_.creepage * cosines, {}};
     if (spec_.drive.spin) problem.spin = wheel_spin(own) + (*spec_.drive.spin - wheel_spin(first)) / cosines;
   }
 
@@ -354,44 +355,81 @@ class WheelOnPatches {
                                fresh ? nullptr : &m.solution);
   }
 
-  /// Sum of the longitudinal forces on the rail at a creepage less what is wanted, N.
-  double excess_traction(double creepage) {
-    double sum = 0;
+  /// Solves all patches under the creepages as they stand.
+  void solve_all() {
     for (Member& m : members_) {
       if (!m.loaded()) continue;
-      drive(m, creepage);
+      drive(m);
       solve(m);
       if (m.solution.normal.touches_edge) {
         m.laid_for = 0;
         lay_grid(m);
-        drive(m, creepage);
+        drive(m);
         solve(m);
       }
-      sum += m.solution.tangential.force_x;
     }
-    return sum + spec_.drive.traction().value_or(0) * weight_;
   }
 
-  /// Finds the creepage under which the forces have the wanted sum, where one is wanted: by the secant, kept between
-  /// two sides (Illinois), for the sum rises with the creepage and hardly does where all patches slide.
+  /// Sum of one force of the friction on the rail over the patches, N.
+  double sum(double TangentialSolution::*force) const {
+    double out = 0;
+    for (const Member& m : members_)
+      if (m.loaded()) out += m.solution.tangential.*force;
+    return out;
+  }
+
+  /// Finds the creepages under which the forces have the wanted sums, where they are wanted: the longitudinal one for
+  /// every lateral one that is tried.
   void balance_traction() {
-    double a = creepage_, at_a = excess_traction(a);
-    if (!spec_.drive.traction() || !(spec_.drive.friction_coefficient > 0)) return;
+    const DriveSpec& drive = spec_.drive;
+    const bool friction = drive.friction_coefficient > 0;
+    const auto along = [&] {
+      solve_all();
+      return sum(&TangentialSolution::force_x) + drive.traction().value_or(0) * weight_;
+    };
+    const auto across = [&] {
+      if (drive.traction())
+        find(along_, along);
+      else
+        solve_all();
+      return sum(&TangentialSolution::force_y) + *drive.lateral_traction_coefficient * weight_;
+    };
+    if (friction && drive.lateral_traction_coefficient)
+      find(across_, across);
+    else if (friction && drive.traction())
+      find(along_, along);
+    else
+      solve_all();
+  }
+
+  /// A creepage that is sought, and its change with the force, 1/N, of the last search.
+  struct Sought {
+    double creepage = 0, compliance = 0;
+  };
+
+  /// Brings an excess of force, which rises with the creepage, to zero: by the secant, kept between two sides
+  /// (Illinois), for it hardly rises where all patches slide.
+  template <class Excess>
+  void find(Sought& sought, Excess&& excess_now) const {
+    const auto excess_at = [&](double creepage) {
+      sought.creepage = creepage;
+      return excess_now();
+    };
+    double a = sought.creepage, at_a = excess_at(a);
     const double close = 0.5 * kClosure * weight_;
     if (std::abs(at_a) <= close) return;
-    double step = compliance_ > 0 ? 1.5 * std::abs(at_a) * compliance_ : 1e-4, b = a, at_b = at_a;
+    double step = sought.compliance > 0 ? 1.5 * std::abs(at_a) * sought.compliance : 1e-4, b = a, at_b = at_a;
     while (at_a * at_b > 0) {
       if (std::abs(b) > 1) refuse_traction();
       a = b;
       at_a = at_b;
       b = a + (at_a > 0 ? -step : step);
-      at_b = excess_traction(b);
+      at_b = excess_at(b);
       step *= 3;
     }
-    compliance_ = (b - a) / (at_b - at_a);
+    sought.compliance = (b - a) / (at_b - at_a);
     for (int i = 0; i < 100; ++i) {
-      creepage_ = (a * at_b - b * at_a) / (at_b - at_a);
-      const double excess = excess_traction(creepage_);
+      const double c = (a * at_b - b * at_a) / (at_b - at_a), excess = excess_at(c);
       if (std::abs(excess) <= close || std::abs(b - a) < kNoWidth) return;
       if (excess * at_b < 0) {
         a = b;
@@ -399,42 +437,35 @@ class WheelOnPatches {
       } else {
         at_a *= 0.5;
       }
-      b = creepage_;
+      b = c;
       at_b = excess;
     }
     throw NumericalError("the creepage of a wheel on several contacts was not found");
   }
 
   [[noreturn]] void refuse_traction() const {
+    const DriveSpec& drive = spec_.drive;
+    const double along = drive.traction().value_or(0), across = drive.lateral_traction_coefficient.value_or(0);
     double available = 0;
     for (const Member& m : members_)
-      if (m.loaded()) available += spec_.drive.friction_coefficient * m.solution.normal.load;
-    throw CaseError(fmt::format("a traction coefficient of {:g} needs {:.0f} N of friction, the {} contacts of the "
-                                "wheel, rolling on different radii, give less than {:.0f} N together",
-                                spec_.drive.traction().value_or(0), spec_.drive.traction().value_or(0) * weight_,
-                                members_.size(), available),
-                    "lower drive.traction_coefficient or raise drive.friction_coefficient");
+      if (m.loaded()) available += drive.friction_coefficient * m.solution.normal.load;
+    const char* key = across == 0 ? "drive.traction_coefficient" : "drive.lateral_traction_coefficient";
+    throw CaseError(fmt::format("a traction coefficient of {:g}{} needs {:.0f} N of friction, the {} contacts of the "
+                                "wheel, rolling on different radii and turning about their normals, give less than "
+                                "{:.0f} N together",
+                                along, across == 0 ? "" : fmt::format(" along and {:g} across the rail", across),
+                                std::hypot(along, across) * weight_, members_.size(), available),
+                    fmt::format("lower {} or raise drive.friction_coefficient", key), key);
   }
 
   const CaseSpec& spec_;
   std::vector<Member> members_;
   InfluenceCache cache_;
   BemOptions options_;
-  double weight_, modulus_, creepage_;
-  double compliance_ = 0;  ///< change of the creepage with the force, 1/N, of the last balance
+  double weight_, modulus_;
+  Sought along_, across_;  // creepages of the first contact
   int iterations_ = 0;
 };
-
-void refuse_lateral_force(const CaseSpec& spec, const std::vector<Member>& members) {
-  if (!spec.drive.lateral_traction_coefficient) return;
-  std::string places;
-  for (const Member& m : members)
-    places += fmt::format("{}y = {:.1f} mm of the rail at {:.1f} degrees", places.empty() ? "" : ", ",
-                          1e3 * m.placement.rail.at(m.contact().rail_s).position.y, m.contact().angle * kDegrees);
-  throw CaseError(fmt::format("a lateral force in the contact plane is given, and the wheel touches in {} planes: {}",
-                              members.size(), places),
-                  "give drive.lateral_creepage or geometry.yaw instead");
-}
 
 }  // namespace
 
@@ -444,7 +475,6 @@ SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double a
     put_in_order(places);
     std::vector<Member> members = members_of(spec, placement, places);
     if (members.size() == 1) return {{}, members.front().room, 0};
-    refuse_lateral_force(spec, members);
     WheelOnPatches wheel(spec, std::move(members), options);
     wheel.settle();
     const auto merged = wheel.merged();
@@ -460,7 +490,7 @@ SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double a
   }
 }
 
-void require_one_plane(const Placement& p, double approach, const std::string& remedy) {
+void require_one_plane(const Placement& p, double approach, const std::string& key, const std::string& remedy) {
   for (const RigidContact& c :
        further_contacts(p.wheel, p.rail, p.track, p.contact, approach / std::cos(p.contact.angle)))
     if (std::abs(c.angle - p.contact.angle) > kAngleOfOnePlane)
@@ -468,7 +498,7 @@ void require_one_plane(const Placement& p, double approach, const std::string& r
           fmt::format("the wheel touches at y = {:.1f} mm and, under an approach of {:.3g} mm, at another angle at y = "
                       "{:.1f} mm",
                       1e3 * p.contact.point.y, 1e3 * approach, 1e3 * c.point.y),
-          remedy);
+          remedy, key);
 }
 
 double bending_by_others(const CaseSpec& spec, const std::vector<PatchOnWheel>& patches, const PatchOnWheel& one) {

@@ -6,10 +6,11 @@
 // friction (on the rail)
 //   approach_k = (d - h_k) cos(delta_k) - sum over j of cos(delta_k - delta_j)/(pi E*) ∫ p_j/r_jk dA,
 //   xi_k = 1 - (1 - xi) r_k/r_1,   eta_k = eta_1 cos(delta_1)/cos(delta_k),
-//   sum of N_k cos(delta_k) - T_k sin(delta_k) = G,   sum of X_k = X where a force is given.
+//   sum of N_k cos(delta_k) - T_k sin(delta_k) = G,   sum of X_k = X,   sum of T_k = T where these forces are given.
 // The sum in approach_k is the depression of both surfaces at the patch's centre of pressure by the other patches
 // [Johnson1985 eq. 3.22a]: exact to first order where the planes are one, an estimate where they are not. Its curvature
-// over the patch is left out (bending_by_others). xi, eta and a given spin are those of the contact that touches first;
+// over the patch is left out (bending_by_others). T is the sum along the planes of the patches, each its own: what one
+// lateral creepage makes. xi, eta and a given spin are those of the contact that touches first;
 // a given spin turns the wheel about the vertical.
 #include <vector>
 
@@ -37,12 +38,12 @@ struct SharedLoad {
 /// Looks for contacts beside a first one that was solved alone under the whole load, where its approach is `approach`
 /// [m], and shares the load if there are.
 /// Patches that reach the ridge between them become one, in the plane of the one that touches first. Throws CaseError:
-/// a lateral force is given, traction above friction, friction that bears the weight (a wedged wheel).
+/// traction above friction, friction that bears the weight (a wedged wheel).
 SharedLoad share_load(const CaseSpec& spec, const Placement& placement, double approach, const BemOptions& options);
 
-/// Throws CaseError with both places and the remedy where a wheel that comes down by `approach` [m] touches in a
-/// further plane: for what follows one patch alone.
-void require_one_plane(const Placement& placement, double approach, const std::string& remedy);
+/// Throws CaseError with both places, the case's key and the remedy where a wheel that comes down by `approach` [m]
+/// touches in a further plane: for what follows one patch alone.
+void require_one_plane(const Placement& placement, double approach, const std::string& key, const std::string& remedy);
 
 /// By how much the other patches bend the surfaces over one patch, of the contact's own smaller curvature kappa:
 /// the sum of 2/(pi E*) ∫ p_j/r_j³ dA over kappa, in the plane the second derivative of the depression.

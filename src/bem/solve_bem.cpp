@@ -24,7 +24,8 @@ void check_friction(const CaseSpec& spec, double load, double normal) {
   throw CaseError(fmt::format("a traction coefficient of {:g}{} needs {:.0f} N of friction, a friction coefficient of "
                               "{:g} gives at most {:.0f} N",
                               along, sideways, wanted, spec.drive.friction_coefficient, available),
-                  "lower drive.traction_coefficient or raise drive.friction_coefficient");
+                  "lower drive.traction_coefficient or raise drive.friction_coefficient",
+                  across == 0 ? "drive.traction_coefficient" : "drive.lateral_traction_coefficient");
 }
 
 void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidContact& contact, double speed,
@@ -46,8 +47,8 @@ void fill_field(const CasePatch& patch, const RollingSolution& s, const RigidCon
       field.p[k] = s.normal.pressure[k];
       field.q_x[k] = s.tangential.q_x[k];
       field.q_y[k] = s.tangential.q_y[k];
-      field.slip_x[k] = over_time * s.tangential.slip_x[k];
-      field.slip_y[k] = over_time * s.tangential.slip_y[k];
+      field.slip_x[k] = over_time * s.tangential.cell_slip.x[k];
+      field.slip_y[k] = over_time * s.tangential.cell_slip.y[k];
       field.state[k] = s.tangential.state[k];
     }
 }
@@ -196,7 +197,7 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placeme
   throw CaseError(
       fmt::format("no normal force balances the weight at a contact angle of {:.1f} degrees: friction wedges the wheel",
                   std::abs(contact.angle) * 180 / std::numbers::pi),
-      "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+      "lower drive.friction_coefficient, or check lateral_shift and the profiles", "drive.friction_coefficient");
 }
 
 bool holds(const PatchGrid& g, const PatchRoom& room) {
@@ -223,13 +224,13 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
   constexpr double kTolerance = 1e-5;
   constexpr int kMostIterations = 40;
   const RigidContact& contact = placement.contact;
-  require_one_plane(placement, *spec.vehicle.approach,
+  require_one_plane(placement, *spec.vehicle.approach, "vehicle.approach",
                     "give a load instead of vehicle.approach: the contacts share it");
   SharedLoad out{{PatchOnWheel{contact, {}, {}}}, {}, 1};
   CasePatch& patch = out.patches.front().patch;
   RollingSolution& solution = out.patches.front().solution;
   patch = make_case_patch(spec, placement, options, NormalTarget{{}, spec.vehicle.approach});
-  double vertical = std::cos(contact.angle) * frictionless_load(patch, options);
+  double vertical = std::cos(contact.angle) * patch.frictionless.load;
   for (;; ++out.load_iterations) {
     drive_contact(spec, contact, vertical, patch.contact);
     solution = solve_rolling(*patch.influence, patch.grid, patch.contact, options.rolling,
@@ -240,7 +241,8 @@ SharedLoad press_to_approach(const CaseSpec& spec, const Placement& placement, c
     if (!driven || std::abs(vertical - before) <= kTolerance * std::abs(vertical)) return out;
     if (out.load_iterations == kMostIterations)
       throw CaseError("the forces over the load that comes out do not settle under this approach",
-                      "lower the traction coefficients, or give a load instead of vehicle.approach");
+                      "lower the traction coefficients, or give a load instead of vehicle.approach",
+                      "vehicle.approach");
   }
 }
 

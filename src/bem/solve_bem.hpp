@@ -74,7 +74,7 @@ struct BemResult : BemPatch {
 Vec3 force_on_rail(const BemResult& result);
 
 /// Throws CaseError: no contact, traction above friction, a load that flattens the largest patch, friction that bears
-/// the weight whatever the normal force (a wedged wheel), a lateral force on several contacts.
+/// the weight whatever the normal force (a wedged wheel).
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options = {});
 
 struct PatchOnWheel;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bem/cell_slip.hpp"
 #include "bem/given_slip.hpp"
 #include "bem/gmres.hpp"
 #include "bem/largest_influence.hpp"
@@ -95,7 +96,8 @@ class Solver {
       throw CaseError(
           fmt::format("no steady state was found under the given force: {} may not carry it",
                       problem_.falling.falls() ? "friction that falls with slip" : "a third-body layer that yields"),
-          "give drive.creepage instead, which has an answer beyond the largest force too");
+          "give drive.creepage instead, which has an answer beyond the largest force too",
+          problem_.falling.falls() ? "friction.law" : "third_body.yield_shear");
     throw NumericalError("the tangential contact problem did not converge");
   }
 
@@ -118,11 +120,13 @@ class Solver {
     const double available = available_ * grid_.cell_area(),
                  wanted = std::hypot(problem_.x.force.value_or(0), problem_.y.force.value_or(0));
     if (wanted >= available && wanted > 0)
-      throw CaseError(fmt::format("friction cannot carry the tangential force: {:.4g} kN of at most {:.4g} kN",
-                                  1e-3 * wanted, 1e-3 * available),
-                      varying_ && problem_.third_body.yields()
-                          ? "lower the traction or raise the friction coefficient or third_body.yield_shear"
-                          : "lower the traction or raise the friction coefficient");
+      throw CaseError(
+          fmt::format("friction cannot carry the tangential force: {:.4g} kN of at most {:.4g} kN", 1e-3 * wanted,
+                      1e-3 * available),
+          varying_ && problem_.third_body.yields()
+              ? "lower the traction or raise the friction coefficient or third_body.yield_shear"
+              : "lower the traction or raise the friction coefficient",
+          varying_ && problem_.third_body.yields() ? "third_body.yield_shear" : "drive.friction_coefficient");
   }
 
   /// Takes over the traction of a similar problem. Its traction bound differs: cells that slipped are put on the new
@@ -491,6 +495,20 @@ class Solver {
     return worst;
   }
 
+  /// With the spin's lateral slip in the middle of the step; after update_slip.
+  StepSlip step_slip() const {
+    StepSlip out{Plane(n_, 0.0), Plane(n_, 0.0)};
+    const bool rolls = problem_.kind != RollingKind::shift;
+    for (std::size_t k = 0; k < n_; ++k) {
+      const bool leaves = set_[k] == kOutside && rolls && k + ahead_ < n_ && problem_.traction_bound[k + ahead_] > 0;
+      if (set_[k] != kSlip && !leaves) continue;
+      out.x[k] = leaves ? given_.rigid[k] + creepage_[0] + given_.history[k] - L_x(k) : slip_[k];
+      out.y[k] = leaves ? given_.rigid[n_ + k] + creepage_[1] + given_.history[n_ + k] - L_y(k) : slip_[n_ + k];
+      if (!given_.to_middle_of_step.empty()) out.y[k] += given_.to_middle_of_step[k % ahead_];
+    }
+    return out;
+  }
+
   TangentialSolution solution() const {
     TangentialSolution s;
     const auto half = static_cast<std::ptrdiff_t>(n_);
@@ -512,11 +530,13 @@ class Solver {
           s.slip_x[k] = slip_[k];
           s.slip_y[k] = lateral_slip(k);
         }
-        s.dissipation += (q_[k] * s.slip_x[k] + q_[n_ + k] * s.slip_y[k]) * dA;
         s.moment += (grid_.x(i) * q_[n_ + k] - grid_.y(j) * q_[k]) * dA;
       }
     s.force_x = sum(s.q_x) * dA;
     s.force_y = sum(s.q_y) * dA;
+    const StepSlip steps = step_slip();
+    s.cell_slip = slip_of_cells(grid_, problem_.kind, s.state, steps);
+    s.dissipation = dissipated(grid_, problem_.kind, s.q_x, s.q_y, problem_.traction_before, steps);
     if (varying_) {
       s.plastic = varying_->plastic();
       s.bound = varying_->at_rest();
@@ -578,6 +598,7 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   problem.before.x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
   problem.before.y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
   problem.plastic_before = rolled_on(grid, before.plastic);
+  problem.traction_before = {rolled_on(grid, before.q_x), rolled_on(grid, before.q_y)};
 }
 
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,

@@ -52,6 +52,8 @@ struct TangentialProblem {
   double step = 0;       ///< rolled distance dq [m]: transient only
   PlanePair before;      ///< m, history: rail minus wheel displacement of the state before; transient: at (x + dq, y);
                          ///< shift: at (x, y)
+  PlanePair traction_before;  ///< Pa, transient: of the state before at (x + dq, y), for the work of friction alone;
+                              ///< empty: not known
   Plane leading_weight;  ///< lambda in each cell (leading_weights), 0 but in the first cells of the rows; empty: whole
                          ///< cells
   Plane local_spin;  ///< 1/m, what the lateral slip has for a spin beyond `spin` in each row of cells, [j]; empty: none
@@ -70,14 +72,16 @@ struct TangentialOptions {
 
 struct TangentialSolution {
   Plane q_x, q_y;                   ///< Pa, on the rail
-  Plane slip_x, slip_y;             ///< relative to V (shift: m), of the slipping cells, along their traction
+  Plane slip_x, slip_y;             ///< relative to V (shift: m), of the slipping cells, along their traction; over the
+                                    ///< step that ends there
+  PlanePair cell_slip;              ///< the same at the middle of each cell (slip_of_cells)
   std::vector<ContactState> state;  ///< a cell whose third body yields slips
   Plane plastic;                    ///< m, plastic shear of the third body; empty: none that yields
   Plane bound;                      ///< Pa, what sticking cells carry at most; empty: the problem's traction_bound
   double creepage_x = 0, creepage_y = 0;
   double force_x = 0, force_y = 0;       ///< N, on the rail
   double moment = 0;                     ///< N m about the normal at the grid's origin, on the rail
-  double dissipation = 0;                ///< ∑ q·s dA: friction power over V [N]; shift: work [J]
+  double dissipation = 0;                ///< friction power over V [N]; shift: work [J] (dissipated, cell_slip.hpp)
   double stick_area = 0, slip_area = 0;  ///< m²
   int outer_iterations = 0,
       iterations = 0;  ///< active sets; products with the influence operator and its preconditioner

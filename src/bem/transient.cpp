@@ -48,10 +48,9 @@ class Course {
                             {.load = largest_normal_load(history_, spec.drive.friction_coefficient, placement.contact),
                              .approach = {}})),
         rolling_(patch_.contact) {
-    const NormalSolution deepest =
-        solve_normal(*patch_.influence, patch_.grid, patch_.contact.gap, patch_.contact.target, options_.normal);
     if (!patch_.grid.line)
-      require_one_plane(placement, deepest.approach, "transient.kind is followed in one plane: take it out");
+      require_one_plane(placement, patch_.frictionless.approach, "transient.kind",
+                        "transient.kind is followed in one plane: take it out");
     state_.steps = step_count(history_, spec, options.cell);
     require_a_cell();
   }
@@ -192,7 +191,8 @@ class Course {
     throw CaseError(fmt::format("no normal force balances the load at a contact angle of {:.1f} degrees: friction "
                                 "wedges the wheel",
                                 std::abs(rigid.angle) * 180 / std::numbers::pi),
-                    "lower drive.friction_coefficient, or check lateral_shift and the profiles");
+                    "lower drive.friction_coefficient, or check lateral_shift and the profiles",
+                    "drive.friction_coefficient");
   }
 
   /// Of a line contact: how far a force that changes moves distant points, and the creepage of such a step.

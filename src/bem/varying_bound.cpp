@@ -29,10 +29,10 @@ void VaryingBound::require_unique_slip(const TangentialProblem& problem, double 
   if (!problem.falling.falls() || problem.traction_bound.empty()) return;
   if (problem.kind == RollingKind::shift)
     throw CaseError("friction that falls with slip velocity has no meaning in a shift, whose slip has no velocity",
-                    "let it roll, or take friction.law = \"coulomb\"");
+                    "let it roll, or take friction.law = \"coulomb\"", "friction.law");
   if (problem.third_body.thickness > 0)
     throw CaseError("friction that falls with slip has no steady answer on an elastic third-body layer: it would jump",
-                    "leave out third_body.thickness, or take friction.law = \"coulomb\"");
+                    "leave out third_body.thickness, or take friction.law = \"coulomb\"", "third_body.thickness");
   const double bound = *std::max_element(problem.traction_bound.begin(), problem.traction_bound.end()),
                fall = -friction_share(problem.falling, {}).by_slip_velocity,
                steepness = bound * fall * problem.speed * largest;
@@ -44,7 +44,8 @@ void VaryingBound::require_unique_slip(const TangentialProblem& problem, double 
                     steady ? "steady rolling has several answers" : "massless surfaces jump from step to step"),
         steady ? "raise friction.half_velocity or friction.kinetic_coefficient, or lower drive.speed"
                : "raise friction.half_velocity or friction.kinetic_coefficient, lower drive.speed, take larger cells, "
-                 "or ask for steady rolling, which bears a steeper fall");
+                 "or ask for steady rolling, which bears a steeper fall",
+        "friction.half_velocity");
 }
 
 double VaryingBound::plastic_before(int i, std::size_t k) const {

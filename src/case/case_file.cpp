@@ -124,6 +124,20 @@ LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::s
   return loaded;
 }
 
+CaseError in_case_file(const LoadedCase& loaded, const CaseError& error) {
+  CaseSource source(loaded.file, loaded.source_text);
+  static_cast<void>(read_case_tree(source, loaded.overrides));
+  std::vector<Diagnostic> all;
+  for (const Diagnostic& d : error.diagnostics)
+    if (d.where.empty())
+      all.push_back({loaded.file.string(), d.message, d.remedy});
+    else
+      all.push_back(d.where.find(':') == std::string::npos
+                        ? source.diagnosis(d.where, fmt::format("{}: {}", d.where, d.message), d.remedy)
+                        : d);
+  return CaseError(std::move(all));
+}
+
 std::string resolved_case(const CaseSpec& given) {
   CaseSpec spec = given;
   std::string out;

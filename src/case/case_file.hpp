@@ -30,6 +30,9 @@ LoadedCase load_case(const std::filesystem::path& file, const std::vector<std::s
 LoadedCase parse_case(const std::string& text, const std::filesystem::path& file,
                       const std::vector<std::string>& overrides = {});
 
+/// The same faults, those that name a key of the case alone (in `where`) at its place in the file, others at the file.
+CaseError in_case_file(const LoadedCase& loaded, const CaseError& error);
+
 /// The spec as a case file with every option written out.
 std::string resolved_case(const CaseSpec& spec);
 

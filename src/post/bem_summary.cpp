@@ -59,7 +59,7 @@ std::vector<const BemPatch*> patches_of(const BemResult& r) {
 std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
   const bool load_given = !spec.vehicle.approach;
   const double load = load_given ? static_load(spec) : -force_on_rail(r).z;
-  double force_x = 0, force_y = 0, reached = 0, cut_off = 0, cell = 0;
+  double force_x = 0, force_y = 0, reached = 0, cut_off = 0, cell = 0, film = 0;
   for (const BemPatch* p : patches_of(r)) {
     const PatchMeasures m = measure_patch(p->field);
     force_x += m.force_x;
@@ -67,6 +67,7 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
     if (reaches_edge(p->field)) reached = 1;
     if (p->surroundings.cut_off) cut_off = 1;
     cell = std::max(cell, p->grid.dx / shorter_axis(m));
+    film = std::max(film, film_shear(spec, m));
   }
   std::vector<Check> out;
   if (load_given) out.push_back(bem_check("F_z_relative_to_weight", std::abs(-force_on_rail(r).z / load - 1)));
@@ -78,6 +79,7 @@ std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
   out.push_back(bem_check("patch_reaches_edge_of_grid", reached));
   out.push_back(bem_check("patch_cut_off", cut_off));
   out.push_back(bem_check("cell_of_patch", cell));
+  if (spec.third_body.thickness) out.push_back(bem_check("film_of_patch", film));
   return out;
 }
 
@@ -128,8 +130,15 @@ SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSumma
   return {subsurface_begin(contact.patch, first), bottom + longer_axis(contact.patch)};
 }
 
-std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& r) {
-  std::vector<Warning> out = implausible(summary, spec, r.surroundings, r.grid.dx);
+double cell_of_patch(const BemResult& r) {
+  double cell = 0;
+  for (const BemPatch* p : patches_of(r)) cell = std::max(cell, p->grid.dy / shorter_axis(measure_patch(p->field)));
+  return cell;
+}
+
+std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& r, double coarsest) {
+  const double cell = std::max(r.grid.dx, coarsest * shorter_axis(summary.contact.patch));
+  std::vector<Warning> out = implausible(summary, spec, r.surroundings, cell);
   for (std::size_t k = 0; k < r.further.size(); ++k) {
     Summary of_patch;
     of_patch.run.engine = Engine::bem;
@@ -138,6 +147,11 @@ std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, 
       add_warning(std::move(w), out);
   }
   return out;
+}
+
+void judge_coarsest_state(double coarsest, Summary& summary) {
+  for (Check& c : summary.checks)
+    if (c.name == "cell_of_patch" && coarsest > c.value) c = bem_check(c.name, coarsest);
 }
 
 Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {

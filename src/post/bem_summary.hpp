@@ -22,8 +22,14 @@ Summary bem_summary(const CaseSpec& spec, const BemResult& result);
 /// Contact and checks alone, without the stresses, which cost more than the contact itself.
 Summary bem_contact_summary(const CaseSpec& spec, const BemResult& result);
 
-/// What of a summary, with the stresses it has, is not plausible.
-std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& result);
+/// What of a summary, with the stresses it has, is not plausible. coarsest: cell_of_patch of a transient's worst state.
+std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& result,
+                                  double coarsest = 0);
+
+/// A cell, of the shorter axis of the result's smallest patch: of a transient each state has its own.
+double cell_of_patch(const BemResult& result);
+/// The check cell_of_patch of the worst state instead of the last.
+void judge_coarsest_state(double coarsest, Summary& summary);
 
 /// The stresses of one body.
 StressSummary bem_rail_stress(const BemResult& result, const ContactSummary& contact);

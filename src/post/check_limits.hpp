@@ -52,6 +52,9 @@ inline constexpr double kLargestOfRadius = 0.05;
 inline constexpr double kLargestOfEdgeDistance = 0.5;
 /// Of the contact's curvature: what other patches may bend it.
 inline constexpr double kLargestBending = 0.02;
+/// Elastic shear of a third-body layer, of half the patch's shorter axis: where what faces each other has moved apart
+/// by as much as linear theory errs elsewhere, and where the model's pairs mean nothing.
+inline constexpr double kLargestFilmShear = 0.05, kFilmShearsAway = 0.5;
 /// m, below its crest a flange has its working face. [EN15313]
 inline constexpr double kFlangeTip = 2e-3;
 /// Of the largest pressure: a tension smaller than this that goes on rising at the rim of the search is not told.
@@ -113,6 +116,10 @@ inline constexpr std::array kCheckRows{
              .name = "Patch resolved",
              .what = "a cell, of the patch's shorter axis",
              .bem_limit = kUnresolvedPatch},
+    CheckRow{.key = "film_of_patch",
+             .name = "Film holds together",
+             .what = "elastic shear of the third-body layer, of half the patch's shorter axis",
+             .bem_limit = kFilmShearsAway},
     CheckRow::of_engines("p_max", "Largest pressure", "finite elements against half-space", 0.04),
     CheckRow::of_engines("patch_length", "Patch length", "finite elements against half-space", 0.06),
     CheckRow::of_engines("q_max", "Largest shear", "finite elements against half-space", 0.07),
@@ -185,6 +192,13 @@ inline constexpr std::array kCheckRows{
              .kind = CheckKind::warning,
              .bem_limit = kLargestBending,
              .advice = "each patch is solved on its own; its largest pressure errs by about half as much"},
+    CheckRow{.key = "soft_film",
+             .name = "Soft third-body layer",
+             .what = "elastic shear of the third-body layer, of half the patch's shorter axis",
+             .kind = CheckKind::warning,
+             .bem_limit = kLargestFilmShear,
+             .advice = "the surfaces that face each other under pressure are no longer those of the model, and "
+                       "creepages no longer small; a stiffer or thinner film, or one that yields, shears less"},
     CheckRow{.key = "contact_on_flange_crest",
              .name = "Contact on the flange's crest",
              .what = "the wheel touches with its flange's crest, this far below the tape circle",

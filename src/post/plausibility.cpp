@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "model/model.hpp"
 #include "post/check_limits.hpp"
 
 namespace railstrata {
@@ -92,6 +93,10 @@ double subsurface_begin(const PatchMeasures& patch, double first_layer) {
   return std::min(0.05 * shorter_axis(patch), 0.5 * first_layer);
 }
 
+double film_shear(const CaseSpec& spec, const PatchMeasures& patch) {
+  return patch.q_max_point * third_body(spec).flexibility() / (0.5 * shorter_axis(patch));
+}
+
 std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const PatchSurroundings& around,
                                  double element) {
   Warnings out(s.run.engine);
@@ -105,6 +110,7 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const P
   if (s.run.engine == Engine::fem)
     out.above("patch_near_border_of_fine_zone", patch.width, spec.mesh.fine_width - 2 * spec.mesh.element_size);
   out.above("patches_near_each_other", around.bent_by_others);
+  if (spec.third_body.thickness) out.above("soft_film", film_shear(spec, patch));
   warn_of_second_contact(around, s.contact.contact_angle, out);
   warn_of_flange(around, out);
   warn_of_stress(s, out);

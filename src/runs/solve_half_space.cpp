@@ -1,5 +1,6 @@
 #include "runs/solve_half_space.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/parallel.hpp"
@@ -15,6 +16,8 @@ namespace {
 void summarise(const CaseSpec& spec, const TransientState& last, HalfSpaceSolution& out) {
   Summary& s = out.summary;
   s = bem_contact_summary(case_of_moment(spec, last.moment), out.result);
+  judge_coarsest_state(out.coarsest, s);
+  s.warnings = bem_warnings(s, spec, out.result, out.coarsest);
   s.state = state_words(spec, last);
   s.position = last.distance;
   s.run.steps = last.step;
@@ -30,6 +33,7 @@ void follow(const CaseSpec& spec, const Placement& placement, const BemOptions& 
             const TransientObserver& observer, HalfSpaceSolution& out) {
   TransientState last = solve_transient(spec, placement, options, [&](const TransientState& state) {
     out.history.push_back(transient_row(state));
+    out.coarsest = std::max(out.coarsest, cell_of_patch(state.result));
     out.stopped = observer && !observer(state);
     return !out.stopped;
   });
@@ -82,7 +86,7 @@ HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placem
   Summary& s = out.summary;
   s.rail = bem_rail_stress(out.result, s.contact);
   s.wheel = bem_wheel_stress(out.result, s.contact);
-  s.warnings = bem_warnings(s, spec, out.result);
+  s.warnings = bem_warnings(s, spec, out.result, out.coarsest);
   out.shakedown = half_space_shakedown(spec, out.result);
   s.shakedown = shakedown_summary(spec, out.shakedown);
   for (const SectionShakedown& section : out.shakedown) s.fatigue.push_back(section.fatigue);

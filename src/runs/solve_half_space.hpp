@@ -19,6 +19,7 @@ struct HalfSpaceSolution {
   Summary summary;   ///< with the largest stresses of both bodies
   std::vector<TransientRow> history = {};        ///< a row a step; empty in steady rolling
   std::optional<LoadedMoment> moment = {};       ///< of a transient: what holds in its last state
+  double coarsest = 0;                           ///< cell_of_patch of a transient's worst state
   std::vector<StreamlineRow> streamlines = {};   ///< of all patches, of what rolls
   std::vector<SectionShakedown> shakedown = {};  ///< of the bodies whose strength the case says
   bool stopped = false;                          ///< the observer ended the transient before its end

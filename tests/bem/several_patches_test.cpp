@@ -217,15 +217,65 @@ TEST(SeveralPatches, PatchesThatReachTheRidgeBetweenThemAreOneInThePlaneOfTheFir
   }
 }
 
-TEST(SeveralPatches, ALateralForceInOneOfTwoPlanesIsRefused) {
+TEST(SeveralPatches, ALateralCreepageIsCommonToAll) {
   CaseSpec spec = driven(0);
-  spec.drive.lateral_traction_coefficient = 0.05;
-  EXPECT_THROW(solve_bem(spec, two_crowns(0, 0), coarse()), CaseError);
-  spec.drive.lateral_traction_coefficient.reset();
   spec.drive.lateral_creepage = 1e-3;
   const BemResult r = solve_bem(spec, two_crowns(0, 0), coarse());
   EXPECT_NEAR(r.rigid_slip.y / r.further.at(0).rigid_slip.y, 1, 1e-9);
   EXPECT_GT(r.force.tangential, 0);
+}
+
+/// Lateral friction on the rail, each patch's along its own plane.
+double lateral_friction(const BemResult& r) {
+  double sum = r.force.tangential;
+  for (const BemPatch& p : r.further) sum += p.force.tangential;
+  return sum;
+}
+
+// Two equal crowns: half of each force on each, under the creepages that one crown has for those halves.
+TEST(SeveralPatches, AGivenLateralForceIsSharedByEqualOnesUnderOneCreepage) {
+  CaseSpec spec = driven(0.1);
+  spec.drive.lateral_traction_coefficient = -0.08;
+  const double weight = static_load(spec);
+  const BemResult r = solve_bem(spec, level_crowns(0), coarse());
+  ASSERT_EQ(r.further.size(), 1U);
+  EXPECT_NEAR(lateral_friction(r) / weight, 0.08, 1e-6);
+  EXPECT_NEAR(force_on_rail(r).x / weight, -0.1, 1e-6);
+  EXPECT_NEAR(-force_on_rail(r).z / weight, 1, 1e-6);
+  EXPECT_NEAR(r.force.tangential / weight, 0.04, 1e-4);
+  EXPECT_NEAR(r.rigid_slip.y, r.further[0].rigid_slip.y, 1e-12);
+  spec.vehicle.sprung_mass = 0.5 * weight / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+  const BemResult one = solve_bem(spec, two_crowns(0.025, 0), coarse());  // the other crown 0.6 mm too low
+  ASSERT_TRUE(one.further.empty());
+  EXPECT_NEAR(r.rigid_slip.y / one.rigid_slip.y, 1, 0.01);
+}
+
+// In the flange's root and on the tread, one or both forces given: the sum along the patches' own planes.
+TEST(SeveralPatches, AGivenLateralForceClosesOverInclinedOnes) {
+  CaseSpec spec = driven(0);
+  spec.geometry.wheel_profile = "S1002";
+  spec.geometry.rail_profile = "UIC60";
+  spec.geometry.gauge_depth = 14e-3;
+  spec.geometry.cant = 0.05;
+  spec.geometry.lateral_shift = 9.65e-3;
+  spec.drive.lateral_traction_coefficient = -0.05;
+  const double weight = static_load(spec);
+  const Placement p = place(spec, {});
+  BemOptions options;
+  options.cell = 1e-3;
+  for (const bool creepage : {false, true}) {
+    if (creepage) spec.drive.creepage = 0;
+    const BemResult r = solve_bem(spec, p, options);
+    ASSERT_EQ(r.further.size(), 1U);
+    EXPECT_GT(std::abs(r.contact.angle - r.further[0].contact.angle), kAngleOfOnePlane);
+    EXPECT_NEAR(lateral_friction(r) / weight, 0.05, 1e-6);
+    EXPECT_NEAR(-force_on_rail(r).z / weight, 1, 1e-6);
+    if (!creepage) {
+      EXPECT_NEAR(force_on_rail(r).x / weight, 0, 1e-6);
+    }
+    EXPECT_NEAR(r.rigid_slip.y * std::cos(r.contact.angle),
+                r.further[0].rigid_slip.y * std::cos(r.further[0].contact.angle), 1e-12);
+  }
 }
 
 TEST(SeveralPatches, TractionBeyondBothIsRefusedAndLayersAreCoupled) {

@@ -88,6 +88,28 @@ TEST(Plausibility, EachLimitSpeaksAboveAndIsSilentBelow) {
   EXPECT_EQ(s.warnings(), Names{"patches_near_each_other"});
   s.around.bent_by_others *= 0.98;
   EXPECT_EQ(s.warnings(), Names{});
+  s.spec.third_body.thickness = 20e-6;
+  s.spec.third_body.shear_modulus = 100e6;
+  s.summary.contact.patch.q_max_point = 1.01 * kLargestFilmShear * 6e-3 * 100e6 / 20e-6;
+  EXPECT_EQ(s.warnings(), Names{"soft_film"});
+  s.summary.contact.patch.q_max_point *= 0.98;
+  EXPECT_EQ(s.warnings(), Names{});
+}
+
+// 20 um of clay is silent (0.7 % at 0.2 of the weight); a jelly of 1 MPa has creepages beyond one and fails.
+TEST(Plausibility, AFilmThatIsNoFilmFailsTheCheck) {
+  CaseSpec spec = sphere();
+  spec.drive.friction_coefficient = 0.5;
+  spec.drive.traction_coefficient = 0.2;
+  spec.third_body.thickness = 20e-6;
+  spec.third_body.shear_modulus = 106e6;
+  const Summary clay = solved(spec, 1e-3);
+  EXPECT_EQ(find(clay, "soft_film"), nullptr);
+  EXPECT_TRUE(holds(clay, "film_of_patch"));
+  spec.third_body.shear_modulus = 0.5e6;
+  const Summary jelly = solved(spec, 1e-3);
+  EXPECT_NE(find(jelly, "soft_film"), nullptr);
+  EXPECT_FALSE(holds(jelly, "film_of_patch"));
 }
 
 TEST(Plausibility, FiniteElementsAreAskedForWhatTheyCannotDoAlone) {

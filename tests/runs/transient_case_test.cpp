@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "bem/film_capacity.hpp"
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
 #include "halfspace/classical_rolling.hpp"
@@ -268,6 +269,45 @@ TEST(TransientCase, AnObserverEndsIt) {
   EXPECT_TRUE(s.stopped);
   EXPECT_EQ(s.history.size(), 4u);
   EXPECT_EQ(s.summary.state, "after 3 mm of rolling from rest");
+}
+
+// A film of 10 MPa under 85 kN (118 mm2) carries 1.1 kN at most, as a row's force shows before the first step.
+TEST(TransientCase, ForcesBeyondAFilmAreToldBeforeTheFirstStepWithTheirRow) {
+  const auto message = [](const std::string& last) -> std::string {
+    const LoadedCase loaded = parse_case(
+        circle() + "[third_body]\nthickness = \"20 um\"\nshear_modulus = \"100 MPa\"\nyield_shear = \"10 MPa\"\n" +
+            "[transient]\nkind = \"rolling\"\nat_distance = [\"0 mm\", \"8 mm\"]\ntractive_force = [\"0 kN\", \"" +
+            last + "\"]\n",
+        "a.toml");
+    BemOptions options;
+    options.cell = 0.5e-3;
+    try {
+      require_film_carries(loaded.spec, place(loaded.spec, {}), options);
+    } catch (const CaseError& e) {
+      return in_case_file(loaded, e).what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message("1 kN"), "");
+  const std::string told = message("2 kN");
+  EXPECT_NE(told.find("a.toml:"), std::string::npos) << told;
+  EXPECT_NE(told.find("third_body.yield_shear: row 2 of the transient wants 2 kN"), std::string::npos) << told;
+}
+
+// The load falls to a five-thousandth on the way and comes back: the patch is 0.7 mm wide there.
+TEST(TransientCase, TooFewCellsAreToldOfTheSmallestPatchOnTheWay) {
+  const Followed run = follow(circle() +
+                                  "[transient]\nkind = \"rolling\"\nat_distance = [\"0 mm\", \"4 mm\", \"8 "
+                                  "mm\"]\nload_factor = [1, 0.0002, 1]\ntraction_coefficient = [0, 0, 0]\n",
+                              0.5e-3);
+  const Summary& s = run.solution.summary;
+  const auto check =
+      std::find_if(s.checks.begin(), s.checks.end(), [](const Check& c) { return c.name == "cell_of_patch"; });
+  ASSERT_NE(check, s.checks.end());
+  EXPECT_FALSE(check->ok);
+  EXPECT_GT(check->value, 0.35);
+  EXPECT_TRUE(std::any_of(s.warnings.begin(), s.warnings.end(),
+                          [](const Warning& w) { return w.name == "few_cells_over_patch"; }));
 }
 
 TEST(TransientCase, EveryCheckOfTheLastStateHolds) {
