@@ -2,12 +2,11 @@
 
 #include <cmath>
 
+#include "case/engine_scope.hpp"
 #include "halfspace/creep_theories.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr double kLargestCreepage = 0.1;  // of what a run may be given (case/engine_scope.cpp)
 
 RollingEllipse ellipse_of(const Model& m) {
   const auto half_space = [](const MaterialSpec& s) { return HalfSpaceMaterial{s.young, s.poisson}; };
@@ -19,7 +18,7 @@ RollingEllipse ellipse_of(const Model& m) {
 template <class Force>
 double creepage_at(double wanted, Force&& force) {
   constexpr int kHalvings = 24;  // to 1e-8
-  double low = -kLargestCreepage, high = kLargestCreepage;
+  double low = -kLargestRunCreepage, high = kLargestRunCreepage;
   for (int i = 0; i < kHalvings; ++i) {
     const double middle = 0.5 * (low + high);
     (force(middle) < wanted ? low : high) = middle;
@@ -39,13 +38,13 @@ LateralStart lateral_start(const Model& m) {
   const DriveSpec& drive = m.spec.drive;
   const RigidContact& contact = m.placement.contact;
   if (!m.spec.run.rolling) return {};
-  const double along = -drive.traction().value_or(0) * m.load, spin = -std::sin(contact.angle) / contact.rolling_radius;
+  const double along = -drive.traction().value_or(0) * m.load, spin = wheel_spin(contact);
   if (drive.lateral_traction_coefficient) {
     const RollingEllipse e = ellipse_of(m);
     const double across = -*drive.lateral_traction_coefficient * m.load;
     return {creepage_at(across, [&](double y) { return lateral_force(e, drive, along, y, spin); }), across};
   }
-  const double creepage = drive.lateral_creepage.value_or(0.0 - std::tan(contact.yaw) / std::cos(contact.angle));
+  const double creepage = drive.lateral_creepage.value_or(yaw_creepage(contact));
   if (creepage == 0 || !(drive.friction_coefficient > 0)) return {creepage, 0};
   return {creepage, lateral_force(ellipse_of(m), drive, along, creepage, spin)};
 }
