@@ -30,8 +30,6 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   if (!spec.run.rolling) return out;
   beyond(spec.friction.law != FrictionForm::coulomb, "friction.law", "friction that falls with slip",
          "surfaces chatter on a law without memory that falls faster than waves carry away");
-  beyond(spec.third_body.thickness.has_value(), "third_body.thickness", "a third-body layer",
-         "surfaces touch without a film between them");
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
   beyond(std::abs(d.creepage.value_or(0)) > kLargestRunCreepage, "drive.creepage", "so large a creepage",
          largest.c_str());
