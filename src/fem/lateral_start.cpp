@@ -1,6 +1,9 @@
 #include "fem/lateral_start.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 #include "case/engine_scope.hpp"
 #include "halfspace/creep_theories.hpp"
@@ -8,10 +11,27 @@
 namespace railstrata {
 namespace {
 
+/// The elastic shear of a film is in series with the theory's three flexibilities, 8a/(3 C11 G), 8a/(3 C22 G) and
+/// pi a²/(4 C23 G c).
 RollingEllipse ellipse_of(const Model& m) {
   const auto half_space = [](const MaterialSpec& s) { return HalfSpaceMaterial{s.young, s.poisson}; };
-  return rolling_ellipse(m.hertz, m.spec.drive.friction_coefficient, half_space(m.spec.wheel_material),
-                         half_space(m.spec.rail_material));
+  RollingEllipse e = rolling_ellipse(m.hertz, m.spec.drive.friction_coefficient, half_space(m.spec.wheel_material),
+                                     half_space(m.spec.rail_material));
+  const double film = third_body(m.spec).flexibility() * e.shear, a = m.hertz.a, c = std::sqrt(a * m.hertz.b);
+  const auto in_series = [](double& coefficient, double flexibility) {
+    if (flexibility > 0) coefficient = 1 / (1 / coefficient + flexibility);
+  };
+  in_series(e.coefficient.c11, 3 * film / (8 * a));
+  in_series(e.coefficient.c22, 3 * film / (8 * a));
+  in_series(e.coefficient.c23, 4 * film * c / (std::numbers::pi * a * a));
+  return e;
+}
+
+/// A film bears its yield shear all over the patch.
+double most_of_film(const Model& m) {
+  const ThirdBody film = third_body(m.spec);
+  return film.yields() ? std::numbers::pi * m.hertz.a * m.hertz.b * film.yield_shear
+                       : std::numeric_limits<double>::infinity();
 }
 
 /// Where a force that grows with the creepage is `wanted`; the end of the range where friction falls short of it.
@@ -45,8 +65,9 @@ LateralStart lateral_start(const Model& m) {
     return {creepage_at(across, [&](double y) { return lateral_force(e, drive, along, y, spin); }), across};
   }
   const double creepage = drive.lateral_creepage.value_or(yaw_creepage(contact));
-  if (creepage == 0 || !(drive.friction_coefficient > 0)) return {creepage, 0};
-  return {creepage, lateral_force(ellipse_of(m), drive, along, creepage, spin)};
+  if ((creepage == 0 && spin == 0) || !(drive.friction_coefficient > 0)) return {creepage, 0};
+  const double most = most_of_film(m);
+  return {creepage, std::clamp(lateral_force(ellipse_of(m), drive, along, creepage, spin), -most, most)};
 }
 
 }  // namespace railstrata
