@@ -61,8 +61,42 @@ void find_peak(const ContactField& f, int top, PatchMeasures& m) {
   }
 }
 
-double slip_share(const ContactField& f) {
+/// Length of a column's chord in which the slip share, linear between points and level beyond the outermost ones in
+/// contact, is one half or more.
+double slipping_length(const ContactField& f, int column, const Chord& chord) {
+  const auto at = [&](int s) { return s * f.columns + column; };
+  int first = f.stations, last = -1;
+  for (int s = 0; s < f.stations; ++s)
+    if (f.p[at(s)] > f.p_noise) {
+      first = std::min(first, s);
+      last = s;
+    }
+  double length = 0;
+  for (int s = std::max(first - 1, 0); s < std::min(last + 1, f.stations - 1); ++s) {
+    const auto above = [&](int k) { return f.slip_share[at(std::clamp(k, first, last))] - 0.5; };
+    const double x0 = f.x[at(s)], x1 = f.x[at(s + 1)], a0 = above(s), a1 = above(s + 1);
+    if (a0 < 0 && a1 < 0) continue;
+    const double crossing = (a0 < 0) == (a1 < 0) ? x0 : x0 + (x1 - x0) * a0 / (a0 - a1);
+    const double from = std::max(a0 < 0 ? crossing : x0, chord.begin), to = std::min(a1 < 0 ? crossing : x1, chord.end);
+    length += std::max(0.0, to - from);
+  }
+  return length;
+}
+
+double slipping_share(const ContactField& f) {
   double touching = 0, slipping = 0;
+  if (!f.slip_share.empty()) {
+    for (int c = 0; c < f.columns; ++c) {
+      const auto at = [&](int s) { return s * f.columns + c; };
+      const Chord along = chord(
+          f.stations, f.p_noise, [&](int s) { return f.x[at(s)]; }, [&](int s) { return f.p[at(s)]; });
+      if (!along.any) continue;
+      const double width = f.area[at(f.stations / 2)];  // times the distance of stations, the same for all
+      touching += width * along.length();
+      slipping += width * slipping_length(f, c, along);
+    }
+    return touching > 0 ? slipping / touching : 0;
+  }
   for (int i = 0; i < f.size(); ++i) {
     if (!(f.p[i] > f.p_noise && f.p[i] > 0)) continue;
     touching += f.area[i];
@@ -114,7 +148,7 @@ PatchMeasures measure_patch(const ContactField& f) {
   const int top = static_cast<int>(std::max_element(f.p.begin(), f.p.end()) - f.p.begin());
   find_peak(f, top, m);
   for (int i = 0; i < f.size(); ++i) add_point(m, f, i);
-  m.slip_area_fraction = slip_share(f);
+  m.slip_area_fraction = slipping_share(f);
   find_extent(f, top / f.columns, m);
   return m;
 }
