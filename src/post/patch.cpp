@@ -83,20 +83,40 @@ double slipping_length(const ContactField& f, int column, const Chord& chord) {
   return length;
 }
 
-double slipping_share(const ContactField& f) {
-  double touching = 0, slipping = 0;
-  if (!f.slip_share.empty()) {
-    for (int c = 0; c < f.columns; ++c) {
-      const auto at = [&](int s) { return s * f.columns + c; };
-      const Chord along = chord(
-          f.stations, f.p_noise, [&](int s) { return f.x[at(s)]; }, [&](int s) { return f.p[at(s)]; });
-      if (!along.any) continue;
-      const double width = f.area[at(f.stations / 2)];  // times the distance of stations, the same for all
-      touching += width * along.length();
-      slipping += width * slipping_length(f, c, along);
-    }
-    return touching > 0 ? slipping / touching : 0;
+/// What slips of the area of the chords. Beyond the outermost columns chords end like the root of the distance to the
+/// side; those in slip keep their length until the chord is no longer, as Carter's strips do.
+double slipping_share_of_chords(const ContactField& f) {
+  struct Strip {
+    double y, length, slipping;
+  };
+  std::vector<Strip> strips;
+  for (int c = 0; c < f.columns; ++c) {
+    const auto at = [&](int s) { return s * f.columns + c; };
+    const Chord along = chord(
+        f.stations, f.p_noise, [&](int s) { return f.x[at(s)]; }, [&](int s) { return f.p[at(s)]; });
+    if (along.any) strips.push_back({f.y[at(0)], along.length(), slipping_length(f, c, along)});
   }
+  double touching = 0, slipping = 0;
+  for (std::size_t k = 1; k < strips.size(); ++k) {
+    const double half = 0.5 * (strips[k].y - strips[k - 1].y);
+    touching += half * (strips[k].length + strips[k - 1].length);
+    slipping += half * (strips[k].slipping + strips[k - 1].slipping);
+  }
+  const auto add_side = [&](const Strip& inner, const Strip& last) {
+    const double step = last.y - inner.y, side = edge(inner.y, inner.length, last.y, last.length, last.y + step),
+                 area = last.length * std::abs(side - last.y), share = last.slipping / last.length;
+    touching += 2.0 / 3.0 * area;
+    slipping += (share - share * share * share / 3) * area;
+  };
+  if (strips.size() < 2) return strips.empty() ? 0 : strips[0].slipping / strips[0].length;
+  add_side(strips[1], strips[0]);
+  add_side(strips[strips.size() - 2], strips.back());
+  return slipping / touching;
+}
+
+double slipping_share(const ContactField& f) {
+  if (!f.slip_share.empty()) return slipping_share_of_chords(f);
+  double touching = 0, slipping = 0;
   for (int i = 0; i < f.size(); ++i) {
     if (!(f.p[i] > f.p_noise && f.p[i] > 0)) continue;
     touching += f.area[i];
