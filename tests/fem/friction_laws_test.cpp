@@ -15,17 +15,11 @@ namespace {
 
 using namespace fem_checks;
 
-constexpr double kFriction = 0.5;
-
-CaseSpec ball_case() {
-  CaseSpec s = small_case();
-  s.drive.friction_coefficient = kFriction;
-  s.drive.traction_coefficient = 0;
-  s.drive.torque_ramp = 0.5e-3;
+/// On a shorter way.
+CaseSpec short_ball_case() {
+  CaseSpec s = ball_case();
   s.run.positions = {0.02};
-  s.run.window = 9e-3;
   s.run.run_up = 0.015;
-  s.run.run_up_damping = 3000;
   return s;
 }
 
@@ -34,7 +28,7 @@ CaseSpec ball_case() {
 // Under a film much more flexible than the bodies each point is sheared by eta times its distance from the leading
 // edge: traction grows along each column by (G/h) eta.
 TEST(FrictionLaws, ASoftFilmIsShearedInProportionToTheDistanceFromTheLeadingEdge) {
-  CaseSpec spec = ball_case();
+  CaseSpec spec = short_ball_case();
   spec.mesh.element_size = 2e-3;
   spec.mesh.fine_depth = 4e-3;
   const double creepage = 1e-2, stiffness = 1e11;  // Pa/m
@@ -60,7 +54,7 @@ TEST(FrictionLaws, ASoftFilmIsShearedInProportionToTheDistanceFromTheLeadingEdge
 
 // A film that yields at once bears its yield shear wherever the surfaces touch, and slips there.
 TEST(FrictionLaws, AWeakFilmBearsItsYieldShear) {
-  CaseSpec spec = ball_case();
+  CaseSpec spec = short_ball_case();
   spec.drive.lateral_creepage = 0.02;
   spec.third_body.thickness = 10e-6;
   spec.third_body.shear_modulus = 1e9;
@@ -81,7 +75,7 @@ TEST(FrictionLaws, AWeakFilmBearsItsYieldShear) {
 }
 
 TEST(FrictionLaws, FrictionThatFallsWithSlipIsRefused) {
-  CaseSpec spec = ball_case();
+  CaseSpec spec = short_ball_case();
   spec.friction.law = FrictionForm::falling_rational;
   spec.friction.kinetic_coefficient = 0.4;
   spec.friction.half_velocity = 90;
@@ -91,14 +85,14 @@ TEST(FrictionLaws, FrictionThatFallsWithSlipIsRefused) {
 // A guided wheel on an inclined plane spins on its contact and starts with the friction of that: Kalker's linear theory
 // for a small spin.
 TEST(LateralStart, OfAGuidedWheelHasTheFrictionOfItsSpin) {
-  CaseSpec spec = ball_case();
+  CaseSpec spec = short_ball_case();
   EXPECT_EQ(lateral_start(build_model(spec, ".")).friction, 0) << "level";
   spec.geometry.cant = 0.02;
   const Model model = build_model(spec, ".");
   const RigidContact& contact = model.placement.contact;
   ASSERT_NEAR(std::abs(contact.angle), 0.02, 1e-4);
   const HalfSpaceMaterial steel{model.spec.rail_material.young, model.spec.rail_material.poisson};
-  const RollingEllipse ellipse = rolling_ellipse(model.hertz, kFriction, steel, steel);
+  const RollingEllipse ellipse = rolling_ellipse(model.hertz, kBallFriction, steel, steel);
   const LateralStart start = lateral_start(model);
   EXPECT_EQ(start.creepage, 0);
   EXPECT_NEAR(start.friction / linear_theory(ellipse, {0, 0, wheel_spin(contact)}).y, 1, 0.1);
