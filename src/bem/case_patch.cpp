@@ -133,10 +133,6 @@ LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body) {
   return out;
 }
 
-double wheel_spin(const RigidContact& contact) {
-  return -std::sin(contact.angle - contact.roll) / contact.rolling_radius;
-}
-
 Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidContact& contact) {
   Plane spin(static_cast<std::size_t>(grid.ny), 0.0);
   const auto row = [&](int j) { return grid.index(grid.nx / 2, j); };
@@ -154,10 +150,6 @@ Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidCo
 double geometric_spin(const CaseSpec& spec, const RigidContact& contact) {
   const std::optional<double>& radius = spec.geometry.curve_radius;
   return wheel_spin(contact) + (radius ? std::cos(contact.angle) / *radius : 0.0);
-}
-
-double yaw_creepage(const RigidContact& contact) {
-  return 0.0 - (contact.roll == 0 ? std::tan(contact.yaw) / std::cos(contact.angle) : lateral_motion(contact));
 }
 
 void drive_contact(const CaseSpec& spec, const RigidContact& contact, double weight, RollingContact& problem) {

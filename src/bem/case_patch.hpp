@@ -36,20 +36,14 @@ PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const Bem
 /// Layers of one body from the case, from the surface down; a graded one cut to its grading_tolerance.
 LayeredHalfSpace layered_body(const CaseSpec& spec, BodyId body);
 
-/// Spin that the geometry gives, 1/m: of the wheel on its contact angle delta less its roll, -sin(delta - phi)/r; of a
-/// curve of radius R (positive with its centre on the field side), in which the wheelset turns about the vertical, +
-/// cos(delta)/R.
-double wheel_spin(const RigidContact& contact);
+/// Spin that the geometry gives, 1/m: wheel_spin, and of a curve of radius R (positive with its centre on the field
+/// side), in which the wheelset turns about the vertical, + cos(delta)/R.
 double geometric_spin(const CaseSpec& spec, const RigidContact& contact);
 
 /// Spin that the lateral slip of each row of cells has beyond wheel_spin, 1/m: -sin(delta(y))/r with the angle of the
 /// middle between the two surfaces there. The wheel turns by V/r about its axle, so that a point at x moves up or down
 /// by x/r, over V, and slips by what of that lies along the surface. 0 where a profile has ended.
 Plane local_spin(const PatchGrid& grid, const ProfileGap& profile, const RigidContact& contact);
-
-/// Lateral creepage in the contact plane of a wheel with the yaw psi: -tan(psi)/cos(delta), for its surface cannot move
-/// into the rail. Like all creepages here without products of creepages.
-double yaw_creepage(const RigidContact& contact);
 
 /// Gives the problem the case's drive: creepages, or forces on the rail over the weight [N]. Without friction there are
 /// no forces.

@@ -9,7 +9,6 @@
 namespace railstrata {
 namespace {
 
-constexpr double kLargestCreepage = 0.1;
 constexpr const char* kWithHalfSpaces = "take it out, or solve the case with `railstrata bem`";
 
 }  // namespace
@@ -21,6 +20,7 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
       out.push_back({key, fmt::format("{} ({}) is not in this engine: in the finite elements {}", what, key, why),
                      kWithHalfSpaces});
   };
+  const std::string largest = fmt::format("it reaches to {:g}", kLargestRunCreepage);
   const GeometrySpec& g = spec.geometry;
   const DriveSpec& d = spec.drive;
   beyond(spec.vehicle.approach.has_value(), "vehicle.approach", "a given approach",
@@ -32,13 +32,11 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   if (!spec.run.rolling) return out;
   beyond(spec.friction.law != FrictionForm::coulomb, "friction.law", "friction that falls with slip",
          "surfaces chatter on a law without memory that falls faster than waves carry away");
-  beyond(spec.third_body.thickness.has_value(), "third_body.thickness", "a third-body layer",
-         "surfaces touch without a film between them");
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
-  beyond(std::abs(d.creepage.value_or(0)) > kLargestCreepage, "drive.creepage", "so large a creepage",
-         "it reaches to 0.1");
-  beyond(std::abs(d.lateral_creepage.value_or(0)) > kLargestCreepage, "drive.lateral_creepage",
-         "so large a lateral creepage", "the wheel moves sideways on its way, and it reaches to 0.1");
+  beyond(std::abs(d.creepage.value_or(0)) > kLargestRunCreepage, "drive.creepage", "so large a creepage",
+         largest.c_str());
+  beyond(std::abs(d.lateral_creepage.value_or(0)) > kLargestRunCreepage, "drive.lateral_creepage",
+         "so large a lateral creepage", ("the wheel moves sideways on its way, and " + largest).c_str());
   beyond(d.spin.has_value(), "drive.spin", "a given spin", "it follows from the geometry");
   return out;
 }

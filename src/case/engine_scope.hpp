@@ -7,6 +7,9 @@
 
 namespace railstrata {
 
+/// Of the creepages that a run of finite elements takes, in either direction.
+inline constexpr double kLargestRunCreepage = 0.1;
+
 /// A key of a case and why an engine does not compute it, with what to do instead.
 struct BeyondEngine {
   std::string key, message, remedy;

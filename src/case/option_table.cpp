@@ -417,7 +417,7 @@ OptionTable third_body_table() {
   using Film = ThirdBodySpec;
   return {"third_body",
           "A layer of wear debris, sand, … between the surfaces, an elastic-plastic film in shear; none without a "
-          "thickness. Half-space engine",
+          "thickness",
           {{"thickness", at<&C::third_body, &Film::thickness>, "Of the film", kLength, above(0, kMilli)},
            {"shear_modulus", at<&C::third_body, &Film::shear_modulus>, "Of the film", kPressure, above(0, 1e12)},
            {"yield_shear", at<&C::third_body, &Film::yield_shear>,

@@ -48,7 +48,17 @@ class Sweeper {
  public:
   Sweeper(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
           SurfaceTractions& tractions)
-      : rows_(rows), dt_(dt), options_(options), sys_(system), tractions_(tractions) {}
+      : rows_(rows),
+        dt_(dt),
+        options_(options),
+        film_(options.friction.film.flexibility() / dt),
+        sys_(system),
+        tractions_(tractions) {
+    system.slips.assign(rows.rows.size(), 0);
+    system.at_start.clear();
+    if (film_ > 0)
+      for (std::size_t r = 0; r < rows.rows.size(); ++r) system.at_start.push_back(node(r));
+  }
 
   Vec3 relative_velocity(std::size_t r) const { return relative(r, sys_.rail.velocity, sys_.wheel.velocity); }
   Vec3 relative(std::size_t r, const std::vector<Vec3>& rail, const std::vector<Vec3>& wheel) const {
@@ -105,9 +115,10 @@ class Sweeper {
       const Vec3 w = relative(r, sys_.rail.before, sys_.wheel.before);
       const TangentFrame f = tangent_frame(row.normal);
       t.p = options_.penalty_stiffness * std::max(0.0, -row.gap);
-      t.q1 += options_.penalty_stiffness * dt_ * dot(w, f.t1);
-      t.q2 += options_.penalty_stiffness * dt_ * dot(w, f.t2);
-      return_to_coulomb_disc(options_.friction_coefficient, t.p, t.q1, t.q2);
+      const double yields = 1 / (options_.penalty_stiffness * dt_) + film_;
+      t.q1 += dot(w, f.t1) / yields;
+      t.q2 += dot(w, f.t2) / yields;
+      return_to_friction(r, yields, before(r).plastic, t);
     }
     for (std::size_t r = 0; r < rows_.rows.size(); ++r)
       apply_traction(r, traction_vector(node(r), rows_.rows[r].normal) - last[r]);
@@ -117,12 +128,28 @@ class Sweeper {
     for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
       const TangentFrame f = tangent_frame(rows_.rows[r].normal);
       const Vec3 w = relative_velocity(r);
-      node(r).slip1 = dot(w, f.t1);
-      node(r).slip2 = dot(w, f.t2);
+      NodeTraction& t = node(r);
+      t.slip1 = dot(w, f.t1) - film_ * (t.q1 - before(r).q1);
+      t.slip2 = dot(w, f.t2) - film_ * (t.q2 - before(r).q2);
+      if (t.p <= 0) {
+        t.stuck = NodeTraction::kPause;
+        t.plastic = 0;
+        continue;
+      }
+      t.stuck = sys_.slips[r] ? 0 : std::min(t.stuck + 1, NodeTraction::kPause);
+      t.contact_time += dt_;
+      if (t.slips()) t.slip_time += dt_;
     }
   }
 
  private:
+  // Without a film nothing is asked of the tractions before the step.
+  const NodeTraction& before(std::size_t r) { return film_ > 0 ? sys_.at_start[r] : node(r); }
+  void return_to_friction(std::size_t r, double compliance, double plastic_before, NodeTraction& t) {
+    const FrictionReturn law = return_to_law(options_.friction, {t.p, compliance, dt_, plastic_before}, t.q1, t.q2);
+    sys_.slips[r] = law.slips;
+    t.plastic = law.plastic;
+  }
   NodeTraction& node(std::size_t r) { return tractions_.at(rows_.rows[r].column, rows_.rows[r].station); }
 
   double relax(std::size_t r, double diagonal) {
@@ -134,9 +161,11 @@ class Sweeper {
     const TangentFrame f = tangent_frame(row.normal);
     NodeTraction next = t;
     next.p = std::max(0.0, t.p + closing / diagonal);
-    next.q1 += dot(w, f.t1) / diagonal;
-    next.q2 += dot(w, f.t2) / diagonal;
-    return_to_coulomb_disc(options_.friction_coefficient, next.p, next.q1, next.q2);
+    const NodeTraction& start = before(r);
+    const double yields = diagonal + film_;
+    next.q1 += (dot(w, f.t1) - film_ * (t.q1 - start.q1)) / yields;
+    next.q2 += (dot(w, f.t2) - film_ * (t.q2 - start.q2)) / yields;
+    return_to_friction(r, yields, start.plastic, next);
     NodeTraction step = next;  // what this sweep changes
     step.p -= t.p;
     step.q1 -= t.q1;
@@ -150,6 +179,7 @@ class Sweeper {
   const MortarRows& rows_;
   double dt_;
   const EnforcementOptions& options_;
+  double film_;  // (m/s)/Pa that an elastic film yields
   ContactSystem& sys_;
   SurfaceTractions& tractions_;
 };

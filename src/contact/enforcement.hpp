@@ -8,12 +8,16 @@
 // solved by projected block Gauss–Seidel sweeps from the last step's tractions. It adds no stiffness, so it does not
 // lower the stable step, and leaves a penetration of the order of the solver's tolerance. penalty: p = k max(0, -g),
 // with a tangential spring of the same stiffness returned to the Coulomb disc; for comparison with codes that do so.
+//
+// A third-body film (friction/friction_step.hpp) stands in the same place as the disc: its elastic shear is added to
+// what a node yields per traction, D + (h/G)/dt, and belongs to the velocities of the step's end. A node that opens
+// meets a fresh film when it closes again.
 #include <cassert>
 
 #include "contact/mortar.hpp"
 #include "contact/surface_response.hpp"
 #include "core/rotation.hpp"
-#include "friction/coulomb.hpp"
+#include "friction/friction_step.hpp"
 
 namespace railstrata {
 
@@ -21,7 +25,15 @@ namespace railstrata {
 /// the rail, rolling direction, lateral) and slip velocity.
 struct NodeTraction {
   double p = 0, q1 = 0, q2 = 0;  ///< Pa
-  double slip1 = 0, slip2 = 0;   ///< m/s, wheel relative to rail, mean of the step
+  double slip1 = 0, slip2 = 0;   ///< m/s, wheel relative to rail, mean of the step; without a film's elastic shear
+  double plastic = 0;            ///< m, path of plastic shear of a film
+  long stuck = kPause;           ///< steps since the law last let it slip, up to kPause
+  double contact_time = 0, slip_time = 0;  ///< s, in contact and slipping since it came near the patch
+
+  /// In the fastest vibration of a mesh, three to four steps of central differences long, the pressure of a sliding
+  /// node rises so fast that it sticks for a step or two: such a pause is not the end of its slip.
+  static constexpr long kPause = 4;
+  bool slips() const { return p > 0 && stuck < kPause; }
 };
 
 /// Unit vectors of the contact plane at a rail node with the normal n = (0, n_y, n_z).
@@ -75,8 +87,10 @@ struct ContactSystem {
   bool tractions_applied = false;  ///< the free velocities contain the last step's tractions already
   int sweeps = 0;                  ///< that the multipliers took
   // room for enforce_contact, kept so that a step allocates nothing
-  std::vector<double> compliance;    ///< of the rows, (m/s)/Pa
-  std::vector<Vec3> last_tractions;  ///< of the rows, Pa; penalty only
+  std::vector<double> compliance;      ///< of the rows, (m/s)/Pa
+  std::vector<Vec3> last_tractions;    ///< of the rows, Pa; penalty only
+  std::vector<char> slips;             ///< of the rows, the law's verdict in the last sweep
+  std::vector<NodeTraction> at_start;  ///< of the rows, before the step; with a film only
 };
 
 /// Numbers the wheel nodes of the rows, each once: fills wheel_nodes, weight_node and the wheel's ring_stations.
@@ -113,7 +127,7 @@ class SurfaceTractions {
 struct EnforcementOptions {
   bool penalty = false;
   double penalty_stiffness = 0;  ///< Pa/m, penalty only
-  double friction_coefficient = 0;
+  FrictionLaws friction;
   double tolerance = 1e-11;  ///< m, change of a relative displacement per step at which the sweeps stop
   int max_sweeps = 100;
 };

@@ -68,7 +68,7 @@ class Preload {
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
       const ContactRow& row = rows_->rows[k];
-      const NodeTraction t{pressure_[k], 0, friction_ratio() * pressure_[k], 0, 0};
+      const NodeTraction t{.p = pressure_[k], .q2 = friction_ratio() * pressure_[k]};
       tractions_.at(row.column, row.station) = t;
       out.contact_force -= row.area * traction_vector(t, row.normal);
     }
@@ -182,7 +182,7 @@ class Preload {
     double normal = 0;
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) normal += rows_->rows[k].area * pressure_[k];
     return std::clamp(sys_.options.lateral_friction / std::max(normal, std::abs(sys_.options.lateral_friction)),
-                      -sys_.options.contact.friction_coefficient, sys_.options.contact.friction_coefficient);
+                      -sys_.options.contact.friction.coefficient, sys_.options.contact.friction.coefficient);
   }
   // It is a load of the step, not a part of its stiffness: pressures hardly know it.
   void apply_lateral_friction(StaticVector& f) const {

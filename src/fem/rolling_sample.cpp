@@ -118,6 +118,7 @@ RollingSample take_sample(const RollingSystem& sys, const SampledBody& rail, con
   const auto& at = sys.rail_surface().stations.at;
   const int first =
       static_cast<int>(std::lower_bound(at.begin(), at.end(), out.rail.along.front() + pose.x - 1e-9) - at.begin());
+  out.first_station = first;
   for (int j = first; j <= first + out.rail.stations; ++j)
     for (int c = 0; c < sys.rail_surface().columns; ++c) out.tractions.push_back(tractions.at(c, j));
   return out;

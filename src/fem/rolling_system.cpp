@@ -111,7 +111,7 @@ ExplicitOptions explicit_options(const Model& m) {
   out.lateral_friction = lateral.friction;
   out.contact.penalty = spec.contact.method == ContactMethod::penalty;
   out.contact.penalty_stiffness = penalty_rule(m);
-  out.contact.friction_coefficient = spec.drive.friction_coefficient;
+  out.contact.friction = {spec.drive.friction_coefficient, third_body(spec)};
   return out;
 }
 

@@ -266,6 +266,14 @@ Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point) {
   return roll(rotation_of_tangent(-track.cant), model_point);
 }
 
+double wheel_spin(const RigidContact& contact) {
+  return -std::sin(contact.angle - contact.roll) / contact.rolling_radius;
+}
+
+double yaw_creepage(const RigidContact& contact) {
+  return 0.0 - (contact.roll == 0 ? std::tan(contact.yaw) / std::cos(contact.angle) : lateral_motion(contact));
+}
+
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
   const double offset_y = lateral_offset(wheel, rail, track);
   const Gap gap(wheel, rail, track, offset_y);

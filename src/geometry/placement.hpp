@@ -40,6 +40,13 @@ struct RigidContact {
   double curvature_rolling = 0;       ///< of the wheel across them, cos(angle) / rolling_radius [1/m]
 };
 
+/// Spin of the wheel on its contact angle delta less its roll phi, -sin(delta - phi)/r [1/m].
+double wheel_spin(const RigidContact& contact);
+
+/// Lateral creepage in the contact plane of a wheel with the yaw psi: -tan(psi)/cos(delta), for its surface cannot move
+/// into the rail; with a roll as turned_wheel.hpp has it. Like all creepages here without products of creepages.
+double yaw_creepage(const RigidContact& contact);
+
 /// Rail profile frame -> model frame (rotation by atan(cant)) and back.
 Vec2 rail_to_model(const TrackGeometry& track, Vec2 rail_point);
 Vec2 model_to_rail(const TrackGeometry& track, Vec2 model_point);

@@ -262,6 +262,10 @@ constexpr auto visit_traction = [](auto& t, auto&& on) {
   on("q2", t.q2);
   on("slip1", t.slip1);
   on("slip2", t.slip2);
+  on("plastic", t.plastic);
+  on("stuck", t.stuck);
+  on("contact_time", t.contact_time);
+  on("slip_time", t.slip_time);
 };
 constexpr auto visit_axle = [](auto& a, auto&& on) {
   on("x", a.x);
@@ -372,6 +376,7 @@ void describe(Archive& a, RollingSample& s) {
   a.row("now", s, [](auto& v, auto&& on) {
     on("time", v.time);
     on("position", v.position);
+    on("first_station", v.first_station);
     visit_axle(v.axle, on);
     visit_forces(v.forces, on);
     on("creepage", v.creepage);

@@ -70,7 +70,61 @@ void find_peak(const ContactField& f, int top, PatchMeasures& m) {
   }
 }
 
-double slip_share(const ContactField& f) {
+/// Length of a column's chord in which the slip share, linear between points and level beyond the outermost ones in
+/// contact, is one half or more.
+double slipping_length(const ContactField& f, int column, const Chord& chord) {
+  const auto at = [&](int s) { return s * f.columns + column; };
+  int first = f.stations, last = -1;
+  for (int s = 0; s < f.stations; ++s)
+    if (f.p[at(s)] > f.p_noise) {
+      first = std::min(first, s);
+      last = s;
+    }
+  double length = 0;
+  for (int s = std::max(first - 1, 0); s < std::min(last + 1, f.stations - 1); ++s) {
+    const auto above = [&](int k) { return f.slip_share[at(std::clamp(k, first, last))] - 0.5; };
+    const double x0 = f.x[at(s)], x1 = f.x[at(s + 1)], a0 = above(s), a1 = above(s + 1);
+    if (a0 < 0 && a1 < 0) continue;
+    const double crossing = (a0 < 0) == (a1 < 0) ? x0 : x0 + (x1 - x0) * a0 / (a0 - a1);
+    const double from = std::max(a0 < 0 ? crossing : x0, chord.begin), to = std::min(a1 < 0 ? crossing : x1, chord.end);
+    length += std::max(0.0, to - from);
+  }
+  return length;
+}
+
+/// What slips of the area of the chords. Beyond the outermost columns chords end like the root of the distance to the
+/// side; those in slip keep their length until the chord is no longer, as Carter's strips do.
+double slipping_share_of_chords(const ContactField& f) {
+  struct Strip {
+    double y, length, slipping;
+  };
+  std::vector<Strip> strips;
+  for (int c = 0; c < f.columns; ++c) {
+    const auto at = [&](int s) { return s * f.columns + c; };
+    const Chord along = chord(
+        f.stations, f.p_noise, [&](int s) { return f.x[at(s)]; }, [&](int s) { return f.p[at(s)]; });
+    if (along.any) strips.push_back({f.y[at(0)], along.length(), slipping_length(f, c, along)});
+  }
+  double touching = 0, slipping = 0;
+  for (std::size_t k = 1; k < strips.size(); ++k) {
+    const double half = 0.5 * (strips[k].y - strips[k - 1].y);
+    touching += half * (strips[k].length + strips[k - 1].length);
+    slipping += half * (strips[k].slipping + strips[k - 1].slipping);
+  }
+  const auto add_side = [&](const Strip& inner, const Strip& last) {
+    const double step = last.y - inner.y, side = edge(inner.y, inner.length, last.y, last.length, last.y + step),
+                 area = last.length * std::abs(side - last.y), share = last.slipping / last.length;
+    touching += 2.0 / 3.0 * area;
+    slipping += (share - share * share * share / 3) * area;
+  };
+  if (strips.size() < 2) return strips.empty() ? 0 : strips[0].slipping / strips[0].length;
+  add_side(strips[1], strips[0]);
+  add_side(strips[strips.size() - 2], strips.back());
+  return slipping / touching;
+}
+
+double slipping_share(const ContactField& f) {
+  if (!f.slip_share.empty()) return slipping_share_of_chords(f);
   double touching = 0, slipping = 0;
   for (int i = 0; i < f.size(); ++i) {
     if (!(f.p[i] > f.p_noise && f.p[i] > 0)) continue;
@@ -128,7 +182,7 @@ PatchMeasures measure_patch(const ContactField& f) {
   const int top = point_of_largest_pressure(f);
   find_peak(f, top, m);
   for (int i = 0; i < f.size(); ++i) add_point(m, f, i);
-  m.slip_area_fraction = slip_share(f);
+  m.slip_area_fraction = slipping_share(f);
   find_extent(f, top / f.columns, m);
   return m;
 }

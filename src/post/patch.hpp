@@ -16,7 +16,8 @@ struct PatchMeasures {
   /// contact has no width: NaN
   double length = 0, width = 0;
   double area = 0;  ///< m², from the chords of the columns
-  /// area of slipping points / area of points in contact (those with p above ContactField::p_noise)
+  /// area of slipping points / area of points in contact (those with p above ContactField::p_noise); where
+  /// ContactField::slip_share is known, of the columns' chords, cut where it passes one half
   double slip_area_fraction = 0;
   double force_x = 0, force_y = 0, force_z = 0;  ///< N on the wheel, sums of area times traction (z: normal)
 };

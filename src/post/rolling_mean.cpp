@@ -10,19 +10,36 @@
 namespace railstrata {
 namespace {
 
-constexpr double kNoise = 0.025;         // of p_max: points below are left out of areas and ratios
-constexpr double kSlipFraction = 0.999;  // of the friction limit
+constexpr double kNoise = 0.025;  // of p_max: points below are left out of areas and ratios
 
-void set_states(ContactField& f, double friction) {
+template <class Slips>
+void set_states(ContactField& f, Slips&& slips) {
   const double p_max = f.p.empty() ? 0 : *std::max_element(f.p.begin(), f.p.end());
   f.p_noise = kNoise * p_max;
-  for (int i = 0; i < f.size(); ++i) {
-    if (f.p[i] <= 0)
-      f.state[i] = ContactState::separated;
-    else
-      f.state[i] = std::hypot(f.q_x[i], f.q_y[i]) >= kSlipFraction * friction * f.p[i] ? ContactState::slip
-                                                                                       : ContactState::stick;
+  for (int i = 0; i < f.size(); ++i)
+    f.state[i] = f.p[i] <= 0 ? ContactState::separated : slips(i) ? ContactState::slip : ContactState::stick;
+}
+
+/// From one sample to the next each node passes an element, from one point of the moving field to another: of the
+/// element around a point there are half of the way to it and half of the way from it. Empty of a single sample.
+std::vector<double> slip_shares(const std::vector<RollingSample>& samples, int columns) {
+  if (samples.size() < 2) return {};
+  const auto points = static_cast<std::ptrdiff_t>(samples.front().tractions.size());
+  std::vector<double> slipped(points, 0.0), touched(points, 0.0);
+  for (std::size_t k = 1; k < samples.size(); ++k) {
+    const RollingSample &before = samples[k - 1], &after = samples[k];
+    const std::ptrdiff_t moved = static_cast<std::ptrdiff_t>(after.first_station - before.first_station) * columns;
+    for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, -moved); i < std::min(points, points - moved); ++i) {
+      const NodeTraction &from = before.tractions[i + moved], &to = after.tractions[i];
+      if (to.contact_time < from.contact_time) continue;  // it has left the patch's neighbourhood
+      for (const std::ptrdiff_t point : {i + moved, i}) {
+        slipped[point] += to.slip_time - from.slip_time;
+        touched[point] += to.contact_time - from.contact_time;
+      }
+    }
   }
+  for (std::ptrdiff_t i = 0; i < points; ++i) slipped[i] = touched[i] > 0 ? slipped[i] / touched[i] : 0.0;
+  return slipped;
 }
 
 void add(BandSample& sum, const BandSample& s, double weight) {
@@ -61,7 +78,7 @@ ContactField contact_field(const RollingSystem& sys, const RollingSample& s) {
       f.slip_x[i] = t.slip1;
       f.slip_y[i] = t.slip2;
     }
-  set_states(f, sys.model.spec.drive.friction_coefficient);
+  set_states(f, [&](int i) { return s.tractions[i].slips(); });
   return f;
 }
 
@@ -71,13 +88,12 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
   m.position = group.position;
   m.samples = static_cast<int>(group.samples.size());
   const double weight = 1.0 / m.samples;
-  double p_sum = 0, p_square = 0, slip = 0;
+  double p_sum = 0, p_square = 0;
   for (const RollingSample& s : group.samples) {
     const ContactField f = contact_field(sys, s);
     const PatchMeasures patch = measure_patch(f);
     p_sum += patch.p_max;
     p_square += patch.p_max * patch.p_max;
-    slip += weight * patch.slip_area_fraction;
     if (m.field.size() == 0) {
       m.field = f;
       for (auto* a : {&m.field.x, &m.field.p, &m.field.q_x, &m.field.q_y, &m.field.slip_x, &m.field.slip_y})
@@ -102,14 +118,15 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     m.creepage += weight * s.creepage;
     m.lateral_creepage += weight * s.lateral_creepage;
     m.axle_z += weight * s.axle.z;
-    if (s.axle.vx > 0) m.spin_per_m -= weight * s.axle.spin / s.axle.vx * std::sin(sys.model.placement.contact.angle);
+    if (s.axle.vx > 0) m.spin_per_m += weight * (1 - s.creepage) * wheel_spin(sys.model.placement.contact);
     add(m.rail, s.rail, weight);
     add(m.wheel, s.wheel, weight);
   }
-  // a point slips if it does in the mean; areas keep the samples' own ratio
-  set_states(m.field, sys.model.spec.drive.friction_coefficient);
+  if (std::vector<double> shares = slip_shares(group.samples, m.field.columns); !shares.empty()) {
+    m.field.slip_share = std::move(shares);
+    set_states(m.field, [&](int i) { return m.field.slip_share[i] >= 0.5; });
+  }
   m.patch = measure_patch(m.field);
-  m.patch.slip_area_fraction = slip;
   const double mean = p_sum * weight;
   m.p_max_scatter = mean > 0 ? std::sqrt(std::max(0.0, p_square * weight - mean * mean)) / mean : 0;
   return m;

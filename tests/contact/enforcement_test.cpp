@@ -53,7 +53,7 @@ struct Impact {
   const NodeTraction& traction(std::size_t r) const { return memory.at(rows.rows[r].column, rows.rows[r].station); }
 };
 
-EnforcementOptions exact(double friction = kFriction) { return {false, 0, friction, 1e-19, 20000}; }
+EnforcementOptions exact(double friction = kFriction) { return {false, 0, {friction, {}}, 1e-19, 20000}; }
 
 }  // namespace
 
@@ -89,6 +89,93 @@ TEST(Multipliers, SatisfySignoriniAndCoulombAtTheEndOfTheStep) {
   EXPECT_GT(open, 10);
   EXPECT_GT(stick, 4);
   EXPECT_GT(sliding, 4);
+}
+
+// Where the law lets a node slip, its traction is on the disc and the surfaces slide; where it does not, they do not.
+TEST(Multipliers, AnswerWhichNodesSlip) {
+  constexpr double kLow = 0.15, kPressure = 1e6, kSpeed = 1e-8;
+  const Impact c(exact(kLow), -2e-6);
+  int slipping = 0, sticking = 0;
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    const NodeTraction& t = c.traction(r);
+    EXPECT_EQ(t.contact_time, t.p > 0 ? kStep : 0);
+    EXPECT_EQ(t.slip_time, t.slips() ? kStep : 0);
+    if (t.p < kPressure) continue;
+    EXPECT_EQ(t.slips(), std::hypot(t.slip1, t.slip2) > kSpeed);
+    EXPECT_EQ(t.slips(), std::hypot(t.q1, t.q2) > kLow * t.p * (1 - 1e-9));
+    ++(t.slips() ? slipping : sticking);
+  }
+  EXPECT_GT(slipping, 4);
+  EXPECT_GT(sticking, 4);
+}
+
+// A node that slid counts as sliding through a pause shorter than the mesh's fastest vibration, and no longer.
+TEST(Multipliers, TakeAShortPauseForSlip) {
+  Impact c(exact());
+  const auto after_steps = [&](long steps, bool slides) {
+    for (NodeTraction& t : c.memory.all())
+      if (t.p > 0) {
+        t.stuck = slides ? 0 : NodeTraction::kPause;
+        t.slip_time = 0;
+      }
+    for (long k = 0; k < steps; ++k) {  // what was reached is kept: nothing slips in these steps
+      ContactSystem again = c.after;
+      for (Vec3& v : again.rail.velocity) v = {};
+      for (Vec3& v : again.wheel.velocity) v = {};
+      MortarRows touching = c.rows;
+      for (ContactRow& row : touching.rows) row.gap = 0;
+      again.tractions_applied = true;
+      enforce_contact(touching, kStep, exact(10), again, c.memory);
+    }
+    int slipping = 0;
+    for (const NodeTraction& t : c.memory.all()) slipping += t.slips();
+    return slipping;
+  };
+  EXPECT_EQ(after_steps(2, false), 0);
+  EXPECT_GT(after_steps(NodeTraction::kPause - 1, true), 4);
+  EXPECT_EQ(after_steps(NodeTraction::kPause, true), 0);
+}
+
+// An elastic film shears by (h/G) q; with friction that never slips that is all of the motion.
+TEST(Multipliers, LeaveAnElasticFilmItsShear) {
+  EnforcementOptions options = exact(1e6);
+  options.friction.film = {2e-6, 1e8, 0, 0};
+  const Impact c(options, -2e-6);
+  int pressed = 0;
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    const NodeTraction& t = c.traction(r);
+    if (t.p < 1e6) continue;
+    ++pressed;
+    const TangentFrame f = tangent_frame(c.rows.rows[r].normal);
+    const Vec3 w = c.slip(c.after, r);
+    EXPECT_NEAR(dot(w, f.t1) * kStep, 2e-14 * t.q1, 1e-6 * kStep);
+    EXPECT_NEAR(dot(w, f.t2) * kStep, 2e-14 * t.q2, 1e-6 * kStep);
+    EXPECT_NEAR(std::hypot(t.slip1, t.slip2), 0, 1e-6);
+    EXPECT_FALSE(t.slips());
+  }
+  EXPECT_GT(pressed, 10);
+}
+
+// A film that yields carries tau_c0 + k u_pl, u_pl being the path that is not elastic.
+TEST(Multipliers, LeaveAPlasticFilmItsPath) {
+  EnforcementOptions options = exact(1e6);
+  const ThirdBody film = options.friction.film = {2e-6, 1e8, 2e6, 4e12};
+  Impact c(options, -2e-6);
+  int yielding = 0;
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    const NodeTraction& t = c.traction(r);
+    if (t.p < 1e6) continue;
+    const double q = std::hypot(t.q1, t.q2), path = kStep * std::hypot(t.slip1, t.slip2);
+    EXPECT_NEAR(t.plastic, path, 1e-6 * path + 1e-13);
+    EXPECT_LE(q, (film.yield_shear + film.hardening * t.plastic) * (1 + 1e-9));
+    EXPECT_NEAR(t.slips() ? q : 0, t.slips() ? film.yield_shear + film.hardening * t.plastic : 0, 1e-6 * q);
+    yielding += t.slips();
+  }
+  EXPECT_GT(yielding, 10);
+  for (ContactRow& row : c.rows.rows) row.gap = 1e-3;
+  ContactSystem lifted = c.before;
+  enforce_contact(c.rows, kStep, options, lifted, c.memory);
+  for (const NodeTraction& t : c.memory.all()) EXPECT_EQ(t.plastic, 0) << "opened, the node meets a fresh film";
 }
 
 TEST(Multipliers, KeepLinearMomentum) {
@@ -281,7 +368,7 @@ TEST(Multipliers, ThatTheFreeVelocitiesContainAreNotAppliedTwice) {
 }
 
 TEST(Penalty, PressureIsStiffnessTimesPenetrationAndFrictionStaysOnTheCoulombDisc) {
-  const EnforcementOptions options{true, 5e13, kFriction, 0, 0};
+  const EnforcementOptions options{true, 5e13, {kFriction, {}}, 0, 0};
   const Impact c(options);
   int pressed = 0;
   for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
@@ -294,7 +381,7 @@ TEST(Penalty, PressureIsStiffnessTimesPenetrationAndFrictionStaysOnTheCoulombDis
 }
 
 TEST(Penalty, TangentialSpringIsStretchedByTheLastStepsMotionNotByTheFreeOne) {
-  const EnforcementOptions options{true, 5e13, 1e6, 0, 0};  // friction that never slips
+  const EnforcementOptions options{true, 5e13, {1e6, {}}, 0, 0};  // friction that never slips
   const Impact c(options);
   for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
     if (c.traction(r).p <= 0) continue;

@@ -31,7 +31,7 @@ TangentialLook look(const RollingSystem& system, const Stepper& st) {
                        0.25 * (rail.width[c - 1] + rail.width[c]) * (rail.stations.at[j + 1] - rail.stations.at[j - 1]),
                    q = std::hypot(t.q1, t.q2);
       out.contact_area += area;
-      if (q < 0.999 * friction * t.p) out.stick_area += area;
+      if (!t.slips()) out.stick_area += area;
       if (std::hypot(rail.node[c].y, rail.stations.at[j]) < out.h)
         out.centre_traction = std::max(out.centre_traction, q / (friction * system.model.hertz.p0));
     }

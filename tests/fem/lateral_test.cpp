@@ -12,21 +12,6 @@ namespace {
 
 using namespace fem_checks;
 
-constexpr double kFriction = 0.5;
-
-/// A ball of a wheel on a plane: its contact does not know a yaw, and its contact plane lies level.
-CaseSpec ball_case() {
-  CaseSpec s = small_case();
-  s.drive.friction_coefficient = kFriction;
-  s.drive.traction_coefficient = 0;
-  s.drive.torque_ramp = 0.5e-3;
-  s.run.positions = {0.06};
-  s.run.window = 9e-3;
-  s.run.run_up = 0.03;
-  s.run.run_up_damping = 3000;
-  return s;
-}
-
 double largest_pressure(const std::vector<NodeTraction>& tractions) {
   double p = 0;
   for (const NodeTraction& t : tractions) p = std::max(p, t.p);
@@ -93,7 +78,7 @@ TEST(Lateral, AYawedBallPullsLikeOneThatMovesSideways) {
   const Rolled a = rolled(yawed), b = rolled(moved);
   EXPECT_NEAR(a.lateral_creepage, -2e-3, 1e-6);
   EXPECT_NEAR(b.lateral_creepage, -2e-3, 1e-6);
-  EXPECT_GT(a.y, 0.1 * kFriction * a.z) << "slipping to the gauge side it is pushed to the field side";
+  EXPECT_GT(a.y, 0.1 * kBallFriction * a.z) << "slipping to the gauge side it is pushed to the field side";
   EXPECT_NEAR(a.y / b.y, 1, 0.01);
   EXPECT_NEAR(a.p_max / b.p_max, 1, 0.005);
   EXPECT_LT(a.closure, 1e-2);
@@ -124,7 +109,7 @@ TEST(Lateral, FullSlipBearsAllTheFriction) {
   spec.drive.lateral_creepage = 0.05;
   spec.run.positions = {0.02};
   const Rolled m = rolled(spec);
-  EXPECT_NEAR(m.y / (-kFriction * m.z), 1, 2e-3);
+  EXPECT_NEAR(m.y / (-kBallFriction * m.z), 1, 2e-3);
 }
 
 // The axle starts with the friction and an estimate of its creepage, and rings about them by the estimate's error on

@@ -93,6 +93,16 @@ TEST(Resume, WithAPenaltyToo) {
   expect_same_bits(spec);
 }
 
+TEST(Resume, OnAFilmThatYieldsToo) {
+  CaseSpec spec = damped_case();
+  spec.drive.lateral_creepage = 1e-3;
+  spec.third_body.thickness = 10e-6;
+  spec.third_body.shear_modulus = 1e8;
+  spec.third_body.yield_shear = 30e6;
+  spec.third_body.hardening = 1e12;
+  expect_same_bits(spec);
+}
+
 // A guard that speaks in the second window, long after the last good state: what is saved goes on to the bits of a run
 // to which nothing happened.
 TEST(Resume, FromTheLastGoodStateToo) {

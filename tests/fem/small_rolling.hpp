@@ -27,6 +27,21 @@ inline CaseSpec small_case() {
   return s;
 }
 
+inline constexpr double kBallFriction = 0.5;
+
+/// A ball of a wheel on a plane: its contact does not know a yaw, and its contact plane lies level.
+inline CaseSpec ball_case() {
+  CaseSpec s = small_case();
+  s.drive.friction_coefficient = kBallFriction;
+  s.drive.traction_coefficient = 0;
+  s.drive.torque_ramp = 0.5e-3;
+  s.run.positions = {0.06};
+  s.run.window = 9e-3;
+  s.run.run_up = 0.03;
+  s.run.run_up_damping = 3000;
+  return s;
+}
+
 /// With a layer of a millimetre on 4 mm elements.
 inline CaseSpec thinly_layered(CaseSpec s, TimeStepMethod method) {
   s.layers.emplace_back();

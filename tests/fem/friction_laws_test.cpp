@@ -1,0 +1,104 @@
+// Third-body films under a rolling ball, and the start of a wheel that spins on its contact.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "core/faults.hpp"
+#include "fem/lateral_start.hpp"
+#include "fem/rolling_run.hpp"
+#include "halfspace/creep_theories.hpp"
+#include "small_rolling.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace fem_checks;
+
+/// On a shorter way.
+CaseSpec short_ball_case() {
+  CaseSpec s = ball_case();
+  s.run.positions = {0.02};
+  s.run.run_up = 0.015;
+  return s;
+}
+
+}  // namespace
+
+// Under a film much more flexible than the bodies each point is sheared by eta times its distance from the leading
+// edge: traction grows along each column by (G/h) eta.
+TEST(FrictionLaws, ASoftFilmIsShearedInProportionToTheDistanceFromTheLeadingEdge) {
+  CaseSpec spec = short_ball_case();
+  spec.mesh.element_size = 2e-3;
+  spec.mesh.fine_depth = 4e-3;
+  const double creepage = 1e-2, stiffness = 1e11;  // Pa/m
+  spec.drive.lateral_creepage = creepage;
+  spec.third_body.thickness = 100e-6;
+  spec.third_body.shear_modulus = 100e-6 * stiffness;
+  const RollingSystem system = small_system(spec);
+  const RunResult run = run_rolling(system, {});
+  const int columns = system.rail_surface().columns, middle = columns / 2;
+  double slope = 0;
+  int pairs = 0;
+  for (const RollingSample& s : run.positions.back().samples)
+    for (int j = 0; j < s.rail.stations; ++j) {
+      const NodeTraction &behind = s.tractions[j * columns + middle], &ahead = s.tractions[(j + 1) * columns + middle];
+      if (std::min(behind.p, ahead.p) < 0.3 * system.model.hertz.p0) continue;
+      slope += (behind.q2 - ahead.q2) / (s.rail.along[j + 1] - s.rail.along[j]);
+      ++pairs;
+      EXPECT_FALSE(behind.slips());
+    }
+  ASSERT_GT(pairs, 10);
+  EXPECT_NEAR(slope / pairs / (stiffness * creepage), 1, 0.02);
+}
+
+// A film that yields at once bears its yield shear wherever the surfaces touch, and slips there.
+TEST(FrictionLaws, AWeakFilmBearsItsYieldShear) {
+  CaseSpec spec = short_ball_case();
+  spec.drive.lateral_creepage = 0.02;
+  spec.third_body.thickness = 10e-6;
+  spec.third_body.shear_modulus = 1e9;
+  spec.third_body.yield_shear = 20e6;
+  const RollingSystem system = small_system(spec);
+  EXPECT_NEAR(std::abs(system.options.lateral_friction),
+              20e6 * std::numbers::pi * system.model.hertz.a * system.model.hertz.b, 1.0);
+  const RunResult run = run_rolling(system, {});
+  int yielding = 0;
+  for (const NodeTraction& t : run.positions.back().samples.back().tractions) {
+    if (t.p < 0.3 * system.model.hertz.p0) continue;
+    ++yielding;
+    EXPECT_TRUE(t.slips());
+    EXPECT_NEAR(std::hypot(t.q1, t.q2), 20e6, 1.0);
+    EXPECT_GT(t.plastic, 0);
+  }
+  EXPECT_GT(yielding, 3);
+}
+
+TEST(FrictionLaws, FrictionThatFallsWithSlipIsRefused) {
+  CaseSpec spec = short_ball_case();
+  spec.friction.law = FrictionForm::falling_rational;
+  spec.friction.kinetic_coefficient = 0.4;
+  spec.friction.half_velocity = 90;
+  EXPECT_THROW(small_system(spec), CaseError);
+}
+
+// A guided wheel on an inclined plane spins on its contact and starts with the friction of that: Kalker's linear theory
+// for a small spin.
+TEST(LateralStart, OfAGuidedWheelHasTheFrictionOfItsSpin) {
+  CaseSpec spec = short_ball_case();
+  EXPECT_EQ(lateral_start(build_model(spec, ".")).friction, 0) << "level";
+  spec.geometry.cant = 0.02;
+  const Model model = build_model(spec, ".");
+  const RigidContact& contact = model.placement.contact;
+  ASSERT_NEAR(std::abs(contact.angle), 0.02, 1e-4);
+  const HalfSpaceMaterial steel{model.spec.rail_material.young, model.spec.rail_material.poisson};
+  const RollingEllipse ellipse = rolling_ellipse(model.hertz, kBallFriction, steel, steel);
+  const LateralStart start = lateral_start(model);
+  EXPECT_EQ(start.creepage, 0);
+  EXPECT_NEAR(start.friction / linear_theory(ellipse, {0, 0, wheel_spin(contact)}).y, 1, 0.1);
+  const RollingSystem system = small_system(spec);
+  EXPECT_EQ(system.options.lateral_speed, 0);
+  EXPECT_EQ(system.options.lateral_friction, start.friction);
+}
+
+}  // namespace railstrata
