@@ -28,10 +28,11 @@ struct InBounds {
     return (may_be_empty || !v->empty()) &&
            std::all_of(v->begin(), v->end(), [&](double x) { return option.range.holds(x); });
   }
-  bool operator()(const std::vector<ModulusPoint>* v) const {
-    return std::all_of(v->begin(), v->end(), [](const ModulusPoint& p) {
-      return table_depth().range.holds(p.depth) && table_young().range.holds(p.young);
-    });
+  bool operator()(const RowsSlot& v) const {
+    for (const std::vector<double>& row : *v)
+      for (std::size_t k = 0; k < row.size(); ++k)
+        if (!option.columns.at(k).range.holds(row[k])) return false;
+    return true;
   }
 };
 

@@ -469,12 +469,13 @@ class Solver {
             if (set_[i] == kOutside) continue;
             const double x = given_.rigid[i] + creepage_[0], y = given_.rigid[n_ + i] + creepage_[1], g = bound_[i];
             const double across = (slip_[i] * q_[n_ + i] - lateral_slip(i) * q_[i]) / g;
+            const double against = std::min(0.0, slip_[i] * q_[i] + slip_[n_ + i] * q_[n_ + i]) / g;
             part[k].rigid = std::max(
                 {part[k].rigid, x * x + y * y,
                  1e-4 * (given_.history[i] * given_.history[i] + given_.history[n_ + i] * given_.history[n_ + i])});
             part[k].wrong =
-                std::max(part[k].wrong,
-                         set_[i] == kStick ? slip_[i] * slip_[i] + slip_[n_ + i] * slip_[n_ + i] : across * across);
+                std::max(part[k].wrong, set_[i] == kStick ? slip_[i] * slip_[i] + slip_[n_ + i] * slip_[n_ + i]
+                                                          : across * across + against * against);
           }
         },
         2);

@@ -73,7 +73,7 @@ struct GeometrySpec {
 
 struct MaterialSpec {
   double young = 210e9, poisson = 0.3, density = 7800.0;
-  StrengthSpec strength;
+  StrengthSpec strength = {};
 };
 
 /// Young's modulus at a depth below a layer's top; linear between two of them.

@@ -73,6 +73,18 @@ TEST(LineContact, CreepageIsCarters) {
   }
 }
 
+// Every cell slides: one that was turned the wrong way round on the way there has to turn back.
+TEST(LineContact, FullSlidingHasFrictionAgainstTheSlipInEveryCell) {
+  for (const int cells : {40, 80, 100}) {
+    const Cylinder c(cells);
+    RollingContact sliding = c.contact();
+    sliding.x.creepage = -0.3;
+    const TangentialSolution s = solve_rolling(c.influence, c.grid, sliding).tangential;
+    EXPECT_NEAR(s.force_x / (-c.kFriction * c.load), 1, 1e-9) << cells;
+    for (const double q : s.q_x) EXPECT_LE(q, 0) << cells;
+  }
+}
+
 // What the creepage puts in is what friction takes, but for what the grid loses, of first order in a cell.
 TEST(LineContact, PowerOfTheForceIsDissipated) {
   double missing[2];

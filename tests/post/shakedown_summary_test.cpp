@@ -90,6 +90,27 @@ TEST(ShakedownSummary, OneTrackLiesBetweenAnyTrafficAndTheUpperBound) {
   EXPECT_LE(sliding.factors.single_track, sliding.factors.upper);
 }
 
+// Plane strain, full slip: first yield, shakedown and kinematic limit of docs/damage.md; p0/k.
+TEST(ShakedownSummary, OfALineContactIsTheClosedFormsStress) {
+  CaseSpec spec = frictionless();
+  spec.geometry.contact = ContactShape::line;
+  spec.geometry.line_length = 20e-3;
+  spec.geometry.rail_profile = spec.geometry.wheel_profile = "flat";
+  spec.geometry.wheel_radius = 0.5;
+  spec.drive.creepage = -0.3;
+  struct Row {
+    double friction, first_yield, wandering, kinematic;
+  };
+  for (const Row& row : {Row{0, 3.107, 4.0, 4.0}, Row{0.2, 2.936, 3.202, 3.944}, Row{0.4, 2.123, 2.319, 2.407}}) {
+    spec.drive.friction_coefficient = row.friction;
+    const Found found = shakedown_of(spec, 0.125e-3, true);
+    EXPECT_NEAR(found.limit(&ShakedownFactors::first_yield) / row.first_yield, 1, 5e-3) << row.friction;
+    EXPECT_NEAR(found.limit(&ShakedownFactors::wandering) / row.wandering, 1, 5e-3) << row.friction;
+    EXPECT_NEAR(found.limit(&ShakedownFactors::kinematic) / row.kinematic, 1, 5e-3) << row.friction;
+    EXPECT_EQ(found.factors.single_track, found.factors.wandering) << "one line is every line";
+  }
+}
+
 TEST(ShakedownSummary, ProcessStressMovesFirstYieldAlone) {
   CaseSpec spec = frictionless();
   const Found without = shakedown_of(spec, 0.5e-3);
