@@ -6,6 +6,7 @@ import math
 import pathlib
 import signal
 import sys
+import tomllib
 import unittest
 import xml.etree.ElementTree
 
@@ -66,7 +67,7 @@ class HalfSpaceCommands(FromOutside):
     def test_the_shipped_cases_are_within_the_domain_of_validity(self):
         # the elastic stresses of wheel and rail are above yield, which is said; nothing else is
         for case in sorted((SOURCE / "cases").rglob("*.toml")):
-            if case.name.endswith("expect.toml") or case.name == "study.toml":
+            if case.name.endswith("expect.toml") or "study" in tomllib.loads(case.read_text()):
                 continue
             summary = json.loads(self.done("bem", case, "--threads", "1", "--json", "--no-report", "--force", "--out",
                                            self.folder / "shipped"))
@@ -240,7 +241,7 @@ young_ratio = 2.0
         last = {m: max(float(row["depth_mm"]) for row in rows if row["material"] == m) for m in ["1", "2"]}
         self.assertEqual((round(last["1"], 9), round(last["2"], 9)), (3, 4))
         self.refused(2, ["bem", case, "--set", "layer.0.young_table=[[\"0 mm\", \"420 GPa\"]]"],
-                     "layer.0.young_table: needs at least two rows", "remedy: write a list of depths and moduli")
+                     "layer.0.young_table: needs at least two rows", "remedy: write a table whose rows have a depth and a modulus")
 
     def test_a_note_of_one_of_two_patches_names_it(self):
         words = ["--set", "friction.law=falling_exponential", "--set", "friction.kinetic_coefficient=0.1", "--set",

@@ -177,7 +177,7 @@ class Run(Page):
             "c.innerText, c.parentElement.cells[1].innerText])")
         self.assertGreater(len(shown), 20)
         units = {"MPa": 1e6, "mm": 1e-3, "mm²": 1e-6, "%": 1e-2, "kN": 1e3, "10⁻³": 1e-3, "1/m": 1, "µm": 1e-6,
-                 "nm": 1e-9, "N m": 1}
+                 "nm": 1e-9, "N m": 1, "N": 1, "K": 1, "": 1}
         summaries, seen = [summary_of(FEM), summary_of(HALF_SPACE)], {}
         for path, text, unit in shown:
             run = seen[path] = seen.get(path, -1) + 1

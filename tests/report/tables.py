@@ -6,7 +6,7 @@ def read_table(file):
     """Column name -> numbers."""
     with open(file) as stream:
         rows = list(csv.reader(line for line in stream if not line.startswith("#")))
-    return {name: [float(row[k]) for row in rows[1:]] for k, name in enumerate(rows[0])}
+    return {name: [float(row[k] or "nan") for row in rows[1:]] for k, name in enumerate(rows[0])}
 
 
 def row_borders(depth):

@@ -49,6 +49,7 @@ const Names kPosition{"centre_line.csv",
                       "rail_cross_section.csv",
                       "rail_longitudinal_section.csv",
                       "rail_surface.vtp",
+                      "streamlines.csv",
                       "summary.json",
                       "view.py",
                       "wheel_cross_section.csv",
@@ -190,7 +191,9 @@ TEST_F(WriteResult, ATransientLeavesItsHistoryAndFramesAsItGoes) {
 TEST_F(WriteResult, TheSlipOfAShiftIsReadBackAsADistance) {
   const HalfSpaceSolution solution = solve_and_write(
       folder, {"transient.kind=shift", "transient.displacement=[\"2 um\"]", "output.patch_series=false"});
-  EXPECT_EQ(names_in(folder), with(kPosition, {"history.csv"})) << "no series is wanted";
+  Names wanted = with(kPosition, {"history.csv"});
+  wanted.erase("streamlines.csv");
+  EXPECT_EQ(names_in(folder), wanted) << "no series is wanted, and nothing rolls";
   const ContactField back = read_result_folder(folder).field;
   EXPECT_TRUE(back.slip_is_distance);
   for (std::size_t k = 0; k < back.slip_x.size(); ++k)
