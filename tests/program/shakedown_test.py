@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""The command shakedown seen from outside. usage: shakedown_test.py BINARY SOURCE_DIR"""
+import json
+import pathlib
+import sys
+import unittest
+
+from outside import TINY, FromOutside, railstrata
+
+SOURCE = pathlib.Path(sys.argv[2]).resolve()
+LAYERED = SOURCE / "cases" / "paper" / "layer_3mm_2E0.toml"
+STRONG = ["--set", 'material.rail.yield_strength="480 MPa"', "--set", 'layer.0.yield_strength="900 MPa"']
+QUIET = ["--threads", "1", "--no-report", "-q"]
+FACTORS = ["first_yield", "wandering", "single_track", "upper", "kinematic"]
+
+
+class Shakedown(FromOutside):
+    def shakedown(self, case, *words):
+        out = self.folder / "out"
+        rc, _, err = railstrata("shakedown", case, *QUIET, "--force", "--out", out, *words)
+        self.assertEqual(rc, 0, err)
+        return json.loads((out / "shakedown.json").read_text()), json.loads((out / "summary.json").read_text())
+
+    def check_levels(self, found):
+        """Melan: a wider choice of residual stresses never lowers the limit."""
+        f = found["factors"]
+        self.assertEqual(list(f), FACTORS)
+        self.assertLess(0, f["first_yield"])
+        self.assertLessEqual(f["wandering"], f["single_track"])
+        self.assertLessEqual(f["single_track"], f["upper"])
+        self.assertLessEqual(f["upper"], f["kinematic"])
+
+    def test_factors_stand_in_both_files_with_what_governs(self):
+        found, summary = self.shakedown(LAYERED, "--cell", "1 mm", *STRONG)
+        self.check_levels(found)
+        self.assertEqual(summary["shakedown"], found)
+        governing = found["governing"]
+        zones = {z["zone"]: z for z in found["bodies"][0]["zones"]}
+        self.assertEqual(set(zones), {"rail", "layer"})
+        self.assertEqual(governing["zone"], min(zones, key=lambda z: zones[z]["factors"]["wandering"]))
+        self.assertEqual(governing["depth_m"], zones[governing["zone"]]["depth_m"])
+        self.assertEqual(governing["zone"] == "layer", governing["depth_m"] < 3e-3)
+        self.assertEqual(found["factors"]["wandering"], zones[governing["zone"]]["factors"]["wandering"])
+
+    def test_twice_the_strength_doubles_every_factor(self):
+        single, _ = self.shakedown(LAYERED, "--cell", "1 mm", "--set", 'material.rail.yield_strength="400 MPa"')
+        double, _ = self.shakedown(LAYERED, "--cell", "1 mm", "--set", 'material.rail.yield_strength="800 MPa"')
+        for name in FACTORS:
+            # one track: a program that ends at 0.1 %
+            self.assertAlmostEqual(double["factors"][name] / single["factors"][name], 2,
+                                   delta=4e-3 if name == "single_track" else 1e-9)
+
+    def test_without_a_strength_the_command_asks_for_one(self):
+        self.refused(2, ["shakedown", LAYERED, "--out", self.folder / "no"],
+                     "the case does not say how strong rail, wheel or layers are", "remedy: give yield_strength",
+                     str(LAYERED))
+        self.assertFalse((self.folder / "no").exists())
+        rc, _, err = railstrata("bem", LAYERED, *QUIET, "--cell", "1 mm", "--out", self.folder / "bem")
+        self.assertEqual(rc, 0, err)
+        self.assertFalse((self.folder / "bem" / "shakedown.json").exists())
+        self.assertNotIn("shakedown", json.loads((self.folder / "bem" / "summary.json").read_text()))
+
+    def test_a_table_that_ends_too_early_is_told_with_its_key(self):
+        table = 'material.rail.strength_table=[["0 mm", "800 MPa"], ["2 mm", "500 MPa"]]'
+        self.refused(2, ["shakedown", LAYERED, *QUIET, "--cell", "1 mm", "--set", table, "--out", self.folder / "no"],
+                     "material.rail.strength_table: ends at 2 mm", "remedy: add a row at")
+        self.assertFalse((self.folder / "no").exists())
+
+    def test_finite_elements_answer_too(self):
+        case = self.case(TINY.replace("[run]", "[run]\nrolling = false") +
+                         '[material.rail]\nyield_strength = "500 MPa"\n')
+        found, summary = self.shakedown(case, "--engine", "fem")
+        self.assertEqual(summary["run"]["engine"], "fem")
+        self.assertEqual(summary["shakedown"], found)
+        f = found["factors"]
+        self.assertIsNone(f["single_track"])  # half-spaces alone give it
+        self.assertLess(0, f["first_yield"])
+        self.assertLessEqual(f["wandering"], f["upper"])
+        self.assertEqual(found["governing"]["zone"], "rail")
+        self.refused(2, ["shakedown", case, "--engine", "spectral", "--out", self.folder / "no"], "--engine")
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
