@@ -43,11 +43,11 @@ HalfSpaceJob job_of(const CommandOptions& options) {
   return job;
 }
 
-HalfSpaceSolution solve_steady(const HalfSpaceJob& job) {
+HalfSpaceSolution solve_steady(const HalfSpaceJob& job, bool maps) {
   answer_interrupt_with("\nstopped: nothing was written\n");
   const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)), shown());
   HalfSpaceSolution solution = solve_half_space(job.loaded.spec, job.placement, job.bem);
-  complete_shakedown(job.loaded.spec, solution);
+  complete_shakedown(job.loaded.spec, solution, maps);
   return solution;
 }
 
@@ -83,7 +83,7 @@ ExitCode command_bem(const CommandOptions& options) {
   const HalfSpaceJob job = job_of(options);
   const bool steady = job.loaded.spec.transient.kind == TransientKind::none;
   HalfSpaceSolution solution;
-  if (steady) solution = solve_steady(job);
+  if (steady) solution = solve_steady(job, options.shakedown.maps);
 
   require_apart(job.out, job.loaded);
   const FolderHold hold = prepare_output_folder(job.out, options.force);

@@ -40,6 +40,12 @@ class Shakedown(FromOutside):
         self.assertEqual(governing["zone"], min(zones, key=lambda z: zones[z]["factors"]["wandering"]))
         self.assertEqual(governing["depth_m"], zones[governing["zone"]]["depth_m"])
         self.assertEqual(governing["zone"] == "layer", governing["depth_m"] < 3e-3)
+        self.assertIn(found["verdict"], ["shakes down in one track", "may shake down in one track", "shakes down",
+                                         "stays elastic", "yields in every passage", "ratchets"])
+        limits = [line for line in (self.folder / "out" / "shakedown_rail_sliding.csv").read_text().splitlines()
+                  if not line.startswith("#")]
+        self.assertEqual(limits[0].split(",")[:3], ["traction_coefficient", "first_yield", "wandering"])
+        self.assertEqual(len(limits), 14)
         self.assertEqual(found["factors"]["wandering"], zones[governing["zone"]]["factors"]["wandering"])
 
     def test_twice_the_strength_doubles_every_factor(self):
