@@ -123,7 +123,12 @@ export interface Run {
   history: Columns|null;
   film: Film|null;
   sections: Partial<Record<BodyName, BodySections>>;
-  shakedown: Partial<Record<BodyName, {profile: Columns; map: Columns; sliding?: Columns}>>;
+  shakedown: Partial < Record < BodyName, {
+    profile: Columns;
+    map: Columns;
+    sliding?: Columns
+  }
+  >> ;
 }
 
 export interface Check {

@@ -57,8 +57,8 @@ function layoutOf(m: Grids, g: VerdictGrid, theme: Theme, width: number): Record
     zeroline: false,
   });
   return {
-    ...baseLayout(theme, width, Math.round(90 + 34 * g.y.length)),
-    margin: {l: 58, r: 12, t: 10, b: 46},
+    ...baseLayout(theme, width, Math.round(110 + 34 * g.y.length)),
+    margin: {l: 58, r: 12, t: 30, b: 46},
     xaxis: along(m.x, g.x),
     yaxis: along(m.y, g.y),
   };

@@ -28,8 +28,8 @@ function zoneRow(run: Run, runs: Run[], body: string, z: ZoneShakedown): (string
 
 function factorsTable(runs: Run[]): HTMLElement {
   const rows = runs.flatMap(
-      (run) => (run.summary.shakedown?.bodies ?? [])
-                   .flatMap((b) => (b.zones ?? []).map((z) => zoneRow(run, runs, b.body, z))));
+      (run) => (run.summary.shakedown?.bodies ??
+                []).flatMap((b) => (b.zones ?? []).map((z) => zoneRow(run, runs, b.body, z))));
   const head = ["zone", "so it", ...kFactors.map(([, name]) => name), "decided at depth [mm]", "which means"];
   return table("By what the elastic stress of this case may be multiplied", head, rows, {
     class: "numbers",
@@ -62,13 +62,14 @@ const kLines: [column: string, name: string, dash: string][] = [
 function strengthFigure(runs: Run[], body: BodyName): Figure|null {
   const given = runs.filter((run) => run.shakedown[body]);
   if (!given.length) return null;
-  const series = given.flatMap((run, n) => kLines.map(([column, name, dash], k): Series => ({
-    ...byDepth(run.shakedown[body]!.profile, column),
-    name: given.length > 1 ? `${name}, ${runLabel(run)}` : name,
-    dash,
-    colour: (t) => t.series[(given.length > 1 ? n : k) % t.series.length],
-    hover: `depth %{y:.2f} mm<br>${name} %{x:.0f} MPa`,
-  })));
+  const series =
+      given.flatMap((run, n) => kLines.map(([column, name, dash], k): Series => ({
+                                             ...byDepth(run.shakedown[body]!.profile, column),
+                                             name: given.length > 1 ? `${name}, ${runLabel(run)}` : name,
+                                             dash,
+                                             colour: (t) => t.series[(given.length > 1 ? n : k) % t.series.length],
+                                             hover: `depth %{y:.2f} mm<br>${name} %{x:.0f} MPa`,
+                                           })));
   return linesFigure({
     id: `strength-${body}`,
     title: `Yield strength against depth, ${body}`,
@@ -144,13 +145,13 @@ function slidingFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
   const map = run.shakedown[body]?.sliding;
   if (!map) return null;
   const series = kLimits.map(([column, name, dash], k): Series => ({
-    name,
-    x: map.traction_coefficient,
-    y: map[column],
-    dash,
-    colour: (t) => t.series[k],
-    hover: `q/p %{x:.2f}<br>${name} at %{y:.0f} MPa`,
-  }));
+                               name,
+                               x: map.traction_coefficient,
+                               y: map[column],
+                               dash,
+                               colour: (t) => t.series[k],
+                               hover: `q/p %{x:.2f}<br>${name} at %{y:.0f} MPa`,
+                             }));
   const {p_max_Pa: p, F_x_N: force, normal_force_N: load} = run.summary.contact;
   if (p && load && force !== null)
     series.push({
@@ -186,10 +187,11 @@ export function lastsPart(runs: Run[]): HTMLElement|null {
   const given = runs.filter((run) => run.summary.shakedown);
   if (!given.length) return null;
   const bodies: BodyName[] = ["rail", "wheel"];
-  const figures = bodies.flatMap((body) => [
-    strengthFigure(given, body),
-    ...given.map((run) => usedFigure(run, given, body)),
-    ...given.map((run) => slidingFigure(run, given, body)),
+  const figures = bodies.flatMap(
+      (body) =>
+          [strengthFigure(given, body),
+           ...given.map((run) => usedFigure(run, given, body)),
+           ...given.map((run) => slidingFigure(run, given, body)),
   ]);
   const words = note(
       "A factor of 1.2 says: 20 % more stress of this contact can be borne, its patch and friction staying as they " +

@@ -35,7 +35,7 @@ struct ReportRun {                                    // NOLINT(bugprone-excepti
                                                                         ///< its elements; NaN: not solved
   std::vector<ResultDoubt> doubts;           ///< why its numbers may not be those of its case
   std::map<std::string, CsvTable> sections;  ///< "rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"
-  std::map<std::string, CsvTable> shakedown;  ///< "rail", "rail_map", "rail_sliding", "wheel", …: where strengths are known
+  std::map<std::string, CsvTable> shakedown;  ///< "rail", "rail_map", "rail_sliding", "wheel", …: where strengths are
 
   /// The value of an option as the case writes it; empty if it is not there.
   std::string option(const std::string& table, const std::string& key) const;

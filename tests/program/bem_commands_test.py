@@ -56,7 +56,7 @@ class HalfSpaceCommands(FromOutside):
     def test_the_shipped_cases_are_within_the_domain_of_validity(self):
         # the elastic stresses of wheel and rail are above yield, which is said; nothing else is
         for case in sorted((SOURCE / "cases").rglob("*.toml")):
-            if case.name.endswith("expect.toml") or case.name == "study.toml":
+            if case.name.endswith("expect.toml") or "[study]" in case.read_text():
                 continue
             summary = json.loads(self.done("bem", case, "--threads", "1", "--json", "--no-report", "--force", "--out",
                                            self.folder / "shipped"))

@@ -2,6 +2,7 @@
 """The command shakedown seen from outside. usage: shakedown_test.py BINARY SOURCE_DIR"""
 import json
 import pathlib
+import re
 import sys
 import unittest
 
@@ -11,6 +12,24 @@ SOURCE = pathlib.Path(sys.argv[2]).resolve()
 LAYERED = SOURCE / "cases" / "paper" / "layer_3mm_2E0.toml"
 STRONG = ["--set", 'material.rail.yield_strength="480 MPa"', "--set", 'layer.0.yield_strength="900 MPa"']
 QUIET = ["--threads", "1", "--no-report", "-q"]
+STUDY = f'''[study]
+base = "{LAYERED}"
+engines = ["bem"]
+cell = "2 mm"
+set = {{ "material.rail.yield_strength" = "480 MPa" }}
+[[group]]
+name = "g"
+[group.vary]
+"layer.0.thickness" = ["1 mm", "3 mm"]
+"layer.0.young_ratio" = [1, 2]
+"layer.0.yield_strength" = ["300 MPa", "2000 MPa"]
+[[figure]]
+id = "lasts"
+kind = "verdict"
+x = "layer.0.thickness"
+y = "layer.0.young_ratio"
+series = "layer.0.yield_strength"
+'''
 FACTORS = ["first_yield", "wandering", "single_track", "upper", "kinematic"]
 
 
@@ -84,6 +103,27 @@ class Shakedown(FromOutside):
         self.assertLessEqual(f["wandering"], f["upper"])
         self.assertEqual(found["governing"]["zone"], "rail")
         self.refused(2, ["shakedown", case, "--engine", "spectral", "--out", self.folder / "no"], "--engine")
+
+    def test_a_study_draws_what_lasts(self):
+        file = self.folder / "study.toml"
+        file.write_text(STUDY)
+        out = self.folder / "study"
+        rc, _, err = railstrata("study", file, "--out", out)
+        self.assertLess(rc, 2, err)
+        data = re.search(r'<script[^>]*id="data"[^>]*>(.*?)</script>', (out / "report.html").read_text(), re.S)
+        row, = json.loads(data.group(1))["grids"]
+        self.assertEqual([g["name"] for g in row["grids"]],
+                         ["yield strength 300 MPa, half-space", "yield strength 2000 MPa, half-space"])
+        self.assertEqual(row["x"], "thickness h [mm]")
+        for grid, strength in zip(row["grids"], ["300_MPa", "2000_MPa"]):
+            self.assertEqual((grid["x"], grid["y"]), (["1", "3"], ["1", "2"]))
+            names = [f"thickness_{x}_mm_young_ratio_{y}_yield_strength_{strength}" for y in (1, 2) for x in (1, 3)]
+            for name, cell in zip(names, grid["cells"]):
+                found = json.loads((out / "g" / name / "bem" / "shakedown.json").read_text())
+                self.assertEqual(cell["verdict"], found["verdict"])
+                self.assertAlmostEqual(cell["factor"], found["factors"]["wandering"], delta=1e-9)
+        file.write_text(STUDY.replace('y = "layer', '# '))
+        self.refused(2, ["study", file, "--out", out], 'shows verdicts over two keys and has no y')
 
 
 if __name__ == "__main__":
