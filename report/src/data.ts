@@ -94,6 +94,7 @@ export interface ZoneShakedown {
   zone: string;
   depth_m: number|null;
   factors: Factors;
+  verdict?: string;
 }
 
 export interface BodyShakedown {
@@ -132,7 +133,8 @@ export interface Run {
   sections: Partial<Record<BodyName, BodySections>>;
   shakedown: Partial < Record < BodyName, {
     profile: Columns;
-    map: Columns
+    map: Columns;
+    sliding?: Columns
   }
   >> ;
 }
@@ -185,6 +187,26 @@ export interface Maps {
   names: string[];
 }
 
+/// Which layer lasts: a row of grids of verdicts over two keys, a grid for each value of a third.
+export interface GridCell {
+  verdict: string;
+  factor: number|null;  // to shakedown under any traffic
+}
+export interface VerdictGrid {
+  name: string;
+  x: string[];  // values of the key along x, in order
+  y: string[];
+  cells: (GridCell|null)[];  // index x + x.length * y; null: no result
+}
+export interface Grids {
+  id: string;
+  title: string;
+  note: string;
+  x: string;  // axes
+  y: string;
+  grids: VerdictGrid[];
+}
+
 export interface Unit {
   shown: string;   // "MPa", "%", "inside|outside" for 0 and 1, "" for a plain number
   factor: number;  // SI to what is shown
@@ -208,12 +230,20 @@ export interface CheckWords {
   unit: Unit;
 }
 
+/// What becomes of a zone, from the best to the worst.
+export interface VerdictWords {
+  words: string;
+  means: string;
+  lasts: boolean;
+}
+
 /// The words for results, from the program's tables (src/post/result_table.cpp, src/post/check_limits.hpp).
 export interface Words {
   numbers: Quantity[];
   zones: {key: string; name: string}[];
   measures: {key: Measure; name: string}[];
   checks: CheckWords[];
+  verdicts: VerdictWords[];
 }
 
 export interface Report {
@@ -225,6 +255,7 @@ export interface Report {
   tables: Table[];
   charts: Chart[];
   maps: Maps[];
+  grids: Grids[];
 }
 
 export function unpack(packed: PackedNumbers): Values {

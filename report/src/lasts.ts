@@ -4,41 +4,7 @@ import {element, note, part, table, type Cell} from "./dom";
 import {frame, type Figure} from "./figures";
 import {linesFigure, type Series} from "./lines";
 import {magnitudeColours, mapFigure} from "./maps";
-import {minus, numberText, runLabel} from "./text";
-
-interface Verdict {
-  words: string;
-  says: string;
-  state: "ok"|"failed"|"remark";
-}
-
-const atLeastOne = (v: number|null) => v === null || v >= 1;
-
-/// What becomes of a zone whose load factors are these, from the best to the worst.
-function verdictOf(f: Factors): Verdict {
-  if (atLeastOne(f.first_yield)) return {words: "stays elastic", says: "it never yields", state: "ok"};
-  if (atLeastOne(f.wandering))
-    return {words: "shakes down", says: "it yields in the first passages and then no more", state: "ok"};
-  if (f.single_track !== null && f.single_track >= 1)
-    return {
-      words: "shakes down in one track",
-      says: "only if every wheel runs in the same place; wheels that wander sideways make it yield again and again",
-      state: "failed",
-    };
-  if (atLeastOne(f.upper))
-    return {
-      words: "may shake down in one track",
-      says: "beyond the limit for wandering traffic; below the bound that no load exceeds",
-      state: "failed",
-    };
-  if (atLeastOne(f.kinematic))
-    return {
-      words: "yields in every passage",
-      says: "back and forth if the material hardens kinematically, drifting if it does not",
-      state: "failed",
-    };
-  return {words: "ratchets", says: "every passage adds strain, until it cracks or flows away", state: "failed"};
-}
+import {minus, numberText, runLabel, verdictWords} from "./text";
 
 const kFactors: [key: keyof Factors, name: string][] = [
   ["first_yield", "first yield"],
@@ -49,14 +15,14 @@ const kFactors: [key: keyof Factors, name: string][] = [
 ];
 
 function zoneRow(run: Run, runs: Run[], body: string, z: ZoneShakedown): (string|Cell)[] {
-  const verdict = verdictOf(z.factors);
+  const verdict = verdictWords(z.verdict);
   const name = z.zone === body ? body : `${body}, ${z.zone}`;
   return [
     runs.length > 1 ? `${name}, ${runLabel(run)}` : name,
-    {text: verdict.words, attributes: {class: verdict.state, "data-verdict": verdict.words}},
+    {text: verdict.words, attributes: {class: verdict.lasts ? "ok" : "failed", "data-verdict": verdict.words}},
     ...kFactors.map(([key]) => ({text: numberText(z.factors[key], 3)})),
     {text: z.depth_m === null ? "–" : (1e3 * z.depth_m).toFixed(2)},
-    {text: verdict.says, attributes: {class: "words"}},
+    {text: verdict.means, attributes: {class: "words"}},
   ];
 }
 
@@ -168,6 +134,48 @@ function usedFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
   });
 }
 
+const kLimits: [column: string, name: string, dash: string][] = [
+  ["p_max_first_yield_MPa", "first yield", "dot"],
+  ["p_max_wandering_MPa", "shakedown, any traffic", "solid"],
+  ["p_max_upper_MPa", "upper bound", "dashdot"],
+];
+
+/// Limit pressure over traction for the run's own patch and layers, and where the run stands.
+function slidingFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
+  const map = run.shakedown[body]?.sliding;
+  if (!map) return null;
+  const series = kLimits.map(([column, name, dash], k): Series => ({
+                               name,
+                               x: map.traction_coefficient,
+                               y: map[column],
+                               dash,
+                               colour: (t) => t.series[k],
+                               hover: `q/p %{x:.2f}<br>${name} at %{y:.0f} MPa`,
+                             }));
+  const {p_max_Pa: p, F_x_N: force, normal_force_N: load} = run.summary.contact;
+  if (p && load && force !== null)
+    series.push({
+      name: "this case",
+      x: [Math.abs(force / load)],
+      y: [1e-6 * p],
+      markers: true,
+      colour: (t) => t.ink,
+      hover: "F_x/F_n %{x:.2f}<br>p_max %{y:.0f} MPa",
+    });
+  return linesFigure({
+    id: `strength-sliding-${body}-${runs.indexOf(run)}`,
+    title: ["Limit pressure against traction", body, ...(runs.length > 1 ? [runLabel(run)] : [])].join(", "),
+    words: [
+      "Largest pressure at each limit for the shape of this patch, these layers and these strengths, if it slid " +
+          "everywhere with q = traction times p. Above the solid line it does not shake down under any traffic. This " +
+          "case sticks in part of its patch: its own factors are in the table.",
+    ],
+    labels: ["traction coefficient q/p", "p_max [MPa]"],
+    names: ["traction_coefficient", "p_max_MPa"],
+    series,
+  });
+}
+
 /// Strengths that are estimates, each once.
 function notes(runs: Run[]): HTMLElement[] {
   const all = runs.flatMap((run) => (run.summary.shakedown?.bodies ?? []).flatMap((b) => b.notes));
@@ -183,6 +191,7 @@ export function lastsPart(runs: Run[]): HTMLElement|null {
       (body) =>
           [strengthFigure(given, body),
            ...given.map((run) => usedFigure(run, given, body)),
+           ...given.map((run) => slidingFigure(run, given, body)),
   ]);
   const words = note(
       "A factor of 1.2 says: 20 % more stress of this contact can be borne, its patch and friction staying as they " +

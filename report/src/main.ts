@@ -2,6 +2,7 @@
 import type {BodyName, Chart, ChartSeries, Maps, Report, Run, Span, Table} from "./data";
 import {details, element, note, part, table} from "./dom";
 import {drawAll, forget, frame, kDark, kLight, setOrigin, type Figure, type Theme} from "./figures";
+import {gridsRow} from "./grids";
 import {lastsPart} from "./lasts";
 import {linesFigure, type Series} from "./lines";
 import {centreLines, patchesTable, patchMaps} from "./patch";
@@ -74,6 +75,7 @@ function chartFigure(c: Chart): Figure {
 function studyParts(): HTMLElement[] {
   const out: HTMLElement[] = [];
   if (report.tables.length) out.push(part("tables", "Answers", ...report.tables.flatMap(studyTable)));
+  if (report.grids.length) out.push(part("grids", "What lasts", ...report.grids.flatMap(gridsRow)));
   if (report.charts.length) out.push(part("charts", "Figures", grid(report.charts.map(chartFigure))));
   if (report.maps.length) out.push(part("maps", "Maps", ...report.maps.flatMap(mapsRow)));
   return out;
@@ -168,6 +170,7 @@ function contents(): [id: string, name: string][] {
   const all: [id: string, name: string, there: boolean][] = [
     ["verdict", "verdict", true],
     ["tables", "answers", report.tables.length > 0],
+    ["grids", "what lasts", report.grids.length > 0],
     ["charts", "figures", report.charts.length > 0],
     ["maps", "maps", report.maps.length > 0],
     ["numbers", "numbers", true],

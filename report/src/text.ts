@@ -1,5 +1,5 @@
 // Words: what checks and quantities are called, how numbers are written.
-import type {CheckWords, Quantity, Run, Unit, Words} from "./data";
+import type {CheckWords, Quantity, Run, Unit, VerdictWords, Words} from "./data";
 
 export function engineName(engine: string): string {
   if (engine === "fem") return "finite elements";
@@ -46,7 +46,7 @@ export function percentText(fraction: number|null, digits = 2): string {
 }
 
 // The program's tables of results give names and units; set once, before anything is built.
-let words: Words = {numbers: [], zones: [], measures: [], checks: []};
+let words: Words = {numbers: [], zones: [], measures: [], checks: [], verdicts: []};
 const kPlain: Unit = {
   shown: "",
   factor: 1
@@ -59,6 +59,12 @@ export function checkWords(key: string): CheckWords {
   const unknown = {key, name: key.replace(/_/g, " "), what: "", unit: kPlain};
   return words.checks.find((c) => c.key === key) ?? unknown;
 }
+
+/// What a verdict means; of a folder written before there were verdicts: a dash.
+export function verdictWords(given: string|undefined): VerdictWords {
+  return words.verdicts.find((v) => v.words === given) ?? {words: given ?? "–", means: "", lasts: true};
+}
+export function allVerdicts(): VerdictWords[] { return words.verdicts; }
 
 /// A value in SI as people read it: "931 MPa", "4.02 %", "inside".
 export function unitText(value: number|null, unit: Unit, digits = 4): string {

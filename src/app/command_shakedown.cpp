@@ -22,6 +22,7 @@ ExitCode command_shakedown(const CommandOptions& options) {
   require_strength(loaded);
   CommandOptions solve = options;
   solve.out = output_folder_of(options, loaded, "-shakedown");
+  solve.shakedown.maps = true;
   return options.shakedown.engine == "fem" ? command_run(solve) : command_bem(solve);
 }
 

@@ -34,6 +34,7 @@ struct StudyOptions {
 };
 struct ShakedownOptions {
   std::string engine = "bem";  ///< --engine
+  bool maps = false;           ///< limits over traction too: of the command shakedown, which is not in a hurry
 };
 struct ReportOptions {
   std::vector<std::filesystem::path> folders;

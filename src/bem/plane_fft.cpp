@@ -56,11 +56,11 @@ struct PlaneFft::Plans {
   }
 };
 
-PlaneFft::PlaneFft(int nx, int ny)
+PlaneFft::PlaneFft(int nx, int ny, int reach_x, int reach_y)
     : nx_(nx),
       ny_(ny),
-      mx_(good_size(2 * nx + 1)),
-      my_(good_size(2 * ny)),
+      mx_(good_size(2 * reach_x + 1)),
+      my_(good_size(2 * reach_y)),
       width_(my_ / 2 + 1),
       groups_((width_ + kGroup - 1) / kGroup),
       plans_(std::make_unique<Plans>()) {

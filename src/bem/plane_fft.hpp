@@ -17,7 +17,10 @@ class PlaneFft {
   static constexpr int kBlock = 1;  ///< columns of wave numbers (same ky) in one call of multiply
 
   /// Pads so that offsets from -nx to nx are free of wrap-around along x, and -(ny-1) to ny-1 along y.
-  PlaneFft(int nx, int ny);
+  PlaneFft(int nx, int ny) : PlaneFft(nx, ny, nx, ny) {}
+  /// The same for offsets up to reach_x and reach_y - 1, for planes whose inner cells alone carry something; at least
+  /// half of nx and ny.
+  PlaneFft(int nx, int ny, int reach_x, int reach_y);
   ~PlaneFft();
   PlaneFft(const PlaneFft&) = delete;
   PlaneFft& operator=(const PlaneFft&) = delete;

@@ -216,26 +216,33 @@ struct Subsurface::Layered {
     }
     // The loads are steps, one a cell, as in the closed form: their transform is that of the values times
     // sin(k d/2)/(k d/2) in each direction.
-    const auto step = [](double half) { return half == 0 ? 1.0 : std::sin(half) / half; };
-    const double scale = 1 / points();
+    const std::vector<double> step_x = steps(mx / 2 + 1, unit_x, grid.dx), step_y = steps(my / 2 + 1, unit_y, grid.dy);
+    const double scale = 1 / points(), shortest = largest_wave_number(node);
     Planes wide;
     const std::vector<double*> out = pointers(wide, n);
+    static_assert(PlaneFft::kBlock == 1);
     fft.apply({spread[0].data(), spread[1].data(), spread[2].data()}, out, nx,
               [&](std::size_t first, int count, const PlaneFft::Spectra& z) {
-                const int block = static_cast<int>(first / static_cast<std::size_t>(count));
+                const int j = static_cast<int>(first / static_cast<std::size_t>(count));
+                const double ky = unit_y * j;
                 std::array<Complex, kStates> value;
-                for (int e = 0; e < count; ++e) {
-                  const int i = e / PlaneFft::kBlock, j = block * PlaneFft::kBlock + e % PlaneFft::kBlock;
-                  const double kx = unit_x * (2 * i < mx ? i : i - mx), ky = unit_y * j, k = std::hypot(kx, ky);
-                  const double weight = scale * step(0.5 * kx * grid.dx) * step(0.5 * ky * grid.dy);
-                  const Complex P = weight * z[0][e], X = weight * z[1][e], Y = weight * z[2][e];
-                  if (k == 0)
-                    zero(P, X, Y, value);
-                  else if (2 * i == mx || (!line && 2 * j >= my))
-                    value.fill(0);  // the highest waves have no direction
-                  else
-                    wave(P, X, Y, kx / k, ky / k, k, between(node, k), value);
-                  for (std::size_t s = 0; s < out.size(); ++s) z[s][e] = value[s];
+                for (int i = 0; 2 * i <= mx; ++i) {  // waves to both sides of x have the same response
+                  const double kx = unit_x * i, k = std::hypot(kx, ky), weight = scale * step_x[i] * step_y[j];
+                  const bool counts =
+                      2 * i < mx && (line || 2 * j < my) && k <= shortest;  // the highest have no direction
+                  const WaveResponse w = counts && k > 0 ? between(node, k) : WaveResponse{};
+                  for (const int sign : {1, -1}) {
+                    if (sign < 0 && (i == 0 || 2 * i == mx)) continue;
+                    const int e = sign > 0 ? i : mx - i;
+                    const Complex P = weight * z[0][e], X = weight * z[1][e], Y = weight * z[2][e];
+                    if (k == 0)
+                      zero(P, X, Y, value);
+                    else if (counts)
+                      wave(P, X, Y, sign * kx / k, ky / k, k, w, value);
+                    else
+                      value.fill(0);
+                    for (std::size_t s = 0; s < out.size(); ++s) z[s][e] = value[s];
+                  }
                 }
               });
     const auto target = planes_of(to), from = planes_of(wide);
@@ -244,6 +251,30 @@ struct Subsurface::Layered {
         for (int j = 0; j < ny; ++j)
           (*target[s])[grid.index(i, j)] +=
               (*from[s])[static_cast<std::size_t>(i) * pitch + static_cast<std::size_t>(j)];
+  }
+
+  /// sin(k d/2)/(k d/2) at the wave numbers 0, 1, … n - 1 times `unit` for cells of a size d.
+  static std::vector<double> steps(int n, double unit, double size) {
+    std::vector<double> out{1};
+    for (int i = 1; i < n; ++i) {
+      const double k = unit * i, half = 0.5 * k * size;
+      out.push_back(half > 0 ? std::sin(half) / half : 1.0);
+    }
+    return out;
+  }
+
+  /// Waves beyond it do not reach down to where the responses are: all are less than rounding of the largest.
+  double largest_wave_number(const std::vector<WaveResponse>& node) const {
+    constexpr double kNothing = 1e-22;
+    int last = -1;
+    for (auto m : kResponse) {
+      double most = 0;
+      for (const WaveResponse& w : node) most = std::max(most, std::abs(w.*m));
+      for (int i = kNodes - 1; i > last; --i)
+        if (!(std::abs(node[static_cast<std::size_t>(i)].*m) <= kNothing * most)) last = i;
+    }
+    constexpr int kReach = 6;  // nodes of an interpolation
+    return std::exp(log_low + (last + kReach) * log_step);
   }
 
   /// Lagrange's polynomial of the fifth order in ln k through the six nodes around k.
@@ -263,7 +294,14 @@ struct Subsurface::Layered {
 
 Subsurface::Subsurface(const LayeredHalfSpace& body, const PatchGrid& grid, Plane p, Plane q_x, Plane q_y,
                        double period)
-    : body_(body), grid_(grid), p_(std::move(p)), q_x_(std::move(q_x)), q_y_(std::move(q_y)), period_(period) {
+    : body_(body),
+      grid_(grid),
+      p_(std::move(p)),
+      q_x_(std::move(q_x)),
+      q_y_(std::move(q_y)),
+      period_(period),
+      reach_x_(grid.nx),
+      reach_y_(grid.ny) {
   if (!body_.layers.empty()) layered_ = std::make_unique<Layered>(body_, grid_, period_);
 }
 
@@ -273,7 +311,7 @@ Subsurface::Subsurface(Subsurface&&) noexcept = default;
 StatePlane Subsurface::plane(double depth) const {
   StatePlane out;
   out.depth = depth;
-  const PlaneFft fft(grid_.nx, grid_.ny);
+  const PlaneFft fft(grid_.nx, grid_.ny, reach_x_, reach_y_);
   const int nx = fft.mx() / 2 + 1, ny = fft.my() / 2 + 1;
   const auto table = grid_.line ? in_first_column(strip_interior_table(body_.substrate, depth, nx, grid_.dx), ny)
                                 : rectangle_interior_table(body_.substrate, depth, nx, ny, grid_.dx, grid_.dy);
@@ -291,7 +329,7 @@ DisplacementPlane Subsurface::displacement(double depth) const {
     for (Plane* u : planes_of(out)) u->assign(grid_.size(), std::numeric_limits<double>::quiet_NaN());
     return out;
   }
-  const PlaneFft fft(grid_.nx, grid_.ny);
+  const PlaneFft fft(grid_.nx, grid_.ny, reach_x_, reach_y_);
   const auto table =
       rectangle_displacement_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
   convolve(fft, {p_.data(), q_x_.data(), q_y_.data()}, table, kDisplacementParity, pointers(out, grid_.size()),
@@ -470,7 +508,10 @@ std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {
                   wide.begin() + static_cast<std::ptrdiff_t>(g.index(i + more_x, more_y)));
     return wide;
   };
-  return std::make_unique<Subsurface>(body_, g, padded(p_), padded(q_x_), padded(q_y_), period_);
+  auto wide = std::make_unique<Subsurface>(body_, g, padded(p_), padded(q_x_), padded(q_y_), period_);
+  wide->reach_x_ = reach_x_ + more_x;
+  wide->reach_y_ = reach_y_ + more_y;
+  return wide;
 }
 
 std::unique_ptr<Subsurface> Subsurface::coarsened() const {

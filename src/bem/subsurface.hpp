@@ -114,6 +114,7 @@ class Subsurface {
   PatchGrid grid_;
   Plane p_, q_x_, q_y_;
   double period_;
+  int reach_x_, reach_y_;  ///< cells from a traction to the farthest cell
   std::unique_ptr<Layered> layered_;
 };
 

@@ -8,6 +8,7 @@
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
 #include "post/result_table.hpp"
+#include "post/verdict.hpp"
 
 namespace railstrata {
 namespace {
@@ -38,9 +39,15 @@ Json governing_json(const BodyShakedown& b) {
 }
 
 Json body_json(const BodyShakedown& b) {
-  Json out{{"body", b.body}, {"factors", factors_json(b.factors)}, {"governing", governing_json(b)}};
+  Json out{{"body", b.body},
+           {"factors", factors_json(b.factors)},
+           {"verdict", words_of(verdict_of(b.factors)).words},
+           {"governing", governing_json(b)}};
   for (const ZoneShakedown& z : b.zones)
-    out["zones"].push_back({{"zone", z.zone}, {"depth_m", number(z.depth)}, {"factors", factors_json(z.factors)}});
+    out["zones"].push_back({{"zone", z.zone},
+                            {"depth_m", number(z.depth)},
+                            {"factors", factors_json(z.factors)},
+                            {"verdict", words_of(verdict_of(z.factors)).words}});
   out["notes"] = b.notes;
   return out;
 }
@@ -141,6 +148,7 @@ Json shakedown_json(const Summary& summary) {
   Json out;
   for (const ResultNumber& n : result_numbers())
     if (n.group == kShakedownGroup) out["factors"][n.key()] = number(std::get<double>(n.value(summary)));
+  out["verdict"] = words_of(verdict_of(summary.shakedown)).words;
   out["governing"] = governing_json(*governing);
   for (const BodyShakedown& b : summary.shakedown.bodies) out["bodies"].push_back(body_json(b));
   return out;
@@ -170,6 +178,24 @@ void write_shakedown(const std::filesystem::path& folder, const std::vector<std:
     write_map(folder / (name + "_map.csv"), provenance, s);
   }
   write_whole_file(folder / "shakedown.json", shakedown_json(summary).dump(2) + "\n");
+}
+
+void write_sliding_maps(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                        const std::vector<SlidingMap>& maps) {
+  for (const SlidingMap& map : maps) {
+    std::vector<CsvColumn> columns{{"traction_coefficient", {}}};
+    for (const SlidingLimit& l : map.limits) columns[0].values.push_back(l.traction);
+    const auto add = [&](const std::string& name, double ShakedownFactors::*member, double factor) {
+      columns.push_back({name, {}});
+      for (const SlidingLimit& l : map.limits) columns.back().values.push_back(factor * l.factors.*member);
+    };
+    for (const Factor& f : kFactors)
+      if (f.member != &ShakedownFactors::single_track) add(f.key, f.member, 1);
+    for (const Factor& f : kFactors)
+      if (f.member != &ShakedownFactors::single_track)
+        add(fmt::format("p_max_{}_MPa", f.key), f.member, kMega * map.p_max);
+    write_csv(folder / fmt::format("shakedown_{}_sliding.csv", body_word(map.body)), provenance, columns);
+  }
 }
 
 }  // namespace railstrata

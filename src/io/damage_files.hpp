@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "post/shakedown_summary.hpp"
+#include "post/sliding_map.hpp"
 #include "post/streamlines.hpp"
 #include "post/summary.hpp"
 
 namespace railstrata {
 
-/// {"factors": {...}, "governing": {body, zone, depth_m, y_m}, "bodies": [...]}; null without bodies.
+/// {"factors": {...}, "verdict": words, "governing": {body, zone, depth_m, y_m}, "bodies": [...]}; null without bodies.
 nlohmann::ordered_json shakedown_json(const Summary& summary);
 
 /// Of every body its fatigue parameters with their places, zones and interfaces.
@@ -23,6 +24,11 @@ nlohmann::ordered_json fatigue_json(const Summary& summary);
 /// Nothing without sections.
 void write_shakedown(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                      const Summary& summary, const std::vector<SectionShakedown>& sections);
+
+/// shakedown_<body>_sliding.csv: a row for each traction coefficient of the map, its load factors and the largest
+/// pressure at each limit. Nothing without maps.
+void write_sliding_maps(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                        const std::vector<SlidingMap>& maps);
 
 /// What one passage does along each streamline: a row each, y ascending. Nothing without rows.
 void write_streamlines(const std::filesystem::path& file, const std::vector<std::string>& provenance,

@@ -46,7 +46,7 @@ void remove_results(const std::filesystem::path& folder) {
                            "wheel_surface.vtp"})
     std::filesystem::remove(folder / name, ignored);
   for (const char* body : {"rail", "wheel"})
-    for (const char* ending : {".csv", "_map.csv"})
+    for (const char* ending : {".csv", "_map.csv", "_sliding.csv"})
       std::filesystem::remove(folder / fmt::format("shakedown_{}{}", body, ending), ignored);
   std::vector<std::filesystem::path> frames;
   for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))

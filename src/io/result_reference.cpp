@@ -7,6 +7,7 @@
 
 #include "post/check_limits.hpp"
 #include "post/result_table.hpp"
+#include "post/verdict.hpp"
 
 namespace railstrata {
 namespace {
@@ -206,6 +207,9 @@ Json results_reference_json() {
   out["measures"] = named(stress_measures());
   out["checks"] = Json::array();
   for (const CheckRow& c : kCheckRows) out["checks"].push_back(check_json(c));
+  out["verdicts"] = Json::array();
+  for (const VerdictWords& v : kVerdicts)
+    out["verdicts"].push_back({{"words", v.words}, {"means", v.means}, {"lasts", v.lasts}});
   return out;
 }
 

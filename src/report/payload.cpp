@@ -226,6 +226,8 @@ Json shakedown(const ReportRun& run) {
     const auto profile = run.shakedown.find(body), map = run.shakedown.find(std::string(body) + "_map");
     if (profile != run.shakedown.end() && map != run.shakedown.end())
       out[body] = {{"profile", all_columns(profile->second)}, {"map", all_columns(map->second)}};
+    if (const auto sliding = run.shakedown.find(std::string(body) + "_sliding"); sliding != run.shakedown.end())
+      out[body]["sliding"] = all_columns(sliding->second);
   }
   return out;
 }
@@ -286,6 +288,17 @@ Json run_json(const ReportRun& run) {
 
 Json finite(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
+Json grids_json(const ReportGrids& row) {
+  Json grids = Json::array();
+  for (const ReportGrid& g : row.grids) {
+    Json cells = Json::array();
+    for (const ReportGridCell& c : g.cells)
+      cells.push_back(c.verdict.empty() ? Json(nullptr) : Json{{"verdict", c.verdict}, {"factor", finite(c.factor)}});
+    grids.push_back({{"name", g.name}, {"x", g.x}, {"y", g.y}, {"cells", cells}});
+  }
+  return {{"id", row.id}, {"title", row.title}, {"note", row.note}, {"x", row.x}, {"y", row.y}, {"grids", grids}};
+}
+
 }  // namespace
 
 Json report_payload(const Report& report) {
@@ -298,6 +311,7 @@ Json report_payload(const Report& report) {
   out["tables"] = Json::array();
   out["charts"] = Json::array();
   out["maps"] = Json::array();
+  out["grids"] = Json::array();
   for (const ReportCheck& c : report.checks)
     out["checks"].push_back({{"name", c.name},
                              {"runs", c.runs},
@@ -325,6 +339,7 @@ Json report_payload(const Report& report) {
   for (const ReportMaps& m : report.maps)
     out["maps"].push_back(
         {{"id", m.id}, {"title", m.title}, {"note", m.note}, {"kind", m.kind}, {"runs", m.runs}, {"names", m.names}});
+  for (const ReportGrids& g : report.grids) out["grids"].push_back(grids_json(g));
   return out;
 }
 

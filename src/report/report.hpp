@@ -35,7 +35,7 @@ struct ReportRun {                                    // NOLINT(bugprone-excepti
                                                                         ///< its elements; NaN: not solved
   std::vector<ResultDoubt> doubts;           ///< why its numbers may not be those of its case
   std::map<std::string, CsvTable> sections;  ///< "rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"
-  std::map<std::string, CsvTable> shakedown;  ///< "rail", "rail_map", "wheel", "wheel_map": where strengths are known
+  std::map<std::string, CsvTable> shakedown;  ///< "rail", "rail_map", "rail_sliding", "wheel", …: where strengths are
 
   /// The value of an option as the case writes it; empty if it is not there.
   std::string option(const std::string& table, const std::string& key) const;
@@ -79,6 +79,23 @@ struct ReportMaps {
   std::vector<std::string> names;  ///< of the maps
 };
 
+/// What becomes of a case, and its factor to shakedown under any traffic.
+struct ReportGridCell {
+  std::string verdict;  ///< empty: no result
+  double factor = 0;
+};
+struct ReportGrid {
+  std::string name;
+  std::vector<std::string> x, y;      ///< values of the keys, in order
+  std::vector<ReportGridCell> cells;  ///< x + x.size() * y
+};
+/// A row of grids of verdicts (post/verdict.hpp) over two keys.
+struct ReportGrids {
+  std::string id, title, note;
+  std::string x, y;  ///< axes, with units
+  std::vector<ReportGrid> grids;
+};
+
 struct Report {
   std::string title;
   std::vector<ReportRun> runs;
@@ -86,6 +103,7 @@ struct Report {
   std::vector<ReportTable> tables;
   std::vector<ReportChart> charts;
   std::vector<ReportMaps> maps;
+  std::vector<ReportGrids> grids;
 };
 
 }  // namespace railstrata

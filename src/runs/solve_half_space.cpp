@@ -73,10 +73,11 @@ HalfSpaceSolution solve_half_space_contact(const CaseSpec& spec, const Placement
   return out;
 }
 
-void complete_shakedown(const CaseSpec& spec, HalfSpaceSolution& solution) {
+void complete_shakedown(const CaseSpec& spec, HalfSpaceSolution& solution, bool with_maps) {
   if (solution.shakedown.empty()) return;
   add_single_track(spec, solution.result, solution.shakedown);
   solution.summary.shakedown = shakedown_summary(spec, solution.shakedown);
+  if (with_maps) solution.sliding = sliding_maps(solution.result, solution.shakedown);
 }
 
 HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placement, const BemOptions& options,

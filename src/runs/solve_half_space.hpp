@@ -7,6 +7,7 @@
 #include "bem/solve_bem.hpp"
 #include "bem/transient.hpp"
 #include "post/shakedown_summary.hpp"
+#include "post/sliding_map.hpp"
 #include "post/streamlines.hpp"
 #include "post/summary.hpp"
 #include "post/transient_row.hpp"
@@ -22,6 +23,7 @@ struct HalfSpaceSolution {
   double coarsest = 0;                           ///< cell_of_patch of a transient's worst state
   std::vector<StreamlineRow> streamlines = {};   ///< of all patches, of what rolls
   std::vector<SectionShakedown> shakedown = {};  ///< of the bodies whose strength the case says
+  std::vector<SlidingMap> sliding = {};          ///< complete_shakedown adds them if asked
   bool stopped = false;                          ///< the observer ended the transient before its end
 };
 
@@ -37,8 +39,8 @@ HalfSpaceSolution solve_half_space(const CaseSpec& spec, const Placement& placem
                                    const TransientObserver& observer = {});
 
 /// Adds to a solution what takes some seconds more where the case says strengths: the limit of shakedown for traffic on
-/// one line.
-void complete_shakedown(const CaseSpec& spec, HalfSpaceSolution& solution);
+/// one line, and if asked the maps of limits over traction.
+void complete_shakedown(const CaseSpec& spec, HalfSpaceSolution& solution, bool with_maps = false);
 
 /// The same without the stresses, which cost more than the contact of steady rolling.
 HalfSpaceSolution solve_half_space_contact(const CaseSpec& spec, const Placement& placement,

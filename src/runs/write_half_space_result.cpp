@@ -35,6 +35,7 @@ void write_half_space_result(const std::filesystem::path& folder, const std::vec
   write_vtp(folder / "patch.vtp", patch_mesh(fields, summary.position));
   write_streamlines(folder / "streamlines.csv", provenance, solution.streamlines);
   write_shakedown(folder, provenance, summary, solution.shakedown);
+  write_sliding_maps(folder, provenance, solution.sliding);
   write_summary(folder / "summary.json", summary);
 }
 

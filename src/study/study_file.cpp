@@ -98,21 +98,28 @@ class StudyReader {
   }
 
   void read_figure(const toml::table& t) {
-    known(t, "figure", {"id", "title", "note", "kind", "value", "each", "series", "x", "groups", "engines", "where"});
+    known(t, "figure",
+          {"id", "title", "note", "kind", "value", "each", "series", "x", "y", "groups", "engines", "where"});
     StudyFigure f;
     f.id = text(t, "id", fmt::format("figure-{}", spec_.figures.size() + 1));
     f.title = text(t, "title", f.id);
     f.note = text(t, "note", "");
-    f.kind = choice(t, "kind", {"centre_line", "trend", "map"});
+    f.kind = choice(t, "kind", {"centre_line", "trend", "map", "verdict"});
     if (f.kind == "centre_line")
       f.value = choice(t, "value", {"p", "q"});
     else if (f.kind == "map")
       f.value = choice(t, "value", {"state", "von_mises", "sigma_1"});
-    else
+    else if (f.kind == "trend")
       f.value = text(t, "value", "p_max_MPa");
     f.each = text(t, "each", "");
     f.series = text(t, "series", "");
     f.x = text(t, "x", "");
+    f.y = text(t, "y", "");
+    if (f.kind == "verdict" && (f.x.empty() || f.y.empty()))
+      source_.complain_at(
+          place_of(t),
+          fmt::format("figure \"{}\" shows verdicts over two keys and has no {}", f.id, f.x.empty() ? "x" : "y"),
+          "name both: x = \"layer.0.thickness\", y = \"layer.0.young_ratio\"");
     if (f.kind == "trend" && f.x.empty())
       source_.complain_at(place_of(t), fmt::format("figure \"{}\" is a trend and has no x", f.id),
                           "name the key along its axis: x = \"layer.0.thickness\"");

@@ -12,6 +12,7 @@
 
 #include "core/faults.hpp"
 #include "post/check_limits.hpp"
+#include "post/verdict.hpp"
 #include "report/checks.hpp"
 #include "report/read_run.hpp"
 #include "study/published_table.hpp"
@@ -194,6 +195,63 @@ void add_maps(const StudyFigure& f, const std::vector<StudyEntry>& entries, Repo
   }
 }
 
+// ---- grids of verdicts
+/// Empty where the case has no result or no strength.
+ReportGridCell grid_cell(const StudyEntry& e) {
+  ShakedownFactors f;
+  f.first_yield = e.number("shakedown_first_yield");
+  f.wandering = e.number("shakedown_wandering");
+  f.single_track = e.number("shakedown_single_track");
+  f.upper = e.number("shakedown_upper");
+  f.kinematic = e.number("shakedown_kinematic");
+  if (std::isnan(f.first_yield) && std::isnan(f.wandering)) return {};
+  return {std::string(words_of(verdict_of(f)).words), f.wandering};
+}
+
+std::string axis_title(const std::string& key, const std::vector<std::string>& values) {
+  const std::string unit = values.empty() ? "" : axis_value(values.front()).second;
+  return fmt::format("{}{}", key_name(key), unit.empty() ? "" : fmt::format(" [{}]", unit));
+}
+
+/// Values of a key without the unit that its axis says.
+std::vector<std::string> axis_marks(const std::vector<std::string>& values) {
+  std::vector<std::string> out;
+  for (const std::string& v : values)
+    out.push_back(std::isnan(axis_value(v).first) ? v : fmt::format("{}", axis_value(v).first));
+  return out;
+}
+
+/// Several cases of one cell, because more keys are varied: the one with the smallest factor stands for them.
+void put_cell(ReportGridCell& cell, ReportGridCell found) {
+  if (!found.verdict.empty() && (cell.verdict.empty() || found.factor < cell.factor)) cell = std::move(found);
+}
+
+void add_grids(const StudyFigure& f, const std::vector<StudyEntry>& entries, Report& report) {
+  const std::vector<const StudyEntry*> members = members_of(f, entries);
+  const std::vector<std::string> xs = values_of(f.x, members), ys = values_of(f.y, members);
+  const auto index = [](const std::vector<std::string>& all, const std::string& value) {
+    return static_cast<std::size_t>(std::find(all.begin(), all.end(), value) - all.begin());
+  };
+  const std::vector<std::string> panels = values_of(f.each, members);
+  for (std::size_t n = 0; n < panels.size(); ++n) {
+    ReportGrids row{panels.size() > 1 ? fmt::format("{}-{}", f.id, n + 1) : f.id,
+                    chart_title(f, panels[n]),
+                    n == 0 ? f.note : "",
+                    axis_title(f.x, xs),
+                    axis_title(f.y, ys),
+                    {}};
+    for (const Line& line : lines_of(f, members, panels[n])) {
+      const std::size_t i = index(xs, line.entry->value(f.x)), j = index(ys, line.entry->value(f.y));
+      if (i == xs.size() || j == ys.size()) continue;
+      if (row.grids.empty() || row.grids.back().name != line.name)
+        row.grids.push_back({line.name, axis_marks(xs), axis_marks(ys), {}});
+      row.grids.back().cells.resize(xs.size() * ys.size());
+      put_cell(row.grids.back().cells[i + xs.size() * j], grid_cell(*line.entry));
+    }
+    if (!row.grids.empty()) report.grids.push_back(std::move(row));
+  }
+}
+
 // ---- verdict
 struct Worst {
   ReportCheck check;
@@ -348,6 +406,8 @@ Report study_report(const StudySpec& study, const Published& published, const st
       add_centre_lines(f, entries, report);
     else if (f.kind == "trend")
       add_trend(f, entries, report);
+    else if (f.kind == "verdict")
+      add_grids(f, entries, report);
     else
       add_maps(f, entries, report);
   }

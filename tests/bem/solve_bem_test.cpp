@@ -252,7 +252,7 @@ TEST(SolveBem, ConvergesForThinAndThickSoftAndStiffLayersOnEitherBody) {
           LayerSpec layer;
           layer.on = on;
           layer.thickness = h;
-          layer.material = {ratio * 210e9, nu, 7800};
+          layer.material = {ratio * 210e9, nu, 7800, {}};
           spec.layers = {layer};
           const BemResult r = solve_bem(spec, place(spec, {}), options);
           EXPECT_NEAR(r.force.x / (-0.2 * static_load(spec)), 1, 1e-4)

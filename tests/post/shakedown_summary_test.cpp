@@ -8,6 +8,8 @@
 #include "core/faults.hpp"
 #include "crossed_cylinders.hpp"
 #include "post/half_space_track.hpp"
+#include "post/sliding_map.hpp"
+#include "post/verdict.hpp"
 
 namespace railstrata {
 namespace {
@@ -109,6 +111,45 @@ TEST(ShakedownSummary, OfALineContactIsTheClosedFormsStress) {
     EXPECT_NEAR(found.limit(&ShakedownFactors::kinematic) / row.kinematic, 1, 5e-3) << row.friction;
     EXPECT_EQ(found.factors.single_track, found.factors.wandering) << "one line is every line";
   }
+}
+
+// The same circle from one solution without friction: docs/damage.md at 0 and with full slip at 0.2, p0/k.
+TEST(SlidingMap, OfACircularContactMeetsTheNumbersWithAndWithoutFriction) {
+  const CaseSpec spec = frictionless();
+  const BemResult r = solve_bem(spec, place(spec, {}), cells(0.25e-3));
+  const std::vector<SlidingMap> maps = sliding_maps(r, half_space_shakedown(spec, r));
+  ASSERT_EQ(maps.size(), 1u);
+  EXPECT_EQ(maps[0].p_max, r.patch.p_max);
+  ASSERT_EQ(maps[0].limits.size(), 13u);
+  const double p0_over_k = r.patch.p_max / (500e6 / std::numbers::sqrt3);
+  const auto expect = [&](std::size_t at, double traction, double yield, double wandering, double upper) {
+    const SlidingLimit& l = maps[0].limits[at];
+    EXPECT_NEAR(l.traction, traction, 1e-12);
+    EXPECT_NEAR(p0_over_k * l.factors.first_yield / yield, 1, 5e-3);
+    EXPECT_NEAR(p0_over_k * l.factors.wandering / wandering, 1, 5e-3);
+    EXPECT_NEAR(p0_over_k * l.factors.upper / upper, 1, 5e-3);
+  };
+  expect(0, 0, 2.795, 4.632, 4.677);
+  expect(4, 0.2, 2.717, 3.683, 4.584);
+  for (std::size_t i = 1; i < maps[0].limits.size(); ++i)
+    EXPECT_LT(maps[0].limits[i].factors.wandering, maps[0].limits[i - 1].factors.wandering);
+}
+
+TEST(Verdict, TheFirstLevelThatBearsTheLoadDecides) {
+  const auto words = [](double yield, double wandering, double track, double upper, double kinematic) {
+    return words_of(verdict_of(ShakedownFactors{yield, wandering, track, upper, kinematic})).words;
+  };
+  EXPECT_EQ(words(1.0, 1.2, 1.3, 1.4, 1.5), "stays elastic");
+  EXPECT_EQ(words(0.9, 1.0, 1.3, 1.4, 1.5), "shakes down");
+  EXPECT_EQ(words(0.9, 0.99, 1.0, 1.4, 1.5), "shakes down in one track");
+  EXPECT_EQ(words(0.9, 0.99, kNotApplicable, 1.4, 1.5), "may shake down in one track");
+  EXPECT_EQ(words(0.8, 0.9, 0.99, 0.99, 1.5), "yields in every passage");
+  EXPECT_EQ(words(0.8, 0.9, 0.9, 0.95, 0.99), "ratchets");
+  ShakedownSummary both;
+  both.bodies.resize(2);
+  both.bodies[0].factors = {0.9, 1.1, 1.1, 1.2, 1.3};
+  both.bodies[1].factors = {1.5, 2, 2, 2, 2};
+  EXPECT_EQ(verdict_of(both), Verdict::shakes_down);
 }
 
 TEST(ShakedownSummary, ProcessStressMovesFirstYieldAlone) {

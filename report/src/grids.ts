@@ -1,0 +1,100 @@
+// Grids of verdicts: which of a study's cases last.
+import type {GridCell, Grids, VerdictGrid} from "./data";
+import {element, note} from "./dom";
+import {axis, baseLayout, frame, type DataTable, type Figure, type Theme} from "./figures";
+import {allVerdicts, numberText, plotText} from "./text";
+
+/// From the best verdict to the worst, told apart with any colour vision; the letters on them.
+const kFills = ["#0072b2", "#56b4e9", "#f0e442", "#e6c27a", "#d55e00", "#7a1020"];
+const kLetters = ["#ffffff", "#1b1f24", "#1b1f24", "#1b1f24", "#ffffff", "#ffffff"];
+
+const place = (c: GridCell) => allVerdicts().findIndex((v) => v.words === c.verdict);
+
+/// Each colour as long as one step of the scale.
+function scale(): [number, string][] {
+  const n = kFills.length;
+  return kFills.flatMap((c, k): [number, string][] => [[k / n, c], [(k + 1) / n, c]]);
+}
+
+function dataOf(g: VerdictGrid, theme: Theme): Record<string, unknown>[] {
+  const rows = g.y.map((_, j) => g.x.map((_, i) => g.cells[i + g.x.length * j]));
+  const shown = rows.flatMap((row, j) => row.flatMap((c, i) => (c ? [{c, i, j}] : [])));
+  const letters = shown.map(({c}) => kLetters[place(c)] ?? theme.ink);
+  return [
+    {
+      type: "heatmap",
+      x: g.x.map((_, i) => i),
+      y: g.y.map((_, j) => j),
+      z: rows.map((row) => row.map((c) => (c ? place(c) : null))),
+      zmin: -0.5,
+      zmax: kFills.length - 0.5,
+      colorscale: scale(),
+      showscale: false,
+      xgap: 2,
+      ygap: 2,
+      hoverinfo: "skip",
+    },
+    {
+      type: "scatter",
+      mode: "text",
+      x: shown.map(({i}) => i),
+      y: shown.map(({j}) => j),
+      text: shown.map(({c}) => numberText(c.factor, 3)),
+      textfont: {color: letters, size: theme.size + 1},
+      customdata: shown.map(({c, i, j}) => `${g.x[i]}, ${g.y[j]}<br><b>${c.verdict}</b>`),
+      hovertemplate: "%{customdata}<br>factor %{text}<extra></extra>",
+    },
+  ];
+}
+
+function layoutOf(m: Grids, g: VerdictGrid, theme: Theme, width: number): Record<string, unknown> {
+  const along = (title: string, values: string[]) => axis(theme, title, {
+    tickmode: "array",
+    tickvals: values.map((_, i) => i),
+    ticktext: values.map(plotText),
+    range: [-0.5, values.length - 0.5],
+    showgrid: false,
+    zeroline: false,
+  });
+  return {
+    ...baseLayout(theme, width, Math.round(110 + 34 * g.y.length)),
+    margin: {l: 58, r: 12, t: 30, b: 46},
+    xaxis: along(m.x, g.x),
+    yaxis: along(m.y, g.y),
+  };
+}
+
+function tableOf(m: Grids, g: VerdictGrid): DataTable {
+  const rows = g.y.flatMap((y, j) => g.x.flatMap((x, i) => {
+    const c = g.cells[i + g.x.length * j];
+    return c ? [[x, y, c.verdict, c.factor]] : [];
+  }));
+  return {names: [m.x, m.y, "verdict", "shakedown_wandering"], rows};
+}
+
+function gridFigure(m: Grids, g: VerdictGrid, n: number): Figure {
+  return {
+    id: `${m.id}-${n + 1}`,
+    title: g.name,
+    draw: (theme, width) => ({data: dataOf(g, theme), layout: layoutOf(m, g, theme, width)}),
+    table: () => tableOf(m, g),
+  };
+}
+
+/// The verdicts that a row has, with their colours.
+function legend(m: Grids): HTMLElement {
+  const seen = new Set(m.grids.flatMap((g) => g.cells.flatMap((c) => (c ? [c.verdict] : []))));
+  const words = allVerdicts().flatMap((v, k) => {
+    if (!seen.has(v.words)) return [];
+    const swatch = element("span", {class: "swatch", style: `background: ${kFills[k]}`});
+    return [element("span", {class: "entry", title: v.means}, swatch, v.words)];
+  });
+  return element("p", {class: "note legend"}, ...words);
+}
+
+export function gridsRow(m: Grids): HTMLElement[] {
+  const figures = m.grids.map((g, n) => frame(gridFigure(m, g, n)));
+  const words = m.note ? [note(m.note)] : [];
+  const row = element("h3", {class: "row"}, m.title);
+  return [row, ...words, legend(m), element("div", {class: "grid small"}, ...figures)];
+}
