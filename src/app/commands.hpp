@@ -77,6 +77,7 @@ ExitCode command_shakedown(const CommandOptions& options);
 ExitCode command_compare(const CommandOptions& options);
 ExitCode command_creep_curve(const CommandOptions& options);
 ExitCode command_sweep(const CommandOptions& options);
+ExitCode command_collective(const CommandOptions& options);
 ExitCode command_study(const CommandOptions& options);
 ExitCode command_report(const CommandOptions& options);
 ExitCode command_schema(const CommandOptions& options);

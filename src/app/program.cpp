@@ -151,6 +151,13 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
                "Largest stresses in the rail too (takes longer than the contact)");
 }
 
+void add_collective(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-collective");
+  add_cell(sub, options);
+  add_no_report(sub, options);
+}
+
 void add_study(CLI::App& sub, CommandOptions& options) {
   sub.add_option("study", options.case_file, "Study file, or a folder with study.toml")->required();
   add_set(sub, options, "Override a key in all cases: --set mesh.element_size=\"2 mm\"; once for each key");
@@ -252,6 +259,12 @@ constexpr Entry kEntries[] = {
      "  railstrata sweep cases/paper/base.toml --vary drive.traction_coefficient=0.1,0.2,0.3 --stresses --out "
      "results/traction\n",
      add_sweep, command_sweep},
+    {"collective",
+     "All rows of the case's load collective by half-space theory, and what their passages do to the rail together: "
+     "wear, rolling contact fatigue, shakedown, by position across it",
+     "Examples:\n  railstrata collective cases/collective/mixed_traffic.toml\n  railstrata collective "
+     "cases/collective/mixed_traffic.toml --set load.0.passages=1e6 --out results/more-freight\n",
+     add_collective, command_collective},
     {"study",
      "Many cases from one file, by both engines, several at a time; goes on where it stopped; a table and a page over "
      "all of them",

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "case/load_rows.hpp"
 #include "case/strength_rules.hpp"
 #include "case/transient_rules.hpp"
 #include "case/units.hpp"
@@ -195,6 +196,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_mesh(spec.mesh, source);
   check_layers(spec, source);
   check_strengths(spec, source);
+  check_loads(spec, source);
 }
 
 std::vector<std::string> idle_settings(const CaseSpec& spec) {

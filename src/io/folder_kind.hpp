@@ -7,7 +7,7 @@
 
 namespace railstrata {
 
-/// Says what the folder is (not there, an unfinished run, a study, a sweep, a creep curve, a comparison, a folder of
+/// Says what the folder is (not there, an unfinished run, a study, a sweep, a creep curve, a collective, a comparison, a folder of
 /// results) and which command goes with it.
 Diagnostic no_result_here(const std::filesystem::path& folder);
 
