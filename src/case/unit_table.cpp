@@ -34,10 +34,10 @@ std::string trimmed(std::string_view text) {
   return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
+std::vector<std::string> cells_of(const std::string& line, char separator) {
   std::vector<std::string> out(1);
   for (const char c : line) {
-    if (c == ',' || c == ';')
+    if (c == separator)
       out.emplace_back();
     else
       out.back() += c;
@@ -65,7 +65,7 @@ class TableReader {
 
   void read_line(const std::string& line, const Place& at) {
     if (columns_.empty()) return read_names(line, at);
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = cells_of(line, separator_);
     if (cells.size() != columns_.size())
       at.refuse(fmt::format("{} values in a table of {} columns", cells.size(), columns_.size()),
                 "give every row one value a column");
@@ -136,7 +136,8 @@ class TableReader {
   }
 
   void read_names(const std::string& line, const Place& at) {
-    for (const std::string& name : cells_of(line)) {
+    if (line.find(';') != std::string::npos) separator_ = ';';
+    for (const std::string& name : cells_of(line, separator_)) {
       columns_.push_back(column_named(name, at));
       for (std::size_t k = 0; k + 1 < columns_.size(); ++k)
         if (columns_[k].option == columns_.back().option)
@@ -156,6 +157,7 @@ class TableReader {
   const UnitTableForm& form_;
   std::vector<Column> columns_;
   UnitTable table_;
+  char separator_ = ',';
 };
 
 }  // namespace

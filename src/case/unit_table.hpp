@@ -1,8 +1,8 @@
 #pragma once
 // Tables of options as text: a line of column names with their units, then a line for each row.
 //
-//   distance [mm], wheel_load [kN], creepage          units also as distance_mm; commas or semicolons;
-//   0, 85, 0                                          "#" begins a comment
+//   distance [mm], wheel_load [kN], creepage          units also as distance_mm; with a semicolon in this
+//   0, 85, 0                                          line that divides, else commas; "#" begins a comment
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -84,7 +84,7 @@ TEST(LoadRows, ATableInAFileGivesTheSameRowsAsTheCase) {
   const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "load_rows";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "loads.csv")
-      << "name;passages;axle_load [t];lateral_shift_mm;yaw [mrad];speed [m/s]\nfreight;4e5;22;-3;2;\n;5;;;;30\n";
+      << "name;passages;axle_load [t];lateral_shift_mm;yaw [mrad];speed [m/s]\n\"freight\";4e5;22;-3;2;\n;5;;;;30\n";
   const LoadedCase loaded = parse_case("[collective]\nfile = \"loads.csv\"\n", folder / "a.toml");
   const LoadedCase written = parse_case(
       "[[load]]\nname = \"freight\"\npassages = 4e5\naxle_load = \"22 t\"\nlateral_shift = \"-3 mm\"\nyaw = \"2 "
