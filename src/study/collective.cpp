@@ -4,6 +4,7 @@
 #include <cmath>
 #include <exception>
 #include <mutex>
+#include <span>
 
 #include "case/load_rows.hpp"
 #include "core/faults.hpp"
@@ -55,6 +56,11 @@ void solve_or_tell(CollectiveRow& row, const std::filesystem::path& folder, cons
   }
 }
 
+/// None of a row whose checks failed: its numbers are shown, but not summed.
+std::span<const PatchDamage> patches_of(const CollectiveRow& row) {
+  return row.sound() ? std::span<const PatchDamage>(row.patches) : std::span<const PatchDamage>();
+}
+
 }  // namespace
 
 std::vector<CollectiveRow> plan_collective(const CaseSpec& spec) {
@@ -100,7 +106,7 @@ void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::p
 RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell) {
   RailDamage out = undamaged(placement.rail, cell);
   for (const CollectiveRow& row : rows)
-    for (const PatchDamage& patch : row.patches)
+    for (const PatchDamage& patch : patches_of(row))
       add_passages(out, placement.rail, placement.track, patch, row.passages);
   return out;
 }
@@ -108,7 +114,7 @@ RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& 
 double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law) {
   double area = 0;
   for (const CollectiveRow& row : rows)
-    for (const PatchDamage& patch : row.patches)
+    for (const PatchDamage& patch : patches_of(row))
       for (const StreamlineRow& line : patch.rows) area += row.passages * line.width * line.depth(law);
   return area;
 }

@@ -28,6 +28,7 @@ struct CollectiveRow {
   std::string fault;  ///< empty: solved, and its checks hold
   bool done = false;
   bool solved() const { return !summary_json.is_null(); }
+  bool sound() const { return solved() && fault.empty(); }
 };
 
 /// The rows, nothing solved. Throws CaseError where the case has none, or where nothing rolls.
@@ -45,11 +46,11 @@ struct CollectiveOptions {
 void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::path& folder,
                       const CollectiveOptions& options);
 
-/// The sum over the rows that are solved, each times its passages. `placement` is that of the case (profile, track);
+/// The sum over the rows that are sound, each times its passages. `placement` is that of the case (profile, track);
 /// `cell` [m] the length of the rail's cells.
 RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell);
 
-/// m² per `passages` of all solved rows: the sum over their streamlines of depth times width. What rail_damage must
+/// m² per `passages` of all sound rows: the sum over their streamlines of depth times width. What rail_damage must
 /// conserve.
 double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law);
 

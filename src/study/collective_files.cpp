@@ -65,9 +65,9 @@ Json row_json(const CollectiveRow& row) {
 
 /// Loads that the sums lack.
 ReportCheck unsolved_check(const std::vector<CollectiveRow>& rows) {
-  ReportCheck out{.name = "loads_unsolved", .runs = {}};
+  ReportCheck out{.name = "loads_left_out", .runs = {}};
   for (const CollectiveRow& row : rows)
-    if (!row.solved()) {
+    if (!row.sound()) {
       out.value += 1;
       out.note += (out.note.empty() ? "" : "; ") + row.name + ": " + row.fault;
     }
@@ -111,7 +111,7 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
     return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
   };
   double passages = 0;
-  for (const CollectiveRow& row : rows) passages += row.solved() ? row.passages : 0;
+  for (const CollectiveRow& row : rows) passages += row.sound() ? row.passages : 0;
   const std::size_t most = largest(damage.passages), hottest = largest(damage.friction_energy),
                     cracked = largest(damage.rcf_damage);
   t.rows.push_back({"passages; over one place", "", passages, damage.passages[most], damage.y[most] / kMilli});
@@ -219,7 +219,7 @@ void write_rail_damage(const std::filesystem::path& file, const std::vector<std:
 
 Json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
   double passages = 0, left_out = 0;
-  for (const CollectiveRow& row : rows) (row.solved() ? passages : left_out) += row.passages;
+  for (const CollectiveRow& row : rows) (row.sound() ? passages : left_out) += row.passages;
   Json totals{{"passages", passages},
               {"passages_left_out", left_out},
               {"friction_energy_J_m", worn_area(damage, damage.friction_energy)}};

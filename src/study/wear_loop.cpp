@@ -43,7 +43,7 @@ double origin_height(const WornRail& rail) {
 
 void require_solved(const WearStep& step, const WornRail& before) {
   for (const CollectiveRow& row : step.rows)
-    if (!row.solved())
+    if (!row.sound())
       throw CaseError(fmt::format("step {}: {} cannot be solved on the rail of {} passages: {}", before.step + 1,
                                   row.name, before.passages, row.fault),
                       "take the load out, or change it; the steps before are kept");

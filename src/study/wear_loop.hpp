@@ -49,7 +49,8 @@ struct WearStep {
   bool stopped = false;             ///< by the wish: nothing of this is whole
 };
 
-/// Throws CaseError where a load cannot be solved, where nothing wears, and where the wear law lacks its data.
+/// Throws CaseError where a load cannot be solved or fails a check, where nothing wears, and where the wear law lacks
+/// its data.
 WearStep wear_step(const CaseSpec& spec, const std::filesystem::path& folder, const Placement& original,
                    const WornRail& rail, const WearStepOptions& options);
 
