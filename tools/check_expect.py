@@ -3,7 +3,8 @@
 
 usage: check_expect.py CASE RESULTS            CASE: a case file, or a folder with case.toml; RESULTS: the run's folder
        check_expect.py CASE --run BINARY       runs the case first, in a folder of its own, and wants exit code 0; one
-                                               with a [transient] table or a line contact by half-spaces
+                                               with a [transient] table or a line contact by half-spaces, one with
+                                               [[load]] as a collective, whose numbers stand in collective.json
 
 The expectations of NAME.toml stand beside it in NAME.expect.toml, those of case.toml in expect.toml; one table a
 quantity:
@@ -91,11 +92,20 @@ def compare(summary, expectations):
         yield met, f"{'ok    ' if met else 'FAILED'} {name} = {shown}, wanted {low:.6g} to {high:.6g}: {entry['why']}"
 
 
-def run_case(binary, case, out):
+def command_for(case):
     tables = tomllib.loads(case.read_text())
     by_half_spaces = "transient" in tables or tables.get("geometry", {}).get("contact") == "line"
-    command = "bem" if by_half_spaces else "run"
-    words = [binary, "--quiet", command, case, "--no-report", "--out", out]
+    return "collective" if "load" in tables else "bem" if by_half_spaces else "run"
+
+
+def results_in(folder):
+    """The file with the numbers of a folder."""
+    collective = folder / "collective.json"
+    return collective if collective.exists() else folder / "summary.json"
+
+
+def run_case(binary, case, out):
+    words = [binary, "--quiet", command_for(case), case, "--no-report", "--out", out]
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode != 0:
         print(f"{done.stdout}{done.stderr}FAILED exit code {done.returncode}, wanted 0")
@@ -105,7 +115,7 @@ def run_case(binary, case, out):
 def check(case, results):
     expectations = tomllib.loads(expect_file(case).read_text())
     all_met = True
-    for met, line in compare(json.loads((results / "summary.json").read_text()), expectations):
+    for met, line in compare(json.loads(results_in(results).read_text()), expectations):
         all_met = all_met and met
         print(line)
     return all_met
@@ -125,7 +135,7 @@ def main():
             return 0 if check(case, words.results) else 1
         with tempfile.TemporaryDirectory() as out:
             ran = run_case(words.run.resolve(), case, out)
-            met = (pathlib.Path(out) / "summary.json").exists() and check(case, pathlib.Path(out))
+            met = results_in(pathlib.Path(out)).exists() and check(case, pathlib.Path(out))
             return 0 if ran and met else 1
     except (Unusable, OSError, ValueError) as fault:
         print(f"error: {fault}", file=sys.stderr)

@@ -25,6 +25,12 @@ struct SweepCommandOptions {
   std::vector<std::string> vary;  ///< --vary
   bool stresses = false;          ///< --stresses
 };
+struct WearLoopOptions {
+  int steps = 0;                     ///< --steps; 0: no limit
+  double passages = 0;               ///< --passages; 0: no limit
+  std::string max_wear = "0.005 mm";  ///< --max-wear: a length
+  bool resume = false;               ///< --resume
+};
 struct StudyOptions {
   int jobs = 0;                     ///< --jobs; 0: as many as threads
   std::string shard = "1/1";        ///< --shard
@@ -60,6 +66,7 @@ struct CommandOptions {
   RunOptions run;
   CreepCurveOptions creep_curve;
   SweepCommandOptions sweep;
+  WearLoopOptions wear_loop;
   StudyOptions study;
   ShakedownOptions shakedown;
   ReportOptions report;
@@ -78,6 +85,8 @@ ExitCode command_shakedown(const CommandOptions& options);
 ExitCode command_compare(const CommandOptions& options);
 ExitCode command_creep_curve(const CommandOptions& options);
 ExitCode command_sweep(const CommandOptions& options);
+ExitCode command_collective(const CommandOptions& options);
+ExitCode command_wear_loop(const CommandOptions& options);
 ExitCode command_study(const CommandOptions& options);
 ExitCode command_report(const CommandOptions& options);
 ExitCode command_schema(const CommandOptions& options);

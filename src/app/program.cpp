@@ -151,6 +151,26 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
                "Largest stresses in the rail too (takes longer than the contact)");
 }
 
+void add_collective(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-collective");
+  add_cell(sub, options);
+  add_no_report(sub, options);
+}
+
+void add_wear_loop(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-wear-loop");
+  add_cell(sub, options);
+  sub.add_option("--steps", options.wear_loop.steps, "End after so many steps")->check(CLI::Range(1, 9999));
+  sub.add_option("--passages", options.wear_loop.passages, "End after so many passages of the whole collective")
+      ->check(CLI::Range(1.0, 1e15))
+      ->check(finite());
+  sub.add_option("--max-wear", options.wear_loop.max_wear, "Depth at the deepest place in one step")
+      ->capture_default_str();
+  sub.add_flag("--resume", options.wear_loop.resume, "Go on with the loop of the folder where it stopped");
+}
+
 void add_study(CLI::App& sub, CommandOptions& options) {
   sub.add_option("study", options.case_file, "Study file, or a folder with study.toml")->required();
   add_set(sub, options, "Override a key in all cases: --set mesh.element_size=\"2 mm\"; once for each key");
@@ -252,6 +272,20 @@ constexpr Entry kEntries[] = {
      "  railstrata sweep cases/paper/base.toml --vary drive.traction_coefficient=0.1,0.2,0.3 --stresses --out "
      "results/traction\n",
      add_sweep, command_sweep},
+    {"collective",
+     "All rows of the case's load collective by half-space theory, and what their passages do to the rail together: "
+     "wear, rolling contact fatigue, shakedown, by position across it",
+     "Examples:\n  railstrata collective cases/collective/mixed_traffic.toml\n  railstrata collective "
+     "cases/collective/mixed_traffic.toml --set load.0.passages=1e6 --out results/more-freight\n",
+     add_collective, command_collective},
+    {"wear-loop",
+     "Wear of the case's load collective taken off the rail's profile, step by step: the worn profiles, and how the "
+     "contact changes",
+     "Examples:\n  railstrata wear-loop cases/collective/mixed_traffic.toml --steps 10\n  railstrata wear-loop "
+     "cases/collective/mixed_traffic.toml --passages 1e5 --max-wear \"0.002 mm\" --out results/worn\n  railstrata "
+     "wear-loop cases/collective/mixed_traffic.toml --passages 2e5 --out results/worn --resume\n\nCtrl-C: nothing of "
+     "the step under way is kept, everything before is.\n",
+     add_wear_loop, command_wear_loop},
     {"study",
      "Many cases from one file, by both engines, several at a time; goes on where it stopped; a table and a page over "
      "all of them",

@@ -11,6 +11,7 @@
 #include "case/case_tree.hpp"
 #include "case/engine_scope.hpp"
 #include "case/history_table.hpp"
+#include "case/load_rows.hpp"
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
 #include "case/transient_rules.hpp"
@@ -83,6 +84,42 @@ void read_history(LoadedCase& loaded, CaseSource& source) {
   }
 }
 
+constexpr const char* kLoadFile = "collective.file";
+
+/// The rows of collective.file take the place of its name.
+void read_load_file(LoadedCase& loaded, CaseSource& source) {
+  std::string& name = loaded.spec.collective.file;
+  const std::string key = kLoadFile;
+  if (name.empty() && !source.has(key)) return;
+  const auto refuse = [&](const std::string& what, const std::string& remedy) {
+    source.complain(key, fmt::format("{} = {}: {}", key, toml_quoted(name), what), remedy);
+  };
+  if (name.empty() || name.find('\0') != std::string::npos)
+    return refuse("not a file's name", "name a CSV file, relative to the case file");
+  std::error_code error;
+  const std::filesystem::path file = std::filesystem::absolute(loaded.folder() / name, error).lexically_normal();
+  try {
+    read_load_table(read_text_file(file, "name a CSV file, relative to the case file"), file, loaded.spec);
+    loaded.inputs.push_back(file);
+  } catch (const CaseError& e) {
+    for (const Diagnostic& d : e.diagnostics)
+      refuse(fmt::format("{}{}{}", d.where, d.where.empty() ? "" : ": ", d.message), d.remedy);
+  }
+  name.clear();
+}
+
+/// The rows of a collective stand in the case or in a file.
+void read_loads(LoadedCase& loaded, CaseSource& source) {
+  CaseSpec& spec = loaded.spec;
+  if (!spec.loads.empty() && source.has(kLoadFile)) {
+    source.complain(kLoadFile, "the case has rows of [[load]] and collective.file",
+                    "keep one of them: the file's rows may be written as [[load]]");
+    spec.collective.file.clear();
+    return;
+  }
+  read_load_file(loaded, source);
+}
+
 /// Only blanks and comments.
 bool says_nothing(const std::string& text) {
   std::istringstream lines(text);
@@ -105,6 +142,7 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
   resolve_profile(ProfileKind::rail, "rail_profile", loaded.spec.geometry.rail_profile, loaded, source);
   resolve_profile(ProfileKind::wheel, "wheel_profile", loaded.spec.geometry.wheel_profile, loaded, source);
   read_history(loaded, source);
+  read_loads(loaded, source);
   check_case_rules(loaded.spec, source);
   source.finish();
   for (const BeyondEngine& b : beyond_finite_elements(loaded.spec))
@@ -142,7 +180,7 @@ std::string resolved_case(const CaseSpec& given) {
   CaseSpec spec = given;
   std::string out;
   for (const OptionTable& table : case_tables())
-    for (std::size_t i = 0; i < (table.repeated ? spec.layers.size() : 1); ++i) {
+    for (std::size_t i = 0; i < (table.repeated ? table.repeated.count(spec) : 1); ++i) {
       std::string lines;
       for (const Option& option : table.options)
         if (!option.derivation && (!option.applies || option.applies(spec, i)))

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "case/line_rules.hpp"
+#include "case/load_rows.hpp"
 #include "case/strength_rules.hpp"
 #include "case/transient_rules.hpp"
 #include "case/units.hpp"
@@ -197,6 +198,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_mesh(spec.mesh, source);
   check_layers(spec, source);
   check_strengths(spec, source);
+  check_loads(spec, source);
 }
 
 std::vector<std::string> idle_settings(const CaseSpec& spec) {

@@ -13,13 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The default case, with one layer so that the rows of [[layer]] have something to point at.
-CaseSpec example_spec() {
-  CaseSpec spec;
-  spec.layers.resize(1);
-  return spec;
-}
-
 Json number_schema(const Option& option) {
   Json s{{"type", "number"}};
   if (std::isfinite(option.range.min)) s[option.range.open ? "exclusiveMinimum" : "minimum"] = option.range.min;
@@ -119,6 +112,10 @@ std::string more_about(const OptionTable& table) {
            "take creepages to ±0.1; a\ngiven spin is the half-space engine's (`railstrata bem`). Signs: "
            "[conventions](conventions.md#axes-and-signs).\n";
   if (table.name == "transient") return kAboutTransient;
+  if (table.name == "collective")
+    return "\nThe file has the keys of [[load]] under their names with units, `wheel_load [kN]` or `wheel_load_kN`, a "
+           "line a row; an empty\ncell says nothing. What comes out: "
+           "[docs/damage.md](damage.md#load-collectives-and-the-wear-loop).\n";
   if (table.name == "layer")
     return "\n`young_table` gives a modulus that varies with depth, row by row from the layer's top, linear between "
            "the rows:\n\n"
@@ -131,7 +128,7 @@ std::string more_about(const OptionTable& table) {
 }  // namespace
 
 std::string case_json_schema() {
-  CaseSpec spec = example_spec();
+  CaseSpec spec = one_of_each();
   Json root{{"$schema", "http://json-schema.org/draft-07/schema#"},
             {"title", "RailStrata case"},
             {"type", "object"},
@@ -152,7 +149,7 @@ std::string case_json_schema() {
 }
 
 std::string case_reference_markdown() {
-  CaseSpec spec = example_spec();
+  CaseSpec spec = one_of_each();
   std::string out =
       "# Case file reference\n\n"
       "<!-- Written by `railstrata schema --markdown` from src/case/option_table.cpp; a test holds this page against "

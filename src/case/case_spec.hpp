@@ -192,6 +192,28 @@ struct TransientSpec {
   std::vector<double> spin;  ///< 1/m
 };
 
+/// How deep wear is (damage/wear.hpp).
+enum class WearLaw {
+  usfd,    ///< University of Sheffield, from T-gamma over the area
+  kth,     ///< Archard with Jendel's map of coefficients
+  archard  ///< Archard with the rail's wear_coefficient
+};
+
+/// A row of a load collective: what it does not give is the case's (case/load_rows.hpp).
+struct LoadSpec {
+  std::string name;     ///< empty: "load 1", "load 2", … by its place
+  double passages = 1;  ///< of such a wheel
+  std::optional<double> wheel_load, lateral_shift, yaw, curve_radius, speed;
+  std::optional<double> traction_coefficient, creepage;                  ///< at most one
+  std::optional<double> lateral_traction_coefficient, lateral_creepage;  ///< at most one
+  std::optional<double> friction_coefficient;
+};
+
+struct CollectiveSpec {
+  std::string file;  ///< empty once it is read into the rows
+  WearLaw wear_law = WearLaw::usfd;
+};
+
 struct OutputSpec {
   bool volume = true;        ///< VTU of the fine zone
   bool patch_series = true;  ///< VTP series of the patch during the rolling, PVD
@@ -212,6 +234,8 @@ struct CaseSpec {
   RunSpec run;
   BemSpec bem;
   TransientSpec transient;
+  std::vector<LoadSpec> loads;
+  CollectiveSpec collective;
   OutputSpec output;
 };
 

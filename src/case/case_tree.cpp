@@ -75,15 +75,7 @@ std::string wanted(const Option& option) {
       return fmt::format("a table whose rows have {}, e.g. {}", columns_text(option), example_of(option));
     }
   };
-  CaseSpec any;
-  any.layers.resize(1);
-  return std::visit(Say{option}, option.slot(any, 0));
-}
-
-const OptionTable* find_table(std::string_view name) {
-  for (const OptionTable& t : case_tables())
-    if (t.name == name) return &t;
-  return nullptr;
+  return std::visit(Say{option}, any_slot(option));
 }
 
 class TreeReader {
@@ -138,15 +130,16 @@ class TreeReader {
     if (!fits)
       return source_.complain(std::string(table.name), fmt::format("{} must be a list of tables", table.name),
                               fmt::format("write [[{}]] with two brackets", table.name));
-    spec_.layers.resize(list->size());
+    const bool layers = table.name == "layer";
+    table.repeated.resize(spec_, list->size());
     for (std::size_t i = 0; i < list->size(); ++i) {
       const std::string name = fmt::format("{}.{}", table.name, i);
       remember_place(name, (*list)[i]);
       const toml::table& entry = *(*list)[i].as_table();
       read_table(table, name, i, entry);
-      check_modulus(name, entry);
+      if (layers) check_modulus(name, entry);
     }
-    name_layers(*list);
+    if (layers) name_layers(*list);
   }
 
   /// A layer without a name is "layer" if it is alone on its body, else "layer 1", "layer 2", … from the surface down.
@@ -528,15 +521,6 @@ NamedOption named_option(const std::vector<std::string>& parts) {
   return {};
 }
 
-Slot any_slot(const Option& option) {
-  static CaseSpec spec = [] {
-    CaseSpec one;
-    one.layers.resize(1);
-    return one;
-  }();
-  return option.slot(spec, 0);
-}
-
 bool is_text(const Option& option) {
   const Slot slot = any_slot(option);
   return std::holds_alternative<std::string*>(slot) || std::holds_alternative<ChoiceSlot>(slot);
@@ -622,7 +606,7 @@ toml::table& descend(toml::table& document, const std::vector<std::string>& part
 void remove_rivals(toml::table& table, const std::vector<std::string>& parts, const CaseSource& source) {
   const std::string& key = parts.back();
   const std::string name = fmt::format("{}", fmt::join(parts.begin(), parts.end() - 1, "."));
-  const OptionTable* options = find_table(name);
+  const OptionTable* options = find_table(is_repeated(parts.front()) ? parts.front() : name);
   if (!options) return;
   for (const auto& rivals : options->rivals) {
     if (std::find(rivals.begin(), rivals.end(), key) == rivals.end()) continue;

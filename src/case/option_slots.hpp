@@ -22,10 +22,19 @@ template <auto... Path>
 Slot at(CaseSpec& spec, std::size_t) {
   return slot_of((spec.*....*Path));
 }
-/// The same of an entry of [[layer]].
+/// The same of an entry of a list of tables.
+template <auto List, auto... Path>
+Slot entry(CaseSpec& spec, std::size_t index) {
+  return slot_of(((spec.*List).at(index).*....*Path));
+}
 template <auto... Path>
 Slot layer(CaseSpec& spec, std::size_t index) {
-  return slot_of((spec.layers.at(index).*....*Path));
+  return entry<&CaseSpec::layers, Path...>(spec, index);
+}
+template <auto List>
+TableList list_of() {
+  return {[](const CaseSpec& spec) { return (spec.*List).size(); },
+          [](CaseSpec& spec, std::size_t n) { (spec.*List).resize(n); }};
 }
 
 template <class Struct, class T>

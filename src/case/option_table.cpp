@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "case/load_options.hpp"
 #include "case/option_slots.hpp"
 #include "case/strength_options.hpp"
 
@@ -182,7 +183,7 @@ OptionTable material_table(std::string_view name, std::string_view doc, Strength
       {{"young", at<Member, &M::young>, "Young's modulus", kPressure, kYoung},
        {"poisson", at<Member, &M::poisson>, "Poisson's ratio", kNumber, kPoisson, {}, {}, nullptr, kBeyondPoisson},
        {"density", at<Member, &M::density>, "Mass density", kDensity, kDensityRange}},
-      false,
+      {},
       strength_rivals()};
   for (const Option& option : strength_options(place)) out.options.push_back(option);
   return out;
@@ -254,7 +255,7 @@ OptionTable layer_table() {
         "young_table each row of elements has the mean modulus over its height",
         kNumber,
         {0, 50}}},
-      true,
+      list_of<&C::layers>(),
       strength_rivals()};
   const std::vector<Option> modulus = layer_modulus_options();
   const auto poisson =
@@ -305,7 +306,7 @@ OptionTable vehicle_table() {
        {"gravity", at<&C::vehicle, &V::gravity>, "Acceleration of gravity", kAcceleration, above(0, 100)},
        {"couple_sprung_mass", at<&C::vehicle, &V::couple_sprung_mass>,
         "The sprung mass rides along with the axle lengthwise and adds its inertia to it"}},
-      false,
+      {},
       {{"sprung_mass", "wheel_load", "axle_load", "approach"}}};
 }
 
@@ -374,7 +375,7 @@ OptionTable drive_table() {
         "Longitudinal creepage at the start, (V - omega r) / V: negative drives",
         kNumber,
         {-0.1, 0.1}}},
-      false,
+      {},
       {{"traction_coefficient", "tractive_force", "creepage"},
        {"lateral_traction_coefficient", "lateral_force", "lateral_creepage"}}};
   for (const Option& option : creepage_options()) out.options.push_back(option);
@@ -612,7 +613,7 @@ OptionTable transient_table() {
   OptionTable out{"transient",
                   "A history of loads and motions, followed step by step; half-space engine",
                   course_options(),
-                  false,
+                  {},
                   {{"at_distance", "at_time"},
                    {"wheel_load", "load_factor"},
                    {"traction_coefficient", "tractive_force", "creepage", "displacement"},
@@ -666,8 +667,28 @@ const std::vector<OptionTable>& case_tables() {
       run_table(),
       bem_table(),
       transient_table(),
+      load_table(),
+      collective_table(),
       output_table()};
   return tables;
+}
+
+const OptionTable* find_table(std::string_view name) {
+  for (const OptionTable& t : case_tables())
+    if (t.name == name) return &t;
+  return nullptr;
+}
+
+CaseSpec one_of_each() {
+  CaseSpec spec;
+  for (const OptionTable& table : case_tables())
+    if (table.repeated) table.repeated.resize(spec, 1);
+  return spec;
+}
+
+Slot any_slot(const Option& option) {
+  static CaseSpec spec = one_of_each();
+  return option.slot(spec, 0);
 }
 
 std::vector<std::string> words_of(const Option& option) {

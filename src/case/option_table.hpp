@@ -114,11 +114,18 @@ struct Option {
   std::string_view example{};  ///< of a list or a table by depth
 };
 
+/// Of a list of tables: how many a case has, and a case with so many.
+struct TableList {
+  std::size_t (*count)(const CaseSpec&) = nullptr;
+  void (*resize)(CaseSpec&, std::size_t) = nullptr;
+  explicit operator bool() const { return count != nullptr; }
+};
+
 struct OptionTable {
   std::string_view name;  ///< "geometry", "material.rail", "layer"
   std::string_view doc;
   std::vector<Option> options;
-  bool repeated = false;  ///< [[name]], any number of times
+  TableList repeated{};  ///< set for [[name]], any number of times
   /// Groups of keys that say the same thing in different ways: a case gives at most one of each.
   std::vector<std::vector<std::string_view>> rivals{};
 };
@@ -128,6 +135,15 @@ std::vector<std::string> words_of(const Option& option);
 
 /// In the order of the reference page and of a resolved case.
 const std::vector<OptionTable>& case_tables();
+
+/// The table of a name; null if there is none.
+const OptionTable* find_table(std::string_view name);
+
+/// The default case with one entry in every list of tables, so that each option has a place.
+CaseSpec one_of_each();
+
+/// What type of value an option has: its place in some case.
+Slot any_slot(const Option& option);
 
 /// A text in quotes as TOML reads it back; control characters are escaped.
 std::string toml_quoted(std::string_view text);

@@ -7,8 +7,8 @@
 
 namespace railstrata {
 
-/// Says what the folder is (not there, an unfinished run, a study, a sweep, a creep curve, a comparison, a folder of
-/// results) and which command goes with it.
+/// Says what the folder is (not there, an unfinished run, a study, a sweep, a creep curve, a collective, a
+/// comparison, a folder of results) and which command goes with it.
 Diagnostic no_result_here(const std::filesystem::path& folder);
 
 /// The command line that has begun a folder, with --force, for people to give again; "railstrata run CASE --out FOLDER

@@ -7,7 +7,6 @@
 #include "damage/flash_temperature.hpp"
 #include "damage/grades.hpp"
 #include "damage/wear.hpp"
-#include "damage/wear_indices.hpp"
 #include "post/row_strength.hpp"
 
 namespace railstrata {
@@ -103,11 +102,10 @@ double largest_rise(const SurfaceData& data, const Streamline& line) {
   return flash_temperature({flux, line.dx, line.speed}, data.rail, data.wheel).max;
 }
 
-StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double y, double speed) {
+StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double speed) {
   const double dx = (cells.x.back() - cells.x.front()) / static_cast<double>(cells.x.size() - 1);
   const Streamline line{cells.p, cells.q_x, cells.q_y, cells.slip_x, cells.slip_y, dx, speed};
   StreamlineRow row;
-  row.y = y;
   row.width = cells.area / dx;
   row.friction_energy = friction_energy(line).energy;
   row.usfd_depth = usfd_depth(line, data.density);
@@ -137,7 +135,7 @@ void add_patches(const CaseSpec& spec, const Summary& summary, DamageSummary& ou
   out.t_gamma = out.t_gamma_with_spin = 0;
   for (const ContactSummary& c : patches) {
     const PatchMeasures& m = c.patch;
-    const TGamma t = t_gamma({m.force_x, m.force_y, c.spin_moment, c.creepage_x, c.creepage_y, c.spin_per_m});
+    const TGamma t = t_gamma(c);
     out.t_gamma += t.without_spin;
     const double damage = rcf_damage(rcf_damage_15(), t.without_spin);
     if (!(damage <= out.rcf_damage)) out.rcf_damage = damage;
@@ -150,6 +148,11 @@ void add_patches(const CaseSpec& spec, const Summary& summary, DamageSummary& ou
 
 }  // namespace
 
+TGamma t_gamma(const ContactSummary& c) {
+  const PatchMeasures& m = c.patch;
+  return t_gamma(PatchCreep{m.force_x, m.force_y, c.spin_moment, c.creepage_x, c.creepage_y, c.spin_per_m});
+}
+
 std::vector<StreamlineRow> streamlines(const CaseSpec& spec, const ContactField& f) {
   std::vector<StreamlineRow> out;
   if (f.slip_is_distance || f.stations < 2 || !(spec.drive.speed > 0)) return out;
@@ -157,7 +160,9 @@ std::vector<StreamlineRow> streamlines(const CaseSpec& spec, const ContactField&
   for (int c = 0; c < f.columns; ++c) {
     const Cells cells = cells_of(f, c);
     if (std::none_of(cells.p.begin(), cells.p.end(), [](double p) { return p > 0; })) continue;
-    out.push_back(streamline_row(data, cells, f.y[c], spec.drive.speed));
+    out.push_back(streamline_row(data, cells, spec.drive.speed));
+    out.back().y = f.y[c];
+    out.back().z = f.z[c];
   }
   return out;
 }

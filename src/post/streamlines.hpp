@@ -5,13 +5,14 @@
 
 #include "case/case_spec.hpp"
 #include "contact/contact_field.hpp"
+#include "damage/wear_indices.hpp"
 #include "post/summary.hpp"
 
 namespace railstrata {
 
 /// A column of the field: what a strip of the rail along x sees. Numbers that the case gives no data for are NaN.
 struct StreamlineRow {
-  double y = 0;                           ///< m, model frame
+  double y = 0, z = 0;                    ///< m, model frame, on the rail's surface
   double width = 0;                       ///< m, across, of the surface
   double friction_energy = 0;             ///< J/m² per passage
   double usfd_depth = kNotApplicable;     ///< m per passage [LewisDwyerJoyce2004]
@@ -19,10 +20,16 @@ struct StreamlineRow {
   double kth_depth = kNotApplicable;      ///< m per passage, Jendel's map, dry laboratory surfaces
   double temperature_rise = 0;            ///< K
   double local_fatigue = kNotApplicable;  ///< largest |q|/p - k/p
+  double depth(WearLaw law) const {       ///< m per passage
+    return law == WearLaw::usfd ? usfd_depth : law == WearLaw::kth ? kth_depth : archard_depth;
+  }
 };
 
 /// Of every column with contact, y ascending. Empty for a shift, which rolls nowhere.
 std::vector<StreamlineRow> streamlines(const CaseSpec& spec, const ContactField& field);
+
+/// Of one patch, from its forces and creepages.
+TGamma t_gamma(const ContactSummary& contact);
 
 /// Of the whole contact: `rows` are those of all its patches. Empty without friction.
 DamageSummary damage_summary(const CaseSpec& spec, const Summary& summary, const std::vector<StreamlineRow>& rows);

@@ -156,7 +156,7 @@ void disturb(const Option& option, CaseSpec& spec, std::size_t index) {
 }
 
 TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
-  CaseSpec spec;
+  CaseSpec spec = one_of_each();
   spec.layers.resize(2);
   spec.layers[1].on = BodyId::wheel;
   spec.friction = {FrictionForm::coulomb, 0.1, 0.7};  // for the law that `disturb` gives
@@ -179,8 +179,7 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
 }
 
 TEST(CaseFile, EveryDefaultLiesInItsRange) {
-  CaseSpec spec;
-  spec.layers.resize(1);
+  CaseSpec spec = one_of_each();
   for (const OptionTable& table : case_tables())
     for (const Option& option : table.options) {
       const Slot slot = option.slot(spec, 0);
@@ -208,7 +207,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[meshes]\n",
        "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: "
        "case, geometry, material.rail, material.wheel, layer, vehicle, drive, friction, third_body, mesh, "
-       "contact, run, bem, transient, output"},
+       "contact, run, bem, transient, load, collective, output"},
       {"[mesh]\nelement_size = \"1 MPa\"\n",
        "a.toml:2:16: mesh.element_size = \"1 MPa\": \"MPa\" is not the unit of a length\n    2 | element_size = \"1 "
        "MPa\"\n      |                ^\n    remedy: write a length, e.g. "
@@ -376,7 +375,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[material]\nyoung = \"210 GPa\"\n",
        "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: "
        "tables: case, geometry, material.rail, material.wheel, layer, vehicle, drive, friction, third_body, mesh, "
-       "contact, run, bem, transient, output"},
+       "contact, run, bem, transient, load, collective, output"},
   };
   for (const Bad& bad : all) {
     const std::string told = error_of(bad.text);

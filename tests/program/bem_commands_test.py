@@ -14,6 +14,7 @@ from outside import FromOutside, railstrata, start, wait_for
 
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 BASE = SOURCE / "cases" / "paper" / "base.toml"
+LOADS = SOURCE / "cases" / "collective" / "mixed_traffic.toml"
 COARSE = ["--threads", "1", "--cell", "1 mm"]
 LOAD = 8660 * 9.81
 TWO_PATCHES = """
@@ -476,10 +477,36 @@ young_ratio = 2.0
         self.refused(2, ["sweep", BASE, *out], "--vary is required")
         self.assertFalse((self.folder / "sweep").exists())
 
+    # collective, wear-loop
+
+    def test_a_collective_tells_the_load_it_cannot_solve_and_sums_the_others(self):
+        out = self.folder / "collective"
+        rc, text, err = railstrata("collective", LOADS, *COARSE, "--set", "load.3.lateral_shift=50 mm", "--out", out)
+        self.assertEqual(rc, 1, err)
+        totals = json.loads((out / "collective.json").read_text())["totals"]
+        self.assertEqual((totals["passages"], totals["passages_left_out"]), (1490000 - 350000, 350000))
+        self.assertIn("coach", text)
+        for name in ["collective.csv", "rail_damage.csv", "report.html", "shown_load/summary.json"]:
+            self.assertTrue((out / name).exists(), name)
+        self.refused(2, ["collective", BASE, "--out", self.folder / "none"], "the case has no load collective")
+
+    def test_a_wear_loop_goes_on_where_it_stopped_to_the_same_profile(self):
+        loop = ["wear-loop", LOADS, *COARSE, "--max-wear", "4 um"]
+        self.done(*loop, "--steps", 2, "--out", self.folder / "whole")
+        self.done(*loop, "--steps", 1, "--out", self.folder / "parts")
+        self.done(*loop, "--steps", 2, "--out", self.folder / "parts", "--resume")
+        whole, parts = (self.folder / name / "step_0002" / "rail_profile.csv" for name in ["whole", "parts"])
+        self.assertEqual(whole.read_text(), parts.read_text())
+        other = ["--set", "drive.speed=10 m/s", "--steps", 3, "--resume", "--out", self.folder / "parts"]
+        self.refused(2, [*loop, *other], "no wear loop of this very case")
+        self.refused(2, [*loop, "--out", self.folder / "none"], "how far?")
+        worn = self.done("bem", LOADS, *COARSE, "--set", f"geometry.rail_profile={whole}", "--out", self.folder / "on")
+        self.assertIsNotNone(worn)
+
     # all
 
     def test_every_command_has_help_with_examples(self):
-        for command in ["bem", "compare", "creep-curve", "sweep"]:
+        for command in ["bem", "collective", "compare", "creep-curve", "sweep", "wear-loop"]:
             self.assertIn(f"railstrata {command}", self.done(command, "--help").split("Examples:")[1])
 
     def test_results_go_to_a_folder_named_after_the_case_and_are_not_overwritten(self):

@@ -1,0 +1,132 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/case_of.hpp"
+#include "app/commands.hpp"
+#include "app/option_values.hpp"
+#include "app/progress.hpp"
+#include "app/signals.hpp"
+#include "app/write_page.hpp"
+#include "bem/bem_options.hpp"
+#include "io/json_text.hpp"
+#include "io/output_file.hpp"
+#include "io/output_folder.hpp"
+#include "post/row_strength.hpp"
+#include "runs/write_half_space_result.hpp"
+#include "study/collective.hpp"
+#include "study/collective_files.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr const char* kRowFolder = "shown_load";
+
+void solve(const CommandOptions& options, const LoadedCase& loaded, InfluenceCache& cache,
+           std::vector<CollectiveRow>& rows) {
+  CollectiveOptions how;
+  how.bem.cell = cell_size(options.cell);
+  how.bem.cache = &cache;
+  how.shakedown = strength_given(loaded.spec, BodyId::rail) || strength_given(loaded.spec, BodyId::wheel);
+  how.stop = &stop_flag();
+  Progress progress("loads", spdlog::default_logger()->level() <= spdlog::level::info);
+  std::size_t done = 0;
+  how.ended = [&] { progress.update(static_cast<double>(++done) / static_cast<double>(rows.size())); };
+  solve_collective(rows, loaded.folder(), how);
+}
+
+/// The row that the page shows whole: with the least reserve, without strengths the one that rubs most.
+const CollectiveRow* shown_row(const std::vector<CollectiveRow>& rows) {
+  if (const CollectiveRow* worst = worst_row(rows)) return worst;
+  const auto energy = [](const CollectiveRow& r) {
+    return r.solved() ? r.passages * r.summary.damage.friction_energy : -1;
+  };
+  const auto most = std::max_element(
+      rows.begin(), rows.end(), [&](const CollectiveRow& a, const CollectiveRow& b) { return energy(a) < energy(b); });
+  return most->solved() ? &*most : nullptr;
+}
+
+/// The whole result of a row, in a folder of its own.
+void write_row(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& folder,
+               const CollectiveRow& row) {
+  LoadedCase one = loaded;
+  one.spec = row.spec;
+  one.spec.title = fmt::format("{}: {}", loaded.spec.title, row.name);
+  one.resolved_toml = resolved_case(one.spec);
+  BemOptions bem;
+  bem.cell = cell_size(options.cell);
+  const Placement placement = place(one.spec, loaded.folder());
+  const HalfSpaceSolution solution = solve_half_space(one.spec, placement, bem);
+  make_folder(folder);
+  clear_old_results(folder);
+  write_origin(folder, one, options.command_line, options.threads);
+  write_half_space_result(folder, table_origin(one), one.spec, placement, solution);
+}
+
+void print_rows(const std::vector<CollectiveRow>& rows) {
+  std::size_t width = 4;
+  for (const CollectiveRow& r : rows) width = std::max(width, r.name.size());
+  const auto cell = [](double v, int digits) {
+    return std::isfinite(v) ? fmt::format("  {:>10.{}f}", v, digits) : fmt::format("  {:>10}", "-");
+  };
+  fmt::print("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", "load", width, "passages", "F_z kN",
+             "p_max MPa", "T-gamma N", "USFD nm", "shakedown");
+  for (const CollectiveRow& r : rows) {
+    if (!r.done) continue;
+    const Summary& s = r.summary;
+    fmt::print("{:<{}}  {:>10.4g}", r.name, width, r.passages);
+    if (r.solved())
+      fmt::print("{}{}{}{}{}", cell(1e-3 * s.contact.F_z, 1), cell(1e-6 * s.contact.patch.p_max, 0),
+                 cell(s.damage.t_gamma, 1), cell(1e9 * s.damage.usfd_depth, 2),
+                 cell(s.shakedown.least(&ShakedownFactors::wandering), 3));
+    fmt::print("{}\n", r.fault.empty() ? "" : "  " + r.fault);
+  }
+}
+
+void add_collective_page(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& out,
+                         const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+  const CollectiveRow* shown = shown_row(rows);
+  if (!shown) return;
+  const std::filesystem::path page = out / "report.html";
+  write_page_or_warn(page, [&] {
+    write_row(options, loaded, out / kRowFolder, *shown);
+    write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name);
+  });
+}
+
+}  // namespace
+
+ExitCode command_collective(const CommandOptions& options) {
+  const LoadedCase loaded = load_case_of(options);
+  std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
+  const double cell = cell_size(options.cell);
+  const Placement placement = place(loaded.spec, loaded.folder());
+  const std::filesystem::path out = output_folder_of(options, loaded, "-collective");
+  require_apart(out, loaded);
+  const FolderHold hold = prepare_output_folder(out, options.force);
+  write_origin(out, loaded, options.command_line, options.threads);
+  spdlog::info("{}: {} loads; results go to {}", loaded.spec.title, rows.size(), out.string());
+  InfluenceCache cache;
+  solve(options, loaded, cache, rows);
+  write_collective_table(out / "collective.csv", table_origin(loaded), rows);
+  if (stop_flag()) {
+    spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
+    return ExitCode::interrupted;
+  }
+  const RailDamage damage = rail_damage(rows, placement, cell);
+  write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage);
+  const nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
+  write_whole_file(out / "collective.json", json_text(json, 2) + "\n");
+  if (options.json)
+    fmt::print("{}\n", json_text(json, 2));
+  else
+    print_rows(rows);
+  if (options.page) add_collective_page(options, loaded, out, rows, damage);
+  const auto failed = faults(rows);
+  if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
+  return failed > 0 ? ExitCode::failed_checks : ExitCode::ok;
+}
+
+}  // namespace railstrata

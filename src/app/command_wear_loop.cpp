@@ -1,0 +1,198 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+
+#include <nlohmann/json.hpp>
+
+#include "app/case_of.hpp"
+#include "app/commands.hpp"
+#include "app/option_values.hpp"
+#include "app/progress.hpp"
+#include "app/signals.hpp"
+#include "case/units.hpp"
+#include "core/faults.hpp"
+#include "io/csv.hpp"
+#include "io/output_file.hpp"
+#include "io/output_folder.hpp"
+#include "study/collective_files.hpp"
+#include "study/wear_loop.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kTable = "wear_loop.csv";
+constexpr const char* kIdentity = "wear_loop.id";  // of the case, for --resume
+const std::vector<std::string> kNames{"step",     "passages",  "deepest_of_step_um", "worn_area_mm2",  "area_error",
+                                      "gauge_mm", "p_max_MPa", "t_gamma_max_N",      "rail_y_first_mm"};
+
+/// One step as a row of the table.
+std::vector<double> row_of(const WearStep& step, double area_before) {
+  double pressure = 0, t_gamma = 0;
+  for (const CollectiveRow& row : step.rows) {
+    pressure = std::max(pressure, row.summary.contact.patch.p_max);
+    t_gamma = std::max(t_gamma, row.summary.damage.t_gamma);
+  }
+  const CollectiveRow& first = step.rows.front();
+  return {static_cast<double>(step.rail.step),
+          step.rail.passages,
+          1e6 * step.deepest,
+          1e6 * step.rail.area,
+          (step.rail.area - area_before) / step.wanted_area - 1,
+          1e3 * step.gauge,
+          1e-6 * pressure,
+          t_gamma,
+          1e3 * model_to_rail(first.track, first.patches.front().contact.point).y};
+}
+
+std::string step_name(int step) { return fmt::format("step_{:04}", step); }
+
+double depth_option(const std::string& text) {
+  try {
+    const double depth = parse_quantity(text, dimension::kLength);
+    if (depth > 0 && depth <= 1e-3) return depth;
+  } catch (const UnitError& e) {
+    throw CaseError(fmt::format("--max-wear {}: {}", text, e.what()), e.remedy);
+  }
+  throw CaseError(fmt::format("--max-wear {}: must be above 0 and at most 1 mm", text), "take e.g. \"0.05 mm\"");
+}
+
+std::string whole_text(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The loop of one folder.
+class Loop {
+ public:
+  Loop(const CommandOptions& options, LoadedCase loaded)
+      : options_(options),
+        loaded_(std::move(loaded)),
+        out_(output_folder_of(options, loaded_, "-wear-loop")),
+        original_(place(loaded_.spec, loaded_.folder())) {
+    step_.collective.bem.cell = cell_size(options.cell);
+    step_.collective.bem.cache = &cache_;
+    step_.collective.shakedown = false;
+    step_.collective.stop = &stop_flag();
+    step_.max_wear = depth_option(options.wear_loop.max_wear);
+    rail_ = unworn(original_, step_.collective.bem.cell);
+    plan_collective(loaded_.spec);
+    require_apart(out_, loaded_);
+  }
+
+  ExitCode run() {
+    const FolderHold hold = prepare_output_folder(out_, options_.force || options_.wear_loop.resume);
+    options_.wear_loop.resume ? resume() : begin();
+    while (!finished())
+      if (!take_step()) return interrupted();
+    spdlog::info("{} passages in {} steps, {:.4g} mm² worn off; the worn rail: {}", rail_.passages, rail_.step,
+                 1e6 * rail_.area, rail_.file.string());
+    return ExitCode::ok;
+  }
+
+ private:
+  void begin() {
+    write_origin(out_, loaded_, options_.command_line, options_.threads);
+    write_whole_file(out_ / kIdentity, case_identity(loaded_) + "\n");
+    write_worn_profile(out_ / "unworn.csv", table_origin(loaded_), rail_.points);
+    write_table();
+  }
+
+  void resume() {
+    if (whole_text(out_ / kIdentity) != case_identity(loaded_) + "\n")
+      throw CaseError(fmt::format("{}: no wear loop of this very case", out_.string()),
+                      "give the case and the --set of its beginning, or another --out without --resume");
+    const CsvTable table = read_csv(out_ / kTable);
+    for (std::size_t i = 0; i < table.rows(); ++i) {
+      table_.emplace_back();
+      for (const std::string& name : kNames) table_.back().push_back(table.column(name).at(i));
+    }
+    if (table_.empty()) return;
+    rail_.step = static_cast<int>(table_.back()[0]);
+    rail_.passages = table_.back()[1];
+    rail_.area = 1e-6 * table_.back()[3];
+    rail_.file = out_ / step_name(rail_.step) / "rail_profile.csv";
+    rail_.points = read_worn_profile(rail_.file);
+  }
+
+  bool finished() const {
+    const WearLoopOptions& w = options_.wear_loop;
+    return (w.steps > 0 && rail_.step >= w.steps) || (w.passages > 0 && rail_.passages >= w.passages * (1 - 1e-12));
+  }
+
+  /// False: stopped before it was whole.
+  bool take_step() {
+    if (stop_flag()) return false;
+    const double wanted = options_.wear_loop.passages;
+    step_.passages_left = wanted > 0 ? wanted - rail_.passages : 0;
+    WearStep step = wear_step(loaded_.spec, loaded_.folder(), original_, rail_, step_);
+    if (step.stopped) return false;
+    const fs::path folder = out_ / step_name(step.rail.step);
+    make_folder(folder);
+    step.rail.file = folder / "rail_profile.csv";
+    write_worn_profile(step.rail.file, table_origin(loaded_), step.rail.points);
+    write_collective_table(folder / "collective.csv", table_origin(loaded_), step.rows);
+    write_rail_damage(folder / "rail_damage.csv", table_origin(loaded_), step.damage);
+    table_.push_back(row_of(step, rail_.area));
+    write_table();
+    tell(step);
+    rail_ = std::move(step.rail);
+    rail_.points = read_worn_profile(rail_.file);  // as --resume has them
+    return true;
+  }
+
+  /// A jump of the contact shows a step that is too long: wear of that depth moves it further than it can follow.
+  void warn_of_jump() const {
+    constexpr double kJump = 0.2;
+    if (table_.size() < 2) return;
+    const double before = table_[table_.size() - 2][6], now = table_.back()[6];
+    if (std::abs(now / before - 1) > kJump)
+      spdlog::warn(
+          "step {}: the largest pressure jumped from {:.0f} to {:.0f} MPa: the steps are too long, profiles "
+          "from here on are not to be trusted; start anew with a smaller --max-wear",
+          table_.back()[0], before, now);
+  }
+
+  void tell(const WearStep& step) const {
+    const std::vector<double>& r = table_.back();
+    warn_of_jump();
+    spdlog::info("step {}: {:.4g} passages, deepest {:.3g} µm, {:.4g} mm² in all, p_max {:.0f} MPa", step.rail.step,
+                 r[1], r[2], r[3], r[6]);
+  }
+
+  void write_table() const {
+    std::vector<CsvColumn> columns;
+    for (const std::string& name : kNames) columns.push_back({name, {}});
+    for (const std::vector<double>& row : table_)
+      for (std::size_t k = 0; k < row.size(); ++k) columns[k].values.push_back(row[k]);
+    write_csv(out_ / kTable, table_origin(loaded_), columns);
+  }
+
+  ExitCode interrupted() const {
+    spdlog::warn("stopped after step {}; what is done is in {}: go on with --resume", rail_.step, out_.string());
+    return ExitCode::interrupted;
+  }
+
+  const CommandOptions& options_;
+  LoadedCase loaded_;
+  fs::path out_;
+  Placement original_;
+  InfluenceCache cache_;
+  WearStepOptions step_;
+  WornRail rail_;
+  std::vector<std::vector<double>> table_;
+};
+
+}  // namespace
+
+ExitCode command_wear_loop(const CommandOptions& options) {
+  if (options.wear_loop.steps == 0 && options.wear_loop.passages == 0)
+    throw CaseError("wear-loop: how far?", "give --steps 10, or --passages 2e6, or both");
+  return Loop(options, load_case_of(options)).run();
+}
+
+}  // namespace railstrata

@@ -1,0 +1,142 @@
+#include "case/load_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "case/option_table.hpp"
+#include "case/unit_table.hpp"
+
+namespace railstrata {
+namespace {
+
+/// What is wrong with a row.
+struct RowFault {
+  const char* key;
+  std::string message, remedy;
+};
+
+std::optional<RowFault> fault_of(const CaseSpec& spec, const LoadSpec& load) {
+  constexpr double kTightest = 5;  // m
+  const double wheel = spec.vehicle.wheel_mass * spec.vehicle.gravity;
+  if (load.wheel_load && *load.wheel_load < wheel)
+    return RowFault{
+        "wheel_load",
+        fmt::format("wheel_load = {}: the wheel itself weighs {}", format_quantity(*load.wheel_load, dimension::kForce),
+                    format_quantity(wheel, dimension::kForce)),
+        "give more load, or less vehicle.wheel_mass"};
+  if (load.curve_radius && !(std::abs(*load.curve_radius) >= kTightest))
+    return RowFault{"curve_radius",
+                    fmt::format("curve_radius = {}: must be at least {} to either side",
+                                format_quantity(*load.curve_radius, dimension::kLength),
+                                format_quantity(kTightest, dimension::kLength)),
+                    "leave it out where the case's track is meant"};
+  const DriveSpec d = with_load(spec, load).drive;
+  const double wanted = std::hypot(d.traction().value_or(0), d.lateral_traction_coefficient.value_or(0));
+  if (wanted > 0 && wanted >= d.friction_coefficient)
+    return RowFault{load.friction_coefficient ? "friction_coefficient" : "traction_coefficient",
+                    fmt::format("a traction coefficient of {:.4g} must be below the friction coefficient {}", wanted,
+                                d.friction_coefficient),
+                    "the wheel would slide: lower the row's traction or raise its friction"};
+  if (spec.friction.kinetic_coefficient.value_or(0) > d.friction_coefficient)
+    return RowFault{"friction_coefficient",
+                    fmt::format("friction_coefficient = {}: must be at least friction.kinetic_coefficient = {}",
+                                d.friction_coefficient, *spec.friction.kinetic_coefficient),
+                    "friction falls with slip: raise the row's"};
+  return std::nullopt;
+}
+
+template <class T>
+void take(const std::optional<T>& given, T& value) {
+  if (given) value = *given;
+}
+template <class T>
+void take(const std::optional<T>& given, std::optional<T>& value) {
+  if (given) value = given;
+}
+
+void put(const UnitTable::Cell& cell, const Option& option, CaseSpec& spec, std::size_t index) {
+  const Slot slot = option.slot(spec, index);
+  if (auto* const* text = std::get_if<std::string*>(&slot)) {
+    **text = cell.text;
+    return;
+  }
+  if (!cell.number) return;
+  const double value = option.derivation ? option.derivation.value(spec, index, *cell.number) : *cell.number;
+  if (auto* const* maybe = std::get_if<std::optional<double>*>(&slot))
+    **maybe = value;
+  else
+    *std::get<double*>(slot) = value;
+}
+
+}  // namespace
+
+CaseSpec with_load(const CaseSpec& spec, const LoadSpec& load) {
+  CaseSpec out = spec;
+  out.loads.clear();
+  if (load.wheel_load) {
+    out.vehicle.sprung_mass = *load.wheel_load / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+    out.vehicle.approach.reset();
+  }
+  take(load.lateral_shift, out.geometry.lateral_shift);
+  take(load.yaw, out.geometry.yaw);
+  take(load.curve_radius, out.geometry.curve_radius);
+  take(load.speed, out.drive.speed);
+  take(load.friction_coefficient, out.drive.friction_coefficient);
+  if (load.traction_coefficient) out.drive.creepage.reset();
+  take(load.traction_coefficient, out.drive.traction_coefficient);
+  take(load.creepage, out.drive.creepage);
+  if (load.lateral_traction_coefficient) out.drive.lateral_creepage.reset();
+  if (load.lateral_creepage) out.drive.lateral_traction_coefficient.reset();
+  take(load.lateral_traction_coefficient, out.drive.lateral_traction_coefficient);
+  take(load.lateral_creepage, out.drive.lateral_creepage);
+  return out;
+}
+
+std::string load_name(const CaseSpec& spec, std::size_t index) {
+  const std::string& name = spec.loads.at(index).name;
+  return name.empty() ? fmt::format("load {}", index + 1) : name;
+}
+
+void read_load_table(const std::string& text, const std::filesystem::path& file, CaseSpec& spec) {
+  const OptionTable& options = *find_table("load");
+  UnitTableForm form{{}, options.rivals, "a load", "wheel_load [kN], lateral_shift [mm], passages"};
+  for (const Option& option : options.options) form.columns.push_back({&option, option.key});
+  form.blanks = true;
+  form.gravity = spec.vehicle.gravity;
+  const UnitTable table = read_unit_table(text, file, form);
+  for (const UnitTable::Row& row : table.rows) {
+    spec.loads.emplace_back();
+    for (std::size_t k = 0; k < row.cells.size(); ++k)
+      put(row.cells[k], *table.columns[k], spec, spec.loads.size() - 1);
+    if (const auto fault = fault_of(spec, spec.loads.back()))
+      refuse_in_table(file, row.line, fault->message, fault->remedy);
+  }
+}
+
+void check_loads(const CaseSpec& spec, CaseSource& source) {
+  if (spec.loads.empty()) return;
+  const bool own_loads =
+      std::any_of(spec.loads.begin(), spec.loads.end(), [](const LoadSpec& l) { return l.wheel_load.has_value(); });
+  for (const char* key : {"drive.tractive_force", "drive.lateral_force"})
+    if (own_loads && source.has(key))
+      source.complain(key,
+                      fmt::format("{}: the rows of the collective have loads of their own, this force is over the "
+                                  "case's",
+                                  key),
+                      "give a traction coefficient, which counts over each row's load");
+  if (spec.transient.kind != TransientKind::none)
+    source.complain("transient.kind", "a load collective is of wheels that roll steadily: it follows no history",
+                    "take out [transient], or the rows of the collective");
+  for (std::size_t i = 0; i < spec.loads.size(); ++i) {
+    const std::string name = fmt::format("load.{}", i);
+    if (!source.has(name) || !source.sound({name})) continue;
+    if (const auto fault = fault_of(spec, spec.loads[i]))
+      source.complain(fmt::format("{}.{}", name, fault->key), fmt::format("{}: {}", name, fault->message),
+                      fault->remedy);
+  }
+}
+
+}  // namespace railstrata

@@ -1,0 +1,187 @@
+#include "case/unit_table.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+
+#include "core/faults.hpp"
+#include "core/nearest_word.hpp"
+#include "core/printable.hpp"
+
+namespace railstrata {
+namespace {
+
+struct Place {
+  const std::filesystem::path& file;
+  int line;
+  [[noreturn]] void refuse(const std::string& what, const std::string& remedy) const {
+    refuse_in_table(file, line, what, remedy);
+  }
+};
+
+struct Column {
+  const Option* option;
+  std::string unit;
+  bool text = false;
+};
+
+std::string trimmed(std::string_view text) {
+  const auto first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
+  return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
+}
+
+std::vector<std::string> cells_of(const std::string& line, char separator) {
+  std::vector<std::string> out(1);
+  for (const char c : line) {
+    if (c == separator)
+      out.emplace_back();
+    else
+      out.back() += c;
+  }
+  for (std::string& cell : out) cell = trimmed(cell);
+  return out;
+}
+
+/// The unit that follows a key: "distance [mm]" and "distance_mm" have "mm", "spin_1_m" has "1/m"; nothing for a name
+/// that does not begin with the key.
+std::optional<std::string> unit_after(const std::string& name, std::string_view key) {
+  if (!name.starts_with(key)) return std::nullopt;
+  std::string rest = trimmed(std::string_view(name).substr(key.size()));
+  if (rest.empty()) return "";
+  if (rest.size() > 2 && rest.front() == '[' && rest.back() == ']') return trimmed(rest.substr(1, rest.size() - 2));
+  if (rest.front() != '_') return std::nullopt;
+  rest.erase(0, 1);
+  std::replace(rest.begin(), rest.end(), '_', '/');
+  return rest;
+}
+
+class TableReader {
+ public:
+  explicit TableReader(const UnitTableForm& form) : form_(form) {}
+
+  void read_line(const std::string& line, const Place& at) {
+    if (columns_.empty()) return read_names(line, at);
+    const std::vector<std::string> cells = cells_of(line, separator_);
+    if (cells.size() != columns_.size())
+      at.refuse(fmt::format("{} values in a table of {} columns", cells.size(), columns_.size()),
+                "give every row one value a column");
+    UnitTable::Row& row = table_.rows.emplace_back();
+    row.line = at.line;
+    for (std::size_t k = 0; k < cells.size(); ++k) row.cells.push_back(cell(columns_[k], cells[k], at));
+  }
+
+  UnitTable table() && { return std::move(table_); }
+
+ private:
+  UnitTable::Cell cell(const Column& column, const std::string& written, const Place& at) const {
+    if (column.text || (form_.blanks && written.empty())) return {std::nullopt, written};
+    return {quantity(column, written, at), written};
+  }
+
+  /// A number with the column's unit, rounded once.
+  double quantity(const Column& column, const std::string& number, const Place& at) const {
+    double value = 0;
+    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+    if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(value))
+      at.refuse(fmt::format("\"{}\" is not a number, in the column {}", number.substr(0, 40), column.option->key),
+                "write numbers with a decimal point; the unit stands in the column's name");
+    try {
+      value = in_si(column, column.unit.empty() ? number : number + " " + column.unit);
+    } catch (const UnitError& e) {
+      at.refuse(fmt::format("the column {}: {}", column.option->key, e.what()), e.remedy);
+    }
+    if (!column.option->range.holds(value))
+      at.refuse(fmt::format("{} = {}{}{}: must be {}", column.option->key, number, column.unit.empty() ? "" : " ",
+                            column.unit, describe(column.option->range, column.option->dimension)),
+                "choose a value in this range, or another unit in the column's name");
+    return value;
+  }
+
+  double in_si(const Column& column, const std::string& text) const {
+    try {
+      return parse_quantity(text, column.option->dimension);
+    } catch (const UnitError&) {
+      if (!column.option->derivation.takes_mass) throw;
+    }
+    return form_.gravity * parse_quantity(text, dimension::kMass);
+  }
+
+  Column column_named(const std::string& name, const Place& at) const {
+    std::optional<Column> best;
+    std::size_t longest = 0;
+    std::vector<std::string> known;
+    for (const UnitTableForm::Column& c : form_.columns) {
+      known.emplace_back(c.key);
+      for (const std::string_view key : {c.option->key, c.key})
+        if (const auto unit = unit_after(name, key); unit && key.size() > longest) {
+          longest = key.size();
+          best = Column{c.option, *unit, std::holds_alternative<std::string*>(any_slot(*c.option))};
+        }
+    }
+    const std::string near = nearest_word(name, known);
+    if (!best)
+      at.refuse(fmt::format("unknown column \"{}\"", name.substr(0, 60)),
+                fmt::format("{}columns: {}, each with its unit: \"tractive_force [kN]\" or \"tractive_force_kN\"",
+                            near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(known, ", ")));
+    const bool plain = best->text || best->option->dimension == dimension::kNumber;
+    if (best->unit.empty() && !plain && best->option->dimension != dimension::kSlope)
+      at.refuse(fmt::format("the column \"{}\" has no unit", name),
+                fmt::format("write it into the column's name: {}", describe(best->option->dimension)));
+    if (!best->text) quantity(Column{best->option, best->unit}, best->option->range.holds(0) ? "0" : "1e-3", at);
+    return *best;
+  }
+
+  void read_names(const std::string& line, const Place& at) {
+    if (line.find(';') != std::string::npos) separator_ = ';';
+    for (const std::string& name : cells_of(line, separator_)) {
+      columns_.push_back(column_named(name, at));
+      for (std::size_t k = 0; k + 1 < columns_.size(); ++k)
+        if (columns_[k].option == columns_.back().option)
+          at.refuse(fmt::format("two columns are {}", columns_.back().option->key), "keep one of them");
+    }
+    for (const auto& rivals : form_.rivals) {
+      std::vector<std::string_view> given;
+      for (const Column& c : columns_)
+        if (std::find(rivals.begin(), rivals.end(), c.option->key) != rivals.end()) given.push_back(c.option->key);
+      if (given.size() > 1)
+        at.refuse(fmt::format("the table has {}: {} has one of them", fmt::join(given, " and "), form_.what),
+                  "keep one of them");
+    }
+    for (const Column& c : columns_) table_.columns.push_back(c.option);
+  }
+
+  const UnitTableForm& form_;
+  std::vector<Column> columns_;
+  UnitTable table_;
+  char separator_ = ',';
+};
+
+}  // namespace
+
+void refuse_in_table(const std::filesystem::path& file, int line, const std::string& what, const std::string& remedy) {
+  throw CaseError(printable(what), remedy, fmt::format("{}:{}", file.filename().string(), line));
+}
+
+UnitTable read_unit_table(const std::string& text, const std::filesystem::path& file, const UnitTableForm& form) {
+  std::istringstream lines(text);
+  TableReader reader(form);
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
+    line = line.substr(0, line.find('#'));
+    if (trimmed(line).empty()) continue;
+    reader.read_line(line, {file, number});
+  }
+  UnitTable table = std::move(reader).table();
+  if (table.rows.empty())
+    refuse_in_table(file, std::max(number, 1), "the table has no rows",
+                    fmt::format("write a line of column names, e.g. \"{}\", then a line for each row", form.example));
+  return table;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,50 @@
+#pragma once
+// Tables of options as text: a line of column names with their units, then a line for each row.
+//
+//   distance [mm], wheel_load [kN], creepage          units also as distance_mm; with a semicolon in this
+//   0, 85, 0                                          line that divides, else commas; "#" begins a comment
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "case/option_table.hpp"
+
+namespace railstrata {
+
+/// What a table may hold.
+struct UnitTableForm {
+  struct Column {
+    const Option* option;
+    std::string_view key;  ///< its name; the option's own key is taken too
+  };
+  std::vector<Column> columns;
+  std::vector<std::vector<std::string_view>> rivals;
+  std::string_view what;     ///< that a row, or the table, describes, for messages: "a history"
+  std::string_view example;  ///< of a line of names
+  bool blanks = false;       ///< a cell may be empty
+  double gravity = 9.81;     ///< of forces that are written as masses
+};
+
+struct UnitTable {
+  struct Cell {
+    std::optional<double> number;  ///< SI; of an empty cell, and of a text, none
+    std::string text;
+  };
+  struct Row {
+    int line = 0;
+    std::vector<Cell> cells;
+  };
+  std::vector<const Option*> columns;
+  std::vector<Row> rows;
+};
+
+/// Throws CaseError with file, line and remedy: unknown and rival columns, units, numbers out of an option's range.
+UnitTable read_unit_table(const std::string& text, const std::filesystem::path& file, const UnitTableForm& form);
+
+/// The CaseError of a line.
+[[noreturn]] void refuse_in_table(const std::filesystem::path& file, int line, const std::string& what,
+                                  const std::string& remedy);
+
+}  // namespace railstrata

@@ -1,0 +1,140 @@
+#include "study/collective.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <span>
+
+#include "case/load_rows.hpp"
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+#include "damage/wear_indices.hpp"
+#include "io/summary_json.hpp"
+#include "post/bem_summary.hpp"
+#include "runs/solve_half_space.hpp"
+#include "study/result_columns.hpp"
+
+namespace railstrata {
+namespace {
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+PatchDamage patch_damage(const CaseSpec& spec, const BemPatch& patch, const ContactSummary& contact) {
+  return {patch.contact, streamlines(spec, patch.field), rcf_damage(rcf_damage_15(), t_gamma(contact).without_spin)};
+}
+
+std::vector<PatchDamage> patch_damages(const CaseSpec& spec, const HalfSpaceSolution& solution) {
+  const Summary& s = solution.summary;
+  std::vector<PatchDamage> out{
+      patch_damage(spec, solution.result, s.patches.empty() ? s.contact : s.patches.front().contact)};
+  for (std::size_t k = 0; k < solution.result.further.size(); ++k)
+    out.push_back(patch_damage(spec, solution.result.further[k], s.patches.at(k + 1).contact));
+  return out;
+}
+
+void solve(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
+  const Placement placement = place(row.spec, folder);
+  row.track = placement.track;
+  HalfSpaceSolution solution = solve_half_space_contact(row.spec, placement, options.bem);
+  Summary& s = solution.summary;
+  if (options.shakedown) s.shakedown = shakedown_summary(row.spec, half_space_shakedown(row.spec, solution.result));
+  s.warnings = bem_warnings(s, row.spec, solution.result);
+  row.patches = patch_damages(row.spec, solution);
+  row.summary = std::move(s);
+  row.summary_json = summary_json(row.summary);
+  row.fault = failed_check(row.summary_json);
+}
+
+void solve_or_tell(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
+  try {
+    solve(row, folder, options);
+  } catch (const CaseError& e) {
+    row.fault = first_line(e.diagnostics.empty() ? e.what() : e.diagnostics.front().message);
+  } catch (const std::exception& e) {
+    row.fault = first_line(e.what());
+  }
+}
+
+/// None of a row whose checks failed: its numbers are shown, but not summed.
+std::span<const PatchDamage> patches_of(const CollectiveRow& row) {
+  return row.sound() ? std::span<const PatchDamage>(row.patches) : std::span<const PatchDamage>();
+}
+
+}  // namespace
+
+std::vector<CollectiveRow> plan_collective(const CaseSpec& spec) {
+  if (spec.loads.empty())
+    throw CaseError("the case has no load collective",
+                    "write rows of [[load]], each with passages and what differs from the case, or name a table with "
+                    "collective.file = \"loads.csv\"");
+  if (!spec.run.rolling)
+    throw CaseError("nothing rolls in this case (run.rolling = false): it has no wear and no fatigue of passages",
+                    "take out run.rolling");
+  std::vector<CollectiveRow> rows;
+  for (std::size_t i = 0; i < spec.loads.size(); ++i) {
+    CollectiveRow& row = rows.emplace_back();
+    row.name = load_name(spec, i);
+    row.passages = spec.loads[i].passages;
+    row.spec = with_load(spec, spec.loads[i]);
+  }
+  return rows;
+}
+
+void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::path& folder,
+                      const CollectiveOptions& options) {
+  std::mutex ending;
+  std::exception_ptr failure;
+  for_each(
+      static_cast<std::ptrdiff_t>(rows.size()),
+      [&](std::ptrdiff_t i) {
+        if (options.stop && *options.stop) return;
+        CollectiveRow& row = rows[static_cast<std::size_t>(i)];
+        solve_or_tell(row, folder, options);
+        const std::lock_guard lock(ending);
+        row.done = true;
+        try {
+          if (options.ended) options.ended();
+        } catch (...) {
+          failure = std::current_exception();
+        }
+      },
+      true);
+  if (failure) std::rethrow_exception(failure);
+}
+
+RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell) {
+  RailDamage out = undamaged(placement.rail, cell);
+  for (const CollectiveRow& row : rows)
+    for (const PatchDamage& patch : patches_of(row))
+      add_passages(out, placement.rail, placement.track, patch, row.passages);
+  return out;
+}
+
+double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law) {
+  double area = 0;
+  for (const CollectiveRow& row : rows)
+    for (const PatchDamage& patch : patches_of(row))
+      for (const StreamlineRow& line : patch.rows) area += row.passages * line.width * line.depth(law);
+  return area;
+}
+
+const CollectiveRow* worst_row(const std::vector<CollectiveRow>& rows) {
+  const CollectiveRow* worst = nullptr;
+  const auto factor = [](const CollectiveRow& r) { return r.summary.shakedown.least(&ShakedownFactors::wandering); };
+  for (const CollectiveRow& row : rows)
+    if (std::isfinite(factor(row)) && (!worst || factor(row) < factor(*worst))) worst = &row;
+  return worst;
+}
+
+long faults(const std::vector<CollectiveRow>& rows) {
+  return std::count_if(rows.begin(), rows.end(), [](const CollectiveRow& r) { return !r.fault.empty(); });
+}
+
+std::string warnings_text(const CollectiveRow& row) {
+  std::string out;
+  for (const Warning& w : row.summary.warnings) out += (out.empty() ? "" : "; ") + w.name;
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,66 @@
+#pragma once
+// A load collective: half-space solutions of the case's rows of [[load]], and what all their passages do to the rail.
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "bem/bem_options.hpp"
+#include "case/case_spec.hpp"
+#include "model/model.hpp"
+#include "post/rail_damage.hpp"
+#include "post/summary.hpp"
+
+namespace railstrata {
+
+/// A row of the collective with what came out of it.
+struct CollectiveRow {
+  std::string name;
+  double passages = 0;
+  CaseSpec spec;                        ///< the case of this row
+  TrackGeometry track;                  ///< where it is solved
+  Summary summary;                      ///< where it is solved
+  nlohmann::ordered_json summary_json;  ///< the same; null: there is none
+  std::vector<PatchDamage> patches;
+  std::string fault;  ///< empty: solved, and its checks hold
+  bool done = false;
+  bool solved() const { return !summary_json.is_null(); }
+  bool sound() const { return solved() && fault.empty(); }
+};
+
+/// The rows, nothing solved. Throws CaseError where the case has none, or where nothing rolls.
+std::vector<CollectiveRow> plan_collective(const CaseSpec& spec);
+
+struct CollectiveOptions {
+  BemOptions bem;
+  bool shakedown = true;                    ///< factors of each row where the case says strengths (no single track)
+  const std::atomic<bool>* stop = nullptr;  ///< true: rows that have not begun are left out
+  std::function<void()> ended;              ///< after every row, from any thread, one at a time
+};
+
+/// Solves the rows side by side, one thread each. What goes wrong with a row is its fault, and the others go on; what
+/// `ended` throws is thrown at the end. Profile files are relative to `folder`.
+void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::path& folder,
+                      const CollectiveOptions& options);
+
+/// The sum over the rows that are sound, each times its passages. `placement` is that of the case (profile, track);
+/// `cell` [m] the length of the rail's cells.
+RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell);
+
+/// m² per `passages` of all sound rows: the sum over their streamlines of depth times width. What rail_damage must
+/// conserve.
+double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law);
+
+/// The row with the smallest factor for wandering traffic; null where none is known.
+const CollectiveRow* worst_row(const std::vector<CollectiveRow>& rows);
+
+/// Rows that were not solved, or whose checks failed.
+long faults(const std::vector<CollectiveRow>& rows);
+
+/// Names of the warnings, for a table.
+std::string warnings_text(const CollectiveRow& row);
+
+}  // namespace railstrata

@@ -1,0 +1,258 @@
+#include "study/collective_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "io/csv.hpp"
+#include "io/json_text.hpp"
+#include "io/output_file.hpp"
+#include "report/checks.hpp"
+#include "report/page.hpp"
+#include "report/read_run.hpp"
+#include "study/result_columns.hpp"
+
+namespace railstrata {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kMilli = 1e-3, kMicro = 1e-6, kSquareMillimetre = 1e-6;
+
+bool known(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+std::vector<double> in_units(std::vector<double> values, double unit) {
+  for (double& v : values) v /= unit;
+  return values;
+}
+
+Json finite(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+/// A cell by its value.
+Json extreme(const RailDamage& d, const std::vector<double>& values, const std::string& key) {
+  const auto at = static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  return {{key, values[at]}, {"rail_y_m", d.y[at]}};
+}
+
+std::vector<ResultColumn> columns_for(const std::vector<CollectiveRow>& rows) {
+  const bool strengths =
+      std::any_of(rows.begin(), rows.end(), [](const CollectiveRow& r) { return !r.summary.shakedown.bodies.empty(); });
+  std::vector<ResultColumn> out = result_columns(true);
+  std::erase_if(out, [&](const ResultColumn& c) { return c.of_strength ? !strengths : c.of_stress; });
+  return out;
+}
+
+std::string deciding_zone(const CollectiveRow& row) {
+  const BodyShakedown* body = row.summary.shakedown.governing();
+  if (!body) return {};
+  return body->zone == body->body ? body->zone : body->body + ": " + body->zone;
+}
+
+Json row_json(const CollectiveRow& row) {
+  const double factor = row.summary.shakedown.least(&ShakedownFactors::wandering);
+  Json warnings = Json::array();
+  for (const Warning& w : row.summary.warnings) warnings.push_back(w.name);
+  return {{"name", row.name},
+          {"passages", row.passages},
+          {"shakedown_wandering", finite(factor)},
+          {"warnings", warnings},
+          {"fault", row.fault.empty() ? Json(nullptr) : Json(row.fault)}};
+}
+
+/// Loads that the sums lack.
+ReportCheck unsolved_check(const std::vector<CollectiveRow>& rows) {
+  ReportCheck out{.name = "loads_left_out", .runs = {}};
+  for (const CollectiveRow& row : rows)
+    if (!row.sound()) {
+      out.value += 1;
+      out.note += (out.note.empty() ? "" : "; ") + row.name + ": " + row.fault;
+    }
+  out.ok = out.value == 0;
+  return out;
+}
+
+ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
+  ReportTable t{.id = "loads",
+                .title = "Loads",
+                .note =
+                    "y: of the contact from the rail's axis, field side positive. Shakedown: load factor for "
+                    "wandering traffic, above 1 there is a reserve.",
+                .columns = {"load", "passages", "load [kN]", "contact y [mm]", "p_max [MPa]", "T-gamma [N]",
+                            "USFD wear [nm/passage]", "shakedown", "where", "fault"},
+                .rows = {}};
+  for (const CollectiveRow& row : rows) {
+    const ContactSummary& c = row.summary.contact;
+    const bool solved = row.solved();
+    const auto number = [&](double v) { return solved ? finite(v) : Json(nullptr); };
+    const double y = solved ? model_to_rail(row.track, row.patches.front().contact.point).y : kNotApplicable;
+    t.rows.push_back({row.name, row.passages, number(kMilli * c.F_z), number(y / kMilli),
+                      number(c.patch.p_max * kMicro), number(row.summary.damage.t_gamma),
+                      number(row.summary.damage.usfd_depth * 1e9),
+                      number(row.summary.shakedown.least(&ShakedownFactors::wandering)), deciding_zone(row),
+                      row.fault.empty() ? Json(nullptr) : Json(row.fault)});
+  }
+  return t;
+}
+
+ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+  ReportTable t{.id = "totals",
+                .title = "All passages together",
+                .note =
+                    "Wear of dry laboratory surfaces: a lubricated or wet rail wears less, by a factor of 5 and "
+                    "more. RCF damage: Burstow's function for R260 over the width of each patch; 1 is a visible "
+                    "crack, below zero wear removes the cracks.",
+                .columns = {"what", "unit", "total", "largest", "at y [mm]"},
+                .rows = {}};
+  const auto largest = [&](const std::vector<double>& values) {
+    return static_cast<std::size_t>(std::max_element(values.begin(), values.end()) - values.begin());
+  };
+  double passages = 0;
+  for (const CollectiveRow& row : rows) passages += row.sound() ? row.passages : 0;
+  const std::size_t most = largest(damage.passages), hottest = largest(damage.friction_energy),
+                    cracked = largest(damage.rcf_damage);
+  t.rows.push_back({"passages; over one place", "", passages, damage.passages[most], damage.y[most] / kMilli});
+  t.rows.push_back({"friction energy; over one place", "J/m; J/mm²", worn_area(damage, damage.friction_energy),
+                    damage.friction_energy[hottest] * kSquareMillimetre, damage.y[hottest] / kMilli});
+  for (const KnownWear& wear : known_wear(damage)) {
+    const std::vector<double>& depth = damage.depth(wear.law);
+    const std::size_t at = largest(depth);
+    t.rows.push_back({"wear, " + wear.words, "mm²; µm", worn_area(damage, depth) / kSquareMillimetre,
+                      depth[at] / kMicro, damage.y[at] / kMilli});
+  }
+  t.rows.push_back({"RCF damage", "", nullptr, damage.rcf_damage[cracked], damage.y[cracked] / kMilli});
+  return t;
+}
+
+constexpr const char* kAcross = "y across the rail, from its axis to the field side [mm]";
+
+/// The cells that are rolled over, with a little room on either side, from `first` on `count` of them.
+std::pair<std::size_t, std::size_t> rolled_range(const RailDamage& d) {
+  constexpr std::size_t kRoom = 8;
+  const auto rolled = [](double v) { return v > 0; };
+  const auto first = std::find_if(d.passages.begin(), d.passages.end(), rolled);
+  const auto last = std::find_if(d.passages.rbegin(), d.passages.rend(), rolled).base();
+  if (first == d.passages.end()) return {0, d.y.size()};
+  const auto from = static_cast<std::size_t>(first - d.passages.begin()),
+             to = static_cast<std::size_t>(last - d.passages.begin());
+  return {from > kRoom ? from - kRoom : 0, std::min(d.y.size(), to + kRoom)};
+}
+
+ReportSeries series_of(const std::string& name, const RailDamage& d, const std::vector<double>& values, double unit) {
+  const auto [from, to] = rolled_range(d);
+  ReportSeries s{.name = name, .x = {}, .y = {}, .markers = false};
+  for (std::size_t i = from; i < to; ++i) {
+    s.x.push_back(d.y[i] / kMilli);
+    s.y.push_back(values[i] / unit);
+  }
+  return s;
+}
+
+std::vector<ReportChart> charts_of(const RailDamage& d) {
+  ReportChart wear{"wear", "Wear depth over the rail", "All passages together.", kAcross, "wear depth [µm]", {}};
+  for (const KnownWear& known : known_wear(d))
+    wear.series.push_back(series_of(known.words, d, d.depth(known.law), kMicro));
+  ReportChart rcf{"rcf",
+                  "RCF damage over the rail",
+                  "Below zero wear removes cracks.",
+                  kAcross,
+                  "RCF damage",
+                  {series_of("Burstow, R260", d, d.rcf_damage, 1)}};
+  ReportChart energy{"energy",
+                     "Friction energy over the rail",
+                     "",
+                     kAcross,
+                     "friction energy [J/mm²]",
+                     {series_of("friction energy", d, d.friction_energy, 1 / kSquareMillimetre)}};
+  ReportChart passages{
+      "passages", "Passages over the rail", "", kAcross, "passages", {series_of("passages", d, d.passages, 1)}};
+  ReportChart profile{"profile", "The rail where wheels roll",          "", kAcross,
+                      "z [mm]",  {series_of("profile", d, d.z, kMilli)}};
+  return {wear, rcf, energy, passages, profile};
+}
+
+}  // namespace
+
+std::vector<KnownWear> known_wear(const RailDamage& damage) {
+  std::vector<KnownWear> out;
+  for (const KnownWear& wear :
+       {KnownWear{WearLaw::usfd, "usfd", "USFD"}, KnownWear{WearLaw::kth, "kth", "Archard, Jendel's map (KTH)"},
+        KnownWear{WearLaw::archard, "archard", "Archard, the rail's wear_coefficient"}})
+    if (known(damage.depth(wear.law))) out.push_back(wear);
+  return out;
+}
+
+void write_collective_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                            const std::vector<CollectiveRow>& rows) {
+  const std::vector<ResultColumn> columns = columns_for(rows);
+  std::string text = csv_remarks(origin) + "load,passages,speed_m_s,lateral_shift_mm,friction_coefficient,rail_y_mm,";
+  for (const ResultColumn& c : columns) text += c.name + ',';
+  text += "rcf_damage,shakedown_zone,warnings,fault\n";
+  for (const CollectiveRow& row : rows) {
+    const double y = row.solved() ? model_to_rail(row.track, row.patches.front().contact.point).y : kNotApplicable;
+    text += csv_cell(row.name);
+    for (const double v : {row.passages, row.spec.drive.speed, row.spec.geometry.lateral_shift / kMilli,
+                           row.spec.drive.friction_coefficient, y / kMilli})
+      text += ',' + csv_cell(v);
+    for (const ResultColumn& c : columns) text += ',' + csv_cell(column_value(c, row.summary_json));
+    text += ',' + csv_cell(row.summary.damage.rcf_damage);
+    for (const std::string& word : {deciding_zone(row), warnings_text(row), row.fault}) text += ',' + csv_cell(word);
+    text += '\n';
+  }
+  write_whole_file(file, text);
+}
+
+void write_rail_damage(const std::filesystem::path& file, const std::vector<std::string>& origin, const RailDamage& d) {
+  std::vector<CsvColumn> columns{{"s_mm", in_units(d.s, kMilli)},
+                                 {"rail_y_mm", in_units(d.y, kMilli)},
+                                 {"rail_z_mm", in_units(d.z, kMilli)},
+                                 {"passages", d.passages},
+                                 {"friction_energy_J_m2", d.friction_energy},
+                                 {"rcf_damage", d.rcf_damage}};
+  for (const KnownWear& wear : known_wear(d))
+    columns.push_back({wear.key + "_depth_um", in_units(d.depth(wear.law), kMicro)});
+  write_csv(file, origin, columns);
+}
+
+Json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+  double passages = 0, left_out = 0;
+  for (const CollectiveRow& row : rows) (row.sound() ? passages : left_out) += row.passages;
+  Json totals{{"passages", passages},
+              {"passages_left_out", left_out},
+              {"friction_energy_J_m", worn_area(damage, damage.friction_energy)}};
+  for (const KnownWear& wear : known_wear(damage)) {
+    totals[wear.key + "_area_m2"] = worn_area(damage, damage.depth(wear.law));
+    totals[wear.key + "_deepest"] = extreme(damage, damage.depth(wear.law), "depth_m");
+  }
+  totals["rcf_damage_largest"] = extreme(damage, damage.rcf_damage, "damage");
+  const CollectiveRow* worst = worst_row(rows);
+  Json all = Json::array();
+  for (const CollectiveRow& row : rows) all.push_back(row_json(row));
+  return {{"title", title},
+          {"cell_m", damage.cell},
+          {"totals", totals},
+          {"worst_shakedown", worst ? Json{{"load", worst->name},
+                                           {"wandering", worst->summary.shakedown.least(&ShakedownFactors::wandering)},
+                                           {"where", deciding_zone(*worst)}}
+                                    : Json(nullptr)},
+          {"loads", all}};
+}
+
+void write_collective_page(const std::filesystem::path& page, const std::string& title,
+                           const std::vector<CollectiveRow>& rows, const RailDamage& damage,
+                           const std::filesystem::path& looked_at, const std::string& shown) {
+  Report report;
+  report.title = title;
+  report.runs.push_back(read_report_run(looked_at));
+  report.runs.back().name = shown;
+  report.checks = report_checks(report.runs);
+  report.checks.insert(report.checks.begin(), unsolved_check(rows));
+  report.tables = {totals_table(rows, damage), rows_table(rows)};
+  report.charts = charts_of(damage);
+  write_whole_file(page, report_page(report));
+}
+
+}  // namespace railstrata

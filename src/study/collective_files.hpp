@@ -1,0 +1,35 @@
+#pragma once
+// The files of a load collective.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "study/collective.hpp"
+
+namespace railstrata {
+
+/// collective.csv: a row for each load.
+void write_collective_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                            const std::vector<CollectiveRow>& rows);
+
+/// rail_damage.csv: a row for each cell across the rail; columns that lack data are left out.
+void write_rail_damage(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                       const RailDamage& damage);
+
+/// collective.json: totals, where the extremes are, and every row in short.
+nlohmann::ordered_json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows,
+                                       const RailDamage& damage);
+
+/// A page over all rows; `looked_at` is the result folder of the row that it shows whole, by the name `shown`.
+void write_collective_page(const std::filesystem::path& page, const std::string& title,
+                           const std::vector<CollectiveRow>& rows, const RailDamage& damage,
+                           const std::filesystem::path& looked_at, const std::string& shown);
+
+/// A depth of the rail's cells that is known everywhere.
+struct KnownWear {
+  WearLaw law;
+  std::string key, words;
+};
+std::vector<KnownWear> known_wear(const RailDamage& damage);
+
+}  // namespace railstrata

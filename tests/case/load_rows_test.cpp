@@ -1,0 +1,133 @@
+#include "case/load_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "case/case_file.hpp"
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+std::string refusal(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse_case(text, "a.toml", overrides);
+  } catch (const CaseError& e) {
+    return e.what();
+  }
+  return "taken";
+}
+
+void expect_says(const std::string& said, const std::string& words) {
+  EXPECT_NE(said.find(words), std::string::npos) << said << "\n  lacks: " << words;
+}
+
+constexpr const char* kTwo =
+    "[drive]\ncreepage = -0.001\n[[load]]\nname = \"freight\"\npassages = 4e5\naxle_load = \"22 t\"\n"
+    "lateral_shift = \"-3 mm\"\nyaw = \"2 mrad\"\n"
+    "[[load]]\nwheel_load = \"80 kN\"\ntraction_coefficient = 0.1\nfriction_coefficient = 0.3\nspeed = \"30 m/s\"\n"
+    "curve_radius = \"-600 m\"\nlateral_creepage = 0.002\n";
+
+}  // namespace
+
+TEST(LoadRows, ARowIsTheCaseWithWhatTheRowGives) {
+  const CaseSpec spec = parse_case(kTwo, "a.toml").spec;
+  ASSERT_EQ(spec.loads.size(), 2u);
+  EXPECT_EQ(load_name(spec, 0), "freight");
+  EXPECT_EQ(load_name(spec, 1), "load 2");
+  EXPECT_EQ(spec.loads[0].passages, 4e5);
+  EXPECT_DOUBLE_EQ(*spec.loads[0].wheel_load, 0.5 * 22e3 * spec.vehicle.gravity);
+
+  const CaseSpec freight = with_load(spec, spec.loads[0]);
+  EXPECT_DOUBLE_EQ((freight.vehicle.sprung_mass + freight.vehicle.wheel_mass) * freight.vehicle.gravity,
+                   *spec.loads[0].wheel_load);
+  EXPECT_EQ(freight.geometry.lateral_shift, -3e-3);
+  EXPECT_DOUBLE_EQ(freight.geometry.yaw, std::tan(2e-3));
+  EXPECT_EQ(freight.drive.creepage, -0.001);
+  EXPECT_EQ(freight.drive.speed, spec.drive.speed);
+  EXPECT_TRUE(freight.loads.empty());
+
+  const CaseSpec second = with_load(spec, spec.loads[1]);
+  EXPECT_EQ(second.drive.traction(), 0.1) << "the row's traction takes the place of the case's creepage";
+  EXPECT_EQ(second.drive.friction_coefficient, 0.3);
+  EXPECT_EQ(second.drive.lateral_creepage, 0.002);
+  EXPECT_EQ(second.geometry.curve_radius, -600);
+  EXPECT_EQ(second.drive.speed, 30);
+  EXPECT_EQ(second.geometry.lateral_shift, spec.geometry.lateral_shift);
+}
+
+TEST(LoadRows, TheResolvedCaseHasTheRowsAndReadsBack) {
+  const LoadedCase loaded = parse_case(kTwo, "a.toml");
+  const LoadedCase again = parse_case(loaded.resolved_toml, "b.toml");
+  EXPECT_EQ(again.resolved_toml, loaded.resolved_toml);
+  EXPECT_EQ(again.spec.loads.size(), 2u);
+  EXPECT_EQ(again.spec.loads[0].wheel_load, loaded.spec.loads[0].wheel_load);
+  EXPECT_EQ(parse_case("", "a.toml").resolved_toml.find("collective"), std::string::npos)
+      << "a case without rows says nothing of them";
+}
+
+TEST(LoadRows, AreSetFromTheCommandLine) {
+  const CaseSpec spec =
+      parse_case(kTwo, "a.toml", {"load.1.creepage=0.01", "load.2.passages=7", "load.0.name=60E1"}).spec;
+  ASSERT_EQ(spec.loads.size(), 3u);
+  EXPECT_EQ(spec.loads[1].creepage, 0.01);
+  EXPECT_FALSE(spec.loads[1].traction_coefficient)
+      << "what is set takes the place of the file's other way of saying it";
+  EXPECT_EQ(spec.loads[2].passages, 7);
+  EXPECT_EQ(spec.loads[0].name, "60E1");
+}
+
+TEST(LoadRows, ATableInAFileGivesTheSameRowsAsTheCase) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "load_rows";
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder / "loads.csv")
+      << "name;passages;axle_load [t];lateral_shift_mm;yaw [mrad];speed [m/s]\n\"freight\";4e5;22;-3;2;\n;5;;;;30\n";
+  const LoadedCase loaded = parse_case("[collective]\nfile = \"loads.csv\"\n", folder / "a.toml");
+  const LoadedCase written = parse_case(
+      "[[load]]\nname = \"freight\"\npassages = 4e5\naxle_load = \"22 t\"\nlateral_shift = \"-3 mm\"\nyaw = \"2 "
+      "mrad\"\n"
+      "[[load]]\npassages = 5\nspeed = \"30 m/s\"\n",
+      "b.toml");
+  EXPECT_EQ(loaded.resolved_toml, written.resolved_toml);
+  EXPECT_EQ(loaded.inputs, (std::vector<std::filesystem::path>{folder / "loads.csv"}));
+}
+
+TEST(LoadRows, AFaultIsToldWithItsPlaceAndRemedy) {
+  expect_says(refusal("[[load]]\nwheel_load = \"2 kN\"\n"), "a.toml:2:14: load.0: wheel_load = 2 kN: the wheel itself");
+  expect_says(refusal("[[load]]\ntraction_coefficient = 0.3\nfriction_coefficient = 0.25\n"),
+              "a.toml:3:24: load.0: a traction coefficient of 0.3 must be below the friction coefficient 0.25");
+  expect_says(refusal("[[load]]\ncurve_radius = \"2 m\"\n"), "must be at least 5000 mm to either side");
+  expect_says(refusal("[[load]]\npassages = 0\n"), "must be above 0");
+  expect_says(refusal("[[load]]\ncreepage = 0\ntraction_coefficient = 0.1\n"), "a case has one of them");
+  expect_says(refusal("[[load]]\nweel_load = \"80 kN\"\n"), "did you mean wheel_load?");
+  expect_says(refusal("[load]\npassages = 1\n"), "write [[load]] with two brackets");
+  expect_says(refusal("[drive]\ntractive_force = \"10 kN\"\n[[load]]\nwheel_load = \"80 kN\"\n"),
+              "this force is over the case's");
+  expect_says(refusal("[[load]]\n[collective]\nfile = \"x.csv\"\n"), "rows of [[load]] and collective.file");
+  expect_says(refusal("[transient]\nkind = \"shift\"\nat_time = [\"0 s\"]\n[[load]]\n"), "it follows no history");
+}
+
+TEST(LoadRows, AFaultOfATableIsToldWithItsLine) {
+  const std::pair<const char*, const char*> all[] = {
+      {"wheel_load, passages\n", "loads.csv:1: the column \"wheel_load\" has no unit"},
+      {"wheel_load [kN], passages\n80, 1\n2, 1\n", "loads.csv:3: wheel_load = 2 kN: the wheel itself weighs"},
+      {"traction_coefficient, friction_coefficient\n0.3, 0.2\n", "loads.csv:2: a traction coefficient of 0.3"},
+      {"lateral_shift [mm]\n80\n", "loads.csv:2: lateral_shift = 80 mm: must be between"},
+      {"passages, creepage, traction_coefficient\n", "the table has creepage and traction_coefficient: a load has one"},
+      {"passages\n", "the table has no rows"},
+      {"passages\nmany\n", "loads.csv:2: \"many\" is not a number"}};
+  for (const auto& [text, says] : all) {
+    CaseSpec spec;
+    try {
+      read_load_table(text, "folder/loads.csv", spec);
+      ADD_FAILURE() << text;
+    } catch (const CaseError& e) {
+      expect_says(e.what(), says);
+    }
+  }
+}
+
+}  // namespace railstrata

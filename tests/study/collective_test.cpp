@@ -1,0 +1,90 @@
+#include "study/collective.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "case/case_file.hpp"
+#include "core/faults.hpp"
+#include "study/collective_files.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr const char* kArcs =
+    "[geometry]\nrail_profile = \"arc:R=80 mm\"\nwheel_profile = \"arc:R=-400 mm\"\ncant = 0\n"
+    "[drive]\ntraction_coefficient = 0.1\nspin = \"0 1/m\"\n";
+
+CollectiveOptions coarse() {
+  CollectiveOptions options;
+  options.bem.cell = 1e-3;
+  return options;
+}
+
+std::vector<CollectiveRow> solved(const CaseSpec& spec) {
+  std::vector<CollectiveRow> rows = plan_collective(spec);
+  solve_collective(rows, {}, coarse());
+  return rows;
+}
+
+}  // namespace
+
+TEST(Collective, ARowThatCannotBeSolvedIsToldAndTheOthersGoOn) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[[load]]\npassages = 10\n[[load]]\nname = \"beside the rail\"\n"
+                                       "lateral_shift = \"50 mm\"\n[[load]]\npassages = 20\nwheel_load = \"60 kN\"\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].fault, "");
+  EXPECT_EQ(rows[2].fault, "");
+  EXPECT_NE(rows[1].fault, "");
+  EXPECT_FALSE(rows[1].solved());
+  EXPECT_EQ(faults(rows), 1);
+  const Placement placement = place(spec, {});
+  const RailDamage damage = rail_damage(rows, placement, 0.5e-3);
+  const auto json = collective_json("t", rows, damage);
+  EXPECT_EQ(json["totals"]["passages"], 30);
+  EXPECT_EQ(json["totals"]["passages_left_out"], 1);
+  EXPECT_EQ(json["loads"][1]["name"], "beside the rail");
+}
+
+TEST(Collective, SumsTheRowsTimesTheirPassages) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[material.rail]\nhardness = \"280 HV\"\n"
+                                       "[[load]]\npassages = 10\n[[load]]\npassages = 20\n"
+                                       "[[load]]\npassages = 5\nlateral_shift = \"4 mm\"\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(faults(rows), 0);
+  const RailDamage damage = rail_damage(rows, place(spec, {}), 0.5e-3);
+  for (const WearLaw law : {WearLaw::usfd, WearLaw::kth})
+    EXPECT_NEAR(worn_area(damage, damage.depth(law)) / streamline_area(rows, law), 1, 1e-9);
+  double energy = 0;
+  for (const CollectiveRow& r : rows) energy += r.passages * r.summary.damage.friction_energy;
+  EXPECT_NEAR(worn_area(damage, damage.friction_energy) / energy, 1, 1e-9);
+  EXPECT_DOUBLE_EQ(rows[0].summary.damage.usfd_depth, rows[1].summary.damage.usfd_depth);
+}
+
+TEST(Collective, WheelsShiftedAlikeToEitherSideWearSymmetrically) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[[load]]\npassages = 7\nlateral_shift = \"3 mm\"\n"
+                                       "[[load]]\npassages = 7\nlateral_shift = \"-3 mm\"\n",
+                                   "a.toml")
+                            .spec;
+  const RailDamage damage = rail_damage(solved(spec), place(spec, {}), 0.5e-3);
+  const std::size_t n = damage.s.size();
+  double largest = 0;
+  for (const double d : damage.usfd) largest = std::max(largest, d);
+  ASSERT_GT(largest, 0);
+  for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(damage.usfd[i], damage.usfd[n - 1 - i], 1e-3 * largest) << i;
+}
+
+TEST(Collective, NeedsRowsAndRolling) {
+  EXPECT_THROW(plan_collective(parse_case("", "a.toml").spec), CaseError);
+  EXPECT_THROW(plan_collective(parse_case("[run]\nrolling = false\n[[load]]\n", "a.toml").spec), CaseError);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,159 @@
+#include "study/wear_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "case/case_file.hpp"
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kCell = 0.5e-3;
+
+CaseSpec arcs(const std::string& loads) {
+  return parse_case(
+             "[geometry]\nrail_profile = \"arc:R=300 mm\"\nwheel_profile = \"arc:R=-600 mm\"\ncant = 0\n"
+             "[drive]\ntraction_coefficient = 0.2\nspin = \"0 1/m\"\n" +
+                 loads,
+             "a.toml")
+      .spec;
+}
+
+WearStepOptions coarse(double max_wear) {
+  WearStepOptions options;
+  options.collective.bem.cell = kCell;
+  options.collective.shakedown = false;
+  options.max_wear = max_wear;
+  return options;
+}
+
+std::filesystem::path folder(const std::string& name) {
+  const std::filesystem::path out = std::filesystem::path(testing::TempDir()) / name;
+  std::filesystem::create_directories(out);
+  return out;
+}
+
+/// A rail worn in steps until so many passages are over.
+struct Worn {
+  WornRail rail;
+  double wanted_area = 0;
+};
+Worn worn(const CaseSpec& spec, const std::string& name, double passages, int steps) {
+  const Placement original = place(spec, {});
+  Worn out{unworn(original, kCell), 0};
+  WearStepOptions options = coarse(1e-3);
+  for (int k = 0; k < steps; ++k) {
+    options.passages_left = passages / steps;
+    WearStep step = wear_step(spec, {}, original, out.rail, options);
+    out.wanted_area += step.wanted_area;
+    out.rail = step.rail;
+    out.rail.file = folder(name) / ("step" + std::to_string(k) + ".csv");
+    write_worn_profile(out.rail.file, {}, out.rail.points);
+  }
+  return out;
+}
+
+/// m, by which the worn profile lies below the unworn one.
+double deepest(const WornRail& rail, const CaseSpec& spec) {
+  const Placement original = place(spec, {});
+  double out = 0;
+  for (const Vec2 p : rail.points)
+    if (std::abs(p.y) < 0.02) out = std::max(out, original.rail.height(p.y) - p.z);
+  return out;
+}
+
+constexpr double kPassages = 2e5;
+
+}  // namespace
+
+TEST(WearLoop, TheAreaOffTheProfileIsThatOfTheStreamlines) {
+  const CaseSpec spec = arcs("[[load]]\npassages = 3\nlateral_shift = \"2 mm\"\n[[load]]\nwheel_load = \"60 kN\"\n");
+  const Worn result = worn(spec, "wear_area", kPassages, 2);
+  EXPECT_NEAR(result.rail.area / result.wanted_area, 1, 0.01);
+  EXPECT_NEAR(result.rail.passages, kPassages, 1e-6 * kPassages);
+  EXPECT_GT(deepest(result.rail, spec), 20e-6);
+}
+
+TEST(WearLoop, SymmetricLoadsWearSymmetrically) {
+  const CaseSpec spec = arcs("[[load]]\nlateral_shift = \"3 mm\"\n[[load]]\nlateral_shift = \"-3 mm\"\n");
+  const WornRail rail = worn(spec, "wear_symmetry", kPassages, 2).rail;
+  const double depth = deepest(rail, spec);
+  ASSERT_GT(depth, 20e-6);
+  const std::size_t n = rail.points.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    EXPECT_NEAR(rail.points[i].z, rail.points[n - 1 - i].z, 0.01 * depth) << rail.points[i].y;
+    EXPECT_NEAR(rail.points[i].y, -rail.points[n - 1 - i].y, 0.01 * depth);
+  }
+}
+
+TEST(WearLoop, HalvingTheStepChangesTheProfileLittle) {
+  const CaseSpec spec = arcs("[[load]]\n[[load]]\nlateral_shift = \"2 mm\"\n");
+  constexpr double kFew = 2e4;  // some 5 µm a step
+  const WornRail coarse_steps = worn(spec, "wear_2", kFew, 2).rail, fine_steps = worn(spec, "wear_4", kFew, 4).rail;
+  const double depth = deepest(fine_steps, spec);
+  ASSERT_GT(depth, 5e-6);
+  EXPECT_NEAR(coarse_steps.area / fine_steps.area, 1, 0.02);
+  const Profile fine = Profile::from_points(ProfileKind::rail, "fine", fine_steps.points);
+  for (const Vec2 p : coarse_steps.points) {
+    if (std::abs(p.y) > 0.02) continue;
+    EXPECT_NEAR(p.z, fine.height(p.y), 0.1 * depth) << p.y;
+  }
+}
+
+TEST(WearLoop, NothingWearsWhereNothingRolled) {
+  RailDamage damage;
+  damage.cell = kCell;
+  damage.passages = {0, 0, 1, 1, 1, 1, 1, 0, 1, 0};
+  damage.usfd = {0, 0, 0, 0, 5e-6, 0, 0, 0, 1e-6, 0};
+  const std::vector<double> depth = smoothed_wear(damage, WearLaw::usfd);
+  EXPECT_EQ(depth[1], 0);
+  EXPECT_EQ(depth[7], 0);
+  EXPECT_DOUBLE_EQ(depth[8], 1e-6) << "a cell alone has nobody to exchange with";
+  EXPECT_NEAR(depth[2] + depth[3] + depth[4] + depth[5] + depth[6], 5e-6, 1e-18);
+  EXPECT_LT(depth[4], 3e-6);
+  EXPECT_NEAR(depth[3], depth[5], 1e-18);
+}
+
+TEST(WearLoop, APeakSpreadsToFourCells) {
+  RailDamage damage;
+  damage.passages.assign(101, 1);
+  damage.usfd.assign(101, 0);
+  damage.usfd[50] = 1;
+  const std::vector<double> depth = smoothed_wear(damage, WearLaw::usfd);
+  double variance = 0;
+  for (int i = 0; i < 101; ++i) variance += depth[static_cast<std::size_t>(i)] * (i - 50) * (i - 50);
+  EXPECT_NEAR(variance, 16, 1e-9);
+}
+
+TEST(WearLoop, TheRailStaysInItsPlaceAndTheGaugeWidens) {
+  const CaseSpec spec = parse_case("[[load]]\n", "a.toml").spec;
+  const Placement original = place(spec, {});
+  WornRail rail = unworn(original, kCell);
+  rail.file = folder("wear_gauge") / "rail.csv";
+  for (Vec2& p : rail.points)
+    if (p.y < 0) p.y += 0.1e-3;  // the gauge face gives way by 0.1 mm
+  const CaseSpec worn = on_worn_rail(spec, original, rail);
+  EXPECT_NEAR(worn.geometry.gauge - spec.geometry.gauge, 0.2e-3, 2e-6);
+}
+
+TEST(WearLoop, SaysWhatItCannotDo) {
+  const CaseSpec spec = arcs("[[load]]\n[[load]]\nname = \"beside\"\nlateral_shift = \"50 mm\"\n");
+  const Placement original = place(spec, {});
+  try {
+    wear_step(spec, {}, original, unworn(original, kCell), coarse(1e-5));
+    FAIL();
+  } catch (const CaseError& e) {
+    EXPECT_NE(std::string(e.what()).find("step 1: beside cannot be solved"), std::string::npos) << e.what();
+  }
+  CaseSpec hard = arcs("[[load]]\n[collective]\nwear_law = \"archard\"\n");
+  EXPECT_THROW(wear_step(hard, {}, original, unworn(original, kCell), coarse(1e-5)), CaseError);
+  Placement no_face = original;
+  no_face.wheel = place(parse_case("", "a.toml").spec, {}).wheel;
+  EXPECT_THROW(wear_step(spec, {}, no_face, unworn(no_face, kCell), coarse(1e-5)), CaseError);
+}
+
+}  // namespace railstrata
