@@ -41,11 +41,11 @@ void solve(const CommandOptions& options, const LoadedCase& loaded, InfluenceCac
 const CollectiveRow* shown_row(const std::vector<CollectiveRow>& rows) {
   if (const CollectiveRow* worst = worst_row(rows)) return worst;
   const auto energy = [](const CollectiveRow& r) {
-    return r.solved() ? r.passages * r.summary.damage.friction_energy : -1;
+    return r.sound() ? r.passages * r.summary.damage.friction_energy : -1;
   };
   const auto most = std::max_element(
       rows.begin(), rows.end(), [&](const CollectiveRow& a, const CollectiveRow& b) { return energy(a) < energy(b); });
-  return most->solved() ? &*most : nullptr;
+  return most->sound() ? &*most : nullptr;
 }
 
 /// The whole result of a row, in a folder of its own.

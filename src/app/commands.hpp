@@ -26,10 +26,10 @@ struct SweepCommandOptions {
   bool stresses = false;          ///< --stresses
 };
 struct WearLoopOptions {
-  int steps = 0;                     ///< --steps; 0: no limit
-  double passages = 0;               ///< --passages; 0: no limit
+  int steps = 0;                      ///< --steps; 0: no limit
+  double passages = 0;                ///< --passages; 0: no limit
   std::string max_wear = "0.005 mm";  ///< --max-wear: a length
-  bool resume = false;               ///< --resume
+  bool resume = false;                ///< --resume
 };
 struct StudyOptions {
   int jobs = 0;                     ///< --jobs; 0: as many as threads

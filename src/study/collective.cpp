@@ -123,7 +123,7 @@ const CollectiveRow* worst_row(const std::vector<CollectiveRow>& rows) {
   const CollectiveRow* worst = nullptr;
   const auto factor = [](const CollectiveRow& r) { return r.summary.shakedown.least(&ShakedownFactors::wandering); };
   for (const CollectiveRow& row : rows)
-    if (std::isfinite(factor(row)) && (!worst || factor(row) < factor(*worst))) worst = &row;
+    if (row.sound() && std::isfinite(factor(row)) && (!worst || factor(row) < factor(*worst))) worst = &row;
   return worst;
 }
 

@@ -54,7 +54,7 @@ RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& 
 /// conserve.
 double streamline_area(const std::vector<CollectiveRow>& rows, WearLaw law);
 
-/// The row with the smallest factor for wandering traffic; null where none is known.
+/// The sound row with the smallest factor for wandering traffic; null where none is known.
 const CollectiveRow* worst_row(const std::vector<CollectiveRow>& rows);
 
 /// Rows that were not solved, or whose checks failed.

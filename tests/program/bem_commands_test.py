@@ -483,9 +483,11 @@ young_ratio = 2.0
         out = self.folder / "collective"
         rc, text, err = railstrata("collective", LOADS, *COARSE, "--set", "load.3.lateral_shift=50 mm", "--out", out)
         self.assertEqual(rc, 1, err)
-        totals = json.loads((out / "collective.json").read_text())["totals"]
+        result = json.loads((out / "collective.json").read_text())
+        totals, worst = result["totals"], result["worst_shakedown"]
         self.assertEqual((totals["passages"], totals["passages_left_out"]), (1490000 - 350000, 350000))
         self.assertIn("coach", text)
+        self.assertEqual(worst["load"], "locomotive, driving")  # the one left out has less, and does not count
         for name in ["collective.csv", "rail_damage.csv", "report.html", "shown_load/summary.json"]:
             self.assertTrue((out / name).exists(), name)
         self.refused(2, ["collective", BASE, "--out", self.folder / "none"], "the case has no load collective")
