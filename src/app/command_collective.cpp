@@ -85,14 +85,15 @@ void print_rows(const std::vector<CollectiveRow>& rows) {
   }
 }
 
-void add_collective_page(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& out,
+/// Returns whether the page's verdict holds, true without a page.
+bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& out,
                          const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
   const CollectiveRow* shown = shown_row(rows);
-  if (!shown) return;
+  if (!shown) return true;
   const std::filesystem::path page = out / "report.html";
-  write_page_or_warn(page, [&] {
+  return write_page_or_warn(page, [&] {
     write_row(options, loaded, out / kRowFolder, *shown);
-    write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name);
+    return WrittenPage{write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name), {}};
   });
 }
 
@@ -123,10 +124,10 @@ ExitCode command_collective(const CommandOptions& options) {
     fmt::print("{}\n", json_text(json, 2));
   else
     print_rows(rows);
-  if (options.page) add_collective_page(options, loaded, out, rows, damage);
+  const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
-  return failed > 0 ? ExitCode::failed_checks : ExitCode::ok;
+  return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;
 }
 
 }  // namespace railstrata

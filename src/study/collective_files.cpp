@@ -241,9 +241,9 @@ Json collective_json(const std::string& title, const std::vector<CollectiveRow>&
           {"loads", all}};
 }
 
-void write_collective_page(const std::filesystem::path& page, const std::string& title,
-                           const std::vector<CollectiveRow>& rows, const RailDamage& damage,
-                           const std::filesystem::path& looked_at, const std::string& shown) {
+ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
+                                    const std::vector<CollectiveRow>& rows, const RailDamage& damage,
+                                    const std::filesystem::path& looked_at, const std::string& shown) {
   Report report;
   report.title = title;
   report.runs.push_back(read_report_run(looked_at));
@@ -253,6 +253,7 @@ void write_collective_page(const std::filesystem::path& page, const std::string&
   report.tables = {totals_table(rows, damage), rows_table(rows)};
   report.charts = charts_of(damage);
   write_whole_file(page, report_page(report));
+  return verdict_of(report);
 }
 
 }  // namespace railstrata

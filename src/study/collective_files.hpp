@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "report/checks.hpp"
 #include "study/collective.hpp"
 
 namespace railstrata {
@@ -21,9 +22,9 @@ nlohmann::ordered_json collective_json(const std::string& title, const std::vect
                                        const RailDamage& damage);
 
 /// A page over all rows; `looked_at` is the result folder of the row that it shows whole, by the name `shown`.
-void write_collective_page(const std::filesystem::path& page, const std::string& title,
-                           const std::vector<CollectiveRow>& rows, const RailDamage& damage,
-                           const std::filesystem::path& looked_at, const std::string& shown);
+ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
+                                    const std::vector<CollectiveRow>& rows, const RailDamage& damage,
+                                    const std::filesystem::path& looked_at, const std::string& shown);
 
 /// A depth of the rail's cells that is known everywhere.
 struct KnownWear {
