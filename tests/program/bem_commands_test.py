@@ -242,7 +242,8 @@ young_ratio = 2.0
         last = {m: max(float(row["depth_mm"]) for row in rows if row["material"] == m) for m in ["1", "2"]}
         self.assertEqual((round(last["1"], 9), round(last["2"], 9)), (3, 4))
         self.refused(2, ["bem", case, "--set", "layer.0.young_table=[[\"0 mm\", \"420 GPa\"]]"],
-                     "layer.0.young_table: needs at least two rows", "remedy: write a table whose rows have a depth and a modulus")
+                     "layer.0.young_table: needs at least two rows",
+                     "remedy: write a table whose rows have a depth and a modulus")
 
     def test_a_note_of_one_of_two_patches_names_it(self):
         words = ["--set", "friction.law=falling_exponential", "--set", "friction.kinetic_coefficient=0.1", "--set",
