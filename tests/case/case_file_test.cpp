@@ -744,9 +744,7 @@ TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
   EXPECT_EQ(laws.not_in_fem[0].where, "a.toml:2:7");
   EXPECT_TRUE(laws.not_in_fem[0].message.starts_with("friction that falls with slip (friction.law) is not in this"));
   const LoadedCase film = parse_case("[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"100 MPa\"\n", "a.toml");
-  ASSERT_EQ(film.not_in_fem.size(), 1u);
-  EXPECT_TRUE(
-      film.not_in_fem[0].message.starts_with("a third-body layer (third_body.thickness) is not in this engine"));
+  EXPECT_TRUE(film.not_in_fem.empty());
   EXPECT_THROW(require_finite_elements(loaded.spec), CaseError);
   EXPECT_NO_THROW(require_finite_elements(CaseSpec()));
 }
