@@ -39,7 +39,7 @@ struct InBounds {
 template <class Visit>
 void each_option(CaseSpec& spec, Visit&& visit) {
   for (const OptionTable& table : case_tables())
-    for (std::size_t i = 0; i < (table.repeated ? spec.layers.size() : 1); ++i)
+    for (std::size_t i = 0; i < (table.repeated ? table.repeated.count(spec) : 1); ++i)
       for (const Option& option : table.options)
         if (!option.derivation && (!option.applies || option.applies(spec, i))) visit(option, i);
 }
