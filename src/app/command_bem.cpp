@@ -44,11 +44,11 @@ HalfSpaceJob job_of(const CommandOptions& options) {
   return job;
 }
 
-HalfSpaceSolution solve_steady(const HalfSpaceJob& job, bool maps) {
+HalfSpaceSolution solve_steady(const HalfSpaceJob& job, const ShakedownOptions& wanted) {
   answer_interrupt_with("\nstopped: nothing was written\n");
   const Waiting waiting(fmt::format("half-spaces, {}", need_text(job.need)), shown());
   HalfSpaceSolution solution = solve_half_space(job.loaded.spec, job.placement, job.bem);
-  complete_shakedown(job.loaded.spec, solution, maps);
+  if (wanted.single_track) complete_shakedown(job.loaded.spec, solution, wanted.maps);
   return solution;
 }
 
@@ -86,7 +86,7 @@ ExitCode command_bem(const CommandOptions& options) {
   HalfSpaceSolution solution;
   with_places(job.loaded, [&] {
     if (steady)
-      solution = solve_steady(job, options.shakedown.maps);
+      solution = solve_steady(job, options.shakedown);
     else
       require_film_carries(job.loaded.spec, job.placement, job.bem);
   });

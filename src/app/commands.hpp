@@ -40,6 +40,7 @@ struct StudyOptions {
 };
 struct ShakedownOptions {
   std::string engine = "bem";  ///< --engine
+  bool single_track = true;    ///< --no-single-track: without the limit for one track, which takes some seconds
   bool maps = false;           ///< limits over traction too: of the command shakedown, which is not in a hurry
 };
 struct ReportOptions {

@@ -110,6 +110,9 @@ void add_bem(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-bem");
   add_cell(sub, options);
+  sub.add_flag_callback(
+      "--no-single-track", [&options] { options.shakedown.single_track = false; },
+      "Of shakedown leave out the limit for one track, which takes some seconds");
   add_no_report(sub, options);
 }
 
