@@ -100,7 +100,8 @@ std::string load_name(const CaseSpec& spec, std::size_t index) {
   return name.empty() ? fmt::format("load {}", index + 1) : name;
 }
 
-void read_load_table(const std::string& text, const std::filesystem::path& file, CaseSpec& spec) {
+void read_load_table(const std::string& text, const std::filesystem::path& path, CaseSpec& spec) {
+  const std::filesystem::path file = path.filename();
   const OptionTable& options = *find_table("load");
   UnitTableForm form{{}, options.rivals, "a load", "wheel_load [kN], lateral_shift [mm], passages"};
   for (const Option& option : options.options) form.columns.push_back({&option, option.key});

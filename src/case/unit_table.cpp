@@ -34,15 +34,27 @@ std::string trimmed(std::string_view text) {
   return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
 }
 
-std::vector<std::string> cells_of(const std::string& line, char separator) {
+/// By the line of names. One column alone has nothing to separate.
+char separator_of(const std::string& names) {
+  for (const char c : {';', '\t', ','})
+    if (names.find(c) != std::string::npos) return c;
+  return ';';
+}
+
+/// Between quotes nothing separates. Spreadsheets end lines with an empty cell: it is none, but of a row that asks for
+/// it.
+std::vector<std::string> cells_of(const std::string& line, char separator, std::size_t asked = 1) {
   std::vector<std::string> out(1);
+  bool quoted = false;
   for (const char c : line) {
-    if (c == separator)
+    quoted = quoted != (c == '"');
+    if (c == separator && !quoted)
       out.emplace_back();
     else
       out.back() += c;
   }
   for (std::string& cell : out) cell = trimmed(cell);
+  if (out.size() > asked && out.back().empty()) out.pop_back();
   return out;
 }
 
@@ -59,16 +71,22 @@ std::optional<std::string> unit_after(const std::string& name, std::string_view 
   return rest;
 }
 
+[[noreturn]] void refuse_width(std::size_t cells, std::size_t columns, char separator, const Place& at) {
+  at.refuse(fmt::format("{} {} in a table of {} {}", cells, cells == 1 ? "value" : "values", columns,
+                        columns == 1 ? "column" : "columns"),
+            separator == ',' ? "give every row one value a column; decimal commas need semicolons between the columns, "
+                               "in the line of names too"
+                             : "give every row one value a column, separated as the names are");
+}
+
 class TableReader {
  public:
   explicit TableReader(const UnitTableForm& form) : form_(form) {}
 
   void read_line(const std::string& line, const Place& at) {
     if (columns_.empty()) return read_names(line, at);
-    const std::vector<std::string> cells = cells_of(line, separator_);
-    if (cells.size() != columns_.size())
-      at.refuse(fmt::format("{} values in a table of {} columns", cells.size(), columns_.size()),
-                "give every row one value a column");
+    const std::vector<std::string> cells = cells_of(line, separator_, form_.blanks ? columns_.size() : 1);
+    if (cells.size() != columns_.size()) refuse_width(cells.size(), columns_.size(), separator_, at);
     UnitTable::Row& row = table_.rows.emplace_back();
     row.line = at.line;
     for (std::size_t k = 0; k < cells.size(); ++k) row.cells.push_back(cell(columns_[k], cells[k], at));
@@ -82,20 +100,25 @@ class TableReader {
     return {quantity(column, written, at), written};
   }
 
-  /// A number with the column's unit, rounded once.
-  double quantity(const Column& column, const std::string& number, const Place& at) const {
+  /// A number with the column's unit, rounded once. What is no separator may be a decimal comma.
+  double quantity(const Column& column, const std::string& given, const Place& at) const {
     double value = 0;
+    std::string number = given;
+    if (given.find('.') == std::string::npos && std::count(given.begin(), given.end(), ',') == 1)
+      number[given.find(',')] = '.';
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
     if (error != std::errc{} || end != number.data() + number.size() || !std::isfinite(value))
-      at.refuse(fmt::format("\"{}\" is not a number, in the column {}", number.substr(0, 40), column.option->key),
-                "write numbers with a decimal point; the unit stands in the column's name");
+      at.refuse(
+          fmt::format("\"{}\" is not a number, in the column {}", given.substr(0, 40), column.option->key),
+          "write numbers with a decimal point, or with a decimal comma between semicolons; the unit stands in the "
+          "column's name");
     try {
       value = in_si(column, column.unit.empty() ? number : number + " " + column.unit);
     } catch (const UnitError& e) {
       at.refuse(fmt::format("the column {}: {}", column.option->key, e.what()), e.remedy);
     }
     if (!column.option->range.holds(value))
-      at.refuse(fmt::format("{} = {}{}{}: must be {}", column.option->key, number, column.unit.empty() ? "" : " ",
+      at.refuse(fmt::format("{} = {}{}{}: must be {}", column.option->key, given, column.unit.empty() ? "" : " ",
                             column.unit, describe(column.option->range, column.option->dimension)),
                 "choose a value in this range, or another unit in the column's name");
     return value;
@@ -136,7 +159,8 @@ class TableReader {
   }
 
   void read_names(const std::string& line, const Place& at) {
-    if (line.find(';') != std::string::npos) separator_ = ';';
+    separator_ = separator_of(line);
+    table_.line = at.line;
     for (const std::string& name : cells_of(line, separator_)) {
       columns_.push_back(column_named(name, at));
       for (std::size_t k = 0; k + 1 < columns_.size(); ++k)
@@ -163,7 +187,7 @@ class TableReader {
 }  // namespace
 
 void refuse_in_table(const std::filesystem::path& file, int line, const std::string& what, const std::string& remedy) {
-  throw CaseError(printable(what), remedy, fmt::format("{}:{}", file.filename().string(), line));
+  throw CaseError(printable(what), remedy, fmt::format("{}:{}", file.string(), line));
 }
 
 UnitTable read_unit_table(const std::string& text, const std::filesystem::path& file, const UnitTableForm& form) {

@@ -1,8 +1,11 @@
 #pragma once
 // Tables of options as text: a line of column names with their units, then a line for each row.
 //
-//   distance [mm], wheel_load [kN], creepage          units also as distance_mm; with a semicolon in this
-//   0, 85, 0                                          line that divides, else commas; "#" begins a comment
+//   distance [mm], wheel_load [kN], creepage          units also as distance_mm
+//   0, 85, 0                                          "#" begins a comment
+//
+// Columns are separated by what the line of names has: semicolons, tabs or commas. Numbers may have decimal commas
+// where a comma does not separate (a spreadsheet's "2,5; 102; -0,001").
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -36,6 +39,7 @@ struct UnitTable {
     int line = 0;
     std::vector<Cell> cells;
   };
+  int line = 0;  ///< of the names
   std::vector<const Option*> columns;
   std::vector<Row> rows;
 };
