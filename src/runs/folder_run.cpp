@@ -1,0 +1,118 @@
+#include "runs/folder_run.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/faults.hpp"
+#include "core/shell_word.hpp"
+#include "io/folder_kind.hpp"
+#include "io/provenance.hpp"
+#include "model/model.hpp"
+
+namespace railstrata {
+namespace {
+
+bool has_checkpoint(const std::filesystem::path& folder) {
+  return std::filesystem::exists(checkpoint_file(folder)) || std::filesystem::exists(previous_checkpoint_file(folder));
+}
+
+// The case of the folder, as it was run.
+LoadedCase case_of_folder(const std::filesystem::path& folder) {
+  if (!std::filesystem::is_directory(folder))
+    throw CaseError(fmt::format("cannot go on with {}: there is no such folder", folder.string()),
+                    "name the result folder of a run that was interrupted");
+  if (std::filesystem::exists(folder / "summary.json") && !has_checkpoint(folder))
+    throw CaseError(fmt::format("there is nothing to resume: {} holds a finished run", folder.string()),
+                    "start another with `railstrata run CASE`");
+  if (!std::filesystem::exists(folder / "case.toml"))
+    throw CaseError(fmt::format("{} has no case.toml, which a run goes on with", folder.string()),
+                    "name the result folder of a run that was interrupted, or put its case.toml back");
+  return load_case(folder / "case.toml");
+}
+
+CheckpointOrigin origin_of(const LoadedCase& loaded, std::string identity) {
+  return {std::move(identity), version_text(), table_origin(loaded)};
+}
+
+// What can be done once the machine lets us write again.
+std::string how_to_go_on(const std::filesystem::path& folder) {
+  return has_checkpoint(folder) ? fmt::format(", then go on with\n    {}", resume_command(folder))
+                                : std::string(", then start the run again with --force");
+}
+
+FemSolution solve_with_files(FolderRun& run, const RollingSystem& system, const FolderRunObserver& follow,
+                             const FemOptions& options) {
+  FemWriter writer(system, run.folder, run.origin, run.begun ? &*run.begun : nullptr);
+  if (!run.begun && follow.preload) follow.preload();
+  FemObserver observer;
+  writer.observe(observer, follow.saved, follow.warn);
+  observer.preload = follow.preload_step;
+  observer.rolling = follow.rolling;
+  try {
+    FemSolution solution = solve_fem(system, observer, options, std::exchange(run.begun, {}));
+    if (follow.writing) follow.writing();
+    writer.write(solution);
+    return solution;
+  } catch (const NumericalError& e) {
+    if (!std::filesystem::exists(checkpoint_file(run.folder))) throw;
+    throw NumericalError(
+        fmt::format("{}\n    the last good state is in {}", e.what(), checkpoint_file(run.folder).string()));
+  }
+}
+
+}  // namespace
+
+std::string resume_command(const std::filesystem::path& folder) {
+  return fmt::format("railstrata run --resume {}", shell_word(folder.string()));
+}
+
+FolderRun begin_run(LoadedCase loaded, const std::filesystem::path& folder, bool force) {
+  if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
+  place(loaded.spec, loaded.folder());  // faults of the input before a folder is made
+  require_apart(folder, loaded);
+  FolderHold hold = prepare_output_folder(folder, force);
+  CheckpointOrigin origin = origin_of(loaded, case_identity(loaded));
+  return {std::move(loaded), folder, std::move(origin), std::move(hold)};
+}
+
+FolderRun resume_run(const std::filesystem::path& folder) {
+  LoadedCase loaded = case_of_folder(folder);
+  CheckpointOrigin origin = origin_of(loaded, identity_in_folder(folder, loaded));
+  FolderHold hold(folder);
+  if (!has_checkpoint(folder))
+    throw CaseError(fmt::format("there is nothing to resume in {}: the run was stopped before its first checkpoint",
+                                folder.string()),
+                    fmt::format("start it again: {}", command_again(folder)));
+  FoundCheckpoint found = read_checkpoint(folder, origin.case_sha256);
+  std::vector<std::string> notes;
+  for (const std::string& note : found.notes) notes.push_back(note + "; the checkpoint before it is taken");
+  if (found.checkpoint.origin.program != origin.program)
+    notes.push_back(fmt::format(
+        "the run was begun by RailStrata {}, this is {}: it goes on, but not with the bits of a run in one go",
+        found.checkpoint.origin.program, origin.program));
+  remove_abandoned_parts(folder);
+  origin.provenance = found.checkpoint.origin.provenance;
+  return {std::move(loaded), folder, std::move(origin), std::move(hold), std::move(found.checkpoint.run),
+          std::move(notes)};
+}
+
+FemSolution solve_in_folder(FolderRun& run, const RunCommand& command, const FolderRunObserver& observer,
+                            const FemOptions& options) {
+  try {
+    if (observer.meshing) observer.meshing();
+    const RollingSystem system = fem_system(run.loaded.spec, run.loaded.folder());
+    if (!run.begun) {
+      clear_old_results(run.folder);
+      write_origin(run.folder, run.loaded, command.command_line, command.threads);
+    }
+    return solve_with_files(run, system, observer, options);
+  } catch (EnvironmentError& e) {
+    if (!e.remedy.empty()) e.remedy += how_to_go_on(run.folder);
+    throw;
+  } catch (const Interrupted& e) {  // before there was anything to keep
+    throw Interrupted(fmt::format("{}\n    remedy: start it again: {}", e.what(), command_again(run.folder)));
+  }
+}
+
+}  // namespace railstrata
