@@ -4,8 +4,8 @@ and a verdict.
 
 usage: lint.py [--jobs N] [--csv docs/reliability/lint.csv] [FILE.cpp ...]
 
-  clang-format      layout of src/, python/, tests/, fuzz/, bench/ and the report's TypeScript as in .clang-format, by version
-                    14 alone: others break lines elsewhere
+  clang-format      layout of src/, python/, tests/, fuzz/, bench/ and the report's TypeScript as in .clang-format, by
+                    version 14 alone: others break lines elsewhere
   statement_lines   one statement a line, at most 120 columns (tools/statement_lines.py)
   function_lengths  no function of src/ over 60 lines (tools/function_lengths.py)
 

@@ -1,0 +1,43 @@
+"""RailStrata: rolling contact of a wheel on a layered rail.
+
+    import railstrata as rs
+    case = rs.Case("cases/paper/base.toml", {"layer.0.thickness": "2 mm"})
+    result = rs.bem(case)               # half-spaces, tens of milliseconds
+    result.p_max, result.patch.p        # Pa; arrays are read-only views (stations, columns)
+    result.rail.at([[0, 0, 2e-3]])      # stresses 2 mm below the contact
+    run = rs.run(case, "results/base")  # finite elements; Ctrl-C leaves a checkpoint
+
+SI units everywhere; signs and axes as in docs/conventions.md.
+"""
+import os as _os
+
+# Threads that spin long while they wait take the core from those that work. Read when OpenMP is loaded, with _core.
+_os.environ.setdefault("OMP_WAIT_POLICY", "passive")
+_os.environ.setdefault("GOMP_SPINCOUNT", "3000")
+
+from . import _core  # noqa: E402
+from .case import Case, schema, shipped_data
+from .errors import CaseError, CheckWarning, Diagnostic, MachineError, NumericalError
+from .patch import Patch, PatchState
+from .results import BemResult, Body, Check, FolderResult, Peak, Peaks, Result, von_mises
+from .results import open_result as open  # noqa: A004 - the word users expect
+from .solve import bem, resume, run, shakedown, sweep
+from .table import Table
+
+__version__: str = _core.version()
+
+
+def threads(count: int = 0) -> int:
+    """The number of threads that solvers called from this Python thread use; sets it if `count` is positive."""
+    if count < 0:
+        raise ValueError("threads: a positive number is wanted")
+    if count > 0:
+        _core.set_threads(count)
+    return _core.threads()
+
+
+__all__ = [
+    "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Diagnostic", "FolderResult", "MachineError",
+    "NumericalError", "Patch", "PatchState", "Peak", "Peaks", "Result", "Table", "bem", "open", "resume", "run",
+    "schema", "shakedown", "shipped_data", "sweep", "threads", "von_mises",
+]

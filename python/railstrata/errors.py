@@ -1,0 +1,40 @@
+"""What can go wrong, as exceptions."""
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Diagnostic:
+    """One fault of an input: what is wrong, what to do, and where ("file:line:column" as far as it is known)."""
+
+    message: str
+    remedy: str = ""
+    where: str = ""
+
+
+class CaseError(ValueError):
+    """The case cannot be computed as it is: a fault of its text, its profiles, its numbers, or a physical refusal.
+
+    `diagnostics` holds every fault that was found (list of Diagnostic); the text shows all of them.
+    """
+
+    def __init__(self, text: str, diagnostics: list[Diagnostic] | None = None) -> None:
+        super().__init__(text)
+        self.diagnostics = list(diagnostics or [Diagnostic(text)])
+
+
+class NumericalError(ArithmeticError):
+    """The numbers went wrong (no convergence, an inverted element); the text says where and when."""
+
+
+class MachineError(OSError):
+    """The machine cannot do it: memory, disk, permissions. `remedy` says what to do, if something can be done."""
+
+    def __init__(self, text: str, remedy: str = "") -> None:
+        super().__init__(f"{text}\n    remedy: {remedy}" if remedy else text)
+        self.remedy = remedy
+
+
+class CheckWarning(UserWarning):
+    """A check of a result failed, or a note of the solver: read the numbers with care."""

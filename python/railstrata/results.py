@@ -1,0 +1,268 @@
+"""Results of either engine."""
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Optional, Union
+
+import numpy as np
+
+from . import _core, _html
+from .patch import Patch, needs
+
+if TYPE_CHECKING:
+    import pandas
+
+PathLike = Union[str, os.PathLike]
+
+
+@dataclass(frozen=True)
+class Peak:
+    """A largest stress and its place: value [Pa], x from the axle, y from the rigid contact point, depth [m]."""
+
+    value: float
+    x: float
+    y: float
+    depth: float
+
+
+@dataclass(frozen=True)
+class Peaks:
+    """Largest stresses of a zone of a body."""
+
+    von_mises: Peak
+    sigma1: Peak
+
+
+@dataclass(frozen=True)
+class Check:
+    """A check of the result: whether it holds, its value and its limit."""
+
+    name: str
+    ok: bool
+    value: Optional[float]
+    limit: Optional[float]
+
+
+def _peak(entry: dict) -> Peak:
+    return Peak(*(float("nan") if entry[k] is None else entry[k] for k in ("value_Pa", "x_m", "y_m", "depth_m")))
+
+
+class Result:
+    """Numbers, checks and patch of a solved case, whichever engine solved it.
+
+    `summary` is the content of summary.json (docs/results-reference.md): a dict, SI units in its keys, None for what
+    does not apply. The properties are its main numbers.
+    """
+
+    def __init__(self, handle: Any) -> None:
+        self._handle = handle
+        self.summary: dict = json.loads(handle.summary())
+
+    def number(self, path: str) -> float:
+        """A number of the summary by its path, "contact.p_max_Pa"; NaN where it does not apply. KeyError: no such."""
+        value: Any = self.summary
+        for part in path.split("."):
+            value = value[int(part)] if isinstance(value, list) else value[part]
+        return float("nan") if value is None else value
+
+    @property
+    def title(self) -> str:
+        """The case's title."""
+        return self.summary["title"]
+
+    @property
+    def engine(self) -> str:
+        """"fem" or "bem"."""
+        return self.summary["run"]["engine"]
+
+    @property
+    def p_max(self) -> float:
+        """Pa, largest pressure."""
+        return self.number("contact.p_max_Pa")
+
+    @property
+    def q_max(self) -> float:
+        """Pa, largest traction."""
+        return self.number("contact.q_max_Pa")
+
+    @property
+    def patch_area(self) -> float:
+        """m², area of contact."""
+        return self.number("contact.patch_area_m2")
+
+    @property
+    def slip_area(self) -> float:
+        """m², area of slip."""
+        return self.number("contact.slip_area_fraction") * self.patch_area
+
+    @property
+    def creepage_x(self) -> float:
+        """Longitudinal creepage."""
+        return self.number("contact.creepage_x")
+
+    @property
+    def creepage_y(self) -> float:
+        """Lateral creepage."""
+        return self.number("contact.creepage_y")
+
+    @property
+    def spin(self) -> float:
+        """1/m, spin creepage."""
+        return self.number("contact.spin_per_m")
+
+    @property
+    def force(self) -> tuple[float, float, float]:
+        """N, (F_x, F_y, F_z) on the wheel, model frame."""
+        return tuple(self.number(f"contact.F_{axis}_N") for axis in "xyz")
+
+    @property
+    def normal_force(self) -> float:
+        """N, along the contact plane's normal."""
+        return self.number("contact.normal_force_N")
+
+    @property
+    def checks(self) -> list[Check]:
+        """The checks of the result."""
+        return [Check(c["name"], c["ok"], c.get("value"), c.get("limit")) for c in self.summary["checks"]]
+
+    @property
+    def ok(self) -> bool:
+        """Whether every check holds."""
+        return all(check.ok for check in self.checks)
+
+    @property
+    def warnings(self) -> list[str]:
+        """A sound result that is not plausible, in words."""
+        return [w["text"] for w in self.summary.get("warnings", [])]
+
+    @property
+    def patch(self) -> Patch:
+        """The contact patch; of several the one with the largest pressure."""
+        return Patch(self._handle.patch(0))
+
+    @property
+    def patches(self) -> list[Patch]:
+        """All patches, that of the largest pressure first."""
+        return [Patch(self._handle.patch(k)) for k in range(self._handle.patches)]
+
+    def peaks(self, body: str = "rail", zone: str = "subsurface") -> Peaks:
+        """Largest von Mises and principal stress. body: "rail", "wheel"; zone: "surface", "subsurface", "layer",
+        "interface", "matrix". KeyError where the result has no such."""
+        entry = self.summary["stress"][body].get(zone)
+        if entry is None:
+            raise KeyError(f"{body} has no zone {zone!r} with stresses")
+        return Peaks(_peak(entry["von_mises_max"]), _peak(entry["sigma1_max"]))
+
+    @property
+    def shakedown(self) -> Optional[dict]:
+        """The summary's shakedown factors, where the case says strengths; else None."""
+        return self.summary.get("shakedown")
+
+    def __repr__(self) -> str:
+        return f"<railstrata {type(self).__name__} ({self.engine}) {self.title!r}: p_max {self.p_max / 1e6:.1f} MPa>"
+
+    def _repr_html_(self) -> str:
+        return _html.result_html(self)
+
+
+class Body:
+    """The inside of a body below or above a half-space patch.
+
+    Axes: x along the rolling direction and y along the common tangent, both from the rigid contact point [m]; depth
+    into the body [m]. Stresses [Pa] have the components xx, yy, zz, xy, yz, xz in these axes, z into the body.
+    """
+
+    def __init__(self, handle: Any, name: str, patch: int) -> None:
+        self._handle, self.name, self._patch = handle, name, patch
+
+    def at(self, points: Any, below_interface: bool = False) -> np.ndarray:
+        """(n, 6) stresses [Pa] at (n, 3) points (x, y, depth) [m]. Points of one depth cost one plane together. On an
+        interface those of the material above, or below if asked. ValueError: a point above the surface."""
+        try:
+            return self._handle.stresses_at(self.name, self._patch, np.asarray(points, float), below_interface)
+        except IndexError as error:  # std::out_of_range
+            raise ValueError(str(error)) from None
+
+    def plane(self, depth: float, below_interface: bool = False) -> np.ndarray:
+        """(6, nx, ny) stresses [Pa] at a depth [m], in the cells of `axes`."""
+        return self._handle.stress_plane(self.name, self._patch, float(depth), below_interface)
+
+    @property
+    def axes(self) -> tuple[np.ndarray, np.ndarray]:
+        """m, x and y of the cells of `plane`."""
+        return self._handle.grid(self._patch)
+
+    def section(self, depths: Any, y: float = 0.0) -> np.ndarray:
+        """(6, nx, depths) stresses [Pa] in the plane y = const [m], at the x of `axes` and at these depths [m]."""
+        depths = np.atleast_1d(np.asarray(depths, float))
+        x = self.axes[0]
+        points = np.column_stack([np.tile(x, len(depths)), np.full(len(x) * len(depths), y), np.repeat(depths, len(x))])
+        return self.at(points).T.reshape(6, len(depths), len(x)).transpose(0, 2, 1)
+
+    def __repr__(self) -> str:
+        return f"<railstrata.Body {self.name}>"
+
+
+def von_mises(stress: np.ndarray, axis: int = -1) -> np.ndarray:
+    """von Mises stress of components xx, yy, zz, xy, yz, xz along an axis: sqrt(3/2 s:s)."""
+    xx, yy, zz, xy, yz, xz = np.moveaxis(np.asarray(stress), axis, 0)
+    return np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + yz**2 + xz**2))
+
+
+class BemResult(Result):
+    """A half-space solution in memory: numbers, patch, and stresses anywhere."""
+
+    @property
+    def notes(self) -> list[str]:
+        """What the user should know: a grown grid, …"""
+        return self._handle.notes
+
+    @property
+    def rail(self) -> Body:
+        """The inside of the rail below the patch of the largest pressure."""
+        return Body(self._handle, "rail", 0)
+
+    @property
+    def wheel(self) -> Body:
+        """The inside of the wheel above the patch of the largest pressure."""
+        return Body(self._handle, "wheel", 0)
+
+    def save(self, folder: PathLike, force: bool = False) -> "Result":
+        """Writes the result folder that `railstrata bem` writes; force: an older result there is replaced."""
+        self._handle.write(str(folder), force)
+        return open_result(folder)
+
+
+class FolderResult(Result):
+    """A result folder read back."""
+
+    def __init__(self, folder: PathLike) -> None:
+        super().__init__(_core.read_result_folder(str(folder)))
+        self.folder = Path(folder)
+
+    @property
+    def history(self) -> "pandas.DataFrame":
+        """history.csv of a finite element run or a transient."""
+        file = self.folder / "history.csv"
+        if not file.exists():
+            raise FileNotFoundError(f"{file}: steady half-space results have no history")
+        return needs("pandas", "python3-pandas").read_csv(file, comment="#")
+
+    def table(self, name: str) -> "pandas.DataFrame":
+        """A table of the folder by its name: "patch", "centre_line", "depth_line", "rail_cross_section", …"""
+        return needs("pandas", "python3-pandas").read_csv(self.folder / f"{name}.csv", comment="#")
+
+    def report(self, page: Optional[PathLike] = None, reference: bool = True) -> Path:
+        """Writes the report page and returns its path; by default report.html in the folder. reference: a finite
+        element result is set against the half-space solution of its case."""
+        page = Path(page) if page else self.folder / "report.html"
+        _core.write_report(str(page), [str(self.folder)], reference)
+        return page
+
+
+def open_result(folder: PathLike) -> FolderResult:
+    """The result folder of either engine, `railstrata run` or `bem`. CaseError: it holds no finished result."""
+    return FolderResult(folder)

@@ -1,0 +1,143 @@
+"""Solving cases."""
+from __future__ import annotations
+
+import json
+import os
+import sys
+import time
+import warnings
+from typing import Any, Callable, Mapping, Optional, Sequence, Union
+
+from . import _core
+from .case import Case, Value, _text_of
+from .errors import CheckWarning
+from .results import BemResult, FolderResult, open_result
+from .table import Table
+
+Progress = Union[bool, Callable[..., None]]
+
+
+class _Bar:
+    """A line that is written anew, on a terminal and in a notebook alike."""
+
+    def __init__(self) -> None:
+        self._last = 0.0
+        self._begun = time.monotonic()
+
+    def __call__(self, phase: str, fraction: float) -> None:
+        now = time.monotonic()
+        if now - self._last < 0.2:
+            return
+        self._last = now
+        left = (now - self._begun) * (1 - fraction) / fraction if fraction > 0.02 else None
+        end = "" if left is None else f", {left:.0f} s left"
+        sys.stderr.write(f"\r{phase:8s} {100 * fraction:5.1f} %{end}      ")
+        sys.stderr.flush()
+
+    def end(self) -> None:
+        sys.stderr.write("\n")
+
+
+def _callback(progress: Progress, name: str, with_phase: bool) -> Optional[Callable[..., None]]:
+    if progress is False or progress is None:
+        return None
+    if progress is not True:
+        return progress
+    bar = _Bar()
+    return bar if with_phase else lambda fraction: bar(name, fraction)
+
+
+def _say(result: Any, notes: Sequence[str] = ()) -> Any:
+    for check in result.checks:
+        if not check.ok:
+            warnings.warn(f"check {check.name} fails: {check.value} beyond {check.limit}", CheckWarning, stacklevel=3)
+    for note in notes:
+        warnings.warn(note, CheckWarning, stacklevel=3)
+    return result
+
+
+def bem(
+    case: Case, cell: float = 0.25e-3, *, threads: int = 0, stresses: bool = True, single_track: bool = False,
+    progress: Progress = False,
+) -> BemResult:
+    """Solves a case by half-space theory [Kalker1990], as `railstrata bem` does; some ten milliseconds.
+
+    cell: m, side of the cells of the potential contact area, 0.02e-3 to 5e-3. threads: 0 for all. stresses: False
+    leaves out the search for the largest stresses, which costs more than the contact. single_track: the limit of
+    shakedown for traffic on one line too, where the case says strengths (some seconds). progress: of a transient; True,
+    or a function of the fraction that is done. Raises CaseError, NumericalError, MachineError; warns with CheckWarning
+    where a check fails. Several Python threads may call it at a time.
+    """
+    handle = _core.solve_half_space(
+        case._loaded, cell, threads, stresses, single_track, False, _callback(progress, "steps", False)
+    )
+    return _say(BemResult(handle))
+
+
+def shakedown(case: Case, cell: float = 0.25e-3, *, threads: int = 0) -> BemResult:
+    """Load factors of shakedown of a case by half-spaces, at every level (`railstrata shakedown`); some seconds.
+
+    The case must say strengths (yield_strength or grade). `result.shakedown` has the factors by body and zone.
+    """
+    handle = _core.solve_half_space(case._loaded, cell, threads, True, True, False, None)
+    result = BemResult(handle)
+    if not result.shakedown:
+        raise ValueError('the case says no strength: give yield_strength = "500 MPa" or grade = "R260" to its materials')
+    return _say(result)
+
+
+def run(
+    case: Case, folder: Union[str, os.PathLike], *, force: bool = False, checkpoint_every: float = 600.0,
+    max_time: float = 0.0, progress: Progress = False,
+) -> FolderResult:
+    """Runs a case by finite elements into a result folder, as `railstrata run` does; minutes to hours.
+
+    checkpoint_every, max_time: s of wall time, 0 for never. progress: True, or a function of (phase, fraction). Ctrl-C
+    leaves a checkpoint and raises KeyboardInterrupt; `resume` goes on from it to the same bits. What the progress
+    function raises stops the run in the same way. Raises CaseError, NumericalError, MachineError, TimeoutError.
+    """
+    return _finish(
+        lambda follow: _core.run_case(case._loaded, str(folder), force, checkpoint_every, max_time, follow),
+        folder, progress,
+    )
+
+
+def resume(
+    folder: Union[str, os.PathLike], *, checkpoint_every: float = 600.0, max_time: float = 0.0,
+    progress: Progress = False,
+) -> FolderResult:
+    """Goes on with an interrupted run of a folder, to the bits of a run in one go."""
+    return _finish(
+        lambda follow: _core.resume_run(str(folder), checkpoint_every, max_time, follow), folder, progress
+    )
+
+
+def _finish(work: Callable[[Any], tuple], folder: Any, progress: Progress) -> FolderResult:
+    follow = _callback(progress, "rolling", True)
+    try:
+        stopped, notes = work(follow)
+    except KeyboardInterrupt:
+        raise KeyboardInterrupt(f"stopped; rs.resume({str(folder)!r}) goes on") from None
+    finally:
+        if isinstance(follow, _Bar):
+            follow.end()
+    if stopped:
+        raise TimeoutError(f"max_time is over; rs.resume({str(folder)!r}) goes on")
+    return _say(open_result(folder), notes)
+
+
+def sweep(
+    case: Case, varied: Mapping[str, Sequence[Value]], cell: float = 0.25e-3, *, stresses: bool = False,
+    progress: Progress = False,
+) -> Table:
+    """Half-space solutions of every combination of values, side by side on all threads (`railstrata sweep`).
+
+    varied: keys of the case and their values, {"layer.0.thickness": ["1 mm", "3 mm"]}; the last key changes fastest.
+    A case that cannot be solved says why in the column "fault".
+    """
+    keys = [(key, [_text_of(v) for v in values]) for key, values in varied.items()]
+    rows = _core.sweep(case._loaded, keys, cell, stresses, _callback(progress, "sweep", False))
+    columns = _core.result_columns(stresses)
+    return Table([key for key, _ in keys], columns, [
+        (row["values"], None if row["summary"] is None else json.loads(row["summary"]), row["fault"]) for row in rows
+    ])

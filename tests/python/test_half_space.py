@@ -1,0 +1,136 @@
+"""rs.bem: the program's numbers, views, errors, threads."""
+import gc
+import json
+import subprocess
+import threading
+
+import numpy as np
+import pytest
+
+import railstrata as rs
+
+
+def without_times(summary):
+    return {key: value for key, value in summary.items() if key != "run"}
+
+
+def rows(file):
+    return [line for line in file.read_text().splitlines() if not line.startswith("#")]
+
+
+def test_numbers_are_those_of_the_program_to_the_bit(program, result, tmp_path):
+    subprocess.run([program, "bem", rs.shipped_data() / "cases/quick", "--out", tmp_path / "bem"], check=True,
+                   capture_output=True)
+    of_program = json.loads((tmp_path / "bem" / "summary.json").read_text())
+    assert without_times(result.summary) == without_times(of_program)
+    saved = result.save(tmp_path / "saved")
+    assert without_times(saved.summary) == without_times(of_program)
+    assert rows(tmp_path / "saved" / "patch.csv") == rows(tmp_path / "bem" / "patch.csv")
+
+
+def test_arrays_are_read_only_views_that_outlive_the_result(case):
+    result = rs.bem(case, stresses=False)
+    p = result.patch.p
+    assert p.shape == result.patch.shape and p.dtype == np.float64
+    assert not p.flags.owndata and not p.flags.writeable
+    assert p.ctypes.data == result.patch.p.ctypes.data
+    with pytest.raises(ValueError):
+        p[0, 0] = 1
+    sum_before = p.sum()
+    del result
+    gc.collect()
+    assert p.sum() == sum_before
+
+
+def test_pressure_bears_the_load_and_friction_gives_the_force(result):
+    patch = result.patch
+    assert (patch.p * patch.area).sum() == pytest.approx(result.normal_force, rel=1e-3)
+    assert (patch.q_x * patch.area).sum() == pytest.approx(-result.force[0], rel=1e-2)
+    slip = patch.state == rs.PatchState.SLIP
+    assert patch.area[slip].sum() == pytest.approx(result.slip_area, rel=0.05)  # whole cells at the edges of slip
+
+
+def test_stresses_at_points_planes_and_maxima_agree(result):
+    peak = result.peaks("rail", "layer").von_mises
+    x, y = result.rail.axes
+    plane = rs.von_mises(result.rail.plane(peak.depth), axis=0)
+    assert plane.shape == (len(x), len(y))
+    assert plane.max() == pytest.approx(peak.value, rel=1e-3)
+    i, j = np.unravel_index(plane.argmax(), plane.shape)
+    at = result.rail.at([[x[i], y[j], peak.depth]])
+    assert rs.von_mises(at)[0] == pytest.approx(plane[i, j], rel=1e-6)
+    section = result.rail.section([1e-3, 2e-3], y[j])
+    assert section.shape == (6, len(x), 2)
+    assert section[:, i, 1] == pytest.approx(result.rail.at([[x[i], y[j], 2e-3]])[0], rel=1e-12)
+
+
+def test_faults_keep_place_and_remedy():
+    with pytest.raises(rs.CaseError) as caught:
+        rs.Case("cases/quick", {"layer.0.thicknes": "1 mm", "friction.coefficient": -1})
+    remedies = [d.remedy for d in caught.value.diagnostics]
+    assert any("did you mean thickness" in r for r in remedies)
+    assert len(caught.value.diagnostics) >= 2
+    with pytest.raises(rs.CaseError, match="cell"):
+        rs.bem(rs.Case("cases/quick"), cell=1.0)
+    with pytest.raises(rs.CaseError, match="no such file|cannot be read|cannot read"):
+        rs.Case("cases/nothing_here.toml")
+
+
+def test_points_that_have_no_stress_are_refused(result):
+    for points in ([[0, 0, -1e-3]], [[0, 0]], [[np.nan, 0, 1e-3]]):
+        with pytest.raises(ValueError):
+            result.rail.at(points)
+    with pytest.raises(ValueError):
+        result.rail.plane(-1.0)
+
+
+def test_two_threads_at_once_have_the_bits_of_one(case):
+    alone = rs.bem(case, threads=1).summary["contact"]
+    found = [None, None]
+
+    def solve(k):
+        found[k] = rs.bem(case, threads=1).summary["contact"]
+
+    both = [threading.Thread(target=solve, args=(k,)) for k in range(2)]
+    for one in both:
+        one.start()
+    for one in both:
+        one.join()
+    assert found == [alone, alone]
+
+
+def test_cases_are_changed_without_changing_the_first(case):
+    thicker = case.with_({"layer.0.thickness": "3 mm"})
+    assert thicker["layer.0.thickness"] == "3 mm" and case["layer.0.thickness"] == "2 mm"
+    with pytest.raises(KeyError):
+        case["layer.0.no_such"]
+    again = rs.Case.from_text(case.toml, case.file)
+    assert rs.bem(again, stresses=False).p_max == rs.bem(case, stresses=False).p_max
+
+
+def test_a_sweep_has_the_numbers_of_single_solutions(case):
+    table = rs.sweep(case, {"layer.0.thickness": ["1 mm", "3 mm"], "layer.0.young_ratio": [0.5, 2]})
+    frame = table.to_dataframe()
+    assert len(table) == 4 and list(frame["fault"]) == [""] * 4
+    single = rs.bem(case.with_({"layer.0.thickness": "3 mm", "layer.0.young_ratio": 0.5}), stresses=False)
+    assert table["p_max_MPa"][2] == pytest.approx(single.p_max / 1e6, rel=1e-12)
+
+
+def test_shakedown_needs_a_strength_and_gives_ordered_factors(case):
+    with pytest.raises(ValueError, match="yield_strength"):
+        rs.shakedown(case)
+    factors = rs.shakedown(case.with_({"material.rail.grade": "R260", "layer.0.grade": "R350HT"})).shakedown["factors"]
+    assert factors["first_yield"] <= factors["wandering"] <= factors["single_track"] <= factors["upper"]
+
+
+def test_a_shift_history_is_followed_and_stopped_by_its_progress_function():
+    fretting = rs.Case("cases/transient/fretting.toml")
+    seen = []
+    rs.bem(fretting, 0.5e-3, stresses=False, progress=seen.append)
+    assert all(0 <= fraction <= 1 for fraction in seen)
+
+    def stop(_):
+        raise RuntimeError("enough")
+
+    with pytest.raises(RuntimeError, match="enough"):
+        rs.bem(fretting, 0.1e-3, stresses=False, progress=stop)
