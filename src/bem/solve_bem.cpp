@@ -155,17 +155,17 @@ struct LoadedPatch : PatchOnWheel {
 /// its edge.
 void solve_under(double normal, double weight, const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
                  const BemOptions& options, LoadedPatch& out) {
-  const auto solve = [&] {
+  const auto solve = [&](const RollingSolution* start) {
     out.patch.contact.target.load = normal;
-    out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling);
+    out.solution = solve_rolling(*out.patch.influence, out.patch.grid, out.patch.contact, options.rolling, start);
   };
   if (out.patch.influence) {
-    solve();
+    solve(&out.solution);
     if (!out.solution.normal.touches_edge) return;
   }
   out.patch = make_case_patch(spec, placement, options, {.load = normal, .approach = {}}, room);
   drive_contact(spec, placement.contact, weight, out.patch.contact);
-  solve();
+  solve(nullptr);
 }
 
 /// Finds the normal force N with N cos(delta) - T_y(N) sin(delta) = G by secants (case_patch.hpp): lateral friction T_y
