@@ -1,6 +1,7 @@
 # The shared library, the installed program and `cmake --install`.
 #
-#   librailstrata.so            every room below `study`. Exported are the functions that the public headers declare.
+#   librailstrata.so            every room but those of the program. Exported are the functions that the public headers
+#                               declare, in C++ and in C.
 #   librailstrata-commands.so   the rooms `study` and `app`: the command line of the program, and nothing for others.
 #   railstrata                  main() alone.
 #
@@ -14,6 +15,7 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 # The headers that a user of the library includes; those that they include are public too. C++ API, unstable until 1.0.
 set(PUBLIC_HEADERS core/faults.hpp case/case_file.hpp io/provenance.hpp runs/library.hpp)
+set(C_HEADER capi/railstrata.h)
 set(ROOMS_OF_THE_PROGRAM study app)
 # The mark by which the loader refuses a processor that is too old, in words instead of an illegal instruction.
 check_linker_flag(CXX -Wl,-z,x86-64-v2 has_level_mark)
@@ -30,7 +32,8 @@ set(public_include ${CMAKE_BINARY_DIR}/public/include)
 set(headers_stamp ${CMAKE_BINARY_DIR}/public/headers.stamp)
 add_custom_command(OUTPUT ${headers_stamp} DEPFILE ${headers_stamp}.d DEPENDS ${interface_tool} VERBATIM
   COMMAND Python3::Interpreter ${interface_tool} headers --src ${CMAKE_SOURCE_DIR}/src
-    --out ${public_include}/railstrata --version ${PROJECT_VERSION} --stamp ${headers_stamp} ${PUBLIC_HEADERS}
+    --out ${public_include}/railstrata --version ${PROJECT_VERSION} --stamp ${headers_stamp} --c ${C_HEADER}
+    ${PUBLIC_HEADERS}
   COMMENT "Collecting the library's public headers")
 add_custom_target(public_headers ALL DEPENDS ${headers_stamp})
 
@@ -147,7 +150,7 @@ foreach(level IN LISTS levels)
   install(TARGETS railstrata_library_${level} railstrata_commands_${level}
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/${hwcaps}/x86-64-${level} NAMELINK_SKIP)
 endforeach()
-install(DIRECTORY ${public_include}/railstrata DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY ${public_include}/railstrata DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 
 target_compile_features(railstrata_library${installed_suffix} INTERFACE cxx_std_20)
 install(EXPORT RailStrataTargets NAMESPACE RailStrata:: DESTINATION ${package_folder})

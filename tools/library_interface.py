@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
 """What librailstrata.so shows of itself: the public headers and the symbols.
 
-usage: library_interface.py headers --src SRC --out FOLDER --version V --stamp FILE HEADER...
+usage: library_interface.py headers --src SRC --out FOLDER --version V --stamp FILE [--c HEADER.h] HEADER.hpp...
        library_interface.py exports --headers FOLDER --nm NM --version V --public-version V --out MAP
                                      --library A.a ... --users B.a ...
 
 headers: copies the headers and every header they include to FOLDER/<room>/<name>.hpp, with `#include "room/x.hpp"`
-turned into `#include "railstrata/room/x.hpp"`, and writes FOLDER/railstrata.hpp, which includes them all. Refuses
-headers that a user could not compile with the standard library alone.
+turned into `#include "railstrata/room/x.hpp"`, and writes FOLDER/railstrata.hpp, which includes them all; copies the C
+header to FOLDER. Refuses headers that a user could not compile with the standard library alone.
 exports: writes a linker version script. Public are the functions, classes and constants of the archives that the public
-headers declare; private, under a version that no other release has, what the users' archives call besides; all else is
-local.
+headers declare, those of the C header too; private, under a version that no other release has, what the users'
+archives call besides; all else is local.
 """
 import argparse
 import pathlib
@@ -53,6 +53,8 @@ def write_if_new(file, text):
 
 def headers(args):
     names = closure(args.src, args.headers)
+    for header in args.c:
+        write_if_new(args.out / pathlib.Path(header).name, (args.src / header).read_text())
     wrong = complaints(args.src, names)
     if wrong:
         sys.exit("\n".join(wrong))
@@ -69,7 +71,7 @@ def headers(args):
              *(f'#include "railstrata/{header}"' for header in sorted(args.headers)),
              ""]
     write_if_new(args.out / "railstrata.hpp", "\n".join(lines))
-    inputs = " ".join(str(args.src / name) for name in names)
+    inputs = " ".join(str(args.src / name) for name in [*names, *args.c])
     args.stamp.with_name(args.stamp.name + ".d").write_text(f"{args.stamp}: {inputs}\n")
     args.stamp.touch()
 
@@ -108,12 +110,19 @@ def is_public(name, functions, classes, constants):
     return all(scope in classes for scope in scopes) and match[2] in known
 
 
+def c_functions(folder):
+    """Names that the C headers declare with RS_API."""
+    text = "\n".join(COMMENT.sub("", f.read_text()) for f in folder.glob("*.h"))
+    return set(re.findall(r"RS_API\b[^;]*?\b(\w+)\s*\(", text))
+
+
 def exports(args):
     strong = {name for name, kind in symbols(args.nm, args.library, "--defined-only") if kind in "TDBRVi"}
     every = {name for name, _ in symbols(args.nm, args.library, "--defined-only")}
     needed = {name for name, _ in symbols(args.nm, args.users, "--undefined-only")} & every
     known = declared(args.headers)
     public = {name for name, text in demangled(strong).items() if is_public(text, *known)}
+    public |= c_functions(args.headers)
     if not public:
         sys.exit("no symbol of the archives is declared in a public header")
 
@@ -133,6 +142,7 @@ def main():
     make.set_defaults(run=headers)
     make.add_argument("--src", type=pathlib.Path, required=True)
     make.add_argument("--stamp", type=pathlib.Path, required=True)
+    make.add_argument("--c", action="append", default=[])
     make.add_argument("headers", nargs="+")
     make_map = commands.add_parser("exports")
     make_map.set_defaults(run=exports)

@@ -82,7 +82,7 @@ def shakedown(case: Case, cell: float = 0.25e-3, *, threads: int = 0) -> BemResu
     handle = _core.solve_half_space(case._loaded, cell, threads, True, True, False, None)
     result = BemResult(handle)
     if not result.shakedown:
-        raise ValueError('the case says no strength: give yield_strength = "500 MPa" or grade = "R260" to its materials')
+        raise ValueError('the case says no strength: give yield_strength = "500 MPa" or grade = "R260" to materials')
     return _say(result)
 
 

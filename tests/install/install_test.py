@@ -63,7 +63,7 @@ class Tree(unittest.TestCase):
     def test_program_library_headers_packages_data_and_texts_are_there(self):
         shared = ["cases/quick/case.toml", "cases/paper/study.toml", "data/profiles/lma_wheel.csv",
                   "data/paper/published.toml", "report/view.py", "report/LICENSES.txt"]
-        headers = ["railstrata.hpp", "runs/library.hpp"]
+        headers = ["railstrata.hpp", "railstrata.h", "runs/library.hpp"]
         for name in ["bin/railstrata", *(f"include/railstrata/{h}" for h in headers),
                      *(f"share/railstrata/{s}" for s in shared)]:
             self.assertTrue((PREFIX / name).is_file(), name)
@@ -94,16 +94,23 @@ class Symbols(unittest.TestCase):
 
     def test_the_library_exports_names_of_its_own_alone(self):
         for version, name in self.exported(libraries()[0]):
-            self.assertRegex(name, r"^((vtable|typeinfo|typeinfo name) for )?railstrata::", version)
+            self.assertRegex(name, r"^(((vtable|typeinfo|typeinfo name) for )?railstrata::|rs_)", version)
             self.assertRegex(version, rf"^RAILSTRATA_(PRIVATE_)?{re.escape(VERSION.rsplit('.', 1)[0])}")
 
     def test_the_public_version_has_what_the_headers_declare_and_no_more(self):
-        names = [name for version, name in self.exported(libraries()[0]) if "PRIVATE" not in version]
+        names = [name for version, name in self.exported(libraries()[0])
+                 if "PRIVATE" not in version and not name.startswith("rs_")]
         public = {re.match(r"railstrata::((?:\w+::)*~?\w+)", name)[1] for name in names if " for " not in name}
         self.assertLessEqual({"load_case", "parse_case", "solve_by_half_spaces", "build_info", "version_text"}, public)
         headers = "\n".join(f.read_text() for f in (PREFIX / "include/railstrata").rglob("*.hpp"))
         for name in public:
             self.assertRegex(headers, rf"\b{name.split('::')[-1]}\s*\(", name)
+
+    def test_the_functions_of_the_c_header_are_public(self):
+        names = {name for version, name in self.exported(libraries()[0])
+                 if name.startswith("rs_") and "PRIVATE" not in version}
+        header = (PREFIX / "include/railstrata/railstrata.h").read_text()
+        self.assertEqual(names, set(re.findall(r"RS_API [^;]*?(rs_\w+)\(", header)))
 
     def test_what_the_program_calls_besides_is_bound_to_this_very_release(self):
         private = {version for version, _ in self.exported(libraries()[0]) if "PRIVATE" in version}
@@ -185,6 +192,30 @@ class PkgConfigConsumer(Consumer):
         done("sh", "-c", f"{CXX} -std=c++20 mine.cpp $(pkg-config --cflags --libs railstrata) {rpath} -o mine",
              cwd=self.folder, env=here)
         done(self.folder / "mine", cwd=self.folder, env=here)
+
+
+class CConsumer(Consumer):
+    """Programs in C89, Fortran and C++ that solve the same contact; they print what they found."""
+    def setUp(self):
+        super().setUp()
+        self.source = self.folder / "source"
+        self.links = ["-L", libraries()[0].parent, "-lrailstrata", f"-Wl,-rpath,{libraries()[0].parent}"]
+        self.case = PREFIX / "share/railstrata/cases/quick/case.toml"
+
+    def test_c89_fortran_and_cpp_find_the_same_forces(self):
+        include = ["-I", PREFIX / "include"]
+        done("gcc", "-std=c89", "-pedantic", "-Wall", "-Wextra", "-Werror", *include, self.source / "mine.c",
+             "-o", self.folder / "mine_c", *self.links, "-lm")
+        done(CXX, "-std=c++11", "-Wall", "-Werror", *include, "-x", "c++", self.source / "mine.c",
+             "-o", self.folder / "mine_cpp", *self.links)
+        done("gfortran", "-std=f2008", "-Wall", "-Werror", self.source / "mine.f90", "-o", self.folder / "mine_f",
+             *self.links, cwd=self.folder)
+        in_c, in_cpp, in_fortran = (done(self.folder / name, self.case) for name in ("mine_c", "mine_cpp", "mine_f"))
+        self.assertEqual(in_c, in_cpp)
+        numbers_of = [[float(word) for word in out.split()] for out in (in_c, in_fortran)]
+        self.assertEqual(len(numbers_of[0]), 3)
+        for c, fortran in zip(*numbers_of):
+            self.assertAlmostEqual(c, fortran, delta=1e-9 * abs(c))
 
 
 class Moved(unittest.TestCase):

@@ -1,0 +1,237 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "capi/guarded.hpp"
+#include "capi/railstrata.h"
+#include "capi/state_of_case.hpp"
+#include "case/case_file.hpp"
+#include "io/provenance.hpp"
+#include "model/model.hpp"
+#include "post/bem_summary.hpp"
+#include "runs/solve_half_space.hpp"
+
+using namespace railstrata;
+
+/// The case with its profiles read once, what solutions share, and the last one.
+struct rs_contact {
+  LoadedCase loaded;
+  Placement placement;
+  BemOptions options;
+  InfluenceCache cache;
+  std::optional<BemResult> last;
+  ContactSummary numbers;
+  std::string remarks;
+};
+
+namespace {
+
+rs_contact* new_contact(LoadedCase loaded) {
+  const CaseSpec spec = half_space_case(loaded.spec);
+  if (spec.transient.kind != TransientKind::none)
+    throw CaseError("a history in time (transient) is not offered by the C interface", "use the program or Python",
+                    loaded.file.string());
+  Placement placement = place(spec, loaded.folder());
+  loaded.spec = spec;
+  return new rs_contact{std::move(loaded), std::move(placement), {}, {}, {}, {}, {}};
+}
+
+std::vector<std::string> texts(const char* const* overrides, int count) {
+  if (count < 0 || (count > 0 && !overrides)) throw CaseError("the list of overrides is missing", "give count = 0");
+  return {overrides, overrides + count};
+}
+
+/// The placement of the case's profiles where a state has moved the wheel.
+Placement placed(const rs_contact& contact, const CaseSpec& spec) {
+  const GeometrySpec &now = spec.geometry, &was = contact.loaded.spec.geometry;
+  if (now.lateral_shift == was.lateral_shift && now.yaw == was.yaw && now.roll == was.roll) return contact.placement;
+  Placement out = contact.placement;
+  out.track.lateral_shift = now.lateral_shift;
+  out.track.yaw = now.yaw;
+  out.track.roll = now.roll;
+  out.contact = place_wheel(out.wheel, out.rail, out.track);
+  return out;
+}
+
+int cells_with_pressure(const ContactField& field) {
+  int count = 0;
+  for (const double p : field.p) count += p > 0;
+  return count;
+}
+
+void fill(const BemResult& result, const Summary& summary, rs_forces& out) {
+  const ContactSummary& c = summary.contact;
+  const std::size_t size = out.size;
+  out = {};
+  out.size = size;
+  out.force_x = c.F_x;
+  out.force_y = c.F_y;
+  out.force_z = c.F_z;
+  out.normal_force = c.normal_force;
+  out.lateral_force = c.lateral_force;
+  out.spin_moment = c.spin_moment;
+  out.creepage_x = c.creepage_x;
+  out.creepage_y = c.creepage_y;
+  out.spin = c.spin_per_m;
+  out.approach = c.approach;
+  out.contact_angle = c.contact_angle;
+  out.p_max = c.patch.p_max;
+  out.q_max = c.patch.q_max;
+  out.patch_area = c.patch.area;
+  out.slip_area = c.patch.slip_area_fraction * c.patch.area;
+  out.dissipation = result.dissipation;
+  for (const BemPatch& p : result.further) out.dissipation += p.dissipation;
+  out.patches = static_cast<int>(1 + result.further.size());
+  out.cells = cells_with_pressure(result.field);
+  out.iterations = result.effort.iterations;
+  out.checks_hold = 1;
+  for (const Check& check : summary.checks) out.checks_hold &= check.ok ? 1 : 0;
+}
+
+std::string remarks_of(const BemResult& result, const Summary& summary) {
+  std::string out;
+  for (const Check& check : summary.checks)
+    if (!check.ok) out += fmt::format("check {} fails: {:g}, limit {:g}\n", check.name, check.value, check.limit);
+  for (const std::string& note : result.notes) out += note + "\n";
+  if (!out.empty()) out.pop_back();
+  return out;
+}
+
+void solve(rs_contact& contact, const rs_state* state, rs_forces& forces) {
+  if (forces.size != sizeof(rs_forces))
+    throw CaseError(fmt::format("rs_forces.size = {} is of another version of the library", forces.size),
+                    "set size = sizeof(rs_forces), and compile with this version's railstrata.h");
+  contact.last.reset();
+  contact.remarks.clear();
+  const CaseSpec spec = state ? capi::with_state(contact.loaded.spec, *state) : contact.loaded.spec;
+  contact.options.cache = &contact.cache;
+  contact.last = solve_bem(spec, placed(contact, spec), contact.options);
+  const Summary summary = bem_contact_summary(spec, *contact.last);
+  fill(*contact.last, summary, forces);
+  contact.remarks = remarks_of(*contact.last, summary);
+}
+
+const BemPatch& patch_of(const rs_contact* contact, int patch) {
+  if (!contact || !contact->last) throw CaseError("there is no solution", "call rs_solve first");
+  const BemResult& result = *contact->last;
+  const int count = static_cast<int>(1 + result.further.size());
+  if (patch < 0 || patch >= count)
+    throw CaseError(fmt::format("there is no patch {}", patch), fmt::format("give 0 to {}", count - 1));
+  return patch == 0 ? result : result.further[static_cast<std::size_t>(patch - 1)];
+}
+
+void copy_field(const ContactField& f, int field, double* out, std::size_t n) {
+  const std::vector<double>* const fields[] = {&f.x, &f.y, &f.z, &f.area, &f.p, &f.q_x, &f.q_y, &f.slip_x, &f.slip_y};
+  if (n != f.p.size() || !out)
+    throw CaseError(fmt::format("out has {} numbers, the patch has {} points", n, f.p.size()),
+                    "ask rs_points for nx and ny");
+  if (field < RS_X || field > RS_STATE)
+    throw CaseError(fmt::format("there is no field {}", field), "give RS_X to RS_STATE");
+  if (field == RS_STATE)
+    for (std::size_t k = 0; k < n; ++k) out[k] = static_cast<double>(f.state[k]);
+  else
+    std::copy_n(fields[field]->data(), n, out);
+}
+
+std::vector<Vec3> points_of(const double* xyz, std::size_t n) {
+  std::vector<Vec3> out;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double *x = xyz + 3 * k, depth = x[2];
+    if (!std::isfinite(x[0]) || !std::isfinite(x[1]) || !(depth >= 0) || !std::isfinite(depth))
+      throw CaseError(fmt::format("point {} is ({:g}, {:g}, {:g})", k, x[0], x[1], depth),
+                      "give finite numbers, and a depth of 0 or more");
+    out.push_back({x[0], x[1], depth});
+  }
+  return out;
+}
+
+void stress(const rs_contact* contact, int body, const double* xyz, std::size_t n, double* out) {
+  patch_of(contact, 0);
+  if (body != RS_RAIL && body != RS_WHEEL)
+    throw CaseError(fmt::format("there is no body {}", body), "give RS_RAIL or RS_WHEEL");
+  if (n > 0 && (!xyz || !out)) throw CaseError("xyz or out is missing", "give arrays of 3 n and 6 n numbers");
+  const BemResult& result = *contact->last;
+  const Subsurface inside = body == RS_RAIL ? rail_interior(result) : wheel_interior(result);
+  const std::vector<InteriorPoint> found = inside.at(points_of(xyz, n));
+  for (std::size_t k = 0; k < n; ++k) {
+    const Sym3& s = found[k].stress;
+    const double numbers[] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
+    std::copy_n(numbers, 6, out + 6 * k);
+  }
+}
+
+void require(const rs_contact* contact) {
+  if (!contact) throw CaseError("the contact is NULL", "make one with rs_contact_new");
+}
+
+}  // namespace
+
+extern "C" {
+
+int rs_version(void) {
+  int major = 0, minor = 0, patch = 0;
+  std::sscanf(build_info().version.c_str(), "%d.%d.%d", &major, &minor, &patch);
+  return 10000 * major + 100 * minor + patch;
+}
+
+rs_contact* rs_contact_new(const char* case_file, const char* const* overrides, int count, rs_error* error) {
+  rs_contact* out = nullptr;
+  capi::guarded(error, [&] {
+    if (!case_file) throw CaseError("no case file was named", "give its path");
+    out = new_contact(load_case(case_file, texts(overrides, count)));
+  });
+  return out;
+}
+
+rs_contact* rs_contact_from_text(const char* toml, const char* const* overrides, int count, rs_error* error) {
+  rs_contact* out = nullptr;
+  capi::guarded(error, [&] {
+    if (!toml) throw CaseError("no case was given", "give its text");
+    out = new_contact(parse_case(toml, "case.toml", texts(overrides, count)));
+  });
+  return out;
+}
+
+void rs_contact_free(rs_contact* contact) { delete contact; }
+
+int rs_set_cell(rs_contact* contact, double cell, rs_error* error) {
+  return capi::guarded(error, [&] {
+    require(contact);
+    if (!(cell >= kSmallestCell && cell <= kLargestCell))
+      throw CaseError(fmt::format("a cell of {:g} m is out of range", cell), "give a length from 0.02e-3 to 5e-3 m");
+    contact->options.cell = cell;
+  });
+}
+
+int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_error* error) {
+  return capi::guarded(error, [&] {
+    require(contact);
+    if (!forces) throw CaseError("forces is NULL", "give an rs_forces with its size set");
+    solve(*contact, state, *forces);
+  });
+}
+
+const char* rs_remarks(rs_contact* contact) { return contact ? contact->remarks.c_str() : ""; }
+
+int rs_points(const rs_contact* contact, int patch, int* nx, int* ny, rs_error* error) {
+  return capi::guarded(error, [&] {
+    const ContactField& f = patch_of(contact, patch).field;
+    if (nx) *nx = f.stations;
+    if (ny) *ny = f.columns;
+  });
+}
+
+int rs_field(const rs_contact* contact, int patch, int field, double* out, size_t n, rs_error* error) {
+  return capi::guarded(error, [&] { copy_field(patch_of(contact, patch).field, field, out, n); });
+}
+
+int rs_stress(const rs_contact* contact, int body, const double* xyz, size_t n, double* out, rs_error* error) {
+  return capi::guarded(error, [&] { stress(contact, body, xyz, n, out); });
+}
+
+}  // extern "C"

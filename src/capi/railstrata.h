@@ -1,0 +1,142 @@
+/* RailStrata for other programs, in C: one wheel on one rail, with layers, by half-spaces. C89; from Fortran by
+ * bind(c), from C++ as it is. The C++ interface is railstrata.hpp.
+ *
+ * Units are SI. Axes and signs are those of docs/conventions.md: x the rolling direction, y lateral towards the field
+ * side, z up; forces act on the wheel; creepages are the rigid slip of the wheel over the rail divided by the speed, a
+ * driving wheel has creepage_x < 0 and force_x > 0; tractions of fields act on the rail.
+ *
+ * Threads: a contact belongs to one thread at a time; several contacts may be solved at once. Nothing is printed or
+ * written, no signal is caught, the process is never ended. The only state that contacts share is FFTW's.
+ *
+ * Functions that can fail return 0 or a pointer on success; else the code of the error, or NULL, and fill `error`,
+ * which may be NULL. */
+#ifndef RAILSTRATA_H
+#define RAILSTRATA_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#define RS_API __attribute__((visibility("default")))
+#else
+#define RS_API
+#endif
+
+/* Of rs_error.code; the program's exit codes have the same meanings. */
+#define RS_OK 0
+#define RS_CASE 2      /* an input is wrong, or physics has no answer for it */
+#define RS_NUMERICS 3  /* an iteration did not converge */
+#define RS_MACHINE 4   /* not enough memory, a file that cannot be read */
+#define RS_INTERNAL 70 /* a fault of the library */
+
+typedef struct rs_error {
+  int code;
+  char message[1000]; /* what is wrong and what to do; cut if it is longer */
+} rs_error;
+
+/* A wheel on a rail. It keeps its last solution. */
+typedef struct rs_contact rs_contact;
+
+/* 10000 major + 100 minor + patch. */
+RS_API int rs_version(void);
+
+/* A contact from a case file (docs/case-reference.md) with `count` overrides "key=value", as --set of the program takes
+ * them. The text form takes the case itself; profile names are then relative to the working folder. */
+RS_API rs_contact* rs_contact_new(const char* case_file, const char* const* overrides, int count, rs_error* error);
+RS_API rs_contact* rs_contact_from_text(const char* toml, const char* const* overrides, int count, rs_error* error);
+/* NULL is allowed. */
+RS_API void rs_contact_free(rs_contact* contact);
+
+/* Bits of rs_state.given. */
+#define RS_LOAD 1u
+#define RS_APPROACH 2u
+#define RS_LATERAL_SHIFT 4u
+#define RS_YAW 8u
+#define RS_ROLL 16u
+#define RS_SPEED 32u
+#define RS_FRICTION 64u
+#define RS_CREEPAGE_X 128u
+#define RS_CREEPAGE_Y 256u
+#define RS_SPIN 512u
+#define RS_FORCE_X 1024u
+#define RS_FORCE_Y 2048u
+
+/* What is different from the case in one solution. Members whose bit is not set in `given` are not read. */
+typedef struct rs_state {
+  size_t size;          /* sizeof(rs_state): the library may know more members than the caller */
+  unsigned given;       /* RS_LOAD | ... */
+  double load;          /* N, vertical load on the rail; or */
+  double approach;      /* m, of the bodies along the contact normal: the load is a result */
+  double lateral_shift; /* m, of the wheel to the field side */
+  double yaw, roll;     /* tangents of the angle of attack and of the wheelset's roll */
+  double speed;         /* m/s */
+  double friction;      /* coefficient at rest */
+  double creepage_x;    /* longitudinal: this, or */
+  double creepage_y;    /* lateral, in the contact plane */
+  double spin;          /* 1/m; without it that of the geometry */
+  double force_x;       /* N, longitudinal on the wheel */
+  double force_y;       /* N, lateral friction on the wheel, in the contact plane */
+} rs_state;
+
+/* What a contact gives. NaN: does not apply. Of several patches: forces of all, the rest of the one with the largest
+ * pressure. */
+typedef struct rs_forces {
+  size_t size;                        /* sizeof(rs_forces), to be set by the caller */
+  double force_x, force_y, force_z;   /* N, on the wheel, model frame */
+  double normal_force, lateral_force; /* N, along the contact normal and across it, on the wheel */
+  double spin_moment;                 /* N m, on the wheel about the contact normal */
+  double creepage_x, creepage_y;      /* as given, or found for the forces */
+  double spin;                        /* 1/m */
+  double approach;                    /* m */
+  double contact_angle;               /* rad */
+  double p_max, q_max;                /* Pa */
+  double patch_area, slip_area;       /* m2 */
+  double dissipation;                 /* W, in the patch */
+  int patches;                        /* contacts that share the load */
+  int cells;                          /* with pressure, of the first patch */
+  int iterations;                     /* products with the influence matrix */
+  int checks_hold;                    /* 1: every check of the result holds; rs_remarks says what does not */
+} rs_forces;
+
+/* Side of the cells [m], 0.02e-3 to 5e-3; 0.25e-3 unless set. */
+RS_API int rs_set_cell(rs_contact* contact, double cell, rs_error* error);
+
+/* Solves the case with what `state` changes of it; NULL: as it is. After an error the last solution is gone. */
+RS_API int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_error* error);
+
+/* The checks that fail and the notes of the last solution, one a line; "" if there are none. Belongs to the contact,
+ * until its next call. */
+RS_API const char* rs_remarks(rs_contact* contact);
+
+/* Points of the last solution: along x and across, point (i, j) at index j + ny i. Of patch 0, 1, ... */
+RS_API int rs_points(const rs_contact* contact, int patch, int* nx, int* ny, rs_error* error);
+
+/* Fields of rs_field. */
+#define RS_X 0
+#define RS_Y 1
+#define RS_Z 2
+#define RS_AREA 3
+#define RS_PRESSURE 4
+#define RS_TRACTION_X 5
+#define RS_TRACTION_Y 6
+#define RS_SLIP_X 7
+#define RS_SLIP_Y 8
+#define RS_STATE 9 /* 0 separated, 1 stick, 2 slip */
+
+/* Copies a field of the last solution to out[0 .. n-1], n = nx ny. SI. */
+RS_API int rs_field(const rs_contact* contact, int patch, int field, double* out, size_t n, rs_error* error);
+
+/* Stresses [Pa] at n points below (rail) or above (wheel) the patch of the largest pressure. xyz: n times x, y from the
+ * rigid contact point along the rolling direction and the common tangent, and the depth into the body [m]. out: n times
+ * xx, yy, zz, xy, yz, xz in these axes. */
+#define RS_RAIL 0
+#define RS_WHEEL 1
+RS_API int rs_stress(const rs_contact* contact, int body, const double* xyz, size_t n, double* out, rs_error* error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,104 @@
+#include "capi/state_of_case.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <string_view>
+
+#include "case/option_table.hpp"
+#include "core/faults.hpp"
+
+namespace railstrata::capi {
+namespace {
+
+/// The option of a key "table.option".
+const Option& option_of(std::string_view key) {
+  const std::size_t dot = key.find('.');
+  for (const Option& option : find_table(key.substr(0, dot))->options)
+    if (option.key == key.substr(dot + 1)) return option;
+  throw std::logic_error(fmt::format("no option {}", key));
+}
+
+/// A member of the state and the key of the case that it stands for.
+struct Member {
+  unsigned bit;
+  double rs_state::*value;
+  std::string_view name, key;
+};
+constexpr Member kMembers[] = {{RS_APPROACH, &rs_state::approach, "approach", "vehicle.approach"},
+                               {RS_LATERAL_SHIFT, &rs_state::lateral_shift, "lateral_shift", "geometry.lateral_shift"},
+                               {RS_YAW, &rs_state::yaw, "yaw", "geometry.yaw"},
+                               {RS_ROLL, &rs_state::roll, "roll", "geometry.roll"},
+                               {RS_SPEED, &rs_state::speed, "speed", "drive.speed"},
+                               {RS_FRICTION, &rs_state::friction, "friction", "drive.friction_coefficient"},
+                               {RS_CREEPAGE_X, &rs_state::creepage_x, "creepage_x", "drive.creepage"},
+                               {RS_CREEPAGE_Y, &rs_state::creepage_y, "creepage_y", "drive.lateral_creepage"},
+                               {RS_SPIN, &rs_state::spin, "spin", "drive.spin"}};
+constexpr unsigned kAllBits = RS_LOAD | RS_APPROACH | RS_LATERAL_SHIFT | RS_YAW | RS_ROLL | RS_SPEED | RS_FRICTION |
+                              RS_CREEPAGE_X | RS_CREEPAGE_Y | RS_SPIN | RS_FORCE_X | RS_FORCE_Y;
+
+void put(CaseSpec& spec, const Member& m, double value) {
+  const Option& option = option_of(m.key);
+  if (!std::isfinite(value) || !option.range.holds(value))
+    throw CaseError(fmt::format("rs_state.{} = {:g} is out of range", m.name, value),
+                    fmt::format("give a value {}", describe(option.range, option.dimension)), std::string(m.key));
+  const Slot slot = option.slot(spec, 0);
+  if (const auto* number = std::get_if<double*>(&slot))
+    **number = value;
+  else
+    *std::get<std::optional<double>*>(slot) = value;
+}
+
+void require_one_of(const rs_state& s, unsigned one, unsigned other, std::string_view text) {
+  if ((s.given & one) && (s.given & other))
+    throw CaseError(fmt::format("rs_state.given has both {}", text), "set one of the two bits");
+}
+
+double number(double value, std::string_view name, bool positive) {
+  if (std::isfinite(value) && (!positive || value > 0)) return value;
+  throw CaseError(fmt::format("rs_state.{} = {:g} is no force that can be used", name, value),
+                  positive ? "give a force above 0 N" : "give a finite force in N");
+}
+
+/// The load as a mass on the wheel; other drives of the direction are taken back.
+void put_forces(const rs_state& s, CaseSpec& spec) {
+  if (s.given & RS_LOAD) {
+    spec.vehicle.approach.reset();
+    spec.vehicle.sprung_mass = 0;
+    spec.vehicle.wheel_mass = number(s.load, "load", true) / spec.vehicle.gravity;
+  }
+  if ((s.given & (RS_FORCE_X | RS_FORCE_Y)) && spec.vehicle.approach)
+    throw CaseError("forces cannot be given together with an approach: the load that bears them is a result",
+                    "give creepages, or a load", "vehicle.approach");
+  const double load = (spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity;
+  if (s.given & RS_FORCE_X) {
+    spec.drive.creepage.reset();
+    spec.drive.traction_coefficient = number(s.force_x, "force_x", false) / load;
+  }
+  if (s.given & RS_FORCE_Y) {
+    spec.drive.lateral_creepage.reset();
+    spec.drive.lateral_traction_coefficient = number(s.force_y, "force_y", false) / load;
+  }
+}
+
+}  // namespace
+
+CaseSpec with_state(CaseSpec spec, const rs_state& s) {
+  if (s.size != sizeof(rs_state))
+    throw CaseError(fmt::format("rs_state.size = {} is of another version of the library", s.size),
+                    "set size = sizeof(rs_state), and compile with this version's railstrata.h");
+  if (s.given & ~kAllBits)
+    throw CaseError(fmt::format("rs_state.given = {} has bits that have no meaning", s.given),
+                    "use RS_LOAD, RS_APPROACH and so on");
+  require_one_of(s, RS_LOAD, RS_APPROACH, "RS_LOAD and RS_APPROACH");
+  require_one_of(s, RS_CREEPAGE_X, RS_FORCE_X, "RS_CREEPAGE_X and RS_FORCE_X");
+  require_one_of(s, RS_CREEPAGE_Y, RS_FORCE_Y, "RS_CREEPAGE_Y and RS_FORCE_Y");
+  for (const Member& m : kMembers)
+    if (s.given & m.bit) put(spec, m, s.*m.value);
+  if (s.given & RS_CREEPAGE_Y) spec.drive.lateral_traction_coefficient.reset();
+  put_forces(s, spec);
+  return spec;
+}
+
+}  // namespace railstrata::capi

@@ -1,0 +1,12 @@
+#pragma once
+// What a state of the C interface changes of a case.
+#include "capi/railstrata.h"
+#include "case/case_spec.hpp"
+
+namespace railstrata::capi {
+
+/// The case with the members of the state that are given. Throws CaseError: out of the range of its key, members that
+/// exclude each other, a size that no version of rs_state has.
+CaseSpec with_state(CaseSpec spec, const rs_state& state);
+
+}  // namespace railstrata::capi

@@ -1,0 +1,182 @@
+// The C interface: the same numbers as the C++ one, states, errors, fields.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "capi/railstrata.h"
+#include "runs/library.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+const std::string kQuick = RAILSTRATA_SOURCE_DIR "/cases/quick/case.toml";
+
+struct Contact {
+  explicit Contact(const std::vector<const char*>& overrides = {})
+      : handle(rs_contact_new(kQuick.c_str(), overrides.data(), static_cast<int>(overrides.size()), &error)) {
+    rs_set_cell(handle, 0.5e-3, nullptr);
+  }
+  ~Contact() { rs_contact_free(handle); }
+  Contact(const Contact&) = delete;
+  Contact& operator=(const Contact&) = delete;
+  int solve(const rs_state& state) { return rs_solve(handle, &state, &forces, &error); }
+  rs_error error{};
+  rs_contact* handle;
+  rs_forces forces{sizeof(rs_forces), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+};
+
+rs_state state_of(unsigned given) {
+  rs_state out{};
+  out.size = sizeof(rs_state);
+  out.given = given;
+  return out;
+}
+
+TEST(CInterface, HasTheNumbersOfTheCppOne) {
+  Contact contact;
+  ASSERT_NE(contact.handle, nullptr) << contact.error.message;
+  ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, &contact.error), RS_OK) << contact.error.message;
+  HalfSpaceSettings settings;
+  settings.cell = 0.5e-3;
+  const CaseResult result = solve_by_half_spaces(load_case(kQuick), settings);
+  const ContactSummary& c = result.summary.contact;
+  EXPECT_EQ(contact.forces.p_max, c.patch.p_max);
+  EXPECT_EQ(contact.forces.force_x, c.F_x);
+  EXPECT_EQ(contact.forces.creepage_x, c.creepage_x);
+  EXPECT_EQ(contact.forces.checks_hold, 1) << rs_remarks(contact.handle);
+  int nx = 0, ny = 0;
+  ASSERT_EQ(rs_points(contact.handle, 0, &nx, &ny, nullptr), RS_OK);
+  std::vector<double> p(static_cast<std::size_t>(nx * ny));
+  ASSERT_EQ(rs_field(contact.handle, 0, RS_PRESSURE, p.data(), p.size(), nullptr), RS_OK);
+  EXPECT_EQ(p, result.patch.p);
+}
+
+TEST(CInterface, StatesHaveTheNumbersOfTheirCases) {
+  Contact contact, other({"geometry.lateral_shift=0.5 mm", "drive.creepage=-0.0008", "drive.spin=0.1 1/m",
+                          "drive.lateral_creepage=0.0005", "drive.speed=20 m/s", "drive.friction_coefficient=0.4",
+                          "vehicle.wheel_load=70 kN"});
+  ASSERT_NE(other.handle, nullptr) << other.error.message;
+  rs_state state =
+      state_of(RS_LATERAL_SHIFT | RS_CREEPAGE_X | RS_CREEPAGE_Y | RS_SPIN | RS_SPEED | RS_FRICTION | RS_LOAD);
+  state.lateral_shift = 0.5e-3;
+  state.creepage_x = -0.0008;
+  state.creepage_y = 0.0005;
+  state.spin = 0.1;
+  state.speed = 20;
+  state.friction = 0.4;
+  state.load = 70e3;
+  ASSERT_EQ(contact.solve(state), RS_OK) << contact.error.message;
+  ASSERT_EQ(rs_solve(other.handle, nullptr, &other.forces, nullptr), RS_OK);
+  EXPECT_NEAR(contact.forces.force_x, other.forces.force_x, 1e-9 * std::abs(other.forces.force_x));
+  EXPECT_NEAR(contact.forces.force_y, other.forces.force_y, 1e-9 * std::abs(other.forces.force_x));
+  EXPECT_NEAR(contact.forces.p_max, other.forces.p_max, 1e-9 * other.forces.p_max);
+  EXPECT_NEAR(contact.forces.dissipation, other.forces.dissipation, 1e-9 * other.forces.dissipation);
+}
+
+TEST(CInterface, GivenForcesComeOutAndTheNextStateKnowsNothingOfThem) {
+  Contact contact;
+  rs_state pulled = state_of(RS_FORCE_X | RS_FORCE_Y);
+  pulled.force_x = 12e3;
+  pulled.force_y = -4e3;
+  ASSERT_EQ(contact.solve(pulled), RS_OK) << contact.error.message;
+  EXPECT_NEAR(contact.forces.force_x, 12e3, 1);
+  EXPECT_NEAR(contact.forces.lateral_force, -4e3, 1);
+  const double creepage = contact.forces.creepage_x;
+  rs_state rolled = state_of(RS_CREEPAGE_X | RS_CREEPAGE_Y);
+  rolled.creepage_x = creepage;
+  rolled.creepage_y = contact.forces.creepage_y;
+  ASSERT_EQ(contact.solve(rolled), RS_OK) << contact.error.message;
+  EXPECT_NEAR(contact.forces.force_x, 12e3, 12);
+  EXPECT_NEAR(contact.forces.creepage_x, creepage, 1e-12);
+}
+
+TEST(CInterface, AnApproachGivesTheLoadThatGaveIt) {
+  Contact contact;
+  rs_state loaded = state_of(RS_LOAD | RS_CREEPAGE_X);
+  loaded.load = 80e3;
+  ASSERT_EQ(contact.solve(loaded), RS_OK) << contact.error.message;
+  rs_state pressed = state_of(RS_APPROACH | RS_CREEPAGE_X);
+  pressed.approach = contact.forces.approach;
+  ASSERT_EQ(contact.solve(pressed), RS_OK) << contact.error.message;
+  EXPECT_NEAR(contact.forces.force_z, 80e3, 80e3 * 1e-4);
+}
+
+TEST(CInterface, StressesAreInEquilibriumWithThePressureAtTheSurface) {
+  Contact contact;
+  ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, nullptr), RS_OK);
+  const double xyz[] = {0, 0, 0, 0, 0, 1e-3};
+  double s[12];
+  ASSERT_EQ(rs_stress(contact.handle, RS_RAIL, xyz, 2, s, &contact.error), RS_OK) << contact.error.message;
+  EXPECT_NEAR(-s[2], contact.forces.p_max, 0.1 * contact.forces.p_max);
+  EXPECT_LT(-s[8], -s[2]);
+}
+
+TEST(CInterface, FaultsHaveACodeAndAText) {
+  rs_error error{};
+  EXPECT_EQ(rs_contact_new("/no/such/case.toml", nullptr, 0, &error), nullptr);
+  EXPECT_NE(error.code, RS_OK);
+  EXPECT_NE(std::strlen(error.message), 0u);
+  EXPECT_EQ(rs_contact_new(nullptr, nullptr, 0, nullptr), nullptr);
+  const char* wrong[] = {"drive.no_such=1"};
+  EXPECT_EQ(rs_contact_new(kQuick.c_str(), wrong, 1, &error), nullptr);
+  EXPECT_EQ(error.code, RS_CASE);
+  EXPECT_EQ(rs_contact_from_text("[mesh]\nelement_size = 1\n", nullptr, 0, &error), nullptr);
+  EXPECT_EQ(error.code, RS_CASE);
+
+  Contact contact;
+  int nx = 0;
+  EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, nullptr), RS_CASE);  // nothing is solved yet
+  EXPECT_EQ(rs_set_cell(contact.handle, kNaN, nullptr), RS_CASE);
+  EXPECT_EQ(rs_solve(nullptr, nullptr, &contact.forces, nullptr), RS_CASE);
+  EXPECT_EQ(rs_solve(contact.handle, nullptr, nullptr, nullptr), RS_CASE);
+}
+
+TEST(CInterface, StatesThatCannotBeAreRefusedAndLeaveNoSolution) {
+  Contact contact;
+  ASSERT_EQ(rs_solve(contact.handle, nullptr, &contact.forces, nullptr), RS_OK);
+  const auto refused = [&](rs_state state, const std::string& word) {
+    const int code = contact.solve(state);
+    EXPECT_EQ(code, RS_CASE) << word;
+    EXPECT_NE(std::string(contact.error.message).find(word), std::string::npos) << contact.error.message;
+  };
+  rs_state state = state_of(RS_FRICTION);
+  state.friction = -0.1;
+  refused(state, "friction");
+  state = state_of(RS_LOAD);
+  state.load = kNaN;
+  refused(state, "load");
+  refused(state_of(RS_LOAD | RS_APPROACH), "both");
+  refused(state_of(RS_CREEPAGE_X | RS_FORCE_X), "both");
+  refused(state_of(1u << 20), "bits");
+  state = state_of(0);
+  state.size = 8;
+  refused(state, "size");
+  state = state_of(RS_FORCE_X);
+  state.force_x = 1e9;
+  refused(state, "friction");
+  int nx = 0;
+  EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, nullptr), RS_CASE);
+}
+
+TEST(CInterface, ContactsOfSeveralThreadsHaveTheBitsOfOne) {
+  std::vector<double> found(4);
+  std::vector<std::thread> threads;
+  for (std::size_t k = 0; k < found.size(); ++k)
+    threads.emplace_back([&found, k] {
+      Contact contact;
+      rs_solve(contact.handle, nullptr, &contact.forces, nullptr);
+      found[k] = contact.forces.force_x;
+    });
+  for (std::thread& t : threads) t.join();
+  for (const double f : found) EXPECT_EQ(f, found[0]);
+  EXPECT_NE(found[0], 0);
+}
+
+}  // namespace
+}  // namespace railstrata
