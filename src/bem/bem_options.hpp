@@ -8,11 +8,21 @@ namespace railstrata {
 /// m, of BemOptions::cell: what commands and tools take.
 inline constexpr double kSmallestCell = 0.02e-3, kLargestCell = 5e-3;
 
+/// A solution of a similar case and its grid, to start the next one from: wheels of a vehicle move little from one time
+/// step to the next. Of one patch with one load.
+struct BemNeighbour {
+  PatchGrid grid;
+  RollingSolution solution;
+  bool empty() const { return solution.normal.pressure.empty(); }
+};
+
 struct BemOptions {
   double cell = 0.25e-3;         ///< m
   double largest_patch = 60e-3;  ///< m, of the potential contact area, per direction
   RollingOptions rolling;
-  InfluenceCache* cache = nullptr;  ///< for sweeps; may be null
+  InfluenceCache* cache = nullptr;    ///< for sweeps; may be null
+  BemNeighbour* neighbour = nullptr;  ///< may be null. Becomes this solution where one patch bears the load, else
+                                      ///< empty. Numbers then depend on it, within the tolerances of the solver
 };
 
 }  // namespace railstrata

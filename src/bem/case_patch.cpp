@@ -43,14 +43,18 @@ std::string in_words(const NormalTarget& target) {
                      : fmt::format("approach of {:.3g} mm", 1e3 * *target.approach);
 }
 
+void gap_and_influence(const Placement& placement, InfluenceCache& cache, CasePatch& patch) {
+  patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, patch.grid);
+  patch.influence = cache.get(patch.wheel, patch.rail, patch.grid, patch.contact.third_body.flexibility());
+}
+
 void fit_grid(const Placement& placement, const NormalTarget& target, const PatchRoom& room, const BemOptions& options,
               InfluenceCache& cache, CasePatch& patch) {
   const int most = static_cast<int>(0.5 * options.largest_patch / options.cell);
   for (int grown = 0;; ++grown) {
     PatchGrid& g = patch.grid;
-    patch.profile = profile_gap(placement.wheel, placement.rail, placement.track, placement.contact, g);
+    gap_and_influence(placement, cache, patch);
     keep_to_room(g, room, patch.profile.gap);
-    patch.influence = cache.get(patch.wheel, patch.rail, g, patch.contact.third_body.flexibility());
     patch.frictionless = solve_normal(*patch.influence, g, patch.profile.gap, target, options.rolling.normal);
     const Touches edge = touches(g, patch.frictionless.pressure);
     if (!edge.x && !edge.y) {
@@ -165,16 +169,19 @@ double normal_load(double weight, double lateral, const RigidContact& contact) {
   return (weight + lateral * std::sin(contact.angle)) / std::cos(contact.angle);
 }
 
-CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
-                          const NormalTarget& target, const PatchRoom& room) {
+namespace {
+
+CasePatch bodies_of(const CaseSpec& spec) {
   CasePatch patch;
   patch.wheel = layered_body(spec, BodyId::wheel);
   patch.rail = layered_body(spec, BodyId::rail);
-  patch.grid = grid_for(spec, placement, options, target, room);
-  InfluenceCache own;
+  patch.contact.third_body = third_body(spec);
+  return patch;
+}
+
+/// The problem on a grid that stands.
+void fill_problem(const CaseSpec& spec, const Placement& placement, const NormalTarget& target, CasePatch& patch) {
   RollingContact& contact = patch.contact;
-  contact.third_body = third_body(spec);
-  fit_grid(placement, target, room, options, options.cache ? *options.cache : own, patch);
   contact.gap = patch.profile.gap;
   contact.target = target;
   contact.friction = spec.drive.friction_coefficient;
@@ -188,7 +195,40 @@ CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, cons
       !note.empty())
     patch.notes.push_back(note);
   contact.speed = spec.drive.speed;
+}
+
+}  // namespace
+
+CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
+                          const NormalTarget& target, const PatchRoom& room) {
+  CasePatch patch = bodies_of(spec);
+  patch.grid = grid_for(spec, placement, options, target, room);
+  InfluenceCache own;
+  fit_grid(placement, target, room, options, options.cache ? *options.cache : own, patch);
+  fill_problem(spec, placement, target, patch);
   return patch;
+}
+
+CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement,
+                        const BemOptions& options, const NormalTarget& target) {
+  CasePatch patch = bodies_of(spec);
+  patch.grid = grid;
+  InfluenceCache own;
+  gap_and_influence(placement, options.cache ? *options.cache : own, patch);
+  fill_problem(spec, placement, target, patch);
+  return patch;
+}
+
+bool reaches_edge(const PatchGrid& grid, const Plane& pressure) {
+  const Touches edge = touches(grid, pressure);
+  return edge.x || edge.y;
+}
+
+bool suits(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
+  const PatchGrid wanted = first_grid(spec, placement, options);
+  const auto near = [](int have, int want) { return have >= want - 4 && have <= 2 * want + 8; };
+  return grid.line == wanted.line && grid.dx == wanted.dx && grid.dy == wanted.dy && near(grid.nx, wanted.nx) &&
+         near(grid.ny, wanted.ny);
 }
 
 }  // namespace railstrata

@@ -58,4 +58,15 @@ double normal_load(double weight, double lateral, const RigidContact& contact);
 CasePatch make_case_patch(const CaseSpec& spec, const Placement& placement, const BemOptions& options,
                           const NormalTarget& target, const PatchRoom& room = {});
 
+/// The same on a grid that is given, without the frictionless contact: the caller looks at reaches_edge of his
+/// solution.
+CasePatch case_patch_on(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement,
+                        const BemOptions& options, const NormalTarget& target);
+
+/// Whether the patch has no ring of cells to spare.
+bool reaches_edge(const PatchGrid& grid, const Plane& pressure);
+
+/// Whether a grid is large enough for the case to begin with, and not much larger.
+bool suits(const PatchGrid& grid, const CaseSpec& spec, const Placement& placement, const BemOptions& options);
+
 }  // namespace railstrata

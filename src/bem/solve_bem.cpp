@@ -151,8 +151,15 @@ struct LoadedPatch : PatchOnWheel {
   bool wedged = false;  ///< the solution is that of the last normal load tried
 };
 
-/// Solves under a normal load [N]: on the grid of the load before, on a new one if there is none or the patch reached
-/// its edge.
+bool starts_from_neighbour(const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
+                           const BemOptions& options) {
+  const PatchRoom whole;
+  return options.neighbour && !options.neighbour->empty() && room.low == whole.low && room.high == whole.high &&
+         suits(options.neighbour->grid, spec, placement, options);
+}
+
+/// Solves under a normal load [N]: from a neighbour, on the grid of the load before, on a new one if there is none or
+/// the patch reached its edge.
 void solve_under(double normal, double weight, const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
                  const BemOptions& options, LoadedPatch& out) {
   const auto solve = [&](const RollingSolution* start) {
@@ -162,6 +169,11 @@ void solve_under(double normal, double weight, const CaseSpec& spec, const Place
   if (out.patch.influence) {
     solve(&out.solution);
     if (!out.solution.normal.touches_edge) return;
+  } else if (starts_from_neighbour(spec, placement, room, options)) {
+    out.patch = case_patch_on(options.neighbour->grid, spec, placement, options, {.load = normal, .approach = {}});
+    drive_contact(spec, placement.contact, weight, out.patch.contact);
+    solve(&options.neighbour->solution);
+    if (!reaches_edge(out.patch.grid, out.solution.normal.pressure)) return;
   }
   out.patch = make_case_patch(spec, placement, options, {.load = normal, .approach = {}}, room);
   drive_contact(spec, placement.contact, weight, out.patch.contact);
@@ -177,7 +189,9 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placeme
   constexpr int kMostIterations = 20;
   const RigidContact& contact = placement.contact;
   const double cosine = std::cos(contact.angle), sine = std::sin(contact.angle);
-  double normal = normal_load(weight, 0, contact), slope = cosine, previous_normal = 0, previous_excess = 0;
+  const bool near = starts_from_neighbour(spec, placement, room, options);
+  const double lateral = near ? options.neighbour->solution.tangential.force_y : 0.0;
+  double normal = normal_load(weight, lateral, contact), slope = cosine, previous_normal = 0, previous_excess = 0;
   LoadedPatch out;
   out.contact = contact;
   for (;; ++out.load_iterations) {
@@ -282,9 +296,14 @@ BemResult bem_result(const CaseSpec& spec, const Placement& placement, const Pat
 
 BemResult solve_bem(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
   const auto begin = std::chrono::steady_clock::now();
-  const SharedLoad shared =
+  SharedLoad shared =
       spec.vehicle.approach ? press_to_approach(spec, placement, options) : bear_weight(spec, placement, options);
   BemResult r = result_of(spec, placement, shared.patches);
+  if (options.neighbour) {
+    *options.neighbour = {};
+    if (shared.patches.size() == 1)
+      *options.neighbour = {shared.patches.front().patch.grid, std::move(shared.patches.front().solution)};
+  }
   r.effort.load_iterations = shared.load_iterations;
   r.effort.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return r;

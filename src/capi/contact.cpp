@@ -24,6 +24,7 @@ struct rs_contact {
   Placement placement;
   BemOptions options;
   InfluenceCache cache;
+  BemNeighbour neighbour;
   std::optional<BemResult> last;
   ContactSummary numbers;
   std::string remarks;
@@ -38,7 +39,7 @@ rs_contact* new_contact(LoadedCase loaded) {
                     loaded.file.string());
   Placement placement = place(spec, loaded.folder());
   loaded.spec = spec;
-  return new rs_contact{std::move(loaded), std::move(placement), {}, {}, {}, {}, {}};
+  return new rs_contact{std::move(loaded), std::move(placement), {}, {}, {}, {}, {}, {}};
 }
 
 std::vector<std::string> texts(const char* const* overrides, int count) {
@@ -110,6 +111,7 @@ void solve(rs_contact& contact, const rs_state* state, rs_forces& forces) {
   contact.remarks.clear();
   const CaseSpec spec = state ? capi::with_state(contact.loaded.spec, *state) : contact.loaded.spec;
   contact.options.cache = &contact.cache;
+  contact.options.neighbour = &contact.neighbour;
   contact.last = solve_bem(spec, placed(contact, spec), contact.options);
   const Summary summary = bem_contact_summary(spec, *contact.last);
   fill(*contact.last, summary, forces);
@@ -214,6 +216,10 @@ int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_e
     if (!forces) throw CaseError("forces is NULL", "give an rs_forces with its size set");
     solve(*contact, state, *forces);
   });
+}
+
+void rs_forget(rs_contact* contact) {
+  if (contact) contact->neighbour = {};
 }
 
 const char* rs_remarks(rs_contact* contact) { return contact ? contact->remarks.c_str() : ""; }

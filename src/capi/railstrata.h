@@ -107,6 +107,10 @@ RS_API int rs_set_cell(rs_contact* contact, double cell, rs_error* error);
 /* Solves the case with what `state` changes of it; NULL: as it is. After an error the last solution is gone. */
 RS_API int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_error* error);
 
+/* Solutions start from the one before, which halves their time in a sweep; their numbers then depend on it in the sixth
+ * digit. Forgets it: the next solution has the bits of a new contact's first. */
+RS_API void rs_forget(rs_contact* contact);
+
 /* The checks that fail and the notes of the last solution, one a line; "" if there are none. Belongs to the contact,
  * until its next call. */
 RS_API const char* rs_remarks(rs_contact* contact);

@@ -117,6 +117,24 @@ TEST(CInterface, StressesAreInEquilibriumWithThePressureAtTheSurface) {
   EXPECT_LT(-s[8], -s[2]);
 }
 
+TEST(CInterface, SolutionsThatStartFromTheOneBeforeAgreeWithNewOnes) {
+  Contact warm;
+  rs_state state = state_of(RS_LATERAL_SHIFT | RS_CREEPAGE_X);
+  for (const double shift : {-1e-3, -0.9e-3, -0.8e-3, 2e-3, 2.1e-3}) {
+    state.lateral_shift = shift;
+    state.creepage_x = -1e-3 + 0.1 * shift;
+    ASSERT_EQ(warm.solve(state), RS_OK) << warm.error.message;
+    Contact cold;
+    ASSERT_EQ(cold.solve(state), RS_OK);
+    EXPECT_NEAR(warm.forces.force_x, cold.forces.force_x, 2e-5 * std::abs(cold.forces.force_x)) << shift;
+    EXPECT_NEAR(warm.forces.p_max, cold.forces.p_max, 2e-5 * cold.forces.p_max) << shift;
+    EXPECT_NEAR(warm.forces.normal_force, cold.forces.normal_force, 2e-5 * cold.forces.normal_force) << shift;
+    rs_forget(warm.handle);
+    ASSERT_EQ(warm.solve(state), RS_OK);
+    EXPECT_EQ(warm.forces.force_x, cold.forces.force_x) << shift;
+  }
+}
+
 TEST(CInterface, FaultsHaveACodeAndAText) {
   rs_error error{};
   EXPECT_EQ(rs_contact_new("/no/such/case.toml", nullptr, 0, &error), nullptr);
