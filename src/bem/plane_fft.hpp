@@ -1,6 +1,6 @@
 #pragma once
-// Convolution of zero-padded planes by FFT (FFTW), threads over rows and groups of columns, the same bits for any
-// number of threads.
+// Convolution of zero-padded planes by FFT (bem/fft.hpp), threads over rows and groups of columns, the same bits for
+// any number of threads.
 //
 // A plane of nx x ny values is padded to mx x my. Only its nx rows are transformed along y, the padding never is; the
 // transforms along x, the product with the kernel and the transforms back are done group by group of columns, in cache.
@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "bem/fft.hpp"
 #include "bem/plane_algebra.hpp"
 
 namespace railstrata {
@@ -66,7 +67,6 @@ class PlaneFft {
  private:
   using Complex = std::complex<double>;
   static constexpr int kGroup = 4;  // columns copied side by side: a cache line
-  struct Plans;
   /// A plane transformed along y: nx + 1 rows of groups_ * kGroup wave numbers. Planes lie one after the other in a
   /// buffer that the calling thread keeps.
   std::size_t plane_size() const { return static_cast<std::size_t>(nx_ + 1) * pitch(); }
@@ -80,7 +80,7 @@ class PlaneFft {
   bool threads_pay() const { return threads_pay_for(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_)); }
 
   int nx_, ny_, mx_, my_, width_, groups_;
-  std::unique_ptr<Plans> plans_;
+  std::unique_ptr<Fft> fft_;
 };
 
 /// The table of a kernel of planes of one column, from its values along x: nothing beside it. columns: my/2 + 1.
