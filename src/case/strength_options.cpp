@@ -114,6 +114,11 @@ bool elastic_on_purpose(const CaseSpec& spec, std::size_t index) {
   return Place::strength(spec, index).elastic;
 }
 
+template <class Place>
+bool set_named(const CaseSpec& spec, std::size_t index) {
+  return !Place::strength(spec, index).hardening.empty();
+}
+
 /// What follows the yield strength: the law of docs/material.md.
 template <class Place>
 std::vector<Option> hardening_options() {
@@ -132,13 +137,12 @@ std::vector<Option> hardening_options() {
   kinematic.columns = {{"modulus", nullptr, "", kPressure, above(0, 1e13)}, {"recall", nullptr, "", kNumber, {0, 1e6}}};
   kinematic.example = R"([{ modulus = "60 GPa", recall = 250 }, { modulus = "5 GPa", recall = 10 }])";
   elastic.applies = elastic_on_purpose<Place>;
-  return {{"hardening", Place::template slot<&S::hardening>,
-           "A ready set of cyclic hardening by name (docs/material.md lists them), or \"estimated\": from "
-           "tensile_strength or hardness. It begins to yield at its own stress; yield_strength then serves shakedown "
-           "and fatigue alone"},
-          isotropic,
-          kinematic,
-          elastic};
+  Option set{"hardening", Place::template slot<&S::hardening>,
+             "A ready set of cyclic hardening by name (docs/material.md lists them), or \"estimated\": from "
+             "tensile_strength or hardness. It begins to yield at its own stress; yield_strength then serves shakedown "
+             "and fatigue alone"};
+  set.applies = set_named<Place>;
+  return {set, isotropic, kinematic, elastic};
 }
 
 template <class Place>

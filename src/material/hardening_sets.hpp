@@ -19,10 +19,10 @@ struct HardeningSet {
   std::string_view name;
   Certainty certainty = Certainty::absent;
   std::string_view source;
-  std::string_view use;           ///< "rail", "wheel", "hard layer", "example"
-  PlasticParameters<double> law;  ///< mu = 0: of the case's elasticity
-  double tensile = 0;             ///< Pa, of an estimate
-  double young = 0;               ///< Pa, with which the set was fitted
+  std::string_view use;             ///< "rail", "wheel", "hard layer", "example"
+  PlasticParameters<double> law{};  ///< mu = 0: of the case's elasticity
+  double tensile = 0;               ///< Pa, of an estimate
+  double young = 0;                 ///< Pa, with which the set was fitted
 };
 
 /// R220, R260, R350HT, R400HT, B320, ER7, ER8, ER9, then sets that can be traced to a source.
