@@ -48,7 +48,7 @@ struct MaterialOptions {
   std::filesystem::path calibrate, cyclic_curve, monotonic;  ///< --calibrate, --cyclic-curve, --monotonic: tests
   int increments = 100;                                      ///< --increments
   int cycles = 1;                                            ///< --cycles
-  int backstresses = 0;                                      ///< --backstresses; 0: as few as needed
+  int backstresses = 0;                                      ///< --backstresses; 0: as many as lower the error
   std::string of = "rail";                                   ///< --of
   std::string depth;                                         ///< --depth: a length; empty: the top
 };

@@ -222,7 +222,8 @@ void add_material(CLI::App& sub, CommandOptions& options) {
       ->excludes(loop);
   sub.add_option("--monotonic", m.monotonic,
                  "With a fit: a tensile curve, for the isotropic part: CSV with strain, stress_MPa");
-  sub.add_option("--backstresses", m.backstresses, "Of a fit (default: as few as bring its error below 0.5 %)")
+  sub.add_option("--backstresses", m.backstresses,
+                 "Of a fit (default: one more as long as it lowers the error by a quarter)")
       ->check(CLI::Range(1, 4));
   sub.add_option("--of", m.of, "The material: rail (default), wheel, layer.0 or a layer's name");
   sub.add_option("--depth", m.depth, "Of a material graded with depth: where (default: its top)");

@@ -41,7 +41,7 @@ struct TypeSchema {
   Json operator()(const ChoiceSlot&) const { return {{"type", "string"}, {"enum", words_of(option)}}; }
   Json operator()(const RowsSlot&) const {
     if (option.form == RowForm::one_named) return named_schema();
-    if (option.form == RowForm::named) return {{"type", "array"}, {"minItems", 1}, {"items", named_schema()}};
+    if (option.form == RowForm::named) return {{"type", "array"}, {"items", named_schema()}};
     const std::size_t width = option.columns.size();
     return {{"type", "array"},
             {"minItems", 2},

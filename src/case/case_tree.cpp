@@ -324,9 +324,6 @@ class TreeReader {
       if (!table) mismatch(option, item, list[i]);
       sound &= table && read_named(option, item, *table, rows.emplace_back());
     }
-    if (list.empty())
-      source_.complain(key, fmt::format("{} = []: needs at least one table", key),
-                       fmt::format("write {}", wanted(option)));
     if (sound) target.set(rows);
   }
 

@@ -131,10 +131,10 @@ std::vector<Option> hardening_options() {
       elastic{"elastic", Place::template slot<&S::elastic>, "Never yields, whatever its strength: for brittle layers"};
   isotropic.form = RowForm::one_named;
   isotropic.columns = {{"saturation", nullptr, "", kPressure, kResidual, {}, {}, nullptr, kBeyondStrength},
-                       {"rate", nullptr, "", kNumber, above(0, 1e5)}};
+                       {"rate", nullptr, "", kNumber, {0, 1e5}}};
   isotropic.example = R"({ saturation = "80 MPa", rate = 12 })";
   kinematic.form = RowForm::named;
-  kinematic.columns = {{"modulus", nullptr, "", kPressure, above(0, 1e13)}, {"recall", nullptr, "", kNumber, {0, 1e6}}};
+  kinematic.columns = {{"modulus", nullptr, "", kPressure, {0, 1e13}}, {"recall", nullptr, "", kNumber, {0, 1e6}}};
   kinematic.example = R"([{ modulus = "60 GPa", recall = 250 }, { modulus = "5 GPa", recall = 10 }])";
   elastic.applies = elastic_on_purpose<Place>;
   Option set{"hardening", Place::template slot<&S::hardening>,

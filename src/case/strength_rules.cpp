@@ -104,6 +104,10 @@ class Rules {
                fmt::format(": saturation = {} takes the whole yield strength of {} away", pressure(h.saturation),
                            pressure(least)),
                "the sum of both must be above zero");
+    if (h.saturation != 0 && h.rate == 0)
+      complain("isotropic_hardening",
+               fmt::format(": saturation = {} is never reached at rate = 0", pressure(h.saturation)),
+               "give the rate b of sigma = saturation (1 - exp(-b p)), 5 to 20 is usual, or leave both out");
     const double shear = material_.young / (2 * (1 + material_.poisson));
     if (!(3 * shear + h.saturation * h.rate > 0))
       complain("isotropic_hardening",

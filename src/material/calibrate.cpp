@@ -11,7 +11,7 @@
 namespace railstrata {
 namespace {
 
-constexpr double kGoodFit = 5e-3;                       // backstresses more than needed do not help beyond it
+constexpr double kWorthATerm = 0.75, kExact = 1e-4;     // by what a further backstress lowers the error; none needed
 constexpr int kPerDecade = 4;                           // of γ
 constexpr double kFirstStep = 1.4, kLastStep = 1.0005;  // factors by which γ is moved
 constexpr double kMostOfYield = 0.95;  // of the settled yield stress, what isotropic hardening may have added
@@ -147,7 +147,7 @@ class Fitter {
 };
 
 std::vector<double> grid_of(double smallest_strain, double largest_strain) {
-  const double low = 0.5 / largest_strain, high = 2 / smallest_strain;
+  const double low = 0.1 / largest_strain, high = 2 / smallest_strain;
   const int count = std::clamp(static_cast<int>(std::ceil(kPerDecade * std::log10(high / low))), 4, 12);
   std::vector<double> out;
   for (int i = 0; i <= count; ++i) out.push_back(low * std::pow(high / low, static_cast<double>(i) / count));
@@ -166,10 +166,11 @@ HardeningFit search_fit(const std::vector<CurvePoint>& points, const std::vector
   const Fitter fitter(points, basis);
   const int first = backstresses > 0 ? backstresses : 1, last = backstresses > 0 ? backstresses : kMostBackstresses;
   require_points(different.size(), first);
-  HardeningFit best;
-  for (int count = first; count <= last && static_cast<int>(different.size()) > 2 * count; ++count) {
-    best = fitter.fit(fitter.search(grid, count));
-    if (best.error < kGoodFit) break;
+  HardeningFit best = fitter.fit(fitter.search(grid, first));
+  for (int count = first + 1; count <= last && static_cast<int>(different.size()) > 2 * count; ++count) {
+    const HardeningFit more = fitter.fit(fitter.search(grid, count));
+    if (best.error < kExact || more.error > kWorthATerm * best.error) break;
+    best = more;
   }
   return best;
 }

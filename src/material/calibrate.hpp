@@ -5,9 +5,8 @@
 //   a stabilised loop, rising branch  σ = σ_y0 + Σ C_i/γ_i (1 − (1 + tanh(γ_i ε_pa)) e^{−γ_i (ε_p + ε_pa)})
 //   monotonic tension                 σ = σ_s − Q e^{−b ε_p} + Σ C_i/γ_i (1 − e^{−γ_i ε_p}),   σ_s = σ_y0 + Q
 // With given γ_i the first two are linear in σ_y0 and C_i/γ_i >= 0: least squares of the relative stress. The γ_i are
-// sought on a geometric grid between half the largest and twice the smallest plastic strain's inverse, four to a
-// decade, then moved to where the error is least. What stabilised cycles give is σ_s; a monotonic curve tells it apart
-// from Q.
+// sought on a geometric grid from 0.1 over the largest to 2 over the smallest plastic strain, four to a decade, then
+// moved to where the error is least. What stabilised cycles give is σ_s; a monotonic curve tells it apart from Q.
 #include <vector>
 
 #include "material/plastic.hpp"
@@ -25,8 +24,8 @@ struct HardeningFit {
   double error = 0, largest_error = 0;  ///< of stress over the largest measured one: root mean square, largest
 };
 
-/// Backstresses: 1 to 4; 0: as few as bring the error below 0.5 %, else four. Throws std::invalid_argument unless there
-/// are more points, of different plastic strain, than numbers sought (2 backstresses + 1).
+/// Backstresses: 1 to 4; 0: one more as long as it lowers the error by a quarter. Throws std::invalid_argument unless
+/// there are more points, of different plastic strain, than numbers sought (2 backstresses + 1).
 HardeningFit fit_amplitudes(const std::vector<CurvePoint>& points, int backstresses);
 /// The same with given γ [-].
 HardeningFit fit_amplitudes(const std::vector<CurvePoint>& points, const std::vector<double>& recalls);

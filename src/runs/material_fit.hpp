@@ -13,7 +13,7 @@ namespace railstrata {
 /// empty: not given.
 struct MaterialTests {
   std::filesystem::path loop, amplitudes, monotonic;
-  int backstresses = 0;  ///< 0: as few as needed
+  int backstresses = 0;  ///< 0: as many as lower the error
 };
 
 struct MaterialFit {

@@ -29,29 +29,31 @@ CaseError beyond(const PlasticMaterial& material, const MaterialPathTable& table
       fmt::format("{}:{}", file.string(), table.lines[row]));
 }
 
-double range_of(const std::vector<MaterialState>& trace, std::size_t j) {
+using Tensor = std::array<double, 6> MaterialState::*;
+
+double range_of(const std::vector<MaterialState>& trace, Tensor what, std::size_t j) {
   double low = 0, high = 0;
   for (const MaterialState& s : trace) {
-    low = std::min(low, s.strain[j]);
-    high = std::max(high, s.strain[j]);
+    low = std::min(low, (s.*what)[j]);
+    high = std::max(high, (s.*what)[j]);
   }
   return high - low;
 }
 
-/// The components that move most, largest range first.
-std::vector<std::size_t> moving(const std::vector<MaterialState>& trace) {
+/// The components of strain or stress that move most, largest range first.
+std::vector<std::size_t> moving(const std::vector<MaterialState>& trace, Tensor what) {
   std::vector<std::size_t> out{0, 1, 2, 3, 4, 5};
   std::stable_sort(out.begin(), out.end(),
-                   [&](std::size_t a, std::size_t b) { return range_of(trace, a) > range_of(trace, b); });
-  const double most = range_of(trace, out.front());
-  std::erase_if(out, [&](std::size_t j) { return range_of(trace, j) < kStill * most; });
+                   [&](std::size_t a, std::size_t b) { return range_of(trace, what, a) > range_of(trace, what, b); });
+  const double most = range_of(trace, what, out.front());
+  std::erase_if(out, [&](std::size_t j) { return range_of(trace, what, j) < kStill * most; });
   if (out.size() > kMostLoops) out.resize(kMostLoops);
   return out;
 }
 
 Plot loops(const MaterialRun& run) {
   Plot out{"strain [%], shear as tensor", "stress [MPa]", {}};
-  for (const std::size_t j : moving(run.trace)) {
+  for (const std::size_t j : moving(run.trace, &MaterialState::stress)) {
     PlotCurve curve{fmt::format("s_{0} by e_{0}", kComponents[j]), {}, {}, false};
     for (const MaterialState& s : run.trace) {
       curve.x.push_back(kPercent * s.strain[j]);
@@ -70,7 +72,7 @@ Plot along_path(const MaterialRun& run) {
     accumulated.x.push_back(kPercent * static_cast<double>(i) / n);
     accumulated.y.push_back(kPercent * run.trace[i].history[6]);
   }
-  for (const std::size_t j : moving(run.trace)) {
+  for (const std::size_t j : moving(run.trace, &MaterialState::strain)) {
     PlotCurve curve{fmt::format("{}", kComponents[j]), accumulated.x, {}, false};
     for (const MaterialState& s : run.trace) curve.y.push_back(kPercent * s.history[j]);
     out.curves.push_back(std::move(curve));
@@ -81,7 +83,7 @@ Plot along_path(const MaterialRun& run) {
 
 Plot by_cycle(const MaterialRun& run) {
   Plot out{"cycle", "net plastic strain of a cycle [%]", {}};
-  for (const std::size_t j : moving(run.trace)) {
+  for (const std::size_t j : moving(run.trace, &MaterialState::strain)) {
     PlotCurve curve{fmt::format("{}", kComponents[j]), {}, {}, run.cycles.size() < 3};
     for (std::size_t n = 0; n < run.cycles.size(); ++n) {
       curve.x.push_back(static_cast<double>(n + 1));

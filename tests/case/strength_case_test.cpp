@@ -104,6 +104,17 @@ TEST(StrengthCase, HardeningIsSetAsAWhole) {
   EXPECT_EQ(spec.rail_material.strength.hardening, "") << "the command line goes first";
 }
 
+// As a program writes them that knows no special cases.
+TEST(StrengthCase, HardeningOfNoneIsAllowed) {
+  const StrengthSpec s = parse_case(
+                             "[material.rail]\nyield_strength = \"480 MPa\"\nisotropic_hardening = { saturation = "
+                             "\"0 MPa\", rate = 0 }\nkinematic_hardening = [{ modulus = \"0 GPa\", recall = 0 }]\n"
+                             "[material.wheel]\nyield_strength = \"480 MPa\"\nkinematic_hardening = []\n",
+                             "a.toml")
+                             .spec.rail_material.strength;
+  EXPECT_EQ(s.kinematic_hardening, (std::vector<KinematicHardening>{{0, 0}}));
+}
+
 struct Bad {
   const char* text;
   const char* answer;
@@ -132,6 +143,8 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
        "a.toml:3:25: layer.0.initial_stress_table.0: must be a depth, a longitudinal stress and a lateral stress"},
       {"[material.rail]\nyield_strength = \"300 MPa\"\nisotropic_hardening = { saturation = \"80 MPa\" }\n",
        "a.toml:3:23: material.rail.isotropic_hardening has no rate"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nisotropic_hardening = { saturation = \"80 MPa\", rate = 0 }\n",
+       "a.toml:3:23: material.rail.isotropic_hardening: saturation = 0.08 GPa is never reached at rate = 0"},
       {"[material.rail]\nyield_strength = \"300 MPa\"\nisotropic_hardening = \"80 MPa\"\n",
        "is a text, must be a table with a saturation and a rate, e.g. { saturation = \"80 MPa\", rate = 12 }"},
       {"[material.rail]\nisotropic_hardening = { saturation = \"80 MPa\", rate = 12 }\n",
@@ -141,8 +154,8 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
       {"[material.rail]\nyield_strength = \"600 MPa\"\nisotropic_hardening = { saturation = \"-300 MPa\", rate = 900 "
        "}\n",
        "softens by saturation x rate = 270 GPa, faster than the material unloads"},
-      {"[material.rail]\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"0 GPa\", recall = 1 }]\n",
-       "a.toml:3:36: material.rail.kinematic_hardening.0.modulus = \"0 GPa\": must be above 0 GPa"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"-1 GPa\", recall = 1 }]\n",
+       "a.toml:3:36: material.rail.kinematic_hardening.0.modulus = \"-1 GPa\": must be between 0 GPa and 10000 GPa"},
       {"[material.rail]\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"9 GPa\", recall = -1 }]\n",
        "material.rail.kinematic_hardening.0.recall = -1: must be between 0 and 1000000"},
       {"[material.rail]\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"9 GPa\", gamma = 1 }]\n",
