@@ -43,6 +43,15 @@ struct ShakedownOptions {
   bool single_track = true;    ///< --no-single-track: without the limit for one track, which takes some seconds
   bool maps = false;           ///< limits over traction too: of the command shakedown, which is not in a hurry
 };
+struct MaterialOptions {
+  std::filesystem::path strain, stress;                      ///< --strain, --stress: a path
+  std::filesystem::path calibrate, cyclic_curve, monotonic;  ///< --calibrate, --cyclic-curve, --monotonic: tests
+  int increments = 100;                                      ///< --increments
+  int cycles = 1;                                            ///< --cycles
+  int backstresses = 0;                                      ///< --backstresses; 0: as many as lower the error
+  std::string of = "rail";                                   ///< --of
+  std::string depth;                                         ///< --depth: a length; empty: the top
+};
 struct ReportOptions {
   std::vector<std::filesystem::path> folders;
   bool reference = true;  ///< --no-reference: without the half-space solution beside a single result
@@ -70,6 +79,7 @@ struct CommandOptions {
   WearLoopOptions wear_loop;
   StudyOptions study;
   ShakedownOptions shakedown;
+  MaterialOptions material;
   ReportOptions report;
   SchemaOptions schema;
 };
@@ -83,6 +93,7 @@ ExitCode command_mesh(const CommandOptions& options);
 ExitCode command_run(const CommandOptions& options);
 ExitCode command_bem(const CommandOptions& options);
 ExitCode command_shakedown(const CommandOptions& options);
+ExitCode command_material(const CommandOptions& options);
 ExitCode command_compare(const CommandOptions& options);
 ExitCode command_creep_curve(const CommandOptions& options);
 ExitCode command_sweep(const CommandOptions& options);

@@ -202,6 +202,35 @@ void add_shakedown(CLI::App& sub, CommandOptions& options) {
   add_no_report(sub, options);
 }
 
+void add_material(CLI::App& sub, CommandOptions& options) {
+  MaterialOptions& m = options.material;
+  sub.add_option("card", options.case_file, "Case file with the material, e.g. one with [material.rail] alone")
+      ->required();
+  add_set(sub, options, "Override a key of the card; once for each key");
+  auto* strain = sub.add_option("--strain", m.strain, "A path of strains: CSV with e_xx, e_yy, e_zz, e_xy, e_yz, e_xz");
+  sub.add_option("--stress", m.stress,
+                 "A path of stresses: CSV with s_xx_MPa, …; what has no column is free of stress, e_xx prescribes a "
+                 "strain instead")
+      ->excludes(strain);
+  sub.add_option("--increments", m.increments, "Equal steps from row to row (default: 100); the error falls as 1/N")
+      ->check(CLI::Range(1, 10000000));
+  sub.add_option("--cycles", m.cycles, "Times through the rows (default: 1)")->check(CLI::Range(1, 1000000));
+  auto* loop = sub.add_option("--calibrate", m.calibrate,
+                              "Fit the law to a stabilised loop: CSV with strain, stress_MPa, once around");
+  sub.add_option("--cyclic-curve", m.cyclic_curve,
+                 "Fit it to amplitudes of stabilised cycles: CSV with strain_amplitude, stress_amplitude_MPa")
+      ->excludes(loop);
+  sub.add_option("--monotonic", m.monotonic,
+                 "With a fit: a tensile curve, for the isotropic part: CSV with strain, stress_MPa");
+  sub.add_option("--backstresses", m.backstresses,
+                 "Of a fit (default: one more as long as it lowers the error by a quarter)")
+      ->check(CLI::Range(1, 4));
+  sub.add_option("--of", m.of, "The material: rail (default), wheel, layer.0 or a layer's name");
+  sub.add_option("--depth", m.depth, "Of a material graded with depth: where (default: its top)");
+  add_out(sub, options, "The table to write, NAME.csv, or the card of a fit, NAME.toml; the picture is NAME.svg");
+  sub.add_flag("--force", options.force, "Replace a file that this command has not written");
+}
+
 void add_compare(CLI::App& sub, CommandOptions& options) {
   sub.add_option("a", options.case_file, "Result folder A")->required();
   sub.add_option("b", options.reference, "Result folder B: differences are relative to it")->required();
@@ -259,6 +288,14 @@ constexpr Entry kEntries[] = {
      "cases/quick --set material.rail.yield_strength=\"480 MPa\" --set layer.0.yield_strength=\"900 MPa\" --engine fem "
      "--out results/quick-shakedown\n",
      add_shakedown, command_shakedown},
+    {"material",
+     "A material law along a path of strain or stress, or fitted to a test: tables, a ready card, a picture",
+     "Examples:\n  railstrata material cases/material/r260.toml --strain cases/material/strain_path.csv --increments "
+     "200 --out loops.csv\n  railstrata material cases/material/r260.toml --stress cases/material/ratchetting.csv "
+     "--cycles 50 --out ratchetting.csv\n  railstrata material cases/material/r260.toml --calibrate "
+     "cases/material/loop.csv --monotonic cases/material/tension.csv --out fitted.toml\n\nCtrl-C: nothing is "
+     "written.\n",
+     add_material, command_material},
     {"compare", "Two results, of either engine, on one grid: a table, the differences of the fields, a picture",
      "Examples:\n  railstrata compare results/quick results/quick-bem\n  railstrata compare results/thin results/thick "
      "--out results/thin-against-thick\n",

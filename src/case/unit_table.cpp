@@ -142,7 +142,7 @@ class TableReader {
       for (const std::string_view key : {c.option->key, c.key})
         if (const auto unit = unit_after(name, key); unit && key.size() > longest) {
           longest = key.size();
-          best = Column{c.option, *unit, std::holds_alternative<std::string*>(any_slot(*c.option))};
+          best = Column{c.option, *unit, c.option->slot && std::holds_alternative<std::string*>(any_slot(*c.option))};
         }
     }
     const std::string near = nearest_word(name, known);

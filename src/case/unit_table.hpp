@@ -19,7 +19,7 @@ namespace railstrata {
 /// What a table may hold.
 struct UnitTableForm {
   struct Column {
-    const Option* option;
+    const Option* option;  ///< without a slot: a number
     std::string_view key;  ///< its name; the option's own key is taken too
   };
   std::vector<Column> columns;

@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 
-#include "io/markup_text.hpp"
 #include "post/patch.hpp"
+#include "report/svg_page.hpp"
 
 namespace railstrata {
 namespace {
@@ -35,67 +34,6 @@ std::string colour(const std::array<Rgb, 5>& stops, double t) {
                      mix(stops[k].b, stops[k + 1].b));
 }
 
-/// 1, 2 or 5 times a power of ten: about five of them fill the length.
-double tick_step(double length) {
-  const double raw = length / 5, power = std::pow(10.0, std::floor(std::log10(raw)));
-  for (double m : {1.0, 2.0, 5.0})
-    if (raw <= m * power) return m * power;
-  return 10 * power;
-}
-
-/// A rectangle of the page with its axes: x and y in the units of the labels.
-struct Frame {
-  double left, top, width, height;
-  double x0, x1, y0, y1;
-  double px(double x) const { return left + width * (x - x0) / (x1 - x0); }
-  double py(double y) const { return top + height * (y1 - y) / (y1 - y0); }
-};
-
-class Page {
- public:
-  Page(double width, double height) {
-    add("<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:g} {1:g}\" width=\"{0:g}\" height=\"{1:g}\" "
-        "font-family=\"sans-serif\" font-size=\"12\">\n"
-        "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n",
-        width, height);
-  }
-  template <class... T>
-  void add(fmt::format_string<T...> format, T&&... values) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<T>(values)...);
-  }
-  void text(double x, double y, const std::string& words, const char* anchor = "start", const char* fill = "#222") {
-    add("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\" fill=\"{}\">{}</text>\n", x, y, anchor, fill,
-        markup_text(words));
-  }
-  void axes(const Frame& f, const std::string& x_label, const std::string& y_label) {
-    add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"none\" stroke=\"#888\"/>\n", f.left,
-        f.top, f.width, f.height);
-    const double dx = tick_step(f.x1 - f.x0), dy = tick_step(f.y1 - f.y0);
-    for (double k = std::ceil(f.x0 / dx); k * dx <= f.x1; ++k)
-      text(f.px(k * dx), f.top + f.height + 15, fmt::format("{:g}", k * dx + 0.0), "middle");
-    for (double k = std::ceil(f.y0 / dy); k * dy <= f.y1; ++k)
-      text(f.left - 5, f.py(k * dy) + 4, fmt::format("{:g}", k * dy + 0.0), "end");
-    text(f.left + f.width / 2, f.top + f.height + 32, x_label, "middle");
-    text(f.left, f.top - 8, y_label);
-  }
-  void line(const Frame& f, const std::vector<double>& x, const std::vector<double>& y, const char* stroke,
-            bool dashed) {
-    std::string points;
-    for (std::size_t i = 0; i < x.size(); ++i)
-      if (x[i] >= f.x0 && x[i] <= f.x1)
-        fmt::format_to(std::back_inserter(points), "{:.1f},{:.1f} ", f.px(x[i]), f.py(y[i]));
-    add("<polyline points=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\"{}/>\n", points, stroke,
-        dashed ? " stroke-dasharray=\"5 3\"" : "");
-  }
-  std::string finish() {
-    add("</svg>\n");
-    return std::move(out_);
-  }
-
- private:
-  std::string out_;
-};
-
 std::vector<double> scaled(const std::vector<double>& v, double factor) {
   std::vector<double> out(v);
   for (double& x : out) x *= factor;
@@ -104,7 +42,7 @@ std::vector<double> scaled(const std::vector<double>& v, double factor) {
 
 double largest(const std::vector<double>& v) { return v.empty() ? 0 : *std::max_element(v.begin(), v.end()); }
 
-void draw_centre_line(Page& page, const Frame& f, const PictureSide& side, const char* stroke) {
+void draw_centre_line(SvgPage& page, const SvgFrame& f, const PictureSide& side, const char* stroke) {
   const CentreLine line = centre_line(side.field);
   std::vector<double> q;
   for (std::size_t i = 0; i < line.q_x.size(); ++i) q.push_back(kMega * std::hypot(line.q_x[i], line.q_y[i]));
@@ -112,7 +50,7 @@ void draw_centre_line(Page& page, const Frame& f, const PictureSide& side, const
   page.line(f, scaled(line.x, kMilli), q, stroke, true);
 }
 
-void draw_map(Page& page, const Frame& f, const FieldComparison& g, const std::array<Rgb, 5>& stops,
+void draw_map(SvgPage& page, const SvgFrame& f, const FieldComparison& g, const std::array<Rgb, 5>& stops,
               const std::vector<double>& shade) {
   const int nx = static_cast<int>(g.x.size()), ny = static_cast<int>(g.y.size()),
             sx = (nx + kMapPoints - 1) / kMapPoints, sy = (ny + kMapPoints - 1) / kMapPoints;
@@ -126,7 +64,7 @@ void draw_map(Page& page, const Frame& f, const FieldComparison& g, const std::a
     }
 }
 
-void draw_maps(Page& page, double top, double width, const PictureSide& a, const PictureSide& b,
+void draw_maps(SvgPage& page, double top, double width, const PictureSide& a, const PictureSide& b,
                const FieldComparison& g) {
   const double p = std::max(largest(g.p_a), largest(g.p_b));
   std::vector<double> gap;
@@ -135,7 +73,7 @@ void draw_maps(Page& page, double top, double width, const PictureSide& a, const
   for (std::size_t k = 0; k < g.p_a.size(); ++k) gap.push_back(0.5 + 0.5 * (g.p_a[k] - g.p_b[k]) / reach);
   const double x0 = kMilli * g.x.front(), x1 = kMilli * g.x.back(), y0 = kMilli * g.y.front(), y1 = kMilli * g.y.back();
   const double height = width * (y1 - y0) / (x1 - x0);
-  const auto frame = [&](int k) { return Frame{60 + k * (width + 60), top, width, height, x0, x1, y0, y1}; };
+  const auto frame = [&](int k) { return SvgFrame{60 + k * (width + 60), top, width, height, x0, x1, y0, y1}; };
   draw_map(page, frame(0), g, kPressureColours, scaled(g.p_a, 1 / p));
   draw_map(page, frame(1), g, kPressureColours, scaled(g.p_b, 1 / p));
   draw_map(page, frame(2), g, kDifferenceColours, gap);
@@ -149,15 +87,15 @@ void draw_maps(Page& page, double top, double width, const PictureSide& a, const
 
 std::string comparison_svg(const PictureSide& a, const PictureSide& b, const FieldComparison& g) {
   const double map = 270, aspect = (g.y.back() - g.y.front()) / (g.x.back() - g.x.front());
-  Page page(1060, 400 + map * aspect + 60);
-  const Frame lines{60,
-                    50,
-                    930,
-                    280,
-                    kMilli * g.x.front(),
-                    kMilli * g.x.back(),
-                    0,
-                    1.08 * kMega * std::max({largest(g.p_a), largest(g.p_b), 1.0})};
+  SvgPage page(1060, 400 + map * aspect + 60);
+  const SvgFrame lines{60,
+                       50,
+                       930,
+                       280,
+                       kMilli * g.x.front(),
+                       kMilli * g.x.back(),
+                       0,
+                       1.08 * kMega * std::max({largest(g.p_a), largest(g.p_b), 1.0})};
   page.axes(lines, "x [mm] from the axle, rolling to the right",
             "p (lines) and |q| (dashed) through the largest pressure [MPa]");
   draw_centre_line(page, lines, a, kColourA);

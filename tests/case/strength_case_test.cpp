@@ -59,6 +59,62 @@ TEST(StrengthCase, TheResolvedCaseIsReadBackTheSame) {
             once.spec.layers.at(0).material.strength.initial_stress);
 }
 
+TEST(StrengthCase, HardeningIsReadAtEachMaterialAndReadsBackTheSame) {
+  const LoadedCase once = parse_case(R"toml(
+[material.rail]
+yield_strength = "300 MPa"
+isotropic_hardening = { saturation = "80 MPa", rate = 12 }
+kinematic_hardening = [{ modulus = "60 GPa", recall = 250 }, { recall = 0, modulus = "500 MPa" }]
+[material.wheel]
+hardening = "er8"
+[[layer]]
+young_ratio = 1
+elastic = true
+yield_strength = "900 MPa"
+[[layer]]
+young_ratio = 1
+hardness = "600 HV"
+[[layer.kinematic_hardening]]
+modulus = "20 GPa"
+recall = 100
+)toml",
+                                     "a.toml");
+  for (const LoadedCase& loaded : {once, parse_case(resolved_case(once.spec), "b.toml")}) {
+    const CaseSpec& spec = loaded.spec;
+    const StrengthSpec& rail = spec.rail_material.strength;
+    EXPECT_EQ(rail.isotropic_hardening, (IsotropicHardening{80e6, 12}));
+    EXPECT_EQ(rail.kinematic_hardening, (std::vector<KinematicHardening>{{60e9, 250}, {500e6, 0}}));
+    EXPECT_EQ(spec.wheel_material.strength.hardening, "er8");
+    EXPECT_TRUE(spec.layers.at(0).material.strength.elastic);
+    EXPECT_FALSE(spec.layers.at(1).material.strength.elastic);
+    EXPECT_EQ(spec.layers.at(1).material.strength.kinematic_hardening, (std::vector<KinematicHardening>{{20e9, 100}}));
+    ASSERT_EQ(loaded.notes.size(), 3u) << "contact is elastic, and says so";
+    EXPECT_EQ(loaded.notes[0].find("material.rail.isotropic_hardening has no effect on contact"), 0u);
+  }
+  EXPECT_EQ(resolved_case(CaseSpec{}).find("hardening"), std::string::npos) << "cases without it stay as they were";
+}
+
+TEST(StrengthCase, HardeningIsSetAsAWhole) {
+  const std::string key = "material.rail.kinematic_hardening";
+  const CaseSpec spec =
+      parse_case("[material.rail]\nhardening = \"R260\"\n", "a.toml",
+                 {"material.rail.yield_strength=400 MPa", key + "=[{modulus = \"5 GPa\", recall = 10}]"})
+          .spec;
+  EXPECT_EQ(spec.rail_material.strength.kinematic_hardening, (std::vector<KinematicHardening>{{5e9, 10}}));
+  EXPECT_EQ(spec.rail_material.strength.hardening, "") << "the command line goes first";
+}
+
+// As a program writes them that knows no special cases.
+TEST(StrengthCase, HardeningOfNoneIsAllowed) {
+  const StrengthSpec s = parse_case(
+                             "[material.rail]\nyield_strength = \"480 MPa\"\nisotropic_hardening = { saturation = "
+                             "\"0 MPa\", rate = 0 }\nkinematic_hardening = [{ modulus = \"0 GPa\", recall = 0 }]\n"
+                             "[material.wheel]\nyield_strength = \"480 MPa\"\nkinematic_hardening = []\n",
+                             "a.toml")
+                             .spec.rail_material.strength;
+  EXPECT_EQ(s.kinematic_hardening, (std::vector<KinematicHardening>{{0, 0}}));
+}
+
 struct Bad {
   const char* text;
   const char* answer;
@@ -84,7 +140,41 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
        "strength_table = [[\"0 mm\", \"900 MPa\"], [\"2 mm\", \"700 MPa\"]]\n",
        "a.toml:4:18: layer.0.strength_table: ends at 2 mm, the layer is 3 mm thick"},
       {"[[layer]]\nyoung_ratio = 1\ninitial_stress_table = [[\"0 mm\", \"1 MPa\"], [\"2 mm\", \"1 MPa\"]]\n",
-       "a.toml:3:25: layer.0.initial_stress_table.0: must be a depth, a longitudinal stress and a lateral stress"}};
+       "a.toml:3:25: layer.0.initial_stress_table.0: must be a depth, a longitudinal stress and a lateral stress"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nisotropic_hardening = { saturation = \"80 MPa\" }\n",
+       "a.toml:3:1: material.rail.isotropic_hardening has no rate"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nisotropic_hardening = { saturation = \"80 MPa\", rate = 0 }\n",
+       "a.toml:3:1: material.rail.isotropic_hardening: saturation = 0.08 GPa is never reached at rate = 0"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nisotropic_hardening = \"80 MPa\"\n",
+       "is a text, must be a table with a saturation and a rate, e.g. { saturation = \"80 MPa\", rate = 12 }"},
+      {"[material.rail]\nisotropic_hardening = { saturation = \"80 MPa\", rate = 12 }\n",
+       "a.toml:2:1: material.rail.isotropic_hardening: says how the material hardens, and nothing where it begins"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nisotropic_hardening = { saturation = \"-300 MPa\", rate = 1 }\n",
+       "saturation = -0.3 GPa takes the whole yield strength of 0.3 GPa away"},
+      {"[material.rail]\nyield_strength = \"600 MPa\"\nisotropic_hardening = { saturation = \"-300 MPa\", rate = 900 "
+       "}\n",
+       "softens by saturation x rate = 270 GPa, faster than the material unloads"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"-1 GPa\", recall = 1 }]\n",
+       "a.toml:3:36: material.rail.kinematic_hardening.0.modulus = \"-1 GPa\": must be between 0 GPa and 10000 GPa"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"9 GPa\", recall = -1 }]\n",
+       "material.rail.kinematic_hardening.0.recall = -1: must be between 0 and 1000000"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"9 GPa\", gamma = 1 }]\n",
+       "unknown key material.rail.kinematic_hardening.0.gamma"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nkinematic_hardening = [\"9 GPa\"]\n",
+       "material.rail.kinematic_hardening.0 = \"9 GPa\": is a text, must be a list of tables with a modulus and a "
+       "recall"},
+      {"[material.rail]\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"9 GPa\", recall = 1 }, { "
+       "modulus = \"9 GPa\", recall = 2 }, { modulus = \"9 GPa\", recall = 3 }, { modulus = \"9 GPa\", recall = 4 }, { "
+       "modulus = \"9 GPa\", recall = 5 }]\n",
+       "has 5 backstresses, at most 4 are computed"},
+      {"[material.rail]\nhardening = \"R26\"\n", "a.toml:2:13: material.rail.hardening: no hardening set \"R26\""},
+      {"[material.rail]\nhardening = \"estimated\"\n", "needs tensile_strength or hardness"},
+      {"[material.rail]\nhardening = \"R260\"\nyield_strength = \"300 MPa\"\nkinematic_hardening = [{ modulus = \"9 "
+       "GPa\", "
+       "recall = 1 }]\n",
+       "[material.rail] has hardening and kinematic_hardening: a case has one of them"},
+      {"[material.rail]\nhardening = \"R260\"\nelastic = true\n",
+       "a.toml:3:11: material.rail.elastic = true: the material has a law of hardening too"}};
   for (const Bad& bad : all) try {
       parse_case(bad.text, "a.toml");
       ADD_FAILURE() << "accepted: " << bad.text;

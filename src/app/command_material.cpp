@@ -1,0 +1,235 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "app/case_of.hpp"
+#include "app/commands.hpp"
+#include "app/shipped_files.hpp"
+#include "app/waiting.hpp"
+#include "case/text_file.hpp"
+#include "case/units.hpp"
+#include "core/faults.hpp"
+#include "core/shell_word.hpp"
+#include "io/json_text.hpp"
+#include "io/output_file.hpp"
+#include "io/provenance.hpp"
+#include "model/material_strength.hpp"
+#include "runs/material_fit.hpp"
+#include "runs/material_run.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kMega = 1e-6, kPercent = 100;
+/// Of plastic strain: beyond them small strain is a few per cent off, and no longer a claim.
+constexpr double kDoubtful = 0.05, kNoClaim = 0.1;
+constexpr std::size_t kShownCycles = 5;
+
+fs::path card_of(const CommandOptions& options) {
+  fs::path file = shipped_unless_there(options.case_file);
+  std::error_code error;
+  if (fs::is_directory(file, error) && fs::exists(file / "case.toml", error)) file /= "case.toml";
+  return file;
+}
+
+/// The word of --of: rail, wheel, or a layer by its place in the case.
+struct Chosen {
+  MaterialSpec material;
+  std::string name, key;
+};
+Chosen chosen(const LoadedCase& loaded, const std::string& word) {
+  const CaseSpec& spec = loaded.spec;
+  if (word == "rail") return {spec.rail_material, "rail", "material.rail"};
+  if (word == "wheel") return {spec.wheel_material, "wheel", "material.wheel"};
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    if (word == fmt::format("layer.{}", i) || word == spec.layers[i].name)
+      return {spec.layers[i].material, spec.layers[i].name, fmt::format("layer.{}", i)};
+  throw CaseError(fmt::format("--of {}: the card has no such material", word),
+                  spec.layers.empty() ? "write rail or wheel" : "write rail, wheel, layer.0 or a layer's name");
+}
+
+double depth_of(const std::string& text) {
+  if (text.empty()) return 0;
+  try {
+    const double depth = parse_quantity(text, dimension::kLength);
+    if (depth >= 0 && std::isfinite(depth)) return depth;
+  } catch (const UnitError& e) {
+    throw CaseError(fmt::format("--depth {}: {}", text, e.what()), e.remedy);
+  }
+  throw CaseError(fmt::format("--depth {}: must be at least 0 mm", text), "write for example --depth \"2 mm\"");
+}
+
+/// A table of this command, and a file that is empty, are made anew; others are somebody's.
+bool replaceable(const fs::path& file, const std::string& first_line) {
+  std::error_code error;
+  if (!fs::exists(file, error) || fs::file_size(file, error) == 0) return true;
+  try {
+    return read_text_file(file, "").starts_with(first_line);
+  } catch (const CaseError&) {
+    return false;
+  }
+}
+
+fs::path output_of(const CommandOptions& options, const std::string& preset, const char* ending,
+                   const std::string& first_line) {
+  const fs::path out = options.out.empty() ? fs::path("results") / (preset + ending) : options.out;
+  if (out.extension() != ending)
+    throw CaseError(
+        fmt::format("--out {}: the file's name must end in {}", out.string(), ending),
+        fmt::format("write for example --out {}", shell_word(fs::path(out).replace_extension(ending).string())));
+  if (!options.force && !replaceable(out, first_line))
+    throw CaseError(fmt::format("--out {}: there is a file of this name", out.string()),
+                    "choose another name, or replace it with --force");
+  if (out.has_parent_path()) make_folder(out.parent_path());
+  return out;
+}
+
+std::string law_text(const PlasticMaterial& m) {
+  const PlasticParameters<double>& p = m.plastic;
+  std::string out = fmt::format("yields at {:.1f} MPa", kMega * p.yield);
+  if (p.saturation != 0) out += fmt::format(", Q = {:.1f} MPa with b = {:g}", kMega * p.saturation, p.rate);
+  for (int k = 0; k < kMostBackstresses; ++k)
+    if (p.modulus[k] > 0)
+      out += fmt::format(", C{0} = {1:.0f} MPa with gamma{0} = {2:g}", k + 1, kMega * p.modulus[k], p.recall[k]);
+  return out;
+}
+
+std::string cycles_text(const MaterialRun& run) {
+  std::string out = fmt::format("\n  {:>6} {:>14} {:>14}\n", "cycle", "net plastic", "accumulated");
+  const std::size_t n = run.cycles.size();
+  for (std::size_t i = 0; i < n; ++i)
+    if (i < kShownCycles || i + 1 == n)
+      out += fmt::format("{}  {:>6} {:>13.6f}% {:>13.6f}%\n", i + 1 == n && n > kShownCycles + 1 ? "  ...\n" : "",
+                         i + 1, kPercent * run.cycles[i].largest_net(), kPercent * run.cycles[i].accumulated);
+  return out;
+}
+
+void warn_of_large_strain(const MaterialRun& run) {
+  const double strain = largest_plastic_strain(run);
+  if (strain > kNoClaim)
+    spdlog::warn("plastic strain reaches {:.1f} %: small strain no longer describes it, the stresses are no claim",
+                 kPercent * strain);
+  else if (strain > kDoubtful)
+    spdlog::warn("plastic strain reaches {:.1f} %: the law is one of small strain, stresses are some per cent off",
+                 kPercent * strain);
+}
+
+nlohmann::ordered_json as_json(const MaterialRun& run, const fs::path& out, const std::vector<std::string>& notes) {
+  nlohmann::ordered_json json{{"table", out.generic_string()}};
+  for (const CsvColumn& c : point_columns(run, true)) json["points"][c.name] = c.values;
+  for (const CsvColumn& c : cycle_columns(run)) json["cycles"][c.name] = c.values;
+  json["dissipated_J_m3"] = run.states.back().dissipated;
+  json["notes"] = notes;
+  return json;
+}
+
+ExitCode drive(const CommandOptions& options, const LoadedCase& loaded) {
+  const MaterialOptions& o = options.material;
+  const Chosen which = chosen(loaded, o.of);
+  const auto law = with_places(loaded, [&] { return plastic_law(which.material, which.name, which.key); });
+  if (!law)
+    throw CaseError(
+        which.material.strength.elastic ? fmt::format("{} is elastic on purpose: there is no law to drive", which.key)
+                                        : fmt::format("{} does not say where the material begins to yield", which.key),
+        "give yield_strength = \"500 MPa\", or a ready set such as hardening = \"R260\"", loaded.file.string());
+  const PlasticMaterial material = law->at(depth_of(o.depth));
+  const bool by_stress = !o.stress.empty();
+  const fs::path file = shipped_unless_there(by_stress ? o.stress : o.strain);
+  const MaterialPathTable table =
+      read_material_path(read_text_file(file, "name a CSV file with a path; cases/material has examples"), file,
+                         by_stress ? Prescribed::stress : Prescribed::strain);
+  const fs::path out = output_of(options, loaded.file.stem().string() + "-" + file.stem().string(), ".csv",
+                                 by_stress ? "e_xx,e_yy," : "s_xx_MPa,");
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const MaterialRun run = [&] {
+    const Waiting waiting("driving the material", spdlog::should_log(spdlog::level::info));
+    return run_material(material, table, file, o.increments, o.cycles);
+  }();
+  write_csv(out, {}, point_columns(run, by_stress));
+  if (run.cycles.size() > 1) write_csv(fs::path(out).replace_extension(".cycles.csv"), {}, cycle_columns(run));
+  std::vector<std::string> remarks{law_text(material)};
+  remarks.insert(remarks.end(), law->notes.begin(), law->notes.end());
+  write_whole_file(
+      fs::path(out).replace_extension(".svg"),
+      path_picture(fmt::format("{} of {}, along {}", which.name, loaded.file.string(), file.string()), run, remarks));
+  for (const std::string& note : law->notes) spdlog::info("{}", note);
+  warn_of_large_strain(run);
+  if (options.json) {
+    fmt::print("{}\n", json_text(as_json(run, out, law->notes), 2));
+  } else {
+    fmt::print(
+        "{}: {}\n{} points, {} increments each; accumulated plastic strain {:.6f} %, dissipated {:.6g} MJ/m3\n{}",
+        which.name, law_text(material), run.states.size(), o.increments, kPercent * run.states.back().history[6],
+        kMega * run.states.back().dissipated, run.cycles.size() > 1 ? cycles_text(run) : "");
+  }
+  spdlog::info("the table is {}, the picture beside it", out.string());
+  return ExitCode::ok;
+}
+
+ExitCode calibrate(const CommandOptions& options, const LoadedCase& loaded) {
+  const MaterialOptions& o = options.material;
+  const Chosen which = chosen(loaded, o.of);
+  MaterialTests tests{o.calibrate, o.cyclic_curve, o.monotonic, o.backstresses};
+  for (fs::path* file : {&tests.loop, &tests.amplitudes, &tests.monotonic})
+    if (!file->empty()) *file = shipped_unless_there(*file);
+  const fs::path source = tests.loop.empty() ? tests.amplitudes : tests.loop;
+  const std::string head = "# Fitted by RailStrata";
+  const fs::path out = output_of(options, source.stem().string() + "-fit", ".toml", head);
+  answer_interrupt_with("\nstopped: nothing was written\n");
+  const MaterialFit fit = fit_material(tests, which.material.young);
+  std::vector<std::string> remarks{fmt::format(
+      "Fitted by RailStrata {} to {}: error {:.2f} % of the largest stress (root mean square), {:.2f} % at most",
+      version_text(), source.filename().string(), kPercent * fit.stabilised.error,
+      kPercent * fit.stabilised.largest_error)};
+  if (!tests.monotonic.empty())
+    remarks.push_back(fmt::format("and to {}: error {:.2f} %, {:.2f} % at most", tests.monotonic.filename().string(),
+                                  kPercent * fit.whole.error, kPercent * fit.whole.largest_error));
+  else
+    remarks.emplace_back(
+        "yield_strength is that of the stabilised cycle: a monotonic curve (--monotonic) tells Q and b");
+  const PlasticParameters<double> law = rounded(fit.whole.law);
+  const std::string card = material_card(which.material, law, remarks);
+  write_whole_file(out, card);
+  write_whole_file(fs::path(out).replace_extension(".svg"),
+                   fit_picture(fmt::format("fit to {}", source.string()), fit, remarks));
+  if (options.json) {
+    nlohmann::ordered_json json{{"card", out.generic_string()},
+                                {"young_Pa", which.material.young},
+                                {"yield_strength_Pa", law.yield},
+                                {"saturation_Pa", law.saturation},
+                                {"rate", law.rate},
+                                {"error", fit.stabilised.error},
+                                {"largest_error", fit.stabilised.largest_error}};
+    for (int k = 0; k < kMostBackstresses; ++k)
+      if (law.modulus[k] > 0)
+        json["backstresses"].push_back({{"modulus_Pa", law.modulus[k]}, {"recall", law.recall[k]}});
+    fmt::print("{}\n", json_text(json, 2));
+  } else {
+    fmt::print("{}", card);
+  }
+  spdlog::info("the card is {}, the picture of the fit beside it", out.string());
+  return ExitCode::ok;
+}
+
+}  // namespace
+
+ExitCode command_material(const CommandOptions& options) {
+  const MaterialOptions& o = options.material;
+  const bool path = !o.strain.empty() || !o.stress.empty(), fit = !o.calibrate.empty() || !o.cyclic_curve.empty();
+  if (path == fit)
+    throw CaseError(
+        path ? "a path to drive and a test to fit are given" : "neither a path nor a test is given",
+        "give one of --strain PATH.csv, --stress PATH.csv, --calibrate LOOP.csv and --cyclic-curve CURVE.csv");
+  if (path && !o.monotonic.empty())
+    throw CaseError("--monotonic belongs to a fit", "give --calibrate LOOP.csv or --cyclic-curve CURVE.csv with it");
+  // The notes of a case are of its contact, which nobody asked for here.
+  const LoadedCase loaded = load_case(card_of(options), options.overrides);
+  return path ? drive(options, loaded) : calibrate(options, loaded);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,171 @@
+#include "runs/material_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/faults.hpp"
+#include "report/plots.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kMega = 1e-6, kPercent = 100;
+constexpr std::size_t kMostTraced = 20000;  // states that a picture shows
+constexpr double kStill = 0.02;             // of the largest range: a component that moves less is not drawn
+constexpr std::size_t kMostLoops = 3;
+constexpr std::array kComponents{"xx", "yy", "zz", "xy", "yz", "xz"};
+
+CaseError beyond(const PlasticMaterial& material, const MaterialPathTable& table, const std::filesystem::path& file,
+                 const BeyondMaterial& e) {
+  const auto row = static_cast<std::size_t>(e.point) % table.lines.size();
+  const double most = largest_stress(material.plastic);
+  return CaseError(
+      fmt::format("no strain gives the stress of this row: the material follows to {:.0f} % of the way{}",
+                  kPercent * e.reached,
+                  std::isfinite(most) ? fmt::format(", it bears {:.1f} MPa (von Mises) at most", kMega * most) : ""),
+      "lower the stress, or prescribe the strain of this direction (a column e_xx instead of s_xx)",
+      fmt::format("{}:{}", file.string(), table.lines[row]));
+}
+
+using Tensor = std::array<double, 6> MaterialState::*;
+
+double range_of(const std::vector<MaterialState>& trace, Tensor what, std::size_t j) {
+  double low = 0, high = 0;
+  for (const MaterialState& s : trace) {
+    low = std::min(low, (s.*what)[j]);
+    high = std::max(high, (s.*what)[j]);
+  }
+  return high - low;
+}
+
+/// The components of strain or stress that move most, largest range first.
+std::vector<std::size_t> moving(const std::vector<MaterialState>& trace, Tensor what) {
+  std::vector<std::size_t> out{0, 1, 2, 3, 4, 5};
+  std::stable_sort(out.begin(), out.end(),
+                   [&](std::size_t a, std::size_t b) { return range_of(trace, what, a) > range_of(trace, what, b); });
+  const double most = range_of(trace, what, out.front());
+  std::erase_if(out, [&](std::size_t j) { return range_of(trace, what, j) < kStill * most; });
+  if (out.size() > kMostLoops) out.resize(kMostLoops);
+  return out;
+}
+
+Plot loops(const MaterialRun& run) {
+  Plot out{"strain [%], shear as tensor", "stress [MPa]", {}};
+  for (const std::size_t j : moving(run.trace, &MaterialState::stress)) {
+    PlotCurve curve{fmt::format("s_{0} by e_{0}", kComponents[j]), {}, {}, false};
+    for (const MaterialState& s : run.trace) {
+      curve.x.push_back(kPercent * s.strain[j]);
+      curve.y.push_back(kMega * s.stress[j]);
+    }
+    out.curves.push_back(std::move(curve));
+  }
+  return out;
+}
+
+Plot along_path(const MaterialRun& run) {
+  Plot out{"state on the way, of all drawn [%]", "plastic strain [%]", {}};
+  PlotCurve accumulated{"p, accumulated", {}, {}, false};
+  const auto n = static_cast<double>(std::max<std::size_t>(run.trace.size(), 2) - 1);
+  for (std::size_t i = 0; i < run.trace.size(); ++i) {
+    accumulated.x.push_back(kPercent * static_cast<double>(i) / n);
+    accumulated.y.push_back(kPercent * run.trace[i].history[6]);
+  }
+  for (const std::size_t j : moving(run.trace, &MaterialState::strain)) {
+    PlotCurve curve{fmt::format("{}", kComponents[j]), accumulated.x, {}, false};
+    for (const MaterialState& s : run.trace) curve.y.push_back(kPercent * s.history[j]);
+    out.curves.push_back(std::move(curve));
+  }
+  out.curves.push_back(std::move(accumulated));
+  return out;
+}
+
+Plot by_cycle(const MaterialRun& run) {
+  Plot out{"cycle", "net plastic strain of a cycle [%]", {}};
+  for (const std::size_t j : moving(run.trace, &MaterialState::strain)) {
+    PlotCurve curve{fmt::format("{}", kComponents[j]), {}, {}, run.cycles.size() < 3};
+    for (std::size_t n = 0; n < run.cycles.size(); ++n) {
+      curve.x.push_back(static_cast<double>(n + 1));
+      curve.y.push_back(kPercent * run.cycles[n].net[j]);
+    }
+    out.curves.push_back(std::move(curve));
+  }
+  return out;
+}
+
+}  // namespace
+
+double MaterialCycle::largest_net() const {
+  double out = 0;
+  for (const double e : net) out = std::max(out, std::abs(e));
+  return out;
+}
+
+MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTable& table,
+                         const std::filesystem::path& file, int increments, int cycles) {
+  MaterialPath path{table.path.prescribed, {}};
+  for (int n = 0; n < cycles; ++n)
+    path.points.insert(path.points.end(), table.path.points.begin(), table.path.points.end());
+  MaterialRun out;
+  out.trace.emplace_back();
+  const std::size_t every = path.points.size() * static_cast<std::size_t>(increments) / kMostTraced + 1;
+  std::size_t seen = 0;
+  const auto look = [&](const MaterialState& s) {
+    if (++seen % every == 0 || seen % static_cast<std::size_t>(increments) == 0) out.trace.push_back(s);
+  };
+  try {
+    out.states = drive_path(material, path, increments, look);
+  } catch (const BeyondMaterial& e) {
+    throw beyond(material, table, file, e);
+  }
+  MaterialState before;
+  for (std::size_t last = table.lines.size(); last <= out.states.size(); last += table.lines.size()) {
+    const MaterialState& after = out.states[last - 1];
+    MaterialCycle& cycle = out.cycles.emplace_back();
+    for (std::size_t j = 0; j < 6; ++j) cycle.net[j] = after.history[j] - before.history[j];
+    cycle.accumulated = after.history[6] - before.history[6];
+    before = after;
+  }
+  return out;
+}
+
+std::vector<CsvColumn> point_columns(const MaterialRun& run, bool strains) {
+  std::vector<CsvColumn> out;
+  for (std::size_t j = 0; strains && j < 6; ++j) {
+    out.push_back({fmt::format("e_{}", kComponents[j]), {}});
+    for (const MaterialState& s : run.states) out.back().values.push_back(s.strain[j]);
+  }
+  for (std::size_t j = 0; j < 6; ++j) {
+    out.push_back({fmt::format("s_{}_MPa", kComponents[j]), {}});
+    for (const MaterialState& s : run.states) out.back().values.push_back(kMega * s.stress[j]);
+  }
+  out.push_back({"p", {}});
+  for (const MaterialState& s : run.states) out.back().values.push_back(s.history[6]);
+  return out;
+}
+
+std::vector<CsvColumn> cycle_columns(const MaterialRun& run) {
+  std::vector<CsvColumn> out{{"cycle", {}}};
+  for (std::size_t n = 0; n < run.cycles.size(); ++n) out[0].values.push_back(static_cast<double>(n + 1));
+  for (std::size_t j = 0; j < 6; ++j) {
+    out.push_back({fmt::format("net_{}", kComponents[j]), {}});
+    for (const MaterialCycle& c : run.cycles) out.back().values.push_back(c.net[j]);
+  }
+  out.push_back({"p_of_cycle", {}});
+  for (const MaterialCycle& c : run.cycles) out.back().values.push_back(c.accumulated);
+  return out;
+}
+
+std::string path_picture(const std::string& title, const MaterialRun& run, const std::vector<std::string>& remarks) {
+  return plots_svg(title, {loops(run), run.cycles.size() > 1 ? by_cycle(run) : along_path(run)}, remarks);
+}
+
+double largest_plastic_strain(const MaterialRun& run) {
+  double out = 0;
+  for (const MaterialState& s : run.trace)
+    out = std::max(out, std::sqrt(2.0 / 3 * double_contraction(s.history.data(), s.history.data())));
+  return out;
+}
+
+}  // namespace railstrata
