@@ -100,10 +100,10 @@ class Rules {
     if (strength.rows.empty() || !s_.tensile_strength) return;
     const double most = std::max_element(strength.rows.begin(), strength.rows.end(), by_value)->value;
     if (most <= *s_.tensile_strength) return;
-    complain("tensile_strength",
-             fmt::format(" = {}: must be at least {} = {}", pressure(*s_.tensile_strength), strength.name,
-                         pressure(most)),
-             "a material does not yield beyond its tensile strength: correct one of them");
+    complain(
+        "tensile_strength",
+        fmt::format(" = {}: must be at least {} = {}", pressure(*s_.tensile_strength), strength.name, pressure(most)),
+        "a material does not yield beyond its tensile strength: correct one of them");
   }
 
   /// At every depth that one of the two says.

@@ -93,7 +93,7 @@ class ZoneStrength {
             at_depth(s_.initial_stress_table, z, &StressPoint::lateral, key)};
   }
 
-  /// How a strength that was not given is known; empty if it was, or is not known.
+  /// How a strength that was not given is known, or that it is not; empty if it was given.
   std::string note() const {
     if (s_.yield_strength || !s_.strength_table.empty()) return {};
     if (grade_ && grade_->yield.known())
@@ -102,7 +102,9 @@ class ZoneStrength {
     if (s_.hardness || !s_.hardness_table.empty())
       return fmt::format("yield strength of {}: estimated from hardness as {:g} x 3.2 MPa x HV", zone_.name,
                          s_.yield_to_tensile);
-    return {};
+    return fmt::format("yield strength of {}: not known{}; it is taken to stay elastic and is not judged: give {}.{}",
+                       zone_.name, grade_ ? fmt::format(" of grade {}", grade_->name) : "", zone_.key,
+                       "yield_strength");
   }
 
  private:
