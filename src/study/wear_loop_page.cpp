@@ -131,7 +131,7 @@ ReportTable steps_table(const WearLoopStory& story) {
   for (const WornProfile& p : story.profiles) {
     const std::vector<double> depth = worn_depth(story.unworn, p.points);
     const auto at = static_cast<std::size_t>(std::max_element(depth.begin(), depth.end()) - depth.begin());
-    t.rows.push_back({p.step, p.passages, 1e6 * depth[at], 1e3 * story.unworn[at].y, 1e6 * p.area,
+    t.rows.push_back({std::to_string(p.step), p.passages, 1e6 * depth[at], 1e3 * story.unworn[at].y, 1e6 * p.area,
                       finite(1e-6 * of_step(story, p.step, &WearLoad::pressure, larger)),
                       finite(of_step(story, p.step, &WearLoad::t_gamma, larger))});
   }
