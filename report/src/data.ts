@@ -104,13 +104,40 @@ export interface BodyShakedown {
   notes: string[];
 }
 
+/// The largest principal stress of a zone.
+export interface PrincipalZone {
+  zone: string;
+  sigma1_max_Pa: number|null;
+  depth_m: number|null;
+  share_of_tensile_strength: number|null;
+  critical_flaw_m: number|null;
+  thickness_m?: number|null;  // of a layer
+}
+
+export interface InterfaceStress {
+  above: string;
+  below: string;
+  depth_m: number|null;
+  tension_Pa: number|null;
+  shear_Pa: number|null;
+  shear_range_Pa: number|null;
+  delamination: number|null;
+}
+
+export interface BodyFatigue {
+  body: string;
+  zones?: PrincipalZone[];
+  interfaces?: InterfaceStress[];
+}
+
 export interface Summary {
   state?: string;  // of a transient: which of its states this is
   position_m: number|null;
   contact: Record<string, number|null>;
   patches?: Record<string, number|null>[];  // where the wheel touches at several places
   stress: Record<BodyName, Zones>;
-  shakedown?: {factors: Factors; bodies: BodyShakedown[]};  // where a strength is known
+  shakedown?: {factors: Factors; verdict?: string; fails_by?: string[]; bodies: BodyShakedown[]};
+  fatigue?: BodyFatigue[];
   run: Record<string, number|string|null>;
 }
 
@@ -190,7 +217,8 @@ export interface Maps {
 /// Which layer lasts: a row of grids of verdicts over two keys, a grid for each value of a third.
 export interface GridCell {
   verdict: string;
-  factor: number|null;  // to shakedown under any traffic
+  factor: number|null;  // to shakedown under any traffic; of a grid of values the value
+  fails_by: string[];   // all that ends it
 }
 export interface VerdictGrid {
   name: string;
@@ -204,6 +232,7 @@ export interface Grids {
   note: string;
   x: string;  // axes
   y: string;
+  value: string;  // with its unit; empty: verdicts
   grids: VerdictGrid[];
 }
 

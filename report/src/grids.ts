@@ -2,11 +2,17 @@
 import type {GridCell, Grids, VerdictGrid} from "./data";
 import {element, note} from "./dom";
 import {axis, baseLayout, frame, type DataTable, type Figure, type Theme} from "./figures";
+import {magnitudeColours} from "./maps";
 import {allVerdicts, numberText, plotText} from "./text";
 
 /// From the best verdict to the worst, told apart with any colour vision; the letters on them.
-const kFills = ["#0072b2", "#56b4e9", "#f0e442", "#e6c27a", "#d55e00", "#7a1020"];
-const kLetters = ["#ffffff", "#1b1f24", "#1b1f24", "#1b1f24", "#ffffff", "#ffffff"];
+const kFills = ["#0072b2", "#56b4e9", "#f0e442", "#e6c27a", "#d55e00", "#7a1020", "#cc79a7", "#8a8f98"];
+const kLetters = ["#ffffff", "#1b1f24", "#1b1f24", "#1b1f24", "#ffffff", "#ffffff", "#1b1f24", "#1b1f24"];
+/// The last words of a verdict stand below the factor where a layer ends.
+const kMarks: Record<string, string> = {
+  "brittle layer cracks": "cracks",
+  "interface shears": "shears"
+};
 
 const place = (c: GridCell) => allVerdicts().findIndex((v) => v.words === c.verdict);
 
@@ -16,9 +22,59 @@ function scale(): [number, string][] {
   return kFills.flatMap((c, k): [number, string][] => [[k / n, c], [(k + 1) / n, c]]);
 }
 
+/// The factor, and below it what else ends the layer.
+function cellText(c: GridCell): string {
+  const marks = c.fails_by.flatMap((words) => (kMarks[words] ? [kMarks[words]] : []));
+  return [numberText(c.factor, 3), ...marks].join("<br>");
+}
+
+const hasMarks = (g: VerdictGrid) => g.cells.some((c) => c && c.fails_by.some((words) => kMarks[words]));
+
+const shownCells = (g: VerdictGrid) => g.y.flatMap((_, j) => g.x.flatMap((_x, i) => {
+  const c = g.cells[i + g.x.length * j];
+  return c ? [{c, i, j}] : [];
+}));
+
+/// One value for all grids of a row has one colour.
+function rangeOf(m: Grids): [number, number] {
+  const all = m.grids.flatMap((g) => g.cells.flatMap((c) => (c && c.factor !== null ? [c.factor] : [])));
+  return [Math.min(0, ...all), Math.max(...all)];
+}
+
+function valuesOf(m: Grids, g: VerdictGrid, theme: Theme): Record<string, unknown>[] {
+  const [low, high] = rangeOf(m);
+  const shown = shownCells(g);
+  const light = (v: number|null) => v !== null && v > low + 0.6 * (high - low);
+  return [
+    {
+      type: "heatmap",
+      x: g.x.map((_, i) => i),
+      y: g.y.map((_, j) => j),
+      z: g.y.map((_, j) => g.x.map((_x, i) => g.cells[i + g.x.length * j]?.factor ?? null)),
+      zmin: low,
+      zmax: high,
+      colorscale: magnitudeColours(),
+      showscale: false,
+      xgap: 2,
+      ygap: 2,
+      hoverinfo: "skip",
+    },
+    {
+      type: "scatter",
+      mode: "text",
+      x: shown.map(({i}) => i),
+      y: shown.map(({j}) => j),
+      text: shown.map(({c}) => numberText(c.factor, 3)),
+      textfont: {color: shown.map(({c}) => (light(c.factor) ? "#1b1f24" : "#ffffff")), size: theme.size + 1},
+      customdata: shown.map(({i, j}) => `${plotText(g.x[i])}, ${plotText(g.y[j])}<br>${plotText(m.value)}`),
+      hovertemplate: "%{customdata} %{text}<extra></extra>",
+    },
+  ];
+}
+
 function dataOf(g: VerdictGrid, theme: Theme): Record<string, unknown>[] {
   const rows = g.y.map((_, j) => g.x.map((_, i) => g.cells[i + g.x.length * j]));
-  const shown = rows.flatMap((row, j) => row.flatMap((c, i) => (c ? [{c, i, j}] : [])));
+  const shown = shownCells(g);
   const letters = shown.map(({c}) => kLetters[place(c)] ?? theme.ink);
   return [
     {
@@ -39,10 +95,13 @@ function dataOf(g: VerdictGrid, theme: Theme): Record<string, unknown>[] {
       mode: "text",
       x: shown.map(({i}) => i),
       y: shown.map(({j}) => j),
-      text: shown.map(({c}) => numberText(c.factor, 3)),
+      text: shown.map(({c}) => cellText(c)),
       textfont: {color: letters, size: theme.size + 1},
-      customdata: shown.map(({c, i, j}) => `${g.x[i]}, ${g.y[j]}<br><b>${c.verdict}</b>`),
-      hovertemplate: "%{customdata}<br>factor %{text}<extra></extra>",
+      customdata: shown.map(({c, i, j}) => {
+        const why = [c.verdict, ...c.fails_by.filter((words) => words !== c.verdict)].join("; ");
+        return `${g.x[i]}, ${g.y[j]}<br><b>${why}</b><br>factor ${numberText(c.factor, 3)}`;
+      }),
+      hovertemplate: "%{customdata}<extra></extra>",
     },
   ];
 }
@@ -57,7 +116,7 @@ function layoutOf(m: Grids, g: VerdictGrid, theme: Theme, width: number): Record
     zeroline: false,
   });
   return {
-    ...baseLayout(theme, width, Math.round(110 + 34 * g.y.length)),
+    ...baseLayout(theme, width, Math.round(110 + (hasMarks(g) ? 48 : 34) * g.y.length)),
     margin: {l: 58, r: 12, t: 30, b: 46},
     xaxis: along(m.x, g.x),
     yaxis: along(m.y, g.y),
@@ -67,8 +126,9 @@ function layoutOf(m: Grids, g: VerdictGrid, theme: Theme, width: number): Record
 function tableOf(m: Grids, g: VerdictGrid): DataTable {
   const rows = g.y.flatMap((y, j) => g.x.flatMap((x, i) => {
     const c = g.cells[i + g.x.length * j];
-    return c ? [[x, y, c.verdict, c.factor]] : [];
+    return c ? [[x, y, c.fails_by.join("; ") || c.verdict, c.factor]] : [];
   }));
+  if (m.value) return {names: [m.x, m.y, m.value], rows: rows.map(([x, y, , v]) => [x, y, v])};
   return {names: [m.x, m.y, "verdict", "shakedown_wandering"], rows};
 }
 
@@ -76,7 +136,10 @@ function gridFigure(m: Grids, g: VerdictGrid, n: number): Figure {
   return {
     id: `${m.id}-${n + 1}`,
     title: g.name,
-    draw: (theme, width) => ({data: dataOf(g, theme), layout: layoutOf(m, g, theme, width)}),
+    draw: (theme, width) => ({
+      data: m.value ? valuesOf(m, g, theme) : dataOf(g, theme),
+      layout: layoutOf(m, g, theme, width),
+    }),
     table: () => tableOf(m, g),
   };
 }
@@ -96,5 +159,6 @@ export function gridsRow(m: Grids): HTMLElement[] {
   const figures = m.grids.map((g, n) => frame(gridFigure(m, g, n)));
   const words = m.note ? [note(m.note)] : [];
   const row = element("h3", {class: "row"}, m.title);
-  return [row, ...words, legend(m), element("div", {class: "grid small"}, ...figures)];
+  const key = m.value ? note(`In the cells: ${m.value}.`) : legend(m);
+  return [row, ...words, key, element("div", {class: "grid small"}, ...figures)];
 }

@@ -1,5 +1,5 @@
 // Does it last? Shakedown factors, the strength that depths ask for, and where most of it is used.
-import type {BodyName, Columns, Factors, Run, Values, ZoneShakedown} from "./data";
+import type {BodyName, Columns, Factors, PrincipalZone, Run, Values, ZoneShakedown} from "./data";
 import {element, note, part, table, type Cell} from "./dom";
 import {frame, type Figure} from "./figures";
 import {linesFigure, type Series} from "./lines";
@@ -59,6 +59,23 @@ const kLines: [column: string, name: string, dash: string][] = [
   ["required_upper_MPa", "asked for to shake down at best", "dashdot"],
 ];
 
+/// Where two zones of a table by depth meet [mm].
+function borders(profile: Columns): number[] {
+  const at = (k: number) => profile.depth_mm[k] ?? 0;
+  return profile.zone.flatMap((zone, i) => (i > 0 && zone !== profile.zone[i - 1] ? [at(i)] : []));
+}
+
+/// Down to where something happens [mm]: what a depth asks for to stay elastic is a quarter of the most, and room below
+/// the last border.
+function eventful(profile: Columns): number {
+  const asked = profile.required_first_yield_MPa.map((v) => v ?? 0);
+  const depths = profile.depth_mm.map((v) => v ?? 0);
+  const quarter = 0.25 * Math.max(...asked);
+  const last = Math.max(...depths.filter((_, i) => asked[i] >= quarter));
+  const room = 1.25 * Math.max(0, ...borders(profile));
+  return Math.min(Math.max(1.1 * last, room), Math.max(...depths));
+}
+
 function strengthFigure(runs: Run[], body: BodyName): Figure|null {
   const given = runs.filter((run) => run.shakedown[body]);
   if (!given.length) return null;
@@ -70,17 +87,110 @@ function strengthFigure(runs: Run[], body: BodyName): Figure|null {
                                              colour: (t) => t.series[(given.length > 1 ? n : k) % t.series.length],
                                              hover: `depth %{y:.2f} mm<br>${name} %{x:.0f} MPa`,
                                            })));
+  const levels = [...new Set(given.flatMap((run) => borders(run.shakedown[body]!.profile)))];
   return linesFigure({
     id: `strength-${body}`,
     title: `Yield strength against depth, ${body}`,
-    words: ["Uniaxial yield strength. Where the solid line lies right of a broken one there is enough."],
+    words: [
+      "Uniaxial yield strength. Where the solid line lies right of a broken one there is enough." +
+          (levels.length ? " Lines across: where two materials meet." : "") +
+          " Below the frame less is asked for; the table goes on.",
+    ],
     labels: ["yield strength [MPa]", "depth [mm]"],
     names: ["yield_strength_MPa", "depth_mm"],
     downwards: true,
+    deepest: Math.max(...given.map((run) => eventful(run.shakedown[body]!.profile))),
+    levels,
     height: 420,
     series,
   });
 }
+
+const mpa = (v: number|null) => (v === null ? "–" : (1e-6 * v).toFixed(0));
+const mm = (v: number|null, digits = 2) => (v === null ? "–" : (1e3 * v).toFixed(digits));
+
+/// What a layer's flaws may be: nothing is told where K_Ic is not given.
+function flawText(z: PrincipalZone): string {
+  if (z.critical_flaw_m === null) return "–";
+  const thickness = z.thickness_m ?? null;
+  return thickness !== null && z.critical_flaw_m > thickness ? "none in its thickness" : mm(z.critical_flaw_m, 3);
+}
+
+/// A state that a limit decides; "–" where the case gives none.
+function stateCell(value: number|null, fails: string, holds: string): Cell {
+  if (value === null) return {text: "–"};
+  const words = value >= 1 ? fails : holds;
+  return {text: words, attributes: {class: value >= 1 ? "failed" : "ok", "data-verdict": words}};
+}
+
+const named = (name: string, run: Run, runs: Run[]) => (runs.length > 1 ? `${name}, ${runLabel(run)}` : name);
+
+function layersTable(runs: Run[]): HTMLElement|null {
+  const rows = runs.flatMap((run) => (run.summary.fatigue ?? []).flatMap((b) => {
+    const layers = (b.zones ?? []).filter((z) => z.zone !== b.body);
+    return layers.map(
+        (z): (string|Cell)[] =>
+            [named(`${b.body}, ${z.zone}`, run, runs),
+             stateCell(z.share_of_tensile_strength, "brittle layer cracks", "holds"),
+             {text: mpa(z.sigma1_max_Pa)},
+             {text: mm(z.depth_m)},
+             {text: numberText(z.share_of_tensile_strength, 3)},
+             {text: flawText(z)},
+    ]);
+  }));
+  if (!rows.length) return null;
+  const head = [
+    "layer",
+    "so it",
+    "largest σ₁ [MPa]",
+    "at depth [mm]",
+    "σ₁ over tensile strength",
+    "flaws run that are deeper than [mm]",
+  ];
+  return table("Does a brittle layer crack?", head, rows, {class: "numbers", id: "brittle"});
+}
+
+function interfacesTable(runs: Run[]): HTMLElement|null {
+  const rows = runs.flatMap((run) => (run.summary.fatigue ?? []).flatMap((b) => {
+    return (b.interfaces ?? [])
+        .map(
+            (i): (string|Cell)[] =>
+                [named(`${i.above} on ${i.below}`, run, runs),
+                 stateCell(i.delamination, "interface shears", "holds"),
+                 {text: mm(i.depth_m)},
+                 {text: mpa(i.tension_Pa)},
+                 {text: mpa(i.shear_Pa)},
+                 {text: mpa(i.shear_range_Pa)},
+                 {text: numberText(i.delamination, 3)},
+    ]);
+  }));
+  if (!rows.length) return null;
+  const head = [
+    "interface",
+    "so it",
+    "at depth [mm]",
+    "tension [MPa]",
+    "shear [MPa]",
+    "range Δτ_xz [MPa]",
+    "delamination index",
+  ];
+  return table("Does a layer come off?", head, rows, {class: "numbers", id: "interfaces"});
+}
+
+/// The answer of each run in a line.
+function answers(runs: Run[]): HTMLElement[] {
+  return runs.map((run) => {
+    const s = run.summary.shakedown!;
+    const why = s.fails_by ?? [];
+    const words = why.length ? `No: ${why.join("; ")}.` : `Yes: ${s.verdict ?? "no limit is reached"}.`;
+    const text = runs.length > 1 ? `${runLabel(run)}: ${words}` : words;
+    return element("p", {class: `answer ${why.length ? "failed" : "ok"}`}, text);
+  });
+}
+
+const kLayerWords = "σ₁ and tractions hold the residual stress of the process. A dash: the case gives no " +
+    "tensile_strength, fracture_toughness, or bond_tension and bond_shear to hold them against. The index is " +
+    "(tension over bond_tension)² + (shear over bond_shear)²; Δτ drives a crack along the interface.";
 
 function edges(centres: number[]): number[] {
   const n = centres.length;
@@ -197,11 +307,15 @@ export function lastsPart(runs: Run[]): HTMLElement|null {
       "A factor of 1.2 says: 20 % more stress of this contact can be borne, its patch and friction staying as they " +
       "are. The steel yields in the first passages beyond the factor of first yield; residual stresses that build up " +
       "then may stop it (shakedown). Computed on elastic stresses; see docs/damage.md.");
+  const tables = [layersTable(given), interfacesTable(given)].filter((t) => t !== null);
+  const layers = tables.length ? [...tables, note(kLayerWords)] : [];
   return part(
       "lasts",
       "Does it last?",
+      ...(given.some((run) => run.summary.shakedown!.fails_by) ? answers(given) : []),
       factorsTable(given),
       words,
+      ...layers,
       ...notes(given),
       element("div", {class: "grid"}, ...figures.filter((f) => f !== null).map(frame)),
   );

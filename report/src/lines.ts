@@ -26,6 +26,7 @@ export interface LinesSpec {
   band?: Span;          // shaded range of x
   levels?: number[];    // dashed lines across at these y
   window?: Span;
+  deepest?: number;    // of y that grows downwards
   leastSpan?: number;  // of y, as a share of its largest value: small ripples stay small
   wide?: boolean;
 }
@@ -74,6 +75,7 @@ function dashedLevel(y: number, theme: Theme): Record<string, unknown> {
 function rangeOfY(c: LinesSpec): Span {
   const lines = c.series.map((s) => s.y);
   if (!c.downwards) return roomFor(lines, c.leastSpan);
+  if (c.deepest) return [c.deepest, 0];
   return [1.02 * Math.max(...lines.flat().map((v) => v ?? 0)), 0];
 }
 

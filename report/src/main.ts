@@ -43,11 +43,14 @@ function mapsRow(m: Maps): HTMLElement[] {
   return [element("h3", {class: "row"}, m.title), ...(m.note ? [note(m.note)] : []), grid(figures)];
 }
 
+const kManyRows = 20;  // a longer table is folded
+
 function studyTable(t: Table): HTMLElement[] {
   const text = (v: string|number|null) => (typeof v === "number" ? numberText(v) : v ?? "–");
   const rows = t.rows.map((row) => row.map(text));
   const attributes = {class: "numbers study", id: `table-${t.id}`};
-  return [table(t.title, t.columns, rows, attributes), t.note ? note(t.note) : element("span")];
+  const shown = [table(t.title, t.columns, rows, attributes), t.note ? note(t.note) : element("span")];
+  return rows.length > kManyRows ? [details(`${t.title}: ${rows.length} rows`, ...shown)] : shown;
 }
 
 function chartFigure(c: Chart): Figure {
@@ -74,8 +77,8 @@ function chartFigure(c: Chart): Figure {
 
 function studyParts(): HTMLElement[] {
   const out: HTMLElement[] = [];
-  if (report.tables.length) out.push(part("tables", "Answers", ...report.tables.flatMap(studyTable)));
   if (report.grids.length) out.push(part("grids", "What lasts", ...report.grids.flatMap(gridsRow)));
+  if (report.tables.length) out.push(part("tables", "Answers", ...report.tables.flatMap(studyTable)));
   if (report.charts.length) out.push(part("charts", "Figures", grid(report.charts.map(chartFigure))));
   if (report.maps.length) out.push(part("maps", "Maps", ...report.maps.flatMap(mapsRow)));
   return out;
@@ -135,6 +138,7 @@ function runParts(runs: Run[]): HTMLElement[] {
 let looked: Run[] = report.runs.slice(0, 2);
 const stage = element("div", {id: "stage"});
 function showRuns(): void {
+  if (!looked.length) return drawAll(theme());
   forget(stage);
   stage.replaceChildren(tiles(looked[0], report.runs.length > 1), ...runParts(looked));
   drawAll(theme());
@@ -165,21 +169,25 @@ function chooser(): HTMLElement|null {
   return element("div", {class: "chooser"}, "Run ", lists[0], " beside ", lists[1]);
 }
 
+/// A page without runs (a wear loop) has nothing to judge.
+const judged = () => report.checks.length > 0 || report.runs.length > 0;
+
 /// Names of the parts that this page has, in order, and their words in the contents line.
 function contents(): [id: string, name: string][] {
+  const runs = report.runs.length > 0;
   const all: [id: string, name: string, there: boolean][] = [
-    ["verdict", "verdict", true],
-    ["tables", "answers", report.tables.length > 0],
+    ["verdict", "verdict", judged()],
     ["grids", "what lasts", report.grids.length > 0],
+    ["tables", "answers", report.tables.length > 0],
     ["charts", "figures", report.charts.length > 0],
     ["maps", "maps", report.maps.length > 0],
-    ["numbers", "numbers", true],
-    ["geometry", "geometry", true],
-    ["patch", "patch", true],
-    ["stress", "stress", true],
+    ["numbers", "numbers", runs],
+    ["geometry", "geometry", runs],
+    ["patch", "patch", runs],
+    ["stress", "stress", runs],
     ["lasts", "does it last?", report.runs.some((r) => r.summary.shakedown)],
     ["history", "history", report.runs.some((r) => r.history)],
-    ["origin", "origin", true],
+    ["origin", "origin", runs],
   ];
   return all.filter(([, , there]) => there).map(([id, name]) => [id, name]);
 }
@@ -188,11 +196,12 @@ function contents(): [id: string, name: string][] {
 function subtitle(): HTMLElement {
   const {runs, program} = report;
   const engines = runs.map((r) => `${r.name}: ${engineName(r.engine)}`).join(" · ");
-  const position = runs.length < 3 && runs[0].engine === "fem" ? runs[0].summary.position_m : null;
+  const position = runs.length > 0 && runs.length < 3 && runs[0].engine === "fem" ? runs[0].summary.position_m : null;
   const where = position === null ? "" : `, wheel at ${numberText(1e3 * position)} mm`;
   const state = runs.length === 1 && runs[0].summary.state ? `, ${runs[0].summary.state}` : "";
   const what = runs.length > 2 ? `${runs.length} runs` : engines;
-  return element("p", {class: "sub"}, what, `${where}${state} · RailStrata ${program}`);
+  const told = [`${what}${where}${state}`, `RailStrata ${program}`].filter((text) => text !== "");
+  return element("p", {class: "sub"}, told.join(" · "));
 }
 
 function header(): HTMLElement {
@@ -218,7 +227,8 @@ setOrigin([
   ...report.runs.map((r) => `${r.folder} (${engineName(r.engine)})`),
   "maps and sections are rounded to 1/65534 of their range; the folder's own tables hold every digit",
 ]);
-const main = element("main", {}, header(), verdict(report), ...studyParts(), chooser(), stage, footer());
+const top = judged() ? [header(), verdict(report)] : [header()];
+const main = element("main", {}, ...top, ...studyParts(), chooser(), stage, footer());
 document.body.replaceChildren(main);
 document.documentElement.dataset.theme = isDark() ? "dark" : "light";
 showRuns();

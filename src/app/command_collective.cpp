@@ -87,7 +87,7 @@ void print_rows(const std::vector<CollectiveRow>& rows) {
 
 /// Returns whether the page's verdict holds, true without a page.
 bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& out,
-                         const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+                         const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage) {
   const CollectiveRow* shown = shown_row(rows);
   if (!shown) return true;
   const std::filesystem::path page = out / "report.html";
@@ -116,8 +116,9 @@ ExitCode command_collective(const CommandOptions& options) {
     spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
     return ExitCode::interrupted;
   }
-  const RailDamage damage = rail_damage(rows, placement, cell);
-  write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage);
+  const CollectiveDamage damage{rail_damage(rows, placement, cell), wheel_damage(rows, placement, cell)};
+  write_rail_damage(out / "rail_damage.csv", table_origin(loaded), damage.rail);
+  write_wheel_damage(out / "wheel_damage.csv", table_origin(loaded), damage.wheel);
   const nlohmann::ordered_json json = collective_json(loaded.spec.title, rows, damage);
   write_whole_file(out / "collective.json", json_text(json, 2) + "\n");
   if (options.json)

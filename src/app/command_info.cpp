@@ -3,10 +3,13 @@
 #include <spdlog/version.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "app/commands.hpp"
 #include "core/parallel.hpp"
+#include "damage/grades.hpp"
 #include "geometry/profile_names.hpp"
 #include "io/provenance.hpp"
 
@@ -26,6 +29,12 @@ void print_text(const nlohmann::ordered_json& info) {
   }
 }
 
+std::vector<std::string> grade_names() {
+  std::vector<std::string> out;
+  for (const Grade& g : grades()) out.emplace_back(g.name);
+  return out;
+}
+
 }  // namespace
 
 ExitCode command_info(const CommandOptions& options) {
@@ -36,6 +45,7 @@ ExitCode command_info(const CommandOptions& options) {
   const nlohmann::ordered_json info{{"version", version_text()},
                                     {"rail_profiles", builtin_profile_names(ProfileKind::rail)},
                                     {"wheel_profiles", builtin_profile_names(ProfileKind::wheel)},
+                                    {"grades", grade_names()},
                                     {"compiler", build.compiler},
                                     {"flags", build.flags},
                                     {"build_type", build.build_type},

@@ -12,21 +12,28 @@
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "app/signals.hpp"
+#include "case/load_rows.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
+#include "geometry/profile_texts.hpp"
 #include "io/csv.hpp"
+#include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "study/collective_files.hpp"
 #include "study/wear_loop.hpp"
+#include "study/wear_loop_page.hpp"
 
 namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kTable = "wear_loop.csv";
+constexpr const char *kTable = "wear_loop.csv", *kLoads = "wear_loads.csv", *kUnworn = "unworn.csv";
 constexpr const char* kIdentity = "wear_loop.id";  // of the case, for --resume
+constexpr const char* kPage = "report.html";
+constexpr const char* kStepFiles[] = {"rail_profile.csv", "rail_profile.prr", "rail_profile.ban", "collective.csv",
+                                      "rail_damage.csv"};
 const std::vector<std::string> kNames{"step",     "passages",  "deepest_of_step_um", "worn_area_mm2",  "area_error",
                                       "gauge_mm", "p_max_MPa", "t_gamma_max_N",      "rail_y_first_mm"};
 
@@ -89,16 +96,19 @@ class Loop {
     options_.wear_loop.resume ? resume() : begin();
     while (!finished())
       if (!take_step()) return interrupted();
-    spdlog::info("{} passages in {} steps, {:.4g} mm² worn off; the worn rail: {}", rail_.passages, rail_.step,
+    spdlog::info("{:.6g} passages in {} steps, {:.4g} mm² worn off; the worn rail: {}", rail_.passages, rail_.step,
                  1e6 * rail_.area, rail_.file.string());
+    if (options_.json) print_json();
+    write_page();
     return ExitCode::ok;
   }
 
  private:
   void begin() {
+    remove_old_steps();
     write_origin(out_, loaded_, options_.command_line, options_.threads);
     write_whole_file(out_ / kIdentity, case_identity(loaded_) + "\n");
-    write_worn_profile(out_ / "unworn.csv", table_origin(loaded_), rail_.points);
+    write_worn_profile(out_ / kUnworn, table_origin(loaded_), rail_.points);
     write_table();
   }
 
@@ -115,8 +125,20 @@ class Loop {
     rail_.step = static_cast<int>(table_.back()[0]);
     rail_.passages = table_.back()[1];
     rail_.area = 1e-6 * table_.back()[3];
-    rail_.file = out_ / step_name(rail_.step) / "rail_profile.csv";
+    rail_.file = out_ / step_name(rail_.step) / kStepFiles[0];
     rail_.points = read_worn_profile(rail_.file);
+    if (fs::exists(out_ / kLoads)) loads_ = read_wear_loads(out_ / kLoads);
+  }
+
+  /// Nothing of an older loop stands beside the steps of this one.
+  void remove_old_steps() const {
+    std::error_code ignored;
+    for (int step = 1; fs::is_directory(out_ / step_name(step), ignored); ++step)
+      for (const char* name : kStepFiles) {
+        fs::remove(out_ / step_name(step) / name, ignored);
+        if (fs::is_empty(out_ / step_name(step), ignored)) fs::remove(out_ / step_name(step), ignored);
+      }
+    for (const char* name : {kPage, kLoads}) fs::remove(out_ / name, ignored);
   }
 
   bool finished() const {
@@ -133,10 +155,13 @@ class Loop {
     if (step.stopped) return false;
     const fs::path folder = out_ / step_name(step.rail.step);
     make_folder(folder);
-    step.rail.file = folder / "rail_profile.csv";
+    step.rail.file = folder / kStepFiles[0];
     write_worn_profile(step.rail.file, table_origin(loaded_), step.rail.points);
+    write_exchange_profiles(folder, step.rail);
     write_collective_table(folder / "collective.csv", table_origin(loaded_), step.rows);
     write_rail_damage(folder / "rail_damage.csv", table_origin(loaded_), step.damage);
+    for (const WearLoad& load : wear_loads(step, rail_.passages)) loads_.push_back(load);
+    write_wear_loads(out_ / kLoads, table_origin(loaded_), loads_);
     table_.push_back(row_of(step, rail_.area));
     write_table();
     tell(step);
@@ -172,7 +197,40 @@ class Loop {
     write_csv(out_ / kTable, table_origin(loaded_), columns);
   }
 
+  /// The worn rail for other programs.
+  void write_exchange_profiles(const fs::path& folder, const WornRail& rail) const {
+    const std::string remark = fmt::format("{}, {:.6g} passages", loaded_.spec.title, rail.passages);
+    write_whole_file(folder / "rail_profile.prr", simpack_text(ProfileKind::rail, rail.points, remark));
+    write_whole_file(folder / "rail_profile.ban", miniprof_text(ProfileKind::rail, rail.points, remark));
+  }
+
+  void print_json() const {
+    const nlohmann::ordered_json end{{"steps", rail_.step},
+                                     {"passages", rail_.passages},
+                                     {"worn_area_m2", rail_.area},
+                                     {"rail_profile", rail_.file.string()}};
+    fmt::print("{}\n", json_text(end, 2));
+  }
+
+  /// What the folder holds, as a page.
+  void write_page() const {
+    if (!options_.page || table_.empty()) return;
+    WearLoopStory story;
+    story.title = loaded_.spec.title;
+    for (std::size_t i = 0; i < loaded_.spec.loads.size(); ++i) story.loads.push_back(load_name(loaded_.spec, i));
+    story.unworn = read_worn_profile(out_ / kUnworn);
+    for (const std::vector<double>& row : table_) {
+      const int step = static_cast<int>(row[0]);
+      story.profiles.push_back(
+          {step, row[1], 1e-6 * row[3], read_worn_profile(out_ / step_name(step) / kStepFiles[0])});
+    }
+    story.contacts = loads_;
+    write_wear_loop_page(out_ / kPage, story);
+    spdlog::info("everything on one page: {}", (out_ / kPage).string());
+  }
+
   ExitCode interrupted() const {
+    write_page();
     spdlog::warn("stopped after step {}; what is done is in {}: go on with --resume", rail_.step, out_.string());
     return ExitCode::interrupted;
   }
@@ -185,6 +243,7 @@ class Loop {
   WearStepOptions step_;
   WornRail rail_;
   std::vector<std::vector<double>> table_;
+  std::vector<WearLoad> loads_;
 };
 
 }  // namespace

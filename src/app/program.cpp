@@ -172,6 +172,7 @@ void add_wear_loop(CLI::App& sub, CommandOptions& options) {
   sub.add_option("--max-wear", options.wear_loop.max_wear, "Depth at the deepest place in one step")
       ->capture_default_str();
   sub.add_flag("--resume", options.wear_loop.resume, "Go on with the loop of the folder where it stopped");
+  add_no_report(sub, options);
 }
 
 void add_study(CLI::App& sub, CommandOptions& options) {

@@ -11,6 +11,7 @@
 #include "io/summary_json.hpp"
 #include "post/check_limits.hpp"
 #include "post/result_table.hpp"
+#include "post/verdict.hpp"
 
 namespace railstrata {
 namespace {
@@ -96,6 +97,7 @@ std::string interface_text(const InterfaceSummary& i) {
                                 printable(i.above), printable(i.below), 1e3 * i.depth, mpa(i.tension), mpa(i.shear),
                                 mpa(i.shear_range));
   if (std::isfinite(i.delamination)) out += fmt::format(", delamination index {:.2f}", i.delamination);
+  if (i.delamination >= 1) out += fmt::format(": {}", words_of(Verdict::interface_shears).words);
   return out + "\n";
 }
 
@@ -103,7 +105,12 @@ std::string brittle_text(const BrittleSummary& z) {
   if (!std::isfinite(z.share_of_tensile) && !std::isfinite(z.critical_flaw)) return {};
   std::string out = fmt::format("    {}: sigma_1 {} at {:.2f} mm", printable(z.zone), mpa(z.sigma1), 1e3 * z.depth);
   if (std::isfinite(z.share_of_tensile)) out += fmt::format(", {:.2f} of its tensile strength", z.share_of_tensile);
-  if (std::isfinite(z.critical_flaw)) out += fmt::format(", opens flaws deeper than {:.3f} mm", 1e3 * z.critical_flaw);
+  if (z.critical_flaw > z.thickness)
+    out += fmt::format(", opens no flaw within its thickness of {:.3g} mm", 1e3 * z.thickness);
+  else if (std::isfinite(z.critical_flaw))
+    out += fmt::format(", opens flaws deeper than {:.3f} mm", 1e3 * z.critical_flaw);
+  if (z.share_of_tensile >= 1 && std::isfinite(z.thickness))
+    out += fmt::format(": {}", words_of(Verdict::layer_cracks).words);
   return out + "\n";
 }
 
@@ -126,13 +133,23 @@ std::string shakedown_text(const Summary& s) {
   std::string out;
   for (const BodyShakedown& b : s.shakedown.bodies) {
     for (const ZoneShakedown& z : b.zones)
-      out += fmt::format("  {}load factors: first yield {}, shakedown {} to {}, kinematic {}; decided {:.2f} mm deep\n",
-                         padded(z.zone == b.body ? b.body : b.body + ", " + z.zone, 24),
-                         factor_text(z.factors.first_yield), factor_text(z.factors.wandering),
-                         factor_text(z.factors.upper), factor_text(z.factors.kinematic), 1e3 * z.depth);
+      out += fmt::format(
+          "  {}{}; load factors: first yield {}, shakedown {} to {}, kinematic {}; decided {:.2f} mm deep\n",
+          padded(z.zone == b.body ? b.body : b.body + ", " + z.zone, 24), words_of(verdict_of(z.factors)).words,
+          factor_text(z.factors.first_yield), factor_text(z.factors.wandering), factor_text(z.factors.upper),
+          factor_text(z.factors.kinematic), 1e3 * z.depth);
     for (const std::string& note : b.notes) out += fmt::format("  {}\n", printable(note));
   }
   return out;
+}
+
+/// The answer in a line.
+std::string lasts_text(const Summary& s) {
+  if (s.shakedown.bodies.empty()) return {};
+  std::string why;
+  for (const Verdict v : fails_by(s)) why += fmt::format("{}{}", why.empty() ? "" : "; ", words_of(v).words);
+  const std::string yes = fmt::format("yes: {}", words_of(verdict_of(s.shakedown)).words);
+  return fmt::format("  {}{}\n", padded("does it last?", 24), why.empty() ? yes : "no: " + why);
 }
 
 std::string steps_text(const RunSummary& r) {
@@ -179,7 +196,8 @@ std::string checks_text(const Summary& s) {
 std::string summary_text(const Summary& s) {
   const std::string place = std::isfinite(s.position) ? fmt::format(", wheel at {:.2f} mm", 1e3 * s.position) : "";
   return fmt::format("\n{}{}\n", printable(s.title), s.state.empty() ? place : ", " + s.state) + numbers_text(s) +
-         patches_text(s) + stresses_text(s) + shakedown_text(s) + fatigue_text(s) + steps_text(s.run) + checks_text(s);
+         patches_text(s) + stresses_text(s) + shakedown_text(s) + fatigue_text(s) + lasts_text(s) + steps_text(s.run) +
+         checks_text(s);
 }
 
 void print_summary(const Summary& s, bool json) {

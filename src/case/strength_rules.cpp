@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "case/units.hpp"
 #include "core/faults.hpp"
@@ -21,6 +23,23 @@ constexpr double kLeastConstraint = 2.5;
 
 std::string pressure(double value) { return format_quantity(value, dimension::kPressure); }
 std::string length(double value) { return format_quantity(value, dimension::kLength); }
+
+/// A property with depth as the case says it; a value that is the same everywhere is one row.
+struct Said {
+  std::string name;
+  std::vector<DepthPoint> rows;
+};
+
+bool by_value(const DepthPoint& a, const DepthPoint& b) { return a.value < b.value; }
+
+/// Linear between rows, the first and the last value beyond them.
+double at_depth(const std::vector<DepthPoint>& rows, double depth) {
+  std::size_t i = 0;
+  while (i < rows.size() && rows[i].depth < depth) ++i;
+  if (i == 0 || i == rows.size()) return rows[i == 0 ? 0 : i - 1].value;
+  const DepthPoint &a = rows[i - 1], &b = rows[i];
+  return a.value + (depth - a.depth) / (b.depth - a.depth) * (b.value - a.value);
+}
 
 class Rules {
  public:
@@ -130,24 +149,51 @@ class Rules {
              R"(write e.g. ["-344 MPa", "-200 MPa"])");
   }
 
-  void check_against_tensile() const {
-    if (s_.yield_strength && s_.tensile_strength && *s_.yield_strength > *s_.tensile_strength)
-      complain("tensile_strength",
-               fmt::format(" = {}: must be at least yield_strength = {}", pressure(*s_.tensile_strength),
-                           pressure(*s_.yield_strength)),
-               "a material does not yield beyond its tensile strength: correct one of them");
+  /// What the case says of the yield strength, and under which name; a hardness is no statement of it.
+  Said yield() const {
+    if (s_.yield_strength) return {"yield_strength", {{0, *s_.yield_strength}}};
+    if (!s_.strength_table.empty()) return {"strength_table", s_.strength_table};
+    const Grade* known = find_grade(s_.grade);
+    if (known && known->yield.known())
+      return {fmt::format("the yield strength of {}", known->name), {{0, known->yield.low}}};
+    return {};
   }
 
-  void check_against_hardness() const {
-    if (!s_.yield_strength || !s_.hardness) return;
-    const double most = *s_.hardness * kPascalOfVickers / kLeastConstraint;
-    if (*s_.yield_strength <= most) return;
+  Said hardness() const {
+    if (s_.hardness) return {"hardness", {{0, *s_.hardness}}};
+    return {"hardness_table", s_.hardness_table};
+  }
+
+  void check_against_tensile() const {
+    const Said strength = yield();
+    if (strength.rows.empty() || !s_.tensile_strength) return;
+    const double most = std::max_element(strength.rows.begin(), strength.rows.end(), by_value)->value;
+    if (most <= *s_.tensile_strength) return;
     complain(
-        "hardness",
-        fmt::format(" = {}: does not fit to yield_strength = {}, a material of this hardness yields at {:.0f} MPa "
-                    "at most",
-                    format_quantity(*s_.hardness, dimension::kHardness), pressure(*s_.yield_strength), 1e-6 * most),
-        "correct one of them; hardness is about three times the yield strength");
+        "tensile_strength",
+        fmt::format(" = {}: must be at least {} = {}", pressure(*s_.tensile_strength), strength.name, pressure(most)),
+        "a material does not yield beyond its tensile strength: correct one of them");
+  }
+
+  /// At every depth that one of the two says.
+  void check_against_hardness() const {
+    const Said strength = yield(), hard = hardness();
+    if (strength.rows.empty() || hard.rows.empty() || strength.name.starts_with("the ")) return;
+    for (const std::vector<DepthPoint>* rows : {&hard.rows, &strength.rows})
+      for (const DepthPoint& p : *rows) {
+        const double value = at_depth(hard.rows, p.depth), there = at_depth(strength.rows, p.depth);
+        const double most = value * kPascalOfVickers / kLeastConstraint;
+        if (there <= most) continue;
+        const bool everywhere = hard.rows.size() == 1 && strength.rows.size() == 1;
+        const std::string depth = everywhere ? "" : fmt::format(" at a depth of {}", length(p.depth));
+        complain(hard.name.c_str(),
+                 fmt::format(" = {}{}: does not fit to {} = {}, a material of this hardness yields at {:.0f} MPa at "
+                             "most",
+                             format_quantity(value, dimension::kHardness), depth, strength.name, pressure(there),
+                             1e-6 * most),
+                 "correct one of them; hardness is about three times the yield strength");
+        return;
+      }
   }
 
   template <class Row>

@@ -74,13 +74,17 @@ const std::vector<Grade>& grades() {
   return all;
 }
 
-const Grade& grade(std::string_view name) {
+const Grade* find_grade(std::string_view name) {
   const std::string wanted = capitals(name);
+  for (const Grade& g : grades())
+    if (capitals(g.name) == wanted) return &g;
+  return nullptr;
+}
+
+const Grade& grade(std::string_view name) {
+  if (const Grade* found = find_grade(name)) return *found;
   std::vector<std::string> names;
-  for (const Grade& g : grades()) {
-    if (capitals(g.name) == wanted) return g;
-    names.emplace_back(g.name);
-  }
+  for (const Grade& g : grades()) names.emplace_back(g.name);
   const std::string near = nearest_word(name, names);
   std::string list;
   for (const std::string& n : names) list += (list.empty() ? "" : ", ") + n;

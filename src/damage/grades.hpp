@@ -33,6 +33,8 @@ const std::vector<Grade>& grades();
 
 /// By name, capitals aside. Throws CaseError with the nearest name and the list.
 const Grade& grade(std::string_view name);
+/// Null where there is none of this name.
+const Grade* find_grade(std::string_view name);
 
 /// Shear yield strength of von Mises' condition, k = Y/sqrt(3).
 double shear_yield(double yield);

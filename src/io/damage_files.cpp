@@ -62,7 +62,8 @@ Json brittle_json(const BrittleSummary& z) {
           {"sigma1_max_Pa", number(z.sigma1)},
           {"depth_m", number(z.depth)},
           {"share_of_tensile_strength", number(z.share_of_tensile)},
-          {"critical_flaw_m", number(z.critical_flaw)}};
+          {"critical_flaw_m", number(z.critical_flaw)},
+          {"thickness_m", number(z.thickness)}};
 }
 
 Json interface_json(const InterfaceSummary& i) {
@@ -137,6 +138,9 @@ void write_streamlines(const std::filesystem::path& file, const std::vector<std:
   add("wear_usfd_nm", &StreamlineRow::usfd_depth, 1e9);
   add("wear_kth_nm", &StreamlineRow::kth_depth, 1e9);
   add("wear_archard_nm", &StreamlineRow::archard_depth, 1e9);
+  add("wheel_wear_usfd_nm", &StreamlineRow::wheel_usfd_depth, 1e9);
+  add("wheel_wear_kth_nm", &StreamlineRow::wheel_kth_depth, 1e9);
+  add("wheel_wear_archard_nm", &StreamlineRow::wheel_archard_depth, 1e9);
   add("temperature_rise_K", &StreamlineRow::temperature_rise, 1);
   add("local_fatigue", &StreamlineRow::local_fatigue, 1);
   write_csv(file, provenance, columns);
@@ -149,6 +153,8 @@ Json shakedown_json(const Summary& summary) {
   for (const ResultNumber& n : result_numbers())
     if (n.group == kShakedownGroup) out["factors"][n.key()] = number(std::get<double>(n.value(summary)));
   out["verdict"] = words_of(verdict_of(summary.shakedown)).words;
+  out["fails_by"] = Json::array();
+  for (const Verdict v : fails_by(summary)) out["fails_by"].push_back(words_of(v).words);
   out["governing"] = governing_json(*governing);
   for (const BodyShakedown& b : summary.shakedown.bodies) out["bodies"].push_back(body_json(b));
   return out;

@@ -68,7 +68,10 @@ Json summary_json(const Summary& s) {
   out["stress"] = stress(s);
   add_numbers("damage", s, out["damage"]);
   if (!s.shakedown.bodies.empty()) out["shakedown"] = shakedown_json(s);
-  if (!s.fatigue.empty()) out["fatigue"] = fatigue_json(s);
+  if (!s.fatigue.empty()) {
+    out["fatigue"] = fatigue_json(s);
+    add_numbers(kLayersGroup, s, out[kLayersGroup]);
+  }
   add_numbers("energy", s, out["energy"]);
   Json& run = out["run"];
   run["engine"] = s.run.engine;

@@ -7,11 +7,6 @@
 namespace railstrata {
 namespace {
 
-/// Arc lengths on the rail.
-struct Strip {
-  double from = 0, to = 0;
-};
-
 Strip strip_of(const Profile& rail, const TrackGeometry& track, const RigidContact& contact, const StreamlineRow& row) {
   const Vec2 tangent{std::cos(contact.angle), std::sin(contact.angle)}, middle{row.y, row.z};
   const double along = dot(middle - contact.point, tangent);
@@ -20,21 +15,6 @@ Strip strip_of(const Profile& rail, const TrackGeometry& track, const RigidConta
                            contact.rail_s + along + 0.5 * side * row.width);
   };
   return {edge(-1), edge(1)};
-}
-
-/// Calls with every cell that the strip touches and the length within it [m].
-template <class Use>
-void for_cells(const RailDamage& damage, const Strip& strip, const Use& use) {
-  const double begin = damage.s.front() - 0.5 * damage.cell;
-  const auto last = static_cast<std::ptrdiff_t>(damage.s.size()) - 1;
-  const auto cell_at = [&](double s) {
-    return std::clamp(static_cast<std::ptrdiff_t>(std::floor((s - begin) / damage.cell)), std::ptrdiff_t{0}, last);
-  };
-  for (std::ptrdiff_t i = cell_at(strip.from); i <= cell_at(strip.to); ++i) {
-    const double from = begin + static_cast<double>(i) * damage.cell;
-    const double length = std::min(strip.to, from + damage.cell) - std::max(strip.from, from);
-    if (length > 0) use(static_cast<std::size_t>(i), length);
-  }
 }
 
 }  // namespace

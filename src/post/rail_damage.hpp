@@ -4,6 +4,9 @@
 // A position is the arc length s along the rail's profile: cells of one length. A streamline's strip lies between the
 // points of the profile nearest to its two edges, and its area (depth times width) is spread over it: the sum over the
 // cells times their length is the sum over the streamlines times their width, whatever the curvature.
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <vector>
 
 #include "geometry/placement.hpp"
@@ -24,6 +27,26 @@ struct RailDamage {
 
 /// No damage yet. The profile is cut into cells of at most `cell` [m].
 RailDamage undamaged(const Profile& rail, double cell);
+
+/// Arc lengths on a profile.
+struct Strip {
+  double from = 0, to = 0;
+};
+
+/// Calls with every cell that the strip touches and the length within it [m]; `damage` has cells of one length.
+template <class Damage, class Use>
+void for_cells(const Damage& damage, const Strip& strip, const Use& use) {
+  const double begin = damage.s.front() - 0.5 * damage.cell;
+  const auto last = static_cast<std::ptrdiff_t>(damage.s.size()) - 1;
+  const auto cell_at = [&](double s) {
+    return std::clamp(static_cast<std::ptrdiff_t>(std::floor((s - begin) / damage.cell)), std::ptrdiff_t{0}, last);
+  };
+  for (std::ptrdiff_t i = cell_at(strip.from); i <= cell_at(strip.to); ++i) {
+    const double from = begin + static_cast<double>(i) * damage.cell;
+    const double length = std::min(strip.to, from + damage.cell) - std::max(strip.from, from);
+    if (length > 0) use(static_cast<std::size_t>(i), length);
+  }
+}
 
 /// What one patch does in one passage, and where.
 struct PatchDamage {

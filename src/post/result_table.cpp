@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "post/layer_worst.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -478,6 +480,45 @@ std::vector<ResultNumber> shakedown_numbers() {
 }
 
 template <auto Member>
+ResultValue of_layers(const Summary& s) {
+  return layer_worst(s).*Member;
+}
+
+/// Left out of summary.json where there is no layer, or where nothing asks for its stress.
+std::vector<ResultNumber> layer_numbers() {
+  using L = LayerWorst;
+  const auto row = [](std::string_view symbol, const ResultUnit& unit, ResultValue (*value)(const Summary&),
+                      std::string_view label, std::string_view name, std::string_view doc) {
+    return ResultNumber{.group = kLayersGroup,
+                        .symbol = symbol,
+                        .unit = unit,
+                        .value = value,
+                        .label = label,
+                        .name = name,
+                        .doc = doc,
+                        .column = true,
+                        .shown = true,
+                        .comparable = true};
+  };
+  return {
+      row("sigma_1", kMPa, of_layers<&L::sigma_1>, "layer σ₁", "Largest principal stress of the layers",
+          "Residual stress of the process included"),
+      row("share_of_tensile", kNone, of_layers<&L::share_of_tensile>, "layer σ₁/R_m", "Share of tensile strength",
+          "Largest principal stress over the layer's tensile strength; at 1 a brittle layer cracks"),
+      row("critical_flaw", kMillimetres, of_layers<&L::critical_flaw>, "critical flaw", "Critical flaw of the layers",
+          "Depth of the smallest edge crack that runs under that stress, of K_Ic; counts while it is small against "
+          "the layer's thickness"),
+      row("interface_tension", kMPa, of_layers<&L::interface_tension>, "interface tension", "Tension at the interfaces",
+          "Largest normal traction"),
+      row("interface_shear", kMPa, of_layers<&L::interface_shear>, "interface shear", "Shear at the interfaces",
+          "Largest shear traction"),
+      row("interface_shear_range", kMPa, of_layers<&L::shear_range>, "interface Δτ", "Range of shear at the interfaces",
+          "Of tau_xz over a passage: what drives a crack along the interface"),
+      row("delamination", kNone, of_layers<&L::delamination>, "delamination", "Delamination index",
+          "(tension over bond_tension)² + (shear over bond_shear)²; at 1 the bond gives way")};
+}
+
+template <auto Member>
 constexpr auto damage = &at<&Summary::damage, Member>;
 
 std::vector<ResultNumber> damage_numbers() {
@@ -538,6 +579,8 @@ const Row& row_of(const std::vector<Row>& rows, std::string_view key) {
   return *std::find_if(rows.begin(), rows.end(), [&](const Row& r) { return r.key == key; });
 }
 
+bool of_strength(const ResultNumber& n) { return n.group == kShakedownGroup || n.group == kLayersGroup; }
+
 ResultColumn column_of(const ResultNumber& n) {
   const bool same = n.unit.factor == n.unit.column_factor;
   return {.name = n.column_name(),
@@ -547,8 +590,8 @@ ResultColumn column_of(const ResultNumber& n) {
           .unit = same ? n.unit.shown : "",
           .shown_unit = n.unit,
           .doc = n.name,
-          .of_stress = n.group == kShakedownGroup,
-          .of_strength = n.group == kShakedownGroup,
+          .of_stress = of_strength(n),
+          .of_strength = of_strength(n),
           .of_all_patches = n.of_all_patches,
           .comparable = n.comparable,
           .digits = n.digits};
@@ -576,7 +619,8 @@ ResultColumn column_of(const StressColumn& c) {
 std::string ResultNumber::key() const { return fmt::format("{}{}", symbol, unit.key_ending); }
 std::string ResultNumber::path() const { return fmt::format("{}{}/{}", group.empty() ? "" : "/", group, key()); }
 std::string ResultNumber::column_name() const {
-  return fmt::format("{}{}{}", group == kShakedownGroup ? "shakedown_" : "", symbol, unit.column_ending);
+  const std::string_view prefix = group == kShakedownGroup ? "shakedown_" : group == kLayersGroup ? "layers_" : "";
+  return fmt::format("{}{}{}", prefix, symbol, unit.column_ending);
 }
 
 const std::vector<ResultNumber>& result_numbers() {
@@ -591,9 +635,10 @@ const std::vector<ResultNumber>& result_numbers() {
          .doc =
              "Of the axle along the rail; half-space: the case's last one, of a transient what it has rolled, static "
              "cases 0"}};
-    for (const auto& part : {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(),
-                             motion_numbers(), approach_numbers(), transient_numbers(), damage_numbers(),
-                             shakedown_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
+    for (const auto& part :
+         {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
+          approach_numbers(), transient_numbers(), damage_numbers(), shakedown_numbers(), layer_numbers(),
+          energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();
@@ -638,10 +683,7 @@ std::vector<ResultColumn> table_columns() {
   std::vector<ResultColumn> contact_columns, strength_columns, run_columns;
   for (const ResultNumber& n : result_numbers())
     if (n.column)
-      (n.group == "run"             ? run_columns
-       : n.group == kShakedownGroup ? strength_columns
-                                    : contact_columns)
-          .push_back(column_of(n));
+      (n.group == "run" ? run_columns : of_strength(n) ? strength_columns : contact_columns).push_back(column_of(n));
   std::vector<ResultColumn> out = std::move(contact_columns);
   for (const StressColumn& c : kStressColumns) out.push_back(column_of(c));
   out.insert(out.end(), strength_columns.begin(), strength_columns.end());

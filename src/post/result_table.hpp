@@ -21,6 +21,9 @@ inline constexpr std::string_view kShakedownGroup = "shakedown/factors";
 
 enum class HadBy { both_engines, finite_elements, half_spaces };
 
+/// Of layers and interfaces in summary.json.
+inline constexpr std::string_view kLayersGroup = "layers";
+
 /// Below which size a number is what round-off and the solvers' tolerances leave, and screen and page show 0: `share`
 /// times the numbers at these paths of the same result ("" none). Files keep every digit.
 struct RoundOff {

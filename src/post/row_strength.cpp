@@ -39,7 +39,11 @@ Zone zone_of(const CaseSpec& spec, BodyId body, int zone) {
 class ZoneStrength {
  public:
   explicit ZoneStrength(const Zone& zone)
-      : s_(zone.strength), key_(zone.key), top_(zone.top), strength_(zone.strength, zone.name, zone.key) {}
+      : s_(zone.strength),
+        name_(zone.name),
+        key_(zone.key),
+        top_(zone.top),
+        strength_(zone.strength, zone.name, zone.key) {}
 
   /// Pa, uniaxial; NaN where the case does not say it.
   double yield(double depth) const { return strength_.yield(depth - top_); }
@@ -56,11 +60,16 @@ class ZoneStrength {
             at_depth(s_.initial_stress_table, z, &StressPoint::lateral, key)};
   }
 
-  std::string note() const { return strength_.note(); }
+  /// How a strength that was not given is known, or that it is not; empty if it was given.
+  std::string note() const {
+    if (s_.elastic || !std::isnan(strength_.yield(0))) return strength_.note();
+    return fmt::format("yield strength of {}: not known{}; it is taken to stay elastic and is not judged: give {}.{}",
+                       name_, s_.grade.empty() ? "" : fmt::format(" of grade {}", s_.grade), key_, "yield_strength");
+  }
 
  private:
   const StrengthSpec& s_;
-  std::string key_;
+  std::string name_, key_;
   double top_;
   MaterialStrength strength_;
 };

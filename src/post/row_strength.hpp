@@ -13,7 +13,7 @@ namespace railstrata {
 struct RowStrength {
   std::vector<double> shear;                   ///< Pa, k = yield strength / sqrt(3)
   std::vector<double> residual_x, residual_y;  ///< Pa, of the process
-  std::vector<std::string> notes;              ///< which strengths are estimates, and how
+  std::vector<std::string> notes;              ///< which strengths are estimates, and how, or not known
   bool any() const;                            ///< of a strength
 };
 

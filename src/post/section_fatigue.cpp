@@ -101,6 +101,7 @@ void add_zones(const CaseSpec& spec, BodyId body, const StressHistory& history, 
     b.zone = zone_name(spec, body, z.zone);
     b.sigma1 = z.inside.stress;
     b.depth = history.depth[z.inside.row];
+    if (z.zone > 0) b.thickness = z.thickness;
     if (s.tensile_strength) b.share_of_tensile = b.sigma1 / *s.tensile_strength;
     if (s.fracture_toughness) b.critical_flaw = critical_flaw(*s.fracture_toughness, b.sigma1);
     out.brittle.push_back(b);

@@ -75,17 +75,27 @@ double surface_shear_strength(const CaseSpec& spec) {
   return row_strength(spec, BodyId::rail, top).shear.front();
 }
 
+/// What a surface's wear depends on.
+struct WearData {
+  double density = 0, hardness = kNotApplicable;
+  std::optional<double> coefficient;
+};
+
 /// The data of a case that every streamline needs.
 struct SurfaceData {
   ThermalBody rail, wheel;
-  double density = 0, hardness = kNotApplicable, shear_strength = kNotApplicable;
-  std::optional<double> wear_coefficient;
+  WearData rail_wear, wheel_wear;
+  double shear_strength = kNotApplicable;
 };
 
+WearData wear_data(const CaseSpec& spec, BodyId body) {
+  const MaterialSpec& m = surface_material(spec, body);
+  return {m.density, hardness_of(m.strength), m.strength.wear_coefficient};
+}
+
 SurfaceData surface_data(const CaseSpec& spec) {
-  const MaterialSpec& rail = surface_material(spec, BodyId::rail);
-  return {thermal_body(spec, BodyId::rail), thermal_body(spec, BodyId::wheel), rail.density,
-          hardness_of(rail.strength),       surface_shear_strength(spec),      rail.strength.wear_coefficient};
+  return {thermal_body(spec, BodyId::rail), thermal_body(spec, BodyId::wheel), wear_data(spec, BodyId::rail),
+          wear_data(spec, BodyId::wheel), surface_shear_strength(spec)};
 }
 
 /// One coefficient whatever the pressure and the slip.
@@ -93,6 +103,20 @@ ArchardMap constant_archard(double k) {
   ArchardMap map;
   map.slow = map.middle = map.fast = map.seizure = k;
   return map;
+}
+
+struct WearDepths {
+  double usfd = kNotApplicable, archard = kNotApplicable, kth = kNotApplicable;  ///< m
+};
+
+/// Of a point of the surface that passes the patch once; without a hardness Archard's law has no answer.
+WearDepths wear_depths(const Streamline& line, const WearData& data) {
+  WearDepths out;
+  out.usfd = usfd_depth(line, data.density);
+  if (!std::isfinite(data.hardness)) return out;
+  out.kth = archard_depth(line, laboratory_dry_archard(), data.hardness);
+  if (data.coefficient) out.archard = archard_depth(line, constant_archard(*data.coefficient), data.hardness);
+  return out;
 }
 
 double largest_rise(const SurfaceData& data, const Streamline& line) {
@@ -108,12 +132,13 @@ StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double
   StreamlineRow row;
   row.width = cells.area / dx;
   row.friction_energy = friction_energy(line).energy;
-  row.usfd_depth = usfd_depth(line, data.density);
-  if (std::isfinite(data.hardness)) {
-    row.kth_depth = archard_depth(line, laboratory_dry_archard(), data.hardness);
-    if (data.wear_coefficient)
-      row.archard_depth = archard_depth(line, constant_archard(*data.wear_coefficient), data.hardness);
-  }
+  const WearDepths rail = wear_depths(line, data.rail_wear), wheel = wear_depths(line, data.wheel_wear);
+  row.usfd_depth = rail.usfd;
+  row.archard_depth = rail.archard;
+  row.kth_depth = rail.kth;
+  row.wheel_usfd_depth = wheel.usfd;
+  row.wheel_archard_depth = wheel.archard;
+  row.wheel_kth_depth = wheel.kth;
   row.temperature_rise = largest_rise(data, line);
   if (std::isfinite(data.shear_strength)) row.local_fatigue = local_fatigue(line, data.shear_strength).index;
   return row;

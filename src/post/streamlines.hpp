@@ -18,10 +18,15 @@ struct StreamlineRow {
   double usfd_depth = kNotApplicable;     ///< m per passage [LewisDwyerJoyce2004]
   double archard_depth = kNotApplicable;  ///< m per passage, with the rail's wear_coefficient over its hardness
   double kth_depth = kNotApplicable;      ///< m per passage, Jendel's map, dry laboratory surfaces
-  double temperature_rise = 0;            ///< K
-  double local_fatigue = kNotApplicable;  ///< largest |q|/p - k/p
-  double depth(WearLaw law) const {       ///< m per passage
+  double wheel_usfd_depth = kNotApplicable, wheel_archard_depth = kNotApplicable,
+         wheel_kth_depth = kNotApplicable;  ///< m per turn of the wheel, with the wheel's own data
+  double temperature_rise = 0;              ///< K
+  double local_fatigue = kNotApplicable;    ///< largest |q|/p - k/p
+  double depth(WearLaw law) const {         ///< m per passage
     return law == WearLaw::usfd ? usfd_depth : law == WearLaw::kth ? kth_depth : archard_depth;
+  }
+  double wheel_depth(WearLaw law) const {  ///< m per turn of the wheel
+    return law == WearLaw::usfd ? wheel_usfd_depth : law == WearLaw::kth ? wheel_kth_depth : wheel_archard_depth;
   }
 };
 

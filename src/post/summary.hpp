@@ -78,7 +78,7 @@ struct BodyShakedown {
   std::string zone;                                   ///< that decides `wandering`, and where
   double depth = kNotApplicable, y = kNotApplicable;  ///< m; y from the rigid contact point
   std::vector<ZoneShakedown> zones;
-  std::vector<std::string> notes;  ///< strengths that are estimates
+  std::vector<std::string> notes;  ///< strengths that are estimates, or not known
 };
 /// Of the bodies whose strength is known.
 struct ShakedownSummary {
@@ -115,6 +115,7 @@ struct BrittleSummary {
   double sigma1 = kNotApplicable, depth = kNotApplicable;  ///< Pa, m
   double share_of_tensile = kNotApplicable;                ///< sigma_1 over the tensile strength
   double critical_flaw = kNotApplicable;                   ///< m, depth of a surface crack that runs under sigma_1
+  double thickness = kNotApplicable;                       ///< m, of a layer
 };
 /// The largest over an interface and the cycle.
 struct InterfaceSummary {

@@ -293,10 +293,13 @@ Json grids_json(const ReportGrids& row) {
   for (const ReportGrid& g : row.grids) {
     Json cells = Json::array();
     for (const ReportGridCell& c : g.cells)
-      cells.push_back(c.verdict.empty() ? Json(nullptr) : Json{{"verdict", c.verdict}, {"factor", finite(c.factor)}});
+      cells.push_back(c.verdict.empty() && !std::isfinite(c.factor)
+                          ? Json(nullptr)
+                          : Json{{"verdict", c.verdict}, {"factor", finite(c.factor)}, {"fails_by", c.fails_by}});
     grids.push_back({{"name", g.name}, {"x", g.x}, {"y", g.y}, {"cells", cells}});
   }
-  return {{"id", row.id}, {"title", row.title}, {"note", row.note}, {"x", row.x}, {"y", row.y}, {"grids", grids}};
+  return {{"id", row.id}, {"title", row.title}, {"note", row.note}, {"x", row.x},
+          {"y", row.y},   {"value", row.value}, {"grids", grids}};
 }
 
 }  // namespace

@@ -79,20 +79,22 @@ struct ReportMaps {
   std::vector<std::string> names;  ///< of the maps
 };
 
-/// What becomes of a case, and its factor to shakedown under any traffic.
+/// What becomes of a case, and its factor to shakedown under any traffic; or a value alone.
 struct ReportGridCell {
-  std::string verdict;  ///< empty: no result
-  double factor = 0;
+  std::string verdict;                                       ///< empty: no result, or a value alone
+  double factor = std::numeric_limits<double>::quiet_NaN();  ///< or the value
+  std::vector<std::string> fails_by;                         ///< all that ends it
 };
 struct ReportGrid {
   std::string name;
   std::vector<std::string> x, y;      ///< values of the keys, in order
   std::vector<ReportGridCell> cells;  ///< x + x.size() * y
 };
-/// A row of grids of verdicts (post/verdict.hpp) over two keys.
+/// A row of grids over two keys, of verdicts (post/verdict.hpp) or of a value.
 struct ReportGrids {
   std::string id, title, note;
-  std::string x, y;  ///< axes, with units
+  std::string x, y;   ///< axes, with units
+  std::string value;  ///< with its unit; empty: verdicts
   std::vector<ReportGrid> grids;
 };
 

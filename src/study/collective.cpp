@@ -38,7 +38,11 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
   row.track = placement.track;
   HalfSpaceSolution solution = solve_half_space_contact(row.spec, placement, options.bem);
   Summary& s = solution.summary;
-  if (options.shakedown) s.shakedown = shakedown_summary(row.spec, half_space_shakedown(row.spec, solution.result));
+  if (options.shakedown) {
+    const std::vector<SectionShakedown> sections = half_space_shakedown(row.spec, solution.result);
+    s.shakedown = shakedown_summary(row.spec, sections);
+    for (const SectionShakedown& section : sections) s.fatigue.push_back(section.fatigue);
+  }
   s.warnings = bem_warnings(s, row.spec, solution.result);
   row.patches = patch_damages(row.spec, solution);
   row.summary = std::move(s);
@@ -108,6 +112,15 @@ RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& 
   for (const CollectiveRow& row : rows)
     for (const PatchDamage& patch : patches_of(row))
       add_passages(out, placement.rail, placement.track, patch, row.passages);
+  return out;
+}
+
+WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell) {
+  WheelDamage out = unworn_wheel(placement.wheel, cell);
+  double all = 0;
+  for (const CollectiveRow& row : rows) all += row.sound() ? row.passages : 0;
+  for (const CollectiveRow& row : rows)
+    for (const PatchDamage& patch : patches_of(row)) add_distance(out, patch, row.passages / all);
   return out;
 }
 

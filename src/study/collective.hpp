@@ -13,6 +13,7 @@
 #include "model/model.hpp"
 #include "post/rail_damage.hpp"
 #include "post/summary.hpp"
+#include "post/wheel_damage.hpp"
 
 namespace railstrata {
 
@@ -49,6 +50,9 @@ void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::p
 /// The sum over the rows that are sound, each times its passages. `placement` is that of the case (profile, track);
 /// `cell` [m] the length of the rail's cells.
 RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell);
+
+/// Of one wheel that runs the sound rows in the shares of their passages.
+WheelDamage wheel_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell);
 
 /// m² per `passages` of all sound rows: the sum over their streamlines of depth times width. What rail_damage must
 /// conserve.

@@ -20,6 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kMilli = 1e-3, kMicro = 1e-6, kSquareMillimetre = 1e-6;
+constexpr double kPerThousandKilometres = 1e-12;  // of m per m: µm per 1000 km
 
 bool known(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
@@ -31,6 +32,28 @@ std::vector<double> in_units(std::vector<double> values, double unit) {
 }
 
 Json finite(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+
+template <class Damage>
+std::vector<KnownWear> known_laws(const Damage& damage, const std::string& whose) {
+  std::vector<KnownWear> out;
+  for (const KnownWear& wear :
+       {KnownWear{WearLaw::usfd, "usfd", "USFD"}, KnownWear{WearLaw::kth, "kth", "Archard, Jendel's map (KTH)"},
+        KnownWear{WearLaw::archard, "archard", fmt::format("Archard, {} wear_coefficient", whose)}})
+    if (known(damage.depth(wear.law))) out.push_back(wear);
+  return out;
+}
+
+/// A wheel's totals per metre rolled.
+Json wheel_json(const WheelDamage& d) {
+  Json out = Json::object();
+  for (const KnownWear& wear : known_wear(d)) {
+    const std::vector<double>& depth = d.depth(wear.law);
+    const auto at = static_cast<std::size_t>(std::max_element(depth.begin(), depth.end()) - depth.begin());
+    out[wear.key + "_area_m2_per_m"] = worn_area(d, depth);
+    out[wear.key + "_deepest"] = {{"depth_m_per_m", depth[at]}, {"wheel_y_m", d.y[at]}};
+  }
+  return out;
+}
 
 /// A cell by its value.
 Json extreme(const RailDamage& d, const std::vector<double>& values, const std::string& key) {
@@ -129,26 +152,44 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
 
 constexpr const char* kAcross = "y across the rail, from its axis to the field side [mm]";
 
-/// The cells that are rolled over, with a little room on either side, from `first` on `count` of them.
-std::pair<std::size_t, std::size_t> rolled_range(const RailDamage& d) {
+/// The cells that are rolled over, with a little room on either side, from `first` up to `second`.
+std::pair<std::size_t, std::size_t> rolled_range(const std::vector<double>& passages) {
   constexpr std::size_t kRoom = 8;
   const auto rolled = [](double v) { return v > 0; };
-  const auto first = std::find_if(d.passages.begin(), d.passages.end(), rolled);
-  const auto last = std::find_if(d.passages.rbegin(), d.passages.rend(), rolled).base();
-  if (first == d.passages.end()) return {0, d.y.size()};
-  const auto from = static_cast<std::size_t>(first - d.passages.begin()),
-             to = static_cast<std::size_t>(last - d.passages.begin());
-  return {from > kRoom ? from - kRoom : 0, std::min(d.y.size(), to + kRoom)};
+  const auto first = std::find_if(passages.begin(), passages.end(), rolled);
+  const auto last = std::find_if(passages.rbegin(), passages.rend(), rolled).base();
+  if (first == passages.end()) return {0, passages.size()};
+  const auto from = static_cast<std::size_t>(first - passages.begin()),
+             to = static_cast<std::size_t>(last - passages.begin());
+  return {from > kRoom ? from - kRoom : 0, std::min(passages.size(), to + kRoom)};
 }
 
-ReportSeries series_of(const std::string& name, const RailDamage& d, const std::vector<double>& values, double unit) {
-  const auto [from, to] = rolled_range(d);
+ReportSeries series_over(const std::string& name, const std::vector<double>& y, const std::vector<double>& rolled,
+                         const std::vector<double>& values, double unit) {
+  const auto [from, to] = rolled_range(rolled);
   ReportSeries s{.name = name, .x = {}, .y = {}, .markers = false};
   for (std::size_t i = from; i < to; ++i) {
-    s.x.push_back(d.y[i] / kMilli);
+    s.x.push_back(y[i] / kMilli);
     s.y.push_back(values[i] / unit);
   }
   return s;
+}
+
+ReportSeries series_of(const std::string& name, const RailDamage& d, const std::vector<double>& values, double unit) {
+  return series_over(name, d.y, d.passages, values, unit);
+}
+
+ReportChart wheel_chart(const WheelDamage& d) {
+  ReportChart out{"wheel-wear",
+                  "Wear depth over the wheel's tread",
+                  "Of one wheel that runs all loads in the shares of their passages: depth of a turn over the length "
+                  "of a turn.",
+                  "y across the wheel, from the tape circle to the field side [mm]",
+                  "wear depth [µm per 1000 km]",
+                  {}};
+  for (const KnownWear& known : known_wear(d))
+    out.series.push_back(series_over(known.words, d.y, d.share, d.depth(known.law), kPerThousandKilometres));
+  return out;
 }
 
 std::vector<ReportChart> charts_of(const RailDamage& d) {
@@ -176,13 +217,18 @@ std::vector<ReportChart> charts_of(const RailDamage& d) {
 
 }  // namespace
 
-std::vector<KnownWear> known_wear(const RailDamage& damage) {
-  std::vector<KnownWear> out;
-  for (const KnownWear& wear :
-       {KnownWear{WearLaw::usfd, "usfd", "USFD"}, KnownWear{WearLaw::kth, "kth", "Archard, Jendel's map (KTH)"},
-        KnownWear{WearLaw::archard, "archard", "Archard, the rail's wear_coefficient"}})
-    if (known(damage.depth(wear.law))) out.push_back(wear);
-  return out;
+std::vector<KnownWear> known_wear(const RailDamage& damage) { return known_laws(damage, "the rail's"); }
+std::vector<KnownWear> known_wear(const WheelDamage& damage) { return known_laws(damage, "the wheel's"); }
+
+void write_wheel_damage(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                        const WheelDamage& d) {
+  std::vector<CsvColumn> columns{{"s_mm", in_units(d.s, kMilli)},
+                                 {"wheel_y_mm", in_units(d.y, kMilli)},
+                                 {"wheel_z_mm", in_units(d.z, kMilli)},
+                                 {"share_of_distance", d.share}};
+  for (const KnownWear& wear : known_wear(d))
+    columns.push_back({wear.key + "_depth_um_per_1000_km", in_units(d.depth(wear.law), kPerThousandKilometres)});
+  write_csv(file, origin, columns);
 }
 
 void write_collective_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
@@ -217,7 +263,8 @@ void write_rail_damage(const std::filesystem::path& file, const std::vector<std:
   write_csv(file, origin, columns);
 }
 
-Json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows, const RailDamage& damage) {
+Json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows, const CollectiveDamage& both) {
+  const RailDamage& damage = both.rail;
   double passages = 0, left_out = 0;
   for (const CollectiveRow& row : rows) (row.sound() ? passages : left_out) += row.passages;
   Json totals{{"passages", passages},
@@ -228,6 +275,7 @@ Json collective_json(const std::string& title, const std::vector<CollectiveRow>&
     totals[wear.key + "_deepest"] = extreme(damage, damage.depth(wear.law), "depth_m");
   }
   totals["rcf_damage_largest"] = extreme(damage, damage.rcf_damage, "damage");
+  totals["wheel"] = wheel_json(both.wheel);
   const CollectiveRow* worst = worst_row(rows);
   Json all = Json::array();
   for (const CollectiveRow& row : rows) all.push_back(row_json(row));
@@ -242,7 +290,7 @@ Json collective_json(const std::string& title, const std::vector<CollectiveRow>&
 }
 
 ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
-                                    const std::vector<CollectiveRow>& rows, const RailDamage& damage,
+                                    const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
                                     const std::filesystem::path& looked_at, const std::string& shown) {
   Report report;
   report.title = title;
@@ -250,8 +298,9 @@ ReportVerdict write_collective_page(const std::filesystem::path& page, const std
   report.runs.back().name = shown;
   report.checks = report_checks(report.runs);
   report.checks.insert(report.checks.begin(), unsolved_check(rows));
-  report.tables = {totals_table(rows, damage), rows_table(rows)};
-  report.charts = charts_of(damage);
+  report.tables = {totals_table(rows, damage.rail), rows_table(rows)};
+  report.charts = charts_of(damage.rail);
+  report.charts.push_back(wheel_chart(damage.wheel));
   write_whole_file(page, report_page(report));
   return verdict_of(report);
 }

@@ -17,20 +17,31 @@ void write_collective_table(const std::filesystem::path& file, const std::vector
 void write_rail_damage(const std::filesystem::path& file, const std::vector<std::string>& origin,
                        const RailDamage& damage);
 
+/// wheel_damage.csv: a row for each cell across the wheel's tread, depths per 1000 km.
+void write_wheel_damage(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                        const WheelDamage& damage);
+
+/// What all passages do to both bodies.
+struct CollectiveDamage {
+  RailDamage rail;
+  WheelDamage wheel;
+};
+
 /// collective.json: totals, where the extremes are, and every row in short.
 nlohmann::ordered_json collective_json(const std::string& title, const std::vector<CollectiveRow>& rows,
-                                       const RailDamage& damage);
+                                       const CollectiveDamage& damage);
 
 /// A page over all rows; `looked_at` is the result folder of the row that it shows whole, by the name `shown`.
 ReportVerdict write_collective_page(const std::filesystem::path& page, const std::string& title,
-                                    const std::vector<CollectiveRow>& rows, const RailDamage& damage,
+                                    const std::vector<CollectiveRow>& rows, const CollectiveDamage& damage,
                                     const std::filesystem::path& looked_at, const std::string& shown);
 
-/// A depth of the rail's cells that is known everywhere.
+/// A depth of the cells that is known everywhere.
 struct KnownWear {
   WearLaw law;
   std::string key, words;
 };
 std::vector<KnownWear> known_wear(const RailDamage& damage);
+std::vector<KnownWear> known_wear(const WheelDamage& damage);
 
 }  // namespace railstrata

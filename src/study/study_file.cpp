@@ -13,6 +13,7 @@
 #include "case/toml_document.hpp"
 #include "case/units.hpp"
 #include "core/nearest_word.hpp"
+#include "study/result_columns.hpp"
 #include "study/variation.hpp"
 
 namespace railstrata {
@@ -104,22 +105,23 @@ class StudyReader {
     f.id = text(t, "id", fmt::format("figure-{}", spec_.figures.size() + 1));
     f.title = text(t, "title", f.id);
     f.note = text(t, "note", "");
-    f.kind = choice(t, "kind", {"centre_line", "trend", "map", "verdict"});
+    f.kind = choice(t, "kind", {"centre_line", "trend", "map", "verdict", "grid"});
     if (f.kind == "centre_line")
       f.value = choice(t, "value", {"p", "q"});
     else if (f.kind == "map")
       f.value = choice(t, "value", {"state", "von_mises", "sigma_1"});
-    else if (f.kind == "trend")
+    else if (f.kind == "trend" || f.kind == "grid")
       f.value = text(t, "value", "p_max_MPa");
+    if (f.kind == "trend" || f.kind == "grid") check_column(t, f);
     f.each = text(t, "each", "");
     f.series = text(t, "series", "");
     f.x = text(t, "x", "");
     f.y = text(t, "y", "");
-    if (f.kind == "verdict" && (f.x.empty() || f.y.empty()))
-      source_.complain_at(
-          place_of(t),
-          fmt::format("figure \"{}\" shows verdicts over two keys and has no {}", f.id, f.x.empty() ? "x" : "y"),
-          "name both: x = \"layer.0.thickness\", y = \"layer.0.young_ratio\"");
+    if ((f.kind == "verdict" || f.kind == "grid") && (f.x.empty() || f.y.empty()))
+      source_.complain_at(place_of(t),
+                          fmt::format("figure \"{}\" shows {} over two keys and has no {}", f.id,
+                                      f.kind == "verdict" ? "verdicts" : "a value", f.x.empty() ? "x" : "y"),
+                          "name both: x = \"layer.0.thickness\", y = \"layer.0.young_ratio\"");
     if (f.kind == "trend" && f.x.empty())
       source_.complain_at(place_of(t), fmt::format("figure \"{}\" is a trend and has no x", f.id),
                           "name the key along its axis: x = \"layer.0.thickness\"");
@@ -132,6 +134,18 @@ class StudyReader {
     f.engines = engines_of(t, engines_);
     for (const VariedKey& k : lists_at(t, "where")) f.where[k.key] = k.values;
     spec_.figures.push_back(std::move(f));
+  }
+
+  void check_column(const toml::table& t, const StudyFigure& f) {
+    if (find_column(f.value)) return;
+    std::vector<std::string> names;
+    for (const auto& columns : {result_columns(true), study_columns()})
+      for (const ResultColumn& c : columns) names.push_back(c.name);
+    const std::string near = nearest_word(f.value, names);
+    source_.complain_at(
+        place_of(t.contains("value") ? *t.get("value") : t),
+        fmt::format("figure \"{}\": a study's table has no column \"{}\"", f.id, f.value),
+        near.empty() ? "docs/results-reference.md lists the columns" : fmt::format("did you mean \"{}\"?", near));
   }
 
   // ---- cases of a group

@@ -31,9 +31,10 @@ struct StudyGroup {
 /// A figure over the cases of some groups: one chart (or row of maps) for each value of `each`, one line (or map) for
 /// each value of `series`. A case without such a key stands in every chart.
 struct StudyFigure {
-  std::string id, title, note, kind;  ///< "centre_line", "trend", "map", "verdict"
-  std::string value;  ///< centre_line: "p", "q"; trend: a column of the table; map: "state", "von_mises", "sigma_1"
-  std::string each, series, x, y;  ///< keys; x: of a trend, x and y: of verdicts
+  std::string id, title, note, kind;  ///< "centre_line", "trend", "map", "verdict", "grid"
+  std::string
+      value;  ///< centre_line: "p", "q"; trend, grid: a column of the table; map: "state", "von_mises", "sigma_1"
+  std::string each, series, x, y;  ///< keys; x: of a trend, x and y: of a grid
   std::vector<std::string> groups;
   std::vector<Engine> engines;
   std::map<std::string, std::vector<std::string>>

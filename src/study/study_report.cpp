@@ -197,7 +197,7 @@ void add_maps(const StudyFigure& f, const std::vector<StudyEntry>& entries, Repo
 
 // ---- grids of verdicts
 /// Empty where the case has no result or no strength.
-ReportGridCell grid_cell(const StudyEntry& e) {
+ReportGridCell verdict_cell(const StudyEntry& e) {
   ShakedownFactors f;
   f.first_yield = e.number("shakedown_first_yield");
   f.wandering = e.number("shakedown_wandering");
@@ -205,7 +205,16 @@ ReportGridCell grid_cell(const StudyEntry& e) {
   f.upper = e.number("shakedown_upper");
   f.kinematic = e.number("shakedown_kinematic");
   if (std::isnan(f.first_yield) && std::isnan(f.wandering)) return {};
-  return {std::string(words_of(verdict_of(f)).words), f.wandering};
+  ReportGridCell cell{std::string(words_of(verdict_of(f)).words), f.wandering, {}};
+  for (const Verdict v : fails_by(verdict_of(f), e.number("layers_share_of_tensile"), e.number("layers_delamination")))
+    cell.fails_by.emplace_back(words_of(v).words);
+  if (!cell.fails_by.empty()) cell.verdict = cell.fails_by.front();
+  return cell;
+}
+
+ReportGridCell grid_cell(const StudyFigure& f, const StudyEntry& e) {
+  if (f.kind == "verdict") return verdict_cell(e);
+  return {{}, e.number(f.value), {}};
 }
 
 std::string axis_title(const std::string& key, const std::vector<std::string>& values) {
@@ -221,9 +230,14 @@ std::vector<std::string> axis_marks(const std::vector<std::string>& values) {
   return out;
 }
 
-/// Several cases of one cell, because more keys are varied: the one with the smallest factor stands for them.
-void put_cell(ReportGridCell& cell, ReportGridCell found) {
-  if (!found.verdict.empty() && (cell.verdict.empty() || found.factor < cell.factor)) cell = std::move(found);
+/// Several cases of one cell, because more keys are varied: the one that fares worst stands for them, of verdicts the
+/// one with the smallest factor, of values the largest.
+void put_cell(const StudyFigure& f, ReportGridCell& cell, ReportGridCell found) {
+  const bool verdicts = f.kind == "verdict";
+  if (verdicts ? found.verdict.empty() : !std::isfinite(found.factor)) return;
+  const bool empty = verdicts ? cell.verdict.empty() : !std::isfinite(cell.factor);
+  const bool worse = verdicts ? found.factor < cell.factor : found.factor > cell.factor;
+  if (empty || worse) cell = std::move(found);
 }
 
 void add_grids(const StudyFigure& f, const std::vector<StudyEntry>& entries, Report& report) {
@@ -239,6 +253,7 @@ void add_grids(const StudyFigure& f, const std::vector<StudyEntry>& entries, Rep
                     n == 0 ? f.note : "",
                     axis_title(f.x, xs),
                     axis_title(f.y, ys),
+                    f.kind == "verdict" ? "" : column_title(f.value),
                     {}};
     for (const Line& line : lines_of(f, members, panels[n])) {
       const std::size_t i = index(xs, line.entry->value(f.x)), j = index(ys, line.entry->value(f.y));
@@ -246,7 +261,7 @@ void add_grids(const StudyFigure& f, const std::vector<StudyEntry>& entries, Rep
       if (row.grids.empty() || row.grids.back().name != line.name)
         row.grids.push_back({line.name, axis_marks(xs), axis_marks(ys), {}});
       row.grids.back().cells.resize(xs.size() * ys.size());
-      put_cell(row.grids.back().cells[i + xs.size() * j], grid_cell(*line.entry));
+      put_cell(f, row.grids.back().cells[i + xs.size() * j], grid_cell(f, *line.entry));
     }
     if (!row.grids.empty()) report.grids.push_back(std::move(row));
   }
@@ -406,7 +421,7 @@ Report study_report(const StudySpec& study, const Published& published, const st
       add_centre_lines(f, entries, report);
     else if (f.kind == "trend")
       add_trend(f, entries, report);
-    else if (f.kind == "verdict")
+    else if (f.kind == "verdict" || f.kind == "grid")
       add_grids(f, entries, report);
     else
       add_maps(f, entries, report);

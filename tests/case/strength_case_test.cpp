@@ -129,6 +129,19 @@ TEST(StrengthCase, WhatContradictsItselfIsToldWithItsPlaceAndRemedy) {
       {"[material.rail]\nyield_strength = \"1200 MPa\"\nhardness = \"280 HV\"\n",
        "a.toml:3:12: material.rail.hardness = 280 HV: does not fit to yield_strength = 1.2 GPa, a material of this "
        "hardness yields at 1098 MPa at most"},
+      {"[material.rail]\ngrade = \"r260\"\ntensile_strength = \"300 MPa\"\n",
+       "a.toml:3:20: material.rail.tensile_strength = 0.3 GPa: must be at least the yield strength of R260 = 0.47 GPa"},
+      {"[material.rail]\ntensile_strength = \"900 MPa\"\n"
+       "strength_table = [[\"0 mm\", \"950 MPa\"], [\"10 mm\", \"500 MPa\"]]\n",
+       "a.toml:2:20: material.rail.tensile_strength = 0.9 GPa: must be at least strength_table = 0.95 GPa"},
+      {"[material.rail]\nhardness = \"200 HV\"\n"
+       "strength_table = [[\"0 mm\", \"700 MPa\"], [\"10 mm\", \"900 MPa\"]]\n",
+       "a.toml:2:12: material.rail.hardness = 200 HV at a depth of 10 mm: does not fit to strength_table = 0.9 GPa, a "
+       "material of this hardness yields at 785 MPa at most"},
+      {"[material.rail]\nyield_strength = \"900 MPa\"\n"
+       "hardness_table = [[\"0 mm\", \"400 HV\"], [\"10 mm\", \"200 HV\"]]\n",
+       "a.toml:3:18: material.rail.hardness_table = 200 HV at a depth of 10 mm: does not fit to yield_strength = 0.9 "
+       "GPa"},
       {"[material.rail]\nhardness = \"-300 HV\"\n",
        "a.toml:2:12: material.rail.hardness = \"-300 HV\": must be between 50 HV and 2000 HV"},
       {"[material.rail]\nyield_strength = \"500 GPa\"\n",

@@ -10,6 +10,7 @@
 #include "core/faults.hpp"
 #include "geometry/placement.hpp"
 #include "geometry/profile_names.hpp"
+#include "geometry/profile_texts.hpp"
 #include "geometry/read_profile.hpp"
 
 namespace railstrata {
@@ -312,6 +313,35 @@ TEST_F(ReadProfile, a_Simpack_file_is_shifted_cut_mirrored_reversed_in_this_orde
         "z was positive down; it was turned up.", "the profile was mirrored"})
     EXPECT_TRUE(mentions(notes, n)) << n;
   EXPECT_FALSE(mentions(notes, "bound.z"));
+}
+
+/// Points along a built-in profile, 0.25 mm apart.
+std::vector<Vec2> points_along(const Profile& profile) {
+  std::vector<Vec2> out;
+  for (double s = profile.s_min(); s < profile.s_max(); s += 0.25e-3) out.push_back(profile.at(s).position);
+  return out;
+}
+
+TEST_F(ReadProfile, what_is_written_for_Simpack_and_MiniProf_is_read_back) {
+  struct Kind {
+    ProfileKind kind;
+    const char *name, *simpack, *miniprof;
+  };
+  for (const Kind& k : {Kind{ProfileKind::rail, "UIC60", "rail.prr", "rail.ban"},
+                        Kind{ProfileKind::wheel, "S1002", "wheel.prw", "wheel.whl"}}) {
+    const std::vector<Vec2> points = points_along(builtin_profile(k.kind, k.name));
+    const Profile direct = Profile::from_points(k.kind, k.name, points);
+    const std::string remark = "worn = 'by' 3\nloads!";
+    for (const auto& [text, file] : {std::pair{simpack_text(k.kind, points, remark), k.simpack},
+                                     std::pair{miniprof_text(k.kind, points, remark), k.miniprof}}) {
+      const Profile read = read_profile(k.kind, written(text, file));
+      ASSERT_NEAR(read.s_max() - read.s_min(), direct.s_max() - direct.s_min(), 1e-9) << file;
+      for (const Vec2 p : points) {
+        if (p.y <= direct.y_min() || p.y >= direct.y_max()) continue;
+        EXPECT_NEAR(read.height(p.y), direct.height(p.y), 1e-9) << file << " at " << p.y;
+      }
+    }
+  }
 }
 
 TEST_F(ReadProfile, a_Simpack_file_tells_its_unit) {

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "geometry/profile_names.hpp"
+#include "post/wheel_damage.hpp"
 
 namespace railstrata {
 namespace {
@@ -79,6 +81,31 @@ TEST(RailDamage, SaysNothingOfALawWithoutData) {
   add_passages(damage, rail, {}, patch_on_arc(rail, {}, 0, 0.4e-3, 5), 1);
   EXPECT_TRUE(std::isnan(worn_area(damage, damage.archard)));
   EXPECT_TRUE(std::isfinite(worn_area(damage, damage.usfd)));
+}
+
+TEST(WheelDamage, LosesTheVolumeThatTheRailLoses) {
+  const Profile rail = circular_profile(ProfileKind::rail, 0.300, 0.03),
+                wheel = circular_profile(ProfileKind::wheel, -0.5, 0.03);
+  PatchDamage patch = patch_on_arc(rail, {}, 0, 0.4e-3, 25);
+  patch.contact.wheel_s = 0.004;
+  patch.contact.rolling_radius = 0.46;
+  for (StreamlineRow& row : patch.rows) row.wheel_usfd_depth = row.usfd_depth;  // one material
+  RailDamage below = undamaged(rail, 0.25e-3);
+  add_passages(below, rail, {}, patch, 1);
+  WheelDamage turned = unworn_wheel(wheel, 0.25e-3);
+  add_distance(turned, patch, 0.25);
+  add_distance(turned, patch, 0.75);
+  const double turn = 2 * std::numbers::pi * 0.46, drop = 0.005 * 0.005 / 0.6;
+  EXPECT_NEAR(turn * worn_area(turned, turned.usfd) / worn_area(below, below.usfd), 1, drop / 0.46);
+  EXPECT_TRUE(std::isnan(worn_area(turned, turned.kth))) << "no hardness";
+  double first = 0, last = 0;
+  for (std::size_t i = 0; i < turned.s.size(); ++i) {
+    if (turned.share[i] <= 0) continue;
+    EXPECT_LE(turned.share[i], 1 + 1e-9);
+    if (first == 0) first = turned.s[i];
+    last = turned.s[i];
+  }
+  EXPECT_NEAR(0.5 * (first + last), 0.004, turned.cell);
 }
 
 TEST(RailDamage, FindsTheNearestPoint) {

@@ -152,6 +152,52 @@ TEST(Verdict, TheFirstLevelThatBearsTheLoadDecides) {
   EXPECT_EQ(verdict_of(both), Verdict::shakes_down);
 }
 
+TEST(Verdict, ALayerMayEndByItsBrittlenessOrByItsBond) {
+  Summary s;
+  s.shakedown.bodies.resize(1);
+  s.shakedown.bodies[0].factors = {0.9, 1.1, 1.1, 1.2, 1.3};
+  EXPECT_TRUE(fails_by(s).empty());
+  s.fatigue.resize(1);
+  s.fatigue[0].body = "rail";
+  s.fatigue[0].brittle.resize(2);
+  s.fatigue[0].brittle[0] = {"hard", 900e6, 0, 1.2, 1e-4, 1e-3};
+  s.fatigue[0].brittle[1] = {"rail", 950e6, 0, 1.3, 1e-5};
+  s.fatigue[0].interfaces.resize(2);
+  s.fatigue[0].interfaces[0].delamination = 0.99;
+  EXPECT_EQ(fails_by(s), std::vector<Verdict>{Verdict::layer_cracks});
+  s.fatigue[0].interfaces[1].delamination = 1;
+  s.shakedown.bodies[0].factors.kinematic = s.shakedown.bodies[0].factors.upper = 0.9;
+  s.shakedown.bodies[0].factors.single_track = s.shakedown.bodies[0].factors.wandering = 0.9;
+  EXPECT_EQ(fails_by(s), (std::vector<Verdict>{Verdict::ratchets, Verdict::layer_cracks, Verdict::interface_shears}));
+  const LayerWorst worst = layer_worst(s);
+  EXPECT_EQ(worst.share_of_tensile, 1.2) << "the rail itself is no layer";
+  EXPECT_EQ(worst.critical_flaw, 1e-4);
+  EXPECT_EQ(worst.delamination, 1);
+  EXPECT_TRUE(std::isnan(worst.shear_range)) << "not known";
+}
+
+TEST(ShakedownSummary, AZoneWithoutAStrengthIsTold) {
+  CaseSpec spec = frictionless();
+  spec.rail_material.strength.yield_strength.reset();
+  spec.rail_material.strength.grade = "B320";  // whose yield strength nobody states
+  spec.layers.resize(1);
+  spec.layers[0].name = "clad";
+  spec.layers[0].thickness = 1e-3;
+  spec.layers[0].material = spec.rail_material;
+  spec.layers[0].material.strength = {};
+  spec.layers[0].material.strength.yield_strength = 900e6;
+  const std::vector<SectionShakedown> found =
+      half_space_shakedown(spec, solve_bem(spec, place(spec, {}), cells(0.5e-3)));
+  ASSERT_EQ(found.size(), 1u);
+  ASSERT_EQ(found[0].strength.notes.size(), 1u);
+  EXPECT_EQ(found[0].strength.notes[0],
+            "yield strength of rail: not known of grade B320; it is taken to stay elastic and is not judged: give "
+            "material.rail.yield_strength");
+  ASSERT_EQ(found[0].fatigue.brittle.size(), 2u);
+  EXPECT_NEAR(found[0].fatigue.brittle[0].thickness, 1e-3, 1e-9);
+  EXPECT_TRUE(std::isnan(found[0].fatigue.brittle[1].thickness));
+}
+
 TEST(ShakedownSummary, ProcessStressMovesFirstYieldAlone) {
   CaseSpec spec = frictionless();
   const Found without = shakedown_of(spec, 0.5e-3);

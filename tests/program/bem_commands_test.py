@@ -503,8 +503,19 @@ young_ratio = 2.0
         other = ["--set", "drive.speed=10 m/s", "--steps", 3, "--resume", "--out", self.folder / "parts"]
         self.refused(2, [*loop, *other], "no wear loop of this very case")
         self.refused(2, [*loop, "--out", self.folder / "none"], "how far?")
-        worn = self.done("bem", LOADS, *COARSE, "--set", f"geometry.rail_profile={whole}", "--out", self.folder / "on")
-        self.assertIsNotNone(worn)
+        pressures = []
+        for ending in ["csv", "prr", "ban"]:
+            worn = whole.with_suffix(f".{ending}")
+            self.done("bem", LOADS, *COARSE, "--set", f"geometry.rail_profile={worn}", "--out", self.folder / ending)
+            pressures.append(json.loads((self.folder / ending / "summary.json").read_text())["contact"]["p_max_Pa"])
+        self.assertAlmostEqual(pressures[1] / pressures[0], 1, delta=1e-6)
+        self.assertAlmostEqual(pressures[2] / pressures[0], 1, delta=1e-6)
+        page = (self.folder / "parts" / "report.html").read_text()
+        for words in ["Worn off so far, over the rail", "Where each load touches", "locomotive, driving"]:
+            self.assertIn(words, page)
+        end = json.loads(self.done(*loop, "--steps", 1, "--out", self.folder / "whole", "--force", "--json"))
+        self.assertEqual(end["steps"], 1)
+        self.assertFalse((self.folder / "whole" / "step_0002").exists())  # of the older loop
 
     # all
 

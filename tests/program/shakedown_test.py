@@ -30,6 +30,14 @@ x = "layer.0.thickness"
 y = "layer.0.young_ratio"
 series = "layer.0.yield_strength"
 '''
+GRID = '''[[figure]]
+id = "shear"
+kind = "grid"
+value = "layers_interface_shear_range_MPa"
+x = "layer.0.thickness"
+y = "layer.0.young_ratio"
+where = { "layer.0.yield_strength" = ["2000 MPa"] }
+'''
 FACTORS = ["first_yield", "wandering", "single_track", "upper", "kinematic"]
 
 
@@ -91,6 +99,20 @@ class Shakedown(FromOutside):
                      "material.rail.strength_table: ends at 2 mm", "remedy: add a row at")
         self.assertFalse((self.folder / "no").exists())
 
+    def test_a_weak_bond_and_a_brittle_layer_end_what_shakes_down(self):
+        strong = ["--set", 'material.rail.yield_strength="1500 MPa"', "--set", 'layer.0.yield_strength="2000 MPa"']
+        found, summary = self.shakedown(LAYERED, "--cell", "1 mm", *strong)
+        self.assertEqual(found["fails_by"], [])
+        self.assertIsNone(summary["layers"]["delamination"])
+        stress, shear = summary["layers"]["sigma_1_Pa"], summary["layers"]["interface_shear_Pa"]
+        weak = ["--set", "layer.0.tensile_strength=" + f'"{0.9e-6 * stress} MPa"',
+                "--set", 'layer.0.bond_tension="900 MPa"', "--set", f'layer.0.bond_shear="{0.8e-6 * shear} MPa"']
+        strong[-1] = f'layer.0.yield_strength="{0.85e-6 * stress} MPa"'
+        found, summary = self.shakedown(LAYERED, "--cell", "1 mm", *strong, *weak)
+        self.assertEqual(found["fails_by"][-2:], ["brittle layer cracks", "interface shears"])
+        self.assertAlmostEqual(summary["layers"]["share_of_tensile"], 1 / 0.9, delta=1e-3)
+        self.assertAlmostEqual(summary["layers"]["delamination"], 1 / 0.64, delta=0.01)
+
     def test_finite_elements_answer_too(self):
         case = self.case(TINY.replace("[run]", "[run]\nrolling = false") +
                          '[material.rail]\nyield_strength = "500 MPa"\n')
@@ -122,6 +144,18 @@ class Shakedown(FromOutside):
                 found = json.loads((out / "g" / name / "bem" / "shakedown.json").read_text())
                 self.assertEqual(cell["verdict"], found["verdict"])
                 self.assertAlmostEqual(cell["factor"], found["factors"]["wandering"], delta=1e-9)
+        file.write_text(STUDY + GRID)
+        rc, _, err = railstrata("study", file, "--out", out)
+        self.assertLess(rc, 2, err)
+        data = re.search(r'<script[^>]*id="data"[^>]*>(.*?)</script>', (out / "report.html").read_text(), re.S)
+        _, row = json.loads(data.group(1))["grids"]
+        self.assertEqual(row["value"], "interface Δτ [MPa]")
+        found = json.loads((out / "g" / "thickness_1_mm_young_ratio_1_yield_strength_2000_MPa" / "bem" /
+                            "summary.json").read_text())
+        self.assertAlmostEqual(row["grids"][0]["cells"][0]["factor"],
+                               1e-6 * found["layers"]["interface_shear_range_Pa"], delta=1e-6)
+        file.write_text(STUDY + GRID.replace("shear_range", "shear_rang"))
+        self.refused(2, ["study", file, "--out", out], 'no column "layers_interface_shear_rang_MPa"', "did you mean")
         file.write_text(STUDY.replace('y = "layer', '# '))
         self.refused(2, ["study", file, "--out", out], 'shows verdicts over two keys and has no y')
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include <cmath>
 
 #include "case/case_file.hpp"
@@ -43,8 +45,8 @@ TEST(Collective, ARowThatCannotBeSolvedIsToldAndTheOthersGoOn) {
   EXPECT_FALSE(rows[1].solved());
   EXPECT_EQ(faults(rows), 1);
   const Placement placement = place(spec, {});
-  const RailDamage damage = rail_damage(rows, placement, 0.5e-3);
-  const auto json = collective_json("t", rows, damage);
+  const auto json =
+      collective_json("t", rows, {rail_damage(rows, placement, 0.5e-3), wheel_damage(rows, placement, 0.5e-3)});
   EXPECT_EQ(json["totals"]["passages"], 30);
   EXPECT_EQ(json["totals"]["passages_left_out"], 1);
   EXPECT_EQ(json["loads"][1]["name"], "beside the rail");
@@ -66,6 +68,22 @@ TEST(Collective, SumsTheRowsTimesTheirPassages) {
   for (const CollectiveRow& r : rows) energy += r.passages * r.summary.damage.friction_energy;
   EXPECT_NEAR(worn_area(damage, damage.friction_energy) / energy, 1, 1e-9);
   EXPECT_DOUBLE_EQ(rows[0].summary.damage.usfd_depth, rows[1].summary.damage.usfd_depth);
+}
+
+// A wheel and a rail of one material lose the same volume; twice the hardness, half the depth.
+TEST(Collective, AWheelLosesOverADistanceWhatTheRailLosesBelowIt) {
+  const CaseSpec spec = parse_case(std::string(kArcs) +
+                                       "[material.rail]\nhardness = \"280 HV\"\n[material.wheel]\nhardness = \"560 "
+                                       "HV\"\n[[load]]\npassages = 3\n[[load]]\nlateral_shift = \"4 mm\"\n",
+                                   "a.toml")
+                            .spec;
+  const std::vector<CollectiveRow> rows = solved(spec);
+  ASSERT_EQ(faults(rows), 0);
+  const WheelDamage wheel = wheel_damage(rows, place(spec, {}), 0.5e-3);
+  const double turn = 2 * std::numbers::pi * spec.geometry.wheel_radius;
+  EXPECT_NEAR(turn * worn_area(wheel, wheel.usfd) / (streamline_area(rows, WearLaw::usfd) / 4), 1, 2e-3);
+  EXPECT_NEAR(turn * worn_area(wheel, wheel.kth) / (0.5 * streamline_area(rows, WearLaw::kth) / 4), 1, 2e-3);
+  EXPECT_TRUE(std::isnan(worn_area(wheel, wheel.archard)));
 }
 
 TEST(Collective, WheelsShiftedAlikeToEitherSideWearSymmetrically) {

@@ -5,9 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
 
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
+#include "study/wear_loop_page.hpp"
 
 namespace railstrata {
 namespace {
@@ -102,6 +107,41 @@ TEST(WearLoop, HalvingTheStepChangesTheProfileLittle) {
     if (std::abs(p.y) > 0.02) continue;
     EXPECT_NEAR(p.z, fine.height(p.y), 0.1 * depth) << p.y;
   }
+}
+
+TEST(WearLoopPage, TheDepthIsTheDistanceToTheWornProfile) {
+  std::vector<Vec2> unworn, worn;
+  for (int i = 0; i <= 400; ++i) {
+    const double angle = 0.002 * (i - 200), worn_off = std::abs(i - 200) < 50 ? 20e-6 : 0;
+    const Vec2 outward{std::sin(angle), std::cos(angle)};
+    unworn.push_back(0.3 * outward);
+    worn.push_back((0.3 - worn_off) * outward);
+  }
+  const std::vector<double> depth = worn_depth(unworn, worn);
+  EXPECT_NEAR(depth[200], 20e-6, 0.2e-6) << "chords of 0.6 mm lie 0.15 µm below the arc";
+  EXPECT_NEAR(depth[170], 20e-6, 0.2e-6);
+  EXPECT_NEAR(depth[20], 0, 1e-12);
+}
+
+TEST(WearLoopPage, ContactsAreReadBackAndThePageNamesTheLoads) {
+  const std::filesystem::path out = folder("wear_page");
+  const std::vector<WearLoad> loads{
+      {1, 0, 0, 1e-3, 1.2e9, 13}, {1, 0, 1, -2e-3, 0.8e9, 2}, {2, 4e3, 0, 1.1e-3, 1e9, 12}};
+  write_wear_loads(out / "loads.csv", {}, loads);
+  const std::vector<WearLoad> back = read_wear_loads(out / "loads.csv");
+  ASSERT_EQ(back.size(), 3u);
+  EXPECT_EQ(back[1].load, 1);
+  EXPECT_NEAR(back[1].y, -2e-3, 1e-15);
+  EXPECT_NEAR(back[2].pressure, 1e9, 1e-3);
+  const WornRail rail = unworn(place(arcs("[[load]]\n"), {}), kCell);
+  std::vector<Vec2> worn = rail.points;
+  for (Vec2& p : worn)
+    if (std::abs(p.y) < 5e-3) p.z -= 30e-6;
+  write_wear_loop_page(out / "report.html", {"arcs", {"freight", "coach"}, rail.points, {{2, 8e3, 3e-7, worn}}, back});
+  std::ifstream in(out / "report.html");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  for (const char* words : {"arcs: wear loop", "freight", "coach", "after 8000 passages", "Where each load touches"})
+    EXPECT_NE(page.find(words), std::string::npos) << words;
 }
 
 TEST(WearLoop, NothingWearsWhereNothingRolled) {

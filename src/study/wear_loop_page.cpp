@@ -1,0 +1,208 @@
+#include "study/wear_loop_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "io/csv.hpp"
+#include "io/output_file.hpp"
+#include "report/page.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr const char* kAcross = "y across the rail, from its axis to the field side [mm]";
+constexpr const char* kPassages = "passages of the whole collective";
+constexpr double kWorn = 1e-8;         // m, less is the round-off of the files
+constexpr std::size_t kMostLines = 6;  // profiles in one chart
+
+double distance_to_piece(Vec2 p, Vec2 a, Vec2 b) {
+  const Vec2 along = b - a;
+  const double length2 = dot(along, along);
+  const double t = length2 > 0 ? std::clamp(dot(p - a, along) / length2, 0.0, 1.0) : 0.0;
+  return norm(p - a - t * along);
+}
+
+/// From the first to the last point that has worn, with a little room on either side.
+struct Reach {
+  std::size_t from = 0, to = 0;
+};
+Reach reach_of(const std::vector<double>& depth) {
+  constexpr std::size_t kRoom = 12;
+  const auto worn = [](double d) { return d > kWorn; };
+  const auto first = std::find_if(depth.begin(), depth.end(), worn);
+  if (first == depth.end()) return {0, depth.size()};
+  const auto from = static_cast<std::size_t>(first - depth.begin());
+  const auto to = static_cast<std::size_t>(std::find_if(depth.rbegin(), depth.rend(), worn).base() - depth.begin());
+  return {from > kRoom ? from - kRoom : 0, std::min(depth.size(), to + kRoom)};
+}
+
+/// The last profile and some before it, evenly.
+std::vector<const WornProfile*> some_of(const std::vector<WornProfile>& profiles) {
+  std::vector<const WornProfile*> out;
+  const std::size_t n = std::min(profiles.size(), kMostLines);
+  for (std::size_t k = 1; k <= n; ++k) out.push_back(&profiles[(k * profiles.size()) / n - 1]);
+  return out;
+}
+
+std::string after(const WornProfile& p) { return fmt::format("after {:.4g} passages", p.passages); }
+
+ReportSeries curve(const std::string& name, const std::vector<Vec2>& points, Reach reach) {
+  ReportSeries s{.name = name, .x = {}, .y = {}, .markers = false};
+  for (std::size_t i = reach.from; i < std::min(reach.to, points.size()); ++i) {
+    s.x.push_back(1e3 * points[i].y);
+    s.y.push_back(1e3 * points[i].z);
+  }
+  return s;
+}
+
+ReportChart profile_chart(const WearLoopStory& story, Reach reach) {
+  ReportChart out{"profile", "The rail before and after", "", kAcross, "z [mm]", {}};
+  out.series = {curve("unworn", story.unworn, reach),
+                curve(after(story.profiles.back()), story.profiles.back().points, reach)};
+  return out;
+}
+
+ReportChart depth_chart(const WearLoopStory& story, Reach reach) {
+  ReportChart out{
+      "depth", "Worn off so far, over the rail", "Along the normal of the unworn profile.", kAcross, "wear depth [µm]",
+      {}};
+  for (const WornProfile* p : some_of(story.profiles)) {
+    const std::vector<double> depth = worn_depth(story.unworn, p->points);
+    ReportSeries s{.name = after(*p), .x = {}, .y = {}, .markers = false};
+    for (std::size_t i = reach.from; i < reach.to; ++i) {
+      s.x.push_back(1e3 * story.unworn[i].y);
+      s.y.push_back(1e6 * depth[i]);
+    }
+    out.series.push_back(std::move(s));
+  }
+  return out;
+}
+
+/// A line for each load over the passages.
+ReportChart load_chart(const WearLoopStory& story, const std::string& id, const std::string& title,
+                       const std::string& note, const std::string& label, double WearLoad::*value, double unit) {
+  ReportChart out{id, title, note, kPassages, label, {}};
+  for (std::size_t k = 0; k < story.loads.size(); ++k) {
+    ReportSeries s{.name = story.loads[k], .x = {}, .y = {}};
+    for (const WearLoad& load : story.contacts)
+      if (load.load == static_cast<int>(k)) {
+        s.x.push_back(load.passages);
+        s.y.push_back(load.*value / unit);
+      }
+    if (!s.x.empty()) out.series.push_back(std::move(s));
+  }
+  return out;
+}
+
+ReportChart area_chart(const WearLoopStory& story) {
+  ReportChart out{"area", "Area worn off", "", kPassages, "area [mm²]", {}};
+  ReportSeries s{.name = "area", .x = {0}, .y = {0}};
+  for (const WornProfile& p : story.profiles) {
+    s.x.push_back(p.passages);
+    s.y.push_back(1e6 * p.area);
+  }
+  out.series.push_back(std::move(s));
+  return out;
+}
+
+/// The most extreme of the loads of a step, NaN where it has none.
+template <class Better>
+double of_step(const WearLoopStory& story, int step, double WearLoad::*value, Better&& better) {
+  double out = std::numeric_limits<double>::quiet_NaN();
+  for (const WearLoad& load : story.contacts)
+    if (load.step == step && (std::isnan(out) || better(load.*value, out))) out = load.*value;
+  return out;
+}
+
+ReportTable steps_table(const WearLoopStory& story) {
+  ReportTable t{.id = "steps",
+                .title = "Steps",
+                .note = "Pressure and T-gamma: the largest of all loads, on the rail before the step.",
+                .columns = {"step", "passages so far", "deepest so far [µm]", "at y [mm]", "worn off [mm²]",
+                            "p_max [MPa]", "T-gamma [N]"},
+                .rows = {}};
+  const auto finite = [](double v) {
+    return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
+  };
+  const auto larger = [](double a, double b) { return a > b; };
+  for (const WornProfile& p : story.profiles) {
+    const std::vector<double> depth = worn_depth(story.unworn, p.points);
+    const auto at = static_cast<std::size_t>(std::max_element(depth.begin(), depth.end()) - depth.begin());
+    t.rows.push_back({std::to_string(p.step), p.passages, 1e6 * depth[at], 1e3 * story.unworn[at].y, 1e6 * p.area,
+                      finite(1e-6 * of_step(story, p.step, &WearLoad::pressure, larger)),
+                      finite(of_step(story, p.step, &WearLoad::t_gamma, larger))});
+  }
+  return t;
+}
+
+}  // namespace
+
+std::vector<WearLoad> wear_loads(const WearStep& step, double passages_before) {
+  std::vector<WearLoad> out;
+  for (std::size_t k = 0; k < step.rows.size(); ++k) {
+    const CollectiveRow& row = step.rows[k];
+    if (!row.solved()) continue;
+    out.push_back({step.rail.step, passages_before, static_cast<int>(k),
+                   model_to_rail(row.track, row.patches.front().contact.point).y, row.summary.contact.patch.p_max,
+                   row.summary.damage.t_gamma});
+  }
+  return out;
+}
+
+void write_wear_loads(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                      const std::vector<WearLoad>& loads) {
+  std::vector<CsvColumn> columns{{"step", {}},      {"passages", {}},  {"load", {}},
+                                 {"rail_y_mm", {}}, {"p_max_MPa", {}}, {"t_gamma_N", {}}};
+  for (const WearLoad& l : loads) {
+    const double row[] = {static_cast<double>(l.step), l.passages, static_cast<double>(l.load + 1), 1e3 * l.y,
+                          1e-6 * l.pressure,           l.t_gamma};
+    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
+  }
+  write_csv(file, origin, columns);
+}
+
+std::vector<WearLoad> read_wear_loads(const std::filesystem::path& file) {
+  const CsvTable table = read_csv(file);
+  const std::vector<double> step = table.column("step"), passages = table.column("passages"),
+                            load = table.column("load"), y = table.column("rail_y_mm", 1e-3),
+                            pressure = table.column("p_max_MPa", 1e6), t_gamma = table.column("t_gamma_N");
+  std::vector<WearLoad> out;
+  for (std::size_t i = 0; i < step.size(); ++i)
+    out.push_back(
+        {static_cast<int>(step[i]), passages[i], static_cast<int>(load[i]) - 1, y[i], pressure[i], t_gamma[i]});
+  return out;
+}
+
+std::vector<double> worn_depth(const std::vector<Vec2>& unworn, const std::vector<Vec2>& worn) {
+  constexpr std::size_t kNear = 60;  // pieces: profiles of a loop have nearly the same points
+  std::vector<double> out;
+  for (std::size_t k = 0; k < unworn.size(); ++k) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::size_t i = k > kNear ? k - kNear : 1; i < std::min(worn.size(), k + kNear); ++i)
+      nearest = std::min(nearest, distance_to_piece(unworn[k], worn[i - 1], worn[i]));
+    out.push_back(nearest);
+  }
+  return out;
+}
+
+void write_wear_loop_page(const std::filesystem::path& page, const WearLoopStory& story) {
+  if (story.profiles.empty()) return;
+  const Reach reach = reach_of(worn_depth(story.unworn, story.profiles.back().points));
+  Report report;
+  report.title = fmt::format("{}: wear loop", story.title);
+  report.tables = {steps_table(story)};
+  report.charts = {
+      depth_chart(story, reach),
+      profile_chart(story, reach),
+      load_chart(story, "contact", "Where each load touches", "First contact, y from the rail's axis.",
+                 "contact y [mm]", &WearLoad::y, 1e-3),
+      load_chart(story, "pressure", "Largest pressure of each load", "", "p_max [MPa]", &WearLoad::pressure, 1e6),
+      load_chart(story, "t-gamma", "T-gamma of each load", "", "T-gamma [N]", &WearLoad::t_gamma, 1),
+      area_chart(story)};
+  write_whole_file(page, report_page(report));
+}
+
+}  // namespace railstrata

@@ -1,0 +1,48 @@
+#pragma once
+// The page of a wear loop: the rail before and after, how deep it has worn, how the contact moves.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "study/wear_loop.hpp"
+
+namespace railstrata {
+
+/// One load of a step, on the rail before it.
+struct WearLoad {
+  int step = 0;
+  double passages = 0;  ///< of the whole collective before the step
+  int load = 0;         ///< its place in the collective
+  double y = 0;         ///< m, of the first contact, from the rail's axis
+  double pressure = 0;  ///< Pa, the largest
+  double t_gamma = 0;   ///< N
+};
+std::vector<WearLoad> wear_loads(const WearStep& step, double passages_before);
+
+/// A table of numbers, read back for --resume.
+void write_wear_loads(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                      const std::vector<WearLoad>& loads);
+std::vector<WearLoad> read_wear_loads(const std::filesystem::path& file);
+
+/// m, of every point the distance to the worn profile: how deep it has worn, along its normal. The two are of one
+/// loop: nearly the same points, from the same beginning; outside of what has worn it is zero to round-off.
+std::vector<double> worn_depth(const std::vector<Vec2>& unworn, const std::vector<Vec2>& worn);
+
+/// A rail after a step.
+struct WornProfile {
+  int step = 0;
+  double passages = 0;
+  double area = 0;  ///< m², worn off
+  std::vector<Vec2> points;
+};
+
+struct WearLoopStory {
+  std::string title;
+  std::vector<std::string> loads;     ///< names
+  std::vector<Vec2> unworn;           ///< m
+  std::vector<WornProfile> profiles;  ///< in order
+  std::vector<WearLoad> contacts;
+};
+void write_wear_loop_page(const std::filesystem::path& page, const WearLoopStory& story);
+
+}  // namespace railstrata
