@@ -3,11 +3,13 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
+#include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "post/run_advice.hpp"
 #include "runs/memory_need.hpp"
@@ -80,7 +82,11 @@ void print_estimate(const Model& m, const RunEstimate& e) {
 /// Of the last position, which is the result's.
 std::vector<Warning> warnings_of(const Model& m, const RunEstimate& e) {
   const std::vector<double>& positions = m.spec.run.positions;
-  return run_advice(m.spec, positions.empty() ? 0.0 : *std::max_element(positions.begin(), positions.end()), e.limits);
+  std::vector<Warning> out =
+      run_advice(m.spec, positions.empty() ? 0.0 : *std::max_element(positions.begin(), positions.end()), e.limits);
+  if (auto memory = memory_advice(m.spec, m.hertz.p0, 2 * std::max(m.hertz.a, m.hertz.b)))
+    out.push_back(std::move(*memory));
+  return out;
 }
 
 nlohmann::ordered_json as_json(const std::vector<Warning>& warnings) {
@@ -146,12 +152,27 @@ ExitCode check_without_mesh(const LoadedCase& loaded, bool json) {
   return ExitCode::ok;
 }
 
+/// Where the bodies touch but cannot be meshed there (a contact on the flange), `run` alone refuses the case.
+Model model_for_run(const LoadedCase& loaded) {
+  try {
+    return build_model(loaded.spec, loaded.folder());
+  } catch (const CaseError&) {
+    const RigidContact c = place(loaded.spec, loaded.folder()).contact;
+    spdlog::info(
+        "the bodies touch at y = {:.3f} mm, z = {:.3f} mm, at an angle of {:.1f} degrees; `railstrata bem` makes no "
+        "mesh "
+        "and takes the case, `railstrata run` refuses it:",
+        1e3 * c.point.y, 1e3 * c.point.z, c.angle * 180 / std::numbers::pi);
+    throw;
+  }
+}
+
 }  // namespace
 
 ExitCode command_check(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
   if (!loaded.not_in_fem.empty()) return check_without_mesh(loaded, options.json);
-  const Model model = build_model(loaded.spec, loaded.folder());
+  const Model model = model_for_run(loaded);
   for (const std::string& note : model.placement.notes) spdlog::info("{}", note);
   require_memory(model);
   const RunEstimate estimate = estimate_run(model);

@@ -8,6 +8,7 @@
 
 #include "core/faults.hpp"
 #include "geometry/turned_wheel.hpp"
+#include "model/sliding_waves.hpp"
 
 namespace railstrata {
 
@@ -101,19 +102,6 @@ Plane slip_of_radius(const PatchGrid& g, const ProfileGap& gap, const RigidConta
   return slip;
 }
 
-/// Sliding on a law that falls by more traction with velocity than plane shear waves carry away from both surfaces,
-/// G/(2 c_s), is unstable.
-std::string note_of_instability(const CaseSpec& spec, const FallingFriction& law, double p0) {
-  const MaterialSpec& m = spec.rail_material;
-  const double shear = m.young / (2 * (1 + m.poisson)), carried = 0.5 * std::sqrt(shear * m.density),
-               fall = -friction_share(law, {}).by_slip_velocity * spec.drive.friction_coefficient * p0;
-  if (fall <= carried) return {};
-  return fmt::format(
-      "friction falls with slip by {:.3g} MPa s/m, more than the {:.3g} MPa s/m that waves carry away: "
-      "the steady state may break up into vibration (squeal)",
-      1e-6 * fall, 1e-6 * carried);
-}
-
 }  // namespace
 
 PatchGrid first_grid(const CaseSpec& spec, const Placement& placement, const BemOptions& options) {
@@ -191,8 +179,7 @@ void fill_problem(const CaseSpec& spec, const Placement& placement, const Normal
   if (spec.bem.spin_angle == SpinAngle::local && !patch.grid.line)
     contact.local_spin = local_spin(patch.grid, patch.profile, placement.contact);
   contact.falling = falling_friction(spec);
-  if (const std::string note = note_of_instability(spec, contact.falling, hertz_estimate(spec, placement.contact).p0);
-      !note.empty())
+  if (const std::string note = note_of_instability(spec, hertz_estimate(spec, placement.contact)); !note.empty())
     patch.notes.push_back(note);
   contact.speed = spec.drive.speed;
 }

@@ -74,6 +74,7 @@ TangentialProblem tangential_part(const InfluenceOperator& influence, const Patc
   t.speed = contact.speed;
   t.third_body = contact.third_body;
   t.plastic_before = contact.plastic_before;
+  t.lost_before = contact.lost_before;
   t.traction_before = contact.traction_before;
   for (std::size_t i = 0; i < t.traction_bound.size(); ++i)
     t.traction_bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
@@ -173,6 +174,7 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   contact.before.x.assign(u.x.begin() + row, u.x.end());
   contact.before.y.assign(u.y.begin() + row, u.y.end());
   contact.plastic_before = rolled_on(grid, before.tangential.plastic);
+  contact.lost_before = rolled_on(grid, before.tangential.lost_friction);
   contact.traction_before = {rolled_on(grid, before.tangential.q_x), rolled_on(grid, before.tangential.q_y)};
 }
 

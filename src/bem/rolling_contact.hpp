@@ -29,6 +29,7 @@ struct RollingContact {
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
   Plane local_spin;           ///< 1/m, beyond `spin` in each row of cells, see TangentialProblem
   Plane plastic_before;       ///< m, history of a third body that yields
+  Plane lost_before;          ///< history of friction with a memory, see TangentialProblem
   PlanePair traction_before;  ///< Pa, transient: of the state before, see TangentialProblem
 };
 

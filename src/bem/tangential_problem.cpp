@@ -64,7 +64,7 @@ class Solver {
     self_ = (influence.of_one_cell(0).xx - (steady() ? influence.of_one_cell(1).xx : 0.0)) / step_length();
     force_row_ = self_ / static_cast<double>(n_);  // a force residual weighs like a slip residual
     if (!VaryingBound::needed(problem)) return;
-    if (problem.falling.falls()) VaryingBound::require_unique_slip(problem, largest_slip_by_traction());
+    if (problem.falling.falls()) VaryingBound::require_unique_slip(problem, step_length(), largest_slip_by_traction());
     varying_.emplace(grid, problem, given_);
     carried_.resize(n_);
     for (std::size_t i = 0; i < n_; ++i) carried_[i] = varying_->at_rest(i);
@@ -540,6 +540,7 @@ class Solver {
     s.dissipation = dissipated(grid_, problem_.kind, s.q_x, s.q_y, problem_.traction_before, steps);
     if (varying_) {
       s.plastic = varying_->plastic();
+      s.lost_friction = varying_->lost();
       s.bound = varying_->at_rest();
     }
     s.outer_iterations = outer_;
@@ -599,6 +600,7 @@ void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid,
   problem.before.x.assign(ux.begin() + static_cast<std::ptrdiff_t>(row), ux.end());
   problem.before.y.assign(uy.begin() + static_cast<std::ptrdiff_t>(row), uy.end());
   problem.plastic_before = rolled_on(grid, before.plastic);
+  problem.lost_before = rolled_on(grid, before.lost_friction);
   problem.traction_before = {rolled_on(grid, before.q_x), rolled_on(grid, before.q_y)};
 }
 

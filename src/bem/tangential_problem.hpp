@@ -61,6 +61,8 @@ struct TangentialProblem {
   double speed = 0;         ///< V [m/s], for the slip velocity of `falling`
   ThirdBody third_body;     ///< where it yields; its elastic part is the influence operator's
   Plane plastic_before;     ///< m, history of the third body: as `before` (rolled_on); empty: none yet
+  Plane lost_before;  ///< share of friction that slip has taken, history of a memory (friction_memory.hpp); as the one
+                      ///< above
 };
 
 struct TangentialOptions {
@@ -77,6 +79,7 @@ struct TangentialSolution {
   PlanePair cell_slip;              ///< the same at the middle of each cell (slip_of_cells)
   std::vector<ContactState> state;  ///< a cell whose third body yields slips
   Plane plastic;                    ///< m, plastic shear of the third body; empty: none that yields
+  Plane lost_friction;              ///< share of friction that slip has taken; empty: friction without a memory
   Plane bound;                      ///< Pa, what sticking cells carry at most; empty: the problem's traction_bound
   double creepage_x = 0, creepage_y = 0;
   double force_x = 0, force_y = 0;       ///< N, on the rail

@@ -118,6 +118,7 @@ class Course {
       c.spin = m.spin;
     } else {
       c.x.creepage = c.y.creepage = 0;
+      if (history_.rolls()) c.falling = {};  // the shift before it rolls is made at rest
     }
     solve(nullptr);
     if (!steady) add_shift();

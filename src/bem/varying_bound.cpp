@@ -9,6 +9,46 @@
 
 namespace railstrata {
 
+namespace {
+
+const char* several_answers(const TangentialProblem& problem) {
+  return problem.kind == RollingKind::steady ? "steady rolling has several answers"
+                                             : "massless surfaces jump from step to step";
+}
+
+[[noreturn]] void refuse_fall(const TangentialProblem& problem, double steepness) {
+  const bool steady = problem.kind == RollingKind::steady;
+  throw CaseError(
+      fmt::format("friction falls too steeply with slip: below a half-value velocity of {:.3g} m/s {} here",
+                  problem.falling.half_velocity * steepness, several_answers(problem)),
+      steady ? "raise friction.half_velocity or friction.kinetic_coefficient, or lower drive.speed"
+             : "raise friction.half_velocity or friction.kinetic_coefficient, lower drive.speed, take larger cells, "
+               "or ask for steady rolling, which bears a steeper fall",
+      "friction.half_velocity");
+}
+
+/// Names the memory distance that would do.
+template <class Steepness>
+[[noreturn]] void refuse_memory(const TangentialProblem& problem, Steepness&& steepness) {
+  constexpr double kFiner = 1.02, kLargest = 1;  // m
+  FallingFriction law = problem.falling;
+  while (!(steepness(law) < 1) && law.memory_distance < kLargest) law.memory_distance *= kFiner;
+  throw CaseError(fmt::format("friction falls too soon with slip: below a memory distance of {:.3g} um {} here",
+                              1e6 * law.memory_distance, several_answers(problem)),
+                  "raise friction.memory_distance, friction.half_velocity or friction.kinetic_coefficient",
+                  "friction.memory_distance");
+}
+
+/// The part of a first cell's step that lies inside the patch: the edge is S ahead of the empty cell, with lambda =
+/// S^1.5/((S + dx)^1.5 - S^1.5) (leading_edge.hpp); `length` is (1 - lambda) dx.
+double inside_of_patch(double length, double step) {
+  const double lambda = 1 - length / step;
+  if (!(lambda > 0)) return length;
+  return step * std::max(0.0, 1 - 1 / (std::cbrt(std::pow(1 + 1 / lambda, 2)) - 1));
+}
+
+}  // namespace
+
 VaryingBound::VaryingBound(const PatchGrid& grid, const TangentialProblem& problem, const GivenSlip& given)
     : grid_(grid),
       problem_(problem),
@@ -22,10 +62,11 @@ VaryingBound::VaryingBound(const PatchGrid& grid, const TangentialProblem& probl
     plastic_.assign(grid.size(), 0.0);
     slides_.assign(grid.size(), 0);
   }
+  if (problem.falling.remembers()) lost_ = kept_ = Plane(grid.size(), 0.0);
   follow();
 }
 
-void VaryingBound::require_unique_slip(const TangentialProblem& problem, double largest) {
+void VaryingBound::require_unique_slip(const TangentialProblem& problem, double step, double largest) {
   if (!problem.falling.falls() || problem.traction_bound.empty()) return;
   if (problem.kind == RollingKind::shift)
     throw CaseError("friction that falls with slip velocity has no meaning in a shift, whose slip has no velocity",
@@ -34,23 +75,41 @@ void VaryingBound::require_unique_slip(const TangentialProblem& problem, double 
     throw CaseError("friction that falls with slip has no steady answer on an elastic third-body layer: it would jump",
                     "leave out third_body.thickness, or take friction.law = \"coulomb\"", "third_body.thickness");
   const double bound = *std::max_element(problem.traction_bound.begin(), problem.traction_bound.end()),
-               fall = -friction_share(problem.falling, {}).by_slip_velocity,
-               steepness = bound * fall * problem.speed * largest;
-  const bool steady = problem.kind == RollingKind::steady;
-  if (!(steepness < 1))
-    throw CaseError(
-        fmt::format("friction falls too steeply with slip: below a half-value velocity of {:.3g} m/s {} here",
-                    problem.falling.half_velocity * steepness,
-                    steady ? "steady rolling has several answers" : "massless surfaces jump from step to step"),
-        steady ? "raise friction.half_velocity or friction.kinetic_coefficient, or lower drive.speed"
-               : "raise friction.half_velocity or friction.kinetic_coefficient, lower drive.speed, take larger cells, "
-                 "or ask for steady rolling, which bears a steeper fall",
-        "friction.half_velocity");
+               reach = bound * problem.speed * largest;
+  const auto steepness = [&](const FallingFriction& law) { return reach * steepest_fall(law, step / problem.speed); };
+  if (const double steep = steepness(problem.falling); !(steep < 1)) {
+    if (problem.falling.remembers()) refuse_memory(problem, steepness);
+    refuse_fall(problem, steep);
+  }
 }
 
-double VaryingBound::plastic_before(int i, std::size_t k) const {
-  if (problem_.kind != RollingKind::steady) return problem_.plastic_before.empty() ? 0.0 : problem_.plastic_before[k];
-  return i + 1 < grid_.nx ? plastic_[k + static_cast<std::size_t>(grid_.ny)] : 0.0;
+double VaryingBound::before(const Plane& now, const Plane& history, int i, std::size_t k) const {
+  if (problem_.kind != RollingKind::steady) return history.empty() ? 0.0 : history[k];
+  return i + 1 < grid_.nx ? now[k + static_cast<std::size_t>(grid_.ny)] : 0.0;
+}
+
+void VaryingBound::follow_friction(int i, std::size_t k, double length) {
+  const double slip = std::max(0.0, along_[k]), bound = problem_.traction_bound[k], V = problem_.speed;
+  const FallingFriction& law = problem_.falling;
+  const double lost = lost_.empty() ? 0.0 : before(lost_, problem_.lost_before, i, k), time = length / V;
+  const RememberedShare now = remembered_share(law, lost, {slip * V}, time);
+  rest_[k] = remembered_share(law, lost, {0}, time).share.value * bound;
+  wanted_[k] = now.share.value * bound;
+  by_slip_[k] = slip > 0 ? now.share.by_slip_velocity * bound * V : 0.0;
+  if (lost_.empty()) return;
+  lost_[k] = bound > 0 ? now.lost() : 0.0;
+  kept_[k] = now.by_lost_before;
+}
+
+void VaryingBound::follow_film(int i, std::size_t k, double length) {
+  const double slip = std::max(0.0, along_[k]), bound = problem_.traction_bound[k],
+               plastic = before(plastic_, problem_.plastic_before, i, k);
+  const FilmStep film = yield_or_slide(problem_.third_body, bound, plastic, slip * length);
+  rest_[k] = yield_or_slide(problem_.third_body, bound, plastic, 0).bound;
+  wanted_[k] = film.bound;
+  by_slip_[k] = film.by_slip * length;
+  plastic_[k] = bound > 0 ? film.plastic : plastic;
+  slides_[k] = film.by_slip == 0 && film.plastic > plastic;
 }
 
 void VaryingBound::follow() {
@@ -58,31 +117,40 @@ void VaryingBound::follow() {
   for (int i = grid_.nx - 1; i >= 0; --i)
     for (int j = 0; j < grid_.ny; ++j) {
       const std::size_t k = grid_.index(i, j);
-      const double slip = std::max(0.0, along_[k]), bound = problem_.traction_bound[k];
-      const FrictionShare share = friction_share(problem_.falling, {slip * problem_.speed});
-      rest_[k] = bound;
-      wanted_[k] = share.value * bound;
-      by_slip_[k] = slip > 0 ? share.by_slip_velocity * bound * problem_.speed : 0.0;
-      if (plastic_.empty()) continue;
-      const double before = plastic_before(i, k), length = given_.first_step.empty() ? step : given_.first_step[k];
-      const FilmStep film = yield_or_slide(problem_.third_body, bound, before, slip * length);
-      rest_[k] = yield_or_slide(problem_.third_body, bound, before, 0).bound;
-      wanted_[k] = film.bound;
-      by_slip_[k] = film.by_slip * length;
-      plastic_[k] = bound > 0 ? film.plastic : before;
-      slides_[k] = film.by_slip == 0 && film.plastic > before;
+      const double length = given_.first_step.empty() ? step : given_.first_step[k];
+      if (plastic_.empty())
+        follow_friction(i, k, inside_of_patch(length, step));
+      else
+        follow_film(i, k, length);
     }
 }
 
 void VaryingBound::change() {
   for (std::size_t k = 0; k < change_.size(); ++k) change_[k] = by_slip_[k] * along_[k];
-  if (!(problem_.third_body.hardening > 0) || problem_.kind != RollingKind::steady) return;
+  if (problem_.kind != RollingKind::steady) return;
+  if (problem_.third_body.hardening > 0) change_of_film();
+  if (!lost_.empty()) change_of_memory();
+}
+
+void VaryingBound::change_of_film() {
   for (int j = 0; j < grid_.ny; ++j) {
     double ahead = 0;
     for (int i = grid_.nx - 1; i >= 0; --i) {
       const std::size_t k = grid_.index(i, j);
       if (slides_[k]) ahead = 0;
       if (by_slip_[k] > 0 && along_[k] != 0) ahead = change_[k] += ahead;
+    }
+  }
+}
+
+void VaryingBound::change_of_memory() {
+  for (int j = 0; j < grid_.ny; ++j) {
+    double ahead = 0;  // of the share
+    for (int i = grid_.nx - 1; i >= 0; --i) {
+      const std::size_t k = grid_.index(i, j);
+      const double bound = problem_.traction_bound[k];
+      change_[k] += kept_[k] * ahead * bound;
+      ahead = bound > 0 ? change_[k] / bound : 0.0;
     }
   }
 }

@@ -2,13 +2,14 @@
 // The traction bound of cells where it depends on their slip: friction that falls with the slip velocity, a third-body
 // layer that yields (friction/).
 #include "bem/given_slip.hpp"
+#include "friction/friction_memory.hpp"
 
 namespace railstrata {
 
 /// With v the slip of a cell along its traction, g(v) is what the cell carries, and Newton's method takes
 ///   |q| + n·dq = g(v) + dg,    dg = g'(v) dv,    dv = -n·(L dq - dxi).
-/// Falling friction follows v alone. The film's path of plastic shear adds up along each row, from the leading edge on:
-/// of a film that hardens dg has the changes of the cells ahead too.
+/// Falling friction without a memory follows v alone. What its memory has lost, and the film's path of plastic shear,
+/// go along each row from the leading edge on: there dg has the changes of the cells ahead too.
 class VaryingBound {
  public:
   VaryingBound(const PatchGrid& grid, const TangentialProblem& problem, const GivenSlip& given);
@@ -18,8 +19,9 @@ class VaryingBound {
   }
   /// Throws CaseError for friction that falls too steeply: with L's symmetric part up to `largest` [1/Pa] the slip of a
   /// cell has one value for every traction around it only while largest |g'| < 1; in a step of history L is the whole
-  /// displacement over the step, and beyond that the surfaces jump. And for shifts, whose slip has no velocity.
-  static void require_unique_slip(const TangentialProblem& problem, double largest);
+  /// displacement over the step, and beyond that the surfaces jump. And for shifts, whose slip has no velocity. With a
+  /// memory g' is that of one step of `step` [m].
+  static void require_unique_slip(const TangentialProblem& problem, double step, double largest);
 
   /// To be filled with the slip along the traction of each cell, 0 where it sticks, before `follow`; with a change of
   /// it before `change`.
@@ -33,14 +35,20 @@ class VaryingBound {
   double by_slip(std::size_t k) const { return by_slip_[k]; }  ///< Pa, g'(v) by the cell's own slip
   double change(std::size_t k) const { return change_[k]; }    ///< Pa, dg by the last `change`
   const Plane& plastic() const { return plastic_; }            ///< m, u_pl; empty without a film that yields
+  const Plane& lost() const { return lost_; }                  ///< share; empty without a memory
 
  private:
-  double plastic_before(int i, std::size_t k) const;
+  double before(const Plane& now, const Plane& history, int i, std::size_t k) const;
+  void follow_friction(int i, std::size_t k, double length);
+  void follow_film(int i, std::size_t k, double length);
+  void change_of_film();
+  void change_of_memory();
   const PatchGrid& grid_;
   const TangentialProblem& problem_;
   const GivenSlip& given_;
   Plane along_, rest_, wanted_, by_slip_, change_, plastic_;
-  Mask slides_;  // friction has taken over from a film that yields: what lies ahead no longer matters
+  Plane lost_, kept_;  // with a memory; kept_: what is left of a change of what was lost before
+  Mask slides_;        // friction has taken over from a film that yields: what lies ahead no longer matters
 };
 
 }  // namespace railstrata

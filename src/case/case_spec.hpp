@@ -128,6 +128,8 @@ struct FrictionSpec {
   FrictionForm law = FrictionForm::coulomb;
   std::optional<double> kinetic_coefficient;  ///< limit of fast slip; with a falling law
   std::optional<double> half_velocity;        ///< m/s, where half of the fall is done; with a falling law
+  double memory_distance = 0;                 ///< m, slid until the coefficient has followed; 0: at once
+  double memory_velocity = 1e-3;              ///< m/s, at least, by which it follows: at rest too
 };
 
 /// A layer of wear debris, sand, … between wheel and rail; none without a thickness.

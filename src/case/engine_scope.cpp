@@ -30,8 +30,12 @@ std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec) {
   beyond(g.in_line(), "geometry.contact", "a line contact", "bodies have ends across, and patches too");
   beyond(g.roll != 0, "geometry.roll", "a roll of the wheelset", "the wheel is meshed upright");
   if (!spec.run.rolling) return out;
-  beyond(spec.friction.law != FrictionForm::coulomb, "friction.law", "friction that falls with slip",
-         "surfaces chatter on a law without memory that falls faster than waves carry away");
+  if (spec.friction.law != FrictionForm::coulomb && !(spec.friction.memory_distance > 0))
+    out.push_back({"friction.law",
+                   "friction that falls with slip (friction.law) is not in this engine without a memory: surfaces of "
+                   "finite elements chatter on a law that follows slip at once",
+                   "give friction.memory_distance, 10 to 50 um for a wheel on a rail, or solve the case with "
+                   "`railstrata bem`"});
   beyond(g.curve_radius.has_value(), "geometry.curve_radius", "a curve", "the track is straight");
   beyond(std::abs(d.creepage.value_or(0)) > kLargestRunCreepage, "drive.creepage", "so large a creepage",
          largest.c_str());

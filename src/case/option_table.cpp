@@ -384,10 +384,14 @@ OptionTable drive_table() {
 
 bool falls(const CaseSpec& spec, std::size_t) { return spec.friction.law != FrictionForm::coulomb; }
 
+bool remembers(const CaseSpec& spec, std::size_t index) {
+  return falls(spec, index) && spec.friction.memory_distance > 0;
+}
+
 OptionTable friction_table() {
   using F = FrictionSpec;
   return {"friction",
-          "How friction depends on slip; at rest it is drive.friction_coefficient. Falling friction: half-space engine",
+          "How friction depends on slip; at rest it is drive.friction_coefficient",
           {choice_at<&C::friction, &F::law>("law",
                                             "Coulomb's constant coefficient, or one that falls with the slip velocity "
                                             "v: by 2^(-v/half_velocity), or by 1/(1 + v/half_velocity)",
@@ -409,7 +413,25 @@ OptionTable friction_table() {
             above(0, 100),
             {},
             {},
-            falls}}};
+            falls},
+           {"memory_distance",
+            at<&C::friction, &F::memory_distance>,
+            "Falling laws: sliding distance over which the coefficient follows the slip velocity; 0: at once. Finite "
+            "elements need one, 10 to 50 um",
+            kLength,
+            {0, 10 * kMilli},
+            {},
+            {},
+            falls},
+           {"memory_velocity",
+            at<&C::friction, &F::memory_velocity>,
+            "With memory_distance: the coefficient follows as if slip were at least as fast, so that it comes back at "
+            "rest",
+            kSpeed,
+            {0, 10},
+            {},
+            {},
+            remembers}}};
 }
 
 bool has_film(const CaseSpec& spec, std::size_t) { return spec.third_body.thickness.has_value(); }

@@ -52,6 +52,7 @@ class Sweeper {
         dt_(dt),
         options_(options),
         film_(options.friction.film.flexibility() / dt),
+        newest_(options.slip_time > 0 ? -std::expm1(-dt / options.slip_time) : 1.0),
         sys_(system),
         tractions_(tractions) {
     system.slips.assign(rows.rows.size(), 0);
@@ -133,10 +134,11 @@ class Sweeper {
       t.slip2 = dot(w, f.t2) - film_ * (t.q2 - before(r).q2);
       if (t.p <= 0) {
         t.stuck = NodeTraction::kPause;
-        t.plastic = 0;
+        t.plastic = t.lost_friction = t.mean_slip1 = t.mean_slip2 = 0;
         continue;
       }
       t.stuck = sys_.slips[r] ? 0 : std::min(t.stuck + 1, NodeTraction::kPause);
+      if (options_.friction.falling.falls()) remember_slip(t);
       t.contact_time += dt_;
       if (t.slips()) t.slip_time += dt_;
     }
@@ -146,9 +148,16 @@ class Sweeper {
   // Without a film nothing is asked of the tractions before the step.
   const NodeTraction& before(std::size_t r) { return film_ > 0 ? sys_.at_start[r] : node(r); }
   void return_to_friction(std::size_t r, double compliance, double plastic_before, NodeTraction& t) {
-    const FrictionReturn law = return_to_law(options_.friction, {t.p, compliance, dt_, plastic_before}, t.q1, t.q2);
+    const FrictionStep step{t.p, compliance, dt_, plastic_before, t.lost_friction};
+    const FrictionReturn law = return_to_law(options_.friction, step, t.q1, t.q2);
     sys_.slips[r] = law.slips;
     t.plastic = law.plastic;
+  }
+  void remember_slip(NodeTraction& t) const {
+    t.mean_slip1 += newest_ * (t.slip1 - t.mean_slip1);
+    t.mean_slip2 += newest_ * (t.slip2 - t.mean_slip2);
+    t.lost_friction =
+        lost_after(options_.friction.falling, t.lost_friction, std::hypot(t.mean_slip1, t.mean_slip2), dt_);
   }
   NodeTraction& node(std::size_t r) { return tractions_.at(rows_.rows[r].column, rows_.rows[r].station); }
 
@@ -179,7 +188,8 @@ class Sweeper {
   const MortarRows& rows_;
   double dt_;
   const EnforcementOptions& options_;
-  double film_;  // (m/s)/Pa that an elastic film yields
+  double film_;    // (m/s)/Pa that an elastic film yields
+  double newest_;  // share of the step in the mean slip velocity
   ContactSystem& sys_;
   SurfaceTractions& tractions_;
 };

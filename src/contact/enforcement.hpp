@@ -11,12 +11,16 @@
 //
 // A third-body film (friction/friction_step.hpp) stands in the same place as the disc: its elastic shear is added to
 // what a node yields per traction, D + (h/G)/dt, and belongs to the velocities of the step's end. A node that opens
-// meets a fresh film when it closes again.
+// meets a fresh film when it closes again. Friction that falls with slip is Coulomb's in a step, with the coefficient
+// that the slip up to then has left the rail's node (friction/friction_memory.hpp); it too is whole when a node opens.
+// The law sees the mean slip velocity, as a vector: surfaces that slide vibrate at the mesh's highest frequency, under
+// Coulomb's law already, by as much as they slide, and a law that falls would take that for sliding.
 #include <cassert>
 
 #include "contact/mortar.hpp"
 #include "contact/surface_response.hpp"
 #include "core/rotation.hpp"
+#include "friction/friction_memory.hpp"
 #include "friction/friction_step.hpp"
 
 namespace railstrata {
@@ -27,7 +31,9 @@ struct NodeTraction {
   double p = 0, q1 = 0, q2 = 0;  ///< Pa
   double slip1 = 0, slip2 = 0;   ///< m/s, wheel relative to rail, mean of the step; without a film's elastic shear
   double plastic = 0;            ///< m, path of plastic shear of a film
-  long stuck = kPause;           ///< steps since the law last let it slip, up to kPause
+  double lost_friction = 0;      ///< share of the coefficient at rest that slip has taken (friction_memory.hpp)
+  double mean_slip1 = 0, mean_slip2 = 0;   ///< m/s, as a falling law sees it (EnforcementOptions::slip_time)
+  long stuck = kPause;                     ///< steps since the law last let it slip, up to kPause
   double contact_time = 0, slip_time = 0;  ///< s, in contact and slipping since it came near the patch
 
   /// In the fastest vibration of a mesh, three to four steps of central differences long, the pressure of a sliding
@@ -128,6 +134,7 @@ struct EnforcementOptions {
   bool penalty = false;
   double penalty_stiffness = 0;  ///< Pa/m, penalty only
   FrictionLaws friction;
+  double slip_time = 0;      ///< s, falling laws: time constant of the mean slip velocity; 0: that of the step
   double tolerance = 1e-11;  ///< m, change of a relative displacement per step at which the sweeps stop
   int max_sweeps = 100;
 };

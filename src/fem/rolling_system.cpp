@@ -92,6 +92,14 @@ Axle axle_of(const Body& wheel, const CaseSpec& spec) {
   return axle;
 }
 
+/// Sixteen times the time constant of the fastest shear vibration of the rail's surface, whose angular frequency is 2
+/// c_s/h.
+double vibration_time(const CaseSpec& spec) {
+  constexpr double kTimes = 16;
+  const MaterialSpec& m = spec.rail_material;
+  return kTimes * 0.5 * spec.mesh.element_size * std::sqrt(2 * (1 + m.poisson) * m.density / m.young);
+}
+
 ExplicitOptions explicit_options(const Model& m) {
   const CaseSpec& spec = m.spec;
   ExplicitOptions out;
@@ -111,7 +119,8 @@ ExplicitOptions explicit_options(const Model& m) {
   out.lateral_friction = lateral.friction;
   out.contact.penalty = spec.contact.method == ContactMethod::penalty;
   out.contact.penalty_stiffness = penalty_rule(m);
-  out.contact.friction = {spec.drive.friction_coefficient, third_body(spec)};
+  out.contact.friction = {spec.drive.friction_coefficient, third_body(spec), falling_friction(spec)};
+  out.contact.slip_time = vibration_time(spec);
   return out;
 }
 

@@ -19,9 +19,12 @@ struct FrictionPoint {
 
 struct FallingFriction {
   FrictionForm form = FrictionForm::coulomb;
-  double kinetic_share = 1;  ///< f_kin/f_stat, 0 to 1
-  double half_velocity = 1;  ///< m/s, > 0
+  double kinetic_share = 1;    ///< f_kin/f_stat, 0 to 1
+  double half_velocity = 1;    ///< m/s, > 0
+  double memory_distance = 0;  ///< m; 0: the coefficient follows the slip at once, else friction_memory.hpp
+  double memory_velocity = 0;  ///< m/s, >= 0: by which the coefficient comes back at rest
 
+  bool remembers() const { return falls() && memory_distance > 0; }
   bool falls() const { return form != FrictionForm::coulomb && kinetic_share < 1; }
 };
 

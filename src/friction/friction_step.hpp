@@ -11,13 +11,15 @@
 #include <cmath>
 
 #include "friction/coulomb.hpp"
+#include "friction/falling_friction.hpp"
 #include "friction/third_body.hpp"
 
 namespace railstrata {
 
 struct FrictionLaws {
-  double coefficient = 0;  ///< f
+  double coefficient = 0;  ///< f at rest
   ThirdBody film;
+  FallingFriction falling{};  ///< with a memory: what a step lost, the next one feels (FrictionStep::lost)
 };
 
 /// A point and its step.
@@ -26,6 +28,7 @@ struct FrictionStep {
   double compliance = 0;      ///< C, (m/s)/Pa
   double dt = 0;              ///< s
   double plastic_before = 0;  ///< m, u_pl of the film
+  double lost = 0;            ///< share of the coefficient that earlier slip has taken (friction_memory.hpp)
 };
 
 struct FrictionReturn {
@@ -35,8 +38,9 @@ struct FrictionReturn {
 
 /// Brings q_stick (two components) back to what the laws let the point carry.
 inline FrictionReturn return_to_law(const FrictionLaws& laws, const FrictionStep& step, double& q1, double& q2) {
-  if (!laws.film.yields()) return {return_to_coulomb_disc(laws.coefficient, step.p, q1, q2), 0};
-  const double friction = laws.coefficient * (step.p > 0 ? step.p : 0), stick = std::sqrt(q1 * q1 + q2 * q2),
+  const double coefficient = laws.coefficient * (1 - step.lost);
+  if (!laws.film.yields()) return {return_to_coulomb_disc(coefficient, step.p, q1, q2), 0};
+  const double friction = coefficient * (step.p > 0 ? step.p : 0), stick = std::sqrt(q1 * q1 + q2 * q2),
                at_rest = yield_or_slide(laws.film, friction, step.plastic_before, 0).bound;
   if (stick <= at_rest) return {false, step.plastic_before};
   const double hardening = at_rest < friction ? laws.film.hardening : 0,

@@ -263,6 +263,9 @@ constexpr auto visit_traction = [](auto& t, auto&& on) {
   on("slip1", t.slip1);
   on("slip2", t.slip2);
   on("plastic", t.plastic);
+  on("lost_friction", t.lost_friction);
+  on("mean_slip1", t.mean_slip1);
+  on("mean_slip2", t.mean_slip2);
   on("stuck", t.stuck);
   on("contact_time", t.contact_time);
   on("slip_time", t.slip_time);

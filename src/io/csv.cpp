@@ -24,12 +24,12 @@ std::string heading(const std::vector<std::string>& provenance, const std::vecto
   return out + fmt::format("{}\n", fmt::join(names, ","));
 }
 
-/// What does not apply (NaN) is left empty, but in the last column: a row that ends with a comma is torn.
+/// What does not apply (NaN) is left empty.
 std::string row_text(std::span<const double> row) {
   std::string text;
   for (std::size_t k = 0; k < row.size(); ++k) {
     const bool last = k + 1 == row.size();
-    if (last || !std::isnan(row[k])) fmt::format_to(std::back_inserter(text), "{}", row[k]);
+    if (!std::isnan(row[k])) fmt::format_to(std::back_inserter(text), "{}", row[k]);
     text += last ? '\n' : ',';
   }
   return text;
@@ -51,11 +51,14 @@ std::vector<CsvColumn> columns_named(const std::string& line) {
   return columns;
 }
 
-void read_row(const std::string& text, const std::filesystem::path& file, int line, std::vector<CsvColumn>& columns) {
+/// A row without its end of line that stops behind a comma is torn; one with it has an empty last field.
+void read_row(const std::string& text, const std::filesystem::path& file, int line, bool ended,
+              std::vector<CsvColumn>& columns) {
   const char *at = text.data(), *end = at + text.size();
   for (std::size_t k = 0; k < columns.size(); ++k) {
     double value = std::numeric_limits<double>::quiet_NaN();
-    const bool last = k + 1 == columns.size(), empty = !last && at != end && *at == ',';
+    const bool last = k + 1 == columns.size(),
+               empty = last ? k > 0 && ended && (at == end || *at == '\r') : at != end && *at == ',';
     const auto [next, error] = empty ? std::from_chars_result{at, std::errc{}} : std::from_chars(at, end, value);
     if (error != std::errc{} || (last ? next != end && *next != '\r' : next == end || *next != ','))
       refuse(file, line, fmt::format("a row of {} numbers is expected", columns.size()));
@@ -94,7 +97,7 @@ CsvTable parse_csv(const std::string& text, const std::filesystem::path& file) {
     if (table.columns.empty())
       table.columns = columns_named(line);
     else
-      read_row(line, file, number, table.columns);
+      read_row(line, file, number, !in.eof(), table.columns);
   }
   return table;
 }

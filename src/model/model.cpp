@@ -129,7 +129,8 @@ FallingFriction falling_friction(const CaseSpec& spec) {
   const FrictionSpec& f = spec.friction;
   const double at_rest = spec.drive.friction_coefficient;
   if (f.law == FrictionForm::coulomb || !(at_rest > 0)) return {};
-  return {f.law, f.kinetic_coefficient.value() / at_rest, f.half_velocity.value()};
+  return {f.law, f.kinetic_coefficient.value() / at_rest, f.half_velocity.value(), f.memory_distance,
+          f.memory_velocity};
 }
 
 ThirdBody third_body(const CaseSpec& spec) {

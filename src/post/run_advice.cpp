@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "model/sliding_waves.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -48,6 +50,17 @@ std::vector<Warning> run_advice(const CaseSpec& spec, double position, const Ste
   return out;
 }
 
+std::optional<Warning> memory_advice(const CaseSpec& spec, double p_max, double longer_axis) {
+  if (!spec.run.rolling || !falling_friction(spec).remembers()) return {};
+  const double given = spec.friction.memory_distance, needed = stable_memory_distance(spec, p_max, longer_axis);
+  if (needed <= kShortFrictionMemory * given) return {};
+  return Warning{
+      "short_friction_memory", needed / given, kShortFrictionMemory,
+      fmt::format("under {:.0f} MPa steady sliding is stable from a friction.memory_distance of {:.3g} um on; "
+                  "it is {:.3g} um, and vibration may grow",
+                  1e-6 * p_max, 1e6 * needed, 1e6 * given)};
+}
+
 void add_run_advice(Summary& summary, const CaseSpec& spec, const StepLimits& limits) {
   const bool traction_missed = std::any_of(summary.checks.begin(), summary.checks.end(), [](const Check& c) {
     return c.name == "traction_coefficient_reached" && !c.ok;
@@ -56,6 +69,9 @@ void add_run_advice(Summary& summary, const CaseSpec& spec, const StepLimits& li
     if (w.name == kWithinRamp && traction_missed) w.text += "; traction_coefficient_reached fails for this reason";
     summary.warnings.push_back(std::move(w));
   }
+  const PatchMeasures& patch = summary.contact.patch;
+  if (auto w = memory_advice(spec, patch.p_max, std::max(patch.length, patch.width)))
+    summary.warnings.push_back(std::move(*w));
 }
 
 }  // namespace railstrata

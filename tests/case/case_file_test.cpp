@@ -743,6 +743,13 @@ TEST(CaseFile, TellsWhatTheFiniteElementsDoNotDoWithItsPlace) {
   ASSERT_EQ(laws.not_in_fem.size(), 1u);
   EXPECT_EQ(laws.not_in_fem[0].where, "a.toml:2:7");
   EXPECT_TRUE(laws.not_in_fem[0].message.starts_with("friction that falls with slip (friction.law) is not in this"));
+  const LoadedCase remembering = parse_case(
+      "[friction]\nlaw = \"falling_rational\"\nkinetic_coefficient = 0.2\nhalf_velocity = \"1 m/s\"\n"
+      "memory_distance = \"20 um\"\n",
+      "a.toml");
+  EXPECT_TRUE(remembering.not_in_fem.empty());
+  EXPECT_EQ(remembering.spec.friction.memory_distance, 20e-6);
+  EXPECT_EQ(remembering.spec.friction.memory_velocity, 1e-3);
   const LoadedCase film = parse_case("[third_body]\nthickness = \"20 µm\"\nshear_modulus = \"100 MPa\"\n", "a.toml");
   EXPECT_TRUE(film.not_in_fem.empty());
   EXPECT_THROW(require_finite_elements(loaded.spec), CaseError);

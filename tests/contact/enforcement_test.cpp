@@ -53,7 +53,7 @@ struct Impact {
   const NodeTraction& traction(std::size_t r) const { return memory.at(rows.rows[r].column, rows.rows[r].station); }
 };
 
-EnforcementOptions exact(double friction = kFriction) { return {false, 0, {friction, {}}, 1e-19, 20000}; }
+EnforcementOptions exact(double friction = kFriction) { return {false, 0, {friction, {}}, 0, 1e-19, 20000}; }
 
 }  // namespace
 
@@ -154,6 +154,39 @@ TEST(Multipliers, LeaveAnElasticFilmItsShear) {
     EXPECT_FALSE(t.slips());
   }
   EXPECT_GT(pressed, 10);
+}
+
+// Friction that falls with slip: the disc of a step is what earlier slip has left, the slip of the step takes more of
+// it, and a node that opens forgets.
+TEST(Multipliers, TakeWhatSlipHasLeftOfFriction) {
+  constexpr double kLow = 0.15;
+  EnforcementOptions options = exact(kLow);
+  options.friction.falling = {FrictionForm::falling_rational, 0.3, 0.5, 0.5e-6, 1e-3};
+  Impact c(options, -2e-6);
+  std::vector<double> lost;
+  int sliding = 0;
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    const NodeTraction& t = c.traction(r);
+    EXPECT_NEAR(t.lost_friction,
+                t.p > 0 ? lost_after(options.friction.falling, 0, std::hypot(t.slip1, t.slip2), kStep) : 0, 1e-15);
+    lost.push_back(t.lost_friction);
+  }
+  ContactSystem next = c.before;
+  enforce_contact(c.rows, kStep, options, next, c.memory);
+  for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
+    const NodeTraction& t = c.traction(r);
+    const double bound = kLow * (1 - lost[r]) * t.p;
+    EXPECT_LE(std::hypot(t.q1, t.q2), bound * (1 + 1e-12));
+    if (t.p < 1e6 || std::hypot(t.slip1, t.slip2) < 0.2) continue;
+    EXPECT_NEAR(std::hypot(t.q1, t.q2) / bound, 1, 1e-9);
+    EXPECT_GT(lost[r], 0.01);
+    ++sliding;
+  }
+  EXPECT_GT(sliding, 4);
+  for (ContactRow& row : c.rows.rows) row.gap = 1e-3;
+  ContactSystem lifted = c.before;
+  enforce_contact(c.rows, kStep, options, lifted, c.memory);
+  for (const NodeTraction& t : c.memory.all()) EXPECT_EQ(t.lost_friction, 0);
 }
 
 // A film that yields carries tau_c0 + k u_pl, u_pl being the path that is not elastic.
@@ -368,7 +401,7 @@ TEST(Multipliers, ThatTheFreeVelocitiesContainAreNotAppliedTwice) {
 }
 
 TEST(Penalty, PressureIsStiffnessTimesPenetrationAndFrictionStaysOnTheCoulombDisc) {
-  const EnforcementOptions options{true, 5e13, {kFriction, {}}, 0, 0};
+  const EnforcementOptions options{true, 5e13, {kFriction, {}}, 0, 0, 0};
   const Impact c(options);
   int pressed = 0;
   for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
@@ -381,7 +414,7 @@ TEST(Penalty, PressureIsStiffnessTimesPenetrationAndFrictionStaysOnTheCoulombDis
 }
 
 TEST(Penalty, TangentialSpringIsStretchedByTheLastStepsMotionNotByTheFreeOne) {
-  const EnforcementOptions options{true, 5e13, {1e6, {}}, 0, 0};  // friction that never slips
+  const EnforcementOptions options{true, 5e13, {1e6, {}}, 0, 0, 0};  // friction that never slips
   const Impact c(options);
   for (std::size_t r = 0; r < c.rows.rows.size(); ++r) {
     if (c.traction(r).p <= 0) continue;

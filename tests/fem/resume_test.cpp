@@ -103,6 +103,16 @@ TEST(Resume, OnAFilmThatYieldsToo) {
   expect_same_bits(spec);
 }
 
+TEST(Resume, UnderFrictionThatRemembersToo) {
+  CaseSpec spec = damped_case();
+  spec.drive.lateral_creepage = 0.03;
+  spec.friction.law = FrictionForm::falling_exponential;
+  spec.friction.kinetic_coefficient = 0.2;
+  spec.friction.half_velocity = 1;
+  spec.friction.memory_distance = 20e-6;
+  expect_same_bits(spec);
+}
+
 // A guard that speaks in the second window, long after the last good state: what is saved goes on to the bits of a run
 // to which nothing happened.
 TEST(Resume, FromTheLastGoodStateToo) {

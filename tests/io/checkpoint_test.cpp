@@ -31,7 +31,7 @@ RunState small_run(double time) {
   r.stepper.state.bodies[0].u = {0.1, -0.0, 5e-324};
   r.stepper.state.bodies[1].v = {1.0 / 3};
   r.stepper.state.tractions = SurfaceTractions(2, 3);
-  r.stepper.state.tractions.at(1, 2) = {1, 2, 3, 4, 5, 6, 2, 8, 9};
+  r.stepper.state.tractions.at(1, 2) = {1, 2, 3, 4, 5, 6, 0.5, 11, 12, 2, 8, 9};
   r.stepper.state.groups = {{0.5, -0.5}};
   r.stepper.facets = {{3, 4, {{1, 2}, {3, 4}, {5, 6}, {7, 8}}}};
   r.stepper.reached_edge = true;
@@ -120,6 +120,8 @@ TEST_F(Checkpoints, ReadBackWhatWasWritten) {
   EXPECT_TRUE(std::signbit(c.run.stepper.state.bodies[0].u[1]));
   EXPECT_EQ(c.run.stepper.state.tractions.at(1, 2).slip2, 5);
   EXPECT_EQ(c.run.stepper.state.tractions.at(1, 2).plastic, 6);
+  EXPECT_EQ(c.run.stepper.state.tractions.at(1, 2).lost_friction, 0.5);
+  EXPECT_EQ(c.run.stepper.state.tractions.at(1, 2).mean_slip2, 12);
   EXPECT_EQ(c.run.stepper.state.tractions.at(1, 2).stuck, 2);
   EXPECT_EQ(c.run.stepper.state.tractions.at(1, 2).slip_time, 9);
   EXPECT_EQ(c.run.stepper.facets[0].correction[3].y, 8);

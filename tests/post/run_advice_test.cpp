@@ -70,4 +70,23 @@ TEST(RunAdvice, GivesTheRampAsTheReasonOfATractionThatIsNotReached) {
   EXPECT_NE(missed.warnings[0].text.find(reason), std::string::npos);
 }
 
+// A ball of 6 mm semi-axes at 1051 MPa needs about 10 um (docs/bem.md); a law that does not fall, or falls gently,
+// none.
+TEST(RunAdvice, WarnsOfAFrictionMemoryTooShortForStableSliding) {
+  CaseSpec spec;
+  EXPECT_FALSE(memory_advice(spec, 1051e6, 12.3e-3));
+  spec.friction.law = FrictionForm::falling_exponential;
+  spec.friction.kinetic_coefficient = 0.2;
+  spec.friction.half_velocity = 1;
+  spec.friction.memory_distance = 20e-6;
+  EXPECT_FALSE(memory_advice(spec, 1051e6, 12.3e-3));
+  spec.friction.memory_distance = 5e-6;
+  const std::optional<Warning> warning = memory_advice(spec, 1051e6, 12.3e-3);
+  ASSERT_TRUE(warning);
+  EXPECT_EQ(warning->name, "short_friction_memory");
+  EXPECT_NEAR(5 * warning->value, 9.6, 0.2);
+  spec.friction.half_velocity = 100;
+  EXPECT_FALSE(memory_advice(spec, 1051e6, 12.3e-3));
+}
+
 }  // namespace railstrata

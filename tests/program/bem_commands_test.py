@@ -175,6 +175,13 @@ class HalfSpaceCommands(FromOutside):
         self.assertNotIn("not_in_fem", json.loads(self.done("check", BASE, *drive, "--json")))
         self.assertEqual(len(json.loads(self.done("check", BASE, *beyond, "--json"))["not_in_fem"]), 2)
 
+    def test_check_of_a_contact_that_cannot_be_meshed_names_the_engine_that_takes_it(self):
+        flange = ["--set", "geometry.wheel_profile=S1002", "--set", "geometry.rail_profile=UIC60", "--set",
+                  "geometry.lateral_shift=11 mm"]
+        self.refused(2, ["check", BASE, *flange], "`railstrata bem` makes no mesh and takes the case",
+                     "too close to the end of the rail's running surface")
+        self.done("bem", BASE, *COARSE, *flange, "--out", self.folder / "flange")
+
     def test_bem_refuses_what_half_space_theory_cannot_answer(self):
         out = ["--out", self.folder / "out"]
         self.refused(2, ["bem", BASE, *COARSE, *out, "--set", "drive.traction_coefficient=0.6"],
