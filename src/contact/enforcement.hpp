@@ -28,7 +28,9 @@ struct NodeTraction {
   double slip1 = 0, slip2 = 0;   ///< m/s, wheel relative to rail, mean of the step; without a film's elastic shear
   double plastic = 0;            ///< m, path of plastic shear of a film
   long stuck = kPause;           ///< steps since the law last let it slip, up to kPause
-  double contact_time = 0, slip_time = 0;  ///< s, in contact and slipping since it came near the patch
+  double contact_time = 0, slip_time = 0;  ///< s, in contact and slipping since the start
+  double friction_work = 0;                ///< J/m², of q over the slip since the start, that of a step its mean
+  double pressed_slip = 0;  ///< J/m², of p over the path of its slips since the start: what Archard's wear goes with
 
   /// In the fastest vibration of a mesh, three to four steps of central differences long, the pressure of a sliding
   /// node rises so fast that it sticks for a step or two: such a pause is not the end of its slip.
