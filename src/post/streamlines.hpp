@@ -19,6 +19,7 @@ struct StreamlineRow {
   double archard_depth = kNotApplicable;  ///< m per passage, with the rail's wear_coefficient over its hardness
   double kth_depth = kNotApplicable;      ///< m per passage, Jendel's map, dry laboratory surfaces
   double temperature_rise = 0;            ///< K
+  double rise_lower = 0, rise_upper = 0;  ///< K, bounds of it whatever the layers' order and thickness
   double local_fatigue = kNotApplicable;  ///< largest |q|/p - k/p
   double depth(WearLaw law) const {       ///< m per passage
     return law == WearLaw::usfd ? usfd_depth : law == WearLaw::kth ? kth_depth : archard_depth;
