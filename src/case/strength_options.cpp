@@ -192,7 +192,13 @@ std::vector<Option> fatigue_options() {
           {"wear_coefficient", Place::template slot<&S::wear_coefficient>,
            "Archard's k: worn volume is k times force times distance over hardness", kNumber, above(0, 1)},
           {"conductivity", Place::template slot<&S::conductivity>, "Of heat", kConductivity, {0.01, 5000}},
-          {"heat_capacity", Place::template slot<&S::heat_capacity>, "Per mass", kHeatCapacity, {10, 20000}}};
+          {"heat_capacity", Place::template slot<&S::heat_capacity>, "Per mass", kHeatCapacity, {10, 20000}},
+          {"austenitisation_rise",
+           Place::template slot<&S::austenitisation_rise>,
+           "Rise of temperature at which the surface turns to austenite, and to martensite when it cools: of pearlitic "
+           "steel at 20 °C some 700 K without pressure; gives the share that the flash temperature reaches",
+           kTemperature,
+           {50, 3000}}};
 }
 
 template <class Place>

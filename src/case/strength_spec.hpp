@@ -64,6 +64,7 @@ struct StrengthSpec {
   std::optional<double> bond_tension, bond_shear;     ///< Pa, of a layer's lower interface
   double conductivity = 50;                           ///< W/(m K)
   double heat_capacity = 460;                         ///< J/(kg K)
+  std::optional<double> austenitisation_rise;         ///< K, from the surface before the wheel to austenite
 };
 
 }  // namespace railstrata

@@ -140,6 +140,7 @@ class Sweeper {
       t.stuck = sys_.slips[r] ? 0 : std::min(t.stuck + 1, NodeTraction::kPause);
       if (options_.friction.falling.falls()) remember_slip(t);
       t.contact_time += dt_;
+      if (sys_.slips[r]) t.pressed_slip += dt_ * t.p * std::hypot(t.slip1, t.slip2);
       if (t.slips()) t.slip_time += dt_;
     }
   }

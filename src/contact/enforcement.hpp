@@ -35,6 +35,8 @@ struct NodeTraction {
   double mean_slip1 = 0, mean_slip2 = 0;   ///< m/s, as a falling law sees it (EnforcementOptions::slip_time)
   long stuck = kPause;                     ///< steps since the law last let it slip, up to kPause
   double contact_time = 0, slip_time = 0;  ///< s, in contact and slipping since it came near the patch
+  double friction_work = 0;                ///< J/m², of q over the slip since the start, that of a step its mean
+  double pressed_slip = 0;  ///< J/m², of p over the path of its slips since the start: what Archard's wear goes with
 
   /// In the fastest vibration of a mesh, three to four steps of central differences long, the pressure of a sliding
   /// node rises so fast that it sticks for a step or two: such a pause is not the end of its slip.

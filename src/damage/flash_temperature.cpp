@@ -22,6 +22,7 @@ void check(const HeatedLine& line, const ThermalBody& rail, const ThermalBody& w
     check(body->base);
     if (!(body->layer_thickness >= 0)) throw std::invalid_argument("a layer's thickness must not be negative");
     if (body->layer_thickness > 0) check(body->layer);
+    for (const ThermalMaterial& layer : body->deeper) check(layer);
   }
 }
 
@@ -73,10 +74,14 @@ double peclet(const HeatedLine& line, const ThermalBody& rail, const ThermalBody
 /// The body as a half-space of its less (or more) effusive material; `name` says which.
 ThermalBody half_space(const ThermalBody& body, bool less_effusive, std::string_view& name) {
   if (!(body.layer_thickness > 0)) return {.base = body.base, .layer = {}};
-  const bool layer_is_less = body.layer.effusivity() < body.base.effusivity();
-  const bool layer = layer_is_less == less_effusive;
-  name = layer ? "layer" : "base";
-  return {.base = layer ? body.layer : body.base, .layer = {}};
+  const ThermalMaterial* taken = &body.base;
+  const auto offer = [&](const ThermalMaterial& layer) {
+    if ((layer.effusivity() < taken->effusivity()) == less_effusive) taken = &layer;
+  };
+  offer(body.layer);
+  for (const ThermalMaterial& layer : body.deeper) offer(layer);
+  name = taken == &body.base ? "base" : "layer";
+  return {.base = *taken, .layer = {}};
 }
 
 }  // namespace

@@ -28,8 +28,9 @@ struct ThermalMaterial {
 
 struct ThermalBody {
   ThermalMaterial base;
-  double layer_thickness = 0;  ///< m; 0: no layer
-  ThermalMaterial layer;       ///< of the surface
+  double layer_thickness = 0;                ///< m; 0: no layer
+  ThermalMaterial layer;                     ///< of the surface
+  std::vector<ThermalMaterial> deeper = {};  ///< of further layers between it and the base: for the bounds alone
 };
 
 /// Friction power q·s per area of a row of cells [W/m²], in the order in which the material passes them: the leading
@@ -53,9 +54,11 @@ struct FlashTemperature {
 /// heat is constant in a cell. Throws std::invalid_argument for data that are not positive.
 FlashTemperature flash_temperature(const HeatedLine& line, const ThermalBody& rail, const ThermalBody& wheel);
 
-/// The largest rise with each layered body taken as a half-space of its layer or of its base. Of a given heat flux the
-/// layered body's surface temperature lies between the two: its kernel lies between 1/(e_layer sqrt(pi t)), which it
-/// has at first, and 1/(e_base sqrt(pi t)), which it tends to. The smaller effusivity gives the upper bound.
+/// The largest rise with each layered body taken as a half-space of its most and of its least effusive material. Of a
+/// given heat flux a layer's surface temperature lies between those of its material and of its base: the kernel lies
+/// between 1/(e_layer sqrt(pi t)), which it has at first, and 1/(e_base sqrt(pi t)), which it tends to. Of several
+/// layers, from the base up, so does the answer to every growing flux (the impedance of each layer on the ones below is
+/// between the two). The smaller effusivity gives the upper bound.
 struct FlashBounds {
   double lower = 0, upper = 0;  ///< K
   /// "layer" or "base": whose data the upper bound has; of the rail, then of the wheel. Empty without a layer.

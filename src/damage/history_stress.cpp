@@ -4,30 +4,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "core/lagrange.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {
 namespace {
-
-/// Samples first .. first + count - 1 and their weights at a point.
-struct Stencil {
-  int first = 0, count = 0;
-  std::array<double, 4> weight{};
-};
-
-/// Lagrange's polynomial through the four samples around t, among `count` ascending ones.
-Stencil stencil(const double* at, int count, double t) {
-  Stencil s;
-  s.count = std::min(4, count);
-  const int above = static_cast<int>(std::upper_bound(at, at + count, t) - at);
-  s.first = std::clamp(above - 2, 0, count - s.count);
-  for (int i = 0; i < s.count; ++i) {
-    s.weight[i] = 1;
-    for (int j = 0; j < s.count; ++j)
-      if (j != i) s.weight[i] *= (t - at[s.first + j]) / (at[s.first + i] - at[s.first + j]);
-  }
-  return s;
-}
 
 /// How far along a direction from `from` one stays between the ends: a share of `way`, at most 1.
 double share_inside(double from, double way, double low, double high) {
@@ -69,9 +50,9 @@ Sym3 HistoryStress::at(Vec3 p, bool below_interface) const {
                 h.columns() > 1 ? share_inside(centre_y_, dy, h.y.front(), h.y.back()) : 1.});
   const double z = share * p.z;
   const Span span = span_at(z, below_interface);
-  const Stencil along = stencil(h.x.data(), h.samples(), centre_x_ + share * dx),
-                across = stencil(h.y.data(), h.columns(), centre_y_ + share * dy),
-                down = stencil(h.depth.data() + span.first, span.count, z);
+  const LagrangeStencil along = lagrange_stencil(h.x.data(), h.samples(), centre_x_ + share * dx),
+                        across = lagrange_stencil(h.y.data(), h.columns(), centre_y_ + share * dy),
+                        down = lagrange_stencil(h.depth.data() + span.first, span.count, z);
   Sym3 sum;
   for (int r = 0; r < down.count; ++r)
     for (int c = 0; c < across.count; ++c) {

@@ -14,13 +14,21 @@ void check(const Streamline& line) {
   const std::size_t n = line.p.size();
   for (const auto* values : {&line.q_x, &line.q_y, &line.slip_x, &line.slip_y})
     if (values->size() != n) throw std::invalid_argument("the rows of a streamline differ in length");
+  for (const auto* values : {&line.power, &line.pressed})
+    if (!values->empty() && values->size() != n)
+      throw std::invalid_argument("the rows of a streamline differ in length");
   if (!(line.dx > 0 && line.speed > 0)) throw std::invalid_argument("a streamline needs dx > 0 and a speed > 0");
 }
 
 double power(const Streamline& line, std::size_t i) {
+  if (!line.power.empty()) return line.power[i];
   return line.q_x[i] * line.slip_x[i] + line.q_y[i] * line.slip_y[i];
 }
 double slip(const Streamline& line, std::size_t i) { return std::hypot(line.slip_x[i], line.slip_y[i]); }
+double pressed_slip(const Streamline& line, std::size_t i) {
+  if (!line.pressed.empty()) return line.pressed[i];
+  return line.p[i] > 0 ? line.p[i] * slip(line, i) : 0;
+}
 
 double positive(double value, const char* what) {
   if (!(value > 0)) throw std::invalid_argument(std::string(what) + " must be positive");
@@ -86,9 +94,9 @@ double archard_depth(const Streamline& line, const ArchardMap& map, double hardn
   positive(hardness, "hardness");
   double depth = 0;
   for (std::size_t i = 0; i < line.p.size(); ++i) {
-    if (!(line.p[i] > 0)) continue;
-    const double s = slip(line, i);
-    depth += archard_coefficient(map, line.p[i], s, hardness) * line.p[i] * s * line.dx / line.speed;
+    const double work = pressed_slip(line, i);
+    if (!(work > 0)) continue;
+    depth += archard_coefficient(map, line.p[i], slip(line, i), hardness) * work * line.dx / line.speed;
   }
   return scale * depth / hardness;
 }

@@ -16,6 +16,8 @@ struct Streamline {
   std::span<const double> slip_x, slip_y;  ///< m/s
   double dx = 0;                           ///< m, length of a cell
   double speed = 0;                        ///< V [m/s], > 0
+  /// W/m², q·slip and p |slip| where the means of the products are known; empty: the products of what is above.
+  std::span<const double> power = {}, pressed = {};
 };
 
 /// q·s, W/m², of every cell; below zero only by a fault of the solution.

@@ -40,6 +40,16 @@ bool any_local_steps(const RollingBodies& bodies) {
   return std::any_of(bodies.begin(), bodies.end(), [](const RollingBody& b) { return !b.steps.local.empty(); });
 }
 
+/// A node that left the neighbourhood of the patch: of its state only what it has gone through.
+NodeTraction apart(const NodeTraction& t) {
+  NodeTraction out;
+  out.contact_time = t.contact_time;
+  out.slip_time = t.slip_time;
+  out.friction_work = t.friction_work;
+  out.pressed_slip = t.pressed_slip;
+  return out;
+}
+
 const SurfaceResponse* response_of(const RollingBody& b) {
   return b.steps.response.empty() ? nullptr : &b.steps.response;
 }
@@ -113,7 +123,7 @@ void ContactStep::find_rows(long step, RollingBodies& bodies, const BodyStates& 
   if (!anew) return;
   kept_.clear();
   for (const ContactRow& r : rows_->rows) kept_.push_back(tractions.at(r.column, r.station));
-  for (NodeTraction& t : tractions.all()) t = {};
+  for (NodeTraction& t : tractions.all()) t = apart(t);
   for (std::size_t k = 0; k < kept_.size(); ++k) tractions.at(rows_->rows[k].column, rows_->rows[k].station) = kept_[k];
 }
 
@@ -160,14 +170,15 @@ void ContactStep::apply_tractions(RollingBodies& bodies, BodyStates& states, con
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].steps.local.add_forces(changes_[k], states[k].f);
 }
 
-ContactLosses ContactStep::measure(const SurfaceTractions& tractions) {
+ContactLosses ContactStep::measure(double dt, SurfaceTractions& tractions) {
   const ContactSystem& c = system_;
   forces_ = {};
   forces_.sweeps = c.sweeps;
   ContactLosses losses;
   for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
     const ContactRow& row = rows_->rows[k];
-    const double p = tractions.at(row.column, row.station).p;
+    NodeTraction& traction = tractions.at(row.column, row.station);
+    const double p = traction.p;
     if (p <= 0) continue;
     const Vec3 force = force_on_rail(row, tractions);
     Vec3 slip = -0.5 * (c.rail.before[k] + c.rail.velocity[k]);  // mean of the step, wheel against rail
@@ -182,7 +193,9 @@ ContactLosses ContactStep::measure(const SurfaceTractions& tractions) {
     ++forces_.nodes;
     const double normal_slip = dot(slip, row.normal);
     losses.normal += -row.area * p * normal_slip;
-    losses.friction += dot(force, slip) + row.area * p * normal_slip;
+    const double friction = dot(force, slip) + row.area * p * normal_slip;
+    losses.friction += friction;
+    traction.friction_work += dt * friction / row.area;
   }
   return losses;
 }

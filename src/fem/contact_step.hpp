@@ -51,8 +51,8 @@ class ContactStep {
   /// The tractions to the forces: what local steps have felt already is taken off, the rest goes through their stages.
   void apply_tractions(RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions);
 
-  /// Sums the forces on the wheel and what was lost.
-  ContactLosses measure(const SurfaceTractions& tractions);
+  /// Sums the forces on the wheel and what was lost; adds friction's work to that of the nodes.
+  ContactLosses measure(double dt, SurfaceTractions& tractions);
 
   const ContactForces& forces() const { return forces_; }
   bool reached_edge() const { return reached_edge_; }

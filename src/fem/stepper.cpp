@@ -143,7 +143,7 @@ void Stepper::step() {
   contact_.gather(bodies_, state_.bodies, scope);
   contact_.enforce(scope.dt, state_.tractions);
   contact_.apply_tractions(bodies_, state_.bodies, state_.tractions);
-  const ContactLosses losses = contact_.measure(state_.tractions);
+  const ContactLosses losses = contact_.measure(scope.dt, state_.tractions);
   balance_.friction += scope.dt * losses.friction;
   balance_.contact_normal += scope.dt * losses.normal;
 

@@ -269,6 +269,8 @@ constexpr auto visit_traction = [](auto& t, auto&& on) {
   on("stuck", t.stuck);
   on("contact_time", t.contact_time);
   on("slip_time", t.slip_time);
+  on("friction_work", t.friction_work);
+  on("pressed_slip", t.pressed_slip);
 };
 constexpr auto visit_axle = [](auto& a, auto&& on) {
   on("x", a.x);

@@ -13,6 +13,17 @@ namespace {
 
 Check fem_check(std::string_view name, double value) { return at_most(name, value, check_row(name).fem_limit); }
 
+/// N m, on the wheel about the contact plane's normal at the rigid contact point.
+double spin_moment(const RigidContact& contact, const ContactField& f) {
+  double sum = 0;
+  for (int i = 0; i < f.size(); ++i) {
+    const double across =
+        (f.y[i] - contact.point.y) * std::cos(contact.angle) + (f.z[i] - contact.point.z) * std::sin(contact.angle);
+    sum += f.area[i] * (across * f.q_x[i] - (f.x[i] - contact.x) * f.q_y[i]);
+  }
+  return sum;
+}
+
 ContactSummary contact_summary(const RollingSystem& sys, const RunResult& run, const MeanContact& m) {
   ContactSummary c;
   c.patch = m.patch;
@@ -27,6 +38,7 @@ ContactSummary contact_summary(const RollingSystem& sys, const RunResult& run, c
   c.creepage_x = m.creepage;
   c.creepage_y = m.lateral_creepage;
   c.spin_per_m = m.spin_per_m;
+  c.spin_moment = spin_moment(sys.model.placement.contact, m.field);
   c.p_max_scatter = m.p_max_scatter;
   return c;
 }

@@ -5,14 +5,13 @@
 #include <map>
 #include <memory>
 
-#include "damage/single_track.hpp"
+#include "post/one_track.hpp"
 #include "post/patch.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr double kNearEnough = 1.02;  // upper over wandering
-constexpr double kBox = 6;            // half-widths and half-lengths that the residual stress reaches
+constexpr double kBox = 6;  // half-widths and half-lengths that the residual stress reaches
 
 /// Stresses of a half-space at any point: from the patch's own cells near it, from cells three times as large farther
 /// away. Planes are kept: the same depths are asked for again and again.
@@ -93,7 +92,7 @@ class PatchEnds {
   std::vector<std::array<double, 2>> ends_;
 };
 
-double track_factor(const CaseSpec& spec, const BemResult& r, const SectionShakedown& section) {
+SingleTrackInput track_input(const CaseSpec& spec, const BemResult& r, const SectionShakedown& section) {
   const BemPatch& patch = section.patch == 0 ? r : r.further.at(section.patch - 1);
   const LayeredHalfSpace& body = section.body == BodyId::rail ? r.rail : r.wheel;
   const PatchMeasures m = measure_patch(patch.field);
@@ -109,7 +108,7 @@ double track_factor(const CaseSpec& spec, const BemResult& r, const SectionShake
   in.stress = [stress](const std::vector<Vec3>& points, bool below) { return (*stress)(points, below); };
   in.shear_strength = shear_strength_by_depth(spec, section.body);
   in.ends = PatchEnds(patch);
-  return single_track(in).factor;
+  return in;
 }
 
 }  // namespace
@@ -117,10 +116,9 @@ double track_factor(const CaseSpec& spec, const BemResult& r, const SectionShake
 void add_single_track(const CaseSpec& spec, const BemResult& result, std::vector<SectionShakedown>& sections) {
   for (SectionShakedown& section : sections) {
     if (!section.strength.any()) continue;
-    const double safe = section.found.wandering.value, most = section.found.upper.value;
-    section.single_track = result.grid.line || most <= kNearEnough * safe
-                               ? safe
-                               : std::clamp(track_factor(spec, result, section), safe, most);
+    section.single_track = result.grid.line
+                               ? section.found.wandering.value
+                               : one_track(section.found, [&] { return track_input(spec, result, section); });
   }
 }
 

@@ -564,6 +564,34 @@ std::vector<ResultNumber> damage_numbers() {
               "Largest |q|/p - k/p of a point", false)};
 }
 
+/// What stands beside the flash temperature.
+std::vector<ResultNumber> heat_numbers() {
+  using D = DamageSummary;
+  return {{.group = "damage",
+           .symbol = "temperature_rise_lower",
+           .unit = kKelvins,
+           .value = damage<&D::temperature_rise_lower>,
+           .label = "flash temperature, at least",
+           .name = "Flash temperature, lower bound",
+           .doc = "With the bodies as half-spaces of their most effusive material"},
+          {.group = "damage",
+           .symbol = "temperature_rise_upper",
+           .unit = kKelvins,
+           .value = damage<&D::temperature_rise_upper>,
+           .label = "flash temperature, at most",
+           .name = "Flash temperature, upper bound",
+           .doc = "With the bodies as half-spaces of their least effusive material, whichever layer that is"},
+          {.group = "damage",
+           .symbol = "austenitisation",
+           .unit = kNone,
+           .value = damage<&D::austenitisation>,
+           .label = "austenitisation",
+           .name = "Share of austenitisation",
+           .doc = "Flash temperature over the austenitisation_rise of the rail's running surface; from 1 on martensite "
+                  "can form; null where the case does not give it",
+           .shown = true}};
+}
+
 /// The stresses that tables hold, in their order.
 struct StressColumn {
   std::string_view body, zone, measure, number;
@@ -637,8 +665,8 @@ const std::vector<ResultNumber>& result_numbers() {
              "cases 0"}};
     for (const auto& part :
          {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
-          approach_numbers(), transient_numbers(), damage_numbers(), shakedown_numbers(), layer_numbers(),
-          energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
+          approach_numbers(), transient_numbers(), damage_numbers(), heat_numbers(), shakedown_numbers(),
+          layer_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();

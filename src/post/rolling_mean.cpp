@@ -20,26 +20,43 @@ void set_states(ContactField& f, Slips&& slips) {
     f.state[i] = f.p[i] <= 0 ? ContactState::separated : slips(i) ? ContactState::slip : ContactState::stick;
 }
 
+/// What happened between the samples, in the points of the moving field.
+struct Passage {
+  std::vector<double> slip_share;                    ///< of the time in contact
+  std::vector<double> friction_power, pressed_slip;  ///< W/m², ContactField
+};
+
 /// From one sample to the next each node passes an element, from one point of the moving field to another: of the
-/// element around a point there are half of the way to it and half of the way from it. Empty of a single sample.
-std::vector<double> slip_shares(const std::vector<RollingSample>& samples, int columns) {
+/// element around a point there are half of the way to it and half of the way from it. The power of the way to it is
+/// its own; summed over the points it is what the nodes have taken up between the samples. Empty of a single sample.
+Passage passage(const std::vector<RollingSample>& samples, int columns) {
   if (samples.size() < 2) return {};
   const auto points = static_cast<std::ptrdiff_t>(samples.front().tractions.size());
-  std::vector<double> slipped(points, 0.0), touched(points, 0.0);
+  std::vector<double> slipped(points, 0.0), touched(points, 0.0), work(points, 0.0), pressed(points, 0.0);
   for (std::size_t k = 1; k < samples.size(); ++k) {
     const RollingSample &before = samples[k - 1], &after = samples[k];
     const std::ptrdiff_t moved = static_cast<std::ptrdiff_t>(after.first_station - before.first_station) * columns;
     for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(0, -moved); i < std::min(points, points - moved); ++i) {
       const NodeTraction &from = before.tractions[i + moved], &to = after.tractions[i];
-      if (to.contact_time < from.contact_time) continue;  // it has left the patch's neighbourhood
       for (const std::ptrdiff_t point : {i + moved, i}) {
         slipped[point] += to.slip_time - from.slip_time;
         touched[point] += to.contact_time - from.contact_time;
       }
+      const std::ptrdiff_t passed = std::max<std::ptrdiff_t>(moved / columns, 1);
+      for (std::ptrdiff_t way = 0; way < passed; ++way) {
+        const std::ptrdiff_t point = std::min(i + way * columns, points - 1);
+        work[point] += (to.friction_work - from.friction_work) / static_cast<double>(passed);
+        pressed[point] += (to.pressed_slip - from.pressed_slip) / static_cast<double>(passed);
+      }
     }
   }
-  for (std::ptrdiff_t i = 0; i < points; ++i) slipped[i] = touched[i] > 0 ? slipped[i] / touched[i] : 0.0;
-  return slipped;
+  const double time = samples.back().time - samples.front().time;
+  for (std::ptrdiff_t i = 0; i < points; ++i) {
+    slipped[i] = touched[i] > 0 ? slipped[i] / touched[i] : 0.0;
+    work[i] /= time;
+    pressed[i] /= time;
+  }
+  return {std::move(slipped), std::move(work), std::move(pressed)};
 }
 
 void add(BandSample& sum, const BandSample& s, double weight) {
@@ -122,8 +139,10 @@ MeanContact mean_contact(const RollingSystem& sys, const PositionSamples& group)
     add(m.rail, s.rail, weight);
     add(m.wheel, s.wheel, weight);
   }
-  if (std::vector<double> shares = slip_shares(group.samples, m.field.columns); !shares.empty()) {
-    m.field.slip_share = std::move(shares);
+  if (Passage found = passage(group.samples, m.field.columns); !found.slip_share.empty()) {
+    m.field.slip_share = std::move(found.slip_share);
+    m.field.friction_power = std::move(found.friction_power);
+    m.field.pressed_slip = std::move(found.pressed_slip);
     set_states(m.field, [&](int i) { return m.field.slip_share[i] >= 0.5; });
   }
   m.patch = measure_patch(m.field);

@@ -5,6 +5,9 @@
 #include <optional>
 #include <utility>
 
+#include "damage/history_stress.hpp"
+#include "material/elastic.hpp"
+#include "post/one_track.hpp"
 #include "post/patch.hpp"
 #include "post/stress_cycles.hpp"
 
@@ -45,6 +48,27 @@ SectionShakedown least_of_patches(const CaseSpec& spec, BodyId body, const BemRe
   return std::move(*least);
 }
 
+/// Of the middle of the contact band.
+double surface_poisson(const SweptBody& body, const std::vector<Elastic>& at_surface) {
+  return poisson(at_surface[body.blocks[body.contact.block].section.quad_material[body.contact.columns / 2]]);
+}
+
+/// m, of what bears pressure.
+struct Middle {
+  double x = 0, y = 0;
+};
+Middle middle_of(const ContactField& f) {
+  double x[2] = {HUGE_VAL, -HUGE_VAL}, y[2] = {HUGE_VAL, -HUGE_VAL};
+  for (int i = 0; i < f.size(); ++i) {
+    if (!(f.p[i] > f.p_noise)) continue;
+    x[0] = std::min(x[0], f.x[i]);
+    x[1] = std::max(x[1], f.x[i]);
+    y[0] = std::min(y[0], f.y[i]);
+    y[1] = std::max(y[1], f.y[i]);
+  }
+  return {0.5 * (x[0] + x[1]), 0.5 * (y[0] + y[1])};
+}
+
 ShakedownFactors factors_of(const LoadFactor& first_yield, const LoadFactor& wandering, const LoadFactor& upper,
                             const LoadFactor& kinematic) {
   ShakedownFactors f;
@@ -65,9 +89,13 @@ BodyShakedown body_shakedown(const CaseSpec& spec, const SectionShakedown& secti
   out.depth = s.wandering.depth;
   out.y = s.wandering.y;
   for (const ZoneFactors& z : s.zones)
-    if (std::isfinite(z.wandering.value))
+    if (std::isfinite(z.wandering.value)) {
       out.zones.push_back({zone_name(spec, section.body, z.zone),
                            factors_of(z.first_yield, z.wandering, z.upper, z.kinematic), z.wandering.depth});
+      // What holds every zone holds this one: a limit on the safe side.
+      if (std::isfinite(section.single_track))
+        out.zones.back().factors.single_track = std::clamp(section.single_track, z.wandering.value, z.upper.value);
+    }
   out.notes = section.strength.notes;
   return out;
 }
@@ -83,13 +111,28 @@ std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const B
 
 std::vector<SectionShakedown> fem_shakedown(const RollingSystem& system, const MeanContact& contact,
                                             const BandStress& rail, const BandStress& wheel) {
-  const CaseSpec& spec = system.model.spec;
+  const Model& model = system.model;
   std::vector<SectionShakedown> out;
-  if (wanted(spec, BodyId::rail))
-    out.push_back(section_shakedown(spec, BodyId::rail, band_cycles(rail, rail_surface_stress(system, contact), 0)));
-  if (wanted(spec, BodyId::wheel))
-    out.push_back(section_shakedown(spec, BodyId::wheel,
-                                    band_cycles(wheel, wheel_surface_stress(system, contact), system.rolling_radius)));
+  const auto add = [&](BodyId body, const BandStress& band, const BandSurface& surface) {
+    if (!wanted(model.spec, body)) return;
+    const StressHistory history = band_cycles(band, surface);
+    out.push_back(section_shakedown(model.spec, body, history));
+    SectionShakedown& section = out.back();
+    if (!section.strength.any() || !(contact.patch.length > 0 && contact.patch.width > 0)) return;
+    section.single_track = one_track(section.found, [&] {
+      const Middle middle = middle_of(contact.field);
+      SingleTrackInput in =
+          single_track_input(history, section.strength.shear, 0.5 * contact.patch.length, 0.5 * contact.patch.width,
+                             middle.x, middle.y - model.placement.contact.point.y);
+      in.shear_strength = shear_strength_by_depth(model.spec, body);
+      return in;
+    });
+  };
+  add(BodyId::rail, rail,
+      {rail_surface_stress(system, contact), contact.field, surface_poisson(model.rail, model.rail_at_surface), 0});
+  add(BodyId::wheel, wheel,
+      {wheel_surface_stress(system, contact), contact.field, surface_poisson(model.wheel, model.wheel_at_surface),
+       system.rolling_radius});
   return out;
 }
 

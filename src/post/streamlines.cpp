@@ -17,6 +17,7 @@ constexpr double kPascalOfVickers = 9.80665e6;
 /// A column's cells along x, copied so that they stand next to each other.
 struct Cells {
   std::vector<double> x, p, q_x, q_y, slip_x, slip_y;
+  std::vector<double> power, pressed;
   double area = 0;
 };
 
@@ -30,6 +31,10 @@ Cells cells_of(const ContactField& f, int column) {
     out.q_y.push_back(f.q_y[i]);
     out.slip_x.push_back(f.p[i] > 0 ? f.slip_x[i] : 0);
     out.slip_y.push_back(f.p[i] > 0 ? f.slip_y[i] : 0);
+    if (!f.friction_power.empty()) {
+      out.power.push_back(f.friction_power[i]);
+      out.pressed.push_back(f.pressed_slip[i]);
+    }
     out.area = std::max(out.area, f.area[i]);
   }
   return out;
@@ -50,7 +55,11 @@ ThermalBody thermal_body(const CaseSpec& spec, BodyId body) {
   ThermalBody out;
   out.base = thermal(body == BodyId::rail ? spec.rail_material : spec.wheel_material);
   for (const LayerSpec& layer : spec.layers)
-    if (layer.on == body && out.layer_thickness == 0) {
+    if (layer.on == body) {
+      if (out.layer_thickness > 0) {
+        out.deeper.push_back(thermal(layer.material));
+        continue;
+      }
       out.layer_thickness = layer.thickness;
       out.layer = thermal(layer.material);
     }
@@ -119,16 +128,23 @@ WearDepths wear_depths(const Streamline& line, const WearData& data) {
   return out;
 }
 
-double largest_rise(const SurfaceData& data, const Streamline& line) {
+void heat(const SurfaceData& data, const Streamline& line, StreamlineRow& row) {
   std::vector<double> flux = friction_power(line);
   std::reverse(flux.begin(), flux.end());  // the leading edge comes first
   for (double& q : flux) q = std::max(q, 0.0);
-  return flash_temperature({flux, line.dx, line.speed}, data.rail, data.wheel).max;
+  const HeatedLine heated{flux, line.dx, line.speed};
+  row.temperature_rise = row.rise_lower = row.rise_upper = flash_temperature(heated, data.rail, data.wheel).max;
+  if (data.rail.layer_thickness > 0 || data.wheel.layer_thickness > 0) {
+    const FlashBounds bounds = flash_bounds(heated, data.rail, data.wheel);
+    row.rise_lower = bounds.lower;
+    row.rise_upper = bounds.upper;
+  }
 }
 
 StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double speed) {
   const double dx = (cells.x.back() - cells.x.front()) / static_cast<double>(cells.x.size() - 1);
-  const Streamline line{cells.p, cells.q_x, cells.q_y, cells.slip_x, cells.slip_y, dx, speed};
+  const Streamline line{cells.p, cells.q_x, cells.q_y,   cells.slip_x, cells.slip_y,
+                        dx,      speed,     cells.power, cells.pressed};
   StreamlineRow row;
   row.width = cells.area / dx;
   row.friction_energy = friction_energy(line).energy;
@@ -139,7 +155,7 @@ StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double
   row.wheel_usfd_depth = wheel.usfd;
   row.wheel_archard_depth = wheel.archard;
   row.wheel_kth_depth = wheel.kth;
-  row.temperature_rise = largest_rise(data, line);
+  heat(data, line, row);
   if (std::isfinite(data.shear_strength)) row.local_fatigue = local_fatigue(line, data.shear_strength).index;
   return row;
 }
@@ -202,6 +218,10 @@ DamageSummary damage_summary(const CaseSpec& spec, const Summary& summary, const
   out.archard_depth = largest(rows, &StreamlineRow::archard_depth);
   out.kth_depth = largest(rows, &StreamlineRow::kth_depth);
   out.temperature_rise = largest(rows, &StreamlineRow::temperature_rise);
+  out.temperature_rise_lower = largest(rows, &StreamlineRow::rise_lower);
+  out.temperature_rise_upper = largest(rows, &StreamlineRow::rise_upper);
+  if (const auto& rise = surface_material(spec, BodyId::rail).strength.austenitisation_rise)
+    out.austenitisation = out.temperature_rise / *rise;
   out.local_fatigue = largest(rows, &StreamlineRow::local_fatigue);
   return out;
 }

@@ -21,6 +21,7 @@ struct StreamlineRow {
   double wheel_usfd_depth = kNotApplicable, wheel_archard_depth = kNotApplicable,
          wheel_kth_depth = kNotApplicable;  ///< m per turn of the wheel, with the wheel's own data
   double temperature_rise = 0;              ///< K
+  double rise_lower = 0, rise_upper = 0;    ///< K, bounds of it whatever the layers' order and thickness
   double local_fatigue = kNotApplicable;    ///< largest |q|/p - k/p
   double depth(WearLaw law) const {         ///< m per passage
     return law == WearLaw::usfd ? usfd_depth : law == WearLaw::kth ? kth_depth : archard_depth;

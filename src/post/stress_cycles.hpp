@@ -26,10 +26,19 @@ std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter);
 StressHistory rail_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows);
 StressHistory wheel_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows);
 
-/// Of the contact band of a finite element body: the surface (recovered, mean of an element's corners), the elements'
-/// centres, and both sides of every interface. `surface`: rail_surface_stress or wheel_surface_stress; radius: of the
-/// wheel, 0 for the rail. Each column in the axes of its own place of the surface; y from the rigid contact point, in
-/// the model frame.
-StressHistory band_cycles(const BandStress& band, const std::vector<Sym3>& surface, double radius);
+/// The surface of a finite element body.
+struct BandSurface {
+  std::vector<Sym3> stress;  ///< Pa, rail_surface_stress or wheel_surface_stress
+  const ContactField& field;
+  double poisson = 0;  ///< of the surface
+  double radius = 0;   ///< m, of the wheel; 0: the rail
+};
+
+/// Of the contact band of a finite element body: the surface (recovered at the nodes, with the peaks between them,
+/// post/surface_peaks.hpp), the elements' centres, and both sides of every interface. Samples are at the nodes and
+/// half-way between them, in x and y: the surface is the mean of its nodes between them, what lies below is cubic
+/// between the centres. Each column in the axes of its own place of the surface; y from the rigid contact point, in the
+/// model frame.
+StressHistory band_cycles(const BandStress& band, const BandSurface& surface);
 
 }  // namespace railstrata

@@ -145,6 +145,9 @@ struct DamageSummary {
   double usfd_depth = kNotApplicable, archard_depth = kNotApplicable,
          kth_depth = kNotApplicable;         ///< m per passage, the deepest
   double temperature_rise = kNotApplicable;  ///< K
+  /// K, bounds of the rise that every order and thickness of the layers keeps (damage/flash_temperature.hpp)
+  double temperature_rise_lower = kNotApplicable, temperature_rise_upper = kNotApplicable;
+  double austenitisation = kNotApplicable;  ///< the rise over the rail's austenitisation_rise; from 1 on martensite
   double surface_fatigue = kNotApplicable, local_fatigue = kNotApplicable;
 };
 

@@ -117,6 +117,22 @@ TEST(FlashBounds, HoldTheLayeredBodyAndSayWhichIsUpper) {
   }
 }
 
+// Whichever layer is the most or the least effusive one; in what order they lie does not matter.
+TEST(FlashBounds, TakeEveryLayer) {
+  const ThermalMaterial steel{50, 7850, 460}, oxide{2, 5000, 700}, copper{380, 8900, 390};
+  const std::vector<double> flux(40, 1e9);
+  const HeatedLine line{flux, 0.25e-3, 25};
+  const ThermalBody wheel{.base = steel, .layer = {}}, hot{.base = oxide, .layer = {}},
+      cold{.base = copper, .layer = {}};
+  for (const ThermalBody& rail :
+       {ThermalBody{steel, 10e-6, copper, {oxide}}, ThermalBody{steel, 10e-6, steel, {oxide, copper}},
+        ThermalBody{copper, 10e-6, steel, {steel, oxide}}}) {
+    const FlashBounds bounds = flash_bounds(line, rail, wheel);
+    EXPECT_NEAR(bounds.upper, flash_temperature(line, hot, wheel).max, 1e-9 * bounds.upper);
+    EXPECT_NEAR(bounds.lower, flash_temperature(line, cold, wheel).max, 1e-9 * bounds.lower);
+  }
+}
+
 TEST(Austenitisation, IsAShareOfTheWayThere) {
   EXPECT_DOUBLE_EQ(austenitisation_share(350, 720, 20), 0.5);
   EXPECT_THROW(austenitisation_share(350, 20, 30), CaseError);

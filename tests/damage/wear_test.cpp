@@ -51,6 +51,21 @@ TEST(Archard, DepthOfAPassage) {
   EXPECT_NEAR(archard_depth(u.line(), laboratory_dry_archard(), 2.7e9, 0.05), 0.05 * 0.7407e-9, 1e-14);
 }
 
+// Slip that comes and goes while q does: the mean of their product, not the product of their means.
+TEST(Wear, TakesTheMeansOfProductsWhereTheyAreKnown) {
+  const Uniform u(16, 800e6, 250e6, 0.4);
+  const std::vector<double> power(16, 2 * 250e6 * 0.4), pressed(16, 3 * 800e6 * 0.4);
+  Streamline line = u.line();
+  const double usfd = usfd_depth(line, 7800), archard = archard_depth(line, laboratory_dry_archard(), 2.7e9);
+  line.power = power;
+  line.pressed = pressed;
+  EXPECT_NEAR(friction_energy(line).energy, 2 * friction_energy(u.line()).energy, 1e-9);
+  EXPECT_NEAR(usfd_depth(line, 7800), 2 * usfd, 1e-9 * usfd);  // linear up to 10.4 N/mm², here 10
+  EXPECT_NEAR(archard_depth(line, laboratory_dry_archard(), 2.7e9), 3 * archard, 1e-9 * archard);
+  line.pressed = std::span<const double>(pressed).first(3);
+  EXPECT_THROW(friction_energy(line), std::invalid_argument);
+}
+
 TEST(Archard, MapHasFourFields) {
   const ArchardMap map = laboratory_dry_archard();
   EXPECT_EQ(map.note, "laboratory, dry");

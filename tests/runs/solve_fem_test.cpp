@@ -75,6 +75,21 @@ TEST(SolveFem, GivesPatchStressesAndSummaryOfEveryPosition) {
   EXPECT_GT(solution.history.size(), 30u);  // 12 mm by rows of 0.2 mm
 }
 
+TEST(SolveFem, GivesTheNumbersOfDamageThatHalfSpacesGive) {
+  const CaseSpec spec = small_case({"material.rail.yield_strength=\"400 MPa\""}).spec;
+  const FemSolution solution = solve_fem(fem_system(spec, "."));
+  for (const FemPosition& position : solution.positions) {
+    const DamageSummary& d = position.summary.damage;
+    EXPECT_GE(d.t_gamma_with_spin, d.t_gamma);
+    EXPECT_GT(d.friction_energy, 0);
+    ASSERT_EQ(position.summary.shakedown.bodies.size(), 1u);
+    const BodyShakedown& rail = position.summary.shakedown.bodies[0];
+    EXPECT_GE(rail.factors.single_track, rail.factors.wandering);
+    EXPECT_LE(rail.factors.single_track, rail.factors.upper);
+    EXPECT_EQ(rail.zones.at(0).factors.single_track, rail.factors.single_track);
+  }
+}
+
 TEST(SolveFem, StoppedDuringThePreloadItIsInterrupted) {
   const std::atomic<bool> stop{true};
   FemOptions options;
