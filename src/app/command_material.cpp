@@ -50,7 +50,7 @@ Chosen chosen(const LoadedCase& loaded, const std::string& word) {
     if (word == fmt::format("layer.{}", i) || word == spec.layers[i].name)
       return {spec.layers[i].material, spec.layers[i].name, fmt::format("layer.{}", i)};
   throw CaseError(fmt::format("--of {}: the card has no such material", word),
-                  spec.layers.empty() ? "write rail or wheel" : "write rail, wheel, layer.0 or a layer's name");
+                  spec.layers.empty() ? "write rail or wheel" : "write rail, wheel or a layer's name");
 }
 
 double depth_of(const std::string& text) {

@@ -226,7 +226,7 @@ void add_material(CLI::App& sub, CommandOptions& options) {
   sub.add_option("--backstresses", m.backstresses,
                  "Of a fit (default: one more as long as it lowers the error by a quarter)")
       ->check(CLI::Range(1, 4));
-  sub.add_option("--of", m.of, "The material: rail (default), wheel, layer.0 or a layer's name");
+  sub.add_option("--of", m.of, "The material: rail (default), wheel or a layer's name");
   sub.add_option("--depth", m.depth, "Of a material graded with depth: where (default: its top)");
   add_out(sub, options, "The table to write, NAME.csv, or the card of a fit, NAME.toml; the picture is NAME.svg");
   sub.add_flag("--force", options.force, "Replace a file that this command has not written");

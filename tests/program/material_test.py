@@ -102,7 +102,8 @@ class Material(FromOutside):
 
     def test_a_cyclic_curve_is_fitted_and_said_how_well(self):
         out = self.folder / "fit.toml"
-        text, _ = self.drive(SHIPPED / "r260.toml", "--cyclic-curve", SHIPPED / "amplitudes.csv", "--json", "--out", out)
+        text, _ = self.drive(SHIPPED / "r260.toml", "--cyclic-curve", SHIPPED / "amplitudes.csv", "--json", "--out",
+                             out)
         fit = json.loads(text)
         self.assertLess(fit["error"], 0.005)
         self.assertIn("error", out.read_text(encoding="utf-8"))
@@ -121,13 +122,15 @@ class Material(FromOutside):
         good = self.write("path.csv", "e_xx,e_yy\n0.001,0\n")
         elastic = self.write("elastic.toml", '[material.rail]\nelastic = true\nyield_strength = "1 GPa"\n')
         for words, answer in (
-                (["--strain", self.write("a.csv", "e_xx,e_yx\n0,0\n")], "a.csv:1: error: unknown column \"e_yx\""),
+                (["--strain", self.write("a.csv", "e_xx,e_yx\n0,0\n")],
+                 "a.csv:1: error: unknown column \"e_yx\""),
                 (["--strain", self.write("b.csv", "e_xx\n0.001\nx\n")],
                  "b.csv:3: error: \"x\" is not a number, in the column e_xx"),
                 (["--strain", self.write("c.csv", "e_xx\n0.9\n")],
                  "c.csv:2: error: e_xx = 0.9: must be between -0.5 and 0.5"),
                 (["--stress", self.write("d.csv", "s_xx\n1\n")], "d.csv:1: error: the column \"s_xx\" has no unit"),
-                (["--stress", self.write("e.csv", "s_xx_MPa\n300\n900\n")], "e.csv:3: error: no strain gives the stress"),
+                (["--stress", self.write("e.csv", "s_xx_MPa\n300\n900\n")],
+                 "e.csv:3: error: no strain gives the stress"),
                 (["--stress", self.write("f.csv", "s_xx_MPa,e_xx\n1,0\n")],
                  "f.csv:1: error: the table has s_xx and e_xx"),
                 (["--strain", self.folder / "none.csv"], "none.csv"),
@@ -136,7 +139,8 @@ class Material(FromOutside):
                 (["--strain", good, "--out", self.folder / "x.txt"], "must end in .csv"),
                 (["--strain", good, "--increments", "0"], "--increments"),
                 (["--calibrate", good], "unknown column"),
-                (["--calibrate", self.write("g.csv", "strain,stress_MPa\n0,0\n0.001,200\n")], "a loop needs ten points")):
+                (["--calibrate", self.write("g.csv", "strain,stress_MPa\n0,0\n0.001,200\n")],
+                 "a loop needs ten points")):
             out = [] if "--out" in words else ["--out", self.folder / ("o.toml" if "--calibrate" in words else "o.csv")]
             _, err = self.drive(card, *words, *out, expected=2)
             self.assertIn(answer, err)
