@@ -43,6 +43,11 @@ struct ShakedownOptions {
   bool single_track = true;    ///< --no-single-track: without the limit for one track, which takes some seconds
   bool maps = false;           ///< limits over traction too: of the command shakedown, which is not in a hurry
 };
+struct PassesOptions {
+  std::string engine = "bem";  ///< --engine
+  int passes = 20;             ///< --passes, since the first one
+  bool resume = false;         ///< --resume
+};
 struct ReportOptions {
   std::vector<std::filesystem::path> folders;
   bool reference = true;  ///< --no-reference: without the half-space solution beside a single result
@@ -70,6 +75,7 @@ struct CommandOptions {
   WearLoopOptions wear_loop;
   StudyOptions study;
   ShakedownOptions shakedown;
+  PassesOptions passes;
   ReportOptions report;
   SchemaOptions schema;
 };
@@ -83,6 +89,7 @@ ExitCode command_mesh(const CommandOptions& options);
 ExitCode command_run(const CommandOptions& options);
 ExitCode command_bem(const CommandOptions& options);
 ExitCode command_shakedown(const CommandOptions& options);
+ExitCode command_passes(const CommandOptions& options);
 ExitCode command_compare(const CommandOptions& options);
 ExitCode command_creep_curve(const CommandOptions& options);
 ExitCode command_sweep(const CommandOptions& options);

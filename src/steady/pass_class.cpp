@@ -28,7 +28,11 @@ double trend_of(const std::vector<PassStrain>& passes) {
   for (std::size_t i = passes.size() / 2; i < passes.size(); ++i) {
     if (!(passes[i].net > 0)) continue;
     const double x = std::log(static_cast<double>(i + 1)), y = std::log(passes[i].net);
-    n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+    n += 1;
+    sx += x;
+    sy += y;
+    sxx += x * x;
+    sxy += x * y;
   }
   const double spread = n * sxx - sx * sx;
   return n < 3 || spread <= 0 ? 0 : -(n * sxy - sx * sy) / spread;

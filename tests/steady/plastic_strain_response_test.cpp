@@ -54,7 +54,10 @@ double deviation(int nx, int ny, int rows, RowModuli top) {
         }
   };
   double largest = 0, worst = 0;
-  each([&](double& value, double e) { value = e, largest = std::max(largest, std::abs(e)); });
+  each([&](double& value, double e) {
+    value = e;
+    largest = std::max(largest, std::abs(e));
+  });
   response.apply(field);
   each([&](double value, double e) { worst = std::max(worst, std::abs(value - e)); });
   return worst / largest;
