@@ -20,7 +20,7 @@ namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char *kTable = "passes.csv", *kState = "state.csv", *kIdentity = "passes.id";
+constexpr const char *kTable = "passes.csv", *kState = "state.csv", *kIdentity = "passes.id", *kSummary = "passes.json";
 constexpr double kLargeStrain = 0.05;  // small strains err by some percent from here on
 
 /// Steady rolling over one rail is what the stationary method knows.
@@ -50,7 +50,10 @@ class Passes {
     for (const std::string& note : rail_.notes) spdlog::info("{}", note);
     const std::atomic<bool>& stop = stop_flag();
     while (series_.state.passes < options_.passes.passes && !stop) take_pass();
-    if (!series_.table.empty() && last_) finish();
+    if (last_)
+      finish();
+    else
+      spdlog::info("{}: {} passes are there already", out_.string(), series_.state.passes);
     if (series_.state.passes < options_.passes.passes) {
       spdlog::warn("stopped after pass {}; go on with --resume", series_.state.passes);
       return ExitCode::interrupted;
@@ -73,6 +76,7 @@ class Passes {
 
   void begin() {
     clear_old_results(out_);
+    for (const char* name : {kTable, kState, kSummary, "residual.csv", "profile.csv"}) fs::remove(out_ / name);
     write_origin(out_, loaded_, options_.command_line, options_.threads);
     write_whole_file(out_ / kIdentity, identity());
   }
@@ -113,7 +117,7 @@ class Passes {
   void finish() {
     save();
     write_residual(out_, table_origin(loaded_), rail_, series_, *last_);
-    write_pass_summary(out_ / "summary.json", loaded_.spec, rail_, series_);
+    write_pass_summary(out_ / kSummary, loaded_.spec, rail_, series_);
     double largest = 0;
     for (std::size_t n = 0; n < rail_.grid.points(); ++n)
       largest = std::max(

@@ -275,9 +275,9 @@ constexpr Entry kEntries[] = {
     {"passes",
      "Wheel after wheel over a rail that yields: residual stress, plastic strain of every pass, and whether it settles "
      "or ratchets",
-     "Examples:\n  railstrata passes cases/paper/base.toml --set material.rail.grade=R260 --passes 20\n  railstrata "
-     "passes cases/paper/base.toml --set material.rail.yield_strength=\"400 MPa\" --passes 200 --out "
-     "results/yields\n  railstrata passes cases/paper/base.toml --set material.rail.yield_strength=\"400 MPa\" "
+     "Examples:\n  railstrata passes cases/paper/base.toml --set material.rail.hardening=R260 --passes 20\n  railstrata "
+     "passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" --passes 200 --out "
+     "results/yields\n  railstrata passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" "
      "--passes 400 --out results/yields --resume\n\nCtrl-C: the pass under way is finished and kept.\n",
      add_passes, command_passes},
     {"compare", "Two results, of either engine, on one grid: a table, the differences of the fields, a picture",

@@ -127,10 +127,11 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
   if (!same || rows.columns.size() != kPassColumns.size())
     throw CaseError("the state is of another grid", "give --cell as in the beginning, or begin anew with --force",
                     state.string());
-  PassSeries series;
-  series.state.passes = static_cast<int>(values.columns[0].values[0]);
-  if (static_cast<int>(rows.rows()) < series.state.passes)
+  const double passes = values.columns[0].values[0];
+  if (!(passes >= 0 && passes <= static_cast<double>(rows.rows())))
     throw CaseError("fewer passes than the state has seen", "begin anew with --force", table.string());
+  PassSeries series;
+  series.state.passes = static_cast<int>(passes);
   for (int n = 0; n < series.state.passes; ++n) {
     series.table.emplace_back();
     for (const CsvColumn& column : rows.columns) series.table.back().push_back(column.values[n]);
@@ -151,6 +152,11 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
       for (std::size_t i = 0; i < active; ++i)
         series.state.residual_strain[(k * grid.points() + n) * active + i] = take();
   }
+  const auto finite = [](const auto& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); });
+  };
+  if (!finite(series.state.history) || !finite(series.state.residual_strain))
+    throw CaseError("a value is not a finite number", "begin anew with --force", state.string());
   return series;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 // Files of passes over a yielding rail: passes.csv (a row a pass), residual.csv (a row a point of the section after the
-// last pass), profile.csv (a row a depth), summary.json, and state.csv, from which the passes go on to the same bits.
+// last pass), profile.csv (a row a depth), passes.json, and state.csv, from which the passes go on to the same bits.
 #include <cstddef>
 #include <filesystem>
 #include <string>

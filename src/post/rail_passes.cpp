@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/faults.hpp"
 #include "material/elastic.hpp"
+#include "material/material_path.hpp"
 #include "model/material_strength.hpp"
 #include "post/patch.hpp"
 #include "post/row_strength.hpp"
@@ -159,6 +161,19 @@ class ContactStress {
   StressOfHalfSpace stress_;
 };
 
+/// No stress in equilibrium bears a friction above what the surface's material can take in shear.
+void require_surface_bears(const ContactField& field, const SteadyRow& surface) {
+  if (!std::isfinite(surface.law.yield)) return;
+  double most = 0;
+  for (int i = 0; i < field.size(); ++i) most = std::max(most, std::hypot(field.q_x[i], field.q_y[i]));
+  const double bears = largest_stress(surface.law) / std::numbers::sqrt3;
+  if (most < bears) return;
+  throw CaseError(fmt::format("friction on the surface reaches {:.0f} MPa, its material bears {:.0f} MPa in shear: the "
+                              "friction of elastic bodies, which passes take over, has no equilibrium there",
+                              1e-6 * most, 1e-6 * bears),
+                  "lower drive.friction_coefficient or the traction, or give the surface hardening or more strength");
+}
+
 double largest_mises(const std::vector<Sym3>& stresses) {
   double most = 0;
   for (const Sym3& s : stresses) most = std::max(most, von_mises(s));
@@ -207,6 +222,7 @@ RailPasses rail_passes(const CaseSpec& spec, const BemResult& result, const Pass
   out.below = moduli_of(interior.material_at(keep < all.size() ? top : top + all.back()));
   const RowStrength strength = row_strength(spec, BodyId::rail, section);
   for (std::size_t r = 0; r < keep; ++r) out.initial_stress.push_back({strength.residual_x[r], strength.residual_y[r]});
+  require_surface_bears(result.field, out.rows.front());
   out.contact_stress.assign(out.grid.size(), 0.0);
   for (int r = 0; r < out.grid.rows(); ++r)
     for (int i = 0; i < out.grid.active_stations(); ++i)

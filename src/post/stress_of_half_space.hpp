@@ -23,7 +23,8 @@ class StressOfHalfSpace {
     const auto more = [&](double reach, double first, double last, double cell) {
       return std::max(0, static_cast<int>(std::ceil((reach - std::min(-first, last)) / cell)) + kRim);
     };
-    far_ = coarse->widened(more(reach_x, g.x(0), g.x(g.nx - 1), g.dx), more(reach_y, g.y(0), g.y(g.ny - 1), g.dy));
+    far_ = coarse->widened(more(reach_x, g.x(0), g.x(g.nx - 1), g.dx),
+                           g.line ? 0 : more(reach_y, g.y(0), g.y(g.ny - 1), g.dy));
   }
 
   std::vector<Sym3> operator()(const std::vector<Vec3>& points, bool below) {

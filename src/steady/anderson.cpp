@@ -1,6 +1,7 @@
 #include "steady/anderson.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
 
 #include "core/parallel.hpp"
 
@@ -21,6 +22,7 @@ double dot(const Field& a, const Field& b) {
 void Anderson::clear() {
   dy_.clear();
   df_.clear();
+  gram_.clear();
   last_y_.clear();
   last_f_.clear();
 }
@@ -32,33 +34,38 @@ std::vector<double> Anderson::weights(const Field& residual) const {
   Eigen::VectorXd right(n);
   for (Eigen::Index i = 0; i < n; ++i) {
     right[i] = dot(df_[i], residual);
-    for (Eigen::Index j = 0; j <= i; ++j) gram(i, j) = gram(j, i) = dot(df_[i], df_[j]);
+    for (Eigen::Index j = 0; j <= i; ++j) gram(i, j) = gram(j, i) = gram_[i][j];
   }
   gram.diagonal().array() += kRoundOff * gram.trace();
   const Eigen::VectorXd solution = gram.ldlt().solve(right);
   return {solution.data(), solution.data() + n};
 }
 
-void Anderson::step(Field& y, Field& residual) {
-  const auto size = static_cast<std::ptrdiff_t>(y.size());
-  if (!last_y_.empty()) {
-    if (static_cast<int>(dy_.size()) == depth_) {  // the oldest gives its memory to the newest
-      std::rotate(dy_.begin(), dy_.begin() + 1, dy_.end());
-      std::rotate(df_.begin(), df_.begin() + 1, df_.end());
-    } else {
-      dy_.emplace_back(y.size());
-      df_.emplace_back(y.size());
-    }
-    Field &dy = dy_.back(), &df = df_.back();
-    for_each(size, [&](std::ptrdiff_t n) {
-      dy[n] = y[n] - last_y_[n];
-      df[n] = residual[n] - last_f_[n];
-    });
+void Anderson::keep(const Field& y, const Field& residual) {
+  if (static_cast<int>(dy_.size()) == depth_) {  // the oldest gives its memory to the newest
+    std::rotate(dy_.begin(), dy_.begin() + 1, dy_.end());
+    std::rotate(df_.begin(), df_.begin() + 1, df_.end());
+    gram_.erase(gram_.begin());
+    for (std::vector<double>& row : gram_) row.erase(row.begin());
+  } else {
+    dy_.emplace_back(y.size());
+    df_.emplace_back(y.size());
   }
+  Field &dy = dy_.back(), &df = df_.back();
+  for_each(static_cast<std::ptrdiff_t>(y.size()), [&](std::ptrdiff_t n) {
+    dy[n] = y[n] - last_y_[n];
+    df[n] = residual[n] - last_f_[n];
+  });
+  gram_.emplace_back();
+  for (const Field& other : df_) gram_.back().push_back(dot(df, other));
+}
+
+void Anderson::step(Field& y, Field& residual) {
+  if (!last_y_.empty()) keep(y, residual);
   last_y_ = y;
   last_f_ = residual;
   const std::vector<double> w = weights(residual);
-  for_each(size, [&](std::ptrdiff_t n) {
+  for_each(static_cast<std::ptrdiff_t>(y.size()), [&](std::ptrdiff_t n) {
     double next = y[n] + residual[n];
     for (std::size_t k = 0; k < w.size(); ++k) next -= w[k] * (dy_[k][n] + df_[k][n]);
     y[n] = next;

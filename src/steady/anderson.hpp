@@ -16,10 +16,12 @@ class Anderson {
   void step(Field& y, Field& residual);
 
  private:
+  void keep(const Field& y, const Field& residual);
   std::vector<double> weights(const Field& residual) const;
 
   int depth_;
-  std::vector<Field> dy_, df_;  // differences of points and of residuals, the newest last
+  std::vector<Field> dy_, df_;             // differences of points and of residuals, the newest last
+  std::vector<std::vector<double>> gram_;  // of df_, lower half
   Field last_y_, last_f_;
 };
 
