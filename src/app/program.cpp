@@ -275,7 +275,8 @@ constexpr Entry kEntries[] = {
     {"passes",
      "Wheel after wheel over a rail that yields: residual stress, plastic strain of every pass, and whether it settles "
      "or ratchets",
-     "Examples:\n  railstrata passes cases/paper/base.toml --set material.rail.hardening=R260 --passes 20\n  railstrata "
+     "Examples:\n  railstrata passes cases/paper/base.toml --set material.rail.hardening=R260 --passes 20\n  "
+     "railstrata "
      "passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" --passes 200 --out "
      "results/yields\n  railstrata passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" "
      "--passes 400 --out results/yields --resume\n\nCtrl-C: the pass under way is finished and kept.\n",
