@@ -17,8 +17,8 @@ namespace railstrata {
 
 /// Cells of the grid over the patch: the errors of residual stress are some percent at 6, and fall with their square.
 struct PassGridOptions {
-  int cells = 6;     ///< over each half-axis of the patch
-  double rows = 8;   ///< over the shorter half-axis
+  int cells = 6;    ///< over each half-axis of the patch
+  double rows = 8;  ///< over the shorter half-axis
 };
 
 /// A rail ready for passes.

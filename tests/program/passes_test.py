@@ -70,10 +70,10 @@ class Passes(FromOutside):
         self.assertGreater(zones["0.0" if "0.0" in zones else "0"], 0)
 
     def test_what_it_cannot_answer_is_refused_with_a_remedy(self):
-        rough = ["--set", "drive.friction_coefficient=0.5", "--set", "drive.traction_coefficient=0.2"]
-        self.refused(2, ["passes", BASE, *COARSE, *rough, *strength(400), "--out", self.folder / "none"],
+        self.refused(2, ["passes", BASE, "--cell", "1 mm", *strength(400), "--out", self.folder / "none"],
                      "its material bears 231 MPa in shear", "friction_coefficient")
-        self.refused(2, ["passes", BASE, *COARSE, "--out", self.folder / "none"], "does not say how strong", "yield_strength")
+        self.refused(2, ["passes", BASE, *COARSE, "--out", self.folder / "none"], "does not say how strong",
+                     "yield_strength")
         weak = [*strength(400), "--out", self.folder / "none"]
         self.refused(2, ["passes", BASE, "--engine", "fem", *weak], "bem")
         self.refused(2, ["passes", BASE, "--passes", "0", *weak], "--passes")
