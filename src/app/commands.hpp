@@ -52,6 +52,11 @@ struct MaterialOptions {
   std::string of = "rail";                                   ///< --of
   std::string depth;                                         ///< --depth: a length; empty: the top
 };
+struct PassesOptions {
+  std::string engine = "bem";  ///< --engine
+  int passes = 20;             ///< --passes, since the first one
+  bool resume = false;         ///< --resume
+};
 struct ReportOptions {
   std::vector<std::filesystem::path> folders;
   bool reference = true;  ///< --no-reference: without the half-space solution beside a single result
@@ -80,6 +85,7 @@ struct CommandOptions {
   StudyOptions study;
   ShakedownOptions shakedown;
   MaterialOptions material;
+  PassesOptions passes;
   ReportOptions report;
   SchemaOptions schema;
 };
@@ -94,6 +100,7 @@ ExitCode command_run(const CommandOptions& options);
 ExitCode command_bem(const CommandOptions& options);
 ExitCode command_shakedown(const CommandOptions& options);
 ExitCode command_material(const CommandOptions& options);
+ExitCode command_passes(const CommandOptions& options);
 ExitCode command_compare(const CommandOptions& options);
 ExitCode command_creep_curve(const CommandOptions& options);
 ExitCode command_sweep(const CommandOptions& options);

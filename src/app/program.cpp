@@ -232,6 +232,19 @@ void add_material(CLI::App& sub, CommandOptions& options) {
   sub.add_flag("--force", options.force, "Replace a file that this command has not written");
 }
 
+void add_passes(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-passes");
+  sub.add_option("--engine", options.passes.engine, "Where pressure and friction come from: bem")
+      ->check(CLI::IsMember({"bem"}))
+      ->capture_default_str();
+  add_cell(sub, options);
+  sub.add_option("--passes", options.passes.passes, "End after so many passes of a wheel, since the first one")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  sub.add_flag("--resume", options.passes.resume, "Go on with the passes of the folder: the same bits as in one go");
+}
+
 void add_compare(CLI::App& sub, CommandOptions& options) {
   sub.add_option("a", options.case_file, "Result folder A")->required();
   sub.add_option("b", options.reference, "Result folder B: differences are relative to it")->required();
@@ -297,6 +310,15 @@ constexpr Entry kEntries[] = {
      "cases/material/loop.csv --monotonic cases/material/tension.csv --out fitted.toml\n\nCtrl-C: nothing is "
      "written.\n",
      add_material, command_material},
+    {"passes",
+     "Wheel after wheel over a rail that yields: residual stress, plastic strain of every pass, and whether it settles "
+     "or ratchets",
+     "Examples:\n  railstrata passes cases/paper/base.toml --set material.rail.hardening=R260 --passes 20\n  "
+     "railstrata "
+     "passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" --passes 200 --out "
+     "results/yields\n  railstrata passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" "
+     "--passes 400 --out results/yields --resume\n\nCtrl-C: the pass under way is finished and kept.\n",
+     add_passes, command_passes},
     {"compare", "Two results, of either engine, on one grid: a table, the differences of the fields, a picture",
      "Examples:\n  railstrata compare results/quick results/quick-bem\n  railstrata compare results/thin results/thick "
      "--out results/thin-against-thick\n",

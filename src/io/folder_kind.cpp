@@ -36,7 +36,7 @@ std::vector<std::string> command_line_of(const fs::path& folder) {
 /// The command that has written the folder ("run", "study"), by its provenance.json; empty if that does not say.
 std::string command_of(const fs::path& folder) {
   for (const std::string& word : command_line_of(folder))
-    for (const char* command : {"run", "bem", "study", "sweep", "creep-curve", "collective", "mesh"})
+    for (const char* command : {"run", "bem", "study", "sweep", "creep-curve", "collective", "passes", "mesh"})
       if (word == command) return command;
   return {};
 }
@@ -95,6 +95,9 @@ Diagnostic no_result_here(const fs::path& folder) {
   if (command == "collective" || has(folder, "collective.csv"))
     return {"", fmt::format("{}: this is a load collective, not the result of one case", name),
             "its page is report.html in it; the load that it shows whole is in shown_load"};
+  if (command == "passes" || has(folder, "passes.csv"))
+    return {"", fmt::format("{}: these are passes over a rail that yields, not the result of one case", name),
+            "its tables are passes.csv and residual.csv in it; for a page on the case: railstrata bem CASE"};
   if (has(folder, "compare.json"))
     return {"", fmt::format("{}: this is a comparison, not the result of one case", name),
             "its picture is compare.svg in it; for a page give the two folders it compares"};

@@ -1,0 +1,212 @@
+#include "steady/steady_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+#include "steady/anderson.hpp"
+
+namespace railstrata {
+
+namespace {
+
+constexpr int kNewtonSteps = 6;  // strains change by up to some 1e-3 from station to station
+
+int terms_of(const PlasticParameters<double>& law) {
+  int terms = 0;
+  for (int k = 0; k < kMostBackstresses; ++k)
+    if (law.modulus[k] > 0) terms = k + 1;
+  return terms;
+}
+
+/// One station of a streamline.
+void advance(const PlasticParameters<double>& law, int terms, const double (&strain)[6], double* history) {
+  switch (terms) {
+    case 0:
+      return advance_plastic<0, kNewtonSteps>(law, strain, history);
+    case 1:
+      return advance_plastic<1, kNewtonSteps>(law, strain, history);
+    case 2:
+      return advance_plastic<2, kNewtonSteps>(law, strain, history);
+    case 3:
+      return advance_plastic<3, kNewtonSteps>(law, strain, history);
+    default:
+      return advance_plastic<4, kNewtonSteps>(law, strain, history);
+  }
+}
+
+SteadyGrid section_of(SteadyGrid grid) {
+  grid.dx *= grid.nx;
+  grid.nx = 1;
+  return grid;
+}
+
+std::vector<RowModuli> moduli_of(const std::vector<SteadyRow>& rows) {
+  std::vector<RowModuli> moduli;
+  for (const SteadyRow& row : rows) moduli.push_back(row.moduli);
+  return moduli;
+}
+
+}  // namespace
+
+/// Of one pass.
+struct SteadyBody::Work {
+  Field before;               // strain of the earlier passes, per component and point of the section
+  Field field;                // plastic strain of this pass everywhere, then the strain it causes
+  Field guess, residual;      // at active stations
+  std::vector<double> after;  // histories behind the load
+};
+
+SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowModuli below,
+                       std::vector<std::array<double, 2>> initial_stress)
+    : response_(grid, moduli_of(rows), below),
+      section_(section_of(grid), moduli_of(rows), below),
+      rows_(std::move(rows)) {
+  for (const SteadyRow& row : rows_) terms_.push_back(terms_of(row.law));
+  initial_strain_.resize(rows_.size());
+  for (std::size_t r = 0; r < initial_stress.size(); ++r)
+    initial_strain_[r] = strain_of(static_cast<int>(r), {initial_stress[r][0], initial_stress[r][1], 0, 0, 0, 0});
+}
+
+PassState SteadyBody::virgin() const {
+  PassState state;
+  state.history.assign(grid().points() * kStreamlineHistory, 0.0);
+  state.residual_strain.assign(6 * grid().points() * static_cast<std::size_t>(grid().active_stations()), 0.0);
+  return state;
+}
+
+std::array<double, 6> SteadyBody::strain_of(int row, const std::array<double, 6>& s) const {
+  const auto [lambda, mu] = rows_[static_cast<std::size_t>(row)].moduli;
+  const double mean = lambda / (3 * lambda + 2 * mu) * (s[0] + s[1] + s[2]);
+  std::array<double, 6> e{};
+  for (int c = 0; c < 6; ++c) e[c] = (s[c] - (c < 3 ? mean : 0)) / (2 * mu);
+  return e;
+}
+
+Field SteadyBody::uniform_strain(const std::vector<double>& history) const {
+  const SteadyGrid& g = section_.grid();
+  Field section(g.size());
+  for (int c = 0; c < 6; ++c)
+    for (std::size_t n = 0; n < g.points(); ++n)
+      section[c * g.points() + n] = history[n * kStreamlineHistory + static_cast<std::size_t>(c)];
+  section_.apply(section);
+  return section;
+}
+
+void SteadyBody::follow(const Field& contact_strain, const PassState& state, Work& work) const {
+  const SteadyGrid& g = grid();
+  const int active = g.active_stations();
+  const std::size_t line = static_cast<std::size_t>(active);
+  std::vector<double> share(static_cast<std::size_t>(g.nx));
+  for (int i = 0; i < g.nx; ++i) share[i] = g.share(i);
+  for_each(
+      static_cast<std::ptrdiff_t>(g.points()),
+      [&](std::ptrdiff_t n) {
+        const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
+        const double* before = state.history.data() + n * kStreamlineHistory;
+        double* h = work.after.data() + n * kStreamlineHistory;
+        std::copy(before, before + kStreamlineHistory, h);
+        const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
+        const bool yields = std::isfinite(row.law.yield);
+        for (int i = 0; i < g.nx; ++i) {
+          if (yields && i < active) {
+            double e[6];
+            for (int c = 0; c < 6; ++c)
+              e[c] = contact_strain[g.index(c, r, i, j)] + work.before[c * g.points() + n] + initial_strain_[r][c] +
+                     work.guess[(c * g.points() + n) * line + i];
+            advance(row.law, terms_[r], e, h);
+          }
+          for (int c = 0; c < 6; ++c) work.field[g.index(c, r, i, j)] = share[i] * (h[c] - before[c]);
+        }
+      },
+      true);
+}
+
+double SteadyBody::compare(Work& work) const {
+  const SteadyGrid& g = grid();
+  const int active = g.active_stations();
+  const std::size_t line = static_cast<std::size_t>(active);
+  std::vector<double> worst(g.points());
+  for_each(static_cast<std::ptrdiff_t>(g.points()), [&](std::ptrdiff_t n) {
+    const int r = static_cast<int>(n / g.ny), j = static_cast<int>(n % g.ny);
+    const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
+    const double scale = 2 * row.moduli.mu / (row.law.yield / std::numbers::sqrt3);
+    for (int c = 0; c < 6; ++c)
+      for (int i = 0; i < active; ++i) {
+        const std::size_t at = (c * g.points() + n) * line + i;
+        work.residual[at] = work.field[g.index(c, r, i, j)] - work.guess[at];
+        const double error = scale * std::abs(work.residual[at]);
+        if (!(error <= worst[n])) worst[n] = error;  // NaN too
+      }
+  });
+  double error = 0;
+  for (const double w : worst)
+    if (!(w <= error)) error = w;
+  return error;
+}
+
+PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits) const {
+  const SteadyGrid& g = grid();
+  Work work;
+  work.before = uniform_strain(state.history);
+  work.field.resize(g.size());
+  work.guess = state.residual_strain;
+  work.residual.resize(work.guess.size());
+  work.after.resize(state.history.size());
+  Anderson anderson;
+  PassResult out;
+  for (;;) {
+    follow(contact_strain, state, work);
+    response_.apply(work.field);
+    out.error = compare(work);
+    ++out.iterations;
+    if (!std::isfinite(out.error))
+      throw NumericalError("a pass of the stationary solution met a strain that is no number");
+    out.converged = out.error <= limits.tolerance;
+    if (out.converged || out.iterations >= limits.iterations) break;
+    anderson.step(work.guess, work.residual);
+  }
+  const std::vector<double> before = std::move(state.history);
+  state.history = std::move(work.after);
+  state.residual_strain = std::move(work.guess);
+  ++state.passes;
+  conclude(before, uniform_strain(state.history), state, out);
+  return out;
+}
+
+void SteadyBody::conclude(const std::vector<double>& before, const Field& strain, const PassState& state,
+                          PassResult& out) const {
+  const SteadyGrid& g = grid();
+  out.accumulated.resize(g.points());
+  out.net.resize(g.points());
+  out.residual_stress.resize(g.points());
+  out.plastic_strain.resize(g.points());
+  out.forward.assign(static_cast<std::size_t>(g.ny), 0.0);
+  out.lateral = out.sinking = out.forward;
+  for (std::size_t n = 0; n < g.points(); ++n) {
+    const int r = static_cast<int>(n) / g.ny, j = static_cast<int>(n) % g.ny;
+    const double *was = before.data() + n * kStreamlineHistory, *is = state.history.data() + n * kStreamlineHistory;
+    double change[6], e[6];
+    for (int c = 0; c < 6; ++c) {
+      change[c] = is[c] - was[c];
+      out.plastic_strain[n][c] = is[c];
+      e[c] = strain[c * g.points() + n];
+    }
+    out.accumulated[n] = is[6] - was[6];
+    out.net[n] = std::sqrt(double_contraction(change, change));
+    const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
+    // u vanishes at the foot and z points down: u(0) = - sum of du/dz; the strain is the same along x
+    const double h = g.thickness[static_cast<std::size_t>(r)];
+    out.forward[j] -= 2 * e[5] * h;
+    out.lateral[j] -= 2 * e[4] * h;
+    out.sinking[j] -= e[2] * h;
+    for (int c = 0; c < 6; ++c) e[c] += initial_strain_[r][c];
+    double stress[6];
+    plastic_stress(row.moduli.lambda, row.moduli.mu, e, is, stress);
+    std::copy(stress, stress + 6, out.residual_stress[n].begin());
+  }
+}
+
+}  // namespace railstrata

@@ -1,0 +1,92 @@
+#pragma once
+// One pass of a steadily rolling load over a body that yields, in one non-linear solution.
+//
+// In the frame of the load everything is steady: d/dt = -V d/dx, so that the history of a material point is what stands
+// along its streamline, a straight line y, z = const of the undeformed body. [DangVanMaitournam1993] Strain at a point:
+//
+//   E(x, y, z) = e_contact(x, y, z) + e_residual(x, y, z) + e_before(y, z)
+//
+// e_contact: elastic, of the tractions of the contact, which the yielding is taken not to change. e_before: what the
+// plastic strain of earlier passes, uniform along x, leaves in equilibrium. e_residual: the elastic answer to what this
+// pass adds to it (plastic_strain_response.hpp). The law (material/plastic.hpp) takes E along every streamline and
+// gives plastic strain, plastic strain gives e_residual: a fixed point, found with Anderson's acceleration.
+//
+// Assumptions: pressure and friction are those of the elastic bodies; a straight rail, layers without sideways ends on
+// a half-space; small strains; the rail is endless and does not grow longer.
+#include <array>
+#include <vector>
+
+#include "core/array.hpp"
+#include "material/plastic.hpp"
+#include "steady/plastic_strain_response.hpp"
+#include "steady/steady_grid.hpp"
+
+namespace railstrata {
+
+inline constexpr int kStreamlineHistory = kPlasticHistory<kMostBackstresses>;
+
+/// A row of depth: what it is and how it yields; an infinite yield strength: it does not.
+struct SteadyRow {
+  RowModuli moduli;
+  PlasticParameters<double> law;
+};
+
+/// What a pass leaves to the next.
+struct PassState {
+  int passes = 0;
+  std::vector<double> history;  ///< per point of the section (SteadyGrid::point) kStreamlineHistory numbers
+  Field residual_strain;        ///< e_residual of the last pass at the active stations, the next one's first guess
+};
+
+/// What a pass has done to the points of the section (SteadyGrid::point).
+struct PassResult {
+  int iterations = 0;
+  double error = 0;                 ///< largest change of stress of the last iteration over the shear strength
+  bool converged = true;            ///< error within the tolerance
+  std::vector<double> accumulated;  ///< plastic strain p of this pass, Δp
+  std::vector<double> net;          ///< |E^p after - E^p before|
+  std::vector<std::array<double, 6>> residual_stress;  ///< Pa, after the pass, xx, yy, zz, xy, yz, xz
+  std::vector<std::array<double, 6>> plastic_strain;   ///< E^p after the pass
+  std::vector<double> forward, lateral;  ///< m, per column: displacement of the surface over the yielding rows' foot,
+                                         ///< since the first pass; forward: along the travel of the load
+  std::vector<double> sinking;           ///< m, per column, downward
+};
+
+struct PassLimits {
+  double tolerance = 1e-4;  ///< of the shear strength
+  int iterations = 400;
+};
+
+/// A body and its grid; constant, but one pass at a time.
+class SteadyBody {
+ public:
+  /// rows: of the grid's rows; below: what is under them, elastic. initial_stress: Pa, of the process, per row, in
+  /// equilibrium by itself (along x and y alone); empty: none.
+  SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowModuli below,
+             std::vector<std::array<double, 2>> initial_stress = {});
+
+  const SteadyGrid& grid() const { return response_.grid(); }
+  const std::vector<SteadyRow>& rows() const { return rows_; }
+  PassState virgin() const;
+
+  /// The next pass under the strain of a contact (SteadyGrid::size(); tensor shears). The state advances; where the
+  /// pass has not converged too, and the result says so. Throws NumericalError at a strain that is no number.
+  PassResult run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits = {}) const;
+  /// Strain of an elastic stress of the contact, xx, yy, zz, xy, yz, xz, in a row.
+  std::array<double, 6> strain_of(int row, const std::array<double, 6>& stress) const;
+
+ private:
+  struct Work;
+  void follow(const Field& contact_strain, const PassState& state, Work& work) const;
+  double compare(Work& work) const;
+  Field uniform_strain(const std::vector<double>& history) const;
+  void conclude(const std::vector<double>& before, const Field& strain, const PassState& state, PassResult& out) const;
+
+  PlasticStrainResponse response_;
+  PlasticStrainResponse section_;  // the same for what is uniform along x: one station as long as the grid
+  std::vector<SteadyRow> rows_;
+  std::vector<int> terms_;                             // backstresses per row
+  std::vector<std::array<double, 6>> initial_strain_;  // per row
+};
+
+}  // namespace railstrata

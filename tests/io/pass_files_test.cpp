@@ -1,0 +1,83 @@
+#include "io/pass_files.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "core/faults.hpp"
+
+namespace railstrata {
+namespace {
+
+SteadyGrid small_grid() {
+  SteadyGrid g{.nx = 12, .ny = 3, .dx = 1e-3, .dy = 1e-3, .front = 4e-3, .y0 = -1e-3, .active = 2e-3, .hold = 2e-3};
+  g.thickness = {5e-4, 5e-4};
+  return g;
+}
+
+/// After two passes; numbers that no rounding of texts would keep.
+PassSeries series_of(const SteadyGrid& g) {
+  PassSeries series;
+  series.state.passes = 2;
+  series.state.history.resize(g.points() * kStreamlineHistory);
+  series.state.residual_strain.resize(6 * g.points() * static_cast<std::size_t>(g.active_stations()));
+  double v = 1e-3;
+  for (double& x : series.state.history) x = v = std::sin(1 / v);
+  for (double& x : series.state.residual_strain) x = v = std::sin(1 / v);
+  PassResult pass;
+  pass.accumulated.assign(g.points(), std::sqrt(2e-6));
+  pass.net.assign(g.points(), std::sqrt(3e-7));
+  pass.residual_stress.resize(g.points());
+  pass.plastic_strain.resize(g.points());
+  pass.forward = pass.lateral = pass.sinking = {1e-6, -2e-6, 0};
+  for (int n = 0; n < 2; ++n) add_pass(g, pass, series);
+  return series;
+}
+
+class PassFiles : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = std::filesystem::temp_directory_path() / ("pass_files_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder_);
+  }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+  std::filesystem::path folder_;
+};
+
+TEST_F(PassFiles, StateAndTableAreReadBackToTheSameBits) {
+  const SteadyGrid g = small_grid();
+  PassSeries series = series_of(g);
+  write_pass_state(folder_ / "state.csv", {}, g, series);
+  series.table.push_back(series.table.back());  // a table that has gone on
+  write_pass_table(folder_ / "passes.csv", {}, series);
+  const PassSeries back = read_pass_series(folder_ / "state.csv", folder_ / "passes.csv", g);
+  EXPECT_EQ(back.state.passes, 2);
+  EXPECT_TRUE(back.state.history == series.state.history);
+  EXPECT_TRUE(back.state.residual_strain == series.state.residual_strain);
+  ASSERT_EQ(back.table.size(), 2u);
+  EXPECT_EQ(back.table[1], series.table[1]);
+  ASSERT_EQ(back.points[3].size(), 2u);
+  EXPECT_EQ(back.points[3][1].net, series.points[3][1].net);
+}
+
+TEST_F(PassFiles, AStateThatIsNotOfThisGridOrNotWholeIsRefused) {
+  const SteadyGrid g = small_grid();
+  PassSeries series = series_of(g);
+  write_pass_table(folder_ / "passes.csv", {}, series);
+  write_pass_state(folder_ / "state.csv", {}, g, series);
+  SteadyGrid other = g;
+  other.ny = 4;
+  EXPECT_THROW(read_pass_series(folder_ / "state.csv", folder_ / "passes.csv", other), CaseError);
+  series.state.history[5] = std::nan("");
+  write_pass_state(folder_ / "state.csv", {}, g, series);
+  EXPECT_THROW(read_pass_series(folder_ / "state.csv", folder_ / "passes.csv", g), CaseError);
+  series.state.history[5] = 0;
+  series.state.passes = 7;  // the table has two
+  write_pass_state(folder_ / "state.csv", {}, g, series);
+  EXPECT_THROW(read_pass_series(folder_ / "state.csv", folder_ / "passes.csv", g), CaseError);
+}
+
+}  // namespace
+}  // namespace railstrata

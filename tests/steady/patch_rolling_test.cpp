@@ -1,0 +1,150 @@
+// Repeated rolling of a circular Hertz pressure over a half-space, J2, perfectly plastic, nu = 0.3, lengths over a,
+// stresses over k: first yield 2.795, shakedown limit 4.675 (damage/single_track.hpp).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "steady/pass_class.hpp"
+#include "steady/steady_pass.hpp"
+#include "tests/damage/hertz_stress.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kShear = 250;  // G over k
+
+SteadyGrid patch_grid(double cell, double row, double length = 18, double width = 8) {
+  SteadyGrid g{.nx = static_cast<int>(std::lround(length / cell)),
+               .ny = static_cast<int>(std::lround(width / cell)),
+               .dx = cell,
+               .dy = cell,
+               .front = 4,
+               .y0 = -0.5 * width + 0.5 * cell,
+               .active = 4,
+               .hold = 2};
+  g.thickness.assign(static_cast<std::size_t>(std::lround(1.2 / row)), row);
+  return g;
+}
+
+struct PatchRolling {
+  SteadyBody body;
+  Field contact;
+  PassState state;
+
+  PatchRolling(const SteadyGrid& g, double load, double friction = 0, double hardening = 0)
+      : body(g, rows(g, hardening), {1.5 * kShear, kShear}), contact(g.size()), state(body.virgin()) {
+    const testing::HertzLoad hertz{1, 1, friction, .3};
+    for (int r = 0; r < g.rows(); ++r) {
+      std::vector<Vec3> points;
+      for (int i = 0; i < g.active_stations(); ++i)
+        for (int j = 0; j < g.ny; ++j) points.push_back({g.x(i), g.y(j), g.depth(r)});
+      const std::vector<Sym3> stress = hertz.stresses(points);
+      for (int i = 0; i < g.active_stations(); ++i)
+        for (int j = 0; j < g.ny; ++j) {
+          const Sym3 s = load * stress[static_cast<std::size_t>(i * g.ny + j)];
+          const auto e = body.strain_of(r, {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz});
+          for (int c = 0; c < 6; ++c) contact[g.index(c, r, i, j)] = e[c];
+        }
+    }
+  }
+  static std::vector<SteadyRow> rows(const SteadyGrid& g, double hardening) {
+    SteadyRow row{{1.5 * kShear, kShear}, {kShear, std::sqrt(3.), 0, 0, {}, {}}};
+    row.law.modulus[0] = hardening;
+    return std::vector<SteadyRow>(g.thickness.size(), row);
+  }
+};
+
+double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()) * kShear; }
+
+/// Δp and net strain of pass after pass, in k/G.
+std::vector<PassStrain> roll(PatchRolling& run, int passes) {
+  std::vector<PassStrain> all;
+  for (int n = 0; n < passes; ++n) {
+    const PassResult pass = run.body.run_pass(run.contact, run.state);
+    EXPECT_TRUE(pass.converged);
+    all.push_back({largest(pass.accumulated) / kShear, largest(pass.net) / kShear});
+  }
+  return all;
+}
+
+TEST(PatchRolling, YieldsFromTheClosedFormOn) {
+  const SteadyGrid g = patch_grid(0.2, 0.1);
+  PatchRolling below(g, 2.77), above(g, 2.83);
+  EXPECT_EQ(roll(below, 1)[0].accumulated, 0);  // 2.795 on the axis, 0.48 a deep
+  EXPECT_GT(roll(above, 1)[0].accumulated, 0);
+}
+
+TEST(PatchRolling, WithoutFrictionItShakesDownToTheLimitOfOneTrackAndNotBeyond) {
+  const SteadyGrid g = patch_grid(0.2, 0.1);
+  for (const double load : {4.0, 4.6}) {  // limit 4.675
+    PatchRolling run(g, load);
+    EXPECT_EQ(classify(roll(run, 16)).kind, PassClass::elastic_shakedown) << load;
+  }
+  PatchRolling beyond(g, 4.9);
+  EXPECT_GT(roll(beyond, 24).back().accumulated, 1e-4);
+}
+
+TEST(PatchRolling, WithFrictionItShakesDownToTheLimitOfOneTrackAndRatchetsBeyond) {
+  const SteadyGrid g = patch_grid(0.2, 0.1);
+  PatchRolling settles(g, 4.1, 0.2);  // above the limit of wandering wheels, 3.683, below that of one track, 4.290
+  EXPECT_EQ(classify(roll(settles, 20)).kind, PassClass::elastic_shakedown);
+  PatchRolling ratchets(g, 4.7, 0.2);  // above the upper bound, 4.376
+  const PassVerdict verdict = classify(roll(ratchets, 12));
+  EXPECT_EQ(verdict.kind, PassClass::ratchetting);
+  EXPECT_GT(verdict.rate * kShear, 0.5);
+}
+
+TEST(PatchRolling, LinearKinematicHardeningStopsWhatRatchets) {
+  PatchRolling run(patch_grid(0.2, 0.1), 4.7, 0.2, 60);
+  const std::vector<PassStrain> all = roll(run, 20);
+  EXPECT_LT(all.back().net, 0.01 * all.front().net);
+}
+
+TEST(PatchRolling, ResidualStressStandsInEquilibrium) {
+  const SteadyGrid g = patch_grid(0.2, 0.1);
+  PatchRolling run(g, 4.4, 0.2);
+  const PassResult pass = run.body.run_pass(run.contact, run.state);
+  for (int r = 0; r < g.rows(); ++r) {
+    double along = 0, tractions[3] = {};
+    for (int j = 0; j < g.ny; ++j) {
+      const auto& s = pass.residual_stress[g.point(r, j)];
+      along += std::abs(s[0]);
+      tractions[0] += s[2];
+      tractions[1] += s[4];
+      tractions[2] += s[5];
+    }
+    for (const double t : tractions) EXPECT_NEAR(t, 0, 1e-10 * along);  // on every plane z = const
+  }
+}
+
+TEST(PatchRolling, TwiceThePeriodChangesResidualStressByLessThanATwentieth) {
+  PatchRolling usual(patch_grid(0.25, 0.1, 18, 12), 4.4), wide(patch_grid(0.25, 0.1, 36, 24), 4.4);
+  const PassResult a = usual.body.run_pass(usual.contact, usual.state),
+                   b = wide.body.run_pass(wide.contact, wide.state);
+  const SteadyGrid &g = usual.body.grid(), &w = wide.body.grid();
+  double worst = 0, largest_stress = 0;
+  for (int r = 0; r < g.rows(); ++r)
+    for (int j = 0; j < g.ny; ++j)
+      for (const int c : {0, 1}) {
+        const double s = a.residual_stress[g.point(r, j)][c];
+        largest_stress = std::max(largest_stress, std::abs(s));
+        worst = std::max(worst, std::abs(s - b.residual_stress[w.point(r, j + (w.ny - g.ny) / 2)][c]));
+      }
+  EXPECT_LT(worst, 0.05 * largest_stress);
+}
+
+TEST(PatchRolling, TheStateGoesOnToTheSameBits) {
+  const SteadyGrid g = patch_grid(0.25, 0.15);
+  PatchRolling whole(g, 4.8, 0.1, 30), first(g, 4.8, 0.1, 30), second(g, 4.8, 0.1, 30);
+  roll(whole, 4);
+  roll(first, 2);
+  second.state = first.state;
+  roll(second, 2);
+  EXPECT_TRUE(whole.state.history == second.state.history);
+  EXPECT_TRUE(whole.state.residual_strain == second.state.residual_strain);
+}
+
+}  // namespace
+}  // namespace railstrata

@@ -1,0 +1,117 @@
+#include "steady/plastic_strain_response.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.hpp"
+
+namespace railstrata {
+namespace {
+
+RowModuli moduli(double young, double poisson) {
+  return {young * poisson / ((1 + poisson) * (1 - 2 * poisson)), young / (2 * (1 + poisson))};
+}
+
+SteadyGrid grid(int nx, int ny, int rows) {
+  SteadyGrid g{
+      .nx = nx, .ny = ny, .dx = 8. / nx, .dy = ny > 1 ? 6. / ny : 0, .front = 4, .y0 = -3, .active = 1, .hold = 1};
+  g.thickness.assign(static_cast<std::size_t>(rows), 1.5 / rows);
+  return g;
+}
+
+/// Symmetric gradient of u = curl (A_x, A_y, 0), A = (sin kx sin(ly + .3), cos kx cos ly) (1 - z/D)^3, D = 1.5: no
+/// change of volume, nothing below D.
+std::array<double, 6> compatible(double x, double y, double z, bool plane) {
+  const double k = std::numbers::pi / 4, l = plane ? 0 : std::numbers::pi / 3, s = 1 - z / 1.5;
+  const double f = s * s * s, f1 = -2 * s * s, f2 = 8. / 3 * s;
+  const double cx = std::cos(k * x), sx = std::sin(k * x), cy = std::cos(l * y), sy = std::sin(l * y);
+  const double w = plane ? 0 : 1, c3 = w * std::cos(l * y + .3), s3 = w * std::sin(l * y + .3);
+  // u_x = -cx cy f', u_y = sx s3 f', u_z = -k sx cy f - l sx c3 f
+  return {k * sx * cy * f1,
+          l * sx * c3 * f1,
+          -(k * cy + l * c3) * sx * f1,
+          0.5 * (l * cx * sy * f1 + k * cx * s3 * f1),
+          0.5 * (sx * s3 * f2 + sx * f * (k * l * sy + l * l * s3)),
+          0.5 * (-cx * cy * f2 - k * cx * f * (k * cy + l * c3))};
+}
+
+/// Largest deviation of the answer from the compatible plastic strain itself, over its largest.
+double deviation(int nx, int ny, int rows, RowModuli top) {
+  const SteadyGrid g = grid(nx, ny, rows);
+  std::vector<RowModuli> m(static_cast<std::size_t>(rows), moduli(210e9, .3));
+  for (int r = 0; r < rows / 3; ++r) m[r] = top;
+  const PlasticStrainResponse response(g, m, moduli(210e9, .3));
+  Field field(g.size());
+  const auto each = [&](auto&& at) {
+    for (int r = 0; r < rows; ++r)
+      for (int i = 0; i < nx; ++i)
+        for (int j = 0; j < ny; ++j) {
+          const auto e = compatible(g.x(i), g.y(j), g.depth(r), ny == 1);
+          for (int c = 0; c < 6; ++c) at(field[g.index(c, r, i, j)], e[c]);
+        }
+  };
+  double largest = 0, worst = 0;
+  each([&](double& value, double e) {
+    value = e;
+    largest = std::max(largest, std::abs(e));
+  });
+  response.apply(field);
+  each([&](double value, double e) { worst = std::max(worst, std::abs(value - e)); });
+  return worst / largest;
+}
+
+TEST(PlasticStrainResponse, CompatiblePlasticStrainLeavesNoStressWithTheSecondPowerOfTheCells) {
+  for (const double young : {210e9, 600e9}) {
+    const double coarse = deviation(32, 24, 9, moduli(young, .25)), fine = deviation(64, 48, 18, moduli(young, .25));
+    EXPECT_LT(fine, 0.01);
+    EXPECT_NEAR(std::log2(coarse / fine), 2, 0.25) << young;
+  }
+}
+
+TEST(PlasticStrainResponse, OneColumnIsPlaneStrain) {
+  const double coarse = deviation(32, 1, 9, moduli(600e9, .25)), fine = deviation(64, 1, 18, moduli(600e9, .25));
+  EXPECT_LT(fine, 0.01);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.25);
+}
+
+TEST(PlasticStrainResponse, UniformPlasticStrainOfALayerLeavesItsClosedFormStress) {
+  // endless along x and y: e_xx = e_yy = 0, S_zz = S_xz = 0, so that E_zz = E^p_zz + lambda/(lambda + 2 mu) (E^p_xx +
+  // E^p_yy) and E_xz = E^p_xz
+  const SteadyGrid g = grid(16, 4, 6);
+  const RowModuli m = moduli(210e9, .3);
+  const PlasticStrainResponse response(g, std::vector<RowModuli>(6, m), m);
+  const std::array<double, 6> plastic = {1e-3, -4e-4, -6e-4, 2e-4, 3e-4, -5e-4};
+  Field field(g.size());
+  for (int c = 0; c < 6; ++c)
+    for (int r = 0; r < 3; ++r)
+      for (int i = 0; i < g.nx; ++i)
+        for (int j = 0; j < g.ny; ++j) field[g.index(c, r, i, j)] = plastic[c];
+  response.apply(field);
+  const std::array<double, 6> expected = {0, 0, -6e-4 + .3 / .7 * 6e-4, 0, 3e-4, -5e-4};
+  for (int c = 0; c < 6; ++c) {
+    EXPECT_NEAR(field[g.index(c, 1, 3, 2)], expected[c], 1e-15);
+    EXPECT_NEAR(field[g.index(c, 4, 3, 2)], 0, 1e-15);
+  }
+}
+
+TEST(PlasticStrainResponse, IsTheSameToTheBitForOneAndTwoThreads) {
+  const SteadyGrid g = grid(24, 16, 5);
+  const RowModuli m = moduli(210e9, .3);
+  const PlasticStrainResponse response(g, std::vector<RowModuli>(5, m), m);
+  Field one(g.size());
+  for (std::size_t n = 0; n < one.size(); ++n) one[n] = std::sin(1.7 * static_cast<double>(n));
+  Field two = one;
+  const int threads = max_threads();
+  set_threads(1);
+  response.apply(one);
+  set_threads(2);
+  response.apply(two);
+  set_threads(threads);
+  EXPECT_TRUE(one == two);
+}
+
+}  // namespace
+}  // namespace railstrata
