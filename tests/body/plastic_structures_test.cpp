@@ -21,7 +21,7 @@ class PlasticStructures : public testing::Test {
 };
 
 double breathing_damping(double radius) {
-  return 2 * std::sqrt(kYoung / 7800) / radius;  // about critical
+  return 0.7 * std::sqrt(kYoung / 7800) / radius;  // a third of critical: what it holds while loads rise is not felt
 }
 
 /// Nodes of a ring sector, in rows from radius 2 to 1 (or 1 to 2), move radially; the inner ones are driven.
@@ -82,7 +82,7 @@ TEST_F(PlasticStructures, HillsSphereHoldsThePressureOfItsPlasticRadiusWithinHal
   const double w = 0.02, a = 1, b = 2;
   Sector s(SweepKind::revolve, 20, w);
   int between = 0;
-  for (const Expansion& e : expand(s, w, 2e-4, 20, 20000)) {
+  for (const Expansion& e : expand(s, w, 2e-4, 20, 30000)) {
     // u(b) = b (1 - nu) Y c^3/(E b^3)
     const double c = std::cbrt(e.outer * kYoung * b * b / ((1 - 0.3) * kYield));
     if (c < a) continue;
@@ -101,7 +101,7 @@ TEST_F(PlasticStructures, ThickCylinderInPlaneStrainHoldsThePressureOfItsPlastic
   const double w = 0.02, a = 1, b = 2, k = kYield / std::sqrt(3.0);
   Sector s(SweepKind::extrude, 20, w);
   int between = 0;
-  for (const Expansion& e : expand(s, w, 2e-4, 20, 20000)) {
+  for (const Expansion& e : expand(s, w, 2e-4, 20, 30000)) {
     // u(b) = 2 (1 - nu^2) k c^2/(E b)
     const double c = std::sqrt(e.outer * kYoung * b / (2 * (1 - 0.09) * k));
     if (c < a) continue;
@@ -140,10 +140,14 @@ TEST_F(PlasticStructures, BeamInBendingWithEightRowsHoldsHillsMomentWithinOnePer
   for (double bend : {0.5, 2.0, 4.0}) {
     const double truth = bend < 1 ? bend : 1.5 - 0.5 / (bend * bend);
     EXPECT_NEAR(bending_moment(8, bend) / truth, 1, bend < 1 ? 1e-4 : 0.01) << bend;
-    for (int rows : {1, 2, 4})
-      std::printf("bend %g rows %d: %.5f of %.5f\n", bend, rows, bending_moment(rows, bend), truth);
-    std::printf("bend %g rows %d: %.5f of %.5f\n", bend, 8, bending_moment(8, bend), truth);
   }
+}
+
+TEST_F(PlasticStructures, OneRowHoldsTheMomentOfItsTwoRowsOfPointsAndIsNotStiffBeyondThem) {
+  // fully plastic: points at +- h/(2 sqrt 3) with weights of half the height, M/M_y = sqrt 3; elastic hourglass forces
+  // would grow with the curvature for ever
+  EXPECT_NEAR(bending_moment(1, 4), std::sqrt(3.0), 1e-3);
+  EXPECT_NEAR(bending_moment(1, 8), std::sqrt(3.0), 1e-3);
 }
 
 TEST_F(PlasticStructures, RoundBarInTorsionHoldsTheClosedFormsTorqueWithinOnePercent) {
