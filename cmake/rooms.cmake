@@ -47,6 +47,7 @@ endfunction()
 
 # Third-party libraries each room links. Every room may use fmt; the others stand where they are used.
 set(ROOM_LIBS_core fmt::fmt OpenMP::OpenMP_CXX)
+set(ROOM_LIBS_material Eigen3::Eigen)
 set(ROOM_LIBS_geometry Eigen3::Eigen)
 set(ROOM_LIBS_element Eigen3::Eigen)
 set(ROOM_LIBS_halfspace Eigen3::Eigen)

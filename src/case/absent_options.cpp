@@ -16,7 +16,10 @@ constexpr std::string_view
     kYaw = "geometry.yaw is the angle of attack", kCurve = "geometry.curve_radius is the radius of the track's curve",
     kRoll = "geometry.roll is the roll of the wheelset";
 
-constexpr std::string_view kElastic = "all materials are linear elastic; results warn where rail steel would yield",
+constexpr std::string_view kElastic =
+                               "contact is computed with linear elastic materials; yield_strength, hardening, "
+                               "initial_stress and the like are keys of [material.rail], [material.wheel] and "
+                               "[[layer]]",
                            kTrack = "gauge, cant and lateral_shift are keys of [geometry]";
 
 constexpr std::array kAbsent{

@@ -183,6 +183,25 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
   }
 }
 
+/// Cases are computed elastically: what only a law of yielding reads must not go by unsaid.
+void note_hardening(const CaseSpec& spec, std::vector<std::string>& notes) {
+  const auto look = [&](const std::string& table, const StrengthSpec& s) {
+    const char* const key = !s.hardening.empty()             ? "hardening"
+                            : s.isotropic_hardening          ? "isotropic_hardening"
+                            : !s.kinematic_hardening.empty() ? "kinematic_hardening"
+                                                             : nullptr;
+    if (key)
+      notes.push_back(
+          fmt::format("{}.{} has no effect on contact: yielding is not in either engine yet, both compute "
+                      "elastically; `railstrata material` drives the law",
+                      table, key));
+  };
+  look("material.rail", spec.rail_material.strength);
+  look("material.wheel", spec.wheel_material.strength);
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    look(fmt::format("layer.{}", i), spec.layers[i].material.strength);
+}
+
 }  // namespace
 
 void check_case_rules(const CaseSpec& spec, CaseSource& source) {
@@ -233,6 +252,7 @@ std::vector<std::string> idle_settings(const CaseSpec& spec) {
        "geometry.block_width", "geometry.rail_shape = \"block\"");
   idle(spec.geometry.rail_shape != RailShape::block && spec.geometry.block_height != defaults.geometry.block_height,
        "geometry.block_height", "geometry.rail_shape = \"block\"");
+  note_hardening(spec, notes);
   return notes;
 }
 

@@ -40,6 +40,8 @@ struct TypeSchema {
   Json operator()(const std::string*) const { return {{"type", "string"}}; }
   Json operator()(const ChoiceSlot&) const { return {{"type", "string"}, {"enum", words_of(option)}}; }
   Json operator()(const RowsSlot&) const {
+    if (option.form == RowForm::one_named) return named_schema();
+    if (option.form == RowForm::named) return {{"type", "array"}, {"minItems", 1}, {"items", named_schema()}};
     const std::size_t width = option.columns.size();
     return {{"type", "array"},
             {"minItems", 2},
@@ -47,6 +49,14 @@ struct TypeSchema {
   }
   Json operator()(const std::vector<double>*) const {
     return {{"type", "array"}, {"minItems", 1}, {"items", quantity_schema(option)}};
+  }
+  Json named_schema() const {
+    Json s{{"type", "object"}, {"additionalProperties", false}};
+    for (const Option& column : option.columns) {
+      s["properties"][std::string(column.key)] = quantity_schema(column);
+      s["required"].push_back(column.key);
+    }
+    return s;
   }
 };
 

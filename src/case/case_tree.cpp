@@ -72,7 +72,10 @@ std::string wanted(const Option& option) {
       return fmt::format("a list, e.g. {}", example_of(option));
     }
     std::string operator()(const RowsSlot&) const {
-      return fmt::format("a table whose rows have {}, e.g. {}", columns_text(option), example_of(option));
+      const char* const what = option.form == RowForm::by_depth ? "a table whose rows have"
+                               : option.form == RowForm::named  ? "a list of tables with"
+                                                                : "a table with";
+      return fmt::format("{} {}, e.g. {}", what, columns_text(option), example_of(option));
     }
   };
   return std::visit(Say{option}, any_slot(option));
@@ -293,8 +296,10 @@ class TreeReader {
 
   void assign(const Option& option, const std::string& key, std::size_t index, const toml::node& node,
               const RowsSlot& target) {
+    if (option.form == RowForm::one_named) return assign_named(option, key, node, target);
     const toml::array* list = node.as_array();
     if (!list) return mismatch(option, key, node);
+    if (option.form == RowForm::named) return assign_list(option, key, *list, target);
     RowsSlot::Rows rows;
     bool sound = true;
     for (std::size_t i = 0; i < list->size(); ++i)
@@ -302,6 +307,55 @@ class TreeReader {
     if (!sound || !fits(option, key, rows)) return;
     target.set(rows);
     if (option.key == "young_table") take_moduli(key, spec_.layers.at(index));
+  }
+
+  void assign_named(const Option& option, const std::string& key, const toml::node& node, const RowsSlot& target) {
+    if (!node.is_table()) return mismatch(option, key, node);
+    if (RowsSlot::Rows rows(1); read_named(option, key, *node.as_table(), rows.front())) target.set(rows);
+  }
+
+  void assign_list(const Option& option, const std::string& key, const toml::array& list, const RowsSlot& target) {
+    RowsSlot::Rows rows;
+    bool sound = true;
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      const std::string item = fmt::format("{}.{}", key, i);
+      remember_place(item, list[i]);
+      const toml::table* table = list[i].as_table();
+      if (!table) mismatch(option, item, list[i]);
+      sound &= table && read_named(option, item, *table, rows.emplace_back());
+    }
+    if (list.empty())
+      source_.complain(key, fmt::format("{} = []: needs at least one table", key),
+                       fmt::format("write {}", wanted(option)));
+    if (sound) target.set(rows);
+  }
+
+  /// Numbers under the keys of the columns, every one.
+  bool read_named(const Option& option, const std::string& item, const toml::table& table,
+                  std::vector<double>& numbers) {
+    bool sound = true;
+    std::vector<std::string> keys;
+    numbers.assign(option.columns.size(), 0.0);
+    for (std::size_t k = 0; k < option.columns.size(); ++k) {
+      const Option& column = option.columns[k];
+      const std::string part = fmt::format("{}.{}", item, keys.emplace_back(column.key));
+      const toml::node* node = table.get(column.key);
+      if (node) remember_place(part, *node);
+      if (!node)
+        source_.complain(item, fmt::format("{} has no {}", item, column.key), fmt::format("write {}", wanted(option)));
+      sound &= node && number(column, part, *node, numbers[k]);
+    }
+    for (const auto& [key, node] : table) {
+      const std::string word(key.str());
+      if (std::find(keys.begin(), keys.end(), word) != keys.end()) continue;
+      const std::string near = nearest_word(word, keys), part = fmt::format("{}.{}", item, word);
+      source_.remember(part, place_of(key.source()));
+      source_.complain(
+          part, fmt::format("unknown key {}", part),
+          fmt::format("{}write {}", near.empty() ? "" : fmt::format("did you mean {}? ", near), wanted(option)));
+      sound = false;
+    }
+    return sound;
   }
 
   /// A row of a table by depth.

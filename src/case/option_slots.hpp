@@ -12,7 +12,7 @@ template <class T>
 Slot slot_of(T& member) {
   if constexpr (std::is_enum_v<T>)
     return ChoiceSlot(member);
-  else if constexpr (requires(typename T::value_type & row) { columns(row); })
+  else if constexpr (requires(typename T::value_type & row) { columns(row); })  // of a list or an optional
     return RowsSlot(member);
   else
     return &member;

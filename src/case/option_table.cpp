@@ -729,14 +729,16 @@ std::string toml_value(const Option& option, CaseSpec& spec, std::size_t index) 
       return "[" + out + "]";
     }
     std::string operator()(const RowsSlot& v) const {
+      const bool named = option.form != RowForm::by_depth;
       std::string out;
       for (const std::vector<double>& numbers : *v) {
         std::string row;
         for (std::size_t k = 0; k < numbers.size(); ++k)
-          row += (k == 0 ? "" : ", ") + quantity(numbers[k], option.columns.at(k).dimension);
-        out += fmt::format("{}[{}]", out.empty() ? "" : ", ", row);
+          row += fmt::format("{}{}{}", k == 0 ? "" : ", ", named ? fmt::format("{} = ", option.columns.at(k).key) : "",
+                             quantity(numbers[k], option.columns.at(k).dimension));
+        out += fmt::format(fmt::runtime(named ? "{}{{ {} }}" : "{}[{}]"), out.empty() ? "" : ", ", row);
       }
-      return out.empty() ? out : "[" + out + "]";
+      return out.empty() || option.form == RowForm::one_named ? out : "[" + out + "]";
     }
   };
   return std::visit(Writer{option}, option.slot(spec, index));

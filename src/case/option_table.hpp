@@ -32,12 +32,15 @@ class ChoiceSlot {
   void (*write_)(void*, int);
 };
 
-/// A member that is a table by depth: rows of a type whose numbers `columns(row)` lists.
+/// A member that is a table, by depth or of named numbers: rows of a type whose numbers `columns(row)` lists.
 class RowsSlot {
  public:
   using Rows = std::vector<std::vector<double>>;
   template <class Row>
   explicit RowsSlot(std::vector<Row>& member) : member_(&member), read_(read<Row>), write_(write<Row>) {}
+  /// One row at most.
+  template <class Row>
+  explicit RowsSlot(std::optional<Row>& member) : member_(&member), read_(read_one<Row>), write_(write_one<Row>) {}
   Rows operator*() const { return read_(member_); }
   void set(const Rows& rows) const { write_(member_, rows); }
   friend bool operator==(const RowsSlot& a, const RowsSlot& b) { return a.member_ == b.member_; }
@@ -46,22 +49,38 @@ class RowsSlot {
   template <class Row>
   static Rows read(const void* member) {
     Rows out;
-    for (Row row : *static_cast<const std::vector<Row>*>(member)) {
-      out.emplace_back();
-      for (const double* number : columns(row)) out.back().push_back(*number);
-    }
+    for (const Row& row : *static_cast<const std::vector<Row>*>(member)) out.push_back(numbers_of(row));
     return out;
+  }
+  template <class Row>
+  static Rows read_one(const void* member) {
+    const auto& row = *static_cast<const std::optional<Row>*>(member);
+    return row ? Rows{numbers_of(*row)} : Rows{};
   }
   template <class Row>
   static void write(void* member, const Rows& rows) {
     auto& out = *static_cast<std::vector<Row>*>(member);
     out.clear();
-    for (const std::vector<double>& numbers : rows) {
-      Row row;
-      std::size_t k = 0;
-      for (double* number : columns(row)) *number = numbers.at(k++);
-      out.push_back(row);
-    }
+    for (const std::vector<double>& numbers : rows) out.push_back(row_of<Row>(numbers));
+  }
+  template <class Row>
+  static void write_one(void* member, const Rows& rows) {
+    auto& out = *static_cast<std::optional<Row>*>(member);
+    out.reset();
+    if (!rows.empty()) out = row_of<Row>(rows.front());
+  }
+  template <class Row>
+  static std::vector<double> numbers_of(Row row) {
+    std::vector<double> out;
+    for (const double* number : columns(row)) out.push_back(*number);
+    return out;
+  }
+  template <class Row>
+  static Row row_of(const std::vector<double>& numbers) {
+    Row out;
+    std::size_t k = 0;
+    for (double* number : columns(out)) *number = numbers.at(k++);
+    return out;
   }
   void* member_;
   Rows (*read_)(const void*);
@@ -97,6 +116,13 @@ struct Derivation {
   explicit operator bool() const { return value != nullptr; }
 };
 
+/// How a case writes the rows of a RowsSlot.
+enum class RowForm {
+  by_depth,  ///< [["0 mm", "400 MPa"], ["5 mm", "300 MPa"]]
+  named,     ///< [{ modulus = "60 GPa", recall = 250 }]: the keys are those of the columns
+  one_named  ///< { saturation = "80 MPa", rate = 12 }
+};
+
 struct Option {
   std::string_view key;
   Slot (*slot)(CaseSpec&, std::size_t index);  ///< index: which element of a list of tables ([[layer]]); else unused
@@ -112,6 +138,7 @@ struct Option {
   /// Of a table by depth: what each number of a row must be, the depth first; its `doc` says where depth 0 is.
   std::vector<Option> columns{};
   std::string_view example{};  ///< of a list or a table by depth
+  RowForm form = RowForm::by_depth;
 };
 
 /// Of a list of tables: how many a case has, and a case with so many.

@@ -26,18 +26,21 @@ struct Depths {
 };
 
 struct OfRail {
+  static const S& strength(const CaseSpec& spec, std::size_t) { return spec.rail_material.strength; }
   template <auto... Path>
   static Slot slot(CaseSpec& spec, std::size_t index) {
     return at<&CaseSpec::rail_material, &M::strength, Path...>(spec, index);
   }
 };
 struct OfWheel {
+  static const S& strength(const CaseSpec& spec, std::size_t) { return spec.wheel_material.strength; }
   template <auto... Path>
   static Slot slot(CaseSpec& spec, std::size_t index) {
     return at<&CaseSpec::wheel_material, &M::strength, Path...>(spec, index);
   }
 };
 struct OfLayer {
+  static const S& strength(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).material.strength; }
   template <auto... Path>
   static Slot slot(CaseSpec& spec, std::size_t index) {
     return layer<&LayerSpec::material, &M::strength, Path...>(spec, index);
@@ -107,6 +110,38 @@ std::vector<Option> yield_options(const Depths& depths) {
 }
 
 template <class Place>
+bool elastic_on_purpose(const CaseSpec& spec, std::size_t index) {
+  return Place::strength(spec, index).elastic;
+}
+
+/// What follows the yield strength: the law of docs/material.md.
+template <class Place>
+std::vector<Option> hardening_options() {
+  Option isotropic{"isotropic_hardening", Place::template slot<&S::isotropic_hardening>,
+                   "The yield stress grows by saturation (1 - exp(-rate p)) with the accumulated plastic strain p; a "
+                   "negative saturation softens"},
+      kinematic{"kinematic_hardening", Place::template slot<&S::kinematic_hardening>,
+                "Up to four backstresses of Armstrong and Frederick, each with modulus C and recall gamma; recall = 0 "
+                "is linear"},
+      elastic{"elastic", Place::template slot<&S::elastic>, "Never yields, whatever its strength: for brittle layers"};
+  isotropic.form = RowForm::one_named;
+  isotropic.columns = {{"saturation", nullptr, "", kPressure, kResidual, {}, {}, nullptr, kBeyondStrength},
+                       {"rate", nullptr, "", kNumber, above(0, 1e5)}};
+  isotropic.example = R"({ saturation = "80 MPa", rate = 12 })";
+  kinematic.form = RowForm::named;
+  kinematic.columns = {{"modulus", nullptr, "", kPressure, above(0, 1e13)}, {"recall", nullptr, "", kNumber, {0, 1e6}}};
+  kinematic.example = R"([{ modulus = "60 GPa", recall = 250 }, { modulus = "5 GPa", recall = 10 }])";
+  elastic.applies = elastic_on_purpose<Place>;
+  return {{"hardening", Place::template slot<&S::hardening>,
+           "A ready set of cyclic hardening by name (docs/material.md lists them), or \"estimated\": from "
+           "tensile_strength or hardness. It begins to yield at its own stress; yield_strength then serves shakedown "
+           "and fatigue alone"},
+          isotropic,
+          kinematic,
+          elastic};
+}
+
+template <class Place>
 std::vector<Option> residual_options(const Depths& depths) {
   const Option along{"longitudinal stress", nullptr, "", kPressure, kResidual},
       across{"lateral stress", nullptr, "", kPressure, kResidual};
@@ -159,7 +194,7 @@ std::vector<Option> fatigue_options() {
 template <class Place>
 std::vector<Option> all_options(const Depths& depths) {
   std::vector<Option> out = yield_options<Place>(depths);
-  for (const auto& more : {residual_options<Place>(depths), fatigue_options<Place>()})
+  for (const auto& more : {hardening_options<Place>(), residual_options<Place>(depths), fatigue_options<Place>()})
     out.insert(out.end(), more.begin(), more.end());
   return out;
 }
@@ -195,6 +230,8 @@ std::vector<Option> strength_options(StrengthPlace place) {
 std::vector<std::vector<std::string_view>> strength_rivals() {
   return {{"yield_strength", "shear_yield_strength", "strength_table"},
           {"hardness", "hardness_table"},
+          {"hardening", "isotropic_hardening"},
+          {"hardening", "kinematic_hardening"},
           {"initial_stress", "initial_stress_table"}};
 }
 

@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "case/units.hpp"
 #include "core/faults.hpp"
 #include "damage/grades.hpp"
+#include "material/hardening_sets.hpp"
+#include "material/plastic.hpp"
 
 namespace railstrata {
 namespace {
@@ -21,11 +24,14 @@ std::string length(double value) { return format_quantity(value, dimension::kLen
 
 class Rules {
  public:
-  Rules(std::string table, const StrengthSpec& strength, CaseSource& source)
-      : table_(std::move(table)), s_(strength), source_(source) {}
+  Rules(std::string table, const MaterialSpec& material, CaseSource& source)
+      : table_(std::move(table)), material_(material), s_(material.strength), source_(source) {}
 
   void check() const {
     check_grade();
+    check_hardening_name();
+    check_hardening();
+    check_elastic();
     check_pair();
     check_against_tensile();
     check_against_hardness();
@@ -51,6 +57,65 @@ class Rules {
     } catch (const CaseError& e) {
       complain("grade", fmt::format(": {}", e.diagnostics.front().message), e.diagnostics.front().remedy);
     }
+  }
+
+  void check_hardening_name() const {
+    if (s_.hardening.empty()) return;
+    if (s_.hardening == kEstimatedHardening) {
+      if (!s_.tensile_strength && !s_.hardness && s_.hardness_table.empty())
+        complain("hardening", " = \"estimated\": needs tensile_strength or hardness",
+                 "add for example tensile_strength = \"880 MPa\"");
+      return;
+    }
+    try {
+      hardening_set(s_.hardening);
+    } catch (const CaseError& e) {
+      complain("hardening", fmt::format(": {}", e.diagnostics.front().message), e.diagnostics.front().remedy);
+    }
+  }
+
+  bool begins_to_yield() const {
+    return s_.yield_strength || !s_.strength_table.empty() || !s_.grade.empty() || s_.hardness ||
+           !s_.hardness_table.empty();
+  }
+
+  void check_hardening() const {
+    const char* const given = s_.isotropic_hardening            ? "isotropic_hardening"
+                              : !s_.kinematic_hardening.empty() ? "kinematic_hardening"
+                                                                : nullptr;
+    if (!given) return;
+    if (!begins_to_yield())
+      complain(given, ": says how the material hardens, and nothing where it begins to yield",
+               "add for example yield_strength = \"300 MPa\"");
+    if (s_.kinematic_hardening.size() > kMostBackstresses)
+      complain("kinematic_hardening",
+               fmt::format(": has {} backstresses, at most {} are computed", s_.kinematic_hardening.size(),
+                           kMostBackstresses),
+               "keep four: `railstrata material --calibrate` fits as many as a test needs");
+    if (s_.isotropic_hardening) check_softening(*s_.isotropic_hardening);
+  }
+
+  /// What softens must keep some strength, and must not soften faster than it unloads.
+  void check_softening(const IsotropicHardening& h) const {
+    double least = s_.yield_strength.value_or(std::numeric_limits<double>::infinity());
+    for (const DepthPoint& row : s_.strength_table) least = std::min(least, row.value);
+    if (!(least + h.saturation > 0))
+      complain("isotropic_hardening",
+               fmt::format(": saturation = {} takes the whole yield strength of {} away", pressure(h.saturation),
+                           pressure(least)),
+               "the sum of both must be above zero");
+    const double shear = material_.young / (2 * (1 + material_.poisson));
+    if (!(3 * shear + h.saturation * h.rate > 0))
+      complain("isotropic_hardening",
+               fmt::format(": softens by saturation x rate = {}, faster than the material unloads, 3 G = {}",
+                           pressure(-h.saturation * h.rate), pressure(3 * shear)),
+               "lower the rate");
+  }
+
+  void check_elastic() const {
+    if (s_.elastic && (!s_.hardening.empty() || s_.isotropic_hardening || !s_.kinematic_hardening.empty()))
+      complain("elastic", " = true: the material has a law of hardening too",
+               "keep one of them: what is elastic on purpose does not harden");
   }
 
   void check_pair() const {
@@ -89,6 +154,7 @@ class Rules {
   }
 
   std::string table_;
+  const MaterialSpec& material_;
   const StrengthSpec& s_;
   CaseSource& source_;
 };
@@ -96,10 +162,10 @@ class Rules {
 }  // namespace
 
 void check_strengths(const CaseSpec& spec, CaseSource& source) {
-  Rules("material.rail", spec.rail_material.strength, source).check();
-  Rules("material.wheel", spec.wheel_material.strength, source).check();
+  Rules("material.rail", spec.rail_material, source).check();
+  Rules("material.wheel", spec.wheel_material, source).check();
   for (std::size_t i = 0; i < spec.layers.size(); ++i) {
-    const Rules rules(fmt::format("layer.{}", i), spec.layers[i].material.strength, source);
+    const Rules rules(fmt::format("layer.{}", i), spec.layers[i].material, source);
     rules.check();
     rules.check_reach(spec.layers[i].thickness);
   }

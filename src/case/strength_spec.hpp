@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace railstrata {
@@ -20,15 +21,34 @@ struct StressPoint {
   friend bool operator==(const StressPoint&, const StressPoint&) = default;
 };
 
+/// Voce's isotropic hardening, Q (1 - exp(-b p)), and a backstress of Armstrong and Frederick (material/plastic.hpp).
+struct IsotropicHardening {
+  double saturation = 0, rate = 0;  ///< Q [Pa], b
+  friend bool operator==(const IsotropicHardening&, const IsotropicHardening&) = default;
+};
+struct KinematicHardening {
+  double modulus = 0, recall = 0;  ///< C [Pa], gamma
+  friend bool operator==(const KinematicHardening&, const KinematicHardening&) = default;
+};
+
 /// The numbers of a row, in the order in which a case file writes them.
 inline std::array<double*, 2> columns(DepthPoint& p) { return {&p.depth, &p.value}; }
 inline std::array<double*, 3> columns(StressPoint& p) { return {&p.depth, &p.longitudinal, &p.lateral}; }
+inline std::array<double*, 2> columns(IsotropicHardening& h) { return {&h.saturation, &h.rate}; }
+inline std::array<double*, 2> columns(KinematicHardening& h) { return {&h.modulus, &h.recall}; }
+
+/// The word of StrengthSpec::hardening for a set from the tensile strength.
+inline constexpr std::string_view kEstimatedHardening = "estimated";
 
 /// Depths of a layer's tables count from its top, those of rail and wheel from the running surface.
 struct StrengthSpec {
   std::string grade;                     ///< a name of damage/grades.hpp; it gives what is not given otherwise
   std::optional<double> yield_strength;  ///< Pa, uniaxial; that in pure shear is a sqrt(3)-th of it
   std::vector<DepthPoint> strength_table;
+  std::string hardening;  ///< a name of material/hardening_sets.hpp, or "estimated": of the tensile strength
+  std::optional<IsotropicHardening> isotropic_hardening;
+  std::vector<KinematicHardening> kinematic_hardening;
+  bool elastic = false;            ///< on purpose, whatever its strength: a brittle layer
   double yield_to_tensile = 0.55;  ///< of a strength that is estimated from hardness
   std::optional<double> hardness;  ///< HV
   std::vector<DepthPoint> hardness_table;

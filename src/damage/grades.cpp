@@ -58,18 +58,6 @@ double share_of_tensile(double share) {
 
 }  // namespace
 
-std::string_view certainty_text(Certainty certainty) {
-  switch (certainty) {
-    case Certainty::standard_minimum:
-      return "standard minimum";
-    case Certainty::estimated:
-      return "estimated";
-    case Certainty::absent:
-      break;
-  }
-  return "";
-}
-
 const std::vector<Grade>& grades() {
   static const std::vector<Grade> all = {
       rail("R220", 430, 460, 770, 220, 260),

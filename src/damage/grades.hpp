@@ -8,14 +8,9 @@
 #include <string_view>
 #include <vector>
 
-namespace railstrata {
+#include "material/certainty.hpp"
 
-enum class Certainty {
-  absent,            ///< nothing known: the user must give it
-  standard_minimum,  ///< what the standard asks for
-  estimated          ///< usual values, no standard behind them
-};
-std::string_view certainty_text(Certainty certainty);  ///< "", "standard minimum", "estimated"
+namespace railstrata {
 
 /// A range; low == high where one number is known. Use `low`: the safe side of a strength.
 struct GradeNumber {

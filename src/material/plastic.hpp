@@ -74,7 +74,7 @@ RAILSTRATA_POINTWISE T saturated_share(const T& x) {
   const T y = (x < most ? x : most) * (Real(1) / 1024);
   T series = T{} + Real(1);
   RAILSTRATA_UNROLL
-  for (int n = 9; n > 1; --n) series = 1 - y * (Real(1) / n) * series;
+  for (int n = 9; n > 1; --n) series = 1 - y * (Real(1) / static_cast<Real>(n)) * series;
   T u = y * series;
   RAILSTRATA_UNROLL
   for (int doubling = 0; doubling < 10; ++doubling) u = u * (2 - u);

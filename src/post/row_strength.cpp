@@ -4,18 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <optional>
 
-#include "case/units.hpp"
-#include "core/faults.hpp"
-#include "damage/grades.hpp"
+#include "model/material_strength.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 /// The layers of a body from the surface down, by their place in the case.
 std::vector<std::size_t> layers_on(const CaseSpec& spec, BodyId body) {
@@ -42,78 +36,34 @@ Zone zone_of(const CaseSpec& spec, BodyId body, int zone) {
   return {strength, name, fmt::format("layer.{}", layers.at(zone - 1)), top};
 }
 
-/// Linear between the rows of a table by depth.
-template <class Row>
-double at_depth(const std::vector<Row>& rows, double depth, double Row::*column, const std::string& key) {
-  constexpr double kRoundOff = 1e-9;
-  if (depth > rows.back().depth + kRoundOff)
-    throw CaseError(fmt::format("{}: ends at {}, stresses are looked at down to {}", key,
-                                format_quantity(rows.back().depth, dimension::kLength),
-                                format_quantity(std::round(1e6 * depth) / 1e6, dimension::kLength)),
-                    fmt::format("add a row at {} or deeper, with what the material has there",
-                                format_quantity(std::ceil(1e3 * depth) / 1e3, dimension::kLength)));
-  std::size_t i = 1;
-  while (i + 1 < rows.size() && rows[i].depth < depth) ++i;
-  const Row &a = rows[i - 1], &b = rows[i];
-  const double t = std::clamp((depth - a.depth) / (b.depth - a.depth), 0.0, 1.0);
-  return a.*column + t * (b.*column - a.*column);
-}
-
 class ZoneStrength {
  public:
-  explicit ZoneStrength(Zone zone) : zone_(std::move(zone)), s_(zone_.strength) {
-    if (!s_.grade.empty()) grade_ = grade(s_.grade);
-  }
+  explicit ZoneStrength(const Zone& zone)
+      : s_(zone.strength), key_(zone.key), top_(zone.top), strength_(zone.strength, zone.name, zone.key) {}
 
   /// Pa, uniaxial; NaN where the case does not say it.
-  double yield(double depth) const {
-    const double z = depth - zone_.top;
-    if (s_.yield_strength) return *s_.yield_strength;
-    if (!s_.strength_table.empty())
-      return at_depth(s_.strength_table, z, &DepthPoint::value, zone_.key + ".strength_table");
-    if (grade_ && grade_->yield.known()) return grade_->yield.low;
-    if (!s_.hardness_table.empty())
-      return yield_from_vickers(at_depth(s_.hardness_table, z, &DepthPoint::value, zone_.key + ".hardness_table"),
-                                s_.yield_to_tensile);
-    return s_.hardness ? yield_from_vickers(*s_.hardness, s_.yield_to_tensile) : kUnknown;
-  }
+  double yield(double depth) const { return strength_.yield(depth - top_); }
 
   /// m, the depth where the table that says the strength ends; infinite without one.
-  double end() const {
-    const std::vector<DepthPoint>& table = !s_.strength_table.empty() ? s_.strength_table : s_.hardness_table;
-    return table.empty() ? std::numeric_limits<double>::infinity() : zone_.top + table.back().depth;
-  }
+  double end() const { return top_ + strength_.end(); }
 
   StressPoint residual(double depth) const {
     if (!s_.initial_stress.empty()) return {depth, s_.initial_stress[0], s_.initial_stress[1]};
     if (s_.initial_stress_table.empty()) return {depth, 0, 0};
-    const double z = std::min(depth - zone_.top, s_.initial_stress_table.back().depth);  // below it there is none told
-    const std::string key = zone_.key + ".initial_stress_table";
+    const double z = std::min(depth - top_, s_.initial_stress_table.back().depth);  // below it there is none told
+    const std::string key = key_ + ".initial_stress_table";
     return {depth, at_depth(s_.initial_stress_table, z, &StressPoint::longitudinal, key),
             at_depth(s_.initial_stress_table, z, &StressPoint::lateral, key)};
   }
 
-  /// How a strength that was not given is known; empty if it was, or is not known.
-  std::string note() const {
-    if (s_.yield_strength || !s_.strength_table.empty()) return {};
-    if (grade_ && grade_->yield.known())
-      return fmt::format("yield strength of {}: {:.0f} MPa of grade {}, {} ({})", zone_.name, 1e-6 * grade_->yield.low,
-                         grade_->name, certainty_text(grade_->yield.certainty), grade_->yield.source);
-    if (s_.hardness || !s_.hardness_table.empty())
-      return fmt::format("yield strength of {}: estimated from hardness as {:g} x 3.2 MPa x HV", zone_.name,
-                         s_.yield_to_tensile);
-    return {};
-  }
+  std::string note() const { return strength_.note(); }
 
  private:
-  Zone zone_;
   const StrengthSpec& s_;
-  std::optional<Grade> grade_;
+  std::string key_;
+  double top_;
+  MaterialStrength strength_;
 };
-
-bool says_strength(const StrengthSpec& s) {
-  return s.yield_strength || s.hardness || !s.strength_table.empty() || !s.hardness_table.empty() || !s.grade.empty();
-}
 
 }  // namespace
 

@@ -1,0 +1,59 @@
+#pragma once
+// What a material of a case bears, by depth, and the law by which it yields.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "case/case_spec.hpp"
+#include "damage/grades.hpp"
+#include "material/material_path.hpp"
+
+namespace railstrata {
+
+/// The value of a table by depth, linear between rows. Throws CaseError below the last row, naming `key`.
+double at_depth(const std::vector<DepthPoint>& rows, double depth, const std::string& key);
+double at_depth(const std::vector<StressPoint>& rows, double depth, double StressPoint::*column,
+                const std::string& key);
+
+/// Depths count from the top of the material: of rail and wheel the running surface, of a layer its own top.
+class MaterialStrength {
+ public:
+  /// name: "rail", "wheel", the layer's; key: "material.rail", "layer.0".
+  MaterialStrength(const StrengthSpec& strength, std::string name, std::string key);
+
+  /// Pa, uniaxial: a yield strength, a table of them, a grade's, else an estimate from hardness, in this order; NaN
+  /// where the case does not say it. Throws CaseError below the end of a table.
+  double yield(double depth) const;
+  /// Vickers; NaN where the case does not say it.
+  double hardness(double depth) const;
+  /// m, the depth where the table that says the strength ends; infinite without one.
+  double end() const;
+  /// How a strength that was not given is known; empty if it was, or is not known.
+  std::string note() const;
+
+ private:
+  StrengthSpec s_;
+  std::string name_, key_;
+  std::optional<Grade> grade_;
+};
+
+/// Whether a case says how strong a material is.
+bool says_strength(const StrengthSpec& strength);
+
+/// The law of a material that yields (material/plastic.hpp), with depth:
+///   hardening = "…"        a ready set; of known hardness it is scaled by HV(z) over the hardness the set stands for
+///                          (that of its tensile strength; of a published set that at the material's top)
+///   the two hardening keys the law that is given, which begins at the yield strength; scaled by strength_table or
+///                          hardness_table over what it has at the top
+///   a strength alone       perfect plasticity
+struct PlasticLaw {
+  PlasticMaterial top;                     ///< at a factor of 1
+  std::vector<DepthPoint> factor;          ///< by depth, linear between; empty: 1 everywhere
+  std::vector<std::string> notes;          ///< what is estimated or published, and its source
+  PlasticMaterial at(double depth) const;  ///< below the last row as there
+};
+
+/// None where the material is elastic on purpose (elastic = true) or says nothing of a strength. Throws CaseError.
+std::optional<PlasticLaw> plastic_law(const MaterialSpec& material, const std::string& name, const std::string& key);
+
+}  // namespace railstrata
