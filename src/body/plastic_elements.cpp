@@ -31,39 +31,37 @@ std::vector<SweepScale> class_scales(SweepKind kind, const BlockElements& elemen
 
 }  // namespace
 
-PlasticElements::PlasticElements(const Body& body, const std::vector<std::optional<PlasticMaterial>>& materials,
-                                 const Wanted& wanted) {
-  const bool any = std::any_of(materials.begin(), materials.end(), [](const auto& m) { return m.has_value(); });
-  if (!any) return;
+PlasticElements::PlasticElements(const Body& body, const MaterialOf& material_of, const Wanted& wanted) {
+  add_quads(body, material_of);
+  if (quads_.empty()) return;
   if (body.options.element != ElementKind::full)
     throw CaseError("elements with one point cannot yield: their hourglass stiffness stays elastic",
                     "mesh.element = \"full\"");
-  for (const auto& m : materials)
-    if (m) terms_ = std::max(terms_, terms_of(m->law));
-  tile_quads_.resize(body.tiling.tiles.size());
-  for (int b = 0; b < static_cast<int>(body.elements.size()); ++b) {
-    scales_.push_back(class_scales(body.mesh.kind, body.elements[b]));
-    add_block(body, b, materials, wanted);
-  }
+  for (const Quad& q : quads_) terms_ = std::max(terms_, terms_of(q.material.law));
+  for (const BlockElements& elements : body.elements) scales_.push_back(class_scales(body.mesh.kind, elements));
   make_modes(body);
+  add_places(body, wanted);
 }
 
-void PlasticElements::add_block(const Body& body, int block,
-                                const std::vector<std::optional<PlasticMaterial>>& materials, const Wanted& wanted) {
-  const Section& section = body.mesh.blocks[block].section;
-  std::vector<int> kind(section.quads.size(), -1);
-  for (int t = body.tiling.first_tile[block]; t < body.tiling.first_tile[block + 1]; ++t)
-    for (int q = 0; q < static_cast<int>(section.quads.size()); ++q) {
-      const std::optional<PlasticMaterial>& material = materials[section.quad_material[q]];
-      if (!material || !wanted(block, q, body.tiling.tiles[t])) continue;
-      if (kind[q] < 0) {
-        kind[q] = static_cast<int>(quads_.size());
-        quads_.push_back({gauss_shape(body.mesh.kind, quad_corners(section, q)), *material, {}});
-        quad_of_.push_back({block, q});
+void PlasticElements::add_quads(const Body& body, const MaterialOf& material_of) {
+  for (int b = 0; b < static_cast<int>(body.elements.size()); ++b)
+    for (int q = 0; q < static_cast<int>(body.mesh.blocks[b].section.quads.size()); ++q)
+      if (const std::optional<YieldingMaterial> material = material_of(b, q)) {
+        quads_.push_back({{}, *material, {}});
+        quad_of_.push_back({b, q});
       }
-      if (tile_quads_[t].empty()) tile_quads_[t].assign(section.quads.size(), -1);
+}
+
+void PlasticElements::add_places(const Body& body, const Wanted& wanted) {
+  const std::vector<Tile>& tiles = body.tiling.tiles;
+  tile_quads_.resize(tiles.size());
+  for (int t = 0; t < static_cast<int>(tiles.size()); ++t)
+    for (int k = 0; k < static_cast<int>(quads_.size()); ++k) {
+      const auto [block, q] = quad_of_[k];
+      if (block != tiles[t].block || !wanted(block, q, tiles[t])) continue;
+      if (tile_quads_[t].empty()) tile_quads_[t].assign(body.mesh.blocks[block].section.quads.size(), -1);
       tile_quads_[t][q] = size();
-      places_.push_back({t, q, kind[q], tile_quads_[t][q]});
+      places_.push_back({t, q, k, tile_quads_[t][q]});
     }
 }
 
@@ -71,6 +69,7 @@ void PlasticElements::make_modes(const Body& body) {
   for_each(static_cast<std::ptrdiff_t>(quads_.size()), [&](std::ptrdiff_t k) {
     const auto [block, q] = quad_of_[k];
     const Section& section = body.mesh.blocks[block].section;
+    quads_[k].gauss = gauss_shape(body.mesh.kind, quad_corners(section, q));
     for (const SweepScale& scale : scales_[block])
       quads_[k].modes.push_back(incompatible_modes(body.mesh.kind, quad_corners(section, q), scale,
                                                    body.materials[section.quad_material[q]]));

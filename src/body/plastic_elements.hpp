@@ -19,9 +19,9 @@ namespace railstrata {
 
 struct Body;
 
-/// How a material of a body yields; stress that is in it from the start, in the element's frame (11 along the sweep,
+/// How elements yield; stress that is in it from the start, in the element's frame (11 along the sweep,
 /// 22 lateral, 33 up, 12, 23, 13).
-struct PlasticMaterial {
+struct YieldingMaterial {
   PlasticParameters<double> law{};
   std::array<double, 6> initial_stress{};  ///< Pa
 };
@@ -37,12 +37,14 @@ struct PlasticEntries {
 
 class PlasticElements {
  public:
+  /// The material of a quadrilateral; none where it stays elastic.
+  using MaterialOf = std::function<std::optional<YieldingMaterial>(int block, int quad)>;
   using Wanted = std::function<bool(int block, int quad, const Tile& tile)>;
 
   /// None.
   PlasticElements() = default;
-  /// materials: by the body's materials, empty where it stays elastic. Throws CaseError if the elements are one_point.
-  PlasticElements(const Body& body, const std::vector<std::optional<PlasticMaterial>>& materials, const Wanted& wanted);
+  /// Throws CaseError if the elements are one_point.
+  PlasticElements(const Body& body, const MaterialOf& material_of, const Wanted& wanted);
 
   bool empty() const { return places_.empty(); }
   int terms() const { return terms_; }  ///< backstresses, the most of any material
@@ -64,7 +66,7 @@ class PlasticElements {
   const std::vector<Place>& places() const { return places_; }
   struct Quad {
     GaussShape<double> gauss;
-    PlasticMaterial material;
+    YieldingMaterial material;
     std::vector<IncompatibleModes<double>> modes;  ///< by hourglass class; those that occur
   };
   const Quad& quad(const Place& p) const { return quads_[p.kind]; }
@@ -75,8 +77,8 @@ class PlasticElements {
   void initialise(double* history) const;
 
  private:
-  void add_block(const Body& body, int block, const std::vector<std::optional<PlasticMaterial>>& materials,
-                 const Wanted& wanted);
+  void add_quads(const Body& body, const MaterialOf& material_of);
+  void add_places(const Body& body, const Wanted& wanted);
   void make_modes(const Body& body);
 
   int terms_ = 0;

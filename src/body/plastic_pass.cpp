@@ -100,7 +100,7 @@ struct PackWork {
 template <int terms>
 void advance_point(const PackWork& work, int point, double weight, Pack (&strain)[6], Pack& done, double* nearest) {
   constexpr int kEntries = kPlasticHistory<terms>;
-  const PlasticMaterial& material = work.quad.material;
+  const YieldingMaterial& material = work.quad.material;
   const double twice = 2 * material.law.mu;
   const int first = Entries::kPoints + point * kEntries;
   Pack history[kEntries], before[6];
@@ -239,6 +239,15 @@ void advance_plastic_elements(const Body& body, const Field& u, double psi, Fiel
   const std::vector<Place>& places = body.plastic.places();
   for_each(
       static_cast<std::ptrdiff_t>(places.size()), [&](std::ptrdiff_t k) { advance(scope, places[k]); }, true);
+}
+
+void restore_points(const Body& body, const Field& from, Field& history) {
+  const std::ptrdiff_t kept = static_cast<std::ptrdiff_t>(Entries::kWork) * kTile;
+  const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(body.plastic.entries()) * kTile;
+  for_each(static_cast<std::ptrdiff_t>(body.plastic.places().size()), [&](std::ptrdiff_t k) {
+    const std::ptrdiff_t first = body.history.size + body.plastic.places()[k].first;
+    std::copy(from.begin() + first + kept, from.begin() + first + end, history.begin() + first + kept);
+  });
 }
 
 double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history) {

@@ -21,6 +21,10 @@ inline constexpr int kLookInterval = 16;
 void advance_plastic_elements(const Body& body, const Field& u, double psi, Field& history,
                               PlasticLook look = PlasticLook::all);
 
+/// Puts the histories of the points back to those of `from`; the eigenstress of the last pass and the bubbles, which
+/// the next pass starts from, stay. For trials from one state.
+void restore_points(const Body& body, const Field& from, Field& history);
+
 /// What the eigenstress adds to the stored energy that TraversalOf::energy finds for elastic elements [J], without that
 /// of the backstresses, which counts as plastic work.
 double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history);

@@ -9,6 +9,7 @@
 #include "body/traversal.hpp"
 #include "core/faults.hpp"
 #include "fem/guards.hpp"
+#include "fem/plastic_zone.hpp"
 
 namespace railstrata {
 namespace {
@@ -156,6 +157,7 @@ void Roller::step() {
   stepper_.step();
   require_sound(stepper_);
   require_forward(stepper_);
+  require_elastic_outside(stepper_);
   if (record) record_history();
   if (observer_.frame && stepper_.position() >= run_.next_frame) show_frame();
   take_due_samples();
@@ -241,7 +243,7 @@ RunResult Roller::finish() {
 
 // A static case has one position with one sample.
 PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& preload) {
-  const Field rail = initial_history(sys.rail()), wheel = initial_history(sys.wheel());
+  const Field &rail = preload.history[kRail], &wheel = preload.history[kWheel];
   const Field u_wheel = yawed_displacement(sys.wheel(), sys.wheel_surface().yaw, preload.u[kWheel]);
   const AxlePose pose{0, 0, preload.axle_z, 0};
   PositionSamples still{0.0, {take_sample(sys, {preload.u[kRail], rail}, {u_wheel, wheel}, preload.tractions, pose)}};
@@ -253,12 +255,12 @@ PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& pre
 }
 
 double hourglass_share(const RollingSystem& sys, PreloadResult& preload) {
-  const StrainEnergy rail = strain_energy(sys.rail(), preload.u[kRail], 0);
-  const StrainEnergy wheel = strain_energy(sys.wheel(), preload.u[kWheel], 0);
+  const StrainEnergy rail = Traversal(sys.rail()).energy(preload.u[kRail], 0, preload.history[kRail]);
+  const StrainEnergy wheel = Traversal(sys.wheel()).energy(preload.u[kWheel], 0, preload.history[kWheel]);
   return (rail.hourglass + wheel.hourglass) / (rail.strain + wheel.strain);
 }
 
-void drop_fields(PreloadResult& preload) { preload.u = {}; }
+void drop_fields(PreloadResult& preload) { preload.u = preload.history = {}; }
 
 }  // namespace
 

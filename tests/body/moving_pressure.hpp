@@ -34,9 +34,11 @@ class RolledHalfPlane {
  public:
   explicit RolledHalfPlane(const MovingPressure& p)
       : p_(p), depth_(graded(0.5 * p.cell, 1.6, kFar, 1.35)), body_(mesh(p, depth_), {kSteel}, {}), elements_(body_) {
-    PlasticMaterial material{perfectly_plastic(kSteel, std::sqrt(3.0) * p.shear_yield()), {}};
+    YieldingMaterial material{perfectly_plastic(kSteel, std::sqrt(3.0) * p.shear_yield()), {}};
     material.law.modulus[0] = p.kinematic_over_k * p.shear_yield();
-    body_.plastic = PlasticElements(body_, {material}, [&](int, int quad, const Tile&) { return depth_[quad] < 3; });
+    body_.plastic = PlasticElements(
+        body_, [&](int, int quad) { return depth_[quad] < 3 ? std::optional(material) : std::nullopt; },
+        [](int, int, const Tile&) { return true; });
     state_ = BodyState(body_);
     dt_ = 0.9 * element_step_bound(body_).step;
   }
