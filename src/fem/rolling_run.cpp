@@ -17,6 +17,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+PlasticExtent of_both(const PlasticExtent& a, const PlasticExtent& b) {
+  return {std::max(a.accumulated, b.accumulated), std::max(a.strain, b.strain), a.yielded + b.yielded};
+}
+
 constexpr long kStepsBetweenGoodStates = 1024;  // a copy of the state costs less than a step
 
 // The wheel positions at which a wanted position is sampled: every rail station of the window, so that samples fall on
@@ -237,6 +241,9 @@ RunResult Roller::finish() {
   result().closure = run_.largest_energy > 0 ? run_.largest_closure / run_.largest_energy : 0;
   result().reached_edge = stepper_.reached_edge();
   result().steps = stepper_.state().step;
+  const RollingState& state = stepper_.state();
+  result().plastic = of_both(plastic_extent(sys_.rail(), state.bodies[kRail].history),
+                             plastic_extent(sys_.wheel(), state.bodies[kWheel].history));
   result().wall_seconds = wall_seconds();
   return std::move(run_.result);
 }
@@ -277,6 +284,8 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
     out.positions.push_back(still_contact(sys, preload));
     out.hourglass_share = hourglass_share(sys, preload);
     out.penetration = preload.penetration;
+    out.plastic = of_both(plastic_extent(sys.rail(), preload.history[kRail]),
+                          plastic_extent(sys.wheel(), preload.history[kWheel]));
     drop_fields(preload);
     out.preload = std::move(preload);
     out.wall_seconds = seconds_since(start);
