@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "body/element_tables.hpp"
+#include "body/plastic_elements.hpp"
 #include "body/ties.hpp"
 #include "body/tiling.hpp"
 
@@ -33,7 +34,7 @@ struct Body {
 
   SweptBody mesh;
   BodyLayout layout;
-  HistoryLayout history;  ///< of BodyElement
+  HistoryLayout history;  ///< of BodyElement; what `plastic` keeps stands behind it
   std::vector<Elastic> materials;
   ElementOptions options;
   std::vector<BlockElements> elements;  ///< per block
@@ -43,6 +44,7 @@ struct Body {
   Field mass;          ///< kg, of the free nodes with what they carry; slaves and prescribed nodes have zero
   Field inverse_mass;  ///< 1/kg, zero likewise
   std::vector<NodeLine> lines;  ///< of free nodes
+  PlasticElements plastic;      ///< that may yield; none unless they are put here before the body is used
 
   bool is_free(int block, int node) const { return inverse_mass[layout.blocks[block].line(node, 0)] > 0; }
 };

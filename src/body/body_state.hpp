@@ -15,7 +15,7 @@ struct BodyState {
   Field u;        ///< m, displacements
   Field v;        ///< m/s, velocities at the half step before
   Field f;        ///< N, internal forces and what is added to them in a step; nothing of it survives the step
-  Field history;  ///< of the elements, as committed: [block][quadrilateral][entry][element]
+  Field history;  ///< of the elements, as committed: [block][quadrilateral][entry][element], then those that may yield
 };
 
 struct StateArray {
@@ -34,6 +34,6 @@ inline constexpr std::array<StateArray, 4> kStateArrays{{{"u", "m", &BodyState::
 std::size_t array_size(const Body& body, const StateArray& array, int history_entries = BodyElement::kHistory);
 
 /// The history of elements to which nothing has happened.
-inline Field initial_history(const Body& body) { return Field(static_cast<std::size_t>(body.history.size), 0.0); }
+Field initial_history(const Body& body);
 
 }  // namespace railstrata

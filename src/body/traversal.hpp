@@ -7,8 +7,12 @@
 //   StoreForces   all forces go to f
 //   FuseUpdate    they are handed over at once, so that the update of the node uses what is in cache
 //
+// Elements that may yield (Body::plastic) have their eigenstress in the history, as the last pass over them left it
+// (body/plastic_pass.hpp); the traversal takes it off.
+//
 // An evaluation is `linear` (f = K u of the undeformed body), a `trial` (the history of the elements is read and left
 // alone) or a `commit` (a step that counts: the history advances). Stress and energy read what was committed.
+#include <cassert>
 #include <vector>
 
 #include "body/body_state.hpp"
@@ -53,6 +57,7 @@ class TraversalOf {
   /// axle, positive when rolling forward. Ghosts of u are refreshed; padding of f is not defined. In double precision.
   void internal_force(Field& u, double psi, Field& f, const Field& history);
   void internal_force(Field& u, double psi, Field& f) requires(Element::kHistory == 0) {
+    assert(body_->plastic.empty());
     internal_force(u, psi, f, Field());
   }
   /// The same as a commit: the history advances to u.

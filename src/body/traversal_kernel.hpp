@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "body/plastic_pass.hpp"
 #include "body/scratch_rows.hpp"
 #include "body/traversal.hpp"
 #include "core/parallel.hpp"
@@ -78,6 +79,31 @@ struct QuadRows {
   const double* history;  // of the tile's first element; null without
   double* advanced;       // where a commit keeps it
   int history_stride;
+  const double* eigenstress;  // of the tile's first element, entry k at + k * kTile; null where nothing may yield
+};
+
+// The eigenstress of a pack of elements.
+template <class P>
+struct PackEigenstress {
+  const double* rows;
+  P entry(int k) const {
+    P out;
+    for (int l = 0; l < static_cast<int>(sizeof(P) / sizeof(out[0])); ++l)
+      out[l] = static_cast<ScalarOf<P>>(rows[k * kTile + l]);
+    return out;
+  }
+  void operator()(P (&s)[6]) const {
+    RAILSTRATA_UNROLL
+    for (int i = 0; i < 6; ++i) s[i] -= entry(i);
+  }
+  void take_off(ElementKinematics<P>& forces) const {
+    RAILSTRATA_UNROLL
+    for (int i = 0; i < 3; ++i) {
+      forces.even[i] -= entry(6 + i);
+      RAILSTRATA_UNROLL
+      for (int m = 0; m < 3; ++m) forces.odd[m][i] -= entry(9 + 3 * m + i);
+    }
+  }
 };
 
 // A tile and what it works with.
@@ -122,7 +148,7 @@ inline QuadRows<Real> gather_quad(const TileWork<Real>& work, int q, const Field
 }
 
 // All packs of one quadrilateral in a tile.
-template <class Element, Evaluation how, SweepKind kind, class Real, class P, int most>
+template <class Element, Evaluation how, SweepKind kind, bool eigenstressed, class Real, class P, int most>
 inline void evaluate_quad(const BlockElements& elements, int quad, const StationScale<P> (&scale)[most], int packs,
                           int first_element, const Rotation<Real>& turn, const QuadRows<Real>& rows,
                           const Prefetch& ahead) {
@@ -140,8 +166,10 @@ inline void evaluate_quad(const BlockElements& elements, int quad, const Station
       sum = load(node[c] + (Rows::kSum + i) * kTile + e);
       difference = load(node[c] + (Rows::kDifference + i) * kTile + e);
     };
+    const PackEigenstress<P> eigenstress{rows.eigenstress + (eigenstressed ? e : 0)};
     const auto hourglass = [&](ElementKinematics<P>& kin) {
       pack_hourglass<Real>(elements, quad, first_element + e, kin);
+      if constexpr (eigenstressed) eigenstress.take_off(kin);
     };
     const auto add_forces = [&](int c, int i, auto&& add) {
       P s = load(so_far[c] + (Rows::kSum + i) * kTile + e);
@@ -155,6 +183,10 @@ inline void evaluate_quad(const BlockElements& elements, int quad, const Station
       load_history(rows.history + e, rows.history_stride, history);
       Element::template forces<kind, how>(reference, scale[n], turned, history, corner, hourglass, add_forces);
       if constexpr (how == Evaluation::commit) store_history(history, rows.history_stride, rows.advanced + e);
+    } else if constexpr (eigenstressed) {
+      P* none = nullptr;
+      Element::template forces<kind, how>(reference, scale[n], turned, none, corner, hourglass, add_forces,
+                                          eigenstress);
     } else {
       P* none = nullptr;
       Element::template forces<kind, how>(reference, scale[n], turned, none, corner, hourglass, add_forces);
@@ -233,7 +265,12 @@ __attribute__((flatten)) void TraversalOf<Element>::run_tile(int t, bool follows
       rows.advanced = advanced ? advanced->data() + first : nullptr;
       rows.history_stride = history_.stride[tile.block];
     }
-    traversal::evaluate_quad<Element, how, kind>(elements, q, scale, packs, tile.first, turn, rows, ahead);
+    if constexpr (Element::kHistory == 0 && how != Evaluation::linear)
+      if (const std::ptrdiff_t at = body_->plastic.first(t, q); at >= 0) rows.eigenstress = history.data() + at;
+    if (rows.eigenstress)
+      traversal::evaluate_quad<Element, how, kind, true>(elements, q, scale, packs, tile.first, turn, rows, ahead);
+    else
+      traversal::evaluate_quad<Element, how, kind, false>(elements, q, scale, packs, tile.first, turn, rows, ahead);
     complete_nodes<kind>(t, follows, work, q, rows, f, policy);
   }
 }
@@ -397,6 +434,7 @@ StrainEnergy TraversalOf<Element>::energy(Field& u, double psi, const Field& his
     sum.strain += p.strain;
     sum.hourglass += p.hourglass;
   }
+  if (!body_->plastic.empty()) sum.strain += plastic_strain_energy(*body_, u, psi, history);
   return sum;
 }
 

@@ -192,14 +192,36 @@ void note_hardening(const CaseSpec& spec, std::vector<std::string>& notes) {
                                                              : nullptr;
     if (key)
       notes.push_back(
-          fmt::format("{}.{} has no effect on contact: yielding is not in either engine yet, both compute "
-                      "elastically; `railstrata material` drives the law",
+          fmt::format("{}.{} has no effect on contact: both engines compute elastically without run.plasticity = "
+                      "true (finite elements); `railstrata material` drives the law",
                       table, key));
   };
   look("material.rail", spec.rail_material.strength);
   look("material.wheel", spec.wheel_material.strength);
   for (std::size_t i = 0; i < spec.layers.size(); ++i)
     look(fmt::format("layer.{}", i), spec.layers[i].material.strength);
+}
+
+void check_plasticity(const CaseSpec& spec, CaseSource& source) {
+  if (!spec.run.plasticity) return;
+  const auto refuse = [&](bool asked, const char* key, const char* why, const char* remedy) {
+    if (asked && source.sound({key}))
+      source.complain(key, fmt::format("{} with run.plasticity = true: {}", key, why), remedy);
+  };
+  refuse(spec.mesh.element == ElementFormulation::one_point, "mesh.element",
+         "elements with one point stay too stiff after yield", "mesh.element = \"full\"");
+  refuse(spec.run.time_step_method == TimeStepMethod::local, "run.time_step_method",
+         "rows with inner steps keep no plastic strain", "run.time_step_method = \"mass_scaling\" or \"auto\"");
+  const char* const kStress = "a run that yields starts free of stress";
+  const char* const kWithout = "take it out, or run.plasticity = false";
+  const auto initial = [&](const std::string& table, const StrengthSpec& s) {
+    refuse(!s.initial_stress.empty(), (table + ".initial_stress").c_str(), kStress, kWithout);
+    refuse(!s.initial_stress_table.empty(), (table + ".initial_stress_table").c_str(), kStress, kWithout);
+  };
+  initial("material.rail", spec.rail_material.strength);
+  initial("material.wheel", spec.wheel_material.strength);
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    initial(fmt::format("layer.{}", i), spec.layers[i].material.strength);
 }
 
 }  // namespace
@@ -217,6 +239,7 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_mesh(spec.mesh, source);
   check_layers(spec, source);
   check_strengths(spec, source);
+  check_plasticity(spec, source);
   check_loads(spec, source);
 }
 
@@ -252,7 +275,9 @@ std::vector<std::string> idle_settings(const CaseSpec& spec) {
        "geometry.block_width", "geometry.rail_shape = \"block\"");
   idle(spec.geometry.rail_shape != RailShape::block && spec.geometry.block_height != defaults.geometry.block_height,
        "geometry.block_height", "geometry.rail_shape = \"block\"");
-  note_hardening(spec, notes);
+  if (!spec.run.plasticity) note_hardening(spec, notes);
+  idle(!spec.run.plasticity && spec.run.plastic_depth.has_value(), "run.plastic_depth", "run.plasticity = true");
+  idle(!spec.run.plasticity && spec.run.plastic_width.has_value(), "run.plastic_width", "run.plasticity = true");
   return notes;
 }
 

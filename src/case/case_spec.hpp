@@ -163,9 +163,11 @@ struct RunSpec {
   double mass_scaling_step =
       1.0;  ///< wanted step of thin rows of elements, in element sizes over the matrix's pressure wave speed
   ArithmeticPrecision precision = ArithmeticPrecision::double_precision;
-  double preload_tolerance = 1e-6;   ///< relative residual of the static equilibrium
-  double history_interval = 0.2e-3;  ///< m of rolling between rows of history.csv
-  bool rolling = true;               ///< false: stop after the static preload
+  double preload_tolerance = 1e-6;                     ///< relative residual of the static equilibrium
+  double history_interval = 0.2e-3;                    ///< m of rolling between rows of history.csv
+  bool rolling = true;                                 ///< false: stop after the static preload
+  bool plasticity = false;                             ///< finite elements: materials that say a strength yield
+  std::optional<double> plastic_depth, plastic_width;  ///< m, box of the elements that may (fem/plastic_zone.hpp)
 };
 
 /// Angle of the surfaces that the lateral slip of spin is taken with (bem/case_patch.hpp).

@@ -545,7 +545,15 @@ OptionTable run_table() {
         {1e-13, 0.1}},
        {"history_interval", at<&C::run, &R::history_interval>, "Rolling distance between rows of history.csv", kLength,
         above(0, 1)},
-       {"rolling", at<&C::run, &R::rolling>, "false stops after the static preload"}}};
+       {"rolling", at<&C::run, &R::rolling>, "false stops after the static preload"},
+       {"plasticity", at<&C::run, &R::plasticity>,
+        "Finite elements: materials that say a strength or a hardening yield; the half-space engine stays elastic"},
+       {"plastic_depth", at<&C::run, &R::plastic_depth>,
+        "Depth of the box under the path in which elements may yield; none: 2.5 times Hertz's larger half-axis",
+        kLength, above(0, 1)},
+       {"plastic_width", at<&C::run, &R::plastic_width>,
+        "Its reach to either side of the contact point; none: 1.6 times Hertz's half-width and two elements", kLength,
+        above(0, 1)}}};
 }
 
 OptionTable bem_table() {

@@ -245,6 +245,12 @@ struct HexReference {
   LawParameters law;
 };
 
+/// Of an element without eigenstress.
+struct NoEigenstress {
+  template <class T>
+  void operator()(T (&)[6]) const {}
+};
+
 /// The element class: what one quadrilateral's elements read (Reference), what a station scales it by (StationScale),
 /// what an element keeps from step to step (kHistory numbers) and its forces. Law: material/elastic.hpp, ElasticLaw.
 template <class LawType>
@@ -260,26 +266,32 @@ struct SweptHex {
   ///   hourglass  replaces the hourglass amplitudes of the kinematics by generalised forces
   ///   history    kHistory numbers of the last committed step; advanced here, the caller keeps them or not
   ///   change     as in element_forces
-  template <SweepKind kind, Evaluation how, class T, class Real, class Corner, class Hourglass, class Change>
+  ///   relieve    takes an eigenstress off the mean stress; never of a linear evaluation
+  template <SweepKind kind, Evaluation how, class T, class Real, class Corner, class Hourglass, class Change,
+            class Relieve = NoEigenstress>
   static void forces(const Reference<Real>& r, const StationScale<T>& st, const Rotation<Real>& turn, T* history,
-                     Corner&& corner, Hourglass&& hourglass, Change&& change) {
+                     Corner&& corner, Hourglass&& hourglass, Change&& change, Relieve&& relieve = {}) {
     auto kin = element_kinematics<kind, T>(r.shape, st, corner);
     ElementStress<T> stress;
     if constexpr (how == Evaluation::linear)
       stress = small_stress(kin, [&](const T(&strain)[6], T(&s)[6]) { Law::tangent_stress(r.law, strain, s); });
     else
-      stress = finite_stress<kind>(turn, kin,
-                                   [&](const T(&strain)[6], T(&s)[6]) { Law::update(r.law, strain, history, s); });
+      stress = finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
+        Law::update(r.law, strain, history, s);
+        relieve(s);
+      });
     hourglass(kin);
     element_forces(r.shape, st, stress, kin, change);
   }
 
   /// Stress and strain at a displacement with the history as it was committed.
-  template <SweepKind kind, class T, class Real>
+  template <SweepKind kind, class T, class Real, class Relieve = NoEigenstress>
   static ElementStress<T> stress(const Reference<Real>& r, const Rotation<Real>& turn, const ElementKinematics<T>& kin,
-                                 const T* history) {
-    return finite_stress<kind>(turn, kin,
-                               [&](const T(&strain)[6], T(&s)[6]) { Law::stress(r.law, strain, history, s); });
+                                 const T* history, Relieve&& relieve = {}) {
+    return finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
+      Law::stress(r.law, strain, history, s);
+      relieve(s);
+    });
   }
 };
 

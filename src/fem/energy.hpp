@@ -16,9 +16,10 @@ struct EnergyBalance {
   double damping = 0;         ///< run-up damping
   double absorbed = 0;        ///< end absorbers
   double dashpot = 0;         ///< suspension dashpots
+  double plastic = 0;         ///< work on plastic strains: dissipated, and stored by hardening
   double total() const {
-    return kinetic + strain + hourglass + weight + spring + friction + contact_normal + damping + absorbed + dashpot -
-           torque_work - guide_work;
+    return kinetic + strain + hourglass + weight + spring + friction + contact_normal + damping + absorbed + dashpot +
+           plastic - torque_work - guide_work;
   }
 };
 

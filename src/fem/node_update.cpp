@@ -181,6 +181,7 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
                        const StepScope& scope) {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     bodies[k].elements.begin(states[k].u, drift[k]);
+    advance_plastic_elements(bodies[k].body, states[k].u, drift[k], states[k].history, scope.look);
     chain_tiles(bodies[k], scope.sums_wanted());
   }
   const auto count = [&](std::size_t k) { return static_cast<std::ptrdiff_t>(bodies[k].schedule.chains.size()); };

@@ -2,6 +2,7 @@
 // The central-difference update of nodes, and the traversal that feeds it.
 #include <array>
 
+#include "body/plastic_pass.hpp"
 #include "fem/rolling_body.hpp"
 
 namespace railstrata {
@@ -12,6 +13,7 @@ struct StepScope {
   double gravity = 0;       ///< m/s²
   double damping_rate = 0;  ///< 1/s, run-up damping
   bool energy_wanted = false;
+  PlasticLook look = PlasticLook::all;  ///< at elements that may yield
   bool sums_wanted() const { return damping_rate > 0 || energy_wanted; }
 };
 

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "body/plastic_pass.hpp"
 #include "body/traversal.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
@@ -21,7 +22,7 @@ constexpr double kPenaltyScale =
     1000.0;  // springs of a linear step, of a surface element's stiffness: penetrations of nanometres
 constexpr double kForcing = 0.02;  // of the residual, left over by a linear step
 constexpr double kLastStep = 0.3;  // of the tolerance, likewise
-constexpr int kMostSteps = 60, kMostIterations = 5000;
+constexpr int kMostSteps = 60, kMostPlasticSteps = 400, kMostIterations = 5000;
 
 class Preload {
  public:
@@ -30,7 +31,8 @@ class Preload {
         contact_(system.rail_surface(), system.wheel_surface()),
         tractions_(system.rail_surface().columns, system.rail_surface().stations.nodes()),
         elements_{Traversal(system.rail()), Traversal(system.wheel())},
-        history_{initial_history(system.rail()), initial_history(system.wheel())},
+        virgin_{initial_history(system.rail()), initial_history(system.wheel())},
+        history_(virgin_),
         preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero_vector(system)) {
     compliant_ = sys_.options.contact.penalty;
@@ -53,7 +55,7 @@ class Preload {
       if (!std::isfinite(out.residual))
         throw NumericalError("static preload: the residual is not a number" + what_to_try());
       if (out.residual < tolerance && (compliant_ || out.penetration < kPenetration * sys_.model.hertz.approach)) break;
-      if (step > kMostSteps)
+      if (step > (sys_.model.spec.run.plasticity ? kMostPlasticSteps : kMostSteps))
         throw NumericalError(
             fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e}){}", step,
                         out.residual, tolerance, what_to_try()));
@@ -64,6 +66,7 @@ class Preload {
       advance(r);
     }
     out.u = u_.body;
+    out.history = std::move(history_);
     out.axle_z = u_.axle;
     for (NodeTraction& t : tractions_.all()) t = {};
     for (std::size_t k = 0; k < rows_->rows.size(); ++k) {
@@ -219,9 +222,19 @@ class Preload {
     }
   }
 
+  // From the virgin state in one increment; twice, since the bubbles follow the increment before.
+  void yield(std::size_t k) {
+    const Body& body = sys_.bodies[k];
+    if (body.plastic.empty()) return;
+    for (int repeat = 0; repeat < 2; ++repeat) {
+      restore_points(body, virgin_[k], history_[k]);
+      advance_plastic_elements(body, u_.body[k], 0, history_[k]);
+    }
+  }
   StaticVector residual() {
     StaticVector r = zero_vector(sys_);
     for (std::size_t k = 0; k < r.body.size(); ++k) {
+      yield(k);
       elements_[k].internal_force(u_.body[k], 0, r.body[k], history_[k]);
       for (double& v : r.body[k]) v = -v;
     }
@@ -299,7 +312,8 @@ class Preload {
   MortarContact contact_;
   SurfaceTractions tractions_;
   std::array<Traversal, 2> elements_;
-  const std::array<Field, 2> history_;  // the first step commits what the load has done
+  const std::array<Field, 2> virgin_;
+  std::array<Field, 2> history_;  // at the present displacements
   StaticPreconditioner preconditioner_;
   StaticVector u_;
   bool compliant_ = false;        // penalty contact: its springs are the contact, there are no multipliers

@@ -10,6 +10,10 @@
 // [HueberWohlmuth2005]. The linear systems are solved by conjugate gradients with the explicit solver's element kernel
 // as the operator and two levels of preconditioning (fem/static_preconditioner.hpp), never more exactly than the next
 // step can use. Nothing but the coarse level is assembled.
+//
+// Elements that may yield add their eigenstress to the residual: of one increment from the virgin state to the present
+// displacements, so that what a step on the way overshoots leaves nothing behind. The steps keep the elastic stiffness
+// (initial stress method) and converge the slower the more has yielded.
 #include <array>
 #include <atomic>
 #include <functional>
@@ -20,8 +24,9 @@
 namespace railstrata {
 
 struct PreloadResult {
-  std::array<Field, 2> u;  ///< m, displacements by BodyId
-  double axle_z = 0;       ///< m, displacement of the axle from the rigid contact position, negative: down
+  std::array<Field, 2> u;        ///< m, displacements by BodyId
+  std::array<Field, 2> history;  ///< of the elements, with what has yielded
+  double axle_z = 0;             ///< m, displacement of the axle from the rigid contact position, negative: down
   SurfaceTractions tractions{0, 0};
   double residual = 0;                      ///< |r| / |load vector|
   double penetration = 0;                   ///< m, largest of the nodes in contact

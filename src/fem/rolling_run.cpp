@@ -9,12 +9,17 @@
 #include "body/traversal.hpp"
 #include "core/faults.hpp"
 #include "fem/guards.hpp"
+#include "fem/plastic_zone.hpp"
 
 namespace railstrata {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+PlasticExtent of_both(const PlasticExtent& a, const PlasticExtent& b) {
+  return {std::max(a.accumulated, b.accumulated), std::max(a.strain, b.strain), a.yielded + b.yielded};
+}
 
 constexpr long kStepsBetweenGoodStates = 1024;  // a copy of the state costs less than a step
 
@@ -156,6 +161,7 @@ void Roller::step() {
   stepper_.step();
   require_sound(stepper_);
   require_forward(stepper_);
+  require_elastic_outside(stepper_);
   if (record) record_history();
   if (observer_.frame && stepper_.position() >= run_.next_frame) show_frame();
   take_due_samples();
@@ -235,13 +241,16 @@ RunResult Roller::finish() {
   result().closure = run_.largest_energy > 0 ? run_.largest_closure / run_.largest_energy : 0;
   result().reached_edge = stepper_.reached_edge();
   result().steps = stepper_.state().step;
+  const RollingState& state = stepper_.state();
+  result().plastic = of_both(plastic_extent(sys_.rail(), state.bodies[kRail].history),
+                             plastic_extent(sys_.wheel(), state.bodies[kWheel].history));
   result().wall_seconds = wall_seconds();
   return std::move(run_.result);
 }
 
 // A static case has one position with one sample.
 PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& preload) {
-  const Field rail = initial_history(sys.rail()), wheel = initial_history(sys.wheel());
+  const Field &rail = preload.history[kRail], &wheel = preload.history[kWheel];
   const Field u_wheel = yawed_displacement(sys.wheel(), sys.wheel_surface().yaw, preload.u[kWheel]);
   const AxlePose pose{0, 0, preload.axle_z, 0};
   PositionSamples still{0.0, {take_sample(sys, {preload.u[kRail], rail}, {u_wheel, wheel}, preload.tractions, pose)}};
@@ -253,12 +262,12 @@ PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& pre
 }
 
 double hourglass_share(const RollingSystem& sys, PreloadResult& preload) {
-  const StrainEnergy rail = strain_energy(sys.rail(), preload.u[kRail], 0);
-  const StrainEnergy wheel = strain_energy(sys.wheel(), preload.u[kWheel], 0);
+  const StrainEnergy rail = Traversal(sys.rail()).energy(preload.u[kRail], 0, preload.history[kRail]);
+  const StrainEnergy wheel = Traversal(sys.wheel()).energy(preload.u[kWheel], 0, preload.history[kWheel]);
   return (rail.hourglass + wheel.hourglass) / (rail.strain + wheel.strain);
 }
 
-void drop_fields(PreloadResult& preload) { preload.u = {}; }
+void drop_fields(PreloadResult& preload) { preload.u = preload.history = {}; }
 
 }  // namespace
 
@@ -275,6 +284,8 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
     out.positions.push_back(still_contact(sys, preload));
     out.hourglass_share = hourglass_share(sys, preload);
     out.penetration = preload.penetration;
+    out.plastic = of_both(plastic_extent(sys.rail(), preload.history[kRail]),
+                          plastic_extent(sys.wheel(), preload.history[kWheel]));
     drop_fields(preload);
     out.preload = std::move(preload);
     out.wall_seconds = seconds_since(start);

@@ -2,6 +2,7 @@
 // A whole run: static preload, run-up, rolling, samples around the wanted positions.
 #include <atomic>
 
+#include "body/plastic_pass.hpp"
 #include "fem/rolling_sample.hpp"
 
 namespace railstrata {
@@ -25,7 +26,8 @@ struct RunResult {
   double dt = 0, wall_seconds = 0, preload_wall_seconds = 0;
   double output_wall_seconds = 0;  ///< of the rolling in this sitting: samples, histories, pictures, checkpoints
   long elements = 0, nodes = 0;
-  bool stopped = false;  ///< ended early on demand
+  bool stopped = false;   ///< ended early on demand
+  PlasticExtent plastic;  ///< of both bodies at the end
 };
 
 /// A run between two steps: all that is needed to go on with it.

@@ -8,6 +8,7 @@
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "fem/lateral_start.hpp"
+#include "fem/plastic_zone.hpp"
 
 namespace railstrata {
 
@@ -147,6 +148,7 @@ RollingSystem::RollingSystem(const Model& m)
       gravity(m.spec.vehicle.gravity),
       rolling_radius(m.placement.contact.rolling_radius) {
   for (Body& b : bodies) clear_prescribed_mass(b);
+  for (const BodyId id : kBodies) bodies[index_of(id)].plastic = plastic_zone(m, id, body(id));
   const VehicleSpec& v = m.spec.vehicle;
   travel_mass = v.wheel_mass + (v.couple_sprung_mass ? v.sprung_mass : 0.0);
   spin_inertia = axle.inertia;

@@ -94,6 +94,7 @@ void Stepper::start(const PreloadResult& preload) {
     BodyState& state = state_.bodies[k];
     state = BodyState(b.body);
     state.u = preload.u[k];
+    state.history = preload.history[k];
     b.frame.move_to(0);
     if (b.turns()) b.surface_u = state.u;
     start_velocities(b, rate[k], state);
@@ -126,7 +127,8 @@ double Stepper::lateral_creepage() const {
 
 void Stepper::step() {
   const EnergyBalance before = balance_;
-  const StepScope scope{dt(), sys_.gravity, damping_rate(), want_energy_};
+  const PlasticLook look = state_.step % kLookInterval == 0 ? PlasticLook::all : PlasticLook::awake;
+  const StepScope scope{dt(), sys_.gravity, damping_rate(), want_energy_, look};
   const std::array<double, 2> turned = drift();
   const AxlePose pose = state_.axle.pose();
 
@@ -162,7 +164,7 @@ void Stepper::step() {
 
 // At u(n) and v(n-1/2); elements read what they have committed.
 void Stepper::book_stored_energy(const std::array<double, 2>& turned) {
-  balance_.strain = balance_.hourglass = 0;
+  balance_.strain = balance_.hourglass = balance_.plastic = 0;
   double weight = 0;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     RollingBody& b = bodies_[k];
@@ -170,6 +172,7 @@ void Stepper::book_stored_energy(const std::array<double, 2>& turned) {
     const StrainEnergy energy = b.elements.energy(state.u, turned[k], state.history);
     balance_.strain += energy.strain;
     balance_.hourglass += energy.hourglass;
+    balance_.plastic += plastic_work(b.body, state.history);
     weight = add_weight_moment(b, state, weight);
     b.stretch = b.steps.scaling.differences(frame_velocity(b, state, true), std::move(b.stretch));
   }

@@ -304,6 +304,7 @@ constexpr auto visit_energy = [](auto& e, auto&& on) {
   on("damping", e.damping);
   on("absorbed", e.absorbed);
   on("dashpot", e.dashpot);
+  on("plastic", e.plastic);
 };
 constexpr auto visit_history = [](auto& h, auto&& on) {
   on("time", h.time);

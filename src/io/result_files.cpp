@@ -230,7 +230,7 @@ HistoryLog::HistoryLog(const std::filesystem::path& file, const std::vector<std:
            "p_max_MPa",        "creepage",    "lateral_creepage", "penetration_um", "contact_nodes", "axle_y_mm",
            "axle_vx_m_s",      "axle_vz_m_s", "spin_rad_s",       "kinetic_J",      "strain_J",      "hourglass_J",
            "weight_J",         "spring_J",    "torque_work_J",    "guide_work_J",   "friction_J",    "contact_normal_J",
-           "run_up_damping_J", "absorbed_J",  "dashpot_J",        "closure_J"}) {}
+           "run_up_damping_J", "absorbed_J",  "dashpot_J",        "plastic_J",      "closure_J"}) {}
 
 void HistoryLog::add(const HistoryRow& r) {
   const EnergyBalance& e = r.energy;
@@ -261,6 +261,7 @@ void HistoryLog::add(const HistoryRow& r) {
             e.damping,
             e.absorbed,
             e.dashpot,
+            e.plastic,
             r.closure});
 }
 

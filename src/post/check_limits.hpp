@@ -55,6 +55,7 @@ inline constexpr double kLargestBending = 0.02;
 /// Elastic shear of a third-body layer, of half the patch's shorter axis: where what faces each other has moved apart
 /// by as much as linear theory errs elsewhere, and where the model's pairs mean nothing.
 inline constexpr double kLargestFilmShear = 0.05, kFilmShearsAway = 0.5;
+inline constexpr double kLargestPlasticStrain = 0.05;
 /// m, below its crest a flange has its working face. [EN15313]
 inline constexpr double kFlangeTip = 2e-3;
 /// Of the largest pressure: a tension smaller than this that goes on rising at the rim of the search is not told.
@@ -199,6 +200,13 @@ inline constexpr std::array kCheckRows{
              .bem_limit = kLargestFilmShear,
              .advice = "the surfaces that face each other under pressure are no longer those of the model, and "
                        "creepages no longer small; a stiffer or thinner film, or one that yields, shears less"},
+    CheckRow{.key = "plastic_strain_large",
+             .name = "Large plastic strain",
+             .what = "plastic strain that is split off additively from the Green strain",
+             .kind = CheckKind::warning,
+             .fem_limit = kLargestPlasticStrain,
+             .advice = "strains are taken for small: 2 to 3 % of error at 5 % of strain, no claim of accuracy above "
+                       "10 %; fewer passes or a lighter load, or the rate of ratchetting instead of its sum"},
     CheckRow{.key = "contact_on_flange_crest",
              .name = "Contact on the flange's crest",
              .what = "the wheel touches with its flange's crest, this far below the tape circle",

@@ -121,6 +121,8 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   s.rail = rail_stress_summary(sys, m);
   s.wheel = wheel_stress_summary(sys, m);
   s.energy = {.closure = spec.run.rolling ? run.closure : kNotApplicable, .hourglass_share = run.hourglass_share};
+  if (spec.run.plasticity)
+    s.plastic = {run.plastic.strain, run.plastic.accumulated, static_cast<double>(run.plastic.yielded)};
   s.run = run_summary(run);
   s.checks = finite_element_checks(sys.model, run, m);
   s.warnings = implausible(s, spec, surroundings(sys.model, m), spec.mesh.element_size);

@@ -113,6 +113,7 @@ std::vector<Warning> implausible(const Summary& s, const CaseSpec& spec, const P
     out.above("patch_near_border_of_fine_zone", patch.width, spec.mesh.fine_width - 2 * spec.mesh.element_size);
   out.above("patches_near_each_other", around.bent_by_others);
   if (spec.third_body.thickness) out.above("soft_film", film_shear(spec, patch));
+  out.above("plastic_strain_large", s.plastic.strain);
   warn_of_second_contact(around, s.contact.contact_angle, out);
   warn_of_flange(around, out);
   warn_of_stress(s, spec, out);

@@ -30,6 +30,8 @@ constexpr auto contact = &at<&Summary::contact, Member>;
 template <auto Member>
 constexpr auto energy = &at<&Summary::energy, Member>;
 template <auto Member>
+constexpr auto plastic = &at<&Summary::plastic, Member>;
+template <auto Member>
 constexpr auto run = &at<&Summary::run, Member>;
 
 // The forces of several patches close to 1e-6 of the load (docs/bem.md), those that symmetry cancels to 1e-9: below
@@ -299,6 +301,33 @@ std::vector<ResultNumber> transient_numbers() {
            .column = true,
            .shown = true,
            .round_off = kOfWork}};
+}
+
+std::vector<ResultNumber> plastic_numbers() {
+  return {{.group = "plastic",
+           .symbol = "strain",
+           .unit = kShare,
+           .value = plastic<&PlasticSummary::strain>,
+           .label = "plastic strain",
+           .name = "Plastic strain",
+           .doc = "Largest equivalent plastic strain of a point of either body at the end of the rolling",
+           .engine = HadBy::finite_elements},
+          {.group = "plastic",
+           .symbol = "accumulated",
+           .unit = kShare,
+           .value = plastic<&PlasticSummary::accumulated>,
+           .label = "accumulated plastic strain",
+           .name = "Accumulated plastic strain",
+           .doc = "Largest accumulated plastic strain of a point of either body at the end of the rolling",
+           .engine = HadBy::finite_elements},
+          {.group = "plastic",
+           .symbol = "elements",
+           .unit = kNone,
+           .value = plastic<&PlasticSummary::elements>,
+           .label = "yielded elements",
+           .name = "Elements that yielded",
+           .doc = "Of both bodies, with plastic strain at any of their points",
+           .engine = HadBy::finite_elements}};
 }
 
 std::vector<ResultNumber> energy_numbers() {
@@ -666,7 +695,7 @@ const std::vector<ResultNumber>& result_numbers() {
     for (const auto& part :
          {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
           approach_numbers(), transient_numbers(), damage_numbers(), heat_numbers(), shakedown_numbers(),
-          layer_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
+          layer_numbers(), plastic_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();

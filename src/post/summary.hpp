@@ -61,6 +61,13 @@ struct EnergySummary {
   double closure = kNotApplicable, hourglass_share = kNotApplicable;
 };
 
+/// Of bodies that yield, at the end of the rolling.
+struct PlasticSummary {
+  double strain = kNotApplicable;       ///< largest sqrt(2/3 Ep:Ep) of any point of an element
+  double accumulated = kNotApplicable;  ///< largest accumulated plastic strain p
+  double elements = kNotApplicable;     ///< with plastic strain
+};
+
 /// By what the elastic stress of the case may be multiplied (damage/shakedown.hpp).
 struct ShakedownFactors {
   double first_yield = kNotApplicable, wandering = kNotApplicable, single_track = kNotApplicable,
@@ -189,6 +196,7 @@ struct Summary {
   std::vector<PatchSummary> patches;  ///< where there are several
   StressSummary rail, wheel;
   EnergySummary energy;
+  PlasticSummary plastic;
   ShakedownSummary shakedown;
   DamageSummary damage;
   std::vector<BodyFatigue> fatigue;  ///< of the bodies whose strength or fatigue limits are known

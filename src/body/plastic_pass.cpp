@@ -1,0 +1,322 @@
+#include "body/plastic_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/parallel.hpp"
+
+namespace railstrata {
+namespace {
+
+using Entries = PlasticEntries;
+using Place = PlasticElements::Place;
+constexpr int kNewton = 2;  // iterations of the law: 5e-14 of the yield stress at strain increments of 1e-4
+
+// Rows of a pack's numbers: entry k at rows[k * kTile].
+struct PackRows {
+  double* at;
+  Pack get(int entry) const { return load(at + entry * kTile); }
+  void set(int entry, Pack value) const { store(at + entry * kTile, value); }
+};
+
+// Displacement gradients, amplitudes and Green strain of the mean gradient of kLanes elements.
+struct PackStrain {
+  ElementKinematics<Pack> kin;
+  Pack mean[6];
+};
+
+Rotation<double> turn_by(const Body& body, double psi) {
+  if (body.mesh.kind == SweepKind::extrude) return {};
+  return {std::cos(psi), std::sin(psi)};
+}
+
+// `first`: element of the block in lane 0; lanes past the end of the block have no strain.
+PackStrain pack_strain(const Body& body, int block, int quad, int first, const Rotation<double>& turn, const Field& u) {
+  const BlockElements& elements = body.elements[block];
+  const BlockLayout& lay = body.layout.blocks[block];
+  const std::array<int, 4>& nodes = body.mesh.blocks[block].section.quads[quad];
+  Pack cosine{}, sine{}, real{};
+  for (int l = 0; l < std::min(kLanes, lay.elements - first); ++l) {
+    const double c = elements.cos_q[first + l], s = elements.sin_q[first + l];
+    cosine[l] = c * turn.c + s * turn.s;
+    sine[l] = s * turn.c - c * turn.s;
+    real[l] = 1;
+  }
+  const StationScale<Pack> scale = elements.table.scale<Pack>(first, [](const double* x) { return load(x); });
+  const auto corner = [&](int c, int i, Pack& sum, Pack& difference) {
+    const auto carried = [&](int station) -> Pack {
+      if (i == 1) return real * load(&u[lay.line(nodes[c], 1) + station]);
+      const Pack x = load(&u[lay.line(nodes[c], 0) + station]), z = load(&u[lay.line(nodes[c], 2) + station]);
+      return i == 0 ? cosine * x + sine * z : cosine * z - sine * x;
+    };
+    const Pack left = carried(first), right = carried(first + 1);
+    sum = right + left;
+    difference = right - left;
+  };
+  PackStrain out;
+  out.kin = element_kinematics<SweepKind::revolve, Pack>(elements.table.quads[quad].shape, scale, corner);
+  const auto stress = finite_stress<SweepKind::revolve>(turn, out.kin, [](const Pack(&)[6], Pack(&s)[6]) {
+    for (Pack& x : s) x = Pack{};
+  });
+  for (int i = 0; i < 6; ++i) out.mean[i] = real * stress.strain[i];
+  return out;
+}
+
+// sqrt(3/2)|s - alpha| over the yield stress.
+template <int terms>
+Pack yield_share(const PlasticParameters<double>& law, const Pack (&strain)[6], const Pack* history) {
+  const Pack mean = (strain[0] + strain[1] + strain[2]) * (1.0 / 3);
+  Pack elastic[6], theta[kMostBackstresses];
+  for (int i = 0; i < 6; ++i) elastic[i] = 2 * law.mu * (strain[i] - (i < 3 ? mean : Pack{}) - history[i]);
+  for (Pack& t : theta) t = Pack{} + 1.0;
+  const PlasticTrial<Pack> at = plastic_trial<terms>(law, elastic, history, Pack{}, theta);
+  return at.norm / (at.norm - at.excess);
+}
+
+double largest(const Pack& x) {
+  double out = x[0];
+  for (int l = 1; l < kLanes; ++l) out = std::max(out, x[l]);
+  return out;
+}
+
+struct PassScope {
+  const Body& body;
+  const Field& u;
+  Rotation<double> turn;
+  double* history;
+  PlasticLook look;
+};
+
+// What the points of one pack of elements work on.
+struct PackWork {
+  const PlasticElements::Quad& quad;
+  const IncompatibleModes<double>& modes;
+  double inv_sigma, inv_c, volume;  // of the class that the modes are made for
+  PackRows rows;
+};
+
+// One Gauss point: strain -> history; adds to the work [J/m³]. Leaves 2 mu Ep in place of the strain.
+template <int terms>
+void advance_point(const PackWork& work, int point, double weight, Pack (&strain)[6], Pack& done, double* nearest) {
+  constexpr int kEntries = kPlasticHistory<terms>;
+  const YieldingMaterial& material = work.quad.material;
+  const double twice = 2 * material.law.mu;
+  const int first = Entries::kPoints + point * kEntries;
+  Pack history[kEntries], before[6];
+  for (int k = 0; k < kEntries; ++k) history[k] = work.rows.get(first + k);
+  for (int i = 0; i < 6; ++i) {
+    before[i] = history[i];
+    strain[i] += material.initial_stress[i] / twice;  // its mean is nothing to the law
+  }
+  const Pack p = history[6];
+  advance_plastic<terms, kNewton>(material.law, strain, history);
+  if (any_positive(Pack(history[6] - p))) {
+    Pack flow[6], deviator[6];
+    const Pack mean = (strain[0] + strain[1] + strain[2]) * (1.0 / 3);
+    for (int i = 0; i < 6; ++i) {
+      flow[i] = history[i] - before[i];
+      deviator[i] = twice * (strain[i] - (i < 3 ? mean : Pack{}) - history[i]);
+    }
+    done += weight * double_contraction(deviator, flow);
+    for (int k = 0; k < kEntries; ++k) work.rows.set(first + k, history[k]);
+  }
+  if (nearest) *nearest = std::max(*nearest, largest(yield_share<terms>(material.law, strain, history)));
+  for (int i = 0; i < 6; ++i) strain[i] = twice * history[i];
+}
+
+// nearest: asked for if not null, the largest share of the yield stress.
+template <int terms>
+void advance_pack(const PackWork& work, const PackStrain& at, double* nearest) {
+  BubbleAmplitudes<Pack> bubbles = following_bubbles(work.modes, at.kin);
+  for (int n = 0; n < 3; ++n)
+    for (int i = 0; i < 3; ++i) bubbles.a[n][i] += work.rows.get(Entries::kBubbles + 3 * n + i);
+  PlasticSums<Pack> sums{};
+  Pack done{};
+  for (int k = 0; k < kGaussPairs; ++k) {
+    const GaussPair<double>& g = work.quad.gauss.pair[k];
+    Pack plus[6], minus[6];
+    pair_strains(g, work.inv_sigma, work.inv_c, at.mean, at.kin, bubbles, plus, minus);
+    advance_point<terms>(work, 2 * k, g.weight, plus, done, nearest);
+    advance_point<terms>(work, 2 * k + 1, g.weight, minus, done, nearest);
+    add_pair(g, work.inv_sigma, work.inv_c, plus, minus, sums);
+  }
+  Eigenstress<Pack> eigen = condensed(work.modes, work.volume, sums);
+  for (int i = 0; i < 6; ++i) eigen.mean[i] -= work.quad.material.initial_stress[i];
+  each_entry(eigen, [&](int n, const Pack& x) { work.rows.set(Entries::kEigenstress + n, x); });
+  for (int n = 0; n < 3; ++n)
+    for (int i = 0; i < 3; ++i) work.rows.set(Entries::kBubbles + 3 * n + i, eigen.bubbles.a[n][i]);
+  work.rows.set(Entries::kWork, work.rows.get(Entries::kWork) + done);
+}
+
+PackWork pack_work(const Body& body, const Place& place, int element, double* rows) {
+  const PlasticElements& plastic = body.plastic;
+  const Tile& tile = body.tiling.tiles[place.tile];
+  const int cls = body.elements[tile.block].hourglass_class[element / kHourglassGroup];
+  const SweepScale scale = plastic.scale(tile.block, cls);
+  const double volume = body.elements[tile.block].table.quads[place.quad].shape.volume * scale.sigma * scale.c;
+  const PlasticElements::Quad& quad = plastic.quad(place);
+  return {quad, quad.modes[cls], 1 / scale.sigma, 1 / scale.c, volume, {rows + element - tile.first}};
+}
+
+template <int terms>
+void advance_place(const PassScope& scope, const Place& place) {
+  const Tile& tile = scope.body.tiling.tiles[place.tile];
+  double* rows = scope.history + place.first;
+  for (int group = tile.first; group < tile.end; group += kHourglassGroup) {
+    double& awake = rows[Entries::kAwake * kTile + group - tile.first];
+    if (scope.look == PlasticLook::awake && awake == 0) continue;
+    double nearest = 0;
+    double* wanted = scope.look == PlasticLook::all ? &nearest : nullptr;
+    for (int e = group; e < std::min(group + kHourglassGroup, tile.end); e += kLanes)
+      advance_pack<terms>(pack_work(scope.body, place, e, rows),
+                          pack_strain(scope.body, tile.block, place.quad, e, scope.turn, scope.u), wanted);
+    if (wanted) awake = nearest > kSleepBelow ? 1 : 0;
+  }
+}
+
+using AdvancePlace = void (*)(const PassScope&, const Place&);
+AdvancePlace advance_with(int terms) {
+  constexpr AdvancePlace kByTerms[kMostBackstresses + 1] = {advance_place<0>, advance_place<1>, advance_place<2>,
+                                                            advance_place<3>, advance_place<4>};
+  return kByTerms[terms];
+}
+
+// Sum over the places, in their order.
+template <class OfPlace>
+double sum_of_places(const PlasticElements& plastic, OfPlace&& of_place) {
+  std::vector<double> part(plastic.places().size());
+  for_each(static_cast<std::ptrdiff_t>(part.size()),
+           [&](std::ptrdiff_t k) { part[k] = of_place(plastic.places()[k]); });
+  double sum = 0;
+  for (double p : part) sum += p;
+  return sum;
+}
+
+// -V E:eigenstress - q.eigenforces - P_a.alpha_p/2 + V mu sum_g w_g Ep_g:Ep_g of a pack. With P_a = K_aa alpha_p and
+// the points' strains at hand the last two are V mu sum_g w_g Ep_g:(Ep_g - G_g alpha_p).
+Pack pack_energy(const PackWork& work, const PackStrain& at, const Pack& volume, int point_entries) {
+  Eigenstress<Pack> eigen;
+  each_entry(eigen, [&](int n, Pack& x) { x = work.rows.get(Entries::kEigenstress + n); });
+  Pack energy = -volume * double_contraction(at.mean, eigen.mean);
+  for (int i = 0; i < 3; ++i) {
+    energy -= at.kin.even[i] * eigen.even[i];
+    for (int m = 0; m < 3; ++m) energy -= at.kin.odd[m][i] * eigen.odd[m][i];
+  }
+  BubbleAmplitudes<Pack> own;
+  for (int n = 0; n < 3; ++n)
+    for (int i = 0; i < 3; ++i) own.a[n][i] = work.rows.get(Entries::kBubbles + 3 * n + i);
+  const ElementKinematics<Pack> no_amplitudes{};
+  const Pack no_strain[6] = {};
+  Pack kept{};
+  for (int k = 0; k < kGaussPairs; ++k) {
+    const GaussPair<double>& g = work.quad.gauss.pair[k];
+    Pack bubble[2][6];
+    pair_strains(g, work.inv_sigma, work.inv_c, no_strain, no_amplitudes, own, bubble[0], bubble[1]);
+    for (int side = 0; side < 2; ++side) {
+      Pack plastic[6], rest[6];
+      for (int i = 0; i < 6; ++i) {
+        plastic[i] = work.rows.get(Entries::kPoints + (2 * k + side) * point_entries + i);
+        rest[i] = plastic[i] - bubble[side][i];
+      }
+      kept += g.weight * double_contraction(plastic, rest);
+    }
+  }
+  return energy + volume * work.quad.material.law.mu * kept;
+}
+
+Pack volumes(const Body& body, int block, int quad, int element) {
+  const ElementTable<double>& table = body.elements[block].table;
+  return table.quads[quad].shape.volume * load(&table.v2[element]);
+}
+
+}  // namespace
+
+void advance_plastic_elements(const Body& body, const Field& u, double psi, Field& history, PlasticLook look) {
+  if (body.plastic.empty()) return;
+  const PassScope scope{body, u, turn_by(body, psi), history.data() + body.history.size, look};
+  const AdvancePlace advance = advance_with(body.plastic.terms());
+  const std::vector<Place>& places = body.plastic.places();
+  for_each(
+      static_cast<std::ptrdiff_t>(places.size()), [&](std::ptrdiff_t k) { advance(scope, places[k]); }, true);
+}
+
+void restore_points(const Body& body, const Field& from, Field& history) {
+  const std::ptrdiff_t kept = static_cast<std::ptrdiff_t>(Entries::kWork) * kTile;
+  const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(body.plastic.entries()) * kTile;
+  for_each(static_cast<std::ptrdiff_t>(body.plastic.places().size()), [&](std::ptrdiff_t k) {
+    const std::ptrdiff_t first = body.history.size + body.plastic.places()[k].first;
+    std::copy(from.begin() + first + kept, from.begin() + first + end, history.begin() + first + kept);
+  });
+}
+
+double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history) {
+  const Rotation<double> turn = turn_by(body, psi);
+  return sum_of_places(body.plastic, [&](const Place& place) {
+    const Tile& tile = body.tiling.tiles[place.tile];
+    double* rows = const_cast<double*>(history.data()) + body.history.size + place.first;  // only read
+    Pack sum{};
+    for (int e = tile.first; e < tile.end; e += kLanes)
+      sum += pack_energy(pack_work(body, place, e, rows), pack_strain(body, tile.block, place.quad, e, turn, u),
+                         volumes(body, tile.block, place.quad, e), body.plastic.point_entries());
+    double total = 0;
+    for (int l = 0; l < kLanes; ++l) total += sum[l];
+    return total;
+  });
+}
+
+double plastic_work(const Body& body, const Field& history) {
+  return sum_of_places(body.plastic, [&](const Place& place) {
+    const Tile& tile = body.tiling.tiles[place.tile];
+    const double* rows = history.data() + body.history.size + place.first + Entries::kWork * kTile;
+    Pack sum{};
+    for (int e = tile.first; e < tile.end; e += kLanes)
+      sum += volumes(body, tile.block, place.quad, e) * load(rows + e - tile.first);
+    double total = 0;
+    for (int l = 0; l < kLanes; ++l) total += sum[l];
+    return total;
+  });
+}
+
+std::optional<PlasticState> plastic_state(const Body& body, const Field& history, int block, int quad, int station) {
+  const int tile = body.tiling.first_tile[block] + station / kTile;
+  const std::ptrdiff_t first = body.plastic.first(tile, quad);
+  if (first < 0) return std::nullopt;
+  const double* rows = history.data() + body.history.size + first + station % kTile;
+  const auto place = std::find_if(body.plastic.places().begin(), body.plastic.places().end(),
+                                  [&](const Place& p) { return p.first == first; });
+  const GaussShape<double>& gauss = body.plastic.quad(*place).gauss;
+  PlasticState out;
+  for (int point = 0; point < 2 * kGaussPairs; ++point) {
+    const double* at = rows + (Entries::kPoints + point * body.plastic.point_entries()) * kTile;
+    const double weight = gauss.pair[point / 2].weight;
+    for (int i = 0; i < 6; ++i) out.mean[i] += weight * at[i * kTile];
+    out.accumulated += weight * at[6 * kTile];
+    out.most = std::max(out.most, at[6 * kTile]);
+  }
+  return out;
+}
+
+PlasticExtent plastic_extent(const Body& body, const Field& history) {
+  PlasticExtent out;
+  for (const Place& place : body.plastic.places()) {
+    const Tile& tile = body.tiling.tiles[place.tile];
+    const double* rows = history.data() + body.history.size + place.first;
+    for (int e = 0; e < tile.end - tile.first; ++e) {
+      bool yielded = false;
+      for (int point = 0; point < 2 * kGaussPairs; ++point) {
+        const double* at = rows + (Entries::kPoints + point * body.plastic.point_entries()) * kTile + e;
+        if (at[6 * kTile] == 0) continue;
+        yielded = true;
+        double plastic[6];
+        for (int i = 0; i < 6; ++i) plastic[i] = at[i * kTile];
+        out.accumulated = std::max(out.accumulated, at[6 * kTile]);
+        out.strain = std::max(out.strain, std::sqrt(2.0 / 3 * double_contraction(plastic, plastic)));
+      }
+      out.yielded += yielded;
+    }
+  }
+  return out;
+}
+
+}  // namespace railstrata

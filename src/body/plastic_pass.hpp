@@ -1,0 +1,51 @@
+#pragma once
+// The pass over the elements that may yield (body/plastic_elements.hpp): strains at their Gauss points, the law, the
+// eigenstress. The incompatible modes follow the plastic strains of the pass before (alpha_p): in explicit steps these
+// differ by one step's increment, of order 1e-6, and a repeated pass at rest converges to the element's own
+// equilibrium.
+#include "body/body.hpp"
+
+namespace railstrata {
+
+/// Groups of eight elements sleep while no point has more than this share of its yield stress.
+inline constexpr double kSleepBelow = 0.6;
+
+/// all: every group is evaluated, and goes to sleep or wakes; awake: those that sleep are left alone, their plastic
+/// strains stay. In the explicit steps all are looked at every kLookInterval steps: the wheel moves by some tenth of an
+/// element meanwhile, and what was below 0.6 of its yield stress cannot pass it.
+enum class PlasticLook { all, awake };
+inline constexpr int kLookInterval = 16;
+
+/// Carries the plastic strains on to displacements u (model frame, or one that is turned by psi, as in the traversal)
+/// and writes the eigenstress; `history` is the body's. Ghosts of u must be right. Same bits for any number of threads.
+void advance_plastic_elements(const Body& body, const Field& u, double psi, Field& history,
+                              PlasticLook look = PlasticLook::all);
+
+/// Puts the histories of the points back to those of `from`; the eigenstress of the last pass and the bubbles, which
+/// the next pass starts from, stay. For trials from one state.
+void restore_points(const Body& body, const Field& from, Field& history);
+
+/// What the eigenstress adds to the stored energy that TraversalOf::energy finds for elastic elements [J], without that
+/// of the backstresses, which counts as plastic work.
+double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history);
+
+/// Work done on the plastic strains so far: dissipated and stored by hardening [J].
+double plastic_work(const Body& body, const Field& history);
+
+/// Of one element.
+struct PlasticState {
+  std::array<double, 6> mean{};      ///< plastic strain, mean of the points; element's frame
+  double accumulated = 0, most = 0;  ///< p, mean of the points and the largest
+};
+
+/// Nothing for elements that stay elastic.
+std::optional<PlasticState> plastic_state(const Body& body, const Field& history, int block, int quad, int station);
+
+/// Largest accumulated plastic strain and largest norm sqrt(2/3 Ep:Ep) of any point.
+struct PlasticExtent {
+  double accumulated = 0, strain = 0;
+  long yielded = 0;  ///< elements with plastic strain
+};
+PlasticExtent plastic_extent(const Body& body, const Field& history);
+
+}  // namespace railstrata

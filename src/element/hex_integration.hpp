@@ -1,0 +1,136 @@
+#pragma once
+// Shape functions and integration of the 8-node hexahedron, for what is made before the computation.
+#include <Eigen/Dense>
+#include <array>
+
+#include "element/reference.hpp"
+
+namespace railstrata::hex {
+
+using Matrix3 = Eigen::Matrix3d;
+using Gradients = Eigen::Matrix<double, 3, 8>;
+using Matrix6x24 = Eigen::Matrix<double, 6, 24>;
+constexpr double kGauss = 0.57735026918962576451;
+
+// Natural coordinates: xi along the sweep; corner a < 4 at xi = -1, a >= 4 at xi = +1.
+inline double xi_of(int a) { return a < 4 ? -1.0 : 1.0; }
+
+inline Gradients natural_gradients(double xi, double eta, double zeta) {
+  Gradients g;
+  for (int a = 0; a < 8; ++a) {
+    const double x = xi_of(a), e = kEta[a % 4], z = kZeta[a % 4];
+    g(0, a) = 0.125 * x * (1 + e * eta) * (1 + z * zeta);
+    g(1, a) = 0.125 * e * (1 + x * xi) * (1 + z * zeta);
+    g(2, a) = 0.125 * z * (1 + x * xi) * (1 + e * eta);
+  }
+  return g;
+}
+
+inline Matrix3 jacobian(const std::array<Vec3, 8>& corners, const Gradients& natural) {
+  Matrix3 j = Matrix3::Zero();  // j(m, i) = dX_i / dxi_m
+  for (int a = 0; a < 8; ++a)
+    for (int m = 0; m < 3; ++m) {
+      j(m, 0) += natural(m, a) * corners[a].x;
+      j(m, 1) += natural(m, a) * corners[a].y;
+      j(m, 2) += natural(m, a) * corners[a].z;
+    }
+  return j;
+}
+
+template <class F>
+void for_gauss_points(F&& f) {
+  for (int p = 0; p < 8; ++p) f((p & 1 ? kGauss : -kGauss), (p & 2 ? kGauss : -kGauss), (p & 4 ? kGauss : -kGauss));
+}
+
+struct MeanGradients {
+  Gradients b;
+  double volume;
+};
+
+inline MeanGradients mean_gradients(const std::array<Vec3, 8>& corners) {
+  MeanGradients m{Gradients::Zero(), 0.0};
+  for_gauss_points([&](double xi, double eta, double zeta) {
+    const Gradients natural = natural_gradients(xi, eta, zeta);
+    const Matrix3 j = jacobian(corners, natural);
+    const double det = j.determinant();
+    m.b += det * (j.inverse() * natural);
+    m.volume += det;
+  });
+  m.b /= m.volume;
+  return m;
+}
+
+// Strain rows xx, yy, zz, 2xy, 2yz, 2xz of one gradient vector acting on a vector amplitude.
+inline Eigen::Matrix<double, 6, 3> strain_rows(const Eigen::Vector3d& g) {
+  Eigen::Matrix<double, 6, 3> b = Eigen::Matrix<double, 6, 3>::Zero();
+  b(0, 0) = g(0);
+  b(1, 1) = g(1);
+  b(2, 2) = g(2);
+  b(3, 0) = g(1);
+  b(3, 1) = g(0);
+  b(4, 1) = g(2);
+  b(4, 2) = g(1);
+  b(5, 0) = g(2);
+  b(5, 2) = g(0);
+  return b;
+}
+
+inline Eigen::Matrix<double, 6, 6> elasticity(const Elastic& m) {
+  Eigen::Matrix<double, 6, 6> c = Eigen::Matrix<double, 6, 6>::Zero();
+  c.topLeftCorner<3, 3>().setConstant(m.lambda);
+  for (int i = 0; i < 3; ++i) {
+    c(i, i) += 2 * m.mu;
+    c(i + 3, i + 3) = m.mu;
+  }
+  return c;
+}
+
+// Hourglass patterns on the eight corners: even (eta zeta), odd (xi eta, xi zeta, xi eta zeta).
+inline Eigen::Matrix<double, 8, 4> hourglass_patterns() {
+  Eigen::Matrix<double, 8, 4> h;
+  for (int a = 0; a < 8; ++a) {
+    const int k = a % 4;
+    h(a, 0) = kEtaZeta[k];
+    h(a, 1) = xi_of(a) * kEta[k];
+    h(a, 2) = xi_of(a) * kZeta[k];
+    h(a, 3) = xi_of(a) * kEtaZeta[k];
+  }
+  return h;
+}
+
+inline Eigen::Matrix<double, 8, 3> positions(const std::array<Vec3, 8>& corners) {
+  Eigen::Matrix<double, 8, 3> x;
+  for (int a = 0; a < 8; ++a) x.row(a) << corners[a].x, corners[a].y, corners[a].z;
+  return x;
+}
+
+/// Displacements of unit hourglass amplitudes, q_l = 1: column 3 l + i for component i of pattern l, rows 3 a + i. They
+/// have no mean gradient.
+inline Eigen::Matrix<double, 24, 12> unit_hourglass_modes(const std::array<Vec3, 8>& corners,
+                                                          const MeanGradients& mean) {
+  const Eigen::Matrix<double, 8, 4> h = hourglass_patterns();
+  const Eigen::Matrix<double, 8, 3> x = positions(corners);
+  const Eigen::Matrix<double, 8, 4> gamma = h - mean.b.transpose() * (x.transpose() * h);
+  const Eigen::Matrix<double, 8, 4> phi = h - x * (mean.b * h);
+  const Eigen::Matrix4d amplitude =
+      (gamma.transpose() * phi).inverse();  // phi * amplitude has unit hourglass amplitudes
+  const Eigen::Matrix<double, 8, 4> unit = phi * amplitude;
+  Eigen::Matrix<double, 24, 12> modes = Eigen::Matrix<double, 24, 12>::Zero();
+  for (int l = 0; l < 4; ++l)
+    for (int i = 0; i < 3; ++i)
+      for (int a = 0; a < 8; ++a) modes(3 * a + i, 3 * l + i) = unit(a, l);
+  return modes;
+}
+
+/// Strain rows of the bubbles 1 - xi^2 in xi, eta, zeta, with their amplitudes as columns (3 n + i): gradients with the
+/// centre's Jacobian, so that their mean over the element vanishes (Taylor's correction).
+inline Eigen::Matrix<double, 6, 9> bubble_strains(const Matrix3& j0_inverse, double det_ratio, double xi, double eta,
+                                                  double zeta) {
+  Eigen::Matrix<double, 6, 9> m;
+  const double bubbles[3] = {-2 * xi, -2 * eta, -2 * zeta};
+  for (int n = 0; n < 3; ++n)
+    m.middleCols<3>(3 * n) = strain_rows(Eigen::Vector3d(j0_inverse.col(n) * (bubbles[n] * det_ratio)));
+  return m;
+}
+
+}  // namespace railstrata::hex

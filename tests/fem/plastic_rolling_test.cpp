@@ -1,0 +1,151 @@
+// Rolling over a rail that yields.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+#include "fem/plastic_zone.hpp"
+#include "small_rolling.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace fem_checks;
+
+constexpr double kNever = 1e20;
+
+/// Both bodies; von Mises stresses of the elastic contact reach some 500 MPa.
+CaseSpec yielding_case(double yield) {
+  CaseSpec spec = small_case();
+  spec.run.plasticity = true;
+  for (MaterialSpec* m : {&spec.rail_material, &spec.wheel_material}) {
+    m->strength.yield_strength = yield;
+    m->strength.kinematic_hardening = {{20e9, 50}};
+  }
+  return spec;
+}
+
+Stepper& rolled(Stepper& st, int steps) {
+  for (int k = 0; k < steps; ++k) {
+    if (k % 7 == 0) st.want_energy();
+    st.step();
+  }
+  return st;
+}
+
+bool same_bits(const Field& a, const Field& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+void expect_same_motion(const Stepper& a, const Stepper& b) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_TRUE(same_bits(a.state().bodies[k].u, b.state().bodies[k].u));
+    EXPECT_TRUE(same_bits(a.state().bodies[k].v, b.state().bodies[k].v));
+  }
+  EXPECT_EQ(a.energy().total(), b.energy().total());
+}
+
+TEST(PlasticRolling, WithoutYieldHasTheBitsOfTheElasticRun) {
+  for (ArithmeticPrecision precision : {ArithmeticPrecision::double_precision, ArithmeticPrecision::single_precision}) {
+    CaseSpec elastic = small_case(), spec = yielding_case(kNever);
+    elastic.run.precision = spec.run.precision = precision;
+    const RollingSystem plain = small_system(elastic), system = small_system(spec);
+    ASSERT_FALSE(system.rail().plastic.empty());
+    ASSERT_FALSE(system.wheel().plastic.empty());
+    Stepper a(plain, solve_preload(plain, 1e-4)), b(system, solve_preload(system, 1e-4));
+    expect_same_motion(rolled(a, 40), rolled(b, 40));
+    EXPECT_EQ(plastic_extent(system.rail(), b.state().bodies[kRail].history).yielded, 0);
+  }
+}
+
+TEST(PlasticRolling, GoesOnFromARestartStateWithTheSameBits) {
+  const RollingSystem system = small_system(yielding_case(300e6));
+  const PreloadResult preload = solve_preload(system, 1e-4);
+  Stepper whole(system, preload), first(system, preload);
+  rolled(first, 32);
+  Stepper second(system, first.restart_state());
+  rolled(second, 35);
+  rolled(whole, 32);
+  rolled(whole, 35);
+  expect_same_motion(whole, second);
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_TRUE(same_bits(whole.state().bodies[k].history, second.state().bodies[k].history));
+  EXPECT_GT(plastic_extent(system.rail(), second.state().bodies[kRail].history).yielded, 10);
+}
+
+TEST(PlasticRolling, HasTheSameBitsOnAnyNumberOfThreads) {
+  const int before = max_threads();
+  const RollingSystem system = small_system(yielding_case(300e6));
+  set_threads(1);
+  const PreloadResult preload = solve_preload(system, 1e-4);
+  Stepper one(system, preload);
+  rolled(one, 30);
+  set_threads(3);
+  Stepper three(system, solve_preload(system, 1e-4));
+  rolled(three, 30);
+  set_threads(before);
+  expect_same_motion(one, three);
+}
+
+TEST(PlasticRolling, ClosesTheEnergyBalanceWithThePlasticWork) {
+  double closure[2], plastic[2];
+  for (int k : {0, 1}) {
+    const RollingSystem system = small_system(yielding_case(k == 0 ? kNever : 300e6));
+    Stepper st(system, solve_preload(system, 1e-6));
+    EnergyBalance start;
+    double most = 0;
+    for (int n = 0; n < 600; ++n) {
+      if (n % 20 == 0) st.want_energy();
+      st.step();
+      if (n == 0) start = st.energy();
+      if (n % 20 == 0) most = std::max(most, std::abs(st.energy().total() - start.total()));
+    }
+    closure[k] = most;
+    plastic[k] = st.energy().plastic - start.plastic;
+  }
+  EXPECT_EQ(plastic[0], 0);
+  EXPECT_GT(plastic[1], 0.05);  // J
+  EXPECT_LT(closure[1], closure[0] + 0.01 * plastic[1]);
+}
+
+TEST(PlasticRolling, PreloadBeyondYieldFindsOneEquilibriumHoweverCloselyItIsApproached) {
+  const RollingSystem elastic = small_system(small_case()), system = small_system(yielding_case(300e6));
+  const PreloadResult hard = solve_preload(elastic, 1e-7), rough = solve_preload(system, 1e-4),
+                      fine = solve_preload(system, 1e-7);
+  const auto p_max = [](const PreloadResult& r) {
+    double p = 0;
+    for (const NodeTraction& t : r.tractions.all()) p = std::max(p, t.p);
+    return p;
+  };
+  EXPECT_LT(p_max(fine), 0.95 * p_max(hard));
+  EXPECT_NEAR(fine.contact_force.z, hard.contact_force.z, 1e-5 * hard.contact_force.z);
+  const PlasticExtent a = plastic_extent(system.rail(), rough.history[kRail]),
+                      b = plastic_extent(system.rail(), fine.history[kRail]);
+  EXPECT_GT(b.yielded, 0);
+  EXPECT_NEAR(a.accumulated, b.accumulated, 0.01 * b.accumulated);
+  EXPECT_LT(fine.axle_z, hard.axle_z);
+}
+
+TEST(PlasticRolling, EndsWhenAnElasticElementOutsideOfTheBoxWouldYield) {
+  CaseSpec spec = yielding_case(300e6);
+  spec.run.plastic_depth = 5e-3;
+  const RollingSystem system = small_system(spec);
+  Stepper st(system, solve_preload(system, 1e-4));
+  try {
+    require_elastic_outside(st);
+    FAIL();
+  } catch (const NumericalError& e) {
+    EXPECT_NE(std::string(e.what()).find("run.plastic_depth"), std::string::npos) << e.what();
+  }
+  const RollingSystem wide = small_system(yielding_case(300e6));
+  EXPECT_NO_THROW(require_elastic_outside(Stepper(wide, solve_preload(wide, 1e-4))));
+}
+
+TEST(PlasticRolling, WithoutAStrengthIsRefused) {
+  CaseSpec spec = small_case();
+  spec.run.plasticity = true;
+  EXPECT_THROW(small_system(spec), CaseError);
+}
+
+}  // namespace
+}  // namespace railstrata
