@@ -47,6 +47,10 @@ struct ReportOptions {
   std::vector<std::filesystem::path> folders;
   bool reference = true;  ///< --no-reference: without the half-space solution beside a single result
 };
+struct ExportOptions {
+  std::string to;         ///< --to: the word of a program
+  bool friction = false;  ///< --friction: in the deck's contact
+};
 struct SchemaOptions {
   bool json_schema = false, markdown = false;  ///< neither: the JSON schema
   bool results = false;                        ///< --results: of results instead of cases
@@ -71,11 +75,14 @@ struct CommandOptions {
   StudyOptions study;
   ShakedownOptions shakedown;
   ReportOptions report;
+  ExportOptions export_to;
   SchemaOptions schema;
 };
 
 /// The words of --of.
 std::vector<std::string> creep_curve_words();
+/// The words of --to.
+std::vector<std::string> export_words();
 
 ExitCode command_demo(const CommandOptions& options);
 ExitCode command_check(const CommandOptions& options);
@@ -90,6 +97,7 @@ ExitCode command_collective(const CommandOptions& options);
 ExitCode command_wear_loop(const CommandOptions& options);
 ExitCode command_study(const CommandOptions& options);
 ExitCode command_report(const CommandOptions& options);
+ExitCode command_export(const CommandOptions& options);
 ExitCode command_schema(const CommandOptions& options);
 ExitCode command_info(const CommandOptions& options);
 
