@@ -171,6 +171,7 @@ install(FILES ${package_build}/railstrata.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}
 # Shipped cases without the recorded results of a study, profiles and published numbers, the script for ParaView, texts.
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/cases DESTINATION ${data_folder} PATTERN "recorded" EXCLUDE)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/data DESTINATION ${data_folder})
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/matlab DESTINATION ${data_folder})
 install(FILES ${CMAKE_SOURCE_DIR}/report/view.py ${CMAKE_SOURCE_DIR}/report/dist/report.js
   ${CMAKE_SOURCE_DIR}/report/dist/report.css ${CMAKE_SOURCE_DIR}/report/dist/LICENSES.txt
   DESTINATION ${data_folder}/report)

@@ -61,6 +61,10 @@ struct ReportOptions {
   std::vector<std::filesystem::path> folders;
   bool reference = true;  ///< --no-reference: without the half-space solution beside a single result
 };
+struct ExportOptions {
+  std::string to;         ///< --to: the word of a program
+  bool friction = false;  ///< --friction: in the deck's contact
+};
 struct SchemaOptions {
   bool json_schema = false, markdown = false;  ///< neither: the JSON schema
   bool results = false;                        ///< --results: of results instead of cases
@@ -87,11 +91,14 @@ struct CommandOptions {
   MaterialOptions material;
   PassesOptions passes;
   ReportOptions report;
+  ExportOptions export_to;
   SchemaOptions schema;
 };
 
 /// The words of --of.
 std::vector<std::string> creep_curve_words();
+/// The words of --to.
+std::vector<std::string> export_words();
 
 ExitCode command_demo(const CommandOptions& options);
 ExitCode command_check(const CommandOptions& options);
@@ -108,6 +115,7 @@ ExitCode command_collective(const CommandOptions& options);
 ExitCode command_wear_loop(const CommandOptions& options);
 ExitCode command_study(const CommandOptions& options);
 ExitCode command_report(const CommandOptions& options);
+ExitCode command_export(const CommandOptions& options);
 ExitCode command_schema(const CommandOptions& options);
 ExitCode command_info(const CommandOptions& options);
 

@@ -262,6 +262,20 @@ void add_report(CLI::App& sub, CommandOptions& options) {
       "Do not set a finite element result against the half-space solution of its case");
 }
 
+void add_export(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("case", options.case_file, "Case file, or a folder with case.toml: a case's or a result's")
+      ->required();
+  add_set(sub, options, "Override a key of the case; once for each key");
+  sub.add_option("--to", options.export_to.to, "The program that reads it")
+      ->check(CLI::IsMember(export_words()))
+      ->required();
+  add_output(sub, options, "results/<case name>-<program>");
+  sub.add_flag("--friction", options.export_to.friction,
+               "abaqus, calculix, lsdyna: the contact has the case's friction coefficient (default: none, as in the "
+               "preload here)");
+  add_cell(sub, options);
+}
+
 void add_schema(CLI::App& sub, CommandOptions& options) {
   auto* json = sub.add_flag("--json-schema", options.schema.json_schema, "JSON schema (default)");
   sub.add_flag("--markdown", options.schema.markdown, "Reference page in Markdown")->excludes(json);
@@ -363,6 +377,12 @@ constexpr Entry kEntries[] = {
      "Examples:\n  railstrata report results/quick\n  railstrata report results/thin results/thick --out "
      "thin-thick.html\n",
      add_report, command_report},
+    {"export",
+     "The case in the files of other programs: mesh and static preload for Abaqus, CalculiX and LS-DYNA; case and "
+     "half-space result for CONTACT",
+     "Examples:\n  railstrata export cases/quick --to calculix --out /tmp/quick-ccx\n  railstrata export "
+     "cases/verification/hertz_sphere.toml --to contact\n",
+     add_export, command_export},
     {"schema", "Print the JSON schema of case files for editors, or the reference of cases or results",
      "Examples:\n  railstrata schema --json-schema > case.schema.json\n  railstrata schema --markdown\n  railstrata "
      "schema --results --markdown\n",

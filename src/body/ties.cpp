@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 
 #include "core/parallel.hpp"
+#include "mesh/station_weights.hpp"
 
 namespace railstrata {
 namespace {
@@ -70,22 +70,13 @@ Ties::Ties(const SweptBody& body, const BodyLayout& layout) : layout_(layout), k
 Ties::Interpolation Ties::interpolation(const SweptBody& body, int slave, int master) {
   Interpolation in{slave, master, {}, {}, {}, {}, {}, {}};
   const Stations& from = body.blocks[master].stations;
-  const double period = 2 * std::numbers::pi;
-  const int n = from.nodes();
   for (double t : body.blocks[slave].stations.at) {
-    if (from.closed) {  // into [first, first + period)
-      t = from.at.front() + std::fmod(t - from.at.front(), period);
-      if (t < from.at.front()) t += period;
-    }
-    int left = static_cast<int>(std::upper_bound(from.at.begin(), from.at.end(), t) - from.at.begin()) - 1;
-    if (!from.closed) left = std::clamp(left, 0, n - 2);
-    const int right = left + 1 < n ? left + 1 : 0;
-    const double t1 = right > left ? from.at[right] : from.at[0] + period;
-    in.left.push_back(left);
-    in.right.push_back(right);
-    in.weight.push_back(std::clamp((t - from.at[left]) / (t1 - from.at[left]), 0.0, 1.0));
+    const StationWeights at = station_weights(from, t);
+    in.left.push_back(at.left);
+    in.right.push_back(at.right);
+    in.weight.push_back(at.weight);
   }
-  transpose(n, in);
+  transpose(from.nodes(), in);
   return in;
 }
 

@@ -1,0 +1,106 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "app/case_of.hpp"
+#include "app/commands.hpp"
+#include "app/option_values.hpp"
+#include "export/abaqus_deck.hpp"
+#include "export/contact_files.hpp"
+#include "export/dyna_deck.hpp"
+#include "export/export_readme.hpp"
+#include "io/json_text.hpp"
+#include "io/output_file.hpp"
+#include "io/output_folder.hpp"
+#include "runs/solve_half_space.hpp"
+
+namespace railstrata {
+namespace {
+
+const std::map<std::string, ExportTarget> kTargets{{"calculix", ExportTarget::calculix},
+                                                   {"abaqus", ExportTarget::abaqus},
+                                                   {"lsdyna", ExportTarget::lsdyna},
+                                                   {"contact", ExportTarget::contact}};
+
+/// Names of files with their contents, and what each is.
+struct Files {
+  std::vector<std::pair<std::string, std::string>> contents;
+  std::vector<std::string> lines;
+  void add(const std::string& name, const std::string& what, std::string content) {
+    contents.emplace_back(name, std::move(content));
+    lines.push_back(fmt::format("{:<18} {}", name, what));
+  }
+};
+
+Files deck(const LoadedCase& loaded, ExportTarget target, bool friction) {
+  require_finite_elements(loaded);
+  const SolidModel model = solid_model(build_model(loaded.spec, loaded.folder()));
+  Files out;
+  if (target == ExportTarget::lsdyna) {
+    out.add("preload.k", "the deck", dyna_deck(model, friction));
+    return out;
+  }
+  const DeckFlavour flavour = target == ExportTarget::abaqus ? DeckFlavour::abaqus : DeckFlavour::calculix;
+  out.add("preload.inp", "the deck", abaqus_deck(model, {flavour, friction}));
+  return out;
+}
+
+void require_steady_patch(const CaseSpec& spec) {
+  if (spec.transient.kind != TransientKind::none)
+    throw CaseError("transient.kind: a history of loads and motions has no place in one result of CONTACT",
+                    "export a steady case: --set transient.kind=\"none\"");
+  if (spec.geometry.in_line())
+    throw CaseError("geometry.contact: a line contact is not exported",
+                    "export a case with a patch: --set geometry.contact=\"point\"");
+}
+
+/// Several patches are CONTACT's cases 1, 2, …
+Files contact_result(const LoadedCase& loaded, const std::string& cell) {
+  require_steady_patch(loaded.spec);
+  const Placement placement = place(loaded.spec, loaded.folder());
+  BemOptions bem;
+  bem.cell = cell_size(cell);
+  const CaseSpec spec = half_space_case(loaded.spec);
+  const HalfSpaceSolution solution = solve_half_space_contact(loaded.spec, placement, bem);
+  std::vector<const BemPatch*> patches{&solution.result};
+  for (const BemPatch& p : solution.result.further) patches.push_back(&p);
+  Files out;
+  for (std::size_t k = 0; k < patches.size(); ++k) {
+    const std::string name = fmt::format("rail.{:04}", k + 1);
+    out.add(name + ".mat", "the contact, for loadcase.m", contact_mat(spec, placement, *patches[k]));
+    out.add(name + ".subs", "stresses in the rail, for loadstrs.m",
+            contact_stresses(solution.result.rail, *patches[k]));
+    const std::string input = k == 0 ? "rail.inp" : fmt::format("rail_{}.inp", k + 1);
+    if (spec.layers.empty() && spec.friction.law == FrictionForm::coulomb && !spec.third_body.thickness)
+      out.add(input, "the case, module 3", contact_input(spec, placement, *patches[k]));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::string> export_words() { return {"calculix", "abaqus", "lsdyna", "contact"}; }
+
+ExitCode command_export(const CommandOptions& options) {
+  const ExportOptions& wanted = options.export_to;
+  const ExportTarget target = kTargets.at(wanted.to);
+  const LoadedCase loaded = load_case_of(options);
+  const std::filesystem::path out = output_folder_of(options, loaded, "-" + wanted.to);
+  const Files files =
+      target == ExportTarget::contact ? contact_result(loaded, options.cell) : deck(loaded, target, wanted.friction);
+  const FolderHold hold = prepare_output_folder(out, options.force);
+  write_origin(out, loaded, options.command_line, options.threads);
+  for (const auto& [name, content] : files.contents) write_whole_file(out / name, content);
+  write_whole_file(out / "README.txt", export_readme(loaded.spec, target, files.lines, wanted.friction));
+  if (options.json)
+    fmt::print("{}\n", json_text(nlohmann::json{{"folder", out.generic_string()}}));
+  else
+    fmt::print("{} is in {}; README.txt there says what was not carried over\n", files.contents.front().first,
+               out.string());
+  return ExitCode::ok;
+}
+
+}  // namespace railstrata

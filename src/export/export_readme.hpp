@@ -1,0 +1,19 @@
+#pragma once
+// README.txt of an exported folder: what the files are, how to run them, and what was not carried over.
+#include <string>
+#include <vector>
+
+#include "case/case_spec.hpp"
+
+namespace railstrata {
+
+enum class ExportTarget { calculix, abaqus, lsdyna, contact };
+
+/// What of a case is not in the files, one line each; never empty.
+std::vector<std::string> not_carried_over(const CaseSpec& spec, ExportTarget target);
+
+/// The text. `files`: a line each. `friction`: the deck's contact has it.
+std::string export_readme(const CaseSpec& spec, ExportTarget target, const std::vector<std::string>& files,
+                          bool friction);
+
+}  // namespace railstrata
