@@ -220,8 +220,7 @@ void solve_blocks(Problem& p) {
   const Solved& s = solution(p);
   for (Block& b : p.blocks) {
     const Points points = points_of(b, s.on.grid);
-    if (points.count() > kMostPoints)
-      throw Refused(kGrid, "a block has more than 20 million points");
+    if (points.count() > kMostPoints) throw Refused(kGrid, "a block has more than 20 million points");
     b.size = {static_cast<int>(points.x.size()), static_cast<int>(points.y.size()), static_cast<int>(points.z.size())};
     b.table.assign(kBlockColumns * points.count(), 0.0);
     fill(s, points, true, b);

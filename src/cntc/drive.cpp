@@ -96,6 +96,8 @@ class Drive {
     const Creepages& c = settings_.creepages;
     out.spin = out.shift ? c.spin : c.spin / c.length;
     out.speed = settings_.speed;
+    if (flag(settings_, kNorm) == 1 && !(settings_.load > 0))
+      throw Refused(kOther, "no normal force: call cntc_setnormalforce");
     if (tang_ != kFrictionless && !settings_.friction)
       throw Refused(kFriction, "no friction: call cntc_setfrictionmethod");
     if (settings_.friction) out.friction = *settings_.friction;

@@ -66,6 +66,7 @@ void Registry::open(std::string_view wrkdir, std::string_view outdir, std::strin
 void Registry::make_element(int ire) {
   if (ire < 1 || ire > kMostElements)
     throw Refused(kWrongProblem, fmt::format("ire = {} is not 1 to {}", ire, kMostElements));
+  open({}, {}, {}, MessageFile::To::file);  // unless it was called for
   const std::lock_guard lock(mutex_);
   auto& element = elements_[static_cast<std::size_t>(ire)];
   if (!element) element = std::make_unique<Element>();
