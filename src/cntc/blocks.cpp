@@ -100,28 +100,72 @@ class Interior {
     if (!body_.layers.empty()) layered_ = std::make_unique<Subsurface>(body_, grid_, p_, q_x_, q_y_);
   }
 
-  std::vector<InteriorPoint> at(const std::vector<Vec3>& points) const {
+  /// centred: the points are at centres of elements; those of a depth follow each other.
+  std::vector<InteriorPoint> at(const std::vector<Vec3>& points, bool centred) const {
     if (layered_) return layered_->at(points);
     std::vector<InteriorPoint> out(points.size());
-    for_each_if(points.size() * grid_.size() > kWorthThreads, static_cast<std::ptrdiff_t>(points.size()),
-                [&](int k) { out[static_cast<std::size_t>(k)] = sum_at(points[static_cast<std::size_t>(k)]); });
+    std::size_t begin = 0;
+    while (begin < points.size()) {
+      std::size_t end = begin + 1;
+      while (end < points.size() && points[end].z == points[begin].z) ++end;
+      const Offsets table = centred && end - begin > kWorthTable ? offsets(points[begin].z) : Offsets{};
+      for_each_if((end - begin) * grid_.size() > kWorthThreads, static_cast<std::ptrdiff_t>(end - begin), [&](int k) {
+        const std::size_t at = begin + static_cast<std::size_t>(k);
+        out[at] = table.empty() ? sum_at(points[at]) : sum_at(points[at], table);
+      });
+      begin = end;
+    }
     return out;
   }
 
  private:
-  static constexpr std::size_t kWorthThreads = 100000;
+  static constexpr std::size_t kWorthThreads = 100000, kWorthTable = 20;
+
+  /// Influences of one element at the distances from centre to centre, at one depth.
+  struct Influence {
+    InteriorInfluence state;
+    InteriorDisplacement displacement;
+  };
+  using Offsets = std::vector<Influence>;
+
+  Influence influence(double x, double y, double z) const {
+    return {rectangle_interior(body_.substrate, x, y, z, grid_.dx, grid_.dy),
+            rectangle_displacement(body_.substrate, x, y, z, grid_.dx, grid_.dy)};
+  }
+
+  std::size_t offset(int i, int j) const {
+    return static_cast<std::size_t>(i + grid_.nx - 1) * static_cast<std::size_t>(2 * grid_.ny - 1) +
+           static_cast<std::size_t>(j + grid_.ny - 1);
+  }
+
+  Offsets offsets(double z) const {
+    Offsets out;
+    for (int i = 1 - grid_.nx; i < grid_.nx; ++i)
+      for (int j = 1 - grid_.ny; j < grid_.ny; ++j) out.push_back(influence(i * grid_.dx, j * grid_.dy, z));
+    return out;
+  }
 
   InteriorPoint sum_at(const Vec3& at) const {
+    return sum_of_cells([&](int i, int j) { return influence(at.x - grid_.x(i), at.y - grid_.y(j), at.z); });
+  }
+
+  InteriorPoint sum_at(const Vec3& at, const Offsets& table) const {
+    const int column = static_cast<int>(std::lround((at.x - grid_.x0) / grid_.dx));
+    const int row = static_cast<int>(std::lround((at.y - grid_.y0) / grid_.dy));
+    return sum_of_cells([&](int i, int j) -> const Influence& { return table[offset(column - i, row - j)]; });
+  }
+
+  template <class Of>
+  InteriorPoint sum_of_cells(const Of& of) const {
     InteriorPoint out;
     InteriorState sum;
     for (int i = 0; i < grid_.nx; ++i)
       for (int j = 0; j < grid_.ny; ++j) {
         const std::size_t k = grid_.index(i, j);
         if (!(p_[k] > 0)) continue;
-        const double dx = at.x - grid_.x(i), dy = at.y - grid_.y(j), load[] = {p_[k], q_x_[k], q_y_[k]};
-        const InteriorInfluence state = rectangle_interior(body_.substrate, dx, dy, at.z, grid_.dx, grid_.dy);
-        const InteriorDisplacement u = rectangle_displacement(body_.substrate, dx, dy, at.z, grid_.dx, grid_.dy);
-        for (std::size_t c = 0; c < 3; ++c) add(load[c], state[c], u[c], sum, out.displacement);
+        const double load[] = {p_[k], q_x_[k], q_y_[k]};
+        const Influence& from = of(i, j);
+        for (std::size_t c = 0; c < 3; ++c) add(load[c], from.state[c], from.displacement[c], sum, out.displacement);
       }
     out.stress = stress_of(sum, body_.substrate);
     return out;
@@ -184,7 +228,7 @@ void fill(const Solved& s, const Points& points, bool upper, Block& out) {
     rows.push_back(r);
   }
   if (inside.empty()) return;
-  const std::vector<InteriorPoint> found = Interior(s, upper).at(inside);
+  const std::vector<InteriorPoint> found = Interior(s, upper).at(inside, out.kind != 9);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     const Vec3 at{inside[k].x, inside[k].y, upper ? inside[k].z : -inside[k].z};
     const auto row = row_of(at, found[k], upper);

@@ -1,6 +1,6 @@
-"""contact_addon_linux64.so by ctypes, with the prototypes of CONTACT's Python interface: every argument by reference."""
+"""contact_addon_linux64.so by ctypes, with the prototypes of CONTACT's Python interface: all by reference."""
 import ctypes
-from ctypes import POINTER, byref, c_char_p, c_double, c_int
+from ctypes import POINTER, c_char_p, c_double, c_int
 
 import numpy as np
 

@@ -150,7 +150,8 @@ class Examples(unittest.TestCase):
         c.call("cntc_settangentialforces", -0.875, 0.0)
         self.assertEqual(c.calculate(), 0, c.error())
         self.assertEqual(c.counts(), (177, 132))
-        for value, text in zip((*c.forces()[:2], c.creepages()[0], c.p_max()), ("9.195", "-3.218", "8.155E-03", "4.393")):
+        found = (*c.forces()[:2], c.creepages()[0], c.p_max())
+        for value, text in zip(found, ("9.195", "-3.218", "8.155E-03", "4.393")):
             printed(self, value, text)
 
     def test_bentall(self):
@@ -163,7 +164,8 @@ class Examples(unittest.TestCase):
         c.flags(T=3, F=1)
         for friction, force, contact, slip, creep, p_max, true in (
                 (10, 0, 200, 0, "3.591E-04", "103.8", 0), (0.05, 0, 200, 75, "4.294E-04", "103.6", 0),
-                (0.05, 0.75, 200, 164, "2.108E-04", "103.2", 607.6), (0.05, -0.75, 201, 95, "5.392E-04", "103.3", -607.6)):
+                (0.05, 0.75, 200, 164, "2.108E-04", "103.2", 607.6),
+                (0.05, -0.75, 201, 95, "5.392E-04", "103.3", -607.6)):
             c.friction(friction)
             c.call("cntc_settangentialforces", force, 0.0)
             self.assertEqual(c.calculate(), 0, c.error())
@@ -226,10 +228,11 @@ class Examples(unittest.TestCase):
         c.block(9, [1e-5], [1e-5], [0.0, 0.5, 1.0, 2.5])
         found = c.stresses()[:, :, 0, 0].T
         # UX, UZ, SIGHYD, SIGVM, SIGXX, SIGXZ, SIGZZ
-        for row, text in zip(found, ("0.482073 0.403982 -0.853264 1.74426 -0.779815 -0.998999 -1.000000",
-                                     "0.175332 0.265146 -0.284416 0.676093 -7.6184E-02 -0.149363 -0.700842",
-                                     "9.4955E-02 0.170498 -0.109379 0.342630 3.9769E-03 -2.4183E-02 -0.336086",
-                                     "3.8692E-02 7.5855E-02 -2.0899E-02 7.6086E-02 4.4578E-03 -9.2701E-04 -7.1611E-02")):
+        wanted = ("0.482073 0.403982 -0.853264 1.74426 -0.779815 -0.998999 -1.000000",
+                  "0.175332 0.265146 -0.284416 0.676093 -7.6184E-02 -0.149363 -0.700842",
+                  "9.4955E-02 0.170498 -0.109379 0.342630 3.9769E-03 -2.4183E-02 -0.336086",
+                  "3.8692E-02 7.5855E-02 -2.0899E-02 7.6086E-02 4.4578E-03 -9.2701E-04 -7.1611E-02")
+        for row, text in zip(found, wanted):
             for column, word in zip((3, 5, 6, 7, 12, 14, 20), text.split()):
                 printed(self, row[column], word)
 
@@ -262,7 +265,8 @@ class Interface(unittest.TestCase):
         for other, sign in ((si, 1), (simpack, -1)):
             for value, wanted in zip(other.forces(), (fn, sign * fx, sign * fy, sign * mz * 1e-3)):
                 self.assertAlmostEqual(value / wanted, 1, delta=1e-9)
-            np.testing.assert_allclose(other.creepages(), np.multiply(c.creepages(), [sign, sign, sign * 1e3]), rtol=1e-12)
+            wanted = np.multiply(c.creepages(), [sign, sign, sign * 1e3])
+            np.testing.assert_allclose(other.creepages(), wanted, rtol=1e-12)
             np.testing.assert_allclose(other.field(3), sign * 1e6 * c.field(3), atol=1, rtol=1e-9)
             np.testing.assert_allclose(other.field(9), 1e-3 * c.field(9), rtol=1e-9)
             self.assertAlmostEqual(other.p_max() / c.p_max() / 1e6, 1, delta=1e-12)
