@@ -86,7 +86,7 @@ void solve_case(int ire, int icp, Problem& problem) {
     registry().tell(ire, icp, &problem, kCall, 0, "R = 2, 3: the settings were looked at, nothing was solved");
     return;
   }
-  problem.last = {};
+  registry().forget(problem);
   std::vector<std::string> remarks;
   solve(problem, remarks);
   if (problem.solved->border_cells > 0)

@@ -109,9 +109,9 @@ void Registry::remove_all() {
 }
 
 void Registry::tell(int ire, int icp, Problem* problem, const char* call, int code, const std::string& text) {
-  if (problem) problem->last = {code, text};
   {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(mutex_);  // a second thread on a busy problem is told too
+    if (problem) problem->last = {code, text};
     last_ = {code, text};
   }
   if (print_level < 1) return;
@@ -120,10 +120,15 @@ void Registry::tell(int ire, int icp, Problem* problem, const char* call, int co
                             : fmt::format("{}: {}: error {}: {}", where, call, code, text));
 }
 
-Refusal Registry::last(int ire, int icp) {
-  if (const Problem* problem = find(ire, icp)) return problem->last;
+void Registry::forget(Problem& problem) {
   const std::lock_guard lock(mutex_);
-  return last_;
+  problem.last = {};
+}
+
+Refusal Registry::last(int ire, int icp) {
+  const Problem* problem = find(ire, icp);
+  const std::lock_guard lock(mutex_);
+  return problem ? problem->last : last_;
 }
 
 Registry& registry() {

@@ -44,6 +44,8 @@ class Registry {
 
   /// Keeps a message of a problem, or of the library, and writes it.
   void tell(int ire, int icp, Problem* problem, const char* call, int code, const std::string& text);
+  /// The message of a problem that is solved anew.
+  void forget(Problem& problem);
   Refusal last(int ire, int icp);
 
   int print_level = 1;
