@@ -1,32 +1,15 @@
 #pragma once
 // The result elements and contact problems of a process, and where messages go.
 #include <array>
-#include <cstdio>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
 
+#include "cntc/message_file.hpp"
 #include "cntc/problem.hpp"
 
 namespace railstrata::cntc {
-
-/// <outdir>/<experiment>.out, opened with the first line. Safe to share between threads.
-class MessageFile {
- public:
-  enum class To { file, file_and_screen, nowhere };
-  ~MessageFile();
-  void set(std::string path, To to);
-  void write(std::string_view line);
-  void close();
-
- private:
-  std::mutex mutex_;
-  std::string path_ = "contact_addon.out";
-  To to_ = To::nowhere;
-  bool tried_ = false;
-  std::FILE* file_ = nullptr;
-};
 
 class Registry {
  public:
