@@ -4,6 +4,8 @@
 #                               declare, in C++ and in C.
 #   librailstrata-commands.so   the rooms `study` and `app`: the command line of the program, and nothing for others.
 #   railstrata                  main() alone.
+#   contact_addon_linux64.so    the room `cntc` with all it needs inside, so that this one file can stand in for that of
+#                               CONTACT; in a folder of its own, where nobody finds it by accident.
 #
 # The libraries are linked from the objects of the static rooms; nothing is compiled twice. Because a SIMD pack has
 # another width with every instruction set, both libraries are built for each of them, and the loader takes the pair
@@ -17,6 +19,7 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 set(PUBLIC_HEADERS core/faults.hpp case/case_file.hpp io/provenance.hpp runs/library.hpp)
 set(C_HEADER capi/railstrata.h)
 set(ROOMS_OF_THE_PROGRAM study app)
+set(ROOM_OF_CONTACT cntc)
 # The mark by which the loader refuses a processor that is too old, in words instead of an illegal instruction.
 check_linker_flag(CXX -Wl,-z,x86-64-v2 has_level_mark)
 
@@ -58,7 +61,7 @@ function(railstrata_library variant folder level)
     set(suffix "_${variant}")
   endif()
   set(rooms ${ROOMS${suffix}})
-  list(REMOVE_ITEM rooms ${ROOMS_OF_THE_PROGRAM})
+  list(REMOVE_ITEM rooms ${ROOMS_OF_THE_PROGRAM} ${ROOM_OF_CONTACT})
   railstrata_collect(lower "${suffix}" ${rooms})
   railstrata_collect(upper "${suffix}" ${ROOMS_OF_THE_PROGRAM})
   list(APPEND lower_objects $<TARGET_OBJECTS:railstrata_build_info${suffix}>)
@@ -126,6 +129,17 @@ else()
   railstrata_library("" ${libraries_folder} "")
 endif()
 
+# One file for all processors that are served: a program that loads it by its path gets that one.
+set(contact_map ${CMAKE_SOURCE_DIR}/cmake/contact_addon.map)
+add_library(contact_addon SHARED $<TARGET_OBJECTS:room_${ROOM_OF_CONTACT}${installed_suffix}>)
+target_link_libraries(contact_addon PRIVATE room_bem${installed_suffix} room_material${installed_suffix})
+target_link_options(contact_addon PRIVATE -Wl,--version-script=${contact_map} -Wl,--no-undefined)
+set_target_properties(contact_addon PROPERTIES OUTPUT_NAME contact_addon_linux64 PREFIX "" LINKER_LANGUAGE CXX
+  LINK_DEPENDS ${contact_map} LIBRARY_OUTPUT_DIRECTORY ${libraries_folder}/railstrata/contact)
+if(RAILSTRATA_VARIANTS AND has_level_mark)
+  target_link_options(contact_addon PRIVATE -Wl,-z,x86-64-v2)
+endif()
+
 # The program that is installed; railstrata-bin, which the tests look at, has its rooms inside.
 file(RELATIVE_PATH data_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/railstrata)
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/app/shipped_files.cpp PROPERTIES
@@ -145,6 +159,9 @@ install(TARGETS railstrata_program RUNTIME)
 install(TARGETS railstrata_library${installed_suffix} EXPORT RailStrataTargets
   LIBRARY INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(TARGETS railstrata_commands${installed_suffix} LIBRARY NAMELINK_SKIP)
+install(TARGETS contact_addon LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/railstrata/contact)
+install(FILES ${CMAKE_SOURCE_DIR}/src/${ROOM_OF_CONTACT}/railstrata_cntc.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/railstrata)
 foreach(level IN LISTS levels)
   set_target_properties(railstrata_commands_${level} PROPERTIES INSTALL_RPATH "$ORIGIN/../..")
   install(TARGETS railstrata_library_${level} railstrata_commands_${level}

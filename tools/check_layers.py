@@ -19,7 +19,8 @@ RESULTS = {"view.py", "compare.svg"}  # written by the program into its results
 FOLDERS = ("src/", "tests/", "docs/", "tools/", "cases/", "report/src", "data/", "fuzz/", "cmake/", "bench/")
 LOUD = re.compile(r"\bspdlog\b|\bfmt::print\b|\bstd::(?:cout|cerr|clog)\b|\bf?(?:printf|puts)\(|\bstd(?:out|err)\b"
                   r"|\b_?exit\(|\babort\(|\b(?:signal|sigaction)\(")
-LOUD_FILES = {"study/child_process.cpp"}  # what a child does between fork and exec
+LOUD_FILES = {"study/child_process.cpp",  # what a child does between fork and exec
+              "cntc/message_file.cpp"}  # the screen, where a user of CONTACT's interface asks for it
 
 
 

@@ -96,7 +96,7 @@ class ActiveSetSolver {
     const double compliance = influence_.of_one_cell(0).nn / (1.122 * std::sqrt(grid_.cell_area()));
     Plane sorted = gap_;
     std::sort(sorted.begin(), sorted.end());
-    std::size_t low = 1, high = n_ - 1;
+    std::size_t low = std::min<std::size_t>(1, n_ - 1), high = n_ - 1;
     while (high - low > 1) {
       const std::size_t mid = (low + high) / 2;
       const double area = static_cast<double>(mid) * grid_.cell_area(), p0 = 1.5 * *target_.load / area;

@@ -13,6 +13,14 @@
 namespace railstrata {
 namespace {
 
+TEST(NormalProblem, OneCellTakesTheWholeLoadAndItsDisplacementIsTheApproach) {
+  const PatchGrid grid{1, 1, 1e-3, 1e-3, 0, 0};
+  const InfluenceOperator influence(pair_of(kSteel, kSteel), 1, 1, grid.dx, grid.dy);
+  const NormalSolution s = solve_normal(influence, grid, {0.0}, {.load = 100.0, .approach = {}});
+  EXPECT_NEAR(s.pressure[0], 100e6, 1);
+  EXPECT_NEAR(s.approach, 100e6 * influence.of_one_cell(0).nn, 1e-9 * s.approach);
+}
+
 TEST(InfluenceOperator, EqualsDirectSummationForEveryComponent) {
   const SurfaceCompliance pair =
       combined_compliance(homogeneous_compliance({1, 0.1}), homogeneous_compliance({2, 0.45}));

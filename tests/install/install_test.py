@@ -63,13 +63,14 @@ class Tree(unittest.TestCase):
     def test_program_library_headers_packages_data_and_texts_are_there(self):
         shared = ["cases/quick/case.toml", "cases/paper/study.toml", "data/profiles/lma_wheel.csv",
                   "data/paper/published.toml", "report/view.py", "report/LICENSES.txt"]
-        headers = ["railstrata.hpp", "railstrata.h", "runs/library.hpp"]
+        headers = ["railstrata.hpp", "railstrata.h", "railstrata_cntc.h", "runs/library.hpp"]
         for name in ["bin/railstrata", *(f"include/railstrata/{h}" for h in headers),
                      *(f"share/railstrata/{s}" for s in shared)]:
             self.assertTrue((PREFIX / name).is_file(), name)
         for name in ["RailStrataConfig.cmake", "RailStrataConfigVersion.cmake", "railstrata.pc", "LICENSE"]:
             only(name)
         libraries()
+        self.assertEqual(only("contact_addon_linux64.so").parent.parts[-2:], ("railstrata", "contact"))
         self.assertFalse(list(PREFIX.rglob("recorded")))
 
     def test_no_file_names_the_source_or_the_build_folder(self):

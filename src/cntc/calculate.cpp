@@ -1,0 +1,125 @@
+#include "cntc/calculate.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+#include <time.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cntc/blocks.hpp"
+#include "cntc/calls.hpp"
+#include "cntc/discretise.hpp"
+#include "cntc/drive.hpp"
+
+namespace railstrata::cntc {
+namespace {
+
+double cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Adds what passes while it lives to the times of a problem.
+class Clock {
+ public:
+  explicit Clock(Problem& problem) : problem_(problem) {}
+  ~Clock() {
+    problem_.cpu_s += cpu_seconds() - cpu_;
+    problem_.wall_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_).count();
+  }
+  Clock(const Clock&) = delete;
+  Clock& operator=(const Clock&) = delete;
+
+ private:
+  Problem& problem_;
+  double cpu_ = cpu_seconds();
+  std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+};
+
+/// Threads inside of one problem, flag 2003, for the calling thread alone and until the solution is there.
+class Threads {
+ public:
+  explicit Threads(int wanted) {
+    if (wanted != -1) omp_set_num_threads(std::max(1, wanted));
+  }
+  ~Threads() { omp_set_num_threads(before_); }
+  Threads(const Threads&) = delete;
+  Threads& operator=(const Threads&) = delete;
+
+ private:
+  int before_ = omp_get_max_threads();
+};
+
+std::unique_lock<std::mutex> alone(Problem& problem) {
+  std::unique_lock<std::mutex> lock(problem.busy, std::try_to_lock);
+  if (!lock) throw Refused(kOther, "another thread is at work on this problem");
+  return lock;
+}
+
+/// What was refused when it was set is refused now.
+void require_all_taken(Problem& problem) {
+  int code = 0;
+  std::string text;
+  for (const auto& [key, refusal] : problem.refused) {
+    if (key == static_cast<int>(Setting::blocks)) continue;  // those are of subs_calculate
+    if (code == 0) code = refusal.code;
+    text += (text.empty() ? "" : "; ") + refusal.text;
+  }
+  if (code == 0) return;
+  problem.solved.reset();
+  problem.broken = true;
+  throw Refused(code, text);
+}
+
+void solve_case(int ire, int icp, Problem& problem) {
+  constexpr const char* kCall = "cntc_calculate";
+  ++problem.cases;
+  for (Block& block : problem.blocks) block.table.clear();
+  require_all_taken(problem);
+  if (flag(problem.settings, kReturn) >= 2) {
+    discretise(problem.settings);
+    registry().tell(ire, icp, &problem, kCall, 0, "R = 2, 3: the settings were looked at, nothing was solved");
+    return;
+  }
+  registry().forget(problem);
+  std::vector<std::string> remarks;
+  solve(problem, remarks);
+  if (problem.solved->border_cells > 0)
+    remarks.push_back(
+        fmt::format("{} elements at the border of the potential contact area are in contact: it is too "
+                    "small",
+                    problem.solved->border_cells));
+  for (const std::string& remark : remarks) registry().tell(ire, icp, &problem, kCall, 0, remark);
+}
+
+}  // namespace
+
+int calculate(int ire, int icp) noexcept {
+  int at_border = 0;
+  const int code = with_problem(ire, icp, "cntc_calculate", [&](Problem& problem) {
+    const std::unique_lock<std::mutex> lock = alone(problem);
+    const Clock clock(problem);
+    const Threads threads(registry().threads);
+    solve_case(ire, icp, problem);
+    at_border = problem.solved ? problem.solved->border_cells : 0;
+  });
+  return code < 0 ? code : at_border;
+}
+
+int calculate_blocks(int ire, int icp) noexcept {
+  return with_problem(ire, icp, "subs_calculate", [&](Problem& problem) {
+    const std::unique_lock<std::mutex> lock = alone(problem);
+    const Clock clock(problem);
+    const Threads threads(registry().threads);
+    const auto refused = problem.refused.find(static_cast<int>(Setting::blocks));
+    if (refused != problem.refused.end()) throw Refused(refused->second.code, refused->second.text);
+    solve_blocks(problem);
+  });
+}
+
+}  // namespace railstrata::cntc

@@ -1,0 +1,79 @@
+#pragma once
+// Between the functions of the interface, which have no way to fail, and those that throw.
+#include <limits>
+#include <new>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "cntc/registry.hpp"
+
+namespace railstrata::cntc {
+
+inline constexpr double kNoNumber = std::numeric_limits<double>::quiet_NaN();
+
+/// Calls `work`; what it throws is kept and written. The code of what was thrown, or 0. No exception leaves.
+template <class Work>
+int guarded(int ire, int icp, Problem* problem, const char* call, Work&& work) noexcept {
+  const auto tell = [&](int code, const char* text) noexcept {
+    try {
+      registry().tell(ire, icp, problem, call, code, text);
+    } catch (...) {  // not even the memory for a message: the code has to do
+    }
+    return code;
+  };
+  try {
+    work();
+    return 0;
+  } catch (const Refused& e) {
+    return tell(e.code, e.what());
+  } catch (const std::bad_alloc&) {
+    return tell(kOther, "there is not enough memory");
+  } catch (const std::exception& e) {
+    return tell(kOther, e.what());
+  } catch (...) {
+    return tell(kOther, "an unknown fault");
+  }
+}
+
+/// The problem, made where there is none yet; null, and told, for wrong numbers.
+inline Problem* problem_of(int ire, int icp, const char* call) noexcept {
+  Problem* out = nullptr;
+  guarded(ire, icp, nullptr, call, [&] { out = &registry().problem(ire, icp); });
+  return out;
+}
+
+/// Calls `work` with the problem.
+template <class Work>
+int with_problem(int ire, int icp, const char* call, Work&& work) noexcept {
+  Problem* problem = problem_of(ire, icp, call);
+  return problem ? guarded(ire, icp, problem, call, [&] { work(*problem); }) : int{kWrongProblem};
+}
+
+/// The same for a call that sets something. What is refused stays so until `key` is set otherwise.
+template <class Work>
+void setting(int ire, int icp, int key, const char* call, Work&& work) noexcept {
+  with_problem(ire, icp, call, [&](Problem& problem) {
+    try {
+      work(problem);
+      problem.refused.erase(key);
+    } catch (const Refused& e) {
+      problem.refused[key] = {e.code, std::string(call) + ": " + e.what()};
+      throw;
+    }
+  });
+}
+
+/// An array of a caller; null or a negative length: empty.
+template <class T>
+std::span<T> given(T* values, int length) {
+  return values && length > 0 ? std::span<T>(values, static_cast<std::size_t>(length)) : std::span<T>();
+}
+
+/// Fills what a caller has room for; what there is no value for becomes NaN.
+template <class Values>
+void copy_to(std::span<double> out, const Values& values) {
+  for (std::size_t k = 0; k < out.size(); ++k) out[k] = k < values.size() ? values[k] : kNoNumber;
+}
+
+}  // namespace railstrata::cntc

@@ -1,0 +1,289 @@
+#include "cntc/drive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "cntc/discretise.hpp"
+#include "core/faults.hpp"
+
+namespace railstrata::cntc {
+namespace {
+
+constexpr int kFrictionless = 0, kShift = 1, kTransient = 2;
+
+void reverse(Plane& values) { std::reverse(values.begin(), values.end()); }
+void turn_vectors(PlanePair& v) {
+  for (Plane* part : {&v.x, &v.y}) {
+    reverse(*part);
+    for (double& value : *part) value = -value;
+  }
+}
+
+/// Half a turn about the normal, by which rolling to -x becomes rolling to +x: cells in the opposite order, components
+/// in the plane with the other sign.
+PatchGrid turned(PatchGrid g) {
+  g.x0 = -g.x(g.nx - 1);
+  g.y0 = -g.y(g.ny - 1);
+  return g;
+}
+
+void turn(RollingSolution& s) {
+  reverse(s.normal.pressure);
+  reverse(s.normal.gap);
+  TangentialSolution& t = s.tangential;
+  PlanePair q{std::move(t.q_x), std::move(t.q_y)}, slip{std::move(t.slip_x), std::move(t.slip_y)};
+  for (PlanePair* pair : {&q, &slip, &t.cell_slip}) turn_vectors(*pair);
+  t.q_x = std::move(q.x);
+  t.q_y = std::move(q.y);
+  t.slip_x = std::move(slip.x);
+  t.slip_y = std::move(slip.y);
+  std::reverse(t.state.begin(), t.state.end());
+  reverse(t.plastic);
+  reverse(t.bound);
+  for (double* value : {&t.creepage_x, &t.creepage_y, &t.force_x, &t.force_y}) *value = -*value;
+}
+
+bool same_grid(const PatchGrid& a, const PatchGrid& b) {
+  const double near = 1e-3 * std::min(a.dx, a.dy);
+  return a.nx == b.nx && a.ny == b.ny && std::abs(a.dx - b.dx) < 0.1 * near && std::abs(a.dy - b.dy) < 0.1 * near &&
+         std::abs(a.x0 - b.x0) < near && std::abs(a.y0 - b.y0) < near;
+}
+
+PlanePair extra_slip(const Settings& s, const PatchGrid& g, double unit) {
+  if (flag(s, kExtraSlip) == 0) return {};
+  PlanePair out{Plane(g.size()), Plane(g.size())};
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) {
+      const auto at = static_cast<std::size_t>(i + g.nx * j);
+      if (at < s.extra_x.size()) out.x[g.index(i, j)] = unit * s.extra_x[at];
+      if (at < s.extra_y.size()) out.y[g.index(i, j)] = unit * s.extra_y[at];
+    }
+  return out;
+}
+
+class Drive {
+ public:
+  Drive(Problem& problem, std::vector<std::string>& remarks)
+      : problem_(problem), settings_(problem.settings), remarks_(remarks), tang_(flag(settings_, kTang)) {}
+
+  void run() {
+    std::optional<Solved> last = std::move(problem_.solved);
+    problem_.solved.reset();
+    const bool was_broken = std::exchange(problem_.broken, true);
+    Solved next = prepared();
+    const bool turn_it = tang_ >= kTransient && settings_.chi != 0;
+    if (turn_it && last) turn(last->rolling);
+    solve_turned(next, last, was_broken, turn_it);
+    if (turn_it) turn(next.rolling);
+    next.border_cells = border_cells(next);
+    problem_.solved = std::move(next);
+    problem_.broken = false;
+  }
+
+ private:
+  Solved prepared() {
+    Solved out;
+    out.on = discretise(settings_);
+    const Materials& m = settings_.materials;
+    out.upper = {m.layers[0], m.body[0]};
+    out.lower = {m.layers[1], m.body[1]};
+    out.influence = problem_.cache.get(out.upper, out.lower, out.on.grid, m.film.flexibility());
+    out.shift = tang_ == kShift;
+    const Creepages& c = settings_.creepages;
+    out.spin = out.shift ? c.spin : c.spin / c.length;
+    out.speed = settings_.speed;
+    if (flag(settings_, kNorm) == 1 && !(settings_.load > 0))
+      throw Refused(kOther, "no normal force: call cntc_setnormalforce");
+    if (tang_ != kFrictionless && !settings_.friction)
+      throw Refused(kFriction, "no friction: call cntc_setfrictionmethod");
+    if (settings_.friction) out.friction = *settings_.friction;
+    if (out.friction.falling.falls() && (tang_ == kShift || tang_ == kTransient))
+      throw Refused(kFriction, "friction that falls with slip is offered in steady rolling, T = 3");
+    check_step(out.on.grid);
+    return out;
+  }
+
+  void check_step(const PatchGrid& g) {
+    if (!settings_.step || tang_ < kTransient) return;
+    const double off = std::abs(*settings_.step - g.dx) / g.dx;
+    if (tang_ == kTransient && off > 1e-4)
+      throw Refused(kGrid, fmt::format("in transient rolling the step DQ has to be DX = {:g}, not {:g}",
+                                       g.dx / problem_.units.length, *settings_.step / problem_.units.length));
+    if (off > 0.01)
+      remarks_.push_back(fmt::format("the rolling step DQ = DX = {:g} is taken", g.dx / problem_.units.length));
+  }
+
+  RollingContact contact(const Solved& next, bool turn_it) const {
+    RollingContact c;
+    c.gap = next.on.gap;
+    if (flag(settings_, kNorm) == 1)
+      c.target.load = settings_.load;
+    else
+      c.target.approach = settings_.approach;
+    c.friction = next.friction.at_rest;
+    c.falling = next.friction.falling;
+    c.speed = next.speed;
+    c.third_body = settings_.materials.film;
+    c.leading_edge = LeadingEdge::whole_cell;
+    const Creepages& given = settings_.creepages;
+    const double unit = next.shift ? given.length : 1, sign = turn_it ? -1 : 1;
+    c.x.creepage = sign * unit * given.x;
+    c.y.creepage = sign * unit * given.y;
+    c.spin = next.spin;
+    // CONTACT takes it as it is: of a shift in mm, whatever the units are.
+    c.extra_slip = extra_slip(settings_, next.on.grid, next.shift ? 1e-3 : 1);
+    if (turn_it) {
+      reverse(c.gap);
+      turn_vectors(c.extra_slip);
+    }
+    return c;
+  }
+
+  /// Forces on body 2 over a normal force.
+  void set_forces(RollingContact& c, double load, bool turn_it) const {
+    const int forces = flag(settings_, kForce);
+    const double bound = (turn_it ? 1 : -1) * c.friction * load;
+    if (forces >= 1) c.x.force = bound * settings_.relative_x;
+    if (forces == 2) c.y.force = bound * settings_.relative_y;
+  }
+
+  /// The state before, P = 0; there is none in the first case, and P = 2 always starts anew.
+  const Solved* before(const PatchGrid& g, const std::optional<Solved>& last, bool was_broken) {
+    if (flag(settings_, kTime) != 0 || tang_ == kFrictionless || tang_ > kTransient) return nullptr;
+    if (was_broken) throw Refused(kOther, "the case before failed: there is no state to go on from, start with P = 2");
+    if (!last) {
+      remarks_.emplace_back("there is no case before: P = 2 is taken");
+      return nullptr;
+    }
+    if (!same_grid(g, last->on.grid))
+      throw Refused(kGrid, "a case that goes on from the one before (P = 0) has to have its elements");
+    return &*last;
+  }
+
+  void set_history(RollingContact& c, const Solved& next, const PatchGrid& g, const Solved* from) const {
+    if (tang_ == kShift || tang_ == kTransient) {
+      c.kind = tang_ == kShift ? RollingKind::shift : RollingKind::transient;
+      c.step = g.dx;
+      if (!from) {
+        c.before = {Plane(g.size()), Plane(g.size())};
+      } else if (tang_ == kShift) {
+        shift_on(*next.influence, g, from->rolling, c);
+      } else {
+        roll_on_one_cell(*next.influence, g, from->rolling, c);
+      }
+    }
+  }
+
+  void solve_turned(Solved& next, const std::optional<Solved>& last, bool was_broken, bool turn_it) {
+    const PatchGrid g = turn_it ? turned(next.on.grid) : next.on.grid;
+    RollingContact c = contact(next, turn_it);
+    if (!c.target.load && *c.target.approach <= *std::min_element(c.gap.begin(), c.gap.end())) {
+      apart(next, c);
+      return;
+    }
+    const Solved* from = before(next.on.grid, last, was_broken);
+    set_history(c, next, g, from);
+    const bool warm = flag(settings_, kEstimate) != 0 && last && last->on.grid.nx == g.nx && last->on.grid.ny == g.ny;
+    const RollingSolution* start = warm || from ? &last->rolling : nullptr;
+    try {
+      if (tang_ == kFrictionless)
+        without_friction(next, g, c, start);
+      else
+        with_friction(next, g, c, start, turn_it);
+    } catch (const CaseError& e) {
+      throw Refused(flag(settings_, kForce) > 0 ? kTotalForce : kTangential, e.what());
+    } catch (const NumericalError& e) {
+      throw Refused(normal_fails(next, g, c) ? kNormal : kTangential, e.what());
+    }
+  }
+
+  RollingOptions options() const {
+    RollingOptions out;
+    out.tangential.tolerance = settings_.tolerance;
+    out.coupling_tolerance = settings_.tolerance;
+    return out;
+  }
+
+  static void blank(TangentialSolution& t, std::size_t cells, const Plane& pressure) {
+    for (Plane* plane : {&t.q_x, &t.q_y, &t.slip_x, &t.slip_y, &t.cell_slip.x, &t.cell_slip.y})
+      plane->assign(cells, 0.0);
+    t.state.assign(cells, ContactState::separated);
+    for (std::size_t k = 0; k < cells; ++k)
+      if (pressure[k] > 0) t.state[k] = ContactState::stick;
+  }
+
+  static void apart(Solved& next, const RollingContact& c) {
+    NormalSolution& n = next.rolling.normal;
+    n.pressure.assign(c.gap.size(), 0.0);
+    n.gap = c.gap;
+    for (double& value : n.gap) value -= *c.target.approach;
+    n.approach = *c.target.approach;
+    blank(next.rolling.tangential, c.gap.size(), n.pressure);
+    next.rolling.tangential.creepage_x = c.x.creepage;
+    next.rolling.tangential.creepage_y = c.y.creepage;
+  }
+
+  void without_friction(Solved& next, const PatchGrid& g, const RollingContact& c, const RollingSolution* start) const {
+    next.rolling.normal =
+        solve_normal(*next.influence, g, c.gap, c.target, options().normal, start ? start->normal.pressure : Plane{});
+    TangentialSolution& t = next.rolling.tangential;
+    blank(t, g.size(), next.rolling.normal.pressure);
+    t.creepage_x = c.x.creepage;
+    t.creepage_y = c.y.creepage;
+  }
+
+  /// Where the approach is given, forces over the load that comes out are found in turn.
+  void with_friction(Solved& next, const PatchGrid& g, RollingContact& c, const RollingSolution* start,
+                     bool turn_it) const {
+    constexpr double kSettled = 1e-7;
+    constexpr int kMostTurns = 40;
+    const bool load_given = c.target.load.has_value(), driven = flag(settings_, kForce) > 0;
+    double load = load_given ? *c.target.load : 0;
+    if (!load_given && driven)
+      load =
+          solve_normal(*next.influence, g, c.gap, c.target, options().normal, start ? start->normal.pressure : Plane{})
+              .load;
+    for (int k = 0; k < kMostTurns; ++k) {
+      set_forces(c, load, turn_it);
+      next.rolling = solve_rolling(*next.influence, g, c, options(), k == 0 ? start : &next.rolling);
+      const double before = std::exchange(load, next.rolling.normal.load);
+      if (load_given || !driven || std::abs(load - before) <= kSettled * load) return;
+    }
+    throw Refused(kTotalForce, "forces over the load that comes out do not settle under this approach");
+  }
+
+  bool normal_fails(const Solved& next, const PatchGrid& g, const RollingContact& c) const {
+    try {
+      solve_normal(*next.influence, g, c.gap, c.target, options().normal);
+    } catch (const std::exception&) {
+      return true;
+    }
+    return false;
+  }
+
+  static int border_cells(const Solved& s) {
+    const PatchGrid& g = s.on.grid;
+    int count = 0;
+    for (int i = 0; i < g.nx; ++i)
+      for (int j = 0; j < g.ny; ++j) {
+        const bool ends = (g.nx >= 3 && (i == 0 || i == g.nx - 1)) || (g.ny >= 3 && (j == 0 || j == g.ny - 1));
+        count += ends && s.rolling.normal.pressure[g.index(i, j)] > 0;
+      }
+    return count;
+  }
+
+  Problem& problem_;
+  const Settings& settings_;
+  std::vector<std::string>& remarks_;
+  int tang_;
+};
+
+}  // namespace
+
+void solve(Problem& problem, std::vector<std::string>& remarks) { Drive(problem, remarks).run(); }
+
+}  // namespace railstrata::cntc

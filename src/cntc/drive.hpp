@@ -1,0 +1,15 @@
+#pragma once
+// From the settings of a contact problem to its solution, by the half-space engine with whole cells at the leading
+// edge, the scheme of Kalker and CONTACT.
+#include <string>
+#include <vector>
+
+#include "cntc/problem.hpp"
+
+namespace railstrata::cntc {
+
+/// Solves the problem as it is set: `solved` is the new state. What is taken otherwise than it was asked for is said in
+/// `remarks`. Throws Refused, with CONTACT's code; then there is no solution, and none to go on from.
+void solve(Problem& problem, std::vector<std::string>& remarks);
+
+}  // namespace railstrata::cntc

@@ -1,0 +1,136 @@
+#pragma once
+// A contact problem (ire, icp): what was set, the last solution, and what was refused.
+//
+// Lengths as CONTACT has them: body 1 is the upper one (z > 0, the wheel), body 2 the lower one (the rail); x and y in
+// the contact plane. Settings are SI, but creepages, which stand as they were given: whether they are distances shows
+// when the problem is solved.
+#include <array>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bem/influence_cache.hpp"
+#include "bem/rolling_contact.hpp"
+#include "cntc/units.hpp"
+#include "halfspace/layered.hpp"
+
+namespace railstrata::cntc {
+
+/// Of one call that sets something; what was refused is so until the same call is taken.
+enum class Setting {
+  units = 1,
+  solver,
+  material,
+  friction,
+  grid,
+  gap,
+  normal,
+  creepages,
+  forces,
+  slip,
+  step,
+  speed,
+  layers,
+  blocks,
+  temperature
+};
+
+struct Materials {
+  std::array<HalfSpaceMaterial, 2> body;
+  std::array<std::vector<HalfSpaceLayer>, 2> layers;
+  ThirdBody film;
+};
+
+struct FrictionLaw {
+  double at_rest = 0;
+  FallingFriction falling;
+  int digit = 0;
+};
+
+struct Creepages {
+  double x = 0, y = 0, spin = 0;
+  double length = 1e-3;  ///< m in the unit of length they were given in
+};
+
+/// Parameters as given, SI. number: IPOTCN or IBASE, 0: none yet.
+struct Parameters {
+  int number = 0;
+  int mx = 0, my = 0;
+  std::vector<double> value;
+};
+
+struct Settings {
+  std::map<int, int> flags;  ///< those that were set
+  Materials materials;
+  bool has_materials = false;
+  std::optional<FrictionLaw> friction;
+  Parameters grid, gap;
+  double load = 0;      ///< N
+  double approach = 0;  ///< m
+  Creepages creepages;
+  double relative_x = 0, relative_y = 0;  ///< forces on body 1 over fstat fn
+  std::vector<double> extra_x, extra_y;   ///< in the order of the elements
+  double chi = 0;                         ///< rad
+  std::optional<double> step;             ///< m
+  double speed = 1;                       ///< m/s
+  double tolerance = 1e-5;
+};
+
+struct Hertz {
+  double A = 0, B = 0;  ///< 1/m
+  double a = 0, b = 0;  ///< m
+  double scale = 0;
+};
+
+struct Discretisation {
+  PatchGrid grid;
+  Plane gap;
+  Hertz hertz;
+};
+
+/// A solution in the frame that it was asked for, SI; tractions of `rolling` act on body 2 (the rail).
+struct Solved {
+  Discretisation on;
+  LayeredHalfSpace upper, lower;
+  std::shared_ptr<const InfluenceOperator> influence;
+  RollingSolution rolling;
+  FrictionLaw friction;
+  double speed = 1;
+  double spin = 0;     ///< 1/m, or rad of a shift
+  bool shift = false;  ///< slip and creepages are distances
+  int border_cells = 0;
+};
+
+struct Block {
+  int kind = 0;                 ///< ISUBS
+  std::vector<double> x, y, z;  ///< m, or numbers of columns and rows; z ascending
+  std::array<int, 3> size{0, 0, 0};
+  std::vector<double> table;  ///< 21 columns of size[0] size[1] size[2] values each, SI
+};
+
+struct Refusal {
+  int code = 0;
+  std::string text;
+};
+
+struct Problem {
+  Units units;
+  Settings settings;
+  InfluenceCache cache;
+  std::optional<Solved> solved;
+  bool broken = false;  ///< the last solution failed: there is no state before
+  int cases = 0;
+  std::vector<Block> blocks;
+  double cpu_s = 0, wall_s = 0;
+  std::map<int, Refusal> refused;  ///< by Setting, or by flag
+  Refusal last;
+  std::mutex busy;
+};
+
+/// Flags that were not set have CONTACT's default.
+int flag(const Settings& settings, int code);
+
+}  // namespace railstrata::cntc

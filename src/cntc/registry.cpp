@@ -1,0 +1,108 @@
+#include "cntc/registry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace railstrata::cntc {
+namespace {
+
+std::string joined(std::string folder, const std::string& rest) {
+  if (folder.empty() || (!rest.empty() && rest.front() == '/')) return rest;
+  if (folder.back() != '/') folder += '/';
+  return folder + rest;
+}
+
+bool in_range(int ire, int icp) { return ire >= 1 && ire <= kMostElements && icp >= 1 && icp <= kMostProblems; }
+
+}  // namespace
+
+void Registry::open(std::string_view wrkdir, std::string_view outdir, std::string_view name, MessageFile::To to) {
+  const std::lock_guard lock(mutex_);
+  if (open_) return;
+  open_ = true;
+  std::string folder{wrkdir}, experiment{name.empty() ? "contact_addon" : name};
+  const std::size_t slash = experiment.find_last_of('/');
+  if (slash != std::string::npos) {
+    if (folder.empty()) folder = experiment.substr(0, slash + 1);
+    experiment.erase(0, slash + 1);
+  }
+  const std::string out = outdir.empty() ? folder : joined(folder, std::string(outdir));
+  messages_.set(joined(out, experiment + ".out"), to);
+}
+
+void Registry::make_element(int ire) {
+  if (ire < 1 || ire > kMostElements)
+    throw Refused(kWrongProblem, fmt::format("ire = {} is not 1 to {}", ire, kMostElements));
+  open({}, {}, {}, MessageFile::To::file);  // unless it was called for
+  const std::lock_guard lock(mutex_);
+  auto& element = elements_[static_cast<std::size_t>(ire)];
+  if (!element) element = std::make_unique<Element>();
+}
+
+Problem& Registry::problem(int ire, int icp) {
+  if (!in_range(ire, icp))
+    throw Refused(kWrongProblem, fmt::format("ire = {}, icp = {}: basic contact has ire 1 to {} and icp 1 to {}", ire,
+                                             icp, kMostElements, kMostProblems));
+  make_element(ire);
+  const std::lock_guard lock(mutex_);
+  auto& problem = elements_[static_cast<std::size_t>(ire)]->problems[static_cast<std::size_t>(icp)];
+  if (!problem) problem = std::make_unique<Problem>();
+  return *problem;
+}
+
+Problem* Registry::find(int ire, int icp) {
+  if (!in_range(ire, icp)) return nullptr;
+  const std::lock_guard lock(mutex_);
+  const auto& element = elements_[static_cast<std::size_t>(ire)];
+  return element ? element->problems[static_cast<std::size_t>(icp)].get() : nullptr;
+}
+
+void Registry::remove(int ire) {
+  bool empty = false;
+  {
+    const std::lock_guard lock(mutex_);
+    if (ire >= 1 && ire <= kMostElements) elements_[static_cast<std::size_t>(ire)].reset();
+    empty = std::all_of(elements_.begin(), elements_.end(), [](const auto& e) { return !e; });
+  }
+  if (empty) remove_all();
+}
+
+void Registry::remove_all() {
+  const std::lock_guard lock(mutex_);
+  for (auto& element : elements_) element.reset();
+  open_ = false;
+  last_ = {};
+  messages_.close();
+}
+
+void Registry::tell(int ire, int icp, Problem* problem, const char* call, int code, const std::string& text) {
+  {
+    const std::lock_guard lock(mutex_);  // a second thread on a busy problem is told too
+    if (problem) problem->last = {code, text};
+    last_ = {code, text};
+  }
+  if (print_level < 1) return;
+  const std::string where = icp >= 1 ? fmt::format("ire {}, icp {}", ire, icp) : fmt::format("ire {}", ire);
+  messages_.write(code == 0 ? fmt::format("{}: {}: {}", where, call, text)
+                            : fmt::format("{}: {}: error {}: {}", where, call, code, text));
+}
+
+void Registry::forget(Problem& problem) {
+  const std::lock_guard lock(mutex_);
+  problem.last = {};
+}
+
+Refusal Registry::last(int ire, int icp) {
+  const Problem* problem = find(ire, icp);
+  const std::lock_guard lock(mutex_);
+  return problem ? problem->last : last_;
+}
+
+Registry& registry() {
+  static Registry all;
+  return all;
+}
+
+}  // namespace railstrata::cntc

@@ -1,0 +1,50 @@
+#pragma once
+// The result elements and contact problems of a process, and where messages go.
+#include <array>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "cntc/message_file.hpp"
+#include "cntc/problem.hpp"
+
+namespace railstrata::cntc {
+
+class Registry {
+ public:
+  /// Folders and name as CONTACT takes them: outdir may be relative to wrkdir. The first call counts, until the last
+  /// element is gone.
+  void open(std::string_view wrkdir, std::string_view outdir, std::string_view name, MessageFile::To to);
+  /// Makes a result element of module 3 unless it exists. Throws Refused for a number out of range.
+  void make_element(int ire);
+  /// Makes it too. Throws Refused for numbers out of range.
+  Problem& problem(int ire, int icp);
+  /// Null where there is none.
+  Problem* find(int ire, int icp);
+  void remove(int ire);
+  void remove_all();
+
+  /// Keeps a message of a problem, or of the library, and writes it.
+  void tell(int ire, int icp, Problem* problem, const char* call, int code, const std::string& text);
+  /// The message of a problem that is solved anew.
+  void forget(Problem& problem);
+  Refusal last(int ire, int icp);
+
+  int print_level = 1;
+  int threads = 1;  ///< of one problem; -1: all
+
+ private:
+  struct Element {
+    std::array<std::unique_ptr<Problem>, kMostProblems + 1> problems;
+  };
+  std::mutex mutex_;
+  std::array<std::unique_ptr<Element>, kMostElements + 1> elements_;
+  bool open_ = false;
+  MessageFile messages_;
+  Refusal last_;
+};
+
+Registry& registry();
+
+}  // namespace railstrata::cntc

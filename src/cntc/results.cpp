@@ -1,0 +1,202 @@
+#include "cntc/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cntc/discretise.hpp"
+
+namespace railstrata::cntc {
+namespace {
+
+/// From cells with y fastest to elements with x fastest, times a factor.
+std::vector<double> in_order(const PatchGrid& g, const Plane& cells, double factor) {
+  std::vector<double> out(g.size());
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) out[static_cast<std::size_t>(i + g.nx * j)] = factor * cells[g.index(i, j)];
+  return out;
+}
+
+/// Body 2 minus body 1, tangential.
+PlanePair tangential_displacement(const Solved& s) {
+  const PatchGrid& g = s.on.grid;
+  const TangentialSolution& t = s.rolling.tangential;
+  PlanePair out{Plane(g.size()), Plane(g.size())};
+  s.influence->tangential(t.q_x.data(), t.q_y.data(), out.x.data(), out.y.data(), g.nx);
+  if (!s.influence->couples()) return out;
+  PlanePair by_pressure{Plane(g.size()), Plane(g.size())};
+  s.influence->tangential_from_pressure(s.rolling.normal.pressure.data(), by_pressure.x.data(), by_pressure.y.data(),
+                                        g.nx);
+  add_scaled(out.x, 1, by_pressure.x);
+  add_scaled(out.y, 1, by_pressure.y);
+  return out;
+}
+
+Plane normal_displacement(const Solved& s) {
+  const std::size_t n = s.on.grid.size();
+  const TangentialSolution& t = s.rolling.tangential;
+  Plane out(n), by_traction(n);
+  s.influence->normal(s.rolling.normal.pressure.data(), out.data());
+  if (!s.influence->couples()) return out;
+  s.influence->normal_from_traction(t.q_x.data(), t.q_y.data(), by_traction.data());
+  add_scaled(out, 1, by_traction);
+  return out;
+}
+
+Plane friction_field(const Solved& s) {
+  const TangentialSolution& t = s.rolling.tangential;
+  Plane out(s.on.grid.size(), s.friction.at_rest);
+  if (!s.friction.falling.falls()) return out;
+  for (std::size_t k = 0; k < out.size(); ++k)
+    out[k] *= friction_share(s.friction.falling, {s.speed * std::hypot(t.slip_x[k], t.slip_y[k])}).value;
+  return out;
+}
+
+double combined(double one, double other) { return 0.5 * (one + other); }
+
+std::vector<double> material_numbers(const Problem& p) {
+  const Materials& m = p.settings.materials;
+  const double g1 = m.body[0].shear(), g2 = m.body[1].shear(), n1 = m.body[0].poisson, n2 = m.body[1].poisson;
+  const double shear = 1 / combined(1 / g1, 1 / g2), unit = p.units.area();
+  const double poisson = shear * combined(n1 / g1, n2 / g2);
+  const double difference = 0.25 * shear * ((1 - 2 * n1) / g1 - (1 - 2 * n2) / g2);
+  std::vector<double> out{g1 * unit, g2 * unit, shear * unit, n1, n2, poisson, difference};
+  out.resize(22, 0.0);
+  out[14] = m.film.shear_modulus * unit;
+  out[15] = m.film.thickness / p.units.length;
+  return out;
+}
+
+std::vector<double> friction_numbers(const Problem& p) {
+  const FrictionLaw law = p.settings.friction.value_or(FrictionLaw{});
+  return {static_cast<double>(law.digit), 1, 0, 0, 0, law.at_rest, law.at_rest * law.falling.kinetic_share};
+}
+
+}  // namespace
+
+const Solved& solution(const Problem& p) {
+  if (!p.solved) throw Refused(kOther, "there is no solution: cntc_calculate comes first");
+  return *p.solved;
+}
+
+Grid grid_of(const Problem& p) {
+  const PatchGrid g = p.solved ? p.solved->on.grid : discretise(p.settings).grid;
+  const double length = p.units.length;
+  return {g.nx, g.ny, g.x0 / length, g.y0 / length, g.dx / length, g.dy / length};
+}
+
+std::array<double, 4> forces(const Problem& p) {
+  const Solved& s = solution(p);
+  const PatchGrid& g = s.on.grid;
+  const TangentialSolution& t = s.rolling.tangential;
+  double sum[4] = {0, 0, 0, 0};
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) {
+      const std::size_t k = g.index(i, j);
+      const double p_x = -t.q_x[k], p_y = -t.q_y[k];
+      sum[0] += s.rolling.normal.pressure[k];
+      sum[1] += p_x;
+      sum[2] += p_y;
+      sum[3] += g.x(i) * p_y - g.y(j) * p_x;
+    }
+  const double area = g.cell_area(), body = p.units.body;
+  return {area * sum[0], body * area * sum[1], body * area * sum[2], body * area * sum[3] / p.units.length};
+}
+
+std::array<double, 3> creepages(const Problem& p) {
+  const Solved& s = solution(p);
+  const double body = p.units.body, length = p.units.length, unit = s.shift ? 1 / length : 1;
+  const TangentialSolution& t = s.rolling.tangential;
+  return {body * unit * t.creepage_x, body * unit * t.creepage_y, body * s.spin * (s.shift ? 1 : length)};
+}
+
+double approach(const Problem& p) { return solution(p).rolling.normal.approach / p.units.length; }
+
+std::vector<int> division(const Problem& p) {
+  const Solved& s = solution(p);
+  const PatchGrid& g = s.on.grid;
+  std::vector<int> out(g.size());
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) {
+      const std::size_t k = g.index(i, j);
+      const bool slips = s.rolling.tangential.state[k] == ContactState::slip;
+      const int in_contact = slips ? 2 : 1;
+      out[static_cast<std::size_t>(i + g.nx * j)] = s.rolling.normal.pressure[k] > 0 ? in_contact : 0;
+    }
+  return out;
+}
+
+std::array<double, 3> areas(const Problem& p) {
+  const std::vector<int> all = division(p);
+  const double cell = solution(p).on.grid.cell_area() / p.units.area();
+  const auto stick = static_cast<double>(std::count(all.begin(), all.end(), 1));
+  const auto slip = static_cast<double>(std::count(all.begin(), all.end(), 2));
+  return {(stick + slip) * cell, stick * cell, slip * cell};
+}
+
+double largest_pressure(const Problem& p) {
+  const Plane& all = solution(p).rolling.normal.pressure;
+  return *std::max_element(all.begin(), all.end()) * p.units.area();
+}
+
+double largest_traction(const Problem& p) {
+  const TangentialSolution& t = solution(p).rolling.tangential;
+  double largest = 0;
+  for (std::size_t k = 0; k < t.q_x.size(); ++k) largest = std::max(largest, std::hypot(t.q_x[k], t.q_y[k]));
+  return largest * p.units.area();
+}
+
+std::vector<double> field(const Problem& p, int number) {
+  const Solved& s = solution(p);
+  const PatchGrid& g = s.on.grid;
+  const TangentialSolution& t = s.rolling.tangential;
+  const double stress = p.units.area(), length = 1 / p.units.length, body = p.units.body;
+  // CONTACT divides the slip by its rolling step, which in a shift is 1 mm, whatever the units are.
+  const double slip = body * (s.shift ? 1e3 : 1);
+  switch (number) {
+    case kGap:
+      return in_order(g, s.on.gap, length);
+    case kFrictionField:
+      return in_order(g, friction_field(s), 1);
+    case kTractionX:
+      return in_order(g, t.q_x, -body * stress);
+    case kTractionY:
+      return in_order(g, t.q_y, -body * stress);
+    case kPressure:
+      return in_order(g, s.rolling.normal.pressure, stress);
+    case kDisplacementX:
+      return in_order(g, tangential_displacement(s).x, -length);
+    case kDisplacementY:
+      return in_order(g, tangential_displacement(s).y, -length);
+    case kDisplacementN:
+      return in_order(g, normal_displacement(s), length);
+    case kSlipX:
+      return in_order(g, t.slip_x, slip);
+    case kSlipY:
+      return in_order(g, t.slip_y, slip);
+    default:
+      throw Refused(kOther, fmt::format("field {} is not offered: 1 to 5, 7 to 9, 15 and 16 are", number));
+  }
+}
+
+std::array<double, 10> hertz(const Problem& p) {
+  if (p.settings.grid.number >= 0) throw Refused(kOther, "the contact is not set as a Hertzian one");
+  const Hertz h = p.solved ? p.solved->on.hertz : discretise(p.settings).hertz;
+  const double length = p.units.length, a = h.a / length, b = h.b / length;
+  return {h.A * length, h.B * length, a, b, 2 / ((h.A + h.B) * length), std::sqrt(a * b), h.scale, b, b, a / b};
+}
+
+std::vector<double> parameters(const Problem& p, int task) {
+  const Settings& s = p.settings;
+  if (task == 1) {
+    const double step = p.solved ? p.solved->on.grid.dx : s.step.value_or(std::numeric_limits<double>::quiet_NaN());
+    return {s.speed / p.units.length, s.chi, step / p.units.length, 0, 0, 0};
+  }
+  if (task == 2) return material_numbers(p);
+  if (task == 3) return friction_numbers(p);
+  throw Refused(kOther, fmt::format("cntc_getparameters: task {} does not exist", task));
+}
+
+}  // namespace railstrata::cntc

@@ -1,0 +1,158 @@
+"""contact_addon_linux64.so by ctypes, with the prototypes of CONTACT's Python interface: all by reference."""
+import ctypes
+from ctypes import POINTER, c_char_p, c_double, c_int
+
+import numpy as np
+
+UNITS, P, T, N, F, B, INFLUENCE, ESTIMATE = 1933, 1970, 1972, 1973, 1974, 1971, 1978, 1983
+MM, SIMPACK, SI = 1934, 1935, 1936
+
+# i: int by reference or array; d: double by reference or array; s: text.
+PROTOTYPES = {
+    "cntc_initializefirst": "iiisssiii", "cntc_initializefirst_new": "iiisssiii", "cntc_initialize": "iiiisi",
+    "cntc_readinpfile": "iisii", "cntc_setglobalflags": "iii", "cntc_setflags": "iiiii", "cntc_setmetadata": "iiiid",
+    "cntc_setsolverflags": "iiiiiid", "cntc_setmaterialparameters": "iiiid", "cntc_settemperaturedata": "iiiid",
+    "cntc_settimestep": "iid", "cntc_setreferencevelocity": "iid", "cntc_setrollingstepsize": "iidd",
+    "cntc_setfrictionmethod": "iiiid", "cntc_sethertzcontact": "iiiid", "cntc_setpotcontact": "iiiid",
+    "cntc_setverticalforce": "id", "cntc_setpenetration": "iid", "cntc_setnormalforce": "iid",
+    "cntc_setundeformeddistc": "iiiid", "cntc_setcreepages": "iiddd", "cntc_setextrarigidslip": "iiidd",
+    "cntc_settangentialforces": "iidd", "cntc_settrackdimensions": "iiid", "cntc_setprofileinputfname": "isiiiid",
+    "cntc_setprofileinputvalues": "iidiiid", "cntc_setwheelsetdimensions": "iiid", "cntc_setwheelsetposition": "iiid",
+    "cntc_setwheelsetvelocity": "iiid", "cntc_setwheelsetflexibility": "iiid", "subs_addblock": "iiiiiiiddd",
+    "cntc_calculate": "iii", "subs_calculate": "iii", "cntc_getflags": "iiiii", "cntc_getparameters": "iiiid",
+    "cntc_getprofilevalues": "iiiiidid", "cntc_getprofilevalues_new": "iiiiidid", "cntc_getwheelsetposition": "iid",
+    "cntc_getwheelsetvelocity": "iid", "cntc_getnumcontactpatches": "ii", "cntc_getcontactlocation": "iiid",
+    "cntc_getreferencevelocity": "iid", "cntc_gethertzcontact": "iiid", "cntc_getnumelements": "iiii",
+    "cntc_getgriddiscretization": "iidd", "cntc_getpotcontact": "iiid", "cntc_getpenetration": "iid",
+    "cntc_getcreepages": "iiddd", "cntc_getcontactforces": "iidddd", "cntc_getglobalforces": "iiid",
+    "cntc_getcontactpatchareas": "iiddd", "cntc_getelementdivision": "iiii", "cntc_getmaximumpressure": "iid",
+    "cntc_getmaximumtraction": "iid", "cntc_getmaximumtemperature": "iidd", "cntc_getfielddata": "iiiid",
+    "cntc_gettractions": "iiiddd", "cntc_getmicroslip": "iiidd", "cntc_getdisplacements": "iiiddd",
+    "cntc_getsensitivities": "iiiid", "cntc_getcalculationtime": "iidd", "cntc_resetcalculationtime": "ii",
+    "subs_getblocksize": "iiiiii", "subs_getresults": "iiiiiid", "cntc_finalize": "i", "cntc_finalizelast": "",
+    "rscntc_setlayers": "iiiiddd", "rscntc_lasterror": "iiisi",
+}
+TYPES = {"i": POINTER(c_int), "d": POINTER(c_double), "s": c_char_p}
+
+
+def load(path):
+    library = ctypes.CDLL(path)
+    for name, arguments in PROTOTYPES.items():
+        function = getattr(library, name)
+        function.restype = None
+        function.argtypes = [TYPES[letter] for letter in arguments]
+    return library
+
+
+class Contact:
+    """One contact problem. Settings take plain numbers and lists."""
+
+    def __init__(self, library, ire=1, icp=1, units=MM):
+        self.library, self.ire, self.icp = library, ire, icp
+        self.flag(UNITS, units)
+
+    def call(self, name, *arguments):
+        function = getattr(self.library, name)
+        ready = []
+        for value, letter in zip((self.ire, self.icp, *arguments), PROTOTYPES[name]):
+            kind = {"i": c_int, "d": c_double}[letter]
+            if isinstance(value, np.ndarray):
+                ready.append(value.ctypes.data_as(POINTER(kind)))
+            elif isinstance(value, (list, tuple)):
+                ready.append((kind * max(1, len(value)))(*value))
+            else:
+                ready.append(value if isinstance(value, ctypes._SimpleCData) else kind(value))
+        return function(*ready)
+
+    def flag(self, *pairs):
+        self.call("cntc_setflags", len(pairs) // 2, list(pairs[::2]), list(pairs[1::2]))
+
+    def flags(self, **values):
+        names = {"P": P, "T": T, "N": N, "F": F, "B": B, "I": ESTIMATE, "C": INFLUENCE}
+        for name, value in values.items():
+            self.flag(names[name], value)
+
+    def set(self, name, number, values):
+        self.call(name, number, len(values), [float(v) for v in values])
+
+    def materials(self, nu1, nu2, g1, g2):
+        self.set("cntc_setmaterialparameters", 0, [nu1, nu2, g1, g2])
+
+    def friction(self, f):
+        self.set("cntc_setfrictionmethod", 0, [f, f])
+
+    def hertz(self, ipotcn, values):
+        self.set("cntc_sethertzcontact", ipotcn, values)
+
+    def grid(self, ipotcn, values):
+        self.set("cntc_setpotcontact", ipotcn, values)
+
+    def gap(self, ibase, values):
+        self.set("cntc_setundeformeddistc", ibase, values)
+
+    def calculate(self):
+        error = c_int(77)
+        self.call("cntc_calculate", error)
+        return error.value
+
+    def error(self):
+        code, out = c_int(), ctypes.create_string_buffer(2000)
+        self.library.rscntc_lasterror(c_int(self.ire), c_int(self.icp), code, out, c_int(len(out)))
+        return code.value, out.value.decode()
+
+    def numbers(self, name, count):
+        out = [c_double() for _ in range(count)]
+        self.call(name, *out)
+        return [v.value for v in out]
+
+    def forces(self):
+        return self.numbers("cntc_getcontactforces", 4)
+
+    def creepages(self):
+        return self.numbers("cntc_getcreepages", 3)
+
+    def approach(self):
+        return self.numbers("cntc_getpenetration", 1)[0]
+
+    def p_max(self):
+        return self.numbers("cntc_getmaximumpressure", 1)[0]
+
+    def tau_max(self):
+        return self.numbers("cntc_getmaximumtraction", 1)[0]
+
+    def size(self):
+        mx, my = c_int(), c_int()
+        self.call("cntc_getnumelements", mx, my)
+        return mx.value, my.value
+
+    def division(self):
+        mx, my = self.size()
+        out = np.zeros(mx * my, dtype=np.int32)
+        self.call("cntc_getelementdivision", mx * my, out)
+        return out.reshape(my, mx)
+
+    def field(self, number):
+        mx, my = self.size()
+        out = np.zeros(mx * my)
+        self.call("cntc_getfielddata", number, mx * my, out)
+        return out.reshape(my, mx)
+
+    def counts(self):
+        """Elements in contact, in slip."""
+        division = self.division()
+        return int((division > 0).sum()), int((division == 2).sum())
+
+    def block(self, isubs, x, y, z, number=1):
+        self.call("subs_addblock", number, isubs, len(x), len(y), len(z), [float(v) for v in x],
+                  [float(v) for v in y], [float(v) for v in z])
+
+    def stresses(self, number=1):
+        """Columns 1 to 21 of a block, (columns, z, y, x)."""
+        error, size = c_int(77), [c_int(), c_int(), c_int()]
+        self.call("subs_calculate", error)
+        assert error.value == 0, self.error()
+        self.call("subs_getblocksize", number, *size)
+        nx, ny, nz = (s.value for s in size)
+        out = np.zeros((21, nz, ny, nx))
+        self.call("subs_getresults", number, nx * ny * nz, 21, list(range(1, 22)), out)
+        return out
