@@ -6,6 +6,13 @@
 namespace railstrata {
 namespace {
 
+/// The theorems of shakedown judge elastic stresses.
+void require_elastic_run(const LoadedCase& loaded) {
+  if (!loaded.spec.run.plasticity) return;
+  throw CaseError("shakedown is judged by the elastic stresses of a case, and run.plasticity = true asks for others",
+                  "leave run.plasticity out; `railstrata run` follows yielding itself", loaded.file.string());
+}
+
 /// Without a strength there is nothing to hold the stresses against.
 void require_strength(const LoadedCase& loaded) {
   if (strength_given(loaded.spec, BodyId::rail) || strength_given(loaded.spec, BodyId::wheel)) return;
@@ -20,6 +27,7 @@ void require_strength(const LoadedCase& loaded) {
 ExitCode command_shakedown(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
   require_strength(loaded);
+  if (options.shakedown.engine == "fem") require_elastic_run(loaded);
   CommandOptions solve = options;
   solve.out = output_folder_of(options, loaded, "-shakedown");
   solve.shakedown.maps = true;

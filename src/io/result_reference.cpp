@@ -192,7 +192,8 @@ std::string results_reference_markdown() {
       "`title` is the case's; `state` says of a transient which of its states this is; of `run`, `engine` is `fem`\nor "
       "`bem` and `commit` the program's.\n" +
       std::string(kRoundOff) + numbers_markdown("");
-  for (const std::string_view group : {"contact", "damage", "shakedown/factors", "layers", "energy", "run"}) {
+  for (const std::string_view group :
+       {"contact", "damage", "shakedown/factors", "layers", "plastic", "energy", "run"}) {
     out += fmt::format("\n## {}\n", group) + numbers_markdown(group);
     if (group == "contact") out += std::string(kSeveralPatches) + stress_markdown();
   }

@@ -72,6 +72,7 @@ Json summary_json(const Summary& s) {
     out["fatigue"] = fatigue_json(s);
     add_numbers(kLayersGroup, s, out[kLayersGroup]);
   }
+  if (std::isfinite(s.plastic.strain)) add_numbers("plastic", s, out["plastic"]);
   add_numbers("energy", s, out["energy"]);
   Json& run = out["run"];
   run["engine"] = s.run.engine;

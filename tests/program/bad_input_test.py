@@ -50,8 +50,8 @@ class InTheCase(Refusal):
         rc, _, err = railstrata("check", self.case(layers))
         self.assertEqual(rc, 2)
         self.assertRegex(err,
-                         r"^error: layer thicker than the head: 30 mm of layers, the head carries \d+\.\d\d mm\n    "
-                         r"remedy: make the layers thinner\n$")
+                         r"(?m)^error: layer thicker than the head: 30 mm of layers, the head carries \d+\.\d\d mm\n"
+                         r"    remedy: make the layers thinner\n\Z")
 
     def test_a_wheel_that_misses_the_rail(self):
         self.answers('[geometry]\ngauge = "1.7 m"\n',
