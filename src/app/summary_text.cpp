@@ -147,7 +147,11 @@ std::string shakedown_text(const Summary& s) {
 std::string lasts_text(const Summary& s) {
   if (s.shakedown.bodies.empty()) return {};
   std::string why;
-  for (const Verdict v : fails_by(s)) why += fmt::format("{}{}", why.empty() ? "" : "; ", words_of(v).words);
+  const std::vector<Verdict> failing = fails_by(s);
+  if (failing == std::vector{Verdict::one_track})
+    return fmt::format("  {}in one track only: wheels that wander sideways make it yield again and again\n",
+                       padded("does it last?", 24));
+  for (const Verdict v : failing) why += fmt::format("{}{}", why.empty() ? "" : "; ", words_of(v).words);
   const std::string yes = fmt::format("yes: {}", words_of(verdict_of(s.shakedown)).words);
   return fmt::format("  {}{}\n", padded("does it last?", 24), why.empty() ? yes : "no: " + why);
 }

@@ -192,8 +192,8 @@ void note_hardening(const CaseSpec& spec, std::vector<std::string>& notes) {
                                                              : nullptr;
     if (key)
       notes.push_back(
-          fmt::format("{}.{} has no effect on contact: both engines compute elastically without run.plasticity = "
-                      "true (finite elements); `railstrata material` drives the law",
+          fmt::format("{}.{}: `run` and `bem` compute elastically without run.plasticity = true (finite elements); "
+                      "`railstrata passes` and `railstrata material` take it",
                       table, key));
   };
   look("material.rail", spec.rail_material.strength);
