@@ -5,6 +5,7 @@
 //          under the GPL too
 //   kiss   kiss FFT as Eigen has it, under MPL-2 and BSD: two to six times slower, no condition on binaries
 //
+// Room steady calls FFTW itself so far: a binary without the condition has to leave `passes` out.
 // The build chooses (-DRAILSTRATA_FFT). Transforms are not scaled; each has the same bits every time.
 #include <complex>
 #include <cstddef>
