@@ -12,6 +12,7 @@
 #include "python/core/bind.hpp"
 #include "runs/half_space_need.hpp"
 #include "runs/solve_half_space.hpp"
+#include "runs/solve_settings.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "runs/write_transient.hpp"
 
@@ -37,23 +38,8 @@ struct Wanted {
   bool stresses = true, single_track = false, maps = false;
 };
 
-/// The number of threads of the calling thread, for as long as this lives; 0: as it is.
-class ThreadsOfCaller {
- public:
-  explicit ThreadsOfCaller(int wanted) : before_(max_threads()) {
-    if (wanted > 0) set_threads(wanted);
-  }
-  ~ThreadsOfCaller() { set_threads(before_); }
-  ThreadsOfCaller(const ThreadsOfCaller&) = delete;
-  ThreadsOfCaller& operator=(const ThreadsOfCaller&) = delete;
-
- private:
-  int before_;
-};
-
 BemOptions options_of(const Wanted& wanted) {
-  if (!(wanted.cell >= kSmallestCell && wanted.cell <= kLargestCell))
-    throw CaseError("cell is out of range", "give a length from 0.02e-3 to 5e-3 m");
+  require_cell(wanted.cell);
   if (wanted.threads < 0) throw CaseError("threads is negative", "give 0 for as many as OpenMP has");
   BemOptions options;
   options.cell = wanted.cell;

@@ -15,6 +15,7 @@
 #include "model/model.hpp"
 #include "post/bem_summary.hpp"
 #include "runs/solve_half_space.hpp"
+#include "runs/solve_settings.hpp"
 
 using namespace railstrata;
 
@@ -204,8 +205,7 @@ void rs_contact_free(rs_contact* contact) { delete contact; }
 int rs_set_cell(rs_contact* contact, double cell, rs_error* error) {
   return capi::guarded(error, [&] {
     require(contact);
-    if (!(cell >= kSmallestCell && cell <= kLargestCell))
-      throw CaseError(fmt::format("a cell of {:g} m is out of range", cell), "give a length from 0.02e-3 to 5e-3 m");
+    require_cell(cell);
     contact->options.cell = cell;
   });
 }
