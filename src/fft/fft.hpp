@@ -1,0 +1,63 @@
+#pragma once
+// Fourier transforms of rows, of groups of columns and of planes: the one place that knows whose FFT it is. Two of
+// them:
+//
+//   fftw   FFTW [FrigoJohnson2005], the default. Under the GNU GPL: whoever passes on a binary with it passes that on
+//          under the GPL too
+//   kiss   kiss FFT as Eigen has it, under MPL-2 and BSD: two to six times slower, no condition on binaries
+//
+// The build chooses (-DRAILSTRATA_FFT). Transforms are not scaled; each has the same bits every time.
+#include <complex>
+#include <cstddef>
+#include <memory>
+
+namespace railstrata {
+
+/// Smallest good length >= n, even. The same for all of them: lengths are periods, which show in results.
+int good_fft_length(int n);
+
+/// Numbers aligned as transforms like it, from malloc's kind of memory; null frees nothing.
+std::complex<double>* fft_alloc(std::size_t n);
+void fft_free(std::complex<double>* numbers);
+
+/// Transforms of one pair of lengths. Any number of threads may use one at a time, each with arrays of its own. An
+/// input may be changed, and must not overlap the output.
+class Fft {
+ public:
+  /// rows: length of the real rows, even; columns: of the complex columns, which come `together` at a time.
+  Fft(int rows, int columns, int together);
+  ~Fft();
+  Fft(const Fft&) = delete;
+  Fft& operator=(const Fft&) = delete;
+
+  /// rows real numbers -> rows/2 + 1 complex ones, and back (times rows).
+  void row_forward(double* row, std::complex<double>* wave) const;
+  void row_backward(std::complex<double>* wave, double* row) const;
+  /// Columns one after the other, `together` of them; backward times columns.
+  void columns_forward(std::complex<double>* in, std::complex<double>* out) const;
+  void columns_backward(std::complex<double>* in, std::complex<double>* out) const;
+
+ private:
+  struct Plans;
+  std::unique_ptr<Plans> plans_;
+};
+
+/// Transforms of a real plane, nx rows of ny numbers, any lengths; threads and memory as Fft's.
+class RealPlaneFft {
+ public:
+  RealPlaneFft(int nx, int ny);
+  ~RealPlaneFft();
+  RealPlaneFft(const RealPlaneFft&) = delete;
+  RealPlaneFft& operator=(const RealPlaneFft&) = delete;
+
+  /// nx rows of ny numbers -> nx rows of ny/2 + 1 complex ones, and back (times nx ny). Neither needs an alignment.
+  void forward(const double* plane, std::complex<double>* waves) const;
+  /// Changes `waves`.
+  void backward(std::complex<double>* waves, double* plane) const;
+
+ private:
+  struct Plans;
+  std::unique_ptr<Plans> plans_;
+};
+
+}  // namespace railstrata

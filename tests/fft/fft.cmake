@@ -1,0 +1,7 @@
+# kiss, which the explorer's engine takes, is tested whatever the build takes.
+if(NOT RAILSTRATA_FFT STREQUAL "kiss")
+  set(room ${CMAKE_SOURCE_DIR}/src/fft)
+  add_executable(test_fft_kiss ${CMAKE_CURRENT_SOURCE_DIR}/fft/fft_test.cpp ${room}/fft_kiss.cpp ${room}/fft_lengths.cpp)
+  target_link_libraries(test_fft_kiss PRIVATE railstrata_flags Eigen3::Eigen GTest::gtest_main)
+  gtest_discover_tests(test_fft_kiss TEST_PREFIX fft:kiss: DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60)
+endif()
