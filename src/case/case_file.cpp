@@ -152,6 +152,8 @@ LoadedCase parse_case(const std::string& text, const std::filesystem::path& file
     loaded.notes.push_back(fmt::format("the case file {} is empty: the default case is computed{}", file.string(),
                                        overrides.empty() ? "" : ", but for what --set gives"));
   for (std::string& note : idle_settings(loaded.spec)) loaded.notes.push_back(std::move(note));
+  loaded.elastic_notes = unread_hardening(loaded.spec);
+  loaded.static_notes = void_drive(loaded.spec, source);
   return loaded;
 }
 

@@ -16,6 +16,8 @@ struct LoadedCase {
   std::vector<std::string> overrides;         ///< "key=value", as given
   std::string resolved_toml;                  ///< every option with its value: reads back to the same spec, bit for bit
   std::vector<std::string> notes;             ///< what is allowed and yet worth saying
+  std::vector<std::string> elastic_notes;     ///< the same where nothing yields: laws that are not read
+  std::vector<std::string> static_notes;      ///< the same where run.rolling counts: what its false makes void
   std::vector<std::filesystem::path> inputs;  ///< every file that went in: the case and the profile files
   std::vector<Diagnostic> not_in_fem;         ///< what the finite element engine refuses (case/engine_scope.hpp)
   /// Folder against which relative profile names are understood.

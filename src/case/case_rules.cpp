@@ -183,25 +183,6 @@ void check_layers(const CaseSpec& spec, CaseSource& source) {
   }
 }
 
-/// Cases are computed elastically: what only a law of yielding reads must not go by unsaid.
-void note_hardening(const CaseSpec& spec, std::vector<std::string>& notes) {
-  const auto look = [&](const std::string& table, const StrengthSpec& s) {
-    const char* const key = !s.hardening.empty()             ? "hardening"
-                            : s.isotropic_hardening          ? "isotropic_hardening"
-                            : !s.kinematic_hardening.empty() ? "kinematic_hardening"
-                                                             : nullptr;
-    if (key)
-      notes.push_back(
-          fmt::format("{}.{}: `run` and `bem` compute elastically without run.plasticity = true (finite elements); "
-                      "`railstrata passes` and `railstrata material` take it",
-                      table, key));
-  };
-  look("material.rail", spec.rail_material.strength);
-  look("material.wheel", spec.wheel_material.strength);
-  for (std::size_t i = 0; i < spec.layers.size(); ++i)
-    look(fmt::format("layer.{}", i), spec.layers[i].material.strength);
-}
-
 void check_plasticity(const CaseSpec& spec, CaseSource& source) {
   if (!spec.run.plasticity) return;
   const auto refuse = [&](bool asked, const char* key, const char* why, const char* remedy) {
@@ -212,16 +193,28 @@ void check_plasticity(const CaseSpec& spec, CaseSource& source) {
          "elements with one point stay too stiff after yield", "mesh.element = \"full\"");
   refuse(spec.run.time_step_method == TimeStepMethod::local, "run.time_step_method",
          "rows with inner steps keep no plastic strain", "run.time_step_method = \"mass_scaling\" or \"auto\"");
-  const char* const kStress = "a run that yields starts free of stress";
-  const char* const kWithout = "take it out, or run.plasticity = false";
-  const auto initial = [&](const std::string& table, const StrengthSpec& s) {
-    refuse(!s.initial_stress.empty(), (table + ".initial_stress").c_str(), kStress, kWithout);
-    refuse(!s.initial_stress_table.empty(), (table + ".initial_stress_table").c_str(), kStress, kWithout);
+}
+
+void check_device(const CaseSpec& spec, CaseSource& source) {
+  if (spec.run.device == ComputeDevice::cpu || !source.sound({"run.device"})) return;
+  const auto refuse = [&](bool asked, const char* what) {
+    if (asked)
+      source.complain("run.device", fmt::format("run.device: a device takes steps without {} only", what),
+                      "run.device = \"cpu\"");
   };
-  initial("material.rail", spec.rail_material.strength);
-  initial("material.wheel", spec.wheel_material.strength);
-  for (std::size_t i = 0; i < spec.layers.size(); ++i)
-    initial(fmt::format("layer.{}", i), spec.layers[i].material.strength);
+  refuse(spec.run.time_step_method == TimeStepMethod::local, "run.time_step_method = \"local\"");
+  refuse(spec.run.plasticity, "run.plasticity = true");
+}
+
+void check_passes(const CaseSpec& spec, CaseSource& source) {
+  if (!source.sound({"passes.traction_coefficients", "drive.friction_coefficient"})) return;
+  for (const double traction : spec.passes.traction_coefficients)
+    if (std::abs(traction) >= spec.drive.friction_coefficient && traction != 0)
+      return source.complain("passes.traction_coefficients",
+                             fmt::format("passes.traction_coefficients: {} must be below drive.friction_coefficient = "
+                                         "{} in magnitude",
+                                         traction, spec.drive.friction_coefficient),
+                             "the wheel would slide: lower the traction or raise the friction");
 }
 
 }  // namespace
@@ -240,6 +233,8 @@ void check_case_rules(const CaseSpec& spec, CaseSource& source) {
   check_layers(spec, source);
   check_strengths(spec, source);
   check_plasticity(spec, source);
+  check_device(spec, source);
+  check_passes(spec, source);
   check_loads(spec, source);
 }
 
@@ -275,9 +270,55 @@ std::vector<std::string> idle_settings(const CaseSpec& spec) {
        "geometry.block_width", "geometry.rail_shape = \"block\"");
   idle(spec.geometry.rail_shape != RailShape::block && spec.geometry.block_height != defaults.geometry.block_height,
        "geometry.block_height", "geometry.rail_shape = \"block\"");
-  if (!spec.run.plasticity) note_hardening(spec, notes);
+  idle(!spec.run.rolling && spec.run.device != ComputeDevice::cpu, "run.device", "run.rolling = true");
   idle(!spec.run.plasticity && spec.run.plastic_depth.has_value(), "run.plastic_depth", "run.plasticity = true");
   idle(!spec.run.plasticity && spec.run.plastic_width.has_value(), "run.plastic_width", "run.plasticity = true");
+  return notes;
+}
+
+std::vector<std::string> void_drive(const CaseSpec& spec, const CaseSource& source) {
+  std::vector<std::string> notes;
+  if (spec.run.rolling || spec.transient.kind == TransientKind::shift) return notes;
+  const auto is_void = [&](bool given, const char* key) {
+    if (given)
+      notes.push_back(
+          fmt::format("{} has no effect: run.rolling = false presses the wheel on without friction; take "
+                      "it out, or set run.rolling = true",
+                      key));
+  };
+  const DriveSpec& d = spec.drive;
+  is_void(d.creepage.has_value(), "drive.creepage");
+  const char* const traction =
+      source.has("drive.tractive_force") ? "drive.tractive_force" : "drive.traction_coefficient";
+  is_void(d.traction().value_or(0) != 0 &&
+              (d.traction_coefficient != DriveSpec{}.traction_coefficient || source.has_origin(traction)),
+          traction);
+  is_void(d.lateral_creepage.has_value(), "drive.lateral_creepage");
+  is_void(d.lateral_traction_coefficient.has_value(), "drive.lateral_traction_coefficient");
+  is_void(d.spin.has_value(), "drive.spin");
+  const std::vector<double>& passes = spec.passes.traction_coefficients;
+  is_void(std::any_of(passes.begin(), passes.end(), [](double t) { return t != 0; }), "passes.traction_coefficients");
+  return notes;
+}
+
+std::vector<std::string> unread_hardening(const CaseSpec& spec) {
+  std::vector<std::string> notes;
+  if (spec.run.plasticity) return notes;
+  const auto look = [&](const std::string& table, const StrengthSpec& s) {
+    const char* const key = !s.hardening.empty()             ? "hardening"
+                            : s.isotropic_hardening          ? "isotropic_hardening"
+                            : !s.kinematic_hardening.empty() ? "kinematic_hardening"
+                                                             : nullptr;
+    if (key)
+      notes.push_back(
+          fmt::format("{}.{}: `run` and `bem` compute elastically without run.plasticity = true (finite elements); "
+                      "`railstrata passes` and `railstrata material` take it",
+                      table, key));
+  };
+  look("material.rail", spec.rail_material.strength);
+  look("material.wheel", spec.wheel_material.strength);
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    look(fmt::format("layer.{}", i), spec.layers[i].material.strength);
   return notes;
 }
 

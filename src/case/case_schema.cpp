@@ -7,6 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include "case/option_table.hpp"
+#include "damage/grades.hpp"
+#include "geometry/profile_names.hpp"
+#include "material/hardening_sets.hpp"
 
 namespace railstrata {
 namespace {
@@ -135,6 +138,34 @@ std::string more_about(const OptionTable& table) {
   return "";
 }
 
+/// Names that a text may have besides files of the user's own.
+std::vector<std::string> known_names(std::string_view key) {
+  std::vector<std::string> out;
+  if (key == "rail_profile") out = builtin_profile_names(ProfileKind::rail);
+  if (key == "wheel_profile") out = builtin_profile_names(ProfileKind::wheel);
+  if (key == "grade")
+    for (const Grade& grade : grades()) out.emplace_back(grade.name);
+  if (key == "hardening")
+    for (const HardeningSet& set : hardening_sets()) out.emplace_back(set.name);
+  return out;
+}
+
+CaseKey key_of(const OptionTable& table, const Option& option, CaseSpec& spec) {
+  CaseKey out;
+  out.key = fmt::format("{}{}.{}", table.name, table.repeated ? ".0" : "", option.key);
+  out.doc = option.doc;
+  out.preset = default_text(table, option, spec);
+  out.allowed = option.choices.empty() ? describe(option.range, option.dimension)
+                                       : fmt::format("{}", fmt::join(words_of(option), ", "));
+  const Slot slot = option.slot(spec, 0);
+  if (std::holds_alternative<bool*>(slot)) out.values = {"true", "false"};
+  if (std::holds_alternative<std::string*>(slot)) out.values = known_names(option.key);
+  if (!option.choices.empty()) out.values = words_of(option);
+  if (std::holds_alternative<double*>(slot) || std::holds_alternative<std::optional<double>*>(slot))
+    out.units = units_of(option.dimension);
+  return out;
+}
+
 }  // namespace
 
 std::string case_json_schema() {
@@ -156,6 +187,14 @@ std::string case_json_schema() {
     }
   }
   return root.dump(2) + "\n";
+}
+
+std::vector<CaseKey> case_keys() {
+  CaseSpec spec = one_of_each();
+  std::vector<CaseKey> out;
+  for (const OptionTable& table : case_tables())
+    for (const Option& option : table.options) out.push_back(key_of(table, option, spec));
+  return out;
 }
 
 std::string case_reference_markdown() {

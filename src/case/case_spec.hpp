@@ -29,6 +29,9 @@ enum class TimeStepMethod { automatic, uniform, mass_scaling, local };
 /// Of the element arithmetic while rolling; nodal values and the static preload stay double.
 enum class ArithmeticPrecision { double_precision, single_precision };
 
+/// Where the fields of a rolling are computed (docs/gpu.md). emulated: the card's kernels on the processor, for tests.
+enum class ComputeDevice { cpu, gpu, emulated };
+
 /// Where the half-space engine takes the leading edge of the patch (bem/leading_edge.hpp).
 enum class LeadingEdge {
   sub_cell,   ///< inside a cell, told by the gap ahead of it
@@ -163,6 +166,7 @@ struct RunSpec {
   double mass_scaling_step =
       1.0;  ///< wanted step of thin rows of elements, in element sizes over the matrix's pressure wave speed
   ArithmeticPrecision precision = ArithmeticPrecision::double_precision;
+  ComputeDevice device = ComputeDevice::cpu;
   double preload_tolerance = 1e-6;                     ///< relative residual of the static equilibrium
   double history_interval = 0.2e-3;                    ///< m of rolling between rows of history.csv
   bool rolling = true;                                 ///< false: stop after the static preload
@@ -218,6 +222,15 @@ struct CollectiveSpec {
   WearLaw wear_law = WearLaw::usfd;
 };
 
+/// Passes over a rail that yields (`railstrata passes`); lists begin again after their last value.
+struct PassesSpec {
+  std::vector<double> lateral_positions;      ///< m, of pass 1, 2, …, positive to the field side; empty: 0
+  std::optional<double> lateral_deviation;    ///< m, of a normal distribution about them, cut at three of it
+  int lateral_seed = 1;                       ///< of its random numbers
+  std::vector<double> traction_coefficients;  ///< of pass 1, 2, …; empty: that of the drive
+  std::optional<double> ductility;            ///< net plastic strain that the material bears
+};
+
 struct OutputSpec {
   bool volume = true;        ///< VTU of the fine zone
   bool patch_series = true;  ///< VTP series of the patch during the rolling, PVD
@@ -240,6 +253,7 @@ struct CaseSpec {
   TransientSpec transient;
   std::vector<LoadSpec> loads;
   CollectiveSpec collective;
+  PassesSpec passes;
   OutputSpec output;
 };
 

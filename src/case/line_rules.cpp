@@ -18,6 +18,10 @@ class Rules {
     check_surfaces();
     check_drive();
     check_transient();
+    refuse(!spec_.passes.lateral_positions.empty(), "passes.lateral_positions", "is the same at every place across",
+           "leave it out, or give contact = \"point\"");
+    refuse(spec_.passes.lateral_deviation.has_value(), "passes.lateral_deviation", "is the same at every place across",
+           "leave it out, or give contact = \"point\"");
   }
 
  private:

@@ -16,17 +16,33 @@ namespace railstrata {
 
 struct MaterialPathTable {
   MaterialPath path;
-  std::vector<int> lines;  ///< of the points
+  std::filesystem::path file;  ///< empty: the points were given as numbers
+  std::vector<int> lines;      ///< of the points; of numbers their rows, the first one is 0
+  /// "FILE:LINE", or "row ROW".
+  std::string where(std::size_t point) const;
 };
 
 /// `absent`: what a component without a column has at zero. Of a strain path (`absent` strain) there are strains alone.
 /// Throws CaseError with file, line and remedy, as all of this header.
 MaterialPathTable read_material_path(const std::string& text, const std::filesystem::path& file, Prescribed absent);
 
+/// A component of a path as numbers: "e_xx" [-], "s_xy" [Pa]; all of one length.
+struct PathColumn {
+  std::string name;
+  std::vector<double> values;
+};
+/// The same from numbers.
+MaterialPathTable material_path_of(const std::vector<PathColumn>& columns, Prescribed absent);
+
 enum class TestCurve { curve, amplitudes };
 
-/// Plastic strain is the total one less the stress over `young` [Pa].
+/// Plastic strain is the total one less the stress over `young` [Pa]. Columns of other words are not read; `notes` says
+/// so, and that amplitudes are meant where the names do not.
 std::vector<CurvePoint> read_test_curve(const std::string& text, const std::filesystem::path& file, TestCurve kind,
-                                        double young);
+                                        double young, std::vector<std::string>* notes = nullptr);
+
+/// The same from numbers, of one length; plastic: the strains are plastic ones already.
+std::vector<CurvePoint> test_curve_of(const std::vector<double>& strain, const std::vector<double>& stress,
+                                      bool plastic, TestCurve kind, double young);
 
 }  // namespace railstrata

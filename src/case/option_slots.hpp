@@ -8,11 +8,17 @@
 
 namespace railstrata::option_slot {
 
+/// A list or an optional of rows that are told by their columns.
+template <class T>
+concept HasRows = requires(typename T::value_type& row) {
+  columns(row);
+};
+
 template <class T>
 Slot slot_of(T& member) {
   if constexpr (std::is_enum_v<T>)
     return ChoiceSlot(member);
-  else if constexpr (requires(typename T::value_type & row) { columns(row); })  // of a list or an optional
+  else if constexpr (HasRows<T>)
     return RowsSlot(member);
   else
     return &member;

@@ -538,6 +538,9 @@ OptionTable run_table() {
        choice_at<&C::run, &R::precision>(
            "precision", "Element arithmetic while rolling; nodal values and the static preload are always double",
            {{"double", ArithmeticPrecision::double_precision}, {"single", ArithmeticPrecision::single_precision}}),
+       choice_at<&C::run, &R::device>(
+           "device", "Where steps of finite elements are computed (docs/gpu.md); emulated is for tests",
+           {{"cpu", ComputeDevice::cpu}, {"gpu", ComputeDevice::gpu}, {"emulated", ComputeDevice::emulated}}),
        {"preload_tolerance",
         at<&C::run, &R::preload_tolerance>,
         "Relative residual of the static equilibrium",
@@ -549,11 +552,13 @@ OptionTable run_table() {
        {"plasticity", at<&C::run, &R::plasticity>,
         "Finite elements: materials that say a strength or a hardening yield; the half-space engine stays elastic"},
        {"plastic_depth", at<&C::run, &R::plastic_depth>,
-        "Depth of the box under the path in which elements may yield; none: 2.5 times Hertz's larger half-axis",
+        "Depth of a box under the path whose elements follow the law of yielding from the start; without a box those "
+        "that come near yielding do, as they do outside of one",
         kLength, above(0, 1)},
        {"plastic_width", at<&C::run, &R::plastic_width>,
-        "Its reach to either side of the contact point; none: 1.6 times Hertz's half-width and two elements", kLength,
-        above(0, 1)}}};
+        "Its reach to either side of the contact point; of a box that is given by one of the two, the depth is 2.5 "
+        "times Hertz's larger half-axis, the reach 1.6 times his half-width and two elements",
+        kLength, above(0, 1)}}};
 }
 
 OptionTable bem_table() {
@@ -656,6 +661,34 @@ OptionTable transient_table() {
   return out;
 }
 
+bool scatters(const CaseSpec& spec, std::size_t) { return spec.passes.lateral_deviation.has_value(); }
+
+OptionTable passes_table() {
+  using P = PassesSpec;
+  return {"passes",
+          "Passes over a rail that yields (`railstrata passes`); lists begin again after their last value",
+          {{"lateral_positions",
+            at<&C::passes, &P::lateral_positions>,
+            "Of the wheel in pass 1, 2, …, positive to the field side; not given: every pass at 0",
+            kLength,
+            {-1, 1}},
+           {"lateral_deviation", at<&C::passes, &P::lateral_deviation>,
+            "Standard deviation of a normal distribution about these positions, cut at three of it", kLength,
+            above(0, 0.01)},
+           only_where(scatters, {"lateral_seed",
+                                 at<&C::passes, &P::lateral_seed>,
+                                 "Of the distribution's random numbers; pass n has its own, however the passes are cut",
+                                 kNumber,
+                                 {0, 1e9}}),
+           {"traction_coefficients",
+            at<&C::passes, &P::traction_coefficients>,
+            "F_T over the static load G in pass 1, 2, …; not given: that of the drive",
+            kNumber,
+            {-10, 10}},
+           {"ductility", at<&C::passes, &P::ductility>,
+            "Net plastic strain that the material bears: passes are extrapolated to it", kNumber, above(0, 100)}}};
+}
+
 OptionTable output_table() {
   return {"output",
           "Files",
@@ -699,6 +732,7 @@ const std::vector<OptionTable>& case_tables() {
       transient_table(),
       load_table(),
       collective_table(),
+      passes_table(),
       output_table()};
   return tables;
 }

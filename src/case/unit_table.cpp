@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -79,6 +80,11 @@ std::optional<std::string> unit_after(const std::string& name, std::string_view 
                              : "give every row one value a column, separated as the names are");
 }
 
+/// A word, not a number of a table without names.
+bool is_word(const std::string& name) {
+  return !name.empty() && std::isalpha(static_cast<unsigned char>(name.front()));
+}
+
 class TableReader {
  public:
   explicit TableReader(const UnitTableForm& form) : form_(form) {}
@@ -89,7 +95,8 @@ class TableReader {
     if (cells.size() != columns_.size()) refuse_width(cells.size(), columns_.size(), separator_, at);
     UnitTable::Row& row = table_.rows.emplace_back();
     row.line = at.line;
-    for (std::size_t k = 0; k < cells.size(); ++k) row.cells.push_back(cell(columns_[k], cells[k], at));
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      if (columns_[k].option) row.cells.push_back(cell(columns_[k], cells[k], at));
   }
 
   UnitTable table() && { return std::move(table_); }
@@ -146,10 +153,12 @@ class TableReader {
         }
     }
     const std::string near = nearest_word(name, known);
+    if (!best && form_.others && near.empty() && is_word(name)) return {nullptr, ""};
     if (!best)
       at.refuse(fmt::format("unknown column \"{}\"", name.substr(0, 60)),
-                fmt::format("{}columns: {}, each with its unit: \"tractive_force [kN]\" or \"tractive_force_kN\"",
-                            near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(known, ", ")));
+                fmt::format("{}columns: {}, each with its unit, e.g. \"{}\"",
+                            near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(known, ", "),
+                            form_.example));
     const bool plain = best->text || best->option->dimension == dimension::kNumber;
     if (best->unit.empty() && !plain && best->option->dimension != dimension::kSlope)
       at.refuse(fmt::format("the column \"{}\" has no unit", name),
@@ -163,6 +172,11 @@ class TableReader {
     table_.line = at.line;
     for (const std::string& name : cells_of(line, separator_)) {
       columns_.push_back(column_named(name, at));
+      if (!columns_.back().option) {
+        table_.ignored.push_back(name);
+        continue;
+      }
+      table_.names.push_back(name);
       for (std::size_t k = 0; k + 1 < columns_.size(); ++k)
         if (columns_[k].option == columns_.back().option)
           at.refuse(fmt::format("two columns are {}", columns_.back().option->key), "keep one of them");
@@ -170,12 +184,14 @@ class TableReader {
     for (const auto& rivals : form_.rivals) {
       std::vector<std::string_view> given;
       for (const Column& c : columns_)
-        if (std::find(rivals.begin(), rivals.end(), c.option->key) != rivals.end()) given.push_back(c.option->key);
+        if (c.option && std::find(rivals.begin(), rivals.end(), c.option->key) != rivals.end())
+          given.push_back(c.option->key);
       if (given.size() > 1)
         at.refuse(fmt::format("the table has {}: {} has one of them", fmt::join(given, " and "), form_.what),
                   "keep one of them");
     }
-    for (const Column& c : columns_) table_.columns.push_back(c.option);
+    for (const Column& c : columns_)
+      if (c.option) table_.columns.push_back(c.option);
   }
 
   const UnitTableForm& form_;

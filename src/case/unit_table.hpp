@@ -27,6 +27,7 @@ struct UnitTableForm {
   std::string_view what;     ///< that a row, or the table, describes, for messages: "a history"
   std::string_view example;  ///< of a line of names
   bool blanks = false;       ///< a cell may be empty
+  bool others = false;       ///< columns of other words (time, specimen) may stand there; they are not read
   double gravity = 9.81;     ///< of forces that are written as masses
 };
 
@@ -41,6 +42,8 @@ struct UnitTable {
   };
   int line = 0;  ///< of the names
   std::vector<const Option*> columns;
+  std::vector<std::string> names;    ///< of the columns, as written
+  std::vector<std::string> ignored;  ///< names of columns that are not read
   std::vector<Row> rows;
 };
 

@@ -316,7 +316,7 @@ std::string format_quantity(double value, const Dimension& dimension) {
   // Customary units are powers of ten of SI: moving the decimal point of the shortest text keeps it exact.
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.begin(), buffer.end(), value, std::chars_format::scientific).ptr;
-  const std::string_view shortest(buffer.data(), end);
+  const std::string_view shortest(buffer.data(), static_cast<std::size_t>(end - buffer.data()));
   const auto e = shortest.find('e');
   const std::string moved = fmt::format("{}e{}", shortest.substr(0, e),
                                         std::atoi(shortest.data() + e + 1) - parse_unit(shown, dimension).decimals);
@@ -328,6 +328,13 @@ std::string describe(const Dimension& dimension) {
   const Customary& c = customary(dimension);
   const std::string_view quote = dimension == dimension::kNumber ? "" : "\"";
   return fmt::format("{}, e.g. {}{}{}", c.noun, quote, c.example, quote);
+}
+
+std::vector<std::string> units_of(const Dimension& dimension) {
+  std::vector<std::string> out;
+  for (const std::string_view unit : customary(dimension).units)
+    if (!unit.empty()) out.emplace_back(unit);
+  return out;
 }
 
 std::string suggest_quantity(std::string_view whole, const Dimension& dimension,

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace railstrata {
 
@@ -51,6 +52,9 @@ std::string format_quantity(double value, const Dimension& dimension);
 
 /// "a length, e.g. \"0.2 mm\"": for messages, schema and reference page.
 std::string describe(const Dimension& dimension);
+
+/// The units in which people write values of the dimension, the one they are shown in first: "mm", "m", "µm", "cm".
+std::vector<std::string> units_of(const Dimension& dimension);
 
 /// A text like `text` with another prefix or unit of the same dimension whose value is allowed ("210 MPa" ->
 /// "210 GPa"), but never in micrometres or microseconds; empty if there is none, and for zero, which no unit changes.

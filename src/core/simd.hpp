@@ -7,16 +7,20 @@
 #include <type_traits>
 #include <utility>
 
-/// In front of every pointwise function (laws and elements): inline here, and the place where another compiler's mark
-/// for functions of a device will stand.
+/// In front of every pointwise function (laws and elements): inline, and for host and device where nvcc reads it.
+/// RAILSTRATA_UNROLL stands in front of a short loop of a law: packs stay in registers only if the compiler takes the
+/// loop apart, and it shies away from long bodies.
+#ifdef __CUDACC__
+#define RAILSTRATA_POINTWISE inline __host__ __device__
+#define RAILSTRATA_UNROLL _Pragma("unroll")
+#else
 #define RAILSTRATA_POINTWISE inline
-
-/// In front of a short loop of a law: packs stay in registers only if the compiler takes the loop apart, and it shies
-/// away from long bodies.
 #define RAILSTRATA_UNROLL _Pragma("GCC unroll 16")
+#endif
 
 namespace railstrata {
 
+#ifndef __CUDACC__  // a thread of a device computes with numbers; no layout that nvcc sees depends on packs
 #if defined(__AVX512F__)
 inline constexpr int kPackBytes = 64;
 #elif defined(__AVX__)
@@ -33,6 +37,7 @@ template <class Real>
 using PackOf = typename PackType<Real>::type;
 template <class Real>
 inline constexpr int kLanesOf = kPackBytes / static_cast<int>(sizeof(Real));
+#endif
 
 /// The number type of a scalar or a pack.
 template <class T>
@@ -50,6 +55,7 @@ struct ScalarType<float> {
 template <class T>
 using ScalarOf = typename ScalarType<T>::type;
 
+#ifndef __CUDACC__
 using Pack = PackOf<double>;
 inline constexpr int kLanes = kLanesOf<double>;
 
@@ -61,6 +67,7 @@ inline PackOf<Real> load(const Real* p) {
 }
 inline void store(double* p, Pack v) { std::memcpy(p, &v, sizeof v); }
 inline void store(float* p, PackOf<float> v) { std::memcpy(p, &v, sizeof v); }
+#endif
 
 /// Of a scalar, or of every lane of a pack. To choose between two values a law writes `a > b ? x : y`, which packs do
 /// lane by lane.
@@ -76,6 +83,7 @@ RAILSTRATA_POINTWISE T square_root(const T& x) {
   }
 }
 
+#ifndef __CUDACC__
 /// The lower lanes of one pack and the upper ones of another.
 template <class P>
 inline P halves(P lower, P upper) {
@@ -88,5 +96,6 @@ inline P halves(P lower, P upper) {
 
 /// n rounded up to whole packs of doubles.
 constexpr int whole_packs(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
+#endif
 
 }  // namespace railstrata

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ class Gap {
       : wheel_(wheel),
         rail_(rail),
         track_(track),
+        cant_(rotation_of_tangent(track.cant)),
         offset_y_(offset_y),
         turned_(wheel, track),
         wheel_begin_(rolled() ? turned_.y_begin() : wheel.y_min()),
@@ -65,18 +67,17 @@ class Gap {
   double wheel_s(double s) const { return turned_.s_at_y(wheel_y(s)); }
   TurnedPoint outline(double s) const { return turned_.outline(wheel_s(s)); }
 
-  double wheel_y(double s) const { return rail_to_model(track_, rail_.at(s).position).y - offset_y_; }
-  LowestPoint on_wheel(double s) const {
-    return track_.yaw == 0 ? LowestPoint{0, wheel_y(s)} : lowest_point(wheel_, track_, wheel_y(s));
-  }
-  bool faces_wheel(double s) const {
-    const double y = wheel_y(s);
-    return y >= wheel_begin_ && y <= wheel_end_;
-  }
-  double value(double s) const {
-    if (rolled()) return outline(s).position.z - rail_to_model(track_, rail_.at(s).position).z;
-    const LowestPoint p = on_wheel(s);
-    return wheel_.height(p.y) + rise(p) - rail_to_model(track_, rail_.at(s).position).z;
+  /// Model frame.
+  Vec2 rail_point(double s) const { return roll(cant_, rail_.at(s).position); }
+  double wheel_y(double s) const { return rail_point(s).y - offset_y_; }
+  LowestPoint on_wheel(double s) const { return lowest_at(wheel_y(s)); }
+  double value(double s) const { return over(s, rail_point(s)); }
+  /// The same; nothing where the rail does not face the wheel.
+  std::optional<double> value_if_faced(double s) const {
+    const Vec2 rail = rail_point(s);
+    const double y = rail.y - offset_y_;
+    if (!(y >= wheel_begin_ && y <= wheel_end_)) return {};
+    return over(s, rail);
   }
   double derivative(double s) const {
     if (rolled()) {
@@ -84,7 +85,7 @@ class Gap {
       return rail.y * wheel.z / wheel.y - rail.z;
     }
     const LowestPoint p = on_wheel(s);
-    const Vec2 t = rail_to_model(track_, rail_.at(s).tangent), w = wheel_.at(wheel_.s_at_y(p.y)).tangent;
+    const Vec2 t = roll(cant_, rail_.at(s).tangent), w = wheel_.at(wheel_.s_at_y(p.y)).tangent;
     return t.y * w.z / w.y * steeper(p) - t.z;
   }
   /// Of a point of the wheel, below the axle.
@@ -94,6 +95,14 @@ class Gap {
   }
 
  private:
+  LowestPoint lowest_at(double wheel_y) const {
+    return track_.yaw == 0 ? LowestPoint{0, wheel_y} : lowest_point(wheel_, track_, wheel_y);
+  }
+  double over(double s, Vec2 rail) const {
+    if (rolled()) return outline(s).position.z - rail.z;
+    const LowestPoint p = lowest_at(rail.y - offset_y_);
+    return wheel_.height(p.y) + rise(p) - rail.z;
+  }
   /// By how much the point lies above the lowest one of its circle.
   double rise(const LowestPoint& p) const {
     return p.x == 0 ? 0.0 : track_.wheel_radius - wheel_.height(p.y) - depth(p);
@@ -105,6 +114,7 @@ class Gap {
 
   const Profile &wheel_, &rail_;
   const TrackGeometry& track_;
+  Rotation<double> cant_;
   double offset_y_;
   TurnedWheel turned_;
   double wheel_begin_, wheel_end_;
@@ -113,7 +123,8 @@ class Gap {
 }  // namespace
 
 double gauge_face_y(const Profile& rail, const TrackGeometry& track) {
-  const auto at = [&](double s) { return rail_to_model(track, rail.at(s).position); };
+  const Rotation<double> cant = rotation_of_tangent(track.cant);
+  const auto at = [&](double s) { return roll(cant, rail.at(s).position); };
   double top = -std::numeric_limits<double>::infinity(), top_s = 0;
   const int n = static_cast<int>(std::ceil((rail.s_max() - rail.s_min()) / kSearchStep));
   const auto sample = [&](int i) { return rail.s_min() + (rail.s_max() - rail.s_min()) * i / n; };
@@ -146,19 +157,16 @@ double lateral_offset(const Profile& wheel, const Profile& rail, const TrackGeom
   return tape_circle - rail_axis + track.lateral_shift;
 }
 
-struct Samples {
-  std::vector<double> s, gap;
-};
-
-Samples sample_overlap(const Gap& gap, const Profile& rail) {
+GapSamples sample_overlap(const Gap& gap, const Profile& rail) {
   const double begin = rail.s_at_y(rail.y_min()), end = rail.s_at_y(rail.y_max());
   const int n = std::max(10, static_cast<int>(std::ceil((end - begin) / kSearchStep)));
-  Samples out;
+  GapSamples out;
   for (int i = 0; i <= n; ++i) {
     const double s = i == n ? end : begin + (end - begin) * i / n;
-    if (!gap.faces_wheel(s)) continue;
+    const std::optional<double> value = gap.value_if_faced(s);
+    if (!value) continue;
     out.s.push_back(s);
-    out.gap.push_back(gap.value(s));
+    out.gap.push_back(*value);
   }
   return out;
 }
@@ -175,7 +183,7 @@ double refine(const Gap& gap, double lo, double centre, double hi) {
 }
 
 /// Rail arc length of the first contact: the lowest gap; of equal ones that nearest the tape circle.
-double first_contact(const Gap& gap, const Samples& samples) {
+double first_contact(const Gap& gap, const GapSamples& samples) {
   const double lowest = *std::min_element(samples.gap.begin(), samples.gap.end());
   double best_s = 0, best_gap = std::numeric_limits<double>::infinity();
   const auto consider = [&](double s) {
@@ -232,7 +240,7 @@ RigidContact contact_at(const Gap& gap, const Profile& wheel, const Profile& rai
 }
 
 /// Places of the samples that are lower than their neighbours.
-std::vector<std::size_t> lowest_samples(const Samples& samples, double highest) {
+std::vector<std::size_t> lowest_samples(const GapSamples& samples, double highest) {
   std::vector<std::size_t> out;
   for (std::size_t i = 1; i + 1 < samples.s.size(); ++i)
     if (samples.gap[i] <= highest && samples.gap[i] < samples.gap[i - 1] && samples.gap[i] <= samples.gap[i + 1])
@@ -242,13 +250,13 @@ std::vector<std::size_t> lowest_samples(const Samples& samples, double highest) 
 }
 
 /// Sample of the largest gap between two of them.
-std::size_t ridge_sample(const Samples& samples, std::size_t a, std::size_t b) {
+std::size_t ridge_sample(const GapSamples& samples, std::size_t a, std::size_t b) {
   const auto [first, last] = std::minmax(a, b);
   const auto at = [&](std::size_t i) { return samples.gap.begin() + static_cast<std::ptrdiff_t>(i); };
   return static_cast<std::size_t>(std::max_element(at(first), at(last) + 1) - samples.gap.begin());
 }
 
-std::size_t sample_near(const Samples& samples, double s) {
+std::size_t sample_near(const GapSamples& samples, double s) {
   const auto next = std::lower_bound(samples.s.begin(), samples.s.end() - 1, s);
   return static_cast<std::size_t>(next - samples.s.begin());
 }
@@ -277,7 +285,8 @@ double yaw_creepage(const RigidContact& contact) {
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
   const double offset_y = lateral_offset(wheel, rail, track);
   const Gap gap(wheel, rail, track, offset_y);
-  const Samples samples = sample_overlap(gap, rail);
+  const auto searched = std::make_shared<const GapSamples>(sample_overlap(gap, rail));
+  const GapSamples& samples = *searched;
   if (samples.s.size() < 3)
     throw CaseError(fmt::format("{}: the wheel misses the rail; its tape circle stands {:.1f} mm from the rail's axis",
                                 pair_name(wheel, rail), 1e3 * offset_y),
@@ -288,14 +297,17 @@ RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackG
                                 pair_name(wheel, rail), 1e3 * gap.wheel_y(s)),
                     "check lateral_shift, gauge, back_to_back and cant, or give profiles that reach further");
 
-  return contact_at(gap, wheel, rail, track, offset_y, s);
+  RigidContact out = contact_at(gap, wheel, rail, track, offset_y, s);
+  out.searched = searched;
+  return out;
 }
 
 std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& rail, const TrackGeometry& track,
                                            const RigidContact& first, double descent) {
   constexpr double kRidge = 1e-6;  // m
   const Gap gap(wheel, rail, track, first.wheel_offset_y);
-  const Samples samples = sample_overlap(gap, rail);
+  const auto searched = first.searched ? first.searched : std::make_shared<const GapSamples>(sample_overlap(gap, rail));
+  const GapSamples& samples = *searched;
   std::vector<std::size_t> places{sample_near(samples, first.rail_s)};
   std::vector<RigidContact> out;
   for (const std::size_t i : lowest_samples(samples, descent - first.wheel_offset_z)) {
@@ -313,7 +325,10 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
 
 Ridge ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
                     const RigidContact& b) {
-  const Samples samples = sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), rail);
+  const auto searched =
+      b.searched ? b.searched
+                 : std::make_shared<const GapSamples>(sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), rail));
+  const GapSamples& samples = *searched;
   const std::size_t i = ridge_sample(samples, sample_near(samples, a.rail_s), sample_near(samples, b.rail_s));
   return {samples.s[i], samples.gap[i]};
 }

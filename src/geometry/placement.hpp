@@ -3,6 +3,7 @@
 //
 // Model frame: x rolling direction, y lateral, positive to the field side (a left-hand wheel, so that x, y, z is
 // right-handed), z up. Its origin is the crown point of the (canted) rail in the plane of the wheel's start.
+#include <memory>
 #include <vector>
 
 #include "geometry/profile.hpp"
@@ -22,6 +23,11 @@ struct TrackGeometry {
   double roll = 0.0;  ///< tangent of the angle by which the wheel is turned about x, positive with its field side up
 };
 
+/// The vertical gap along the rail [m], over arc lengths where it faces the wheel; of a tape circle at the height 0.
+struct GapSamples {
+  std::vector<double> s, gap;
+};
+
 /// The wheel just touching the rail.
 struct RigidContact {
   double wheel_offset_y = 0;  ///< y of the tape circle in the model frame
@@ -36,8 +42,9 @@ struct RigidContact {
                      ///< the field side
   double rolling_radius = 0;  ///< distance of the contact point from the axle; of a yawed wheel its depth below it
   double curvature_wheel_lateral = 0,
-         curvature_rail_lateral = 0;  ///< of the profiles at the contact, 1/m, convex positive
-  double curvature_rolling = 0;       ///< of the wheel across them, cos(angle) / rolling_radius [1/m]
+         curvature_rail_lateral = 0;           ///< of the profiles at the contact, 1/m, convex positive
+  double curvature_rolling = 0;                ///< of the wheel across them, cos(angle) / rolling_radius [1/m]
+  std::shared_ptr<const GapSamples> searched;  ///< what place_wheel looked at for it; null: of other contacts
 };
 
 /// Spin of the wheel on its contact angle delta less its roll phi, -sin(delta - phi)/r [1/m].

@@ -126,6 +126,11 @@ ProfilePoint Profile::at(double s) const {
 
 double Profile::s_at_y_within(std::size_t piece, double y, double lo, double hi) const {
   double s = 0.5 * (lo + hi);
+  if (!knot_y_.empty()) {  // by the chord
+    const double share = (y - knot_y_[piece]) / (knot_y_[piece + 1] - knot_y_[piece]);
+    const double guess = s_[piece] + share * (s_[piece + 1] - s_[piece]);
+    if (guess > lo && guess < hi) s = guess;
+  }
   for (int i = 0; i < 100 && hi - lo > 0; ++i) {
     const Local c = local(piece, s);
     const double error = c.position.y - y;

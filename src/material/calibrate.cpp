@@ -206,9 +206,35 @@ HardeningFit fit_amplitudes(const std::vector<CurvePoint>& points, const std::ve
   return Fitter(points, amplitude_basis).fit(recalls);
 }
 
-Loop loop_of(const std::vector<CurvePoint>& measured) {
+namespace {
+
+/// Around a loop in the sense of the test work is dissipated: ∮ σ dε_p > 0.
+bool runs_backwards(const std::vector<CurvePoint>& loop) {
+  double work = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const CurvePoint &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    work += 0.5 * (a.stress + b.stress) * (b.plastic_strain - a.plastic_strain);
+  }
+  return work < 0;
+}
+
+/// Throws std::invalid_argument where one step makes most of a branch: there are no points of it.
+void require_both_branches(double longest_rising, double longest_falling, double width) {
+  constexpr double kMostOfIt = 0.6;
+  const bool up = longest_rising < kMostOfIt * width, down = longest_falling < kMostOfIt * width;
+  if (up && down) return;
+  throw std::invalid_argument(up     ? "the points go up only: give both branches of the loop"
+                              : down ? "the points go down only: give both branches of the loop"
+                                     : "a single step makes most of a branch: give points all around the loop");
+}
+
+}  // namespace
+
+Loop loop_of(const std::vector<CurvePoint>& given) {
   constexpr double kNarrowest = 1e-4, kElastic = 0.02, kBackwards = 0.05;  // plastic width; shares of it
   constexpr std::size_t kFewest = 10;
+  std::vector<CurvePoint> measured = given;
+  if (runs_backwards(measured)) std::reverse(measured.begin(), measured.end());
   if (measured.size() < kFewest) throw std::invalid_argument("a loop needs ten points at least");
   const auto by_stress = [](const CurvePoint& a, const CurvePoint& b) { return a.stress < b.stress; };
   const auto [low, high] = std::minmax_element(measured.begin(), measured.end(), by_stress);
@@ -219,6 +245,7 @@ Loop loop_of(const std::vector<CurvePoint>& measured) {
   Loop out{0.5 * width, {}};
   const auto n = measured.size(), bottom = static_cast<std::size_t>(low - measured.begin()),
              top = static_cast<std::size_t>(high - measured.begin());
+  double longest[2] = {0, 0};
   for (const bool rising : {true, false}) {
     const std::size_t from = rising ? bottom : top, to = rising ? top : bottom;
     double reached = -out.amplitude;
@@ -228,11 +255,13 @@ Loop loop_of(const std::vector<CurvePoint>& measured) {
                          sign * (measured[i].stress - middle.stress)};
       if (p.plastic_strain < reached - kBackwards * width)
         throw std::invalid_argument("the points do not go once up and once down: keep one loop, in the order measured");
+      longest[rising ? 0 : 1] = std::max(longest[rising ? 0 : 1], p.plastic_strain - reached);
       reached = std::max(reached, p.plastic_strain);
       if (p.plastic_strain + out.amplitude > kElastic * width) out.points.push_back(p);
       if (i == to) break;
     }
   }
+  require_both_branches(longest[0], longest[1], width);
   return out;
 }
 
@@ -246,14 +275,20 @@ HardeningFit fit_loop(const Loop& loop, int backstresses) {
   return search_fit(loop.points, strains, basis, backstresses);
 }
 
-HardeningFit with_isotropic_part(HardeningFit stabilised, const std::vector<CurvePoint>& monotonic) {
+RateBounds rate_bounds(const std::vector<CurvePoint>& monotonic) {
   double smallest = kInfinity, longest = 0;
   for (const CurvePoint& point : monotonic) {
     smallest = std::min(smallest, point.plastic_strain);
     longest = std::max(longest, point.plastic_strain);
   }
+  return {0.1 / longest, 3 / smallest};
+}
+
+HardeningFit with_isotropic_part(HardeningFit stabilised, const std::vector<CurvePoint>& monotonic) {
   if (monotonic.size() < 3) throw std::invalid_argument("fewer points than numbers sought");
-  if (!(smallest > 0)) throw std::invalid_argument("plastic strains must be positive");
+  const RateBounds bounds = rate_bounds(monotonic);
+  if (std::any_of(monotonic.begin(), monotonic.end(), [](const CurvePoint& p) { return !(p.plastic_strain > 0); }))
+    throw std::invalid_argument("plastic strains must be positive");
   const PlasticParameters<double> settled = stabilised.law;
   const auto law = [&](double q, double b) {
     PlasticParameters<double> p = settled;
@@ -263,7 +298,7 @@ HardeningFit with_isotropic_part(HardeningFit stabilised, const std::vector<Curv
     return p;
   };
   Errors least = errors(settled, monotonic);
-  for (double b = 0.1 / longest; b < 3 / smallest; b *= 1.02) {
+  for (double b = bounds.low; b < bounds.high; b *= 1.02) {
     double above = 0, below = 0;  // Q of this b: sum of (excess of the settled law)(e^{-b p}) over that of e^{-2 b p}
     for (const CurvePoint& point : monotonic) {
       const double share = std::exp(-b * point.plastic_strain);

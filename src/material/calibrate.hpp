@@ -35,14 +35,20 @@ struct Loop {
   double amplitude = 0;            ///< ε_pa
   std::vector<CurvePoint> points;  ///< of both branches, those where it flows
 };
-/// From one closed loop as it was measured, point by point around it; tips where the stress is largest and smallest,
-/// centred on their middle. Points within 2 % of the loop's plastic width of a reversal are elastic to the eye of a
-/// test and left out. Throws std::invalid_argument with what is wrong.
+/// From one closed loop as it was measured, point by point once around it; one in the sense that gives work back (∮ σ
+/// dε_p < 0) is turned round. Tips where the stress is largest and smallest, centred on their middle. Points within 2 %
+/// of the loop's plastic width of a reversal are elastic to the eye of a test and left out. Throws
+/// std::invalid_argument with what is wrong: among it a branch of which most is missing.
 Loop loop_of(const std::vector<CurvePoint>& measured);
 HardeningFit fit_loop(const Loop& loop, int backstresses);
 
 /// Q and b, and σ_y0 lowered by Q, of a fit to stabilised cycles; the error becomes that of the monotonic curve.
 /// Q is 0 where no change of the yield stress makes the curve fit better.
+/// The rates b among which it is sought: 0.1 over the longest to 3 over the smallest plastic strain.
+struct RateBounds {
+  double low = 0, high = 0;
+};
+RateBounds rate_bounds(const std::vector<CurvePoint>& monotonic);
 HardeningFit with_isotropic_part(HardeningFit stabilised, const std::vector<CurvePoint>& monotonic);
 
 // What a law gives, for pictures: uniaxial stress [Pa].

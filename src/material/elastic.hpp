@@ -25,7 +25,7 @@ inline double poisson(const Elastic& m) { return m.lambda / (2 * (m.lambda + m.m
 /// Stress from strain, S = lambda tr(E) I + 2 mu E; components xx, yy, zz, xy, yz, xz. With E the Green strain and S
 /// the second Piola–Kirchhoff stress this is the St. Venant–Kirchhoff law. [SimoHughes1998]
 template <class T, class Real>
-inline void elastic_stress(Real lambda, Real mu, const T (&strain)[6], T (&stress)[6]) {
+RAILSTRATA_POINTWISE void elastic_stress(Real lambda, Real mu, const T (&strain)[6], T (&stress)[6]) {
   const T pressure = lambda * (strain[0] + strain[1] + strain[2]);
   RAILSTRATA_UNROLL
   for (int i = 0; i < 3; ++i) stress[i] = pressure + 2 * mu * strain[i];
@@ -60,15 +60,15 @@ struct ElasticLaw {
   static constexpr int kHistory = 0;
 
   template <class T, class Real>
-  static void stress(const Parameters<Real>& p, const T (&strain)[6], const T*, T (&stress)[6]) {
+  static RAILSTRATA_POINTWISE void stress(const Parameters<Real>& p, const T (&strain)[6], const T*, T (&stress)[6]) {
     elastic_stress(p.lambda, p.mu, strain, stress);
   }
   template <class T, class Real>
-  static void update(const Parameters<Real>& p, const T (&strain)[6], T*, T (&stress)[6]) {
+  static RAILSTRATA_POINTWISE void update(const Parameters<Real>& p, const T (&strain)[6], T*, T (&stress)[6]) {
     elastic_stress(p.lambda, p.mu, strain, stress);
   }
   template <class T, class Real>
-  static void tangent_stress(const Parameters<Real>& p, const T (&strain)[6], T (&stress)[6]) {
+  static RAILSTRATA_POINTWISE void tangent_stress(const Parameters<Real>& p, const T (&strain)[6], T (&stress)[6]) {
     elastic_stress(p.lambda, p.mu, strain, stress);
   }
 };

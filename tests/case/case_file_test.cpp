@@ -164,6 +164,7 @@ TEST(CaseFile, TheResolvedCaseReadsBackToTheSameBits) {
     for (const Option& option : table.options)
       if (!option.derivation && !option.key.ends_with("_profile") && (!option.applies || option.applies(spec, 0)) &&
           option.key != "plasticity" &&  // not with all that `disturb` gives: plasticity_case_test.cpp
+          option.key != "device" &&      // likewise: device_case_test.cpp
           option.key != "grade" &&       // one of a few names: strength_case_test.cpp
           table.name != "transient" &&   // its keys exclude each other: transient_case_file_test.cpp
           option.key != "contact" && option.key != "line_length")  // and these others: line_case_file_test.cpp
@@ -208,7 +209,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[meshes]\n",
        "a.toml:1:2: unknown table or key meshes\n    1 | [meshes]\n      |  ^\n    remedy: did you mean mesh? tables: "
        "case, geometry, material.rail, material.wheel, layer, vehicle, drive, friction, third_body, mesh, "
-       "contact, run, bem, transient, load, collective, output"},
+       "contact, run, bem, transient, load, collective, passes, output"},
       {"[mesh]\nelement_size = \"1 MPa\"\n",
        "a.toml:2:16: mesh.element_size = \"1 MPa\": \"MPa\" is not the unit of a length\n    2 | element_size = \"1 "
        "MPa\"\n      |                ^\n    remedy: write a length, e.g. "
@@ -262,6 +263,10 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
        "2 | traction_coefficient = -0.1\n      |                        ^\n    remedy: the wheel would slide: lower "
        "the "
        "traction or raise the friction"},
+      {"[passes]\ntraction_coefficients = [0.1, -0.6]\n",
+       "a.toml:2:25: passes.traction_coefficients: -0.6 must be below drive.friction_coefficient = 0.5 in magnitude\n"
+       "    2 | traction_coefficients = [0.1, -0.6]\n      |                         ^\n    remedy: the wheel would "
+       "slide: lower the traction or raise the friction"},
       {"[friction]\nlaw = \"falling_exponential\"\nkinetic_coefficient = 0.6\n",
        "a.toml:2:7: friction that falls with slip needs friction.half_velocity\n    2 | law = "
        "\"falling_exponential\"\n      |       ^\n    remedy: give the slip velocity at which half of the fall is "
@@ -376,7 +381,7 @@ TEST(CaseFile, EveryFaultIsToldWithItsPlaceRuleRemedyAndCaret) {
       {"[material]\nyoung = \"210 GPa\"\n",
        "a.toml:2:9: unknown table or key material.young\n    2 | young = \"210 GPa\"\n      |         ^\n    remedy: "
        "tables: case, geometry, material.rail, material.wheel, layer, vehicle, drive, friction, third_body, mesh, "
-       "contact, run, bem, transient, load, collective, output"},
+       "contact, run, bem, transient, load, collective, passes, output"},
   };
   for (const Bad& bad : all) {
     const std::string told = error_of(bad.text);
@@ -511,6 +516,26 @@ TEST(CaseFile, SettingsWithoutEffectAreNoted) {
   const std::vector<std::string> notes = parse_case("[contact]\npenalty_scale = 0.2\n", "a.toml").notes;
   EXPECT_EQ(notes,
             std::vector<std::string>{"contact.penalty_scale has no effect: it needs contact.method = \"penalty\""});
+}
+
+TEST(CaseFile, ADriveThatAStaticCaseMakesVoidIsNoted) {
+  const std::string still = "[run]\nrolling = false\n";
+  const auto noted = [&](const std::string& more, const std::vector<std::string>& overrides = {}) {
+    return parse_case(still + more, "a.toml", overrides).static_notes;
+  };
+  for (const std::string key : {"creepage = 0.001", "traction_coefficient = 0.1", "tractive_force = \"5 kN\"",
+                                "lateral_creepage = 0.001", "lateral_traction_coefficient = 0.1", "spin = \"1 1/m\""}) {
+    const std::vector<std::string> notes = noted("[drive]\n" + key + "\n");
+    ASSERT_EQ(notes.size(), 1u) << key;
+    EXPECT_EQ(notes[0].find("drive." + key.substr(0, key.find(' ')) + " has no effect: run.rolling = false"), 0u)
+        << notes[0];
+  }
+  EXPECT_EQ(noted("[passes]\ntraction_coefficients = [0.0, 0.1]\n").size(), 1u);
+  EXPECT_EQ(noted("", {"drive.traction_coefficient=0.2"}).size(), 1u) << "the default's value, but asked for";
+  EXPECT_TRUE(noted("").empty());
+  EXPECT_TRUE(noted("[drive]\ntraction_coefficient = 0.0\n").empty());
+  EXPECT_TRUE(parse_case(resolved_case(parse_case(still, "a.toml").spec), "b.toml").static_notes.empty());
+  EXPECT_TRUE(parse_case("[drive]\ncreepage = 0.001\n", "a.toml").static_notes.empty());
 }
 
 TEST(CaseFile, AnEmptyFileIsNoted) {

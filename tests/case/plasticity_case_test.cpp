@@ -29,8 +29,6 @@ TEST(PlasticityCase, WhatDoesNotYieldRightlyIsRefusedWithARemedy) {
   };
   refused(kYields + "[mesh]\nelement = \"one_point\"\n", "mesh.element", "\"full\"");
   refused(kYields + "time_step_method = \"local\"\n", "run.time_step_method", "mass_scaling");
-  refused(kYields + "[material.wheel]\ninitial_stress = [\"-100 MPa\", \"0 MPa\"]\n", "material.wheel.initial_stress",
-          "take it out");
 }
 
 TEST(PlasticityCase, ABoxWithoutPlasticityIsSaidToBeIdle) {

@@ -88,8 +88,9 @@ recall = 100
     EXPECT_TRUE(spec.layers.at(0).material.strength.elastic);
     EXPECT_FALSE(spec.layers.at(1).material.strength.elastic);
     EXPECT_EQ(spec.layers.at(1).material.strength.kinematic_hardening, (std::vector<KinematicHardening>{{20e9, 100}}));
-    ASSERT_EQ(loaded.notes.size(), 3u) << "contact is elastic, and says so";
-    EXPECT_EQ(loaded.notes[0].find("material.rail.isotropic_hardening: `run` and `bem` compute elastically"), 0u);
+    ASSERT_EQ(loaded.elastic_notes.size(), 3u) << "contact is elastic, and says so";
+    EXPECT_EQ(loaded.elastic_notes[0].find("material.rail.isotropic_hardening: `run` and `bem` compute elastically"),
+              0u);
   }
   EXPECT_EQ(resolved_case(CaseSpec{}).find("hardening"), std::string::npos) << "cases without it stay as they were";
 }
