@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "body/element_tables.hpp"
+#include "body/initial_stress.hpp"
 #include "body/plastic_elements.hpp"
 #include "body/ties.hpp"
 #include "body/tiling.hpp"
@@ -43,8 +44,9 @@ struct Body {
   Field element_mass;  ///< kg, lumped from the elements, the same for the three components of a node; padding zero
   Field mass;          ///< kg, of the free nodes with what they carry; slaves and prescribed nodes have zero
   Field inverse_mass;  ///< 1/kg, zero likewise
-  std::vector<NodeLine> lines;  ///< of free nodes
-  PlasticElements plastic;      ///< that may yield; none unless they are put here before the body is used
+  std::vector<NodeLine> lines;   ///< of free nodes
+  PlasticElements plastic;       ///< that may yield; none unless they are put here before the body is used
+  InitialStress initial_stress;  ///< likewise; that of elements which may yield is also said with their material
 
   bool is_free(int block, int node) const { return inverse_mass[layout.blocks[block].line(node, 0)] > 0; }
 };

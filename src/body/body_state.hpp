@@ -15,7 +15,7 @@ struct BodyState {
   Field u;        ///< m, displacements
   Field v;        ///< m/s, velocities at the half step before
   Field f;        ///< N, internal forces and what is added to them in a step; nothing of it survives the step
-  Field history;  ///< of the elements, as committed: [block][quadrilateral][entry][element], then those that may yield
+  Field history;  ///< of the elements, as committed: [block][quadrilateral][entry][element], then those that are hot
 };
 
 struct StateArray {
@@ -30,8 +30,8 @@ inline constexpr std::array<StateArray, 4> kStateArrays{{{"u", "m", &BodyState::
                                                          {"f", "N", &BodyState::f, false},
                                                          {"history", "", &BodyState::history, true}}};
 
-/// Numbers in an array of a body's state.
-std::size_t array_size(const Body& body, const StateArray& array, int history_entries = BodyElement::kHistory);
+/// Whether an array may be that of a body's state.
+bool fits(const Body& body, const StateArray& array, const Field& values);
 
 /// The history of elements to which nothing has happened.
 Field initial_history(const Body& body);

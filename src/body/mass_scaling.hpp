@@ -57,6 +57,18 @@ class MassScaling {
   };
   const Report& report() const { return report_; }
 
+  // -- what it is made of, for those who apply it elsewhere (device/body_tables.hpp)
+  struct Chain {
+    int block = 0, stations = 0;
+    std::vector<int> nodes;     ///< section nodes
+    std::ptrdiff_t factor = 0;  ///< start in the factors: [node][station]
+  };
+  const std::vector<Chain>& chains() const { return chains_; }
+  struct Factors {
+    const Field &added, &forward, &pivot, &backward, &response;
+  };
+  Factors factors() const { return {added_, forward_, pivot_, backward_, response_}; }
+
  private:
   struct Edge {
     std::vector<double> added;  // per station
@@ -65,11 +77,6 @@ class MassScaling {
   using Edges = std::map<std::pair<int, int>, Edge>;  // by section nodes, the lower number first
   static Edges thin_edges(const SweptBody& body, int block, const std::vector<Elastic>& materials, double wanted_step);
   static std::vector<std::vector<int>> paths(const Edges& edges, int nodes);
-  struct Chain {
-    int block = 0, stations = 0;
-    std::vector<int> nodes;     // section nodes
-    std::ptrdiff_t factor = 0;  // start in the factors below: [node][station]
-  };
   void add_chain(int block, const std::vector<int>& nodes, const Edges& edges, const Field& mass);
   template <class Visit>
   void each_edge(Visit&& visit) const;

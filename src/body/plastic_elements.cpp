@@ -40,7 +40,7 @@ PlasticElements::PlasticElements(const Body& body, const MaterialOf& material_of
   for (const Quad& q : quads_) terms_ = std::max(terms_, terms_of(q.material.law));
   for (const BlockElements& elements : body.elements) scales_.push_back(class_scales(body.mesh.kind, elements));
   make_modes(body);
-  add_places(body, wanted);
+  add_candidates(body, wanted);
 }
 
 void PlasticElements::add_quads(const Body& body, const MaterialOf& material_of) {
@@ -52,16 +52,18 @@ void PlasticElements::add_quads(const Body& body, const MaterialOf& material_of)
       }
 }
 
-void PlasticElements::add_places(const Body& body, const Wanted& wanted) {
+void PlasticElements::add_candidates(const Body& body, const Wanted& wanted) {
   const std::vector<Tile>& tiles = body.tiling.tiles;
+  directory_ = body.history.size;
   tile_quads_.resize(tiles.size());
   for (int t = 0; t < static_cast<int>(tiles.size()); ++t)
     for (int k = 0; k < static_cast<int>(quads_.size()); ++k) {
       const auto [block, q] = quad_of_[k];
-      if (block != tiles[t].block || !wanted(block, q, tiles[t])) continue;
+      if (block != tiles[t].block) continue;
       if (tile_quads_[t].empty()) tile_quads_[t].assign(body.mesh.blocks[block].section.quads.size(), -1);
-      tile_quads_[t][q] = size();
-      places_.push_back({t, q, k, tile_quads_[t][q]});
+      tile_quads_[t][q] = static_cast<int>(candidates_.size());
+      if (wanted(block, q, tiles[t])) hot_at_start_.push_back(tile_quads_[t][q]);
+      candidates_.push_back({t, q, k});
     }
 }
 
@@ -76,12 +78,63 @@ void PlasticElements::make_modes(const Body& body) {
   });
 }
 
-void PlasticElements::initialise(double* history) const {
-  std::fill_n(history, size(), 0.0);
-  for (const Place& p : places_)
-    for (int i = 0; i < 6; ++i)
-      std::fill_n(history + p.first + (PlasticEntries::kEigenstress + i) * kTile, kTile,
-                  -quad(p).material.initial_stress[i]);
+std::ptrdiff_t PlasticElements::slots_begin() const {
+  constexpr std::ptrdiff_t kLine = 8;  // of memory
+  return directory_ + (static_cast<std::ptrdiff_t>(candidates_.size()) + kLine - 1) / kLine * kLine;
+}
+
+std::ptrdiff_t PlasticElements::slot_size() const {
+  return PlasticEntries::kHeader + static_cast<std::ptrdiff_t>(entries()) * kTile;
+}
+
+int PlasticElements::hot_places(const Field& history) const {
+  if (empty()) return 0;
+  return static_cast<int>((static_cast<std::ptrdiff_t>(history.size()) - slots_begin()) / slot_size());
+}
+
+PlasticElements::Hot PlasticElements::hot(const Field& history, int slot) const {
+  return {candidates_[candidate_of(history, slot)], first_of(slot)};
+}
+
+long PlasticElements::hot_elements(const Body& body, const Field& history) const {
+  long count = 0;
+  for (int k = 0; k < hot_places(history); ++k) {
+    const Tile& tile = body.tiling.tiles[hot(history, k).tile];
+    count += tile.end - tile.first;
+  }
+  return count;
+}
+
+void PlasticElements::initialise(Field& history) const {
+  if (empty()) return;
+  history.resize(static_cast<std::size_t>(slots_begin()), 0.0);
+  history.reserve(static_cast<std::size_t>(first_of(static_cast<int>(hot_at_start_.size()))));
+  for (int candidate : hot_at_start_) add(history, candidate);
+}
+
+void PlasticElements::add(Field& history, int candidate) const {
+  const int slot = hot_places(history);
+  history.resize(history.size() + static_cast<std::size_t>(slot_size()), 0.0);
+  history[directory_ + candidate] = 1 + slot;
+  double* const rows = history.data() + first_of(slot);
+  const std::array<double, 6>& stress = quad(candidates_[candidate]).material.initial_stress;
+  rows[PlasticEntries::kCandidate] = candidate;
+  rows[PlasticEntries::kStressed] = stress == std::array<double, 6>{} ? 0 : 1;
+  for (int i = 0; i < 6; ++i)
+    std::fill_n(rows + (PlasticEntries::kEigenstress + i) * kTile, kTile, stress[i] == 0 ? 0.0 : -stress[i]);
+}
+
+bool PlasticElements::fits(const Field& history) const {
+  const auto size = static_cast<std::ptrdiff_t>(history.size());
+  if (size < slots_begin() || (size - slots_begin()) % slot_size() != 0) return false;
+  const int slots = hot_places(history);
+  for (int slot = 0; slot < slots; ++slot) {
+    const double candidate = history[first_of(slot) + PlasticEntries::kCandidate];
+    if (!(candidate >= 0 && candidate < static_cast<double>(candidates_.size()))) return false;
+    if (history[directory_ + static_cast<std::ptrdiff_t>(candidate)] != 1 + slot) return false;
+  }
+  const auto directory = history.begin() + directory_;
+  return slots == std::count_if(directory, history.begin() + slots_begin(), [](double x) { return x != 0; });
 }
 
 }  // namespace railstrata

@@ -10,7 +10,7 @@ namespace railstrata {
 namespace {
 
 using Entries = PlasticEntries;
-using Place = PlasticElements::Place;
+using Place = PlasticElements::Hot;
 constexpr int kNewton = 2;  // iterations of the law: 5e-14 of the yield stress at strain increments of 1e-4
 
 // Rows of a pack's numbers: entry k at rows[k * kTile].
@@ -94,24 +94,27 @@ struct PackWork {
   const IncompatibleModes<double>& modes;
   double inv_sigma, inv_c, volume;  // of the class that the modes are made for
   PackRows rows;
+  bool touched;  // has yielded: else its numbers are zero, and are not read
 };
 
-// One Gauss point: strain -> history; adds to the work [J/m³]. Leaves 2 mu Ep in place of the strain.
+// One Gauss point: strain -> history; adds to the work [J/m³]. Leaves 2 mu Ep in place of the strain. True if it flows.
 template <int terms>
-void advance_point(const PackWork& work, int point, double weight, Pack (&strain)[6], Pack& done, double* nearest) {
+bool advance_point(const PackWork& work, int point, double weight, Pack (&strain)[6], Pack& done, double* nearest) {
   constexpr int kEntries = kPlasticHistory<terms>;
   const YieldingMaterial& material = work.quad.material;
   const double twice = 2 * material.law.mu;
   const int first = Entries::kPoints + point * kEntries;
-  Pack history[kEntries], before[6];
-  for (int k = 0; k < kEntries; ++k) history[k] = work.rows.get(first + k);
+  Pack history[kEntries] = {}, before[6];
+  if (work.touched)
+    for (int k = 0; k < kEntries; ++k) history[k] = work.rows.get(first + k);
   for (int i = 0; i < 6; ++i) {
     before[i] = history[i];
     strain[i] += material.initial_stress[i] / twice;  // its mean is nothing to the law
   }
   const Pack p = history[6];
   advance_plastic<terms, kNewton>(material.law, strain, history);
-  if (any_positive(Pack(history[6] - p))) {
+  const bool flows = any_positive(Pack(history[6] - p));
+  if (flows) {
     Pack flow[6], deviator[6];
     const Pack mean = (strain[0] + strain[1] + strain[2]) * (1.0 / 3);
     for (int i = 0; i < 6; ++i) {
@@ -123,30 +126,50 @@ void advance_point(const PackWork& work, int point, double weight, Pack (&strain
   }
   if (nearest) *nearest = std::max(*nearest, largest(yield_share<terms>(material.law, strain, history)));
   for (int i = 0; i < 6; ++i) strain[i] = twice * history[i];
+  return flows;
 }
 
-// nearest: asked for if not null, the largest share of the yield stress.
+// nearest: asked for if not null, the largest share of the yield stress. Returns whether the pack has ever yielded.
 template <int terms>
-void advance_pack(const PackWork& work, const PackStrain& at, double* nearest) {
+bool advance_pack(const PackWork& work, const PackStrain& at, double* nearest) {
   BubbleAmplitudes<Pack> bubbles = following_bubbles(work.modes, at.kin);
-  for (int n = 0; n < 3; ++n)
-    for (int i = 0; i < 3; ++i) bubbles.a[n][i] += work.rows.get(Entries::kBubbles + 3 * n + i);
+  if (work.touched)
+    for (int n = 0; n < 3; ++n)
+      for (int i = 0; i < 3; ++i) bubbles.a[n][i] += work.rows.get(Entries::kBubbles + 3 * n + i);
   PlasticSums<Pack> sums{};
   Pack done{};
+  bool touched = work.touched;
   for (int k = 0; k < kGaussPairs; ++k) {
     const GaussPair<double>& g = work.quad.gauss.pair[k];
     Pack plus[6], minus[6];
     pair_strains(g, work.inv_sigma, work.inv_c, at.mean, at.kin, bubbles, plus, minus);
-    advance_point<terms>(work, 2 * k, g.weight, plus, done, nearest);
-    advance_point<terms>(work, 2 * k + 1, g.weight, minus, done, nearest);
-    add_pair(g, work.inv_sigma, work.inv_c, plus, minus, sums);
+    touched |= advance_point<terms>(work, 2 * k, g.weight, plus, done, nearest);
+    touched |= advance_point<terms>(work, 2 * k + 1, g.weight, minus, done, nearest);
+    if (touched) add_pair(g, work.inv_sigma, work.inv_c, plus, minus, sums);  // zero until then
   }
+  if (!touched) return false;
   Eigenstress<Pack> eigen = condensed(work.modes, work.volume, sums);
   for (int i = 0; i < 6; ++i) eigen.mean[i] -= work.quad.material.initial_stress[i];
   each_entry(eigen, [&](int n, const Pack& x) { work.rows.set(Entries::kEigenstress + n, x); });
   for (int n = 0; n < 3; ++n)
     for (int i = 0; i < 3; ++i) work.rows.set(Entries::kBubbles + 3 * n + i, eigen.bubbles.a[n][i]);
   work.rows.set(Entries::kWork, work.rows.get(Entries::kWork) + done);
+  return true;
+}
+
+// Largest share of the yield stress of cold elements, by their mean strain.
+double elastic_share(const Body& body, const PlasticElements::Place& place, const Rotation<double>& turn,
+                     const Field& u) {
+  const Tile& tile = body.tiling.tiles[place.tile];
+  const YieldingMaterial& material = body.plastic.quad(place).material;
+  const Pack virgin[kPlasticHistory<0>] = {};
+  double most = 0;
+  for (int e = tile.first; e < tile.end; e += kLanes) {
+    PackStrain at = pack_strain(body, tile.block, place.quad, e, turn, u);
+    for (int i = 0; i < 6; ++i) at.mean[i] += material.initial_stress[i] / (2 * material.law.mu);
+    most = std::max(most, largest(yield_share<0>(material.law, at.mean, virgin)));
+  }
+  return most;
 }
 
 PackWork pack_work(const Body& body, const Place& place, int element, double* rows) {
@@ -156,7 +179,9 @@ PackWork pack_work(const Body& body, const Place& place, int element, double* ro
   const SweepScale scale = plastic.scale(tile.block, cls);
   const double volume = body.elements[tile.block].table.quads[place.quad].shape.volume * scale.sigma * scale.c;
   const PlasticElements::Quad& quad = plastic.quad(place);
-  return {quad, quad.modes[cls], 1 / scale.sigma, 1 / scale.c, volume, {rows + element - tile.first}};
+  const int group = (element - tile.first) / kHourglassGroup * kHourglassGroup;
+  const bool touched = rows[Entries::kTouched * kTile + group] != 0;
+  return {quad, quad.modes[cls], 1 / scale.sigma, 1 / scale.c, volume, {rows + element - tile.first}, touched};
 }
 
 template <int terms>
@@ -168,9 +193,11 @@ void advance_place(const PassScope& scope, const Place& place) {
     if (scope.look == PlasticLook::awake && awake == 0) continue;
     double nearest = 0;
     double* wanted = scope.look == PlasticLook::all ? &nearest : nullptr;
+    bool touched = false;
     for (int e = group; e < std::min(group + kHourglassGroup, tile.end); e += kLanes)
-      advance_pack<terms>(pack_work(scope.body, place, e, rows),
-                          pack_strain(scope.body, tile.block, place.quad, e, scope.turn, scope.u), wanted);
+      touched |= advance_pack<terms>(pack_work(scope.body, place, e, rows),
+                                     pack_strain(scope.body, tile.block, place.quad, e, scope.turn, scope.u), wanted);
+    if (touched) rows[Entries::kTouched * kTile + group - tile.first] = rows[Entries::kStressed] = 1;
     if (wanted) awake = nearest > kSleepBelow ? 1 : 0;
   }
 }
@@ -182,12 +209,12 @@ AdvancePlace advance_with(int terms) {
   return kByTerms[terms];
 }
 
-// Sum over the places, in their order.
+// Sum over the hot places, in their order.
 template <class OfPlace>
-double sum_of_places(const PlasticElements& plastic, OfPlace&& of_place) {
-  std::vector<double> part(plastic.places().size());
+double sum_of_places(const PlasticElements& plastic, const Field& history, OfPlace&& of_place) {
+  std::vector<double> part(static_cast<std::size_t>(plastic.hot_places(history)));
   for_each(static_cast<std::ptrdiff_t>(part.size()),
-           [&](std::ptrdiff_t k) { part[k] = of_place(plastic.places()[k]); });
+           [&](std::ptrdiff_t k) { part[k] = of_place(plastic.hot(history, static_cast<int>(k))); });
   double sum = 0;
   for (double p : part) sum += p;
   return sum;
@@ -232,29 +259,59 @@ Pack volumes(const Body& body, int block, int quad, int element) {
 
 }  // namespace
 
-void advance_plastic_elements(const Body& body, const Field& u, double psi, Field& history, PlasticLook look) {
+void advance_plastic_elements(const Body& body, const Field& u, double psi, Field& history, PlasticLook look,
+                              const TileCut* cut) {
   if (body.plastic.empty()) return;
-  const PassScope scope{body, u, turn_by(body, psi), history.data() + body.history.size, look};
+  const PassScope scope{body, u, turn_by(body, psi), history.data(), look};
   const AdvancePlace advance = advance_with(body.plastic.terms());
-  const std::vector<Place>& places = body.plastic.places();
   for_each(
-      static_cast<std::ptrdiff_t>(places.size()), [&](std::ptrdiff_t k) { advance(scope, places[k]); }, true);
+      body.plastic.hot_places(history),
+      [&](std::ptrdiff_t k) {
+        const PlasticElements::Hot place = body.plastic.hot(history, static_cast<int>(k));
+        if (!cut || cut->is_own(place.tile)) advance(scope, place);
+      },
+      true);
+}
+
+int extend_plastic_elements(const Body& body, const Field& u, double psi, Field& history) {
+  const PlasticElements& plastic = body.plastic;
+  const Rotation<double> turn = turn_by(body, psi);
+  std::vector<char> near(plastic.candidates().size(), 0);
+  for_each(
+      static_cast<std::ptrdiff_t>(near.size()),
+      [&](std::ptrdiff_t k) {
+        if (plastic.is_hot(history, static_cast<int>(k))) return;
+        near[k] = elastic_share(body, plastic.candidates()[k], turn, u) > kSleepBelow;
+      },
+      true);
+  int added = 0;
+  for (int k = 0; k < static_cast<int>(near.size()); ++k) {
+    if (!near[k]) continue;
+    plastic.add(history, k);
+    ++added;
+  }
+  return added;
 }
 
 void restore_points(const Body& body, const Field& from, Field& history) {
   const std::ptrdiff_t kept = static_cast<std::ptrdiff_t>(Entries::kWork) * kTile;
   const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(body.plastic.entries()) * kTile;
-  for_each(static_cast<std::ptrdiff_t>(body.plastic.places().size()), [&](std::ptrdiff_t k) {
-    const std::ptrdiff_t first = body.history.size + body.plastic.places()[k].first;
-    std::copy(from.begin() + first + kept, from.begin() + first + end, history.begin() + first + kept);
+  const int common = body.plastic.hot_places(from);
+  for_each(body.plastic.hot_places(history), [&](std::ptrdiff_t k) {
+    const std::ptrdiff_t first = body.plastic.hot(history, static_cast<int>(k)).first;
+    if (k < common)
+      std::copy(from.begin() + first + kept, from.begin() + first + end, history.begin() + first + kept);
+    else
+      std::fill(history.begin() + first + kept, history.begin() + first + end, 0.0);
   });
 }
 
 double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history) {
   const Rotation<double> turn = turn_by(body, psi);
-  return sum_of_places(body.plastic, [&](const Place& place) {
+  return sum_of_places(body.plastic, history, [&](const Place& place) {
     const Tile& tile = body.tiling.tiles[place.tile];
-    double* rows = const_cast<double*>(history.data()) + body.history.size + place.first;  // only read
+    double* rows = const_cast<double*>(history.data()) + place.first;  // only read
+    if (rows[Entries::kStressed] == 0) return 0.0;
     Pack sum{};
     for (int e = tile.first; e < tile.end; e += kLanes)
       sum += pack_energy(pack_work(body, place, e, rows), pack_strain(body, tile.block, place.quad, e, turn, u),
@@ -265,10 +322,34 @@ double plastic_strain_energy(const Body& body, const Field& u, double psi, const
   });
 }
 
+double initial_stress_energy(const Body& body, const Field& u, double psi, const Field& history) {
+  const Rotation<double> turn = turn_by(body, psi);
+  std::vector<double> part(body.tiling.tiles.size(), 0.0);
+  for_each(static_cast<std::ptrdiff_t>(part.size()), [&](std::ptrdiff_t t) {
+    const Tile& tile = body.tiling.tiles[t];
+    const int quads = static_cast<int>(body.mesh.blocks[tile.block].section.quads.size());
+    for (int q = 0; q < quads; ++q) {
+      if (!body.initial_stress.rows(tile.block, q) || body.plastic.first(history, static_cast<int>(t), q) >= 0)
+        continue;
+      const InitialStress::Stress stress = body.initial_stress.at(tile.block, q);
+      Pack given[6], sum{};
+      for (int i = 0; i < 6; ++i) given[i] = Pack{} + stress[i];
+      for (int e = tile.first; e < tile.end; e += kLanes)
+        sum += volumes(body, tile.block, q, e) *
+               double_contraction(pack_strain(body, tile.block, q, e, turn, u).mean, given);
+      for (int l = 0; l < kLanes; ++l) part[t] += sum[l];
+    }
+  });
+  double sum = 0;
+  for (double p : part) sum += p;
+  return sum;
+}
+
 double plastic_work(const Body& body, const Field& history) {
-  return sum_of_places(body.plastic, [&](const Place& place) {
+  return sum_of_places(body.plastic, history, [&](const Place& place) {
     const Tile& tile = body.tiling.tiles[place.tile];
-    const double* rows = history.data() + body.history.size + place.first + Entries::kWork * kTile;
+    if (history[place.first + Entries::kStressed] == 0) return 0.0;
+    const double* rows = history.data() + place.first + Entries::kWork * kTile;
     Pack sum{};
     for (int e = tile.first; e < tile.end; e += kLanes)
       sum += volumes(body, tile.block, place.quad, e) * load(rows + e - tile.first);
@@ -280,12 +361,10 @@ double plastic_work(const Body& body, const Field& history) {
 
 std::optional<PlasticState> plastic_state(const Body& body, const Field& history, int block, int quad, int station) {
   const int tile = body.tiling.first_tile[block] + station / kTile;
-  const std::ptrdiff_t first = body.plastic.first(tile, quad);
+  const std::ptrdiff_t first = body.plastic.first(history, tile, quad);
   if (first < 0) return std::nullopt;
-  const double* rows = history.data() + body.history.size + first + station % kTile;
-  const auto place = std::find_if(body.plastic.places().begin(), body.plastic.places().end(),
-                                  [&](const Place& p) { return p.first == first; });
-  const GaussShape<double>& gauss = body.plastic.quad(*place).gauss;
+  const double* rows = history.data() + first + station % kTile;
+  const GaussShape<double>& gauss = body.plastic.quad_at(tile, quad).gauss;
   PlasticState out;
   for (int point = 0; point < 2 * kGaussPairs; ++point) {
     const double* at = rows + (Entries::kPoints + point * body.plastic.point_entries()) * kTile;
@@ -299,9 +378,11 @@ std::optional<PlasticState> plastic_state(const Body& body, const Field& history
 
 PlasticExtent plastic_extent(const Body& body, const Field& history) {
   PlasticExtent out;
-  for (const Place& place : body.plastic.places()) {
+  for (int k = 0; k < body.plastic.hot_places(history); ++k) {
+    const Place place = body.plastic.hot(history, k);
     const Tile& tile = body.tiling.tiles[place.tile];
-    const double* rows = history.data() + body.history.size + place.first;
+    const double* rows = history.data() + place.first;
+    if (rows[Entries::kStressed] == 0) continue;
     for (int e = 0; e < tile.end - tile.first; ++e) {
       bool yielded = false;
       for (int point = 0; point < 2 * kGaussPairs; ++point) {

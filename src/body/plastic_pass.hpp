@@ -4,6 +4,7 @@
 // differ by one step's increment, of order 1e-6, and a repeated pass at rest converges to the element's own
 // equilibrium.
 #include "body/body.hpp"
+#include "body/tile_cut.hpp"
 
 namespace railstrata {
 
@@ -18,16 +19,29 @@ inline constexpr int kLookInterval = 16;
 
 /// Carries the plastic strains on to displacements u (model frame, or one that is turned by psi, as in the traversal)
 /// and writes the eigenstress; `history` is the body's. Ghosts of u must be right. Same bits for any number of threads.
+/// cut: the tiles that are looked at; null: all.
 void advance_plastic_elements(const Body& body, const Field& u, double psi, Field& history,
-                              PlasticLook look = PlasticLook::all);
+                              PlasticLook look = PlasticLook::all, const TileCut* cut = nullptr);
+
+/// Steps between two calls of extend_plastic_elements: the wheel moves by some fifth of an element.
+inline constexpr int kExtendInterval = 32;
+
+/// Cold elements whose mean stress has more than kSleepBelow of their yield stress at displacements u become hot, with
+/// their whole place. One that is beyond its yield stress already yields by the whole excess in the next step: the law
+/// is implicit. Returns how many places did.
+int extend_plastic_elements(const Body& body, const Field& u, double psi, Field& history);
 
 /// Puts the histories of the points back to those of `from`; the eigenstress of the last pass and the bubbles, which
-/// the next pass starts from, stay. For trials from one state.
+/// the next pass starts from, stay; places that were cold in `from` are virgin. For trials from one state.
 void restore_points(const Body& body, const Field& from, Field& history);
 
 /// What the eigenstress adds to the stored energy that TraversalOf::energy finds for elastic elements [J], without that
 /// of the backstresses, which counts as plastic work.
 double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history);
+
+/// What the initial stress of cold elements adds to it, the integral of S0:E [J]: stored energies count from the body
+/// before it has come to its equilibrium, and may be negative.
+double initial_stress_energy(const Body& body, const Field& u, double psi, const Field& history);
 
 /// Work done on the plastic strains so far: dissipated and stored by hardening [J].
 double plastic_work(const Body& body, const Field& history);

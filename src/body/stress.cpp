@@ -44,10 +44,11 @@ Sym3 element_stress(const Body& body, const Field& u, const Field& history, int 
   const auto kin = element_kinematics<SweepKind::revolve, double>(ref.shape, st, in_element);
   const auto own = kept<BodyElement>(body, history, block, quad, station);
   const auto relieve = [&](double(&s)[6]) {
-    const std::ptrdiff_t first = body.plastic.first(body.tiling.first_tile[block] + station / kTile, quad);
-    if (first < 0) return;
-    const double* rows = history.data() + body.history.size + first + station % kTile;
-    for (int i = 0; i < 6; ++i) s[i] -= rows[(PlasticEntries::kEigenstress + i) * kTile];
+    const int tile = body.tiling.first_tile[block] + station / kTile;
+    const double* rows = body.plastic.eigenstress(history, tile, quad);
+    if (!rows) rows = body.initial_stress.rows(block, quad);  // what is hot has it among its own
+    if (!rows) return;
+    for (int i = 0; i < 6; ++i) s[i] -= rows[(PlasticEntries::kEigenstress + i) * kTile + station % kTile];
   };
   const auto p = BodyElement::stress<SweepKind::revolve, double>(ref, Rotation<double>{}, kin, own.data(), relieve);
   // sigma = P F^T / det F, P and F with the element's frame as their right index

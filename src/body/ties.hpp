@@ -33,23 +33,29 @@ class Ties {
 
   bool is_slave(int block, int node) const { return slave_[block][node]; }
 
- private:
+  // -- what it is made of, for those who apply it elsewhere (device/body_tables.hpp)
   struct Line {
     int slave_block, slave_node, master_block, node0, node1;
     double weight1;
-    int interpolation;     // index into interpolations_
-    std::ptrdiff_t delta;  // start in the offsets
+    int interpolation;     ///< index into interpolations()
+    std::ptrdiff_t delta;  ///< start in the offsets
   };
   /// From the stations of one block to those of another.
   struct Interpolation {
     int slave_block, master_block;
     std::vector<int> left, right;
-    std::vector<double> weight;  // of right
+    std::vector<double> weight;  ///< of right
     // the transpose: master station i gets the slaves' values share[k] * at station from[k],
     // first[i] <= k < first[i + 1]
     std::vector<int> first, from;
     std::vector<double> share;
   };
+  const std::vector<Line>& lines() const { return lines_; }
+  const std::vector<Interpolation>& interpolations() const { return interpolations_; }
+  const std::vector<double>& delta_x() const { return delta_x_; }
+  const std::vector<double>& delta_z() const { return delta_z_; }
+
+ private:
   static Interpolation interpolation(const SweptBody& body, int slave_block, int master_block);
   static void transpose(int master_stations, Interpolation& in);
   int interpolation_index(const SweptBody& body, int slave_block, int master_block);

@@ -76,6 +76,11 @@ class TraversalOf {
   /// Forces on the border planes of all chains, and on the last station of an open block.
   void end(const std::vector<Chain>& chains, Field& f);
 
+  /// What the chains leave on the first plane of a tile and behind its last element, [node][component], tile after
+  /// tile within a block: for tiles that somebody else has evaluated, to be put here before end().
+  double* front_forces(int tile) { return &border_first_[body_->tiling.border[tile]]; }
+  double* rear_forces(int tile) { return &border_end_[body_->tiling.border[tile]]; }
+
  private:
   struct CarriedFrame {
     Field cosine, sine;  // of the element centres, turned back by psi: R of the element class

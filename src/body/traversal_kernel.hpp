@@ -79,7 +79,7 @@ struct QuadRows {
   const double* history;  // of the tile's first element; null without
   double* advanced;       // where a commit keeps it
   int history_stride;
-  const double* eigenstress;  // of the tile's first element, entry k at + k * kTile; null where nothing may yield
+  const double* eigenstress;  // of the tile's first element, entry k at + k * kTile; null where there is none
 };
 
 // The eigenstress of a pack of elements.
@@ -265,8 +265,10 @@ __attribute__((flatten)) void TraversalOf<Element>::run_tile(int t, bool follows
       rows.advanced = advanced ? advanced->data() + first : nullptr;
       rows.history_stride = history_.stride[tile.block];
     }
-    if constexpr (Element::kHistory == 0 && how != Evaluation::linear)
-      if (const std::ptrdiff_t at = body_->plastic.first(t, q); at >= 0) rows.eigenstress = history.data() + at;
+    if constexpr (Element::kHistory == 0 && how != Evaluation::linear) {
+      rows.eigenstress = body_->plastic.eigenstress(history, t, q);
+      if (!rows.eigenstress) rows.eigenstress = body_->initial_stress.rows(tile.block, q);  // of what is cold
+    }
     if (rows.eigenstress)
       traversal::evaluate_quad<Element, how, kind, true>(elements, q, scale, packs, tile.first, turn, rows, ahead);
     else
@@ -435,6 +437,7 @@ StrainEnergy TraversalOf<Element>::energy(Field& u, double psi, const Field& his
     sum.hourglass += p.hourglass;
   }
   if (!body_->plastic.empty()) sum.strain += plastic_strain_energy(*body_, u, psi, history);
+  if (!body_->initial_stress.empty()) sum.strain += initial_stress_energy(*body_, u, psi, history);
   return sum;
 }
 

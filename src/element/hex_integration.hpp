@@ -133,4 +133,21 @@ inline Eigen::Matrix<double, 6, 9> bubble_strains(const Matrix3& j0_inverse, dou
   return m;
 }
 
+/// visit(det, b, m) at every Gauss point: the Jacobian's determinant, strain rows of the corners' displacements (3 a +
+/// i) and of the bubbles (bubble_strains).
+template <class Visit>
+void for_gauss_strains(const std::array<Vec3, 8>& corners, Visit&& visit) {
+  const Matrix3 j0_inverse = jacobian(corners, natural_gradients(0, 0, 0)).inverse();
+  const double det0 = 1.0 / j0_inverse.determinant();
+  for_gauss_points([&](double xi, double eta, double zeta) {
+    const Gradients natural = natural_gradients(xi, eta, zeta);
+    const Matrix3 j = jacobian(corners, natural);
+    const double det = j.determinant();
+    const Gradients g = j.inverse() * natural;
+    Matrix6x24 b;
+    for (int a = 0; a < 8; ++a) b.middleCols<3>(3 * a) = strain_rows(g.col(a));
+    visit(det, b, bubble_strains(j0_inverse, det0 / det, xi, eta, zeta));
+  });
+}
+
 }  // namespace railstrata::hex

@@ -37,17 +37,8 @@ struct BubbleStiffness {
 BubbleStiffness bubble_stiffness(const std::array<Vec3, 8>& corners, const Elastic& material) {
   const Eigen::Matrix<double, 6, 6> c = elasticity(material);
   const Eigen::Matrix<double, 24, 12> modes = unit_hourglass_modes(corners, mean_gradients(corners));
-  const Matrix3 j0_inverse = jacobian(corners, natural_gradients(0, 0, 0)).inverse();
-  const double det0 = 1.0 / j0_inverse.determinant();
   BubbleStiffness out;
-  for_gauss_points([&](double xi, double eta, double zeta) {
-    const Gradients natural = natural_gradients(xi, eta, zeta);
-    const Matrix3 j = jacobian(corners, natural);
-    const double det = j.determinant();
-    const Gradients g = j.inverse() * natural;
-    Matrix6x24 b;
-    for (int a = 0; a < 8; ++a) b.middleCols<3>(3 * a) = strain_rows(g.col(a));
-    const Eigen::Matrix<double, 6, 9> m = bubble_strains(j0_inverse, det0 / det, xi, eta, zeta);
+  for_gauss_strains(corners, [&](double det, const Matrix6x24& b, const Eigen::Matrix<double, 6, 9>& m) {
     out.kaa += det * m.transpose() * c * m;
     out.kaq += det * m.transpose() * c * (b * modes);
   });

@@ -78,19 +78,10 @@ StationScale<double> station_scale(SweepScale scale) {
 
 Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const Elastic& material) {
   const Eigen::Matrix<double, 6, 6> c = elasticity(material);
-  const Matrix3 j0_inverse = jacobian(corners, natural_gradients(0, 0, 0)).inverse();
-  const double det0 = 1.0 / j0_inverse.determinant();
   Matrix24 kuu = Matrix24::Zero();
   Eigen::Matrix<double, 9, 24> kau = Eigen::Matrix<double, 9, 24>::Zero();
   Eigen::Matrix<double, 9, 9> kaa = Eigen::Matrix<double, 9, 9>::Zero();
-  for_gauss_points([&](double xi, double eta, double zeta) {
-    const Gradients natural = natural_gradients(xi, eta, zeta);
-    const Matrix3 j = jacobian(corners, natural);
-    const double det = j.determinant();
-    const Gradients g = j.inverse() * natural;
-    Matrix6x24 b;
-    for (int a = 0; a < 8; ++a) b.middleCols<3>(3 * a) = strain_rows(g.col(a));
-    const Eigen::Matrix<double, 6, 9> m = bubble_strains(j0_inverse, det0 / det, xi, eta, zeta);
+  for_gauss_strains(corners, [&](double det, const Matrix6x24& b, const Eigen::Matrix<double, 6, 9>& m) {
     kuu += det * b.transpose() * c * b;
     kau += det * m.transpose() * c * b;
     kaa += det * m.transpose() * c * m;

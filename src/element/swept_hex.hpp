@@ -248,7 +248,7 @@ struct HexReference {
 /// Of an element without eigenstress.
 struct NoEigenstress {
   template <class T>
-  void operator()(T (&)[6]) const {}
+  RAILSTRATA_POINTWISE void operator()(T (&)[6]) const {}
 };
 
 /// The element class: what one quadrilateral's elements read (Reference), what a station scales it by (StationScale),
@@ -269,8 +269,9 @@ struct SweptHex {
   ///   relieve    takes an eigenstress off the mean stress; never of a linear evaluation
   template <SweepKind kind, Evaluation how, class T, class Real, class Corner, class Hourglass, class Change,
             class Relieve = NoEigenstress>
-  static void forces(const Reference<Real>& r, const StationScale<T>& st, const Rotation<Real>& turn, T* history,
-                     Corner&& corner, Hourglass&& hourglass, Change&& change, Relieve&& relieve = {}) {
+  static RAILSTRATA_POINTWISE void forces(const Reference<Real>& r, const StationScale<T>& st,
+                                          const Rotation<Real>& turn, T* history, Corner&& corner,
+                                          Hourglass&& hourglass, Change&& change, Relieve&& relieve = {}) {
     auto kin = element_kinematics<kind, T>(r.shape, st, corner);
     ElementStress<T> stress;
     if constexpr (how == Evaluation::linear)
@@ -286,8 +287,9 @@ struct SweptHex {
 
   /// Stress and strain at a displacement with the history as it was committed.
   template <SweepKind kind, class T, class Real, class Relieve = NoEigenstress>
-  static ElementStress<T> stress(const Reference<Real>& r, const Rotation<Real>& turn, const ElementKinematics<T>& kin,
-                                 const T* history, Relieve&& relieve = {}) {
+  static RAILSTRATA_POINTWISE ElementStress<T> stress(const Reference<Real>& r, const Rotation<Real>& turn,
+                                                      const ElementKinematics<T>& kin, const T* history,
+                                                      Relieve&& relieve = {}) {
     return finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
       Law::stress(r.law, strain, history, s);
       relieve(s);

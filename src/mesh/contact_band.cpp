@@ -161,10 +161,11 @@ std::vector<double> fine_columns(double contact_s, double h, double fine_width, 
   return s;
 }
 
-std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerMesh>& layers, const char* carrier) {
+std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerMesh>& layers, const char* carrier,
+                                double carrier_width) {
   std::vector<double> s;
+  const double available = std::min(carrier_width, profile.y_max() - profile.y_min());
   for (const LayerMesh& layer : layers) {
-    const double available = profile.y_max() - profile.y_min();
     if (layer.width > available)
       throw CaseError(fmt::format("layer width larger than the {}: {:g} mm, the {} is {:.1f} mm wide", carrier,
                                   1e3 * layer.width, carrier, 1e3 * available),

@@ -43,7 +43,8 @@ std::vector<double> fine_columns(double contact_s, double h, double fine_width, 
 
 /// Arc lengths at which layers end (|y| = width / 2), within the profile. Throws CaseError for a layer wider than the
 /// profile.
-std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerMesh>& layers, const char* carrier);
+std::vector<double> layer_edges(const Profile& profile, const std::vector<LayerMesh>& layers, const char* carrier,
+                                double carrier_width);
 
 /// Point at a depth below the surface along the normal; s is clamped to the profile (round-off at its ends). Near a
 /// kink of the profile the direction turns gradually over kKinkHalfWidth on both sides, so that columns do not cross;

@@ -135,7 +135,7 @@ FrameNodes add_offset_frame(SweptBody& body, const Profile& profile, double cont
   const BandRows rows = band_rows(layers, sizes.element, sizes.fine_depth, spec.band_limit, spec.carrier.c_str());
   const double depth = rows.depth.back(), element = under_band_size(sizes, depth);
   const BandRows side_rows = merged_rows(rows, side_row_height(sizes, depth));
-  const std::vector<double> edges = layer_edges(profile, layers, spec.carrier.c_str());
+  const std::vector<double> edges = layer_edges(profile, layers, spec.carrier.c_str(), spec.width);
 
   Section frame;
   const auto left_s = tread_columns(fine.front(), std::min(fine.front(), spec.tread_range.first), sizes, edges);

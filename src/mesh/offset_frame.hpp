@@ -2,6 +2,7 @@
 // The U-shaped section around and below the fine cap: wheel rim, disc and rail block. Surface rows beside the cap, then
 // rows down to a flat floor.
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "mesh/contact_band.hpp"
@@ -32,12 +33,13 @@ double length_at_depth(const Profile& profile, const std::vector<double>& s, dou
 
 /// What differs between the bodies, in the profile frame (z may run either way).
 struct OffsetFrameSpec {
-  std::string name, carrier;              ///< of the block, in messages
-  std::pair<double, double> fine_range;   ///< arc lengths the fine columns keep within
-  std::pair<double, double> tread_range;  ///< arc lengths with columns along the normals
-  double band_limit = 0;                  ///< deepest band
-  double floor = 0;                       ///< z of the flat inner boundary
-  bool layered_ends = false;              ///< do layers continue beyond the tread range?
+  std::string name, carrier;                               ///< of the block, in messages
+  double width = std::numeric_limits<double>::infinity();  ///< where it is narrower than the profile
+  std::pair<double, double> fine_range;                    ///< arc lengths the fine columns keep within
+  std::pair<double, double> tread_range;                   ///< arc lengths with columns along the normals
+  double band_limit = 0;                                   ///< deepest band
+  double floor = 0;                                        ///< z of the flat inner boundary
+  bool layered_ends = false;                               ///< do layers continue beyond the tread range?
   /// Surface beyond the tread columns, which end at s: from the section's left corner to s / from s to the right
   /// corner, s itself excluded.
   std::function<std::vector<Vec2>(double s)> left_top, right_top;

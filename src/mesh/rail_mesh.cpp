@@ -83,7 +83,7 @@ RailBand rail_band(const Profile& profile, const RailMeshSpec& spec, const MeshS
   const double low = band.fine.front(), high = band.fine.back();
   const double largest = std::max(h, std::min(0.5 * sizes.largest, kArcPerColumn * radius));
   std::vector<double> left_edges, right_edges;
-  for (double s : layer_edges(profile, spec.layers, "head")) {
+  for (double s : layer_edges(profile, spec.layers, "head", profile.y_max() - profile.y_min())) {
     left_edges.push_back(low - s);
     right_edges.push_back(s - high);
   }
@@ -210,6 +210,7 @@ void fill_block(SweptBody& body, const Profile& profile, const RailMeshSpec& spe
   OffsetFrameSpec frame;
   frame.name = "block";
   frame.carrier = "block";
+  frame.width = spec.block_width;
   frame.fine_range = {low + end, high - end};
   frame.tread_range = frame.fine_range;
   frame.band_limit = std::min(0.4 * spec.block_height, kBandOfRadius * smallest_convex_radius(profile, low, high));

@@ -145,6 +145,16 @@ double at_depth(const std::vector<StressPoint>& rows, double depth, double Stres
   return column_at(rows, depth, column, key);
 }
 
+StressPoint process_stress(const StrengthSpec& strength, double depth, const std::string& key) {
+  if (!strength.initial_stress.empty()) return {depth, strength.initial_stress[0], strength.initial_stress[1]};
+  const std::vector<StressPoint>& rows = strength.initial_stress_table;
+  if (rows.empty()) return {depth, 0, 0};
+  const double known = std::min(depth, rows.back().depth);
+  const std::string table = key + ".initial_stress_table";
+  return {depth, at_depth(rows, known, &StressPoint::longitudinal, table),
+          at_depth(rows, known, &StressPoint::lateral, table)};
+}
+
 MaterialStrength::MaterialStrength(const StrengthSpec& strength, std::string name, std::string key)
     : s_(strength), name_(std::move(name)), key_(std::move(key)) {
   if (!s_.grade.empty()) grade_ = grade(s_.grade);

@@ -15,6 +15,10 @@ double at_depth(const std::vector<DepthPoint>& rows, double depth, const std::st
 double at_depth(const std::vector<StressPoint>& rows, double depth, double StressPoint::*column,
                 const std::string& key);
 
+/// Residual stress of the process at a depth [Pa]: what is given, or a table's, below its last row as
+/// there; nothing if the case does not say it.
+StressPoint process_stress(const StrengthSpec& strength, double depth, const std::string& key);
+
 /// Depths count from the top of the material: of rail and wheel the running surface, of a layer its own top.
 class MaterialStrength {
  public:

@@ -12,6 +12,7 @@
 #include "geometry/read_profile.hpp"
 #include "halfspace/line_contact.hpp"
 #include "mesh/quality.hpp"
+#include "model/model_on_rail.hpp"
 
 namespace railstrata {
 namespace {
@@ -28,8 +29,14 @@ Profile find_profile(ProfileKind kind, const std::string& name, const std::files
 
 Elastic to_elastic(const MaterialSpec& m) { return elastic(m.young, m.poisson, m.density); }
 
+/// A layer that says no width covers a block that is narrower.
+double width_of(const CaseSpec& spec, const LayerSpec& l) {
+  const bool on_block = l.on == BodyId::rail && spec.geometry.rail_shape == RailShape::block;
+  return on_block && l.width == LayerSpec{}.width ? std::min(l.width, spec.geometry.block_width) : l.width;
+}
+
 LayerMesh mesh_of(const CaseSpec& spec, const LayerSpec& l) {
-  return {l.name, l.thickness, l.width, spec.mesh.elements_through_layer_one ? 1 : l.elements};
+  return {l.name, l.thickness, width_of(spec, l), spec.mesh.elements_through_layer_one ? 1 : l.elements};
 }
 
 /// Mean modulus of a table between two depths.
@@ -62,7 +69,12 @@ std::vector<Row> rows_on(const CaseSpec& spec, BodyId body) {
     for (int k = 0; k < rows; ++k) {
       MaterialSpec material = l.material;
       material.young = mean_young(l.young_table, l.thickness * k / rows, l.thickness * (k + 1) / rows);
-      out.push_back({{fmt::format("{} {}", l.name, k + 1), l.thickness / rows, l.width, 1, k + 1 < rows}, material});
+      LayerMesh row = whole;
+      row.name = fmt::format("{} {}", l.name, k + 1);
+      row.thickness = l.thickness / rows;
+      row.elements = 1;
+      row.continues = k + 1 < rows;
+      out.push_back({row, material});
     }
   }
   return out;
@@ -211,9 +223,8 @@ void refuse_beyond_elements(const CaseSpec& spec) {
   for (const LayerSpec& layer : spec.layers) check(fmt::format("layer \"{}\"", layer.name), layer.material.poisson);
 }
 
-}  // namespace
-
-Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
+/// rail: not null: its mesh.
+Model build(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody* meshed_rail) {
   refuse_beyond_elements(spec);
   Model m{spec,
           place(spec, folder),
@@ -249,7 +260,7 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   rail.block_width = g.block_width;
   rail.block_height = g.block_height;
   rail.layers = layers_on(spec, BodyId::rail);
-  m.rail = mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
+  m.rail = meshed_rail ? *meshed_rail : mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
 
   WheelMeshSpec wheel;
   wheel.shape = g.wheel_shape;
@@ -268,6 +279,14 @@ Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) {
   require_sound_mesh(m.rail, BodyId::rail, spec);
   require_sound_mesh(m.wheel, BodyId::wheel, spec);
   return m;
+}
+
+}  // namespace
+
+Model build_model(const CaseSpec& spec, const std::filesystem::path& folder) { return build(spec, folder, nullptr); }
+
+Model build_model_on_rail(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody& rail) {
+  return build(spec, folder, &rail);
 }
 
 }  // namespace railstrata

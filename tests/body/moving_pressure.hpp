@@ -12,6 +12,7 @@ namespace railstrata::fem_checks {
 /// Half-width of the pressure 1 m, from -track to +track; cells of `cell` along, half of that deep.
 struct MovingPressure {
   double cell = 0.1, track = 5, p0_over_k = 4.35, kinematic_over_k = 0;
+  double friction = 0;  ///< of the whole patch, along the travel: a braking wheel's on the rail
   double speed = 0.04;  ///< of the shear wave's
   double shear_yield() const { return kSteel.mu / 2500; }
 };
@@ -145,7 +146,10 @@ class RolledHalfPlane {
       for (int j = 0; j < lay.stations; ++j) {
         if (std::abs(at[j] - centre) > 1 + 2 * p_.cell) continue;
         const double force = 0.5 * width() * share * load(j, centre);
-        for (int node : {0, 1}) state_.f[lay.line(node, 2) + j] += force;
+        for (int node : {0, 1}) {
+          state_.f[lay.line(node, 2) + j] += force;
+          state_.f[lay.line(node, 0) + j] -= p_.friction * force;
+        }
       }
     const double c = 0.5 * damping_ * dt_;
     const int bottom = lay.nodes - 2;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "core/faults.hpp"
 #include "geometry/profile_names.hpp"
 #include "mesh_checks.hpp"
 
@@ -75,6 +76,19 @@ TEST(SimpleShapes, GiveNoPoorElementForAnySizeAndLayer) {
     return mesh_wheel(wheel, 0.430, {}, spec, sizes);
   });
   EXPECT_GT(disc.scaled_jacobian, 0.1) << disc.where;
+}
+
+TEST(Primitives, ALayerIsNoWiderThanItsBlock) {
+  RailMeshSpec rail = rail_spec();
+  rail.shape = RailShape::block;
+  rail.block_width = 0.03;
+  rail.layers = {{"layer", 1e-3, 0.05}};
+  try {
+    mesh_rail(circular_profile(ProfileKind::rail, 0.1), {}, rail, {1e-3, 12e-3});
+    FAIL() << "not refused";
+  } catch (const CaseError& error) {
+    EXPECT_NE(std::string(error.what()).find("50 mm, the block is 30.0 mm wide"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Primitives, ArcsAndPlanesGiveNearlyPerfectBlocksAndDiscs) {

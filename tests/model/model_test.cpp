@@ -32,6 +32,18 @@ CaseSpec crossed_cylinders() {
   return spec;
 }
 
+}  // namespace
+
+TEST(BuildModel, ALayerWithoutAWidthCoversANarrowerBlock) {
+  CaseSpec spec = crossed_cylinders();
+  spec.layers.emplace_back().thickness = 1e-3;
+  EXPECT_GT(build_model(spec, {}).rail.elements(), 0);
+  spec.layers[0].width = 0.055;
+  EXPECT_THROW(build_model(spec, {}), CaseError);
+}
+
+namespace {
+
 LayerSpec graded(BodyId on, std::vector<ModulusPoint> table, int elements) {
   LayerSpec layer;
   layer.on = on;

@@ -1,0 +1,31 @@
+#pragma once
+// What has become of the elements that may yield: element by element for pictures, the place of the largest plastic
+// strain, and what of the plastic work hardening has stored.
+#include "body/body.hpp"
+
+namespace railstrata {
+
+/// Means over an element's points by their shares of the volume, in the model frame: the element's own frame turned as
+/// its body is (the rotation that strains bring along is left out).
+struct ElementPlasticity {
+  Sym3 strain;             ///< Ep, tensor shears
+  Sym3 backstress;         ///< Pa, sum of all
+  double accumulated = 0;  ///< p
+};
+
+/// psi: rotation of a wheel, as in the traversal. Zeros of an element that stays elastic.
+ElementPlasticity element_plasticity(const Body& body, double psi, const Field& history, int block, int quad,
+                                     int station);
+
+/// The element with the largest accumulated plastic strain of any of its points.
+struct PlasticPeak {
+  double accumulated = 0;                ///< of that point
+  int block = 0, quad = 0, station = 0;  ///< of the element; nothing where nothing has yielded
+};
+PlasticPeak plastic_peak(const Body& body, const Field& history);
+
+/// Energy that the backstresses hold, the integral of sum_i 3/(4 C_i) alpha_i:alpha_i [J]: part of plastic_work
+/// (body/plastic_pass.hpp), the rest of which has become heat. [Chaboche1989]
+double backstress_energy(const Body& body, const Field& history);
+
+}  // namespace railstrata

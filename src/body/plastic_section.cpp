@@ -1,0 +1,174 @@
+#include "body/plastic_section.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "body/body_state.hpp"
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+
+namespace railstrata {
+namespace {
+
+using Entries = PlasticEntries;
+using Place = PlasticElements::Place;
+
+/// Of hot places.
+std::vector<PlasticSection::Quad> quads_of(const Body& body, const Field& history) {
+  std::vector<PlasticSection::Quad> out;
+  for (int slot = 0; slot < body.plastic.hot_places(history); ++slot) {
+    const Place p = body.plastic.hot(history, slot);
+    out.push_back({body.tiling.tiles[p.tile].block, p.quad});
+  }
+  const auto before = [](const PlasticSection::Quad& a, const PlasticSection::Quad& b) {
+    return a.block != b.block ? a.block < b.block : a.quad < b.quad;
+  };
+  std::sort(out.begin(), out.end(), before);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+/// Elements first <= e < end of a block.
+struct Range {
+  int first = 0, end = 0;
+};
+Range between(const Stations& stations, double from, double to) {
+  Range out{0, stations.elements()};
+  const auto centre = [&](int e) { return 0.5 * (stations.at[e] + stations.at[e + 1]); };
+  while (out.first < out.end && centre(out.first) < from) ++out.first;
+  while (out.end > out.first && centre(out.end - 1) > to) --out.end;
+  if (out.first < out.end) return out;
+  const auto above = std::upper_bound(stations.at.begin(), stations.at.end(), 0.5 * (from + to));
+  const int e = std::clamp(static_cast<int>(above - stations.at.begin()) - 1, 0, stations.elements() - 1);
+  return {e, e + 1};
+}
+
+/// Adds the points of an element, pair by pair.
+void add_element(const Body& body, const Field& history, int block, int quad, int element, double weight, double* sum) {
+  const int tile = body.tiling.first_tile[block] + element / kTile, entries = body.plastic.point_entries();
+  const std::ptrdiff_t first = body.plastic.first(history, tile, quad);
+  if (first < 0) return;
+  const double* rows = history.data() + first + element % kTile + Entries::kPoints * kTile;
+  for (int pair = 0; pair < kGaussPairs; ++pair)
+    for (int k = 0; k < entries; ++k) {
+      const double plus = rows[((2 * pair) * entries + k) * kTile],
+                   minus = rows[((2 * pair + 1) * entries + k) * kTile];
+      sum[pair * entries + k] += weight * (0.5 * (plus + minus));
+    }
+}
+
+/// Eigenstress and bubbles of an element whose pairs are alike.
+Eigenstress<double> eigenstress_of(const Body& body, const Place& place, int element, const double* points) {
+  const Tile& tile = body.tiling.tiles[place.tile];
+  const PlasticElements::Quad& quad = body.plastic.quad(place);
+  const int cls = body.elements[tile.block].hourglass_class[element / kHourglassGroup];
+  const SweepScale scale = body.plastic.scale(tile.block, cls);
+  PlasticSums<double> sums{};
+  for (int pair = 0; pair < kGaussPairs; ++pair) {
+    double stress[6];
+    for (int i = 0; i < 6; ++i) stress[i] = 2 * quad.material.law.mu * points[pair * body.plastic.point_entries() + i];
+    add_pair(quad.gauss.pair[pair], 1 / scale.sigma, 1 / scale.c, stress, stress, sums);
+  }
+  const double volume = body.elements[tile.block].table.quads[place.quad].shape.volume * scale.sigma * scale.c;
+  Eigenstress<double> out = condensed(quad.modes[cls], volume, sums);
+  for (int i = 0; i < 6; ++i) out.mean[i] -= quad.material.initial_stress[i];
+  return out;
+}
+
+void put_place(const Body& body, const Place& place, const double* points, double* rows) {
+  const Tile& tile = body.tiling.tiles[place.tile];
+  const int entries = body.plastic.point_entries();
+  for (int e = tile.first; e < tile.end; ++e) {
+    double* own = rows + e - tile.first;
+    Eigenstress<double> eigen = eigenstress_of(body, place, e, points);
+    own[Entries::kTouched * kTile] = rows[Entries::kStressed] = 1;
+    each_entry(eigen, [&](int n, double x) { own[(Entries::kEigenstress + n) * kTile] = x; });
+    for (int n = 0; n < 3; ++n)
+      for (int i = 0; i < 3; ++i) own[(Entries::kBubbles + 3 * n + i) * kTile] = eigen.bubbles.a[n][i];
+    for (int point = 0; point < 2 * kGaussPairs; ++point)
+      for (int k = 0; k < entries; ++k)
+        own[(Entries::kPoints + point * entries + k) * kTile] = points[point / 2 * entries + k];
+  }
+}
+
+using QuadKey = std::pair<int, int>;
+
+std::map<QuadKey, std::size_t> places_of(const PlasticSection& section) {
+  std::map<QuadKey, std::size_t> at;
+  for (std::size_t n = 0; n < section.quads.size(); ++n) at[{section.quads[n].block, section.quads[n].quad}] = n;
+  return at;
+}
+
+[[noreturn]] void refuse() {
+  throw CaseError("what earlier passes have left lies where this one's elements cannot yield",
+                  "go on with the strengths and the mesh of the first pass");
+}
+
+}  // namespace
+
+PlasticSection plastic_section(const Body& body, const Field& history, double from, double to) {
+  PlasticSection out;
+  out.point_entries = body.plastic.point_entries();
+  out.quads = quads_of(body, history);
+  const std::size_t each = static_cast<std::size_t>(kGaussPairs) * out.point_entries;
+  out.history.assign(out.quads.size() * each, 0.0);
+  for_each(static_cast<std::ptrdiff_t>(out.quads.size()), [&](std::ptrdiff_t n) {
+    const auto [block, quad] = out.quads[n];
+    const Range range = between(body.mesh.blocks[block].stations, from, to);
+    const double weight = 1.0 / (range.end - range.first);
+    for (int e = range.first; e < range.end; ++e)
+      add_element(body, history, block, quad, e, weight, out.history.data() + static_cast<std::size_t>(n) * each);
+  });
+  return out;
+}
+
+PlasticSection on_quads(const PlasticSection& section, const PlasticSection& like) {
+  const std::map<QuadKey, std::size_t> at = places_of(section);
+  const std::size_t each = static_cast<std::size_t>(kGaussPairs) * like.point_entries;
+  PlasticSection out = like;
+  for (std::size_t n = 0; n < like.quads.size(); ++n) {
+    const auto found = at.find({like.quads[n].block, like.quads[n].quad});
+    double* own = out.history.data() + n * each;
+    if (found == at.end())
+      std::fill_n(own, each, 0.0);
+    else
+      std::copy_n(section.point(found->second, 0), each, own);
+  }
+  return out;
+}
+
+Field history_of_section(const Body& body, const PlasticSection& section) {
+  const std::map<QuadKey, std::size_t> at = places_of(section);
+  Field out = initial_history(body);
+  std::vector<char> placed(section.quads.size(), 0);
+  for (std::size_t c = 0; c < body.plastic.candidates().size(); ++c) {
+    const Place& place = body.plastic.candidates()[c];
+    const auto found = at.find({body.tiling.tiles[place.tile].block, place.quad});
+    if (found == at.end()) continue;
+    if (section.point_entries != body.plastic.point_entries()) refuse();
+    if (!body.plastic.is_hot(out, static_cast<int>(c))) body.plastic.add(out, static_cast<int>(c));
+    put_place(body, place, section.point(found->second, 0),
+              out.data() + body.plastic.first(out, place.tile, place.quad));
+    placed[found->second] = 1;
+  }
+  for (std::size_t n = 0; n < placed.size(); ++n)
+    for (int pair = 0; pair < kGaussPairs; ++pair)
+      if (!placed[n] && section.point(n, pair)[6] > 0) refuse();
+  return out;
+}
+
+SectionStrain section_strain(const Body& body, const PlasticSection& section, std::size_t quad) {
+  const auto [block, q] = section.quads[quad];
+  const GaussShape<double> gauss = gauss_shape(body.mesh.kind, quad_corners(body.mesh.blocks[block].section, q));
+  SectionStrain out;
+  for (int pair = 0; pair < kGaussPairs; ++pair) {
+    const double weight = 2 * gauss.pair[pair].weight;  // of both
+    const double* point = section.point(quad, pair);
+    for (int i = 0; i < 6; ++i) out.plastic[i] += weight * point[i];
+    out.accumulated += weight * point[6];
+  }
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,88 @@
+#include "body/tile_cut.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace railstrata {
+namespace {
+
+// Stretches of at most `most` each, filled one after the other.
+std::vector<int> filled(const std::vector<long>& work, long most) {
+  std::vector<int> out;
+  long sum = 0;
+  int part = 0;
+  for (long w : work) {
+    if (!out.empty() && sum + w > most) {
+      ++part;
+      sum = 0;
+    }
+    sum += w;
+    out.push_back(part);
+  }
+  return out;
+}
+
+}  // namespace
+
+long tile_elements(const Body& body, int tile) {
+  const Tile& t = body.tiling.tiles[tile];
+  return static_cast<long>(body.mesh.blocks[t.block].section.quads.size()) * (t.end - t.first);
+}
+
+std::vector<int> cut_evenly(const std::vector<long>& work, int parts) {
+  if (work.empty()) return {};
+  long low = *std::max_element(work.begin(), work.end()), high = std::accumulate(work.begin(), work.end(), 0L);
+  while (low < high) {
+    const long middle = low + (high - low) / 2;
+    if (filled(work, middle).back() < parts)
+      high = middle;
+    else
+      low = middle + 1;
+  }
+  return filled(work, low);
+}
+
+std::vector<TileCut> cut_tiles(const std::vector<const Body*>& bodies, int ranks, int rank) {
+  std::vector<TileCut> out(bodies.size());
+  if (ranks == 1) return out;
+  std::vector<long> work;
+  for (const Body* body : bodies)
+    for (int t = 0; t < static_cast<int>(body->tiling.tiles.size()); ++t) work.push_back(tile_elements(*body, t));
+  const std::vector<int> owner = cut_evenly(work, ranks);
+  auto next = owner.begin();
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const auto count = static_cast<std::ptrdiff_t>(bodies[k]->tiling.tiles.size());
+    out[k].rank = rank;
+    out[k].owner.assign(next, next + count);
+    next += count;
+  }
+  return out;
+}
+
+std::vector<OwnedChain> stretches(const Tiling& tiling, const TileCut& cut) {
+  std::vector<OwnedChain> out;
+  for (int t = 0; t < static_cast<int>(tiling.tiles.size()); ++t) {
+    const int owner = cut.whole() ? cut.rank : cut.owner[t];
+    const bool anew = out.empty() || tiling.tiles[t].block != tiling.tiles[t - 1].block || owner != out.back().owner;
+    if (anew) out.push_back({{t, t}, owner});
+    out.back().end_tile = t + 1;
+  }
+  return out;
+}
+
+std::vector<Chain> cut_chains(const Tiling& tiling, const TileCut& cut, int at_least, bool single_tiles,
+                              std::vector<Chain> reuse) {
+  const auto own = static_cast<int>(std::count(cut.owner.begin(), cut.owner.end(), cut.rank));
+  const int length = single_tiles ? 1 : std::max(1, own / std::max(at_least, 1));
+  std::vector<Chain> out = std::move(reuse);
+  out.clear();
+  for (const OwnedChain& s : stretches(tiling, cut)) {
+    const int tiles = s.end_tile - s.first_tile;
+    const int pieces = single_tiles || s.owner == cut.rank ? (tiles + length - 1) / length : 1;
+    for (int k = 0; k < pieces; ++k)
+      out.push_back({s.first_tile + k * tiles / pieces, s.first_tile + (k + 1) * tiles / pieces});
+  }
+  return out;
+}
+
+}  // namespace railstrata
