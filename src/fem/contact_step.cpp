@@ -170,6 +170,22 @@ void ContactStep::apply_tractions(RollingBodies& bodies, BodyStates& states, con
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].steps.local.add_forces(changes_[k], states[k].f);
 }
 
+const std::array<std::vector<SurfaceForce>, 2>& ContactStep::surface_forces(const RollingBodies& bodies,
+                                                                            const SurfaceTractions& tractions) {
+  std::vector<SurfaceForce>&rail = surface_forces_[kRail], &wheel = surface_forces_[kWheel];
+  rail.clear();
+  wheel.clear();
+  for (std::ptrdiff_t x : system_.wheel_nodes) wheel.push_back({x, bodies[kWheel].surface.node_at(x), {}});
+  for (const ContactRow& row : rows_->rows) {
+    if (tractions.at(row.column, row.station).p <= 0) continue;
+    const Vec3 force = force_on_rail(row, tractions), turned = bodies[kWheel].frame.to_frame(force);
+    rail.push_back({row.rail, {row.column, row.station}, force});
+    for (int w = row.first; w < row.first + row.count; ++w)
+      wheel[system_.weight_node[w]].force -= rows_->weights[w].m * turned;
+  }
+  return surface_forces_;
+}
+
 ContactLosses ContactStep::measure(double dt, SurfaceTractions& tractions) {
   const ContactSystem& c = system_;
   forces_ = {};

@@ -15,6 +15,13 @@ struct ContactForces {
   int nodes = 0, sweeps = 0;
 };
 
+/// On a node of a running surface, in the body's frame.
+struct SurfaceForce {
+  std::ptrdiff_t x;  ///< index of component x
+  SurfaceIndex node;
+  Vec3 force;  ///< N
+};
+
 /// W, lost in a step.
 struct ContactLosses {
   double friction = 0, normal = 0;
@@ -51,6 +58,11 @@ class ContactStep {
   /// The tractions to the forces: what local steps have felt already is taken off, the rest goes through their stages.
   void apply_tractions(RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions);
 
+  /// The tractions as forces on the nodes of both surfaces, each node once; of bodies without local steps. Reused by
+  /// the next call.
+  const std::array<std::vector<SurfaceForce>, 2>& surface_forces(const RollingBodies& bodies,
+                                                                 const SurfaceTractions& tractions);
+
   /// Sums the forces on the wheel and what was lost; adds friction's work to that of the nodes.
   ContactLosses measure(double dt, SurfaceTractions& tractions);
 
@@ -76,6 +88,7 @@ class ContactStep {
   ContactSystem system_;
   std::vector<Vec3> carried_;  // forces of the rows that local steps have felt already
   std::array<std::vector<NodalForce>, 2> changes_;
+  std::array<std::vector<SurfaceForce>, 2> surface_forces_;
   std::vector<NodeTraction> kept_;
   ContactForces forces_;
   bool reached_edge_ = false;

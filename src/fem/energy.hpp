@@ -7,7 +7,7 @@ namespace railstrata {
 /// dissipated = their start + torque_work + guide_work.
 struct EnergyBalance {
   double kinetic = 0, strain = 0, hourglass = 0;
-  double weight = 0;  ///< potential of gravity
+  double weight = 0;  ///< potential of gravity, and of what holds the rail's ends
   double spring = 0;  ///< suspension springs, with their static force
   double torque_work = 0;
   double guide_work = 0;      ///< of the forces on the axle that keep or push it sideways, or keep its speed

@@ -14,7 +14,7 @@ struct GuardLimits {
   double energy_drift =
       0.25;  ///< largest |change of the energy balance| over the largest of torque work and strain energy
   double penetration = 1.0;       ///< largest over the Hertzian approach
-  double hourglass_share = 0.25;  ///< largest hourglass over strain energy
+  double hourglass_share = 0.25;  ///< largest hourglass over strain energy, of bodies that stay elastic
   int rows_between_shapes = 8;    ///< rows of history.csv between two looks at the elements' shapes
 };
 

@@ -70,4 +70,13 @@ LateralStart lateral_start(const Model& m) {
   return {creepage, std::clamp(lateral_force(ellipse_of(m), drive, along, creepage, spin), -most, most)};
 }
 
+double estimated_creepage(const Model& m, double traction) {
+  const DriveSpec& drive = m.spec.drive;
+  if (!(drive.friction_coefficient > 0)) return 0;
+  const RigidContact& contact = m.placement.contact;
+  const RollingEllipse e = ellipse_of(m);
+  const double across = drive.lateral_creepage.value_or(yaw_creepage(contact)), spin = wheel_spin(contact);
+  return creepage_at(-traction * m.load, [&](double x) { return fastsim(e, {x, across, spin}).x; });
+}
+
 }  // namespace railstrata

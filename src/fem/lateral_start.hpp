@@ -20,4 +20,8 @@ struct LateralStart {
 /// static case.
 LateralStart lateral_start(const Model& model);
 
+/// Longitudinal creepage at which the same theory has a longitudinal force of `traction` times the static load on the
+/// wheel. The largest that runs take where friction falls short of it; 0 without friction.
+double estimated_creepage(const Model& model, double traction);
+
 }  // namespace railstrata

@@ -2,6 +2,7 @@
 
 #include "core/parallel.hpp"
 #include "core/vectorize.hpp"
+#include "fem/rank_exchange.hpp"
 
 namespace railstrata {
 namespace {
@@ -33,39 +34,6 @@ NodeRows rows_of(const RollingBody& b, BodyState& state, SectionNode node, const
           b.turns() ? line_radius(b.body, node.block, node.node) : 0.0};
 }
 
-// Rigid travel and turn of the frame at a node, as velocities in the components of this step's frame.
-struct RigidVelocity {
-  double before_x = 0, before_z = 0, after_x = 0, after_z = 0, y = 0;
-};
-inline RigidVelocity rigid_velocity(const ReferenceFrame& frame, double radius, double cosine, double sine) {
-  const double cd = frame.step.c, sd = frame.step.s;
-  const double armx = -radius * sine, armz = radius * cosine;
-  const double slope_x = frame.slope_cos * armx + frame.slope_sin * armz;
-  const double slope_z = frame.slope_cos * armz - frame.slope_sin * armx;
-  const Vec3 own = frame.own_velocity();
-  const double travel_x = frame.turn.c * own.x, travel_z = frame.turn.s * own.x;
-  return {cd * slope_x - sd * slope_z + travel_x, sd * slope_x + cd * slope_z + travel_z, slope_x + travel_x,
-          slope_z + travel_z, own.y};
-}
-
-struct PlaneAndLateral {
-  double x, y, z;
-};
-// What the run-up damping takes off a node's acceleration, components of this step's frame.
-template <bool turning>
-inline PlaneAndLateral run_up_damping(double rate, const MeanMotion& mean, Rotation<double> step, double radius,
-                                      double cosine, double sine, double wx, double wy, double wz) {
-  double rx = rate * wx, ry = rate * wy, rz = rate * wz;
-  if constexpr (turning) {
-    rx -= rate * (mean.x + mean.spin * radius * cosine);
-    rz -= rate * (mean.z + mean.spin * radius * sine);
-    const double r = rx;
-    rx = step.c * r - step.s * rz;
-    rz = step.s * r + step.c * rz;
-  }
-  return {rx, ry, rz};
-}
-
 // Stations begin <= j < end of one section node (fem/stepper.hpp has the scheme). measured: with run-up damping and
 // sums. Everything a loop needs stands in locals, and nothing in it branches: it is compiled to packs.
 template <SweepKind kind, bool measured>
@@ -73,61 +41,15 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
                   UpdateSums& sums) {
   constexpr bool turning = kind == SweepKind::revolve;
   const NodeRows n = node;
-  const ReferenceFrame frame = b.frame;
-  const MeanMotion mean = b.mean;
-  const double dt = scope.dt, rate = scope.damping_rate, cd = frame.step.c, sd = frame.step.s, radius = n.radius;
-  const double push = turning ? frame.centrifugal * radius : 0.0;
-  const double gx = turning ? frame.turn.s * scope.gravity : 0.0;
-  const double gz = turning ? -frame.turn.c * scope.gravity : -scope.gravity;
-  double twice_kinetic = 0, power = 0, px = 0, pz = 0, angular = 0;
+  const NodeStep step = node_step<kind>(b.frame, b.mean, scope.dt, scope.damping_rate, scope.gravity);
+  const double radius = n.radius;
+  NodeSums of_rows;
   RAILSTRATA_INDEPENDENT
-  for (int j = begin; j < end; ++j) {
-    const double m = n.inverse_mass[j];
-    const double wx = n.vx[j], wy = n.vy[j], wz = n.vz[j];
-    double ax = gx - m * n.fx[j], ay = -m * n.fy[j], az = gz - m * n.fz[j];
-    double bx = wx, bz = wz;               // before, in the frame of this step
-    [[maybe_unused]] PlaneAndLateral d{};  // run-up damping
-    if constexpr (turning) {
-      ax -= push * n.sine[j];
-      az += push * n.cosine[j];
-      bx = cd * wx - sd * wz;
-      bz = sd * wx + cd * wz;
-    }
-    if constexpr (measured) {
-      d = run_up_damping<turning>(rate, mean, frame.step, radius, turning ? n.cosine[j] : 1.0,
-                                  turning ? n.sine[j] : 0.0, wx, wy, wz);
-      ax -= d.x;
-      ay -= d.y;
-      az -= d.z;
-    }
-    const double qx = bx + dt * ax, qy = wy + dt * ay, qz = bz + dt * az;
-    n.vx[j] = qx;
-    n.vy[j] = qy;
-    n.vz[j] = qz;
-    const double dx = n.ux[j] + dt * qx, dz = n.uz[j] + dt * qz;
-    n.uy[j] += dt * qy;
-    n.ux[j] = turning ? cd * dx - sd * dz : dx;
-    n.uz[j] = turning ? sd * dx + cd * dz : dz;
-    if constexpr (measured) {
-      const double mass = 1 / m;
-      double before_x = bx, before_y = wy, before_z = bz, after_x = qx, after_y = qy, after_z = qz;
-      if constexpr (turning) {
-        const RigidVelocity rigid = rigid_velocity(frame, radius, n.cosine[j], n.sine[j]);
-        before_x += rigid.before_x;
-        before_y += rigid.y;
-        before_z += rigid.before_z;
-        after_x += rigid.after_x;
-        after_y += rigid.y;
-        after_z += rigid.after_z;
-        px += mass * qx;
-        pz += mass * qz;
-        angular += mass * radius * (n.cosine[j] * qx + n.sine[j] * qz);
-      }
-      twice_kinetic += mass * (before_x * after_x + before_y * after_y + before_z * after_z);
-      power += 0.5 * mass * (d.x * (before_x + after_x) + d.y * (before_y + after_y) + d.z * (before_z + after_z));
-    }
-  }
-  if constexpr (measured) sums += {0.5 * twice_kinetic, power, px, pz, angular};
+  for (int j = begin; j < end; ++j)
+    advance_node<kind, measured>(step, n.inverse_mass[j], radius, turning ? n.cosine[j] : 1.0,
+                                 turning ? n.sine[j] : 0.0, n.fx[j], n.fy[j], n.fz[j], n.ux[j], n.uy[j], n.uz[j],
+                                 n.vx[j], n.vy[j], n.vz[j], of_rows);
+  if constexpr (measured) sums += {0.5 * of_rows.twice_kinetic, of_rows.power, of_rows.px, of_rows.pz, of_rows.angular};
 }
 
 void advance(RollingBody& b, BodyState& state, const StepScope& scope, SectionNode node, int begin, int end,
@@ -178,19 +100,21 @@ UpdateSums fused_chain(RollingBody& b, BodyState& state, const StepScope& scope,
 }  // namespace
 
 void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
-                       const StepScope& scope) {
+                       const StepScope& scope, RankExchange* exchange) {
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     bodies[k].elements.begin(states[k].u, drift[k]);
-    advance_plastic_elements(bodies[k].body, states[k].u, drift[k], states[k].history, scope.look);
+    const TileCut* cut = scope.energy_wanted ? nullptr : &bodies[k].cut;  // energies read the history of all
+    advance_plastic_elements(bodies[k].body, states[k].u, drift[k], states[k].history, scope.look, cut);
     chain_tiles(bodies[k], scope.sums_wanted());
   }
-  const auto count = [&](std::size_t k) { return static_cast<std::ptrdiff_t>(bodies[k].schedule.chains.size()); };
+  const auto count = [&](std::size_t k) { return static_cast<std::ptrdiff_t>(bodies[k].schedule.own.size()); };
   const auto run = [&](std::ptrdiff_t task) {
     const Item item = item_of(task, count(0));
     RollingBody& b = bodies[item.body];
     BodyState& state = states[item.body];
-    const Chain& chain = b.schedule.chains[item.index];
-    UpdateSums& sums = b.schedule.chain_sums[item.index];
+    const int own = b.schedule.own[item.index];
+    const Chain& chain = b.schedule.chains[own];
+    UpdateSums& sums = b.schedule.chain_sums[own];
     if (scope.energy_wanted) {
       b.elements.chain_forces(chain, state.u, state.f, state.history, StoreForces{});
       sums = {};
@@ -199,6 +123,10 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
     }
   };
   for_each(count(0) + count(1), run, true);
+  if (exchange) {
+    exchange->share_forces(bodies, states, scope);
+    return;
+  }
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].elements.end(bodies[k].schedule.chains, states[k].f);
 }
 

@@ -17,14 +17,14 @@ struct StepScope {
   bool sums_wanted() const { return damping_rate > 0 || energy_wanted; }
 };
 
-using RollingBodies = std::array<RollingBody, 2>;
-using BodyStates = std::array<BodyState, 2>;
+class RankExchange;
 
 /// Internal forces of both bodies at their displacements; drift: rotation of the body relative to its frame [rad].
 /// Nodes that wait for nothing are updated on the way (FuseUpdate), unless the energies are wanted, which are those of
-/// one moment. Commits the history.
+/// one moment. Commits the history. With several ranks each evaluates its own tiles and all get the forces
+/// (fem/rank_exchange.hpp).
 void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
-                       const StepScope& scope);
+                       const StepScope& scope, RankExchange* exchange = nullptr);
 
 /// The nodes that waited for the contact, and the border planes of the others.
 void update_waiting_nodes(RollingBodies& bodies, BodyStates& states, const StepScope& scope);

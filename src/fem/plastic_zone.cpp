@@ -7,10 +7,7 @@
 #include <numbers>
 
 #include "body/body.hpp"
-#include "body/stress.hpp"
 #include "core/faults.hpp"
-#include "core/parallel.hpp"
-#include "fem/stepper.hpp"
 #include "model/material_strength.hpp"
 
 namespace railstrata {
@@ -19,26 +16,37 @@ namespace {
 constexpr double kDepth = 2.5, kWidth = 1.6;  // of Hertz's larger half-axis and half-width
 constexpr double kBeyondPath = 3;             // half-lengths of the patch
 
-// Laws of a body's materials, and the depth that their tables begin at.
+// A material of the mesh: its entry in the case, and the depth that its tables begin at.
+struct Source {
+  const MaterialSpec* material;
+  std::string name, key;
+  double top = 0;
+};
+std::vector<Source> sources_of(const CaseSpec& spec, BodyId id, const SweptBody& mesh) {
+  const bool rail = id == BodyId::rail;
+  std::vector<Source> by_layer;
+  by_layer.push_back(rail ? Source{&spec.rail_material, "rail", "material.rail", 0}
+                          : Source{&spec.wheel_material, "wheel", "material.wheel", 0});
+  double top = 0;
+  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
+    const LayerSpec& layer = spec.layers[i];
+    if (layer.on != id) continue;
+    by_layer.push_back({&layer.material, layer.name, fmt::format("layer.{}", i), top});
+    top += layer.thickness;
+  }
+  std::vector<Source> out;
+  for (int m = 0; m < static_cast<int>(mesh.materials.size()); ++m)
+    out.push_back(by_layer.at(static_cast<std::size_t>(mesh.layer_of(m))));
+  return out;
+}
+
 struct Law {
   std::optional<PlasticLaw> law;
   double top = 0;
 };
 std::vector<Law> laws_of(const CaseSpec& spec, BodyId id, const SweptBody& mesh) {
-  const bool rail = id == BodyId::rail;
-  std::vector<Law> by_layer;
-  const MaterialSpec& matrix = rail ? spec.rail_material : spec.wheel_material;
-  by_layer.push_back({plastic_law(matrix, rail ? "rail" : "wheel", rail ? "material.rail" : "material.wheel"), 0});
-  double top = 0;
-  for (std::size_t i = 0; i < spec.layers.size(); ++i) {
-    const LayerSpec& layer = spec.layers[i];
-    if (layer.on != id) continue;
-    by_layer.push_back({plastic_law(layer.material, layer.name, fmt::format("layer.{}", i)), top});
-    top += layer.thickness;
-  }
   std::vector<Law> out;
-  for (int m = 0; m < static_cast<int>(mesh.materials.size()); ++m)
-    out.push_back(by_layer.at(static_cast<std::size_t>(mesh.layer_of(m))));
+  for (const Source& s : sources_of(spec, id, mesh)) out.push_back({plastic_law(*s.material, s.name, s.key), s.top});
   return out;
 }
 
@@ -113,36 +121,37 @@ class Zone {
   double depth_ = 0, width_ = 0, first_ = 0, last_ = 0;
 };
 
-// Elements that stay elastic although their material yields: von Mises stress over the yield stress.
-struct Hottest {
-  double share = 0;
-  int block = 0, quad = 0, station = 0;
+class ProcessStress {
+ public:
+  ProcessStress(const Model& model, BodyId id, const SweptBody& mesh)
+      : mesh_(mesh), axes_(contact_axes(model, id)), sources_(sources_of(model.spec, id, mesh)) {}
+
+  /// In the element's frame.
+  InitialStress::Stress at(int block, int quad) const {
+    const Section& section = mesh_.blocks[block].section;
+    const Source& source = sources_[section.quad_material[quad]];
+    const StrengthSpec& s = source.material->strength;
+    if (s.initial_stress.empty() && s.initial_stress_table.empty()) return {};
+    Vec2 along{axes_.outward.z, -axes_.outward.y};
+    double depth = axes_.of(centre_of(section, quad)).depth;
+    if (const ContactBand& band = mesh_.contact; block == band.block) {
+      const int row = quad / band.columns, column = quad % band.columns;
+      const Vec2 facet = section.nodes[column + 1] - section.nodes[column];
+      along = (1 / std::hypot(facet.y, facet.z)) * facet;
+      depth = 0.5 * (band.depth[row] + band.depth[row + 1]);
+    }
+    const StressPoint given = process_stress(s, depth - source.top, source.key);
+    const double lateral = given.lateral;
+    return {given.longitudinal,          lateral * along.y * along.y,
+            lateral * along.z * along.z, 0,
+            lateral * along.y * along.z, 0};
+  }
+
+ private:
+  const SweptBody& mesh_;
+  ContactAxes axes_;
+  std::vector<Source> sources_;
 };
-Hottest hottest_outside(const RollingSystem& sys, BodyId id, const Field& u, const Field& history) {
-  const Body& body = sys.body(id);
-  const SweptBody& mesh = body.mesh;
-  const Zone zone(sys.model, id, mesh);
-  const int block = mesh.contact.block;  // where stresses are highest
-  const int quads = static_cast<int>(mesh.blocks[block].section.quads.size());
-  std::vector<Hottest> worst(static_cast<std::size_t>(quads));
-  for_each(
-      quads,
-      [&](std::ptrdiff_t k) {
-        const int q = static_cast<int>(k);
-        const std::optional<PlasticMaterial> material = zone.material(block, q);
-        if (!material) return;
-        for (int e = 0; e < body.layout.blocks[block].elements; ++e) {
-          if (body.plastic.first(body.tiling.first_tile[block] + e / kTile, q) >= 0) continue;
-          const double share = von_mises(element_stress(body, u, history, block, q, e)) / material->plastic.yield;
-          if (share > worst[k].share) worst[k] = {share, block, q, e};
-        }
-      },
-      true);
-  Hottest out;
-  for (const Hottest& w : worst)
-    if (w.share > out.share) out = w;
-  return out;
-}
 
 }  // namespace
 
@@ -152,31 +161,23 @@ PlasticElements plastic_zone(const Model& model, BodyId id, const Body& body) {
     throw CaseError("run.plasticity = true, but no material of the case says a strength",
                     "give material.rail.yield_strength, or a ready set: material.rail.hardening = \"R260\"");
   const Zone zone(model, id, body.mesh);
-  return {body,
-          [&](int block, int quad) -> std::optional<YieldingMaterial> {
-            if (!zone.reaches(block, quad)) return std::nullopt;
-            const std::optional<PlasticMaterial> material = zone.material(block, quad);
-            if (!material) return std::nullopt;
-            return YieldingMaterial{material->plastic, {}};
-          },
-          [&](int, int, const Tile& tile) { return zone.reaches(tile); }};
+  const ProcessStress process(model, id, body.mesh);
+  const RunSpec& run = model.spec.run;
+  const bool box = run.plastic_depth || run.plastic_width;
+  return {
+      body,
+      [&](int block, int quad) -> std::optional<YieldingMaterial> {
+        const std::optional<PlasticMaterial> material = zone.material(block, quad);
+        if (!material) return std::nullopt;
+        return YieldingMaterial{material->plastic, process.at(block, quad)};
+      },
+      [&](int block, int quad, const Tile& tile) { return box && zone.reaches(block, quad) && zone.reaches(tile); }};
 }
 
-void require_elastic_outside(const Stepper& st) {
-  const RollingSystem& sys = st.system();
-  if (!sys.model.spec.run.plasticity || st.state().step % kWatchInterval != 0) return;
-  for (const BodyId id : {BodyId::rail, BodyId::wheel}) {
-    const Body& body = sys.body(id);
-    const Field u = st.displacement(id);
-    const Hottest at = hottest_outside(sys, id, u, st.state().bodies[index_of(id)].history);
-    if (at.share < 1) continue;
-    const Below below = contact_axes(sys.model, id).of(centre_of(body.mesh.blocks[at.block].section, at.quad));
-    throw NumericalError(fmt::format(
-        "an element of the {} that is computed elastically reached {:.2f} of its yield stress at x = {:.4g} "
-        "mm: {:.1f} mm deep, {:.1f} mm beside the contact point\n"
-        "    try a larger run.plastic_depth or run.plastic_width",
-        body.mesh.name, at.share, 1e3 * st.position(), 1e3 * below.depth, 1e3 * below.aside));
-  }
+InitialStress initial_stress(const Model& model, BodyId id, const SweptBody& mesh) {
+  if (!model.spec.run.plasticity) return {};
+  const ProcessStress process(model, id, mesh);
+  return {mesh, [&](int block, int quad) { return process.at(block, quad); }};
 }
 
 }  // namespace railstrata

@@ -26,12 +26,13 @@ constexpr int kMostSteps = 60, kMostPlasticSteps = 400, kMostIterations = 5000;
 
 class Preload {
  public:
-  Preload(const RollingSystem& system, const ClusterSizes& clusters)
+  Preload(const RollingSystem& system, const ClusterSizes& clusters, const RailBefore* before)
       : sys_(system),
         contact_(system.rail_surface(), system.wheel_surface()),
         tractions_(system.rail_surface().columns, system.rail_surface().stations.nodes()),
         elements_{Traversal(system.rail()), Traversal(system.wheel())},
-        virgin_{initial_history(system.rail()), initial_history(system.wheel())},
+        before_(before),
+        virgin_{before ? before->history : initial_history(system.rail()), initial_history(system.wheel())},
         history_(virgin_),
         preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero_vector(system)) {
@@ -54,7 +55,10 @@ class Preload {
       if (progress) progress(out.residual, tolerance, out.cg_iterations);
       if (!std::isfinite(out.residual))
         throw NumericalError("static preload: the residual is not a number" + what_to_try());
-      if (out.residual < tolerance && (compliant_ || out.penetration < kPenetration * sys_.model.hertz.approach)) break;
+      if (out.residual < tolerance && (compliant_ || out.penetration < kPenetration * sys_.model.hertz.approach)) {
+        if (!extend()) break;
+        continue;
+      }
       if (step > (sys_.model.spec.run.plasticity ? kMostPlasticSteps : kMostSteps))
         throw NumericalError(
             fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e}){}", step,
@@ -66,6 +70,7 @@ class Preload {
       advance(r);
     }
     out.u = u_.body;
+    if (before_) out.before = before_->u;
     out.history = std::move(history_);
     out.axle_z = u_.axle;
     for (NodeTraction& t : tractions_.all()) t = {};
@@ -89,6 +94,7 @@ class Preload {
   }
 
   void start_from_overlap() {
+    if (before_) u_.body[kRail] = before_->u;
     u_.axle = -kVirtualPenetration * sys_.model.hertz.approach;
     for (const NodeLine& l : sys_.wheel().lines)
       if (l.component == 2) std::fill_n(u_.body[kWheel].begin() + l.first, l.count, u_.axle);
@@ -226,10 +232,18 @@ class Preload {
   void yield(std::size_t k) {
     const Body& body = sys_.bodies[k];
     if (body.plastic.empty()) return;
+    elements_[k].begin(u_.body[k], 0);  // the ghosts of a ring
     for (int repeat = 0; repeat < 2; ++repeat) {
       restore_points(body, virgin_[k], history_[k]);
       advance_plastic_elements(body, u_.body[k], 0, history_[k]);
     }
+  }
+  // What comes near yielding at the present displacements becomes hot; false if nothing does.
+  bool extend() {
+    int added = 0;
+    for (std::size_t k = 0; k < history_.size(); ++k)
+      if (!sys_.bodies[k].plastic.empty()) added += extend_plastic_elements(sys_.bodies[k], u_.body[k], 0, history_[k]);
+    return added > 0;
   }
   StaticVector residual() {
     StaticVector r = zero_vector(sys_);
@@ -238,6 +252,7 @@ class Preload {
       elements_[k].internal_force(u_.body[k], 0, r.body[k], history_[k]);
       for (double& v : r.body[k]) v = -v;
     }
+    for (const EndLoad& l : sys_.end_loads) r.body[kRail][l.index] += l.force;
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
       if (pressure_[k] > 0) apply_pressure(k, pressure_[k], r);
     apply_lateral_friction(r);
@@ -312,6 +327,7 @@ class Preload {
   MortarContact contact_;
   SurfaceTractions tractions_;
   std::array<Traversal, 2> elements_;
+  const RailBefore* before_;
   const std::array<Field, 2> virgin_;
   std::array<Field, 2> history_;  // at the present displacements
   StaticPreconditioner preconditioner_;
@@ -327,9 +343,9 @@ class Preload {
 }  // namespace
 
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress,
-                            const std::atomic<bool>* stop, const ClusterSizes& clusters) {
+                            const std::atomic<bool>* stop, const ClusterSizes& clusters, const RailBefore* before) {
   const auto start = std::chrono::steady_clock::now();
-  PreloadResult result = Preload(system, clusters).solve(tolerance, progress, stop);
+  PreloadResult result = Preload(system, clusters, before).solve(tolerance, progress, stop);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

@@ -23,9 +23,16 @@
 
 namespace railstrata {
 
+/// A rail over which wheels have rolled.
+struct RailBefore {
+  Field u;        ///< m, displacements of the rail at rest (fem/rail_at_rest.hpp)
+  Field history;  ///< of its elements
+};
+
 struct PreloadResult {
   std::array<Field, 2> u;        ///< m, displacements by BodyId
   std::array<Field, 2> history;  ///< of the elements, with what has yielded
+  Field before;                  ///< m, displacements of the rail without the wheel; empty: none
   double axle_z = 0;             ///< m, displacement of the axle from the rigid contact position, negative: down
   SurfaceTractions tractions{0, 0};
   double residual = 0;                      ///< |r| / |load vector|
@@ -38,8 +45,10 @@ struct PreloadResult {
 /// Called after every Newton step with (relative residual, wanted residual, CG iterations so far).
 using PreloadProgress = std::function<void(double, double, int)>;
 
-/// Throws NumericalError when it does not converge, Interrupted when `stop` was set.
+/// before: not null: what earlier wheels have left in the rail. Throws NumericalError when it does not converge,
+/// Interrupted when `stop` was set.
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {},
-                            const std::atomic<bool>* stop = nullptr, const ClusterSizes& clusters = {});
+                            const std::atomic<bool>* stop = nullptr, const ClusterSizes& clusters = {},
+                            const RailBefore* before = nullptr);
 
 }  // namespace railstrata

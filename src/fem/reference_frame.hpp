@@ -32,18 +32,18 @@ struct ReferenceFrame {
     psi = spin * time;
     turn = rotation_by(psi);
   }
-  Vec3 to_model(Vec3 v) const { return yaw(yaw_turn, rotate(turn, v)); }
-  Vec3 to_frame(Vec3 v) const { return rotate_back(turn, yaw_back(yaw_turn, v)); }
+  constexpr Vec3 to_model(Vec3 v) const { return yaw(yaw_turn, rotate(turn, v)); }
+  constexpr Vec3 to_frame(Vec3 v) const { return rotate_back(turn, yaw_back(yaw_turn, v)); }
   /// Velocity and travel, model frame.
-  Vec3 velocity() const { return {speed, lateral_speed, 0}; }
-  Vec3 travel() const { return {x, y, 0}; }
+  constexpr Vec3 velocity() const { return {speed, lateral_speed, 0}; }
+  constexpr Vec3 travel() const { return {x, y, 0}; }
   /// The same in the body's own axes.
-  Vec3 own_velocity() const { return yaw_back(yaw_turn, velocity()); }
-  Vec3 own_travel() const { return yaw_back(yaw_turn, travel()); }
+  constexpr Vec3 own_velocity() const { return yaw_back(yaw_turn, velocity()); }
+  constexpr Vec3 own_travel() const { return yaw_back(yaw_turn, travel()); }
   /// D^T v, D the rotation of one step.
-  Vec3 step_back(Vec3 v) const { return rotate_back(step, v); }
+  constexpr Vec3 step_back(Vec3 v) const { return rotate_back(step, v); }
   /// (D - 1) X / dt
-  Vec3 rigid_rate(Vec3 arm) const {
+  constexpr Vec3 rigid_rate(Vec3 arm) const {
     return {slope_cos * arm.x + slope_sin * arm.z, 0, slope_cos * arm.z - slope_sin * arm.x};
   }
 };

@@ -73,10 +73,11 @@ void each_node(const Body& body, Visit&& visit) {
 }  // namespace
 
 RollingBody::RollingBody(const Body& body_, const ContactSurface& surface_, BodySteps& steps_,
-                         const ReferenceFrame& frame_)
+                         const ReferenceFrame& frame_, TileCut cut_)
     : body(body_),
       surface(surface_),
       steps(steps_),
+      cut(std::move(cut_)),
       frame(frame_),
       elements(body_),
       schedule(schedule_of(body_, surface_, steps_)) {
@@ -112,7 +113,11 @@ void chain_tiles(RollingBody& b, bool sums_wanted) {
   const int wanted = sums_wanted ? kSingleTiles : kChainsPerThread * max_threads();
   if (wanted == schedule.chains_wanted) return;
   schedule.chains_wanted = wanted;
-  schedule.chains = chains(tiling, wanted, std::move(schedule.chains));
+  schedule.chains = b.cut.whole() ? chains(tiling, wanted, std::move(schedule.chains))
+                                  : cut_chains(tiling, b.cut, wanted, sums_wanted, std::move(schedule.chains));
+  schedule.own.clear();
+  for (std::size_t k = 0; k < schedule.chains.size(); ++k)
+    if (b.cut.is_own(schedule.chains[k].first_tile)) schedule.own.push_back(static_cast<int>(k));
   schedule.chain_sums.assign(schedule.chains.size(), {});
   schedule.borders.resize(schedule.at_once.size());
   for (std::vector<int>& planes : schedule.borders) planes.clear();

@@ -2,31 +2,14 @@
 // One of the two bodies as the steps of a rolling see it: its frame, its workspaces and the schedule of its nodes.
 #include <vector>
 
+#include "body/tile_cut.hpp"
 #include "body/traversal.hpp"
 #include "contact/surface.hpp"
+#include "fem/node_law.hpp"
 #include "fem/reference_frame.hpp"
 #include "fem/step_plan.hpp"
 
 namespace railstrata {
-
-/// What an update adds up.
-struct UpdateSums {
-  double kinetic = 0, damping = 0;                     ///< J, W
-  double momentum_x = 0, momentum_z = 0, angular = 0;  ///< of the velocities in the frame; revolved bodies only
-  UpdateSums& operator+=(const UpdateSums& o) {
-    kinetic += o.kinetic;
-    damping += o.damping;
-    momentum_x += o.momentum_x;
-    momentum_z += o.momentum_z;
-    angular += o.angular;
-    return *this;
-  }
-};
-
-/// Mean motion of a revolved body's free nodes relative to its frame, in its components; the run-up damping spares it.
-struct MeanMotion {
-  double x = 0, z = 0, spin = 0;
-};
 
 /// When a body's nodes are updated: as soon as their forces are complete, or after the contact.
 struct UpdateSchedule {
@@ -35,17 +18,20 @@ struct UpdateSchedule {
   std::vector<SectionNode> bordered;  ///< nodes updated at once, but for the border planes
   int chains_wanted = 0;              ///< what chains and borders were made for
   std::vector<Chain> chains;  ///< enough to keep the threads busy; single tiles where sums are wanted, whose bits are
-                              ///< not to depend on the threads
+                              ///< not to depend on the threads. Of other ranks' tiles too
+  std::vector<int> own;       ///< those of the chains that this rank works through
   std::vector<std::vector<int>> borders;  ///< per block, border stations
   std::vector<UpdateSums> chain_sums, waiting_sums, border_sums;
 };
 
 struct RollingBody {
-  RollingBody(const Body& body, const ContactSurface& surface, BodySteps& steps, const ReferenceFrame& frame);
+  RollingBody(const Body& body, const ContactSurface& surface, BodySteps& steps, const ReferenceFrame& frame,
+              TileCut cut = {});
 
   const Body& body;
   const ContactSurface& surface;
   BodySteps& steps;
+  TileCut cut;
   ReferenceFrame frame;
   Traversal elements;
   UpdateSchedule schedule;
@@ -59,6 +45,9 @@ struct RollingBody {
   /// From the axle to an undeformed node, frame components; zero if extruded.
   Vec3 arm(int block, int node, int station) const;
 };
+
+using RollingBodies = std::array<RollingBody, 2>;  ///< by BodyId
+using BodyStates = std::array<BodyState, 2>;
 
 /// Chains and border planes for this step; no memory is asked for after the first of each kind.
 void chain_tiles(RollingBody& body, bool sums_wanted);

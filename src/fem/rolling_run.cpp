@@ -9,7 +9,6 @@
 #include "body/traversal.hpp"
 #include "core/faults.hpp"
 #include "fem/guards.hpp"
-#include "fem/plastic_zone.hpp"
 
 namespace railstrata {
 namespace {
@@ -19,6 +18,15 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 
 PlasticExtent of_both(const PlasticExtent& a, const PlasticExtent& b) {
   return {std::max(a.accumulated, b.accumulated), std::max(a.strain, b.strain), a.yielded + b.yielded};
+}
+
+void add_remains(const RollingSystem& sys, const Field& rail, const Field& wheel, RunResult& out) {
+  out.plastic = of_both(plastic_extent(sys.rail(), rail), plastic_extent(sys.wheel(), wheel));
+  const PlasticPeak in_rail = plastic_peak(sys.rail(), rail), in_wheel = plastic_peak(sys.wheel(), wheel);
+  const bool rail_more = in_rail.accumulated >= in_wheel.accumulated;
+  out.remains = {rail_more ? BodyId::rail : BodyId::wheel, rail_more ? in_rail : in_wheel,
+                 plastic_work(sys.rail(), rail) + plastic_work(sys.wheel(), wheel),
+                 backstress_energy(sys.rail(), rail) + backstress_energy(sys.wheel(), wheel)};
 }
 
 constexpr long kStepsBetweenGoodStates = 1024;  // a copy of the state costs less than a step
@@ -161,7 +169,6 @@ void Roller::step() {
   stepper_.step();
   require_sound(stepper_);
   require_forward(stepper_);
-  require_elastic_outside(stepper_);
   if (record) record_history();
   if (observer_.frame && stepper_.position() >= run_.next_frame) show_frame();
   take_due_samples();
@@ -174,6 +181,7 @@ void Roller::record_history() {
     run_.start_energy = now;
     run_.started = true;
   }
+  if (result().history.size() % GuardLimits{}.rows_between_shapes == 0) stepper_.complete();
   const HistoryRow row = history_row(stepper_, run_.start_energy);
   run_.largest_closure = std::max(run_.largest_closure, std::abs(row.closure));
   run_.largest_energy = std::max({run_.largest_energy, now.torque_work, now.strain});
@@ -190,17 +198,20 @@ void Roller::record_history() {
 void Roller::show_frame() {
   run_.next_frame += frame_spacing_;
   run_.frame_times.push_back(stepper_.state().time);
+  stepper_.complete();
   time_output([&] { observer_.frame(take_sample(stepper_)); });
 }
 
 void Roller::take_due_samples() {
   for (; !all_sampled() && stepper_.position() >= wanted_[run_.next_sample].position; ++run_.next_sample) {
+    stepper_.complete();
     result().penetration = std::max(result().penetration, stepper_.forces().penetration);
     time_output([&] { result().positions[wanted_[run_.next_sample].group].samples.push_back(take_sample(stepper_)); });
   }
 }
 
 void Roller::keep_state() {
+  stepper_.complete();
   require_finite(stepper_);
   result().wall_seconds = wall_seconds();
   result().reached_edge = stepper_.reached_edge();
@@ -237,13 +248,16 @@ void Roller::drop_unfinished_positions() {
 }
 
 RunResult Roller::finish() {
-  if (result().stopped) drop_unfinished_positions();
+  stepper_.complete();
+  if (result().stopped)
+    drop_unfinished_positions();
+  else if (observer_.finished)
+    observer_.finished(stepper_.state());
   result().closure = run_.largest_energy > 0 ? run_.largest_closure / run_.largest_energy : 0;
   result().reached_edge = stepper_.reached_edge();
   result().steps = stepper_.state().step;
   const RollingState& state = stepper_.state();
-  result().plastic = of_both(plastic_extent(sys_.rail(), state.bodies[kRail].history),
-                             plastic_extent(sys_.wheel(), state.bodies[kWheel].history));
+  add_remains(sys_, state.bodies[kRail].history, state.bodies[kWheel].history, result());
   result().wall_seconds = wall_seconds();
   return std::move(run_.result);
 }
@@ -267,32 +281,36 @@ double hourglass_share(const RollingSystem& sys, PreloadResult& preload) {
   return (rail.hourglass + wheel.hourglass) / (rail.strain + wheel.strain);
 }
 
-void drop_fields(PreloadResult& preload) { preload.u = preload.history = {}; }
+void drop_fields(PreloadResult& preload) {
+  preload.u = preload.history = {};
+  preload.before = {};
+}
 
 }  // namespace
 
-RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
+RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer, const RailBefore* before,
+                      const StepBy& by) {
   const RunSpec& run = sys.model.spec.run;
   const auto start = Clock::now();
   RunResult out;
   out.elements = sys.model.rail.elements() + sys.model.wheel.elements();
   out.nodes = sys.model.rail.nodes() + sys.model.wheel.nodes();
-  PreloadResult preload = solve_preload(sys, run.preload_tolerance, observer.preload, observer.stop);
+  PreloadResult preload = solve_preload(sys, run.preload_tolerance, observer.preload, observer.stop, {}, before);
   out.preload_wall_seconds = preload.wall_seconds;
 
   if (!run.rolling) {
     out.positions.push_back(still_contact(sys, preload));
     out.hourglass_share = hourglass_share(sys, preload);
     out.penetration = preload.penetration;
-    out.plastic = of_both(plastic_extent(sys.rail(), preload.history[kRail]),
-                          plastic_extent(sys.wheel(), preload.history[kWheel]));
+    add_remains(sys, preload.history[kRail], preload.history[kWheel], out);
     drop_fields(preload);
     out.preload = std::move(preload);
     out.wall_seconds = seconds_since(start);
     return out;
   }
 
-  Stepper stepper(sys, preload);
+  Stepper stepper(sys, preload, by.ranks);
+  stepper.use(by.engine);
   drop_fields(preload);
   out.preload = std::move(preload);
   for (double target : sorted_targets(sys)) out.positions.push_back({target, {}});
@@ -301,9 +319,10 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer) {
   return Roller(sys, observer, stepper, std::move(state), start).roll();
 }
 
-RunResult resume_rolling(const RollingSystem& sys, const RunObserver& observer, RunState state) {
+RunResult resume_rolling(const RollingSystem& sys, const RunObserver& observer, RunState state, const StepBy& by) {
   const auto start = Clock::now();
-  Stepper stepper(sys, std::move(state.stepper));
+  Stepper stepper(sys, std::move(state.stepper), by.ranks);
+  stepper.use(by.engine);
   state.stepper = {};
   return Roller(sys, observer, stepper, std::move(state), start).roll();
 }

@@ -12,6 +12,14 @@ struct PositionSamples {
   std::vector<RollingSample> samples;
 };
 
+/// What yielding has left at the end.
+struct PlasticRemains {
+  BodyId body = BodyId::rail;  ///< whose peak it is: the larger of both
+  PlasticPeak peak;
+  double work = 0;        ///< J, on the plastic strains of both bodies
+  double backstress = 0;  ///< J of it that the backstresses hold; the rest has become heat
+};
+
 struct RunResult {
   PreloadResult preload;  ///< fields emptied
   StepLimits limits;
@@ -28,6 +36,7 @@ struct RunResult {
   long elements = 0, nodes = 0;
   bool stopped = false;   ///< ended early on demand
   PlasticExtent plastic;  ///< of both bodies at the end
+  PlasticRemains remains;
 };
 
 /// A run between two steps: all that is needed to go on with it.
@@ -50,17 +59,23 @@ struct RunObserver {
   PreloadProgress preload;
   std::function<void(double fraction, const HistoryRow&)> progress;  ///< with every row; fraction of the way, 0 to 1
   std::function<void(const HistoryRow&)> history;                    ///< every run.history_interval
-  std::function<void(const RollingSample&)> frame;  ///< evenly spaced frames, output.series_frames of them
-  const std::atomic<bool>* stop = nullptr;          ///< of the static preload, which throws Interrupted
-  std::function<Demand()> demand;                   ///< asked wherever the stepper can be restarted
-  std::function<void(const RunState&)> save;        ///< on demand, and the last good state before a NumericalError
+  std::function<void(const RollingSample&)> frame;    ///< evenly spaced frames, output.series_frames of them
+  const std::atomic<bool>* stop = nullptr;            ///< of the static preload, which throws Interrupted
+  std::function<Demand()> demand;                     ///< asked wherever the stepper can be restarted
+  std::function<void(const RollingState&)> finished;  ///< the last state of a rolling that was not stopped
+  std::function<void(const RunState&)> save;          ///< on demand, and the last good state before a NumericalError
 };
 
-/// Throws NumericalError (NaN, lost contact, a wheel that stops, no equilibrium), CaseError (wheel too heavy) and
-/// Interrupted.
-RunResult run_rolling(const RollingSystem& system, const RunObserver& observer);
+/// before: not null: what earlier wheels have left in the rail. Throws NumericalError (NaN, lost contact, a wheel that
+/// stops, no equilibrium), CaseError (wheel too heavy) and Interrupted.
+/// by: what computes the steps; the result of several ranks is the same on all of them, to the last bit, as that of
+/// one. Each has an observer whose functions are empty where they are on the others; its demand and stop are the same
+/// on all.
+RunResult run_rolling(const RollingSystem& system, const RunObserver& observer, const RailBefore* before = nullptr,
+                      const StepBy& by = {});
 /// Goes on with a run that observer.save was given: result, history and samples have the same bits as those of a run in
 /// one go.
-RunResult resume_rolling(const RollingSystem& system, const RunObserver& observer, RunState state);
+RunResult resume_rolling(const RollingSystem& system, const RunObserver& observer, RunState state,
+                         const StepBy& by = {});
 
 }  // namespace railstrata

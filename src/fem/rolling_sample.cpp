@@ -90,8 +90,11 @@ BandSample band_sample(const Body& body, const ContactBand& band, const SampledB
   s.stations = last - first;
   for (int j = first; j <= last; ++j) s.along.push_back(radius * (planes.coordinate(j) - centre));
   for (int j = first; j < last; ++j)
-    for (int q = 0; q < band.rows * band.columns; ++q)
+    for (int q = 0; q < band.rows * band.columns; ++q) {
       s.stress.push_back(element_stress(body, at.u, at.history, band.block, q, planes.station(j)));
+      if (body.plastic.empty()) continue;
+      s.plastic.push_back(element_plasticity(body, pose.psi, at.history, band.block, q, planes.station(j)));
+    }
   const RigidMotion motion(pose, yaw_turn);
   for (int j = first; j <= last; ++j)
     for (int k = 0; k < (band.rows + 1) * (band.columns + 1); ++k)

@@ -2,6 +2,7 @@
 // What a run records of the moving contact: samples of both bodies around the wheel, and rows of the history.
 #include <vector>
 
+#include "body/plastic_field.hpp"
 #include "fem/stepper.hpp"
 
 namespace railstrata {
@@ -14,6 +15,7 @@ struct BandSample {
                               ///< (arc length on the wheel)
   std::vector<Sym3> stress;   ///< Cauchy stress at the element centres, model frame, Pa; index (station * rows + row) *
                               ///< columns + column
+  std::vector<ElementPlasticity> plastic;  ///< of the elements, as stress; empty where nothing may yield
   std::vector<Vec3> displacement;  ///< of the nodes, m, model frame, without the wheel's rigid motion; index (station *
                                    ///< (rows + 1) + row) * (columns + 1) + column
 };

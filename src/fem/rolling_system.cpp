@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "body/traversal.hpp"
 #include "case/engine_scope.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
@@ -47,6 +48,18 @@ std::vector<EndDashpot> end_absorbers(const Body& rail) {
   std::vector<EndDashpot> out;
   for (std::ptrdiff_t k = 0; k < lay.size; ++k)
     if (coefficient[k] > 0 && rail.inverse_mass[k] > 0) out.push_back({k, coefficient[k]});
+  return out;
+}
+
+std::vector<EndLoad> end_loads_of(const Body& rail) {
+  if (rail.initial_stress.empty()) return {};
+  Field undeformed = rail.layout.field(), f = rail.layout.field();
+  Traversal(rail).internal_force(undeformed, 0, f, initial_history(rail));
+  rail.ties.apply_transpose(f);
+  std::vector<EndLoad> out;
+  for (const NodeLine& l : rail.lines)
+    if (l.component == 0)
+      for (int j : {0, l.count - 1}) out.push_back({l.first + j, f[l.first + j]});
   return out;
 }
 
@@ -148,7 +161,10 @@ RollingSystem::RollingSystem(const Model& m)
       gravity(m.spec.vehicle.gravity),
       rolling_radius(m.placement.contact.rolling_radius) {
   for (Body& b : bodies) clear_prescribed_mass(b);
-  for (const BodyId id : kBodies) bodies[index_of(id)].plastic = plastic_zone(m, id, body(id));
+  for (const BodyId id : kBodies) {
+    bodies[index_of(id)].plastic = plastic_zone(m, id, body(id));
+    bodies[index_of(id)].initial_stress = initial_stress(m, id, body(id).mesh);
+  }
   const VehicleSpec& v = m.spec.vehicle;
   travel_mass = v.wheel_mass + (v.couple_sprung_mass ? v.sprung_mass : 0.0);
   spin_inertia = axle.inertia;
@@ -163,6 +179,7 @@ RollingSystem::RollingSystem(const Model& m)
   const double traction = drive.traction().value_or(0) * m.load;
   torque = traction * (rolling_radius + spin_inertia / (travel_mass * rolling_radius));
   absorbers = end_absorbers(rail());
+  end_loads = end_loads_of(rail());
   surfaces = {rail_surface_of(m, rail()), wheel_surface_of(m, wheel())};
   const double yaw_angle = m.placement.contact.yaw;
   surfaces[kWheel].yaw = {std::cos(yaw_angle), std::sin(yaw_angle)};

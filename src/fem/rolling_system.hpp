@@ -42,6 +42,15 @@ struct EndDashpot {
   double coefficient;
 };
 
+/// What the rail beyond the model's end holds a node of the end plane with [N], along x: the nodal force of its initial
+/// stress, so that the rail is as long as it is and keeps that stress up to its ends. A free end would be felt far into
+/// it: of a layer of thickness h on a block the stress comes back as 1 - 2.14 h/distance (a wedge of a right angle with
+/// a force along its edge [TimoshenkoGoodier1970 art. 38]).
+struct EndLoad {
+  std::ptrdiff_t index;
+  double force;
+};
+
 /// What the rolling takes of a case, so that no step looks into the case itself.
 struct ExplicitOptions {
   double speed = 0;            ///< m/s
@@ -65,6 +74,7 @@ struct RollingSystem {
   std::array<Body, 2> bodies;  ///< by BodyId
   Axle axle;
   std::vector<EndDashpot> absorbers;
+  std::vector<EndLoad> end_loads;
   std::array<ContactSurface, 2> surfaces;  ///< by BodyId
   double gravity = 0;
   double rolling_radius = 0;

@@ -6,6 +6,7 @@
 
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "fem/static_vector.hpp"
 
 namespace railstrata {
 namespace {
@@ -29,7 +30,7 @@ SearchWindow search_window(const RollingSystem& sys) {
 bool same_sizes(const RestartState& r, const RollingSystem& sys) {
   for (std::size_t k = 0; k < sys.bodies.size(); ++k) {
     for (const StateArray& a : kStateArrays)
-      if (a.restart && (r.state.bodies[k].*a.values).size() != array_size(sys.bodies[k], a)) return false;
+      if (a.restart && !fits(sys.bodies[k], a, r.state.bodies[k].*a.values)) return false;
   }
   const ContactSurface& surface = sys.rail_surface();
   const auto surface_nodes = static_cast<std::size_t>(surface.columns) * surface.stations.nodes();
@@ -37,19 +38,34 @@ bool same_sizes(const RestartState& r, const RollingSystem& sys) {
          r.state.tractions.all().size() == surface_nodes && r.state.tractions.stations() == surface.stations.nodes();
 }
 
+RollingBodies rolling_bodies(const RollingSystem& sys, StepPlan& plan, const Ranks& ranks) {
+  const std::size_t tiles = sys.rail().tiling.tiles.size() + sys.wheel().tiling.tiles.size();
+  if (static_cast<std::size_t>(ranks.count) > tiles)
+    throw CaseError(
+        fmt::format("{} ranks cannot share this mesh: it has {} pieces of {} stations", ranks.count, tiles, kTile),
+        "start fewer ranks, with more threads each");
+  std::vector<TileCut> cuts = cut_tiles({&sys.rail(), &sys.wheel()}, ranks.count, ranks.rank);
+  return {RollingBody(sys.rail(), sys.rail_surface(), plan.bodies[kRail], {}, std::move(cuts[kRail])),
+          RollingBody(sys.wheel(), sys.wheel_surface(), plan.bodies[kWheel], rolling_frame(sys, plan.limits.chosen),
+                      std::move(cuts[kWheel]))};
+}
+
 }  // namespace
 
-Stepper::Stepper(const RollingSystem& system)
+Stepper::Stepper(const RollingSystem& system, const Ranks& ranks)
     : sys_(system),
       plan_(system),
-      bodies_{RollingBody(system.rail(), system.rail_surface(), plan_.bodies[kRail], {}),
-              RollingBody(system.wheel(), system.wheel_surface(), plan_.bodies[kWheel],
-                          rolling_frame(system, plan_.limits.chosen))},
-      contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)) {}
+      bodies_(rolling_bodies(system, plan_, ranks)),
+      contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)) {
+  if (!ranks.alone()) exchange_.emplace(ranks, bodies_);
+}
 
-Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload) : Stepper(system) { start(preload); }
+Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload, const Ranks& ranks)
+    : Stepper(system, ranks) {
+  start(preload);
+}
 
-Stepper::Stepper(const RollingSystem& system, RestartState restart) : Stepper(system) {
+Stepper::Stepper(const RollingSystem& system, RestartState restart, const Ranks& ranks) : Stepper(system, ranks) {
   if (!same_sizes(restart, sys_)) throw CaseError("the saved state is that of another mesh", "start the run anew");
   state_ = std::move(restart.state);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -97,7 +113,9 @@ void Stepper::start(const PreloadResult& preload) {
     state.history = preload.history[k];
     b.frame.move_to(0);
     if (b.turns()) b.surface_u = state.u;
+    if (k == kRail && !preload.before.empty()) add(state.u, -1, preload.before);  // what was there does not travel
     start_velocities(b, rate[k], state);
+    state.u = preload.u[k];
     b.mean = mean_motion(b, state);
   }
 }
@@ -126,13 +144,20 @@ double Stepper::lateral_creepage() const {
 }
 
 void Stepper::step() {
+  if (engine_ && step_on_engine()) return;
+  fetch();
   const EnergyBalance before = balance_;
   const PlasticLook look = state_.step % kLookInterval == 0 ? PlasticLook::all : PlasticLook::awake;
   const StepScope scope{dt(), sys_.gravity, damping_rate(), want_energy_, look};
   const std::array<double, 2> turned = drift();
   const AxlePose pose = state_.axle.pose();
 
-  evaluate_elements(bodies_, state_.bodies, turned, scope);
+  if (state_.step % kExtendInterval == 0) extend_hot_elements(turned);
+  if (exchange_) {
+    exchange_->mark(state_.time, state_.axle.z);
+    exchange_->prepare(bodies_, state_.bodies, scope);
+  }
+  evaluate_elements(bodies_, state_.bodies, turned, scope, exchange());
   if (want_energy_) book_stored_energy(turned);
   const double tie_moment = reduce_ties(turned);
   absorb_at_ends();
@@ -145,11 +170,10 @@ void Stepper::step() {
   contact_.gather(bodies_, state_.bodies, scope);
   contact_.enforce(scope.dt, state_.tractions);
   contact_.apply_tractions(bodies_, state_.bodies, state_.tractions);
-  const ContactLosses losses = contact_.measure(scope.dt, state_.tractions);
-  balance_.friction += scope.dt * losses.friction;
-  balance_.contact_normal += scope.dt * losses.normal;
+  book_contact(contact_.measure(scope.dt, state_.tractions));
 
   update_waiting_nodes(bodies_, state_.bodies, scope);
+  sums_ = update_sums(bodies_, scope);
   book_update(scope);
   const double axle_kinetic =
       advance_axle(sys_, loads, axle_drive(), axle_rest_z_, scope, state_.axle, state_.groups, balance_);
@@ -160,6 +184,20 @@ void Stepper::step() {
   advance_clock();
   sys_.apply_constraints(state_.bodies[kRail].u, state_.bodies[kWheel].u, pose_in_frame());
   want_energy_ = false;
+  if (engine_) engine_->load(state_.bodies);
+}
+
+void Stepper::complete() {
+  fetch();
+  if (exchange_) exchange_->complete(bodies_, state_.bodies);
+}
+
+void Stepper::extend_hot_elements(const std::array<double, 2>& turned) {
+  if (!sys_.rail().plastic.empty() || !sys_.wheel().plastic.empty()) complete();
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    bodies_[k].elements.begin(state_.bodies[k].u, turned[k]);  // the ghosts of a ring
+    extend_plastic_elements(bodies_[k].body, state_.bodies[k].u, turned[k], state_.bodies[k].history);
+  }
 }
 
 // At u(n) and v(n-1/2); elements read what they have committed.
@@ -177,6 +215,7 @@ void Stepper::book_stored_energy(const std::array<double, 2>& turned) {
     b.stretch = b.steps.scaling.differences(frame_velocity(b, state, true), std::move(b.stretch));
   }
   balance_.weight = sys_.gravity * (weight + sys_.axle.mass_z * state_.axle.z);
+  for (const EndLoad& l : sys_.end_loads) balance_.weight -= l.force * state_.bodies[kRail].u[l.index];
   balance_.spring = spring_energy(sys_, state_.axle, axle_rest_z_, state_.groups);
 }
 
@@ -201,11 +240,16 @@ void Stepper::absorb_at_ends() {
     absorbed += d.coefficient * v * v;
   }
   balance_.absorbed += dt() * absorbed;
+  for (const EndLoad& l : sys_.end_loads) rail.f[l.index] -= l.force;
+}
+
+void Stepper::book_contact(const ContactLosses& losses) {
+  balance_.friction += dt() * losses.friction;
+  balance_.contact_normal += dt() * losses.normal;
 }
 
 // Damping losses of the update, and the mean motion that the next step's damping spares.
 void Stepper::book_update(const StepScope& scope) {
-  sums_ = update_sums(bodies_, scope);
   balance_.damping += scope.dt * (sums_[kWheel].damping + sums_[kRail].damping);
   if (!scope.sums_wanted()) return;
   for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].mean = mean_motion(bodies_[k], sums_[k]);

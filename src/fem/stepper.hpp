@@ -15,13 +15,16 @@
 // The axle turns with the bore's forces, the torque and the suspension. Run-up damping acts on vibration only: on
 // velocities relative to the rigid rolling motion, with a rate that fades to zero: the mean travel and spin of the
 // wheel's free nodes are the reference, so that it takes neither momentum along x nor angular momentum.
+#include <optional>
 #include <string>
 
 #include "fem/axle_step.hpp"
 #include "fem/contact_step.hpp"
 #include "fem/energy.hpp"
 #include "fem/preload.hpp"
+#include "fem/rank_exchange.hpp"
 #include "fem/rolling_system.hpp"
+#include "fem/step_engine.hpp"
 #include "fem/step_plan.hpp"
 
 namespace railstrata {
@@ -54,13 +57,23 @@ class Stepper {
  public:
   /// Starts from the static solution with the rolling speed; the pattern of deformation travels with the wheel from the
   /// first step on: v_rail = -V du/dx, v_wheel = V e_x + omega x (X - axle) - omega du/dtheta.
-  Stepper(const RollingSystem& system, const PreloadResult& preload);
-  /// Goes on where the restart state was taken. Throws CaseError if it is not that of a system of this size.
-  Stepper(const RollingSystem& system, RestartState restart);
+  /// ranks: that share the steps; all make a stepper and call the same functions in the same order. Throws CaseError if
+  /// there are more of them than tiles.
+  Stepper(const RollingSystem& system, const PreloadResult& preload, const Ranks& ranks = {});
+  /// Goes on where the restart state was taken, by any number of ranks. Throws CaseError if it is not that of a system
+  /// of this size.
+  Stepper(const RollingSystem& system, RestartState restart, const Ranks& ranks = {});
   Stepper(const Stepper&) = delete;
   Stepper& operator=(const Stepper&) = delete;
 
+  /// From now on the engine has the fields: state().bodies and what is made of them are old between a step and
+  /// complete(). One rank only.
+  void use(const EngineOf& engine_of);
+
   void step();
+  /// Makes the state whole, with what only other ranks or the engine know. To be called before the state of a whole
+  /// body is read: restart_state(), displacement(), samples. All ranks call it.
+  void complete();
   /// A restart state may be taken now: where the contact is searched anew.
   bool is_restart_point() const { return state_.step % ContactStep::kSearchInterval == 0; }
   RestartState restart_state() const;
@@ -90,14 +103,20 @@ class Stepper {
   const StepPlan& plan() const { return plan_; }
 
  private:
-  explicit Stepper(const RollingSystem& system);
+  Stepper(const RollingSystem& system, const Ranks& ranks);
+  void fetch();
   void start(const PreloadResult& preload);
   std::array<double, 2> drift() const;
   AxleDrive axle_drive() const;
   AxlePose pose_in_frame() const;
+  RankExchange* exchange() { return exchange_ ? &*exchange_ : nullptr; }
+  void extend_hot_elements(const std::array<double, 2>& turned);
   void book_stored_energy(const std::array<double, 2>& drift);
   double reduce_ties(const std::array<double, 2>& drift);
   void absorb_at_ends();
+  bool step_on_engine();
+  bool book_stored_energy_of_engine();
+  void book_contact(const ContactLosses& losses);
   void book_update(const StepScope& scope);
   void book_kinetic_energy(double axle);
   void advance_clock();
@@ -106,11 +125,14 @@ class Stepper {
   StepPlan plan_;
   RollingState state_;
   RollingBodies bodies_;
+  std::optional<RankExchange> exchange_;  // none: one rank
   ContactStep contact_;
   EnergyBalance balance_, recorded_;
   std::array<UpdateSums, 2> sums_;  // of this step
   double axle_rest_z_ = 0, side_force_ = 0;
   bool want_energy_ = false;
+  std::unique_ptr<StepEngine> engine_;
+  bool fields_here_ = true;
 };
 
 }  // namespace railstrata

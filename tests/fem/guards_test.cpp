@@ -80,6 +80,9 @@ TEST(Guards, ASoundRunPassesThemAllAndEachSaysWhatWentWrong) {
   r.system.model.spec.mesh.element = ElementFormulation::one_point;
   EXPECT_NE(r.verdict().find("try mesh.element = \"full\", or a larger mesh.hourglass_coefficient"), std::string::npos);
   r.system.model.spec.mesh.element = ElementFormulation::full;
+  r.system.model.spec.run.plasticity = true;  // bending that stays
+  EXPECT_EQ(r.verdict(), "sound");
+  r.system.model.spec.run.plasticity = false;
 
   // a state that is not finite is not kept
   while (!r.st.is_restart_point()) r.st.step();

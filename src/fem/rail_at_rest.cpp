@@ -1,0 +1,108 @@
+#include "fem/rail_at_rest.hpp"
+
+#include <cmath>
+
+#include "body/traversal.hpp"
+#include "core/faults.hpp"
+#include "fem/static_vector.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr int kMostSteps = 20, kMostIterations = 20000;
+constexpr double kForcing = 1e-3;  // of the residual, left over by a linear step
+
+class RailAtRest {
+ public:
+  RailAtRest(const Body& rail, const Field& history, bool endless)
+      : rail_(rail), history_(history), endless_(endless), elements_(rail), inverse_(rail.layout.field()) {
+    stiffness_diagonal(rail_, inverse_);
+    rail_.ties.apply_transpose(inverse_);
+    for (std::size_t i = 0; i < inverse_.size(); ++i)
+      inverse_[i] = rail_.inverse_mass[i] > 0 && inverse_[i] > 0 ? 1 / inverse_[i] : 0;
+    make_uniform(inverse_);
+  }
+
+  Field solve(double tolerance) {
+    Field u = rail_.layout.field();
+    double first = 0;
+    for (int step = 0; step < kMostSteps; ++step) {
+      Field r = residual(u);
+      const double size = std::sqrt(dot(r, r));
+      if (step == 0) first = size;
+      if (size <= tolerance * first) return u;
+      conjugate_gradients(r, std::max(kForcing * size, 0.3 * tolerance * first));
+      rail_.ties.apply_homogeneous(r);
+      add(u, 1.0, r);
+    }
+    throw NumericalError("the rail at rest finds no equilibrium with its plastic strains");
+  }
+
+ private:
+  void reduce(Field& f) const {
+    rail_.ties.apply_transpose(f);
+    for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) {
+      if (rail_.inverse_mass[i] == 0) f[i] = 0;
+    });
+    make_uniform(f);
+  }
+  /// Of an endless rail: to its mean along the sweep, the orthogonal projection on uniform fields.
+  void make_uniform(Field& f) const {
+    if (!endless_) return;
+    for_each(static_cast<std::ptrdiff_t>(rail_.lines.size()), [&](std::ptrdiff_t k) {
+      const NodeLine& l = rail_.lines[k];
+      double sum = 0;
+      for (int j = 0; j < l.count; ++j) sum += f[l.first + j];
+      for (int j = 0; j < l.count; ++j) f[l.first + j] = sum / l.count;
+    });
+  }
+  Field residual(Field& u) {
+    Field f = rail_.layout.field();
+    elements_.internal_force(u, 0, f, history_);
+    for (double& v : f) v = -v;
+    reduce(f);
+    return f;
+  }
+  void stiffness(Field& x, Field& y) {
+    rail_.ties.apply_homogeneous(x);
+    elements_.linear_force(x, y);
+    reduce(y);
+    for_each(static_cast<std::ptrdiff_t>(x.size()), [&](std::ptrdiff_t i) {
+      if (rail_.inverse_mass[i] == 0) x[i] = 0;
+    });
+  }
+  /// Solves for r in place, down to |r| <= wanted.
+  void conjugate_gradients(Field& r, double wanted) {
+    Field x = rail_.layout.field(), z = x, p = x, q = x;
+    double rz = 1;
+    for (int iteration = 0; iteration < kMostIterations && dot(r, r) > wanted * wanted; ++iteration) {
+      for_each(static_cast<std::ptrdiff_t>(z.size()), [&](std::ptrdiff_t i) { z[i] = inverse_[i] * r[i]; });
+      const double next = dot(r, z);
+      scale_and_add(p, iteration > 0 ? next / rz : 0.0, z);
+      rz = next;
+      stiffness(p, q);
+      const double alpha = rz / dot(p, q);
+      add(x, alpha, p);
+      add(r, -alpha, q);
+    }
+    r = std::move(x);
+  }
+
+  const Body& rail_;
+  const Field& history_;
+  bool endless_;
+  Traversal elements_;
+  Field inverse_;
+};
+
+}  // namespace
+
+Field rail_at_rest(const RollingSystem& system, const Field& history, double tolerance) {
+  return RailAtRest(system.rail(), history, false).solve(tolerance);
+}
+
+Field endless_rail_at_rest(const RollingSystem& system, const Field& history, double tolerance) {
+  return RailAtRest(system.rail(), history, true).solve(tolerance);
+}
+
+}  // namespace railstrata
