@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <mutex>
 
 #include "halfspace/line_contact.hpp"
 
@@ -38,10 +39,44 @@ std::vector<RectangleInfluence> influence_table(const SurfaceCompliance& pair, c
 
 InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int ny, double dx, double dy, double film,
                                      bool line)
-    : fft_(nx, ny), dx_(dx), dy_(dy), film_(film) {
-  auto table = influence_table(pair, fft_, dx, dy, line);
-  table[0].xx += film;
-  table[0].yy += film;
+    : fft_(nx, ny),
+      dx_(dx),
+      dy_(dy),
+      film_(film),
+      table_(influence_table(pair, fft_, dx, dy, line)),
+      parts_(std::make_shared<Parts>()) {
+  make_spectra(table_, couples_at_all(pair));
+}
+
+InfluenceOperator::InfluenceOperator(const InfluenceOperator& whole, int nx, int ny)
+    : fft_(nx, ny), dx_(whole.dx_), dy_(whole.dy_), film_(whole.film_), parts_(std::make_shared<Parts>()) {
+  const std::size_t columns = static_cast<std::size_t>(fft_.my() / 2 + 1),
+                    columns_of_whole = static_cast<std::size_t>(whole.fft_.my() / 2 + 1);
+  for (int i = 0; i <= fft_.mx() / 2; ++i) {
+    const auto row = whole.table_.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(i) * columns_of_whole);
+    table_.insert(table_.end(), row, row + static_cast<std::ptrdiff_t>(columns));
+  }
+  make_spectra(table_, whole.couples());
+}
+
+struct InfluenceOperator::Parts {
+  static constexpr std::size_t kMost = 16;
+  std::mutex mutex;
+  std::vector<std::shared_ptr<const InfluenceOperator>> made;
+};
+
+std::shared_ptr<const InfluenceOperator> InfluenceOperator::part(int nx, int ny) const {
+  const std::lock_guard lock(parts_->mutex);
+  for (const auto& op : parts_->made)
+    if (op->nx() == nx && op->ny() == ny) return op;
+  if (parts_->made.size() == Parts::kMost) parts_->made.erase(parts_->made.begin());
+  parts_->made.push_back(std::shared_ptr<const InfluenceOperator>(new InfluenceOperator(*this, nx, ny)));
+  return parts_->made.back();
+}
+
+void InfluenceOperator::make_spectra(std::vector<RectangleInfluence> table, bool couples) {
+  table[0].xx += film_;
+  table[0].yy += film_;
   using I = RectangleInfluence;
   near_[0] = table[0];
   near_[1] = table[fft_.my() / 2 + 1];  // the table has index j + (my/2 + 1) i
@@ -49,7 +84,7 @@ InfluenceOperator::InfluenceOperator(const SurfaceCompliance& pair, int nx, int 
   xx_hat_ = fft_.spectrum(component(table, &I::xx), 1, 1);
   xy_hat_ = fft_.spectrum(component(table, &I::xy), -1, -1);
   yy_hat_ = fft_.spectrum(component(table, &I::yy), 1, 1);
-  if (couples_at_all(pair)) {
+  if (couples) {
     nx_hat_ = fft_.spectrum(component(table, &I::nx), -1, 1);
     ny_hat_ = fft_.spectrum(component(table, &I::ny), 1, -1);
   }

@@ -43,10 +43,18 @@ class InfluenceOperator {
   void precondition_normal(const double* u_n, double* p) const;
   void precondition_tangential(const double* u_x, const double* u_y, double* q_x, double* q_y) const;
 
+  /// The same pair and cells for planes of nx x ny, at most as many: made once for each size and kept, up to some.
+  std::shared_ptr<const InfluenceOperator> part(int nx, int ny) const;
+
  private:
+  struct Parts;
+  InfluenceOperator(const InfluenceOperator& whole, int nx, int ny);
+  void make_spectra(std::vector<RectangleInfluence> table, bool couples);
   PlaneFft fft_;
   double dx_, dy_, film_;
   RectangleInfluence near_[2];
+  std::vector<RectangleInfluence> table_;  // of the padded plane, without a film: index j + (my/2 + 1) i
+  std::shared_ptr<Parts> parts_;
   std::vector<double> nn_hat_, xx_hat_, xy_hat_, yy_hat_, nx_hat_, ny_hat_;  // nx, ny: imaginary parts
   std::vector<double> inv_nn_, inv_xx_, inv_xy_, inv_yy_;
 };

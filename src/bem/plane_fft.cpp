@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bem/fft.hpp"
+#include "fft/fft.hpp"
 
 namespace railstrata {
 

@@ -1,5 +1,5 @@
 #pragma once
-// Convolution of zero-padded planes by FFT (bem/fft.hpp), threads over rows and groups of columns, the same bits for
+// Convolution of zero-padded planes by FFT (fft/fft.hpp), threads over rows and groups of columns, the same bits for
 // any number of threads.
 //
 // A plane of nx x ny values is padded to mx x my. Only its nx rows are transformed along y, the padding never is; the
@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "bem/fft.hpp"
 #include "bem/plane_algebra.hpp"
+#include "fft/fft.hpp"
 
 namespace railstrata {
 

@@ -79,9 +79,15 @@ class HeightOverPlane {
 
   /// At (x, t), by Newton's method kept inside the facing part; nothing where that has ended. guess: arc length to
   /// start from.
-  std::optional<Found> at(double x, double t, double guess) const {
+  std::optional<Found> at(double x, double t, double guess) const { return at(x, reach(x), t, guess); }
+  /// Where at x the facing part begins and ends.
+  struct Reach {
+    double first, last;
+  };
+  Reach reach(double x) const { return {curve_.at(low_, x).t, curve_.at(high_, x).t}; }
+  std::optional<Found> at(double x, const Reach& reach, double t, double guess) const {
     double low = low_, high = high_, s = std::clamp(guess, low, high);
-    if (t < curve_.at(low, x).t || t > curve_.at(high, x).t) return {};
+    if (t < reach.first || t > reach.last) return {};
     PlanePoint p{};
     for (int i = 0; i < 100; ++i) {
       p = curve_.at(s, x);
@@ -116,6 +122,8 @@ ProfileGap gap_to(const WheelSection& wheel_curve, const Profile& rail, const Tr
   const RailCurve rail_curve{rail, track, axes};
   const HeightOverPlane rail_height(rail_curve, contact.rail_s);
   const HeightOverPlane wheel_height(wheel_curve, contact.wheel_s);
+  std::vector<typename HeightOverPlane<WheelSection>::Reach> reach;
+  for (int i = 0; i < grid.nx; ++i) reach.push_back(wheel_height.reach(grid.x(i)));
   ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size())};
   for_each_if(threads_pay_for(grid.size()), grid.ny, [&](int j) {
     const double t = grid.y(j);
@@ -123,7 +131,7 @@ ProfileGap gap_to(const WheelSection& wheel_curve, const Profile& rail, const Tr
                under_axle = wheel_height.at(0, t, contact.wheel_s + t);
     for (int i = 0; i < grid.nx; ++i) {
       const double x = grid.x(i);
-      const auto on_wheel = under_axle ? wheel_height.at(x, t, under_axle->s) : under_axle;
+      const auto on_wheel = under_axle ? wheel_height.at(x, reach[i], t, under_axle->s) : under_axle;
       const std::size_t k = grid.index(i, j);
       const bool present = on_rail && on_wheel;
       out.gap[k] = present ? on_wheel->w - on_rail->w : ProfileGap::kNoSurface;

@@ -104,6 +104,23 @@ void fill_totals(const RollingSolution& s, double speed, BemPatch& r) {
   }
 }
 
+double motion_power(const PatchOnWheel& p, double speed) {
+  const PatchGrid& g = p.patch.grid;
+  const RollingContact& c = p.patch.contact;
+  const TangentialSolution& t = p.solution.tangential;
+  const auto further = [](const Plane& plane, std::size_t k) { return plane.empty() ? 0.0 : plane[k]; };
+  double sum = 0;
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) {
+      const std::size_t k = g.index(i, j);
+      const double spin = c.spin + further(c.local_spin, static_cast<std::size_t>(j));
+      const double x = t.creepage_x - c.spin * g.y(j) + further(c.extra_slip.x, k),
+                   y = t.creepage_y + spin * g.x(i) + further(c.extra_slip.y, k);
+      sum += t.q_x[k] * x + t.q_y[k] * y;
+    }
+  return sum * g.cell_area() * speed;
+}
+
 SolvedPatch solved_patch(const PatchGrid& g, const NormalSolution& s) {
   SolvedPatch out{g.y(g.ny - 1), g.y(0), g.y(0) - 0.5 * g.dy, g.y(g.ny - 1) + 0.5 * g.dy, s.load, s.approach};
   for (std::size_t k = 0; k < s.pressure.size(); ++k) {
@@ -138,6 +155,7 @@ BemPatch patch_result(const CaseSpec& spec, const Placement& placement, const Pa
   fill_field(p.patch, p.solution, r.contact, spec.drive.speed, r.field);
   if (r.grid.line) spread_over_line(r.grid.dy, r.field);
   fill_totals(p.solution, spec.drive.speed, r);
+  if (p.patch.contact.kind == RollingKind::steady) r.motion_power = motion_power(p, spec.drive.speed);
   Placement own = placement;
   own.contact = p.contact;
   r.surroundings = patch_surroundings(spec, own, solved_patch(r.grid, p.solution.normal));
@@ -182,7 +200,9 @@ void solve_under(double normal, double weight, const CaseSpec& spec, const Place
 
 /// Finds the normal force N with N cos(delta) - T_y(N) sin(delta) = G by secants (case_patch.hpp): lateral friction T_y
 /// carries a share of the weight that grows with the contact angle, and itself depends on N. Where that share grows as
-/// fast as N does, the slope of the left side is zero and no N is large enough: the wheel is wedged.
+/// fast as N does, the slope of the left side is zero and no N is large enough: the wheel is wedged. Where it carries
+/// so much that a secant would take away half of N or more, the next N is on the chord from N = 0, which keeps it
+/// positive.
 LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placement, const PatchRoom& room,
                                   const BemOptions& options, double weight) {
   constexpr double kTolerance = 1e-5, kWedged = 0.02;
@@ -203,7 +223,7 @@ LoadedPatch balance_vertical_load(const CaseSpec& spec, const Placement& placeme
     if (out.wedged) return out;
     previous_normal = normal;
     previous_excess = excess;
-    normal -= excess / slope;
+    normal = excess > 0.5 * slope * normal ? normal * weight / (weight + excess) : normal - excess / slope;
   }
 }
 

@@ -9,6 +9,7 @@
 // places they share it, each in its own plane (several_patches.hpp). Where the approach is given instead, the load is a
 // result, and forces of the drive count over it. Not in it: inertia, the bodies' shape outside the patches, the layer's
 // edges.
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,9 @@ struct BemPatch {
   RigidSlip rigid_slip;
   double approach = 0;     ///< m; of a line contact NaN: distant points come together without end
   double dissipation = 0;  ///< W; of a shift J, of its last increment
+  /// W, of the tractions in the rigid slip of the cells: creepages, spin and the rows' own rolling radii. In steady
+  /// rolling the dissipation, as elastic displacements take no work round.
+  double motion_power = std::numeric_limits<double>::quiet_NaN();
   PatchSurroundings surroundings;
 };
 

@@ -1,5 +1,7 @@
 #include "bem/subsurface.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -137,6 +139,12 @@ struct Subsurface::Layered {
       stack.emplace_back(body, k);
       plain.emplace_back(homogeneous, k);
     }
+  }
+
+  /// Of the transform over a period.
+  static double points_of(const LayeredHalfSpace& body, const PatchGrid& g, double extents) {
+    const double along = period(body, g, extents) / g.dx;
+    return g.line ? along : along * along * g.dx / g.dy;
   }
 
   double points() const { return static_cast<double>(fft.mx()) * fft.my(); }
@@ -536,22 +544,49 @@ std::unique_ptr<Subsurface> Subsurface::coarsened() const {
   return std::make_unique<Subsurface>(body_, g, means(p_), means(q_x_), means(q_y_), std::max(2.5, period_ / kCells));
 }
 
+namespace {
+
+/// Lengths of the grid beyond its rim, and points of a transform with layers: what lies farther feels a point load, and
+/// costs minutes and memory without end.
+constexpr double kFarthest = 10, kMostPoints = 2e7;
+
+double length_of(const PatchGrid& grid) { return std::max(grid.nx * grid.dx, grid.line ? 0.0 : grid.ny * grid.dy); }
+
+[[noreturn]] void refuse_far(const PatchGrid& grid, const Vec3& p, double reach) {
+  throw std::out_of_range(fmt::format(
+      "a point too far away, at x = {:.4g} m, y = {:.4g} m: points reach {:.3g} m beyond the grid of "
+      "x = {:.4g} to {:.4g} m, y = {:.4g} to {:.4g} m ({:.3g} of its lengths, for time and memory); they "
+      "are in metres, farther off the contact acts as a point load",
+      p.x, p.y, reach, grid.x0, grid.x(grid.nx - 1), grid.y0, grid.y(grid.ny - 1), reach / length_of(grid)));
+}
+
+}  // namespace
+
 // Points outside the grid: the same tractions on a grid widened with empty cells. Points are taken by depth, since a
 // plane costs a convolution and a point on it next to nothing.
 std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool below_interface) const {
   constexpr double kMostCells = 4e6;
+  double reach = kFarthest * length_of(grid_);
+  const auto points_at_reach = [&] {
+    PatchGrid wide = grid_;
+    wide.nx += static_cast<int>(2 * reach / grid_.dx);
+    if (!grid_.line) wide.ny += static_cast<int>(2 * reach / grid_.dy);
+    return Layered::points_of(body_, wide, period_);
+  };
+  while (layered_ && points_at_reach() > kMostPoints && reach > 0.1 * length_of(grid_)) reach *= 0.9;
   int more_x = 0, more_y = 0;
   for (const Vec3& p : points) {
     if (!(p.z >= 0)) throw std::out_of_range("Subsurface::at: a point above the surface");
     if (covers(p)) continue;
     const double x = std::max(grid_.x0 - p.x, p.x - grid_.x(grid_.nx - 1)) / grid_.dx,
                  y = grid_.line ? 0.0 : std::max(grid_.y0 - p.y, p.y - grid_.y(grid_.ny - 1)) / grid_.dy;
-    if (!((grid_.nx + 2 * std::max(x, 0.0)) * (grid_.ny + 2 * std::max(y, 0.0)) < kMostCells))
-      throw std::out_of_range("Subsurface::at: a point too far away for cells of this size");
+    if (!(std::max(x * grid_.dx, y * grid_.dy) <= reach)) refuse_far(grid_, p, reach);
     more_x = std::max(more_x, static_cast<int>(std::ceil(x)) + 2);
     if (!grid_.line) more_y = std::max(more_y, static_cast<int>(std::ceil(y)) + 2);
+    if (!((grid_.nx + 2.0 * more_x) * (grid_.ny + 2.0 * more_y) < kMostCells))
+      throw std::out_of_range("Subsurface::at: a point too far away for cells of this size");
   }
-  if (more_x > 0 || more_y > 0) return widened(std::max(more_x, 0), std::max(more_y, 0))->at(points, below_interface);
+  if (more_x > 0 || more_y > 0) return widened(more_x, more_y)->at(points, below_interface);
 
   std::vector<std::size_t> order(points.size());
   for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;

@@ -86,7 +86,7 @@ class Subsurface {
   /// Displacements and stresses at any points (x, y, depth >= 0) [m], in the order given: bicubic between cells, on a
   /// wider grid where points lie outside. A plane is computed per depth: give points of a depth together. On an
   /// interface the stresses of the layer above, or below if asked. Throws std::out_of_range for a point above the
-  /// surface or more than about a thousand cells away.
+  /// surface or more than ten lengths of the grid beyond it; less with layers and many cells.
   std::vector<InteriorPoint> at(const std::vector<Vec3>& points, bool below_interface = false) const;
 
   /// Whether a point (x, y) lies so that four cells each way are around it.

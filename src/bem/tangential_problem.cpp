@@ -13,6 +13,7 @@
 #include "bem/given_slip.hpp"
 #include "bem/gmres.hpp"
 #include "bem/largest_influence.hpp"
+#include "bem/patch_part.hpp"
 #include "bem/varying_bound.hpp"
 #include "core/faults.hpp"
 
@@ -575,12 +576,53 @@ class Solver {
   int outer_ = 0, iterations_ = 0;
 };
 
+TangentialProblem taken(const PatchPart& part, const TangentialProblem& p) {
+  TangentialProblem out = p;
+  for (Plane TangentialProblem::*plane : {&TangentialProblem::traction_bound, &TangentialProblem::leading_weight,
+                                          &TangentialProblem::plastic_before, &TangentialProblem::lost_before})
+    out.*plane = part.take(p.*plane);
+  for (PlanePair TangentialProblem::*pair :
+       {&TangentialProblem::extra_slip, &TangentialProblem::before, &TangentialProblem::traction_before})
+    out.*pair = part.take(p.*pair);
+  out.local_spin = part.take_rows(p.local_spin);
+  return out;
+}
+
+constexpr Plane TangentialSolution::*kSolutionPlanes[] = {
+    &TangentialSolution::q_x,    &TangentialSolution::q_y,     &TangentialSolution::slip_x,
+    &TangentialSolution::slip_y, &TangentialSolution::plastic, &TangentialSolution::lost_friction,
+    &TangentialSolution::bound};
+
+TangentialSolution taken(const PatchPart& part, const TangentialSolution& s) {
+  TangentialSolution out = s;
+  for (Plane TangentialSolution::*plane : kSolutionPlanes) out.*plane = part.take(s.*plane);
+  out.cell_slip = part.take(s.cell_slip);
+  out.state = part.take(s.state);
+  return out;
+}
+
+/// On the whole grid: nothing bears friction outside the part.
+TangentialSolution put_back(const PatchPart& part, TangentialSolution s) {
+  for (Plane TangentialSolution::*plane : kSolutionPlanes) s.*plane = part.put(s.*plane);
+  s.cell_slip = part.put(s.cell_slip);
+  s.state = part.put(s.state, ContactState::separated);
+  return s;
+}
+
 }  // namespace
 
 TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid,
                                     const TangentialProblem& problem, const TangentialOptions& options,
                                     const TangentialSolution* start) {
-  return Solver(influence, grid, problem, options).solve(start);
+  constexpr int kRing = 2;
+  const std::optional<PatchPart> part = part_with(grid, problem.traction_bound, kRing);
+  if (!part) return Solver(influence, grid, problem, options).solve(start);
+  const std::shared_ptr<const InfluenceOperator> own = influence.part(part->nx, part->ny);
+  const TangentialProblem problem_there = taken(*part, problem);
+  const std::optional<TangentialSolution> start_there =
+      start ? std::optional<TangentialSolution>(taken(*part, *start)) : std::nullopt;
+  const PatchGrid grid_there = part->grid();
+  return put_back(*part, Solver(*own, grid_there, problem_there, options).solve(start_there ? &*start_there : nullptr));
 }
 
 Plane rolled_on(const PatchGrid& grid, const Plane& values) {

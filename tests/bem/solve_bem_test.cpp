@@ -56,6 +56,24 @@ TEST(SolveBem, NormalAndLateralForceTogetherBearTheWeightAtSteepContactAngles) {
   }
 }
 
+// Friction that carries most of the weight: the first secant would take the normal force below zero.
+TEST(SolveBem, FrictionThatCarriesMostOfTheWeightLeavesAPositiveNormalForce) {
+  BemOptions options;
+  options.cell = 0.5e-3;
+  double before = 200e3;
+  for (double friction : {0.5, 0.65, 1.0}) {
+    CaseSpec spec;
+    spec.geometry.lateral_shift = 10e-3;
+    spec.drive.friction_coefficient = friction;
+    spec.drive.traction_coefficient = 0;
+    const BemResult r = solve_bem(spec, place(spec, {}), options);
+    EXPECT_NEAR(-r.force.z / static_load(spec), 1, 1e-5) << friction;
+    EXPECT_LT(r.force.normal, before);
+    EXPECT_GT(r.force.normal, 0);
+    before = r.force.normal;
+  }
+}
+
 // S1002 on UIC60 in the middle of the track: the surfaces' angle turns from 0.3 to 4.6 degrees over the patch, 1.4 at
 // the rigid contact point. CONTACT with the slip of the actual surfaces (its conformal mode, commit d431cdb, cells of
 // 0.25 mm, the profiles' files of the Manchester benchmark, F_x = 0): 2484 N of lateral friction along the curved patch

@@ -393,6 +393,11 @@ TEST(Subsurface, PointsAnywhereAreThoseOfThePlanesAndOfAWiderGrid) {
   EXPECT_GT(std::abs(both.first.xx - both.second.xx), 0.1 * f.kPeak) << "the two sides of an interface";
   EXPECT_THROW(body.at({{0, 0, -1e-3}}), std::out_of_range);
   EXPECT_THROW(body.at({{10, 0, 1e-3}}), std::out_of_range);
+  const double length = f.g.nx * f.g.dx;
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_THROW(body.at({{side * 11 * length, 0, 1e-3}}), std::out_of_range);
+    EXPECT_THROW(body.at({{0, side * 11 * length, 1e-3}}), std::out_of_range) << "seconds and gigabytes before";
+  }
 }
 
 TEST(Subsurface, PeriodOfTheGridDoesNotShow) {
