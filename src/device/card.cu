@@ -1,0 +1,116 @@
+// The card. Only what CUDA's compiler must see stands here: the kernels and the runtime's calls.
+#include <cuda_runtime.h>
+
+#include <cstdio>
+
+#include "core/faults.hpp"
+#include "device/card.hpp"
+#include "device/kernel_list.hpp"
+
+namespace railstrata::device {
+namespace {
+
+constexpr int kThreads = 128;  // in a block; results do not depend on it
+
+void require(cudaError_t code, const char* what) {
+  if (code == cudaSuccess) return;
+  throw EnvironmentError(std::string("the card: ") + what + ": " + cudaGetErrorString(code),
+                         "run.device = \"cpu\" computes without it");
+}
+
+class Card : public Device {
+ public:
+  Card() { require(cudaSetDevice(0), "it cannot be opened"); }
+  void* allocate(std::size_t bytes) override {
+    void* p = nullptr;
+    require(cudaMalloc(&p, bytes), "not enough memory");
+    require(cudaMemset(p, 0, bytes), "memory cannot be cleared");
+    return p;
+  }
+  void release(void* memory, std::size_t) override { cudaFree(memory); }
+  void* allocate_staging(std::size_t bytes) override {
+    void* p = nullptr;
+    require(cudaMallocHost(&p, bytes), "not enough memory of the host that copies are fast from");
+    return p;
+  }
+  void release_staging(void* memory, std::size_t) override { cudaFreeHost(memory); }
+  void upload(void* to, const void* from, std::size_t bytes) override {
+    require(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice), "a copy to it failed");
+  }
+  void download(void* to, const void* from, std::size_t bytes) override {
+    require(cudaMemcpy(to, from, bytes, cudaMemcpyDeviceToHost), "a copy from it, or a kernel before it, failed");
+  }
+  void finish() override { require(cudaDeviceSynchronize(), "a kernel failed"); }
+};
+
+template <class Kernel>
+__global__ void run(std::ptrdiff_t n, const __grid_constant__ Kernel kernel) {
+  const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+  if (i < n) kernel(i);
+}
+
+struct CopyNumbers {
+  const double* from;
+  double* to;
+  RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const { to[i] = from[i]; }
+};
+
+}  // namespace
+
+template <class Kernel>
+void launch_on_card(std::ptrdiff_t n, const Kernel& kernel) {
+  run<<<static_cast<unsigned>((n + kThreads - 1) / kThreads), kThreads>>>(n, kernel);
+  require(cudaGetLastError(), "a kernel was not launched");
+}
+
+#define RAILSTRATA_INSTANTIATE(...) template void launch_on_card(std::ptrdiff_t, const __VA_ARGS__&);
+RAILSTRATA_EVERY_KERNEL(RAILSTRATA_INSTANTIATE)
+
+bool built_for_cards() { return true; }
+
+std::unique_ptr<Device> open_card() {
+  int cards = 0;
+  if (const cudaError_t code = cudaGetDeviceCount(&cards); code != cudaSuccess || cards == 0)
+    throw EnvironmentError(
+        std::string("run.device = \"gpu\": no card was found (") +
+            (code != cudaSuccess ? cudaGetErrorString(code) : "none is there") + ")",
+        "run.device = \"cpu\", or a machine with an NVIDIA card and its driver (nvidia-smi lists it)");
+  return std::make_unique<Card>();
+}
+
+std::string card_name() {
+  int cards = 0, runtime = 0, driver = 0;
+  if (cudaGetDeviceCount(&cards) != cudaSuccess || cards == 0) return {};
+  cudaDeviceProp p{};
+  if (cudaGetDeviceProperties(&p, 0) != cudaSuccess) return {};
+  cudaRuntimeGetVersion(&runtime);
+  cudaDriverGetVersion(&driver);
+  char text[512];
+  std::snprintf(text, sizeof text, "%s; compute capability %d.%d; %.1f GiB; driver %d.%d; runtime %d.%d", p.name,
+                p.major, p.minor, static_cast<double>(p.totalGlobalMem) / (1 << 30), driver / 1000, driver % 1000 / 10,
+                runtime / 1000, runtime % 1000 / 10);
+  return text;
+}
+
+double card_copy_rate() {
+  constexpr std::ptrdiff_t kNumbers = std::ptrdiff_t{1} << 27;  // 1 GiB
+  constexpr int kTimes = 20;
+  const auto card = open_card();
+  const DeviceArray<double> from(*card, kNumbers);
+  DeviceArray<double> to(*card, kNumbers);
+  const CopyNumbers kernel{&from.view()[0], &to.view()[0]};
+  cudaEvent_t begin{}, end{};
+  require(cudaEventCreate(&begin), "no event");
+  require(cudaEventCreate(&end), "no event");
+  for (int k = -2; k < kTimes; ++k) {  // two to warm up
+    if (k == 0) require(cudaEventRecord(begin), "no event");
+    launch_on_card(kNumbers, kernel);
+  }
+  require(cudaEventRecord(end), "no event");
+  require(cudaEventSynchronize(end), "a copy failed");
+  float ms = 0;
+  require(cudaEventElapsedTime(&ms, begin, end), "no time");
+  return 2.0 * sizeof(double) * kNumbers * kTimes / (1e-3 * ms);
+}
+
+}  // namespace railstrata::device

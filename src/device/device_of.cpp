@@ -1,0 +1,29 @@
+#include "device/device_of.hpp"
+
+#include <fmt/format.h>
+
+#include "core/faults.hpp"
+#include "device/card.hpp"
+#include "device/emulated_device.hpp"
+#include "device/engine.hpp"
+
+namespace railstrata::device {
+
+std::unique_ptr<Device> device_of(const CaseSpec& spec) {
+  if (!spec.run.rolling || spec.run.device == ComputeDevice::cpu) return nullptr;
+  if (spec.run.device == ComputeDevice::gpu) return open_card();
+  return std::make_unique<EmulatedDevice>(Protection::open, LaunchOrder::threads);
+}
+
+EngineOf engine_on(Device* device) {
+  if (!device) return {};
+  return [device](const RollingSystem& system, const RollingBodies& bodies) -> std::unique_ptr<StepEngine> {
+    bool local_steps = false;
+    for (const RollingBody& b : bodies) local_steps = local_steps || !b.steps.local.empty();
+    if (const std::string what = not_on_a_device(system, local_steps); !what.empty())
+      throw CaseError(fmt::format("run.device: a device takes no {}", what), "run.device = \"cpu\"");
+    return std::make_unique<Engine>(*device, system, bodies);
+  };
+}
+
+}  // namespace railstrata::device

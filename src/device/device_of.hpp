@@ -1,0 +1,17 @@
+#pragma once
+// The device that a case asks for.
+#include "case/case_spec.hpp"
+#include "device/memory.hpp"
+#include "fem/step_engine.hpp"
+
+namespace railstrata::device {
+
+/// Opens run.device; null for the processor, and for a case that does not roll. Throws EnvironmentError with what to do
+/// where the program was built without CUDA or no card is found.
+std::unique_ptr<Device> device_of(const CaseSpec& spec);
+
+/// What puts the fields of a rolling on a device, which must live longer; empty without one. Throws CaseError for what
+/// a device cannot take.
+EngineOf engine_on(Device* device);
+
+}  // namespace railstrata::device

@@ -1,0 +1,13 @@
+# Tests that need a card: a program of their own, under the label gpu; without a card they are skipped and say why.
+add_executable(test_card ${CMAKE_CURRENT_SOURCE_DIR}/device/card/card_test.cpp)
+target_link_libraries(test_card PRIVATE room_device GTest::gtest_main)
+target_include_directories(test_card PRIVATE ${CMAKE_SOURCE_DIR})
+gtest_discover_tests(test_card TEST_PREFIX device: DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+  PROPERTIES ENVIRONMENT OMP_WAIT_POLICY=passive LABELS gpu)
+add_executable(measure_card ${CMAKE_CURRENT_SOURCE_DIR}/device/card/measure.cpp)
+target_link_libraries(measure_card PRIVATE room_device)
+
+# Every .cu compiles and spills nothing; needs nvcc and no card.
+add_test(NAME device:kernels_compile_without_spills COMMAND /usr/bin/python3
+  ${CMAKE_CURRENT_SOURCE_DIR}/device/card/spills_test.py ${CMAKE_SOURCE_DIR} "${RAILSTRATA_NVCC}" ${CMAKE_CXX_COMPILER})
+set_tests_properties(device:kernels_compile_without_spills PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
