@@ -97,6 +97,7 @@ ContactSummary patch_numbers(const CaseSpec& spec, const BemPatch& r) {
     c.creepage_x = r.rigid_slip.x;
     c.creepage_y = r.rigid_slip.y;
     c.spin_per_m = r.rigid_slip.spin;
+    c.motion_power = r.motion_power;
   } else {
     c.patch.slip_area_fraction = kNotApplicable;
   }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "material/strain_claim.hpp"
 #include "post/result_unit.hpp"
 
 namespace railstrata {
@@ -55,7 +56,6 @@ inline constexpr double kLargestBending = 0.02;
 /// Elastic shear of a third-body layer, of half the patch's shorter axis: where what faces each other has moved apart
 /// by as much as linear theory errs elsewhere, and where the model's pairs mean nothing.
 inline constexpr double kLargestFilmShear = 0.05, kFilmShearsAway = 0.5;
-inline constexpr double kLargestPlasticStrain = 0.05;
 /// m, below its crest a flange has its working face. [EN15313]
 inline constexpr double kFlangeTip = 2e-3;
 /// Of the largest pressure: a tension smaller than this that goes on rising at the rim of the search is not told.
@@ -98,6 +98,10 @@ inline constexpr std::array kCheckRows{
              .name = "Hourglass energy",
              .what = "energy of the hourglass modes of one-point elements, of the strain energy",
              .fem_limit = 2e-2},
+    CheckRow{.key = "plastic_strain",
+             .name = "Plastic strain",
+             .what = "largest equivalent plastic strain; beyond, small strains make no claim of accuracy",
+             .fem_limit = kNoClaimStrain},
     CheckRow{.key = "patch_reaches_edge_of_fine_zone",
              .name = "Patch inside the fine mesh",
              .what = "outside once it touches the border of the fine zone",
@@ -204,7 +208,7 @@ inline constexpr std::array kCheckRows{
              .name = "Large plastic strain",
              .what = "plastic strain that is split off additively from the Green strain",
              .kind = CheckKind::warning,
-             .fem_limit = kLargestPlasticStrain,
+             .fem_limit = kLargeStrain,
              .advice = "strains are taken for small: 2 to 3 % of error at 5 % of strain, no claim of accuracy above "
                        "10 %; fewer passes or a lighter load, or the rate of ratchetting instead of its sum"},
     CheckRow{.key = "contact_on_flange_crest",

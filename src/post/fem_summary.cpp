@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "post/check_limits.hpp"
+#include "post/plastic_summary.hpp"
 #include "post/plausibility.hpp"
 #include "post/run_advice.hpp"
 #include "post/stress_maxima.hpp"
@@ -108,6 +109,7 @@ std::vector<Check> finite_element_checks(const Model& model, const RunResult& ru
   }
   if (spec.mesh.element == ElementFormulation::one_point)
     out.push_back(fem_check("hourglass_share", run.hourglass_share));
+  if (spec.run.plasticity) out.push_back(fem_check("plastic_strain", run.plastic.strain));
   out.push_back(fem_check("patch_reaches_edge_of_fine_zone", run.reached_edge ? 1 : 0));
   return out;
 }
@@ -121,8 +123,7 @@ Summary fem_summary(const RollingSystem& sys, const RunResult& run, const MeanCo
   s.rail = rail_stress_summary(sys, m);
   s.wheel = wheel_stress_summary(sys, m);
   s.energy = {.closure = spec.run.rolling ? run.closure : kNotApplicable, .hourglass_share = run.hourglass_share};
-  if (spec.run.plasticity)
-    s.plastic = {run.plastic.strain, run.plastic.accumulated, static_cast<double>(run.plastic.yielded)};
+  if (spec.run.plasticity) s.plastic = plastic_summary(sys, run);
   s.run = run_summary(run);
   s.checks = finite_element_checks(sys.model, run, m);
   s.warnings = implausible(s, spec, surroundings(sys.model, m), spec.mesh.element_size);

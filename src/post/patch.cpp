@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/parabola.hpp"
+#include "post/front_of_slip.hpp"
 
 namespace railstrata {
 namespace {
@@ -198,9 +199,11 @@ double shear_at_front_of_slip(const ContactField& f) {
       continue;
     const double friction = q(behind) / f.p[behind];
     const auto bound = [&](int k) { return f.bound.empty() ? friction * f.p[k] : f.bound[k]; };
-    const double margin = bound(i) - q(i), margin_ahead = bound(ahead) - q(ahead),
-                 rise = margin_ahead * margin_ahead - margin * margin;
-    const double back = rise > 0 ? std::min(margin * margin / rise, 1.0) : 1.0;  // of the front, in points
+    const auto margin = [&](int k) { return bound(k) - q(k); };
+    StickMargins margins{margin(i), margin(ahead), {}};
+    if (const int after = ahead + f.columns; after < f.size() && f.state[after] == ContactState::stick)
+      margins.after = margin(after);
+    const double back = front_behind_cell(margins);
     largest = std::max(largest, f.bound.empty() ? friction * ((1 - back) * f.p[i] + back * f.p[behind])
                                                 : (1 - back) * bound(i) + back * bound(behind));
   }

@@ -10,7 +10,9 @@
 #include "core/faults.hpp"
 #include "material/elastic.hpp"
 #include "material/material_path.hpp"
+#include "material/strain_claim.hpp"
 #include "model/material_strength.hpp"
+#include "post/pass_plan.hpp"
 #include "post/patch.hpp"
 #include "post/row_strength.hpp"
 #include "post/stress_of_half_space.hpp"
@@ -22,6 +24,7 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 constexpr double kNearYield = 0.8;  // of the yield strength: rows follow plastic flow as deep as the contact comes near
                                     // it, residual stress included
 constexpr double kDeepest = 4;      // shorter half-axes
+constexpr double kFarthest = 12;    // half-axes across that wheels may wander: another place of the profile else
 
 struct Extent {
   double first = kInfinite, last = -kInfinite;
@@ -68,7 +71,7 @@ std::vector<double> thicknesses(const LayeredHalfSpace& body, double deepest, do
   return out;
 }
 
-SteadyGrid plan_grid(const Footprint& f, const PassGridOptions& options) {
+SteadyGrid plan_grid(const Footprint& f, const PassGridOptions& options, double farthest) {
   const double a = f.x.half();
   SteadyGrid g;
   g.dx = a / options.cells;
@@ -82,7 +85,7 @@ SteadyGrid plan_grid(const Footprint& f, const PassGridOptions& options) {
   g.front = g.active = 4 * a;
   g.hold = 2 * a;
   g.dy = f.y.half() / options.cells;
-  g.ny = 12 * options.cells;
+  g.ny = 12 * options.cells + 2 * static_cast<int>(std::ceil(farthest / g.dy));
   g.y0 = f.y.middle() - 0.5 * (g.ny - 1) * g.dy;
   return g;
 }
@@ -182,23 +185,75 @@ double largest_mises(const std::vector<Sym3>& stresses) {
 
 }  // namespace
 
-RailPasses rail_passes(const CaseSpec& spec, const BemResult& result, const PassGridOptions& options) {
-  if (!result.further.empty())
-    throw CaseError("the wheel touches the rail at several places: passes follow one patch",
-                    "move the wheel (geometry.lateral_shift) until it touches at one place");
-  const Rows rows(spec, result.rail);
+namespace {
+
+void require_known(const CaseSpec& spec, const std::vector<BemResult>& solutions, const Rows& rows,
+                   const Footprint& f) {
+  for (const BemResult& result : solutions)
+    if (!result.further.empty())
+      throw CaseError("the wheel touches the rail at several places: passes follow one patch",
+                      "move the wheel (geometry.lateral_shift) until it touches at one place");
   if (!rows.any())
     throw CaseError("the case does not say how strong the rail is, or its layers",
                     "give yield_strength = \"500 MPa\", or grade = \"R260\", in [material.rail] or a [[layer]]");
+  if (const double most = kFarthest * f.y.half(); !f.line && farthest_pass(spec.passes) > most)
+    throw CaseError(
+        fmt::format("wheels that run {:.1f} mm to the side touch another part of the profile: passes take the patch "
+                    "along, up to {:.1f} mm",
+                    1e3 * farthest_pass(spec.passes), 1e3 * most),
+        "bring passes.lateral_positions nearer together, or lower passes.lateral_deviation");
+}
+
+/// Stresses of the contact row by row, of the solutions as many as there are; `rail` is cut to the rows that matter.
+class RowsOfContact {
+ public:
+  RowsOfContact(const std::vector<BemResult>& solutions, const Footprint& f, const SteadyGrid& grid) {
+    for (const BemResult& result : solutions) contacts_.emplace_back(result, f, grid);
+    stresses_.resize(solutions.size());
+  }
+  /// The next row; the largest von Mises stress in it.
+  double add(double depth) {
+    double most = 0;
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      stresses_[k].push_back(contacts_[k].row(depth));
+      most = std::max(most, largest_mises(stresses_[k].back()));
+    }
+    return most;
+  }
+  std::vector<Field> fields(const SteadyGrid& g) const {
+    std::vector<Field> out(stresses_.size());
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      out[k].assign(g.size(), 0.0);
+      for (int r = 0; r < g.rows(); ++r)
+        for (int i = 0; i < g.active_stations(); ++i)
+          for (int j = 0; j < g.ny; ++j) {
+            const Sym3& s = stresses_[k][static_cast<std::size_t>(r)][static_cast<std::size_t>(i * g.ny + j)];
+            const std::array<double, 6> six{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
+            for (int c = 0; c < 6; ++c) out[k][g.index(c, r, i, j)] = six[c];
+          }
+    }
+    return out;
+  }
+
+ private:
+  std::vector<ContactStress> contacts_;
+  std::vector<std::vector<std::vector<Sym3>>> stresses_;
+};
+
+}  // namespace
+
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions, const PassGridOptions& options) {
+  const BemResult& result = solutions.front();
+  const Rows rows(spec, result.rail);
   const Footprint f = footprint_of(result);
+  require_known(spec, solutions, rows, f);
   RailPasses out;
   out.notes = rows.notes();
   out.middle_x = f.x.middle();
-  out.grid = plan_grid(f, options);
+  out.grid = plan_grid(f, options, farthest_pass(spec.passes));
   const std::vector<double> all = thicknesses(result.rail, kDeepest * f.shorter(), f.shorter() / options.rows);
-  ContactStress contact(result, f, out.grid);
+  RowsOfContact contact(solutions, f, out.grid);
   const Subsurface interior = rail_interior(result);
-  std::vector<std::vector<Sym3>> stresses;
   StressHistory section;  // rows alone, for what the process left in them
   std::size_t keep = 0;
   double top = 0;
@@ -210,8 +265,8 @@ RailPasses rail_passes(const CaseSpec& spec, const BemResult& result, const Pass
     out.rows.push_back(rows.at(interior.material_at(depth), zone, depth));
     section.depth.push_back(depth);
     section.zone.push_back(zone);
-    stresses.push_back(contact.row(depth));
-    if (top <= f.shorter() || largest_mises(stresses.back()) > kNearYield * out.rows.back().law.yield) keep = r + 1;
+    const double most = contact.add(depth);
+    if (top <= f.shorter() || most > kNearYield * out.rows.back().law.yield) keep = r + 1;
   }
   keep = std::min(keep + 1, all.size());
   out.grid.thickness.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(keep));
@@ -222,28 +277,26 @@ RailPasses rail_passes(const CaseSpec& spec, const BemResult& result, const Pass
   out.below = moduli_of(interior.material_at(keep < all.size() ? top : top + all.back()));
   const RowStrength strength = row_strength(spec, BodyId::rail, section);
   for (std::size_t r = 0; r < keep; ++r) out.initial_stress.push_back({strength.residual_x[r], strength.residual_y[r]});
-  require_surface_bears(result.field, out.rows.front());
-  out.contact_stress.assign(out.grid.size(), 0.0);
-  for (int r = 0; r < out.grid.rows(); ++r)
-    for (int i = 0; i < out.grid.active_stations(); ++i)
-      for (int j = 0; j < out.grid.ny; ++j) {
-        const Sym3& s = stresses[static_cast<std::size_t>(r)][static_cast<std::size_t>(i * out.grid.ny + j)];
-        const std::array<double, 6> six{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};
-        for (int c = 0; c < 6; ++c) out.contact_stress[out.grid.index(c, r, i, j)] = six[c];
-      }
+  for (const BemResult& one : solutions) require_surface_bears(one.field, out.rows.front());
+  out.contact_stress = contact.fields(out.grid);
   return out;
 }
 
 SteadyBody body_of(const RailPasses& passes) { return {passes.grid, passes.rows, passes.below, passes.initial_stress}; }
 
-Field contact_strain(const RailPasses& passes, const SteadyBody& body) {
+int columns_to(const SteadyGrid& g, double lateral) {
+  return g.ny > 1 ? static_cast<int>(std::lround(lateral / g.dy)) : 0;
+}
+
+Field contact_strain(const RailPasses& passes, const SteadyBody& body, std::size_t solution, int columns) {
   const SteadyGrid& g = passes.grid;
+  const Field& stress = passes.contact_stress.at(solution);
   Field strain(g.size());
   for (int r = 0; r < g.rows(); ++r)
     for (int i = 0; i < g.active_stations(); ++i)
-      for (int j = 0; j < g.ny; ++j) {
+      for (int j = std::max(0, columns); j < std::min(g.ny, g.ny + columns); ++j) {
         std::array<double, 6> s{};
-        for (int c = 0; c < 6; ++c) s[c] = passes.contact_stress[g.index(c, r, i, j)];
+        for (int c = 0; c < 6; ++c) s[c] = stress[g.index(c, r, i, j - columns)];
         const std::array<double, 6> e = body.strain_of(r, s);
         for (int c = 0; c < 6; ++c) strain[g.index(c, r, i, j)] = e[c];
       }
@@ -258,7 +311,7 @@ double largest_magnitude(const std::vector<double>& values) {
 
 /// Sums over a row of the section.
 void add_balance(const SteadyGrid& g, const PassResult& result, PassRow& row) {
-  double worst = 0, scale = 0;
+  double worst = 0, scale = 0, all = 0;
   const double width = g.ny > 1 ? g.dy : 1;
   for (int r = 0; r < g.rows(); ++r) {
     double along = 0, magnitude = 0, across[3] = {};
@@ -269,10 +322,12 @@ void add_balance(const SteadyGrid& g, const PassResult& result, PassRow& row) {
       for (int c = 0; c < 3; ++c) across[c] += s[c == 0 ? 2 : 3 + c];
     }
     row.force += along * width * g.thickness[static_cast<std::size_t>(r)];
+    all += magnitude * width * g.thickness[static_cast<std::size_t>(r)];
     scale = std::max(scale, magnitude);
     for (const double sum : across) worst = std::max(worst, std::abs(sum));
   }
   row.balance = scale > 0 ? worst / scale : 0;
+  row.force_share = all > 0 ? row.force / all : 0;
 }
 
 }  // namespace
@@ -287,6 +342,7 @@ PassRow pass_row(const SteadyGrid& g, int pass, const PassResult& result) {
     for (int j = 0; j < g.ny; ++j) {
       const std::size_t n = g.point(r, j);
       row.largest.accumulated = std::max(row.largest.accumulated, result.accumulated[n]);
+      row.strain = std::max(row.strain, equivalent_strain(result.plastic_strain[n].data()));
       if (result.net[n] > row.largest.net) {
         row.largest.net = result.net[n];
         row.net_y = g.y(j);

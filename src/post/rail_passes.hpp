@@ -30,15 +30,19 @@ struct RailPasses {
   RowModuli below;                                    ///< of what lies under the rows
   std::vector<std::array<double, 2>> initial_stress;  ///< Pa, of rows
   std::vector<std::string> notes;                     ///< which strengths are estimates, and how
-  Field contact_stress;                               ///< Pa, SteadyGrid::size()
+  std::vector<Field> contact_stress;                  ///< Pa, SteadyGrid::size() each: of each solution
 };
 
-/// Throws CaseError: no strength of rail or layers, several patches.
-RailPasses rail_passes(const CaseSpec& spec, const BemResult& result, const PassGridOptions& options = {});
+/// solutions: of cases_of_tractions (post/pass_plan.hpp), the grid is that of the first one's patch, as wide as the
+/// wheels wander. Throws CaseError: no strength of rail or layers, several patches, wheels that wander too far.
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions,
+                       const PassGridOptions& options = {});
 
-/// The body of it, and the strain of its contact.
+/// The body of it, and the strain of the contact of a solution, so many columns to the side.
 SteadyBody body_of(const RailPasses& passes);
-Field contact_strain(const RailPasses& passes, const SteadyBody& body);
+Field contact_strain(const RailPasses& passes, const SteadyBody& body, std::size_t solution = 0, int columns = 0);
+/// The column nearest to a place across.
+int columns_to(const SteadyGrid& grid, double lateral);
 
 /// A pass as one row of a table.
 struct PassRow {
@@ -47,11 +51,15 @@ struct PassRow {
   bool converged = true;
   PassStrain largest;                    ///< Δp and net strain, each of the point where it is largest
   double net_y = 0, net_depth = 0;       ///< m, where the net strain is largest
+  double strain = 0;                     ///< largest equivalent plastic strain √(2/3 Ep:Ep) so far
   std::array<double, 2> stress{};        ///< Pa, most compressive residual stress along x and y
   std::array<double, 2> stress_depth{};  ///< m, where
   double forward = 0, lateral = 0;       ///< m, largest displacement of the surface since the first pass, with its sign
   double sinking = 0;                    ///< m, largest
+  double place = 0;                      ///< m across, where the wheel ran: at a column of the grid
+  double traction = 0;                   ///< F_T over the normal force
   double force = 0;                      ///< N along x: what the passes put into an endless rail; of a line contact N/m
+  double force_share = 0;                ///< the same, over the integral of |S_xx|
   double balance = 0;  ///< largest |mean of S_zz, S_yz, S_xz of a row| over the largest mean |S_xx|: equilibrium
 };
 PassRow pass_row(const SteadyGrid& grid, int pass, const PassResult& result);

@@ -327,6 +327,49 @@ std::vector<ResultNumber> plastic_numbers() {
            .label = "yielded elements",
            .name = "Elements that yielded",
            .doc = "Of both bodies, with plastic strain at any of their points",
+           .engine = HadBy::finite_elements},
+          {.group = "plastic",
+           .symbol = "work",
+           .unit = kJoules,
+           .value = plastic<&PlasticSummary::work>,
+           .label = "plastic work",
+           .name = "Plastic work",
+           .doc = "Done on the plastic strains of both bodies",
+           .engine = HadBy::finite_elements},
+          {.group = "plastic",
+           .symbol = "dissipated",
+           .unit = kJoules,
+           .value = plastic<&PlasticSummary::dissipated>,
+           .label = "dissipated",
+           .name = "Dissipated plastic work",
+           .doc = "The plastic work less what the backstresses hold",
+           .engine = HadBy::finite_elements}};
+}
+
+std::vector<ResultNumber> plastic_place_numbers() {
+  return {{.group = "plastic",
+           .symbol = "x",
+           .unit = kMillimetres,
+           .value = plastic<&PlasticSummary::x>,
+           .label = "yielded at x",
+           .name = "Largest accumulated plastic strain, x",
+           .doc = "Along the rail from where the wheel was put on; none in the wheel",
+           .engine = HadBy::finite_elements},
+          {.group = "plastic",
+           .symbol = "y",
+           .unit = kMillimetres,
+           .value = plastic<&PlasticSummary::y>,
+           .label = "yielded at y",
+           .name = "Largest accumulated plastic strain, y",
+           .doc = "From the rigid contact point to the field side",
+           .engine = HadBy::finite_elements},
+          {.group = "plastic",
+           .symbol = "depth",
+           .unit = kMillimetres,
+           .value = plastic<&PlasticSummary::depth>,
+           .label = "yielded at depth",
+           .name = "Largest accumulated plastic strain, depth",
+           .doc = "Of the element's centre below the surface",
            .engine = HadBy::finite_elements}};
 }
 
@@ -572,6 +615,11 @@ std::vector<ResultNumber> damage_numbers() {
           row("friction_energy", kJoulesPerMetre, damage<&D::friction_energy>, "friction energy",
               "Friction energy per distance", "Sum over the points of traction times slip times area, over the speed",
               false),
+          row("motion_energy", kJoulesPerMetre, damage<&D::motion_energy>, "energy by motion",
+              "Energy of the rigid motion per distance",
+              "Tractions times the rigid slip of the cells, over the speed: T-gamma with spin and the rolling radii of "
+              "the rows, which a spin leaves out. In steady rolling it is the friction energy. Half-spaces",
+              false),
           row("rcf_damage", kNone, damage<&D::rcf_damage>, "RCF damage", "RCF damage of a passage",
               "Burstow's function of a patch's T-gamma for R260, of several the largest; break points 15, 65 and 175 "
               "N; 1 is a visible crack, below zero "
@@ -695,7 +743,8 @@ const std::vector<ResultNumber>& result_numbers() {
     for (const auto& part :
          {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
           approach_numbers(), transient_numbers(), damage_numbers(), heat_numbers(), shakedown_numbers(),
-          layer_numbers(), plastic_numbers(), energy_numbers(), time_numbers(), step_numbers(), effort_numbers()})
+          layer_numbers(), plastic_numbers(), plastic_place_numbers(), energy_numbers(), time_numbers(), step_numbers(),
+          effort_numbers()})
       out.insert(out.end(), part.begin(), part.end());
     return out;
   }();

@@ -64,10 +64,16 @@ void add(BandSample& sum, const BandSample& s, double weight) {
     sum = s;
     for (double& v : sum.along) v = 0;
     for (Sym3& v : sum.stress) v = {};
+    for (ElementPlasticity& v : sum.plastic) v = {};
     for (Vec3& v : sum.displacement) v = {};
   }
   for (std::size_t i = 0; i < sum.along.size(); ++i) sum.along[i] += weight * s.along[i];
   for (std::size_t i = 0; i < sum.stress.size(); ++i) sum.stress[i] = sum.stress[i] + weight * s.stress[i];
+  for (std::size_t i = 0; i < sum.plastic.size(); ++i) {
+    sum.plastic[i].strain = sum.plastic[i].strain + weight * s.plastic[i].strain;
+    sum.plastic[i].backstress = sum.plastic[i].backstress + weight * s.plastic[i].backstress;
+    sum.plastic[i].accumulated += weight * s.plastic[i].accumulated;
+  }
   for (std::size_t i = 0; i < sum.displacement.size(); ++i) sum.displacement[i] += weight * s.displacement[i];
 }
 

@@ -52,12 +52,9 @@ class ZoneStrength {
   double end() const { return top_ + strength_.end(); }
 
   StressPoint residual(double depth) const {
-    if (!s_.initial_stress.empty()) return {depth, s_.initial_stress[0], s_.initial_stress[1]};
-    if (s_.initial_stress_table.empty()) return {depth, 0, 0};
-    const double z = std::min(depth - top_, s_.initial_stress_table.back().depth);  // below it there is none told
-    const std::string key = key_ + ".initial_stress_table";
-    return {depth, at_depth(s_.initial_stress_table, z, &StressPoint::longitudinal, key),
-            at_depth(s_.initial_stress_table, z, &StressPoint::lateral, key)};
+    StressPoint out = process_stress(s_, depth - top_, key_);
+    out.depth = depth;
+    return out;
   }
 
   /// How a strength that was not given is known, or that it is not; empty if it was given.

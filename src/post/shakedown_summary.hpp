@@ -1,5 +1,6 @@
 #pragma once
 // Does it last? Shakedown of rail and wheel (damage/shakedown.hpp) under a contact, from either engine.
+#include <string>
 #include <vector>
 
 #include "bem/solve_bem.hpp"
@@ -21,6 +22,7 @@ struct SectionShakedown {
   Shakedown found;  ///< without a strength: no factors
   BodyFatigue fatigue;
   double single_track = kNotApplicable;
+  std::vector<std::string> notes;  ///< what the cells leave uncertain
   std::size_t patch = 0;           ///< of several patches the one that decides; 0: the largest pressure's
   double x_first = 0, x_last = 0;  ///< m, of the cycle
 };

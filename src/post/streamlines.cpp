@@ -173,7 +173,7 @@ void add_patches(const CaseSpec& spec, const Summary& summary, DamageSummary& ou
   std::vector<ContactSummary> patches;
   for (const PatchSummary& p : summary.patches) patches.push_back(p.contact);
   if (patches.empty()) patches.push_back(summary.contact);
-  out.t_gamma = out.t_gamma_with_spin = 0;
+  out.t_gamma = out.t_gamma_with_spin = out.motion_energy = 0;
   for (const ContactSummary& c : patches) {
     const PatchMeasures& m = c.patch;
     const TGamma t = t_gamma(c);
@@ -181,6 +181,7 @@ void add_patches(const CaseSpec& spec, const Summary& summary, DamageSummary& ou
     const double damage = rcf_damage(rcf_damage_15(), t.without_spin);
     if (!(damage <= out.rcf_damage)) out.rcf_damage = damage;
     out.t_gamma_with_spin += t.with_spin;
+    out.motion_energy += c.motion_power / spec.drive.speed;
     const double index = std::hypot(m.force_x, m.force_y) / m.force_z - strength / m.p_max;
     if (std::isfinite(index) && !(index <= out.surface_fatigue)) out.surface_fatigue = index;
   }

@@ -78,7 +78,7 @@ void put_peaks(const BemPatch& patch, const StatePlane& surface, const Subsurfac
                Sym3* cycle) {
   if (column < 0 || column >= patch.grid.ny) return;
   const auto stress = [&](int i) { return body.stress(surface, body.grid().index(i + at.more_x, column + at.more_y)); };
-  SurfaceRow row{{}, {}, {}, stress, body.material_at(0).poisson};
+  SurfaceRow row{{}, {}, {}, stress, body.material_at(0).poisson, true};
   for (int i = 0; i < patch.grid.nx; ++i) {
     const std::size_t k = static_cast<std::size_t>(i) * patch.field.columns + column;  // a line contact has several
     row.p.push_back(patch.field.p[k]);

@@ -234,7 +234,7 @@ StressSummary wheel_stress_summary(const RollingSystem& sys, const MeanContact& 
 }
 
 DepthLine depth_line(const BandStress& b, double x, double y) {
-  DepthLine line{x, y, {}, {}, {}};
+  DepthLine line{x, y, {}, {}, {}, {}};
   int station = 0, column = 0;
   for (int s = 1; s < b.sample.stations; ++s)
     if (std::abs(b.x(s) - x) < std::abs(b.x(station) - x)) station = s;
@@ -246,6 +246,7 @@ DepthLine depth_line(const BandStress& b, double x, double y) {
     line.depth.push_back(b.centre_depth[r]);
     line.stress.push_back(b.at(column, r, station));
     line.material.push_back(layer_of(b, column, r));
+    if (!b.sample.plastic.empty()) line.plastic.push_back(b.sample.plastic[b.index(column, r, station)]);
   }
   return line;
 }

@@ -19,9 +19,10 @@ struct BandStress {
   double contact_y = 0;              ///< y of the rigid contact point in section coordinates
   std::vector<double> centre_y;      ///< per column, section coordinate
   std::vector<double> centre_depth;  ///< per row
-  Sym3 at(int column, int row, int station) const {
-    return sample.stress[(static_cast<std::size_t>(station) * sample.rows + row) * sample.columns + column];
+  std::size_t index(int column, int row, int station) const {
+    return (static_cast<std::size_t>(station) * sample.rows + row) * sample.columns + column;
   }
+  Sym3 at(int column, int row, int station) const { return sample.stress[index(column, row, station)]; }
   double x(int station) const { return 0.5 * (sample.along[station] + sample.along[station + 1]); }
 };
 BandStress band_stress(const SweptBody& body, BandSample sample, double contact_y);
@@ -54,6 +55,7 @@ struct DepthLine {
   std::vector<double> depth;
   std::vector<Sym3> stress;
   std::vector<int> material;
+  std::vector<ElementPlasticity> plastic;  ///< empty where nothing may yield
 };
 DepthLine depth_line(const BandStress& band, double x, double y);
 

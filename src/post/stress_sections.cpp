@@ -8,6 +8,8 @@
 namespace railstrata {
 namespace {
 
+constexpr int kMostSlices = 17, kMostSliceColumns = 34;
+
 int nearest(const std::vector<double>& values, double wanted) {
   const auto closer = [&](double a, double b) { return std::abs(a - wanted) < std::abs(b - wanted); };
   return static_cast<int>(std::min_element(values.begin(), values.end(), closer) - values.begin());
@@ -37,6 +39,27 @@ std::vector<Row> rows_of(const LayeredHalfSpace& body, double cell, double deepe
   return rows;
 }
 
+/// Every n-th of so many, at most `most` of them, the same number left out at both ends.
+std::vector<int> thinned(int n, int most) {
+  const int step = (n + most - 1) / most;
+  std::vector<int> out;
+  for (int i = (n - 1) % step / 2; i < n; i += step) out.push_back(i);
+  return out;
+}
+
+/// Slices at these places, without stresses.
+std::vector<StressSection> empty_slices(const std::vector<double>& x, const std::vector<int>& at,
+                                        const std::vector<double>& y, const std::vector<int>& columns) {
+  std::vector<StressSection> out;
+  for (int i : at) {
+    StressSection slice;
+    slice.at = x[i];
+    for (int j : columns) slice.along.push_back(y[j]);
+    out.push_back(std::move(slice));
+  }
+  return out;
+}
+
 StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& body, const Subsurface& interior,
                                  double z_up, double x, double y, double deepest) {
   const PatchGrid& g = r.grid;
@@ -49,6 +72,8 @@ StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& bod
   const int i0 = nearest(along.along, x), j0 = nearest(across.along, y);
   along.at = across.along[j0];
   across.at = along.along[i0];
+  const std::vector<int> at = thinned(g.nx, kMostSlices), beside = thinned(columns, kMostSliceColumns);
+  out.slices = empty_slices(along.along, at, across.along, beside);
   for (const Row& row : rows_of(body, g.dx, deepest)) {
     const StatePlane plane = interior.plane(row.depth);
     const auto add = [&](StressSection& section, std::size_t k) {
@@ -60,6 +85,10 @@ StressSections interior_sections(const BemResult& r, const LayeredHalfSpace& bod
     };
     for (int i = 0; i < g.nx; ++i) add(along, g.index(i, g.line ? 0 : j0));
     for (int j = 0; j < columns; ++j) add(across, g.index(i0, g.line ? 0 : j));
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      for (int j : beside) add(out.slices[k], g.index(at[k], g.line ? 0 : j));
+      out.slices[k].depth.push_back(row.depth);
+    }
     along.depth.push_back(row.depth);
     across.depth.push_back(row.depth);
   }
@@ -79,13 +108,20 @@ StressSections band_sections(const BandStress& b, double x, double y) {
   along.at = across.along[column];
   across.at = along.along[station];
   along.depth = across.depth = b.centre_depth;
+  const std::vector<int> at = thinned(b.sample.stations, kMostSlices),
+                         beside = thinned(b.sample.columns, kMostSliceColumns);
+  out.slices = empty_slices(along.along, at, across.along, beside);
+  for (StressSection& slice : out.slices) slice.depth = b.centre_depth;
   for (int r = 0; r < b.sample.rows; ++r) {
     const auto add = [&](StressSection& section, int c, int s) {
       section.stress.push_back(b.at(c, r, s));
       section.material.push_back(b.body->layer_of(materials[static_cast<std::size_t>(r) * band.columns + c]));
+      if (!b.sample.plastic.empty()) section.plastic.push_back(b.sample.plastic[b.index(c, r, s)]);
     };
     for (int s = 0; s < b.sample.stations; ++s) add(along, column, s);
     for (int c = 0; c < b.sample.columns; ++c) add(across, c, station);
+    for (std::size_t k = 0; k < at.size(); ++k)
+      for (int c : beside) add(out.slices[k], c, at[k]);
   }
   return out;
 }

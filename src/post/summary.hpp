@@ -27,6 +27,7 @@ struct ContactSummary {
          displacement_y = kNotApplicable;  ///< m, of the wheel over the rail: a shift's
   double friction_work = kNotApplicable;   ///< J, of a transient since its start
   double spin_moment = kNotApplicable;     ///< N m, on the wheel about the normal at the rigid contact point
+  double motion_power = kNotApplicable;    ///< W, of the tractions in the cells' rigid slip; half-spaces
 };
 
 /// One of several patches of a wheel.
@@ -66,6 +67,12 @@ struct PlasticSummary {
   double strain = kNotApplicable;       ///< largest sqrt(2/3 Ep:Ep) of any point of an element
   double accumulated = kNotApplicable;  ///< largest accumulated plastic strain p
   double elements = kNotApplicable;     ///< with plastic strain
+  double work = kNotApplicable;         ///< J, on the plastic strains
+  double dissipated = kNotApplicable;   ///< J of it, less what the backstresses hold
+  double x = kNotApplicable, y = kNotApplicable,
+         depth = kNotApplicable;  ///< m, of the largest accumulated one: along the rail from where the wheel was put on
+                                  ///< (of the wheel none), y and depth as of StressMaximum
+  std::string body, zone;         ///< where it is; empty: nothing has yielded
 };
 
 /// By what the elastic stress of the case may be multiplied (damage/shakedown.hpp).
@@ -85,7 +92,7 @@ struct BodyShakedown {
   std::string zone;                                   ///< that decides `wandering`, and where
   double depth = kNotApplicable, y = kNotApplicable;  ///< m; y from the rigid contact point
   std::vector<ZoneShakedown> zones;
-  std::vector<std::string> notes;  ///< strengths that are estimates, or not known
+  std::vector<std::string> notes;  ///< strengths that are estimates, or not known; what the cells leave uncertain
 };
 /// Of the bodies whose strength is known.
 struct ShakedownSummary {
@@ -146,9 +153,10 @@ struct BodyFatigue {
 /// What one passage does to the rail's surface (post/streamlines.hpp); NaN where friction or data are missing.
 struct DamageSummary {
   double t_gamma = kNotApplicable, t_gamma_with_spin = kNotApplicable;  ///< N
-  double friction_energy = kNotApplicable;  ///< J per m of rail, from the cells: with spin the same as T-gamma
-  double rcf_damage = kNotApplicable;       ///< per axle passage
-  double brr_wear = kNotApplicable;         ///< m² per m rolled
+  double friction_energy = kNotApplicable;                              ///< J per m of rail, from the cells
+  double motion_energy = kNotApplicable;  ///< J per m of rail, of the tractions in the cells' rigid slip; half-spaces
+  double rcf_damage = kNotApplicable;     ///< per axle passage
+  double brr_wear = kNotApplicable;       ///< m² per m rolled
   double usfd_depth = kNotApplicable, archard_depth = kNotApplicable,
          kth_depth = kNotApplicable;         ///< m per passage, the deepest
   double temperature_rise = kNotApplicable;  ///< K

@@ -15,13 +15,14 @@ struct SurfaceRow {
   std::vector<ContactState> state;
   CallableRef<Sym3(int)> stress;  ///< Pa, of a point; x rolling, z into the body
   double poisson = 0;             ///< of the surface
+  bool cells = false;             ///< tractions are means over cells (half-spaces), not values at points
 };
 
 /// Edge: inside the patch the stress rises as the root of the distance to it. What is left of sigma_xx + p and
 /// sigma_yy + 2 nu p is smooth (of a circular contact: [Johnson1985 eq. 3.43]); it is extrapolated from the two points
 /// behind the outermost to the edge, where p² is zero.
 ///
-/// Front of slip: |q| has a cusp there (post/patch.hpp, shear_at_front_of_slip). The stresses rise as a root on the
+/// Front of slip: |q| has a cusp there (post/front_of_slip.hpp). The stresses rise as a root on the
 /// slipping side; on the sticking one what is left of sigma_xx + p and sigma_yy + 2 nu p is smooth (of a line contact:
 /// constant) and is extrapolated from there; shear is f p.
 struct SurfacePeaks {

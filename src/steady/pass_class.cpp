@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace railstrata {
 
 namespace {
 
-constexpr double kNothing = 1e-6;  // plastic strain of a pass that counts as none
 constexpr double kClosed = 0.01;   // net over accumulated of a closed cycle
 constexpr double kSame = 0.02;     // from pass to pass
 constexpr std::size_t kSteps = 3;  // from pass to pass
@@ -46,7 +46,7 @@ PassVerdict classify(const std::vector<PassStrain>& passes) {
   const PassStrain& last = passes.back();
   verdict.rate = last.net;
   verdict.trend = trend_of(passes);
-  if (last.accumulated < kNothing) {
+  if (last.accumulated < kNoFlow) {
     verdict.kind = PassClass::elastic_shakedown;
   } else if (last.net < kClosed * last.accumulated && steady(passes, &PassStrain::accumulated)) {
     verdict.kind = PassClass::plastic_shakedown;
@@ -54,6 +54,44 @@ PassVerdict classify(const std::vector<PassStrain>& passes) {
     verdict.kind = PassClass::ratchetting;
   }
   return verdict;
+}
+
+PassClass class_of_point(const std::vector<PassStrain>& passes, PassClass whole) {
+  const PassClass own = classify(passes).kind;
+  return whole == PassClass::transient && own != PassClass::elastic_shakedown ? PassClass::transient : own;
+}
+
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// Passes until net = rate (n / last)^-s has added up to `more`.
+double passes_by_trend(double more, double rate, double last, double s) {
+  if (!(rate > 0)) return kNever;
+  const double share = more / (rate * last);
+  if (std::abs(s - 1) < 1e-9) return last * std::exp(share);
+  const double base = 1 + share * (1 - s);
+  return base > 0 ? last * std::pow(base, 1 / (1 - s)) : kNever;
+}
+
+}  // namespace
+
+DuctilityReach passes_to_ductility(double ductility, double reached, const std::vector<PassStrain>& passes) {
+  const PassVerdict verdict = classify(passes);
+  if (passes.empty() || verdict.kind == PassClass::elastic_shakedown || verdict.kind == PassClass::plastic_shakedown)
+    return {kNever, kNever, kNever};
+  const double last = static_cast<double>(passes.size()), more = ductility - reached;
+  if (more <= 0) return {last, 0, last};
+  DuctilityReach out{passes_by_trend(more, verdict.rate, last, 0), kNever, 0};
+  const double by_trend = passes_by_trend(more, verdict.rate, last, verdict.trend);
+  out.earliest = std::min(out.passes, by_trend);
+  out.latest = std::max(out.passes, by_trend);
+  for (std::size_t i = passes.size() / 2; i < passes.size(); ++i) {
+    const double at_rate = passes_by_trend(more, passes[i].net, last, 0);
+    out.earliest = std::min(out.earliest, at_rate);
+    out.latest = std::max(out.latest, at_rate);
+  }
+  return out;
 }
 
 std::string words(PassClass kind) {

@@ -14,6 +14,9 @@
 
 namespace railstrata {
 
+/// Plastic strain of a pass that counts as none.
+inline constexpr double kNoFlow = 1e-6;
+
 enum class PassClass : int { elastic_shakedown, plastic_shakedown, ratchetting, transient };
 
 /// Of one pass.
@@ -29,6 +32,23 @@ struct PassVerdict {
 
 /// Of all passes so far, the first one first.
 PassVerdict classify(const std::vector<PassStrain>& passes);
+
+/// Of a point of a rail whose governing point has come to `whole`. The residual stress ties the points to each other:
+/// while that one still changes, a point that flows the same for a few passes is on its way up or down, and has no
+/// class yet. That nothing flows any more is told anyway.
+PassClass class_of_point(const std::vector<PassStrain>& passes, PassClass whole);
+
+/// When the net strain that passes add up to reaches what the material bears.
+struct DuctilityReach {
+  double passes = 0;                ///< since the first one, at the last rate; infinite: never
+  double earliest = 0, latest = 0;  ///< of: the largest rate and the smallest one of the later half of the passes, the
+                                    ///< last rate, and net ~ n^-s with the trend; infinite: by that, never
+};
+
+/// ductility, reached: |E^p| as the net strains; `reached` is that of the point that grows fastest. Of shakedown
+/// (elastic or plastic) nothing grows: never. The increments are taken to have one direction, as in ratchetting;
+/// otherwise it takes longer. `passes`: net strain per pass, the first one first, all of them.
+DuctilityReach passes_to_ductility(double ductility, double reached, const std::vector<PassStrain>& passes);
 
 /// "elastic shakedown", ...; of transient "transient: no claim yet".
 std::string words(PassClass kind);

@@ -1,27 +1,18 @@
 #include "steady/plastic_strain_response.hpp"
 
-#include <fftw3.h>
-
 #include <array>
 #include <cmath>
-#include <mutex>
 #include <numbers>
 #include <stdexcept>
 
 #include "core/parallel.hpp"
+#include "fft/fft.hpp"
 
 namespace railstrata {
 
 namespace {
 
 using Complex = std::complex<double>;
-
-std::mutex& planner() {  // FFTW's planner is not thread-safe
-  static std::mutex m;
-  return m;
-}
-
-fftw_complex* raw(Complex* z) { return reinterpret_cast<fftw_complex*>(z); }
 
 struct Mat2 {
   double a = 0, b = 0, c = 0, d = 0;  // rows (a b), (c d)
@@ -60,15 +51,6 @@ RowStiffness row_stiffness(RowModuli m, double h, double k) {
 struct PlasticStrainResponse::Wave {
   Mat2 inverse, below;
   double m_inverse = 0, m_below = 0;
-};
-
-struct PlasticStrainResponse::Plans {
-  fftw_plan forward = nullptr, backward = nullptr;
-  ~Plans() {
-    const std::lock_guard lock(planner());
-    fftw_destroy_plan(forward);
-    fftw_destroy_plan(backward);
-  }
 };
 
 namespace {
@@ -157,7 +139,7 @@ PlasticStrainResponse::PlasticStrainResponse(SteadyGrid grid, std::vector<RowMod
       moduli_(std::move(rows)),
       below_(below),
       width_(grid_.ny / 2 + 1),
-      plans_(std::make_unique<Plans>()) {
+      fft_(std::make_unique<RealPlaneFft>(grid_.nx, grid_.ny)) {
   if (moduli_.size() != grid_.thickness.size() || moduli_.empty())
     throw std::invalid_argument("PlasticStrainResponse: a modulus for every row");
   deep_ = rows_below(grid_);
@@ -169,13 +151,6 @@ PlasticStrainResponse::PlasticStrainResponse(SteadyGrid grid, std::vector<RowMod
   const int planes = 6 * grid_.rows();
   spectrum_.resize(static_cast<std::size_t>(planes) * static_cast<std::size_t>(grid_.nx) *
                    static_cast<std::size_t>(width_));
-  Field scratch(grid_.plane());
-  const std::lock_guard lock(planner());
-  // one plane a call: threads take planes. Unaligned, since planes start anywhere; estimated, for the same bits
-  plans_->forward =
-      fftw_plan_dft_r2c_2d(grid_.nx, grid_.ny, scratch.data(), raw(spectrum_.data()), FFTW_ESTIMATE | FFTW_UNALIGNED);
-  plans_->backward =
-      fftw_plan_dft_c2r_2d(grid_.nx, grid_.ny, raw(spectrum_.data()), scratch.data(), FFTW_ESTIMATE | FFTW_UNALIGNED);
 }
 
 PlasticStrainResponse::~PlasticStrainResponse() = default;
@@ -250,16 +225,14 @@ void PlasticStrainResponse::apply(Field& field) const {
   if (field.size() != grid_.size()) throw std::invalid_argument("PlasticStrainResponse: a field of another grid");
   const int planes = 6 * grid_.rows();
   const std::size_t real = grid_.plane(), complex = static_cast<std::size_t>(grid_.nx) * width_;
-  for_each(planes, [&](std::ptrdiff_t p) {
-    fftw_execute_dft_r2c(plans_->forward, field.data() + p * real, raw(spectrum_.data() + p * complex));
-  });
+  for_each(planes, [&](std::ptrdiff_t p) { fft_->forward(field.data() + p * real, spectrum_.data() + p * complex); });
   for_each(grid_.nx, [&](std::ptrdiff_t kx) {
     for (int ky = 0; ky < width_; ++ky) solve(static_cast<int>(kx), ky);
   });
   const double scale = 1 / static_cast<double>(real);
   for_each(planes, [&](std::ptrdiff_t p) {
     double* out = field.data() + p * real;
-    fftw_execute_dft_c2r(plans_->backward, raw(spectrum_.data() + p * complex), out);
+    fft_->backward(spectrum_.data() + p * complex, out);
     for (std::size_t n = 0; n < real; ++n) out[n] *= scale;
   });
 }

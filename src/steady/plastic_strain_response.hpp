@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "core/array.hpp"
+#include "fft/fft.hpp"
 #include "steady/steady_grid.hpp"
 
 namespace railstrata {
@@ -38,7 +39,6 @@ class PlasticStrainResponse {
   void apply(Field& field) const;
 
  private:
-  struct Plans;
   struct Wave;
   void factorize(int kx, int ky);
   void solve(int kx, int ky) const;
@@ -50,7 +50,7 @@ class PlasticStrainResponse {
   std::vector<double> deep_;   // m, thickness of the rows below
   std::vector<Wave> factors_;  // (nx/2 + 1) * width_ * (rows + 1)
   mutable std::vector<std::complex<double>> spectrum_;
-  std::unique_ptr<Plans> plans_;
+  std::unique_ptr<RealPlaneFft> fft_;
 };
 
 }  // namespace railstrata

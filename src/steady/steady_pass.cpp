@@ -70,6 +70,20 @@ SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowM
     initial_strain_[r] = strain_of(static_cast<int>(r), {initial_stress[r][0], initial_stress[r][1], 0, 0, 0, 0});
 }
 
+void move_guess(const SteadyGrid& g, int columns, PassState& state) {
+  if (columns == 0) return;
+  const std::size_t line = static_cast<std::size_t>(g.active_stations());
+  Field moved(state.residual_strain.size());
+  for (int c = 0; c < 6; ++c)
+    for (int r = 0; r < g.rows(); ++r)
+      for (int j = std::max(0, columns); j < std::min(g.ny, g.ny + columns); ++j) {
+        const auto from = state.residual_strain.begin() +
+                          static_cast<std::ptrdiff_t>((c * g.points() + g.point(r, j - columns)) * line);
+        std::copy_n(from, line, moved.begin() + static_cast<std::ptrdiff_t>((c * g.points() + g.point(r, j)) * line));
+      }
+  state.residual_strain = std::move(moved);
+}
+
 PassState SteadyBody::virgin() const {
   PassState state;
   state.history.assign(grid().points() * kStreamlineHistory, 0.0);
@@ -83,6 +97,14 @@ std::array<double, 6> SteadyBody::strain_of(int row, const std::array<double, 6>
   std::array<double, 6> e{};
   for (int c = 0; c < 6; ++c) e[c] = (s[c] - (c < 3 ? mean : 0)) / (2 * mu);
   return e;
+}
+
+std::array<double, 6> SteadyBody::stress_of(int row, const std::array<double, 6>& strain) const {
+  const auto [lambda, mu] = rows_[static_cast<std::size_t>(row)].moduli;
+  const double pressure = lambda * (strain[0] + strain[1] + strain[2]);
+  std::array<double, 6> s{};
+  for (int c = 0; c < 6; ++c) s[c] = 2 * mu * strain[c] + (c < 3 ? pressure : 0);
+  return s;
 }
 
 Field SteadyBody::uniform_strain(const std::vector<double>& history) const {
@@ -158,6 +180,7 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   Anderson anderson;
   PassResult out;
   for (;;) {
+    if (limits.stop && *limits.stop) throw Interrupted("stopped in a pass");
     follow(contact_strain, state, work);
     response_.apply(work.field);
     out.error = compare(work);
@@ -168,11 +191,39 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
     if (out.converged || out.iterations >= limits.iterations) break;
     anderson.step(work.guess, work.residual);
   }
-  const std::vector<double> before = std::move(state.history);
+  out.before = std::move(state.history);
   state.history = std::move(work.after);
   state.residual_strain = std::move(work.guess);
   ++state.passes;
-  conclude(before, uniform_strain(state.history), state, out);
+  conclude(out.before, uniform_strain(state.history), state, out);
+  return out;
+}
+
+std::vector<std::vector<StationState>> SteadyBody::streamlines(const Field& contact_strain, const PassResult& result,
+                                                               const PassState& state,
+                                                               const std::vector<std::size_t>& points) const {
+  const SteadyGrid& g = grid();
+  const Field before = uniform_strain(result.before);
+  const std::size_t line = static_cast<std::size_t>(g.active_stations());
+  std::vector<std::vector<StationState>> out(points.size(), std::vector<StationState>(line));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const std::size_t n = points[k];
+    const int r = static_cast<int>(n) / g.ny, j = static_cast<int>(n) % g.ny;
+    const SteadyRow& row = rows_[static_cast<std::size_t>(r)];
+    double h[kStreamlineHistory];
+    std::copy_n(result.before.data() + n * kStreamlineHistory, kStreamlineHistory, h);
+    for (std::size_t i = 0; i < line; ++i) {
+      double e[6], s[6];
+      for (int c = 0; c < 6; ++c)
+        e[c] = contact_strain[g.index(c, r, static_cast<int>(i), j)] + before[c * g.points() + n] +
+               initial_strain_[r][c] + state.residual_strain[(c * g.points() + n) * line + i];
+      if (std::isfinite(row.law.yield)) advance(row.law, terms_[r], e, h);
+      plastic_stress(row.moduli.lambda, row.moduli.mu, e, h, s);
+      std::copy_n(e, 6, out[k][i].strain.begin());
+      std::copy_n(s, 6, out[k][i].stress.begin());
+      out[k][i].accumulated = h[6];
+    }
+  }
   return out;
 }
 

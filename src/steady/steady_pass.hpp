@@ -14,6 +14,7 @@
 // Assumptions: pressure and friction are those of the elastic bodies; a straight rail, layers without sideways ends on
 // a half-space; small strains; the rail is endless and does not grow longer.
 #include <array>
+#include <atomic>
 #include <vector>
 
 #include "core/array.hpp"
@@ -38,6 +39,9 @@ struct PassState {
   Field residual_strain;        ///< e_residual of the last pass at the active stations, the next one's first guess
 };
 
+/// Moves the first guess along with a load that runs so many columns to the side of the last one.
+void move_guess(const SteadyGrid& grid, int columns, PassState& state);
+
 /// What a pass has done to the points of the section (SteadyGrid::point).
 struct PassResult {
   int iterations = 0;
@@ -50,11 +54,19 @@ struct PassResult {
   std::vector<double> forward, lateral;  ///< m, per column: displacement of the surface over the yielding rows' foot,
                                          ///< since the first pass; forward: along the travel of the load
   std::vector<double> sinking;           ///< m, per column, downward
+  std::vector<double> before;            ///< history ahead of the load, as of PassState
+};
+
+/// A point of the section at a station of its streamline.
+struct StationState {
+  std::array<double, 6> strain{}, stress{};  ///< tensor shears; Pa
+  double accumulated = 0;                    ///< plastic strain p over all passes
 };
 
 struct PassLimits {
   double tolerance = 1e-4;  ///< of the shear strength
   int iterations = 400;
+  const std::atomic<bool>* stop = nullptr;  ///< true: the pass is given up between two iterations
 };
 
 /// A body and its grid; constant, but one pass at a time.
@@ -70,10 +82,18 @@ class SteadyBody {
   PassState virgin() const;
 
   /// The next pass under the strain of a contact (SteadyGrid::size(); tensor shears). The state advances; where the
-  /// pass has not converged too, and the result says so. Throws NumericalError at a strain that is no number.
+  /// pass has not converged too, and the result says so. Throws NumericalError at a strain that is no number;
+  /// Interrupted when it is given up, the state is then as it was.
   PassResult run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits = {}) const;
+  /// The way of points of the section through the pass that `result` and `state` are of, at the active stations in
+  /// their order.
+  std::vector<std::vector<StationState>> streamlines(const Field& contact_strain, const PassResult& result,
+                                                     const PassState& state,
+                                                     const std::vector<std::size_t>& points) const;
   /// Strain of an elastic stress of the contact, xx, yy, zz, xy, yz, xz, in a row.
   std::array<double, 6> strain_of(int row, const std::array<double, 6>& stress) const;
+  /// The other way round, Pa.
+  std::array<double, 6> stress_of(int row, const std::array<double, 6>& strain) const;
 
  private:
   struct Work;

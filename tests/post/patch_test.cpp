@@ -85,7 +85,7 @@ TEST(Patch, ShearAtTheFrontOfSlipIsNoMoreThanWhatAPointMayCarry) {
     if (!(field.p[i] > 0)) continue;
     const bool sticks = field.x[i] > -2e-3;
     field.state[i] = sticks ? ContactState::stick : ContactState::slip;
-    field.q_x[i] = -yield * (sticks ? 0.8 - 50 * field.x[i] : 1.0);
+    field.q_x[i] = -yield * (sticks ? 1 - 8 * std::sqrt(field.x[i] + 2e-3) : 1.0);
     field.q_y[i] = 0;
   }
   EXPECT_GT(shear_at_front_of_slip(field), 1.001 * yield) << "in proportion to p";

@@ -198,6 +198,20 @@ TEST(ShakedownSummary, AZoneWithoutAStrengthIsTold) {
   EXPECT_TRUE(std::isnan(found[0].fatigue.brittle[1].thickness));
 }
 
+// Where the surface decides, behind a strip of slip of three cells.
+TEST(ShakedownSummary, SaysWhereAStripOfSlipIsTooShortForItsCells) {
+  CaseSpec spec;
+  spec.rail_material.strength.yield_strength = 480e6;
+  spec.drive.friction_coefficient = 0.5;
+  const auto notes = [&](double traction, double cell) {
+    spec.drive.traction_coefficient = traction;
+    return half_space_shakedown(spec, solve_bem(spec, place(spec, {}), cells(cell))).at(0).notes;
+  };
+  ASSERT_EQ(notes(0.1, 0.25e-3).size(), 1u);
+  EXPECT_EQ(notes(0.1, 0.25e-3)[0].find("the surface decides where the strip of slip is "), 0u);
+  EXPECT_TRUE(notes(0.3, 0.25e-3).empty());
+}
+
 TEST(ShakedownSummary, ProcessStressMovesFirstYieldAlone) {
   CaseSpec spec = frictionless();
   const Found without = shakedown_of(spec, 0.5e-3);

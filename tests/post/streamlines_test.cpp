@@ -26,6 +26,17 @@ CaseSpec sliding() {
 
 }  // namespace
 
+// In steady rolling elastic displacements take no work round: friction has what the rigid motion puts in. LMA on CN60
+// has rows with rolling radii of their own, which creepages and a spin do not know.
+TEST(Streamlines, FrictionEnergyIsThatOfTheTractionsInTheRigidMotion) {
+  CaseSpec spec;
+  spec.drive.traction_coefficient = 0.2;
+  spec.drive.friction_coefficient = 0.5;
+  const DamageSummary found = damage_of(spec);
+  EXPECT_NEAR(found.friction_energy / found.motion_energy, 1, 0.01);
+  EXPECT_LT(found.t_gamma_with_spin, 0.99 * found.motion_energy) << "the rows' own radii are more than a spin";
+}
+
 TEST(Streamlines, ShowTheShareOfAustenitisationWhereTheCaseSaysItsTemperature) {
   CaseSpec spec = sliding();
   EXPECT_TRUE(std::isnan(damage_of(spec).austenitisation));

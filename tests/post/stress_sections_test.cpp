@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -46,6 +47,35 @@ TEST(StressSections, HoldTheStressesOnTheAxisOfAHertzianContact) {
         EXPECT_NEAR(stress.xz / p0, 0, 1e-3);
       }
     }
+}
+
+// The slices are cross sections: where they cross a longitudinal one they have its stresses.
+TEST(StressSections, SlicesAreCrossSectionsAllAlongThePatch) {
+  CaseSpec spec = crossed_cylinders();
+  spec.drive.traction_coefficient = 0.2;
+  spec.drive.friction_coefficient = 0.5;
+  const BemResult r = solve_bem(spec, place(spec, {}), {});
+  const std::vector<StressSection> slices = rail_sections(r, 0, 0, 4e-3).slices;
+  ASSERT_GE(slices.size(), 9U);
+  EXPECT_LE(slices.size(), 17U);
+  const std::size_t column = slices.front().along.size() / 2;
+  const StressSection along = rail_sections(r, 0, slices.front().along[column], 4e-3).longitudinal;
+  for (const StressSection& slice : slices) {
+    EXPECT_EQ(slice.depth, along.depth);
+    EXPECT_LE(slice.along.size(), 34U);
+    ASSERT_EQ(slice.stress.size(), slice.along.size() * slice.depth.size());
+    ASSERT_EQ(slice.along[column], along.at);
+    const auto i =
+        static_cast<std::size_t>(std::find(along.along.begin(), along.along.end(), slice.at) - along.along.begin());
+    ASSERT_LT(i, along.along.size());
+    for (std::size_t row = 0; row < slice.depth.size(); ++row)
+      EXPECT_EQ(slice.stress[row * slice.along.size() + column].xz, along.stress[row * along.along.size() + i].xz);
+  }
+}
+
+TEST(StressSections, LargestShearIsHalfTheDifferenceOfPrincipalStresses) {
+  EXPECT_DOUBLE_EQ(largest_shear(principal_stresses({-100, -300, -1000, 0, 0, 0})), 450);
+  EXPECT_NEAR(largest_shear(principal_stresses({0, 0, 0, 0, 0, 70})), 70, 1e-9);
 }
 
 // The traction on the rail is sigma n with n up, that on the wheel -sigma n: just below the surface s_xz = q_x and s_zz

@@ -31,6 +31,14 @@ TEST(PassClass, ClosedCyclesArePlasticShakedown) {
   EXPECT_EQ(classify(all).kind, PassClass::plastic_shakedown);
 }
 
+TEST(PassClass, APointHasNoClassWhileTheGoverningOneStillChanges) {
+  const auto same = passes(
+      8, [](double) { return 3e-3; }, [](double) { return 2e-4; });
+  EXPECT_EQ(class_of_point(same, PassClass::ratchetting), PassClass::ratchetting);
+  EXPECT_EQ(class_of_point(same, PassClass::transient), PassClass::transient);
+  EXPECT_EQ(class_of_point({{1e-3, 5e-4}, {0, 0}}, PassClass::transient), PassClass::elastic_shakedown);
+}
+
 TEST(PassClass, NoClaimWhileItStillChangesOrAfterFewPasses) {
   const auto falling = passes(
       8, [](double) { return 3e-3; }, [](double n) { return 1e-3 / n; });
@@ -42,6 +50,35 @@ TEST(PassClass, NoClaimWhileItStillChangesOrAfterFewPasses) {
             PassClass::transient);
   EXPECT_EQ(classify({}).kind, PassClass::transient);
   EXPECT_EQ(words(PassClass::transient), "transient: no claim yet");
+}
+
+TEST(PassClass, TheDuctilityIsUsedUpAtTheRateOfTheRatchetting) {
+  const auto all = passes(
+      8, [](double) { return 3e-3; }, [](double) { return 2e-4; });
+  const DuctilityReach r = passes_to_ductility(0.1, 0.01, all);
+  EXPECT_NEAR(r.passes, 8 + 0.09 / 2e-4, 1e-9);
+  EXPECT_NEAR(r.earliest, r.passes, 1e-6);
+  EXPECT_NEAR(r.latest, r.passes, 1e-6);
+  EXPECT_EQ(passes_to_ductility(0.005, 0.01, all).passes, 8);
+}
+
+/// net = 1e-3 n^-1/2: its integral from 8 to N is 2e-3 (sqrt N - sqrt 8).
+TEST(PassClass, AFallingRateGivesABandUpToWhereItsTrendLeads) {
+  const auto all = passes(
+      8, [](double) { return 3e-3; }, [](double n) { return 1e-3 / std::sqrt(n); });
+  const DuctilityReach r = passes_to_ductility(0.1, 0, all);
+  EXPECT_NEAR(r.latest, std::pow(0.1 / 2e-3 + std::sqrt(8.), 2), 1e-6 * r.latest);
+  EXPECT_NEAR(r.passes, 8 + 0.1 * std::sqrt(8.) / 1e-3, 1e-9);
+  EXPECT_NEAR(r.earliest, 8 + 0.1 * std::sqrt(5.) / 1e-3, 1e-9);  // the rate of pass 5
+  const auto stops = passes(
+      8, [](double) { return 3e-3; }, [](double n) { return 1e-3 / (n * n); });
+  EXPECT_TRUE(std::isinf(passes_to_ductility(0.1, 0, stops).latest));
+}
+
+TEST(PassClass, WhatHasShakenDownUsesUpNothing) {
+  const DuctilityReach r = passes_to_ductility(0.1, 0.01, {{1e-3, 5e-4}, {0, 0}});
+  EXPECT_TRUE(std::isinf(r.passes));
+  EXPECT_TRUE(std::isinf(r.earliest));
 }
 
 }  // namespace

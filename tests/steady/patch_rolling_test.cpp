@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <vector>
 
+#include "core/faults.hpp"
 #include "steady/pass_class.hpp"
 #include "steady/steady_pass.hpp"
 #include "tests/damage/hertz_stress.hpp"
@@ -55,6 +57,20 @@ struct PatchRolling {
     return std::vector<SteadyRow>(g.thickness.size(), row);
   }
 };
+
+/// What is given up between two iterations has not been.
+TEST(PatchRolling, APassThatIsGivenUpLeavesTheState) {
+  PatchRolling rolling(patch_grid(.5, .2), 4);
+  rolling.body.run_pass(rolling.contact, rolling.state);
+  const PassState before = rolling.state;
+  const std::atomic<bool> stop{true};
+  PassLimits limits;
+  limits.stop = &stop;
+  EXPECT_THROW(rolling.body.run_pass(rolling.contact, rolling.state, limits), Interrupted);
+  EXPECT_EQ(rolling.state.passes, 1);
+  EXPECT_EQ(rolling.state.history, before.history);
+  EXPECT_EQ(rolling.state.residual_strain, before.residual_strain);
+}
 
 double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()) * kShear; }
 
@@ -144,6 +160,51 @@ TEST(PatchRolling, TheStateGoesOnToTheSameBits) {
   roll(second, 2);
   EXPECT_TRUE(whole.state.history == second.state.history);
   EXPECT_TRUE(whole.state.residual_strain == second.state.residual_strain);
+}
+
+TEST(PatchRolling, AStreamlineLeadsFromWhatWasBeforeToWhatTheStateHas) {
+  PatchRolling run(patch_grid(.25, .15), 5);
+  run.body.run_pass(run.contact, run.state);
+  const PassResult pass = run.body.run_pass(run.contact, run.state);
+  const SteadyGrid& g = run.body.grid();
+  const auto most_flow = std::max_element(pass.accumulated.begin(), pass.accumulated.end());
+  const std::size_t n = static_cast<std::size_t>(most_flow - pass.accumulated.begin());
+  ASSERT_GT(*most_flow, 0);
+  const auto way = run.body.streamlines(run.contact, pass, run.state, {n}).front();
+  ASSERT_EQ(way.size(), static_cast<std::size_t>(g.active_stations()));
+  EXPECT_EQ(way.back().accumulated, run.state.history[n * kStreamlineHistory + 6]);
+  EXPECT_EQ(way.front().accumulated, pass.before[n * kStreamlineHistory + 6]);
+  double most = 0;
+  for (const StationState& s : way) {
+    const double mean = (s.stress[0] + s.stress[1] + s.stress[2]) / 3;
+    double j2 = 0;
+    for (std::size_t c = 0; c < 6; ++c) j2 += (c < 3 ? .5 * std::pow(s.stress[c] - mean, 2) : std::pow(s.stress[c], 2));
+    most = std::max(most, std::sqrt(j2));
+  }
+  EXPECT_NEAR(most, 1, 1e-3);  // k: it has yielded there, and no stress lies beyond
+}
+
+TEST(PatchRolling, ALoadThatRunsToTheSideLeavesTheSameThere) {
+  const SteadyGrid g = patch_grid(.25, .15);
+  PatchRolling middle(g, 4.4), side(g, 4.4);
+  constexpr int kColumns = 4;
+  Field moved(g.size());
+  for (int c = 0; c < 6; ++c)
+    for (int r = 0; r < g.rows(); ++r)
+      for (int i = 0; i < g.nx; ++i)
+        for (int j = kColumns; j < g.ny; ++j) moved[g.index(c, r, i, j)] = side.contact[g.index(c, r, i, j - kColumns)];
+  const PassResult a = middle.body.run_pass(middle.contact, middle.state), b = side.body.run_pass(moved, side.state);
+  const double most = *std::max_element(a.accumulated.begin(), a.accumulated.end());
+  for (int r = 0; r < g.rows(); ++r)
+    for (int j = kColumns; j < g.ny; ++j)
+      EXPECT_NEAR(b.accumulated[g.point(r, j)], a.accumulated[g.point(r, j - kColumns)], 0.02 * most);
+  // the guess that goes along is the solution: the same pass again from there begins within its tolerance
+  PassState again = middle.state;
+  move_guess(g, kColumns, again);
+  move_guess(g, -kColumns, again);
+  const std::size_t line = static_cast<std::size_t>(g.active_stations());
+  const std::size_t at = g.point(2, g.ny / 2) * line;
+  EXPECT_EQ(again.residual_strain[at + 5], middle.state.residual_strain[at + 5]);
 }
 
 }  // namespace

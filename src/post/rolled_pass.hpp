@@ -1,0 +1,40 @@
+#pragma once
+// What a pass by the finite elements has left in the rail: plastic strain of the section and residual stress, point by
+// point and as a row of a table. A point is a quadrilateral of the elements that may yield, with the means over its
+// Gauss points.
+#include <vector>
+
+#include "body/plastic_section.hpp"
+#include "fem/preload.hpp"
+#include "post/pass_point.hpp"
+#include "post/rail_passes.hpp"
+
+namespace railstrata {
+
+struct RolledPass {
+  PassRow row;                    ///< iterations: time steps; error: `uneven`
+  double uneven = 0;              ///< largest difference of the pass's plastic strain between the two halves of the
+                                  ///< steady stations, over the largest of its increments: 0: steady
+  std::vector<PassPoint> points;  ///< in the order of PlasticSection::quads, without their class
+};
+/// |E^p| of the point where it is largest.
+double largest_plastic_strain(const std::vector<PassPoint>& points);
+
+/// Of the rail at rest (fem/rail_at_rest.hpp) with `after` at all stations. base: whose contact point gives the axes;
+/// before: of the same quadrilaterals; middle: m, of the steady stations.
+RolledPass rolled_pass(const RollingSystem& system, const Model& base, const PlasticSection& before,
+                       const PlasticSection& after, const RailBefore& at_rest, double middle);
+
+/// All passes so far.
+struct RolledSeries {
+  int passes = 0;
+  PlasticSection section;                       ///< after the last one; without quadrilaterals before the first
+  std::vector<std::vector<PassStrain>> points;  ///< per quadrilateral its last passes
+  std::vector<std::vector<double>> table;       ///< passes.csv, in its units
+  double creepage_shift = 0;  ///< by what the creepage for a wanted traction differs from the estimate
+};
+
+/// RolledPass::uneven, from the sections of both halves, all of the same quadrilaterals.
+double unevenness(const PlasticSection& before, const PlasticSection& first, const PlasticSection& second);
+
+}  // namespace railstrata
