@@ -19,6 +19,7 @@
 #include <type_traits>
 
 #include "core/faults.hpp"
+#include "io/hdf5_handle.hpp"
 #include "io/output_file.hpp"
 #include "io/provenance.hpp"
 
@@ -41,18 +42,8 @@ hid_t checked(hid_t id, const char* what) {
   return id;
 }
 
-class Handle {
- public:
-  using Close = herr_t (*)(hid_t);
-  Handle(hid_t id, Close close, const char* what) : id_(checked(id, what)), close_(close) {}
-  ~Handle() { close_(id_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT(google-explicit-constructor): stands in for the number
-
- private:
-  hid_t id_;
-  Close close_;
+struct Handle : Hdf5Handle {
+  Handle(hid_t id, Close close, const char* what) : Hdf5Handle(checked(id, what), close) {}
 };
 
 /// A file in memory only, that grows by so many bytes at a time.
@@ -256,6 +247,21 @@ constexpr auto visit_sym = [](auto& s, auto&& on) {
   on("yz", s.yz);
   on("xz", s.xz);
 };
+constexpr auto visit_plasticity = [](auto& p, auto&& on) {
+  on("strain_xx", p.strain.xx);
+  on("strain_yy", p.strain.yy);
+  on("strain_zz", p.strain.zz);
+  on("strain_xy", p.strain.xy);
+  on("strain_yz", p.strain.yz);
+  on("strain_xz", p.strain.xz);
+  on("back_xx", p.backstress.xx);
+  on("back_yy", p.backstress.yy);
+  on("back_zz", p.backstress.zz);
+  on("back_xy", p.backstress.xy);
+  on("back_yz", p.backstress.yz);
+  on("back_xz", p.backstress.xz);
+  on("accumulated", p.accumulated);
+};
 constexpr auto visit_traction = [](auto& t, auto&& on) {
   on("p", t.p);
   on("q1", t.q1);
@@ -374,6 +380,7 @@ void describe(Archive& a, BandSample& b) {
         [](auto& v, auto&& on) { on("columns", v.columns), on("rows", v.rows), on("stations", v.stations); });
   a.numbers("along", b.along);
   a.rows("stress", b.stress, visit_sym);
+  a.rows("plasticity", b.plastic, visit_plasticity);
   a.rows("displacement", b.displacement, visit_vec);
 }
 

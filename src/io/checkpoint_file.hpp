@@ -16,7 +16,7 @@ namespace railstrata {
 
 /// 2: the columns of contact_facets have their own names. A checkpoint of another format is refused, its text says
 /// which program wrote it.
-inline constexpr int kCheckpointFormat = 5;
+inline constexpr int kCheckpointFormat = 6;
 
 struct CheckpointOrigin {
   std::string case_sha256;              ///< of the resolved case and its profiles

@@ -1,16 +1,17 @@
 #include "io/output_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
 #include "core/faults.hpp"
+#include "io/this_process.hpp"
 
 namespace railstrata {
 namespace {
@@ -18,12 +19,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPart = ".part-";
-
-std::string host_name() {
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
-  return host.data();
-}
 
 std::string remedy_of(int reason) {
   switch (reason) {
@@ -107,7 +102,7 @@ bool is_part(const std::string& name) { return name.find(kPart) != std::string::
 bool is_abandoned_part(const std::string& name) {
   const auto at = name.find(kPart);
   if (at == std::string::npos) return false;
-  const std::string tail = name.substr(at), host = "-" + host_name() + "-";
+  const std::string tail = name.substr(at), host = fmt::format("-{}-", host_name());
   const auto before = tail.rfind(host);
   if (before == std::string::npos) return false;
   const std::string digits = tail.substr(before + host.size());

@@ -34,6 +34,7 @@ void remove_results(const std::filesystem::path& folder) {
                            "rail.vtu",
                            "rail_cross_section.csv",
                            "rail_longitudinal_section.csv",
+                           "rail_slices.csv",
                            "rail_surface.vtp",
                            "report.html",
                            "shakedown.json",
@@ -43,6 +44,7 @@ void remove_results(const std::filesystem::path& folder) {
                            "wheel.vtu",
                            "wheel_cross_section.csv",
                            "wheel_longitudinal_section.csv",
+                           "wheel_slices.csv",
                            "wheel_surface.vtp"})
     std::filesystem::remove(folder / name, ignored);
   for (const char* body : {"rail", "wheel"})
@@ -53,6 +55,14 @@ void remove_results(const std::filesystem::path& folder) {
     if (const std::string name = entry.path().filename().string(); name.starts_with("patch_") && name.ends_with(".vtp"))
       frames.push_back(entry.path());
   for (const auto& frame : frames) std::filesystem::remove(frame, ignored);
+}
+
+// A run may go on elsewhere: what a device computes is the same but for rounding.
+std::string without_device(std::string resolved) {
+  constexpr const char* kKey = "\ndevice = ";  // of [run]; no other table has one
+  if (const std::size_t at = resolved.find(kKey); at != std::string::npos)
+    resolved.erase(at, resolved.find('\n', at + 1) - at);
+  return resolved;
 }
 
 }  // namespace
@@ -135,16 +145,17 @@ void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
                    provenance_json(command_line, loaded.overrides, loaded.inputs, threads, kept));
 }
 
-void remove_abandoned_parts(const std::filesystem::path& folder) {
+void remove_parts(const std::filesystem::path& folder, PartsOf whom) {
   std::error_code ignored;
   std::vector<std::filesystem::path> found;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, ignored))
-    if (entry.is_regular_file(ignored) && is_abandoned_part(entry.path().filename().string()))
+    if (const std::string name = entry.path().filename().string();
+        entry.is_regular_file(ignored) && (whom == PartsOf::anyone ? is_part(name) : is_abandoned_part(name)))
       found.push_back(entry.path());
   for (const auto& file : found) std::filesystem::remove(file, ignored);
 }
 
-std::string case_identity(const LoadedCase& loaded) { return sha256_of(case_by_content(loaded)); }
+std::string case_identity(const LoadedCase& loaded) { return sha256_of(without_device(case_by_content(loaded))); }
 
 std::string identity_in_folder(const std::filesystem::path& folder, const LoadedCase& loaded) {
   const std::filesystem::path kept = std::filesystem::absolute(folder / kInputsFolder).lexically_normal();

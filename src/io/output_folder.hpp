@@ -47,12 +47,14 @@ void require_apart(const std::filesystem::path& folder, const LoadedCase& loaded
 void write_origin(const std::filesystem::path& folder, const LoadedCase& loaded,
                   const std::vector<std::string>& command_line, int threads);
 
-/// Removes what a killed run has left half written: <a result's name>.part-<host>-<process id> of this machine, in the
-/// folder and those in it.
-void remove_abandoned_parts(const std::filesystem::path& folder);
+/// Whose half written files: of dead processes of this machine, or anyone's, where the folder is ours alone.
+enum class PartsOf { dead, anyone };
+/// Removes what a killed run has left half written in the folder and those in it:
+/// <a result's name>.part-<host>-<process id>.
+void remove_parts(const std::filesystem::path& folder, PartsOf whom);
 
-/// SHA-256 over the resolved case and the content of the profile files it names, wherever they lie: what a checkpoint
-/// must agree with.
+/// SHA-256 over the resolved case but for run.device and the content of the profile files it names, wherever they lie:
+/// what a checkpoint must agree with.
 std::string case_identity(const LoadedCase& loaded);
 
 /// The same as of a folder's own case.toml: folders from before 0.2.0 keep no copies of their profiles, and their

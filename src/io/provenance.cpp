@@ -20,6 +20,7 @@
 #include "core/faults.hpp"
 #include "core/simd.hpp"
 #include "io/json_text.hpp"
+#include "io/this_process.hpp"
 
 namespace railstrata {
 
@@ -94,8 +95,6 @@ std::string provenance_json(const std::vector<std::string>& command_line, const 
     for (const auto& [source, copy] : kept.copies)
       if (source == file) files.back()["kept"] = copy;
   }
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
   Json all{{"program", "RailStrata"},
            {"version", build.version},
            {"commit", build.commit.empty() ? Json(nullptr) : Json(build.commit)},
@@ -108,7 +107,7 @@ std::string provenance_json(const std::vector<std::string>& command_line, const 
            {"isa", compiled_isa()},
            {"cores", std::thread::hardware_concurrency()},
            {"threads", threads},
-           {"host", host.data()},
+           {"host", host_name()},
            {"command_line", command_line},
            {"overrides", overrides},
            {"inputs", files},

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "material/elastic.hpp"
@@ -32,6 +33,24 @@ void push(std::vector<float>& out, const Sym3& s) {
   for (double v : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) out.push_back(static_cast<float>(kMega * v));
 }
 
+constexpr const char* kComponents[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
+
+/// Columns of what has yielded, behind those of the stress; none where nothing may yield.
+void add_plastic(const std::vector<ElementPlasticity>& states, std::vector<CsvColumn>& columns) {
+  if (states.empty()) return;
+  const auto components = [](const Sym3& s) { return std::array{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}; };
+  const auto add = [&](std::string name, auto&& value) {
+    columns.push_back({std::move(name), {}});
+    for (const ElementPlasticity& state : states) columns.back().values.push_back(value(state));
+  };
+  add("plastic_p", [](const ElementPlasticity& e) { return e.accumulated; });
+  for (std::size_t i = 0; i < 6; ++i)
+    add(fmt::format("plastic_{}", kComponents[i]), [&](const ElementPlasticity& e) { return components(e.strain)[i]; });
+  for (std::size_t i = 0; i < 6; ++i)
+    add(fmt::format("backstress_{}_MPa", kComponents[i]),
+        [&](const ElementPlasticity& e) { return kMega * components(e.backstress)[i]; });
+}
+
 void write_section(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                    const StressSection& section, bool longitudinal) {
   const char* names[] = {"x_mm",         "y_mm",          "depth_mm",     "sigma_xx_MPa",
@@ -57,6 +76,38 @@ void write_section(const std::filesystem::path& file, const std::vector<std::str
     for (std::size_t k = 0; k < columns.size(); ++k)
       columns[k].values.push_back(k < 3 ? std::round(1e6 * row[k]) / 1e6 : std::round(1e3 * row[k]) / 1e3);
   }
+  add_plastic(section.plastic, columns);
+  write_csv(file, provenance, columns);
+}
+
+/// Of a body without layers only the rail's: the wheel's would say the same.
+bool shows_slices(const std::string& body, const StressSections& sections) {
+  const auto& material = sections.cross.material;
+  return !sections.slices.empty() &&
+         (body == "rail" || std::any_of(material.begin(), material.end(), [](int m) { return m > 0; }));
+}
+
+/// To a tenth of an MPa: they are looked at.
+void write_slices(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                  const std::vector<StressSection>& slices) {
+  std::vector<CsvColumn> columns{{"x_mm", {}},        {"y_mm", {}},         {"depth_mm", {}},    {"von_mises_MPa", {}},
+                                 {"sigma_1_MPa", {}}, {"sigma_xz_MPa", {}}, {"tau_max_MPa", {}}, {"material", {}}};
+  for (const StressSection& slice : slices)
+    for (std::size_t i = 0; i < slice.stress.size(); ++i) {
+      const Sym3& s = slice.stress[i];
+      const Vec3 principal = principal_stresses(s);
+      const double y = slice.along[i % slice.along.size()], depth = slice.depth[i / slice.along.size()];
+      const double row[] = {kMilli * slice.at,
+                            kMilli * y,
+                            kMilli * depth,
+                            kMega * von_mises(s),
+                            kMega * principal.x,
+                            kMega * s.xz,
+                            kMega * largest_shear(principal),
+                            static_cast<double>(slice.material[i])};
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        columns[k].values.push_back(k < 3 ? std::round(1e4 * row[k]) / 1e4 : std::round(10 * row[k]) / 10);
+    }
   write_csv(file, provenance, columns);
 }
 
@@ -97,6 +148,7 @@ void write_sections(const std::filesystem::path& folder, const std::string& body
                     const std::vector<std::string>& provenance, const StressSections& sections) {
   write_section(folder / (body + "_longitudinal_section.csv"), provenance, sections.longitudinal, true);
   write_section(folder / (body + "_cross_section.csv"), provenance, sections.cross, false);
+  if (shows_slices(body, sections)) write_slices(folder / (body + "_slices.csv"), provenance, sections.slices);
 }
 
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
@@ -139,6 +191,7 @@ void write_depth_line(const std::filesystem::path& file, const std::vector<std::
                           static_cast<double>(line.material[i])};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
+  add_plastic(line.plastic, columns);
   write_csv(file, provenance, columns);
 }
 
@@ -168,6 +221,25 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
                        {"state", 1, state}};
   return mesh;
 }
+
+namespace {
+
+/// In the order of the cells.
+void add_plastic(const std::vector<ElementPlasticity>& states, std::vector<VtkField>& fields) {
+  if (states.empty()) return;
+  std::vector<float> accumulated, strain, backstress;
+  for (const ElementPlasticity& e : states) {
+    accumulated.push_back(static_cast<float>(e.accumulated));
+    for (double v : {e.strain.xx, e.strain.yy, e.strain.zz, e.strain.xy, e.strain.yz, e.strain.xz})
+      strain.push_back(static_cast<float>(v));
+    push(backstress, e.backstress);
+  }
+  fields.push_back({"plastic_p", 1, std::move(accumulated)});
+  fields.push_back({"plastic_strain", 6, std::move(strain)});
+  fields.push_back({"backstress_MPa", 6, std::move(backstress)});
+}
+
+}  // namespace
 
 VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
   VtkHexahedra mesh;
@@ -220,6 +292,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
                       {"von_mises_MPa", 1, equivalent},
                       {"sigma1_MPa", 1, principal},
                       {"material", 1, material}};
+  add_plastic(b.sample.plastic, mesh.cell_fields);
   return mesh;
 }
 

@@ -19,13 +19,15 @@ namespace railstrata {
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                         const std::vector<const ContactField*>& fields);
 
-/// depth_line.csv: the six stresses, von Mises and the principal stresses against depth.
+/// depth_line.csv: the six stresses, von Mises and the principal stresses against depth; of a run with plasticity the
+/// accumulated plastic strain, plastic strains and backstresses, here and in the sections.
 void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                       const DepthLine& line);
 
 /// <body>_longitudinal_section.csv (plane y = const) and <body>_cross_section.csv (plane x = const): cell centres x, y,
 /// depth, the six stresses to 1e-3 MPa, von Mises, the largest principal stress and the material; rows of one depth
-/// together, from the surface down.
+/// together, from the surface down. <body>_slices.csv (the wheel's where it has layers): coarser cross sections along
+/// the patch with von Mises stress, largest principal stress, sigma_xz and the largest shear stress.
 void write_sections(const std::filesystem::path& folder, const std::string& body,
                     const std::vector<std::string>& provenance, const StressSections& sections);
 
@@ -34,7 +36,8 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
 
 /// A body's contact band around the wheel: nodes displaced by displacement_mm (a point field, not applied to the
 /// points), cell fields stress_MPa, von_mises_MPa, sigma1_MPa, material; the same stresses averaged to the points
-/// within each material, for smooth pictures (von_mises_smooth_MPa).
+/// within each material, for smooth pictures (von_mises_smooth_MPa). Of a run with plasticity plastic_p (accumulated),
+/// plastic_strain and backstress_MPa (tensors) besides, means over an element.
 VtkHexahedra band_mesh(const BandStress& band, double wheel_x);
 
 /// history.csv, a row at a time.

@@ -178,6 +178,12 @@ std::string checks_markdown() {
                     });
 }
 
+constexpr std::string_view kPlasticPlace =
+    "\nOf a run with `run.plasticity` alone. x, y and depth are those of the element with the largest accumulated "
+    "plastic\nstrain, `body` says in which body it lies and `zone` in which layer, or the body itself; null: nothing "
+    "has "
+    "yielded.\n";
+
 }  // namespace
 
 std::string results_reference_markdown() {
@@ -196,6 +202,7 @@ std::string results_reference_markdown() {
        {"contact", "damage", "shakedown/factors", "layers", "plastic", "energy", "run"}) {
     out += fmt::format("\n## {}\n", group) + numbers_markdown(group);
     if (group == "contact") out += std::string(kSeveralPatches) + stress_markdown();
+    if (group == "plastic") out += std::string(kPlasticPlace);
   }
   return out + checks_markdown();
 }

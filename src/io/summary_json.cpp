@@ -56,6 +56,14 @@ Json stress(const Summary& s) {
   return out;
 }
 
+Json plastic(const Summary& s) {
+  Json out;
+  add_numbers("plastic", s, out);
+  out["body"] = s.plastic.body.empty() ? Json(nullptr) : Json(s.plastic.body);
+  out["zone"] = s.plastic.zone.empty() ? Json(nullptr) : Json(s.plastic.zone);
+  return out;
+}
+
 }  // namespace
 
 Json summary_json(const Summary& s) {
@@ -72,7 +80,7 @@ Json summary_json(const Summary& s) {
     out["fatigue"] = fatigue_json(s);
     add_numbers(kLayersGroup, s, out[kLayersGroup]);
   }
-  if (std::isfinite(s.plastic.strain)) add_numbers("plastic", s, out["plastic"]);
+  if (std::isfinite(s.plastic.strain)) out["plastic"] = plastic(s);
   add_numbers("energy", s, out["energy"]);
   Json& run = out["run"];
   run["engine"] = s.run.engine;

@@ -86,4 +86,12 @@ void PatchFilm::add(int step, double distance, const ContactField& f) {
     }
 }
 
+void PatchFilm::keep(const CsvTable& earlier, int end) {
+  for (std::size_t i = 0; i < earlier.rows(); ++i) {
+    std::vector<double> row;
+    for (const CsvColumn& c : earlier.columns) row.push_back(c.values[i]);
+    if (row.front() < end) log_.add(row);
+  }
+}
+
 }  // namespace railstrata

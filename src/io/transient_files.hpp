@@ -21,12 +21,15 @@ class TransientLog {
   CsvLog log_;
 };
 
-/// patch_film.csv: cells in contact in a number of states, for the film of the page: at most some 80 cells along a
+/// patch_film.csv: cells in contact in a number of states (of finite elements nodes in frames, `distance` the wheel's
+/// position), for the film of the page: at most some 80 cells along a
 /// side, pressures and tractions to a tenth of an MPa.
 class PatchFilm {
  public:
   PatchFilm(const std::filesystem::path& file, const std::vector<std::string>& provenance);
   void add(int step, double distance, const ContactField& field);
+  /// The rows of an earlier film whose steps come before `end`.
+  void keep(const CsvTable& earlier, int end);
 
  private:
   CsvLog log_;

@@ -91,7 +91,7 @@ FolderRun resume_run(const std::filesystem::path& folder) {
     notes.push_back(fmt::format(
         "the run was begun by RailStrata {}, this is {}: it goes on, but not with the bits of a run in one go",
         found.checkpoint.origin.program, origin.program));
-  remove_abandoned_parts(folder);
+  remove_parts(folder, PartsOf::dead);
   origin.provenance = found.checkpoint.origin.provenance;
   return {std::move(loaded), folder, std::move(origin), std::move(hold), std::move(found.checkpoint.run),
           std::move(notes)};

@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "case/case_file.hpp"
 #include "case/material_tables.hpp"
 #include "case/text_file.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
+#include "io/provenance.hpp"
 #include "report/plots.hpp"
 
 namespace railstrata {
@@ -22,15 +25,14 @@ std::string file_text(const std::filesystem::path& file) {
   return read_text_file(file, "name a CSV file of a test; cases/material has examples");
 }
 
-/// What a fit refuses, at its file.
+/// What a fit refuses, at its place.
 template <class Work>
-auto at_file(const std::filesystem::path& file, Work&& work) {
+auto at_place(const std::string& place, Work&& work) {
   try {
     return work();
   } catch (const std::invalid_argument& e) {
     throw CaseError(e.what(),
-                    "docs/material.md says what a fit needs: enough rows over the plastic strains of interest",
-                    file.string());
+                    "docs/material.md says what a fit needs: enough rows over the plastic strains of interest", place);
   }
 }
 
@@ -64,27 +66,99 @@ double longest(const std::vector<CurvePoint>& points) {
 
 }  // namespace
 
-MaterialFit fit_material(const MaterialTests& tests, double young) {
+namespace {
+
+constexpr double kDoubtful = 0.05, kNoClaim = 0.1;  // of plastic strain
+
+/// Percents without their unit look like this: the range of strains ends at 0.5. Nothing is said up to `from`.
+void note_large_strains(const std::vector<CurvePoint>& points, const std::string& place, double from,
+                        std::vector<std::string>& notes) {
+  double largest = 0;
+  for (const CurvePoint& p : points) largest = std::max(largest, std::abs(p.plastic_strain));
+  if (largest > from)
+    notes.push_back(fmt::format(
+        "{}: plastic strain reaches {:.1f} %: {}; percents need their unit in the column's name, \"strain [%]\"", place,
+        kPercent * largest,
+        largest > kNoClaim ? "small strain no longer describes it, the fit is no claim"
+                           : "the law is one of small strain, stresses are some per cent off"));
+}
+
+/// Of compression, as the law has it: with both signs changed.
+std::vector<CurvePoint> as_tension(std::vector<CurvePoint> curve, const std::string& place,
+                                   std::vector<std::string>& notes) {
+  const auto pulled = [](const CurvePoint& p) { return p.stress > 0; };
+  if (curve.empty() || std::any_of(curve.begin(), curve.end(), pulled)) return curve;
+  for (CurvePoint& p : curve) p = {-p.plastic_strain, -p.stress};
+  notes.push_back(fmt::format("{}: a curve of compression, taken as tension with both signs changed", place));
+  return curve;
+}
+
+void note_rate_at_edge(const PlasticParameters<double>& law, const std::vector<CurvePoint>& monotonic,
+                       const std::string& place, std::vector<std::string>& notes) {
+  constexpr double kNear = 1.05;
+  const RateBounds bounds = rate_bounds(monotonic);
+  if (law.saturation == 0 || (law.rate > kNear * bounds.low && kNear * law.rate < bounds.high)) return;
+  notes.push_back(
+      fmt::format("{}: the rate b = {:.4g} lies at the edge of its search, {:.4g} to {:.4g}: the curve does "
+                  "not tell it; give points of {} plastic strains",
+                  place, law.rate, bounds.low, bounds.high, law.rate <= kNear * bounds.low ? "larger" : "smaller"));
+}
+
+}  // namespace
+
+MaterialFit fit_curves(MaterialCurves curves) {
   MaterialFit out;
-  out.of_loop = !tests.loop.empty();
-  const std::filesystem::path& cyclic = out.of_loop ? tests.loop : tests.amplitudes;
-  out.cyclic =
-      read_test_curve(file_text(cyclic), cyclic, out.of_loop ? TestCurve::curve : TestCurve::amplitudes, young);
-  out.stabilised = at_file(cyclic, [&] {
-    if (!out.of_loop) return fit_amplitudes(out.cyclic, tests.backstresses);
+  out.notes = std::move(curves.notes);
+  note_large_strains(curves.cyclic, curves.cyclic_place, kDoubtful, out.notes);
+  out.of_loop = curves.of_loop;
+  out.cyclic = std::move(curves.cyclic);
+  out.stabilised = at_place(curves.cyclic_place, [&] {
+    if (!out.of_loop) return fit_amplitudes(out.cyclic, curves.backstresses);
     const Loop loop = loop_of(out.cyclic);
     out.amplitude = loop.amplitude;
     out.cyclic = loop.points;
-    return fit_loop(loop, tests.backstresses);
+    return fit_loop(loop, curves.backstresses);
   });
   out.whole = out.stabilised;
-  if (tests.monotonic.empty()) return out;
-  std::vector<CurvePoint> tension =
-      read_test_curve(file_text(tests.monotonic), tests.monotonic, TestCurve::curve, young);
+  if (curves.monotonic.empty()) return out;
   constexpr double kElastic = 2e-4;  // of plastic strain: a tensile test tells nothing of less
-  std::erase_if(tension, [](const CurvePoint& p) { return !(p.plastic_strain > kElastic); });
-  out.monotonic = tension;
-  out.whole = at_file(tests.monotonic, [&] { return with_isotropic_part(out.stabilised, tension); });
+  note_large_strains(curves.monotonic, curves.monotonic_place, kNoClaim, out.notes);  // tension goes to some per cent
+  out.monotonic = as_tension(std::move(curves.monotonic), curves.monotonic_place, out.notes);
+  std::erase_if(out.monotonic, [](const CurvePoint& p) { return !(p.plastic_strain > kElastic); });
+  out.whole = at_place(curves.monotonic_place, [&] {
+    if (out.monotonic.empty()) throw std::invalid_argument("no point flows: plastic strains stay below 0.02 %");
+    return with_isotropic_part(out.stabilised, out.monotonic);
+  });
+  note_rate_at_edge(out.whole.law, out.monotonic, curves.monotonic_place, out.notes);
+  return out;
+}
+
+MaterialFit fit_material(const MaterialTests& tests, double young) {
+  MaterialCurves curves;
+  curves.of_loop = !tests.loop.empty();
+  curves.backstresses = tests.backstresses;
+  const std::filesystem::path& cyclic = curves.of_loop ? tests.loop : tests.amplitudes;
+  curves.cyclic_place = cyclic.string();
+  curves.cyclic = read_test_curve(file_text(cyclic), cyclic, curves.of_loop ? TestCurve::curve : TestCurve::amplitudes,
+                                  young, &curves.notes);
+  if (!tests.monotonic.empty()) {
+    curves.monotonic_place = tests.monotonic.string();
+    std::vector<std::string> notes;
+    curves.monotonic = read_test_curve(file_text(tests.monotonic), tests.monotonic, TestCurve::curve, young, &notes);
+    curves.notes.insert(curves.notes.end(), notes.begin(), notes.end());
+  }
+  return fit_curves(std::move(curves));
+}
+
+std::vector<std::string> fit_remarks(const MaterialFit& fit, const std::string& cyclic, const std::string& monotonic) {
+  std::vector<std::string> out{fmt::format(
+      "Fitted by RailStrata {} to {}: error {:.2f} % of the largest stress (root mean square), {:.2f} % at most",
+      version_text(), cyclic, kPercent * fit.stabilised.error, kPercent * fit.stabilised.largest_error)};
+  if (!monotonic.empty())
+    out.push_back(fmt::format("and to {}: error {:.2f} %, {:.2f} % at most", monotonic, kPercent * fit.whole.error,
+                              kPercent * fit.whole.largest_error));
+  else
+    out.emplace_back("yield_strength is that of the stabilised cycle: a monotonic curve (--monotonic) tells Q and b");
   return out;
 }
 
@@ -113,6 +187,12 @@ std::string material_card(const MaterialSpec& elastic, const PlasticParameters<d
       terms += fmt::format("{}{{ modulus = {}, recall = {:g} }}", terms.empty() ? "" : ", ", megapascal(law.modulus[k]),
                            law.recall[k]);
   if (!terms.empty()) out += fmt::format("kinematic_hardening = [{}]\n", terms);
+  try {
+    static_cast<void>(parse_case(out, "fit"));
+  } catch (const CaseError& e) {
+    throw CaseError(fmt::format("the fit gives numbers that no material has: {}", e.diagnostics.front().message),
+                    "look at the test: units, both branches of a loop, Young's modulus of the card");
+  }
   return out;
 }
 

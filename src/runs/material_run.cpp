@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "core/faults.hpp"
+#include "material/strain_claim.hpp"
+#include "model/material_strength.hpp"
 #include "report/plots.hpp"
 
 namespace railstrata {
@@ -17,16 +19,14 @@ constexpr double kStill = 0.02;             // of the largest range: a component
 constexpr std::size_t kMostLoops = 3;
 constexpr std::array kComponents{"xx", "yy", "zz", "xy", "yz", "xz"};
 
-CaseError beyond(const PlasticMaterial& material, const MaterialPathTable& table, const std::filesystem::path& file,
-                 const BeyondMaterial& e) {
+CaseError beyond(const PlasticMaterial& material, const MaterialPathTable& table, const BeyondMaterial& e) {
   const auto row = static_cast<std::size_t>(e.point) % table.lines.size();
   const double most = largest_stress(material.plastic);
   return CaseError(
       fmt::format("no strain gives the stress of this row: the material follows to {:.0f} % of the way{}",
                   kPercent * e.reached,
                   std::isfinite(most) ? fmt::format(", it bears {:.1f} MPa (von Mises) at most", kMega * most) : ""),
-      "lower the stress, or prescribe the strain of this direction (a column e_xx instead of s_xx)",
-      fmt::format("{}:{}", file.string(), table.lines[row]));
+      "lower the stress, or prescribe the strain of this direction (a column e_xx instead of s_xx)", table.where(row));
 }
 
 using Tensor = std::array<double, 6> MaterialState::*;
@@ -102,8 +102,35 @@ double MaterialCycle::largest_net() const {
   return out;
 }
 
-MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTable& table,
-                         const std::filesystem::path& file, int increments, int cycles) {
+ChosenMaterial choose_material(const LoadedCase& card, const std::string& word) {
+  const CaseSpec& spec = card.spec;
+  if (word == "rail") return {spec.rail_material, "rail", "material.rail"};
+  if (word == "wheel") return {spec.wheel_material, "wheel", "material.wheel"};
+  for (std::size_t i = 0; i < spec.layers.size(); ++i)
+    if (word == fmt::format("layer.{}", i) || word == spec.layers[i].name)
+      return {spec.layers[i].material, spec.layers[i].name, fmt::format("layer.{}", i)};
+  throw CaseError(fmt::format("\"{}\": the card has no such material", word),
+                  spec.layers.empty() ? "write rail or wheel" : "write rail, wheel or a layer's name");
+}
+
+ChosenLaw law_of(const LoadedCase& card, const ChosenMaterial& chosen, double depth) {
+  const auto law = [&] {
+    try {
+      return plastic_law(chosen.spec, chosen.name, chosen.key);
+    } catch (const CaseError& e) {
+      throw in_case_file(card, e);
+    }
+  }();
+  if (!law)
+    throw CaseError(
+        chosen.spec.strength.elastic ? fmt::format("{} is elastic on purpose: there is no law to drive", chosen.key)
+                                     : fmt::format("{} does not say where the material begins to yield", chosen.key),
+        "give yield_strength = \"500 MPa\", or a ready set such as hardening = \"R260\"", card.file.string());
+  return {law->at(depth), law->notes};
+}
+
+MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTable& table, int increments, int cycles,
+                         const std::atomic<bool>* stop) {
   MaterialPath path{table.path.prescribed, {}};
   for (int n = 0; n < cycles; ++n)
     path.points.insert(path.points.end(), table.path.points.begin(), table.path.points.end());
@@ -112,12 +139,13 @@ MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTabl
   const std::size_t every = path.points.size() * static_cast<std::size_t>(increments) / kMostTraced + 1;
   std::size_t seen = 0;
   const auto look = [&](const MaterialState& s) {
+    if (stop && *stop) throw Interrupted("stopped on the path");
     if (++seen % every == 0 || seen % static_cast<std::size_t>(increments) == 0) out.trace.push_back(s);
   };
   try {
     out.states = drive_path(material, path, increments, look);
   } catch (const BeyondMaterial& e) {
-    throw beyond(material, table, file, e);
+    throw beyond(material, table, e);
   }
   MaterialState before;
   for (std::size_t last = table.lines.size(); last <= out.states.size(); last += table.lines.size()) {
@@ -161,10 +189,18 @@ std::string path_picture(const std::string& title, const MaterialRun& run, const
   return plots_svg(title, {loops(run), run.cycles.size() > 1 ? by_cycle(run) : along_path(run)}, remarks);
 }
 
+std::string increments_note(const MaterialRun& run, int increments) {
+  constexpr int kEnough = 400;
+  if (run.cycles.size() < 2 || increments >= kEnough || run.states.back().history[6] == 0) return "";
+  return fmt::format(
+      "{} increments a row overestimate ratchetting, by an error that falls as 1/N: look at it with "
+      "--increments {}",
+      increments, std::max(2 * increments, kEnough));
+}
+
 double largest_plastic_strain(const MaterialRun& run) {
   double out = 0;
-  for (const MaterialState& s : run.trace)
-    out = std::max(out, std::sqrt(2.0 / 3 * double_contraction(s.history.data(), s.history.data())));
+  for (const MaterialState& s : run.trace) out = std::max(out, equivalent_strain(s.history.data()));
   return out;
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 // A material law driven along a path (material/material_path.hpp): tables and a picture of it.
 #include <array>
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "case/case_file.hpp"
 #include "case/material_tables.hpp"
 #include "io/csv.hpp"
 
@@ -23,9 +25,26 @@ struct MaterialRun {
   std::vector<MaterialCycle> cycles;
 };
 
-/// Goes through the rows `cycles` times. Throws CaseError with file and line where the material cannot follow.
-MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTable& table,
-                         const std::filesystem::path& file, int increments, int cycles);
+/// A material of a card.
+struct ChosenMaterial {
+  MaterialSpec spec;
+  std::string name, key;  ///< key: "material.rail", "layer.0"
+};
+/// word: "rail", "wheel", "layer.0" or a layer's name. Throws CaseError: the card has no such.
+ChosenMaterial choose_material(const LoadedCase& card, const std::string& word);
+
+/// How it yields at a depth [m].
+struct ChosenLaw {
+  PlasticMaterial material;
+  std::vector<std::string> notes;  ///< what is an estimate
+};
+/// Throws CaseError: it is elastic on purpose, or does not say where it yields; faults of its laws.
+ChosenLaw law_of(const LoadedCase& card, const ChosenMaterial& chosen, double depth);
+
+/// Goes through the rows `cycles` times. Throws CaseError with the row's place where the material cannot follow,
+/// Interrupted when `stop` is set.
+MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTable& table, int increments, int cycles,
+                         const std::atomic<bool>* stop = nullptr);
 
 /// s_xx_MPa .. s_xz_MPa, p by point; of a path of stresses with the strains before them.
 std::vector<CsvColumn> point_columns(const MaterialRun& run, bool strains);
@@ -34,6 +53,9 @@ std::vector<CsvColumn> cycle_columns(const MaterialRun& run);
 
 /// Loops of the components that move most, and the plastic strain along the path or, of several cycles, by cycle.
 std::string path_picture(const std::string& title, const MaterialRun& run, const std::vector<std::string>& remarks);
+
+/// Of several cycles in fewer than 400 increments a row: that these overestimate ratchetting. Empty: nothing to say.
+std::string increments_note(const MaterialRun& run, int increments);
 
 /// Equivalent plastic strain √(2/3 E^p:E^p), the largest of the trace.
 double largest_plastic_strain(const MaterialRun& run);

@@ -39,6 +39,13 @@ RunEstimate estimate_run(const Model& model) {
   e.seconds = kRestOfStep * e.evaluations * static_cast<double>(e.steps) *
               (force_seconds(system.rail()) + force_seconds(system.wheel()));
   e.memory_bytes = peak_memory();
+  if (e.steps == 0) return e;
+  for (int ranks : {2, 4}) {
+    const RankNeed need = rank_need(model, ranks);
+    if (need.ranks < ranks) break;
+    const double relative = relative_step_time(need, e.seconds / static_cast<double>(e.steps));
+    e.ranks.push_back({need, relative * e.seconds, ranks * e.memory_bytes});
+  }
   return e;
 }
 

@@ -2,6 +2,9 @@
 // What a run of a case will cost, found without running it.
 #include <string>
 
+#include <vector>
+
+#include "fem/rank_need.hpp"
 #include "fem/step_plan.hpp"
 
 namespace railstrata {
@@ -14,6 +17,12 @@ struct RunEstimate {
   double seconds =
       0;  ///< of explicit rolling: measured force evaluations on this machine, these threads; the preload comes on top
   double memory_bytes = 0;  ///< in use with both bodies ready for computing
+  /// Of several processes with as many threads each, on machines like this one in a network like that of RankNetwork.
+  struct OnRanks {
+    RankNeed need;
+    double seconds = 0, memory_bytes = 0;  ///< memory: of all ranks together
+  };
+  std::vector<OnRanks> ranks;  ///< 2 and 4, as far as the mesh can be cut; none of a static case
 };
 
 RunEstimate estimate_run(const Model& model);

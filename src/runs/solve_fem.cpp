@@ -5,6 +5,7 @@
 
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "device/device_of.hpp"
 #include "io/provenance.hpp"
 #include "post/fem_summary.hpp"
 #include "runs/memory_need.hpp"
@@ -19,10 +20,14 @@ class StateKeeper {
   StateKeeper(RunControl& control, const FemObserver& observer, const FemOptions& options)
       : control_(control),
         observer_(observer),
+        ranks_(options.ranks),
         states_wanted_(observer.checkpoint || options.wishes.stop || options.times.limit > 0) {}
 
   void observe(RunObserver& run) {
-    run.demand = [this] { return demand_ = answer(control_.demand()); };
+    run.demand = [this] {  // of several ranks what any of them asks for: signals and clocks differ
+      const auto own = static_cast<double>(answer(control_.demand()));
+      return demand_ = static_cast<Demand>(largest_of_all(ranks_, own));
+    };
     if (states_wanted_) run.save = [this](const RunState& state) { save(state); };
   }
 
@@ -44,6 +49,7 @@ class StateKeeper {
 
   RunControl& control_;
   const FemObserver& observer_;
+  Ranks ranks_;
   bool states_wanted_;
   Demand demand_ = Demand::go_on;
 };
@@ -69,9 +75,15 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
 }
 
 RunResult roll(const RollingSystem& system, const RunObserver& observer, const RunControl& control,
-               std::optional<RunState> begun) {
+               const FemOptions& options, std::optional<RunState> begun) {
+  const std::unique_ptr<device::Device> device = device::device_of(system.model.spec);
+  if (device && !options.ranks.alone())
+    throw CaseError("run.device: several ranks share a run on processors only",
+                    "start one rank, or take out run.device");
+  const StepBy by{options.ranks, device::engine_on(device.get())};
   try {
-    return begun ? resume_rolling(system, observer, *std::move(begun)) : run_rolling(system, observer);
+    return begun ? resume_rolling(system, observer, *std::move(begun), by)
+                 : run_rolling(system, observer, options.before, by);
   } catch (const Interrupted&) {
     if (!control.limit_reached()) throw;
     throw EnvironmentError(
@@ -101,13 +113,15 @@ FemSolution solve_fem(const RollingSystem& system, const FemObserver& observer, 
   run_observer.history = observer.history;
   run_observer.progress = observer.rolling;
   run_observer.frame = observer.frame;
+  run_observer.finished = observer.finished;
   states.observe(run_observer);
 
-  RunResult run = roll(system, run_observer, control, std::move(begun));
+  RunResult run = roll(system, run_observer, control, options, std::move(begun));
   FemSolution out;
   out.stopped = run.stopped;
   out.limit_reached = control.limit_reached();
   out.state = std::move(states.stopped_at);
+  if (!options.ranks.speaks()) return out;
   for (const PositionSamples& samples : run.positions) {
     if (samples.samples.empty()) break;
     out.positions.push_back(position_of(system, run, samples));

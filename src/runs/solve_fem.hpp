@@ -23,11 +23,14 @@ struct FemObserver {
   /// The state to go on from: on demand, when the run stops (`stopping`), and the last good one before a
   /// NumericalError. May throw: that ends the run.
   std::function<void(const RunState&, bool stopping)> checkpoint;
+  std::function<void(const RollingState&)> finished;  ///< the last state of a rolling that was not stopped
 };
 
 struct FemOptions {
   RunTimes times;
   RunWishes wishes;
+  const RailBefore* before = nullptr;  ///< what earlier wheels have left in the rail; none: nothing
+  Ranks ranks = {};                    ///< that solve the case together; positions are for rank 0 alone
 };
 
 /// The contact at one wanted position of the wheel.

@@ -14,6 +14,7 @@
 #include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
+#include "io/transient_files.hpp"
 #include "post/stress_sections.hpp"
 #include "report/view.hpp"
 
@@ -22,27 +23,53 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// patch.pvd and its frames.
+/// The film of an interrupted run; none where it left none, or one that was cut.
+std::optional<CsvTable> film_left_in(const fs::path& file) {
+  if (!fs::exists(file)) return std::nullopt;
+  try {
+    return read_csv(file);
+  } catch (const CaseError&) {
+    return std::nullopt;
+  }
+}
+
+// patch.pvd with its frames, and the same as patch_film.csv.
 class PatchSeries {
  public:
   /// times: of the frames that an interrupted run has left.
-  PatchSeries(const RollingSystem& system, const fs::path& out, const std::vector<double>& times)
-      : system_(system), folder_(out / kSeriesFolder), series_(out / "patch.pvd") {
+  PatchSeries(const RollingSystem& system, const fs::path& out, const std::vector<std::string>& provenance,
+              const std::vector<double>& times)
+      : system_(system),
+        folder_(out / kSeriesFolder),
+        series_(out / "patch.pvd"),
+        left_(times.empty() ? std::nullopt : film_left_in(out / "patch_film.csv")),
+        film_(out / (left_ ? "patch_film.csv" + part_ending() : "patch_film.csv"), provenance) {
     make_folder(folder_, Above::there);
     for (double time : times) series_.add(time, next_file());
+    if (left_) keep_film(out);
   }
   void add(const RollingSample& sample) {
+    const int frame = frames_;
     const fs::path file = next_file();
     const ContactField field = contact_field(system_, sample);
+    film_.add(frame, sample.position, field);
     write_vtp(file, patch_mesh({&field}, sample.position));
     series_.add(sample.time, file);
   }
 
  private:
+  // The film takes the place of the one that was left once it has its frames: who is killed here loses none.
+  void keep_film(const fs::path& out) {
+    film_.keep(*left_, frames_);
+    left_.reset();
+    fs::rename(out / ("patch_film.csv" + part_ending()), out / "patch_film.csv");
+  }
   fs::path next_file() { return folder_ / fmt::format("patch_{:04d}.vtp", frames_++); }
   const RollingSystem& system_;
   fs::path folder_;
   PvdSeries series_;
+  std::optional<CsvTable> left_;
+  PatchFilm film_;
   int frames_ = 0;
 };
 
@@ -82,8 +109,9 @@ struct FemWriter::GrowingFiles {
     if (!history) history.emplace(folder / "history.csv", provenance);
     return *history;
   }
-  PatchSeries& series_in(const fs::path& folder, const RollingSystem& system, const std::vector<double>& times = {}) {
-    if (!series) series.emplace(system, folder, times);
+  PatchSeries& series_in(const fs::path& folder, const RollingSystem& system,
+                         const std::vector<std::string>& provenance, const std::vector<double>& times = {}) {
+    if (!series) series.emplace(system, folder, provenance, times);
     return *series;
   }
 };
@@ -97,7 +125,8 @@ FemWriter::FemWriter(const RollingSystem& system, fs::path folder, CheckpointOri
   HistoryLog& history = growing_->history_in(folder_, origin_.provenance);
   for (const HistoryRow& row : begun->result.history) history.add(row);
   const CaseSpec& spec = system_.model.spec;
-  if (spec.run.rolling && spec.output.patch_series) growing_->series_in(folder_, system_, begun->frame_times);
+  if (spec.run.rolling && spec.output.patch_series)
+    growing_->series_in(folder_, system_, origin_.provenance, begun->frame_times);
 }
 
 FemWriter::~FemWriter() = default;
@@ -107,7 +136,9 @@ void FemWriter::observe(FemObserver& observer, std::function<void(const RunState
   observer.history = [this](const HistoryRow& row) { growing_->history_in(folder_, origin_.provenance).add(row); };
   const CaseSpec& spec = system_.model.spec;
   if (spec.run.rolling && spec.output.patch_series)
-    observer.frame = [this](const RollingSample& sample) { growing_->series_in(folder_, system_).add(sample); };
+    observer.frame = [this](const RollingSample& sample) {
+      growing_->series_in(folder_, system_, origin_.provenance).add(sample);
+    };
   observer.checkpoint = [this, saved = std::move(saved), warn = std::move(warn)](const RunState& state, bool stopping) {
     try {
       write_checkpoint(folder_, origin_, state);

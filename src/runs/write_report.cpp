@@ -17,6 +17,7 @@
 #include "io/output_folder.hpp"
 #include "report/page.hpp"
 #include "report/read_run.hpp"
+#include "runs/write_framed_report.hpp"
 #include "runs/write_half_space_result.hpp"
 
 namespace railstrata {
@@ -82,6 +83,8 @@ void add_shear_on_elements(const std::vector<fs::path>& folders, std::vector<Rep
 
 }  // namespace
 
+fs::path case_file_of(const fs::path& folder) { return folder_of_case(folder) / "case.toml"; }
+
 fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& notes) {
   const fs::path home = folder_of_case(folder);
   fs::path out = home / kReferenceFolder;
@@ -105,6 +108,11 @@ fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& 
 }
 
 WrittenPage write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference) {
+  return write_framed_report(page, folders, reference, {});
+}
+
+WrittenPage write_framed_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference,
+                                const FramedPage& what_if) {
   std::vector<std::string> notes;
   Report report;
   for (const fs::path& folder : folders) report.runs.push_back(read_report_run(folder));
@@ -116,7 +124,7 @@ WrittenPage write_report(const fs::path& page, const std::vector<fs::path>& fold
   add_shear_on_elements(folders, report.runs);
   report.title = title_of(report.runs);
   report.checks = report_checks(report.runs);
-  write_whole_file(page, report_page(report));
+  write_whole_file(page, report_page(report, what_if));
   for (const ReportRun& run : report.runs)
     for (const ResultDoubt& doubt : run.doubts)
       notes.push_back(fmt::format("{}: {}", run.result.folder.string(), doubt.text));

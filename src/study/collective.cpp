@@ -3,22 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
-#include <mutex>
 #include <span>
 
 #include "case/load_rows.hpp"
 #include "core/faults.hpp"
-#include "core/parallel.hpp"
 #include "damage/wear_indices.hpp"
 #include "io/summary_json.hpp"
 #include "post/bem_summary.hpp"
 #include "runs/solve_half_space.hpp"
+#include "study/for_each_ended.hpp"
 #include "study/result_columns.hpp"
 
 namespace railstrata {
 namespace {
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 PatchDamage patch_damage(const CaseSpec& spec, const BemPatch& patch, const ContactSummary& contact) {
   return {patch.contact, streamlines(spec, patch.field), rcf_damage(rcf_damage_15(), t_gamma(contact).without_spin)};
@@ -53,10 +50,8 @@ void solve(CollectiveRow& row, const std::filesystem::path& folder, const Collec
 void solve_or_tell(CollectiveRow& row, const std::filesystem::path& folder, const CollectiveOptions& options) {
   try {
     solve(row, folder, options);
-  } catch (const CaseError& e) {
-    row.fault = first_line(e.diagnostics.empty() ? e.what() : e.diagnostics.front().message);
   } catch (const std::exception& e) {
-    row.fault = first_line(e.what());
+    row.fault = fault_line(e);
   }
 }
 
@@ -87,24 +82,13 @@ std::vector<CollectiveRow> plan_collective(const CaseSpec& spec) {
 
 void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::path& folder,
                       const CollectiveOptions& options) {
-  std::mutex ending;
-  std::exception_ptr failure;
-  for_each(
-      static_cast<std::ptrdiff_t>(rows.size()),
-      [&](std::ptrdiff_t i) {
-        if (options.stop && *options.stop) return;
-        CollectiveRow& row = rows[static_cast<std::size_t>(i)];
-        solve_or_tell(row, folder, options);
-        const std::lock_guard lock(ending);
-        row.done = true;
-        try {
-          if (options.ended) options.ended();
-        } catch (...) {
-          failure = std::current_exception();
-        }
-      },
-      true);
-  if (failure) std::rethrow_exception(failure);
+  for_each_ended(rows.size(), options.stop, [&](std::size_t i) {
+    solve_or_tell(rows[i], folder, options);
+    return [&rows, &options, i] {
+      rows[i].done = true;
+      if (options.ended) options.ended();
+    };
+  });
 }
 
 RailDamage rail_damage(const std::vector<CollectiveRow>& rows, const Placement& placement, double cell) {

@@ -146,6 +146,15 @@ std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>&
   return out;
 }
 
+std::vector<bool> only(const std::vector<StudyCase>& cases, int index) {
+  if (index < 1 || index > static_cast<int>(cases.size()))
+    throw CaseError(fmt::format("--only {}: the study has {} cases", index, cases.size()),
+                    "railstrata study FILE --list tells their indices");
+  std::vector<bool> out;
+  for (const StudyCase& c : cases) out.push_back(c.first && c.key == cases[static_cast<std::size_t>(index) - 1].key);
+  return out;
+}
+
 Shard parse_shard(const std::string& text) {
   Shard s;
   const char *at = text.data(), *end = at + text.size();

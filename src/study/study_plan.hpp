@@ -49,4 +49,8 @@ Shard parse_shard(const std::string& text);
 std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>& cases, std::optional<Engine> engine,
                          const std::vector<std::string>& groups, const Shard& shard);
 
+/// The case of this index, from 1, alone: of several with the same key the one that is computed for all of them. Throws
+/// CaseError if there is none.
+std::vector<bool> only(const std::vector<StudyCase>& cases, int index);
+
 }  // namespace railstrata

@@ -279,6 +279,7 @@ ReportRun for_checks(const StudyEntry& e) {
   ReportRun run = read_report_run(e.folder);
   run.result.field = {};
   run.sections.clear();
+  run.slices.clear();
   run.depth_line.reset();
   run.history.reset();
   return run;

@@ -131,22 +131,58 @@ void put_in_place(const fs::path& working, const fs::path& place) {
                            "look at both folders, then start the study again");
 }
 
-/// Folders of a case that processes of this machine had begun and that are no more.
+/// An unfinished copy of a folder: of no use to anybody.
+std::string copy_ending() { return ".copy" + part_ending(); }
+
+/// Folders of a case that others had begun. Small files that they have left are removed: only the owner of the claim
+/// asks.
 std::vector<fs::path> left_behind(const fs::path& out, const StudyCase& c) {
-  std::vector<fs::path> left;
+  std::vector<fs::path> left, useless;
   std::error_code error;
   for (const auto& entry : fs::directory_iterator((out / c.folder).parent_path(), error))
     if (const std::string name = entry.path().filename().string();
-        name.starts_with(c.folder.filename().string() + ".") && is_abandoned_part(name))
-      left.push_back(entry.path());
+        name.starts_with(c.folder.filename().string() + ".") && is_part(name)) {
+      const bool whole = entry.is_directory(error) && name.find(".copy.") == std::string::npos;
+      (whole ? left : useless).push_back(entry.path());
+    }
+  for (const fs::path& file : useless) fs::remove_all(file, error);
   return left;
 }
 
-/// The folder is this process's from now on; of two studies one succeeds.
-bool claim(const fs::path& folder, const fs::path& working) {
+bool rename_to(const fs::path& folder, const fs::path& working) {
   std::error_code error;
   fs::rename(folder, working, error);
   return !error;
+}
+
+bool in_use(const fs::path& folder) {
+  try {
+    const FolderHold hold(folder);
+    return false;
+  } catch (const CaseError&) {
+    return true;
+  }
+}
+
+/// The folder, renamed; its process may be alive without knowing that it has lost the case (a machine that slept): then
+/// a copy, so that what it still writes reaches nobody.
+bool move_or_copy(const fs::path& out, const StudyCase& c, const fs::path& folder, const fs::path& working) {
+  if (is_abandoned_part(folder.filename().string()) && !in_use(folder)) return rename_to(folder, working);
+  const fs::path taken = beside(out / c.folder, ".taken" + part_ending()), copy = beside(out / c.folder, copy_ending());
+  std::error_code error, ignored;
+  if (!rename_to(folder, taken)) return false;
+  fs::copy(taken, copy, fs::copy_options::recursive, error);
+  const bool whole = !error && rename_to(copy, working);
+  fs::remove_all(copy, ignored);
+  fs::remove_all(taken, ignored);
+  return whole;
+}
+
+/// The folder that another process has left becomes the working one.
+bool make_working(const fs::path& out, const StudyCase& c, const fs::path& folder, const fs::path& working) {
+  const bool ours = move_or_copy(out, c, folder, working);
+  if (ours) remove_parts(working, PartsOf::anyone);
+  return ours;
 }
 
 /// Its checkpoint is whole, of this case and of this program: going on gives the bits of a run in one go.
@@ -180,41 +216,75 @@ std::string last_failure(const fs::path& out, const StudyCase& c) {
 
 fs::path working_folder(const fs::path& out, const StudyCase& c) { return beside(out / c.folder, part_ending()); }
 
-void keep_result(const fs::path& out, const StudyCase& c, const fs::path& working) {
+fs::path claim_file(const fs::path& out, const StudyCase& c) { return beside(out / c.folder, ".claim"); }
+
+bool keep_result(const fs::path& out, const StudyCase& c, const fs::path& working, const Claim& claim) {
+  if (!claim.is_ours()) return false;
   std::vector<fs::path> scripts;
   for (const auto& entry : fs::recursive_directory_iterator(working))
     if (entry.path().filename() == "view.py") scripts.push_back(entry.path().parent_path());
   for (const fs::path& folder : scripts) write_view_script(folder, out / c.folder / fs::relative(folder, working));
   write_whole_file(working / kStudyFile, study_json(c, nullptr, numbers_of(working)));
   std::error_code error;
+  if (!claim.is_ours()) return false;
   if (is_done(out, c))
     fs::remove_all(working, error);  // another study was faster: the same numbers
   else
     put_in_place(working, out / c.folder);
   fs::remove_all(beside(out / c.folder, ".failed"), error);
+  return true;
 }
 
-void keep_failure(const fs::path& out, const StudyCase& c, const fs::path& working, const std::string& reason) {
+bool keep_failure(const fs::path& out, const StudyCase& c, const fs::path& working, const std::string& reason,
+                  const Claim& claim) {
+  if (!claim.is_ours()) return false;
   write_whole_file(working / kStudyFile, study_json(c, reason, Json::object()));
+  if (!claim.is_ours()) return false;
   put_in_place(working, beside(out / c.folder, ".failed"));
+  return true;
 }
 
-void recover(const fs::path& out, const std::vector<StudyCase>& cases) {
+namespace {
+
+bool has_parts(const fs::path& out, const StudyCase& c) {
   std::error_code error;
-  for (const StudyCase& c : cases) {
-    if (!c.first) continue;
-    for (const fs::path& folder : left_behind(out, c)) {
-      if (is_done(out, c) || !(holds(folder, c) || has_checkpoint(folder)))
-        fs::remove_all(folder, error);
-      else if (holds(folder, c) && claim(folder, working_folder(out, c)))
-        put_in_place(working_folder(out, c), out / c.folder);
-    }
+  const std::string begin = c.folder.filename().string() + ".";
+  for (const auto& entry : fs::directory_iterator((out / c.folder).parent_path(), error))
+    if (const std::string name = entry.path().filename().string(); name.starts_with(begin) && is_part(name))
+      return true;
+  return fs::exists(claim_file(out, c), error);
+}
+
+void recover_case(const fs::path& out, const StudyCase& c) {
+  std::error_code error;
+  for (const fs::path& folder : left_behind(out, c)) {
+    if (is_done(out, c) || !(holds(folder, c) || has_checkpoint(folder)))
+      fs::remove_all(folder, error);
+    else if (holds(folder, c) && make_working(out, c, folder, working_folder(out, c)))
+      put_in_place(working_folder(out, c), out / c.folder);
   }
-  std::vector<fs::path> tables;  // of a study that died while it wrote them
-  for (const auto& entry : fs::directory_iterator(out, error))
-    if (entry.is_regular_file(error) && is_abandoned_part(entry.path().filename().string()))
-      tables.push_back(entry.path());
+}
+
+/// Tables that a process had half written: it is known to be dead, or has not written for a lease.
+void remove_half_tables(const fs::path& out, double lease) {
+  std::error_code error;
+  std::vector<fs::path> tables;
+  for (const auto& entry : fs::directory_iterator(out, error)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file(error) || !is_part(name)) continue;
+    const std::optional<double> written = written_at(entry.path()), now = file_server_time(out / "study");
+    if (is_abandoned_part(name) || (written && now && *now - *written > lease)) tables.push_back(entry.path());
+  }
   for (const fs::path& file : tables) fs::remove(file, error);
+}
+
+}  // namespace
+
+void recover(const fs::path& out, const std::vector<StudyCase>& cases, double lease) {
+  for (const StudyCase& c : cases)
+    if (c.first && has_parts(out, c))
+      if (const auto claim = Claim::take(claim_file(out, c), lease)) recover_case(out, c);
+  remove_half_tables(out, lease);
 }
 
 bool has_checkpoint(const fs::path& working) {
@@ -224,14 +294,15 @@ bool has_checkpoint(const fs::path& working) {
 
 bool take_over(const fs::path& out, const StudyCase& c, const fs::path& working) {
   std::error_code error;
-  fs::remove_all(working, error);
+  // of an earlier process of the same name and number, as containers have them
+  rename_to(working, beside(out / c.folder, ".taken" + part_ending()));
   bool taken = false;
   std::vector<fs::path> left = left_behind(out, c);
   if (const fs::path failed = beside(out / c.folder, ".failed"); has_checkpoint(failed))
     left.push_back(failed);  // killed or out of room, most likely; what fails by itself will do so again soon
   for (const fs::path& folder : left) {
     if (!taken && has_checkpoint(folder)) {
-      const bool ours = claim(folder, working);
+      const bool ours = make_working(out, c, folder, working);
       taken = ours && can_go_on(working, c);
       if (ours && !taken) fs::remove_all(working, error);
     } else {

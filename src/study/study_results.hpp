@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "study/claim.hpp"
 #include "study/result_columns.hpp"
 #include "study/study_plan.hpp"
 
@@ -33,21 +34,25 @@ std::string last_failure(const std::filesystem::path& out, const StudyCase& c);
 /// The working folder of a case while it is computed, this process' own.
 std::filesystem::path working_folder(const std::filesystem::path& out, const StudyCase& c);
 
+/// Who computes the case holds this claim. The functions below that change something of a case are for its owner alone.
+std::filesystem::path claim_file(const std::filesystem::path& out, const StudyCase& c);
+
 /// Takes the working folder for the result: writes study.json into it and renames it into place as the last act, so
-/// that a result is there whole or not at all.
-void keep_result(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working);
-/// Keeps what a failed case has left, with its log and reason, as <folder>.failed.
-void keep_failure(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working,
-                  const std::string& reason);
+/// that a result is there whole or not at all. False, and nothing kept, if the claim is no longer ours.
+bool keep_result(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working,
+                 const Claim& claim);
+/// Keeps what a failed case has left, with its log and reason, as <folder>.failed. False as keep_result.
+bool keep_failure(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working,
+                  const std::string& reason, const Claim& claim);
 
-/// After a crash: results that were whole and not yet renamed are taken; working folders of dead processes of this
-/// machine are removed, but for those with a checkpoint of a case that is not done yet; so are tables that such a
-/// process had half written.
-void recover(const std::filesystem::path& out, const std::vector<StudyCase>& cases);
+/// After a crash: of every case that no living process claims, results that were whole and not yet renamed are taken;
+/// working folders are removed, of whatever machine, but for those with a checkpoint of a case that is not done yet; so
+/// are tables that a process had half written.
+void recover(const std::filesystem::path& out, const std::vector<StudyCase>& cases, double lease = kDefaultLease);
 
-/// Makes a working folder that a dead process of this machine, or a failure, has left of this very case, with a
-/// checkpoint of this very program, the `working` one; removes the others. False if there is none: then there is no
-/// working folder.
+/// Makes a working folder that an earlier owner of the claim, on any machine, or a failure has left of this very case,
+/// with a checkpoint of this very program, the `working` one; removes the others. False if there is none: then there is
+/// no working folder.
 bool take_over(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working);
 /// The folder of a case that was stopped has a checkpoint to go on from.
 bool has_checkpoint(const std::filesystem::path& working);

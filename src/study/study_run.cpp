@@ -67,11 +67,18 @@ struct Running {
   pid_t process;
   fs::path folder;
   Clock::time_point start;
+  Claim claim;
 };
+
+void end_at_once(const Running& r) {
+  ::kill(r.process, SIGKILL);
+  ::waitpid(r.process, nullptr, 0);
+}
 
 class Pool {
  public:
-  Pool(const StudyRun& run, const std::vector<const StudyCase*>& cases) : run_(run), cases_(cases) {
+  Pool(const StudyRun& run, const std::vector<const StudyCase*>& cases)
+      : run_(run), pending_(cases.begin(), cases.end()), began_(file_server_time(run.out / "study")) {
     for (const StudyCase* c : cases) ++left_[c->engine];
     ignore_second_signal_in_children();
   }
@@ -81,27 +88,96 @@ class Pool {
     for (const Running& r : running_) ::waitpid(r.process, nullptr, 0);
   }
 
-  int work() {
-    while (next_ < cases_.size() || !running_.empty()) {
-      if (*run_.stop) return stop();
+  StudyRunEnd work() {
+    while (!pending_.empty() || !running_.empty()) {
+      if (*run_.stop) {
+        stop();
+        break;
+      }
       if (run_.save && run_.save->exchange(false)) pass_on(SIGUSR1);
-      while (next_ < cases_.size() && static_cast<int>(running_.size()) < run_.jobs) start(*cases_[next_++]);
+      start_free();
+      renew();
       collect();
       run_.progress(fraction());
+      if (running_.empty() && !pending_.empty() && looked_ && !run_.wait) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
-    return failures_;
+    end_.not_ours.assign(pending_.begin(), pending_.end());
+    return std::move(end_);
   }
 
  private:
-  void start(const StudyCase& c) {
+  bool has_room() const { return static_cast<int>(running_.size()) < run_.jobs; }
+
+  /// Starts cases that nobody computes. Where there is none it looks again after a while, that grows.
+  void start_free() {
+    if (pending_.empty() || !has_room() || Clock::now() < look_) return;
+    bool any = false;
+    for (auto at = pending_.begin(); at != pending_.end() && has_room();) {
+      const StudyCase& c = **at;
+      std::optional<Claim> claim = Claim::take(claim_file(run_.out, c), run_.lease);
+      if (!claim) {
+        ++at;
+        continue;
+      }
+      any = true;
+      at = pending_.erase(at);
+      if (is_done(run_.out, c) || has_failed_elsewhere(c)) {
+        ++end_.elsewhere;
+        --left_[c.engine];
+      } else {
+        refuse_another_study(c);
+        start(c, std::move(*claim));
+      }
+    }
+    looked_ = !pending_.empty() && has_room();
+    pause_ = any ? kShortPause : std::min(2 * pause_, kLongPause);
+    look_ = Clock::now() + std::chrono::milliseconds(looked_ ? pause_ : 0);
+  }
+
+  /// By another process, since this one began: it would fail again.
+  bool has_failed_elsewhere(const StudyCase& c) const {
+    if (last_failure(run_.out, c).empty()) return false;
+    const auto failed = written_at(run_.out / (c.folder.string() + ".failed") / kStudyFile);
+    return began_ && failed && *failed > *began_;
+  }
+
+  /// The place has a result of other settings that was made since this one began: two studies would replace each
+  /// other's results.
+  void refuse_another_study(const StudyCase& c) const {
+    const auto made = written_at(run_.out / c.folder / kStudyFile);
+    if (began_ && made && *made > *began_)
+      throw CaseError(fmt::format("another study, with other settings, writes into {}", run_.out.string()),
+                      "wait until it has ended, or give this one a folder of its own with --out");
+  }
+
+  void start(const StudyCase& c, Claim claim) {
     const fs::path folder = working_folder(run_.out, c);
-    const bool begun = c.engine == Engine::fem && take_over(run_.out, c, folder);
+    const bool begun = take_over(run_.out, c, folder);
     if (!begun) make_folder(folder);
     std::vector<std::string> words =
         begun ? resume_command(run_.threads, folder) : case_command(c, run_.cell, run_.threads, folder);
     words.insert(words.begin(), "railstrata");
-    running_.push_back({&c, start_self(words, folder / "log.txt"), folder, Clock::now()});
+    running_.push_back({&c, start_self(words, folder / "log.txt"), folder, Clock::now(), std::move(claim)});
+  }
+
+  /// A case that another process has taken over, having held this one for dead, is left to it.
+  void renew() {
+    for (auto r = running_.begin(); r != running_.end();) {
+      if (r->claim.renew()) {
+        ++r;
+        continue;
+      }
+      end_at_once(*r);
+      leave(*r);
+      r = running_.erase(r);
+    }
+  }
+
+  void leave(const Running& r) {
+    std::error_code error;
+    fs::remove_all(r.folder, error);
+    pending_.push_back(r.study_case);
   }
 
   void collect() {
@@ -111,7 +187,7 @@ class Pool {
         ++r;
         continue;
       }
-      const Running ended = *r;
+      const Running ended = std::move(*r);
       r = running_.erase(r);
       // once it is asked to stop, a case may end in any way: in the preload with an error
       if (*run_.stop && !has_result(status))
@@ -121,24 +197,31 @@ class Pool {
     }
   }
 
+  std::string fault_of(const Running& r, int status) const {
+    const StudyCase& c = *r.study_case;
+    if (!has_result(status)) return reason_of(text_of(r.folder / "log.txt"), status);
+    if (!text_of(r.folder / "case.toml").ends_with(kept_case(c.loaded, kept_inputs(c.loaded, r.folder))))
+      return "the base case changed while the study ran: start it again";
+    return "";
+  }
+
   void finish(const Running& r, int status) {
     const StudyCase& c = *r.study_case;
-    std::string fault;
-    if (!has_result(status))
-      fault = reason_of(text_of(r.folder / "log.txt"), status);
-    else if (!text_of(r.folder / "case.toml").ends_with(kept_case(c.loaded, kept_inputs(c.loaded, r.folder))))
-      fault = "the base case changed while the study ran: start it again";
+    std::string fault = fault_of(r, status);
+    bool ours = true;
     if (fault.empty()) {
       try {
-        keep_result(run_.out, c, r.folder);
+        ours = keep_result(run_.out, c, r.folder, r.claim);
       } catch (const CaseError& e) {
         fault = fmt::format("its result cannot be read: {}", e.diagnostics.front().message);
       }
     }
-    if (!fault.empty()) {
-      keep_failure(run_.out, c, r.folder, fault);
-      ++failures_;
+    if (!fault.empty()) ours = keep_failure(run_.out, c, r.folder, fault, r.claim);
+    if (!ours) {
+      leave(r);
+      return;
     }
+    end_.failures += fault.empty() ? 0 : 1;
     const double seconds = seconds_since(r.start);
     Spent& s = spent_[c.engine];
     s.seconds += seconds;
@@ -159,18 +242,18 @@ class Pool {
 
   /// Those that can end their step do, with a checkpoint; who has not ended after that time is killed. A result that is
   /// whole by then is kept.
-  int stop() {
+  void stop() {
     pass_on(SIGTERM);
     for (const auto asked = Clock::now(); !running_.empty() && seconds_since(asked) < kPatience;
-         std::this_thread::sleep_for(std::chrono::milliseconds(20)))
+         std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+      renew();
       collect();
+    }
     for (const Running& r : running_) {
-      ::kill(r.process, SIGKILL);
-      ::waitpid(r.process, nullptr, 0);
+      end_at_once(r);
       discard(r);
     }
     running_.clear();
-    return failures_;
   }
 
   /// A case counts as its engine's cases have taken so far; before one has ended, as half-spaces usually compare with
@@ -196,13 +279,18 @@ class Pool {
     double seconds = 0;
     int cases = 0;
   };
+  static constexpr long kShortPause = 100, kLongPause = 5000;  // ms
   const StudyRun& run_;
-  const std::vector<const StudyCase*>& cases_;
-  std::size_t next_ = 0;
+  std::list<const StudyCase*> pending_;
+  const std::optional<double> began_;  ///< by the clock of the file server
   std::list<Running> running_;
+  Clock::time_point look_ = Clock::now();
+  long pause_ = kShortPause;
+  bool looked_ = false;  ///< all that is pending is with others
   std::map<Engine, int> left_;
   std::map<Engine, Spent> spent_;
-  int failures_ = 0, done_ = 0;
+  StudyRunEnd end_;
+  int done_ = 0;
 };
 
 }  // namespace
@@ -224,6 +312,8 @@ std::vector<std::string> resume_command(int threads, const fs::path& folder) {
   return {"run", "--resume", folder.string(), "--no-report", "--threads", fmt::format("{}", threads)};
 }
 
-int run_cases(const StudyRun& run, const std::vector<const StudyCase*>& cases) { return Pool(run, cases).work(); }
+StudyRunEnd run_cases(const StudyRun& run, const std::vector<const StudyCase*>& cases) {
+  return Pool(run, cases).work();
+}
 
 }  // namespace railstrata

@@ -7,14 +7,17 @@
 #include <functional>
 #include <vector>
 
+#include "study/claim.hpp"
 #include "study/study_plan.hpp"
 
 namespace railstrata {
 
 struct StudyRun {
   std::filesystem::path out;
-  std::string cell;                               ///< of the half-space engine
-  int jobs = 1, threads = 1;                      ///< cases at a time; threads of each
+  std::string cell;              ///< of the half-space engine
+  int jobs = 1, threads = 1;     ///< cases at a time; threads of each
+  double lease = kDefaultLease;  ///< of the claims (study/claim.hpp), s
+  bool wait = true;  ///< for cases that others compute, to take over those that die; false: they are left to them
   const std::atomic<bool>* stop = nullptr;        ///< true: the cases end with a checkpoint
   std::atomic<bool>* save = nullptr;              ///< true: they write a checkpoint; set back here; may be null
   std::function<void(double fraction)> progress;  ///< of the work of this call
@@ -28,9 +31,15 @@ std::vector<std::string> case_command(const StudyCase& c, const std::string& cel
 /// Those that go on with a finite element case from the checkpoint of its folder.
 std::vector<std::string> resume_command(int threads, const std::filesystem::path& folder);
 
-/// Computes these cases in their order. Returns the number of failures; cases not yet ended when `stop` is set are left
-/// for the next time, those by finite elements with a checkpoint to go on from. Throws EnvironmentError for the disk,
-/// after the processes it has started are gone.
-int run_cases(const StudyRun& run, const std::vector<const StudyCase*>& cases);
+/// Computes those of these cases that no living process claims, in their order; of the others it waits for the results.
+/// Cases not yet ended when `stop` is set are left for the next time, those by finite elements with a checkpoint to go
+/// on from. Throws EnvironmentError for the disk, CaseError where another
+/// study writes into the folder, after the processes it has started are gone.
+struct StudyRunEnd {
+  int failures = 0;
+  int elsewhere = 0;                       ///< ended meanwhile by other processes
+  std::vector<const StudyCase*> not_ours;  ///< that others compute still
+};
+StudyRunEnd run_cases(const StudyRun& run, const std::vector<const StudyCase*>& cases);
 
 }  // namespace railstrata

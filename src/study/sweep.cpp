@@ -4,24 +4,17 @@
 
 #include <cstddef>
 #include <exception>
-#include <mutex>
 #include <utility>
 
 #include "core/faults.hpp"
-#include "core/parallel.hpp"
 #include "io/csv.hpp"
 #include "io/summary_json.hpp"
 #include "post/bem_summary.hpp"
 #include "runs/solve_half_space.hpp"
+#include "study/for_each_ended.hpp"
 
 namespace railstrata {
 namespace {
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
-
-std::string fault_of(const CaseError& e) {
-  return e.diagnostics.empty() ? first_line(e.what()) : first_line(e.diagnostics.front().message);
-}
 
 void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
   if (!c.loaded) return;
@@ -36,10 +29,8 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
     }
     c.summary = summary_json(summary);
     c.fault = failed_check(c.summary);
-  } catch (const CaseError& e) {
-    c.fault = fault_of(e);
   } catch (const std::exception& e) {
-    c.fault = first_line(e.what());
+    c.fault = fault_line(e);
   }
 }
 
@@ -58,7 +49,7 @@ std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std:
       cases.back().loaded = parse_case(base.source_text, base.file, all);
       any = true;
     } catch (const CaseError& e) {
-      cases.back().fault = fault_of(e);
+      cases.back().fault = fault_line(e);
       if (!first_error) first_error = e;
     }
   }
@@ -67,24 +58,13 @@ std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std:
 }
 
 void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options) {
-  std::mutex ending;
-  std::exception_ptr failure;
-  for_each(
-      static_cast<std::ptrdiff_t>(cases.size()),
-      [&](std::ptrdiff_t i) {
-        SweepCase& c = cases[static_cast<std::size_t>(i)];
-        if (options.stop && *options.stop) return;
-        solve(c, options.bem, options.stresses);
-        const std::lock_guard lock(ending);
-        c.done = true;
-        try {
-          if (options.ended) options.ended();
-        } catch (...) {
-          failure = std::current_exception();
-        }
-      },
-      true);
-  if (failure) std::rethrow_exception(failure);
+  for_each_ended(cases.size(), options.stop, [&](std::size_t i) {
+    solve(cases[i], options.bem, options.stresses);
+    return [&cases, &options, i] {
+      cases[i].done = true;
+      if (options.ended) options.ended();
+    };
+  });
 }
 
 SweepTable::SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin,

@@ -27,7 +27,7 @@ struct SweepCase {
 };
 
 /// The cases of all combinations, in their order. One whose values are refused carries the fault; if all are, the first
-/// one's CaseError is thrown: a key that does not exist, most likely.
+/// one's CaseError is thrown: a key that does not exist, most likely. Throws CaseError for a key without values.
 std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
                                   const std::vector<VariedKey>& keys);
 

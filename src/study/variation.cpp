@@ -11,8 +11,9 @@ namespace {
 
 constexpr const char* kHowTo = "write --vary key=value,value, for example --vary layer.0.young_ratio=0.5,1,2";
 
+/// Without blanks and quotes around it: "3 mm" and 3 mm are the same value here.
 std::string trimmed(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t"), end = text.find_last_not_of(" \t");
+  const auto begin = text.find_first_not_of(" \t\"'"), end = text.find_last_not_of(" \t\"'");
   return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
 }
 
@@ -30,6 +31,14 @@ VariedKey parse_one(const std::string& text) {
   return out;
 }
 
+/// Throws CaseError: a key without values makes no case, an empty value sets nothing.
+void require_values(const VariedKey& varied) {
+  const bool none = varied.values.empty();
+  if (!none && std::find(varied.values.begin(), varied.values.end(), "") == varied.values.end()) return;
+  throw CaseError(fmt::format("{} has {}", varied.key, none ? "no values to vary over" : "an empty value to vary over"),
+                  "give one value or more, or leave the key out");
+}
+
 }  // namespace
 
 std::vector<VariedKey> parse_vary(const std::vector<std::string>& options) {
@@ -44,6 +53,7 @@ std::vector<VariedKey> parse_vary(const std::vector<std::string>& options) {
 }
 
 std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>& keys) {
+  for (const VariedKey& k : keys) require_values(k);
   double cases = 1;
   for (const VariedKey& k : keys) cases *= static_cast<double>(k.values.size());
   if (cases > kMostCases)

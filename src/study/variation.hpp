@@ -20,7 +20,7 @@ std::vector<VariedKey> parse_vary(const std::vector<std::string>& options);
 inline constexpr std::size_t kMostCases = 10'000;
 
 /// Every combination, the last key changing fastest: per case the value of each key. One empty combination of no keys.
-/// Throws CaseError beyond kMostCases.
+/// Throws CaseError beyond kMostCases, for a key without values and for an empty value.
 std::vector<std::vector<std::string>> combinations(const std::vector<VariedKey>& keys);
 
 }  // namespace railstrata

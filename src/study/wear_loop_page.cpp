@@ -47,7 +47,10 @@ std::vector<const WornProfile*> some_of(const std::vector<WornProfile>& profiles
   return out;
 }
 
-std::string after(const WornProfile& p) { return fmt::format("after {:.4g} passages", p.passages); }
+std::string after(const WornProfile& p) {
+  return p.passages < 1e7 ? fmt::format("after {:.0f} passages", p.passages)
+                          : fmt::format("after {:.4g} passages", p.passages);
+}
 
 ReportSeries curve(const std::string& name, const std::vector<Vec2>& points, Reach reach) {
   ReportSeries s{.name = name, .x = {}, .y = {}, .markers = false};

@@ -41,6 +41,7 @@ RunState small_run(double time) {
   r.result.history[0].energy.kinetic = 12;
   r.result.positions = {{0.3, {RollingSample{}, RollingSample{}}}, {0.4, {}}};
   r.result.positions[0].samples[1].rail.stress = {{1, 2, 3, 4, 5, 6}};
+  r.result.positions[0].samples[1].rail.plastic = {{{1, 2, 3, 4, 5, 6}, {7, 8, 9, 10, 11, 12}, 13}};
   r.result.positions[0].samples[1].rail.along = {0.25};
   r.next_sample = 2;
   r.started = true;
@@ -128,6 +129,10 @@ TEST_F(Checkpoints, ReadBackWhatWasWritten) {
   EXPECT_TRUE(c.run.stepper.reached_edge);
   EXPECT_EQ(c.run.result.history[0].forces.nodes, 7);
   EXPECT_EQ(c.run.result.positions[0].samples[1].rail.stress[0].xz, 6);
+  const ElementPlasticity yielded = c.run.result.positions[0].samples[1].rail.plastic.at(0);
+  EXPECT_EQ(yielded.strain.yz, 5);
+  EXPECT_EQ(yielded.backstress.xz, 12);
+  EXPECT_EQ(yielded.accumulated, 13);
   EXPECT_TRUE(c.run.result.positions[1].samples.empty());
   EXPECT_EQ(checkpoint_bytes(c.origin, c.run), bytes);  // nothing of the state is left out of the way back
 }

@@ -32,7 +32,7 @@ PassSeries series_of(const SteadyGrid& g) {
   pass.residual_stress.resize(g.points());
   pass.plastic_strain.resize(g.points());
   pass.forward = pass.lateral = pass.sinking = {1e-6, -2e-6, 0};
-  for (int n = 0; n < 2; ++n) add_pass(g, pass, series);
+  for (int n = 1; n <= 2; ++n) add_pass(pass_row(g, n, pass), pass, series);
   return series;
 }
 
@@ -57,9 +57,32 @@ TEST_F(PassFiles, StateAndTableAreReadBackToTheSameBits) {
   EXPECT_TRUE(back.state.history == series.state.history);
   EXPECT_TRUE(back.state.residual_strain == series.state.residual_strain);
   ASSERT_EQ(back.table.size(), 2u);
-  EXPECT_EQ(back.table[1], series.table[1]);
+  for (std::size_t c = 0; c < back.table[1].size(); ++c) EXPECT_EQ(back.table[1][c], series.table[1][c]) << c;
   ASSERT_EQ(back.points[3].size(), 2u);
   EXPECT_EQ(back.points[3][1].net, series.points[3][1].net);
+  EXPECT_EQ(back.begun, series.begun);
+}
+
+/// To and fro by 1e-3 in turn: every pass has a net strain, a cycle of two has none.
+TEST_F(PassFiles, APlanOfSeveralPassesIsJudgedByWholeCycles) {
+  const SteadyGrid g = small_grid();
+  PassSeries series;
+  series.cycle = 2;
+  PassResult pass;
+  pass.accumulated.assign(g.points(), 1e-3);
+  pass.net.assign(g.points(), 1e-3);
+  pass.residual_stress.resize(g.points());
+  pass.forward = pass.lateral = pass.sinking = {0, 0, 0};
+  for (int n = 1; n <= 9; ++n) {
+    pass.plastic_strain.assign(g.points(), {n % 2 == 1 ? 1e-3 : 0, 0, 0, 0, 0, 0});
+    add_pass(pass_row(g, n, pass), pass, series);
+  }
+  const std::vector<PassStrain> cycles = cycles_of(series);
+  ASSERT_EQ(cycles.size(), 4u);
+  EXPECT_DOUBLE_EQ(cycles[3].accumulated, 2e-3);
+  EXPECT_EQ(cycles[3].net, 0);
+  EXPECT_EQ(verdict_of(series).kind, PassClass::plastic_shakedown);
+  EXPECT_EQ(classify(series.points[0]).kind, PassClass::plastic_shakedown);
 }
 
 TEST_F(PassFiles, AStateThatIsNotOfThisGridOrNotWholeIsRefused) {

@@ -1,0 +1,58 @@
+#include "io/this_process.hpp"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <fstream>
+#include <sstream>
+#include <string_view>
+
+namespace railstrata {
+namespace {
+
+/// The 22nd field of /proc/<id>/stat, counted from the end of the name in brackets, which may hold anything; -1 if
+/// there is no such process.
+long long started(long id) {
+  std::ifstream in("/proc/" + std::to_string(id) + "/stat");
+  std::string text;
+  std::getline(in, text);
+  const auto name = text.rfind(')');
+  if (name == std::string::npos) return -1;
+  std::istringstream rest(text.substr(name + 1));
+  std::string word;
+  for (int field = 3; field <= 22; ++field) rest >> word;
+  long long ticks = -1;
+  std::istringstream(word) >> ticks;
+  return ticks;
+}
+
+std::string this_system() {
+  std::string boot;
+  std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
+  std::array<char, 64> space{};
+  const ssize_t n = ::readlink("/proc/self/ns/pid", space.data(), space.size() - 1);
+  return fmt::format("{} {}", boot, std::string_view(space.data(), n > 0 ? static_cast<std::size_t>(n) : 0));
+}
+
+}  // namespace
+
+std::string host_name() {
+  std::array<char, 256> host{};
+  ::gethostname(host.data(), host.size() - 1);
+  return host.data();
+}
+
+ProcessName this_process() { return {host_name(), this_system(), ::getpid(), started(::getpid())}; }
+
+bool is_known_dead(const ProcessName& process) {
+  if (process.system.empty() || process.host != host_name() || process.system != this_system() || process.id < 1)
+    return false;
+  if (::kill(static_cast<pid_t>(process.id), 0) != 0) return errno == ESRCH;
+  const long long now = started(process.id);
+  return now >= 0 && process.started >= 0 && now != process.started;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,24 @@
+#pragma once
+// What tells this process from every other one, on any machine.
+#include <string>
+
+namespace railstrata {
+
+/// The name of this machine in its network.
+std::string host_name();
+
+/// A process of the machine `host` as that machine knows it. `system`: one start of one kernel and one space of process
+/// numbers (a container has its own); `started`: when, in ticks since the kernel began, for numbers are used again.
+struct ProcessName {
+  std::string host, system;
+  long id = 0;
+  long long started = 0;
+  bool operator==(const ProcessName&) const = default;
+};
+
+ProcessName this_process();
+
+/// True only where that can be known: the process was one of this machine, since its last start, and is no more.
+bool is_known_dead(const ProcessName& process);
+
+}  // namespace railstrata

@@ -1,0 +1,222 @@
+#include "runs/pass_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
+
+#include "core/faults.hpp"
+#include "io/pass_files.hpp"
+#include "io/pass_way_files.hpp"
+#include "post/pass_plan.hpp"
+#include "post/pass_way.hpp"
+#include "post/pass_words.hpp"
+#include "runs/pass_folder_parts.hpp"
+#include "runs/solve_half_space.hpp"
+#include "runs/solve_settings.hpp"
+
+namespace railstrata {
+namespace {
+
+/// Steady rolling over one rail is what the stationary method knows.
+void require_steady(const LoadedCase& loaded) {
+  if (loaded.spec.transient.kind != TransientKind::none)
+    throw CaseError("passes are of steady rolling, the case is a transient", "take out [transient]",
+                    loaded.file.string());
+}
+
+/// The work's result; CaseErrors of it get their places in the case.
+template <class Work>
+auto with_places(const LoadedCase& loaded, Work&& work) {
+  try {
+    return work();
+  } catch (const CaseError& e) {
+    throw in_case_file(loaded, e);
+  }
+}
+
+/// The passes of one folder.
+class SteadyFolder {
+ public:
+  SteadyFolder(const PassOrder& order, LoadedCase loaded, const PassFolderObserver& observer)
+      : order_(order),
+        loaded_(std::move(loaded)),
+        tell_(observer),
+        rail_(with_places(loaded_, [&] { return rail_of(); })),
+        body_(body_of(rail_)) {
+    series_.state = body_.virgin();
+    series_.cycle = passes_per_cycle(loaded_.spec.passes);
+    require_apart(order_.folder, loaded_);
+  }
+
+  PassesEnd run() {
+    const FolderHold hold = prepare_output_folder(order_.folder, order_.force || order_.resume);
+    order_.resume ? resume() : begin_pass_folder(loaded_, order_, identity());
+    for (const std::string& note : rail_.notes) tell_.info(note);
+    limits_.stop = tell_.wishes().stop;
+    while (series_.state.passes < order_.passes && !stopped() && take_pass()) {
+    }
+    if (last_)
+      finish();
+    else if (!stopped())
+      tell_.info(fmt::format("{}: {} passes are there already", order_.folder.string(), series_.state.passes));
+    return {series_.state.passes, series_.state.passes < order_.passes, converged_};
+  }
+
+ private:
+  bool stopped() const { return limits_.stop && *limits_.stop; }
+
+  RailPasses rail_of() {
+    BemOptions bem;
+    bem.cell = order_.cell;
+    std::vector<BemResult> solutions;
+    for (const CaseSpec& spec : cases_of_tractions(loaded_.spec)) {
+      HalfSpaceSolution solution = solve_half_space_contact(spec, place(spec, loaded_.folder()), bem);
+      if (solutions.empty()) judge_elastic(solution);
+      const ContactSummary& c = solution.summary.contact;
+      traction_.push_back(c.F_x / c.F_z);
+      solutions.push_back(std::move(solution.result));
+    }
+    return rail_passes(loaded_.spec, solutions);
+  }
+
+  /// Shakedown factors of the elastic stress, to stand beside the class; where no strength is given there are none.
+  void judge_elastic(HalfSpaceSolution& solution) {
+    if (!strength_given(loaded_.spec, BodyId::rail)) return;
+    solution.shakedown = half_space_shakedown(loaded_.spec, solution.result);
+    std::erase_if(solution.shakedown, [](const SectionShakedown& s) { return s.body != BodyId::rail; });
+    complete_shakedown(loaded_.spec, solution);
+    answer_.shakedown = solution.summary.shakedown;
+  }
+
+  std::string identity() const {
+    return fmt::format("{} {} {} {}\n", case_identity(loaded_), rail_.grid.nx, rail_.grid.ny, order_.cell);
+  }
+
+  void resume() {
+    require_same_passes(order_, identity(), "", "the --set and the --cell");
+    if (!std::filesystem::exists(order_.folder / kPassState)) return;
+    series_ = read_pass_series(order_.folder / kPassState, order_.folder / kPassTable, rail_.grid);
+    series_.cycle = passes_per_cycle(loaded_.spec.passes);
+    if (series_.state.passes > 0) stand(place_of(series_.state.passes));
+  }
+
+  /// Where a wheel runs, and with which of the tractions.
+  struct Place {
+    int column = 0;
+    std::size_t solution = 0;
+    bool operator==(const Place&) const = default;
+  };
+  Place place_of(int pass) const {
+    const PassPlan plan = pass_plan(loaded_.spec.passes, pass);
+    return {columns_to(rail_.grid, plan.lateral), plan.traction};
+  }
+  void stand(Place place) {
+    strain_ = contact_strain(rail_, body_, place.solution, place.column);
+    place_ = place;
+  }
+
+  /// The contact of the next pass in its place; computed anew only where it is another one.
+  void drive(int pass) {
+    const Place next = place_of(pass);
+    if (!strain_.empty() && next == place_) return;
+    if (!strain_.empty()) move_guess(rail_.grid, next.column - place_.column, series_.state);
+    stand(next);
+  }
+
+  /// False: it was stopped, and then it has not been.
+  bool take_pass() {
+    const int pass = series_.state.passes + 1;
+    const Place before = place_;
+    Field guess = series_.state.residual_strain;
+    tell_.going(pass, 0);
+    drive(pass);
+    try {
+      last_ = body_.run_pass(strain_, series_.state, limits_);
+    } catch (const Interrupted&) {
+      series_.state.residual_strain = std::move(guess);
+      if (last_ && before != place_) stand(before);
+      tell_.passed();
+      return false;
+    }
+    tell_.passed();
+    keep(pass_row(rail_.grid, pass, *last_));
+    return true;
+  }
+
+  void keep(PassRow row) {
+    row.place = place_.column * rail_.grid.dy;
+    row.traction = traction_[place_.solution];
+    last_row_ = row;
+    add_pass(row, *last_, series_);
+    tell_.info(
+        fmt::format("pass {}: accumulated {:.3g}, net {:.3g} at {:.2f} mm; residual stress {:.0f} MPa along, {:.0f} "
+                    "MPa across; {} iterations",
+                    row.pass, row.largest.accumulated, row.largest.net, 1e3 * row.net_depth, 1e-6 * row.stress[0],
+                    1e-6 * row.stress[1], row.iterations));
+    if (!row.converged) {
+      converged_ = false;
+      tell_.warn(fmt::format("pass {} has not settled: stresses still change by {:.2g} of the shear strength", row.pass,
+                             row.error));
+    }
+    constexpr auto kOften = std::chrono::seconds(20);
+    if (Clock::now() - saved_ > kOften) save();
+  }
+
+  /// Table before state: a table that has gone on is cut when the state is read.
+  void save() {
+    write_pass_table(order_.folder / kPassTable, table_origin(loaded_), series_);
+    write_pass_state(order_.folder / kPassState, table_origin(loaded_), rail_.grid, series_);
+    saved_ = Clock::now();
+  }
+
+  void finish() {
+    save();
+    write_results();
+    tell_.warn_of_large_strain(last_row_.strain);
+    tell_.info(fmt::format("after {} passes: {} Results are in {}", series_.state.passes, answer_.verdict,
+                           order_.folder.string()));
+    tell_.write_page(order_, answer_.verdict);
+  }
+
+  void write_results() {
+    const PassWay way = pass_way(rail_, body_, strain_, *last_, series_.state);
+    const std::size_t governing = way.points.front().point / static_cast<std::size_t>(rail_.grid.ny);
+    answer_.verdict = pass_words(standing_of(series_, last_row_));
+    answer_.law = law_words(rail_.rows[governing].law);
+    answer_.ductility = loaded_.spec.passes.ductility;
+    write_residual(order_.folder, table_origin(loaded_), rail_, series_, *last_);
+    write_way(order_.folder, table_origin(loaded_), rail_, way);
+    write_section_vtk(order_.folder / "section.vtp", rail_, series_, *last_);
+    write_pass_summary(order_.folder / kPassSummary, loaded_.spec, rail_, series_, *last_, way, answer_);
+  }
+
+  using Clock = std::chrono::steady_clock;
+  const PassOrder& order_;
+  LoadedCase loaded_;
+  PassTeller tell_;
+  PassAnswer answer_;
+  std::vector<double> traction_;  ///< of each solution
+  RailPasses rail_;               ///< fills the two before
+  SteadyBody body_;
+  Field strain_;  ///< of the contact at place_
+  Place place_;
+  PassSeries series_;
+  PassLimits limits_;
+  std::optional<PassResult> last_;
+  PassRow last_row_;
+  bool converged_ = true;
+  Clock::time_point saved_ = Clock::now();
+};
+
+}  // namespace
+
+PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, const PassFolderObserver& observer) {
+  require_steady(loaded);
+  require_cell(order.cell);
+  return SteadyFolder(order, std::move(loaded), observer).run();
+}
+
+}  // namespace railstrata

@@ -1,0 +1,76 @@
+#include "runs/pass_folder_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "core/faults.hpp"
+#include "io/output_file.hpp"
+#include "material/strain_claim.hpp"
+#include "report/passes_page.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+}  // namespace
+
+void PassTeller::info(const std::string& text) const {
+  if (observer_.info) observer_.info(text);
+}
+
+void PassTeller::warn(const std::string& text) const {
+  if (observer_.warn) observer_.warn(text);
+}
+
+void PassTeller::going(int pass, double fraction) const {
+  if (observer_.going) observer_.going(pass, fraction);
+}
+
+void PassTeller::passed() const {
+  if (observer_.passed) observer_.passed();
+}
+
+void PassTeller::warn_of_large_strain(double strain) const {
+  if (const std::string words = strain_words(strain); !words.empty()) warn(words);
+}
+
+void PassTeller::write_page(const PassOrder& order, const std::string& verdict) const {
+  if (!order.page) return;
+  const fs::path page = order.folder / kPassPage;
+  const auto write = [&] {
+    write_passes_page(page, {order.folder});
+    return WrittenPage{{true, verdict}, {}};
+  };
+  if (observer_.page) {
+    observer_.page(page, write);
+    return;
+  }
+  try {
+    write();
+  } catch (const CaseError& e) {
+    warn(fmt::format("no report: {}", e.what()));
+  } catch (const EnvironmentError& e) {
+    warn(fmt::format("no report: {}", e.what()));
+  }
+}
+
+void begin_pass_folder(const LoadedCase& loaded, const PassOrder& order, const std::string& identity) {
+  clear_old_results(order.folder);
+  for (const char* name : {kPassTable, kPassState, kPassSummary, kPassPage, "residual.csv", "profile.csv", "loops.csv",
+                           "along.csv", "section.vtp"})
+    fs::remove(order.folder / name);
+  write_origin(order.folder, loaded, order.command.command_line, order.command.threads);
+  write_whole_file(order.folder / kPassIdentity, identity);
+}
+
+void require_same_passes(const PassOrder& order, const std::string& identity, const std::string& by,
+                         const std::string& what) {
+  std::ifstream in(order.folder / kPassIdentity, std::ios::binary);
+  if (std::string(std::istreambuf_iterator<char>(in), {}) != identity)
+    throw CaseError(fmt::format("{}: no passes of this very case{}", order.folder.string(), by),
+                    fmt::format("give the case, {} of its beginning, or begin another folder", what));
+}
+
+}  // namespace railstrata

@@ -1,0 +1,31 @@
+#include "runs/ranked_run.hpp"
+
+#include <utility>
+
+#include "core/faults.hpp"
+#include "io/checkpoint_file.hpp"
+
+namespace railstrata {
+
+RankedRun join_run(LoadedCase loaded) {
+  if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
+  return {std::move(loaded)};
+}
+
+RankedRun join_resumed_run(const std::filesystem::path& folder) {
+  LoadedCase loaded = load_case(folder / "case.toml");
+  FoundCheckpoint found = read_checkpoint(folder, identity_in_folder(folder, loaded));
+  return {std::move(loaded), std::move(found.checkpoint.run)};
+}
+
+// What rank 0 is asked for, this rank is asked for too: the state must be made whole for it by all.
+void follow_run(RankedRun& run, const FemOptions& options) {
+  const RollingSystem system = fem_system(run.loaded.spec, run.loaded.folder());
+  FemObserver observer;
+  const CaseSpec& spec = system.model.spec;
+  if (spec.run.rolling && spec.output.patch_series) observer.frame = [](const RollingSample&) {};
+  observer.checkpoint = [](const RunState&, bool) {};
+  solve_fem(system, observer, options, std::exchange(run.begun, {}));
+}
+
+}  // namespace railstrata

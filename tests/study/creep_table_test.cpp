@@ -1,0 +1,160 @@
+#include "study/creep_table.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "core/faults.hpp"
+#include "core/parallel.hpp"
+
+namespace railstrata {
+namespace {
+
+LoadedCase ball() {
+  return parse_case(
+      "[geometry]\nrail_profile = \"flat\"\nwheel_profile = \"arc:R=430 mm\"\nrail_shape = \"block\"\n"
+      "wheel_shape = \"disc\"\ncant = 0\n[drive]\nfriction_coefficient = 0.3\n",
+      "ball.toml", {});
+}
+
+CreepTableOptions coarse() {
+  CreepTableOptions out;
+  out.bem.cell = 1e-3;
+  return out;
+}
+
+std::size_t number(const ForceTable& table, const std::string& name) {
+  for (std::size_t k = 0; k < table.numbers.size(); ++k)
+    if (table.numbers[k].name == name) return k;
+  ADD_FAILURE() << name;
+  return 0;
+}
+
+std::string refusal(const std::string& axis) {
+  try {
+    parse_axes({axis});
+  } catch (const CaseError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST(CreepTable, ReadsAxesInThreeForms) {
+  const std::vector<CreepAxis> axes = parse_axes(
+      {"load=50 kN, 0.1 MN", "lateral_shift=-2 mm:2 mm:5", "creepage_x=+-0.01:5", "layer.0.thickness=1,2 mm"});
+  ASSERT_EQ(axes.size(), 4u);
+  EXPECT_EQ(axes[0].at, (std::vector<double>{50e3, 100e3}));
+  EXPECT_EQ(axes[0].unit, "N");
+  EXPECT_EQ(axes[1].key, "geometry.lateral_shift");
+  EXPECT_EQ(axes[1].at.size(), 5u);
+  EXPECT_EQ(axes[1].at[4], 2e-3);
+  EXPECT_EQ(axes[2].at.size(), 5u);
+  EXPECT_EQ(axes[2].at[2], 0);
+  EXPECT_EQ(axes[2].at[0], -0.01);
+  EXPECT_NEAR(axes[2].at[3], 0.01 * std::pow(10, -1.25), 1e-12);
+  EXPECT_EQ(axes[3].at, (std::vector<double>{1e-3, 2e-3}));
+  EXPECT_EQ(parse_axes({"drive.creepage=0,0.1"})[0].word, "creepage_x");
+}
+
+TEST(CreepTable, SaysWhatIsWrongWithAnAxis) {
+  EXPECT_NE(refusal("creepage=0,1").find("there is no word or key creepage"), std::string::npos);
+  EXPECT_NE(refusal("load").find("there is no ="), std::string::npos);
+  EXPECT_NE(refusal("load=50,100").find("50"), std::string::npos) << "a unit is missing";
+  EXPECT_NE(refusal("load=100 kN,50 kN").find("values do not ascend"), std::string::npos);
+  EXPECT_NE(refusal("load=100 kN").find("two values or more"), std::string::npos);
+  EXPECT_NE(refusal("creepage_x=+-0.01:4").find("give an odd number"), std::string::npos);
+  EXPECT_NE(refusal("creepage_x=0:50:3").find("out of range"), std::string::npos);
+  EXPECT_NE(refusal("case.title=1,2").find("is no number"), std::string::npos);
+  EXPECT_NE(refusal("creepage_x=0:0.1:2000").find("give 2 to 1000"), std::string::npos);
+  EXPECT_THROW(parse_axes({"spin=0:1:3", "drive.spin=0:1:3"}), CaseError);
+  EXPECT_THROW(parse_axes({}), CaseError);
+}
+
+TEST(CreepTable, HasTheSolutionsOfItsPoints) {
+  CreepTable table(ball(), {}, parse_axes({"creepage_x=+-0.01:7", "load=60 kN,90 kN"}));
+  table.solve(coarse());
+  EXPECT_EQ(table.points(), 14u);
+  EXPECT_EQ(table.missing(), 0u);
+  const ForceTable& t = table.table();
+  const std::size_t force = number(t, "force_x"), bound = number(t, "bound"), normal = number(t, "normal_force");
+  for (std::size_t i = 0; i < 7; ++i)
+    for (std::size_t j = 0; j < 2; ++j) {
+      const std::vector<double> direct = table.direct({t.axes[0].at[i], t.axes[1].at[j]}, coarse().bem);
+      ASSERT_FALSE(direct.empty());
+      EXPECT_NEAR(t.numbers[force].values[2 * i + j], direct[force], 1e-4 * 90e3);
+      EXPECT_NEAR(t.numbers[normal].values[2 * i + j], t.axes[1].at[j], 1);
+      EXPECT_LE(t.numbers[bound].values[2 * i + j], 1 + 1e-4);
+    }
+  EXPECT_GT(t.numbers[force].values[0], 0) << "a driving wheel has creepage < 0 and is pushed forward";
+}
+
+TEST(CreepTable, RollsWhateverRunRollingSays) {
+  LoadedCase still = ball();
+  still.source_text += "\n[run]\nrolling = false\n";
+  const auto axes = [] { return parse_axes({"creepage_x=+-0.01:3"}); };
+  CreepTable rolling(ball(), {}, axes()), table(still, {}, axes());
+  rolling.solve(coarse());
+  table.solve(coarse());
+  EXPECT_GT(table.table().numbers[number(table.table(), "force_x")].values[0], 0);
+  for (std::size_t n = 0; n < table.table().numbers.size(); ++n)
+    EXPECT_EQ(table.table().numbers[n].values, rolling.table().numbers[n].values);
+}
+
+TEST(CreepTable, HasTheSameBitsForAnyThreadsAndAfterAStop) {
+  const std::vector<CreepAxis> axes = parse_axes({"creepage_x=+-0.01:5", "spin=0,0.4 1/m", "load=60 kN,90 kN"});
+  std::vector<std::vector<double>> forces;
+  for (const int threads : {1, 2}) {
+    const int before = max_threads();
+    set_threads(threads);
+    CreepTable table(ball(), {}, axes);
+    table.solve(coarse());
+    set_threads(before);
+    forces.push_back(table.table().numbers[number(table.table(), "force_x")].values);
+  }
+  EXPECT_EQ(forces[0], forces[1]);
+  std::atomic<bool> stop = false;
+  CreepTable begun(ball(), {}, axes);
+  CreepTableOptions how = coarse();
+  how.stop = &stop;
+  how.solved = [&](std::size_t done) { stop = done >= 5; };
+  begun.solve(how);
+  EXPECT_GT(begun.missing(), 0u);
+  CreepTable resumed(ball(), {}, axes);
+  resumed.take(begun.table());
+  resumed.solve(coarse());
+  EXPECT_EQ(resumed.missing(), 0u);
+  EXPECT_EQ(resumed.table().numbers[number(resumed.table(), "force_x")].values, forces[0]);
+  CreepTable other(ball(), {}, parse_axes({"creepage_x=+-0.02:5"}));
+  EXPECT_THROW(other.take(begun.table()), CaseError);
+}
+
+TEST(CreepTable, SaysWhichPointsHaveNoAnswer) {
+  const LoadedCase whole = parse_case("", "base.toml", {});
+  CreepTable table(whole, {}, parse_axes({"lateral_shift=0 mm,30 mm", "creepage_x=0,0.001"}));
+  table.solve(coarse());
+  EXPECT_EQ(table.missing(), 2u) << "the wheel has left the rail";
+  ASSERT_FALSE(table.faults().empty());
+  EXPECT_NE(table.faults()[0].find("lateral_shift = 0.03 m"), std::string::npos) << table.faults()[0];
+}
+
+TEST(CreepTable, ErrorOfInterpolationFallsWithTheSquareOfItsCells) {
+  double before = 0;
+  for (const int n : {5, 9}) {
+    CreepTable table(ball(), {}, parse_axes({"creepage_x=-0.002:-0.0002:" + std::to_string(n), "load=60 kN,60.1 kN"}));
+    table.solve(coarse());
+    const TableError error = interpolation_error(table, 40, coarse());
+    EXPECT_EQ(error.places, 40);
+    const double force = error.numbers[number(table.table(), "force_x")].mean;
+    EXPECT_GT(force, 0);
+    if (before > 0) {
+      EXPECT_LT(force, 0.45 * before);
+    }
+    before = force;
+  }
+}
+
+}  // namespace railstrata
