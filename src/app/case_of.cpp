@@ -5,14 +5,23 @@
 #include "app/shipped_files.hpp"
 
 namespace railstrata {
+namespace {
 
-LoadedCase load_case_of(const CommandOptions& options) {
+void warn_of(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) spdlog::warn("{}", note);
+}
+
+}  // namespace
+
+LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
   std::filesystem::path file = shipped_unless_there(options.case_file);
   std::error_code error;  // of a name too long: load_case tells
   if (std::filesystem::is_directory(file, error) && std::filesystem::exists(file / "case.toml", error))
     file /= "case.toml";
   LoadedCase loaded = load_case(file, options.overrides);
-  for (const std::string& note : loaded.notes) spdlog::warn("{}", note);
+  warn_of(loaded.notes);
+  if (use != CaseUse::yielding) warn_of(loaded.elastic_notes);
+  if (use != CaseUse::steady_rolling) warn_of(loaded.static_notes);
   return loaded;
 }
 

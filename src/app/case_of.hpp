@@ -8,8 +8,12 @@
 
 namespace railstrata {
 
-/// The case with the overrides applied; its notes are logged.
-LoadedCase load_case_of(const CommandOptions& options);
+/// What a command makes of a case: elastic contact, rolling or at rest; steady rolling whatever run.rolling says; a
+/// body that yields.
+enum class CaseUse { contact, steady_rolling, yielding };
+
+/// The case with the overrides applied; those of its notes that hold for the use are logged.
+LoadedCase load_case_of(const CommandOptions& options, CaseUse use = CaseUse::contact);
 
 /// The work's result; CaseErrors of it get their places in the case (in_case_file).
 template <class Work>

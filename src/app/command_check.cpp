@@ -77,6 +77,11 @@ void print_estimate(const Model& m, const RunEstimate& e) {
         e.limits.stages, e.limits.fine_elements, e.evaluations, 1e9 * e.limits.unscaled);
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
+  for (const RunEstimate::OnRanks& r : e.ranks)
+    fmt::print("on {} ranks     about {}, {:.0f} % of the elements on one, {:.2f} MB exchanged a step, {:.0f} MB\n",
+               r.need.ranks, duration_text(r.seconds), 100 * r.need.largest_share, 1e-6 * r.need.bytes,
+               1e-6 * r.memory_bytes);
+  if (!e.ranks.empty()) fmt::print("ranks          at most {}\n", e.ranks.front().need.tiles);
 }
 
 /// Of the last position, which is the result's.
@@ -113,6 +118,18 @@ nlohmann::ordered_json as_json(const CaseSpec& spec, const Placement& placement)
           {"hertz", {{"a_m", hertz.a}, {"b_m", hertz.b}, {"p0_Pa", hertz.p0}}}};
 }
 
+nlohmann::ordered_json as_json(const std::vector<RunEstimate::OnRanks>& all) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const RunEstimate::OnRanks& r : all)
+    out.push_back({{"ranks", r.need.ranks},
+                   {"most_ranks", r.need.tiles},
+                   {"largest_share", r.need.largest_share},
+                   {"bytes_a_step", r.need.bytes},
+                   {"memory_bytes", r.memory_bytes},
+                   {"rolling_wall_s", r.seconds}});
+  return out;
+}
+
 nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
   nlohmann::ordered_json out = as_json(m.spec, m.placement);
   out.update({{"elements", m.rail.elements() + m.wheel.elements()},
@@ -128,6 +145,7 @@ nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
               {"steps", e.steps},
               {"rolling_wall_s", e.seconds},
               {"memory_bytes", e.memory_bytes},
+              {"on_ranks", as_json(e.ranks)},
               {"warnings", as_json(warnings_of(m, e))}});
   return out;
 }

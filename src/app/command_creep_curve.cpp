@@ -17,6 +17,7 @@
 #include "io/csv.hpp"
 #include "io/output_folder.hpp"
 #include "post/result_table.hpp"
+#include "report/creep_curve_page.hpp"
 #include "runs/half_space_need.hpp"
 
 namespace railstrata {
@@ -131,7 +132,7 @@ std::vector<std::string> creep_curve_words() {
 ExitCode command_creep_curve(const CommandOptions& options) {
   const Curve curve = curve_of(options.creep_curve);
   const std::vector<double> varied = creepages(curve, options.creep_curve);
-  const LoadedCase loaded = load_case_of(options);
+  const LoadedCase loaded = load_case_of(options, CaseUse::steady_rolling);
   const std::filesystem::path out = output_folder_of(options, loaded, "-creep-curve");
   BemOptions bem;
   bem.cell = cell_size(options.cell);
@@ -154,6 +155,7 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   const std::vector<std::string> notes = notes_of(loaded.spec);
   origin.insert(origin.end(), notes.begin(), notes.end());
   write_csv(out / "creep_curve.csv", origin, table);
+  if (options.page) write_creep_curve_page(out / "report.html", loaded.spec.title, curve.force, table, notes);
   for (const std::string& note : notes) spdlog::warn("{}", note);
   if (options.json)
     fmt::print("{}\n", as_json(loaded.spec.title, table, notes).dump(2));

@@ -6,7 +6,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/shipped_files.hpp"
 #include "app/waiting.hpp"
@@ -16,8 +15,7 @@
 #include "core/shell_word.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
-#include "io/provenance.hpp"
-#include "model/material_strength.hpp"
+#include "material/strain_claim.hpp"
 #include "runs/material_fit.hpp"
 #include "runs/material_run.hpp"
 
@@ -26,8 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double kMega = 1e-6, kPercent = 100;
-/// Of plastic strain: beyond them small strain is a few per cent off, and no longer a claim.
-constexpr double kDoubtful = 0.05, kNoClaim = 0.1;
 constexpr std::size_t kShownCycles = 5;
 
 fs::path card_of(const CommandOptions& options) {
@@ -35,22 +31,6 @@ fs::path card_of(const CommandOptions& options) {
   std::error_code error;
   if (fs::is_directory(file, error) && fs::exists(file / "case.toml", error)) file /= "case.toml";
   return file;
-}
-
-/// The word of --of: rail, wheel, or a layer by its place in the case.
-struct Chosen {
-  MaterialSpec material;
-  std::string name, key;
-};
-Chosen chosen(const LoadedCase& loaded, const std::string& word) {
-  const CaseSpec& spec = loaded.spec;
-  if (word == "rail") return {spec.rail_material, "rail", "material.rail"};
-  if (word == "wheel") return {spec.wheel_material, "wheel", "material.wheel"};
-  for (std::size_t i = 0; i < spec.layers.size(); ++i)
-    if (word == fmt::format("layer.{}", i) || word == spec.layers[i].name)
-      return {spec.layers[i].material, spec.layers[i].name, fmt::format("layer.{}", i)};
-  throw CaseError(fmt::format("--of {}: the card has no such material", word),
-                  spec.layers.empty() ? "write rail or wheel" : "write rail, wheel or a layer's name");
 }
 
 double depth_of(const std::string& text) {
@@ -110,13 +90,7 @@ std::string cycles_text(const MaterialRun& run) {
 }
 
 void warn_of_large_strain(const MaterialRun& run) {
-  const double strain = largest_plastic_strain(run);
-  if (strain > kNoClaim)
-    spdlog::warn("plastic strain reaches {:.1f} %: small strain no longer describes it, the stresses are no claim",
-                 kPercent * strain);
-  else if (strain > kDoubtful)
-    spdlog::warn("plastic strain reaches {:.1f} %: the law is one of small strain, stresses are some per cent off",
-                 kPercent * strain);
+  if (const std::string words = strain_words(largest_plastic_strain(run)); !words.empty()) spdlog::warn("{}", words);
 }
 
 nlohmann::ordered_json as_json(const MaterialRun& run, const fs::path& out, const std::vector<std::string>& notes) {
@@ -130,14 +104,9 @@ nlohmann::ordered_json as_json(const MaterialRun& run, const fs::path& out, cons
 
 ExitCode drive(const CommandOptions& options, const LoadedCase& loaded) {
   const MaterialOptions& o = options.material;
-  const Chosen which = chosen(loaded, o.of);
-  const auto law = with_places(loaded, [&] { return plastic_law(which.material, which.name, which.key); });
-  if (!law)
-    throw CaseError(
-        which.material.strength.elastic ? fmt::format("{} is elastic on purpose: there is no law to drive", which.key)
-                                        : fmt::format("{} does not say where the material begins to yield", which.key),
-        "give yield_strength = \"500 MPa\", or a ready set such as hardening = \"R260\"", loaded.file.string());
-  const PlasticMaterial material = law->at(depth_of(o.depth));
+  const ChosenMaterial which = choose_material(loaded, o.of);
+  const ChosenLaw law = law_of(loaded, which, depth_of(o.depth));
+  const PlasticMaterial& material = law.material;
   const bool by_stress = !o.stress.empty();
   const fs::path file = shipped_unless_there(by_stress ? o.stress : o.strain);
   const MaterialPathTable table =
@@ -148,19 +117,21 @@ ExitCode drive(const CommandOptions& options, const LoadedCase& loaded) {
   answer_interrupt_with("\nstopped: nothing was written\n");
   const MaterialRun run = [&] {
     const Waiting waiting("driving the material", spdlog::should_log(spdlog::level::info));
-    return run_material(material, table, file, o.increments, o.cycles);
+    return run_material(material, table, o.increments, o.cycles);
   }();
   write_csv(out, {}, point_columns(run, by_stress));
   if (run.cycles.size() > 1) write_csv(fs::path(out).replace_extension(".cycles.csv"), {}, cycle_columns(run));
   std::vector<std::string> remarks{law_text(material)};
-  remarks.insert(remarks.end(), law->notes.begin(), law->notes.end());
+  remarks.insert(remarks.end(), law.notes.begin(), law.notes.end());
   write_whole_file(
       fs::path(out).replace_extension(".svg"),
       path_picture(fmt::format("{} of {}, along {}", which.name, loaded.file.string(), file.string()), run, remarks));
-  for (const std::string& note : law->notes) spdlog::info("{}", note);
+  std::vector<std::string> notes = law.notes;
+  if (const std::string note = increments_note(run, o.increments); !note.empty()) notes.push_back(note);
+  for (const std::string& note : notes) spdlog::info("{}", note);
   warn_of_large_strain(run);
   if (options.json) {
-    fmt::print("{}\n", json_text(as_json(run, out, law->notes), 2));
+    fmt::print("{}\n", json_text(as_json(run, out, notes), 2));
   } else {
     fmt::print(
         "{}: {}\n{} points, {} increments each; accumulated plastic strain {:.6f} %, dissipated {:.6g} MJ/m3\n{}",
@@ -173,7 +144,7 @@ ExitCode drive(const CommandOptions& options, const LoadedCase& loaded) {
 
 ExitCode calibrate(const CommandOptions& options, const LoadedCase& loaded) {
   const MaterialOptions& o = options.material;
-  const Chosen which = chosen(loaded, o.of);
+  const ChosenMaterial which = choose_material(loaded, o.of);
   MaterialTests tests{o.calibrate, o.cyclic_curve, o.monotonic, o.backstresses};
   for (fs::path* file : {&tests.loop, &tests.amplitudes, &tests.monotonic})
     if (!file->empty()) *file = shipped_unless_there(*file);
@@ -181,30 +152,24 @@ ExitCode calibrate(const CommandOptions& options, const LoadedCase& loaded) {
   const std::string head = "# Fitted by RailStrata";
   const fs::path out = output_of(options, source.stem().string() + "-fit", ".toml", head);
   answer_interrupt_with("\nstopped: nothing was written\n");
-  const MaterialFit fit = fit_material(tests, which.material.young);
-  std::vector<std::string> remarks{fmt::format(
-      "Fitted by RailStrata {} to {}: error {:.2f} % of the largest stress (root mean square), {:.2f} % at most",
-      version_text(), source.filename().string(), kPercent * fit.stabilised.error,
-      kPercent * fit.stabilised.largest_error)};
-  if (!tests.monotonic.empty())
-    remarks.push_back(fmt::format("and to {}: error {:.2f} %, {:.2f} % at most", tests.monotonic.filename().string(),
-                                  kPercent * fit.whole.error, kPercent * fit.whole.largest_error));
-  else
-    remarks.emplace_back(
-        "yield_strength is that of the stabilised cycle: a monotonic curve (--monotonic) tells Q and b");
+  const MaterialFit fit = fit_material(tests, which.spec.young);
+  const std::vector<std::string> remarks =
+      fit_remarks(fit, source.filename().string(), tests.monotonic.filename().string());
   const PlasticParameters<double> law = rounded(fit.whole.law);
-  const std::string card = material_card(which.material, law, remarks);
+  const std::string card = material_card(which.spec, law, remarks);
   write_whole_file(out, card);
   write_whole_file(fs::path(out).replace_extension(".svg"),
                    fit_picture(fmt::format("fit to {}", source.string()), fit, remarks));
+  for (const std::string& note : fit.notes) spdlog::warn("{}", note);
   if (options.json) {
     nlohmann::ordered_json json{{"card", out.generic_string()},
-                                {"young_Pa", which.material.young},
+                                {"young_Pa", which.spec.young},
                                 {"yield_strength_Pa", law.yield},
                                 {"saturation_Pa", law.saturation},
                                 {"rate", law.rate},
                                 {"error", fit.stabilised.error},
-                                {"largest_error", fit.stabilised.largest_error}};
+                                {"largest_error", fit.stabilised.largest_error},
+                                {"notes", fit.notes}};
     for (int k = 0; k < kMostBackstresses; ++k)
       if (law.modulus[k] > 0)
         json["backstresses"].push_back({{"modulus_Pa", law.modulus[k]}, {"recall", law.recall[k]}});

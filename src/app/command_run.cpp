@@ -6,6 +6,7 @@
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/mpi_ranks.hpp"
 #include "app/option_values.hpp"
 #include "app/processors.hpp"
 #include "app/progress.hpp"
@@ -13,6 +14,7 @@
 #include "app/summary_text.hpp"
 #include "app/write_page.hpp"
 #include "runs/folder_run.hpp"
+#include "runs/ranked_run.hpp"
 
 namespace railstrata {
 namespace {
@@ -104,16 +106,44 @@ void warn_of_shared_processors(int threads) {
   if (const std::string busy = competition(threads); !busy.empty()) spdlog::info("{}", busy);
 }
 
+// What of the ranks is not 0: silent.
+ExitCode run_along(const CommandOptions& options, const FemOptions& fem) {
+  spdlog::set_level(spdlog::level::off);
+  if (!options.run.resume.empty()) require_resume_alone(options);
+  RankedRun run = options.run.resume.empty() ? join_run(load_case_of(options)) : join_resumed_run(options.run.resume);
+  follow_run(run, fem);
+  return ExitCode::ok;
+}
+
+ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem);
+
 }  // namespace
 
 ExitCode command_run(const CommandOptions& options) {
+  MpiRanks mpi;
   FemOptions fem;
+  fem.ranks = mpi.ranks();
   fem.wishes = {&stop_flag(), &save_flag()};  // from here on a signal is a wish
   fem.times.checkpoint_every = wall_time("--checkpoint-every", options.run.checkpoint_every);
   fem.times.limit = wall_time("--max-time", options.run.max_time);
   if (options.run.resume.empty() && options.case_file.empty())
     throw CaseError("run: no case was named",
                     "name a case file, or go on with an interrupted run: railstrata run --resume FOLDER");
+  try {
+    const ExitCode code = fem.ranks.speaks() ? run_and_speak(options, fem) : run_along(options, fem);
+    mpi.leave();
+    return code;
+  } catch (const EnvironmentError&) {  // of this rank, or what it saw of another
+    throw;
+  } catch (...) {
+    mpi.let_rank_0_speak();
+    throw;
+  }
+}
+
+namespace {
+
+ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem) {
   FolderRun run = options.run.resume.empty() ? new_run(options) : resumed_run(options);
   warn_of_shared_processors(options.threads);
   const RunOutcome outcome = solve_and_write(run, options, fem);
@@ -130,4 +160,5 @@ ExitCode command_run(const CommandOptions& options) {
   return all_ok ? ExitCode::ok : ExitCode::failed_checks;
 }
 
+}  // namespace
 }  // namespace railstrata

@@ -7,11 +7,14 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/mpi_ranks.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "app/shipped_files.hpp"
 #include "app/signals.hpp"
+#include "app/study_list.hpp"
 #include "app/write_page.hpp"
+#include "core/faults.hpp"
 #include "io/json_text.hpp"
 #include "study/study_folder.hpp"
 #include "study/study_page.hpp"
@@ -34,6 +37,14 @@ fs::path folder_of(const CommandOptions& options, const LoadedStudy& study) {
   const fs::path file = fs::absolute(study.file).lexically_normal();
   return fs::path("results") /
          (file.stem() == "study" ? file.parent_path().filename().string() + "-study" : file.stem().string());
+}
+
+/// Less than a second would hold living ones for dead: their renewals are tenths of it.
+double lease_of(const CommandOptions& options) {
+  const double lease = wall_time("--lease", options.study.lease);
+  if (lease < 1)
+    throw CaseError(fmt::format("--lease {}: too short", options.study.lease), "one second or more; minutes, usually");
+  return lease;
 }
 
 void print_list(const std::vector<StudyRow>& rows, bool json) {
@@ -91,6 +102,16 @@ ExitCode list_cases(const CommandOptions& options, const fs::path& out, std::vec
   return ExitCode::ok;
 }
 
+/// --list and --batch.
+ExitCode tell_cases(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
+                    std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
+  find_results(out, cases);
+  const std::vector<StudyRow> rows = study_rows(out, cases);
+  const std::vector<ListedCase> listed = listed_cases(rows, ours, study.spec.cell);
+  options.study.list ? print_cases(listed, options, study.file, out) : print_batch(listed, options, study.file, out);
+  return ExitCode::ok;
+}
+
 /// Half-spaces first: they show mistakes in seconds.
 std::vector<const StudyCase*> cases_to_do(const fs::path& out, const std::vector<StudyCase>& cases,
                                           const std::vector<bool>& ours) {
@@ -102,9 +123,9 @@ std::vector<const StudyCase*> cases_to_do(const fs::path& out, const std::vector
   return to_do;
 }
 
-/// Computes what is to do; study.csv follows every case that ends.
-void compute(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
-             const std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
+/// Computes what is to do; study.csv follows every case that ends. Returns how many are left to other processes.
+std::ptrdiff_t compute(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
+                       const std::vector<StudyCase>& cases, const std::vector<bool>& ours, double lease) {
   const std::vector<const StudyCase*> to_do = cases_to_do(out, cases, ours);
   StudyRun run;
   run.out = out;
@@ -127,7 +148,24 @@ void compute(const CommandOptions& options, const LoadedStudy& study, const fs::
       spdlog::warn("{}/{}  {} failed: {}", done, to_do.size(), c.label(), fault);
     write_study_table(out / "study.csv", study_origin(study), study_rows(out, cases));
   };
-  run_cases(run, to_do);
+  run.lease = lease;
+  run.wait = options.study.wait;
+  const StudyRunEnd end = run_cases(run, to_do);
+  if (end.elsewhere > 0) spdlog::info("{} more cases have been computed by other processes", end.elsewhere);
+  for (const StudyCase* c : end.not_ours)
+    if (const std::string owner = claimed_by(claim_file(out, *c)); !owner.empty())
+      spdlog::info("{}: left to {}", c->label(), owner);
+  return static_cast<std::ptrdiff_t>(end.not_ours.size());
+}
+
+/// Cases that had a result and have none now.
+std::ptrdiff_t lost(const std::vector<StudyRow>& rows, std::ptrdiff_t left) {
+  const std::ptrdiff_t to_do =
+      std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "to do"; });
+  if (to_do > left)
+    spdlog::warn("{} results have been replaced meanwhile: another study, with other settings, writes into this folder",
+                 to_do - left);
+  return std::max<std::ptrdiff_t>(0, to_do - left);
 }
 
 /// Returns whether its verdict holds.
@@ -152,16 +190,21 @@ ExitCode command_study(const CommandOptions& options) {
   cell_size(study.spec.cell);  // what is wrong is reported before the first case
   const Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
   const Shard shard = parse_shard(options.study.shard);
+  const double lease = lease_of(options);
   std::vector<StudyCase> cases = plan_study(study, options.overrides);
-  const std::vector<bool> ours = chosen(study, cases, engine_of(options.study.engine), options.study.groups, shard);
+  const std::vector<bool> ours =
+      options.study.only > 0 ? only(cases, options.study.only)
+                             : chosen(study, cases, engine_of(options.study.engine), options.study.groups, shard);
   const fs::path out = folder_of(options, study);
+  if (options.study.list || !options.study.batch.empty()) return tell_cases(options, study, out, cases, ours);
   if (options.study.dry_run) return list_cases(options, out, cases, ours);
 
+  start_children_alone();
   const FolderHold hold =
       prepare_study_folder(out, study, options.command_line, options.overrides, options.threads, options.force);
-  recover(out, cases);
+  recover(out, cases, lease);
   find_results(out, cases);
-  compute(options, study, out, cases, ours);
+  const std::ptrdiff_t left = compute(options, study, out, cases, ours, lease);
 
   const std::vector<StudyRow> rows = study_rows(out, cases);
   write_study_table(out / "study.csv", study_origin(study), rows);
@@ -174,7 +217,7 @@ ExitCode command_study(const CommandOptions& options) {
   print_list(our_rows, options.json);
   spdlog::info("the table is {}", (out / "study.csv").string());
   const ExitCode code = warn_of_faults(our_rows);
-  return page_ok ? code : ExitCode::failed_checks;
+  return page_ok && lost(our_rows, left) == 0 ? code : ExitCode::failed_checks;
 }
 
 }  // namespace railstrata

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,7 @@
 #include "io/output_folder.hpp"
 #include "post/check_limits.hpp"
 #include "study/sweep.hpp"
+#include "study/sweep_page.hpp"
 
 namespace railstrata {
 namespace {
@@ -34,6 +36,18 @@ constexpr Shown kShown[] = {{"p_max MPa", "/contact/p_max_Pa", 1e-6, 9, 1},
                             {"area mm²", "/contact/patch_area_m2", 1e6, 8, 1},
                             {"slip %", "/contact/slip_area_fraction", 100, 6, 1},
                             {"creep 1e-3", "/contact/creepage_x", 1e3, 10, 3}};
+
+/// Notes of cases that the case itself does not have, each once.
+void warn_of_notes(const LoadedCase& base, const std::vector<SweepCase>& cases) {
+  std::set<std::string> told(base.static_notes.begin(), base.static_notes.end());
+  told.insert(base.notes.begin(), base.notes.end());
+  for (const SweepCase& c : cases) {
+    if (!c.loaded) continue;
+    for (const auto* notes : {&c.loaded->notes, &c.loaded->static_notes})
+      for (const std::string& note : *notes)
+        if (told.insert(note).second) spdlog::warn("{}", note);
+  }
+}
 
 /// Each once, with the number of cases that have it.
 void print_warnings(const std::vector<SweepCase>& cases) {
@@ -103,6 +117,7 @@ ExitCode command_sweep(const CommandOptions& options) {
   const std::vector<VariedKey> keys = parse_vary(options.sweep.vary);
   const LoadedCase base = load_case_of(options);
   std::vector<SweepCase> cases = plan_sweep(base, options.overrides, keys);
+  warn_of_notes(base, cases);
   InfluenceCache cache;
   SweepOptions sweep;
   sweep.bem.cell = cell_size(options.cell);
@@ -133,6 +148,10 @@ ExitCode command_sweep(const CommandOptions& options) {
   if (stop_flag()) {
     spdlog::warn("stopped; {} holds the first cases", (out / "sweep.csv").string());
     return ExitCode::interrupted;
+  }
+  if (options.page) {
+    write_sweep_page(out / "report.html", base.spec.title, keys, cases, columns);
+    spdlog::info("everything on one page: {}", (out / "report.html").string());
   }
   const auto faults = std::count_if(cases.begin(), cases.end(), [](const SweepCase& c) { return !c.fault.empty(); });
   if (faults > 0) spdlog::warn("{} of {} cases failed: see the column fault", faults, cases.size());

@@ -21,6 +21,11 @@ struct CreepCurveOptions {
   int points = 21;              ///< --points
   bool both_sides = false;      ///< --both-sides: braking and driving, left and right
 };
+struct CreepTableCommandOptions {
+  std::vector<std::string> axes;  ///< --axis
+  int places = 200;               ///< --places, where interpolation is compared with direct solutions
+  bool resume = false;            ///< --resume
+};
 struct SweepCommandOptions {
   std::vector<std::string> vary;  ///< --vary
   bool stresses = false;          ///< --stresses
@@ -37,6 +42,11 @@ struct StudyOptions {
   std::string engine;               ///< --engine; empty: all
   std::vector<std::string> groups;  ///< --group; empty: all
   bool dry_run = false;             ///< --dry-run
+  std::string lease = "5 min";      ///< --lease: a time
+  bool list = false;                ///< --list
+  std::string batch;                ///< --batch: the word of a batch system
+  int only = 0;                     ///< --only: from 1; 0: all
+  bool wait = true;                 ///< --no-wait: for cases that others compute
 };
 struct ShakedownOptions {
   std::string engine = "bem";  ///< --engine
@@ -53,13 +63,17 @@ struct MaterialOptions {
   std::string depth;                                         ///< --depth: a length; empty: the top
 };
 struct PassesOptions {
-  std::string engine = "bem";  ///< --engine
-  int passes = 20;             ///< --passes, since the first one
-  bool resume = false;         ///< --resume
+  std::string engine = "bem";               ///< --engine
+  int passes = 20;                          ///< --passes, since the first one
+  bool resume = false;                      ///< --resume
+  std::string checkpoint_every = "10 min";  ///< --checkpoint-every: a wall time; fem
+  std::string roll_length;                  ///< --roll-length: a length; empty: chosen; fem
+  std::string wheels = "new";               ///< --wheels; fem
 };
 struct ReportOptions {
   std::vector<std::filesystem::path> folders;
   bool reference = true;  ///< --no-reference: without the half-space solution beside a single result
+  bool what_if = false;   ///< --what-if: with the explorer on the case
 };
 struct ExportOptions {
   std::string to;         ///< --to: the word of a program
@@ -84,6 +98,8 @@ struct CommandOptions {
   std::vector<std::string> command_line;
   RunOptions run;
   CreepCurveOptions creep_curve;
+  CreepTableCommandOptions creep_table;
+  int usetab_cells = 20;  ///< --cells, along either axis of the ellipse
   SweepCommandOptions sweep;
   WearLoopOptions wear_loop;
   StudyOptions study;
@@ -108,13 +124,18 @@ ExitCode command_bem(const CommandOptions& options);
 ExitCode command_shakedown(const CommandOptions& options);
 ExitCode command_material(const CommandOptions& options);
 ExitCode command_passes(const CommandOptions& options);
+/// The same with --engine fem.
+ExitCode command_rolled_passes(const CommandOptions& options);
 ExitCode command_compare(const CommandOptions& options);
 ExitCode command_creep_curve(const CommandOptions& options);
+ExitCode command_creep_table(const CommandOptions& options);
+ExitCode command_usetab(const CommandOptions& options);
 ExitCode command_sweep(const CommandOptions& options);
 ExitCode command_collective(const CommandOptions& options);
 ExitCode command_wear_loop(const CommandOptions& options);
 ExitCode command_study(const CommandOptions& options);
 ExitCode command_report(const CommandOptions& options);
+ExitCode command_explore(const CommandOptions& options);
 ExitCode command_export(const CommandOptions& options);
 ExitCode command_schema(const CommandOptions& options);
 ExitCode command_info(const CommandOptions& options);

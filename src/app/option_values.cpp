@@ -9,21 +9,18 @@
 #include "core/faults.hpp"
 
 namespace railstrata {
-namespace {
 
-double length_of(const std::string& text) {
+double length_of(const std::string& option, const std::string& text) {
   try {
     return parse_quantity(text, dimension::kLength);
   } catch (const UnitError& e) {
-    throw CaseError(fmt::format("--cell \"{}\": {}", text, e.what()), e.remedy);
+    throw CaseError(fmt::format("{} \"{}\": {}", option, text, e.what()), e.remedy);
   }
 }
 
-}  // namespace
-
 double cell_size(const std::string& text) {
   if (text.empty()) return BemOptions{}.cell;
-  const double cell = length_of(text);
+  const double cell = length_of("--cell", text);
   if (!(cell >= kSmallestCell && cell <= kLargestCell))
     throw CaseError(fmt::format("--cell \"{}\" is out of range", text),
                     fmt::format("write a length from {:g} mm to {:g} mm", 1e3 * kSmallestCell, 1e3 * kLargestCell));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -24,6 +25,13 @@ std::vector<int> allowed_processors() {
   return out;
 }
 
+// Of a rank among several on this machine that are not bound to cores of their own: its part of them.
+int cores_of_rank(int cores) {
+  const char* const ranks = std::getenv("OMPI_COMM_WORLD_LOCAL_SIZE");
+  const bool bound = static_cast<long>(allowed_processors().size()) < sysconf(_SC_NPROCESSORS_ONLN);
+  return ranks == nullptr || bound ? cores : std::max(1, cores / std::max(1, std::atoi(ranks)));
+}
+
 }  // namespace
 
 int physical_cores() {
@@ -37,9 +45,10 @@ int physical_cores() {
 }
 
 int default_threads() {
-  return std::clamp(
-      std::getenv("OMP_NUM_THREADS") != nullptr ? max_threads() : std::min(max_threads(), physical_cores()), 1,
-      kMostThreads);
+  return std::clamp(std::getenv("OMP_NUM_THREADS") != nullptr
+                        ? max_threads()
+                        : cores_of_rank(std::min(max_threads(), physical_cores())),
+                    1, kMostThreads);
 }
 
 std::string oversubscription(int threads) {

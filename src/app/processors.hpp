@@ -9,7 +9,8 @@ namespace railstrata {
 int physical_cores();
 inline constexpr int kMostThreads = 1024;
 
-/// Threads to start with: OMP_NUM_THREADS if that is set (at most kMostThreads), otherwise physical_cores().
+/// Threads to start with: OMP_NUM_THREADS if that is set (at most kMostThreads), otherwise physical_cores(), shared
+/// with the other ranks that mpirun has started on this machine.
 int default_threads();
 /// What is wrong with so many threads here: more of them than processors. Empty if nothing is.
 std::string oversubscription(int threads);

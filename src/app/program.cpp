@@ -25,6 +25,7 @@
 
 #include "app/commands.hpp"
 #include "app/processors.hpp"
+#include "app/reference_commands.hpp"
 #include "app/usage.hpp"
 #include "core/engine.hpp"
 #include "core/nearest_word.hpp"
@@ -140,6 +141,27 @@ void add_creep_curve(CLI::App& sub, CommandOptions& options) {
       ->check(CLI::Range(2, 1000));
   sub.add_flag("--both-sides", options.creep_curve.both_sides,
                "The curve through zero: driving and braking, slip to the gauge and to the field side");
+  add_no_report(sub, options);
+}
+
+void add_creep_table(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-creep-table");
+  add_cell(sub, options);
+  add_repeated(sub, "--axis", options.creep_table.axes, "WORD=VALUES",
+               "An axis: creepage_x, creepage_y, spin, load, friction, lateral_shift, yaw or a key of the case; values "
+               "\"v1,v2,...\", \"from:to:count\" or, dense about 0, \"+-largest:count\"")
+      ->required();
+  sub.add_option("--places", options.creep_table.places,
+                 "Places where interpolation is compared with a solution (default: 200; 0: none)")
+      ->check(CLI::Range(0, 100'000));
+  sub.add_flag("--resume", options.creep_table.resume, "Go on with a table that was stopped");
+}
+
+void add_usetab(CLI::App& sub, CommandOptions& options) {
+  add_output(sub, options, "results/usetab");
+  sub.add_option("--cells", options.usetab_cells, "Cells along either axis of the ellipse (default: 20)")
+      ->check(CLI::Range(6, 100));
 }
 
 void add_sweep(CLI::App& sub, CommandOptions& options) {
@@ -152,6 +174,7 @@ void add_sweep(CLI::App& sub, CommandOptions& options) {
       ->required();
   sub.add_flag("--stresses", options.sweep.stresses,
                "Largest stresses in the rail too (takes longer than the contact)");
+  add_no_report(sub, options);
 }
 
 void add_collective(CLI::App& sub, CommandOptions& options) {
@@ -188,7 +211,24 @@ void add_study(CLI::App& sub, CommandOptions& options) {
       ->check(CLI::IsMember(engine_words()));
   add_repeated(sub, "--group", options.study.groups, "NAME", "Only the cases of this group; once for each group");
   sub.add_option("--shard", options.study.shard,
-                 "i/n: compute every n-th case from the i-th on, for n machines that share the folder");
+                 "i/n: only every n-th case from the i-th on, for n machines that share the folder");
+  auto* list = sub.add_flag("--list", options.study.list,
+                            "List the cases with index, state and estimates of time and memory; compute nothing. With "
+                            "--json also key and command");
+  sub.add_option("--batch", options.study.batch,
+                 "Print a job script for the cases to do, with time and memory from the estimates: slurm")
+      ->check(CLI::IsMember({"slurm"}))
+      ->excludes(list);
+  sub.add_option("--only", options.study.only, "Only the case of this index, as --list counts")
+      ->check(CLI::Range(1, 1000000));
+  sub.add_flag_callback(
+      "--no-wait", [&options] { options.study.wait = false; },
+      "End when all that is left is being computed by other processes; else wait for it, and take over from "
+      "those that die");
+  sub.add_option("--lease", options.study.lease,
+                 "A process that has not touched the claim of its case for so long is held for dead (by the clock of "
+                 "the file server)")
+      ->capture_default_str();
   sub.add_flag("--dry-run", options.study.dry_run, "List the cases and what is done of them; compute nothing");
   add_no_report(sub, options);
 }
@@ -235,14 +275,24 @@ void add_material(CLI::App& sub, CommandOptions& options) {
 void add_passes(CLI::App& sub, CommandOptions& options) {
   add_case(sub, options);
   add_output(sub, options, "results/<case name>-passes");
-  sub.add_option("--engine", options.passes.engine, "Where pressure and friction come from: bem")
-      ->check(CLI::IsMember({"bem"}))
+  sub.add_option("--engine", options.passes.engine,
+                 "bem: stationary method, pressure and friction of the half-spaces; fem: every pass is rolled")
+      ->check(CLI::IsMember(engine_words()))
       ->capture_default_str();
   add_cell(sub, options);
   sub.add_option("--passes", options.passes.passes, "End after so many passes of a wheel, since the first one")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
   sub.add_flag("--resume", options.passes.resume, "Go on with the passes of the folder: the same bits as in one go");
+  add_no_report(sub, options);
+  sub.add_option("--checkpoint-every", options.passes.checkpoint_every,
+                 "fem: save the pass under way this often (default: \"10 min\"; 0: only when stopped)");
+  sub.add_option(
+      "--roll-length", options.passes.roll_length,
+      "fem: rolled in a pass (default: 12 half-lengths of the patch); stations in its middle are the result");
+  sub.add_option("--wheels", options.passes.wheels, "fem: of every pass: new")
+      ->check(CLI::IsMember({"new", "same"}))
+      ->capture_default_str();
 }
 
 void add_compare(CLI::App& sub, CommandOptions& options) {
@@ -260,6 +310,17 @@ void add_report(CLI::App& sub, CommandOptions& options) {
   sub.add_flag_callback(
       "--no-reference", [&options] { options.report.reference = false; },
       "Do not set a finite element result against the half-space solution of its case");
+  sub.add_flag("--what-if", options.report.what_if,
+               "Put the explorer on the case of the first folder into the page: some 1.1 MB more");
+}
+
+void add_explore(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("case", options.case_file,
+                 "Case file, or a folder with case.toml (default: cases/paper/layer_3mm_2E0.toml)");
+  add_set(sub, options, "Override a key of the case; once for each key");
+  add_out(sub, options, "The page to write, NAME.html (default: explore.html)");
+  sub.add_flag("--force", options.force, "Replace a file of this name");
+  add_cell(sub, options);
 }
 
 void add_export(CLI::App& sub, CommandOptions& options) {
@@ -284,6 +345,7 @@ void add_schema(CLI::App& sub, CommandOptions& options) {
 }
 
 void add_nothing(CLI::App&, CommandOptions&) {}
+ExitCode done_by_parsing(const CommandOptions&) { return ExitCode::ok; }
 
 struct Entry {
   const char *name, *what, *examples;
@@ -343,6 +405,15 @@ constexpr Entry kEntries[] = {
      "--points 11 --cell \"0.5 mm\" --out results/creep\n  railstrata creep-curve cases/paper/layer_3mm_2E0.toml --of "
      "lateral_creepage --both-sides --set drive.traction_coefficient=0\n",
      add_creep_curve, command_creep_curve},
+    {"creep-table", "Table of creep forces over axes of your choice, for vehicle codes: HDF5, CSV and a reader in C",
+     "Examples:\n  railstrata creep-table cases/paper/base.toml --axis creepage_x=+-0.02:21 --axis "
+     "creepage_y=+-0.02:21 "
+     "--axis spin=\"-0.5:0.5 1/m:5\" --axis load=\"40 kN,80 kN,120 kN\" --out results/table\n  railstrata creep-table "
+     "cases/paper/layer_3mm_2E0.toml --axis layer.0.thickness=\"1 mm,2 mm,3 mm\" --axis creepage_x=+-0.01:15\n",
+     add_creep_table, command_creep_table},
+    {"usetab", "Kalker's table of creep forces of ellipses of steel, as programs with a USETAB reader take it",
+     "Examples:\n  railstrata usetab --out results/usetab\n  railstrata usetab --cells 30\n", add_usetab,
+     command_usetab},
     {"sweep", "Half-space solutions over every combination of values, one table out",
      "Examples:\n  railstrata sweep cases/paper/layer_3mm_2E0.toml --vary layer.0.thickness=\"1 mm,2 mm,3 mm\" --vary "
      "layer.0.young_ratio=0.5,1,2\n"
@@ -377,6 +448,10 @@ constexpr Entry kEntries[] = {
      "Examples:\n  railstrata report results/quick\n  railstrata report results/thin results/thick --out "
      "thin-thick.html\n",
      add_report, command_report},
+    {"explore",
+     "One page with the half-space engine inside: sliders for layers, load and drive, and a contact that follows them",
+     "Examples:\n  railstrata explore\n  railstrata explore cases/paper/layer_3mm_2E0.toml --out layer.html\n",
+     add_explore, command_explore},
     {"export",
      "The case in the files of other programs: mesh and static preload for Abaqus, CalculiX and LS-DYNA; case and "
      "half-space result for CONTACT",
@@ -389,6 +464,13 @@ constexpr Entry kEntries[] = {
      add_schema, command_schema},
     {"info", "Built-in profiles, compiler, instruction set, libraries, threads",
      "Examples:\n  railstrata info\n  railstrata info --json\n", add_nothing, command_info},
+    {"completion", "Print the script that completes commands, options, keys of --set, their words and units in a shell",
+     "Examples:\n  source <(railstrata completion bash)\n  railstrata completion bash > "
+     "~/.local/share/bash-completion/completions/railstrata\n",
+     [](CLI::App& sub, CommandOptions&) { add_completion(sub); }, done_by_parsing},
+    {"manual", "Print the manual page of the program, of a command or of case files, or write all of them",
+     "Examples:\n  railstrata manual run | man -l -\n  railstrata manual --out ~/.local/share/man\n",
+     [](CLI::App& sub, CommandOptions&) { add_manual(sub); }, done_by_parsing},
 };
 
 std::vector<std::string> command_names() {

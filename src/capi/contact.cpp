@@ -160,7 +160,13 @@ void stress(const rs_contact* contact, int body, const double* xyz, std::size_t 
   if (n > 0 && (!xyz || !out)) throw CaseError("xyz or out is missing", "give arrays of 3 n and 6 n numbers");
   const BemResult& result = *contact->last;
   const Subsurface inside = body == RS_RAIL ? rail_interior(result) : wheel_interior(result);
-  const std::vector<InteriorPoint> found = inside.at(points_of(xyz, n));
+  const std::vector<InteriorPoint> found = [&] {
+    try {
+      return inside.at(points_of(xyz, n));
+    } catch (const std::out_of_range& e) {
+      throw CaseError(e.what(), "give points near the contact, in metres");
+    }
+  }();
   for (std::size_t k = 0; k < n; ++k) {
     const Sym3& s = found[k].stress;
     const double numbers[] = {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz};

@@ -140,6 +140,30 @@ RS_API int rs_field(const rs_contact* contact, int patch, int field, double* out
 #define RS_WHEEL 1
 RS_API int rs_stress(const rs_contact* contact, int body, const double* xyz, size_t n, double* out, rs_error* error);
 
+/* A creep-force table of `railstrata creep-table` (creep_table.h5): numbers over axes, some ten microseconds and less
+ * an answer. Several threads may ask one table at a time. */
+typedef struct rs_table rs_table;
+
+RS_API rs_table* rs_table_open(const char* file, rs_error* error);
+/* NULL is allowed. */
+RS_API void rs_table_close(rs_table* table);
+
+/* Axes and numbers of a table, by index from 0: names, units (SI; "" of a plain number) and the ends of an axis. NULL
+ * or NaN: there is none of this index. The texts belong to the table. */
+RS_API int rs_table_axes(const rs_table* table);
+RS_API const char* rs_table_axis(const rs_table* table, int axis);
+RS_API const char* rs_table_axis_unit(const rs_table* table, int axis);
+RS_API double rs_table_axis_first(const rs_table* table, int axis);
+RS_API double rs_table_axis_last(const rs_table* table, int axis);
+RS_API int rs_table_numbers(const rs_table* table);
+RS_API const char* rs_table_number(const rs_table* table, int number);
+RS_API const char* rs_table_number_unit(const rs_table* table, int number);
+
+/* Interpolates, linear along every axis: `at` has a value for each axis, `out` room for each number. A number is NaN
+ * where a corner of the cell around has no answer. Returns how many values of `at` lie beyond their axis: these are
+ * taken at its end. -1: `table`, `at` or `out` is NULL, or a value is NaN. */
+RS_API int rs_table_at(const rs_table* table, const double* at, double* out);
+
 #ifdef __cplusplus
 }
 #endif

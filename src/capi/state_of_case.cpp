@@ -55,6 +55,14 @@ void require_one_of(const rs_state& s, unsigned one, unsigned other, std::string
     throw CaseError(fmt::format("rs_state.given has both {}", text), "set one of the two bits");
 }
 
+/// A drive of a case at rest would be void, its forces zero.
+void require_rolling(const rs_state& s, const CaseSpec& spec) {
+  constexpr unsigned kDrive = RS_CREEPAGE_X | RS_CREEPAGE_Y | RS_SPIN | RS_FORCE_X | RS_FORCE_Y;
+  if (spec.run.rolling || !(s.given & kDrive)) return;
+  throw CaseError("rs_state gives a creepage, a spin or a force, and the case is at rest, without friction",
+                  "take out run.rolling = false, or give the load and the position alone", "run.rolling");
+}
+
 double number(double value, std::string_view name, bool positive) {
   if (std::isfinite(value) && (!positive || value > 0)) return value;
   throw CaseError(fmt::format("rs_state.{} = {:g} is no force that can be used", name, value),
@@ -94,6 +102,7 @@ CaseSpec with_state(CaseSpec spec, const rs_state& s) {
   require_one_of(s, RS_LOAD, RS_APPROACH, "RS_LOAD and RS_APPROACH");
   require_one_of(s, RS_CREEPAGE_X, RS_FORCE_X, "RS_CREEPAGE_X and RS_FORCE_X");
   require_one_of(s, RS_CREEPAGE_Y, RS_FORCE_Y, "RS_CREEPAGE_Y and RS_FORCE_Y");
+  require_rolling(s, spec);
   for (const Member& m : kMembers)
     if (s.given & m.bit) put(spec, m, s.*m.value);
   if (s.given & RS_CREEPAGE_Y) spec.drive.lateral_traction_coefficient.reset();

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "bem/case_patch.hpp"
 #include "bem/profile_gap.hpp"
 #include "core/faults.hpp"
 #include "export/deck_text.hpp"
@@ -65,6 +66,30 @@ void require_plain(const CaseSpec& spec) {
   if (spec.third_body.thickness) refuse("film of this form", "third_body.thickness");
 }
 
+/// What the rigid slip of a cell has beyond creepages and spin about the patch's middle, in CONTACT's signs: the
+/// variation of the rolling radius across the patch and the local angle of spin. Empty: none.
+PlanePair extra_rigid_slip(const CaseSpec& spec, const Placement& placement, const BemPatch& patch) {
+  Placement own = placement;
+  own.contact = patch.contact;
+  const PatchGrid& g = patch.grid;
+  const CasePatch on = case_patch_on(g, spec, own, {}, {.load = patch.force.normal, .approach = {}});
+  const RollingContact& problem = on.contact;
+  PlanePair out{Plane(g.size()), Plane(g.size())};
+  const auto further = [](const Plane& plane, std::size_t k) {
+    return k < plane.size() && std::isfinite(plane[k]) ? plane[k] : 0.0;
+  };
+  bool any = false;
+  for (int i = 0; i < g.nx; ++i)
+    for (int j = 0; j < g.ny; ++j) {
+      const std::size_t k = g.index(i, j);
+      if (!(on.profile.gap[k] < ProfileGap::kNoSurface)) continue;
+      out.x[k] = -further(problem.extra_slip.x, k);
+      out.y[k] = further(problem.extra_slip.y, k) + further(problem.local_spin, static_cast<std::size_t>(j)) * g.x(i);
+      any = any || out.x[k] != 0 || out.y[k] != 0;
+    }
+  return any ? out : PlanePair{};
+}
+
 }  // namespace
 
 std::string contact_mat(const CaseSpec& spec, const Placement& placement, const BemPatch& patch) {
@@ -93,12 +118,13 @@ std::string contact_input(const CaseSpec& spec, const Placement& placement, cons
   const RigidSlip slip = rolling ? patch.rigid_slip : RigidSlip{};
   const double friction = rolling ? spec.drive.friction_coefficient : 1;
   const MaterialSpec &rail = spec.rail_material, &wheel = spec.wheel_material;
+  const PlanePair extra = rolling ? extra_rigid_slip(spec, placement, patch) : PlanePair{};
   std::string out;
   add(out, "% {}\n% written by RailStrata; body 1 is the rail, y to the right, z down; mm, N, rad\n",
       one_line(spec.title));
   add(out, " 3  MODULE\n 20{}100     P-B-T-N-F-S        PVTIME, BOUND , TANG  , NORM , FORCE, STRESS\n",
       rolling ? 3 : 0);
-  add(out, " 022020     L-D-C-M-Z-E        FRCLAW, DISCNS, INFLCF, MATER, RZNORM, EXRHS\n");
+  add(out, " 02202{}     L-D-C-M-Z-E        FRCLAW, DISCNS, INFLCF, MATER, RZNORM, EXRHS\n", extra.x.empty() ? 0 : 9);
   add(out, " 0001341    H-G-I-A-O-W-R      HEAT, GAUSEI, IESTIM, MATFIL, OUTPUT, FLOW, RETURN\n");
   add(out, " 999  100  30  1  1e-6         MAXGS , MAXIN , MAXNR , MAXOUT, EPS\n");
   add(out, " {:.9g} {:.9g} {:.9g} {:.9g}   FN, CKSI, CETA, CPHI\n", patch.force.normal, -slip.x, slip.y,
@@ -114,6 +140,10 @@ std::string contact_input(const CaseSpec& spec, const Placement& placement, cons
   each_cell(g, [&](int number, std::size_t k) {
     add(out, " {:.9g}{}", kMillimetres * gap[k], number % g.nx == 0 || number % 8 == 0 ? "\n" : "");
   });
+  if (!extra.x.empty()) {
+    add(out, "% EXRHS(I,2), EXRHS(I,3): variation of the rolling radius, local angle of spin\n");
+    each_cell(g, [&](int, std::size_t k) { add(out, " {:.9g} {:.9g}\n", extra.x[k], extra.y[k]); });
+  }
   out += " 0  MODULE\n";
   return out;
 }

@@ -15,7 +15,8 @@ namespace railstrata {
 /// differences (0: not kept), relative slip velocity. `placement` gives the undeformed distance.
 std::string contact_mat(const CaseSpec& spec, const Placement& placement, const BemPatch& patch);
 
-/// The case of one patch: normal force and creepages given, undeformed distance cell by cell. Throws CaseError for what
+/// The case of one patch: normal force and creepages given, undeformed distance cell by cell; what the rigid slip has
+/// besides, as an extra term of every cell (E = 9): rolling radius, local angle of spin. Throws CaseError for what
 /// CONTACT's homogeneous half-spaces with Coulomb friction are not.
 std::string contact_input(const CaseSpec& spec, const Placement& placement, const BemPatch& patch);
 

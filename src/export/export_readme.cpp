@@ -34,9 +34,7 @@ void add_contact_losses(std::vector<std::string>& out, const CaseSpec& spec) {
   if (!spec.layers.empty()) out.emplace_back("the layers: there is no case file for CONTACT; the results have them");
   if (spec.friction.law != FrictionForm::coulomb || spec.third_body.thickness)
     out.emplace_back("friction that falls with slip, or a film: the table's MU is the static coefficient");
-  out.emplace_back(
-      "where the leading edge cuts a cell, and the local angle of spin: CONTACT takes whole cells and the "
-      "contact plane's (bem.leading_edge, bem.spin_angle)");
+  out.emplace_back("where the leading edge cuts a cell: CONTACT takes whole cells (bem.leading_edge)");
 }
 
 const char* how_to_run(ExportTarget target) {

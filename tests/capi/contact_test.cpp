@@ -115,6 +115,20 @@ TEST(CInterface, StressesAreInEquilibriumWithThePressureAtTheSurface) {
   ASSERT_EQ(rs_stress(contact.handle, RS_RAIL, xyz, 2, s, &contact.error), RS_OK) << contact.error.message;
   EXPECT_NEAR(-s[2], contact.forces.p_max, 0.1 * contact.forces.p_max);
   EXPECT_LT(-s[8], -s[2]);
+  const double far[] = {100, 0, 1e-3};
+  EXPECT_EQ(rs_stress(contact.handle, RS_RAIL, far, 1, s, &contact.error), RS_CASE);
+  EXPECT_NE(std::string(contact.error.message).find("too far away"), std::string::npos) << contact.error.message;
+}
+
+TEST(CInterface, ADriveOfACaseAtRestIsRefused) {
+  Contact contact({"run.rolling=false"});
+  rs_state state = state_of(RS_CREEPAGE_X);
+  state.creepage_x = 1e-3;
+  EXPECT_EQ(contact.solve(state), RS_CASE);
+  EXPECT_NE(std::string(contact.error.message).find("run.rolling"), std::string::npos) << contact.error.message;
+  rs_state pressed = state_of(RS_LOAD);
+  pressed.load = 80e3;
+  EXPECT_EQ(contact.solve(pressed), RS_OK) << contact.error.message;
 }
 
 TEST(CInterface, SolutionsThatStartFromTheOneBeforeAgreeWithNewOnes) {
@@ -182,18 +196,31 @@ TEST(CInterface, StatesThatCannotBeAreRefusedAndLeaveNoSolution) {
   EXPECT_EQ(rs_points(contact.handle, 0, &nx, nullptr, nullptr), RS_CASE);
 }
 
-TEST(CInterface, ContactsOfSeveralThreadsHaveTheBitsOfOne) {
-  std::vector<double> found(4);
+/// A contact under two loads, the second from the solution of the first; its longitudinal forces.
+std::vector<double> two_loads(double load) {
+  Contact contact;
+  std::vector<double> out;
+  for (const double share : {1.0, 1.05}) {
+    rs_state state = state_of(RS_LOAD);
+    state.load = share * load;
+    EXPECT_EQ(contact.solve(state), RS_OK) << contact.error.message;
+    out.push_back(contact.forces.force_x);
+    out.push_back(contact.forces.p_max);
+  }
+  return out;
+}
+
+TEST(CInterface, EightContactsOnFourThreadsHaveTheBitsOfOne) {
+  std::vector<std::vector<double>> alone(8), together(8);
+  for (std::size_t k = 0; k < alone.size(); ++k) alone[k] = two_loads(70e3 + 2e3 * static_cast<double>(k));
   std::vector<std::thread> threads;
-  for (std::size_t k = 0; k < found.size(); ++k)
-    threads.emplace_back([&found, k] {
-      Contact contact;
-      rs_solve(contact.handle, nullptr, &contact.forces, nullptr);
-      found[k] = contact.forces.force_x;
+  for (std::size_t t = 0; t < 4; ++t)
+    threads.emplace_back([&together, t] {
+      for (std::size_t k = t; k < together.size(); k += 4) together[k] = two_loads(70e3 + 2e3 * static_cast<double>(k));
     });
   for (std::thread& t : threads) t.join();
-  for (const double f : found) EXPECT_EQ(f, found[0]);
-  EXPECT_NE(found[0], 0);
+  EXPECT_EQ(together, alone);
+  EXPECT_NE(alone[0], alone[1]);
 }
 
 }  // namespace

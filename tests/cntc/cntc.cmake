@@ -3,5 +3,7 @@ if(RAILSTRATA_LIBRARY)
   add_test(NAME cntc:ctypes COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/cntc/contact_test.py
     $<TARGET_FILE:contact_addon> ${CMAKE_SOURCE_DIR}/src/cntc/railstrata_cntc.h
     ${CMAKE_SOURCE_DIR}/tests/data/reference)
-  set_tests_properties(cntc:ctypes PROPERTIES TIMEOUT 600 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+  add_test(NAME cntc:exported COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/cntc/exported_test.py
+    $<TARGET_FILE:contact_addon> $<TARGET_FILE:railstrata>)
+  set_tests_properties(cntc:ctypes cntc:exported PROPERTIES TIMEOUT 600 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
 endif()

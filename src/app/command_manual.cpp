@@ -1,0 +1,64 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <system_error>
+
+#include "app/command_words.hpp"
+#include "app/completion.hpp"
+#include "app/manual.hpp"
+#include "app/reference_commands.hpp"
+#include "case/case_schema.hpp"
+#include "core/faults.hpp"
+#include "io/provenance.hpp"
+
+namespace railstrata {
+namespace {
+
+/// As `man` looks for it: FOLDER/man1/railstrata-run.1.
+void write_page(const std::filesystem::path& root, const ManualPage& page) {
+  const std::filesystem::path folder = root / fmt::format("man{}", page.section);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw EnvironmentError(fmt::format("cannot make {}: {}", folder.string(), error.message()));
+  const std::filesystem::path file = folder / fmt::format("{}.{}", page.name, page.section);
+  std::ofstream out(file);
+  out << page.text;
+  out.close();
+  if (!out) throw EnvironmentError(fmt::format("cannot write {}", file.string()));
+}
+
+void manual(const CLI::App& program, const std::string& wanted, const std::filesystem::path& folder) {
+  const std::string name = wanted.empty() ? "railstrata" : "railstrata-" + wanted;
+  for (const ManualPage& page : manual_pages(command_words(program), case_keys(), build_info().version)) {
+    if (!folder.empty())
+      write_page(folder, page);
+    else if (page.name == name)
+      fmt::print("{}", page.text);
+  }
+}
+
+}  // namespace
+
+void add_completion(CLI::App& sub) {
+  const auto shell = std::make_shared<std::string>();
+  sub.add_option("shell", *shell, "The shell that reads it")->required()->check(CLI::IsMember({"bash"}));
+  sub.final_callback(
+      [shell, &sub] { fmt::print("{}", bash_completion(command_words(*sub.get_parent()), case_keys())); });
+}
+
+void add_manual(CLI::App& sub) {
+  std::vector<std::string> pages{"case"};
+  for (const CLI::App* command : sub.get_parent()->get_subcommands([](const CLI::App*) { return true; }))
+    pages.push_back(command->get_name());
+  const auto page = std::make_shared<std::string>();
+  const auto folder = std::make_shared<std::filesystem::path>();
+  sub.add_option("page", *page, "A command, or case: the keys of a case (default: the program)")
+      ->check(CLI::IsMember(pages));
+  sub.add_option("-o,--out", *folder, "Folder for all pages, which go to man1 and man5 there");
+  sub.final_callback([page, folder, &sub] { manual(*sub.get_parent(), *page, *folder); });
+}
+
+}  // namespace railstrata

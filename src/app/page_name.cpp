@@ -1,0 +1,22 @@
+#include "app/page_name.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+
+#include "core/faults.hpp"
+#include "core/shell_word.hpp"
+
+namespace railstrata {
+
+void require_name_of_page(const std::filesystem::path& page, const std::string& preset) {
+  std::string ending = page.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (ending == ".html" || ending == ".htm") return;
+  const std::filesystem::path other =
+      page.has_filename() ? std::filesystem::path(page).replace_extension(".html") : page / preset;
+  throw CaseError(fmt::format("--out {}: a page has a name that ends in .html", page.string()),
+                  fmt::format("write for example --out {}", shell_word(other.string())));
+}
+
+}  // namespace railstrata

@@ -1,0 +1,66 @@
+// Tables through the C interface.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "capi/railstrata.h"
+#include "io/table_file.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+class CTable : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    file_ = fs::temp_directory_path() / ("railstrata_c_" + std::to_string(::getpid()) + ".h5");
+    write_force_table(file_,
+                      {{{"creepage_x", "", {-0.01, 0, 0.02}}, {"load", "N", {50e3, 1e5}}},
+                       {{"force_x", "N", {10, 20, 0, 0, -20, -40}}}},
+                      {});
+  }
+  void TearDown() override { fs::remove(file_); }
+  fs::path file_;
+};
+
+}  // namespace
+
+TEST_F(CTable, AnswersByNamesUnitsAndEnds) {
+  rs_error error;
+  rs_table* table = rs_table_open(file_.c_str(), &error);
+  ASSERT_TRUE(table) << error.message;
+  ASSERT_EQ(rs_table_axes(table), 2);
+  EXPECT_STREQ(rs_table_axis(table, 1), "load");
+  EXPECT_STREQ(rs_table_axis_unit(table, 1), "N");
+  EXPECT_EQ(rs_table_axis_first(table, 0), -0.01);
+  EXPECT_EQ(rs_table_axis_last(table, 0), 0.02);
+  ASSERT_EQ(rs_table_numbers(table), 1);
+  EXPECT_STREQ(rs_table_number(table, 0), "force_x");
+  EXPECT_STREQ(rs_table_number_unit(table, 0), "N");
+  const double inside[] = {0.005, 75e3}, beyond[] = {0.5, 75e3}, nothing[] = {NAN, 75e3};
+  double force = 0;
+  EXPECT_EQ(rs_table_at(table, inside, &force), 0);
+  EXPECT_NEAR(force, -7.5, 1e-12);
+  EXPECT_EQ(rs_table_at(table, beyond, &force), 1);
+  EXPECT_NEAR(force, -30, 1e-12);
+  EXPECT_EQ(rs_table_at(table, nothing, &force), -1);
+  EXPECT_EQ(rs_table_at(table, inside, nullptr), -1);
+  EXPECT_EQ(rs_table_axis(table, 2), nullptr);
+  EXPECT_EQ(rs_table_number(table, -1), nullptr);
+  rs_table_close(table);
+  rs_table_close(nullptr);
+}
+
+TEST_F(CTable, ThatIsNotThereIsRefusedWithTheRemedy) {
+  rs_error error;
+  EXPECT_EQ(rs_table_open("/nowhere/creep_table.h5", &error), nullptr);
+  EXPECT_EQ(error.code, RS_CASE);
+  EXPECT_NE(std::string(error.message).find("remedy: name a creep_table.h5"), std::string::npos) << error.message;
+  EXPECT_EQ(rs_table_open(nullptr, &error), nullptr);
+}
+
+}  // namespace railstrata

@@ -1,0 +1,225 @@
+#!/usr/bin/env python3
+"""The explorer as a reader meets it: in a browser, from the disk, its numbers held against `railstrata bem`.
+usage: page_test.py BINARY SOURCE_DIR"""
+import json
+import pathlib
+import shlex
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "report"))
+from browser import Browser
+
+BINARY, SOURCES = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
+CASE = "cases/paper/layer_3mm_2E0.toml"
+SAME = 1e-6  # of a number here and there; of a stress, over the largest pressure
+
+
+def half_space(arguments, folder):
+    """summary.json of a `railstrata bem` as the page writes it."""
+    words = shlex.split(arguments)
+    assert words[:2] == ["railstrata", "bem"], words
+    out = folder / "bem"
+    run = subprocess.run([BINARY, *words[1:], "--out", str(out), "--force", "--no-report", "--no-single-track",
+                          "--threads", "1"], cwd=SOURCES, capture_output=True, text=True, check=False)
+    assert run.returncode in (0, 1), run.stderr
+    return json.loads((out / "summary.json").read_text())
+
+
+class Explorer(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.temporary = tempfile.TemporaryDirectory()
+        cls.folder = pathlib.Path(cls.temporary.name)
+        cls.page = cls.folder / "explore.html"
+        subprocess.run([BINARY, "explore", CASE, "--cell", "0.5 mm", "--out", str(cls.page)], cwd=SOURCES, check=True,
+                       capture_output=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.temporary.cleanup()
+
+    def setUp(self):
+        BROWSER.driver.get("about:blank")
+        BROWSER.open(self.page)
+        self.asked = BROWSER.requests()
+        self.settle()
+
+    def data(self, name):
+        return BROWSER.js("return document.documentElement.dataset[arguments[0]]", name)
+
+    def settle(self, seconds=60):
+        BROWSER.wait(lambda: self.data("state") in ("settled", "refused", "broken"), "the page comes to rest", seconds)
+        return self.data("state")
+
+    def move(self, **knobs):
+        """Sliders by their fields' ids, then rest."""
+        for knob, value in knobs.items():
+            BROWSER.js(
+                "const f = document.getElementById('n-' + arguments[0]); f.value = arguments[1]; "
+                "f.dispatchEvent(new Event('input', {bubbles: true}))", knob, str(value))
+        return self.settle()
+
+    def agrees_with_the_program(self):
+        expected = half_space(self.data("command"), self.folder)
+        shown = json.loads(self.data("summary"))
+        for key, value in expected["contact"].items():
+            if value is not None:
+                self.assertAlmostEqual(shown["contact"][key], value, delta=SAME * max(abs(value), 1e-3), msg=key)
+        pressure = expected["contact"]["p_max_Pa"]
+        for body, zones in expected["stress"].items():
+            for zone, measures in zones.items():
+                for measure, largest in (measures or {}).items():
+                    here = shown["stress"][body][zone][measure]["value_Pa"]
+                    self.assertAlmostEqual(here, largest["value_Pa"], delta=SAME * pressure,
+                                           msg=f"{body} {zone} {measure}")
+        if "shakedown" in expected:
+            for key in ("wandering", "upper", "first_yield"):
+                self.assertAlmostEqual(shown["shakedown"]["factors"][key], expected["shakedown"]["factors"][key],
+                                       delta=SAME, msg=key)
+        return expected
+
+    def test_it_asks_for_nothing_and_complains_of_nothing(self):
+        self.assertEqual(self.settle(), "settled")
+        self.assertEqual([url for url in self.asked if not url.startswith("blob:")], [self.page.resolve().as_uri()])
+        self.move(h1=1.5)
+        self.assertEqual([url for url in BROWSER.requests() if not url.startswith("blob:")], [])
+        self.assertEqual(BROWSER.console(), [])
+
+    def test_its_numbers_are_those_of_the_program(self):
+        self.agrees_with_the_program()
+        for change in ({"h1": 1.35}, {"e1": 0.5}, {"load": 60}, {"t": 0.1}, {"y": -2}, {"h2": 1, "e2": 3}, {"f": 0.3}):
+            with self.subTest(change=change):
+                self.assertEqual(self.move(**change), "settled")
+                self.agrees_with_the_program()
+
+    def test_layers_come_and_go(self):
+        self.move(h1=0)
+        self.assertIn("layer=[]", self.data("command"))
+        without = self.agrees_with_the_program()
+        self.assertIsNone(without["stress"]["rail"]["layer"])
+        self.move(h1=0, h2=2, e2=0.5)
+        self.agrees_with_the_program()
+
+    def test_strengths_give_the_reserve(self):
+        self.move(sr=480, s1=800)
+        expected = self.agrees_with_the_program()
+        self.assertIn(expected["shakedown"]["verdict"], BROWSER.text("#lasting"))
+
+    def test_a_slider_shows_the_same_number_as_its_field(self):
+        BROWSER.js("const s = document.getElementById('s-h1'); s.value = '1.2'; "
+                   "s.dispatchEvent(new Event('input', {bubbles: true}))")
+        self.assertEqual(self.settle(), "settled")
+        self.assertEqual(BROWSER.js("return document.getElementById('n-h1').value"), "1.2")
+        self.assertIn("layer.0.thickness=1.2 mm", self.data("command"))
+        self.agrees_with_the_program()
+
+    def test_what_cannot_be_is_said_and_can_be_taken_back(self):
+        self.assertEqual(self.move(t=0.49, f=0.2), "refused")
+        words = BROWSER.text("#faults")
+        self.assertIn("friction", words)
+        self.assertIn("What to do", words)
+        self.assertEqual(self.move(t=0.1), "settled")
+        self.assertEqual(BROWSER.text("#faults"), "")
+
+    def choose(self, kind, name, text):
+        file = self.folder / name
+        file.write_text(text)
+        BROWSER.driver.find_element("id", f"profile-{kind}").send_keys(str(file))
+        BROWSER.wait(lambda: self.data("state") == "moving" or BROWSER.text("#faults"), "the profile is read")
+        return self.settle()
+
+    def test_a_profile_that_is_none_gives_the_reader_s_words(self):
+        BROWSER.js("document.querySelectorAll('aside details').forEach(d => d.open = true)")
+        self.assertEqual(self.choose("rail", "nonsense.txt", "this is\nno profile\n"), "refused")
+        said = BROWSER.text("#faults")
+        file = self.folder / "nonsense.txt"
+        run = subprocess.run([BINARY, "bem", CASE, "--set", f"geometry.rail_profile={file}", "--out",
+                              str(self.folder / "never")], cwd=SOURCES, capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 2)
+        words = run.stderr.split("error: ")[1].split("\n")[0]
+        self.assertIn(words, said)
+        BROWSER.js("document.getElementById('b-reset').click()")
+        self.assertEqual(self.settle(), "settled")
+
+    def test_a_profile_of_one_s_own(self):
+        BROWSER.js("document.querySelectorAll('aside details').forEach(d => d.open = true)")
+        shipped = "uic60_60e1_head.csv"
+        text = (SOURCES / "data/profiles" / shipped).read_text()
+        self.assertEqual(self.choose("rail", shipped, text), "settled")
+        command = self.data("command")
+        self.assertIn(f"geometry.rail_profile=rail/{shipped}", command)
+        command = command.replace("rail_profile=rail/", f"rail_profile={SOURCES}/data/profiles/")
+        expected = half_space(command, self.folder)["contact"]["p_max_Pa"]
+        self.assertAlmostEqual(float(self.data("pMax")), expected, delta=SAME * expected)
+
+    def test_case_file_csv_and_link_say_the_same(self):
+        self.move(h1=1.7, t=-0.1)
+        p_max = float(self.data("pMax"))
+        BROWSER.js("document.getElementById('b-case-file').click()")
+        case = BROWSER.downloads / "layer_3mm_2E0-explored.toml"
+        BROWSER.wait(case.exists, "the case file is saved", 10)
+        command = f"railstrata bem {shlex.quote(str(case))} --cell '0.5 mm'"
+        again = half_space(command, self.folder)["contact"]["p_max_Pa"]
+        self.assertAlmostEqual(p_max, again, delta=SAME * again)
+        BROWSER.js("document.querySelector('dialog')?.remove(); document.getElementById('b-csv').click()")
+        table = BROWSER.downloads / "layer_3mm_2E0-explored.csv"
+        BROWSER.wait(table.exists, "the table is saved", 10)
+        self.assertIn("x_m,y_m,p_Pa", table.read_text())
+        link = BROWSER.js("return location.href")
+        self.assertIn("#h1=1.7&t=-0.1", link)
+        BROWSER.driver.get("about:blank")
+        BROWSER.driver.get(link)
+        BROWSER.wait(lambda: self.data("ready") == "true", "the page of the link")
+        self.settle()
+        self.assertAlmostEqual(float(self.data("pMax")), p_max, delta=SAME * p_max)
+
+    def test_pins_compare(self):
+        BROWSER.js("document.getElementById('b-pin').click()")
+        self.move(h1=1)
+        self.assertIn("vs pin", BROWSER.text(".tiles"))
+        self.assertIn("%", BROWSER.text(".numbers"))
+
+    def test_sixty_changes_leave_the_memory_as_it_is(self):
+        def change(k):
+            self.move(h1=0.5 + 0.05 * k, load=60 + k % 7)
+            return int(self.data("memory")), BROWSER.js("return performance.memory?.usedJSHeapSize ?? 0")
+
+        after = [change(k) for k in range(60)]
+        engine = [e for e, _ in after]
+        print(f"memory of the engine: {engine[9] / 2**20:.1f} MiB after 10 changes, {engine[-1] / 2**20:.1f} after 60")
+        self.assertLessEqual(engine[-1], engine[14])
+        self.assertLess(engine[-1], 256 * 2**20)
+
+    def test_it_fits_a_telephone(self):
+        BROWSER.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride",
+                                       {"width": 390, "height": 844, "deviceScaleFactor": 2, "mobile": True})
+        try:
+            time.sleep(0.3)
+            self.move(h1=2.5)
+            self.assertLessEqual(BROWSER.js("return document.documentElement.scrollWidth"), 390)
+            for width in BROWSER.js("return [...document.querySelectorAll('canvas')].map(c => c.clientWidth)"):
+                self.assertGreater(width, 250)
+        finally:
+            BROWSER.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
+
+    def test_times(self):
+        """Printed, not judged: this machine may be busy."""
+        for cell in ("0.0005", "0.00025"):
+            BROWSER.js("const c = document.getElementById('cell'); c.value = arguments[0]; "
+                       "c.dispatchEvent(new Event('change'))", cell)
+            for name, layer in (("layer", {"h1": 2.15}), ("its traction", {"t": 0.15}), ("no layer", {"h1": 0})):
+                self.move(**layer)
+                here = float(self.data("contactMilliseconds"))
+                there = 1e3 * half_space(self.data("command"), self.folder)["run"]["wall_s"]
+                print(f"cells of {1e3 * float(cell)} mm, {name}: {here:.0f} ms in the page, {there:.0f} ms natively")
+
+
+if __name__ == "__main__":
+    with Browser() as BROWSER:
+        result = unittest.main(argv=[sys.argv[0], *sys.argv[3:]], exit=False, verbosity=2).result
+    sys.exit(not result.wasSuccessful())
