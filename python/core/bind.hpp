@@ -55,5 +55,8 @@ void bind_half_space(py::module_& m);
 void bind_folder(py::module_& m);
 void bind_run(py::module_& m);
 void bind_sweep(py::module_& m);
+void bind_damage(py::module_& m);
+void bind_material(py::module_& m);
+void bind_passes(py::module_& m);
 
 }  // namespace railstrata::python

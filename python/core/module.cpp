@@ -13,6 +13,9 @@ PYBIND11_MODULE(_core, m) {
   python::bind_folder(m);
   python::bind_run(m);
   python::bind_sweep(m);
+  python::bind_damage(m);
+  python::bind_material(m);
+  python::bind_passes(m);
   m.def("version", [] { return build_info().version; });
   m.def("version_text", &version_text);
   m.def("threads", &max_threads);

@@ -10,7 +10,7 @@ namespace {
 
 using Varied = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
-/// A dict a case: `values` (one per key), `summary` (JSON, None without a result), `fault`.
+/// A dict a case: `values` (one per key), `summary` (JSON, None without a result), `fault`, `static_notes`.
 py::list rows_of(const std::vector<SweepCase>& cases) {
   py::list out;
   for (const SweepCase& c : cases) {
@@ -18,6 +18,7 @@ py::list rows_of(const std::vector<SweepCase>& cases) {
     row["values"] = c.values;
     row["summary"] = c.summary.is_null() ? py::object(py::none()) : py::str(c.summary.dump());
     row["fault"] = c.fault;
+    row["static_notes"] = c.loaded ? c.loaded->static_notes : std::vector<std::string>{};
     out.append(row);
   }
   return out;

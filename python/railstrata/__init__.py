@@ -6,6 +6,7 @@
     result.p_max, result.patch.p        # Pa; arrays are read-only views (stations, columns)
     result.rail.at([[0, 0, 2e-3]])      # stresses 2 mm below the contact
     run = rs.run(case, "results/base")  # finite elements; Ctrl-C leaves a checkpoint
+    rs.passes(strong, "results/yields") # wheel after wheel over a rail that yields
 
 SI units everywhere; signs and axes as in docs/conventions.md.
 """
@@ -15,20 +16,23 @@ import os as _os
 _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 _os.environ.setdefault("GOMP_SPINCOUNT", "3000")
 
-from . import _core  # noqa: E402
-from .case import Case, schema, shipped_data
+from . import _core, damage  # noqa: E402
+from .case import Case, _count, schema, shipped_data
 from .errors import CaseError, CheckWarning, Diagnostic, MachineError, NumericalError
+from .law import DrivenPath, MaterialFit, calibrate, material
 from .patch import Patch, PatchState
 from .results import BemResult, Body, Check, FolderResult, Peak, Peaks, Result, von_mises
-from .results import open_result as open  # noqa: A004 - the word users expect
 from .solve import bem, resume, run, shakedown, sweep
 from .table import Table
+from .yielding import PassesResult, passes
+from .yielding import open_folder as open  # noqa: A004 - the word users expect
 
 __version__: str = _core.version()
 
 
 def threads(count: int = 0) -> int:
     """The number of threads that solvers called from this Python thread use; sets it if `count` is positive."""
+    count = _count(count, "threads")
     if count < 0:
         raise ValueError("threads: a positive number is wanted")
     if count > 0:
@@ -37,7 +41,8 @@ def threads(count: int = 0) -> int:
 
 
 __all__ = [
-    "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Diagnostic", "FolderResult", "MachineError",
-    "NumericalError", "Patch", "PatchState", "Peak", "Peaks", "Result", "Table", "bem", "open", "resume", "run",
-    "schema", "shakedown", "shipped_data", "sweep", "threads", "von_mises",
+    "BemResult", "Body", "Case", "CaseError", "Check", "CheckWarning", "Diagnostic", "DrivenPath", "FolderResult",
+    "MachineError", "MaterialFit", "NumericalError", "PassesResult", "Patch", "PatchState", "Peak", "Peaks", "Result",
+    "Table", "bem", "calibrate", "damage", "material", "open", "passes", "resume", "run", "schema", "shakedown",
+    "shipped_data", "sweep", "threads", "von_mises",
 ]

@@ -2,14 +2,18 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from pathlib import Path
 from typing import Any, Mapping, Optional, Union
+
+import numpy as np
 
 from . import _core
 from .errors import CaseError, Diagnostic
 
 Value = Union[str, int, float, bool, list]
+Length = Union[float, str]
 
 
 def shipped_data() -> Optional[Path]:
@@ -25,6 +29,11 @@ def shipped_data() -> Optional[Path]:
 
 
 def _file_of(path: Union[str, os.PathLike]) -> Path:
+    if not isinstance(path, (str, os.PathLike)) or isinstance(os.fspath(path), bytes):
+        raise TypeError(f"a path is wanted, as text or pathlib.Path, not {path!r:.60}")
+    if not os.fspath(path):
+        raise ValueError('the path is empty: name a case file, a folder with a case.toml, or a shipped case '
+                         '("cases/quick")')
     wanted = Path(path)
     if not wanted.exists() and not wanted.is_absolute():
         data = shipped_data()
@@ -35,16 +44,52 @@ def _file_of(path: Union[str, os.PathLike]) -> Path:
     return wanted
 
 
-def _text_of(value: Value) -> str:
-    if isinstance(value, bool):
+def _text_of(value: Value, key: str) -> str:
+    if isinstance(value, (bool, np.bool_)):
         return "true" if value else "false"
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(json.dumps(v) if isinstance(v, str) else _text_of(v) for v in value) + "]"
-    return repr(float(value)) if isinstance(value, float) else str(value)
+        return "[" + ", ".join(json.dumps(v) if isinstance(v, str) else _text_of(v, key) for v in value) + "]"
+    if isinstance(value, (float, np.floating)):
+        return repr(float(value)) if isinstance(value, float) else str(value)
+    if isinstance(value, (str, int, np.integer)):
+        return str(value)
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    remedy = "leave the key out for its default" if value is None else "give a text with a unit, a number, or a list"
+    raise TypeError(f"{key}: {type(value).__name__} is no value of a case: {remedy}")
 
 
 def _overrides(changes: Optional[Mapping[str, Value]]) -> list[str]:
-    return [f"{key}={_text_of(value)}" for key, value in (changes or {}).items()]
+    if changes is not None and not hasattr(changes, "items"):
+        raise TypeError(f'changes: a dict of keys and values is wanted, {{"layer.0.thickness": "2 mm"}}, '
+                        f"not {type(changes).__name__}")
+    return [f"{key}={_text_of(value, key)}" for key, value in (changes or {}).items()]
+
+
+def _metres(value: Length, what: str) -> float:
+    """A length: a number of metres, or a text with its unit."""
+    if isinstance(value, str):
+        return _core.length_of(what, value)
+    try:
+        return float(value)
+    except (TypeError, ValueError):
+        raise TypeError(f'{what}: metres are wanted, 0.25e-3, or a text with a unit, "0.25 mm"') from None
+
+
+def _count(value: int, what: str) -> int:
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise TypeError(f"{what}: a whole number is wanted, not {value!r:.40}") from None
+
+
+def _case_of(given: Union["Case", str, os.PathLike]) -> "Case":
+    """A case as it is, or that of a path."""
+    if isinstance(given, Case):
+        return given
+    if isinstance(given, (str, os.PathLike)):
+        return Case(given)
+    raise TypeError(f"a railstrata.Case is wanted, or the path of a case file, not {type(given).__name__}")
 
 
 class Case:
@@ -63,6 +108,8 @@ class Case:
     @classmethod
     def from_text(cls, text: str, name: str = "case.toml", changes: Optional[Mapping[str, Value]] = None) -> "Case":
         """The case of a TOML text. `name` stands for the file in messages; profiles are looked for in its folder."""
+        if not isinstance(text, str):
+            raise TypeError(f"text: the TOML text of a case is wanted, not {type(text).__name__}")
         case = cls.__new__(cls)
         case._loaded = _core.parse_case(text, name, _overrides(changes))
         return case
@@ -102,6 +149,8 @@ class Case:
 
     def __getitem__(self, key: str) -> Any:
         """The value of a key in the resolved case, as the file would hold it: case["layer.0.thickness"]."""
+        if not isinstance(key, str):
+            raise TypeError(f'a key is wanted, case["layer.0.thickness"], not {key!r:.40}')
         value: Any = _toml(self.toml)
         for part in key.split("."):
             try:
@@ -110,8 +159,18 @@ class Case:
                 raise KeyError(f"{key}: the case has no such key; rs.schema() lists all of them") from None
         return value
 
+    def __reduce__(self) -> tuple:
+        """Pickled by its text: other processes (multiprocessing "spawn") and copies read the same case again."""
+        return _again, (self._loaded.source, self._loaded.file, list(self._loaded.overrides))
+
     def __repr__(self) -> str:
         return f"railstrata.Case({self.file!r}: {self.title})"
+
+
+def _again(source: str, file: str, overrides: list[str]) -> Case:
+    case = Case.__new__(Case)
+    case._loaded = _core.parse_case(source, file, overrides)
+    return case
 
 
 def _toml(text: str) -> dict:

@@ -161,6 +161,16 @@ class Result:
         """The summary's shakedown factors, where the case says strengths; else None."""
         return self.summary.get("shakedown")
 
+    @property
+    def damage(self) -> Optional[dict]:
+        """The summary's indices of wear, rolling contact fatigue and heat; `railstrata.damage` has them one by one."""
+        return self.summary.get("damage")
+
+    @property
+    def fatigue(self) -> Optional[list]:
+        """The summary's fatigue below the surface by body, where the case says what it needs; else None."""
+        return self.summary.get("fatigue")
+
     def __repr__(self) -> str:
         return f"<railstrata {type(self).__name__} ({self.engine}) {self.title!r}: p_max {self.p_max / 1e6:.1f} MPa>"
 
@@ -179,8 +189,10 @@ class Body:
         self._handle, self.name, self._patch = handle, name, patch
 
     def at(self, points: Any, below_interface: bool = False) -> np.ndarray:
-        """(n, 6) stresses [Pa] at (n, 3) points (x, y, depth) [m]. Points of one depth cost one plane together. On an
-        interface those of the material above, or below if asked. ValueError: a point above the surface."""
+        """(n, 6) stresses [Pa] at (n, 3) points (x, y, depth) [m]. Points of one depth cost one plane together, some 10
+        ms; each distinct depth costs one. On an interface those of the material above, or below if asked. ValueError: a
+        point above the surface, or more than ten lengths of the patch's grid away from it (fewer with layers and small
+        cells)."""
         try:
             return self._handle.stresses_at(self.name, self._patch, np.asarray(points, float), below_interface)
         except IndexError as error:  # std::out_of_range
@@ -208,7 +220,11 @@ class Body:
 
 def von_mises(stress: np.ndarray, axis: int = -1) -> np.ndarray:
     """von Mises stress of components xx, yy, zz, xy, yz, xz along an axis: sqrt(3/2 s:s)."""
-    xx, yy, zz, xy, yz, xz = np.moveaxis(np.asarray(stress), axis, 0)
+    parts = np.asarray(stress, float)
+    if parts.ndim == 0 or not -parts.ndim <= axis < parts.ndim or parts.shape[axis] != 6:
+        raise ValueError(f"stress: six components xx, yy, zz, xy, yz, xz are wanted along axis {axis}, the shape is "
+                         f"{parts.shape}")
+    xx, yy, zz, xy, yz, xz = np.moveaxis(parts, axis, 0)
     return np.sqrt(0.5 * ((xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2) + 3 * (xy**2 + yz**2 + xz**2))
 
 

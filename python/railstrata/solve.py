@@ -8,13 +8,16 @@ import time
 import warnings
 from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
+import numpy as np
+
 from . import _core
-from .case import Case, Value, _text_of
+from .case import Case, Length, Value, _case_of, _count, _metres, _text_of
 from .errors import CheckWarning
 from .results import BemResult, FolderResult, open_result
 from .table import Table
 
 Progress = Union[bool, Callable[..., None]]
+AnyCase = Union[Case, str, os.PathLike]
 
 
 class _Bar:
@@ -57,37 +60,43 @@ def _say(result: Any, notes: Sequence[str] = ()) -> Any:
 
 
 def bem(
-    case: Case, cell: float = 0.25e-3, *, threads: int = 0, stresses: bool = True, single_track: bool = False,
+    case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0, stresses: bool = True, single_track: bool = False,
     progress: Progress = False,
 ) -> BemResult:
     """Solves a case by half-space theory [Kalker1990], as `railstrata bem` does; some ten milliseconds.
 
-    cell: m, side of the cells of the potential contact area, 0.02e-3 to 5e-3. threads: 0 for all. stresses: False
-    leaves out the search for the largest stresses, which costs more than the contact. single_track: the limit of
-    shakedown for traffic on one line too, where the case says strengths (some seconds). progress: of a transient; True,
-    or a function of the fraction that is done. Raises CaseError, NumericalError, MachineError; warns with CheckWarning
-    where a check fails. Several Python threads may call it at a time.
+    case: a Case, or the path of one. cell: m, or a text with a unit ("0.2 mm"), side of the cells of the potential
+    contact area, 0.02e-3 to 5e-3. threads: 0 for all. stresses: False leaves out the search for the largest stresses,
+    which costs more than the contact. single_track: the limit of shakedown for traffic on one line too, where the case
+    says strengths (some seconds). progress: of a transient; True, or a function of the fraction that is done. Raises
+    CaseError, NumericalError, MachineError; warns with CheckWarning where a check fails and where run.rolling = false
+    makes a drive void. Several Python threads may call it at a time.
     """
+    case = _case_of(case)
     handle = _core.solve_half_space(
-        case._loaded, cell, threads, stresses, single_track, False, _callback(progress, "steps", False)
+        case._loaded, _metres(cell, "cell"), _count(threads, "threads"), stresses, single_track, False,
+        _callback(progress, "steps", False),
     )
-    return _say(BemResult(handle))
+    return _say(BemResult(handle), case._loaded.static_notes)
 
 
-def shakedown(case: Case, cell: float = 0.25e-3, *, threads: int = 0) -> BemResult:
+def shakedown(case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0) -> BemResult:
     """Load factors of shakedown of a case by half-spaces, at every level (`railstrata shakedown`); some seconds.
 
     The case must say strengths (yield_strength or grade). `result.shakedown` has the factors by body and zone.
     """
-    handle = _core.solve_half_space(case._loaded, cell, threads, True, True, False, None)
+    case = _case_of(case)
+    handle = _core.solve_half_space(
+        case._loaded, _metres(cell, "cell"), _count(threads, "threads"), True, True, False, None
+    )
     result = BemResult(handle)
     if not result.shakedown:
         raise ValueError('the case says no strength: give yield_strength = "500 MPa" or grade = "R260" to materials')
-    return _say(result)
+    return _say(result, case._loaded.static_notes)
 
 
 def run(
-    case: Case, folder: Union[str, os.PathLike], *, force: bool = False, checkpoint_every: float = 600.0,
+    case: AnyCase, folder: Union[str, os.PathLike], *, force: bool = False, checkpoint_every: float = 600.0,
     max_time: float = 0.0, progress: Progress = False,
 ) -> FolderResult:
     """Runs a case by finite elements into a result folder, as `railstrata run` does; minutes to hours.
@@ -96,6 +105,7 @@ def run(
     leaves a checkpoint and raises KeyboardInterrupt; `resume` goes on from it to the same bits. What the progress
     function raises stops the run in the same way. Raises CaseError, NumericalError, MachineError, TimeoutError.
     """
+    case = _case_of(case)
     return _finish(
         lambda follow: _core.run_case(case._loaded, str(folder), force, checkpoint_every, max_time, follow),
         folder, progress,
@@ -126,17 +136,31 @@ def _finish(work: Callable[[Any], tuple], folder: Any, progress: Progress) -> Fo
     return _say(open_result(folder), notes)
 
 
+def _listed(values: Any) -> Sequence[Value]:
+    """Values to vary over; a text, a number or a path alone is one."""
+    alone = isinstance(values, (str, os.PathLike, dict)) or (isinstance(values, np.ndarray) and values.ndim == 0)
+    if alone or not hasattr(values, "__iter__"):
+        return [values]
+    return list(values)
+
+
 def sweep(
-    case: Case, varied: Mapping[str, Sequence[Value]], cell: float = 0.25e-3, *, stresses: bool = False,
-    progress: Progress = False,
+    case: AnyCase, varied: Mapping[str, Union[Value, Sequence[Value]]], cell: Length = 0.25e-3, *,
+    stresses: bool = False, progress: Progress = False,
 ) -> Table:
     """Half-space solutions of every combination of values, side by side on all threads (`railstrata sweep`).
 
     varied: keys of the case and their values, {"layer.0.thickness": ["1 mm", "3 mm"]}; the last key changes fastest.
-    A case that cannot be solved says why in the column "fault".
+    A text or a number alone is one value. A case that cannot be solved says why in the column "fault"; CaseError: a key
+    without values, or all cases refused.
     """
-    keys = [(key, [_text_of(v) for v in values]) for key, values in varied.items()]
-    rows = _core.sweep(case._loaded, keys, cell, stresses, _callback(progress, "sweep", False))
+    if not hasattr(varied, "items"):
+        raise TypeError('varied: a dict of keys and their values is wanted, {"layer.0.thickness": ["1 mm", "3 mm"]}')
+    case = _case_of(case)
+    keys = [(key, [_text_of(v, key) for v in _listed(values)]) for key, values in varied.items()]
+    rows = _core.sweep(case._loaded, keys, _metres(cell, "cell"), stresses, _callback(progress, "sweep", False))
+    for note in dict.fromkeys(note for row in rows for note in row["static_notes"]):
+        warnings.warn(note, CheckWarning, stacklevel=2)
     columns = _core.result_columns(stresses)
     return Table([key for key, _ in keys], columns, [
         (row["values"], None if row["summary"] is None else json.loads(row["summary"]), row["fault"]) for row in rows

@@ -1,8 +1,11 @@
 """rs.bem: the program's numbers, views, errors, threads."""
+import copy
 import gc
 import json
+import pickle
 import subprocess
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -134,3 +137,65 @@ def test_a_shift_history_is_followed_and_stopped_by_its_progress_function():
 
     with pytest.raises(RuntimeError, match="enough"):
         rs.bem(fretting, 0.1e-3, stresses=False, progress=stop)
+
+
+@pytest.mark.parametrize("none", [[], np.array([]), ()])
+def test_a_sweep_over_no_values_is_refused(case, none):
+    with pytest.raises(rs.CaseError, match="layer.0.thickness has no values"):
+        rs.sweep(case, {"drive.traction_coefficient": [0.1], "layer.0.thickness": none})
+
+
+def test_a_text_or_a_number_alone_is_one_value_of_a_sweep(case):
+    table = rs.sweep(case, {"layer.0.thickness": "1 mm", "drive.traction_coefficient": 0.1}, cell="1 mm")
+    assert len(table) == 1 and table["layer.0.thickness"] == ["1 mm"] and table["fault"] == [""]
+
+
+def test_a_drive_that_a_case_at_rest_makes_void_warns():
+    still = rs.Case("cases/verification/hertz_sphere.toml")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        rs.bem(still, 1e-3, stresses=False)
+    driven = still.with_({"drive.creepage": 0.001})
+    for work in (lambda: rs.bem(driven, 1e-3, stresses=False),
+                 lambda: rs.sweep(still, {"drive.creepage": [0.001, 0.002]}, 1e-3)):
+        with pytest.warns(rs.CheckWarning, match="drive.creepage has no effect: run.rolling = false"):
+            work()
+    assert any("drive.creepage" in note for note in driven.notes)
+
+
+def test_points_far_away_are_refused_before_they_cost_memory(result):
+    for far in ([100, 0, 1e-3], [0, -100, 1e-3], [1, 0, 1e-3]):
+        with pytest.raises(ValueError, match="too far away.*metres"):
+            result.rail.at([far])
+
+
+def test_what_is_given_wrongly_is_told_in_words(case, result):
+    quick = "cases/quick"
+    assert rs.bem(quick, "1 mm", stresses=False).p_max == rs.bem(case, 1e-3, stresses=False).p_max
+    with pytest.raises(rs.CaseError, match="cell"):
+        rs.bem(case, "1 kN")
+    for kind, words, wrong in (
+        (TypeError, "metres", lambda: rs.bem(case, cell=None)),
+        (TypeError, "Case is wanted", lambda: rs.bem(5)),
+        (TypeError, "whole number", lambda: rs.bem(case, threads="a")),
+        (TypeError, "whole number", lambda: rs.threads("x")),
+        (TypeError, "TOML text", lambda: rs.Case.from_text(5)),
+        (TypeError, "a key is wanted", lambda: case[0]),
+        (ValueError, "path is empty", lambda: rs.Case("")),
+        (TypeError, "a path is wanted", lambda: rs.Case(None)),
+        (TypeError, "drive.speed: NoneType", lambda: case.with_({"drive.speed": None})),
+        (TypeError, "drive.speed: ndarray", lambda: case.with_({"drive.speed": np.zeros(2)})),
+        (TypeError, "dict of keys", lambda: rs.Case(quick, "drive.speed")),
+        (TypeError, "dict of keys", lambda: rs.sweep(case, ["drive.speed"])),
+        (ValueError, "six components", lambda: rs.von_mises(np.zeros((2, 5)))),
+        (ValueError, "six components", lambda: rs.von_mises(1.0)),
+    ):
+        with pytest.raises(kind, match=words):
+            wrong()
+    assert rs.Case(quick, {"run.rolling": np.bool_(False)})["run.rolling"] is False
+
+
+def test_cases_are_pickled_by_their_text(case):
+    changed = case.with_({"layer.0.thickness": "3 mm"})
+    for again in (pickle.loads(pickle.dumps(changed)), copy.deepcopy(changed)):
+        assert again.toml == changed.toml and again["layer.0.thickness"] == "3 mm"
