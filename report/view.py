@@ -9,9 +9,11 @@
 Both bodies are cut lengthwise through the largest pressure; the half on the field side is shown, seen from the track.
 Colours are von Mises stresses of the elements (--field sigma1_MPa: largest principal stresses); the black lines are the
 border of the layer. A half-space result has no elements: its patch is shown on the rail.
-Axes: x rolling direction, y to the field side, z up; metres."""
+Axes: x rolling direction, y to the field side, z up; metres. The arrows in the lower left corner of VTK's picture are
+10 mm long."""
 import argparse
 import json
+import math
 import os
 import pathlib
 import subprocess
@@ -20,6 +22,7 @@ import sys
 WRITTEN_TO = ""  # filled in by RailStrata; ParaView's window does not tell a script where it lies
 FOLDER = pathlib.Path(__file__).resolve().parent if "__file__" in globals() else pathlib.Path(WRITTEN_TO)
 STEEL = (0.72, 0.75, 0.78)
+DARK = (0.2, 0.2, 0.2)
 SIZE = (1400, 1000)
 HALF_HEIGHT = 0.026  # m, of what is seen
 
@@ -65,6 +68,22 @@ def camera(place):
     """Position and view-up: from the track side, a little from the front and from above."""
     x, y, z = place
     return (x + 0.12, y - 0.5, z + 0.13), (x, y, z - 0.001), (0, 0, 1)
+
+
+def arrows(place):
+    """Where the axes stand, in the lower left corner and nearer to the eye than the bodies; (turn about z or y in
+    degrees, name) of each, 10 mm long."""
+    eye, focus, _ = camera(place)
+    back = [a - b for a, b in zip(eye, focus)]
+    size = math.hypot(*back)
+    back = [v / size for v in back]
+    level = math.hypot(back[0], back[1])
+    right = [-back[1] / level, back[0] / level, 0]
+    up = [back[1] * right[2] - back[2] * right[1], back[2] * right[0] - back[0] * right[2],
+          back[0] * right[1] - back[1] * right[0]]
+    at = [f - 0.030 * r - 0.021 * u + 0.08 * b for f, r, u, b in zip(focus, right, up, back)]
+    return at, [((0, 0, 0), (1, 0, 0), "x rolling"), ((0, 0, 90), (0, 1, 0), "y field side"),
+                ((0, -90, 0), (0, 0, 1), "z up, 10 mm")]
 
 
 # ---- VTK -------------------------------------------------------------------------------------------------------------
@@ -208,6 +227,24 @@ def show_with_vtk(arguments):
         keep.append(half)
         add(half, colour=STEEL, opacity=0.45)
 
+    corner, axes = arrows(place)
+    for turn, way, words in axes:
+        arrow = vtk.vtkArrowSource()
+        arrow.SetTipLength(0.25)
+        arrow.SetTipRadius(0.06)
+        arrow.SetShaftRadius(0.018)
+        actor = add(arrow, colour=DARK)
+        actor.SetPosition(corner)
+        actor.SetOrientation(*turn)
+        actor.SetScale(0.01)
+        actor.GetProperty().LightingOff()
+        label = vtk.vtkBillboardTextActor3D()
+        label.SetInput(words)
+        label.SetPosition([c + 0.0107 * w for c, w in zip(corner, way)])
+        label.GetTextProperty().SetColor(DARK)
+        label.GetTextProperty().SetFontSize(17)
+        renderer.AddActor(label)
+
     bar = vtk.vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetTitle(name)
@@ -272,6 +309,8 @@ def show_with_paraview(arguments):
     view.ViewSize = list(SIZE)
     view.UseColorPaletteForBackground = 0
     view.Background = [1, 1, 1]
+    view.OrientationAxesVisibility = 1
+    text += "\nx rolling direction, y field side, z up"
 
     def show(source, colour, opacity=1.0):
         display = simple.Show(source, view)

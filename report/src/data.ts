@@ -25,11 +25,11 @@ export interface Grid {
   state: string;      // one digit a point: 0 separated, 1 stick, 2 slip
 }
 
-/// The patch of a transient on its way: states on one grid, index as in Grid.
+/// The patch on its way: states on one grid, index as in Grid; of finite elements each with its own x.
 export interface Film {
   x: number[];
   y: number[];
-  frames: {step: number; distance_mm: number; q: PackedNumbers; state: string}[];
+  frames: {step: number; distance_mm: number; q: PackedNumbers; state: string; x?: number[]}[];
 }
 
 /// Values at cell centres, index along + along.length * row; rows go down from the surface.
@@ -39,7 +39,19 @@ export interface Section {
   depth: number[];
   von_mises: PackedNumbers;
   sigma_1: PackedNumbers;
-  material: string;  // one digit (base 36) a cell
+  sigma_xz: PackedNumbers;
+  tau_max: PackedNumbers;
+  plastic_p?: PackedNumbers;  // accumulated plastic strain, of runs with plasticity
+  material: string;           // one digit (base 36) a cell
+}
+
+export type StressQuantity = "von_mises"|"sigma_1"|"sigma_xz"|"tau_max";
+
+/// Cross sections one behind the other: values index along + along.length * (row + rows * slice).
+export interface Slices extends Record<StressQuantity, PackedNumbers> {
+  at: number[];
+  along: number[];
+  depth: number[];
 }
 
 export interface BodySections {
@@ -130,6 +142,20 @@ export interface BodyFatigue {
   interfaces?: InterfaceStress[];
 }
 
+/// What yielded; place: of the largest accumulated plastic strain.
+export interface PlasticNumbers {
+  strain: number|null;
+  accumulated: number|null;
+  elements: number|null;
+  x_m: number|null;
+  y_m: number|null;
+  depth_m: number|null;
+  work_J: number|null;
+  dissipated_J: number|null;
+  body: BodyName|null;
+  zone: string|null;
+}
+
 export interface Summary {
   state?: string;  // of a transient: which of its states this is
   position_m: number|null;
@@ -138,6 +164,7 @@ export interface Summary {
   stress: Record<BodyName, Zones>;
   shakedown?: {factors: Factors; verdict?: string; fails_by?: string[]; bodies: BodyShakedown[]};
   fatigue?: BodyFatigue[];
+  plastic?: PlasticNumbers;
   run: Record<string, number|string|null>;
 }
 
@@ -155,9 +182,11 @@ export interface Run {
   centre_line: CentreLine;
   further_centre_lines: CentreLine[];
   depth_line: Columns|null;
+  wheel_depth_line: Columns|null;
   history: Columns|null;
   film: Film|null;
   sections: Partial<Record<BodyName, BodySections>>;
+  slices: Partial<Record<BodyName, Slices|null>>;
   shakedown: Partial < Record < BodyName, {
     profile: Columns;
     map: Columns;
@@ -259,6 +288,44 @@ export interface CheckWords {
   unit: Unit;
 }
 
+/// Of a rail that yields, a point whose way through the load is told.
+export interface WayPoint {
+  name: string;
+  y_m: number;
+  depth_m: number;
+}
+
+/// passes.json as it stands.
+export interface PassesSummary {
+  title: string;
+  method?: string;
+  passes: number;
+  verdict?: string;
+  law?: string;
+  class: string;
+  passes_per_cycle?: number;
+  net_strain_per_pass: number|null;
+  trend?: number|null;
+  last_pass: Record<string, number|null>;
+  ductility?: {strain: number; reached: number; passes: number | null; earliest: number | null; latest: number | null};
+  shakedown?: {factors: Record<string, number|null>; verdict: string};
+  zones?: {name: string; zone: number; top_m: number}[];
+  loops?: WayPoint[];
+  assumptions?: string[];
+  notes?: string[];
+}
+
+/// A folder of passes.
+export interface PassesStory {
+  name: string;
+  summary: PassesSummary;
+  passes: Columns;
+  residual: Columns;
+  profile: Columns;
+  loops: Columns|null;
+  along: Columns|null;
+}
+
 /// What becomes of a zone, from the best to the worst.
 export interface VerdictWords {
   words: string;
@@ -285,6 +352,7 @@ export interface Report {
   charts: Chart[];
   maps: Maps[];
   grids: Grids[];
+  passes?: PassesStory[];  // over rails that yield
 }
 
 export function unpack(packed: PackedNumbers): Values {

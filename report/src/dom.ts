@@ -42,7 +42,7 @@ function tableCell(tag: "th"|"td", c: string|Cell): HTMLElement {
 export function note(...children: Child[]): HTMLElement { return element("p", {class: "note"}, ...children); }
 
 /// What is shown on demand.
-export function details(summary: string, ...children: Child[]): HTMLElement {
+export function details(summary: string, ...children: Child[]): HTMLDetailsElement {
   return element("details", {}, element("summary", {}, summary), ...children);
 }
 

@@ -52,14 +52,22 @@ export interface DataTable {
   names: string[];
   rows: (string|number|null)[][];
 }
-export interface Figure {
+interface Framed {
   id: string;
   title: string;
   words?: (string|Node)[];
   wide?: boolean;
-  draw(theme: Theme, width: number): Drawing;
   table(): DataTable;
 }
+/// By Plotly.
+export interface Plotted extends Framed {
+  draw(theme: Theme, width: number): Drawing;
+}
+/// By hand, into its frame.
+export interface Painted extends Framed {
+  paint(plot: HTMLElement, theme: Theme, width: number): void;
+}
+export type Figure = Plotted|Painted;
 
 const kFont = 'system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
 
@@ -135,16 +143,51 @@ export function frame(figure: Figure): HTMLElement {
 
 /// Drops the figures inside an element.
 export function forget(inside: HTMLElement): void {
-  for (const [id, {plot}] of shown) {
+  for (const [id, {figure, plot}] of shown) {
     if (!inside.contains(plot)) continue;
-    Plotly.purge(plot as never);
+    if ("draw" in figure) Plotly.purge(plot as never);
     shown.delete(id);
+  }
+}
+
+/// An axis title on two lines where one is longer than its axis: broken at a comma, or at a space near the middle.
+function brokenTitle(text: string, room: number): string {
+  const letter = 6.3;  // px, of the mean letter of a title
+  if (letter * text.length <= room || text.includes("<br>")) return text;
+  const middle = 0.5 * text.length;
+  const places = [...text.matchAll(/, | /g)].map((m) => ({at: m.index + m[0].length, comma: m[0].length > 1}));
+  const cost = (place: {at: number; comma: boolean}) => Math.abs(place.at - middle) - (place.comma ? 8 : 0);
+  const best = places.sort((a, b) => cost(a) - cost(b))[0];
+  return best ? `${text.slice(0, best.at).trimEnd()}<br>${text.slice(best.at)}` : text;
+}
+
+type Titled = {
+  title?: {text: string}
+}|undefined;
+
+/// Long titles of axes on a narrow page.
+function fitTitles(layout: Record<string, unknown>): void {
+  const margin = {l: 58, r: 16, t: 12, b: 44, ...(layout.margin as Record<string, number>)};
+  const room = {
+    xaxis: (layout.width as number) - margin.l - margin.r,
+    yaxis: (layout.height as number) - margin.t - margin.b
+  };
+  for (const name of ["xaxis", "yaxis"] as const) {
+    const title = (layout[name] as Titled)?.title;
+    if (!title) continue;
+    const text = brokenTitle(title.text, room[name]);
+    if (text === title.text) continue;
+    title.text = text;
+    layout.margin = {...margin, ...(name === "xaxis" ? {b: margin.b + 16} : {l: margin.l + 14})};
+    if (name === "xaxis") layout.height = (layout.height as number) + 16;
   }
 }
 
 function draw({figure, plot}: Shown, theme: Theme, space: number): void {
   if (space <= 0) return;  // folded away: drawn when it is opened
+  if ("paint" in figure) return figure.paint(plot, theme, space);
   const {data, layout} = figure.draw(theme, space);
+  fitTitles(layout);
   void Plotly.react(plot as never, data as never, layout as never, {
     displaylogo: false,
     showSendToCloud: false,

@@ -41,50 +41,56 @@ function rangeOf(m: Grids): [number, number] {
   return [Math.min(0, ...all), Math.max(...all)];
 }
 
-function valuesOf(m: Grids, g: VerdictGrid, theme: Theme): Record<string, unknown>[] {
-  const [low, high] = rangeOf(m);
-  const shown = shownCells(g);
-  const light = (v: number|null) => v !== null && v > low + 0.6 * (high - low);
-  return [
-    {
-      type: "heatmap",
-      x: g.x.map((_, i) => i),
-      y: g.y.map((_, j) => j),
-      z: g.y.map((_, j) => g.x.map((_x, i) => g.cells[i + g.x.length * j]?.factor ?? null)),
-      zmin: low,
-      zmax: high,
-      colorscale: magnitudeColours(),
-      showscale: false,
-      xgap: 2,
-      ygap: 2,
-      hoverinfo: "skip",
-    },
-    {
-      type: "scatter",
-      mode: "text",
-      x: shown.map(({i}) => i),
-      y: shown.map(({j}) => j),
-      text: shown.map(({c}) => numberText(c.factor, 3)),
-      textfont: {color: shown.map(({c}) => (light(c.factor) ? "#1b1f24" : "#ffffff")), size: theme.size + 1},
-      customdata: shown.map(({i, j}) => `${plotText(g.x[i])}, ${plotText(g.y[j])}<br>${plotText(m.value)}`),
-      hovertemplate: "%{customdata} %{text}<extra></extra>",
-    },
-  ];
+/// What a picture of cells takes from each: its number on a scale, its text, the colour of that, the words over it.
+interface CellLook {
+  z: (c: GridCell) => number | null;
+  range: [low: number, high: number];
+  colours: unknown;
+  text: (c: GridCell) => string;
+  letters: (c: GridCell) => string;
+  words: (c: GridCell) => string;
 }
 
-function dataOf(g: VerdictGrid, theme: Theme): Record<string, unknown>[] {
-  const rows = g.y.map((_, j) => g.x.map((_, i) => g.cells[i + g.x.length * j]));
+/// Values on one scale for all grids of a row.
+function lookOfValues(m: Grids): CellLook {
+  const [low, high] = rangeOf(m);
+  const light = (v: number|null) => v !== null && v > low + 0.6 * (high - low);
+  return {
+    z: (c) => c.factor,
+    range: [low, high],
+    colours: magnitudeColours(),
+    text: (c) => numberText(c.factor, 3),
+    letters: (c) => (light(c.factor) ? "#1b1f24" : "#ffffff"),
+    words: (c) => `${plotText(m.value)} ${numberText(c.factor, 3)}`,
+  };
+}
+
+function lookOfVerdicts(theme: Theme): CellLook {
+  return {
+    z: place,
+    range: [-0.5, kFills.length - 0.5],
+    colours: scale(),
+    text: cellText,
+    letters: (c) => kLetters[place(c)] ?? theme.ink,
+    words: (c) => {
+      const why = [c.verdict, ...c.fails_by.filter((words) => words !== c.verdict)].join("; ");
+      return `<b>${why}</b><br>factor ${numberText(c.factor, 3)}`;
+    },
+  };
+}
+
+function dataOf(g: VerdictGrid, look: CellLook, theme: Theme): Record<string, unknown>[] {
   const shown = shownCells(g);
-  const letters = shown.map(({c}) => kLetters[place(c)] ?? theme.ink);
+  const valueOf = (c: GridCell|null) => (c ? look.z(c) : null);
   return [
     {
       type: "heatmap",
       x: g.x.map((_, i) => i),
       y: g.y.map((_, j) => j),
-      z: rows.map((row) => row.map((c) => (c ? place(c) : null))),
-      zmin: -0.5,
-      zmax: kFills.length - 0.5,
-      colorscale: scale(),
+      z: g.y.map((_, j) => g.x.map((_x, i) => valueOf(g.cells[i + g.x.length * j]))),
+      zmin: look.range[0],
+      zmax: look.range[1],
+      colorscale: look.colours,
       showscale: false,
       xgap: 2,
       ygap: 2,
@@ -95,12 +101,9 @@ function dataOf(g: VerdictGrid, theme: Theme): Record<string, unknown>[] {
       mode: "text",
       x: shown.map(({i}) => i),
       y: shown.map(({j}) => j),
-      text: shown.map(({c}) => cellText(c)),
-      textfont: {color: letters, size: theme.size + 1},
-      customdata: shown.map(({c, i, j}) => {
-        const why = [c.verdict, ...c.fails_by.filter((words) => words !== c.verdict)].join("; ");
-        return `${g.x[i]}, ${g.y[j]}<br><b>${why}</b><br>factor ${numberText(c.factor, 3)}`;
-      }),
+      text: shown.map(({c}) => look.text(c)),
+      textfont: {color: shown.map(({c}) => look.letters(c)), size: theme.size + 1},
+      customdata: shown.map(({c, i, j}) => `${plotText(g.x[i])}, ${plotText(g.y[j])}<br>${look.words(c)}`),
       hovertemplate: "%{customdata}<extra></extra>",
     },
   ];
@@ -137,7 +140,7 @@ function gridFigure(m: Grids, g: VerdictGrid, n: number): Figure {
     id: `${m.id}-${n + 1}`,
     title: g.name,
     draw: (theme, width) => ({
-      data: m.value ? valuesOf(m, g, theme) : dataOf(g, theme),
+      data: dataOf(g, m.value ? lookOfValues(m) : lookOfVerdicts(theme), theme),
       layout: layoutOf(m, g, theme, width),
     }),
     table: () => tableOf(m, g),

@@ -1,6 +1,6 @@
 // Charts of lines.
 import type {Span, Values} from "./data";
-import {axis, baseLayout, type DataTable, type Figure, type Theme} from "./figures";
+import {axis, baseLayout, type DataTable, type Plotted, type Theme} from "./figures";
 import {plotText} from "./text";
 
 export interface Series {
@@ -29,6 +29,7 @@ export interface LinesSpec {
   deepest?: number;    // of y that grows downwards
   leastSpan?: number;  // of y, as a share of its largest value: small ripples stay small
   wide?: boolean;
+  log?: "xy";  // logarithmic axes: values above zero alone
 }
 
 /// A little more than the values take; lines do not run along the frame.
@@ -72,6 +73,14 @@ function dashedLevel(y: number, theme: Theme): Record<string, unknown> {
   return {type: "line", ...place, line: {color: theme.ink, width: 1.4, dash: "dash"}};
 }
 
+/// Exponents of ten that hold the values; at least from 1 to 10.
+function decades(values: Values[]): Span {
+  const all = values.flat().filter((v): v is number => v !== null && v > 0).map(Math.log10);
+  if (!all.length) return [0, 1];
+  const low = Math.min(...all);
+  return [low - 0.1, Math.max(Math.max(...all), low + 0.3) + 0.1];
+}
+
 function rangeOfY(c: LinesSpec): Span {
   const lines = c.series.map((s) => s.y);
   if (!c.downwards) return roomFor(lines, c.leastSpan);
@@ -79,15 +88,37 @@ function rangeOfY(c: LinesSpec): Span {
   return [1.02 * Math.max(...lines.flat().map((v) => v ?? 0)), 0];
 }
 
+/// Rows of the legend above the plot: its entries are as wide as the longest.
+function legendRows(c: LinesSpec, theme: Theme, width: number): number {
+  const named = c.series.filter((s) => !s.quiet);
+  if (c.series.length < 2) return 0;
+  const entry = 50 + 0.52 * theme.size * Math.max(...named.map((s) => s.name.length));
+  return Math.ceil(named.length / Math.max(1, Math.floor((width - 78) / entry)));
+}
+
+function axesOf(c: LinesSpec, theme: Theme): Record<string, unknown> {
+  const [x, y] = c.labels;
+  if (c.log) {
+    const log = (title: string, values: Values[]) => axis(theme, title, {type: "log", range: decades(values)});
+    return {xaxis: log(x, c.series.map((s) => s.x)), yaxis: log(y, c.series.map((s) => s.y))};
+  }
+  return {
+    xaxis: axis(theme, x, {range: c.window ?? roomFor(c.series.map((s) => s.x))}),
+    yaxis: axis(theme, y, {range: rangeOfY(c)}),
+  };
+}
+
 function layoutOf(c: LinesSpec, theme: Theme, width: number): Record<string, unknown> {
   const band = c.band ? [shadedBand(c.band, theme)] : [];
   const levels = (c.levels ?? []).map((y) => dashedLevel(y, theme));
+  const legend = 19 * Math.max(0, legendRows(c, theme, width) - 1);  // the plot keeps its height below it
+  const base = baseLayout(theme, width, Math.min(c.height ?? 330, 0.75 * width + 40) + legend);
   return {
-    ...baseLayout(theme, width, Math.min(c.height ?? 330, 0.75 * width + 40)),
-    margin: {l: 62, r: 16, t: 30, b: 46},
+    ...base,
+    legend: {...(base.legend as object), maxheight: 600},
+    margin: {l: 62, r: 16, t: 30 + legend, b: 46},
     showlegend: c.series.length > 1,
-    xaxis: axis(theme, c.labels[0], {range: c.window ?? roomFor(c.series.map((s) => s.x))}),
-    yaxis: axis(theme, c.labels[1], {range: rangeOfY(c)}),
+    ...axesOf(c, theme),
     shapes: [...band, ...levels],
   };
 }
@@ -97,7 +128,7 @@ function rowsOfSeries(s: Series): (string|number|null)[][] {
   return s.x.map((x, i) => [s.name, x, s.y[i]]).filter(([, x, y]) => x !== null && y !== null);
 }
 
-export function linesFigure(c: LinesSpec): Figure {
+export function linesFigure(c: LinesSpec): Plotted {
   return {
     id: c.id,
     title: c.title,

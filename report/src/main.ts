@@ -5,13 +5,19 @@ import {drawAll, forget, frame, kDark, kLight, setOrigin, type Figure, type Them
 import {gridsRow} from "./grids";
 import {lastsPart} from "./lasts";
 import {linesFigure, type Series} from "./lines";
+import {passesContents, passesParts} from "./passes";
 import {centreLines, patchesTable, patchMaps} from "./patch";
 import {geometryFigures, geometryTable} from "./geometry";
+import {hero} from "./hero";
 import {historyFigures} from "./history";
 import {numbersTable, origin, tiles, verdict} from "./sections";
-import {depthLines, maximaTable, sectionMaps} from "./stress";
+import {slicesParts} from "./slices";
+import {spaceParts} from "./space";
+import {depthLines, kShear, maximaTable, sectionMaps} from "./stress";
 import {filmParts, transientFigures} from "./transient";
 import {engineName, numberText, plotText, runLabel, setWords} from "./text";
+import {yieldedPart} from "./yielded";
+import {hasWhatIf, whatIfPart} from "./whatif";
 
 const report = JSON.parse(document.getElementById("data")!.textContent!) as Report;
 setWords(report.words);
@@ -60,7 +66,7 @@ function chartFigure(c: Chart): Figure {
     x: s.x,
     y: s.y,
     markers: s.markers && s.x.length < 60,
-    dash: s.dash,
+    dash: s.colour < 0 && n >= kLight.series.length ? "dash" : s.dash,  // colours begin again
     colour: (t) => t.series[(s.colour < 0 ? n : s.colour) % t.series.length],
     hover,
   });
@@ -75,13 +81,13 @@ function chartFigure(c: Chart): Figure {
   });
 }
 
+/// Over all cases; of a page without runs the figures first.
 function studyParts(): HTMLElement[] {
-  const out: HTMLElement[] = [];
-  if (report.grids.length) out.push(part("grids", "What lasts", ...report.grids.flatMap(gridsRow)));
-  if (report.tables.length) out.push(part("tables", "Answers", ...report.tables.flatMap(studyTable)));
-  if (report.charts.length) out.push(part("charts", "Figures", grid(report.charts.map(chartFigure))));
-  if (report.maps.length) out.push(part("maps", "Maps", ...report.maps.flatMap(mapsRow)));
-  return out;
+  const lasts = report.grids.length ? [part("grids", "What lasts", ...report.grids.flatMap(gridsRow))] : [];
+  const answers = report.tables.length ? [part("tables", "Answers", ...report.tables.flatMap(studyTable))] : [];
+  const charts = report.charts.length ? [part("charts", "Figures", grid(report.charts.map(chartFigure)))] : [];
+  const maps = report.maps.length ? [part("maps", "Maps", ...report.maps.flatMap(mapsRow))] : [];
+  return [...lasts, ...(report.runs.length ? [...answers, ...charts] : [...charts, ...answers]), ...maps];
 }
 
 /// Of a line through the patch only where it touches, with a little room; everything of a trend.
@@ -91,10 +97,13 @@ function touched(c: Chart): Span|undefined {
   return x.length ? [Math.min(...x) - 2, Math.max(...x) + 2] : undefined;
 }
 
-function sections(runs: Run[], body: BodyName): HTMLElement {
+function sections(runs: Run[], body: BodyName): HTMLElement[] {
   const figures = sectionMaps(runs, body);
-  if (figures.length) return grid(figures);
-  return note(`No sections of the ${body} in this folder; write the results anew to have them.`);
+  if (!figures.length) return [note(`No sections of the ${body} in this folder; write the results anew to have them.`)];
+  const shear = details("Shear stresses τ_xz and τ_max", grid(sectionMaps(runs, body, kShear)));
+  shear.id = `shear-${body}`;
+  shear.addEventListener("toggle", () => drawAll(theme()));
+  return [grid(figures), shear];
 }
 
 const kAxes = "x counts from the axle in the rolling direction, y from the rigid contact point to the field side, " +
@@ -107,21 +116,31 @@ function geometryPart(run: Run): HTMLElement {
 
 function patchPart(runs: Run[]): HTMLElement {
   const words = note(`${kAxes} The cross marks the rigid contact point.`);
-  return part("patch", "The patch", words, patchesTable(runs), grid(patchMaps(runs)), grid(centreLines(runs)));
+  return part(
+      "patch", "The patch", words, patchesTable(runs), grid(patchMaps(runs)), grid(centreLines(runs)),
+      ...spaceParts(runs));
 }
 
+const hasLayer = (runs: Run[], body: BodyName) => runs.some((run) => run.geometry?.layers.some((l) => l.on === body));
+
+/// The wheel like the rail where it has a layer, folded otherwise.
 function stressPart(runs: Run[]): HTMLElement {
   const words = note(`Places: ${kAxes} Finite element sections show each element’s own value.`);
-  const rail = [maximaTable(runs, "rail"), words, sections(runs, "rail"), grid(depthLines(runs))];
-  const wheel = details("The wheel", maximaTable(runs, "wheel"), sections(runs, "wheel"));
+  const bodyParts = (body: BodyName) =>
+      [maximaTable(runs, body), ...(body === "rail" ? [words, ...slicesParts(runs)] : []), ...sections(runs, body),
+       grid(depthLines(runs, body))];
+  const wheel = details("The wheel", ...bodyParts("wheel"));
   wheel.id = "wheel";
+  wheel.open = hasLayer(runs, "wheel");
   wheel.addEventListener("toggle", () => drawAll(theme()));
-  return part("stress", "Below the surface", ...rail, wheel);
+  const all = [...bodyParts("rail"), wheel];
+  return part("stress", "Below the surface", ...all);
 }
 
 /// Everything about the runs that are looked at: one, or two side by side.
 function runParts(runs: Run[]): HTMLElement[] {
   const history = [...historyFigures(runs), ...transientFigures(runs)];
+  const yielded = yieldedPart(runs);
   const lasts = lastsPart(runs);
   const way = [...filmParts(runs), ...(history.length ? [grid(history)] : [])];
   return [
@@ -129,6 +148,7 @@ function runParts(runs: Run[]): HTMLElement[] {
     geometryPart(runs[0]),
     patchPart(runs),
     stressPart(runs),
+    ...(yielded ? [yielded] : []),
     ...(lasts ? [lasts] : []),
     ...(way.length ? [part("history", "On the way", ...way)] : []),
     part("origin", "Origin", ...origin(runs)),
@@ -137,10 +157,15 @@ function runParts(runs: Run[]): HTMLElement[] {
 
 let looked: Run[] = report.runs.slice(0, 2);
 const stage = element("div", {id: "stage"});
+const glance = element("div");
+const heroOf = (run: Run) => note(`The pictures are those of ${runLabel(run)}.`);
 function showRuns(): void {
   if (!looked.length) return drawAll(theme());
   forget(stage);
-  stage.replaceChildren(tiles(looked[0], report.runs.length > 1), ...runParts(looked));
+  forget(glance);
+  const named = report.runs.length > 1 || report.tables.length > 0;
+  glance.replaceChildren(hero(looked[0]), ...(named ? [heroOf(looked[0])] : []));
+  stage.replaceChildren(tiles(looked, named), ...runParts(looked));
   drawAll(theme());
 }
 
@@ -175,19 +200,24 @@ const judged = () => report.checks.length > 0 || report.runs.length > 0;
 /// Names of the parts that this page has, in order, and their words in the contents line.
 function contents(): [id: string, name: string][] {
   const runs = report.runs.length > 0;
-  const all: [id: string, name: string, there: boolean][] = [
+  if (report.passes) return passesContents(report.passes);
+  type Entry = [id: string, name: string, there: boolean];
+  const answers: Entry = ["tables", "answers", report.tables.length > 0];
+  const figures: Entry = ["charts", "figures", report.charts.length > 0];
+  const all: Entry[] = [
     ["verdict", "verdict", judged()],
     ["grids", "what lasts", report.grids.length > 0],
-    ["tables", "answers", report.tables.length > 0],
-    ["charts", "figures", report.charts.length > 0],
+    ...(runs ? [answers, figures] : [figures, answers]),
     ["maps", "maps", report.maps.length > 0],
     ["numbers", "numbers", runs],
     ["geometry", "geometry", runs],
     ["patch", "patch", runs],
     ["stress", "stress", runs],
+    ["yielded", "what yielded", report.runs.some((r) => r.summary.plastic)],
     ["lasts", "does it last?", report.runs.some((r) => r.summary.shakedown)],
     ["history", "history", report.runs.some((r) => r.history)],
     ["origin", "origin", runs],
+    ["what-if", "what if?", hasWhatIf()],
   ];
   return all.filter(([, , there]) => there).map(([id, name]) => [id, name]);
 }
@@ -227,8 +257,14 @@ setOrigin([
   ...report.runs.map((r) => `${r.folder} (${engineName(r.engine)})`),
   "maps and sections are rounded to 1/65534 of their range; the folder's own tables hold every digit",
 ]);
-const top = judged() ? [header(), verdict(report)] : [header()];
-const main = element("main", {}, ...top, ...studyParts(), chooser(), stage, footer());
+const judgement = judged() ? [verdict(report)] : [];
+const passes = report.passes ? passesParts(report.passes) : [];
+// the pictures of a run that others or answers stand beside come with it
+const few = report.runs.length < 3 && !report.tables.length;
+const first = few ? [header(), glance, ...judgement] : [header(), ...judgement];
+const rest = few ? [] : [glance];
+const main =
+    element("main", {}, ...first, ...passes, ...studyParts(), chooser(), ...rest, stage, ...whatIfPart(), footer());
 document.body.replaceChildren(main);
 document.documentElement.dataset.theme = isDark() ? "dark" : "light";
 showRuns();
@@ -242,6 +278,7 @@ wantsDark.addEventListener("change", () => applyTheme());
 // On A4 with 12 mm margins two figures stand side by side.
 window.addEventListener("beforeprint", () => {
   document.documentElement.dataset.theme = "light";
+  for (const folded of document.querySelectorAll<HTMLDetailsElement>("#verdict details")) folded.open = true;
   drawAll({...kLight, size: 9}, (wide) => (wide ? 690 : 338));
 });
 window.addEventListener("afterprint", () => applyTheme());

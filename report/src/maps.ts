@@ -1,12 +1,19 @@
 // Coloured maps with millimetres of equal length on both axes.
 import type {Span, Values} from "./data";
-import {axis, baseLayout, type DataTable, type Drawing, type Figure, type Theme} from "./figures";
+import {axis, baseLayout, type DataTable, type Drawing, type Plotted, type Theme} from "./figures";
 import {fixedText} from "./text";
 
 export interface Line {
   x: Values;
   y: Values;
   dash?: string;
+}
+
+export interface Arrow {
+  x: number;
+  y: number;
+  alongX: number;
+  alongY: number;
 }
 
 export interface Marker {
@@ -39,6 +46,7 @@ export interface MapSpec {
   windowX: Span;
   windowY: Span;
   lines?: Line[];
+  arrows?: Arrow[];
   marker?: Marker;
   valueWords?: string[];  // hover text by value, for states
 }
@@ -84,6 +92,25 @@ function borderTrace(b: Line, theme: Theme): Record<string, unknown> {
   return {type: "scatter", mode: "lines", x: b.x, y: b.y, hoverinfo: "skip", line};
 }
 
+/// White with a dark edge, to be seen on any colour.
+function arrowTraces(arrows: Arrow[]): Record<string, unknown>[] {
+  const x: Values = [];
+  const y: Values = [];
+  for (const a of arrows) {
+    const [endX, endY] = [a.x + a.alongX, a.y + a.alongY];
+    const head = (side: number): [number, number] =>
+        [endX - 0.3 * (a.alongX * Math.cos(side) - a.alongY * Math.sin(side)),
+         endY - 0.3 * (a.alongY * Math.cos(side) + a.alongX * Math.sin(side)),
+    ];
+    const [left, right] = [head(0.5), head(-0.5)];
+    x.push(a.x, endX, null, left[0], endX, right[0], null);
+    y.push(a.y, endY, null, left[1], endY, right[1], null);
+  }
+  const edge = {color: "#1b1f24", width: 3};
+  const core = {color: "#ffffff", width: 1.3};
+  return [edge, core].map((line) => ({type: "scatter", mode: "lines", x, y, hoverinfo: "skip", line}));
+}
+
 /// Dark on light, to be seen on any colour.
 function markerTraces(m: Marker): Record<string, unknown>[] {
   const symbol = m.symbol ?? "cross-thin";
@@ -113,7 +140,7 @@ function layoutOf(m: MapSpec, theme: Theme, width: number): Record<string, unkno
   };
 }
 
-export function mapFigure(m: MapSpec): Figure {
+export function mapFigure(m: MapSpec): Plotted {
   return {
     id: m.id,
     title: m.title,
@@ -121,7 +148,10 @@ export function mapFigure(m: MapSpec): Figure {
     draw: (theme: Theme, width: number): Drawing => {
       const borders = (m.lines ?? []).map((line) => borderTrace(line, theme));
       const markers = m.marker ? markerTraces(m.marker) : [];
-      return {data: [heatmap(m, theme), ...borders, ...markers], layout: layoutOf(m, theme, width)};
+      return {
+        data: [heatmap(m, theme), ...borders, ...arrowTraces(m.arrows ?? []), ...markers],
+        layout: layoutOf(m, theme, width)
+      };
     },
     table: (): DataTable => ({
       names: m.names,

@@ -14,17 +14,19 @@ import {
 import {element, table} from "./dom";
 import type {Figure, Theme} from "./figures";
 import {linesFigure, type Series} from "./lines";
-import {magnitudeColours, mapFigure, type MapSpec} from "./maps";
+import {magnitudeColours, mapFigure, signedColours, type MapSpec} from "./maps";
 import {fixedText, numberText, runLabel, withoutRoundOff} from "./text";
 
 /// A patch of a run, y from the rigid contact point as in the tables; nothing outside the contact.
-interface Patch {
+export interface Patch {
   run: Run;
   number: number;  // of several from 1 on, else 0
   x: number[];
   y: number[];
   p: Values[];
   q: Values[];
+  qX: Values[];  // on the rail
+  qY: Values[];
   slip: Values[];
   state: Values[];
 }
@@ -34,7 +36,9 @@ export function contactY(run: Run, k = 0): number {
   return 1e3 * (run.summary.patches?.[k]?.y_m ?? run.geometry?.contact.y_m ?? 0);
 }
 
-function patchesOf(run: Run): Patch[] { return [run.patch, ...run.further_patches].map((g, k) => patchOf(run, g, k)); }
+export function patchesOf(run: Run): Patch[] {
+  return [run.patch, ...run.further_patches].map((g, k) => patchOf(run, g, k));
+}
 
 function patchOf(run: Run, g: Grid, k: number): Patch {
   const touching = (v: number|null, k: number) => (g.state[k] === "0" ? null : v);
@@ -47,20 +51,23 @@ function patchOf(run: Run, g: Grid, k: number): Patch {
     y: g.y.map((y) => y - contactY(run, k)),
     p: shape(unpack(g.p).map(touching)),
     q: shape(size(unpack(g.q_x), unpack(g.q_y))),
+    qX: shape(unpack(g.q_x).map(touching)),
+    qY: shape(unpack(g.q_y).map(touching)),
     slip: shape(size(unpack(g.slip_x), unpack(g.slip_y))),
     state: shape([...g.state].map((c) => (c === "0" ? null : Number(c)))),
   };
 }
 
-function largest(patches: Patch[], quantity: (p: Patch) => Values[]): number {
+/// The largest size of a quantity, 1 where it is zero everywhere.
+export function largest(patches: Patch[], quantity: (p: Patch) => Values[]): number {
   let top = 0;
   for (const v of patches.flatMap(quantity).flat())
-    if (v !== null && v > top) top = v;
+    if (v !== null && Math.abs(v) > top) top = Math.abs(v);
   return top || 1;
 }
 
 /// A static contact without friction has neither traction nor slip to be drawn.
-function hasTraction(runs: Run[]): boolean {
+export function hasTraction(runs: Run[]): boolean {
   return runs.some((run) => run.patch.q_x.high - run.patch.q_x.low > 0 || run.patch.q_y.high - run.patch.q_y.low > 0);
 }
 
@@ -79,6 +86,38 @@ function touchingWindow(patches: Patch[], at: (p: Patch) => number[], touches: (
   return low < high ? [low, high] : [-10, 10];
 }
 
+/// What of x and y these patches cover.
+export function patchWindow(patches: Patch[]): [x: Span, y: Span] {
+  return [
+    touchingWindow(patches, (p) => p.x, (p, i) => p.p.some((row) => row[i] !== null)),
+    touchingWindow(patches, (p) => p.y, (p, j) => p.p[j].some((v) => v !== null)),
+  ];
+}
+
+/// From a cell's centre, as long as the traction on the rail is large.
+export interface TractionArrow {
+  x: number;
+  y: number;
+  alongX: number;
+  alongY: number;
+}
+
+/// Some fourteen of them across the window; the longest, of the traction `top`, reaches a little beyond the next.
+export function tractionArrows(patch: Patch, [x, y]: [Span, Span], top: number): TractionArrow[] {
+  const spacing = Math.max(x[1] - x[0], y[1] - y[0]) / 14;
+  const cell = (at: number[]) => (at.length > 1 ? Math.abs(at[1] - at[0]) : spacing);
+  const [stepX, stepY] = [patch.x, patch.y].map((at) => Math.max(1, Math.round(spacing / cell(at))));
+  const scale = (1.25 * Math.max(spacing, cell(patch.x))) / top;
+  const out: TractionArrow[] = [];
+  for (let j = Math.floor(stepY / 2); j < patch.y.length; j += stepY)
+    for (let i = Math.floor(stepX / 2); i < patch.x.length; i += stepX) {
+      const [qX, qY] = [patch.qX[j][i], patch.qY[j][i]];
+      if (qX === null || qY === null || Math.hypot(qX, qY) < 0.02 * top) continue;
+      out.push({x: patch.x[i], y: patch.y[j], alongX: scale * qX, alongY: scale * qY});
+    }
+  return out;
+}
+
 export function stateLegend(): HTMLElement {
   const swatch = (state: string) => element("span", {class: `swatch ${state}`});
   return element("span", {class: "legend"}, swatch("stick"), "stick ", swatch("slip"), "slip");
@@ -93,11 +132,39 @@ interface Kind {
   hover: string;
   bar: string;
   state?: boolean;
+  signed?: boolean;
+  arrows?: boolean;
 }
 
 const kKinds: Kind[] = [
   {id: "p", name: "Pressure p", values: (p) => p.p, column: "p_MPa", hover: "p %{z:.1f} MPa", bar: "MPa"},
-  {id: "q", name: "Traction |q|", values: (p) => p.q, column: "q_MPa", hover: "|q| %{z:.1f} MPa", bar: "MPa"},
+  {
+    id: "q",
+    name: "Traction |q|",
+    values: (p) => p.q,
+    column: "q_MPa",
+    hover: "|q| %{z:.1f} MPa",
+    bar: "MPa",
+    arrows: true,
+  },
+  {
+    id: "qx",
+    name: "Traction q_x along the rail",
+    values: (p) => p.qX,
+    column: "q_x_MPa",
+    hover: "q_x %{z:.1f} MPa",
+    bar: "MPa",
+    signed: true,
+  },
+  {
+    id: "qy",
+    name: "Traction q_y across the rail",
+    values: (p) => p.qY,
+    column: "q_y_MPa",
+    hover: "q_y %{z:.1f} MPa",
+    bar: "MPa",
+    signed: true,
+  },
   {
     id: "slip",
     name: "Slip velocity",
@@ -119,9 +186,17 @@ const kKinds: Kind[] = [
 
 export const stateColours = (t: Theme) => [[0, t.stick], [0.5, t.stick], [0.5, t.slip], [1, t.slip]];
 
+export const kAboutArrows = "Arrows: the traction on the rail; on the wheel it is the opposite.";
+const kAboutSigns: Record<string, string> = {
+  qx: "On the rail, positive in the rolling direction: a driving wheel pushes the rail backwards.",
+  qy: "On the rail in the contact plane, positive to the field side.",
+};
+
 /// What a map of states has other than one of numbers up to `top`.
 function scaleOf(kind: Kind, top: number): Pick<MapSpec, "words"|"range"|"colours"|"discrete"|"valueWords"> {
-  if (!kind.state) return {range: [0, top], colours: magnitudeColours, discrete: false};
+  const words = kind.arrows ? [kAboutArrows] : kind.signed ? [kAboutSigns[kind.id]] : undefined;
+  if (kind.signed) return {range: [-top, top], colours: signedColours, discrete: false, words};
+  if (!kind.state) return {range: [0, top], colours: magnitudeColours, discrete: false, words};
   const valueWords = ["separated", "stick", "slip"];
   return {words: [stateLegend()], range: [0.5, 2.5], colours: stateColours, discrete: true, valueWords};
 }
@@ -139,11 +214,10 @@ function kindOf(kind: Kind, run: Run): Kind {
   return {...kind, name: "Slip of the last increment", column: "slip_um", hover: `slip %{z:.4f} ${unit}`, bar: unit};
 }
 
-/// Four maps for each patch of each run, those of one quantity in one unit on one scale.
+/// Six maps for each patch of each run, those of one quantity in one unit on one scale.
 export function patchMaps(runs: Run[]): Figure[] {
   const patches = runs.flatMap(patchesOf);
-  const windowX = touchingWindow(patches, (p) => p.x, (p, i) => p.p.some((row) => row[i] !== null));
-  const windowY = touchingWindow(patches, (p) => p.y, (p, j) => p.p[j].some((v) => v !== null));
+  const [windowX, windowY] = patchWindow(patches);
   const mapOf = (kind: Kind, top: number, patch: Patch, n: number) => mapFigure({
     id: `map-${kind.id}-${n}`,
     title: mapTitle(kind, patch, runs.length > 1),
@@ -160,9 +234,10 @@ export function patchMaps(runs: Run[]): Figure[] {
     ...scaleOf(kind, top),
     windowX,
     windowY,
+    arrows: kind.arrows ? tractionArrows(patch, [windowX, windowY], top) : undefined,
     marker: {x: 0, y: 0, text: "rigid contact point"},
   });
-  return kKinds.slice(0, hasTraction(runs) ? 4 : 1).flatMap((kind) => patches.map((patch, n) => {
+  return kKinds.slice(0, hasTraction(runs) ? kKinds.length : 1).flatMap((kind) => patches.map((patch, n) => {
     const own = kindOf(kind, patch.run);
     const alike = patches.filter((p) => kindOf(kind, p.run).bar === own.bar);
     return mapOf(own, largest(alike, kind.values), patch, n);

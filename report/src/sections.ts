@@ -1,5 +1,15 @@
 // Verdict, numbers and origin: the parts of the page around the patch and its stresses.
-import {numberAt, option, type Check, type CheckWords, type Quantity, type Report, type Run, type Values} from "./data";
+import {
+  numberAt,
+  option,
+  type BodyName,
+  type Check,
+  type CheckWords,
+  type Quantity,
+  type Report,
+  type Run,
+  type Values
+} from "./data";
 import {details, element, note, table, tableHead, type Cell} from "./dom";
 import {
   checkWords,
@@ -77,23 +87,36 @@ function warning(failed: Check[]): HTMLElement|null {
   return element("p", {class: "failed"}, `Read the results with care: ${[...names].join(", ")}.`);
 }
 
-const kManyChecks = 40;
+/// What is to be minded beside the verdict, each once with its largest value.
+function mind(notes: Check[]): HTMLElement|null {
+  if (!notes.length) return null;
+  const worst = new Map<string, Check>();
+  for (const c of notes)
+    if (!worst.has(c.name) || (c.value ?? 0) > (worst.get(c.name)!.value ?? 0)) worst.set(c.name, c);
+  const text = (c: Check) => {
+    const {name, unit} = checkWords(c.name);
+    return c.value === null ? name : `${name} (${unitText(c.value, unit, 3)})`;
+  };
+  return element("p", {class: "minded"}, `To be minded: ${[...worst.values()].map(text).join("; ")}.`);
+}
 
-/// Green or red, in words, with every check and its limit; of a study: what failed first, the rest on demand.
+/// Green or red, in words. What failed stands open, the checks that hold and the notes on demand.
 export function verdict(report: Report): HTMLElement {
   const judged = report.checks.filter((c) => c.judged);
   const failed = judged.filter((c) => !c.ok);
   const holds = judged.filter((c) => c.ok);
   const notes = report.checks.filter((c) => !c.judged);
   const ok = judged.length > 0 && failed.length === 0;
-  const tableOf = (checks: Check[]) => checksTable(report, checks);
   const heading = element("h2", {}, ok ? "✓ " : "✗ ", verdictLine(judged, failed));
   const attributes = {id: "verdict", class: ok ? "good" : "bad", "data-ok": String(ok)};
-  if (report.checks.length <= kManyChecks)
-    return element("section", attributes, heading, warning(failed), tableOf([...failed, ...holds, ...notes]));
-  const summary = `${holds.length} checks that hold, ${notes.length} notes`;
-  const rest = details(summary, tableOf([...holds, ...notes]));
-  return element("section", attributes, heading, warning(failed), failed.length ? tableOf(failed) : null, rest);
+  const count = (n: number, one: string, more: string) => (n ? [`${n} ${n === 1 ? one : more}`] : []);
+  const folded = [
+    ...count(holds.length, "check that holds", "checks that hold"),
+    ...count(notes.length, "note", "notes"),
+  ];
+  const rest = folded.length ? details(folded.join(", "), checksTable(report, [...holds, ...notes])) : null;
+  const open = failed.length ? checksTable(report, failed) : null;
+  return element("section", attributes, heading, warning(failed), open, mind(notes), rest);
 }
 
 interface Inside {
@@ -102,10 +125,16 @@ interface Inside {
   zone: string;
 }
 
-function largestBelowSurface(run: Run): Inside|null {
+/// The body whose stresses stand first: the wheel where only it has layers.
+export function layeredBody(run: Run): BodyName {
+  const layers = run.geometry?.layers ?? [];
+  return layers.some((l) => l.on === "wheel") && !layers.some((l) => l.on === "rail") ? "wheel" : "rail";
+}
+
+function largestBelowSurface(run: Run, body: BodyName): Inside|null {
   let best: Inside|null = null;
   for (const {key: zone, name} of zones()) {
-    const m = zone === "surface" ? null : run.summary.stress.rail?.[zone]?.von_mises_max;
+    const m = zone === "surface" ? null : run.summary.stress[body]?.[zone]?.von_mises_max;
     if (m && (!best || m.value_Pa > best.value_Pa)) best = {value_Pa: m.value_Pa, depth_m: m.depth_m ?? 0, zone: name};
   }
   return best && best.zone === "below the surface" ? {...best, zone: "largest"} : best;
@@ -122,56 +151,82 @@ function digits(run: Run, path: string, most: number): string {
   return numberText(value === null ? null : quantityAt(path).unit.factor * value, most);
 }
 
-function tile(name: string, text: string, unit: string, small = ""): HTMLElement {
+/// One number large, and small what is to be said of it.
+function tile(name: string, text: string, unit: string, small: string[]): HTMLElement {
   return element(
       "div",
       {class: "tile"},
       element("span", {class: "name"}, name),
       element("span", {class: "big"}, text, unit ? element("small", {}, ` ${unit}`) : null),
-      small ? element("span", {class: "small"}, small) : null,
+      ...small.filter((words) => words !== "").map((words) => element("span", {class: "small"}, words)),
   );
 }
 
-function numberTile(run: Run, path: string, most = 4): HTMLElement {
+/// What tells a run from the first.
+function besideName(run: Run, runs: Run[]): string {
+  return run.name === runs[0].name && run.engine !== runs[0].engine ? engineName(run.engine) : runLabel(run);
+}
+
+/// A number of the first run, that of a second below it.
+function cardOf(
+    runs: Run[], name: string, unit: string, text: (run: Run) => string,
+    about: (run: Run) => string = () => ""): HTMLElement {
+  const besides = runs.slice(1).map((run) => {
+    const words = about(run);
+    return `${besideName(run, runs)}: ${text(run)}${unit ? ` ${unit}` : ""}${
+        words && words !== about(runs[0]) ? `, ${words}` : ""}`;
+  });
+  return tile(name, text(runs[0]), unit, [about(runs[0]), ...besides]);
+}
+
+function numberTile(runs: Run[], path: string, most = 4): HTMLElement {
   const {name, unit} = quantityAt(path);
-  return tile(name, digits(run, path, most), unit.shown);
+  return cardOf(runs, name, unit.shown, (run) => digits(run, path, most));
 }
 
-function patchTile(run: Run): HTMLElement {
+function patchTile(runs: Run[]): HTMLElement {
   const [length, width] = ["contact/patch_length_m", "contact/patch_width_m"];
-  const text = `${digits(run, length, 3)} × ${digits(run, width, 3)}`;
-  return tile("Patch", text, quantityAt(length).unit.shown, "length along x × width");
+  const text = (run: Run) => `${digits(run, length, 3)} × ${digits(run, width, 3)}`;
+  return cardOf(runs, "Patch", quantityAt(length).unit.shown, text, () => "length along x × width");
 }
 
-function tractionTile(run: Run): HTMLElement {
-  const fx = shownAt(run, "contact/F_x_N");
-  const fz = numberAt(run, "contact/F_z_N");
-  const wanted = `wanted ${option(run, "drive", "traction_coefficient") ?? "–"}`;
-  return tile("Traction F_x / F_z", numberText(fx !== null && fz ? fx / fz : null), "", run.summary.state ?? wanted);
+function tractionTile(runs: Run[]): HTMLElement {
+  const text = (run: Run) => {
+    const fx = shownAt(run, "contact/F_x_N");
+    const fz = numberAt(run, "contact/F_z_N");
+    return numberText(fx !== null && fz ? fx / fz : null);
+  };
+  const wanted = (run: Run) => run.summary.state ?? `wanted ${option(run, "drive", "traction_coefficient") ?? "–"}`;
+  return cardOf(runs, "Traction F_x / F_z", "", text, wanted);
 }
 
-function insideTile(run: Run): HTMLElement {
-  const inside = largestBelowSurface(run);
-  const name = "Rail, von Mises below the surface";
-  if (!inside) return tile(name, "–", "MPa");
-  const place = `${inside.zone}, ${(1e3 * inside.depth_m).toFixed(2)} mm deep`;
-  return tile(name, numberText(1e-6 * inside.value_Pa), "MPa", place);
+/// Of the body that has layers: the rail, unless only the wheel has one.
+function insideTile(runs: Run[]): HTMLElement {
+  const body = layeredBody(runs[0]);
+  const text = (run: Run) => numberText(1e-6 * (largestBelowSurface(run, body)?.value_Pa ?? NaN));
+  const about = (run: Run) => {
+    const inside = largestBelowSurface(run, body);
+    return inside ? `${inside.zone}, ${(1e3 * inside.depth_m).toFixed(2)} mm deep` : "";
+  };
+  const name = `${body === "rail" ? "Rail" : "Wheel"}, von Mises below the surface`;
+  return cardOf(runs, name, "MPa", text, about);
 }
 
-/// One run's numbers large; `named`: with its name above them, where the page shows others too.
-export function tiles(run: Run, named: boolean): HTMLElement {
-  const name = `Numbers of ${runLabel(run)}; all runs beside each other in the table below.`;
+/// The numbers of the first run large, those of a second below them; `named`: with whose they are.
+export function tiles(runs: Run[], named: boolean): HTMLElement {
+  const beside = runs.length > 1 ? `, in small letters of ${besideName(runs[1], runs)}` : "";
+  const name = `Numbers of ${runLabel(runs[0])}${beside}.`;
   const cards = element(
       "div",
       {class: "tiles"},
-      numberTile(run, "contact/p_max_Pa"),
-      numberTile(run, "contact/q_max_Pa"),
-      patchTile(run),
-      numberTile(run, "contact/slip_area_fraction", 3),
-      tractionTile(run),
-      insideTile(run),
+      numberTile(runs, "contact/p_max_Pa"),
+      numberTile(runs, "contact/q_max_Pa"),
+      patchTile(runs),
+      numberTile(runs, "contact/slip_area_fraction", 3),
+      tractionTile(runs),
+      insideTile(runs),
   );
-  const patches = patchesNote([run]);
+  const patches = patchesNote(runs);
   const about = patches ? element("p", {class: "note", id: "tiles-patches"}, patches) : null;
   return element("div", {}, named ? element("p", {class: "note", id: "tiles-of"}, name) : null, about, cards);
 }

@@ -1,13 +1,15 @@
 // Stresses below the surface: sections, depth lines, table of maxima.
-import {fixedText, measures, numberText, percentText, runLabel, zones} from "./text";
+import {fixedText, measures, numberText, percentText, powerText, runLabel, zones} from "./text";
 import {
   rowsOf,
   unpack,
   type BodyName,
+  type Columns,
   type Run,
   type Section,
   type Span,
   type StressMaximum,
+  type StressQuantity,
   type Values
 } from "./data";
 import {table, type Cell} from "./dom";
@@ -17,16 +19,17 @@ import {commonWindow, magnitudeColours, mapFigure, signedColours, type Line, typ
 import {contactY} from "./patch";
 
 type Plane = "longitudinal"|"cross";
-type Quantity = "von_mises"|"sigma_1";
+type Quantity = StressQuantity|"plastic_p";
 
 /// Borders of cells from their centres; the first row begins at the surface.
-function rowEdges(centres: number[]): number[] {
+export function rowEdges(centres: number[]): number[] {
   const edges = [0];
   for (const c of centres) edges.push(2 * c - edges[edges.length - 1]);
   return edges;
 }
-function columnEdges(centres: number[]): number[] {
+export function columnEdges(centres: number[]): number[] {
   const n = centres.length;
+  if (n === 1) return [centres[0] - 0.5, centres[0] + 0.5];
   const middle = centres.slice(1).map((c, i) => 0.5 * (c + centres[i]));
   return [1.5 * centres[0] - 0.5 * centres[1], ...middle, 1.5 * centres[n - 1] - 0.5 * centres[n - 2]];
 }
@@ -76,7 +79,13 @@ function cutOf(run: Run, body: BodyName, plane: Plane): Cut|null {
     centres,
     x: columnEdges(centres),
     depth: rowEdges(section.depth),
-    values: {von_mises: shape(section.von_mises), sigma_1: shape(section.sigma_1)}
+    values: {
+      von_mises: shape(section.von_mises),
+      sigma_1: shape(section.sigma_1),
+      sigma_xz: shape(section.sigma_xz),
+      tau_max: shape(section.tau_max),
+      plastic_p: section.plastic_p ? shape(section.plastic_p) : [],
+    },
   };
 }
 
@@ -93,16 +102,17 @@ interface Place {
   value: number;
 }
 
-/// The largest value in the window that is drawn.
+/// The largest value in the window that is drawn; of a shear stress the largest size.
 function place(cut: Cut, quantity: Quantity, windowX: Span, windowY: Span): Place {
-  let best = {x: 0, y: 0, value: -Infinity};
+  const size = (v: number) => (quantity === "sigma_xz" ? Math.abs(v) : v);
+  let best = {x: 0, y: 0, value: quantity === "sigma_xz" ? 0 : -Infinity};
   const inside = (v: number, [low, high]: Span) => v > low && v < high;
   const columns = [...cut.centres.keys()].filter((c) => inside(cut.centres[c], windowX));
   const rows = [...cut.section.depth.keys()].filter((r) => inside(cut.section.depth[r], windowY));
   for (const r of rows)
     for (const c of columns) {
       const value = cut.values[quantity][r][c];
-      if (value !== null && value > best.value) best = {x: cut.centres[c], y: cut.section.depth[r], value};
+      if (value !== null && size(value) > size(best.value)) best = {x: cut.centres[c], y: cut.section.depth[r], value};
     }
   return best;
 }
@@ -117,14 +127,24 @@ interface Kind {
 const kKinds: Kind[] = [
   {key: "von_mises", name: "Von Mises stress", column: "von_mises_MPa", hover: "von Mises %{z:.1f} MPa"},
   {key: "sigma_1", name: "Largest principal stress σ₁", column: "sigma_1_MPa", hover: "σ₁ %{z:.1f} MPa"},
+  {key: "sigma_xz", name: "Shear stress τ_xz", column: "sigma_xz_MPa", hover: "τ_xz %{z:.1f} MPa"},
+  {key: "tau_max", name: "Largest shear stress τ_max", column: "tau_max_MPa", hover: "τ_max %{z:.1f} MPa"},
+  {key: "plastic_p", name: "Accumulated plastic strain p", column: "plastic_p", hover: "p %{z:.2e}"},
 ];
+/// A value with its unit, to so many decimals of a stress.
+const valueText = (kind: Kind, v: number, decimals: number) =>
+    kind.key === "plastic_p" ? (v === 0 ? "0" : powerText(v)) : `${fixedText(v, decimals)} MPa`;
+export const kNormal: StressQuantity[] = ["von_mises", "sigma_1"];
+export const kShear: StressQuantity[] = ["sigma_xz", "tau_max"];
 
 type Scale = Pick<MapSpec, "floor"|"range"|"colours">;
 
 /// Colours of one quantity on all sections.
 function scaleOf(cuts: Cut[], kind: Kind): Scale {
   const all = extreme(cuts, kind.key, true);
-  if (kind.key === "von_mises") return {floor: false, range: [0, all], colours: magnitudeColours};
+  if (kind.key === "von_mises" || kind.key === "tau_max" || kind.key === "plastic_p")
+    return {floor: false, range: [0, all], colours: magnitudeColours};
+  if (kind.key === "sigma_xz") return {floor: false, range: [-all, all], colours: signedColours};
   // of the principal stress the tension counts: compression deeper than its range takes the darkest blue
   const top = Math.max(extreme(cuts, kind.key, false), 0.1 * all);
   return {floor: top < all, range: [-top, top], colours: signedColours};
@@ -140,11 +160,13 @@ function planeWords({plane, section, run}: Cut): {along: string; label: string; 
   return {along: "y", label: "y, field side right [mm]", name: "cross section", at};
 }
 
-/// Von Mises stress and largest principal stress on both planes; one scale a quantity.
-export function sectionMaps(runs: Run[], body: BodyName): Figure[] {
+/// These quantities on both planes; one scale a quantity.
+export function sectionMaps(runs: Run[], body: BodyName, quantities: Quantity[] = kNormal): Figure[] {
   const planes: Plane[] = ["longitudinal", "cross"];
-  const cuts = runs.flatMap((run) => planes.map((plane) => cutOf(run, body, plane))).filter((cut) => cut !== null);
-  const scales = kKinds.map((kind) => scaleOf(cuts, kind));
+  const kinds = kKinds.filter((kind) => quantities.includes(kind.key));
+  const cuts = runs.flatMap((run) => planes.map((plane) => cutOf(run, body, plane)))
+                   .filter((cut) => cut !== null && kinds.every((kind) => cut.values[kind.key].length > 0)) as Cut[];
+  const scales = kinds.map((kind) => scaleOf(cuts, kind));
   const mapOf = (cut: Cut, kind: Kind, scale: Scale, windowX: Span, windowY: Span) => {
     const plane = planeWords(cut);
     const best = place(cut, kind.key, windowX, windowY);
@@ -152,10 +174,10 @@ export function sectionMaps(runs: Run[], body: BodyName): Figure[] {
     const borders = materialBorders(cut.section, cut.x, cut.depth);
     const words = [
       `${body === "rail" ? "Rail" : "Wheel"}, ${plane.at}.`,
-      `Circle: the largest shown, ${fixedText(best.value, 0)} MPa at ${where}.`,
+      `Circle: the largest shown, ${valueText(kind, best.value, 0)} at ${where}.`,
       ...(borders.length ? ["Dashed: border of the layer."] : []),
     ];
-    const largest = `largest here: ${best.value.toFixed(1)} MPa<br>${where}`;
+    const largest = `largest here: ${valueText(kind, best.value, 1)}<br>${where}`;
     return mapFigure({
       id: `section-${body}-${cut.plane}-${kind.key}-${runs.indexOf(cut.run)}`,
       title: [kind.name, plane.name, ...(runs.length > 1 ? [runLabel(cut.run)] : [])].join(", "),
@@ -169,7 +191,7 @@ export function sectionMaps(runs: Run[], body: BodyName): Figure[] {
       labels: [plane.label, "depth [mm]"],
       hover: kind.hover,
       hoverY: "depth",
-      bar: "MPa",
+      bar: kind.key === "plastic_p" ? "p" : "MPa",
       ...scale,
       reversed: body === "rail",
       windowX,
@@ -182,13 +204,13 @@ export function sectionMaps(runs: Run[], body: BodyName): Figure[] {
     const these = cuts.filter((cut) => cut.plane === plane);
     const windowX = commonWindow(these.map((cut) => cut.x));
     const windowY = commonWindow(these.map((cut) => cut.depth));
-    return kKinds.flatMap((kind, k) => these.map((cut) => mapOf(cut, kind, scales[k], windowX, windowY)));
+    return kinds.flatMap((kind, k) => these.map((cut) => mapOf(cut, kind, scales[k], windowX, windowY)));
   });
 }
 
 /// The line of a run's depth table, broken where the material changes.
-function depthLine(run: Run, column: string): {x: Values; y: Values} {
-  const {depth_mm: depth, material, [column]: values} = run.depth_line!;
+function depthLine(line: Columns, column: string): {x: Values; y: Values} {
+  const {depth_mm: depth, material, [column]: values} = line;
   const x: Values = [];
   const y: Values = [];
   values.forEach((v, i) => {
@@ -204,50 +226,68 @@ function depthLine(run: Run, column: string): {x: Values; y: Values} {
 
 type Component = [column: string, name: string];
 
-function depthSeries(run: Run, [column, name]: Component, n: number, dash: string, quiet = false): Series {
+function depthSeries(
+    run: Run, line: Columns, [column, name]: Component, n: number, dash: string, quiet = false): Series {
   return {
-    ...depthLine(run, column),
+    ...depthLine(line, column),
     name: `${name}, ${runLabel(run)}`,
     dash,
     quiet,
-    markers: run.depth_line!.depth_mm.length < 40,
+    markers: line.depth_mm.length < 40,
     colour: (t) => t.series[n % t.series.length],
     hover: `depth %{y:.2f} mm<br>${name} %{x:.1f} MPa`,
   };
 }
 
 /// Where a run's depth line stands.
-function placeWords(run: Run): string {
+function placeWords(run: Run, body: BodyName): string {
+  const whose = runLabel(run);
+  const sections = run.sections.wheel;
+  if (body === "wheel")
+    return sections ? `${whose}: x ${fixedText(sections.cross.at, 2)}, y ${
+                          fixedText(sections.longitudinal.at - contactY(run), 2)} mm`
+                    : whose;
   const m = run.summary.stress.rail.subsurface?.von_mises_max;
-  if (!m) return runLabel(run);
+  if (!m) return whose;
   const mm = (v: number|null) => fixedText(1e3 * (v ?? 0), 2);
-  return `${runLabel(run)}: x ${mm(m.x_m)}, y ${mm(m.y_m)} mm`;
+  return `${whose}: x ${mm(m.x_m)}, y ${mm(m.y_m)} mm`;
 }
 
-/// Depths of the bottoms of the rail's layers, mm.
-function layerBottoms(runs: Run[]): number[] {
+/// Depths of the bottoms of a body's layers, mm.
+function layerBottoms(runs: Run[], body: BodyName): number[] {
   const layers = runs.find((run) => run.geometry)?.geometry?.layers ?? [];
   let sum = 0;
-  return layers.filter((layer) => layer.on === "rail").map((layer) => (sum += 1e3 * layer.thickness_m));
+  return layers.filter((layer) => layer.on === body).map((layer) => (sum += 1e3 * layer.thickness_m));
 }
+
+const lineOf = (run: Run, body: BodyName) => (body === "rail" ? run.depth_line : run.wheel_depth_line);
 
 const kComponents: Component[] = [
   ["sigma_xx_MPa", "σ_xx"],
   ["sigma_yy_MPa", "σ_yy"],
   ["sigma_zz_MPa", "σ_zz"],
-  ["sigma_xz_MPa", "σ_xz"],
+  ["sigma_xz_MPa", "τ_xz"],
 ];
 
-/// Stress against depth in the rail, below each run's largest von Mises stress.
-export function depthLines(runs: Run[]): Figure[] {
-  const given = runs.filter((run) => run.depth_line);
+const kBelow: Record<BodyName, string> = {
+  rail: "Below the largest von Mises stress under the surface",
+  wheel: "Where the two sections of the wheel cross",
+};
+
+/// Stress against depth: in the rail below each run's largest von Mises stress, in the wheel where its sections cross.
+export function depthLines(runs: Run[], body: BodyName): Figure[] {
+  const given = runs.flatMap((run, n) => {
+    const line = lineOf(run, body);
+    return line && line.depth_mm.length > 1 ? [{run, n, line}] : [];
+  });
   if (!given.length) return [];
-  const bottom = Math.max(...given.map((run) => Math.max(...run.depth_line!.depth_mm)));
-  const levels = layerBottoms(given).filter((d) => d < bottom);
+  const bottom = Math.max(...given.map(({line}) => Math.max(...line.depth_mm)));
+  const levels = layerBottoms(given.map(({run}) => run), body).filter((d) => d < bottom);
   const border = levels.length ? " Dashed: bottom of the layer." : "";
+  const suffix = body === "rail" ? "" : "-wheel";
   const figure = (id: string, title: string, series: Series[], words: string) => linesFigure({
-    id,
-    title,
+    id: `${id}${suffix}`,
+    title: `${title}, ${body}`,
     labels: ["stress [MPa]", "depth [mm]"],
     names: ["stress_MPa", "depth_mm"],
     downwards: true,
@@ -256,20 +296,20 @@ export function depthLines(runs: Run[]): Figure[] {
     series,
     words: [words + border],
   });
-  const main = given.flatMap((run, n) => {
-    const vonMises = depthSeries(run, ["von_mises_MPa", "von Mises"], n, "solid");
-    return [vonMises, depthSeries(run, ["sigma_1_MPa", "σ₁"], n, "dot")];
+  const main = given.flatMap(({run, n, line}) => {
+    const vonMises = depthSeries(run, line, ["von_mises_MPa", "von Mises"], n, "solid");
+    return [vonMises, depthSeries(run, line, ["sigma_1_MPa", "σ₁"], n, "dot")];
   });
-  const below = `Below the largest von Mises stress under the surface (${given.map(placeWords).join("; ")}).`;
-  const components = given.flatMap((run, n) => {
+  const below = `${kBelow[body]} (${given.map(({run}) => placeWords(run, body)).join("; ")}).`;
+  const components = given.flatMap(({run, n, line}) => {
     const dash = n === 0 ? "solid" : "dash";
-    return kComponents.map((component, k) => depthSeries(run, component, k, dash, n > 0));
+    return kComponents.map((component, k) => depthSeries(run, line, component, k, dash, n > 0));
   });
-  const whose = given.length > 1 ? ` Solid: ${runLabel(given[0])}; dashed: the other.` : "";
+  const whose = given.length > 1 ? ` Solid: ${runLabel(given[0].run)}; dashed: the other.` : "";
   return [
-    figure("depth", "Von Mises and σ₁ against depth, rail", main, below),
+    figure("depth", "Von Mises and σ₁ against depth", main, below),
     figure(
-        "depth-components", "Stress components against depth, rail", components,
+        "depth-components", "Stress components against depth", components,
         `The same line; tension is positive.${whose}`),
   ];
 }

@@ -21,6 +21,13 @@ export function numberText(value: number|null|undefined, digits = 4): string {
   return minus(value.toFixed(Math.min(decimals, 8)));
 }
 
+/// Two digits and a power of ten: "3.1 × 10⁻⁴".
+export function powerText(value: number|null|undefined): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  const [mantissa, power] = value.toExponential(1).split("e");
+  return `${minus(mantissa)} × 10${superscript(Number(power))}`;
+}
+
 /// A whole number in groups of three.
 export function countText(value: number|null): string {
   return value === null ? "–" : String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, "\u202f");

@@ -140,12 +140,13 @@ export function transientFigures(runs: Run[]): Figure[] {
 // ---- film
 
 function span(at: number[]): Span {
-  const room = 1 + 0.5 * Math.abs((at[1] ?? at[0]) - at[0]);
+  const room = at.length > 2 ? 1 + 0.5 * Math.abs(at[1] - at[0]) : 2;
   return [Math.min(...at) - room, Math.max(...at) + room];
 }
 
 function frameWords(run: Run, film: Film, k: number): string {
   const {step, distance_mm} = film.frames[k];
+  if (run.engine === "fem") return `wheel at ${fixedText(distance_mm, 1)} mm`;
   return rolls(run.history!) ? `after ${fixedText(distance_mm, 2)} mm` : `increment ${step}`;
 }
 
@@ -190,22 +191,22 @@ class Player {
   private figure(
       id: string, title: string, column: string, hover: string, values: () => Values[][],
       scale: Pick<MapSpec, "range"|"colours"|"discrete"|"bar"|"valueWords"|"words">): Figure {
-    const {x} = this.film;
+    const whole = this.film.x;
     const y = this.film.y.map((v) => v - contactY(this.run));
     const now = () => mapFigure({
       id,
       title,
-      x,
+      x: this.film.frames[this.shown].x ?? whole,
       y,
       z: values()[this.shown],
-      centresX: x,
+      centresX: this.film.frames[this.shown].x ?? whole,
       centresY: y,
       names: ["x_mm", "y_mm", column],
       labels: ["x, rolling direction [mm]", "y, field side up [mm]"],
       hover,
       hoverY: "y",
       ...scale,
-      windowX: span(x),
+      windowX: span(whole),
       windowY: span(y),
       marker: {x: 0, y: 0, text: "rigid contact point"},
     });
@@ -239,7 +240,7 @@ class Player {
 
 /// The patch on its way, of the first run that has it.
 export function filmParts(runs: Run[]): HTMLElement[] {
-  const run = runs.find((r) => r.film && isTransient(r));
+  const run = runs.find((r) => r.film && r.film.frames.length && r.history);
   if (!run || !run.film) return [];
   const player = new Player(run, run.film);
   const whose = runs.length > 1 ? `Of ${runLabel(run)}. ` : "";

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Result folders for the tests of the report: fem (a wheel on a layered block, 30 mm of rolling), its reference
-fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), rest and fretting (the shipped transients), old (what
+fem/half_space, bem (LMA on CN60 by half-spaces, with two layers), wheel (a layer on the wheel), sweep, creep,
+rest and fretting (the shipped transients), old (what
 folders held before they had sections and geometry), study (both engines). usage: make_results.py BINARY FOLDER"""
 import pathlib
 import shutil
@@ -65,6 +66,18 @@ gauge_depth = "14 mm"
 lateral_shift = "9.7 mm"
 [drive]
 traction_coefficient = 0.02
+"""
+
+WHEEL_LAYER = """
+[case]
+title = "a layer on the wheel alone"
+[geometry]
+lateral_shift = "1.5 mm"
+[[layer]]
+name = "tyre"
+on = "wheel"
+thickness = "1.5 mm"
+young_ratio = 1.5
 """
 
 STUDY = """
@@ -178,8 +191,19 @@ railstrata("bem", TRANSIENTS / "from_rest.toml", "--out", FOLDER / "rest", "--ce
            "--set", "output.series_frames=8", "--quiet")
 railstrata("bem", TRANSIENTS / "fretting.toml", "--out", FOLDER / "fretting", "--cell", "0.4 mm", "--threads", "1",
            "--quiet")
+railstrata("run", FOLDER / "rolling.toml", "--out", FOLDER / "yields", "--threads", "1", "--quiet", "--no-report",
+           "--set", "run.plasticity=true", "--set", 'material.rail.yield_strength="350 MPa"', "--set",
+           'layer.0.yield_strength="600 MPa"', "--set",
+           'material.rail.kinematic_hardening=[{modulus = "20 GPa", recall = 50}]')
+railstrata("report", FOLDER / "yields", FOLDER / "fem", "--out", FOLDER / "yields.html", "--quiet")
 (FOLDER / "two.toml").write_text(TWO_PATCHES)
 railstrata("bem", FOLDER / "two.toml", "--out", FOLDER / "two", "--cell", "0.5 mm", "--threads", "1", "--quiet")
+(FOLDER / "wheel.toml").write_text(WHEEL_LAYER)
+railstrata("bem", FOLDER / "wheel.toml", "--out", FOLDER / "wheel", "--cell", "0.5 mm", "--threads", "1", "--quiet")
+railstrata("sweep", FOLDER / "layers.toml", "--out", FOLDER / "sweep", "--cell", "0.8 mm", "--vary",
+           "layer.0.thickness=1 mm,0.5 mm,2 mm", "--vary", "drive.friction_coefficient=0.3,0.5", "--quiet")
+railstrata("creep-curve", FOLDER / "layers.toml", "--out", FOLDER / "creep", "--cell", "0.8 mm", "--points", "7",
+           "--quiet")
 shutil.copytree(FOLDER / "fem", FOLDER / "old")
 for file in [*(FOLDER / "old").glob("*_section.csv"), FOLDER / "old" / "geometry.json", FOLDER / "old" / "report.html"]:
     file.unlink(missing_ok=True)

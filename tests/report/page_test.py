@@ -43,6 +43,8 @@ class Page(unittest.TestCase):
         cls.browser = BROWSER
         cls.browser.open(cls.file)
         cls.first_words, cls.asked = cls.browser.console(), cls.browser.requests()
+        cls.folded = cls.browser.js("const all = [...document.querySelectorAll('#verdict details')], was = "
+                                    "all.map(d => !d.open); all.forEach(d => d.open = true); return was")
 
     def js(self, script, *arguments):
         return self.browser.js(script, *arguments)
@@ -51,6 +53,24 @@ class Page(unittest.TestCase):
         return self.js(
             "const t = document.getElementById(arguments[0]).data[arguments[1]]; return {x: [...t.x], y: [...t.y], z: "
             "t.z && t.z.map(r => [...r]), name: t.name}", plot, k)
+
+    def saved(self, figure):
+        """The rows of a figure's table as the CSV button offers them."""
+        lines = [line for line in self.browser.download(figure).read_text().splitlines() if not line.startswith("#")]
+        self.browser.downloads.joinpath(f"{figure}.csv").unlink()
+        return list(csv.DictReader(lines))
+
+    def under(self, plot, x, y):
+        """What a painted picture says at this share of its width and height, and its colour there."""
+        return self.js(
+            """const host = document.getElementById(arguments[0]), canvas = host.querySelector('canvas');
+               const box = host.getBoundingClientRect(), c = canvas.getBoundingClientRect();
+               const at = {clientX: c.left + arguments[1] * c.width, clientY: c.top + arguments[2] * c.height};
+               host.dispatchEvent(new PointerEvent('pointermove', at));
+               const words = host.querySelector('.under');
+               const [x, y] = [arguments[1] * canvas.width, arguments[2] * canvas.height];
+               const pixel = canvas.getContext('2d').getImageData(x, y, 1, 1).data;
+               return [words.hidden ? null : words.textContent, [...pixel].slice(0, 3)]""", plot, x, y)
 
     def map_peak(self, plot):
         t = self.trace(plot)
@@ -225,6 +245,94 @@ class Run(Page):
             for state in (1, 2):
                 self.assertEqual(states.count(state), patch["state_0separated_1stick_2slip"].count(state))
 
+    def test_the_pictures_stand_first_and_show_the_patch(self):
+        order = self.js("return [...document.querySelector('main').querySelectorAll('#glance, #verdict, #numbers')]"
+                        ".map(e => e.id)")
+        self.assertEqual(order, ["glance", "verdict", "numbers"])
+        shown = self.js("return [...document.querySelectorAll('#glance figure')].map(f => f.id)")
+        self.assertEqual(shown, ["hero-p", "hero-q", "hero-state", "hero-section"])
+        bottom = self.js("return document.querySelector('#glance').getBoundingClientRect().bottom + scrollY")
+        self.assertLess(bottom, 700)
+        patch = read_table(FEM / "patch.csv")
+        y = 1e3 * json.loads((FEM / "geometry.json").read_text())["contact"]["y_m"]
+        wanted = {(round(a, 3), round(b - y, 3)): p for a, b, p in zip(patch["x_mm"], patch["y_mm"], patch["p_MPa"])
+                  if p > 0}
+        saved = {(round(float(r["x_mm"]), 3), round(float(r["y_mm"]), 3)): float(r["p_MPa"]) for r in
+                 self.saved("hero-p") if r["p_MPa"]}
+        self.assertEqual(saved.keys(), wanted.keys())
+        for place, p in wanted.items():
+            self.assertAlmostEqual(saved[place], p, delta=2e-5 * max(wanted.values()))
+
+    def test_a_picture_says_what_is_under_the_pointer_in_its_colour(self):
+        peak = max(read_table(FEM / "patch.csv")["p_MPa"])
+        found = [self.under("plot-hero-p", 0.3 + 0.02 * i, 0.1 + 0.03 * j) for i in range(25) for j in range(26)]
+        told = [(float(re.search(r"p ([\d.]+) MPa", words)[1]), pixel) for words, pixel in found if words]
+        self.assertGreater(len(told), 20)
+        value, pixel = max(told)
+        self.assertAlmostEqual(value, peak, delta=0.06)
+        self.assertIn([253, 231, 37], [p for v, p in told if v == value])
+        self.assertIsNone(self.under("plot-hero-p", 0.01, 0.5)[0])
+
+    def test_tractions_have_their_signs_and_arrows_their_direction(self):
+        for n, folder in enumerate([FEM, HALF_SPACE]):
+            patch = read_table(folder / "patch.csv")
+            for plot, column in [("qx", "q_x_MPa"), ("qy", "q_y_MPa")]:
+                shown = [v for row in self.trace(f"plot-map-{plot}-{n}")["z"] for v in row if v is not None]
+                size = max(map(abs, patch[column]))
+                self.assertAlmostEqual(min(shown), min(v for v, p in zip(patch[column], patch["p_MPa"]) if p > 0),
+                                       delta=1e-3 * size + 1e-6)
+                self.assertAlmostEqual(sum(shown), sum(v for v, p in zip(patch[column], patch["p_MPa"]) if p > 0),
+                                       delta=1e-3 * size * len(shown) + 1e-6)
+            arrows = self.trace(f"plot-map-q-{n}", 1)
+            self.assertGreater(len(arrows["x"]), 70)
+            for k in range(0, len(arrows["x"]), 7):  # a shaft, then its head
+                self.assertLess(arrows["x"][k + 1], arrows["x"][k], "a driving wheel pushes the rail backwards")
+
+    def test_shear_stresses_are_those_of_the_tables(self):
+        self.js("document.querySelector('#shear-rail').open = true")
+        self.browser.wait(lambda: self.js("return document.querySelectorAll('#shear-rail .main-svg').length > 0"),
+                          "the sections are drawn")
+        table = read_table(FEM / "rail_cross_section.csv")
+        shown = [v for row in self.trace("plot-section-rail-cross-sigma_xz-0")["z"] for v in row]
+        self.assertAlmostEqual(min(shown), min(table["sigma_xz_MPa"]), delta=0.02)
+        self.assertLess(min(shown), -max(shown), "a driving wheel drags the surface backwards")
+        import numpy as np
+        rows = zip(*(table[f"sigma_{c}_MPa"] for c in ("xx", "yy", "zz", "xy", "yz", "xz")))
+        principal = [np.linalg.eigvalsh([[a, d, f], [d, b, e], [f, e, c]]) for a, b, c, d, e, f in rows]
+        self.assertAlmostEqual(self.map_peak("plot-section-rail-cross-tau_max-0")[2],
+                               max(0.5 * (p[2] - p[0]) for p in principal), delta=0.1)
+        self.js("document.querySelector('#shear-rail').open = false")
+
+    def test_the_slider_moves_the_section_along_the_rail(self):
+        table = read_table(FEM / "rail_slices.csv")
+        places = sorted(set(table["x_mm"]))
+        self.assertEqual(self.js("return document.getElementById('slices-slider').max"), str(len(places) - 1))
+        for k, quantity, column in [(0, "von_mises", "von_mises_MPa"), (len(places) // 2, "tau_max", "tau_max_MPa")]:
+            self.js("""const list = document.getElementById('slices-quantity');
+                       list.value = arguments[1]; list.dispatchEvent(new Event('change'));
+                       const s = document.getElementById('slices-slider'); s.value = arguments[0];
+                       s.dispatchEvent(new Event('input'));""", str(k), quantity)
+            self.assertAlmostEqual(number_in(self.browser.text("#slices-at").split("=")[1]), places[k], delta=0.006)
+            wanted = sorted(v for x, v in zip(table["x_mm"], table[column]) if x == places[k])
+            saved = sorted(float(r[column]) for r in self.saved("slices"))
+            self.assertEqual(len(saved), len(wanted))
+            for a, b in zip(saved, wanted):
+                self.assertAlmostEqual(a, b, delta=1e-4 * max(table[column]))
+
+    def test_the_bodies_turn_in_space(self):
+        picture = "return document.querySelector('#plot-space canvas').toDataURL()"
+        before = self.js(picture)
+        self.js("document.getElementById('space-above').click()")
+        above = self.js(picture)
+        self.assertNotEqual(before, above)
+        self.js("""const host = document.getElementById('plot-space');
+                   host.setPointerCapture = () => {};
+                   const at = (type, x, y) => host.dispatchEvent(new PointerEvent(type, {clientX: x, clientY: y}));
+                   at('pointerdown', 100, 100); at('pointermove', 160, 80); at('pointerup', 160, 80);""")
+        self.assertNotIn(self.js(picture), (before, above))
+        self.js("document.getElementById('space-reset').click()")
+        self.assertEqual(self.js(picture), before)
+
     def test_millimetres_are_equally_long_on_both_axes(self):
         for plot in ["plot-map-p-0", "plot-section-rail-longitudinal-von_mises-0", "plot-section-rail-cross-sigma_1-1",
                      "plot-profiles"]:
@@ -290,6 +398,23 @@ class Run(Page):
         self.assertAlmostEqual(shown["y"][0], 1e-3 * history["F_z_N"][0], delta=1e-3)
         self.assertAlmostEqual(shown["x"][-1], history["position_mm"][-1], delta=0.5)
 
+    def test_the_film_shows_the_frames_of_the_rolling(self):
+        film = read_table(FEM / "patch_film.csv")
+        steps = sorted(set(film["step"]))
+        self.assertEqual(len(steps), len(list((FEM / "patch_series").glob("*.vtp"))))
+        for k in (3, len(steps) - 1):
+            self.js("""const s = document.getElementById('film-slider'); s.value = arguments[0];
+                       s.dispatchEvent(new Event('input'));""", str(k))
+            rows = [i for i, s in enumerate(film["step"]) if s == steps[k]]
+            self.assertEqual(self.browser.text("#film-at"), f"wheel at {film['distance_mm'][rows[0]]:.1f} mm")
+            shown = self.trace("plot-film-q")
+            for x, wanted in zip(shown["x"], sorted({film["x_mm"][i] for i in rows}), strict=True):
+                self.assertAlmostEqual(x, wanted, delta=1e-4)
+            values = [v for row in shown["z"] for v in row if v is not None]
+            self.assertEqual(len(values), len(rows))
+            peak = max((film["q_x_MPa"][i]**2 + film["q_y_MPa"][i]**2)**0.5 for i in rows)
+            self.assertAlmostEqual(max(values), peak, delta=1e-3 * peak + 1e-6)
+
     def test_every_figure_offers_its_numbers(self):
         figures = self.js("return [...document.querySelectorAll('figure')].map(f => f.id)")
         self.assertGreater(len(figures), 25)
@@ -342,6 +467,49 @@ class Run(Page):
         self.assertEqual(look(), light)
 
 
+class Yields(Page):
+    """A rail that yields beside the same rail that does not."""
+
+    file = RESULTS / "yields.html"
+
+    def words(self):
+        return self.js("return [...document.querySelectorAll('#yielded p.yielded')].map(p => p.textContent)")
+
+    def test_words_say_what_yielded_where_and_how_much(self):
+        told = summary_of(RESULTS / "yields")["plastic"]
+        yields, elastic = self.words()
+        self.assertIn(f"{round(told['elements'])} elements have yielded", yields)
+        self.assertIn(f"{1e3 * told['depth_m']:.2f} mm deep", yields)
+        self.assertAlmostEqual(number_in(yields.split("accumulated plastic strain ")[1]) / told["accumulated"], 1,
+                               delta=0.05)
+        self.assertAlmostEqual(number_in(yields.split("Plastic work ")[1]) / told["work_J"], 1, delta=0.01)
+        self.assertIn("no plasticity: every stress is elastic", elastic)
+
+    def test_maps_have_the_sections_values(self):
+        section = read_table(RESULTS / "yields" / "rail_longitudinal_section.csv")
+        x, depth, value = self.map_peak("plot-section-rail-longitudinal-plastic_p-0")
+        k = cells(section, "plastic_p")
+        self.assertAlmostEqual(value / section["plastic_p"][k], 1, delta=1e-4)
+        depths = sorted(set(section["depth_mm"]))
+        self.assertAlmostEqual(depth, row_borders(depths)[depths.index(section["depth_mm"][k])], delta=1e-2)
+
+    def test_pictures_on_the_profiles_stand_beside_each_other_on_one_scale(self):
+        shown = self.js("return [...document.querySelectorAll('#yielded figure h3, #yielded figcaption, #yielded h3')]"
+                        ".map(h => h.textContent)")
+        for title in ["Accumulated plastic strain", "Von Mises stress"]:
+            self.assertTrue(any(title in text for text in shown), shown)
+        strains = self.saved("yielded-strain-1")
+        section = read_table(RESULTS / "yields" / "rail_cross_section.csv")
+        largest = max(float(row["plastic_p"]) for row in strains if row["body"] == "rail")
+        self.assertAlmostEqual(largest / max(section["plastic_p"]), 1, delta=1e-3)
+        for k in (1, 2):
+            self.assertGreater(max(float(row["von_mises_MPa"]) for row in self.saved(f"yielded-stress-{k}")), 300)
+        self.assertEqual(self.js("return document.getElementById('plot-yielded-strain-2')"), None)
+
+    def test_it_has_nothing_to_complain_of(self):
+        self.assertEqual(self.first_words, [])
+
+
 class HalfSpace(Page):
     """A half-space result by itself, with two layers."""
 
@@ -353,6 +521,21 @@ class HalfSpace(Page):
         colour = self.js("return getComputedStyle(document.querySelector('#verdict')).backgroundColor")
         red, green, blue = map(int, re.findall(r"\d+", colour)[:3])
         self.assertTrue(green > red and green > blue)
+
+    def test_checks_that_hold_are_folded_and_notes_are_told(self):
+        self.assertEqual(self.folded, [True])
+        self.assertRegex(self.browser.text("#verdict summary"), r"^\d+ checks that hold")
+        self.assertIn("Von Mises stress above common rail yield", self.browser.text("#verdict .minded"))
+
+    def test_the_section_stands_on_the_profile_with_both_layers(self):
+        self.assertIn("hard on the rail, bond on the rail", self.browser.text("#hero-section figcaption"))
+        table = read_table(BEM / "rail_cross_section.csv")
+        saved = [r for r in self.saved("hero-section") if r["body"] == "rail"]
+        self.assertEqual(len(saved), len(table["y_mm"]))
+        for row, y, depth, stress in zip(saved, table["y_mm"], table["depth_mm"], table["von_mises_MPa"]):
+            self.assertAlmostEqual(float(row["y_mm"]), y, delta=1e-3)
+            self.assertAlmostEqual(float(row["depth_mm"]), depth, delta=1e-3)
+            self.assertAlmostEqual(float(row["von_mises_MPa"]), stress, delta=0.02)
 
     def test_it_has_no_history_and_says_nothing_of_it(self):
         self.assertIsNone(self.browser.text("#history"))
@@ -462,12 +645,95 @@ class TwoPatches(Page):
             peak = max(self.trace("plot-centre-p", k)["y"])
             self.assertAlmostEqual(peak / (1e-6 * patch["p_max_Pa"]), 1, delta=0.05)
 
+    def test_the_first_pictures_have_both_where_they_are(self):
+        patch = read_table(RESULTS / "two" / "patch.csv")
+        y = 1e3 * summary_of(RESULTS / "two")["patches"][0]["y_m"]
+        wanted = sorted(round(b - y, 3) for b, p in zip(patch["y_mm"], patch["p_MPa"]) if p > 0)
+        saved = sorted(round(float(r["y_mm"]), 3) for r in self.saved("hero-p") if r["p_MPa"])
+        self.assertEqual(len(saved), len(wanted))
+        for a, b in zip(saved, wanted):
+            self.assertAlmostEqual(a, b, delta=1e-3)
+
     def test_the_page_says_whose_the_numbers_are(self):
         self.assertIn("The numbers are those of patch 1", self.browser.text("#tiles-patches"))
         self.assertIn("F_x, F_y and F_z are of all patches", self.browser.text("#tiles-patches"))
         self.assertIsNotNone(self.browser.text("#patches"))
 
     def test_the_console_is_silent(self):
+        self.assertEqual(self.first_words + self.browser.console(), [])
+
+
+class WheelLayer(Page):
+    """A layer on the wheel alone is shown as one of the rail."""
+
+    file = RESULTS / "wheel" / "report.html"
+
+    def test_the_wheel_stands_open_with_the_layer_s_border(self):
+        self.assertTrue(self.js("return document.getElementById('wheel').open"))
+        depths = {round(d, 3) for d in self.trace("plot-section-wheel-longitudinal-von_mises-0", 1)["y"]
+                  if d is not None}
+        self.assertEqual(depths, {1.5})
+        self.assertEqual([round(s["y0"], 3) for s in
+                          self.js("return document.getElementById('plot-depth-wheel').layout.shapes")], [1.5])
+        self.assertIn("tyre on the wheel", self.browser.text("#hero-section figcaption"))
+        self.assertIn("Wheel, von Mises below the surface", self.browser.text(".tiles"))
+
+    def test_its_depth_line_is_where_its_sections_cross(self):
+        along, across = (read_table(RESULTS / "wheel" / f"wheel_{plane}_section.csv") for plane in ("longitudinal",
+                                                                                                     "cross"))
+        wanted = [(d, s) for x, d, s in zip(along["x_mm"], along["depth_mm"], along["von_mises_MPa"])
+                  if x == across["x_mm"][0]]
+        shown = self.trace("plot-depth-wheel")
+        points = [(d, s) for d, s in zip(shown["y"], shown["x"]) if d is not None]
+        self.assertEqual(len(points), len(wanted))
+        for (a, b), (c, d) in zip(points, wanted):
+            self.assertAlmostEqual(a, c, delta=1e-4)
+            self.assertAlmostEqual(b, d, delta=1e-3 * d)
+
+    def test_the_slices_have_the_wheel_too(self):
+        bodies = {r["body"] for r in self.saved("slices")}
+        self.assertEqual(bodies, {"rail", "wheel"})
+        self.assertEqual(self.first_words + self.browser.console(), [])
+
+
+def rows_of(file):
+    return list(csv.DictReader(line for line in file.read_text().splitlines() if not line.startswith("#")))
+
+
+class Sweep(Page):
+    """The page of a sweep: lines over the key with most values."""
+
+    file = RESULTS / "sweep" / "report.html"
+
+    def test_its_charts_are_its_table(self):
+        rows = rows_of(RESULTS / "sweep" / "sweep.csv")
+        for k, friction in enumerate(("0.3", "0.5")):
+            shown = self.trace("plot-p_max_MPa", k)
+            self.assertEqual(shown["name"], f"drive.friction_coefficient {friction}")
+            self.assertEqual(shown["x"], [0.5, 1, 2])
+            for x, y in zip(shown["x"], shown["y"]):
+                wanted = next(r for r in rows if float(r["layer.0.thickness"].split()[0]) == x
+                              and r["drive.friction_coefficient"] == friction)
+                self.assertAlmostEqual(y, float(wanted["p_max_MPa"]), delta=1e-5 * y)
+        self.assertEqual(len(self.js("return [...document.querySelectorAll('#table-cases tbody tr')].map(r => 1)")), 6)
+        self.assertIn("layer.0.thickness [mm]", self.js(
+            "return document.getElementById('plot-p_max_MPa')._fullLayout.xaxis.title.text"))
+        self.assertEqual(self.first_words + self.browser.console(), [])
+
+
+class Creep(Page):
+    """The page of a creep curve."""
+
+    file = RESULTS / "creep" / "report.html"
+
+    def test_its_curves_are_its_table(self):
+        rows = rows_of(RESULTS / "creep" / "creep_curve.csv")
+        self.assertEqual(len(rows), 7)
+        for k, column in enumerate(("full", "fastsim", "polach", "vermeulen_johnson")):
+            shown = self.trace("plot-creep", k)
+            for x, y, row in zip(shown["x"], shown["y"], rows, strict=True):
+                self.assertAlmostEqual(x, float(row["creepage"]), delta=1e-5 * abs(x))
+                self.assertAlmostEqual(y, float(row[column]), delta=1e-5)
         self.assertEqual(self.first_words + self.browser.console(), [])
 
 
@@ -518,7 +784,7 @@ class Old(Page):
         self.assertEqual(self.first_words, [])
         self.assertIn("No geometry in this folder", self.browser.text("#geometry"))
         self.assertIn("No sections of the rail", self.browser.text("#stress"))
-        self.assertEqual(self.js("return document.querySelectorAll('#patch figure').length"), 6)
+        self.assertEqual(self.js("return document.querySelectorAll('#patch figure').length"), 8)
 
     def test_a_narrow_window_needs_no_sideways_scrolling(self):
         self.browser.driver.set_window_size(760, 900)

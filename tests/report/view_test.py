@@ -104,6 +104,15 @@ class View(unittest.TestCase):
         self.assertAlmostEqual(coloured(bodies).sum() * PIXEL**2 / (area * SIGHT[2]), 1, delta=0.2)
         self.assertGreater(share(bodies, YELLOW, 60), 1e-4)
 
+    def test_arrows_of_10_mm_show_the_axes(self):
+        corner = picture(RESULTS / "fem")[650:, :420]
+        dark = (np.abs(corner - 51).max(axis=2) < 8)
+        rows, columns = dark.sum(axis=1), dark.sum(axis=0)
+        x_arrow, z_arrow = rows.max(), columns.max()  # the shafts with their heads lie nearly along both
+        right = np.array([-SIGHT[1], SIGHT[0], 0]) / np.hypot(SIGHT[0], SIGHT[1])
+        self.assertAlmostEqual(z_arrow * PIXEL / (0.010 * RISE), 1, delta=0.05)
+        self.assertGreater(x_arrow * PIXEL, 0.3 * 0.010 * abs(right[0]))
+
     def test_the_surfaces_touch_at_the_contact_point_only(self):
         rail, wheel = points(RESULTS / "bem" / "rail_surface.vtp"), points(RESULTS / "bem" / "wheel_surface.vtp")
         summit = rail[np.abs(rail[:, 0] - rail[:, 0].mean()) < 1e-9]  # the section below the axle

@@ -1,0 +1,133 @@
+#!/usr/bin/python3
+"""Builds dist/engine.js and dist/engine.wasm.gz, the engine of the explorer's page, from the rooms of src/ as they
+stand, with the licences of what is inside and the hashes of the sources, which a test compares.
+
+usage: explore/build_engine.py [--list] [FOLDER FOR OBJECTS]      --list: names sources and hashes, builds nothing
+
+It needs Debian's packages emscripten, ninja-build, libfmt-dev, libeigen3-dev, libtomlplusplus-dev and
+nlohmann-json3-dev. The sources are those that src/explore/calls.cpp reaches by its #includes.
+"""
+import gzip
+import hashlib
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+EXPLORE = pathlib.Path(__file__).resolve().parent
+SRC = EXPLORE.parent / "src"
+ENTRY = "explore/calls.cpp"
+# Rooms whose headers others include for the types, and whose functions nobody calls here: the linker would say.
+TYPES_ALONE = ("body/", "element/", "fem/", "mesh/", "contact/", "io/provenance.cpp")
+# Whole libraries of headers beside the system's own, which are not for this compiler.
+HEADERS = {"fmt": "/usr/include/fmt", "eigen3": "/usr/include/eigen3", "nlohmann": "/usr/include/nlohmann",
+           "toml++": "/usr/include/toml++"}
+FLAGS = ("-std=c++20 -O3 -msimd128 -fwasm-exceptions -fno-math-errno -ffp-contract=off -Wno-unknown-pragmas "
+         "-DNDEBUG -DFMT_HEADER_ONLY -DEIGEN_DONT_VECTORIZE")
+LINK = ("-O3 -fwasm-exceptions -sMODULARIZE -sEXPORT_NAME=railstrata_engine -sENVIRONMENT=web,worker,node "
+        "-sALLOW_MEMORY_GROWTH -sINITIAL_MEMORY=33554432 -sMAXIMUM_MEMORY=1073741824 -sFORCE_FILESYSTEM "
+        "-sINVOKE_RUN=0 -sDYNAMIC_EXECUTION=0 "
+        "-sEXPORTED_FUNCTIONS=_rs_explore,_rs_explore_numbers,_rs_explore_count,_malloc,_free "
+        "-sEXPORTED_RUNTIME_METHODS=FS,stringToUTF8,lengthBytesUTF8,UTF8ToString")
+DOC = "/usr/share/doc"
+LICENCES = {"{fmt}": f"{DOC}/libfmt-dev/copyright", "Eigen and kiss FFT": f"{DOC}/libeigen3-dev/copyright",
+            "JSON for Modern C++": f"{DOC}/nlohmann-json3-dev/copyright",
+            "toml++": f"{DOC}/libtomlplusplus-dev/copyright",
+            "musl, the C library": "/usr/share/emscripten/system/lib/libc/musl/COPYRIGHT"}
+# Products of complex numbers without a look at every one for NaN; elsewhere the engine works with infinity.
+FAST_MATH = {"fft_kiss.cpp"}
+
+
+def includes(file):
+    return re.findall(r'^#include "([^"]+)"', (SRC / file).read_text(), re.M)
+
+
+def sources():
+    """(files to compile, all files read) below src/, sorted."""
+    seen, todo = set(), [ENTRY]
+    while todo:
+        file = todo.pop()
+        if file in seen:
+            continue
+        seen.add(file)
+        for header in includes(file):
+            todo.append(header)
+            own = header.removesuffix(".hpp") + ".cpp"
+            if (SRC / own).exists() and not own.startswith(TYPES_ALONE):
+                todo.append(own)
+        if file.endswith("/fft.hpp"):
+            todo += [file.replace("fft.hpp", name) for name in ("fft_lengths.cpp", "fft_kiss.cpp")]
+    return sorted(f for f in seen if f.endswith(".cpp")), sorted(seen)
+
+
+def ninja_file(objects, compiled):
+    lines = ["rule cc", f"  command = em++ {FLAGS} $more -I{SRC} -I{EXPLORE}/stand_in -I{objects}/headers "
+             f"-I{objects}/headers/eigen3 -MMD -MF $out.d -c $in -o $out", "  depfile = $out.d", "  deps = gcc",
+             "rule link", f"  command = em++ {LINK} $in -o $out", ""]
+    names = []
+    for file in compiled:
+        name = file.replace("/", "_") + ".o"
+        names.append(name)
+        lines.append(f"build {name}: cc {SRC}/{file}")
+        if pathlib.Path(file).name in FAST_MATH:
+            lines.append("  more = -ffast-math")
+    lines += [f"build engine.js | engine.wasm: link {' '.join(names)}", ""]
+    return "\n".join(lines)
+
+
+def hashes():
+    """SHA-256 of every file that goes into the engine."""
+    _, read = sources()
+    files = [SRC / f for f in read] + sorted((EXPLORE / "stand_in").iterdir()) + [EXPLORE / "build_engine.py"]
+    return {str(f.relative_to(EXPLORE.parent)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
+
+
+def licences():
+    text = ("Third-party software in the explorer's engine, with its licences. Further inside: LLVM's C++ library\n"
+            "(Apache License 2.0 with LLVM Exceptions) and the runtime of Emscripten (MIT License, below).\n")
+    for name, file in LICENCES.items():
+        text += f"\n{'=' * 80}\n{name}\n\n{pathlib.Path(file).read_text().strip()}\n"
+    return text
+
+
+def build(objects):
+    (objects / "headers").mkdir(parents=True, exist_ok=True)
+    for name, folder in HEADERS.items():
+        link = objects / "headers" / name
+        if not link.exists():
+            link.symlink_to(folder)
+    compiled, _ = sources()
+    (objects / "build.ninja").write_text(ninja_file(objects, compiled))
+    # a Node that is not Debian's does not look where Debian has the parts that Emscripten asks for
+    places = [os.environ.get("NODE_PATH", ""), "/usr/share/nodejs"]
+    return subprocess.run(["ninja", "-C", objects, "-j2"], check=False,
+                          env={**os.environ, "NODE_PATH": ":".join(filter(None, places))}).returncode
+
+
+def main():
+    if sys.argv[1:] == ["--list"]:
+        print(json.dumps(hashes(), indent=2))
+        return 0
+    objects = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else EXPLORE.parent / "build/wasm").resolve()
+    before = hashes()
+    if build(objects):
+        return 1
+    if hashes() != before:
+        print("a source has changed while this was built: start it again", file=sys.stderr)
+        return 1
+    dist = EXPLORE / "dist"
+    dist.mkdir(exist_ok=True)
+    shutil.copyfile(objects / "engine.js", dist / "engine.js")
+    packed = gzip.compress((objects / "engine.wasm").read_bytes(), mtime=0)
+    (dist / "engine.wasm.gz").write_bytes(packed)
+    (dist / "LICENSES.txt").write_text(licences())
+    (dist / "engine_sources.json").write_text(json.dumps(before, indent=2) + "\n")
+    print(f"dist/engine.wasm.gz: {len(packed) / 1e6:.2f} MB from {len(sources()[0])} sources")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,125 @@
+// What has yielded in a run with plasticity: in words, on the profiles, and along the rail; elastic and yielding runs
+// beside each other.
+import {magnitudeScale, type Scale} from "./canvas";
+import {rowsOf, unpack, type BodyName, type PlasticNumbers, type Run} from "./data";
+import {element, note, part} from "./dom";
+import {frame, type Figure, type Painted} from "./figures";
+import {cellsBelow, layerWords, paintSection, type Cell} from "./profile";
+import {sectionMaps} from "./stress";
+import {countText, fixedText, numberText, powerText, runLabel} from "./text";
+
+const kHighest = 300;  // px, of a picture's plane
+const kBodies: BodyName[] = ["rail", "wheel"];
+
+const named = (run: Run, runs: Run[]) => (runs.length > 1 ? `${runLabel(run)}: ` : "");
+const label = (run: Run, runs: Run[], words: string) => (runs.length > 1 ? `${words}: ${runLabel(run)}` : words);
+
+// ---- words
+
+function placeWords(run: Run, p: PlasticNumbers): string {
+  const mm = (v: number|null) => fixedText(1e3 * (v ?? 0), 2);
+  const where = p.zone === p.body ? `in the ${p.body}` : `in ${p.zone} on the ${p.body}`;
+  const across = `${mm(p.depth_m)} mm deep, y ${mm(p.y_m)} mm`;
+  if (p.x_m === null) return `${where}, ${across}`;
+  const start = Math.abs(p.x_m) < (run.summary.contact.patch_length_m ?? 0);
+  const along = start ? `x ${mm(p.x_m)} mm, near where the wheel was put on` : `x ${mm(p.x_m)} mm along the rail`;
+  return `${where}, ${across}, ${along}`;
+}
+
+function words(run: Run): string {
+  const p = run.summary.plastic;
+  if (!p) return "The case has no plasticity: every stress is elastic.";
+  if (!p.body || !p.accumulated) return "Nothing has yielded.";
+  const times = p.strain && p.accumulated > 1.05 * p.strain
+      ? ` (the strain itself ${powerText(p.strain)}: the rest went to and fro)`
+      : "";
+  const work = p.work_J ? ` Plastic work ${numberText(p.work_J, 3)} J, ${
+                              numberText(p.dissipated_J, 3)} J of it heat, the rest held by hardening.`
+                        : "";
+  return `${countText(p.elements)} elements have yielded. Most of all ${placeWords(run, p)}: accumulated plastic ` +
+      `strain ${powerText(p.accumulated)}${times}.${work}`;
+}
+
+// ---- pictures
+
+type Packed = "von_mises"|"plastic_p";
+
+function cellsOf(run: Run, quantity: Packed): Cell[] {
+  return kBodies.flatMap((body) => {
+    const section = run.sections[body]?.cross;
+    const packed = section?.[quantity];
+    if (!run.geometry || !section || !packed) return [];
+    const cells =
+        cellsBelow(run.geometry, body, section.along, section.depth, rowsOf(unpack(packed), section.along.length));
+    return quantity === "plastic_p" ? cells.filter((cell) => cell.value > 0) : cells;
+  });
+}
+
+interface Look {
+  quantity: Packed;
+  title: string;
+  name: string;
+  unit: string;
+  column: string;
+  text: (v: number) => string;
+  about: string;
+}
+
+const kStress: Look = {
+  quantity: "von_mises",
+  title: "Von Mises stress",
+  name: "von Mises",
+  unit: "MPa",
+  column: "von_mises_MPa",
+  text: (v) => `${fixedText(v, 1)} MPa`,
+  about: "",
+};
+const kStrain: Look = {
+  quantity: "plastic_p",
+  title: "Accumulated plastic strain",
+  name: "p",
+  unit: "",
+  column: "plastic_p",
+  text: powerText,
+  about: " Without colour: not yielded.",
+};
+
+function picture(run: Run, runs: Run[], look: Look, cells: Cell[], scale: Scale): Painted {
+  const g = run.geometry!;
+  const at = fixedText(run.sections.rail!.cross.at, 2);
+  return {
+    id: `yielded-${look.quantity === "plastic_p" ? "strain" : "stress"}-${runs.indexOf(run) + 1}`,
+    title: label(run, runs, look.title),
+    words: [`On the profiles, rail at x = ${at} mm, seen against the rolling direction.${layerWords(g)}${look.about}`],
+    paint: (host, theme, width) => paintSection(
+        host, run, g, {cells, name: look.name, scale, highest: kHighest, unit: look.unit, text: look.text}, theme,
+        width),
+    table: () => ({
+      names: ["body", "y_mm", "depth_mm", look.column],
+      rows: cells.map((cell) => [cell.body, cell.y, cell.depth, cell.value]),
+    }),
+  };
+}
+
+/// One quantity of all runs that have it, on one scale.
+function pictures(runs: Run[], look: Look): Painted[] {
+  const all = runs.filter((run) => run.geometry).map((run) => ({run, cells: cellsOf(run, look.quantity)}));
+  const there = all.filter(({cells}) => cells.length > 0);
+  const top = Math.max(...there.flatMap(({cells}) => cells.map((cell) => cell.value)), 1e-9);
+  return there.map(({run, cells}) => picture(run, runs, look, cells, magnitudeScale(top)));
+}
+
+/// None where no run asks for plasticity.
+export function yieldedPart(runs: Run[]): HTMLElement|null {
+  if (!runs.some((run) => run.summary.plastic)) return null;
+  const told = runs.map((run) => element("p", {class: "yielded"}, named(run, runs), words(run)));
+  const bodies = kBodies.filter((body) => runs.some((run) => run.sections[body]?.longitudinal.plastic_p));
+  const along = bodies.flatMap((body) => sectionMaps(runs, body, ["plastic_p"]))
+                    .filter((figure) => figure.id.includes("longitudinal"));
+  const [strain, stress] = [pictures(runs, kStrain), pictures(runs, kStress)];
+  const figures: Figure[] = runs.length > 1 ? [...stress, ...strain, ...along] : [...strain, ...stress, ...along];
+  const about =
+      "Accumulated plastic strain p = ∫ √(2/3) |dE^p|: means over an element at this position of the wheel. " +
+      "The words tell of the largest point anywhere at the end of the rolling.";
+  return part("yielded", "What yielded", ...told, note(about), element("div", {class: "grid"}, ...figures.map(frame)));
+}
