@@ -2,8 +2,11 @@
 #
 #   librailstrata.so            every room but those of the program. Exported are the functions that the public headers
 #                               declare, in C++ and in C.
-#   librailstrata-commands.so   the rooms `study` and `app`: the command line of the program, and nothing for others.
+#   librailstrata-commands.so   the rooms `study`, `explore` and `app`: the command line of the program, and nothing for
+#                               others.
 #   railstrata                  main() alone.
+#   librailstrata-python.so     the rooms `study` and the handles of the Python module, which is an empty file beside the
+#                               Python files that asks for this library: so the loader's choice holds for it too.
 #   contact_addon_linux64.so    the room `cntc` with all it needs inside, so that this one file can stand in for that of
 #                               CONTACT; in a folder of its own, where nobody finds it by accident.
 #
@@ -18,7 +21,7 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 # The headers that a user of the library includes; those that they include are public too. C++ API, unstable until 1.0.
 set(PUBLIC_HEADERS core/faults.hpp case/case_file.hpp io/provenance.hpp runs/library.hpp)
 set(C_HEADER capi/railstrata.h)
-set(ROOMS_OF_THE_PROGRAM study app)
+set(ROOMS_OF_THE_PROGRAM study explore app)
 set(ROOM_OF_CONTACT cntc)
 # The mark by which the loader refuses a processor that is too old, in words instead of an illegal instruction.
 check_linker_flag(CXX -Wl,-z,x86-64-v2 has_level_mark)
@@ -66,21 +69,32 @@ function(railstrata_library variant folder level)
   railstrata_collect(upper "${suffix}" ${ROOMS_OF_THE_PROGRAM})
   list(APPEND lower_objects $<TARGET_OBJECTS:railstrata_build_info${suffix}>)
   list(APPEND lower_archives $<TARGET_FILE:railstrata_build_info${suffix}>)
+  if(RAILSTRATA_WITH_CUDA)  # not among the objects of its room: another compiler has made it
+    list(APPEND lower_objects ${RAILSTRATA_CARD_OBJECT})
+    list(APPEND lower_libraries ${RAILSTRATA_CUDART} Threads::Threads rt ${CMAKE_DL_LIBS})
+  endif()
 
+  set(user_objects "")
+  if(RAILSTRATA_PYTHON)
+    set(user_objects $<TARGET_OBJECTS:python_objects${suffix}>)
+  endif()
   # The version script: a public version with what the public headers declare, a private one with what the program's
-  # rooms call besides, all else local.
+  # rooms and the Python module call besides, all else local.
   set(map ${CMAKE_BINARY_DIR}/generated/librailstrata${suffix}.map)
   add_custom_command(OUTPUT ${map} DEPENDS ${interface_tool} ${lower_archives} ${upper_archives} ${headers_stamp}
-    VERBATIM
+    ${user_objects} VERBATIM
     COMMAND Python3::Interpreter ${interface_tool} exports --headers ${public_include}/railstrata --nm ${CMAKE_NM}
       --version ${PROJECT_VERSION} --public-version ${so_version} --out ${map} --library ${lower_archives}
-      --users ${upper_archives}
+      --users ${upper_archives} ${user_objects}
     COMMAND_EXPAND_LISTS COMMENT "Listing the symbols of librailstrata${suffix}.so")
   add_custom_target(railstrata_map${suffix} DEPENDS ${map})
 
   set(library railstrata_library${suffix})
   add_library(${library} SHARED ${lower_objects})
   add_dependencies(${library} railstrata_map${suffix})
+  if(RAILSTRATA_WITH_CUDA)
+    add_dependencies(${library} card_object)
+  endif()
   target_link_libraries(${library} PRIVATE ${lower_libraries})
   target_link_options(${library} PRIVATE -Wl,--version-script=${map})
   set_target_properties(${library} PROPERTIES OUTPUT_NAME railstrata EXPORT_NAME railstrata LINKER_LANGUAGE CXX
@@ -94,8 +108,14 @@ function(railstrata_library variant folder level)
     VERSION ${PROJECT_VERSION} SOVERSION ${so_version} LINK_DEPENDS ${CMAKE_SOURCE_DIR}/cmake/commands.map
     LIBRARY_OUTPUT_DIRECTORY ${folder})
 
-  foreach(target ${library} ${commands})
-    target_link_options(${target} PRIVATE -Wl,--no-undefined)
+  target_link_options(${library} PRIVATE -Wl,--no-undefined)
+  target_link_options(${commands} PRIVATE -Wl,--no-undefined)
+  set(targets ${library} ${commands})
+  if(RAILSTRATA_PYTHON)
+    railstrata_python_library(${library} "${suffix}" ${folder})
+    list(APPEND targets railstrata_python${suffix})
+  endif()
+  foreach(target IN LISTS targets)
     if(level AND has_level_mark)
       target_link_options(${target} PRIVATE -Wl,-z,${level})
     endif()
@@ -119,6 +139,9 @@ if(RAILSTRATA_VARIANTS)
     railstrata_flags(railstrata_flags_${variant} -march=x86-64-${variant})
     railstrata_rooms(${variant} ${wide_vectors})
     railstrata_build_info(_${variant})
+    if(RAILSTRATA_PYTHON)
+      railstrata_python_objects(_${variant})
+    endif()
   endforeach()
   railstrata_library(v2 ${libraries_folder} x86-64-v2)
   railstrata_library(v3 ${libraries_folder}/${hwcaps}/x86-64-v3 x86-64-v3)
@@ -140,6 +163,14 @@ if(RAILSTRATA_VARIANTS AND has_level_mark)
   target_link_options(contact_addon PRIVATE -Wl,-z,x86-64-v2)
 endif()
 
+if(RAILSTRATA_PYTHON)
+  add_library(python_module MODULE ${CMAKE_SOURCE_DIR}/python/module/module.c)
+  target_link_libraries(python_module PRIVATE railstrata_python${installed_suffix})
+  target_link_options(python_module PRIVATE -Wl,--no-as-needed)
+  set_target_properties(python_module PROPERTIES PREFIX "" OUTPUT_NAME _core SUFFIX ".${python_suffix}"
+    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/python-module)
+endif()
+
 # The program that is installed; railstrata-bin, which the tests look at, has its rooms inside.
 file(RELATIVE_PATH data_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DATADIR}/railstrata)
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/app/shipped_files.cpp PROPERTIES
@@ -152,57 +183,6 @@ set_target_properties(railstrata_program PROPERTIES OUTPUT_NAME railstrata
   RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
 set_target_properties(railstrata_commands${installed_suffix} PROPERTIES INSTALL_RPATH "$ORIGIN")
 
-# ---------------------------------------------------------------------------------------------------- cmake --install
-set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/RailStrata)
-set(data_folder ${CMAKE_INSTALL_DATADIR}/railstrata)
-install(TARGETS railstrata_program RUNTIME)
-install(TARGETS railstrata_library${installed_suffix} EXPORT RailStrataTargets
-  LIBRARY INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-install(TARGETS railstrata_commands${installed_suffix} LIBRARY NAMELINK_SKIP)
-install(TARGETS contact_addon LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/railstrata/contact)
-install(FILES ${CMAKE_SOURCE_DIR}/src/${ROOM_OF_CONTACT}/railstrata_cntc.h
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/railstrata)
-foreach(level IN LISTS levels)
-  set_target_properties(railstrata_commands_${level} PROPERTIES INSTALL_RPATH "$ORIGIN/../..")
-  install(TARGETS railstrata_library_${level} railstrata_commands_${level}
-    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/${hwcaps}/x86-64-${level} NAMELINK_SKIP)
-endforeach()
-install(DIRECTORY ${public_include}/railstrata DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")
 
-target_compile_features(railstrata_library${installed_suffix} INTERFACE cxx_std_20)
-install(EXPORT RailStrataTargets NAMESPACE RailStrata:: DESTINATION ${package_folder})
-set(package_build ${CMAKE_BINARY_DIR}/package)
-file(WRITE ${package_build}/RailStrataConfig.cmake
-  "# find_package(RailStrata): the target RailStrata::railstrata\n"
-  "include(\"\${CMAKE_CURRENT_LIST_DIR}/RailStrataTargets.cmake\")\n")
-write_basic_package_version_file(${package_build}/RailStrataConfigVersion.cmake COMPATIBILITY SameMinorVersion)
-install(FILES ${package_build}/RailStrataConfig.cmake ${package_build}/RailStrataConfigVersion.cmake
-  DESTINATION ${package_folder})
-
-# Both paths are relative to the file itself, so that the folder can be moved.
-file(RELATIVE_PATH root_from_pc ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-string(REGEX REPLACE "/$" "" root_from_pc "${root_from_pc}")
-configure_file(${CMAKE_SOURCE_DIR}/cmake/railstrata.pc.in ${package_build}/railstrata.pc @ONLY)
-install(FILES ${package_build}/railstrata.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
-
-# Shipped cases without the recorded results of a study, profiles and published numbers, the script for ParaView, texts.
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/cases DESTINATION ${data_folder} PATTERN "recorded" EXCLUDE)
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/data DESTINATION ${data_folder})
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/matlab DESTINATION ${data_folder})
-install(FILES ${CMAKE_SOURCE_DIR}/report/view.py ${CMAKE_SOURCE_DIR}/report/dist/report.js
-  ${CMAKE_SOURCE_DIR}/report/dist/report.css ${CMAKE_SOURCE_DIR}/report/dist/LICENSES.txt
-  DESTINATION ${data_folder}/report)
-install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/ DESTINATION ${CMAKE_INSTALL_DOCDIR} FILES_MATCHING PATTERN "*.md"
-  PATTERN "*.bib" PATTERN "*.png" PATTERN "reliability" EXCLUDE)
-foreach(text README.md LICENSE CHANGELOG.md CITATION.cff)
-  install(FILES ${CMAKE_SOURCE_DIR}/${text} DESTINATION ${CMAKE_INSTALL_DOCDIR} OPTIONAL)
-endforeach()
-file(GLOB manual CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/docs/*.1)
-if(manual)
-  install(FILES ${manual} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-endif()
-
-if(RAILSTRATA_NATIVE AND NOT RAILSTRATA_VARIANTS)
-  install(CODE "message(WARNING \"This build runs on processors like this one only. For others build with \"
-    \"-DRAILSTRATA_VARIANTS=ON (cmake --preset install, or ./railstrata install PREFIX).\")")
-endif()
+include(cmake/install.cmake)
+include(cmake/packages.cmake)

@@ -73,6 +73,12 @@ class Tree(unittest.TestCase):
         self.assertEqual(only("contact_addon_linux64.so").parent.parts[-2:], ("railstrata", "contact"))
         self.assertFalse(list(PREFIX.rglob("recorded")))
 
+    def test_manual_and_completion_are_there(self):
+        for page in ("man1/railstrata.1.gz", "man1/railstrata-run.1.gz", "man5/railstrata-case.5.gz"):
+            self.assertTrue((PREFIX / "share/man" / page).is_file(), page)
+        text = (PREFIX / "share/bash-completion/completions/railstrata").read_text()
+        self.assertIn("complete -F _railstrata railstrata", text)
+
     def test_no_file_names_the_source_or_the_build_folder(self):
         for file in PREFIX.rglob("*"):
             if file.is_file():
@@ -217,6 +223,50 @@ class CConsumer(Consumer):
         self.assertEqual(len(numbers_of[0]), 3)
         for c, fortran in zip(*numbers_of):
             self.assertAlmostEqual(c, fortran, delta=1e-9 * abs(c))
+
+
+class Python(unittest.TestCase):
+    """The installed package in another place than it was installed to, without the build folder."""
+    def setUp(self):
+        packages = list(PREFIX.rglob("railstrata/_core.*.so"))
+        if not packages:
+            self.skipTest("the build has no Python package (-DRAILSTRATA_PYTHON=ON)")
+        self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory())).resolve()
+        shutil.copytree(PREFIX, self.folder / "tree", symlinks=True)
+        self.path = self.folder / "tree" / packages[0].parent.parent.relative_to(PREFIX)
+
+    def python(self, code, **changes):
+        here = environment(PYTHONPATH=str(self.path), PYTHONDONTWRITEBYTECODE="1", LD_LIBRARY_PATH=None,
+                           RAILSTRATA_DATA=None, **changes)
+        return done("/usr/bin/python3", "-c", code, cwd=self.folder, env=here)
+
+    def test_it_gives_the_bits_of_the_program_beside_it(self):
+        out = json.loads(self.python(
+            "import json, railstrata as rs\nrs.threads(1)\nr = rs.bem(rs.Case('cases/quick'), cell=1e-3)\n"
+            "print(json.dumps([rs.__version__, rs.__file__, r.summary['contact']]))"))
+        self.assertEqual(out[0], VERSION)
+        self.assertTrue(out[1].startswith(str(self.folder)), out[1])
+        done(self.folder / "tree/bin/railstrata", "bem", "cases/quick", "--cell", "1 mm", "--threads", "1", "--out",
+             self.folder / "out", cwd=self.folder)
+        self.assertEqual(out[2], json.loads((self.folder / "out/summary.json").read_text())["contact"])
+
+    def test_faults_of_a_case_keep_their_places(self):
+        out = self.python("import railstrata as rs\ntry: rs.Case.from_text('[mesh]\\nelement_size = 1')\n"
+                          "except rs.CaseError as e: print(e.diagnostics[0].remedy)")
+        self.assertIn("in quotes", out)
+
+    def test_the_loader_takes_the_library_for_the_processor(self):
+        """The library stands once more where the loader looks first on this processor, as in a build of all levels."""
+        level = next(line.split()[0] for line in done("/lib64/ld-linux-x86-64.so.2", "--help").splitlines()
+                     if re.search(r"x86-64-v\d.*supported, searched", line))
+        folder = only("librailstrata-python.so.*", self.folder / "tree").parent / "glibc-hwcaps" / level
+        if not folder.exists():
+            folder.mkdir(parents=True)
+            for file in [f for f in folder.parent.parent.glob("librailstrata*.so*")]:
+                shutil.copy(file, folder, follow_symlinks=False)
+        out = self.python("import railstrata\nprint(*{line.split()[-1] for line in open('/proc/self/maps') "
+                          "if 'librailstrata' in line})").split()
+        self.assertEqual({str(pathlib.Path(name).parent) for name in out}, {str(folder)})
 
 
 class Moved(unittest.TestCase):
