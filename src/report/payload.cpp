@@ -8,10 +8,13 @@
 #include <filesystem>
 #include <limits>
 
+#include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "io/provenance.hpp"
 #include "io/result_reference.hpp"
+#include "material/elastic.hpp"
 #include "post/patch.hpp"
+#include "post/stress_sections.hpp"
 #include "report/base64.hpp"
 
 namespace railstrata {
@@ -149,39 +152,57 @@ std::vector<double> unique(std::vector<double> values) {
   return values;
 }
 
-/// The states of patch_film.csv on the grid of all their cells, index as in `patch`.
-Json film(const std::optional<CsvTable>& table) {
+/// A part of a film's rows on the grid of its own cells, index as in `patch`.
+struct FilmRows {
+  const std::vector<double>&x, &y, &q_x, &q_y, &state;
+  Json on_grid(std::size_t first, std::size_t last, const std::vector<double>& all_x,
+               const std::vector<double>& all_y) const {
+    const auto at = [](const std::vector<double>& all, double v) {
+      return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), v) - all.begin());
+    };
+    std::vector<double> q(all_x.size() * all_y.size(), std::numeric_limits<double>::quiet_NaN());
+    std::string states(q.size(), '0');
+    for (std::size_t i = first; i < last; ++i) {
+      const std::size_t k = at(all_x, x[i]) * all_y.size() + at(all_y, y[i]);
+      q[k] = std::hypot(q_x[i], q_y[i]);
+      states[k] = static_cast<char>('0' + static_cast<int>(std::clamp(state[i], 0.0, 2.0)));
+    }
+    return {{"q", packed(q)}, {"state", states}};
+  }
+};
+
+/// The states of patch_film.csv: those of half-spaces on the grid of all their cells; those of finite elements, whose
+/// nodes come and go as the wheel passes, each on its own.
+Json film(const std::optional<CsvTable>& table, bool own_grids) {
   if (!table) return nullptr;
   const std::vector<double> step = table->column("step"), distance = table->column("distance_mm"),
                             x = table->column("x_mm"), y = table->column("y_mm");
   const std::vector<double> q_x = table->column("q_x_MPa"), q_y = table->column("q_y_MPa"),
                             state = table->column("state_0separated_1stick_2slip");
+  const FilmRows rows{x, y, q_x, q_y, state};
   const std::vector<double> all_x = unique(x), all_y = unique(y);
-  const auto at = [](const std::vector<double>& all, double v) {
-    return static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), v) - all.begin());
-  };
-  Json out{{"x", numbers(all_x)}, {"y", numbers(all_y)}, {"frames", Json::array()}};
+  Json out{{"x", own_grids ? Json::array({number(all_x.front()), number(all_x.back())}) : numbers(all_x)},
+           {"y", numbers(all_y)},
+           {"frames", Json::array()}};
   for (std::size_t i = 0; i < step.size();) {
     const std::size_t first = i;
-    std::vector<double> q(all_x.size() * all_y.size(), std::numeric_limits<double>::quiet_NaN());
-    std::string states(q.size(), '0');
-    for (; i < step.size() && step[i] == step[first]; ++i) {
-      const std::size_t k = at(all_x, x[i]) * all_y.size() + at(all_y, y[i]);
-      q[k] = std::hypot(q_x[i], q_y[i]);
-      states[k] = static_cast<char>('0' + static_cast<int>(std::clamp(state[i], 0.0, 2.0)));
-    }
-    out["frames"].push_back(
-        {{"step", step[first]}, {"distance_mm", number(distance[first])}, {"q", packed(q)}, {"state", states}});
+    while (i < step.size() && step[i] == step[first]) ++i;
+    const auto from = x.begin() + static_cast<std::ptrdiff_t>(first), to = x.begin() + static_cast<std::ptrdiff_t>(i);
+    const std::vector<double> own = unique({from, to});
+    Json frame = rows.on_grid(first, i, own_grids ? own : all_x, all_y);
+    frame["step"] = step[first];
+    frame["distance_mm"] = number(distance[first]);
+    if (own_grids) frame["x"] = numbers(own);
+    out["frames"].push_back(std::move(frame));
   }
   return out;
 }
 
-Json section(const CsvTable& table, bool longitudinal) {
-  const std::vector<double> x = table.column("x_mm"), y = table.column("y_mm"), depth = table.column("depth_mm"),
-                            material = table.column("material");
+/// How many rows of a table of a section have its first depth; throws CaseError where they make no grid.
+std::size_t width_of(const CsvTable& table, const std::vector<double>& depth, std::size_t least) {
   std::size_t width = 0;
   while (width < depth.size() && depth[width] == depth[0]) ++width;
-  if (width < 2 || depth.size() % width != 0 || depth.size() < 2 * width)
+  if (width < least || depth.size() % width != 0 || depth.size() < 2 * width)
     throw CaseError(
         fmt::format("this section cannot be drawn: {} rows do not make a grid with one depth a row of it (the first "
                     "depth has {} points)",
@@ -189,17 +210,84 @@ Json section(const CsvTable& table, bool longitudinal) {
         "lines were removed or sorted; copy the file back, or write the results anew with `railstrata run` or "
         "`railstrata bem`",
         table.file.string());
+  return width;
+}
+
+std::string material_digits(const std::vector<double>& material) {
+  std::string digits;
+  for (double m : material) digits += "0123456789abcdefghijklmnopqrstuvwxyz"[std::clamp(static_cast<int>(m), 0, 35)];
+  return digits;
+}
+
+/// MPa, of every row of a table of stresses.
+std::vector<double> largest_shears(const CsvTable& table) {
+  std::vector<std::vector<double>> s;
+  for (const char* name : {"xx", "yy", "zz", "xy", "yz", "xz"})
+    s.push_back(table.column(fmt::format("sigma_{}_MPa", name)));
+  std::vector<double> out;
+  for (std::size_t i = 0; i < s[0].size(); ++i)
+    out.push_back(largest_shear(principal_stresses({s[0][i], s[1][i], s[2][i], s[3][i], s[4][i], s[5][i]})));
+  return out;
+}
+
+Json section(const CsvTable& table, bool longitudinal) {
+  const std::vector<double> x = table.column("x_mm"), y = table.column("y_mm"), depth = table.column("depth_mm");
+  const std::size_t width = width_of(table, depth, 2);
   const std::vector<double>& along = longitudinal ? x : y;
   std::vector<double> rows;
   for (std::size_t i = 0; i < depth.size(); i += width) rows.push_back(depth[i]);
-  std::string digits;
-  for (double m : material) digits += "0123456789abcdefghijklmnopqrstuvwxyz"[std::clamp(static_cast<int>(m), 0, 35)];
-  return {{"at", number(longitudinal ? y[0] : x[0])},
-          {"along", numbers({along.begin(), along.begin() + static_cast<std::ptrdiff_t>(width)})},
+  Json out{{"at", number(longitudinal ? y[0] : x[0])},
+           {"along", numbers({along.begin(), along.begin() + static_cast<std::ptrdiff_t>(width)})},
+           {"depth", numbers(rows)},
+           {"von_mises", packed(table.column("von_mises_MPa"))},
+           {"sigma_1", packed(table.column("sigma_1_MPa"))},
+           {"sigma_xz", packed(table.column("sigma_xz_MPa"))},
+           {"tau_max", packed(largest_shears(table))},
+           {"material", material_digits(table.column("material"))}};
+  for (const CsvColumn& c : table.columns)
+    if (c.name == "plastic_p") out["plastic_p"] = packed(c.values);
+  return out;
+}
+
+/// Cross sections one behind the other: values index along + along.size() * (row + rows * slice).
+Json slices_of(const CsvTable& table) {
+  const std::vector<double> x = table.column("x_mm"), y = table.column("y_mm"), depth = table.column("depth_mm");
+  const std::size_t width = width_of(table, depth, 1),
+                    size = static_cast<std::size_t>(std::count(x.begin(), x.end(), x[0]));
+  if (size % width != 0 || x.size() % size != 0) return nullptr;
+  std::vector<double> at, rows;
+  for (std::size_t i = 0; i < x.size(); i += size) at.push_back(x[i]);
+  for (std::size_t i = 0; i < size; i += width) rows.push_back(depth[i]);
+  return {{"at", numbers(at)},
+          {"along", numbers({y.begin(), y.begin() + static_cast<std::ptrdiff_t>(width)})},
           {"depth", numbers(rows)},
           {"von_mises", packed(table.column("von_mises_MPa"))},
           {"sigma_1", packed(table.column("sigma_1_MPa"))},
-          {"material", digits}};
+          {"sigma_xz", packed(table.column("sigma_xz_MPa"))},
+          {"tau_max", packed(table.column("tau_max_MPa"))}};
+}
+
+Json slices(const ReportRun& run) {
+  Json out = Json::object();
+  for (const auto& [body, table] : run.slices) out[body] = slices_of(table);
+  return out;
+}
+
+/// Where the wheel's two sections cross: the stresses against depth there.
+Json wheel_depth_line(const ReportRun& run) {
+  const auto along = run.sections.find("wheel_longitudinal"), across = run.sections.find("wheel_cross");
+  if (along == run.sections.end() || across == run.sections.end()) return nullptr;
+  const CsvTable& table = along->second;
+  const double x = across->second.column("x_mm")[0];
+  const std::vector<double> all = table.column("x_mm");
+  Json out = Json::object();
+  for (const CsvColumn& c : table.columns) {
+    std::vector<double> v;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (std::abs(all[i] - x) < 1e-6) v.push_back(c.values[i]);
+    out[c.name] = numbers(v);
+  }
+  return out;
 }
 
 Json sections(const ReportRun& run) {
@@ -264,7 +352,8 @@ Json geometry(const ReportRun& run) {
   return out;
 }
 
-Json run_json(const ReportRun& run) {
+/// Of many runs no slices: a page of megabytes that nobody looks through.
+Json run_json(const ReportRun& run, bool with_slices) {
   Json options = Json::array();
   for (const CaseOption& o : run.options) options.push_back({o.table, o.key, without_folders(o.value)});
   return {{"name", run.name},
@@ -280,9 +369,11 @@ Json run_json(const ReportRun& run) {
           {"centre_line", centre(run.result.field)},
           {"further_centre_lines", of_each(run.result.further, centre)},
           {"depth_line", columns(run.depth_line)},
+          {"wheel_depth_line", wheel_depth_line(run)},
           {"history", columns(run.history)},
-          {"film", film(run.film)},
+          {"film", film(run.film, is_engine(run.result.engine, Engine::fem))},
           {"sections", sections(run)},
+          {"slices", with_slices ? slices(run) : Json::object()},
           {"shakedown", shakedown(run)}};
 }
 
@@ -323,7 +414,7 @@ Json report_payload(const Report& report) {
                              {"value", finite(c.value)},
                              {"limit", finite(c.limit)},
                              {"note", c.note}});
-  for (const ReportRun& run : report.runs) out["runs"].push_back(run_json(run));
+  for (const ReportRun& run : report.runs) out["runs"].push_back(run_json(run, report.runs.size() < 3));
   for (const ReportTable& t : report.tables)
     out["tables"].push_back(
         {{"id", t.id}, {"title", t.title}, {"note", t.note}, {"columns", t.columns}, {"rows", t.rows}});
@@ -343,6 +434,7 @@ Json report_payload(const Report& report) {
     out["maps"].push_back(
         {{"id", m.id}, {"title", m.title}, {"note", m.note}, {"kind", m.kind}, {"runs", m.runs}, {"names", m.names}});
   for (const ReportGrids& g : report.grids) out["grids"].push_back(grids_json(g));
+  if (!report.passes.is_null()) out["passes"] = report.passes;
   return out;
 }
 

@@ -109,6 +109,9 @@ ReportRun read_report_run(const fs::path& folder) {
   for (const char* name : {"rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"})
     if (auto table = table_of(file_of(folder, std::string(name) + "_section.csv")))
       run.sections.emplace(name, std::move(*table));
+  for (const char* body : {"rail", "wheel"})
+    if (auto table = table_of(file_of(folder, std::string(body) + "_slices.csv")))
+      run.slices.emplace(body, std::move(*table));
   for (const char* name : {"rail", "rail_map", "rail_sliding", "wheel", "wheel_map", "wheel_sliding"})
     if (auto table = table_of(file_of(folder, fmt::format("shakedown_{}.csv", name))))
       run.shakedown.emplace(name, std::move(*table));

@@ -35,6 +35,7 @@ struct ReportRun {                                    // NOLINT(bugprone-excepti
                                                                         ///< its elements; NaN: not solved
   std::vector<ResultDoubt> doubts;           ///< why its numbers may not be those of its case
   std::map<std::string, CsvTable> sections;  ///< "rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"
+  std::map<std::string, CsvTable> slices;    ///< "rail", "wheel": cross sections along the patch
   std::map<std::string, CsvTable> shakedown;  ///< "rail", "rail_map", "rail_sliding", "wheel", …: where strengths are
 
   /// The value of an option as the case writes it; empty if it is not there.
@@ -106,6 +107,7 @@ struct Report {
   std::vector<ReportChart> charts;
   std::vector<ReportMaps> maps;
   std::vector<ReportGrids> grids;
+  nlohmann::ordered_json passes;  ///< over rails that yield, report/passes_page.hpp; null: none
 };
 
 }  // namespace railstrata

@@ -1,0 +1,18 @@
+#pragma once
+// The page of passes over a rail that yields, from the files of their folders (io/pass_files.hpp): the verdict in
+// words, what every pass has done, maps of the section, profiles, loops.
+#include <filesystem>
+#include <vector>
+
+#include "report/report.hpp"
+
+namespace railstrata {
+
+/// Reads passes.json, passes.csv, residual.csv and profile.csv of each folder, and loops.csv and along.csv where they
+/// are there. Throws CaseError at a file that is missing or damaged.
+Report passes_report(const std::vector<std::filesystem::path>& folders);
+
+/// Writes the page of one folder, or of several beside each other.
+void write_passes_page(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders);
+
+}  // namespace railstrata
