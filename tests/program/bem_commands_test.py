@@ -400,6 +400,22 @@ young_ratio = 2.0
 
     # sweep
 
+    def test_a_drive_that_a_case_at_rest_makes_void_is_warned_of(self):
+        still = SOURCE / "cases" / "verification" / "hertz_sphere.toml"
+        void = "drive.creepage has no effect: run.rolling = false"
+        out = ["--out", self.folder / "still", "--force", "--no-report"]
+        _, _, err = railstrata("bem", still, *COARSE, *out)
+        self.assertNotIn("warning", err)
+        _, _, err = railstrata("bem", still, *COARSE, "--set", "drive.creepage=0.001", *out)
+        self.assertIn(void, err)
+        _, _, err = railstrata("sweep", still, *COARSE, "--vary", "drive.creepage=0.001,0.002", *out)
+        self.assertEqual(err.count(void), 1, err)
+        _, _, err = railstrata("creep-table", still, *COARSE, "--axis", "creepage_x=-0.001,0.001", "--places", 1,
+                                  "--out", self.folder / "table")
+        self.assertIn("run.rolling = false has no effect: a creep table is of steady rolling", err)
+        self.assertNotIn("drive.", err)
+        self.assertGreater(float(table(self.folder / "table" / "creep_table.csv")[0]["force_x_N"]), 1000)
+
     def test_a_sweep_says_how_many_patches_a_case_has_and_what_its_columns_are_of(self):
         out = self.folder / "sweep"
         text = self.done("sweep", self.case(TWO_PATCHES), *COARSE, "--vary", "geometry.lateral_shift=2 mm,9.7 mm",

@@ -4,6 +4,8 @@
 //                                              fail with errno REASON, after SKIP that succeed;
 //                                              REASON "wait": they take ten seconds instead. A write that fails for
 //                                              lack of room has written half of its bytes before, as on a real disk.
+//   RAILSTRATA_HOST="north"                    the name of the machine that the program sees
+//   RAILSTRATA_CLOCK="-600"                    its clock is so many seconds ahead; that of the file system is not
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -12,6 +14,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
 // errno of the fault that this call is to have; 0: none.
@@ -73,4 +77,34 @@ int rename(const char* from, const char* to) {
   if (!reason) return REAL(rename)(from, to);
   errno = reason;
   return -1;
+}
+
+int gethostname(char* name, size_t size) {
+  const char* host = getenv("RAILSTRATA_HOST");
+  if (!host) return REAL(gethostname)(name, size);
+  snprintf(name, size, "%s", host);
+  return 0;
+}
+
+static long ahead(void) {
+  const char* seconds = getenv("RAILSTRATA_CLOCK");
+  return seconds ? atol(seconds) : 0;
+}
+
+int clock_gettime(clockid_t clock, struct timespec* now) {
+  const int result = REAL(clock_gettime)(clock, now);
+  if (result == 0 && clock == CLOCK_REALTIME) now->tv_sec += ahead();
+  return result;
+}
+
+int gettimeofday(struct timeval* restrict now, void* restrict zone) {
+  const int result = REAL(gettimeofday)(now, zone);
+  if (result == 0) now->tv_sec += ahead();
+  return result;
+}
+
+time_t time(time_t* now) {
+  const time_t result = REAL(time)(NULL) + ahead();
+  if (now) *now = result;
+  return result;
 }

@@ -138,7 +138,7 @@ class Material(FromOutside):
                 (["--strain", good, "--of", "layer.0"], "the card has no such material"),
                 (["--strain", good, "--out", self.folder / "x.txt"], "must end in .csv"),
                 (["--strain", good, "--increments", "0"], "--increments"),
-                (["--calibrate", good], "unknown column"),
+                (["--calibrate", good], "path.csv:1: error: the table has no column of stress"),
                 (["--calibrate", self.write("g.csv", "strain,stress_MPa\n0,0\n0.001,200\n")],
                  "a loop needs ten points")):
             out = [] if "--out" in words else ["--out", self.folder / ("o.toml" if "--calibrate" in words else "o.csv")]
@@ -146,6 +146,26 @@ class Material(FromOutside):
             self.assertIn(answer, err)
             self.assertIn("remedy", err)
         self.assertIn("elastic on purpose", self.drive(elastic, "--strain", good, expected=2)[1])
+
+    def test_half_a_loop_leaves_no_card(self):
+        loop = [line for line in (SHIPPED / "loop.csv").read_text(encoding="utf-8").splitlines()
+                if line and not line.startswith("#")]
+        stress = [float(line.split(",")[1]) for line in loop[1:]]
+        low, high = stress.index(min(stress)), stress.index(max(stress))
+        points = loop[1:]
+        rising = points[low:high + 1] if low < high else points[low:] + points[:high + 1]
+        half = self.write("half.csv", "\n".join([loop[0], *rising]) + "\n")
+        out = self.folder / "half.toml"
+        _, err = self.drive(SHIPPED / "test_steel.toml", "--calibrate", half, "--out", out, expected=2)
+        self.assertIn("the points go up only: give both branches", err)
+        self.assertFalse(out.exists())
+
+    def test_few_increments_of_cycles_are_told(self):
+        args = [SHIPPED / "r260.toml", "--stress", SHIPPED / "ratchetting.csv", "--out", self.folder / "r.csv"]
+        _, err = self.drive(*args, "--cycles", "2", "--force")
+        self.assertIn("100 increments a row overestimate ratchetting", err)
+        _, err = self.drive(*args, "--cycles", "2", "--increments", "400", "--force")
+        self.assertNotIn("overestimate", err)
 
     def test_only_its_own_tables_are_made_anew(self):
         card, path = self.write("card.toml", AF_VOCE), self.write("path.csv", "e_xx\n0.003\n")

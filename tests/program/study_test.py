@@ -10,6 +10,7 @@ import json
 import os
 import pathlib
 import random
+import shlex
 import shutil
 import signal
 import subprocess
@@ -68,6 +69,15 @@ class StudyTest(FromOutside):
     def end_well(self, processes, code=0):
         errors = [process.communicate()[1] for process in processes]  # all of them, so that none outlives a failure
         self.assertEqual([process.returncode for process in processes], [code] * len(processes), errors)
+
+    def pretended_job(self, task):
+        """Environment of a job that runs in Slurm, with commands that write down what they are asked for; slurm_test.py
+        has a real one."""
+        for name, text in (("squeue", "echo running"), ("scontrol", f"echo $* >> {self.folder}/requeued")):
+            (self.folder / name).write_text(f"#!/bin/sh\n{text}\n")
+            (self.folder / name).chmod(0o755)
+        return {**os.environ, "SLURM_ARRAY_JOB_ID": "7", "SLURM_ARRAY_TASK_ID": str(task), "SLURM_CPUS_PER_TASK": "1",
+                "PATH": f"{self.folder}:{os.environ['PATH']}"}
 
     def rows(self):
         return table(self.out / "study.csv")
@@ -143,6 +153,19 @@ class Cases(StudyTest):
         self.assertIn("8 cases, 1 of them to compute", self.solve(text, code=1))
         self.assertIn("7 cases, 0 of them to compute", self.solve(text.replace('"1.7 m", ', "")))
 
+    def test_two_different_studies_on_one_folder_do_not_both_end_well(self):
+        for _ in range(2):
+            first, second = (self.start(text, "--jobs", "1") for text in (GRID, GRID.replace('"1.5 mm"', '"1.4 mm"')))
+            ends = [(process.communicate()[1], process.returncode) for process in (first, second)]
+            bad = [err for err, rc in ends if rc != 0]
+            whole = [r["state"] for r in self.rows()] == ["done"] * 6
+            self.assertTrue(bad or whole, ends)
+            self.assertTrue(all("another study, with other settings, writes into" in err for err in bad), ends)
+            self.assertEqual(self.left_behind(), [])
+            self.solve(GRID)
+            self.assertEqual([r["state"] for r in self.rows()], ["done"] * 6)
+            shutil.rmtree(self.out)
+
     def test_shards_share_the_work_and_the_last_has_the_whole_table(self):
         self.assertIn("2 cases, 2 of them to compute", self.solve(GRID, "--shard", "1/3"))
         self.assertEqual([r["state"] for r in self.rows()], ["done", "to do", "to do", "done", "to do", "to do"])
@@ -185,6 +208,53 @@ class Cases(StudyTest):
         self.assertEqual([r["state"] for r in json.loads(out)], ["to do"] * 6)
         self.assertFalse(self.out.exists())
         self.assertIn("6 cases, 6 to compute", err)
+
+
+    def listed(self, *words):
+        rc, out, err = railstrata("study", self.study(GRID), "--out", self.out, *words)
+        self.assertEqual(rc, 0, err)
+        return out
+
+    def test_the_list_names_each_case_with_its_command_and_only_computes_it(self):
+        lines = self.listed("--list", "--json").splitlines()
+        cases = json.loads("\n".join(lines))
+        self.assertEqual([json.loads(line.strip("[],")) for line in lines], cases, "a case a line")
+        self.assertEqual([(c["index"], c["engine"], c["state"]) for c in cases],
+                         [(i, "bem", "to do") for i in range(1, 7)])
+        self.assertTrue(all(0 < c["seconds"] < 60 and 1e6 < c["memory_bytes"] < 1e9 for c in cases), cases)
+        self.assertFalse(self.out.exists())
+        words = shlex.split(cases[3]["command"])
+        self.assertEqual(words[0], "railstrata")
+        rc, _, err = railstrata(*words[1:])
+        self.assertEqual(rc, 0, err)
+        done = json.loads(self.listed("--list", "--json"))
+        self.assertEqual([c["state"] for c in done], ["to do"] * 3 + ["done"] + ["to do"] * 2)
+        self.assertEqual([c["key"] for c in done], [c["key"] for c in cases])
+        self.assertIsNone(done[3]["seconds"])
+        self.refused(2, ["study", self.study(GRID), "--out", self.out, "--only", "7"], "--only 7: the study has 6",
+                     "--list tells their indices")
+
+    def test_the_batch_script_is_one_for_a_shell(self):
+        script = self.listed("--batch", "slurm", "--threads", "2", "--set", "drive.friction_coefficient=0.4")
+        for line in ("#SBATCH --array=0\n", "#SBATCH --cpus-per-task=2\n", "#SBATCH --mem=512M\n",
+                     "#SBATCH --time=00:15:00\n", "#SBATCH --signal=B:TERM@60\n", "#SBATCH --requeue\n",
+                     "#SBATCH --open-mode=append\n"):
+            self.assertIn(line, script)
+        job = self.pretended_job(0)
+        done = subprocess.run(["sh", "-c", script], env=job, capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual({r["state"] for r in self.rows()}, {"done"})
+        self.assertFalse((self.folder / "requeued").exists())
+
+    def test_the_batch_script_of_a_part_computes_that_part(self):
+        text = GRID + GRID[GRID.index("[[group]]"):].replace('"grid"', '"other"').replace("[1.5, 2, 4]", "[3]")
+        rc, script, err = railstrata("study", self.study(text), "--out", self.out, "--batch", "slurm", "--group",
+                                     "other")
+        self.assertEqual(rc, 0, err)
+        done = subprocess.run(["sh", "-c", script], env=self.pretended_job(0), capture_output=True, text=True,
+                              timeout=300)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual([r["state"] for r in self.rows()], ["to do"] * 6 + ["done"] * 2)
 
 
 class Paper(FromOutside):
@@ -413,6 +483,23 @@ class Killed(StudyTest):
             time.sleep(0.02)
         process.kill(), process.communicate()
         self.assertEqual(len(self.goes_on()), 1)
+
+
+    def test_a_batch_job_that_is_told_to_stop_puts_itself_into_the_queue_again(self):
+        self.case(self.LONG)
+        text = '[study]\nbase = "case.toml"\nengines = ["fem"]\n[[group]]\nname = "wheel"\n'
+        rc, script, err = railstrata("study", self.study(text), "--out", self.out, "--batch", "slurm")
+        self.assertEqual(rc, 0, err)
+        self.assertIn("#SBATCH --array=1\n", script)
+        job = subprocess.Popen(["sh", "-c", script], env=self.pretended_job(1))
+        study = self.wait_for_a_child(job)[0]
+        end = time.monotonic() + 60
+        while time.monotonic() < end and not list(self.out.rglob("history.csv")):
+            time.sleep(0.02)
+        job.terminate()
+        self.assertEqual(job.wait(60), 130)
+        self.assertTrue(self.gone([study]))
+        self.assertEqual((self.folder / "requeued").read_text(), "requeue 7_1\n")
 
 
 class Refused(StudyTest):

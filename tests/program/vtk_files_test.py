@@ -137,6 +137,63 @@ class Run(Results):
         self.assertAlmostEqual((places[-1] - places[0]) / (times[-1] - times[0]), 27.78, delta=0.3)
 
 
+class YieldingRun(Results):
+    """`run` of the small rolling over a rail that yields."""
+
+    @classmethod
+    def make(cls):
+        case = cls.folder / "case.toml"
+        case.write_text(TINY + LAYER)
+        cls.out = cls.folder / "out"
+        cls.call("run", case, "--set", "run.plasticity=true", "--set", 'material.rail.yield_strength="350 MPa"',
+                 "--set", 'material.rail.kinematic_hardening=[{modulus = "20 GPa", recall = 0}]', "--out", cls.out,
+                 "--quiet", "--no-report")
+        cls.summary = json.loads((cls.out / "summary.json").read_text())
+
+    def table(self, name):
+        lines = [line for line in (self.out / name).read_text().splitlines() if not line.startswith("#")]
+        return np.genfromtxt(lines, delimiter=",", names=True)
+
+    def test_the_rail_has_plastic_strain_and_backstress_where_it_has_yielded_and_the_layer_has_none(self):
+        cells = read(self.out / "rail.vtu").GetCellData()
+        self.assertEqual(names(cells), {"stress_MPa", "von_mises_MPa", "sigma1_MPa", "material", "plastic_p",
+                                        "plastic_strain", "backstress_MPa"})
+        p, material = array(cells, "plastic_p").astype(float), array(cells, "material")
+        strain, back = (array(cells, name).astype(float) for name in ("plastic_strain", "backstress_MPa"))
+        self.assertGreater(p.max(), 1e-4)
+        self.assertEqual(p[material == 1].max(), 0)  # the case gives it no strength
+        np.testing.assert_allclose(strain[:, :3].sum(axis=1), 0, atol=1e-6 * p.max())
+        size = np.sqrt(2 / 3 * ((strain[:, :3] ** 2).sum(axis=1) + 2 * (strain[:, 3:] ** 2).sum(axis=1)))
+        self.assertTrue((size <= p * (1 + 1e-5)).all())
+        self.assertGreater((size / np.maximum(p, 1e-12))[p > 0.1 * p.max()].min(), 0.3)
+        self.assertEqual(np.abs(back[p == 0]).max(), 0)
+        np.testing.assert_allclose(back, 2 / 3 * 20e3 * strain, atol=1e-5 * np.abs(back).max())  # alpha = (2/3) C Ep
+
+    def test_sections_and_depth_line_have_the_same_numbers(self):
+        cells = read(self.out / "rail.vtu").GetCellData()
+        p = array(cells, "plastic_p").astype(float)
+        for name in ["rail_longitudinal_section.csv", "rail_cross_section.csv", "depth_line.csv"]:
+            table = self.table(name)
+            for value in table["plastic_p"][table["plastic_p"] > 0][:5]:
+                self.assertLess(np.abs(p / value - 1).min(), 1e-6)
+            self.assertEqual({c for c in table.dtype.names if c.startswith(("plastic", "backstress"))},
+                             {"plastic_p"} | {f"{what}_{c}{unit}" for c in ("xx", "yy", "zz", "xy", "yz", "xz")
+                                              for what, unit in (("plastic", ""), ("backstress", "_MPa"))})
+        self.assertGreater(self.table("rail_longitudinal_section.csv")["plastic_p"].max(), 0)
+
+    def test_the_summary_says_where_and_with_how_much_work(self):
+        told = self.summary["plastic"]
+        self.assertEqual((told["body"], told["zone"]), ("rail", "rail"))
+        self.assertGreater(told["depth_m"], 2e-3)  # below the layer
+        self.assertLess(abs(told["y_m"]), 8e-3)
+        self.assertGreater(told["accumulated"], 1e-4)
+        self.assertGreater(told["work_J"], told["dissipated_J"])
+        self.assertGreater(told["dissipated_J"], 0)
+        history = self.table("history.csv")
+        self.assertAlmostEqual(history["plastic_J"][-1] / told["work_J"], 1, delta=0.1)
+        self.assertTrue(next(c for c in self.summary["checks"] if c["name"] == "plastic_strain")["ok"])
+
+
 class HalfSpace(Results):
     """`bem` of the same case."""
 
@@ -154,6 +211,32 @@ class HalfSpace(Results):
         self.assertEqual(self.summary["position_m"], 0.03)
         self.assertAlmostEqual((pressure * x).sum() / pressure.sum(), 0.03, delta=1e-5)
         self.assertAlmostEqual(pressure.max() / (1e-6 * self.summary["contact"]["p_max_Pa"]), 1, delta=1e-3)
+
+
+class Passes(Results):
+    """The section of a rail that yields, one cell a point of residual.csv, in its order."""
+
+    @classmethod
+    def make(cls):
+        cls.call("passes", SOURCE / "cases" / "plastic" / "r260.toml", "--cell", "1 mm", "--passes", "1", "--no-report",
+                 "--out", cls.folder / "passes")
+        cls.section = read(cls.folder / "passes" / "section.vtp")
+        lines = (cls.folder / "passes" / "residual.csv").read_text().splitlines()
+        cls.table = np.genfromtxt([line for line in lines if not line.startswith("#")], delimiter=",", names=True)
+
+    def test_stress_strain_and_class_are_those_of_the_table_at_its_places(self):
+        fields = self.section.GetCellData()
+        self.assertEqual(self.section.GetNumberOfPolys(), len(self.table))
+        self.assertEqual(names(fields), {"residual_stress_MPa", "plastic_strain", "plastic_p", "accumulated_strain",
+                                         "net_strain", "class", "zone"})
+        np.testing.assert_allclose(array(fields, "residual_stress_MPa")[:, 0], self.table["sigma_xx_MPa"], rtol=1e-12)
+        np.testing.assert_allclose(array(fields, "plastic_strain")[:, 5], self.table["plastic_xz"], rtol=1e-12)
+        np.testing.assert_allclose(array(fields, "plastic_p"), self.table["plastic_p"], rtol=1e-12)
+        np.testing.assert_array_equal(array(fields, "class"), self.table["class"])
+        for k in (0, len(self.table) - 1):
+            corners = np.array([self.section.GetCell(k).GetPoints().GetPoint(c) for c in range(4)])
+            np.testing.assert_allclose(corners.mean(axis=0)[1:],
+                                       [1e-3 * self.table["y_mm"][k], -1e-3 * self.table["depth_mm"][k]], atol=1e-9)
 
 
 del Results  # only its heirs are tests
