@@ -2,7 +2,7 @@
 // layer and with 1 mm at 2 E0. CPU time of one thread, the best of the repetitions.
 //
 // Lines: the stress cycles of the rail's section; the factors of it; the limit of one track; the sliding map; a whole
-// case without strengths, with them as a study computes them, and with one track.
+// case without strengths, with them as a study computes them, and with one track; 200 passes by the stationary method.
 #include <benchmark/benchmark.h>
 #include <time.h>
 
@@ -10,6 +10,7 @@
 
 #include "core/parallel.hpp"
 #include "post/half_space_track.hpp"
+#include "post/rail_passes.hpp"
 #include "post/shakedown_summary.hpp"
 #include "post/stress_cycles.hpp"
 #include "runs/solve_half_space.hpp"
@@ -111,6 +112,20 @@ void whole_case(benchmark::State& state) {
   });
 }
 
+/// 200 passes over R260 as it hardens, contact and stresses included.
+void passes(benchmark::State& state) {
+  CaseSpec spec = rail_case(false, false);
+  spec.rail_material.strength.hardening = "R260";
+  const Placement placement = place(spec, {});
+  timed(state, 300, [&] {
+    const RailPasses rail = rail_passes(spec, {solve_bem(spec, placement, {})});
+    const SteadyBody body = body_of(rail);
+    const Field contact = contact_strain(rail, body);
+    PassState rolled = body.virgin();
+    for (int n = 0; n < 200; ++n) benchmark::DoNotOptimize(body.run_pass(contact, rolled));
+  });
+}
+
 void line(benchmark::internal::Benchmark* b) { b->UseManualTime()->Unit(benchmark::kMillisecond); }
 
 BENCHMARK(stress_cycles)->Apply(line)->Arg(0)->Arg(1);
@@ -119,6 +134,7 @@ BENCHMARK(fatigue)->Apply(line)->Arg(0)->Arg(1);
 BENCHMARK(largest_stresses)->Apply(line)->Arg(0)->Arg(1);
 BENCHMARK(one_track)->Apply(line)->Iterations(1)->Arg(0)->Arg(1);
 BENCHMARK(whole_case)->Apply(line)->Iterations(2)->ArgsProduct({{0, 1}, {0, 1, 2}});
+BENCHMARK(passes)->Apply(line)->Iterations(1);
 
 }  // namespace
 }  // namespace railstrata

@@ -4,7 +4,8 @@
 usage: check_expect.py CASE RESULTS            CASE: a case file, or a folder with case.toml; RESULTS: the run's folder
        check_expect.py CASE --run BINARY       runs the case first, in a folder of its own, and wants exit code 0; one
                                                with a [transient] table or a line contact by half-spaces, one with
-                                               [[load]] as a collective, whose numbers stand in collective.json
+                                               [[load]] as a collective, whose numbers stand in collective.json, one
+                                               with [passes] as a few passes on coarse cells: passes.json
 
 The expectations of NAME.toml stand beside it in NAME.expect.toml, those of case.toml in expect.toml; one table a
 quantity:
@@ -95,17 +96,19 @@ def compare(summary, expectations):
 def command_for(case):
     tables = tomllib.loads(case.read_text())
     by_half_spaces = "transient" in tables or tables.get("geometry", {}).get("contact") == "line"
-    return "collective" if "load" in tables else "bem" if by_half_spaces else "run"
+    if "passes" in tables:
+        return ["passes", "--passes", "8", "--cell", "1 mm"]
+    return ["collective" if "load" in tables else "bem" if by_half_spaces else "run"]
 
 
 def results_in(folder):
     """The file with the numbers of a folder."""
-    collective = folder / "collective.json"
-    return collective if collective.exists() else folder / "summary.json"
+    others = [folder / name for name in ("collective.json", "passes.json") if (folder / name).exists()]
+    return others[0] if others else folder / "summary.json"
 
 
 def run_case(binary, case, out):
-    words = [binary, "--quiet", command_for(case), case, "--no-report", "--out", out]
+    words = [binary, "--quiet", *command_for(case), case, "--no-report", "--out", out]
     done = subprocess.run(words, capture_output=True, text=True)
     if done.returncode != 0:
         print(f"{done.stdout}{done.stderr}FAILED exit code {done.returncode}, wanted 0")
