@@ -77,6 +77,7 @@ class Parallel(SharedStudy):
         victim = json.loads((folder.parent / "fem.claim").read_text())["process"]
         os.kill(victim, signal.SIGUSR1)
         self.wait_until((folder / "checkpoint.h5").exists, seconds=60)
+        self.hold(victim)
         os.kill(victim, signal.SIGKILL)
         failed = 3 if self.rc else 1  # a failed check is told too
         self.end(process, failed)

@@ -1,5 +1,9 @@
 """A study whose folder several processes share, beside the same one computed by one process alone."""
 import csv
+import os
+import pathlib
+import re
+import signal
 import time
 
 from outside import SMALL, FromOutside, railstrata, results
@@ -48,6 +52,32 @@ class SharedStudy(FromOutside):
 
     def goes_on(self):
         return [log for log in self.out.rglob("log.txt") if "goes on in" in log.read_text()]
+
+    def hold(self, study):
+        """The run that this process of a study has started stops where it is; its number. Without it the run may end
+        before what the test does next arrives, which takes Slurm seconds on a busy machine."""
+        run, = map(int, pathlib.Path(f"/proc/{study}/task/{study}/children").read_text().split())
+        os.kill(run, signal.SIGSTOP)
+        self.addCleanup(self.let_go, run)
+        return run
+
+    def let_go(self, run):
+        try:
+            os.kill(run, signal.SIGCONT)
+        except ProcessLookupError:
+            pass  # it was ended
+
+    def wait_until_asked_to_end(self, run):
+        """A SIGTERM waits for the run that is held, or somebody has let it go or ended it."""
+        def asked():
+            try:
+                status = pathlib.Path(f"/proc/{run}/status").read_text()
+            except OSError:
+                return True
+            waiting = re.findall(r"^(?:Shd|Sig)Pnd:\s*(\w+)", status, re.MULTILINE)
+            return "T (stopped)" not in status or any(int(w, 16) >> (signal.SIGTERM - 1) & 1 for w in waiting)
+
+        self.wait_until(asked)
 
     def wait_until(self, condition, why_in_vain=lambda: "", seconds=120):
         """why_in_vain: says why the condition can come no more; nothing while it can."""

@@ -59,14 +59,15 @@ class SlurmTest(SharedStudy):
         return [(file, claim) for file in self.out.rglob("*.claim")
                 for claim in [json.loads(file.read_text() or "{}")] if claim.get("job") == job]
 
-    def wait_for_a_checkpoint(self, array, task):
-        """The process of the study."""
+    def hold_at_a_checkpoint(self, array, task):
+        """The processes of the study and of its run, which is held."""
         job = f"{array}_{task}"
         self.wait_for(array, task, "RUNNING")
         self.wait_until(lambda: self.rolling(job), seconds=60)
         self.slurm.ask("scancel", "--signal=USR1", "--batch", job)
         self.wait_until(lambda: any((folder / "checkpoint.h5").exists() for folder in self.rolling(job)), seconds=60)
-        return self.claims(job)[0][1]["process"]
+        study = self.claims(job)[0][1]["process"]
+        return study, self.hold(study)
 
     def rolling(self, job):
         return [folder for file, claim in self.claims(job)
@@ -80,13 +81,15 @@ class SlurmTest(SharedStudy):
             self.assertIn(seen["code"], (0, self.rc), f"{task}: {seen}, {self.said(array, task)}")
 
     def test_a_task_that_reaches_its_time_goes_on_after_a_turn_in_the_queue_and_the_others_are_left_alone(self):
-        self.begin(wheel("200 mm"), WHEELS + HALF_SPACES)
+        self.begin(wheel("120 mm"), WHEELS + HALF_SPACES)
         expected = self.alone()
         array = self.submit()
-        self.wait_for_a_checkpoint(array, 2)
+        _, run = self.hold_at_a_checkpoint(array, 2)
         task = self.slurm.tasks(array)[2]
         self.assertEqual(task["job"], array, "the last task has the number of the whole array")
         self.slurm.ask("scancel", "--signal=TERM", "--batch", f"{array}_2")  # as Slurm does a minute before its end
+        self.wait_until_asked_to_end(run)
+        self.let_go(run)
         self.wait_for(array, 2, "PENDING")
         self.assertEqual(self.claims(f"{array}_2"), [])
         self.slurm.begin_now(array, 2)
@@ -103,9 +106,11 @@ class SlurmTest(SharedStudy):
         self.begin(wheel("120 mm"), WHEELS)
         expected = self.alone()
         array = self.submit()
-        killed, cancelled = (self.wait_for_a_checkpoint(array, task) for task in (1, 2))
+        (killed, _), (cancelled, run) = (self.hold_at_a_checkpoint(array, task) for task in (1, 2))
         os.kill(killed, signal.SIGKILL)
         self.slurm.ask("scancel", f"{array}_2")
+        self.wait_until_asked_to_end(run)
+        self.let_go(run)
         self.wait_for(array, 1, "FAILED")
         self.wait_for(array, 2, "CANCELLED")
         self.wait_until(lambda: not pathlib.Path(f"/proc/{cancelled}").exists())
@@ -118,10 +123,10 @@ class SlurmTest(SharedStudy):
         self.assert_whole(expected)
 
     def test_a_case_of_a_lost_node_goes_on_from_its_checkpoint(self):
-        self.begin(wheel("200 mm"), ONE)
+        self.begin(wheel("120 mm"), ONE)
         expected = self.alone()
         array = self.submit()
-        self.wait_for_a_checkpoint(array, 1)
+        self.hold_at_a_checkpoint(array, 1)
         self.slurm.ask("scontrol", "update", f"NodeName={self.slurm.node}", "State=DOWN", "Reason=lost")
         self.wait_for(array, 1, "PENDING")
         self.slurm.ask("scontrol", "update", f"NodeName={self.slurm.node}", "State=RESUME")
