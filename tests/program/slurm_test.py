@@ -13,7 +13,7 @@ from outside import railstrata
 from shared_study import ONE, SharedStudy, wheel
 
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
-PATIENCE = 400  # s, for all of it
+PATIENCE = 560  # s, for all of it
 WHEELS = ONE.replace('engines = ["fem"]', 'engines = ["fem"]\ncell = "1.5 mm"') + """[group.vary]
 "drive.traction_coefficient" = [0.1, 0.2]
 """
@@ -49,7 +49,7 @@ class SlurmTest(SharedStudy):
             over = now["state"] in ("COMPLETED", "FAILED", "CANCELLED", "TIMEOUT") and now["state"] != state
             return f"{now}, {self.said(array, task)}" if over else ""
 
-        self.wait_until(lambda: self.slurm.state(array, task) == state, another, 60)
+        self.wait_until(lambda: self.slurm.state(array, task) == state, another, PATIENCE)
 
     def said(self, array, task):
         file = self.slurm.folder / f"slurm-{array}_{task}.out"
@@ -63,9 +63,9 @@ class SlurmTest(SharedStudy):
         """The processes of the study and of its run, which is held."""
         job = f"{array}_{task}"
         self.wait_for(array, task, "RUNNING")
-        self.wait_until(lambda: self.rolling(job), seconds=60)
+        self.wait_until(lambda: self.rolling(job), seconds=PATIENCE)
         self.slurm.ask("scancel", "--signal=USR1", "--batch", job)
-        self.wait_until(lambda: any((folder / "checkpoint.h5").exists() for folder in self.rolling(job)), seconds=60)
+        self.wait_until(lambda: any((folder / "checkpoint.h5").exists() for folder in self.rolling(job)), seconds=PATIENCE)
         study = self.claims(job)[0][1]["process"]
         return study, self.hold(study)
 
@@ -73,10 +73,11 @@ class SlurmTest(SharedStudy):
         return [folder for file, claim in self.claims(job)
                 for folder in file.parent.glob(f"fem.part-*-{claim['process']}") if (folder / "history.csv").exists()]
 
-    def end(self, array):
-        """Every task has its results."""
-        self.wait_until(lambda: all(t["state"] in ("COMPLETED", "FAILED") for t in self.slurm.tasks(array).values()),
-                        seconds=60)
+    def end(self, array, expected):
+        """Every task has its results. A task that is requeued is for a moment as it ended before: the results decide."""
+        self.wait_until(lambda: self.results_of(self.out).keys() == expected.keys()
+                        and all(t["state"] in ("COMPLETED", "FAILED") for t in self.slurm.tasks(array).values()),
+                        seconds=PATIENCE)
         for task, seen in self.slurm.tasks(array).items():
             self.assertIn(seen["code"], (0, self.rc), f"{task}: {seen}, {self.said(array, task)}")
 
@@ -94,7 +95,7 @@ class SlurmTest(SharedStudy):
         self.assertEqual(self.claims(f"{array}_2"), [])
         self.slurm.begin_now(array, 2)
         self.wait_until(lambda: self.slurm.state(array, 2) != "PENDING")
-        self.end(array)
+        self.end(array, expected)
         self.assertEqual({n: t["again"] for n, t in self.slurm.tasks(array).items()}, {0: 0, 1: 0, 2: 1})
         self.assertEqual(len(self.goes_on()), 1)
         self.assert_whole(expected)
@@ -118,7 +119,7 @@ class SlurmTest(SharedStudy):
         self.assertEqual((tasks[1]["code"], tasks[1]["again"], tasks[2]["again"]), (137, 0, 0))
         array = self.submit()
         self.wait_until(lambda: len(self.slurm.tasks(array)) == 2)
-        self.end(array)
+        self.end(array, expected)
         self.assertEqual(len(self.goes_on()), 2)
         self.assert_whole(expected)
 
@@ -132,7 +133,7 @@ class SlurmTest(SharedStudy):
         self.slurm.ask("scontrol", "update", f"NodeName={self.slurm.node}", "State=RESUME")
         self.slurm.begin_now(array, 1)
         self.wait_until(lambda: self.slurm.state(array, 1) != "PENDING")
-        self.end(array)
+        self.end(array, expected)
         self.assertEqual(self.slurm.tasks(array)[1]["again"], 1)
         self.assertEqual(len(self.goes_on()), 1)
         self.assert_whole(expected)
