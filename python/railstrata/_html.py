@@ -5,12 +5,11 @@ import base64
 import html
 import struct
 import zlib
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
 
 import numpy as np
 
-if TYPE_CHECKING:
-    from .results import Result
+from .patch import Patch
 
 # Colours of the pressure, low to high: steps of viridis.
 _COLOURS = np.array([(68, 1, 84), (59, 82, 139), (33, 145, 140), (94, 201, 98), (253, 231, 37)], float)
@@ -37,8 +36,8 @@ def _pressure_pixels(p: np.ndarray) -> np.ndarray:
     return np.concatenate([rgb, alpha], axis=-1).round().astype(np.uint8).transpose(1, 0, 2)[::-1]
 
 
-def _patch_figure(result: "Result") -> str:
-    patch = result.patch
+def patch_figure(patch: Patch) -> str:
+    """A picture of the pressure; empty for a line contact."""
     if patch.shape[1] < 2 or patch.shape[0] < 2:
         return ""
     x, y = 1e3 * patch.x, 1e3 * patch.y
@@ -54,29 +53,24 @@ def _patch_figure(result: "Result") -> str:
     )
 
 
-def _rows(result: "Result") -> list[tuple[str, str]]:
-    force = [f"{1e-3 * f:.2f}" for f in result.force]
-    return [
-        ("largest pressure", f"{result.p_max / 1e6:.1f} MPa"),
-        ("largest traction", f"{result.q_max / 1e6:.1f} MPa"),
-        ("patch area", f"{result.patch_area * 1e6:.1f} mm²"),
-        ("slip area", f"{100 * result.slip_area / result.patch_area:.1f} %" if result.patch_area else "–"),
-        ("creepages", f"{result.creepage_x:.3e}, {result.creepage_y:.3e}, spin {result.spin:.3g} 1/m"),
-        ("force on the wheel", f"({', '.join(force)}) kN"),
-    ]
-
-
-def result_html(result: "Result") -> str:
-    """A table of the main numbers and checks beside a picture of the pressure."""
-    rows = "".join(f"<tr><th>{name}</th><td>{html.escape(text)}</td></tr>" for name, text in _rows(result))
-    checks = "".join(
-        f'<tr><th>{html.escape(c.name)}</th><td style="color:{"#187a2f" if c.ok else "#b00020"}">'
-        f'{"holds" if c.ok else "fails"}</td></tr>'
-        for c in result.checks
+def result_html(
+    heading: tuple[str, str],
+    rows: Iterable[tuple[str, str]],
+    checks: Iterable[tuple[str, bool]],
+    notes: Iterable[str],
+    figure: str,
+) -> str:
+    """A table of numbers and checks beside a picture; heading: title and engine."""
+    numbers = "".join(f"<tr><th>{name}</th><td>{html.escape(text)}</td></tr>" for name, text in rows)
+    verdicts = "".join(
+        f'<tr><th>{html.escape(name)}</th><td style="color:{"#187a2f" if ok else "#b00020"}">'
+        f'{"holds" if ok else "fails"}</td></tr>'
+        for name, ok in checks
     )
-    notes = "".join(f"<p>{html.escape(text)}</p>" for text in result.warnings)
+    said = "".join(f"<p>{html.escape(text)}</p>" for text in notes)
+    title, engine = heading
     return (
-        f"<div><b>{html.escape(result.title)}</b> ({result.engine})"
-        f'<div style="display:flex;gap:1em;flex-wrap:wrap"><table>{rows}{checks}</table>{_patch_figure(result)}</div>'
-        f"{notes}</div>"
+        f"<div><b>{html.escape(title)}</b> ({engine})"
+        f'<div style="display:flex;gap:1em;flex-wrap:wrap"><table>{numbers}{verdicts}</table>{figure}</div>'
+        f"{said}</div>"
     )

@@ -175,7 +175,21 @@ class Result:
         return f"<railstrata {type(self).__name__} ({self.engine}) {self.title!r}: p_max {self.p_max / 1e6:.1f} MPa>"
 
     def _repr_html_(self) -> str:
-        return _html.result_html(self)
+        checks = [(check.name, check.ok) for check in self.checks]
+        figure = _html.patch_figure(self.patch)
+        return _html.result_html((self.title, self.engine), _shown(self), checks, self.warnings, figure)
+
+
+def _shown(result: Result) -> list[tuple[str, str]]:
+    force = [f"{1e-3 * f:.2f}" for f in result.force]
+    return [
+        ("largest pressure", f"{result.p_max / 1e6:.1f} MPa"),
+        ("largest traction", f"{result.q_max / 1e6:.1f} MPa"),
+        ("patch area", f"{result.patch_area * 1e6:.1f} mm²"),
+        ("slip area", f"{100 * result.slip_area / result.patch_area:.1f} %" if result.patch_area else "–"),
+        ("creepages", f"{result.creepage_x:.3e}, {result.creepage_y:.3e}, spin {result.spin:.3g} 1/m"),
+        ("force on the wheel", f"({', '.join(force)}) kN"),
+    ]
 
 
 class Body:

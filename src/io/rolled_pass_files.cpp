@@ -208,7 +208,7 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   out["verdict"] = pass_words(standing_of(verdict_of(series.table), series.table, pass.row));
   if (spec.passes.ductility)
     out["ductility"] =
-        ductility_json(*spec.passes.ductility, largest_plastic_strain(pass.points), strains_of(series.table), 1);
+        ductility_json(*spec.passes.ductility, largest_plastic_norm(pass.points), strains_of(series.table), 1);
   out["zones"] = zones_json(spec);
   out["loops"] = way_json(loops);
   out["roll"] = {{"half_length_m", roll.half_length},

@@ -100,7 +100,7 @@ RolledPass rolled_pass(const RollingSystem& sys, const Model& base, const Plasti
   return out;
 }
 
-double largest_plastic_strain(const std::vector<PassPoint>& points) {
+double largest_plastic_norm(const std::vector<PassPoint>& points) {
   double out = 0;
   for (const PassPoint& p : points)
     out = std::max(out, std::sqrt(double_contraction(p.plastic.data(), p.plastic.data())));

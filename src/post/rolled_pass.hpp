@@ -17,8 +17,8 @@ struct RolledPass {
                                   ///< steady stations, over the largest of its increments: 0: steady
   std::vector<PassPoint> points;  ///< in the order of PlasticSection::quads, without their class
 };
-/// |E^p| of the point where it is largest.
-double largest_plastic_strain(const std::vector<PassPoint>& points);
+/// |E^p|, the norm, of the point where it is largest: √(3/2) times the equivalent strain.
+double largest_plastic_norm(const std::vector<PassPoint>& points);
 
 /// Of the rail at rest (fem/rail_at_rest.hpp) with `after` at all stations. base: whose contact point gives the axes;
 /// before: of the same quadrilaterals; middle: m, of the steady stations.

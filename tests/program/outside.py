@@ -12,28 +12,7 @@ BINARY = pathlib.Path(sys.argv[1]).resolve()
 sys.dont_write_bytecode = True
 
 # A disc with a crowned tread on a block, 30 mm of rolling: the whole chain in a second.
-TINY = """
-[geometry]
-rail_profile = "flat"
-wheel_profile = "arc:R=430 mm"
-rail_shape = "block"
-wheel_shape = "disc"
-cant = 0.0
-bore_radius = "250 mm"
-[vehicle]
-wheel_mass = "1500 kg"
-sprung_mass = "7000 kg"
-[mesh]
-element_size = "4 mm"
-fine_width = "32 mm"
-coarse_ratio = 2
-largest = "20 mm"
-end_length = "60 mm"
-[run]
-positions = ["30 mm"]
-window = "8 mm"
-run_up = "0 mm"
-"""
+TINY = (pathlib.Path(__file__).parents[1] / "data" / "tiny.toml").read_text()
 
 
 # Smaller still, a fifth of the time: the wheel of soak.toml with two positions.

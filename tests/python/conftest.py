@@ -20,3 +20,9 @@ def case():
 @pytest.fixture(scope="session")
 def result(case):
     return rs.bem(case)
+
+
+@pytest.fixture(scope="session")
+def tiny_text():
+    """The case of the program's tests: a disc with a crowned tread on a block, 30 mm of rolling."""
+    return (Path(__file__).parents[1] / "data" / "tiny.toml").read_text()

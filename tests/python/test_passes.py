@@ -12,28 +12,6 @@ import railstrata as rs
 
 WEAK = {"material.rail.yield_strength": "400 MPa", "drive.friction_coefficient": 0.1,
         "drive.traction_coefficient": 0.05}
-TINY = """
-[geometry]
-rail_profile = "flat"
-wheel_profile = "arc:R=430 mm"
-rail_shape = "block"
-wheel_shape = "disc"
-cant = 0.0
-bore_radius = "250 mm"
-[vehicle]
-wheel_mass = "1500 kg"
-sprung_mass = "7000 kg"
-[mesh]
-element_size = "4 mm"
-fine_width = "32 mm"
-coarse_ratio = 2
-largest = "20 mm"
-end_length = "60 mm"
-[run]
-positions = ["30 mm"]
-window = "8 mm"
-run_up = "0 mm"
-"""
 NAMES = ["passes.csv", "residual.csv", "profile.csv", "loops.csv", "along.csv", "state.csv", "passes.json"]
 
 
@@ -131,8 +109,8 @@ def test_faults_keep_their_remedies(weak, two, tmp_path):
         rs.passes(weak, tmp_path / "none", 1, cell=1.0)
 
 
-def test_passes_by_the_finite_elements_stop_within_a_pass_and_go_on_to_the_same_bits(tmp_path):
-    case = rs.Case.from_text(TINY, str(tmp_path / "tiny.toml"), {
+def test_passes_by_the_finite_elements_stop_within_a_pass_and_go_on_to_the_same_bits(tiny_text, tmp_path):
+    case = rs.Case.from_text(tiny_text, str(tmp_path / "tiny.toml"), {
         "material.rail.yield_strength": "450 MPa", "drive.traction_coefficient": 0.1})
     options = {"engine": "fem", "roll_length": 50e-3}
     whole = rs.passes(case, tmp_path / "whole", 1, **options)
