@@ -104,6 +104,10 @@ function(railstrata_install layout libdir python_folder)
   if(RAILSTRATA_PYTHON)
     railstrata_install_python("${layout}" ${libdir} ${python_folder})
   endif()
+  if(TARGET railstrata_mpi)  # where the program looks for it: src/app/mpi_ranks.cpp
+    railstrata_part(mpi)
+    install(TARGETS railstrata_mpi LIBRARY DESTINATION lib/railstrata ${part})
+  endif()
 endfunction()
 
 file(WRITE ${package_build}/RailStrataConfig.cmake

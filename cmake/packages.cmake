@@ -4,6 +4,7 @@
 #   librailstrata0.2         librailstrata.so and CONTACT's interface
 #   librailstrata-dev        headers, CMake package, pkg-config
 #   python3-railstrata       the Python package (with RAILSTRATA_PYTHON)
+#   railstrata-mpi           the plug-in for runs over Open MPI (with RAILSTRATA_MPI)
 #
 # Their files are those of `cmake --install` in Debian's folders, without the paths that libraries of a prefix have.
 find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
@@ -34,7 +35,7 @@ macro(debian_package part name depends section summary text)
   set(CPACK_DEBIAN_${id}_FILE_NAME DEB-DEFAULT)
   set(CPACK_DEBIAN_${id}_PACKAGE_DEPENDS "${depends}")
   set(CPACK_DEBIAN_${id}_PACKAGE_SECTION ${section})
-  if(NOT "${part}" STREQUAL "dev")  # has shared libraries: the loader's list is made anew
+  if(NOT "${part}" MATCHES "^(dev|mpi)$")  # has shared libraries: the loader's list is made anew
     set(CPACK_DEBIAN_${id}_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/packaging/triggers)
   endif()
   set(CPACK_COMPONENT_${id}_DESCRIPTION "${summary}\n${text}")
@@ -62,6 +63,11 @@ python3 (<< 3.${next_python}), python3-numpy" python "rolling contact of layered
   list(APPEND CPACK_DEBIAN_DEB-PYTHON_PACKAGE_CONTROL_EXTRA
     ${CMAKE_SOURCE_DIR}/packaging/postinst ${CMAKE_SOURCE_DIR}/packaging/prerm)
   set(CPACK_DEBIAN_DEB-PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-pandas, python3-xarray")
+endif()
+if(TARGET railstrata_mpi)
+  debian_package(mpi railstrata-mpi "railstrata ${same}" science "rolling contact of a layered rail - runs over MPI"
+    "${about}\nThis package has the plug-in that shares one run among processes by Open MPI.")
+  set(CPACK_DEBIAN_DEB-MPI_PACKAGE_RECOMMENDS openmpi-bin)
 endif()
 
 set(CPACK_GENERATOR DEB)

@@ -29,8 +29,9 @@ fs::path plug_in() {
   const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
   for (const fs::path& folder : {program, program / "../lib/railstrata"})
     if (fs::exists(folder / kRankPlugIn)) return folder / kRankPlugIn;
-  throw EnvironmentError("this program was started as one of several ranks, but it was built without MPI",
-                         "install libopenmpi-dev and openmpi-bin and build it again, or start it without mpirun");
+  throw EnvironmentError("this program was started as one of several ranks, but its plug-in for MPI is not here",
+                         "install the package railstrata-mpi, or libopenmpi-dev and openmpi-bin and build it again; or "
+                         "start it without mpirun");
 }
 
 RailstrataJoin join_function() {

@@ -4,6 +4,7 @@
 //
 // A plane of nx x ny values is padded to mx x my. Only its nx rows are transformed along y, the padding never is; the
 // transforms along x, the product with the kernel and the transforms back are done group by group of columns, in cache.
+#include <algorithm>
 #include <complex>
 #include <memory>
 #include <vector>
@@ -55,11 +56,13 @@ class PlaneFft {
     Complex* work = rows_in(in, planes);
     for_each_if(threads_pay(), groups_, [&](int group) {
       const Spectra columns{group_buffer(planes), group_size()};
-      for (std::size_t c = 0; c < in.size(); ++c) columns_in(work + c * plane_size(), group, columns[c]);
+      for (std::size_t c = 0; c < in.size(); ++c) 
+        fft_->columns_forward(work + c * plane_size() + first_of(group), pitch(), nx_, columns[c]);
       Spectra z = columns;
       for (int ky = group * kGroup; ky < (group + 1) * kGroup && ky < width_; ++ky, z.first += mx_)
         multiply(static_cast<std::size_t>(ky) * static_cast<std::size_t>(mx_), mx_, z);
-      for (std::size_t c = 0; c < out.size(); ++c) columns_out(work + c * plane_size(), group, columns[c], rows_out);
+      for (std::size_t c = 0; c < out.size(); ++c) 
+        fft_->columns_backward(columns[c], rows_out, work + c * plane_size() + first_of(group), pitch());
     });
     rows_out_of(work, out, rows_out);
   }
@@ -70,12 +73,21 @@ class PlaneFft {
   /// A plane transformed along y: nx + 1 rows of groups_ * kGroup wave numbers. Planes lie one after the other in a
   /// buffer that the calling thread keeps.
   std::size_t plane_size() const { return static_cast<std::size_t>(nx_ + 1) * pitch(); }
+  static std::size_t first_of(int group) { return static_cast<std::size_t>(group) * kGroup; }
+  static constexpr int kRows = 8;  // that one call transforms: kiss takes so many side by side
+  /// kernel(plane, first row, rows) for pieces of so many planes of `rows` rows.
+  template <class Kernel>
+  void for_rows(std::size_t planes, int rows, Kernel&& kernel) const {
+    const int pieces = (rows + kRows - 1) / kRows;
+    for_each_if(threads_pay(), static_cast<std::ptrdiff_t>(planes) * pieces, [&](int k) {
+      const int first = k % pieces * kRows;
+      kernel(static_cast<std::size_t>(k / pieces), static_cast<std::size_t>(first), std::min(kRows, rows - first));
+    });
+  }
   std::size_t pitch() const { return static_cast<std::size_t>(groups_) * kGroup; }
   std::size_t group_size() const { return static_cast<std::size_t>(mx_) * kGroup; }
   Complex* rows_in(const std::vector<const double*>& in, std::size_t planes) const;
   Complex* group_buffer(std::size_t planes) const;
-  void columns_in(const Complex* rows, int group, Complex* z) const;
-  void columns_out(Complex* rows, int group, Complex* z, int rows_out) const;
   void rows_out_of(Complex* work, const std::vector<double*>& out, int rows_out) const;
   bool threads_pay() const { return threads_pay_for(static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_)); }
 

@@ -21,7 +21,7 @@ std::complex<double>* fft_alloc(std::size_t n);
 void fft_free(std::complex<double>* numbers);
 
 /// Transforms of one pair of lengths. Any number of threads may use one at a time, each with arrays of its own. An
-/// input may be changed, and must not overlap the output.
+/// output must not overlap the input.
 class Fft {
  public:
   /// rows: length of the real rows, even; columns: of the complex columns, which come `together` at a time.
@@ -30,12 +30,15 @@ class Fft {
   Fft(const Fft&) = delete;
   Fft& operator=(const Fft&) = delete;
 
-  /// rows real numbers -> rows/2 + 1 complex ones, and back (times rows).
-  void row_forward(double* row, std::complex<double>* wave) const;
-  void row_backward(std::complex<double>* wave, double* row) const;
-  /// Columns one after the other, `together` of them; backward times columns.
-  void columns_forward(std::complex<double>* in, std::complex<double>* out) const;
-  void columns_backward(std::complex<double>* in, std::complex<double>* out) const;
+  /// `count` rows of `given` real numbers, one after the other and zero beyond -> rows/2 + 1 complex ones each, `pitch`
+  /// apart; and the first `given` real numbers of each back (times rows). Waves may be changed on the way back.
+  void rows_forward(const double* reals, int count, int given, std::complex<double>* waves, std::size_t pitch) const;
+  void rows_backward(std::complex<double>* waves, std::size_t pitch, int count, int given, double* reals) const;
+  /// `together` columns side by side in `count` rows `pitch` apart, zero beyond -> columns one after the other; and the
+  /// first `count` rows back (times columns). Columns may be changed on the way back.
+  void columns_forward(const std::complex<double>* rows, std::size_t pitch, int count,
+                       std::complex<double>* columns) const;
+  void columns_backward(std::complex<double>* columns, int count, std::complex<double>* rows, std::size_t pitch) const;
 
  private:
   struct Plans;

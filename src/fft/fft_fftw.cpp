@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fft/fft.hpp"
+#include "fft/fft_scratch.hpp"
 
 namespace railstrata {
 
@@ -25,14 +26,16 @@ std::complex<double>* fft_alloc(std::size_t n) {
 void fft_free(std::complex<double>* numbers) { fftw_free(numbers); }
 
 struct Fft::Plans {
-  fftw_plan row_forward, row_backward, columns_forward, columns_backward;
+  int rows, columns, together;
+  fftw_plan row_forward = nullptr, row_backward = nullptr, columns_forward = nullptr, columns_backward = nullptr;
+  Plans(int rows, int columns, int together) : rows(rows), columns(columns), together(together) {}
   ~Plans() {
     const std::lock_guard lock(planner());
     for (fftw_plan p : {row_forward, row_backward, columns_forward, columns_backward}) fftw_destroy_plan(p);
   }
 };
 
-Fft::Fft(int rows, int columns, int together) : plans_(std::make_unique<Plans>()) {
+Fft::Fft(int rows, int columns, int together) : plans_(std::make_unique<Plans>(rows, columns, together)) {
   const std::size_t size =
       std::max(static_cast<std::size_t>(columns) * static_cast<std::size_t>(together), static_cast<std::size_t>(rows));
   std::complex<double>*z = fft_alloc(size), *y = fft_alloc(size);
@@ -52,17 +55,47 @@ Fft::Fft(int rows, int columns, int together) : plans_(std::make_unique<Plans>()
 }
 Fft::~Fft() = default;
 
-void Fft::row_forward(double* row, std::complex<double>* wave) const {
-  fftw_execute_dft_r2c(plans_->row_forward, row, raw(wave));
+namespace {
+
+struct RowTag;
+struct ColumnsTag;
+
+}  // namespace
+
+void Fft::rows_forward(const double* reals, int count, int given, std::complex<double>* waves,
+                       std::size_t pitch) const {
+  const int n = plans_->rows;
+  double* row = reinterpret_cast<double*>(fft_scratch<RowTag>(static_cast<std::size_t>(n / 2 + 1)));
+  for (int i = 0; i < count; ++i, reals += given, waves += pitch) {
+    std::copy(reals, reals + given, row);
+    std::fill(row + given, row + n, 0.0);
+    fftw_execute_dft_r2c(plans_->row_forward, row, raw(waves));
+  }
 }
-void Fft::row_backward(std::complex<double>* wave, double* row) const {
-  fftw_execute_dft_c2r(plans_->row_backward, raw(wave), row);
+void Fft::rows_backward(std::complex<double>* waves, std::size_t pitch, int count, int given, double* reals) const {
+  double* row = reinterpret_cast<double*>(fft_scratch<RowTag>(static_cast<std::size_t>(plans_->rows / 2 + 1)));
+  for (int i = 0; i < count; ++i, reals += given, waves += pitch) {
+    fftw_execute_dft_c2r(plans_->row_backward, raw(waves), row);
+    std::copy(row, row + given, reals);
+  }
 }
-void Fft::columns_forward(std::complex<double>* in, std::complex<double>* out) const {
-  fftw_execute_dft(plans_->columns_forward, raw(in), raw(out));
+
+void Fft::columns_forward(const std::complex<double>* rows, std::size_t pitch, int count,
+                          std::complex<double>* columns) const {
+  const int n = plans_->columns, together = plans_->together;
+  std::complex<double>* y = fft_scratch<ColumnsTag>(static_cast<std::size_t>(n) * static_cast<std::size_t>(together));
+  for (int i = 0; i < count; ++i, rows += pitch)
+    for (int c = 0; c < together; ++c) y[c * n + i] = rows[c];
+  for (int c = 0; c < together; ++c) std::fill(y + c * n + count, y + (c + 1) * n, 0.0);
+  fftw_execute_dft(plans_->columns_forward, raw(y), raw(columns));
 }
-void Fft::columns_backward(std::complex<double>* in, std::complex<double>* out) const {
-  fftw_execute_dft(plans_->columns_backward, raw(in), raw(out));
+void Fft::columns_backward(std::complex<double>* columns, int count, std::complex<double>* rows,
+                           std::size_t pitch) const {
+  const int n = plans_->columns, together = plans_->together;
+  std::complex<double>* y = fft_scratch<ColumnsTag>(static_cast<std::size_t>(n) * static_cast<std::size_t>(together));
+  fftw_execute_dft(plans_->columns_backward, raw(columns), raw(y));
+  for (int i = 0; i < count; ++i, rows += pitch)
+    for (int c = 0; c < together; ++c) rows[c] = y[c * n + i];
 }
 
 struct RealPlaneFft::Plans {

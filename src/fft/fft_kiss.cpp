@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <cstdlib>
 #include <new>
 #include <vector>
@@ -37,52 +38,128 @@ struct Fft::Plans {
   int rows, columns, together;
 };
 
-Fft::Fft(int rows, int columns, int together) : plans_(std::make_unique<Plans>(Plans{rows, columns, together})) {}
+Fft::Fft(int rows, int columns, int together) : plans_(std::make_unique<Plans>(Plans{rows, columns, together})) {
+  assert(together % Lanes::kCount == 0);
+}
 Fft::~Fft() = default;
-
-void Fft::row_forward(double* row, std::complex<double>* wave) const { kiss().fwd(wave, row, plans_->rows); }
-void Fft::row_backward(std::complex<double>* wave, double* row) const { kiss().inv(row, wave, plans_->rows); }
 
 namespace {
 
-/// Kiss FFT with four columns at a time as its scalar.
+using Four = std::complex<Lanes>;
+
+/// Kiss FFT with four columns at a time, or two times four rows, as its scalar.
 Eigen::internal::kissfft_impl<Lanes>& kiss_of_lanes() {
   thread_local Eigen::internal::kissfft_impl<Lanes> fft;
   return fft;
 }
 
-/// `together` columns of n numbers one after the other, four side by side; transform(out, in) takes them through.
-template <class Transform>
-void transform_side_by_side(int n, int together, const Complex* in, Complex* out, Transform&& transform) {
-  thread_local std::vector<std::complex<Lanes>> from, to;
-  from.resize(static_cast<std::size_t>(n));
-  to.resize(from.size());
-  for (int first = 0; first < together; first += Lanes::kCount) {
-    const int count = std::min(Lanes::kCount, together - first);
-    const Complex* column[Lanes::kCount];
-    for (int c = 0; c < Lanes::kCount; ++c) column[c] = in + (first + std::min(c, count - 1)) * n;
-    for (int i = 0; i < n; ++i)
-      from[static_cast<std::size_t>(i)] = {
-          Lanes(column[0][i].real(), column[1][i].real(), column[2][i].real(), column[3][i].real()),
-          Lanes(column[0][i].imag(), column[1][i].imag(), column[2][i].imag(), column[3][i].imag())};
-    transform(to.data(), from.data());
-    for (int c = 0; c < count; ++c)
-      for (int i = 0; i < n; ++i) {
-        const std::complex<Lanes>& z = to[static_cast<std::size_t>(i)];
-        out[(first + c) * n + i] = {z.real()[c], z.imag()[c]};
-      }
+/// What a thread transforms from and to.
+struct SideBySide {
+  std::vector<Four> from, to;
+  std::vector<Complex> nobody;  // in place of rows that are not there
+};
+SideBySide& side_by_side(int n) {
+  thread_local SideBySide buffers;
+  const std::size_t size = static_cast<std::size_t>(n);
+  if (buffers.from.size() < size) {
+    buffers.from.resize(size);
+    buffers.to.resize(size);
+    buffers.nobody.resize(size);
   }
+  return buffers;
+}
+
+/// The real numbers of two rows go as real and imaginary parts of one.
+constexpr int kRows = 2 * Lanes::kCount;
+
+/// -i z and i z.
+Four less_quarter(const Four& z) { return {z.imag(), -z.real()}; }
+Four more_quarter(const Four& z) { return {-z.imag(), z.real()}; }
+
+Four of_rows(Complex* const* row, int k) {
+  return Lanes::side_by_side(row[0][k], row[1][k], row[2][k], row[3][k]);
+}
+void to_rows(const Four& z, Complex* const* row, int k) {
+  Lanes::apart(z, row[0][k], row[1][k], row[2][k], row[3][k]);
 }
 
 }  // namespace
 
-void Fft::columns_forward(std::complex<double>* in, std::complex<double>* out) const {
-  transform_side_by_side(plans_->columns, plans_->together, in, out,
-                         [n = plans_->columns](auto* to, const auto* from) { kiss_of_lanes().fwd(to, from, n); });
+void Fft::rows_forward(const double* reals, int count, int given, Complex* waves, std::size_t pitch) const {
+  const int n = plans_->rows;
+  auto& [from, to, nobody] = side_by_side(n);
+  std::fill(from.begin() + given, from.begin() + n, Four(Lanes(0), Lanes(0)));
+  for (int first = 0; first < count; first += kRows) {
+    const double* row[kRows];
+    Complex* wave[kRows];
+    for (int r = 0; r < kRows; ++r) {
+      row[r] = reals + static_cast<std::ptrdiff_t>(std::min(first + r, count - 1)) * given;
+      wave[r] = first + r < count ? waves + static_cast<std::size_t>(first + r) * pitch : nobody.data();
+    }
+    for (int j = 0; j < given; ++j)
+      from[static_cast<std::size_t>(j)] = {Lanes(row[0][j], row[1][j], row[2][j], row[3][j]),
+                                           Lanes(row[4][j], row[5][j], row[6][j], row[7][j])};
+    kiss_of_lanes().fwd(to.data(), from.data(), n);
+    for (int k = 0; k <= n / 2; ++k) {
+      const Four z = Lanes(0.5) * to[static_cast<std::size_t>(k)],
+                 mirror = Lanes(0.5) * std::conj(to[static_cast<std::size_t>(k == 0 ? 0 : n - k)]);
+      to_rows(z + mirror, wave, k);
+      to_rows(less_quarter(z - mirror), wave + Lanes::kCount, k);
+    }
+  }
 }
-void Fft::columns_backward(std::complex<double>* in, std::complex<double>* out) const {
-  transform_side_by_side(plans_->columns, plans_->together, in, out,
-                         [n = plans_->columns](auto* to, const auto* from) { kiss_of_lanes().inv(to, from, n); });
+
+void Fft::rows_backward(Complex* waves, std::size_t pitch, int count, int given, double* reals) const {
+  const int n = plans_->rows;
+  auto& [from, to, nobody] = side_by_side(n);
+  for (int first = 0; first < count; first += kRows) {
+    Complex* wave[kRows];
+    for (int r = 0; r < kRows; ++r) wave[r] = waves + static_cast<std::size_t>(std::min(first + r, count - 1)) * pitch;
+    for (Complex* w : wave) w[0] = w[0].real(), w[n / 2] = w[n / 2].real();
+    for (int k = 0; k <= n / 2; ++k) {
+      const Four a = of_rows(wave, k), b = of_rows(wave + Lanes::kCount, k);
+      from[static_cast<std::size_t>(k)] = a + more_quarter(b);
+      if (k > 0) from[static_cast<std::size_t>(n - k)] = std::conj(a) + more_quarter(std::conj(b));
+    }
+    kiss_of_lanes().inv(to.data(), from.data(), n);
+    for (int r = 0; r < std::min(kRows, count - first); ++r) {
+      double* row = reals + static_cast<std::ptrdiff_t>(first + r) * given;
+      const int lane = r % Lanes::kCount;
+      for (int j = 0; j < given; ++j) {
+        const Four& z = to[static_cast<std::size_t>(j)];
+        row[j] = (r < Lanes::kCount ? z.real() : z.imag())[lane];
+      }
+    }
+  }
+}
+
+void Fft::columns_forward(const Complex* rows, std::size_t pitch, int count, Complex* columns) const {
+  const int n = plans_->columns;
+  auto& [from, to, nobody] = side_by_side(n);
+  std::fill(from.begin() + count, from.begin() + n, Four(Lanes(0), Lanes(0)));
+  for (int first = 0; first < plans_->together; first += Lanes::kCount) {
+    const Complex* row = rows + first;
+    for (int i = 0; i < count; ++i, row += pitch)
+      from[static_cast<std::size_t>(i)] = Lanes::side_by_side(row[0], row[1], row[2], row[3]);
+    kiss_of_lanes().fwd(to.data(), from.data(), n);
+    Complex* column[Lanes::kCount];
+    for (int c = 0; c < Lanes::kCount; ++c) column[c] = columns + (first + c) * n;
+    for (int i = 0; i < n; ++i) to_rows(to[static_cast<std::size_t>(i)], column, i);
+  }
+}
+
+void Fft::columns_backward(Complex* columns, int count, Complex* rows, std::size_t pitch) const {
+  const int n = plans_->columns;
+  auto& [from, to, nobody] = side_by_side(n);
+  for (int first = 0; first < plans_->together; first += Lanes::kCount) {
+    Complex* column[Lanes::kCount];
+    for (int c = 0; c < Lanes::kCount; ++c) column[c] = columns + (first + c) * n;
+    for (int i = 0; i < n; ++i) from[static_cast<std::size_t>(i)] = of_rows(column, i);
+    kiss_of_lanes().inv(to.data(), from.data(), n);
+    Complex* row = rows + first;
+    for (int i = 0; i < count; ++i, row += pitch)
+      Lanes::apart(to[static_cast<std::size_t>(i)], row[0], row[1], row[2], row[3]);
+  }
 }
 
 struct RealPlaneFft::Plans {

@@ -1,10 +1,14 @@
 #pragma once
 // Four numbers that go through the same computation side by side, as the scalar of a template: two registers of 128
 // bits, which x86, Arm and WebAssembly all have.
+#include <complex>
+#include <cstring>
 
 namespace railstrata {
 
 class Lanes {
+  using Two = double __attribute__((vector_size(16)));
+
  public:
   static constexpr int kCount = 4;
   Lanes() = default;
@@ -20,14 +24,34 @@ class Lanes {
   Lanes& operator-=(Lanes b) { return *this = *this - b; }
   Lanes& operator*=(Lanes b) { return *this = *this * b; }
 
+  using Complex = std::complex<double>;
+  /// Four complex numbers, each in its lane, and back.
+  static std::complex<Lanes> side_by_side(const Complex& a, const Complex& b, const Complex& c, const Complex& d) {
+    const Two p = pair(a), q = pair(b), r = pair(c), s = pair(d);
+    return {Lanes(__builtin_shufflevector(p, q, 0, 2), __builtin_shufflevector(r, s, 0, 2)),
+            Lanes(__builtin_shufflevector(p, q, 1, 3), __builtin_shufflevector(r, s, 1, 3))};
+  }
+  static void apart(const std::complex<Lanes>& z, Complex& a, Complex& b, Complex& c, Complex& d) {
+    const Lanes re = z.real(), im = z.imag();
+    put(__builtin_shufflevector(re.low_, im.low_, 0, 2), a);
+    put(__builtin_shufflevector(re.low_, im.low_, 1, 3), b);
+    put(__builtin_shufflevector(re.high_, im.high_, 0, 2), c);
+    put(__builtin_shufflevector(re.high_, im.high_, 1, 3), d);
+  }
+
   // What a library's product of complex numbers asks of its scalar, to mend infinities: there are none to be mended.
   friend bool isnan(Lanes) { return false; }
   friend bool isinf(Lanes) { return false; }
   friend Lanes copysign(Lanes size, Lanes) { return size; }
 
  private:
-  using Two = double __attribute__((vector_size(16)));
   Lanes(Two low, Two high) : low_(low), high_(high) {}
+  static Two pair(const Complex& z) {
+    Two out;
+    std::memcpy(&out, &z, sizeof out);
+    return out;
+  }
+  static void put(Two pair, Complex& z) { std::memcpy(static_cast<void*>(&z), &pair, sizeof pair); }
   Two low_, high_;
 };
 

@@ -41,41 +41,56 @@ TEST(Fft, GoodLengthsAreEvenAndNotMuchLonger) {
   }
 }
 
-TEST(Fft, RowsAreTheirFourierSums) {
-  for (const int n : {8, 30, good_fft_length(97)}) {
-    const Fft fft(n, n, 1);
-    Numbers row(n / 2 + 1), wave(n / 2 + 1);
-    for (int j = 0; j < n; ++j) row.real()[j] = value(j);
-    fft.row_forward(row.real(), wave.data);
+constexpr int kTogether = 4;
+
+/// Rows that end before their length, as many as there may be left of a group.
+void expect_rows(int n, int count, int given) {
+  SCOPED_TRACE(testing::Message() << count << " rows of " << given << " in " << n);
+  const Fft fft(n, n, kTogether);
+  const int pitch = n / 2 + 3;
+  Numbers waves(count * pitch);
+  std::vector<double> rows, back(static_cast<std::size_t>(count * given));
+  for (int j = 0; j < count * given; ++j) rows.push_back(value(j));
+  fft.rows_forward(rows.data(), count, given, waves.data, static_cast<std::size_t>(pitch));
+  for (int i = 0; i < count; ++i)
     for (int k = 0; k <= n / 2; ++k) {
       Complex sum = 0;
-      for (int j = 0; j < n; ++j) sum += value(j) * turn(j * k, n, -1);
-      ASSERT_NEAR(std::abs(wave.data[k] - sum), 0, kRoundOff * n) << n << ' ' << k;
+      for (int j = 0; j < given; ++j) sum += value(i * given + j) * turn(j * k, n, -1);
+      ASSERT_NEAR(std::abs(waves.data[i * pitch + k] - sum), 0, kRoundOff * n) << i << ' ' << k;
     }
-    fft.row_backward(wave.data, row.real());
-    for (int j = 0; j < n; ++j) ASSERT_NEAR(row.real()[j], n * value(j), kRoundOff * n * n) << n << ' ' << j;
-  }
+  for (int i = 0; i < count; ++i) waves.data[i * pitch] += Complex(0, 0.1 * i);  // of no row of real numbers
+  fft.rows_backward(waves.data, static_cast<std::size_t>(pitch), count, given, back.data());
+  for (int j = 0; j < count * given; ++j)
+    ASSERT_NEAR(back[static_cast<std::size_t>(j)], n * value(j), kRoundOff * n * n) << j;
+}
+
+TEST(Fft, RowsAreTheirFourierSums) {
+  expect_rows(8, 1, 8);
+  expect_rows(30, 9, 30);
+  expect_rows(30, 3, 13);
+  expect_rows(good_fft_length(97), 13, 48);
 }
 
 TEST(Fft, ColumnsAreTheirFourierSums) {
-  constexpr int kTogether = 4;
-  const int n = good_fft_length(45);
+  const int n = good_fft_length(45), given = 21, pitch = kTogether + 3;
   const Fft fft(n, n, kTogether);
-  Numbers in(n * kTogether), out(n * kTogether);
+  Numbers rows(n * pitch), columns(n * kTogether);
   const auto at = [](int c, int j) { return Complex{value(j + 100 * c), value(7 * j - c)}; };
-  for (int c = 0; c < kTogether; ++c)
-    for (int j = 0; j < n; ++j) in.data[c * n + j] = at(c, j);
-  fft.columns_forward(in.data, out.data);
+  for (int j = 0; j < n; ++j)
+    for (int c = 0; c < kTogether; ++c) rows.data[j * pitch + c] = at(c, j);
+  fft.columns_forward(rows.data, static_cast<std::size_t>(pitch), given, columns.data);
   for (int c = 0; c < kTogether; ++c)
     for (int k = 0; k < n; ++k) {
       Complex sum = 0;
-      for (int j = 0; j < n; ++j) sum += at(c, j) * turn(j * k, n, -1);
-      ASSERT_NEAR(std::abs(out.data[c * n + k] - sum), 0, kRoundOff * n) << c << ' ' << k;
+      for (int j = 0; j < given; ++j) sum += at(c, j) * turn(j * k, n, -1);
+      ASSERT_NEAR(std::abs(columns.data[c * n + k] - sum), 0, kRoundOff * n) << c << ' ' << k;
     }
-  fft.columns_backward(out.data, in.data);
-  for (int c = 0; c < kTogether; ++c)
-    for (int j = 0; j < n; ++j)
-      ASSERT_NEAR(std::abs(in.data[c * n + j] - static_cast<double>(n) * at(c, j)), 0, kRoundOff * n * n);
+  fft.columns_backward(columns.data, given + 1, rows.data, static_cast<std::size_t>(pitch));
+  for (int j = 0; j <= given; ++j)
+    for (int c = 0; c < kTogether; ++c) {
+      const Complex expected = j < given ? static_cast<double>(n) * at(c, j) : 0.0;
+      ASSERT_NEAR(std::abs(rows.data[j * pitch + c] - expected), 0, kRoundOff * n * n);
+    }
 }
 
 void expect_plane(int nx, int ny) {

@@ -4,7 +4,7 @@
 usage: debian_tree_test.py BUILD_DIR SOURCE_DIR FOLDER [--packages FOLDER_WITH_DEBS] [--tree TREE]
 
 Makes a minimal system by mmdebstrap, installs the packages with what they ask for, and goes the README's ways there:
-the program, Python, a C and a Fortran program; then takes the packages off again. Needs root, mmdebstrap and an archive
+the program, two of its ranks, Python, a C and a Fortran program; then takes the packages off again. Needs root, mmdebstrap and an archive
 of Debian; skipped (77) without. --packages: those of another build (build-install/packages: all processors); --tree: an
 existing minimal system, kept as it is left.
 """
@@ -23,6 +23,7 @@ for name in ("build", "source", "folder"):
 ARGUMENTS.add_argument("--packages", type=pathlib.Path)
 ARGUMENTS.add_argument("--tree", type=pathlib.Path)
 NAMES = ["railstrata", r"librailstrata[\d.]+", "librailstrata-dev", "python3-railstrata"]
+PLUG_IN = "railstrata-mpi"
 
 
 def done(*words, **options):
@@ -79,6 +80,16 @@ def the_program(tree):
     assert "cell" in tree.run("railstrata bem --help")
 
 
+def the_ranks(tree, source):
+    """The plug-in, with the MPI that apt brings along: a run by two processes."""
+    tree.apt("openmpi-bin")
+    shutil.copy(source / "tests/program/soak.toml", tree.folder / "root/small.toml")
+    short = "--set run.positions='[\"6 mm\"]' --set drive.speed='10 m/s'"
+    tree.run("cd /root && OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun --oversubscribe --allow-run-as-root -n 2 "
+             f"railstrata run small.toml {short} --no-report -j 1 --out results/ranks")
+    assert (tree.folder / "root/results/ranks/summary.json").exists()
+
+
 def the_ways_of_the_readme(tree, source):
     """Its blocks as they are written, without `sudo apt install`."""
     readme = (source / "README.md").read_text()
@@ -121,6 +132,8 @@ def main():
     library_first(tree, debs)
     tree.apt(*(f"/packages/{d.name}" for d in debs))
     the_program(tree)
+    if any(d.name.startswith(f"{PLUG_IN}_") for d in debs):
+        the_ranks(tree, given.source)
     the_ways_of_the_readme(tree, given.source)
     taken_off(tree)
     if not given.tree:

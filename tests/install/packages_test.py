@@ -16,7 +16,8 @@ BUILD, SOURCE, FOLDER = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
 VERSION = re.search(r"project\(railstrata VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text())[1]
 TREE = FOLDER / "tree"
 LIBRARY = f"librailstrata{VERSION.rsplit('.', 1)[0]}"
-NAMES = [LIBRARY, "railstrata", "librailstrata-dev", "python3-railstrata"]
+PLUG_IN = (BUILD / "railstrata_mpi.so").exists()
+NAMES = [LIBRARY, "railstrata", "librailstrata-dev", "python3-railstrata", *["railstrata-mpi"] * PLUG_IN]
 
 
 def done(*words, **options):
@@ -53,12 +54,15 @@ def pack():
 
 
 class Packages(unittest.TestCase):
-    def test_four_of_this_version_that_ask_for_each_other(self):
+    def test_they_are_of_this_version_and_ask_for_each_other(self):
         self.assertEqual(set(packages()), set(NAMES))
         for name, file in packages().items():
             found = fields(file)
             self.assertEqual(found["Version"], f"{VERSION}-1", name)
-            if name != LIBRARY:
+            if name == "railstrata-mpi":
+                self.assertIn(f"railstrata (= {VERSION}-1)", found["Depends"])
+                self.assertIn("libopenmpi", found["Depends"])
+            elif name != LIBRARY:
                 self.assertIn(f"{LIBRARY} (= {VERSION}-1)", found["Depends"])
         self.assertIn("libfftw3", fields(packages()[LIBRARY])["Depends"])
         self.assertRegex(fields(packages()["python3-railstrata"])["Depends"], r"python3 \(>= 3.*python3-numpy")
@@ -83,6 +87,8 @@ class Packages(unittest.TestCase):
         self.assertEqual(where["librailstrata.so"], "librailstrata-dev")
         self.assertEqual(where["railstrata-bem.1.gz"], "railstrata")
         self.assertEqual(where["__init__.py"], "python3-railstrata")
+        if PLUG_IN:
+            self.assertEqual(where["railstrata_mpi.so"], "railstrata-mpi")
 
     def test_no_library_has_a_path_of_its_own(self):
         for file in [*libraries().rglob("*.so*"), TREE / "usr/bin/railstrata"]:

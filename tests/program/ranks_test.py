@@ -138,7 +138,7 @@ class WithoutMpi(FromOutside):
         done = subprocess.run([alone, "run", self.case(SMALL), "--out", self.folder / "out"], capture_output=True,
                               text=True, env=os.environ | {"OMPI_COMM_WORLD_SIZE": "2"})
         self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertIn("started as one of several ranks, but it was built without MPI", done.stderr)
+        self.assertIn("started as one of several ranks, but its plug-in for MPI is not here", done.stderr)
         self.assertIn("libopenmpi-dev", done.stderr)
 
 
