@@ -33,6 +33,10 @@ Aggregates::Aggregates(const Body& body, Vec2 contact, const ClusterSizes& sizes
     for (int s = 0; s < static_cast<int>(cut_[b].section.size()); ++s)
       for (int g = 0; g + 1 < static_cast<int>(cut_[b].group_first.size()); ++g) add_cluster(b, s, g);
   }
+  cut_into_parts();
+  std::vector<std::vector<char>> no_lines;
+  for (const BlockLayout& l : body.layout.blocks) no_lines.emplace_back(l.nodes, 0);
+  all_ = kept_values(body, {}, std::move(no_lines));
 }
 
 // Halves the nodes along the longer side until they fit.
@@ -140,30 +144,61 @@ int Aggregates::cluster_of(int block, int node, int station) const {
              : cut.first_cluster + section * (static_cast<int>(cut.group_first.size()) - 1) + cut.group_of[station];
 }
 
-void Aggregates::restrict_to(const Field& f, double* out) const {
-  const BodyLayout& lay = body_.layout;
+void Aggregates::cut_into_parts() {
+  parts_of_.resize(cluster_.size());
+  for (int t = 0; t < static_cast<int>(body_.tiling.tiles.size()); ++t) {
+    const int block = body_.tiling.tiles[t].block;
+    const StationRun own = own_stations(body_, t);
+    for (int i = 0; i < clusters(); ++i) {
+      const Cluster& c = cluster_[i];
+      const int first = std::max(own.begin, c.first_station), end = std::min(own.end, c.first_station + c.stations);
+      if (c.block != block || first >= end) continue;
+      parts_of_[i].push_back(parts());
+      part_.push_back({i, t, first, end});
+    }
+  }
+}
+
+void Aggregates::restrict_parts(const Field& f, int begin, int end, double* forces) const {
   for_each(
-      clusters(),
-      [&](std::ptrdiff_t i) {
-        const Cluster& c = cluster_[i];
-        const BlockLayout& l = lay.blocks[c.block];
+      end - begin,
+      [&](std::ptrdiff_t k) {
+        const Part& part = part_[begin + k];
+        const Cluster& c = cluster_[part.cluster];
+        const BlockLayout& l = body_.layout.blocks[c.block];
         Vec3 force, moment;
         for (int n : cut_[c.block].section[c.section]) {
           const double* x = f.data() + l.line(n, 0);
-          for (int j = c.first_station; j < c.first_station + c.stations; ++j) {
+          for (int j = part.first; j < part.end; ++j) {
             const Vec3 v{x[j], x[j + l.stride], x[j + 2 * l.stride]};
             force += v;
             moment += cross(arm(l, n, j), v);
           }
         }
-        Eigen::Matrix<double, 6, 1> all;
-        all << force.x, force.y, force.z, moment.x / c.length, moment.y / c.length, moment.z / c.length;
-        Eigen::Map<Eigen::VectorXd>(out + c.first_mode, c.count) = c.basis.leftCols(c.count).transpose() * all;
+        const double numbers[kPartNumbers] = {force.x, force.y, force.z, moment.x, moment.y, moment.z};
+        std::copy_n(numbers, kPartNumbers, forces + kPartNumbers * (begin + k));
       },
       true);
 }
 
-void Aggregates::prolong(const double* coefficients, Field& u) const {
+void Aggregates::gather_parts(const double* forces, double* out) const {
+  for_each(clusters(), [&](std::ptrdiff_t i) {
+    const Cluster& c = cluster_[i];
+    Eigen::Matrix<double, kPartNumbers, 1> all = decltype(all)::Zero();
+    for (int p : parts_of_[i])
+      for (int k = 0; k < kPartNumbers; ++k) all[k] += forces[kPartNumbers * p + k];
+    for (int k = 3; k < kPartNumbers; ++k) all[k] /= c.length;
+    Eigen::Map<Eigen::VectorXd>(out + c.first_mode, c.count) = c.basis.leftCols(c.count).transpose() * all;
+  });
+}
+
+void Aggregates::restrict_to(const Field& f, double* out) const {
+  std::vector<double> forces(static_cast<std::size_t>(kPartNumbers) * part_.size());
+  restrict_parts(f, 0, parts(), forces.data());
+  gather_parts(forces.data(), out);
+}
+
+void Aggregates::prolong(const double* coefficients, Field& u, const KeptValues& kept) const {
   const BodyLayout& lay = body_.layout;
   for_each(
       clusters(),
@@ -173,14 +208,22 @@ void Aggregates::prolong(const double* coefficients, Field& u) const {
         const Eigen::Matrix<double, 6, 1> all =
             c.basis.leftCols(c.count) * Eigen::Map<const Eigen::VectorXd>(coefficients + c.first_mode, c.count);
         const Vec3 shift{all[0], all[1], all[2]}, turn = (1 / c.length) * Vec3{all[3], all[4], all[5]};
-        for (int n : cut_[c.block].section[c.section]) {
-          double* x = u.data() + l.line(n, 0);
-          for (int j = c.first_station; j < c.first_station + c.stations; ++j) {
-            const Vec3 v = shift + cross(turn, arm(l, n, j));
+        const auto move = [&](int node, int begin, int end) {
+          double* x = u.data() + l.line(node, 0);
+          for (int j = begin; j < end; ++j) {
+            const Vec3 v = shift + cross(turn, arm(l, node, j));
             x[j] += v.x;
             x[j + l.stride] += v.y;
             x[j + 2 * l.stride] += v.z;
           }
+        };
+        const int first = c.first_station, last = c.first_station + c.stations;
+        for (int n : cut_[c.block].section[c.section]) {
+          if (kept.line[c.block][n]) {
+            move(n, first, last);
+            continue;
+          }
+          for (const StationRun& run : kept.runs[c.block]) move(n, std::max(first, run.begin), std::min(last, run.end));
         }
       },
       true);

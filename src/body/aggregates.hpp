@@ -4,12 +4,14 @@
 // solution is smooth.
 //
 // Each cluster moves as a rigid body, u = t + w x (X - X_c)/l, in a basis that is orthonormal over its free nodes
-// (clusters on a line or in a point have fewer than six). [VanekMandelBrezina1996] Every cluster is worked on by one
-// thread in a fixed order, so results do not depend on the number of threads.
+// (clusters on a line or in a point have fewer than six). [VanekMandelBrezina1996] A cluster's forces are summed over
+// its stations within one tile after the other, so results depend neither on the number of threads nor on which rank
+// has which tile.
 #include <Eigen/Core>
 
 #include "body/body.hpp"
 #include "body/cluster_sizes.hpp"
+#include "body/kept_values.hpp"
 
 namespace railstrata {
 
@@ -25,8 +27,16 @@ class Aggregates {
 
   /// out = P^T f, out of length modes().
   void restrict_to(const Field& f, double* out) const;
-  /// u += P c
-  void prolong(const double* c, Field& u) const;
+  /// The same in two: the forces on the parts that tiles have of clusters, kPartNumbers of each, and what they make.
+  /// Parts are in the order of their tiles.
+  static constexpr int kPartNumbers = 6;
+  int parts() const { return static_cast<int>(part_.size()); }
+  int part_tile(int part) const { return part_[part].tile; }
+  void restrict_parts(const Field& f, int begin, int end, double* forces) const;
+  void gather_parts(const double* forces, double* out) const;
+  /// u += P c, of what is kept.
+  void prolong(const double* c, Field& u, const KeptValues& kept) const;
+  void prolong(const double* c, Field& u) const { prolong(c, u, all_); }
   /// Row of P of one displacement component of a free node: values of the modes of its cluster.
   Eigen::Matrix<double, 6, 1> modes_at(int block, int node, int station, int component) const;
 
@@ -45,6 +55,9 @@ class Aggregates {
     double length;
     Eigen::Matrix<double, 6, 6> basis;  // coefficients of (t, w) of the modes, by columns
   };
+  struct Part {
+    int cluster, tile, first, end;  // stations
+  };
   struct BlockCut {
     std::vector<std::vector<int>> section;  // clusters of section nodes
     std::vector<int> section_of;            // per section node, -1: constrained
@@ -55,6 +68,7 @@ class Aggregates {
   void cut_section(int block, std::vector<int> nodes, Vec2 contact, const ClusterSizes& sizes);
   void cut_stations(int block, double radius, const ClusterSizes& sizes);
   void add_cluster(int block, int section, int group);
+  void cut_into_parts();
   Eigen::Matrix<double, 3, 6> rigid_modes(const Cluster& c, int node, int station) const;
 
   Vec3 arm(const BlockLayout& l, int node, int station) const {
@@ -66,6 +80,9 @@ class Aggregates {
   std::vector<BlockCut> cut_;
   Field arm_;  // X - X_c of the free nodes
   std::vector<Cluster> cluster_;
+  std::vector<Part> part_;                  // by tile
+  std::vector<std::vector<int>> parts_of_;  // per cluster, in the order of stations
+  KeptValues all_;
   int modes_ = 0;
 };
 

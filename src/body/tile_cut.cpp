@@ -1,7 +1,11 @@
 #include "body/tile_cut.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
+
+#include "core/faults.hpp"
 
 namespace railstrata {
 namespace {
@@ -48,6 +52,10 @@ std::vector<TileCut> cut_tiles(const std::vector<const Body*>& bodies, int ranks
   std::vector<long> work;
   for (const Body* body : bodies)
     for (int t = 0; t < static_cast<int>(body->tiling.tiles.size()); ++t) work.push_back(tile_elements(*body, t));
+  if (static_cast<std::size_t>(ranks) > work.size())
+    throw CaseError(
+        fmt::format("{} ranks cannot share this mesh: it has {} pieces of {} stations", ranks, work.size(), kTile),
+        "start fewer ranks, with more threads each");
   const std::vector<int> owner = cut_evenly(work, ranks);
   auto next = owner.begin();
   for (std::size_t k = 0; k < bodies.size(); ++k) {

@@ -25,7 +25,7 @@ long tile_elements(const Body& body, int tile);
 /// number of its stretch, from 0.
 std::vector<int> cut_evenly(const std::vector<long>& work, int parts);
 
-/// The cuts of the bodies, in their order.
+/// The cuts of the bodies, in their order. Throws CaseError if there are more ranks than tiles.
 std::vector<TileCut> cut_tiles(const std::vector<const Body*>& bodies, int ranks, int rank);
 
 /// Consecutive tiles of one block with one owner, in their order; of a body that is not cut, its blocks.

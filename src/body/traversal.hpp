@@ -64,6 +64,10 @@ class TraversalOf {
   void commit_internal_force(Field& u, double psi, Field& f, Field& history);
   /// f = K u, K the stiffness of the undeformed body.
   void linear_force(Field& u, Field& f);
+  /// As internal_force and linear_force, of these chains alone. Border planes lack what other chains leave there, until
+  /// an end() of all.
+  void internal_force_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f, const Field& history);
+  void linear_force_of(const std::vector<Chain>& chains, Field& u, Field& f);
   /// At u, with the history as committed.
   StrainEnergy energy(Field& u, double psi, const Field& history);
 
@@ -87,6 +91,9 @@ class TraversalOf {
   };
   template <Evaluation how>
   void all_forces(Field& u, double psi, Field& f, const Field& history, Field* advanced);
+  template <Evaluation how>
+  void forces_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f, const Field& history,
+                 Field* advanced);
   template <class Real, Evaluation how, class Policy>
   void run_chain(const Chain& chain, const Field& u, Field& f, const Field& history, Field* advanced,
                  const Policy& policy);

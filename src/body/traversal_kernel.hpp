@@ -352,18 +352,34 @@ template <class Element>
 template <Evaluation how>
 void TraversalOf<Element>::all_forces(Field& u, double psi, Field& f, const Field& history, Field* advanced) {
   constexpr int kChainsPerThread = 8;
-  begin(u, psi);
   all_chains_ = chains(body_->tiling, kChainsPerThread * max_threads(), std::move(all_chains_));
+  forces_of<how>(all_chains_, u, psi, f, history, advanced);
+}
+
+template <class Element>
+template <Evaluation how>
+void TraversalOf<Element>::forces_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f,
+                                     const Field& history, Field* advanced) {
+  begin(u, psi);
   const auto run = [&](std::ptrdiff_t k) {
-    run_chain<double, how>(all_chains_[k], u, f, history, advanced, StoreForces{});
+    run_chain<double, how>(chains[k], u, f, history, advanced, StoreForces{});
   };
-  for_each(static_cast<std::ptrdiff_t>(all_chains_.size()), run, true);
-  end(all_chains_, f);
+  for_each(static_cast<std::ptrdiff_t>(chains.size()), run, true);
+  end(chains, f);
 }
 
 template <class Element>
 void TraversalOf<Element>::internal_force(Field& u, double psi, Field& f, const Field& history) {
   all_forces<Evaluation::trial>(u, psi, f, history, nullptr);
+}
+template <class Element>
+void TraversalOf<Element>::internal_force_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f,
+                                             const Field& history) {
+  forces_of<Evaluation::trial>(chains, u, psi, f, history, nullptr);
+}
+template <class Element>
+void TraversalOf<Element>::linear_force_of(const std::vector<Chain>& chains, Field& u, Field& f) {
+  forces_of<Evaluation::linear>(chains, u, 0.0, f, {}, nullptr);
 }
 template <class Element>
 void TraversalOf<Element>::commit_internal_force(Field& u, double psi, Field& f, Field& history) {

@@ -26,15 +26,15 @@ constexpr int kMostSteps = 60, kMostPlasticSteps = 400, kMostIterations = 5000;
 
 class Preload {
  public:
-  Preload(const RollingSystem& system, const ClusterSizes& clusters, const RailBefore* before)
+  Preload(const RollingSystem& system, const ClusterSizes& clusters, const RailBefore* before, const Ranks& ranks)
       : sys_(system),
+        share_(system, ranks),
         contact_(system.rail_surface(), system.wheel_surface()),
         tractions_(system.rail_surface().columns, system.rail_surface().stations.nodes()),
-        elements_{Traversal(system.rail()), Traversal(system.wheel())},
         before_(before),
         virgin_{before ? before->history : initial_history(system.rail()), initial_history(system.wheel())},
         history_(virgin_),
-        preconditioner_(system, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
+        preconditioner_(system, share_, clusters, [this](StaticVector& x, StaticVector& y) { stiffness(x, y); }),
         u_(zero_vector(system)) {
     compliant_ = sys_.options.contact.penalty;
     element_stiffness_ = compliant_ ? sys_.options.contact.penalty_stiffness
@@ -49,7 +49,7 @@ class Preload {
     for (int step = 1;; ++step) {
       update_contact();
       StaticVector r = residual();
-      out.residual = std::sqrt(dot(r, r)) / load;
+      out.residual = std::sqrt(share_.dot(r, r)) / load;
       out.penetration = penetration();
       out.newton_steps = step;
       if (progress) progress(out.residual, tolerance, out.cg_iterations);
@@ -63,7 +63,8 @@ class Preload {
         throw NumericalError(
             fmt::format("static preload: no equilibrium after {} steps, residual {:.2e} (wanted {:.1e}){}", step,
                         out.residual, tolerance, what_to_try()));
-      if (stop && *stop) throw Interrupted("stopped during the static preload: there is nothing to resume yet");
+      if (any_rank_stops(stop, out.residual))
+        throw Interrupted("stopped during the static preload: there is nothing to resume yet");
       apply_gap_springs(r);
       out.cg_iterations +=
           conjugate_gradients(r, load * std::max(kLastStep * tolerance, kForcing * std::min(out.residual, 1.0)));
@@ -123,9 +124,20 @@ class Preload {
     f.axle = -g * (sys_.axle.mass_z + sys_.options.vehicle.sprung_mass);
     return f;
   }
-  double load_norm() const {
+  double load_norm() {
     const StaticVector f = loads();
-    return std::sqrt(dot(f, f));
+    return std::sqrt(share_.dot(f, f));
+  }
+  // Where the ranks look at one another.
+  bool any_rank_stops(const std::atomic<bool>* stop, double residual) const {
+    const bool own = stop && *stop;
+    if (share_.ranks().alone()) return own;
+    const std::array<double, 2> marks = {residual, u_.axle};
+    std::vector<double> numbers(marks.size() * share_.ranks().count);
+    std::copy(marks.begin(), marks.end(), numbers.begin() + marks.size() * share_.ranks().rank);
+    share_.gather(numbers.data(), std::vector<std::ptrdiff_t>(share_.ranks().count, marks.size()));
+    require_same_bits(share_.ranks(), numbers);
+    return largest_of_all(share_.ranks(), own) > 0;
   }
 
   void update_contact() {
@@ -153,7 +165,7 @@ class Preload {
       apply_pressure(k, spring_[k] - pressure_[k], f);
     }
     reduce(f);
-    add(r, 1.0, f);
+    share_.add(r, 1.0, f);
   }
   // Takes the step; the springs' pressures are the next multipliers, negative ones too: they open the contact there.
   void advance(StaticVector& step) {
@@ -162,7 +174,8 @@ class Preload {
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
       if (active_[k] && !compliant_)
         tractions_.at(rows_->rows[k].column, rows_->rows[k].station).p = spring_[k] - penalty_ * gap_change(k, step);
-    add(u_, 1.0, step);
+    share_.add(u_, 1.0, step);
+    share_.complete(u_);
     sys_.apply_constraints(u_.body[kRail], u_.body[kWheel], {0, 0, u_.axle, 0});
   }
   double penetration() const {
@@ -219,20 +232,19 @@ class Preload {
     clear_constrained(f);
   }
   void clear_constrained(StaticVector& x) const {
-    for (std::size_t k = 0; k < x.body.size(); ++k) {
-      const Field& inverse_mass = sys_.bodies[k].inverse_mass;
-      Field& f = x.body[k];
-      for_each(static_cast<std::ptrdiff_t>(f.size()), [&](std::ptrdiff_t i) {
+    share_.for_kept([&](std::size_t k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      const double* inverse_mass = sys_.bodies[k].inverse_mass.data();
+      double* f = x.body[k].data();
+      for (std::ptrdiff_t i = begin; i < end; ++i)
         if (inverse_mass[i] == 0) f[i] = 0;
-      });
-    }
+    });
   }
 
   // From the virgin state in one increment; twice, since the bubbles follow the increment before.
   void yield(std::size_t k) {
     const Body& body = sys_.bodies[k];
     if (body.plastic.empty()) return;
-    elements_[k].begin(u_.body[k], 0);  // the ghosts of a ring
+    share_.elements(k).begin(u_.body[k], 0);  // the ghosts of a ring
     for (int repeat = 0; repeat < 2; ++repeat) {
       restore_points(body, virgin_[k], history_[k]);
       advance_plastic_elements(body, u_.body[k], 0, history_[k]);
@@ -247,17 +259,17 @@ class Preload {
   }
   StaticVector residual() {
     StaticVector r = zero_vector(sys_);
-    for (std::size_t k = 0; k < r.body.size(); ++k) {
-      yield(k);
-      elements_[k].internal_force(u_.body[k], 0, r.body[k], history_[k]);
-      for (double& v : r.body[k]) v = -v;
-    }
+    for (std::size_t k = 0; k < r.body.size(); ++k) yield(k);
+    share_.internal_force(u_, history_, r);
+    share_.for_kept([&](std::size_t k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+      for (std::ptrdiff_t i = begin; i < end; ++i) r.body[k][i] = -r.body[k][i];
+    });
     for (const EndLoad& l : sys_.end_loads) r.body[kRail][l.index] += l.force;
     for (std::size_t k = 0; k < rows_->rows.size(); ++k)
       if (pressure_[k] > 0) apply_pressure(k, pressure_[k], r);
     apply_lateral_friction(r);
     reduce(r);
-    add(r, 1.0, loads());
+    share_.add(r, 1.0, loads());
     return r;
   }
 
@@ -281,10 +293,8 @@ class Preload {
       wheel[n.index] = wheel[n.index + n.stride] = 0;
       wheel[n.index + 2 * n.stride] = x.axle;
     }
-    for (std::size_t k = 0; k < x.body.size(); ++k) {
-      sys_.bodies[k].ties.apply_homogeneous(x.body[k]);
-      elements_[k].linear_force(x.body[k], y.body[k]);
-    }
+    for (std::size_t k = 0; k < x.body.size(); ++k) sys_.bodies[k].ties.apply_homogeneous(x.body[k]);
+    share_.linear_force(x, y);
     y.axle = 0;
   }
   double gap_change(std::size_t k, const StaticVector& x) const {
@@ -309,24 +319,24 @@ class Preload {
     StaticVector x = zero_vector(sys_), z = zero_vector(sys_), p = zero_vector(sys_), q = zero_vector(sys_);
     double rz = 1;
     int iteration = 0;
-    for (; iteration < kMostIterations && dot(r, r) > wanted * wanted; ++iteration) {
+    for (; iteration < kMostIterations && share_.dot(r, r) > wanted * wanted; ++iteration) {
       preconditioner_.apply(r, z);
-      const double next = dot(r, z);
-      scale_and_add(p, iteration > 0 ? next / rz : 0.0, z);
+      const double next = share_.dot(r, z);
+      share_.scale_and_add(p, iteration > 0 ? next / rz : 0.0, z);
       rz = next;
       apply(p, q);
-      const double alpha = rz / dot(p, q);
-      add(x, alpha, p);
-      add(r, -alpha, q);
+      const double alpha = rz / share_.dot(p, q);
+      share_.add(x, alpha, p);
+      share_.add(r, -alpha, q);
     }
     r = std::move(x);
     return iteration;
   }
 
   const RollingSystem& sys_;
+  StaticShare share_;
   MortarContact contact_;
   SurfaceTractions tractions_;
-  std::array<Traversal, 2> elements_;
   const RailBefore* before_;
   const std::array<Field, 2> virgin_;
   std::array<Field, 2> history_;  // at the present displacements
@@ -343,9 +353,10 @@ class Preload {
 }  // namespace
 
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress,
-                            const std::atomic<bool>* stop, const ClusterSizes& clusters, const RailBefore* before) {
+                            const std::atomic<bool>* stop, const ClusterSizes& clusters, const RailBefore* before,
+                            const Ranks& ranks) {
   const auto start = std::chrono::steady_clock::now();
-  PreloadResult result = Preload(system, clusters, before).solve(tolerance, progress, stop);
+  PreloadResult result = Preload(system, clusters, before, ranks).solve(tolerance, progress, stop);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

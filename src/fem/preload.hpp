@@ -9,7 +9,7 @@
 // pressures are the next p, and opens and closes nodes by it until residual and penetration are met
 // [HueberWohlmuth2005]. The linear systems are solved by conjugate gradients with the explicit solver's element kernel
 // as the operator and two levels of preconditioning (fem/static_preconditioner.hpp), never more exactly than the next
-// step can use. Nothing but the coarse level is assembled.
+// step can use. Nothing but the coarse level is assembled. Several ranks share vectors and elements by tiles.
 //
 // Elements that may yield add their eigenstress to the residual: of one increment from the virgin state to the present
 // displacements, so that what a step on the way overshoots leaves nothing behind. The steps keep the elastic stiffness
@@ -19,6 +19,7 @@
 #include <functional>
 
 #include "body/cluster_sizes.hpp"
+#include "core/ranks.hpp"
 #include "fem/rolling_system.hpp"
 
 namespace railstrata {
@@ -45,10 +46,11 @@ struct PreloadResult {
 /// Called after every Newton step with (relative residual, wanted residual, CG iterations so far).
 using PreloadProgress = std::function<void(double, double, int)>;
 
-/// before: not null: what earlier wheels have left in the rail. Throws NumericalError when it does not converge,
-/// Interrupted when `stop` was set.
+/// before: not null: what earlier wheels have left in the rail. ranks: that share the work (fem/static_share.hpp); all
+/// get the result of one to the last bit. Throws NumericalError when it does not converge, Interrupted when `stop` was
+/// set, on any rank.
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {},
                             const std::atomic<bool>* stop = nullptr, const ClusterSizes& clusters = {},
-                            const RailBefore* before = nullptr);
+                            const RailBefore* before = nullptr, const Ranks& ranks = {});
 
 }  // namespace railstrata

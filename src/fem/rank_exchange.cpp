@@ -1,13 +1,9 @@
 #include "fem/rank_exchange.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cstring>
 #include <numeric>
 
 #include "core/body_id.hpp"
-#include "core/faults.hpp"
 
 namespace railstrata {
 namespace {
@@ -40,13 +36,12 @@ std::vector<std::vector<int>> updated_at_once(const RollingBody& b) {
 }  // namespace
 
 RankExchange::RankExchange(const Ranks& ranks, const RollingBodies& bodies)
-    : ranks_(ranks), marks_(2 * static_cast<std::size_t>(ranks.count)), sizes_(static_cast<std::size_t>(ranks.count)) {
+    : ranks_(ranks),
+      exchange_(ranks),
+      stretches_(all_stretches({&bodies[kRail].body, &bodies[kWheel].body}, {bodies[kRail].cut, bodies[kWheel].cut})),
+      marks_(2 * static_cast<std::size_t>(ranks.count)) {
+  for (const Stretch& s : stretches_) borders_[s.body].push_back(s);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const Tiling& tiling = bodies[k].body.tiling;
-    for (const OwnedChain& s : stretches(tiling, bodies[k].cut)) {
-      borders_[k].push_back(s);
-      stretches_.push_back({s, k, tiling.tiles[s.first_tile].first + 1, tiling.tiles[s.end_tile - 1].end});
-    }
     lines_[k] = read_lines(bodies[k]);
     inner_nodes_[k] = updated_at_once(bodies[k]);
   }
@@ -64,7 +59,7 @@ void RankExchange::each_force(int rank, Kind kind, RollingBodies& bodies, BodySt
   for (const Stretch& s : stretches_) {
     if (s.owner != rank) continue;
     RollingBody& b = bodies[s.body];
-    const int block = b.body.tiling.tiles[s.first_tile].block, tiles = s.end_tile - s.first_tile;
+    const int block = s.block, tiles = s.end_tile - s.first_tile;
     const BlockLayout& lay = b.body.layout.blocks[block];
     const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(lay.nodes) * 3;
     if (kind == plain) {
@@ -93,7 +88,7 @@ void RankExchange::each_value(int rank, const RollingBodies& bodies, BodyStates&
   for (const Stretch& s : stretches_) {
     if (s.owner != rank) continue;
     const Body& body = bodies[s.body].body;
-    const int block = body.tiling.tiles[s.first_tile].block;
+    const int block = s.block;
     double* values = (states[s.body].*field).data();
     for (int n : inner_nodes_[s.body][block])
       for (int i = 0; i < 3; ++i) visit(values + body.layout.blocks[block].line(n, i) + s.first, s.end - s.first);
@@ -113,38 +108,12 @@ void RankExchange::each_slot(int rank, const RollingBodies& bodies, BodyStates& 
   }
 }
 
-// each_part(rank, visit) names what a rank gives, in the same order on all ranks.
-template <class EachPart>
-void RankExchange::exchange(EachPart&& each_part) {
-  std::ptrdiff_t total = 0;
-  for (int r = 0; r < ranks_.count; ++r) {
-    std::ptrdiff_t& size = sizes_[r] = 0;
-    each_part(r, [&](const double*, std::ptrdiff_t count) { size += count; });
-    total += size;
-  }
-  if (buffer_.size() < static_cast<std::size_t>(total)) buffer_.resize(static_cast<std::size_t>(total));
-  double* at = buffer_.data() + std::accumulate(sizes_.begin(), sizes_.begin() + ranks_.rank, std::ptrdiff_t{0});
-  each_part(ranks_.rank, [&](const double* values, std::ptrdiff_t count) { at = std::copy_n(values, count, at); });
-  ranks_.gather(buffer_.data(), sizes_.data());
-  const double* from = buffer_.data();
-  for (int r = 0; r < ranks_.count; ++r) {
-    if (r == ranks_.rank) {
-      from += sizes_[r];
-      continue;
-    }
-    each_part(r, [&](double* values, std::ptrdiff_t count) {
-      std::copy_n(from, count, values);
-      from += count;
-    });
-  }
-}
-
 void RankExchange::count_forces(const RollingBodies& bodies) {
   for (int kind = 0; kind < kKinds; ++kind) {
-    counts_[kind].assign(sizes_.size(), 2);
+    counts_[kind].assign(static_cast<std::size_t>(ranks_.count), 2);
     for (const Stretch& s : stretches_) {
       const Body& body = bodies[s.body].body;
-      const int block = body.tiling.tiles[s.first_tile].block, tiles = s.end_tile - s.first_tile;
+      const int block = s.block, tiles = s.end_tile - s.first_tile;
       const std::ptrdiff_t nodes = body.layout.blocks[block].nodes;
       const auto lines = kind == whole ? nodes : static_cast<std::ptrdiff_t>(lines_[s.body][block].size());
       const std::ptrdiff_t planes = kind == plain ? 2 : 2 * tiles, sums = kind == measured ? tiles * kSums : 0;
@@ -168,14 +137,6 @@ void RankExchange::prepare(const RollingBodies& bodies, BodyStates& states, cons
   if (kind != whole) all_known_ = false;
 }
 
-void RankExchange::compare_marks() const {
-  for (int r = 0; r < ranks_.count; ++r)
-    if (std::memcmp(marks_.data() + 2 * r, mark_.data(), sizeof mark_) != 0)
-      throw EnvironmentError(
-          fmt::format("rank {} computes other numbers than rank {}: their machines or programs differ", r, ranks_.rank),
-          "run all ranks with the same program on machines of one kind");
-}
-
 void RankExchange::share_forces(RollingBodies& bodies, BodyStates& states, const StepScope& scope) {
   const Kind kind = kind_of(scope);
   if (kind == plain)  // planes within the own stretches
@@ -185,8 +146,8 @@ void RankExchange::share_forces(RollingBodies& bodies, BodyStates& states, const
       bodies[k].elements.end(own_chains_, states[k].f);
     }
   std::copy(mark_.begin(), mark_.end(), marks_.begin() + 2 * ranks_.rank);
-  exchange([&](int rank, auto&& visit) { each_force(rank, kind, bodies, states, visit); });
-  compare_marks();
+  exchange_([&](int rank, auto&& visit) { each_force(rank, kind, bodies, states, visit); });
+  require_same_bits(ranks_, marks_);
   for (std::size_t k = 0; k < bodies.size(); ++k)
     bodies[k].elements.end(kind == plain ? borders_[k] : bodies[k].schedule.chains, states[k].f);
 }
@@ -194,8 +155,8 @@ void RankExchange::share_forces(RollingBodies& bodies, BodyStates& states, const
 void RankExchange::complete(const RollingBodies& bodies, BodyStates& states) {
   if (all_known_) return;
   for (Field BodyState::*field : {&BodyState::u, &BodyState::v})
-    exchange([&](int rank, auto&& visit) { each_value(rank, bodies, states, field, visit); });
-  exchange([&](int rank, auto&& visit) { each_slot(rank, bodies, states, visit); });
+    exchange_([&](int rank, auto&& visit) { each_value(rank, bodies, states, field, visit); });
+  exchange_([&](int rank, auto&& visit) { each_slot(rank, bodies, states, visit); });
   planes_known_ = all_known_ = true;
 }
 

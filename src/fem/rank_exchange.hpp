@@ -15,8 +15,8 @@
 #include <array>
 #include <vector>
 
-#include "core/ranks.hpp"
 #include "fem/node_update.hpp"
+#include "fem/part_exchange.hpp"
 
 namespace railstrata {
 
@@ -40,10 +40,6 @@ class RankExchange {
 
  private:
   enum Kind { plain, measured, whole, kKinds };  // steps: fused, fused with sums, energies
-  struct Stretch : OwnedChain {
-    std::size_t body;
-    int first, end;  // stations within it, without the border plane in front of it
-  };
   static Kind kind_of(const StepScope& scope);
   template <class Visit>
   void each_force(int rank, Kind kind, RollingBodies& bodies, BodyStates& states, Visit&& visit);
@@ -52,12 +48,10 @@ class RankExchange {
                   Visit&& visit) const;
   template <class Visit>
   void each_slot(int rank, const RollingBodies& bodies, BodyStates& states, Visit&& visit) const;
-  template <class EachPart>
-  void exchange(EachPart&& each_part);
-  void compare_marks() const;
   void count_forces(const RollingBodies& bodies);
 
   Ranks ranks_;
+  PartExchange exchange_;
   std::vector<Stretch> stretches_;
   std::array<std::vector<Chain>, 2> borders_;                 // by body: the stretches as chains
   std::array<std::vector<std::vector<int>>, 2> lines_;        // by body and block: nodes whose forces all ranks read
@@ -66,8 +60,6 @@ class RankExchange {
   std::array<double, 2> mark_{};
   std::vector<double> marks_;  // of all ranks
   std::array<std::vector<std::ptrdiff_t>, kKinds> counts_;
-  std::vector<std::ptrdiff_t> sizes_;
-  std::vector<double> buffer_;
   bool planes_known_ = true, all_known_ = true;  // u and v on all planes between tiles; everywhere, with the history
 };
 

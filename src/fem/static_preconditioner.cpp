@@ -34,12 +34,14 @@ Vec2 contact_in_section(const ContactSurface& s) { return s.node[s.columns / 2];
 
 }  // namespace
 
-StaticPreconditioner::StaticPreconditioner(const RollingSystem& system, const ClusterSizes& sizes,
-                                           const Operator& stiffness)
+StaticPreconditioner::StaticPreconditioner(const RollingSystem& system, const StaticShare& share,
+                                           const ClusterSizes& sizes, const Operator& stiffness)
     : sys_(system),
+      share_(share),
       clusters_{Aggregates(system.rail(), contact_in_section(system.rail_surface()), sizes),
                 Aggregates(system.wheel(), contact_in_section(system.wheel_surface()), sizes)},
       size_(clusters_[kRail].modes() + clusters_[kWheel].modes() + 1) {
+  count_parts();
   invert_diagonal();
   probe(stiffness);
   probe_axle(stiffness);
@@ -47,6 +49,43 @@ StaticPreconditioner::StaticPreconditioner(const RollingSystem& system, const Cl
 
 StaticVector zero_vector(const RollingSystem& system) {
   return {{system.rail().layout.field(), system.wheel().layout.field()}, 0.0};
+}
+
+void StaticPreconditioner::count_parts() {
+  part_numbers_.assign(static_cast<std::size_t>(share_.ranks().count), 0);
+  for (std::size_t k = 0; k < clusters_.size(); ++k) {
+    const Aggregates& a = clusters_[k];
+    const TileCut& cut = share_.cut(k);
+    int begin = 0, end = 0;
+    for (int p = 0; p < a.parts(); ++p) {
+      const int owner = cut.whole() ? cut.rank : cut.owner[a.part_tile(p)];
+      part_numbers_[owner] += Aggregates::kPartNumbers;
+      if (owner != cut.rank) continue;
+      if (end == 0) begin = p;
+      end = p + 1;
+    }
+    own_parts_[k] = {begin, end};
+  }
+  part_forces_.resize(static_cast<std::size_t>(Aggregates::kPartNumbers) *
+                      (clusters_[kRail].parts() + clusters_[kWheel].parts()));
+}
+
+// P^T f, the same on all ranks.
+void StaticPreconditioner::restrict_to(const StaticVector& f, double* coarse) {
+  double* const of_body[2] = {part_forces_.data(),
+                              part_forces_.data() + Aggregates::kPartNumbers * clusters_[kRail].parts()};
+  for (std::size_t k = 0; k < clusters_.size(); ++k)
+    clusters_[k].restrict_parts(f.body[k], own_parts_[k].first, own_parts_[k].second, of_body[k]);
+  share_.gather(part_forces_.data(), part_numbers_);
+  for (std::size_t k = 0; k < clusters_.size(); ++k) clusters_[k].gather_parts(of_body[k], coarse + first_mode(k));
+  coarse[size_ - 1] = f.axle;
+}
+
+// x += P c
+void StaticPreconditioner::prolong(const double* coarse, StaticVector& x) const {
+  for (std::size_t k = 0; k < clusters_.size(); ++k)
+    clusters_[k].prolong(coarse + first_mode(k), x.body[k], share_.kept(k));
+  x.axle += coarse[size_ - 1];
 }
 
 void StaticPreconditioner::invert_diagonal() {
@@ -74,26 +113,23 @@ void StaticPreconditioner::probe(const Operator& stiffness) {
     parts[k].classes = colour(parts[k].neighbours);
   }
   const std::size_t colours = std::max(parts[0].classes.size(), parts[1].classes.size());
-  std::vector<double> c;
+  std::vector<double> c(static_cast<std::size_t>(size_));
   for (std::size_t colour = 0; colour < colours; ++colour)
     for (int mode = 0; mode < 6; ++mode) {
-      x.axle = 0;
+      std::fill(c.begin(), c.end(), 0.0);
       for (std::size_t k = 0; k < parts.size(); ++k) {
-        c.assign(clusters_[k].modes(), 0.0);
-        if (colour < parts[k].classes.size())
-          for (int a : parts[k].classes[colour])
-            if (mode < clusters_[k].mode_count(a)) c[clusters_[k].first_mode(a) + mode] = 1;
         std::fill(x.body[k].begin(), x.body[k].end(), 0.0);
-        clusters_[k].prolong(c.data(), x.body[k]);
+        if (colour >= parts[k].classes.size()) continue;
+        for (int a : parts[k].classes[colour])
+          if (mode < clusters_[k].mode_count(a)) c[first_mode(k) + clusters_[k].first_mode(a) + mode] = 1;
       }
+      x.axle = 0;
+      prolong(c.data(), x);
       stiffness(x, y);
       ++probes_;
-      for (std::size_t k = 0; k < parts.size(); ++k) {
-        if (colour >= parts[k].classes.size()) continue;
-        c.resize(clusters_[k].modes());
-        clusters_[k].restrict_to(y.body[k], c.data());
-        gather_columns(k, parts[k], colour, mode, c);
-      }
+      restrict_to(y, c.data());
+      for (std::size_t k = 0; k < parts.size(); ++k)
+        if (colour < parts[k].classes.size()) gather_columns(k, parts[k], colour, mode, c.data() + first_mode(k));
     }
 }
 
@@ -101,7 +137,7 @@ int StaticPreconditioner::first_mode(std::size_t body) const { return body == kR
 
 // Entries of the coarse matrix that one probe shows: rows of the neighbours of the probed clusters.
 void StaticPreconditioner::gather_columns(std::size_t body, const ColouredClusters& part, std::size_t colour, int mode,
-                                          const std::vector<double>& c) {
+                                          const double* c) {
   const Aggregates& clusters = clusters_[body];
   const int offset = first_mode(body);
   for (int a : part.classes[colour]) {
@@ -121,12 +157,11 @@ void StaticPreconditioner::probe_axle(const Operator& stiffness) {
   StaticVector y = x;
   stiffness(x, y);
   ++probes_;
-  const Aggregates& wheel = clusters_[kWheel];
-  std::vector<double> c(wheel.modes());
-  wheel.restrict_to(y.body[kWheel], c.data());
+  std::vector<double> c(static_cast<std::size_t>(size_));
+  restrict_to(y, c.data());
   const int axle = size_ - 1;
-  for (int i = 0; i < wheel.modes(); ++i)
-    if (c[i] != 0) coarse_.emplace_back(axle, first_mode(kWheel) + i, c[i]);
+  for (int i = first_mode(kWheel); i < axle; ++i)
+    if (c[i] != 0) coarse_.emplace_back(axle, i, c[i]);
   coarse_.emplace_back(axle, axle, y.axle);
 }
 
@@ -218,10 +253,12 @@ void StaticPreconditioner::factorise_coarse() {
     throw NumericalError("static preload: the coarse stiffness is not positive definite: wheel and rail do not touch");
 }
 
-void StaticPreconditioner::apply(const StaticVector& r, StaticVector& z) const {
-  for (std::size_t k = 0; k < r.body.size(); ++k)
-    for_each(static_cast<std::ptrdiff_t>(r.body[k].size()),
-             [&](std::ptrdiff_t i) { z.body[k][i] = inverse_.body[k][i] * r.body[k][i]; });
+void StaticPreconditioner::apply(const StaticVector& r, StaticVector& z) {
+  share_.for_kept([&](std::size_t k, std::ptrdiff_t begin, std::ptrdiff_t end) {
+    const double *inverse = inverse_.body[k].data(), *from = r.body[k].data();
+    double* to = z.body[k].data();
+    for (std::ptrdiff_t i = begin; i < end; ++i) to[i] = inverse[i] * from[i];
+  });
   z.axle = inverse_.axle * r.axle;
   if (!gaps_.empty()) {
     Eigen::VectorXd gap(static_cast<int>(gaps_.size()));
@@ -236,11 +273,9 @@ void StaticPreconditioner::apply(const StaticVector& r, StaticVector& z) const {
         z.body[e.body][e.index] -= inverse_.body[e.body][e.index] * e.value * force[k];
   }
   Eigen::VectorXd c(size_);
-  for (std::size_t k = 0; k < clusters_.size(); ++k) clusters_[k].restrict_to(r.body[k], c.data() + first_mode(k));
-  c[size_ - 1] = r.axle;
+  restrict_to(r, c.data());
   const Eigen::VectorXd coarse = coarse_factor_.solve(c);
-  for (std::size_t k = 0; k < clusters_.size(); ++k) clusters_[k].prolong(coarse.data() + first_mode(k), z.body[k]);
-  z.axle += coarse[size_ - 1];
+  prolong(coarse.data(), z);
 }
 
 }  // namespace railstrata

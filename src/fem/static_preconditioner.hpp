@@ -9,12 +9,13 @@
 // of clusters of nodes (body/aggregates.hpp) and the axle's height: the long waves and the nearly free motion of the
 // wheel on its contact, which a diagonal alone needs thousands of iterations for. P^T K P is found by applying K to the
 // modes of many clusters that do not touch at once.
+//
+// Of several ranks each restricts and prolongs at the stations of its own tiles; both factors every rank has whole.
 #include <Eigen/SparseCholesky>
 #include <functional>
 
 #include "body/aggregates.hpp"
-#include "fem/rolling_system.hpp"
-#include "fem/static_vector.hpp"
+#include "fem/static_share.hpp"
 
 namespace railstrata {
 
@@ -25,12 +26,14 @@ class StaticPreconditioner {
  public:
   /// stiffness(x, y): y = K x on the free degrees of freedom, without contact.
   using Operator = std::function<void(StaticVector&, StaticVector&)>;
-  StaticPreconditioner(const RollingSystem& system, const ClusterSizes& sizes, const Operator& stiffness);
+  /// share: of this rank; vectors are right where it keeps them.
+  StaticPreconditioner(const RollingSystem& system, const StaticShare& share, const ClusterSizes& sizes,
+                       const Operator& stiffness);
 
   /// The rows in contact and their stiffness (Pa/m); factorises both levels.
   void set_contact(const MortarRows& rows, const std::vector<char>& active, double penalty);
   /// z = M^-1 r
-  void apply(const StaticVector& r, StaticVector& z) const;
+  void apply(const StaticVector& r, StaticVector& z);
 
   int coarse_size() const { return size_; }
   int probes() const { return probes_; }  ///< applications of K that the coarse matrix took
@@ -51,8 +54,11 @@ class StaticPreconditioner {
     std::vector<std::vector<int>> classes;  // clusters of one colour have no neighbour in common
   };
   int first_mode(std::size_t body) const;
+  void count_parts();
+  void restrict_to(const StaticVector& f, double* coarse);
+  void prolong(const double* coarse, StaticVector& x) const;
   void gather_columns(std::size_t body, const ColouredClusters& part, std::size_t colour, int mode,
-                      const std::vector<double>& c);
+                      const double* c);
   void invert_diagonal();
   void probe(const Operator& stiffness);
   void probe_axle(const Operator& stiffness);
@@ -62,7 +68,11 @@ class StaticPreconditioner {
   std::vector<Eigen::Triplet<double>> coarse_row(const GapRow& row, int number) const;
 
   const RollingSystem& sys_;
+  const StaticShare& share_;
   std::array<Aggregates, 2> clusters_;  // by BodyId
+  std::vector<double> part_forces_;           // of the clusters' parts, both bodies
+  std::vector<std::ptrdiff_t> part_numbers_;  // of them, by rank
+  std::array<std::pair<int, int>, 2> own_parts_;
   int size_ = 0, probes_ = 0;
   StaticVector inverse_;
   std::vector<GapRow> gaps_;

@@ -1,6 +1,7 @@
 #pragma once
-// A vector of the static problem: displacements (or forces) of both bodies and of the axle's height. Constrained
-// entries and padding are zero wherever sums are taken.
+// A vector of the static problem: displacements (or forces) of both bodies and of the axle's height; sums and products
+// of it are in fem/static_share.hpp. Those of single fields below take all entries: constrained ones and padding are
+// zero there.
 #include <array>
 
 #include "core/array.hpp"
@@ -21,26 +22,15 @@ inline double dot(const Field& a, const Field& b) {
     return sum;
   });
 }
-inline double dot(const StaticVector& a, const StaticVector& b) {
-  return dot(a.body[0], b.body[0]) + dot(a.body[1], b.body[1]) + a.axle * b.axle;
-}
 
 /// y += s x
 inline void add(Field& y, double s, const Field& x) {
   for_each(static_cast<std::ptrdiff_t>(y.size()), [&](std::ptrdiff_t i) { y[i] += s * x[i]; });
 }
-inline void add(StaticVector& y, double s, const StaticVector& x) {
-  for (std::size_t k = 0; k < y.body.size(); ++k) add(y.body[k], s, x.body[k]);
-  y.axle += s * x.axle;
-}
 
 /// y = x + s y
 inline void scale_and_add(Field& y, double s, const Field& x) {
   for_each(static_cast<std::ptrdiff_t>(y.size()), [&](std::ptrdiff_t i) { y[i] = x[i] + s * y[i]; });
-}
-inline void scale_and_add(StaticVector& y, double s, const StaticVector& x) {
-  for (std::size_t k = 0; k < y.body.size(); ++k) scale_and_add(y.body[k], s, x.body[k]);
-  y.axle = x.axle + s * y.axle;
 }
 
 }  // namespace railstrata

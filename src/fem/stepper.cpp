@@ -39,11 +39,6 @@ bool same_sizes(const RestartState& r, const RollingSystem& sys) {
 }
 
 RollingBodies rolling_bodies(const RollingSystem& sys, StepPlan& plan, const Ranks& ranks) {
-  const std::size_t tiles = sys.rail().tiling.tiles.size() + sys.wheel().tiling.tiles.size();
-  if (static_cast<std::size_t>(ranks.count) > tiles)
-    throw CaseError(
-        fmt::format("{} ranks cannot share this mesh: it has {} pieces of {} stations", ranks.count, tiles, kTile),
-        "start fewer ranks, with more threads each");
   std::vector<TileCut> cuts = cut_tiles({&sys.rail(), &sys.wheel()}, ranks.count, ranks.rank);
   return {RollingBody(sys.rail(), sys.rail_surface(), plan.bodies[kRail], {}, std::move(cuts[kRail])),
           RollingBody(sys.wheel(), sys.wheel_surface(), plan.bodies[kWheel], rolling_frame(sys, plan.limits.chosen),

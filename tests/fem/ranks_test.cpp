@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <cstring>
 
@@ -43,6 +45,32 @@ void roll(Stepper& st, int steps) {
 RestartState whole_state(Stepper& st) {
   st.complete();
   return st.restart_state();
+}
+
+void expect_same_preload(const PreloadResult& a, const PreloadResult& b, const std::string& where) {
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_TRUE(same_bits(a.u[k], b.u[k])) << where << ", u of body " << k;
+    EXPECT_TRUE(same_bits(a.history[k], b.history[k])) << where << ", history " << k;
+  }
+  EXPECT_TRUE(same_bits(a.tractions.all(), b.tractions.all())) << where;
+  EXPECT_EQ(a.axle_z, b.axle_z) << where;
+  EXPECT_EQ(a.residual, b.residual) << where;
+  EXPECT_EQ(a.newton_steps, b.newton_steps) << where;
+  EXPECT_EQ(a.cg_iterations, b.cg_iterations) << where;
+}
+
+// The preload that several ranks find together is that of one, to the last bit.
+void expect_preload_of_one_rank(const CaseSpec& spec, const std::vector<int>& counts, double tolerance = 1e-6) {
+  const RollingSystem system = small_system(spec);
+  const PreloadResult expected = solve_preload(system, tolerance);
+  for (int ranks : counts)
+    for (int threads : {1, 2})
+      ThreadRanks(ranks).run(threads, [&](const Ranks& mine) {
+        const PreloadResult found = solve_preload(system, tolerance, {}, nullptr, {}, nullptr, mine);
+        expect_same_preload(found, expected,
+                            std::to_string(mine.rank) + " of " + std::to_string(ranks) + " ranks, threads " +
+                                std::to_string(threads));
+      });
 }
 
 // The state after so many steps, of every rank.
@@ -106,15 +134,42 @@ TEST(Ranks, InSinglePrecisionOfAYawedWheelThatIsFreeSidewaysToo) {
   expect_bits_of_one_rank(spec, {2});
 }
 
-// Bodies yield, and elements become hot on the way.
-TEST(Ranks, OfBodiesThatYieldToo) {
-  CaseSpec spec = damped_case();
+CaseSpec yielding(CaseSpec spec) {
   spec.run.plasticity = true;
   for (MaterialSpec* m : {&spec.rail_material, &spec.wheel_material}) {
     m->strength.yield_strength = 300e6;
     m->strength.kinematic_hardening = {{20e9, 50}};
   }
-  expect_bits_of_one_rank(spec, {2, 4});
+  return spec;
+}
+
+// Bodies yield, and elements become hot on the way.
+TEST(Ranks, OfBodiesThatYieldToo) { expect_bits_of_one_rank(yielding(damped_case()), {2, 4}); }
+
+TEST(Ranks, FindThePreloadOfOne) { expect_preload_of_one_rank(small_case(), {2, 3, 4}); }
+
+TEST(Ranks, FindThePreloadOfOneOfBodiesThatYieldAndAreLayeredAndYawedToo) {
+  CaseSpec spec = thinly_layered(yielding(damped_case()), TimeStepMethod::mass_scaling);
+  spec.geometry.yaw = 5e-3;
+  spec.drive.lateral_traction_coefficient = 0.1;
+  spec.vehicle.couple_sprung_mass = true;
+  expect_preload_of_one_rank(spec, {3}, 1e-3);
+}
+
+// A signal reaches one of them: all end at the same place.
+TEST(Ranks, StopTogetherInThePreload) {
+  const RollingSystem system = small_system(small_case());
+  std::array<int, 2> ended = {};
+  ThreadRanks(2).run(1, [&](const Ranks& mine) {
+    std::atomic<bool> stop = false;
+    int steps = 0;
+    const auto progress = [&](double, double, int) {
+      stop = ++steps == 2 && mine.rank == 1;
+      ended[static_cast<std::size_t>(mine.rank)] = steps;
+    };
+    EXPECT_THROW(solve_preload(system, 1e-9, progress, &stop, {}, nullptr, mine), Interrupted);
+  });
+  EXPECT_EQ(ended, (std::array<int, 2>{2, 2}));
 }
 
 TEST(Ranks, GoOnWithTheStateOfAnotherNumberOfRanks) {
