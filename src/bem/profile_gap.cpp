@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "geometry/profile_walk.hpp"
 #include "geometry/turned_wheel.hpp"
 
 namespace railstrata {
@@ -19,8 +20,26 @@ struct PlaneAxes {
 
 /// A point of a section curve and its derivative along the profile's arc length, in the contact plane's axes.
 struct PlanePoint {
-  double t, w, dt;
+  double t, w, dt, dw;
+  PlanePoint(const PlaneAxes& axes, Vec2 position, Vec2 along)
+      : t(dot(position - axes.origin, axes.tangent)),
+        w(dot(position - axes.origin, axes.normal)),
+        dt(dot(along, axes.tangent)),
+        dw(dot(along, axes.normal)) {}
 };
+
+/// Curves end where they have turned their back on the contact plane (steeper than 87 degrees to it).
+constexpr double kFacing = 0.05, kWalkingStep = 0.05e-3;
+
+/// The same by looking at every place in the section below the axle.
+template <class Curve>
+double last_facing_place(const Curve& curve, double begin, int direction) {
+  const double last = direction > 0 ? curve.profile.s_max() : curve.profile.s_min();
+  double s = begin;
+  while ((last - s) * direction > kWalkingStep && curve.at(s + direction * kWalkingStep, 0).dt > kFacing)
+    s += direction * kWalkingStep;
+  return s;
+}
 
 struct RailCurve {
   const Profile& profile;
@@ -28,8 +47,10 @@ struct RailCurve {
   PlaneAxes axes;
   PlanePoint at(double s, double) const {
     const ProfilePoint p = profile.at(s);
-    const Vec2 d = rail_to_model(track, p.position) - axes.origin;
-    return {dot(d, axes.tangent), dot(d, axes.normal), dot(rail_to_model(track, p.tangent), axes.tangent)};
+    return {axes, rail_to_model(track, p.position), rail_to_model(track, p.tangent)};
+  }
+  double end(double begin, int direction) const {
+    return last_facing(profile, begin, direction * kWalkingStep, model_to_rail(track, axes.tangent), kFacing);
   }
 };
 
@@ -46,11 +67,16 @@ struct WheelCurve {
         across = p.position.y * cosine + along * sine;
     const double r = contact.axle_height - contact.wheel_offset_z - p.position.z,
                  below = std::sqrt(std::max(0.0, (r - along) * (r + along)));
-    const Vec2 d = Vec2{contact.wheel_offset_y + across, contact.axle_height - below} - axes.origin;
-    return {dot(d, axes.tangent), dot(d, axes.normal),
-            p.tangent.y / cosine * axes.tangent.y +
-                (r / below * p.tangent.z + along / below * slope * p.tangent.y) * axes.tangent.z};
+    return {axes,
+            {contact.wheel_offset_y + across, contact.axle_height - below},
+            {p.tangent.y / cosine, r / below * p.tangent.z + along / below * slope * p.tangent.y}};
   }
+  double end(double begin, int direction) const {
+    return symmetric() ? last_facing(profile, begin, direction * kWalkingStep, axes.tangent, kFacing)
+                       : last_facing_place(*this, begin, direction);
+  }
+  /// The same before and behind the axle.
+  bool symmetric() const { return contact.yaw == 0 && contact.x == 0; }
 };
 
 /// The same of a wheel that has a roll too.
@@ -61,9 +87,10 @@ struct RolledWheelCurve {
   TurnedWheel wheel;
   PlanePoint at(double s, double x) const {
     const TurnedPoint p = wheel.cut(s, contact.x + x);
-    const Vec2 d = Vec2{contact.wheel_offset_y + p.position.y, contact.wheel_offset_z + p.position.z} - axes.origin;
-    return {dot(d, axes.tangent), dot(d, axes.normal), dot(p.along, axes.tangent)};
+    return {axes, {contact.wheel_offset_y + p.position.y, contact.wheel_offset_z + p.position.z}, p.along};
   }
+  double end(double begin, int direction) const { return last_facing_place(*this, begin, direction); }
+  bool symmetric() const { return false; }
 };
 
 struct Found {
@@ -75,7 +102,7 @@ template <class Curve>
 class HeightOverPlane {
  public:
   HeightOverPlane(const Curve& curve, double contact_s)
-      : curve_(curve), contact_s_(contact_s), low_(end(-1)), high_(end(1)) {}
+      : curve_(curve), low_(curve.end(contact_s, -1)), high_(curve.end(contact_s, 1)) {}
 
   /// At (x, t), by Newton's method kept inside the facing part; nothing where that has ended. guess: arc length to
   /// start from.
@@ -86,32 +113,43 @@ class HeightOverPlane {
   };
   Reach reach(double x) const { return {curve_.at(low_, x).t, curve_.at(high_, x).t}; }
   std::optional<Found> at(double x, const Reach& reach, double t, double guess) const {
-    double low = low_, high = high_, s = std::clamp(guess, low, high);
+    constexpr double kStraight = 1e-9;  // m: over which the curve is straight to the last digit
+    double low = low_, high = high_, s = std::clamp(guess, low, high), w = 0;
     if (t < reach.first || t > reach.last) return {};
-    PlanePoint p{};
     for (int i = 0; i < 100; ++i) {
-      p = curve_.at(s, x);
-      const double error = p.t - t;
+      const PlanePoint p = curve_.at(s, x);
+      const double error = p.t - t, step = -error / p.dt;
       (error > 0 ? high : low) = s;
-      double next = s - error / p.dt;
-      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      const bool inside = s + step >= low && s + step <= high;
+      if (inside && std::abs(step) < kStraight) return Found{s + step, p.w + p.dw * step};
+      const double next = inside ? s + step : 0.5 * (low + high);
+      w = p.w;
       if (std::abs(next - s) < 1e-15) break;
       s = next;
     }
-    return Found{s, p.w};
+    return Found{s, w};
   }
 
  private:
-  /// Where, walking away from the contact, the curve has turned its back on the plane (steeper than 87 degrees to it).
-  double end(int direction) const {
-    constexpr double kStep = 0.05e-3, kFacing = 0.05;
-    const double last = direction > 0 ? curve_.profile.s_max() : curve_.profile.s_min();
-    double s = contact_s_;
-    while ((last - s) * direction > kStep && curve_.at(s + direction * kStep, 0).dt > kFacing) s += direction * kStep;
-    return s;
-  }
   const Curve& curve_;
-  double contact_s_, low_, high_;
+  double low_, high_;
+};
+
+/// Arc lengths at three places beside one another, continued to a fourth.
+class NextGuess {
+ public:
+  explicit NextGuess(double first) : s_{first, first, first} {}
+  void add(double s) {
+    s_[0] = count_ > 1 ? s_[1] : s;
+    s_[1] = count_ > 0 ? s_[2] : s;
+    s_[2] = s;
+    ++count_;
+  }
+  double value() const { return count_ > 2 ? 3 * (s_[2] - s_[1]) + s_[0] : s_[2]; }
+
+ private:
+  double s_[3];
+  int count_ = 0;
 };
 
 /// from_axle: distance of a point of the section plane (model frame) from the axle.
@@ -125,19 +163,29 @@ ProfileGap gap_to(const WheelSection& wheel_curve, const Profile& rail, const Tr
   std::vector<typename HeightOverPlane<WheelSection>::Reach> reach;
   for (int i = 0; i < grid.nx; ++i) reach.push_back(wheel_height.reach(grid.x(i)));
   ProfileGap out{Plane(grid.size()), Plane(grid.size()), Plane(grid.size())};
+  const bool mirrors = wheel_curve.symmetric() && std::abs(grid.x(0) + grid.x(grid.nx - 1)) < 1e-9 * grid.dx;
   for_each_if(threads_pay_for(grid.size()), grid.ny, [&](int j) {
     const double t = grid.y(j);
     const auto on_rail = rail_height.at(0, t, contact.rail_s + t),
                under_axle = wheel_height.at(0, t, contact.wheel_s + t);
+    NextGuess guess(under_axle ? under_axle->s : contact.wheel_s);
     for (int i = 0; i < grid.nx; ++i) {
       const double x = grid.x(i);
-      const auto on_wheel = under_axle ? wheel_height.at(x, reach[i], t, under_axle->s) : under_axle;
-      const std::size_t k = grid.index(i, j);
+      const std::size_t k = grid.index(i, j), mirrored = grid.index(grid.nx - 1 - i, j);
+      if (mirrors && mirrored < k) {
+        out.gap[k] = out.gap[mirrored];
+        out.rail_height[k] = out.rail_height[mirrored];
+        out.radius[k] = out.radius[mirrored];
+        continue;
+      }
+      const auto on_wheel = under_axle ? wheel_height.at(x, reach[i], t, guess.value()) : under_axle;
+      if (on_wheel) guess.add(on_wheel->s);
       const bool present = on_rail && on_wheel;
       out.gap[k] = present ? on_wheel->w - on_rail->w : ProfileGap::kNoSurface;
       out.rail_height[k] = on_rail ? on_rail->w : 0.0;
       const double middle = present ? 0.5 * (on_rail->w + on_wheel->w) : 0.0;
-      out.radius[k] = std::hypot(x, from_axle(axes.origin + t * axes.tangent + middle * axes.normal));
+      const double height = from_axle(axes.origin + t * axes.tangent + middle * axes.normal);
+      out.radius[k] = std::sqrt(x * x + height * height);
     }
   });
   return out;

@@ -5,9 +5,11 @@
 #include <cstdio>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "capi/guarded.hpp"
+#include "capi/next_start.hpp"
 #include "capi/railstrata.h"
 #include "capi/state_of_case.hpp"
 #include "case/case_file.hpp"
@@ -25,7 +27,7 @@ struct rs_contact {
   Placement placement;
   BemOptions options;
   InfluenceCache cache;
-  BemNeighbour neighbour;
+  capi::NextStart start;
   std::optional<BemResult> last;
   ContactSummary numbers;
   std::string remarks;
@@ -112,8 +114,10 @@ void solve(rs_contact& contact, const rs_state* state, rs_forces& forces) {
   contact.remarks.clear();
   const CaseSpec spec = state ? capi::with_state(contact.loaded.spec, *state) : contact.loaded.spec;
   contact.options.cache = &contact.cache;
-  contact.options.neighbour = &contact.neighbour;
+  BemNeighbour neighbour = contact.start.of(spec);
+  contact.options.neighbour = &neighbour;
   contact.last = solve_bem(spec, placed(contact, spec), contact.options);
+  contact.start.add(spec, std::move(neighbour));
   const Summary summary = bem_contact_summary(spec, *contact.last);
   fill(*contact.last, summary, forces);
   contact.remarks = remarks_of(*contact.last, summary);
@@ -225,7 +229,7 @@ int rs_solve(rs_contact* contact, const rs_state* state, rs_forces* forces, rs_e
 }
 
 void rs_forget(rs_contact* contact) {
-  if (contact) contact->neighbour = {};
+  if (contact) contact->start = {};
 }
 
 const char* rs_remarks(rs_contact* contact) { return contact ? contact->remarks.c_str() : ""; }

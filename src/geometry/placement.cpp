@@ -11,6 +11,7 @@
 
 #include "core/faults.hpp"
 #include "core/rotation.hpp"
+#include "geometry/profile_walk.hpp"
 #include "geometry/turned_wheel.hpp"
 
 namespace railstrata {
@@ -72,12 +73,13 @@ class Gap {
   double wheel_y(double s) const { return rail_point(s).y - offset_y_; }
   LowestPoint on_wheel(double s) const { return lowest_at(wheel_y(s)); }
   double value(double s) const { return over(s, rail_point(s)); }
-  /// The same; nothing where the rail does not face the wheel.
-  std::optional<double> value_if_faced(double s) const {
-    const Vec2 rail = rail_point(s);
+  /// The same at a place of the rail, in its own frame; nothing where that does not face the wheel. An upright wheel's
+  /// heights come from `wheel`.
+  std::optional<double> value_if_faced(double s, Vec2 on_rail, RunningSurface& wheel) const {
+    const Vec2 rail = roll(cant_, on_rail);
     const double y = rail.y - offset_y_;
     if (!(y >= wheel_begin_ && y <= wheel_end_)) return {};
-    return over(s, rail);
+    return rolled() || track_.yaw != 0 ? over(s, rail) : wheel.height(y) - rail.z;
   }
   double derivative(double s) const {
     if (rolled()) {
@@ -126,12 +128,13 @@ double gauge_face_y(const Profile& rail, const TrackGeometry& track) {
   const Rotation<double> cant = rotation_of_tangent(track.cant);
   const auto at = [&](double s) { return roll(cant, rail.at(s).position); };
   double top = -std::numeric_limits<double>::infinity(), top_s = 0;
-  const int n = static_cast<int>(std::ceil((rail.s_max() - rail.s_min()) / kSearchStep));
-  const auto sample = [&](int i) { return rail.s_min() + (rail.s_max() - rail.s_min()) * i / n; };
-  for (int i = 0; i <= n; ++i)
-    if (const double z = at(sample(i)).z; z > top) {
+  const std::size_t n = static_cast<std::size_t>(std::ceil((rail.s_max() - rail.s_min()) / kSearchStep));
+  const double step = (rail.s_max() - rail.s_min()) / static_cast<double>(n);
+  const std::vector<Vec2> places = even_positions(rail, rail.s_min(), step, n + 1);
+  for (std::size_t i = 0; i <= n; ++i)
+    if (const double z = roll(cant, places[i]).z; z > top) {
       top = z;
-      top_s = sample(i);
+      top_s = rail.s_min() + static_cast<double>(i) * step;
     }
   const double wanted = top - track.gauge_depth;
   double above = top_s, below = rail.s_min();
@@ -157,13 +160,17 @@ double lateral_offset(const Profile& wheel, const Profile& rail, const TrackGeom
   return tape_circle - rail_axis + track.lateral_shift;
 }
 
-GapSamples sample_overlap(const Gap& gap, const Profile& rail) {
+GapSamples sample_overlap(const Gap& gap, const Profile& wheel, const Profile& rail) {
   const double begin = rail.s_at_y(rail.y_min()), end = rail.s_at_y(rail.y_max());
   const int n = std::max(10, static_cast<int>(std::ceil((end - begin) / kSearchStep)));
+  const std::vector<Vec2> places = even_positions(rail, begin, (end - begin) / n, static_cast<std::size_t>(n) + 1);
+  RunningSurface surface(wheel);
   GapSamples out;
+  out.s.reserve(places.size());
+  out.gap.reserve(places.size());
   for (int i = 0; i <= n; ++i) {
     const double s = i == n ? end : begin + (end - begin) * i / n;
-    const std::optional<double> value = gap.value_if_faced(s);
+    const std::optional<double> value = gap.value_if_faced(s, places[static_cast<std::size_t>(i)], surface);
     if (!value) continue;
     out.s.push_back(s);
     out.gap.push_back(*value);
@@ -285,7 +292,7 @@ double yaw_creepage(const RigidContact& contact) {
 RigidContact place_wheel(const Profile& wheel, const Profile& rail, const TrackGeometry& track) {
   const double offset_y = lateral_offset(wheel, rail, track);
   const Gap gap(wheel, rail, track, offset_y);
-  const auto searched = std::make_shared<const GapSamples>(sample_overlap(gap, rail));
+  const auto searched = std::make_shared<const GapSamples>(sample_overlap(gap, wheel, rail));
   const GapSamples& samples = *searched;
   if (samples.s.size() < 3)
     throw CaseError(fmt::format("{}: the wheel misses the rail; its tape circle stands {:.1f} mm from the rail's axis",
@@ -306,7 +313,7 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
                                            const RigidContact& first, double descent) {
   constexpr double kRidge = 1e-6;  // m
   const Gap gap(wheel, rail, track, first.wheel_offset_y);
-  const auto searched = first.searched ? first.searched : std::make_shared<const GapSamples>(sample_overlap(gap, rail));
+  const auto searched = first.searched ? first.searched : std::make_shared<const GapSamples>(sample_overlap(gap, wheel, rail));
   const GapSamples& samples = *searched;
   std::vector<std::size_t> places{sample_near(samples, first.rail_s)};
   std::vector<RigidContact> out;
@@ -327,7 +334,7 @@ Ridge ridge_between(const Profile& wheel, const Profile& rail, const TrackGeomet
                     const RigidContact& b) {
   const auto searched =
       b.searched ? b.searched
-                 : std::make_shared<const GapSamples>(sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), rail));
+                 : std::make_shared<const GapSamples>(sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), wheel, rail));
   const GapSamples& samples = *searched;
   const std::size_t i = ridge_sample(samples, sample_near(samples, a.rail_s), sample_near(samples, b.rail_s));
   return {samples.s[i], samples.gap[i]};

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/rotation.hpp"
+#include "geometry/profile_walk.hpp"
 #include "geometry/turned_wheel.hpp"
 
 namespace railstrata {
@@ -29,18 +30,14 @@ struct PlacedProfile {
   }
   double angle(double s) const { return turned_angle(in_track(profile.at(s).tangent)); }
   double clamped(double s) const { return std::clamp(s, profile.s_min(), profile.s_max()); }
-  /// By how much a convex body has turned away from the contact plane, walking in a direction.
-  double turned_away(double s, int direction) const {
-    const double change = (angle(s) - angle(contact_s)) * direction;
-    return is_rail ? -change : change;
-  }
-  /// Where the body ends on one side of the contact.
+  /// Where the body ends on one side of the contact: at the end of its profile, or where a convex body has turned away
+  /// from the contact plane.
   Vec2 end(int direction) const {
     constexpr double kAway = std::numbers::pi / 4;
     const double last = direction > 0 ? profile.s_max() : profile.s_min();
-    double s = contact_s;
-    while ((last - s) * direction > kStep && turned_away(s, direction) < kAway) s += direction * kStep;
-    return profile.at(s).position;
+    const Vec2 facing = roll(rotation_by((is_rail ? kAway : -kAway) * direction), profile.at(contact_s).tangent);
+    const double s = last_facing(profile, contact_s, direction * kStep, facing, 0);
+    return profile.at((last - s) * direction > kStep ? s + direction * kStep : s).position;
   }
   /// t of a point in the contact plane.
   double along_plane(Vec2 point) const {
@@ -122,8 +119,9 @@ std::optional<FlangePlace> flange_place(const Placement& p) {
   const TurnedWheel wheel(p.wheel, p.track);
   const auto section = [&](double s) { return wheel.section(p.wheel.at(s).position); };
   Vec2 crest = section(p.wheel.s_min());
-  for (double s = p.wheel.s_min(); s <= p.wheel.s_max(); s += kStep)
-    if (const Vec2 at = section(s); at.z < crest.z) crest = at;
+  const auto places = static_cast<std::size_t>((p.wheel.s_max() - p.wheel.s_min()) / kStep) + 1;
+  for (const Vec2 place : even_positions(p.wheel, p.wheel.s_min(), kStep, places))
+    if (const Vec2 at = wheel.section(place); at.z < crest.z) crest = at;
   return FlangePlace{-crest.z, -section(p.contact.wheel_s).z,
                      crest.y + p.contact.wheel_offset_y - gauge_face_y(p.rail, p.track)};
 }

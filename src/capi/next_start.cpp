@@ -1,0 +1,80 @@
+#include "capi/next_start.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "model/model.hpp"
+
+namespace railstrata::capi {
+namespace {
+
+bool same_grid(const PatchGrid& a, const PatchGrid& b) {
+  return a.nx == b.nx && a.ny == b.ny && a.dx == b.dx && a.dy == b.dy && a.x0 == b.x0 && a.y0 == b.y0 &&
+         a.line == b.line;
+}
+
+double continued(double last, double before, double share) { return last + share * (last - before); }
+
+/// Cells that have come into contact since keep their pressure; those of the last patch stay in it, as far as the
+/// pressure can tell.
+void continue_pressure(double share, const Plane& before, Plane& last) {
+  constexpr double kLeast = 0.05;  // of the last pressure
+  for (std::size_t i = 0; i < last.size(); ++i)
+    if (last[i] > 0 && before[i] > 0) last[i] = std::max(kLeast * last[i], continued(last[i], before[i], share));
+}
+
+/// Tractions of cells that were in the same state twice.
+void continue_traction(double share, const TangentialSolution& before, TangentialSolution& last) {
+  for (std::size_t i = 0; i < last.state.size(); ++i) {
+    if (last.state[i] == ContactState::separated || last.state[i] != before.state[i]) continue;
+    last.q_x[i] = continued(last.q_x[i], before.q_x[i], share);
+    last.q_y[i] = continued(last.q_y[i], before.q_y[i], share);
+  }
+  for (double TangentialSolution::*number :
+       {&TangentialSolution::creepage_x, &TangentialSolution::creepage_y, &TangentialSolution::force_y})
+    last.*number = continued(last.*number, before.*number, share);
+}
+
+}  // namespace
+
+NextStart::Coordinates NextStart::coordinates(const CaseSpec& spec) {
+  constexpr double kMillimetre = 1e-3, kCreepage = 1e-3, kTurn = 1e-2, kApproach = 0.1e-3;
+  const double load = static_load(spec);
+  return {spec.geometry.lateral_shift / kMillimetre,
+          spec.geometry.yaw / kTurn,
+          spec.geometry.roll / kTurn,
+          1e-5 * load,
+          spec.vehicle.approach.value_or(0) / kApproach,
+          spec.drive.creepage.value_or(0) / kCreepage,
+          spec.drive.lateral_creepage.value_or(0) / kCreepage,
+          spec.drive.spin.value_or(0),
+          spec.drive.traction().value_or(0),
+          spec.drive.lateral_traction_coefficient.value_or(0),
+          spec.drive.friction_coefficient,
+          1e-2 * spec.drive.speed};
+}
+
+BemNeighbour NextStart::of(const CaseSpec& spec) const {
+  constexpr double kFarthest = 2;  // steps
+  BemNeighbour start = last_.solved;
+  if (start.empty() || before_.solved.empty() || !same_grid(start.grid, before_.solved.grid)) return start;
+  const Coordinates now = coordinates(spec);
+  double along = 0, square = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    const double step = last_.at[i] - before_.at[i];
+    along += (now[i] - last_.at[i]) * step;
+    square += step * step;
+  }
+  if (!(square > 0) || !(along > 0) || along > kFarthest * square) return start;
+  const double share = along / square;
+  continue_pressure(share, before_.solved.solution.normal.pressure, start.solution.normal.pressure);
+  continue_traction(share, before_.solved.solution.tangential, start.solution.tangential);
+  return start;
+}
+
+void NextStart::add(const CaseSpec& spec, BemNeighbour solved) {
+  before_ = std::move(last_);
+  last_ = {coordinates(spec), std::move(solved)};
+}
+
+}  // namespace railstrata::capi

@@ -1,0 +1,30 @@
+#pragma once
+// What the next solution of a contact starts from: the last one, continued along the line from the one before it.
+#include <array>
+
+#include "bem/bem_options.hpp"
+#include "case/case_spec.hpp"
+
+namespace railstrata::capi {
+
+/// Keeps the last two solutions of a sequence. A start changes how long a solution takes, and its numbers within the
+/// tolerances of the solver (BemOptions::neighbour).
+class NextStart {
+ public:
+  /// The start for a case; empty at first.
+  BemNeighbour of(const CaseSpec& spec) const;
+  /// Takes the solution of a case; empty: of one that cannot be started from.
+  void add(const CaseSpec& spec, BemNeighbour solved);
+
+ private:
+  /// What a state can change, in steps of about the same weight.
+  using Coordinates = std::array<double, 12>;
+  struct Known {
+    Coordinates at;
+    BemNeighbour solved;
+  };
+  static Coordinates coordinates(const CaseSpec& spec);
+  Known last_{}, before_{};
+};
+
+}  // namespace railstrata::capi
