@@ -32,7 +32,7 @@ interface Grid {
 
 function gridOf(a: Answer): Grid|null {
   const head = a.head.patch;
-  if (!head) return null;
+  if (!head || head.stations === 0) return null;
   const all = (s: Slice) => numbersOf(a, s);
   const first = (slice: Slice, k: number) => 1e3 * (all(slice)[k] ?? 0);
   // evenly spaced: single precision must leave no seams between cells
@@ -109,13 +109,14 @@ function cells(p: Plot, g: Grid, colour: (k: number) => string | null): void {
 }
 
 /// The border of what bears pressure, along the cells.
-function outline(p: Plot, g: Grid, colour: string): void {
+function outline(p: Plot, g: Grid, colour: string, dash: number[] = []): void {
   const pressed = (i: number, j: number) =>
       i >= 0 && j >= 0 && i < g.stations && j < g.columns && g.of("p")[j + g.columns * i]! > 0;
   const hx = 0.5 * g.dx, hy = 0.5 * g.dy;
   p.clip(() => {
     p.g.strokeStyle = colour;
     p.g.lineWidth = 1.5;
+    p.g.setLineDash(dash);
     p.g.beginPath();
     const side = (x0: number, y0: number, x1: number, y1: number) => {
       p.g.moveTo(p.atX(x0), p.atY(y0));
@@ -180,13 +181,14 @@ function patchFigure(title: string, caption: string, paint: Paint): Figure {
   const draw = (s: Shown|null) => {
     const g = s && gridOf(s.now);
     if (!s || !g) return;
-    const ghost = s.before && gridOf(s.before);
+    const ghost = s.before && gridOf(s.before), pinned = s.pinned && gridOf(s.pinned);
     const all = [g, ...(ghost ? [ghost] : [])];
-    const p = patchPlot(canvas, windowOf(all));
+    const p = patchPlot(canvas, windowOf([...all, ...(pinned ? [pinned] : [])]));
     if (!p) return;
     p.axes();
     paint(p, g, all, p.colours);
     if (ghost) outline(p, ghost, p.colours.ink);
+    if (pinned) outline(p, pinned, p.colours.ink, [2, 3]);
   };
   return {node, draw, table: fieldTable};
 }
@@ -194,7 +196,7 @@ function patchFigure(title: string, caption: string, paint: Paint): Figure {
 const largest = (values: Float32Array) => values.reduce((a, b) => Math.max(a, b), 0);
 
 export function pressureMap(): Figure {
-  return patchFigure("Pressure", "Line: the border of the patch before the last change.", (p, g, all) => {
+  return patchFigure("Pressure", "Line: the border of the patch before the last change; dotted: of the pin.", (p, g, all) => {
     const top = roundUp(1e-6 * Math.max(...all.map((one) => largest(one.of("p")))));
     const values = g.of("p");
     cells(p, g, (k) => (values[k]! > 0 ? colourAt(1e-6 * values[k]! / top) : null));

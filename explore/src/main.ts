@@ -184,9 +184,7 @@ function drawInFull(now: Answer, pinned: Answer|null): void {
       "p", {class: "note"}, "With yield strengths (below “Strength”, or in the case) the page tells ",
       "whether rail and layers shake down, and with what reserve.");
   lastBox.replaceChildren(found ?? hint);
-  const {checks, warnings} = now.head.summary;
-  const failed = checks.filter((c) => !c.ok).map((c) => `check fails: ${c.name.replace(/_/g, " ")}`);
-  const words = [...failed, ...warnings.map((w) => w.text), ...now.head.notes];
+  const words = [...now.head.doubts, ...now.head.notes];
   noteBox.replaceChildren(...words.map((w) => element("p", {class: "note"}, w)));
 }
 

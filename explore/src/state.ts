@@ -207,8 +207,8 @@ export class State {
     return ["thickness", "young_ratio"].includes(knob.key) && this.graded[knob.layer] === true;
   }
 
-  /// Whether a slot of a layer has one.
-  has(slot: number): boolean { return this.value(this.knob(`h${slot + 1}`)) > 0; }
+  /// Whether a slot of a layer has one. A thickness below zero is no way to say "none": the engine tells its range.
+  has(slot: number): boolean { return this.value(this.knob(`h${slot + 1}`)) !== 0; }
 
   private quantity(knob: Knob): string {
     const number = written(this.value(knob));

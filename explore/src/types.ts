@@ -88,8 +88,6 @@ export interface Summary {
     bodies:
         {body: string; verdict: string; factors: Record<string, number|null>; zones: ZoneFactors[]; notes: string[]}[];
   };
-  checks: {name: string; ok: boolean; value: number | null; limit: number | null}[];
-  warnings: {name: string; text: string}[];
 }
 
 export interface Head {
@@ -98,6 +96,7 @@ export interface Head {
   values: Record<string, number|null>;
   layers: LayerHead[];
   strengths: boolean;
+  doubts: string[];
   notes: string[];
   milliseconds: number;
   case?: string;

@@ -2,8 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
@@ -94,18 +98,61 @@ void require_steady(const LoadedCase& loaded) {
                                          "leave transient.kind out, or use `railstrata bem`", "transient.kind"));
 }
 
-/// Numbers and centre line of a result, for the page to compare with. Seven digits: nothing is computed with them.
+/// Seven digits: nothing is computed with them.
+Json rounded(const std::vector<double>& values) {
+  Json out = Json::array();
+  for (const double v : values) out.push_back(static_cast<double>(static_cast<float>(v)));
+  return out;
+}
+
+/// Which points bear pressure, x and y rising: one letter each, station by station.
+Json pressed_json(const ContactField& f) {
+  const std::size_t columns = static_cast<std::size_t>(f.columns), last = f.p.size() - columns;
+  const bool back = f.x[last] < f.x[0], left = f.y[columns - 1] < f.y[0];
+  std::string pressed(f.p.size(), '0');
+  for (std::size_t k = 0; k < f.p.size(); ++k) {
+    const std::size_t i = k / columns, j = k % columns,
+                      to = (back ? last - i * columns : i * columns) + (left ? columns - 1 - j : j);
+    if (f.p[k] > 0) pressed[to] = '1';
+  }
+  return {{"stations", f.stations},
+          {"columns", f.columns},
+          {"x", rounded({std::min(f.x[0], f.x[last]), std::max(f.x[0], f.x[last])})},
+          {"y", rounded({std::min(f.y[0], f.y[columns - 1]), std::max(f.y[0], f.y[columns - 1])})},
+          {"pressed", pressed}};
+}
+
+/// The largest of each depth of the section along the rail, with its sign.
+Json depth_json(const CsvTable& section) {
+  const char* const names[] = {"von_mises", "tau_xz", "sigma_1"};
+  const std::vector<double> values[] = {section.column("von_mises_MPa", 1e6), section.column("sigma_xz_MPa", 1e6),
+                                        section.column("sigma_1_MPa", 1e6)},
+                            depth = section.column("depth_mm", 1e-3);
+  std::map<double, std::array<double, 3>> largest;
+  for (std::size_t k = 0; k < depth.size(); ++k)
+    for (std::size_t m = 0; m < 3; ++m) {
+      double& most = largest[depth[k]][m];
+      if (std::abs(values[m][k]) > std::abs(most)) most = values[m][k];
+    }
+  Json out{{"depth", Json::array()}};
+  for (const auto& [at, most] : largest) {
+    out["depth"].push_back(at);
+    for (std::size_t m = 0; m < 3; ++m) out[names[m]].push_back(most[m]);
+  }
+  return out;
+}
+
+/// Numbers, centre line, border and stresses over depth of a result, for the page to compare with.
 Json reported_json(const ReportRun& run) {
-  const auto rounded = [](const std::vector<double>& values) {
-    Json out = Json::array();
-    for (const double v : values) out.push_back(static_cast<double>(static_cast<float>(v)));
-    return out;
-  };
   const CentreLine line = centre_line(run.result.field);
   Json summary{{"stress", Json::object()}, {"damage", Json::object()}};
   for (const char* key : {"contact", "stress", "damage", "shakedown"})
     if (run.result.summary.contains(key)) summary[key] = run.result.summary[key];
-  return {{"summary", summary}, {"x", rounded(line.x)}, {"p", rounded(line.p)}, {"q_x", rounded(line.q_x)}};
+  Json out{{"summary", summary}, {"x", rounded(line.x)}, {"p", rounded(line.p)}, {"q_x", rounded(line.q_x)}};
+  if (!run.result.field.p.empty()) out["patch"] = pressed_json(run.result.field);
+  if (const auto found = run.sections.find("rail_longitudinal"); found != run.sections.end())
+    out["section"] = depth_json(found->second);
+  return out;
 }
 
 std::string scripts() { return policy_hash(explorer_script()) + " 'wasm-unsafe-eval'"; }

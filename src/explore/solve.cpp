@@ -22,6 +22,8 @@
 #include "material/elastic.hpp"
 #include "model/model.hpp"
 #include "post/bem_summary.hpp"
+#include "post/check_limits.hpp"
+#include "post/result_table.hpp"
 #include "post/stress_sections.hpp"
 #include "runs/solve_half_space.hpp"
 #include "runs/solve_settings.hpp"
@@ -98,6 +100,27 @@ Json layers_json(const CaseSpec& spec) {
                    {"on", body_word(layer.on)},
                    {"thickness", layer.thickness},
                    {"graded", layer.graded()}});
+  return out;
+}
+
+/// What is not as it should be, for people: checks that fail and warnings.
+Json doubts_json(const Summary& s) {
+  const auto unit = [](const CheckRow* row) { return row ? row->unit : result_unit::kNone; };
+  const auto name = [](const CheckRow* row, const std::string& key) { return row ? std::string(row->name) : key; };
+  Json out = Json::array();
+  for (const Check& c : s.checks) {
+    const CheckRow* row = find_check(c.name);
+    if (!c.ok)
+      out.push_back(fmt::format("a check fails: {}: {}, limit {}", name(row, c.name),
+                                with_unit(unit(row), shown_beside_limit(c.value, c.limit), 3),
+                                limit_text(unit(row), c.limit)));
+  }
+  for (const Warning& w : s.warnings) {
+    const CheckRow* row = find_check(w.name);
+    out.push_back(fmt::format("{}: {}, above {}: {}", name(row, w.name), with_unit(unit(row), w.value, 3),
+                              limit_text(unit(row), w.limit),
+                              row && !row->own_text ? fmt::format("{}: {}", row->what, row->advice) : w.text));
+  }
   return out;
 }
 
@@ -213,6 +236,7 @@ struct Explorer::State {
     out["values"] = case_values(loaded.spec, request.values);
     out["layers"] = layers_json(loaded.spec);
     out["strengths"] = strength_given(loaded.spec, BodyId::rail) || strength_given(loaded.spec, BodyId::wheel);
+    out["doubts"] = doubts_json(solution.summary);
     out["notes"] = loaded.notes;
     for (const auto& further : {loaded.elastic_notes, loaded.static_notes, placement.notes, solution.result.notes})
       for (const std::string& note : further) out["notes"].push_back(note);

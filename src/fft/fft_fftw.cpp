@@ -28,14 +28,13 @@ void fft_free(std::complex<double>* numbers) { fftw_free(numbers); }
 struct Fft::Plans {
   int rows, columns, together;
   fftw_plan row_forward = nullptr, row_backward = nullptr, columns_forward = nullptr, columns_backward = nullptr;
-  Plans(int rows, int columns, int together) : rows(rows), columns(columns), together(together) {}
   ~Plans() {
     const std::lock_guard lock(planner());
     for (fftw_plan p : {row_forward, row_backward, columns_forward, columns_backward}) fftw_destroy_plan(p);
   }
 };
 
-Fft::Fft(int rows, int columns, int together) : plans_(std::make_unique<Plans>(rows, columns, together)) {
+Fft::Fft(int rows, int columns, int together) : plans_(new Plans{rows, columns, together}) {
   const std::size_t size =
       std::max(static_cast<std::size_t>(columns) * static_cast<std::size_t>(together), static_cast<std::size_t>(rows));
   std::complex<double>*z = fft_alloc(size), *y = fft_alloc(size);

@@ -126,6 +126,12 @@ class Explorer(unittest.TestCase):
         self.assertEqual(self.move(t=0.1), "settled")
         self.assertEqual(BROWSER.text("#faults"), "")
 
+    def test_a_thickness_below_zero_is_not_none(self):
+        self.assertEqual(self.move(h1=-5), "refused")
+        self.assertIn("thickness", BROWSER.text("#faults"))
+        self.assertEqual(self.move(h1=0), "settled")
+        self.assertIn("layer=[]", self.data("command"))
+
     def choose(self, kind, name, text):
         file = self.folder / name
         file.write_text(text)

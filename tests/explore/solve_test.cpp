@@ -68,6 +68,22 @@ TEST(Explorer, SaysTheNumbersOfTheProgram) {
   EXPECT_TRUE(head.at("strengths"));
 }
 
+TEST(Explorer, TellsItsDoubtsInUnitsForPeople) {
+  Explorer explorer;
+  const std::vector<std::string> overrides{"vehicle.wheel_load=120 kN", "geometry.rail_profile=arc:R=80 mm"};
+  const Json head = Json::parse(explorer.answer(request(overrides, {"stress"}).dump()).head);
+  ASSERT_TRUE(head.at("ok")) << head.dump(2);
+  ASSERT_FALSE(head.at("summary").at("warnings").empty());
+  ASSERT_GE(head.at("doubts").size(), head.at("summary").at("warnings").size());
+  bool stress = false;
+  for (const auto& doubt : head.at("doubts")) {
+    const std::string words = doubt.get<std::string>();
+    EXPECT_EQ(words.find("[Pa]"), std::string::npos) << words;
+    stress = stress || words.find(" MPa, above 500 MPa") != std::string::npos;
+  }
+  EXPECT_TRUE(stress) << head.at("doubts").dump(2);
+}
+
 TEST(Explorer, ComputesInStagesWhatItComputesAtOnce) {
   Explorer at_once, staged;
   const Json all = Json::parse(at_once.answer(request({}, {"patch", "stress", "section", "shakedown"}).dump()).head);

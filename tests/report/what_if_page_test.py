@@ -75,6 +75,19 @@ class WhatIf(unittest.TestCase):
         self.assertLess(float(now), float(then), name)
         self.assertTrue(change.startswith("−"), change)
 
+    def test_the_page_has_the_border_and_the_stresses_of_the_report(self):
+        self.open()
+        seed = json.loads(BROWSER.js("return document.getElementById('data').textContent"))
+        patch, section = seed["reported"]["patch"], seed["reported"]["section"]
+        self.assertEqual(len(patch["pressed"]), patch["stations"] * patch["columns"])
+        cell = ((patch["x"][1] - patch["x"][0]) / (patch["stations"] - 1) *
+                (patch["y"][1] - patch["y"][0]) / (patch["columns"] - 1))
+        area = self.summary["contact"]["patch_area_m2"]
+        self.assertAlmostEqual(cell * patch["pressed"].count("1"), area, delta=1e-3 * area)
+        self.assertEqual(section["depth"], sorted(section["depth"]))
+        largest = self.summary["stress"]["rail"]["subsurface"]["von_mises_max"]["value_Pa"]
+        self.assertAlmostEqual(max(section["von_mises"]), largest, delta=0.1 * largest)
+
     def test_a_pin_takes_the_report_s_place_until_it_is_taken_away(self):
         self.open()
         BROWSER.js("document.getElementById('b-pin').click()")
