@@ -1,5 +1,6 @@
 #pragma once
 // Restarted GMRES with a right preconditioner, for operators given as functions. [SaadSchultz1986]
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -18,7 +19,7 @@ struct GmresResult {
 /// Vectors that later solutions of the same size use again.
 struct GmresSpace {
   std::vector<Plane> basis;
-  Plane r, z, w, y;
+  Plane r, z, w, y, left;
   /// The k-th vector of the basis, of n values.
   Plane& vector(std::size_t k, std::size_t n) {
     if (basis.size() <= k) basis.emplace_back();
@@ -79,6 +80,7 @@ class HessenbergLeastSquares {
   explicit HessenbergLeastSquares(double residual) : g_{residual} {}
   std::size_t columns() const { return h_.size(); }
   double residual() const { return std::abs(g_.back()); }
+  const Rotation<double>& last_rotation() const { return rotations_.back(); }
 
   void add(std::vector<double> column) {
     const std::size_t k = h_.size();
@@ -123,12 +125,23 @@ inline void combine(const std::vector<Plane>& basis, const std::vector<double>& 
       c.size());
 }
 
-/// Solves A x = b from x = 0 to |b - A x| <= relative |b| or max_iterations. apply(in, out) and precondition(in, out)
-/// act on whole vectors. Right preconditioner: A M^-1 y = b, x = M^-1 y, so that the residual is that of x itself; the
+/// The direction of the residual, of unit length, after one more column: it lies along Q^T e, Q the rotations so far.
+inline void turn_residual(const Rotation<double>& rotation, const Plane& next, Plane& direction) {
+  for_cells(next.size(), [&](std::size_t i) { direction[i] = rotation.c * next[i] - rotation.s * direction[i]; });
+}
+
+inline double largest_of(const Plane& values) {
+  double largest = 0;
+  for (const double v : values) largest = std::max(largest, std::abs(v));
+  return largest;
+}
+
+/// Solves A x = b from x = 0 to |b - A x| <= relative |b| or max_iterations, or until no entry of b - A x is larger than
+/// `close` (0: not looked at). apply(in, out) and precondition(in, out) act on whole vectors. Right preconditioner: A M^-1 y = b, x = M^-1 y, so that the residual is that of x itself; the
 /// basis spans y, and one more application of M^-1 per cycle gives x.
 template <class Apply, class Precondition>
 GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative,
-                  int max_iterations, GmresSpace& space, int restart = 60) {
+                  int max_iterations, GmresSpace& space, double close = 0, int restart = 60) {
   const std::size_t n = b.size();
   Plane &r = space.r, &z = space.z, &w = space.w, &y = space.y;
   x.assign(n, 0.0);
@@ -143,18 +156,23 @@ GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Pl
     HessenbergLeastSquares cycle(result.residual);
     Plane& first = space.vector(0, n);
     for_cells(n, [&](std::size_t i) { first[i] = r[i] / result.residual; });
+    if (close > 0) space.left = first;
+    bool all_close = false;
     while (static_cast<int>(cycle.columns()) < restart && result.iterations < max_iterations &&
-           cycle.residual() > relative * norm_b) {
+           cycle.residual() > relative * norm_b && !all_close) {
       precondition(space.basis[cycle.columns()], z);
       apply(z, w);
       ++result.iterations;
       cycle.add(extend_basis(space, cycle.columns()));
+      if (!(close > 0)) continue;
+      turn_residual(cycle.last_rotation(), space.basis[cycle.columns()], space.left);
+      all_close = cycle.residual() * largest_of(space.left) <= close;
     }
     combine(space.basis, cycle.solution(), y);
     precondition(y, z);
     add_scaled(x, 1, z);
     result.residual = cycle.residual();
-    if (result.residual <= relative * norm_b) break;
+    if (all_close || result.residual <= relative * norm_b) break;
     // the residual by the recursion drifts from the true one: a restart begins with the latter
     apply(x, w);
     for (std::size_t j = 0; j < n; ++j) r[j] = b[j] - w[j];

@@ -22,9 +22,8 @@ Range widened(int first, int last, int ring, int count) {
   return out;
 }
 
-}  // namespace
-
-std::optional<PatchPart> part_with(const PatchGrid& grid, const Plane& bound, int ring) {
+/// The cells with `bound` > 0 and rings more; none on a line and without such cells.
+std::optional<PatchPart> widened_part(const PatchGrid& grid, const Plane& bound, int ring_x, int ring_y) {
   int first_x = grid.nx, last_x = -1, first_y = grid.ny, last_y = -1;
   for (int i = 0; i < grid.nx; ++i)
     for (int j = 0; j < grid.ny; ++j) {
@@ -35,9 +34,20 @@ std::optional<PatchPart> part_with(const PatchGrid& grid, const Plane& bound, in
       last_y = std::max(last_y, j);
     }
   if (grid.line || last_x < 0) return {};
-  const Range x = widened(first_x, last_x, ring, grid.nx), y = widened(first_y, last_y, ring, grid.ny);
-  if (3 * x.count * y.count > 2 * grid.nx * grid.ny) return {};
+  const Range x = widened(first_x, last_x, ring_x, grid.nx), y = widened(first_y, last_y, ring_y, grid.ny);
   return PatchPart{grid, x.first, y.first, x.count, y.count};
+}
+
+}  // namespace
+
+std::optional<PatchPart> part_with(const PatchGrid& grid, const Plane& bound, int ring) {
+  const std::optional<PatchPart> part = widened_part(grid, bound, ring, ring);
+  return part && 3 * part->nx * part->ny <= 2 * grid.nx * grid.ny ? part : std::nullopt;
+}
+
+std::optional<PatchPart> tight_part_with(const PatchGrid& grid, const Plane& bound) {
+  const std::optional<PatchPart> part = widened_part(grid, bound, 1, 0);
+  return part && part->nx * part->ny < grid.nx * grid.ny ? part : std::nullopt;
 }
 
 }  // namespace railstrata

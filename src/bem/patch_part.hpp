@@ -58,4 +58,8 @@ struct PatchPart {
 /// less than a third of them, on a line, and without such cells.
 std::optional<PatchPart> part_with(const PatchGrid& grid, const Plane& bound, int ring);
 
+/// As few as steady rolling needs, a cell before and behind, even numbers of cells; none on a line, without cells with
+/// `bound` > 0, and where that is the grid.
+std::optional<PatchPart> tight_part_with(const PatchGrid& grid, const Plane& bound);
+
 }  // namespace railstrata

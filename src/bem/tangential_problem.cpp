@@ -24,6 +24,11 @@ namespace {
 constexpr unsigned char kOutside = 0, kStick = 1, kSlip = 2,
                         kLoosened = 3;  // loosened: stuck before the Newton step, over the traction bound after it
 constexpr double kCoarse = 0.1;         // of the linear systems, while sets still change
+constexpr double kClose = 300;          // tolerances: from a continued start with so small an error sets rarely change
+constexpr double kSharp = 1e-4;         // of the linear systems, at most
+
+/// Continued from earlier solutions instead of being one (outer_iterations < 0): close to the answer as a rule.
+bool is_continued(const TangentialSolution* start) { return start && start->outer_iterations < 0; }
 
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
@@ -83,9 +88,16 @@ class Solver {
     int changed = update_sets();
     follow_slip();
     double error = violation();
+    const bool continued = is_continued(start);
     for (; error > options_.tolerance && outer_ < options_.max_outer; ++outer_) {
       prepare_slip_cells();
-      newton_step(changed == 0 && outer_ > 0 ? std::clamp(0.3 * options_.tolerance / error, 1e-4, kCoarse) : kCoarse);
+      const bool stand = changed == 0 && (outer_ > 0 || (continued && error < kClose * options_.tolerance));
+      if (!stand)
+        newton_step(kCoarse);
+      else if (continued)
+        newton_step(kSharp, 0.4 * options_.tolerance * scale_);
+      else
+        newton_step(std::clamp(0.3 * options_.tolerance / error, kSharp, kCoarse));
       advance();
       update_slip();
       changed = update_sets();
@@ -301,8 +313,9 @@ class Solver {
     y = across * normal_[i];
   }
 
-  /// A dq = s in the unknowns of each cell, with the row of each given force scaled like a row of slip.
-  void newton_step(double accuracy) {
+  /// A dq = s in the unknowns of each cell, with the row of each given force scaled like a row of slip. close: a slip
+  /// that may be left in every cell; 0: `accuracy` alone ends it.
+  void newton_step(double accuracy, double close = 0) {
     prepare_border();
     const std::size_t m = directions_.size();
     right_side_.resize(2 * n_ + m);
@@ -317,7 +330,7 @@ class Solver {
     });
     for (std::size_t c = 0; c < m; ++c) right_side_[2 * n_ + c] = force_row_ * missing_force(directions_[c]);
     gmres([&](const Plane& in, Plane& out) { newton_product(in, out); },
-          [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, accuracy, 120, space_);
+          [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, accuracy, 120, space_, close);
   }
 
   /// out = A in: L dq - creepage, projected, plus the diagonal of slip; then the sums of dq for the given forces.
@@ -615,7 +628,8 @@ TangentialSolution solve_tangential(const InfluenceOperator& influence, const Pa
                                     const TangentialProblem& problem, const TangentialOptions& options,
                                     const TangentialSolution* start) {
   constexpr int kRing = 2;
-  const std::optional<PatchPart> part = part_with(grid, problem.traction_bound, kRing);
+  const std::optional<PatchPart> part = is_continued(start) ? tight_part_with(grid, problem.traction_bound)
+                                                            : part_with(grid, problem.traction_bound, kRing);
   if (!part) return Solver(influence, grid, problem, options).solve(start);
   const std::shared_ptr<const InfluenceOperator> own = influence.part(part->nx, part->ny);
   const TangentialProblem problem_there = taken(*part, problem);

@@ -34,6 +34,18 @@ TEST(PatchPart, HoldsThePatchAndARing) {
   EXPECT_TRUE(part->take(Plane{}).empty());
 }
 
+TEST(PatchPart, MayBeTight) {
+  const auto part = tight_part_with(grid(), patch());
+  ASSERT_TRUE(part);
+  EXPECT_EQ(part->first_x, 5);
+  EXPECT_EQ(part->first_y, 5);
+  EXPECT_EQ(part->nx, 8);
+  EXPECT_EQ(part->ny, 6);
+  EXPECT_FALSE(tight_part_with(grid(), Plane(grid().size(), 1.0)));
+  EXPECT_FALSE(tight_part_with(grid(), Plane(grid().size(), 0.0)));
+  EXPECT_FALSE(tight_part_with(line_grid(10, 1e-3, 0.02), Plane(21, 1.0)));
+}
+
 TEST(PatchPart, IsNoneWhereItSavesLittleOrNothingPresses) {
   EXPECT_FALSE(part_with(grid(), Plane(grid().size(), 1.0), 2));
   EXPECT_FALSE(part_with(grid(), Plane(grid().size(), 0.0), 2));

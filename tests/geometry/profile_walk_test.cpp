@@ -6,7 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "geometry/builtin_profiles.hpp"
+#include "geometry/profile_names.hpp"
 
 namespace railstrata {
 namespace {
