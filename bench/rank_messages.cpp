@@ -22,7 +22,9 @@ struct Quantiles {
 };
 Quantiles quantiles(std::vector<double> seconds) {
   std::sort(seconds.begin(), seconds.end());
-  const auto at = [&](double share) { return 1e6 * seconds[static_cast<std::size_t>(share * (seconds.size() - 1))]; };
+  const auto at = [&](double share) {
+    return 1e6 * seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))];
+  };
   return {at(0), at(0.5), at(0.9)};
 }
 
@@ -49,7 +51,8 @@ RailstrataRanks joined(const char* plug_in) {
   void* const library = dlopen(plug_in, RTLD_NOW | RTLD_GLOBAL);
   void* const symbol = library == nullptr ? nullptr : dlsym(library, railstrata::kJoinSymbol);
   RailstrataRanks out{};
-  if (symbol == nullptr || reinterpret_cast<railstrata::RailstrataJoin>(symbol)(&out) != nullptr || out.count != 2) {
+  const auto join = reinterpret_cast<RailstrataJoin>(symbol);
+  if (join == nullptr || join(&out) != nullptr || out.count != 2) {
     fmt::print(stderr, "start two ranks, and name build/railstrata_mpi.so\n");
     std::exit(1);
   }
@@ -65,7 +68,8 @@ int main(int argc, char** argv) {
   }
   const RailstrataRanks ranks = joined(argv[1]);
   const int times = std::atoi(argv[2]);
-  if (ranks.rank == 0) fmt::print("| bytes | one way: least, median, nine of ten (us) | exchange: likewise |\n|---|---|---|\n");
+  if (ranks.rank == 0)
+    fmt::print("| bytes | one way: least, median, nine of ten (us) | exchange: likewise |\n|---|---|---|\n");
   for (int k = 3; k < argc; ++k) {
     const long bytes = std::atol(argv[k]);
     const auto count = static_cast<std::size_t>(std::max(1L, bytes / 8));

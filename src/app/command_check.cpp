@@ -78,10 +78,12 @@ void print_estimate(const Model& m, const RunEstimate& e) {
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
   for (const RunEstimate::OnRanks& r : e.ranks)
-    fmt::print("on {} ranks     about {}, {:.0f} % of the elements on one, {:.2f} MB exchanged a step, {:.0f} MB\n",
+    fmt::print("on {} ranks     about {}; one has {:.0f} % of the elements and gets {:.2f} MB a step; {:.0f} MB each\n",
                r.need.ranks, duration_text(r.seconds), 100 * r.need.largest_share, 1e-6 * r.need.bytes,
                1e-6 * r.memory_bytes);
-  if (!e.ranks.empty()) fmt::print("ranks          at most {}\n", e.ranks.front().need.tiles);
+  if (!e.ranks.empty())
+    fmt::print("ranks          at most {}; times for machines like this one, {:.0f} us and {:.1f} GB/s apart\n",
+               e.ranks.front().need.tiles, 1e6 * RankNetwork{}.latency, 1e-9 * RankNetwork{}.bandwidth);
 }
 
 /// Of the last position, which is the result's.
@@ -125,7 +127,7 @@ nlohmann::ordered_json as_json(const std::vector<RunEstimate::OnRanks>& all) {
                    {"most_ranks", r.need.tiles},
                    {"largest_share", r.need.largest_share},
                    {"bytes_a_step", r.need.bytes},
-                   {"memory_bytes", r.memory_bytes},
+                   {"memory_bytes_each", r.memory_bytes},
                    {"rolling_wall_s", r.seconds}});
   return out;
 }

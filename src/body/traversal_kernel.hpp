@@ -361,9 +361,7 @@ template <Evaluation how>
 void TraversalOf<Element>::forces_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f,
                                      const Field& history, Field* advanced) {
   begin(u, psi);
-  const auto run = [&](std::ptrdiff_t k) {
-    run_chain<double, how>(chains[k], u, f, history, advanced, StoreForces{});
-  };
+  const auto run = [&](std::ptrdiff_t k) { run_chain<double, how>(chains[k], u, f, history, advanced, StoreForces{}); };
   for_each(static_cast<std::ptrdiff_t>(chains.size()), run, true);
   end(chains, f);
 }

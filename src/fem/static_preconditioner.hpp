@@ -57,8 +57,7 @@ class StaticPreconditioner {
   void count_parts();
   void restrict_to(const StaticVector& f, double* coarse);
   void prolong(const double* coarse, StaticVector& x) const;
-  void gather_columns(std::size_t body, const ColouredClusters& part, std::size_t colour, int mode,
-                      const double* c);
+  void gather_columns(std::size_t body, const ColouredClusters& part, std::size_t colour, int mode, const double* c);
   void invert_diagonal();
   void probe(const Operator& stiffness);
   void probe_axle(const Operator& stiffness);
@@ -69,7 +68,7 @@ class StaticPreconditioner {
 
   const RollingSystem& sys_;
   const StaticShare& share_;
-  std::array<Aggregates, 2> clusters_;  // by BodyId
+  std::array<Aggregates, 2> clusters_;        // by BodyId
   std::vector<double> part_forces_;           // of the clusters' parts, both bodies
   std::vector<std::ptrdiff_t> part_numbers_;  // of them, by rank
   std::array<std::pair<int, int>, 2> own_parts_;

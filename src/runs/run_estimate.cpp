@@ -44,7 +44,7 @@ RunEstimate estimate_run(const Model& model) {
     const RankNeed need = rank_need(model, ranks);
     if (need.ranks < ranks) break;
     const double relative = relative_step_time(need, e.seconds / static_cast<double>(e.steps));
-    e.ranks.push_back({need, relative * e.seconds, ranks * e.memory_bytes});
+    e.ranks.push_back({need, relative * e.seconds, e.memory_bytes});
   }
   return e;
 }

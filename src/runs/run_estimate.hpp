@@ -20,7 +20,7 @@ struct RunEstimate {
   /// Of several processes with as many threads each, on machines like this one in a network like that of RankNetwork.
   struct OnRanks {
     RankNeed need;
-    double seconds = 0, memory_bytes = 0;  ///< memory: of all ranks together
+    double seconds = 0, memory_bytes = 0;  ///< memory: of each rank, which has both bodies whole
   };
   std::vector<OnRanks> ranks;  ///< 2 and 4, as far as the mesh can be cut; none of a static case
 };

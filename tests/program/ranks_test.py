@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """One run over MPI: the bits of one process, by any number of ranks. usage: ranks_test.py BINARY"""
+import json
 import os
 import pathlib
 import shutil
@@ -120,6 +121,29 @@ class Ranks(FromOutside):
         rc, _, err = railstrata("run", "--resume", self.out, *words)
         self.assertEqual(rc, self.rc, err)
         self.expect_same(self.out)
+
+    def test_where_a_rank_is_lost_before_the_rolling_the_others_end_too(self):
+        process = ranked(3, "run", self.case(SMALL), *WORDS, "-j", 1, "--out", self.out)
+        wait_for((self.out / "provenance.json").exists, process)  # all have joined by then
+        lost = process_of(process, 2)
+        os.kill(lost, signal.SIGKILL)
+        rc, _, err = finished(process)
+        self.assertNotIn(rc, (0, 1), err)
+        self.assertIn(f"rank 2 (process {lost}) has ended before the others", err)
+        self.assertFalse((self.out / "checkpoint.h5").exists())
+
+    def test_check_tells_what_ranks_would_need(self):
+        case = self.case(SMALL)
+        rc, text, err = railstrata("check", case)
+        self.assertIn(rc, (0, 1), err)
+        for count in (2, 4):
+            self.assertRegex(text, rf"on {count} ranks     about .*; one has [0-9]+ % of the elements and gets")
+        rc, text, err = railstrata("check", case, "--json")
+        found = json.loads(text)
+        for count, ranks in zip((2, 4), found["on_ranks"]):
+            self.assertEqual(ranks["ranks"], count)
+            self.assertGreaterEqual(ranks["largest_share"], 1 / count)
+            self.assertEqual(ranks["memory_bytes_each"], found["memory_bytes"])
 
     def test_a_mistake_is_told_once(self):
         wrong = self.case(SMALL.replace("[run]", "[run]\nwindwo = 1"))
