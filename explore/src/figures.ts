@@ -196,12 +196,13 @@ function patchFigure(title: string, caption: string, paint: Paint): Figure {
 const largest = (values: Float32Array) => values.reduce((a, b) => Math.max(a, b), 0);
 
 export function pressureMap(): Figure {
-  return patchFigure("Pressure", "Line: the border of the patch before the last change; dotted: of the pin.", (p, g, all) => {
-    const top = roundUp(1e-6 * Math.max(...all.map((one) => largest(one.of("p")))));
-    const values = g.of("p");
-    cells(p, g, (k) => (values[k]! > 0 ? colourAt(1e-6 * values[k]! / top) : null));
-    colourBar(p, 0, top, "MPa");
-  });
+  return patchFigure(
+      "Pressure", "Line: the border of the patch before the last change; dotted: of the pin.", (p, g, all) => {
+        const top = roundUp(1e-6 * Math.max(...all.map((one) => largest(one.of("p")))));
+        const values = g.of("p");
+        cells(p, g, (k) => (values[k]! > 0 ? colourAt(1e-6 * values[k]! / top) : null));
+        colourBar(p, 0, top, "MPa");
+      });
 }
 
 const sizes = (g: Grid) => {

@@ -56,12 +56,12 @@ class PlaneFft {
     Complex* work = rows_in(in, planes);
     for_each_if(threads_pay(), groups_, [&](int group) {
       const Spectra columns{group_buffer(planes), group_size()};
-      for (std::size_t c = 0; c < in.size(); ++c) 
+      for (std::size_t c = 0; c < in.size(); ++c)
         fft_->columns_forward(work + c * plane_size() + first_of(group), pitch(), nx_, columns[c]);
       Spectra z = columns;
       for (int ky = group * kGroup; ky < (group + 1) * kGroup && ky < width_; ++ky, z.first += mx_)
         multiply(static_cast<std::size_t>(ky) * static_cast<std::size_t>(mx_), mx_, z);
-      for (std::size_t c = 0; c < out.size(); ++c) 
+      for (std::size_t c = 0; c < out.size(); ++c)
         fft_->columns_backward(columns[c], rows_out, work + c * plane_size() + first_of(group), pitch());
     });
     rows_out_of(work, out, rows_out);

@@ -76,12 +76,8 @@ constexpr int kRows = 2 * Lanes::kCount;
 Four less_quarter(const Four& z) { return {z.imag(), -z.real()}; }
 Four more_quarter(const Four& z) { return {-z.imag(), z.real()}; }
 
-Four of_rows(Complex* const* row, int k) {
-  return Lanes::side_by_side(row[0][k], row[1][k], row[2][k], row[3][k]);
-}
-void to_rows(const Four& z, Complex* const* row, int k) {
-  Lanes::apart(z, row[0][k], row[1][k], row[2][k], row[3][k]);
-}
+Four of_rows(Complex* const* row, int k) { return Lanes::side_by_side(row[0][k], row[1][k], row[2][k], row[3][k]); }
+void to_rows(const Four& z, Complex* const* row, int k) { Lanes::apart(z, row[0][k], row[1][k], row[2][k], row[3][k]); }
 
 }  // namespace
 
@@ -115,7 +111,8 @@ void Fft::rows_backward(Complex* waves, std::size_t pitch, int count, int given,
   for (int first = 0; first < count; first += kRows) {
     Complex* wave[kRows];
     for (int r = 0; r < kRows; ++r) wave[r] = waves + static_cast<std::size_t>(std::min(first + r, count - 1)) * pitch;
-    for (Complex* w : wave) w[0] = w[0].real(), w[n / 2] = w[n / 2].real();
+    for (Complex* w : wave)
+      for (const int k : {0, n / 2}) w[k] = w[k].real();
     for (int k = 0; k <= n / 2; ++k) {
       const Four a = of_rows(wave, k), b = of_rows(wave + Lanes::kCount, k);
       from[static_cast<std::size_t>(k)] = a + more_quarter(b);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The documentation's site. usage: site_test.py SOURCE_DIR SITE"""
+"""The documentation's site. usage: site_test.py SOURCE_DIR SITE BINARY"""
 import html.parser
 import json
 import pathlib
@@ -64,6 +64,12 @@ class Site(unittest.TestCase):
             pictures = [word for word in self.pages[SITE / f"{name}.html"].fetched if word.endswith((".svg", ".png"))]
             self.assertTrue([word for word in pictures if "images/" in word and "favicon" not in word], name)
 
+    def test_the_first_page_leads_to_the_explorer(self):
+        self.assertIn("explore.html", self.pages[SITE / "index.html"].links)
+        page = (SITE / "explore.html").read_text()
+        self.assertIn("default-src 'none'", page)
+        self.assertIn('id="engine"', page)
+
     def test_every_public_name_of_python_and_c_is_there(self):
         text = (SITE / "python-interface.html").read_text()
         names = re.search(r"__all__ = \[(.*?)\]", (SOURCE / "python/railstrata/__init__.py").read_text(), re.S)[1]
@@ -94,7 +100,11 @@ class Parts(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    made = subprocess.run([sys.executable, SOURCE / "tools/make_site.py", SOURCE, "--out", SITE])
+    SITE.parent.mkdir(parents=True, exist_ok=True)
+    page = SITE.parent / "explore.html"
+    subprocess.run([pathlib.Path(sys.argv[3]).resolve(), "explore", "cases/quick", "--force", "--out", page], check=True,
+                   cwd=SOURCE)
+    made = subprocess.run([sys.executable, SOURCE / "tools/make_site.py", SOURCE, "--explorer", page, "--out", SITE])
     if made.returncode:
         sys.exit(made.returncode)
     unittest.main(argv=[sys.argv[0], "-v"])
