@@ -17,7 +17,7 @@ _os.environ.setdefault("OMP_WAIT_POLICY", "passive")
 _os.environ.setdefault("GOMP_SPINCOUNT", "3000")
 
 from . import _core, damage  # noqa: E402
-from .case import Case, _count, schema, shipped_data
+from .case import Case, _thread_count, schema, shipped_data
 from .errors import CaseError, CheckWarning, Diagnostic, MachineError, NumericalError
 from .law import DrivenPath, MaterialFit, calibrate, material
 from .patch import Patch, PatchState
@@ -32,9 +32,7 @@ __version__: str = _core.version()
 
 def threads(count: int = 0) -> int:
     """The number of threads that solvers called from this Python thread use; sets it if `count` is positive."""
-    count = _count(count, "threads")
-    if count < 0:
-        raise ValueError("threads: a positive number is wanted")
+    count = _thread_count(count)
     if count > 0:
         _core.set_threads(count)
     return _core.threads()

@@ -83,6 +83,15 @@ def _count(value: int, what: str) -> int:
         raise TypeError(f"{what}: a whole number is wanted, not {value!r:.40}") from None
 
 
+def _thread_count(value: int) -> int:
+    """0: as many as are set."""
+    most = 1024
+    count = _count(value, "threads")
+    if not 0 <= count <= most:
+        raise ValueError(f"threads: a number from 0 to {most} is wanted, not {count}")
+    return count
+
+
 def _case_of(given: Union["Case", str, os.PathLike]) -> "Case":
     """A case as it is, or that of a path."""
     if isinstance(given, Case):

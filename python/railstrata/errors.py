@@ -4,6 +4,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 
+def _in_python(text: str) -> str:
+    """Remedies that name options of the program, in the words of this package."""
+    for option, argument in (("choose another with --out", "choose another folder"),
+                             ("choose another folder with --out", "choose another folder"),
+                             ("with --force", "with force=True")):
+        text = text.replace(option, argument)
+    return text
+
+
 @dataclass(frozen=True)
 class Diagnostic:
     """One fault of an input: what is wrong, what to do, and where ("file:line:column" as far as it is known)."""
@@ -20,8 +29,9 @@ class CaseError(ValueError):
     """
 
     def __init__(self, text: str, diagnostics: list[Diagnostic] | None = None) -> None:
-        super().__init__(text)
-        self.diagnostics = list(diagnostics or [Diagnostic(text)])
+        super().__init__(_in_python(text))
+        self.diagnostics = [Diagnostic(d.message, _in_python(d.remedy), d.where)
+                            for d in diagnostics or [Diagnostic(text)]]
 
 
 class NumericalError(ArithmeticError):
@@ -32,8 +42,8 @@ class MachineError(OSError):
     """The machine cannot do it: memory, disk, permissions. `remedy` says what to do, if something can be done."""
 
     def __init__(self, text: str, remedy: str = "") -> None:
-        super().__init__(f"{text}\n    remedy: {remedy}" if remedy else text)
-        self.remedy = remedy
+        self.remedy = _in_python(remedy)
+        super().__init__(f"{text}\n    remedy: {self.remedy}" if remedy else text)
 
 
 class CheckWarning(UserWarning):

@@ -207,8 +207,12 @@ class Body:
         ms; each distinct depth costs one. On an interface those of the material above, or below if asked. ValueError: a
         point above the surface, or more than ten lengths of the patch's grid away from it (fewer with layers and small
         cells)."""
+        points = np.asarray(points, float)
+        if points.ndim == 2 and points.shape[1] == 3 and np.any(points[:, 2] < 0):
+            raise ValueError(f"points: row {int(np.argmax(points[:, 2] < 0))} lies above the surface: depths count "
+                             "downwards, from 0")
         try:
-            return self._handle.stresses_at(self.name, self._patch, np.asarray(points, float), below_interface)
+            return self._handle.stresses_at(self.name, self._patch, points, below_interface)
         except IndexError as error:  # std::out_of_range
             raise ValueError(str(error)) from None
 
@@ -283,7 +287,11 @@ class FolderResult(Result):
 
     def table(self, name: str) -> "pandas.DataFrame":
         """A table of the folder by its name: "patch", "centre_line", "depth_line", "rail_cross_section", …"""
-        return needs("pandas", "python3-pandas").read_csv(self.folder / f"{name}.csv", comment="#")
+        file = self.folder / f"{name}.csv"
+        if not file.exists():
+            names = ", ".join(sorted(other.stem for other in self.folder.glob("*.csv")))
+            raise FileNotFoundError(f"{file}: there is no such table; tables here: {names}")
+        return needs("pandas", "python3-pandas").read_csv(file, comment="#")
 
     def report(self, page: Optional[PathLike] = None, reference: bool = True) -> Path:
         """Writes the report page and returns its path; by default report.html in the folder. reference: a finite

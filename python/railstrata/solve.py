@@ -11,7 +11,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 import numpy as np
 
 from . import _core
-from .case import Case, Length, Value, _case_of, _count, _metres, _text_of
+from .case import Case, Length, Value, _case_of, _metres, _text_of, _thread_count
 from .errors import CheckWarning
 from .results import BemResult, FolderResult, open_result
 from .table import Table
@@ -74,7 +74,7 @@ def bem(
     """
     case = _case_of(case)
     handle = _core.solve_half_space(
-        case._loaded, _metres(cell, "cell"), _count(threads, "threads"), stresses, single_track, False,
+        case._loaded, _metres(cell, "cell"), _thread_count(threads), stresses, single_track, False,
         _callback(progress, "steps", False),
     )
     return _say(BemResult(handle), case._loaded.static_notes)
@@ -87,7 +87,7 @@ def shakedown(case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0) -> Bem
     """
     case = _case_of(case)
     handle = _core.solve_half_space(
-        case._loaded, _metres(cell, "cell"), _count(threads, "threads"), True, True, False, None
+        case._loaded, _metres(cell, "cell"), _thread_count(threads), True, True, False, None
     )
     result = BemResult(handle)
     if not result.shakedown:

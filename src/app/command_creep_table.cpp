@@ -111,6 +111,12 @@ class Keeper {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+ExitCode stopped(Keeper& keeper) {
+  keeper.keep();
+  spdlog::warn("stopped; go on with --resume");
+  return ExitCode::interrupted;
+}
+
 }  // namespace
 
 ExitCode command_creep_table(const CommandOptions& options) {
@@ -118,6 +124,8 @@ ExitCode command_creep_table(const CommandOptions& options) {
   const LoadedCase base = load_case_of(options, CaseUse::steady_rolling);
   if (!base.spec.run.rolling)
     spdlog::warn("run.rolling = false has no effect: a creep table is of steady rolling, with the case's friction");
+  if (base.spec.transient.kind != TransientKind::none)
+    spdlog::warn("[transient] has no effect: a creep table is of steady rolling");
   CreepTable table(base, options.overrides, std::move(axes));
   CreepTableOptions how;
   how.bem.cell = cell_size(options.cell);
@@ -145,12 +153,11 @@ ExitCode command_creep_table(const CommandOptions& options) {
     };
     table.solve(how);
   }
-  if (stop_flag()) {
-    keeper.keep();
-    spdlog::warn("stopped; go on with --resume");
-    return ExitCode::interrupted;
-  }
+  if (stop_flag()) return stopped(keeper);
   const TableError error = interpolation_error(table, options.creep_table.places, how);
+  if (stop_flag()) return stopped(keeper);
+  for (const std::string& axis : table.idle_axes())
+    spdlog::warn("--axis {}: no number of the table changes with it", axis);
   write_force_table(out / kTable, table.table(), remarks_of(base, error));
   std::vector<std::string> origin = table_origin(base);
   origin.emplace_back("forces on the wheel: along x, lateral in the contact plane, along its normal; moment about it");

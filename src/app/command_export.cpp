@@ -29,6 +29,7 @@ const std::map<std::string, ExportTarget> kTargets{{"calculix", ExportTarget::ca
 struct Files {
   std::vector<std::pair<std::string, std::string>> contents;
   std::vector<std::string> lines;
+  std::string comparison;  ///< of the readme
   void add(const std::string& name, const std::string& what, std::string content) {
     contents.emplace_back(name, std::move(content));
     lines.push_back(fmt::format("{:<18} {}", name, what));
@@ -39,6 +40,7 @@ Files deck(const LoadedCase& loaded, ExportTarget target, bool friction) {
   require_finite_elements(loaded);
   const SolidModel model = solid_model(build_model(loaded.spec, loaded.folder()));
   Files out;
+  out.comparison = deck_comparison(model, target);
   if (target == ExportTarget::lsdyna) {
     out.add("preload.k", "the deck", dyna_deck(model, friction));
     return out;
@@ -57,6 +59,15 @@ void require_steady_patch(const CaseSpec& spec) {
                     "export a case with a patch: --set geometry.contact=\"point\"");
 }
 
+/// Options of the other kind of program.
+void require_used(const CommandOptions& options, ExportTarget target) {
+  if (target == ExportTarget::contact && options.export_to.friction)
+    throw CaseError("--friction: CONTACT's files have the friction of the half-space solution", "leave it out");
+  if (target != ExportTarget::contact && !options.cell.empty())
+    throw CaseError(fmt::format("--cell: the meshes for {} have no cells", options.export_to.to),
+                    "leave it out; the meshes' fineness is mesh.element_size");
+}
+
 /// Several patches are CONTACT's cases 1, 2, …
 Files contact_result(const LoadedCase& loaded, const std::string& cell) {
   require_steady_patch(loaded.spec);
@@ -68,6 +79,7 @@ Files contact_result(const LoadedCase& loaded, const std::string& cell) {
   std::vector<const BemPatch*> patches{&solution.result};
   for (const BemPatch& p : solution.result.further) patches.push_back(&p);
   Files out;
+  out.comparison = contact_comparison();
   for (std::size_t k = 0; k < patches.size(); ++k) {
     const std::string name = fmt::format("rail.{:04}", k + 1);
     out.add(name + ".mat", "the contact, for loadcase.m", contact_mat(spec, placement, *patches[k]));
@@ -87,6 +99,7 @@ std::vector<std::string> export_words() { return {"calculix", "abaqus", "lsdyna"
 ExitCode command_export(const CommandOptions& options) {
   const ExportOptions& wanted = options.export_to;
   const ExportTarget target = kTargets.at(wanted.to);
+  require_used(options, target);
   const LoadedCase loaded = load_case_of(options);
   const std::filesystem::path out = output_folder_of(options, loaded, "-" + wanted.to);
   const Files files =
@@ -94,7 +107,7 @@ ExitCode command_export(const CommandOptions& options) {
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   for (const auto& [name, content] : files.contents) write_whole_file(out / name, content);
-  write_whole_file(out / "README.txt", export_readme(loaded.spec, target, files.lines, wanted.friction));
+  write_whole_file(out / "README.txt", export_readme(loaded.spec, target, files.lines, wanted.friction, files.comparison));
   if (options.json)
     fmt::print("{}\n", json_text(nlohmann::json{{"folder", out.generic_string()}}));
   else

@@ -192,9 +192,10 @@ ExitCode command_study(const CommandOptions& options) {
   const Shard shard = parse_shard(options.study.shard);
   const double lease = lease_of(options);
   std::vector<StudyCase> cases = plan_study(study, options.overrides);
-  const std::vector<bool> ours =
-      options.study.only > 0 ? only(cases, options.study.only)
-                             : chosen(study, cases, engine_of(options.study.engine), options.study.groups, shard);
+  for (const std::string& key : varied_and_set(study, options.overrides))
+    spdlog::warn("--set {}: the study varies it; cases named after its values have the one that is set", key);
+  std::vector<bool> ours = chosen(study, cases, engine_of(options.study.engine), options.study.groups, shard);
+  if (options.study.only > 0) ours = only(cases, options.study.only, ours);
   const fs::path out = folder_of(options, study);
   if (options.study.list || !options.study.batch.empty()) return tell_cases(options, study, out, cases, ours);
   if (options.study.dry_run) return list_cases(options, out, cases, ours);

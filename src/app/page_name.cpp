@@ -13,8 +13,9 @@ void require_name_of_page(const std::filesystem::path& page, const std::string& 
   std::string ending = page.extension().string();
   for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (ending == ".html" || ending == ".htm") return;
-  const std::filesystem::path other =
-      page.has_filename() ? std::filesystem::path(page).replace_extension(".html") : page / preset;
+  const std::filesystem::path name = page.filename();
+  const bool folder = name.empty() || name == "." || name == "..";
+  const std::filesystem::path other = folder ? page / preset : std::filesystem::path(page).replace_extension(".html");
   throw CaseError(fmt::format("--out {}: a page has a name that ends in .html", page.string()),
                   fmt::format("write for example --out {}", shell_word(other.string())));
 }

@@ -45,7 +45,7 @@ void place_profile(const LoadedCase& loaded, std::string_view key, const std::st
 /// Other files that the case reads keep their place beside it.
 void place_others(const LoadedCase& loaded, Json& seed) {
   const GeometrySpec& g = loaded.spec.geometry;
-  const fs::path folder = fs::absolute(loaded.folder()).lexically_normal();
+  const fs::path folder = fs::absolute(loaded.file).lexically_normal().parent_path();
   for (std::size_t k = 1; k < loaded.inputs.size(); ++k) {
     const fs::path& input = loaded.inputs[k];
     if (input.string() == g.rail_profile || input.string() == g.wheel_profile) continue;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "case/case_spec.hpp"
+#include "export/solid_model.hpp"
 
 namespace railstrata {
 
@@ -12,8 +13,14 @@ enum class ExportTarget { calculix, abaqus, lsdyna, contact };
 /// What of a case is not in the files, one line each; never empty.
 std::vector<std::string> not_carried_over(const CaseSpec& spec, ExportTarget target);
 
-/// The text. `files`: a line each. `friction`: the deck's contact has it.
+/// The text. `files`: a line each. `friction`: the deck's contact has it. `comparison`: what to expect of numbers there
+/// and here.
 std::string export_readme(const CaseSpec& spec, ExportTarget target, const std::vector<std::string>& files,
-                          bool friction);
+                          bool friction, const std::string& comparison);
+
+/// `comparison` of a deck.
+std::string deck_comparison(const SolidModel& model, ExportTarget target);
+/// `comparison` of CONTACT's files.
+std::string contact_comparison();
 
 }  // namespace railstrata

@@ -153,6 +153,15 @@ double meshed_mass(const SolidBody& body) {
   return mass;
 }
 
+/// 1/Pa, of a half-space under pressure.
+double compliance(const Elastic& m) { return (1 - poisson(m) * poisson(m)) / young(m); }
+
+double least_compliance(const SolidBody& body) {
+  double least = compliance(body.materials.front());
+  for (const Elastic& m : body.materials) least = std::min(least, compliance(m));
+  return least;
+}
+
 /// The wheel's axes are turned about the vertical through the axle's centre.
 void turn_about_axle(SolidBody& wheel, Vec3 axle, double angle) {
   const Rotation<double> turn = rotation_by(angle);
@@ -160,6 +169,16 @@ void turn_about_axle(SolidBody& wheel, Vec3 axle, double angle) {
 }
 
 }  // namespace
+
+double missed_by_nodes(const SolidModel& model) {
+  const auto pressure = [](double x, double y) { return std::sqrt(std::max(0.0, 1 - x * x - y * y)); };
+  const double smaller = std::cbrt((least_compliance(model.rail) + least_compliance(model.wheel)) /
+                                   (compliance(model.rail.materials[0]) + compliance(model.wheel.materials[0])));
+  const double u = 0.5 * model.element_size / (smaller * model.a), v = 0.5 * model.element_size / (smaller * model.b);
+  const double node = pressure(u, v);
+  const double above = (node - pressure(3 * u, v)) / 8 + (node - pressure(u, 3 * v)) / 8;
+  return node > 0 ? above / (node + above) : 1;
+}
 
 SolidModel solid_model(const Model& m) {
   require_finite_elements(m.spec);
@@ -177,6 +196,8 @@ SolidModel solid_model(const Model& m) {
   out.static_load = m.load;
   out.approach = m.hertz.approach;
   out.p_max = m.hertz.p0;
+  out.a = m.hertz.a;
+  out.b = m.hertz.b;
   out.element_size = h;
   out.friction = m.spec.drive.friction_coefficient;
   out.one_point = m.spec.mesh.element == ElementFormulation::one_point;

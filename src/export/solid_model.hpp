@@ -50,11 +50,17 @@ struct SolidModel {
   double gravity = 0;       ///< m/s²
   double approach = 0;      ///< m, Hertz's estimate
   double p_max = 0;         ///< Pa, likewise
+  double a = 0, b = 0;      ///< m, semi-axes of the patch along x and y, likewise
   double element_size = 0;  ///< m, at the running surfaces
   double friction = 0;      ///< friction coefficient of the case
   bool one_point = false;   ///< mesh.element
   double static_load = 0;   ///< N, on the rail
 };
+
+/// How far the largest nodal pressure may lie below the top of the parabolas through it and its neighbours, as a share of
+/// the top: for Hertz's pressure with its middle between four nodes, on the patch that the bodies would have if they were
+/// of their stiffest layers throughout.
+double missed_by_nodes(const SolidModel& model);
 
 /// Throws CaseError as build_model does, and for a case that finite elements do not take.
 SolidModel solid_model(const Model& model);

@@ -14,6 +14,7 @@
 
 #include "case/option_table.hpp"
 #include "core/faults.hpp"
+#include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
 #include "model/model.hpp"
 #include "post/bem_summary.hpp"
@@ -37,6 +38,13 @@ constexpr Word kWords[] = {{"creepage_x", "drive.creepage"},
                            {"lateral_shift", "geometry.lateral_shift"},
                            {"yaw", "geometry.yaw"}};
 constexpr std::size_t kCreepages = 3;  // the first words
+
+/// Of a creepage's axis and another key of the same direction the case can have one.
+constexpr std::pair<std::string_view, std::string_view> kRivals[] = {
+    {"drive.creepage", "drive.traction_coefficient"},
+    {"drive.creepage", "drive.tractive_force"},
+    {"drive.lateral_creepage", "drive.lateral_traction_coefficient"},
+    {"drive.lateral_creepage", "drive.lateral_force"}};
 
 bool is_creepage(const CreepAxis& axis) {
   return std::any_of(kWords, kWords + kCreepages, [&](const Word& w) { return w.key == axis.key; });
@@ -67,7 +75,7 @@ struct UnitWord {
 };
 const UnitWord kUnits[] = {{dimension::kNumber, ""},       {dimension::kLength, "m"}, {dimension::kForce, "N"},
                            {dimension::kPressure, "Pa"},   {dimension::kMass, "kg"},  {dimension::kTime, "s"},
-                           {dimension::kSpeed, "m/s"},     {dimension::kSpin, "1/m"}, {dimension::kSlope, "rad"},
+                           {dimension::kSpeed, "m/s"},     {dimension::kSpin, "1/m"}, {dimension::kSlope, ""},
                            {dimension::kDensity, "kg/m3"}, {dimension::kRate, "1/s"}, {dimension::kHardness, "HV"}};
 
 std::string unit_of(const Option& option) {
@@ -103,8 +111,9 @@ class AxisText {
     std::string numbers = given;
     std::replace(numbers.begin(), numbers.end(), ':', ',');
     for (const std::string& value : split(numbers, ','))
-      if (const std::size_t blank = value.find_first_of(" \""); blank != std::string::npos && blank > 0)
-        unit_ = value.substr(blank);
+      if (const std::size_t unit = value.find_first_not_of(kNumberLetters);
+          unit != std::string::npos && unit > 0 && value[unit] != '/')  // "1/40" is a slope
+        unit_ = value.substr(unit);
     if (given.starts_with("+-") || given.starts_with("±")) return both_sides(given.substr(2));
     if (given.find(':') != std::string::npos && given.find(',') == std::string::npos &&
         std::count(given.begin(), given.end(), ':') == 2)
@@ -116,7 +125,8 @@ class AxisText {
 
  private:
   double quantity(const std::string& value) const {
-    const bool bare = !value.empty() && value.find_first_not_of("+-.0123456789eE") == std::string::npos;
+    if (value.empty()) refuse(text_, "a value is missing");
+    const bool bare = value.find_first_not_of(kNumberLetters) == std::string::npos;
     try {
       const double out = parse_quantity(bare ? value + unit_ : value, option_.dimension);
       if (!option_.range.holds(out))
@@ -124,7 +134,18 @@ class AxisText {
                fmt::format("give values {}", describe(option_.range, option_.dimension)));
       return out;
     } catch (const UnitError& e) {
-      refuse(text_, fmt::format("{}: {}", value, e.what()), e.remedy);
+      refuse(text_, fmt::format("{}: {}", value, e.what()), weight_of(value).value_or(e.remedy));
+    }
+  }
+  /// A load is a force: the remedy for a mass.
+  std::optional<std::string> weight_of(const std::string& value) const {
+    constexpr double kGravity = 9.81;  // m/s², that of a case that says none
+    if (option_.dimension != dimension::kForce) return std::nullopt;
+    try {
+      const double weight = kGravity * parse_quantity(value, dimension::kMass);
+      return fmt::format("write the weight, \"{:.6g} kN\" under 9.81 m/s^2", 1e-3 * weight);
+    } catch (const UnitError&) {
+      return std::nullopt;
     }
   }
   int count(const std::string& value, int least) const {
@@ -155,10 +176,19 @@ class AxisText {
     quantity(format_quantity(out.front(), option_.dimension));
     return out;
   }
+  static constexpr const char* kNumberLetters = "+-.0123456789eE";
   const std::string& text_;
   const Option& option_;
   std::string unit_;
 };
+
+[[noreturn]] void refuse_word(const std::string& text, const std::string& word) {
+  const std::vector<std::string> words = creep_table_words();
+  const std::string near = nearest_word(word, words);
+  refuse(text, fmt::format("there is no word or key {}", word),
+         fmt::format("{}words: {}; keys: railstrata schema", near.empty() ? "" : fmt::format("did you mean {}? ", near),
+                     fmt::join(words, ", ")));
+}
 
 CreepAxis parse_axis(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -171,9 +201,7 @@ CreepAxis parse_axis(const std::string& text) {
   for (const Word& w : kWords)
     if (w.key == out.key) out.word = w.word;
   const Option* option = option_of(out.key);
-  if (!option)
-    refuse(text, fmt::format("there is no word or key {}", out.word),
-           fmt::format("words: {}; keys: railstrata schema", fmt::join(creep_table_words(), ", ")));
+  if (!option) refuse_word(text, out.word);
   if (!is_number(*option)) refuse(text, fmt::format("{} is no number", out.key));
   out.unit = unit_of(*option);
   out.at = AxisText(text, *option).values(text.substr(equals + 1));
@@ -233,6 +261,22 @@ CaseSpec rolling_case(CaseSpec spec) {
   return half_space_case(std::move(spec));
 }
 
+/// The case with an axis' value in it. Where that is refused, the axis is named instead of the setting.
+LoadedCase with_values(const LoadedCase& base, const std::vector<std::string>& overrides,
+                       const std::vector<CreepAxis>& axes, const std::vector<std::string>& texts) {
+  std::vector<std::string> all = overrides;
+  for (std::size_t k = 0; k < axes.size(); ++k) all.push_back(fmt::format("{}=\"{}\"", axes[k].key, texts[k]));
+  try {
+    return parse_case(base.source_text, base.file, all);
+  } catch (CaseError& e) {
+    for (Diagnostic& d : e.diagnostics)
+      for (std::size_t k = 0; k < axes.size(); ++k)
+        if (d.where == fmt::format("--set {}=\"{}\"", axes[k].key, texts[k]))
+          d.where = fmt::format("--axis {}, {}", axes[k].word, texts[k]);
+    throw CaseError(e.diagnostics);
+  }
+}
+
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
@@ -254,8 +298,13 @@ std::vector<CreepAxis> parse_axes(const std::vector<std::string>& options) {
   std::vector<CreepAxis> out;
   for (const std::string& text : options) {
     out.push_back(parse_axis(text));
-    for (std::size_t k = 0; k + 1 < out.size(); ++k)
+    for (std::size_t k = 0; k + 1 < out.size(); ++k) {
       if (out[k].key == out.back().key) refuse(text, fmt::format("{} has two axes", out[k].word), "give it once");
+      for (const auto& [creepage, force] : kRivals)
+        if ((out[k].key == creepage && out.back().key == force) || (out[k].key == force && out.back().key == creepage))
+          refuse(text, fmt::format("{} and {} are both axes: one gives the other", out[k].word, out.back().word),
+                 "keep one of them");
+    }
   }
   if (out.empty()) throw CaseError("there is no axis", kExample);
   if (out.size() > kMostAxes)
@@ -279,6 +328,10 @@ CreepTable::CreepTable(const LoadedCase& base, const std::vector<std::string>& o
       row_axis_(axes_.size() - 1),
       noting_(std::make_unique<std::mutex>()) {
   std::size_t combinations = 1;
+  double points_asked = 1;
+  for (const CreepAxis& axis : axes_) points_asked *= static_cast<double>(axis.at.size());
+  if (points_asked > kMostTablePoints)
+    throw CaseError(fmt::format("{:.7g} points", points_asked), fmt::format("give {} at most", kMostTablePoints));
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     table_.axes.push_back({axes_[k].word, axes_[k].unit, axes_[k].at});
     if (is_creepage(axes_[k]))
@@ -286,21 +339,22 @@ CreepTable::CreepTable(const LoadedCase& base, const std::vector<std::string>& o
     else
       combinations *= axes_[k].at.size();
   }
-  if (points() > kMostTablePoints)
-    throw CaseError(fmt::format("{} points", points()), fmt::format("give {} at most", kMostTablePoints));
   for (const Number& n : kNumbers) table_.numbers.push_back({n.name, n.unit, std::vector<double>(points(), NAN)});
   std::optional<CaseError> first_error;
   for (std::size_t c = 0; c < combinations; ++c) {
-    std::vector<std::string> all = overrides_;
+    std::vector<std::string> texts(axes_.size());
     std::size_t rest = c;
     for (std::size_t k = axes_.size(); k-- > 0;) {
-      if (is_creepage(axes_[k])) continue;
-      all.push_back(fmt::format("{}=\"{}\"", axes_[k].key, axes_[k].texts[rest % axes_[k].at.size()]));
+      if (is_creepage(axes_[k])) {
+        texts[k] = axes_[k].texts.front();  // in place of the case's own traction
+        continue;
+      }
+      texts[k] = axes_[k].texts[rest % axes_[k].at.size()];
       rest /= axes_[k].at.size();
     }
     outer_.emplace_back();
     try {
-      const LoadedCase loaded = parse_case(base.source_text, base.file, all);
+      const LoadedCase loaded = with_values(base, overrides_, axes_, texts);
       outer_.back().spec = rolling_case(loaded.spec);
       outer_.back().placement = place(*outer_.back().spec, loaded.folder());
     } catch (const CaseError& e) {
@@ -394,6 +448,21 @@ std::vector<CreepTable::Numbers> CreepTable::solve_row(const Row& row, const Cre
   return out;
 }
 
+std::vector<std::string> CreepTable::idle_axes() const {
+  std::vector<std::string> out;
+  std::size_t stride = points();
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    const std::size_t n = axes_[k].at.size();
+    stride /= n;
+    bool changes = is_creepage(axes_[k]);
+    for (const TableNumber& number : table_.numbers)
+      for (std::size_t i = 0; !changes && i + stride < points(); ++i)
+        changes = i / stride % n + 1 < n && number.values[i] != number.values[i + stride];
+    if (!changes) out.push_back(axes_[k].word);
+  }
+  return out;
+}
+
 void CreepTable::solve(const CreepTableOptions& options) {
   InfluenceCache cache;
   const std::size_t length = axes_[row_axis_].at.size();
@@ -416,13 +485,12 @@ void CreepTable::solve(const CreepTableOptions& options) {
 }
 
 std::vector<double> CreepTable::direct(const std::vector<double>& point, const BemOptions& bem) const {
-  std::vector<std::string> all = overrides_;
+  std::vector<std::string> texts;
   for (std::size_t k = 0; k < axes_.size(); ++k)
-    if (!is_creepage(axes_[k]))
-      all.push_back(
-          fmt::format("{}=\"{}\"", axes_[k].key, format_quantity(point[k], option_of(axes_[k].key)->dimension)));
+    texts.push_back(is_creepage(axes_[k]) ? axes_[k].texts.front()
+                                          : format_quantity(point[k], option_of(axes_[k].key)->dimension));
   try {
-    const LoadedCase loaded = parse_case(base_.source_text, base_.file, all);
+    const LoadedCase loaded = with_values(base_, overrides_, axes_, texts);
     Outer outer;
     outer.spec = rolling_case(loaded.spec);
     const auto found = numbers_of(spec_at(outer, point), place(*outer.spec, loaded.folder()), bem);

@@ -25,8 +25,10 @@ struct CreepAxis {
 std::vector<std::string> creep_table_words();
 
 /// Reads "WORD=VALUES". VALUES: "v1,v2,…"; "from:to:count" at equal distances; "+-largest:count", odd, through 0 with
-/// distances that grow by the same factor to both sides, over two and a half decades. Throws CaseError: an unknown word
-/// or key, a key that is no number, values out of its range or that do not ascend, more axes than a table may have.
+/// distances that grow by the same factor to both sides, over two and a half decades. Slopes are tangents. Throws
+/// CaseError: an unknown word
+/// or key, a key that is no number, values out of its range or that do not ascend, a creepage
+/// and a force in one direction, more axes than a table may have.
 std::vector<CreepAxis> parse_axes(const std::vector<std::string>& options);
 
 /// As many solutions as a table may have.
@@ -57,6 +59,9 @@ class CreepTable {
   std::size_t points() const { return table_.points(); }
   std::size_t missing() const;                                        ///< points without an answer: one that failed
   const std::vector<std::string>& faults() const { return faults_; }  ///< each once, with the first place
+
+  /// Axes along which no number of the table changes: the half-spaces do not read the key.
+  std::vector<std::string> idle_axes() const;
 
   /// Rows that an earlier table of the same axes has whole need not be solved. Throws CaseError: other axes.
   void take(const ForceTable& earlier);

@@ -47,6 +47,15 @@ std::string folder_name(const std::string& text) {
   return out;
 }
 
+/// The value that a --set gives a key, as a study has values: without quotes.
+std::optional<std::string> set_instead(const std::vector<std::string>& overrides, const std::string& key) {
+  std::optional<std::string> out;
+  for (const std::string& o : overrides)
+    if (o.starts_with(key + "=")) out = o.substr(key.size() + 1);
+  if (out && out->size() > 1 && out->front() == '"' && out->back() == '"') out = out->substr(1, out->size() - 2);
+  return out;
+}
+
 /// An error at an override becomes one at the value's place in the study.
 void add_placed(const CaseError& e, const LoadedStudy& study, const std::vector<const StudyValue*>& values,
                 const std::vector<std::string>& texts, std::vector<Diagnostic>& out) {
@@ -94,7 +103,7 @@ std::vector<StudyCase> plan_study(const LoadedStudy& study, const std::vector<st
       c.overrides.insert(c.overrides.end(), overrides.begin(), overrides.end());
       c.overrides.push_back(fmt::format("case.title=\"{}: {}\"", g.name, c.name));
       for (const StudyPoint* part : {&point, &g.tags})
-        for (const StudyValue& v : *part) c.values.emplace_back(v.key, v.text);
+        for (const StudyValue& v : *part) c.values.emplace_back(v.key, set_instead(overrides, v.key).value_or(v.text));
       try {
         c.loaded = load_case(g.base, c.overrides);
       } catch (const CaseError& e) {
@@ -146,12 +155,26 @@ std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>&
   return out;
 }
 
-std::vector<bool> only(const std::vector<StudyCase>& cases, int index) {
+std::vector<bool> only(const std::vector<StudyCase>& cases, int index, const std::vector<bool>& among) {
   if (index < 1 || index > static_cast<int>(cases.size()))
     throw CaseError(fmt::format("--only {}: the study has {} cases", index, cases.size()),
                     "railstrata study FILE --list tells their indices");
+  const std::string& key = cases[static_cast<std::size_t>(index) - 1].key;
   std::vector<bool> out;
-  for (const StudyCase& c : cases) out.push_back(c.first && c.key == cases[static_cast<std::size_t>(index) - 1].key);
+  for (std::size_t k = 0; k < cases.size(); ++k) out.push_back(among[k] && cases[k].key == key);
+  if (std::find(out.begin(), out.end(), true) == out.end())
+    throw CaseError(fmt::format("--only {}: --engine, --group or --shard leave this case out", index),
+                    "give --only without them; railstrata study FILE --list tells the indices");
+  return out;
+}
+
+std::vector<std::string> varied_and_set(const LoadedStudy& study, const std::vector<std::string>& overrides) {
+  std::vector<std::string> out;
+  for (const StudyGroup& g : study.spec.groups)
+    for (const StudyPoint& point : g.points)
+      for (const StudyValue& v : point)
+        if (set_instead(overrides, v.key) && std::find(out.begin(), out.end(), v.key) == out.end())
+          out.push_back(v.key);
   return out;
 }
 

@@ -50,7 +50,10 @@ std::vector<bool> chosen(const LoadedStudy& study, const std::vector<StudyCase>&
                          const std::vector<std::string>& groups, const Shard& shard);
 
 /// The case of this index, from 1, alone: of several with the same key the one that is computed for all of them. Throws
-/// CaseError if there is none.
-std::vector<bool> only(const std::vector<StudyCase>& cases, int index);
+/// CaseError if there is none, or none `among` the chosen ones.
+std::vector<bool> only(const std::vector<StudyCase>& cases, int index, const std::vector<bool>& among);
+
+/// Keys that the study varies and an override holds fast: cases that are named after other values have this one.
+std::vector<std::string> varied_and_set(const LoadedStudy& study, const std::vector<std::string>& overrides);
 
 }  // namespace railstrata

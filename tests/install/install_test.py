@@ -225,6 +225,16 @@ class CConsumer(Consumer):
             self.assertAlmostEqual(c, fortran, delta=1e-9 * abs(c))
 
 
+    def test_the_c_of_the_manuals_compiles(self):
+        for page in ("library", "creep-table"):
+            lines = re.search(r"```c\n(.*?)```", (SOURCE / f"docs/{page}.md").read_text(), re.S)[1].splitlines()
+            includes = [line for line in lines if line.startswith("#")]
+            body = [line for line in lines if not line.startswith("#")]
+            (self.folder / "page.c").write_text("\n".join(["#include <stdio.h>", *includes, "int main(void) {", *body,
+                                                           "return 0;", "}", ""]))
+            done("gcc", "-std=c89", "-pedantic-errors", "-I", PREFIX / "include", "-fsyntax-only", self.folder / "page.c")
+
+
 class Python(unittest.TestCase):
     """The installed package in another place than it was installed to, without the build folder."""
     def setUp(self):

@@ -233,6 +233,8 @@ class Cases(StudyTest):
         self.assertIsNone(done[3]["seconds"])
         self.refused(2, ["study", self.study(GRID), "--out", self.out, "--only", "7"], "--only 7: the study has 6",
                      "--list tells their indices")
+        self.refused(2, ["study", self.study(GRID), "--out", self.out, "--only", "2", "--engine", "fem"],
+                     "--only 2: --engine, --group or --shard leave this case out")
 
     def test_the_batch_script_is_one_for_a_shell(self):
         script = self.listed("--batch", "slurm", "--threads", "2", "--set", "drive.friction_coefficient=0.4")

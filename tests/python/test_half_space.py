@@ -27,6 +27,11 @@ def test_numbers_are_those_of_the_program_to_the_bit(program, result, tmp_path):
     of_program = json.loads((tmp_path / "bem" / "summary.json").read_text())
     assert without_times(result.summary) == without_times(of_program)
     saved = result.save(tmp_path / "saved")
+    with pytest.raises(rs.CaseError, match="choose another folder, or overwrite .* with force=True") as full:
+        result.save(tmp_path / "saved")
+    assert "--" not in full.value.diagnostics[0].remedy
+    with pytest.raises(FileNotFoundError, match="tables here: centre_line, depth_line, patch"):
+        saved.table("bogus")
     assert without_times(saved.summary) == without_times(of_program)
     assert rows(tmp_path / "saved" / "patch.csv") == rows(tmp_path / "bem" / "patch.csv")
 
@@ -167,6 +172,8 @@ def test_points_far_away_are_refused_before_they_cost_memory(result):
     for far in ([100, 0, 1e-3], [0, -100, 1e-3], [1, 0, 1e-3]):
         with pytest.raises(ValueError, match="too far away.*metres"):
             result.rail.at([far])
+    with pytest.raises(ValueError, match="row 1 lies above the surface"):
+        result.rail.at([[0, 0, 1e-3], [0, 0, -1e-3]])
 
 
 def test_what_is_given_wrongly_is_told_in_words(case, result):
@@ -179,6 +186,8 @@ def test_what_is_given_wrongly_is_told_in_words(case, result):
         (TypeError, "Case is wanted", lambda: rs.bem(5)),
         (TypeError, "whole number", lambda: rs.bem(case, threads="a")),
         (TypeError, "whole number", lambda: rs.threads("x")),
+        (ValueError, "0 to 1024", lambda: rs.threads(10**9)),
+        (ValueError, "0 to 1024", lambda: rs.bem(case, threads=-1)),
         (TypeError, "TOML text", lambda: rs.Case.from_text(5)),
         (TypeError, "a key is wanted", lambda: case[0]),
         (ValueError, "path is empty", lambda: rs.Case("")),

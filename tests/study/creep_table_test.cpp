@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
@@ -70,8 +71,49 @@ TEST(CreepTable, SaysWhatIsWrongWithAnAxis) {
   EXPECT_NE(refusal("creepage_x=0:50:3").find("out of range"), std::string::npos);
   EXPECT_NE(refusal("case.title=1,2").find("is no number"), std::string::npos);
   EXPECT_NE(refusal("creepage_x=0:0.1:2000").find("give 2 to 1000"), std::string::npos);
+  EXPECT_NE(refusal("load=5 t,10 t").find("write the weight, \"49.05 kN\""), std::string::npos);
+  EXPECT_NE(refusal("lateral_shift=0,,1 mm").find("a value is missing"), std::string::npos);
+  EXPECT_NE(refusal("Load=1 kN,2 kN").find("did you mean load?"), std::string::npos);
+  EXPECT_THROW(parse_axes({"creepage_x=0,1e-3", "drive.traction_coefficient=0.1,0.2"}), CaseError);
+  EXPECT_THROW(parse_axes({"drive.lateral_force=0,1 kN", "creepage_y=0,1e-3"}), CaseError);
   EXPECT_THROW(parse_axes({"spin=0:1:3", "drive.spin=0:1:3"}), CaseError);
   EXPECT_THROW(parse_axes({}), CaseError);
+}
+
+TEST(CreepTable, TakesUnitsWithOrWithoutABlankAndSlopesAsTangents) {
+  EXPECT_EQ(parse_axes({"layer.0.thickness=100,200µm"})[0].at, (std::vector<double>{1e-4, 2e-4}));
+  EXPECT_EQ(parse_axes({"layer.0.thickness=100um,0.2mm"})[0].at, (std::vector<double>{1e-4, 2e-4}));
+  EXPECT_EQ(parse_axes({"friction=10,30 %"})[0].at, (std::vector<double>{0.1, 0.3}));
+  EXPECT_EQ(parse_axes({"geometry.cant=0.025,1/20"})[0].at, (std::vector<double>{0.025, 0.05}));
+  const CreepAxis yaw = parse_axes({"yaw=-1:1 deg:3"})[0];
+  EXPECT_EQ(yaw.at[2], std::tan(std::numbers::pi / 180));
+  EXPECT_EQ(yaw.unit, "") << "a tangent, not an angle";
+}
+
+TEST(CreepTable, NamesTheAxisWhoseValueTheCaseRefuses) {
+  try {
+    CreepTable table(ball(), {}, parse_axes({"creepage_x=0,1e-3", "layer.0.thickness=1 mm,2 mm"}));
+    FAIL() << "a layer without a modulus";
+  } catch (const CaseError& e) {
+    EXPECT_EQ(e.diagnostics.front().where, "--axis layer.0.thickness, 1 mm");
+  }
+}
+
+TEST(CreepTable, CountsItsPointsBeforeItMakesThem) {
+  std::vector<std::string> axes;
+  for (const char* axis : {"creepage_x=0:0.01", "creepage_y=0:0.01", "spin=0:0.1 1/m", "load=10:100 kN",
+                           "friction=0.1:0.3", "lateral_shift=0:1 mm", "yaw=0:0.01", "drive.speed=1:10 m/s"})
+    axes.push_back(std::string(axis) + ":256");  // 256^8 = 2^64
+  EXPECT_THROW(CreepTable(ball(), {}, parse_axes(axes)), CaseError);
+}
+
+TEST(CreepTable, LeavesTheTractionOfTheCaseWhereACreepageIsGiven) {
+  LoadedCase driven = ball();
+  driven.source_text += "traction_coefficient = 0.2\n";  // more than the smaller friction
+  CreepTable table(driven, {}, parse_axes({"creepage_x=-1e-3,1e-3", "friction=0.1,0.3", "mesh.element_size=1,2 mm"}));
+  table.solve(coarse());
+  EXPECT_EQ(table.missing(), 0u);
+  EXPECT_EQ(table.idle_axes(), (std::vector<std::string>{"mesh.element_size"}));
 }
 
 TEST(CreepTable, HasTheSolutionsOfItsPoints) {

@@ -11,7 +11,10 @@ int main(int argc, char** argv) {
   rs_forces forces;
   rs_contact* contact;
   double below[3] = {0, 0, 2e-3}, stress[6];
-  if (argc != 2) return 2;
+  if (argc != 2) {
+    printf("usage: mine CASE.toml\n");
+    return 2;
+  }
   contact = rs_contact_new(argv[1], NULL, 0, &error);
   if (!contact) {
     printf("%s\n", error.message);
