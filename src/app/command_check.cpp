@@ -60,6 +60,21 @@ void print_layers(const CaseSpec& spec) {
   }
 }
 
+void print_card(const RunEstimate& e) {
+  if (!e.card.refused.empty()) return fmt::print("on a card      not: a device takes no {}\n", e.card.refused);
+  if (e.card.cards.empty()) return;
+  std::string times;
+  for (const device::DeviceNeed::OnCard& c : e.card.cards)
+    times += fmt::format("{}{} on {} ({:.2f} TB/s)", times.empty() ? "" : ", ",
+                         duration_text(static_cast<double>(e.steps) * c.step), c.name, 1e-12 * c.bandwidth);
+  fmt::print("on a card      about {}: counted from data sheets, not measured\n", times);
+  fmt::print(
+      "               {:.0f} MB there: fields {:.0f}, elements' forces {:.0f}, tables {:.0f}, contact {:.1f}; "
+      "{:.0f} bytes a step to the host\n",
+      1e-6 * e.card.memory(), 1e-6 * e.card.fields, 1e-6 * e.card.rows, 1e-6 * e.card.tables, 1e-6 * e.card.contact,
+      e.card.copied);
+}
+
 void print_estimate(const Model& m, const RunEstimate& e) {
   fmt::print("mesh           {} elements, {} nodes\n", m.rail.elements() + m.wheel.elements(),
              m.rail.nodes() + m.wheel.nodes());
@@ -84,6 +99,7 @@ void print_estimate(const Model& m, const RunEstimate& e) {
   if (!e.ranks.empty())
     fmt::print("ranks          at most {}; times for machines like this one, {:.0f} us and {:.1f} GB/s apart\n",
                e.ranks.front().need.tiles, 1e6 * RankNetwork{}.latency, 1e-9 * RankNetwork{}.bandwidth);
+  print_card(e);
 }
 
 /// Of the last position, which is the result's.
@@ -132,6 +148,21 @@ nlohmann::ordered_json as_json(const std::vector<RunEstimate::OnRanks>& all) {
   return out;
 }
 
+nlohmann::ordered_json as_json(const device::DeviceNeed& need, long steps) {
+  if (!need.refused.empty()) return {{"refused", need.refused}};
+  if (need.cards.empty()) return nullptr;
+  nlohmann::ordered_json cards = nlohmann::ordered_json::array();
+  for (const device::DeviceNeed::OnCard& c : need.cards)
+    cards.push_back({{"name", c.name},
+                     {"bytes_per_s", c.bandwidth},
+                     {"step_s", c.step},
+                     {"rolling_wall_s", static_cast<double>(steps) * c.step}});
+  return {{"measured", false},           {"memory_bytes", need.memory()},
+          {"of_fields", need.fields},    {"of_element_forces", need.rows},
+          {"of_tables", need.tables},    {"of_contact", need.contact},
+          {"bytes_a_step", need.copied}, {"cards", cards}};
+}
+
 nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
   nlohmann::ordered_json out = as_json(m.spec, m.placement);
   out.update({{"elements", m.rail.elements() + m.wheel.elements()},
@@ -148,6 +179,7 @@ nlohmann::ordered_json as_json(const Model& m, const RunEstimate& e) {
               {"rolling_wall_s", e.seconds},
               {"memory_bytes", e.memory_bytes},
               {"on_ranks", as_json(e.ranks)},
+              {"on_a_card", as_json(e.card, e.steps)},
               {"warnings", as_json(warnings_of(m, e))}});
   return out;
 }

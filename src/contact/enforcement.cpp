@@ -48,17 +48,11 @@ class Sweeper {
  public:
   Sweeper(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
           SurfaceTractions& tractions)
-      : rows_(rows),
-        dt_(dt),
-        options_(options),
-        film_(options.friction.film.flexibility() / dt),
-        newest_(options.slip_time > 0 ? -std::expm1(-dt / options.slip_time) : 1.0),
-        sys_(system),
-        tractions_(tractions) {
+      : rows_(rows), dt_(dt), options_(options), law_(row_law(options, dt)), sys_(system), tractions_(tractions) {
     system.slips.assign(rows.rows.size(), 0);
     system.at_start.clear();
-    if (film_ > 0)
-      for (std::size_t r = 0; r < rows.rows.size(); ++r) system.at_start.push_back(node(r));
+    if (law_.film > 0)
+      for (std::size_t r = 0; r < rows.rows.size(); ++r) system.at_start.push_back(row_start(node(r)));
   }
 
   Vec3 relative_velocity(std::size_t r) const { return relative(r, sys_.rail.velocity, sys_.wheel.velocity); }
@@ -114,12 +108,7 @@ class Sweeper {
       NodeTraction& t = node(r);
       if (sys_.tractions_applied) last[r] = traction_vector(t, row.normal);
       const Vec3 w = relative(r, sys_.rail.before, sys_.wheel.before);
-      const TangentFrame f = tangent_frame(row.normal);
-      t.p = options_.penalty_stiffness * std::max(0.0, -row.gap);
-      const double yields = 1 / (options_.penalty_stiffness * dt_) + film_;
-      t.q1 += dot(w, f.t1) / yields;
-      t.q2 += dot(w, f.t2) / yields;
-      return_to_friction(r, yields, before(r).plastic, t);
+      sys_.slips[r] = press_row(law_, row.gap, row.normal, w, t);
     }
     for (std::size_t r = 0; r < rows_.rows.size(); ++r)
       apply_traction(r, traction_vector(node(r), rows_.rows[r].normal) - last[r]);
@@ -127,75 +116,40 @@ class Sweeper {
 
   void record_slip() {
     for (std::size_t r = 0; r < rows_.rows.size(); ++r) {
-      const TangentFrame f = tangent_frame(rows_.rows[r].normal);
       const Vec3 w = relative_velocity(r);
-      NodeTraction& t = node(r);
-      t.slip1 = dot(w, f.t1) - film_ * (t.q1 - before(r).q1);
-      t.slip2 = dot(w, f.t2) - film_ * (t.q2 - before(r).q2);
-      if (t.p <= 0) {
-        t.stuck = NodeTraction::kPause;
-        t.plastic = t.lost_friction = t.mean_slip1 = t.mean_slip2 = 0;
-        continue;
-      }
-      t.stuck = sys_.slips[r] ? 0 : std::min(t.stuck + 1, NodeTraction::kPause);
-      if (options_.friction.falling.falls()) remember_slip(t);
-      t.contact_time += dt_;
-      if (sys_.slips[r]) t.pressed_slip += dt_ * t.p * std::hypot(t.slip1, t.slip2);
-      if (t.slips()) t.slip_time += dt_;
+      record_row(law_, rows_.rows[r].normal, w, start(r), sys_.slips[r], node(r));
     }
   }
 
  private:
   // Without a film nothing is asked of the tractions before the step.
-  const NodeTraction& before(std::size_t r) { return film_ > 0 ? sys_.at_start[r] : node(r); }
-  void return_to_friction(std::size_t r, double compliance, double plastic_before, NodeTraction& t) {
-    const FrictionStep step{t.p, compliance, dt_, plastic_before, t.lost_friction};
-    const FrictionReturn law = return_to_law(options_.friction, step, t.q1, t.q2);
-    sys_.slips[r] = law.slips;
-    t.plastic = law.plastic;
-  }
-  void remember_slip(NodeTraction& t) const {
-    t.mean_slip1 += newest_ * (t.slip1 - t.mean_slip1);
-    t.mean_slip2 += newest_ * (t.slip2 - t.mean_slip2);
-    t.lost_friction =
-        lost_after(options_.friction.falling, t.lost_friction, std::hypot(t.mean_slip1, t.mean_slip2), dt_);
-  }
+  RowStart start(std::size_t r) { return law_.film > 0 ? sys_.at_start[r] : row_start(node(r)); }
   NodeTraction& node(std::size_t r) { return tractions_.at(rows_.rows[r].column, rows_.rows[r].station); }
 
   double relax(std::size_t r, double diagonal) {
     const ContactRow& row = rows_.rows[r];
     NodeTraction& t = node(r);
-    const Vec3 w = relative_velocity(r);
-    const double closing = -row.gap / dt_ - dot(w, row.normal);  // what the pressure must still take away
-    if (t.p == 0 && closing <= 0) return 0;
-    const TangentFrame f = tangent_frame(row.normal);
-    NodeTraction next = t;
-    next.p = std::max(0.0, t.p + closing / diagonal);
-    const NodeTraction& start = before(r);
-    const double yields = diagonal + film_;
-    next.q1 += (dot(w, f.t1) - film_ * (t.q1 - start.q1)) / yields;
-    next.q2 += (dot(w, f.t2) - film_ * (t.q2 - start.q2)) / yields;
-    return_to_friction(r, yields, start.plastic, next);
-    NodeTraction step = next;  // what this sweep changes
-    step.p -= t.p;
-    step.q1 -= t.q1;
-    step.q2 -= t.q2;
-    const Vec3 change = traction_vector(step, row.normal);
-    apply_traction(r, change);
-    t = next;
-    return norm(change) * diagonal;
+    const RowChange change = relax_row(law_, row.gap, row.normal, diagonal, relative_velocity(r), start(r), t);
+    if (!change.acts) return 0;
+    sys_.slips[r] = change.slips;
+    apply_traction(r, change.traction);
+    return norm(change.traction) * diagonal;
   }
 
   const MortarRows& rows_;
   double dt_;
   const EnforcementOptions& options_;
-  double film_;    // (m/s)/Pa that an elastic film yields
-  double newest_;  // share of the step in the mean slip velocity
+  RowLaw law_;
   ContactSystem& sys_;
   SurfaceTractions& tractions_;
 };
 
 }  // namespace
+
+RowLaw row_law(const EnforcementOptions& options, double dt) {
+  return {options.friction, dt, options.friction.film.flexibility() / dt,
+          options.slip_time > 0 ? -std::expm1(-dt / options.slip_time) : 1.0, options.penalty_stiffness};
+}
 
 void enforce_contact(const MortarRows& rows, double dt, const EnforcementOptions& options, ContactSystem& system,
                      SurfaceTractions& tractions) {

@@ -17,44 +17,12 @@
 // Coulomb's law already, by as much as they slide, and a law that falls would take that for sliding.
 #include <cassert>
 
+#include "contact/enforcement_law.hpp"
 #include "contact/mortar.hpp"
 #include "contact/surface_response.hpp"
 #include "core/rotation.hpp"
-#include "friction/friction_memory.hpp"
-#include "friction/friction_step.hpp"
 
 namespace railstrata {
-
-/// State of a rail node's contact, kept from step to step: traction on the rail in the node's own frame (normal into
-/// the rail, rolling direction, lateral) and slip velocity.
-struct NodeTraction {
-  double p = 0, q1 = 0, q2 = 0;  ///< Pa
-  double slip1 = 0, slip2 = 0;   ///< m/s, wheel relative to rail, mean of the step; without a film's elastic shear
-  double plastic = 0;            ///< m, path of plastic shear of a film
-  double lost_friction = 0;      ///< share of the coefficient at rest that slip has taken (friction_memory.hpp)
-  double mean_slip1 = 0, mean_slip2 = 0;   ///< m/s, as a falling law sees it (EnforcementOptions::slip_time)
-  long stuck = kPause;                     ///< steps since the law last let it slip, up to kPause
-  double contact_time = 0, slip_time = 0;  ///< s, in contact and slipping since it came near the patch
-  double friction_work = 0;                ///< J/m², of q over the slip since the start, that of a step its mean
-  double pressed_slip = 0;  ///< J/m², of p over the path of its slips since the start: what Archard's wear goes with
-
-  /// In the fastest vibration of a mesh, three to four steps of central differences long, the pressure of a sliding
-  /// node rises so fast that it sticks for a step or two: such a pause is not the end of its slip.
-  static constexpr long kPause = 4;
-  bool slips() const { return p > 0 && stuck < kPause; }
-};
-
-/// Unit vectors of the contact plane at a rail node with the normal n = (0, n_y, n_z).
-struct TangentFrame {
-  Vec3 t1, t2;
-};
-inline TangentFrame tangent_frame(Vec3 n) { return {{1, 0, 0}, {0, n.z, -n.y}}; }
-
-/// Traction on the rail as a vector in the model frame.
-inline Vec3 traction_vector(const NodeTraction& t, Vec3 n) {
-  const TangentFrame f = tangent_frame(n);
-  return -t.p * n + t.q1 * f.t1 + t.q2 * f.t2;
-}
 
 /// A node of a body's running surface.
 struct SurfaceNode {
@@ -95,10 +63,10 @@ struct ContactSystem {
   bool tractions_applied = false;  ///< the free velocities contain the last step's tractions already
   int sweeps = 0;                  ///< that the multipliers took
   // room for enforce_contact, kept so that a step allocates nothing
-  std::vector<double> compliance;      ///< of the rows, (m/s)/Pa
-  std::vector<Vec3> last_tractions;    ///< of the rows, Pa; penalty only
-  std::vector<char> slips;             ///< of the rows, the law's verdict in the last sweep
-  std::vector<NodeTraction> at_start;  ///< of the rows, before the step; with a film only
+  std::vector<double> compliance;    ///< of the rows, (m/s)/Pa
+  std::vector<Vec3> last_tractions;  ///< of the rows, Pa; penalty only
+  std::vector<char> slips;           ///< of the rows, the law's verdict in the last sweep
+  std::vector<RowStart> at_start;    ///< of the rows, before the step; with a film only
 };
 
 /// Numbers the wheel nodes of the rows, each once: fills wheel_nodes, weight_node and the wheel's ring_stations.
@@ -140,6 +108,8 @@ struct EnforcementOptions {
   double tolerance = 1e-11;  ///< m, change of a relative displacement per step at which the sweeps stop
   int max_sweeps = 100;
 };
+
+RowLaw row_law(const EnforcementOptions& options, double dt);
 
 /// Finds the tractions of the rows and the velocities after the step. Tractions of nodes that are not among the rows
 /// must be zero.

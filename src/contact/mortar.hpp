@@ -19,18 +19,13 @@
 // tangential correction is carried from step to step.
 #include <array>
 
+#include "contact/mortar_law.hpp"
 #include "contact/surface.hpp"
 #include "core/array.hpp"
 #include "core/rotation.hpp"
 #include "core/tangential.hpp"
 
 namespace railstrata {
-
-/// Rigid position of the axle: displacement from the start and rotation psi (positive rolling forward, any number of
-/// turns).
-struct AxlePose {
-  double x = 0, y = 0, z = 0, psi = 0;
-};
 
 /// One rail node that may be in contact.
 struct ContactRow {
@@ -68,7 +63,10 @@ class MortarContact {
   void search(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model, double half_length,
               double gap_limit);
   /// Gaps and weights of the chosen nodes at the present positions. The result is reused by the next call.
+  /// In groups that share no wheel node, one after the other: nodes of equal remainder of column and station by
+  /// rows_apart(). So sweeps over the rows may go through a group in any order, or in threads.
   const MortarRows& rows(const Field& u_rail, const Field& u_wheel, const AxlePose& in_model);
+  int rows_apart() const { return apart_; }
 
   /// A facet of the rail with a chosen node at one of its corners.
   struct Facet {
@@ -81,32 +79,15 @@ class MortarContact {
   void restore(std::vector<Facet> facets) { facets_ = std::move(facets); }
 
  private:
-  struct Hit {                  // the wheel's surface opposite a rail point
-    int column, station;        // facet
-    double weight_y, weight_t;  // bilinear coordinates in it
-    Vec3 offset;                // x_wheel - x_rail, wheel's axes
-    bool inside;                // within the wheel's contact band
-  };
+  using Hit = mortar_law::Hit;
+  using WheelPatch = mortar_law::WheelPatch;
   using FacetHits = std::array<Hit, 4>;         // at the Gauss points of a rail facet
   using FacetsAroundNode = std::array<int, 4>;  // in facets_: the node is their corner (1,1), (0,1), (1,0), (0,0)
-  /// Wheel nodes that a rail node's facets touch. Stations count from `anchor`, so that they run on over the place
-  /// where a ring closes.
-  struct WheelPatch {
-    int column = 0, columns = 0;
-    int anchor = 0, first = 0, stations = 0;
-  };
 
   Vec3 rail_point(const Field& u, int column, int station, double weight_y, double weight_x) const;
   Vec3 gauss_point(const Field& u_rail, const Facet& facet, int g) const;
-  Vec3 in_wheel_axes(Vec3 point) const;
-  AxlePose in_wheel_axes(AxlePose pose) const;
   Hit opposite(const Field& u_wheel, const AxlePose& pose, Vec3 point, Tangential correction) const;
-  Hit facet_below(const AxlePose& pose, Vec3 arm, Tangential correction) const;
-  Vec3 wheel_point(const Field& u_wheel, const AxlePose& pose, const Hit& hit) const;
-  int wheel_station(double theta, double& weight) const;
-  int next_wheel_station(int station) const { return station + 1 < wheel_.stations.nodes() ? station + 1 : 0; }
 
-  void move_window(double centre, double half_length);
   void reserve_window();
   void test_nodes(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double gap_limit);
   void choose_nodes();
@@ -116,9 +97,7 @@ class MortarContact {
   void update_hits(const Field& u_rail, const Field& u_wheel, const AxlePose& pose);
   int& facet_index(int column, int station);
   FacetsAroundNode facets_around(int column, int station);
-  int stations_from(int anchor, int station) const;
-  WheelPatch wheel_patch(const FacetsAroundNode& around) const;
-  void integrate(const FacetsAroundNode& around, const WheelPatch& patch, ContactRow& row);
+  void choose_node(int column, int station);
   void append_weights(const WheelPatch& patch, double area);
 
   ContactSurface rail_, wheel_;
@@ -126,6 +105,7 @@ class MortarContact {
   Rotation<double> turned_;                     // by psi
   int window_first_ = 0, window_stations_ = 0;  // rail stations that the last search looked at
   int inner_columns_ = 0;                       // of the rail: the outermost are tied to the coarser mesh
+  int apart_ = 1;                               // columns or stations between rows that share no wheel node
   std::vector<char> near_, edge_;               // nodes of the window, [station * inner_columns_ + column - 1]
   std::vector<int> chosen_column_, chosen_station_;
   std::vector<Facet> facets_, before_;  // of this search and of the one before

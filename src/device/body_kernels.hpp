@@ -1,11 +1,10 @@
 #pragma once
-// What a step does to the forces and displacements of whole lines: ties, added mass, the ends of the rail, the bore,
-// and the band around the contact on its way between device and host.
+// What a step does to the forces and displacements of whole lines: ties, added mass, the ends of the rail, the bore.
 #include "core/rotation.hpp"
 #include "core/sweep_kind.hpp"
 #include "device/memory.hpp"
 #include "device/records.hpp"
-#include "fem/reference_frame.hpp"
+#include "device/step_state.hpp"
 
 namespace railstrata::device {
 
@@ -33,11 +32,12 @@ struct Place {
   }
 };
 
-/// Displacements of the slaves of one level; index: component, then lanes of pieces. turn: of the body's offsets.
+/// Displacements of the slaves of one level; index: component, then lanes of pieces.
+template <SweepKind kind>
 struct ApplyTies {
   TieTables tables;
   View<const Piece> pieces;
-  Rotation<double> turn;
+  View<const StepState> now;
   View<double> u;
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
@@ -52,6 +52,7 @@ struct ApplyTies {
     const double a = carried(tables.left[t.between + j]), b = carried(tables.right[t.between + j]);
     double value = a + tables.weight[t.between + j] * (b - a);
     const double dx = tables.delta_x[t.delta + j], dz = tables.delta_z[t.delta + j];
+    const Rotation<double> turn = now[0].turn_of_body<kind>();
     if (component == 0) value += (turn.c - 1) * dx + turn.s * dz;
     if (component == 2) value += (turn.c - 1) * dz - turn.s * dx;
     u[t.slave + static_cast<std::ptrdiff_t>(component) * t.slave_stride + j] = value;
@@ -86,11 +87,11 @@ struct GatherTies {
 };
 
 /// What the slaves' offsets hand to the body's rotation [N m], one number a lane; then the slaves have no forces.
+template <SweepKind kind>
 struct ClearTies {
   TieTables tables;
   View<const Piece> pieces;
-  Rotation<double> turn;
-  int turning;  ///< of a body that turns
+  View<const StepState> now;
   View<double> f, moments;
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
@@ -100,7 +101,8 @@ struct ClearTies {
     double moment = 0;
     if (lane < piece.count) {
       const std::ptrdiff_t x = t.slave + j, y = x + t.slave_stride, z = y + t.slave_stride;
-      if (turning) {
+      if constexpr (kind == SweepKind::revolve) {
+        const Rotation<double> turn = now[0].turn;
         const double dx = tables.delta_x[t.delta + j], dz = tables.delta_z[t.delta + j];
         moment = f[x] * (turn.c * dz - turn.s * dx) - f[z] * (turn.c * dx + turn.s * dz);
       }
@@ -159,7 +161,7 @@ struct ChainEnergy {
   ChainTables tables;
   View<const Piece> pieces;
   View<const double> added, cos_node, sin_node, v;
-  ReferenceFrame frame;
+  View<const StepState> now;
   View<double> differences;  ///< [edge][component][station], three times the factors' index
   View<double> kinetic;
 
@@ -171,7 +173,8 @@ struct ChainEnergy {
     if (lane < piece.count) {
       const double cosine = cos_node[c.stations_at + j], sine = sin_node[c.stations_at + j];
       const auto velocity = [&](int k) {
-        return chain_velocity<kind, before>(frame, v, tables.nodes[c.first_node + k], c.stride, j, cosine, sine);
+        return chain_velocity<kind, before>(now[0].nodes<kind>().frame, v, tables.nodes[c.first_node + k], c.stride, j,
+                                            cosine, sine);
       };
       Vec3 here = velocity(0);
       for (int k = 0; k + 1 < c.nodes; ++k) {
@@ -191,30 +194,6 @@ struct ChainEnergy {
       }
     }
     if constexpr (!before) kinetic[i] = sum;
-  }
-};
-
-/// The contact's forces oppose the internal ones; what they meet of added mass, they pass on down its chain.
-struct AddSurfaceForces {
-  View<const SurfaceForceRecord> forces;
-  ChainTables tables;
-  int stride;
-  View<double> f;
-
-  RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
-    const SurfaceForceRecord& s = forces[i];
-    for (int component = 0; component < 3; ++component) {
-      const std::ptrdiff_t line = static_cast<std::ptrdiff_t>(component) * stride;
-      if (s.chain < 0) {
-        f[s.x + line] -= s.force[component];
-        continue;
-      }
-      const ChainRecord& c = tables.chains[s.chain];
-      for (int k = 0; k < c.nodes; ++k) {
-        const std::ptrdiff_t factor = c.factor + static_cast<std::ptrdiff_t>(k) * c.stations + s.station;
-        f[tables.nodes[c.first_node + k].x + line + s.station] -= tables.response[factor] * s.force[component];
-      }
-    }
   }
 };
 
@@ -239,17 +218,25 @@ struct HoldEnds {
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const { f[loads[i].index] -= loads[i].force; }
 };
 
+/// J, that these forces have done.
+struct EndWork {
+  View<const EndLoadRecord> loads;
+  View<const double> u;
+  View<double> work;
+  RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const { work[i] = loads[i].force * u[loads[i].index]; }
+};
+
 /// What the bore's nodes give the axle, by node: force x, y, z and moment, the wheel's frame.
 struct BoreForces {
   View<const BoreRecord> bore;
   View<const double> f;
-  Rotation<double> drift;
+  View<const StepState> now;
   View<double> loads;  ///< [4][node]
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
     const BoreRecord& n = bore[i];
     const double fx = -f[n.x], fy = -f[n.x + n.stride], fz = -f[n.x + 2 * static_cast<std::ptrdiff_t>(n.stride)];
-    const PlaneVector<double> r = drift.forward(n.arm_x, n.arm_z);
+    const PlaneVector<double> r = now[0].turn.forward(n.arm_x, n.arm_z);
     const double all[4] = {fx, fy, fz, r.z * fx - r.x * fz};
     for (int k = 0; k < 4; ++k) loads[k * bore.size() + i] = all[k];
   }
@@ -258,33 +245,16 @@ struct BoreForces {
 /// The bore moves with the axle.
 struct MoveBore {
   View<const BoreRecord> bore;
-  double x, y, z;  ///< m, of the axle, the wheel's frame
-  Rotation<double> turn;
+  View<const StepState> now;
   View<double> u;
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
     const BoreRecord& n = bore[i];
-    const PlaneVector<double> shift = rigid_displacement({x, z}, turn, {n.arm_x, n.arm_z});
+    const AxlePose& pose = now[0].in_frame;
+    const PlaneVector<double> shift = rigid_displacement({pose.x, pose.z}, now[0].turn, {n.arm_x, n.arm_z});
     u[n.x] = shift.x;
-    u[n.x + n.stride] = y;
+    u[n.x + n.stride] = pose.y;
     u[n.x + 2 * static_cast<std::ptrdiff_t>(n.stride)] = shift.z;
-  }
-};
-
-/// Displacements, velocities and forces of a range of stations of a surface's lines, packed: [field][line][station].
-struct PackBand {
-  View<const double> u, v, f;
-  std::ptrdiff_t first_line;
-  int stride, lines, first, count, stations;  ///< stations run on over the place where a ring closes
-  View<double> out;
-
-  RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
-    const int station = (first + static_cast<int>(i % count)) % stations;
-    const std::ptrdiff_t line = i / count;
-    const std::ptrdiff_t at = first_line + line * stride + station, each = static_cast<std::ptrdiff_t>(lines) * count;
-    out[i] = u[at];
-    out[each + i] = v[at];
-    out[2 * each + i] = f[at];
   }
 };
 

@@ -262,7 +262,8 @@ ChainArrays chain_arrays(Device& device, const RollingBody& b, const StationList
   const MassScaling& scaling = b.steps.scaling;
   const Body& body = b.body;
   ChainArrays out;
-  out.chain_at.assign(static_cast<std::size_t>(b.surface.columns), -1);
+  std::vector<int> chain_at(static_cast<std::size_t>(b.surface.columns), -1);
+  out.chain_at = on<int>(device, chain_at);
   if (scaling.empty()) return out;
   std::vector<ChainRecord> records;
   std::vector<ChainNode> nodes;
@@ -271,12 +272,13 @@ ChainArrays chain_arrays(Device& device, const RollingBody& b, const StationList
     const BlockLayout& lay = body.layout.blocks[c.block];
     const int record = static_cast<int>(records.size());
     if (c.block == body.mesh.contact.block && c.nodes.front() < b.surface.columns)
-      out.chain_at[static_cast<std::size_t>(c.nodes.front())] = record;
+      chain_at[static_cast<std::size_t>(c.nodes.front())] = record;
     add_pieces(record, c.stations, pieces);
     records.push_back({c.factor, static_cast<int>(nodes.size()), static_cast<int>(c.nodes.size()), lay.stride,
                        c.stations, at.stations_at[c.block]});
     for (int n : c.nodes) nodes.push_back({lay.line(n, 0), b.turns() ? line_radius(body, c.block, n) : 0.0});
   }
+  out.chain_at.upload(chain_at);
   const MassScaling::Factors f = scaling.factors();
   out.chains = on<ChainRecord>(device, records);
   out.nodes = on<ChainNode>(device, nodes);
@@ -319,9 +321,7 @@ std::vector<Piece> waiting_pieces(const RollingBody& b, const Records& records) 
 }  // namespace
 
 BodyTables::BodyTables(Device& device, const RollingBody& b)
-    : kind(b.body.mesh.kind),
-      single(b.body.options.precision == Precision::single_precision),
-      surface_stride(b.surface.stride) {
+    : kind(b.body.mesh.kind), single(b.body.options.precision == Precision::single_precision) {
   const Body& body = b.body;
   const StationLists at = station_lists(b);
   Records records;

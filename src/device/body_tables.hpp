@@ -44,7 +44,7 @@ struct ChainArrays {
   DeviceArray<ChainNode> nodes;
   DeviceArray<double> added, forward, pivot, backward, response;
   DeviceArray<Piece> pieces;
-  std::vector<int> chain_at;  ///< of the surface's columns: the chain that begins there, -1: none
+  DeviceArray<int> chain_at;  ///< of the surface's columns: the chain that begins there, -1: none
   ChainTables tables() const {
     return {chains.view(), nodes.view(), forward.view(), pivot.view(), backward.view(), response.view()};
   }
@@ -55,7 +55,6 @@ struct BodyTables {
 
   SweepKind kind;
   bool single;
-  int surface_stride;  ///< between components of a node of the running surface
   long elements = 0;
   ElementArrays<double> in_double;  ///< energies are always double; without rows where forces are single
   ElementArrays<float> in_single;

@@ -5,6 +5,7 @@
 #include "core/rotation.hpp"
 #include "device/memory.hpp"
 #include "device/records.hpp"
+#include "device/step_state.hpp"
 #include "element/swept_hex.hpp"
 #include "fem/node_law.hpp"
 #include "material/elastic.hpp"
@@ -62,10 +63,11 @@ struct ElementForces {
   View<const Real> eigenstress;
   StationTables<Real> at;
   View<const double> u;
-  Rotation<double> turn;
+  View<const StepState> now;
   View<Real> rows;
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
+    const Rotation<double> turn = now[0].turn_of_body<kind>();
     const Piece piece = pieces[i / kLanes];
     const QuadRecord& q = quads[piece.record];
     const int lane = static_cast<int>(i % kLanes), e = piece.first + lane;
@@ -114,9 +116,10 @@ struct ElementEnergies {
   View<const HexReference<double, MaterialParameters<double>>> references;
   View<const double> hourglass;
   View<const int> classes;
+  View<const double> eigenstress;
   StationTables<double> at;
   View<const double> u;
-  Rotation<double> turn;
+  View<const StepState> now;
   View<double> energies;
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
@@ -132,6 +135,7 @@ struct ElementEnergies {
   RAILSTRATA_POINTWISE void of_element(const QuadRecord& q, int e, double& strain, double& stored) const {
     const int k = q.stations_at + e, behind = e + 1 < q.stations ? e + 1 : 0;
     const StationScale<double> scale{at.inv_sigma[k], at.inv_c[k], at.v1[k], at.v2[k], at.v3[k], at.sigma[k], at.c[k]};
+    const Rotation<double> turn = now[0].turn_of_body<kind>();
     Rotation<double> frame;
     if constexpr (kind == SweepKind::revolve) frame = carried_frame(at.cos_q[k], at.sin_q[k], turn);
     const auto& reference = references[q.reference];
@@ -144,8 +148,12 @@ struct ElementEnergies {
     const std::ptrdiff_t table = hourglass_table(q, classes, e);
     stored = hourglass_forces([&](int n) { return hourglass[table + n]; }, kin);
     const double(&a)[6] = stress.strain, (&b)[6] = stress.s;
-    strain = 0.5 * reference.shape.volume * scale.v2 *
-             (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]));
+    const double volume = reference.shape.volume * scale.v2;
+    strain = 0.5 * volume * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]));
+    if (q.eigenstress < 0) return;
+    const auto given = [&](int n) { return -eigenstress[q.eigenstress + n]; };  // the initial stress
+    strain += volume * (a[0] * given(0) + a[1] * given(1) + a[2] * given(2) +
+                        2.0 * (a[3] * given(3) + a[4] * given(4) + a[5] * given(5)));
   }
 };
 
@@ -157,11 +165,10 @@ struct NodeForces {
   View<const NodeRecord> nodes;
   View<const std::ptrdiff_t> corners;  ///< first row of the corner
   View<const double> cos_q, sin_q;
-  Rotation<double> turn;
+  View<const StepState> now;
   View<const Real> rows;
   View<double> f;
   // of an update
-  NodeStep step;
   View<const double> inverse_mass, cos_node, sin_node;
   View<double> u, v;
   View<double> sums;  ///< [of NodeSums][index]
@@ -208,7 +215,7 @@ struct NodeForces {
     for (int i = 0; i < 3; ++i) carried[i] = side < 0 ? s[i] - d[i] : s[i] + d[i];
     force[1] += carried[1];
     if constexpr (kind == SweepKind::revolve) {
-      const Rotation<double> r = carried_frame(cos_q[n.stations_at + e], sin_q[n.stations_at + e], turn);
+      const Rotation<double> r = carried_frame(cos_q[n.stations_at + e], sin_q[n.stations_at + e], now[0].turn);
       force[0] += r.c * carried[0] - r.s * carried[2];
       force[2] += r.s * carried[0] + r.c * carried[2];
     } else {
@@ -218,7 +225,7 @@ struct NodeForces {
   }
   RAILSTRATA_POINTWISE void update(const NodeRecord& n, int j, const double (&force)[3], NodeSums& added) const {
     const std::ptrdiff_t x = n.x + j, y = x + n.stride, z = y + n.stride;
-    advance_node<kind, measured>(step, inverse_mass[x], n.radius, cos_node[n.stations_at + j],
+    advance_node<kind, measured>(now[0].nodes<kind>(), inverse_mass[x], n.radius, cos_node[n.stations_at + j],
                                  sin_node[n.stations_at + j], force[0], force[1], force[2], u[x], u[y], u[z], v[x],
                                  v[y], v[z], added);
   }
@@ -230,7 +237,7 @@ struct WaitingNodes {
   View<const Piece> pieces;
   View<const NodeRecord> nodes;
   View<const double> f, inverse_mass, cos_node, sin_node;
-  NodeStep step;
+  View<const StepState> now;
   View<double> u, v, sums;
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
@@ -240,7 +247,7 @@ struct WaitingNodes {
     NodeSums added;
     if (lane < piece.count) {
       const std::ptrdiff_t x = n.x + j, y = x + n.stride, z = y + n.stride;
-      advance_node<kind, measured>(step, inverse_mass[x], n.radius, cos_node[n.stations_at + j],
+      advance_node<kind, measured>(now[0].nodes<kind>(), inverse_mass[x], n.radius, cos_node[n.stations_at + j],
                                    sin_node[n.stations_at + j], f[x], f[y], f[z], u[x], u[y], u[z], v[x], v[y], v[z],
                                    added);
     }
@@ -258,7 +265,7 @@ struct NodeHeights {
   View<const Piece> pieces;
   View<const NodeRecord> nodes;
   View<const double> mass, cos_node, sin_node, u;
-  Rotation<double> turn;  ///< of the frame
+  View<const StepState> now;
   View<double> moments;
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
@@ -272,6 +279,7 @@ struct NodeHeights {
         moment = mass[z] * u[z];
       } else {
         const double ax = -n.radius * sin_node[n.stations_at + j], az = n.radius * cos_node[n.stations_at + j];
+        const Rotation<double> turn = now[0].wheel.frame.turn;
         moment = mass[x] * (-turn.s * (ax + u[x])) + mass[z] * (turn.c * (az + u[z]) - az);
       }
     }

@@ -58,8 +58,26 @@ void EmulatedDevice::upload(void* to, const void* from, std::size_t bytes) { cop
 
 void EmulatedDevice::download(void* to, const void* from, std::size_t bytes) { copy(to, from, bytes, from); }
 
+namespace {
+
+class Repeated : public Recording {
+ public:
+  explicit Repeated(std::function<void()> launches) : launches_(std::move(launches)) {}
+  void start() override { launches_(); }
+
+ private:
+  std::function<void()> launches_;
+};
+
+}  // namespace
+
+std::unique_ptr<Recording> EmulatedDevice::record(const std::function<void()>& launches) {
+  return std::make_unique<Repeated>(launches);
+}
+
 // Opens the pages of one array alone; a copy beyond them faults.
 void EmulatedDevice::copy(void* to, const void* from, std::size_t bytes, const void* array) {
+  ++copies_;
   const auto own = std::prev(arrays_.upper_bound(const_cast<void*>(array)));
   const Pages pages{*own};
   if (protection_ == Protection::closed) protect(pages, true);

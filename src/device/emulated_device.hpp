@@ -12,6 +12,27 @@ namespace railstrata::device {
 /// In which order an emulated launch goes through its indices. What depends on it is wrong.
 enum class LaunchOrder { forward, backward, threads };
 
+/// The group of threads of an emulated launch (device/launch.hpp), in one of the orders.
+class EmulatedGroup {
+ public:
+  explicit EmulatedGroup(LaunchOrder order) : order_(order) {}
+  template <class Work>
+  void each(std::ptrdiff_t n, const Work& work) const {
+    constexpr std::ptrdiff_t kEnough = 64;  // fewer are done before threads are awake
+    if (order_ == LaunchOrder::threads && n >= kEnough)
+      for_each(n, work);
+    else
+      for (std::ptrdiff_t i = 0; i < n; ++i) work(order_ == LaunchOrder::backward ? n - 1 - i : i);
+  }
+  template <class Work>
+  void once(const Work& work) const {
+    work();
+  }
+
+ private:
+  LaunchOrder order_;
+};
+
 /// open: nothing is closed, for long runs.
 enum class Protection { closed, open };
 
@@ -29,6 +50,7 @@ class EmulatedDevice : public Device {
   void download(void* to, const void* from, std::size_t bytes) override;
   void finish() override {}
   EmulatedDevice* emulated() override { return this; }
+  std::unique_ptr<Recording> record(const std::function<void()>& launches) override;
 
   template <class Kernel>
   void run(std::ptrdiff_t n, const Kernel& kernel) {
@@ -39,7 +61,15 @@ class EmulatedDevice : public Device {
     else
       for (std::ptrdiff_t i = 0; i < n; ++i) kernel(order_ == LaunchOrder::forward ? i : n - 1 - i);
   }
+  template <class Kernel>
+  void run_group(const Kernel& kernel) {
+    const Running running(*this);
+    ++launches_;
+    kernel(EmulatedGroup(order_));
+  }
   long launches() const { return launches_; }
+  /// Copies to and from it so far.
+  long copies() const { return copies_; }
   /// Bytes of arrays now.
   std::size_t allocated() const;
 
@@ -61,7 +91,7 @@ class EmulatedDevice : public Device {
   Protection protection_;
   LaunchOrder order_;
   Pages arrays_, staging_;
-  long launches_ = 0;
+  long launches_ = 0, copies_ = 0;
 };
 
 }  // namespace railstrata::device

@@ -1,7 +1,8 @@
 #pragma once
-// The fields of a rolling on a device: elements, ties, added mass, ends, bore and node updates of every step. The
-// contact, the axle and the energy book stay with the stepper, which gets the band around the contact (docs/gpu.md).
-#include "device/body_tables.hpp"
+// The steps of a rolling on a device: elements, ties, added mass, ends, bore, contact, axle, suspension, node updates
+// and the energy book. Between the records of a few steps nothing is copied (docs/gpu.md).
+#include "device/contact_arrays.hpp"
+#include "device/step_kernels.hpp"
 #include "fem/step_engine.hpp"
 
 namespace railstrata::device {
@@ -11,92 +12,88 @@ std::string not_on_a_device(const RollingSystem& system, bool local_steps);
 
 class Engine : public StepEngine {
  public:
-  Engine(Device& device, const RollingSystem& system, const RollingBodies& bodies);
+  Engine(Device& device, const RollingSystem& system, const RollingBodies& bodies, double dt);
 
-  void load(const BodyStates& states) override;
-  void store(BodyStates& states) override;
-  std::optional<Stored> stored_energy(const RollingBodies& bodies, const std::array<double, 2>& drift) override;
-  Loads forces(const RollingBodies& bodies, const std::array<double, 2>& drift, const StepScope& scope,
-               const AxlePose& pose, BodyStates& states) override;
-  void add_forces(const std::array<std::vector<SurfaceForce>, 2>& forces) override;
-  std::array<UpdateSums, 2> update(const RollingBodies& bodies, const StepScope& scope) override;
-  void constrain(const AxlePose& pose) override;
+  void load(const RestartState& state) override;
+  void store(RestartState& state) override;
+  std::span<const StepRecord> take(int count, bool energies) override;
 
-  /// Bytes of the device's arrays.
-  std::size_t bytes() const { return bytes_; }
+  /// Bytes of the rows that a body's elements leave for their corners, and of the contact's arrays.
+  double row_bytes(std::size_t body) const;
+  double contact_bytes() const { return static_cast<double>(contact_.bytes()); }
 
   /// Internal forces alone, of all nodes: f at displacement u, turned by psi. For tests.
   void internal_force(std::size_t body, const Field& u, double psi, Field& f);
 
  private:
-  /// A range of stations of a surface's lines.
-  struct Band {
-    int first = 0, count = 0;
-  };
   struct State {
     State(Device& device, const RollingBody& body);
+    SurfaceFields surface() const;
+    SurfaceChains chains() const;
     BodyTables tables;
     DeviceArray<double> u, v, f;
     DeviceArray<double> node_sums, waiting_sums;  ///< of an update, [of NodeSums][lane]
-    DeviceArray<SurfaceForceRecord> surface_forces;
-    DeviceArray<double> energies;                ///< of elements, [strain, hourglass][lane]
-    DeviceArray<double> stretch, added_kinetic;  ///< of the added mass: differences of v, a number a lane
+    DeviceArray<double> energies;                 ///< of elements, [strain, hourglass][lane]
+    DeviceArray<double> stretch, added_kinetic;   ///< of the added mass: differences of v, a number a lane
   };
   /// Sums by trees of fixed shape.
   struct TreeSums {
     DeviceArray<double> even, odd;
   };
-  /// Where numbers of the whole body stand in results_.
-  enum Result {
-    kBore = 0,
-    kAbsorbed = 4,
-    kMoment = 5,
-    kSums = 6,
-    kEnergies = 16,
-    kHeight = 18,
-    kAddedKinetic = 19,
-    kResults = 24
+  /// What a step does besides.
+  struct StepKind {
+    bool searches = false;  ///< the contact anew
+    bool measured = false;  ///< the sums of its updates
+    bool energies = false;
   };
-  static constexpr int kSumsOfNode = 5;
 
+  void step(const StepKind& kind);
+  void start_step(const StepKind& kind);
   template <SweepKind kind, class Real>
-  void element_forces(State& s, const Rotation<double>& turn);
+  void element_forces(State& s);
   template <SweepKind kind, class Real, bool updates, bool measured>
-  void node_forces(State& s, const Rotation<double>& turn, const NodeStep& step);
+  void node_forces(State& s);
   template <SweepKind kind, class Real>
-  void forces_of(State& s, const RollingBody& body, const Rotation<double>& turn, const StepScope& scope);
+  void forces_of(State& s, bool measured);
   template <SweepKind kind>
-  void forces_of(State& s, const RollingBody& body, const Rotation<double>& turn, const StepScope& scope);
+  void forces_of(State& s, bool measured);
   template <SweepKind kind>
-  void energies_of(State& s, const RollingBody& body, const Rotation<double>& turn);
+  void energies_of(State& s, int body);
   template <SweepKind kind, bool before>
-  void chain_energy(State& s, const RollingBody& body);
-  std::span<const double> land_results();
+  void chain_energy(State& s, int body);
+  void store_energies();
   template <SweepKind kind>
-  void update_waiting(State& s, const RollingBody& body, const StepScope& scope);
-  void reduce_ties(State& s, const Rotation<double>& turn);
+  void reduce_ties(State& s);
+  void hold_ends();
+  void bore_forces();
   void scale(State& s);
+  void contact(bool searches);
+  template <SweepKind kind>
+  void update_waiting(State& s, bool measured);
+  void add_up_updates(bool energies);
+  template <SweepKind kind>
+  void apply_ties(State& s);
   void sum(const DeviceArray<double>& numbers, std::ptrdiff_t sums, std::ptrdiff_t count, int result);
-  Band band(const RollingBody& body, double centre, double reach) const;
-  std::ptrdiff_t pack(State& s, const RollingBody& body, const Band& band, std::ptrdiff_t at);
-  const double* unpack(const RollingBody& body, const Band& band, const double* numbers, BodyState& state) const;
+  View<const StepState> now() const { return now_.view(); }
 
   Device& device_;
-  double half_length_;  ///< m, of the band
-  double radius_;       ///< m, rolling
-  std::array<Vec3, 2> origin_;
+  RollingLaw law_;
   std::vector<State> state_;  ///< by BodyId
+  ContactArrays contact_;
   DeviceArray<EndDashpotRecord> dashpots_;
   DeviceArray<EndLoadRecord> end_loads_;
   DeviceArray<BoreRecord> bore_;
-  DeviceArray<double> dashpot_power_, bore_loads_, moments_;
+  DeviceArray<double> dashpot_power_, end_work_, bore_loads_, moments_;
   TreeSums tree_;
-  DeviceArray<double> results_;  ///< kResults numbers, then the bands
-  Staging<double> landed_;
-  std::vector<SurfaceForceRecord> records_;
-  bool energies_known_;         ///< of these bodies
-  bool stretch_known_ = false;  ///< of this step
-  std::size_t bytes_ = 0;
+  DeviceArray<double> results_;
+  DeviceArray<StepState> now_;
+  DeviceArray<MassGroup> groups_;
+  DeviceArray<StepRecord> log_;
+  std::array<std::unique_ptr<Recording>, 4> recorded_;  ///< steps without energies, by StepKind
+  // of the host
+  std::vector<StepRecord> records_;
+  double position_ = 0;  ///< m
+  long step_ = 0;
 };
 
 }  // namespace railstrata::device

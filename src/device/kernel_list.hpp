@@ -1,22 +1,31 @@
 #pragma once
 // Every kernel that is launched, for those who compile launch_on_card for it.
 #include "device/body_kernels.hpp"
+#include "device/contact_kernels.hpp"
 #include "device/element_kernels.hpp"
+#include "device/step_kernels.hpp"
 
 /// X(kernel) for all of them.
 #define RAILSTRATA_EVERY_KERNEL(X)                  \
   RAILSTRATA_KERNELS_OF_KIND(X, SweepKind::extrude) \
   RAILSTRATA_KERNELS_OF_KIND(X, SweepKind::revolve) \
-  X(ApplyTies)                                      \
   X(GatherTies)                                     \
-  X(ClearTies)                                      \
   X(ScaleForces)                                    \
-  X(AddSurfaceForces)                               \
   X(AbsorbAtEnds)                                   \
   X(HoldEnds)                                       \
   X(BoreForces)                                     \
   X(MoveBore)                                       \
-  X(PackBand)                                       \
+  X(EndWork)                                        \
+  X(TestNodes)                                      \
+  X(ChooseFacets)                                   \
+  X(UpdateHits)                                     \
+  X(FreeBand)                                       \
+  X(MakeRows)                                       \
+  X(TestRows)                                       \
+  X(PressRows)                                      \
+  X(RecordRows)                                     \
+  X(LoadRail)                                       \
+  X(LoadWheel)                                      \
   X(SumLevel)
 #define RAILSTRATA_KERNELS_OF_KIND(X, kind)     \
   RAILSTRATA_KERNELS_OF_NUMBER(X, kind, double) \
@@ -25,6 +34,8 @@
   X(WaitingNodes<kind, true>)                   \
   X(ElementEnergies<kind>)                      \
   X(NodeHeights<kind>)                          \
+  X(ApplyTies<kind>)                            \
+  X(ClearTies<kind>)                            \
   X(ChainEnergy<kind, false>)                   \
   X(ChainEnergy<kind, true>)
 #define RAILSTRATA_KERNELS_OF_NUMBER(X, kind, Real) \
@@ -32,3 +43,10 @@
   X(NodeForces<kind, Real, false, false>)           \
   X(NodeForces<kind, Real, true, false>)            \
   X(NodeForces<kind, Real, true, true>)
+/// Of one group of threads.
+#define RAILSTRATA_EVERY_GROUP_KERNEL(X) \
+  X(BeginStep)                           \
+  X(PushRows)                            \
+  X(SweepRows)                           \
+  X(AddUpRows)                           \
+  X(FinishStep)

@@ -23,4 +23,20 @@ void launch(Device& device, std::ptrdiff_t n, const Kernel& kernel) {
     launch_on_card(n, kernel);
 }
 
+/// One group of threads of a card, compiled as launch_on_card.
+template <class Kernel>
+void launch_group_on_card(const Kernel& kernel);
+
+/// A kernel with barriers: kernel(group), where group.each(n, f) does f(i) for 0 <= i < n and group.once(f) does f
+/// once, both done when they return. Within an `each` the rule of launches holds; what stands between must be the same
+/// for all threads.
+template <class Kernel>
+void launch_group(Device& device, const Kernel& kernel) {
+  static_assert(std::is_trivially_copyable_v<Kernel>);
+  if (EmulatedDevice* emulated = device.emulated())
+    emulated->run_group(kernel);
+  else
+    launch_group_on_card(kernel);
+}
+
 }  // namespace railstrata::device

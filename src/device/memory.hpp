@@ -6,6 +6,7 @@
 // side would have it. So the tests of a build without a card find them (device/emulated_device.hpp).
 #include <cassert>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <type_traits>
@@ -17,6 +18,16 @@
 namespace railstrata::device {
 
 class EmulatedDevice;
+
+/// Launches that are started together, with the arguments that they had when they were recorded.
+class Recording {
+ public:
+  Recording() = default;
+  Recording(const Recording&) = delete;
+  Recording& operator=(const Recording&) = delete;
+  virtual ~Recording() = default;
+  virtual void start() = 0;
+};
 
 class Device {
  public:
@@ -36,6 +47,8 @@ class Device {
   virtual void download(void* to, const void* from, std::size_t bytes) = 0;
   /// Waits for everything that was launched; throws EnvironmentError if some of it failed.
   virtual void finish() = 0;
+  /// Of what `launches` launches, and nothing else, each time in the same way; it may call it now or with every start.
+  virtual std::unique_ptr<Recording> record(const std::function<void()>& launches) = 0;
   /// Null for a card.
   virtual EmulatedDevice* emulated() { return nullptr; }
 };
@@ -101,6 +114,11 @@ class DeviceArray {
   void download(std::span<T> values) const {
     assert(values.size() <= size_);
     if (!values.empty()) device_->download(values.data(), data_, values.size_bytes());
+  }
+  /// `values.size()` values from `first` on.
+  void download(std::size_t first, std::span<T> values) const {
+    assert(first + values.size() <= size_);
+    if (!values.empty()) device_->download(values.data(), data_ + first, values.size_bytes());
   }
   std::vector<T> values() const {
     std::vector<T> out(size_);

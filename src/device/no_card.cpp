@@ -12,6 +12,13 @@ void launch_on_card(std::ptrdiff_t, const Kernel&) {
   throw std::logic_error("a kernel was launched on a card that the program was not built for");
 }
 
+template <class Kernel>
+void launch_group_on_card(const Kernel&) {
+  throw std::logic_error("a kernel was launched on a card that the program was not built for");
+}
+
+#define RAILSTRATA_INSTANTIATE_GROUP(...) template void launch_group_on_card(const __VA_ARGS__&);
+RAILSTRATA_EVERY_GROUP_KERNEL(RAILSTRATA_INSTANTIATE_GROUP)
 #define RAILSTRATA_INSTANTIATE(...) template void launch_on_card(std::ptrdiff_t, const __VA_ARGS__&);
 RAILSTRATA_EVERY_KERNEL(RAILSTRATA_INSTANTIATE)
 

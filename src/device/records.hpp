@@ -82,11 +82,4 @@ struct EndLoadRecord {
   double force;  ///< N
 };
 
-/// The contact's force [N] on a node of a running surface, in the body's frame.
-struct SurfaceForceRecord {
-  std::ptrdiff_t x;
-  int chain, station;  ///< of the added mass that begins there; -1: none
-  double force[3];
-};
-
 }  // namespace railstrata::device

@@ -1,24 +1,11 @@
 #include "fem/contact_step.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/body_id.hpp"
 
 namespace railstrata {
 namespace {
-
-// s a + b. Where fused products are written out, the compiler has no choice of which product to fuse, and results have
-// the same bits whatever stands around them.
-Vec3 fused(double s, Vec3 a, Vec3 b) { return {std::fma(s, a.x, b.x), std::fma(s, a.y, b.y), std::fma(s, a.z, b.z)}; }
-
-// Of a node on the running surface, model frame; zero for one that is not free.
-Vec3 free_acceleration(const RollingBody& b, const BodyState& state, double gravity, std::ptrdiff_t i) {
-  const double m = b.body.inverse_mass[i];
-  if (m == 0) return {};
-  const Vec3 f = vector_at(state.f, i, b.surface.stride), weight{0, 0, gravity};
-  return b.turns() ? b.frame.to_model(-m * f) - weight : fused(-m, f, -weight);
-}
 
 double inverse_mass(const RollingBody& b, std::ptrdiff_t i) {
   return b.steps.scaling.share(i) * b.body.inverse_mass[i];
@@ -40,16 +27,6 @@ bool any_local_steps(const RollingBodies& bodies) {
   return std::any_of(bodies.begin(), bodies.end(), [](const RollingBody& b) { return !b.steps.local.empty(); });
 }
 
-/// A node that left the neighbourhood of the patch: of its state only what it has gone through.
-NodeTraction apart(const NodeTraction& t) {
-  NodeTraction out;
-  out.contact_time = t.contact_time;
-  out.slip_time = t.slip_time;
-  out.friction_work = t.friction_work;
-  out.pressed_slip = t.pressed_slip;
-  return out;
-}
-
 const SurfaceResponse* response_of(const RollingBody& b) {
   return b.steps.response.empty() ? nullptr : &b.steps.response;
 }
@@ -59,10 +36,12 @@ void gather_rail(const MortarRows& rows, const RollingBody& b, const BodyState& 
   side.clear();
   side.response = response_of(b);
   for (const ContactRow& r : rows.rows) {
-    const Vec3 before = vector_at(state.v, r.rail, b.surface.stride);
-    side.before.push_back(before);
-    const double kept = std::fma(-scope.damping_rate, scope.dt, 1.0);
-    side.velocity.push_back(fused(scope.dt, free_acceleration(b, state, scope.gravity, r.rail), kept * before));
+    const int stride = b.surface.stride;
+    const FreeMotion motion =
+        free_rail_node(b.body.inverse_mass[r.rail], vector_at(state.f, r.rail, stride),
+                       vector_at(state.v, r.rail, stride), scope.gravity, scope.dt, scope.damping_rate);
+    side.before.push_back(motion.before);
+    side.velocity.push_back(motion.after);
     side.inverse_mass.push_back(side.response ? side.response->own(r.column) : inverse_mass(b, r.rail));
     if (side.response) side.nodes.push_back({r.column, r.station});
   }
@@ -77,14 +56,12 @@ void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b
   const int block = b.body.mesh.contact.block;
   for (std::ptrdiff_t i : nodes) {
     const SurfaceIndex at = b.surface.node_at(i);
-    const Vec3 arm = b.arm(block, at.column, at.station), w = vector_at(state.v, i, b.surface.stride);
-    side.before.push_back(frame.velocity() + frame.to_model(frame.step_back(w + frame.rigid_rate(arm))));
-    Vec3 a = free_acceleration(b, state, scope.gravity, i);
-    if (scope.damping_rate > 0) {
-      const Vec3 mean{b.mean.x + b.mean.spin * arm.z, 0, b.mean.z - b.mean.spin * arm.x};
-      a = fused(-scope.damping_rate, frame.to_model(frame.step_back(w - mean)), a);
-    }
-    side.velocity.push_back(fused(scope.dt, a, side.before.back()));
+    const FreeMotion motion =
+        free_wheel_node(b.frame, b.mean, b.arm(block, at.column, at.station), b.body.inverse_mass[i],
+                        vector_at(state.f, i, b.surface.stride), vector_at(state.v, i, b.surface.stride), scope.gravity,
+                        scope.dt, scope.damping_rate);
+    side.before.push_back(motion.before);
+    side.velocity.push_back(motion.after);
     if (!side.response) {
       side.inverse_mass.push_back(inverse_mass(b, i));
       continue;
@@ -98,6 +75,12 @@ void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b
 }
 
 }  // namespace
+
+SearchWindow search_window(const RollingSystem& sys) {
+  const HertzContact& hertz = sys.model.hertz;
+  const double ahead = std::abs(sys.model.placement.contact.x);  // of the axle: a yawed wheel's contact
+  return {1.5 * hertz.a + 3 * sys.options.element_size + ahead, 0.25 * hertz.approach};
+}
 
 ContactStep::ContactStep(const ContactSurface& rail, const ContactSurface& wheel, const EnforcementOptions& options,
                          const SearchWindow& window)
@@ -170,22 +153,6 @@ void ContactStep::apply_tractions(RollingBodies& bodies, BodyStates& states, con
   for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].steps.local.add_forces(changes_[k], states[k].f);
 }
 
-const std::array<std::vector<SurfaceForce>, 2>& ContactStep::surface_forces(const RollingBodies& bodies,
-                                                                            const SurfaceTractions& tractions) {
-  std::vector<SurfaceForce>&rail = surface_forces_[kRail], &wheel = surface_forces_[kWheel];
-  rail.clear();
-  wheel.clear();
-  for (std::ptrdiff_t x : system_.wheel_nodes) wheel.push_back({x, bodies[kWheel].surface.node_at(x), {}});
-  for (const ContactRow& row : rows_->rows) {
-    if (tractions.at(row.column, row.station).p <= 0) continue;
-    const Vec3 force = force_on_rail(row, tractions), turned = bodies[kWheel].frame.to_frame(force);
-    rail.push_back({row.rail, {row.column, row.station}, force});
-    for (int w = row.first; w < row.first + row.count; ++w)
-      wheel[system_.weight_node[w]].force -= rows_->weights[w].m * turned;
-  }
-  return surface_forces_;
-}
-
 ContactLosses ContactStep::measure(double dt, SurfaceTractions& tractions) {
   const ContactSystem& c = system_;
   forces_ = {};
@@ -207,11 +174,10 @@ ContactLosses ContactStep::measure(double dt, SurfaceTractions& tractions) {
     forces_.z -= force.z;
     forces_.penetration = std::max(forces_.penetration, -row.gap);
     ++forces_.nodes;
-    const double normal_slip = dot(slip, row.normal);
-    losses.normal += -row.area * p * normal_slip;
-    const double friction = dot(force, slip) + row.area * p * normal_slip;
-    losses.friction += friction;
-    traction.friction_work += dt * friction / row.area;
+    const RowLosses lost = row_losses(row.area, row.normal, force, p, slip);
+    losses.normal += lost.normal;
+    losses.friction += lost.friction;
+    traction.friction_work += dt * lost.friction / row.area;
   }
   return losses;
 }

@@ -4,34 +4,19 @@
 #include <vector>
 
 #include "contact/enforcement.hpp"
+#include "fem/contact_law.hpp"
 #include "fem/node_update.hpp"
+#include "fem/rolling_system.hpp"
 
 namespace railstrata {
-
-/// Forces of the last step, on the wheel [N]; slip and penetration of its contact.
-struct ContactForces {
-  double x = 0, y = 0, z = 0;
-  double penetration = 0;  ///< m, largest at the start of the step among nodes that carry pressure
-  int nodes = 0, sweeps = 0;
-};
-
-/// On a node of a running surface, in the body's frame.
-struct SurfaceForce {
-  std::ptrdiff_t x;  ///< index of component x
-  SurfaceIndex node;
-  Vec3 force;  ///< N
-};
-
-/// W, lost in a step.
-struct ContactLosses {
-  double friction = 0, normal = 0;
-};
 
 /// How far and how close the search looks.
 struct SearchWindow {
   double half_length = 0;  ///< m, along the rail from the axle
   double gap = 0;          ///< m
 };
+
+SearchWindow search_window(const RollingSystem& system);
 
 class ContactStep {
  public:
@@ -58,11 +43,6 @@ class ContactStep {
   /// The tractions to the forces: what local steps have felt already is taken off, the rest goes through their stages.
   void apply_tractions(RollingBodies& bodies, BodyStates& states, const SurfaceTractions& tractions);
 
-  /// The tractions as forces on the nodes of both surfaces, each node once; of bodies without local steps. Reused by
-  /// the next call.
-  const std::array<std::vector<SurfaceForce>, 2>& surface_forces(const RollingBodies& bodies,
-                                                                 const SurfaceTractions& tractions);
-
   /// Sums the forces on the wheel and what was lost; adds friction's work to that of the nodes.
   ContactLosses measure(double dt, SurfaceTractions& tractions);
 
@@ -88,7 +68,6 @@ class ContactStep {
   ContactSystem system_;
   std::vector<Vec3> carried_;  // forces of the rows that local steps have felt already
   std::array<std::vector<NodalForce>, 2> changes_;
-  std::array<std::vector<SurfaceForce>, 2> surface_forces_;
   std::vector<NodeTraction> kept_;
   ContactForces forces_;
   bool reached_edge_ = false;

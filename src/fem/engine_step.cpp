@@ -1,60 +1,90 @@
-// A step whose fields are computed by an engine (fem/step_engine.hpp).
+// Steps that an engine takes (fem/step_engine.hpp).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/faults.hpp"
 #include "fem/stepper.hpp"
 
 namespace railstrata {
 
 void Stepper::use(const EngineOf& engine_of) {
   if (!engine_of) return;
-  engine_ = engine_of(sys_, bodies_);
-  engine_->load(state_.bodies);
+  engine_ = engine_of(sys_, bodies_, dt());
+  record_ = {state_.time, state_.step, state_.axle, contact_.forces(), 0, balance_, contact_.reached_edge()};
+  RestartState lent = lend_state();
+  engine_->load(lent);
+  take_back(std::move(lent));
+}
+
+// The state by moves, without a copy of its fields.
+RestartState Stepper::lend_state() {
+  RestartState out;
+  out.state = std::move(state_);
+  out.balance = balance_;
+  out.mean = bodies_[kWheel].mean;
+  out.axle_z0 = axle_rest_z_;
+  out.side_force = side_force_;
+  out.dt = dt();
+  ContactStep::Restart contact = contact_.restart();
+  out.facets = std::move(contact.facets);
+  out.reached_edge = contact.reached_edge;
+  return out;
+}
+
+void Stepper::take_back(RestartState lent) {
+  state_ = std::move(lent.state);
+  balance_ = lent.balance;
+  bodies_[kWheel].mean = lent.mean;
+  contact_.restore({std::move(lent.facets), lent.reached_edge});
   fields_here_ = true;
 }
 
 void Stepper::fetch() {
   if (fields_here_) return;
-  engine_->store(state_.bodies);
-  fields_here_ = true;
+  require_none_ahead();
+  RestartState lent = lend_state();
+  engine_->store(lent);
+  take_back(std::move(lent));
 }
 
-// False where energies are wanted that the engine does not know.
-bool Stepper::book_stored_energy_of_engine() {
-  const std::optional<StepEngine::Stored> stored = engine_->stored_energy(bodies_, drift());
-  if (!stored) return false;
-  balance_.strain = stored->strain;
-  balance_.hourglass = stored->hourglass;
-  balance_.plastic = 0;
-  balance_.weight = sys_.gravity * (stored->weight_moment + sys_.axle.mass_z * state_.axle.z);
-  balance_.spring = spring_energy(sys_, state_.axle, axle_rest_z_, state_.groups);
-  return true;
+// As many as surely end before the wheel is there, or at the next restart point; at least one.
+int Stepper::steps_until_look() const {
+  constexpr double kSure = 0.9;  // no sound run has a wheel that gains a tenth of its speed in so few steps
+  constexpr long kInterval = ContactStep::kSearchInterval;
+  const long before_restart = kInterval - state_.step % kInterval;
+  const double steps = kSure * (next_look_ - position()) / (std::abs(state_.axle.vx) * dt());
+  return static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(before_restart)));
 }
 
-bool Stepper::step_on_engine() {
-  const EnergyBalance before = balance_;
-  if (want_energy_ && !book_stored_energy_of_engine()) return false;
-  const StepScope scope{dt(), sys_.gravity, damping_rate(), want_energy_, PlasticLook::all};
-  const AxlePose pose = state_.axle.pose();
+// The wheel is where something is to be looked at before the steps that surely end there are over.
+void Stepper::require_none_ahead() const {
+  if (!ahead_.empty())
+    throw NumericalError(
+        fmt::format("the run became unstable at t = {:.4g} ms: the wheel has changed its speed by a "
+                    "tenth within {} steps\n    try a smaller run.step_safety",
+                    1e3 * state_.time, StepEngine::kMostSteps));
+}
+
+void Stepper::step_on_engine() {
+  if (want_energy_) require_none_ahead();
+  if (ahead_.empty()) ahead_ = engine_->take(want_energy_ ? 1 : steps_until_look(), want_energy_);
   fields_here_ = false;
-  const StepEngine::Loads loads = engine_->forces(bodies_, drift(), scope, pose, state_.bodies);
-  balance_.absorbed += scope.dt * loads.absorbed;
-
-  contact_.find_rows(state_.step, bodies_, state_.bodies, pose, state_.tractions);
-  contact_.gather(bodies_, state_.bodies, scope);
-  contact_.enforce(scope.dt, state_.tractions);
-  engine_->add_forces(contact_.surface_forces(bodies_, state_.tractions));
-  book_contact(contact_.measure(scope.dt, state_.tractions));
-
-  sums_ = engine_->update(bodies_, scope);
-  book_update(scope);
-  const double axle_kinetic =
-      advance_axle(sys_, loads.axle, axle_drive(), axle_rest_z_, scope, state_.axle, state_.groups, balance_);
-  if (want_energy_) {
-    balance_.kinetic = sums_[kWheel].kinetic + sums_[kRail].kinetic + axle_kinetic;
-    recorded_ = halfway(before, balance_);
-  }
-  advance_clock();
-  engine_->constrain(pose_in_frame());
+  const EnergyBalance before = balance_;
+  take_over(ahead_.front());
+  ahead_ = ahead_.subspan(1);
+  if (want_energy_) recorded_ = halfway(before, balance_);
   want_energy_ = false;
-  return true;
+}
+
+void Stepper::take_over(const StepRecord& record) {
+  record_ = record;
+  state_.time = record.time;
+  state_.step = record.step;
+  state_.axle = record.axle;
+  balance_ = record.balance;
+  for (RollingBody& b : bodies_) b.frame.move_to(state_.time);
 }
 
 }  // namespace railstrata

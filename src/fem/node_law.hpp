@@ -11,7 +11,7 @@ namespace railstrata {
 struct UpdateSums {
   double kinetic = 0, damping = 0;                     ///< J, W
   double momentum_x = 0, momentum_z = 0, angular = 0;  ///< of the velocities in the frame; revolved bodies only
-  UpdateSums& operator+=(const UpdateSums& o) {
+  RAILSTRATA_POINTWISE UpdateSums& operator+=(const UpdateSums& o) {
     kinetic += o.kinetic;
     damping += o.damping;
     momentum_x += o.momentum_x;
@@ -36,7 +36,8 @@ struct NodeStep {
 
 /// Of a body of this kind in its frame.
 template <SweepKind kind>
-NodeStep node_step(const ReferenceFrame& frame, const MeanMotion& mean, double dt, double rate, double gravity) {
+RAILSTRATA_POINTWISE NodeStep node_step(const ReferenceFrame& frame, const MeanMotion& mean, double dt, double rate,
+                                        double gravity) {
   constexpr bool turning = kind == SweepKind::revolve;
   return {frame, mean, dt, rate, turning ? frame.turn.s * gravity : 0.0, turning ? -frame.turn.c * gravity : -gravity};
 }

@@ -3,6 +3,7 @@
 // lateral axis of the body's own axes; those stand at the yaw to the model's and travel with the frame. A frame without
 // speed, spin and yaw is the model frame: every function then returns its argument to the last bit.
 #include "core/rotation.hpp"
+#include "core/turn.hpp"
 
 namespace railstrata {
 
@@ -26,11 +27,11 @@ struct ReferenceFrame {
     slope_cos = small.cosine_less_one() / dt;
     slope_sin = small.s / dt;
   }
-  void move_to(double time) {
+  RAILSTRATA_POINTWISE void move_to(double time) {
     x = speed * time;
     y = lateral_speed * time;
     psi = spin * time;
-    turn = rotation_by(psi);
+    turn = turn_of(psi);
   }
   constexpr Vec3 to_model(Vec3 v) const { return yaw(yaw_turn, rotate(turn, v)); }
   constexpr Vec3 to_frame(Vec3 v) const { return rotate_back(turn, yaw_back(yaw_turn, v)); }

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/parallel.hpp"
+#include "fem/contact_law.hpp"
 
 namespace railstrata {
 namespace {
@@ -132,18 +133,12 @@ const Field& surface_displacement(RollingBody& b, const BodyState& state) {
   const int block = b.body.mesh.contact.block, stations = surface.stations.nodes();
   const double* cosine = b.cos_node[block].data();
   const double* sine = b.sin_node[block].data();
-  const double c = b.frame.turn.c, s = b.frame.turn.s;
-  const Vec3 travel = b.frame.own_travel();
   for (int column = 0; column < surface.columns; ++column) {
-    const std::ptrdiff_t x = surface.index(column, 0), y = x + surface.stride, z = y + surface.stride;
+    const std::ptrdiff_t x = surface.index(column, 0);
     const double radius = surface.node[column].z;
-    for (int j = 0; j < stations; ++j) {
-      const double ax = -radius * sine[j], az = radius * cosine[j];
-      const double px = ax + state.u[x + j], pz = az + state.u[z + j];
-      b.surface_u[x + j] = travel.x + c * px + s * pz - ax;
-      b.surface_u[y + j] = travel.y + state.u[y + j];
-      b.surface_u[z + j] = c * pz - s * px - az;
-    }
+    for (int j = 0; j < stations; ++j)
+      set_vector(b.surface_u, x + j, surface.stride,
+                 own_displacement(b.frame, radius, cosine[j], sine[j], vector_at(state.u, x + j, surface.stride)));
   }
   return b.surface_u;
 }
@@ -188,11 +183,7 @@ void start_velocities(const RollingBody& b, double rate, BodyState& state) {
 }
 
 MeanMotion mean_motion(const RollingBody& b, const UpdateSums& sums) {
-  if (!b.turns()) return {};
-  // the mean travel along the wheel and the mean spin, not the vertical motion
-  const double travel = (b.frame.turn.c * sums.momentum_x + b.frame.turn.s * sums.momentum_z) / b.free_mass;
-  const Vec3 in_frame = rotate_back(b.frame.turn, {travel, 0, 0});
-  return {in_frame.x, in_frame.z, sums.angular / b.free_inertia};
+  return b.turns() ? mean_motion(b.frame, sums, b.free_mass, b.free_inertia) : MeanMotion{};
 }
 
 MeanMotion mean_motion(const RollingBody& b, const BodyState& state) {

@@ -7,6 +7,7 @@
 #include "contact/surface.hpp"
 #include "fem/node_law.hpp"
 #include "fem/reference_frame.hpp"
+#include "fem/rolling_state.hpp"
 #include "fem/step_plan.hpp"
 
 namespace railstrata {
@@ -47,7 +48,6 @@ struct RollingBody {
 };
 
 using RollingBodies = std::array<RollingBody, 2>;  ///< by BodyId
-using BodyStates = std::array<BodyState, 2>;
 
 /// Chains and border planes for this step; no memory is asked for after the first of each kind.
 void chain_tiles(RollingBody& body, bool sums_wanted);

@@ -92,6 +92,7 @@ class Roller {
  private:
   bool attend_to_demand();
   void step();
+  double next_look() const;
   void record_history();
   void show_frame();
   void take_due_samples();
@@ -166,12 +167,20 @@ bool Roller::attend_to_demand() {
 void Roller::step() {
   const bool record = stepper_.position() >= run_.next_history;
   if (record) stepper_.want_energy();
+  stepper_.look_next_at(next_look());
   stepper_.step();
   require_sound(stepper_);
   require_forward(stepper_);
   if (record) record_history();
   if (observer_.frame && stepper_.position() >= run_.next_frame) show_frame();
   take_due_samples();
+}
+
+// Where more than scalars is read of a step, or energies are asked for.
+double Roller::next_look() const {
+  double next = std::min(run_.next_history, wanted_[run_.next_sample].position);
+  if (observer_.frame) next = std::min(next, run_.next_frame);
+  return next;
 }
 
 void Roller::record_history() {

@@ -102,12 +102,6 @@ BandSample band_sample(const Body& body, const ContactBand& band, const SampledB
   return s;
 }
 
-double largest_pressure(const SurfaceTractions& t) {
-  double p = 0;
-  for (const NodeTraction& n : t.all()) p = std::max(p, n.p);
-  return p;
-}
-
 }  // namespace
 
 RollingSample take_sample(const RollingSystem& sys, const SampledBody& rail, const SampledBody& wheel,
@@ -144,8 +138,8 @@ RollingSample take_sample(const Stepper& st) {
 HistoryRow history_row(const Stepper& st, const EnergyBalance& start) {
   const RollingState& s = st.state();
   const EnergyBalance& now = st.energy();
-  return {s.time,    st.position(), st.torque(), st.forces(), largest_pressure(s.tractions), st.creepage(),
-          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total(),   st.lateral_creepage(),
+  return {s.time,    st.position(), st.torque(), st.forces(), st.largest_pressure(),       st.creepage(),
+          s.axle.vx, s.axle.vz,     s.axle.spin, now,         now.total() - start.total(), st.lateral_creepage(),
           s.axle.y};
 }
 

@@ -1,57 +1,41 @@
 #pragma once
-// Where the fields of both bodies are computed, if not in the stepper's own loops: on a device (device/engine.hpp).
+// What takes whole steps in the stepper's place: a device (device/engine.hpp).
 //
-// The fields then live in the engine; the stepper has the scalars (axle, suspension, clock, energy book) and solves the
-// contact on a band of lines that the engine hands it.
+// Fields, axle, suspension, contact and energy book then live in the engine. The stepper asks for some steps at once
+// and gets a record of each: what its callers look at between steps.
 #include <functional>
 #include <memory>
-#include <optional>
+#include <span>
 
 #include "core/ranks.hpp"
 #include "fem/axle_step.hpp"
 #include "fem/contact_step.hpp"
+#include "fem/rolling_state.hpp"
+#include "fem/step_record.hpp"
 
 namespace railstrata {
 
 class StepEngine {
  public:
+  /// Most steps that are taken at once.
+  static constexpr int kMostSteps = ContactStep::kSearchInterval;
+
   StepEngine() = default;
   StepEngine(const StepEngine&) = delete;
   StepEngine& operator=(const StepEngine&) = delete;
   virtual ~StepEngine() = default;
 
-  /// Displacements and velocities of both bodies, to the engine and back.
-  virtual void load(const BodyStates& states) = 0;
-  virtual void store(BodyStates& states) = 0;
-
-  /// Of both bodies, at the displacements and velocities before a step [J]; mass times height above the undeformed
-  /// bodies [kg m].
-  struct Stored {
-    double strain = 0, hourglass = 0, weight_moment = 0;
-  };
-  /// None: this engine does not know them, and the stepper takes the step itself.
-  virtual std::optional<Stored> stored_energy(const RollingBodies& bodies, const std::array<double, 2>& drift) = 0;
-
-  struct Loads {
-    AxleLoads axle;
-    double absorbed = 0;  ///< W, by the rail's ends
-  };
-  /// Forces on all nodes but those of the contact: elements, ties, the rail's ends, added mass. Nodes that wait for
-  /// nothing are updated. Puts u, v and f of the running surfaces around the axle into `states`; what else stands there
-  /// is old. drift: rotation of the bodies relative to their frames [rad].
-  virtual Loads forces(const RollingBodies& bodies, const std::array<double, 2>& drift, const StepScope& scope,
-                       const AxlePose& pose, BodyStates& states) = 0;
-  /// The contact's, to those.
-  virtual void add_forces(const std::array<std::vector<SurfaceForce>, 2>& forces) = 0;
-  /// The nodes that waited. Returns the sums of the step's updates; zero if none are wanted. Kinetic energies have that
-  /// of added mass, if stored_energy was asked for before.
-  virtual std::array<UpdateSums, 2> update(const RollingBodies& bodies, const StepScope& scope) = 0;
-  /// The bore moves with the axle, the slaves with their masters; pose: in the wheel's frame.
-  virtual void constrain(const AxlePose& pose) = 0;
+  /// Takes over where the contact is searched anew.
+  virtual void load(const RestartState& state) = 0;
+  /// Into arrays of the right sizes.
+  virtual void store(RestartState& state) = 0;
+  /// `count` steps, at most kMostSteps; energies: with those stored at the beginning of the first. The records are
+  /// valid until the next call.
+  virtual std::span<const StepRecord> take(int count, bool energies) = 0;
 };
 
-/// Makes the engine of a stepper; empty: none.
-using EngineOf = std::function<std::unique_ptr<StepEngine>(const RollingSystem&, const RollingBodies&)>;
+/// Makes the engine of a stepper with steps of dt [s]; empty: none.
+using EngineOf = std::function<std::unique_ptr<StepEngine>(const RollingSystem&, const RollingBodies&, double dt)>;
 
 /// What computes the steps: several ranks, or an engine; neither: the stepper's own loops.
 struct StepBy {

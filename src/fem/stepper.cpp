@@ -21,12 +21,6 @@ ReferenceFrame rolling_frame(const RollingSystem& sys, double dt) {
   return frame;
 }
 
-SearchWindow search_window(const RollingSystem& sys) {
-  const HertzContact& hertz = sys.model.hertz;
-  const double ahead = std::abs(sys.model.placement.contact.x);  // of the axle: a yawed wheel's contact
-  return {1.5 * hertz.a + 3 * sys.options.element_size + ahead, 0.25 * hertz.approach};
-}
-
 bool same_sizes(const RestartState& r, const RollingSystem& sys) {
   for (std::size_t k = 0; k < sys.bodies.size(); ++k) {
     for (const StateArray& a : kStateArrays)
@@ -139,8 +133,7 @@ double Stepper::lateral_creepage() const {
 }
 
 void Stepper::step() {
-  if (engine_ && step_on_engine()) return;
-  fetch();
+  if (engine_) return step_on_engine();
   const EnergyBalance before = balance_;
   const PlasticLook look = state_.step % kLookInterval == 0 ? PlasticLook::all : PlasticLook::awake;
   const StepScope scope{dt(), sys_.gravity, damping_rate(), want_energy_, look};
@@ -170,8 +163,8 @@ void Stepper::step() {
   update_waiting_nodes(bodies_, state_.bodies, scope);
   sums_ = update_sums(bodies_, scope);
   book_update(scope);
-  const double axle_kinetic =
-      advance_axle(sys_, loads, axle_drive(), axle_rest_z_, scope, state_.axle, state_.groups, balance_);
+  const double axle_kinetic = advance_axle(axle_law(sys_, axle_rest_z_), loads, axle_drive(), scope.dt,
+                                           scope.damping_rate, state_.axle, state_.groups, balance_);
   if (want_energy_) {
     book_kinetic_energy(axle_kinetic);
     recorded_ = halfway(before, balance_);
@@ -179,7 +172,6 @@ void Stepper::step() {
   advance_clock();
   sys_.apply_constraints(state_.bodies[kRail].u, state_.bodies[kWheel].u, pose_in_frame());
   want_energy_ = false;
-  if (engine_) engine_->load(state_.bodies);
 }
 
 void Stepper::complete() {
@@ -211,7 +203,7 @@ void Stepper::book_stored_energy(const std::array<double, 2>& turned) {
   }
   balance_.weight = sys_.gravity * (weight + sys_.axle.mass_z * state_.axle.z);
   for (const EndLoad& l : sys_.end_loads) balance_.weight -= l.force * state_.bodies[kRail].u[l.index];
-  balance_.spring = spring_energy(sys_, state_.axle, axle_rest_z_, state_.groups);
+  balance_.spring = spring_energy(axle_law(sys_, axle_rest_z_), state_.axle.z, state_.groups);
 }
 
 // Forces on slaves go to their masters; returns what the offsets hand to the wheel's rotation.
@@ -266,6 +258,13 @@ void Stepper::advance_clock() {
 
 Field Stepper::displacement(BodyId body) const {
   return model_displacement(bodies_[index_of(body)], state_.bodies[index_of(body)]);
+}
+
+double Stepper::largest_pressure() const {
+  if (engine_) return record_.largest_pressure;
+  double p = 0;
+  for (const NodeTraction& t : state_.tractions.all()) p = std::max(p, t.p);
+  return p;
 }
 
 std::string Stepper::check_finite() const {

@@ -16,6 +16,7 @@
 // velocities relative to the rigid rolling motion, with a rate that fades to zero: the mean travel and spin of the
 // wheel's free nodes are the reference, so that it takes neither momentum along x nor angular momentum.
 #include <optional>
+#include <span>
 #include <string>
 
 #include "fem/axle_step.hpp"
@@ -23,35 +24,12 @@
 #include "fem/energy.hpp"
 #include "fem/preload.hpp"
 #include "fem/rank_exchange.hpp"
+#include "fem/rolling_state.hpp"
 #include "fem/rolling_system.hpp"
 #include "fem/step_engine.hpp"
 #include "fem/step_plan.hpp"
 
 namespace railstrata {
-
-/// The only thing that changes. Displacements and velocities of the bodies are relative to their frames: the model's
-/// for the rail.
-struct RollingState {
-  double time = 0;
-  long step = 0;
-  BodyStates bodies;  ///< by BodyId
-  AxleMotion axle;
-  std::vector<MassGroup> groups;
-  SurfaceTractions tractions{0, 0};
-};
-
-/// All that a step takes over from the one before, at a restart point. A stepper restored from it computes the same
-/// bits as the one that gave it.
-struct RestartState {
-  RollingState state;
-  EnergyBalance balance;
-  MeanMotion mean;  ///< of the wheel
-  std::vector<MortarContact::Facet> facets;
-  double axle_z0 = 0;     ///< m, height of the axle at the start of the rolling
-  double side_force = 0;  ///< N, on the axle, that holds it in the static equilibrium
-  double dt = 0;          ///< s
-  bool reached_edge = false;
-};
 
 class Stepper {
  public:
@@ -71,6 +49,9 @@ class Stepper {
   void use(const EngineOf& engine_of);
 
   void step();
+  /// Until the wheel is at `position` [m], or a restart point, the caller reads scalars alone after a step: time,
+  /// position, creepage and forces. An engine may be so many steps ahead; complete() is for later.
+  void look_next_at(double position) { next_look_ = position; }
   /// Makes the state whole, with what only other ranks or the engine know. To be called before the state of a whole
   /// body is read: restart_state(), displacement(), samples. All ranks call it.
   void complete();
@@ -81,7 +62,9 @@ class Stepper {
   const RollingState& state() const { return state_; }
   /// Displacements in the model frame, u = x - X.
   Field displacement(BodyId body) const;
-  const ContactForces& forces() const { return contact_.forces(); }
+  const ContactForces& forces() const { return engine_ ? record_.forces : contact_.forces(); }
+  /// Pa, of the last step; of an engine's steps too.
+  double largest_pressure() const;
   const RollingSystem& system() const { return sys_; }
   double dt() const { return plan_.limits.chosen; }
   /// Position of the wheel, m from the start.
@@ -96,7 +79,7 @@ class Stepper {
   const EnergyBalance& energy() const { return recorded_; }
   /// Ask for the energies with the next step.
   void want_energy() { want_energy_ = true; }
-  bool reached_edge() const { return contact_.reached_edge(); }
+  bool reached_edge() const { return engine_ ? record_.reached_edge : contact_.reached_edge(); }
   /// First node whose displacement is not finite, described; empty if all is well.
   std::string check_finite() const;
 
@@ -114,8 +97,12 @@ class Stepper {
   void book_stored_energy(const std::array<double, 2>& drift);
   double reduce_ties(const std::array<double, 2>& drift);
   void absorb_at_ends();
-  bool step_on_engine();
-  bool book_stored_energy_of_engine();
+  void step_on_engine();
+  void take_over(const StepRecord& record);
+  int steps_until_look() const;
+  void require_none_ahead() const;
+  RestartState lend_state();
+  void take_back(RestartState lent);
   void book_contact(const ContactLosses& losses);
   void book_update(const StepScope& scope);
   void book_kinetic_energy(double axle);
@@ -132,6 +119,9 @@ class Stepper {
   double axle_rest_z_ = 0, side_force_ = 0;
   bool want_energy_ = false;
   std::unique_ptr<StepEngine> engine_;
+  std::span<const StepRecord> ahead_;  // steps that the engine has taken and this has not
+  StepRecord record_;                  // of the last one
+  double next_look_ = 0;               // m
   bool fields_here_ = true;
 };
 

@@ -7,17 +7,11 @@
 #include <vector>
 
 #include "case/case_spec.hpp"
+#include "fem/axle_law.hpp"
 
 namespace railstrata {
 
-struct MassGroup {
-  double z = 0, vz = 0;  ///< m, displacement; m/s, half-step velocity of a share of the sprung mass
-};
-
-struct SuspensionForce {
-  double on_masses = 0;      ///< N, upwards on all groups together; the axle gets the opposite
-  double dashpot_power = 0;  ///< W
-};
+SuspensionLaw suspension_law(const VehicleSpec& vehicle);
 
 /// One central-difference step of the groups; axle_z from static equilibrium [m], axle_vz its half-step velocity [m/s].
 SuspensionForce step_suspension(const VehicleSpec& vehicle, double axle_z, double axle_vz, double dt,

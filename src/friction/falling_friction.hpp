@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/simd.hpp"
+
 namespace railstrata {
 
 enum class FrictionForm { coulomb, falling_exponential, falling_rational };
@@ -24,8 +26,8 @@ struct FallingFriction {
   double memory_distance = 0;  ///< m; 0: the coefficient follows the slip at once, else friction_memory.hpp
   double memory_velocity = 0;  ///< m/s, >= 0: by which the coefficient comes back at rest
 
-  bool remembers() const { return falls() && memory_distance > 0; }
-  bool falls() const { return form != FrictionForm::coulomb && kinetic_share < 1; }
+  RAILSTRATA_POINTWISE bool remembers() const { return falls() && memory_distance > 0; }
+  RAILSTRATA_POINTWISE bool falls() const { return form != FrictionForm::coulomb && kinetic_share < 1; }
 };
 
 /// f(v)/f_stat and its derivative.
@@ -34,7 +36,7 @@ struct FrictionShare {
   double by_slip_velocity = 0;  ///< s/m, <= 0
 };
 
-inline FrictionShare friction_share(const FallingFriction& law, const FrictionPoint& point) {
+RAILSTRATA_POINTWISE FrictionShare friction_share(const FallingFriction& law, const FrictionPoint& point) {
   if (!law.falls()) return {};
   const double fall = 1 - law.kinetic_share, v = point.slip_velocity / law.half_velocity;
   if (law.form == FrictionForm::falling_exponential) {

@@ -26,12 +26,12 @@ namespace railstrata {
 struct RememberedShare {
   FrictionShare share;
   double by_lost_before = 0;  ///< derivative of what is lost by what was lost, 0 to 1
-  double lost() const { return 1 - share.value; }
+  RAILSTRATA_POINTWISE double lost() const { return 1 - share.value; }
 };
 
 /// lost: 0 to 1, before the step of dt [s] at the slip velocity of `point`. Without a memory the law's share.
-inline RememberedShare remembered_share(const FallingFriction& law, double lost, const FrictionPoint& point,
-                                        double dt) {
+RAILSTRATA_POINTWISE RememberedShare remembered_share(const FallingFriction& law, double lost,
+                                                      const FrictionPoint& point, double dt) {
   const FrictionShare steady = friction_share(law, point);
   if (!law.remembers()) return {steady, 0};
   const double v = point.slip_velocity, rate = std::max(v, law.memory_velocity) / law.memory_distance,
@@ -41,7 +41,7 @@ inline RememberedShare remembered_share(const FallingFriction& law, double lost,
 }
 
 /// What is lost after a step. 0 for laws that do not fall.
-inline double lost_after(const FallingFriction& law, double lost, double slip_velocity, double dt) {
+RAILSTRATA_POINTWISE double lost_after(const FallingFriction& law, double lost, double slip_velocity, double dt) {
   return law.falls() ? remembered_share(law, lost, {slip_velocity}, dt).lost() : 0.0;
 }
 

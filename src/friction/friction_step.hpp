@@ -37,7 +37,8 @@ struct FrictionReturn {
 };
 
 /// Brings q_stick (two components) back to what the laws let the point carry.
-inline FrictionReturn return_to_law(const FrictionLaws& laws, const FrictionStep& step, double& q1, double& q2) {
+RAILSTRATA_POINTWISE FrictionReturn return_to_law(const FrictionLaws& laws, const FrictionStep& step, double& q1,
+                                                  double& q2) {
   const double coefficient = laws.coefficient * (1 - step.lost);
   if (!laws.film.yields()) return {return_to_coulomb_disc(coefficient, step.p, q1, q2), 0};
   const double friction = coefficient * (step.p > 0 ? step.p : 0), stick = std::sqrt(q1 * q1 + q2 * q2),

@@ -8,6 +8,8 @@
 // slides. Elastic shear is a part of the bodies' flexibility (bem/influence_operator.hpp).
 #include <algorithm>
 
+#include "core/simd.hpp"
+
 namespace railstrata {
 
 struct ThirdBody {
@@ -16,8 +18,8 @@ struct ThirdBody {
   double yield_shear = 0;    ///< tau_c0 [Pa]; 0: elastic
   double hardening = 0;      ///< k [Pa/m], >= 0
 
-  double flexibility() const { return thickness / shear_modulus; }  ///< m/Pa
-  bool yields() const { return thickness > 0 && yield_shear > 0; }
+  RAILSTRATA_POINTWISE double flexibility() const { return thickness / shear_modulus; }  ///< m/Pa
+  RAILSTRATA_POINTWISE bool yields() const { return thickness > 0 && yield_shear > 0; }
 };
 
 /// What film and friction in series carry after a further slip of one face over the other.
@@ -29,7 +31,8 @@ struct FilmStep {
 
 /// slid >= 0 [m]: the slip along the traction that is not elastic, of both together; plastic_before u_pl; friction f p
 /// [Pa].
-inline FilmStep yield_or_slide(const ThirdBody& film, double friction, double plastic_before, double slid) {
+RAILSTRATA_POINTWISE FilmStep yield_or_slide(const ThirdBody& film, double friction, double plastic_before,
+                                             double slid) {
   const double at_rest = film.yield_shear + film.hardening * plastic_before;
   if (at_rest >= friction) return {friction, 0, plastic_before};
   const double hardened = at_rest + film.hardening * slid;

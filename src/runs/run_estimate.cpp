@@ -32,7 +32,8 @@ RunEstimate estimate_run(const Model& model) {
   constexpr double kRestOfStep = 1.25;
   const RollingSystem system(model);
   RunEstimate e;
-  e.limits = StepPlan(system).limits;
+  StepPlan plan(system);
+  e.limits = plan.limits;
   e.steps = std::lround(model.x_end / (model.spec.drive.speed * e.limits.chosen));
   e.evaluations = 1 + 2 * static_cast<double>(e.limits.stages) * static_cast<double>(e.limits.fine_elements) /
                           static_cast<double>(model.rail.elements() + model.wheel.elements());
@@ -40,6 +41,7 @@ RunEstimate estimate_run(const Model& model) {
               (force_seconds(system.rail()) + force_seconds(system.wheel()));
   e.memory_bytes = peak_memory();
   if (e.steps == 0) return e;
+  e.card = device::device_need(system, plan);
   for (int ranks : {2, 4}) {
     const RankNeed need = rank_need(model, ranks);
     if (need.ranks < ranks) break;

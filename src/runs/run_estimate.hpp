@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "device/device_need.hpp"
 #include "fem/rank_need.hpp"
 #include "fem/step_plan.hpp"
 
@@ -22,6 +23,7 @@ struct RunEstimate {
     RankNeed need;
     double seconds = 0, memory_bytes = 0;  ///< memory: of each rank, which has both bodies whole
   };
+  device::DeviceNeed card;     ///< of a card; nothing of a static case
   std::vector<OnRanks> ranks;  ///< 2 and 4, as far as the mesh can be cut; none of a static case
 };
 

@@ -19,8 +19,8 @@ bool same_bits(const Array& a, const Array& b) {
 }
 
 inline EngineOf on(Device& device) {
-  return [&device](const RollingSystem& system, const RollingBodies& bodies) {
-    return std::make_unique<Engine>(device, system, bodies);
+  return [&device](const RollingSystem& system, const RollingBodies& bodies, double dt) {
+    return std::make_unique<Engine>(device, system, bodies, dt);
   };
 }
 
@@ -66,8 +66,8 @@ inline void expect_same_forces(Device& device, ArithmeticPrecision precision, do
   const RollingSystem system = small_system(layered_case(precision));
   Stepper stepper(system, solve_preload(system, 1e-2));
   Engine* engine = nullptr;
-  stepper.use([&](const RollingSystem& s, const RollingBodies& bodies) {
-    auto made = std::make_unique<Engine>(device, s, bodies);
+  stepper.use([&](const RollingSystem& s, const RollingBodies& bodies, double dt) {
+    auto made = std::make_unique<Engine>(device, s, bodies, dt);
     engine = made.get();
     return made;
   });
@@ -124,6 +124,38 @@ inline void expect_same_steps(Device& device) {
   EXPECT_NEAR(there.energy().total(), here.energy().total(), kTolerance * std::abs(here.energy().strain));
   EXPECT_NEAR(there.energy().damping, here.energy().damping, 1e-6 * std::abs(here.energy().damping));
   EXPECT_NEAR(there.energy().absorbed, here.energy().absorbed, 1e-6 * std::abs(here.energy().absorbed));
+}
+
+/// Some steps of a case by both, as near as roundings leave them.
+inline void expect_same_contact(Device& device, const CaseSpec& spec, int steps = 24) {
+  const RollingSystem system = small_system(spec);
+  const PreloadResult preload = solve_preload(system, 1e-4);
+  Stepper here(system, preload), there(system, preload);
+  there.use(on(device));
+  roll(here, steps);
+  roll(there, steps);
+  constexpr double kTolerance = 1e-9;
+  EXPECT_LT(relative_difference(system, Motion(here), Motion(there)), kTolerance);
+  const std::vector<NodeTraction>&a = here.state().tractions.all(), &b = there.state().tractions.all();
+  const double scale = largest_pressure(here);
+  double worst = 0, work = 0, worst_work = 0;
+  int slipping = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    worst = std::max({worst, std::abs(a[k].p - b[k].p), std::abs(a[k].q1 - b[k].q1), std::abs(a[k].q2 - b[k].q2)});
+    work = std::max(work, std::abs(a[k].friction_work));
+    worst_work = std::max(worst_work, std::abs(a[k].friction_work - b[k].friction_work));
+    EXPECT_EQ(a[k].stuck, b[k].stuck);
+    slipping += a[k].slips();
+  }
+  EXPECT_LT(worst, kTolerance * scale);
+  EXPECT_LE(worst_work, 1e-6 * work);
+  EXPECT_GT(scale, 1e8);
+  EXPECT_EQ(here.forces().nodes, there.forces().nodes);
+  EXPECT_EQ(here.forces().sweeps, there.forces().sweeps);
+  EXPECT_NEAR(here.forces().z, there.forces().z, kTolerance * here.forces().z);
+  EXPECT_NEAR(here.forces().penetration, there.forces().penetration, 1e-14);
+  EXPECT_EQ(here.reached_edge(), there.reached_edge());
+  EXPECT_GT(slipping, 0);
 }
 
 // Velocities are the rounding's own vibration so soon after the start, and other roundings have another one.

@@ -54,6 +54,68 @@ TEST(Engine, TheSameBitsInAnyOrderOfThreads) {
   }
 }
 
+TEST(Engine, StepsTakenTogetherHaveTheBitsOfSingleOnesAndOneCopy) {
+  const RollingSystem system = small_system(layered_case(ArithmeticPrecision::double_precision));
+  const PreloadResult preload = solve_preload(system, 1e-3);
+  EmulatedDevice device(Protection::open), other(Protection::open);
+  Stepper single(system, preload), ahead(system, preload);
+  single.use(on(device));
+  ahead.use(on(other));
+  roll(single, 1);
+  roll(ahead, 1);
+  const long before = other.copies();
+  ahead.look_next_at(1.0);
+  for (int k = 1; k < 48; ++k) {
+    single.step();
+    ahead.step();
+    ASSERT_EQ(std::memcmp(&single.state().axle, &ahead.state().axle, sizeof(AxleMotion)), 0);
+    ASSERT_EQ(single.forces().z, ahead.forces().z);
+    ASSERT_EQ(single.state().step, ahead.state().step);
+  }
+  EXPECT_EQ(other.copies() - before, 3);  // 15, 16 and 16 steps
+  single.complete();
+  ahead.complete();
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_TRUE(same_bits(single.state().bodies[k].u, ahead.state().bodies[k].u));
+}
+
+TEST(Engine, WhatIsToBeSeenBeforeTheStepsAreOverEndsTheRun) {
+  const RollingSystem system = small_system(small_case());
+  EmulatedDevice device(Protection::open);
+  Stepper stepper(system, solve_preload(system, 1e-2));
+  stepper.use(on(device));
+  stepper.look_next_at(1.0);
+  stepper.step();
+  EXPECT_THROW(stepper.complete(), NumericalError);
+}
+
+TEST(Engine, TakesFilmsAndFrictionThatFalls) {
+  EmulatedDevice device(Protection::open);
+  CaseSpec s = small_case();
+  s.drive.friction_coefficient = 0.25;
+  s.drive.creepage = -0.01;
+  s.friction.law = FrictionForm::falling_exponential;
+  s.friction.kinetic_coefficient = 0.15;
+  s.friction.half_velocity = 0.3;
+  s.friction.memory_distance = 50e-6;
+  s.third_body.thickness = 20e-6;
+  s.third_body.shear_modulus = 1e9;
+  s.third_body.yield_shear = 100e6;
+  expect_same_contact(device, s);
+}
+
+TEST(Engine, TakesThePenaltyMethodAndAYawedWheel) {
+  EmulatedDevice device(Protection::open);
+  CaseSpec s = small_case();
+  s.drive.friction_coefficient = 0.05;
+  s.drive.creepage = -0.02;
+  s.contact.method = ContactMethod::penalty;
+  expect_same_contact(device, s);
+  s.contact.method = ContactMethod::mortar;
+  s.geometry.yaw = 5e-3;
+  expect_same_contact(device, s);
+}
+
 TEST(Engine, CheckpointsGoEitherWay) {
   EmulatedDevice device(Protection::open);
   expect_checkpoints_go_either_way(device);

@@ -33,8 +33,8 @@ void measure(device::Device& card, double copy_rate, const char* file, double el
   spec.run.precision = single ? ArithmeticPrecision::single_precision : ArithmeticPrecision::double_precision;
   const RollingSystem system(build_model(spec, "."));
   Stepper stepper(system, solve_preload(system, 1e-2));
-  stepper.use([&](const RollingSystem& s, const RollingBodies& bodies) {
-    return std::make_unique<device::Engine>(card, s, bodies);
+  stepper.use([&](const RollingSystem& s, const RollingBodies& bodies, double dt) {
+    return std::make_unique<device::Engine>(card, s, bodies, dt);
   });
   for (int k = 0; k < 100; ++k) stepper.step();
   const auto start = Clock::now();

@@ -1,0 +1,39 @@
+#pragma once
+// What changes while a wheel rolls.
+#include <vector>
+
+#include "body/body_state.hpp"
+#include "contact/enforcement.hpp"
+#include "fem/axle_law.hpp"
+#include "fem/energy.hpp"
+#include "fem/node_law.hpp"
+
+namespace railstrata {
+
+using BodyStates = std::array<BodyState, 2>;  ///< by BodyId
+
+/// The only thing that changes. Displacements and velocities of the bodies are relative to their frames: the model's
+/// for the rail.
+struct RollingState {
+  double time = 0;
+  long step = 0;
+  BodyStates bodies;  ///< by BodyId
+  AxleMotion axle;
+  std::vector<MassGroup> groups;
+  SurfaceTractions tractions{0, 0};
+};
+
+/// All that a step takes over from the one before, at a restart point. A stepper restored from it computes the same
+/// bits as the one that gave it.
+struct RestartState {
+  RollingState state;
+  EnergyBalance balance;
+  MeanMotion mean;  ///< of the wheel
+  std::vector<MortarContact::Facet> facets;
+  double axle_z0 = 0;     ///< m, height of the axle at the start of the rolling
+  double side_force = 0;  ///< N, on the axle, that holds it in the static equilibrium
+  double dt = 0;          ///< s
+  bool reached_edge = false;
+};
+
+}  // namespace railstrata
