@@ -136,9 +136,10 @@ inline double largest_of(const Plane& values) {
   return largest;
 }
 
-/// Solves A x = b from x = 0 to |b - A x| <= relative |b| or max_iterations, or until no entry of b - A x is larger than
-/// `close` (0: not looked at). apply(in, out) and precondition(in, out) act on whole vectors. Right preconditioner: A M^-1 y = b, x = M^-1 y, so that the residual is that of x itself; the
-/// basis spans y, and one more application of M^-1 per cycle gives x.
+/// Solves A x = b from x = 0 to |b - A x| <= relative |b| or max_iterations, or until no entry of b - A x is larger
+/// than `close` (0: not looked at). apply(in, out) and precondition(in, out) act on whole vectors. Right
+/// preconditioner: A M^-1 y = b, x = M^-1 y, so that the residual is that of x itself; the basis spans y, and one more
+/// application of M^-1 per cycle gives x.
 template <class Apply, class Precondition>
 GmresResult gmres(Apply&& apply, Precondition&& precondition, const Plane& b, Plane& x, double relative,
                   int max_iterations, GmresSpace& space, double close = 0, int restart = 60) {

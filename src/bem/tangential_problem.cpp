@@ -330,7 +330,8 @@ class Solver {
     });
     for (std::size_t c = 0; c < m; ++c) right_side_[2 * n_ + c] = force_row_ * missing_force(directions_[c]);
     gmres([&](const Plane& in, Plane& out) { newton_product(in, out); },
-          [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, accuracy, 120, space_, close);
+          [&](const Plane& in, Plane& out) { precondition(in, out); }, right_side_, step_, accuracy, 120, space_,
+          close);
   }
 
   /// out = A in: L dq - creepage, projected, plus the diagonal of slip; then the sums of dq for the given forces.

@@ -90,8 +90,8 @@ struct TangentialSolution {
       iterations = 0;  ///< active sets; products with the influence operator and its preconditioner
 };
 
-/// start: traction of a similar problem, or null; taken as it is where it solves this problem too. Throws CaseError for
-/// a force that friction cannot carry, NumericalError if the iteration does not end.
+/// start: traction of a similar problem, or null; taken as it is where it solves this problem; outer_iterations < 0:
+/// continued from solutions. Throws CaseError for a force that friction cannot carry, NumericalError without an end.
 TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid,
                                     const TangentialProblem& problem, const TangentialOptions& options = {},
                                     const TangentialSolution* start = nullptr);

@@ -159,7 +159,6 @@ TEST(CInterface, SolutionsAlongALineAndAfterAJumpAgreeWithNewOnes) {
   std::vector<double> shifts = steps(-1e-3, 0.02e-3, 5);  // along a line, on, back, and far away
   for (const auto& more : {steps(-0.93e-3, -0.01e-3, 3), steps(2.5e-3, 0.04e-3, 3), steps(-2e-3, 0.1e-3, 3)})
     shifts.insert(shifts.end(), more.begin(), more.end());
-  int warm_effort = 0, cold_effort = 0;
   for (const double shift : shifts) {
     rs_state state = state_of(RS_LATERAL_SHIFT | RS_CREEPAGE_X | RS_LOAD);
     state.lateral_shift = shift;
@@ -169,8 +168,6 @@ TEST(CInterface, SolutionsAlongALineAndAfterAJumpAgreeWithNewOnes) {
     ASSERT_EQ(again.solve(state), RS_OK) << again.error.message;
     Contact cold;
     ASSERT_EQ(cold.solve(state), RS_OK) << cold.error.message;
-    warm_effort += warm.forces.iterations;
-    cold_effort += cold.forces.iterations;
     for (const auto member : {&rs_forces::force_x, &rs_forces::p_max, &rs_forces::q_max, &rs_forces::approach,
                               &rs_forces::normal_force, &rs_forces::dissipation}) {
       EXPECT_EQ(warm.forces.*member, again.forces.*member) << "the same sequence, the same bits";
@@ -179,7 +176,6 @@ TEST(CInterface, SolutionsAlongALineAndAfterAJumpAgreeWithNewOnes) {
     EXPECT_NEAR(warm.forces.force_y, cold.forces.force_y, 2e-5 * std::abs(cold.forces.force_x)) << shift;
     EXPECT_EQ(warm.forces.cells, cold.forces.cells) << shift;
   }
-  EXPECT_LT(warm_effort, cold_effort);
 }
 
 TEST(CInterface, FaultsHaveACodeAndAText) {
