@@ -35,7 +35,7 @@ constexpr CardSheet kCards[] = {{"A100 80 GB", 2.04e12}, {"H100 SXM", 3.35e12}, 
 // Estimates: a launch that waits for the one before it within a recording, and a barrier of 256 threads with what a row
 // of the contact computes in between.
 constexpr double kLaunch = 2e-6, kPhase = 0.7e-6;
-constexpr int kSweeps = 5, kOtherPhases = 30;
+constexpr int kSweeps = 3, kOtherPhases = 30;
 
 double step_bytes(const RollingSystem& sys) {
   double out = 0;
