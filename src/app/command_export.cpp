@@ -107,7 +107,8 @@ ExitCode command_export(const CommandOptions& options) {
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, loaded, options.command_line, options.threads);
   for (const auto& [name, content] : files.contents) write_whole_file(out / name, content);
-  write_whole_file(out / "README.txt", export_readme(loaded.spec, target, files.lines, wanted.friction, files.comparison));
+  write_whole_file(out / "README.txt",
+                   export_readme(loaded.spec, target, files.lines, wanted.friction, files.comparison));
   if (options.json)
     fmt::print("{}\n", json_text(nlohmann::json{{"folder", out.generic_string()}}));
   else

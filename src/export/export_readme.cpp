@@ -91,17 +91,20 @@ std::string export_readme(const CaseSpec& spec, ExportTarget target, const std::
 }
 
 std::string deck_comparison(const SolidModel& m, ExportTarget target) {
-  std::string out = "  `railstrata run` of the same case with --set run.rolling=false, node by node: columns x_mm, y_mm, ";
-  out += "p_MPa of patch.csv";
-  out += target == ExportTarget::calculix ? ", CSTR in preload.frd\n" : "\n";
+  std::string out =
+      "  `railstrata run` of the same case with --set run.rolling=false, node by node: x_mm, y_mm, p_MPa of "
+      "patch.csv.\n";
   if (target == ExportTarget::calculix)
     out +=
-        "  expect 0.4 % at the node of the largest pressure and 1 % of that elsewhere: what was found with 4 to 8 "
-        "elements over the\n  patch\n";
+        "  Pressures are CSTR in preload.frd. Expect 0.4 % at the node of the largest one and 1 % of it elsewhere, "
+        "which "
+        "is what\n  was found with 4 to 8 elements over the patch.\n";
   add(out,
-      "  not the largest nodal pressure with p_max of summary.json: that is the top of a parabola through the nodes, and "
-      "the\n  largest node lies up to {:.1f} % below it here, where some {:.0f} elements along and {:.0f} across lie in "
-      "the patch (Hertz)\n",
+      "  Not the largest nodal pressure with p_max of summary.json: that is the top of a parabola through the nodes. "
+      "The "
+      "largest\n  node lies up to {:.1f} % below it here, where some {:.0f} elements along and {:.0f} across lie in "
+      "the "
+      "patch (Hertz).\n",
       100 * missed_by_nodes(m), 2 * m.a / m.element_size, 2 * m.b / m.element_size);
   return out;
 }

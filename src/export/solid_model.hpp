@@ -57,9 +57,9 @@ struct SolidModel {
   double static_load = 0;   ///< N, on the rail
 };
 
-/// How far the largest nodal pressure may lie below the top of the parabolas through it and its neighbours, as a share of
-/// the top: for Hertz's pressure with its middle between four nodes, on the patch that the bodies would have if they were
-/// of their stiffest layers throughout.
+/// How far the largest nodal pressure may lie below the top of the parabolas through it and its neighbours, as a share
+/// of the top: for Hertz's pressure with its middle between four nodes, on the patch that the bodies would have if they
+/// were of their stiffest layers throughout.
 double missed_by_nodes(const SolidModel& model);
 
 /// Throws CaseError as build_model does, and for a case that finite elements do not take.

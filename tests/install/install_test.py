@@ -232,7 +232,8 @@ class CConsumer(Consumer):
             body = [line for line in lines if not line.startswith("#")]
             (self.folder / "page.c").write_text("\n".join(["#include <stdio.h>", *includes, "int main(void) {", *body,
                                                            "return 0;", "}", ""]))
-            done("gcc", "-std=c89", "-pedantic-errors", "-I", PREFIX / "include", "-fsyntax-only", self.folder / "page.c")
+            done("gcc", "-std=c89", "-pedantic-errors", "-fsyntax-only", "-I", PREFIX / "include",
+                 self.folder / "page.c")
 
 
 class Python(unittest.TestCase):
