@@ -7,7 +7,6 @@
 #include "body/traversal.hpp"
 #include "case/engine_scope.hpp"
 #include "core/faults.hpp"
-#include "core/parallel.hpp"
 #include "fem/lateral_start.hpp"
 #include "fem/plastic_zone.hpp"
 
@@ -193,13 +192,8 @@ void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxleP
     u_wheel[n.index + n.stride] = pose.y;
     u_wheel[n.index + 2 * n.stride] = shift.z;
   }
-  for_each(6, [&](std::ptrdiff_t k) {
-    const int component = static_cast<int>(k % 3);
-    if (k < 3)
-      wheel().ties.apply_component(u_wheel, component, turn, false);
-    else
-      rail().ties.apply_component(u_rail, component, {}, false);
-  });
+  const TiedField tied[] = {{rail().ties, u_rail}, {wheel().ties, u_wheel, turn}};
+  spread_ties(tied);
 }
 
 }  // namespace railstrata

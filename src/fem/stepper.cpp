@@ -208,14 +208,9 @@ void Stepper::book_stored_energy(const std::array<double, 2>& turned) {
 
 // Forces on slaves go to their masters; returns what the offsets hand to the wheel's rotation.
 double Stepper::reduce_ties(const std::array<double, 2>& turned) {
-  double moment[6];  // wheel, rail
-  const Rotation<double> wheel = rotation_by(turned[kWheel]);
-  for_each(6, [&](std::ptrdiff_t k) {
-    const int component = static_cast<int>(k % 3);
-    moment[k] = k < 3 ? sys_.wheel().ties.apply_transpose_component(state_.bodies[kWheel].f, component, wheel)
-                      : sys_.rail().ties.apply_transpose_component(state_.bodies[kRail].f, component, {});
-  });
-  return moment[0] + moment[1] + moment[2];
+  const TiedField tied[] = {{sys_.rail().ties, state_.bodies[kRail].f},
+                            {sys_.wheel().ties, state_.bodies[kWheel].f, rotation_by(turned[kWheel])}};
+  return collect_ties(tied);
 }
 
 void Stepper::absorb_at_ends() {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "geometry/profile_names.hpp"
+#include "tests/body/same_bits.hpp"
 #include "tests/body/sample_bodies.hpp"
 
 namespace railstrata {
@@ -140,6 +141,49 @@ TEST(Ties, MomentOfTheOffsetsIsTheWorkOfTheSlavesForcesOnARotation) {
     ties.apply_transpose(plain);
     EXPECT_EQ(f, plain);
   }
+}
+
+// Two bodies of different depth and length in one loop: each gets what it gets alone, on any number of threads.
+TEST(Ties, SeveralBodiesInOneLoopHaveTheBitsOfEachAlone) {
+  const SweptBody wheel = coarse_lma_wheel(), chained = chain();
+  const Body first(wheel, {kSteel}, {}), second(chained, {kSteel}, {});
+  const double psi = 0.8;
+  const auto forces = [](const Body& body) { return scattered_field(body, 1.0, 12345); };
+  Field u_alone[] = {forces(first), forces(second)}, f_alone[] = {u_alone[0], u_alone[1]};
+  first.ties.apply(u_alone[0], psi);
+  second.ties.apply(u_alone[1], 0);
+  const double moment = first.ties.apply_transpose_turned(f_alone[0], psi);
+  second.ties.apply_transpose(f_alone[1]);
+  expect_same_bits_on_one_two_and_four_threads([&] {
+    Field u[] = {forces(first), forces(second)}, f[] = {u[0], u[1]};
+    const TiedField spread[] = {{first.ties, u[0], rotation_by(psi)}, {second.ties, u[1]}};
+    const TiedField collected[] = {{first.ties, f[0], rotation_by(psi)}, {second.ties, f[1]}};
+    spread_ties(spread);
+    EXPECT_EQ(collect_ties(collected), moment);
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_EQ(u[k], u_alone[k]) << k;
+      EXPECT_EQ(f[k], f_alone[k]) << k;
+    }
+    u[0].insert(u[0].end(), f[0].begin(), f[0].end());
+    return u[0];
+  });
+}
+
+// A tie of ties gives its forces on from level to level.
+TEST(Ties, ALevelHoldsNoLineThatCarriesAnotherOfIt) {
+  const SweptBody body = chain();
+  const Ties ties(body, layout_of(body));
+  ASSERT_EQ(ties.levels().size(), 2U);
+  std::size_t lines = 0;
+  for (const Ties::Level& level : ties.levels()) {
+    lines += level.lines.size();
+    for (const Ties::Master& master : level.masters)
+      for (int k : level.lines) {
+        const Ties::Line& line = ties.lines()[k];
+        EXPECT_FALSE(line.slave_block == master.block && line.slave_node == master.node) << k;
+      }
+  }
+  EXPECT_EQ(lines, ties.lines().size());
 }
 
 TEST(Ties, CollectedMassIsTheWholeMass) {
