@@ -313,7 +313,8 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
                                            const RigidContact& first, double descent) {
   constexpr double kRidge = 1e-6;  // m
   const Gap gap(wheel, rail, track, first.wheel_offset_y);
-  const auto searched = first.searched ? first.searched : std::make_shared<const GapSamples>(sample_overlap(gap, wheel, rail));
+  const auto searched =
+      first.searched ? first.searched : std::make_shared<const GapSamples>(sample_overlap(gap, wheel, rail));
   const GapSamples& samples = *searched;
   std::vector<std::size_t> places{sample_near(samples, first.rail_s)};
   std::vector<RigidContact> out;
@@ -333,8 +334,9 @@ std::vector<RigidContact> further_contacts(const Profile& wheel, const Profile& 
 Ridge ridge_between(const Profile& wheel, const Profile& rail, const TrackGeometry& track, const RigidContact& a,
                     const RigidContact& b) {
   const auto searched =
-      b.searched ? b.searched
-                 : std::make_shared<const GapSamples>(sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), wheel, rail));
+      b.searched
+          ? b.searched
+          : std::make_shared<const GapSamples>(sample_overlap(Gap(wheel, rail, track, a.wheel_offset_y), wheel, rail));
   const GapSamples& samples = *searched;
   const std::size_t i = ridge_sample(samples, sample_near(samples, a.rail_s), sample_near(samples, b.rail_s));
   return {samples.s[i], samples.gap[i]};
