@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/parallel.hpp"
+#include "core/vectorize.hpp"
 
 namespace railstrata {
 namespace {
@@ -119,11 +120,7 @@ void chain_tiles(RollingBody& b, bool sums_wanted) {
   for (std::size_t k = 0; k < schedule.chains.size(); ++k)
     if (b.cut.is_own(schedule.chains[k].first_tile)) schedule.own.push_back(static_cast<int>(k));
   schedule.chain_sums.assign(schedule.chains.size(), {});
-  schedule.borders.resize(schedule.at_once.size());
-  for (std::vector<int>& planes : schedule.borders) planes.clear();
-  for (const Chain& c : schedule.chains) schedule.borders[tiling.block(c)].push_back(tiling.border_plane(c));
-  for (std::size_t k = 0; k < schedule.borders.size(); ++k)
-    if (const BlockLayout& l = b.body.layout.blocks[k]; !l.closed) schedule.borders[k].push_back(l.elements);
+  schedule.plane_sums.assign(schedule.chains.size(), {});
 }
 
 const Field& surface_displacement(RollingBody& b, const BodyState& state) {
@@ -134,17 +131,21 @@ const Field& surface_displacement(RollingBody& b, const BodyState& state) {
   const double* sine = b.sin_node[block].data();
   const double c = b.frame.turn.c, s = b.frame.turn.s;
   const Vec3 travel = b.frame.own_travel();
-  for (int column = 0; column < surface.columns; ++column) {
-    const std::ptrdiff_t x = surface.index(column, 0), y = x + surface.stride, z = y + surface.stride;
+  for_each(surface.columns, [&](std::ptrdiff_t column) {
+    const double *x = state.u.data() + surface.index(static_cast<int>(column), 0), *y = x + surface.stride,
+                 *z = y + surface.stride;
+    double* out_x = b.surface_u.data() + surface.index(static_cast<int>(column), 0);
+    double *const out_y = out_x + surface.stride, *const out_z = out_y + surface.stride;
     const double radius = surface.node[column].z;
+    RAILSTRATA_INDEPENDENT
     for (int j = 0; j < stations; ++j) {
       const double ax = -radius * sine[j], az = radius * cosine[j];
-      const double px = ax + state.u[x + j], pz = az + state.u[z + j];
-      b.surface_u[x + j] = travel.x + c * px + s * pz - ax;
-      b.surface_u[y + j] = travel.y + state.u[y + j];
-      b.surface_u[z + j] = c * pz - s * px - az;
+      const double px = ax + x[j], pz = az + z[j];
+      out_x[j] = travel.x + c * px + s * pz - ax;
+      out_y[j] = travel.y + y[j];
+      out_z[j] = c * pz - s * px - az;
     }
-  }
+  });
   return b.surface_u;
 }
 
