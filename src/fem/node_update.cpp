@@ -1,6 +1,7 @@
 #include "fem/node_update.hpp"
 
 #include "core/parallel.hpp"
+#include "core/staged_loop.hpp"
 #include "core/vectorize.hpp"
 #include "fem/rank_exchange.hpp"
 
@@ -34,14 +35,41 @@ NodeRows rows_of(const RollingBody& b, BodyState& state, SectionNode node, const
           b.turns() ? line_radius(b.body, node.block, node.node) : 0.0};
 }
 
-// Stations begin <= j < end of one section node (fem/stepper.hpp has the scheme). measured: with run-up damping and
-// sums. Everything a loop needs stands in locals, and nothing in it branches: it is compiled to packs.
+// What the updates of one body's nodes share in a step.
+struct BodyUpdate {
+  RollingBody& body;
+  BodyState& state;
+  NodeStep step;
+  bool measured;  // with run-up damping and sums
+};
+
+BodyUpdate update_of(RollingBody& b, BodyState& state, const StepScope& scope) {
+  const auto step = b.turns() ? node_step<SweepKind::revolve> : node_step<SweepKind::extrude>;
+  return {b, state, step(b.frame, b.mean, scope.dt, scope.damping_rate, scope.gravity), scope.sums_wanted()};
+}
+
+UpdateSums update_sums(const NodeSums& s) { return {0.5 * s.twice_kinetic, s.power, s.px, s.pz, s.angular}; }
+
+// Calls run.operator()<kind, measured>().
+template <class Run>
+void in_kind(const BodyUpdate& of, Run&& run) {
+  if (of.body.turns() && of.measured)
+    run.template operator()<SweepKind::revolve, true>();
+  else if (of.body.turns())
+    run.template operator()<SweepKind::revolve, false>();
+  else if (of.measured)
+    run.template operator()<SweepKind::extrude, true>();
+  else
+    run.template operator()<SweepKind::extrude, false>();
+}
+
+// Stations begin <= j < end of one section node (fem/stepper.hpp has the scheme). Everything a loop needs stands in
+// locals, and nothing in it branches: it is compiled to packs.
 template <SweepKind kind, bool measured>
-void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& scope, int begin, int end,
-                  UpdateSums& sums) {
+void advance_rows(const NodeRows& node, const NodeStep& of_body, int begin, int end, UpdateSums& sums) {
   constexpr bool turning = kind == SweepKind::revolve;
   const NodeRows n = node;
-  const NodeStep step = node_step<kind>(b.frame, b.mean, scope.dt, scope.damping_rate, scope.gravity);
+  const NodeStep step = of_body;
   const double radius = n.radius;
   NodeSums of_rows;
   RAILSTRATA_INDEPENDENT
@@ -49,21 +77,31 @@ void advance_rows(const NodeRows& node, const RollingBody& b, const StepScope& s
     advance_node<kind, measured>(step, n.inverse_mass[j], radius, turning ? n.cosine[j] : 1.0,
                                  turning ? n.sine[j] : 0.0, n.fx[j], n.fy[j], n.fz[j], n.ux[j], n.uy[j], n.uz[j],
                                  n.vx[j], n.vy[j], n.vz[j], of_rows);
-  if constexpr (measured) sums += {0.5 * of_rows.twice_kinetic, of_rows.power, of_rows.px, of_rows.pz, of_rows.angular};
+  if constexpr (measured) sums += update_sums(of_rows);
 }
 
-void advance(RollingBody& b, BodyState& state, const StepScope& scope, SectionNode node, int begin, int end,
-             const double* const (&f)[3], UpdateSums& sums) {
-  const NodeRows rows = rows_of(b, state, node, f);
-  const bool measured = scope.sums_wanted();
-  if (b.turns() && measured)
-    advance_rows<SweepKind::revolve, true>(rows, b, scope, begin, end, sums);
-  else if (b.turns())
-    advance_rows<SweepKind::revolve, false>(rows, b, scope, begin, end, sums);
-  else if (measured)
-    advance_rows<SweepKind::extrude, true>(rows, b, scope, begin, end, sums);
-  else
-    advance_rows<SweepKind::extrude, false>(rows, b, scope, begin, end, sums);
+// One station. Whether a plane lies within a chain or between two depends on the number of threads, its bits do not:
+// both come here, and out of line, so that the compiler fuses the same products.
+template <SweepKind kind, bool measured>
+__attribute__((noinline)) void advance_station(const NodeRows& n, const NodeStep& step, int j, NodeSums& sums) {
+  constexpr bool turning = kind == SweepKind::revolve;
+  advance_node<kind, measured>(step, n.inverse_mass[j], n.radius, turning ? n.cosine[j] : 1.0,
+                               turning ? n.sine[j] : 0.0, n.fx[j], n.fy[j], n.fz[j], n.ux[j], n.uy[j], n.uz[j], n.vx[j],
+                               n.vy[j], n.vz[j], sums);
+}
+
+void advance_at(const BodyUpdate& of, SectionNode node, int station, const double* const (&f)[3], UpdateSums& sums) {
+  const NodeRows rows = rows_of(of.body, of.state, node, f);
+  NodeSums of_node;
+  in_kind(of,
+          [&]<SweepKind kind, bool measured>() { advance_station<kind, measured>(rows, of.step, station, of_node); });
+  if (of.measured) sums += update_sums(of_node);
+}
+
+void advance(const BodyUpdate& of, SectionNode node, int begin, int end, const double* const (&f)[3],
+             UpdateSums& sums) {
+  const NodeRows rows = rows_of(of.body, of.state, node, f);
+  in_kind(of, [&]<SweepKind kind, bool measured>() { advance_rows<kind, measured>(rows, of.step, begin, end, sums); });
 }
 
 // Work of both bodies as one range: the first body's items, then the second's.
@@ -76,14 +114,16 @@ Item item_of(std::ptrdiff_t k, std::ptrdiff_t first_count) {
 }
 
 // One chain of a body, its nodes updated while their forces are in cache.
-UpdateSums fused_chain(RollingBody& b, BodyState& state, const StepScope& scope, const Chain& chain) {
+UpdateSums fused_chain(const BodyUpdate& of, const Chain& chain) {
+  RollingBody& b = of.body;
+  BodyState& state = of.state;
   UpdateSums sums;
   const auto update = [&](const Tile& tile, int begin, int node, const double* rows) {
     if (!b.schedule.at_once[tile.block][node]) return false;
     const double* const f[3] = {rows - tile.first, rows + kTile - tile.first, rows + 2 * kTile - tile.first};
     const SectionNode at{tile.block, node};
-    if (begin == tile.first) advance(b, state, scope, at, begin, begin + 1, f, sums);  // the others: aligned to packs
-    advance(b, state, scope, at, tile.first + 1, tile.end, f, sums);
+    if (begin == tile.first) advance_at(of, at, begin, f, sums);  // the others: aligned to packs
+    advance(of, at, tile.first + 1, tile.end, f, sums);
     return true;
   };
   const auto expect = [&](const Tile& tile, int node, Prefetch& lines) {
@@ -97,6 +137,61 @@ UpdateSums fused_chain(RollingBody& b, BodyState& state, const StepScope& scope,
   return sums;
 }
 
+// A node plane between elements of two chains: what they left there.
+struct BorderPlane {
+  int block, station;
+  const double *front, *behind;  // [node][component], of the chain that begins here and of the one that ends here
+};
+
+// Nodes that wait for nothing are updated, the others' forces go to f.
+template <SweepKind kind, bool measured>
+UpdateSums advance_plane(const BodyUpdate& of, const BorderPlane& plane) {
+  const BlockLayout& lay = of.body.body.layout.blocks[plane.block];
+  const std::vector<char>& at_once = of.body.schedule.at_once[plane.block];
+  NodeSums sums;
+  for (int n = 0; n < lay.nodes; ++n) {
+    const double *front = plane.front + 3 * n, *behind = plane.behind + 3 * n;
+    const double force[3] = {behind[0] + front[0], behind[1] + front[1], behind[2] + front[2]};
+    if (at_once[n]) {
+      const double* const f[3] = {force - plane.station, force + 1 - plane.station, force + 2 - plane.station};
+      advance_station<kind, measured>(rows_of(of.body, of.state, {plane.block, n}, f), of.step, plane.station, sums);
+    } else {
+      double* const line = of.state.f.data() + lay.line(n, 0) + plane.station;
+      for (int i = 0; i < 3; ++i) line[static_cast<std::ptrdiff_t>(i) * lay.stride] = force[i];
+    }
+  }
+  return measured ? update_sums(sums) : UpdateSums{};
+}
+
+void store_plane(const BodyUpdate& of, int block, int station, const double* forces) {
+  const BlockLayout& lay = of.body.body.layout.blocks[block];
+  const std::ptrdiff_t lines = static_cast<std::ptrdiff_t>(lay.nodes) * 3;
+  double* const out = of.state.f.data() + lay.offset + station;
+  for (std::ptrdiff_t line = 0; line < lines; ++line) out[line * lay.stride] = forces[line];
+}
+
+// The plane in front of a chain, and the last one of an open block. The ends of open blocks get their forces and wait
+// for those from outside.
+UpdateSums complete_planes(const BodyUpdate& of, const Chain& chain) {
+  RollingBody& b = of.body;
+  const Tiling& tiling = b.body.tiling;
+  const int t = chain.first_tile, block = tiling.block(chain);
+  const int block_first = tiling.first_tile[block], block_end = tiling.first_tile[block + 1];
+  const BlockLayout& lay = b.body.layout.blocks[block];
+  if (chain.end_tile == block_end && !lay.closed)
+    store_plane(of, block, lay.elements, b.elements.rear_forces(block_end - 1));
+  const int station = tiling.border_plane(chain);
+  if (t == block_first && !lay.closed) {
+    store_plane(of, block, station, b.elements.front_forces(t));
+    return {};
+  }
+  const int before = t == block_first ? block_end - 1 : t - 1;
+  const BorderPlane plane{block, station, b.elements.front_forces(t), b.elements.rear_forces(before)};
+  UpdateSums sums;
+  in_kind(of, [&]<SweepKind kind, bool measured>() { sums = advance_plane<kind, measured>(of, plane); });
+  return sums;
+}
+
 }  // namespace
 
 void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
@@ -107,53 +202,64 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
     advance_plastic_elements(bodies[k].body, states[k].u, drift[k], states[k].history, scope.look, cut);
     chain_tiles(bodies[k], scope.sums_wanted());
   }
-  const auto count = [&](std::size_t k) { return static_cast<std::ptrdiff_t>(bodies[k].schedule.own.size()); };
+  const BodyUpdate updates[] = {update_of(bodies[0], states[0], scope), update_of(bodies[1], states[1], scope)};
+  const auto own = [&](std::size_t k) { return static_cast<std::ptrdiff_t>(bodies[k].schedule.own.size()); };
   const auto run = [&](std::ptrdiff_t task) {
-    const Item item = item_of(task, count(0));
+    const Item item = item_of(task, own(0));
     RollingBody& b = bodies[item.body];
     BodyState& state = states[item.body];
-    const int own = b.schedule.own[item.index];
-    const Chain& chain = b.schedule.chains[own];
-    UpdateSums& sums = b.schedule.chain_sums[own];
+    const int k = b.schedule.own[item.index];
+    const Chain& chain = b.schedule.chains[k];
+    UpdateSums& sums = b.schedule.chain_sums[k];
     if (scope.energy_wanted) {
       b.elements.chain_forces(chain, state.u, state.f, state.history, StoreForces{});
       sums = {};
     } else {
-      sums = fused_chain(b, state, scope, chain);
+      sums = fused_chain(updates[item.body], chain);
     }
   };
-  for_each(count(0) + count(1), run, true);
-  if (exchange) {
+  for_each(own(0) + own(1), run, true);
+  if (exchange)
     exchange->share_forces(bodies, states, scope);
-    return;
-  }
-  for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].elements.end(bodies[k].schedule.chains, states[k].f);
+  else if (scope.energy_wanted)
+    for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].elements.end(bodies[k].schedule.chains, states[k].f);
+  if (scope.energy_wanted) return;
+  const auto chains = [&](std::size_t k) { return static_cast<std::ptrdiff_t>(bodies[k].schedule.chains.size()); };
+  const auto complete = [&](std::ptrdiff_t task) {
+    const Item item = item_of(task, chains(0));
+    UpdateSchedule& schedule = bodies[item.body].schedule;
+    schedule.plane_sums[item.index] = complete_planes(updates[item.body], schedule.chains[item.index]);
+  };
+  for_each(chains(0) + chains(1), complete, true);
 }
 
 void update_waiting_nodes(RollingBodies& bodies, BodyStates& states, const StepScope& scope) {
+  const BodyUpdate updates[] = {update_of(bodies[0], states[0], scope), update_of(bodies[1], states[1], scope)};
   const auto waiting = [&](std::size_t k) { return static_cast<std::ptrdiff_t>(bodies[k].schedule.waiting.size()); };
   const auto count = [&](std::size_t k) {
     return waiting(k) + static_cast<std::ptrdiff_t>(bodies[k].schedule.bordered.size());
   };
-  for_each(count(0) + count(1), [&](std::ptrdiff_t task) {
+  const auto update = [&](int, std::ptrdiff_t task) {
     Item item = item_of(task, count(0));
     RollingBody& b = bodies[item.body];
-    BodyState& state = states[item.body];
     UpdateSchedule& schedule = b.schedule;
     const bool border = item.index >= waiting(item.body);
     if (border) item.index -= waiting(item.body);
     const SectionNode node = border ? schedule.bordered[item.index] : schedule.waiting[item.index];
     const BlockLayout& lay = b.body.layout.blocks[node.block];
-    const double* line = state.f.data() + lay.line(node.node, 0);
+    const double* line = states[item.body].f.data() + lay.line(node.node, 0);
     const double* const f[3] = {line, line + lay.stride, line + 2 * lay.stride};
     UpdateSums sums;
-    if (border && !scope.energy_wanted) {
-      for (int j : schedule.borders[node.block]) advance(b, state, scope, node, j, j + 1, f, sums);
-    } else {
-      advance(b, state, scope, node, 0, lay.stations, f, sums);
+    if (!border || scope.energy_wanted) {
+      advance(updates[item.body], node, 0, lay.stations, f, sums);
+    } else if (!lay.closed) {
+      advance_at(updates[item.body], node, 0, f, sums);
+      advance_at(updates[item.body], node, lay.elements, f, sums);
     }
     (border ? schedule.border_sums : schedule.waiting_sums)[item.index] = sums;
-  });
+  };
+  for_each_in_stages(
+      1, [&](int) { return count(0) + count(1); }, update);
 }
 
 std::array<UpdateSums, 2> update_sums(const RollingBodies& bodies, const StepScope& scope) {
@@ -161,8 +267,10 @@ std::array<UpdateSums, 2> update_sums(const RollingBodies& bodies, const StepSco
   if (!scope.sums_wanted()) return out;
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const UpdateSchedule& schedule = bodies[k].schedule;
-    if (!scope.energy_wanted)
+    if (!scope.energy_wanted) {
       for (const UpdateSums& s : schedule.chain_sums) out[k] += s;
+      for (const UpdateSums& s : schedule.plane_sums) out[k] += s;
+    }
     for (const UpdateSums& s : schedule.waiting_sums) out[k] += s;
     for (const UpdateSums& s : schedule.border_sums) out[k] += s;
   }

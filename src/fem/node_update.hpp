@@ -26,7 +26,7 @@ class RankExchange;
 void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
                        const StepScope& scope, RankExchange* exchange = nullptr);
 
-/// The nodes that waited for the contact, and the border planes of the others.
+/// The nodes that waited for the contact, and the ends of open blocks.
 void update_waiting_nodes(RollingBodies& bodies, BodyStates& states, const StepScope& scope);
 
 /// Sums of this step's updates; zero if none were wanted.

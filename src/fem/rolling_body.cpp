@@ -120,11 +120,7 @@ void chain_tiles(RollingBody& b, bool sums_wanted) {
   for (std::size_t k = 0; k < schedule.chains.size(); ++k)
     if (b.cut.is_own(schedule.chains[k].first_tile)) schedule.own.push_back(static_cast<int>(k));
   schedule.chain_sums.assign(schedule.chains.size(), {});
-  schedule.borders.resize(schedule.at_once.size());
-  for (std::vector<int>& planes : schedule.borders) planes.clear();
-  for (const Chain& c : schedule.chains) schedule.borders[tiling.block(c)].push_back(tiling.border_plane(c));
-  for (std::size_t k = 0; k < schedule.borders.size(); ++k)
-    if (const BlockLayout& l = b.body.layout.blocks[k]; !l.closed) schedule.borders[k].push_back(l.elements);
+  schedule.plane_sums.assign(schedule.chains.size(), {});
 }
 
 const Field& surface_displacement(RollingBody& b, const BodyState& state) {
@@ -133,13 +129,13 @@ const Field& surface_displacement(RollingBody& b, const BodyState& state) {
   const int block = b.body.mesh.contact.block, stations = surface.stations.nodes();
   const double* cosine = b.cos_node[block].data();
   const double* sine = b.sin_node[block].data();
-  for (int column = 0; column < surface.columns; ++column) {
-    const std::ptrdiff_t x = surface.index(column, 0);
+  for_each(surface.columns, [&](std::ptrdiff_t column) {
+    const std::ptrdiff_t x = surface.index(static_cast<int>(column), 0);
     const double radius = surface.node[column].z;
     for (int j = 0; j < stations; ++j)
       set_vector(b.surface_u, x + j, surface.stride,
                  own_displacement(b.frame, radius, cosine[j], sine[j], vector_at(state.u, x + j, surface.stride)));
-  }
+  });
   return b.surface_u;
 }
 

@@ -16,13 +16,13 @@ namespace railstrata {
 struct UpdateSchedule {
   std::vector<std::vector<char>> at_once;  ///< per block and section node
   std::vector<SectionNode> waiting;   ///< free nodes on the running surface, at ties, with added mass or local steps
-  std::vector<SectionNode> bordered;  ///< nodes updated at once, but for the border planes
-  int chains_wanted = 0;              ///< what chains and borders were made for
+  std::vector<SectionNode> bordered;  ///< nodes updated at once, but for the ends of open blocks
+  int chains_wanted = 0;              ///< what chains were made for
   std::vector<Chain> chains;  ///< enough to keep the threads busy; single tiles where sums are wanted, whose bits are
                               ///< not to depend on the threads. Of other ranks' tiles too
   std::vector<int> own;       ///< those of the chains that this rank works through
-  std::vector<std::vector<int>> borders;  ///< per block, border stations
-  std::vector<UpdateSums> chain_sums, waiting_sums, border_sums;
+  std::vector<UpdateSums> chain_sums, plane_sums;  ///< by chain; of the planes in front of them
+  std::vector<UpdateSums> waiting_sums, border_sums;
 };
 
 struct RollingBody {
@@ -49,7 +49,7 @@ struct RollingBody {
 
 using RollingBodies = std::array<RollingBody, 2>;  ///< by BodyId
 
-/// Chains and border planes for this step; no memory is asked for after the first of each kind.
+/// Chains for this step; no memory is asked for after the first of each kind.
 void chain_tiles(RollingBody& body, bool sums_wanted);
 
 /// Displacements of the running surface in the model frame.

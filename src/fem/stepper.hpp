@@ -11,7 +11,7 @@
 // drift from uniform rolling: no digits are lost to the rigid motion, not even by elements in single precision.
 //
 // Nodes whose forces come from their elements alone are updated as soon as a tile has finished their forces, while
-// everything is in cache; the running surface, tied lines and the tiles' border planes follow after the contact.
+// everything is in cache, those between chains when all have run; running surface and tied lines follow the contact.
 // The axle turns with the bore's forces, the torque and the suspension. Run-up damping acts on vibration only: on
 // velocities relative to the rigid rolling motion, with a rate that fades to zero: the mean travel and spin of the
 // wheel's free nodes are the reference, so that it takes neither momentum along x nor angular momentum.
