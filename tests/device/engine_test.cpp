@@ -158,7 +158,9 @@ TEST(Engine, CountsWhatACardWouldNeed) {
   EmulatedDevice device(Protection::open);
   Stepper stepper(system, solve_preload(system, 1e-2));
   stepper.use(on(device));
-  EXPECT_NEAR(need.memory(), static_cast<double>(device.allocated()), 0.02 * need.memory());  // whole pages
+  const double whole_pages = static_cast<double>(device.allocated()), most = 200 * 4096;  // a page for each array
+  EXPECT_GE(whole_pages, need.memory());
+  EXPECT_LT(whole_pages - need.memory(), most);
   EXPECT_GT(need.tables, 0);
   ASSERT_EQ(need.cards.size(), 3u);
   EXPECT_LT(need.cards[2].step, need.cards[0].step);
