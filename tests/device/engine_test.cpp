@@ -151,33 +151,6 @@ TEST(Engine, AWholeRunHasTheHistoryAndSamplesOfTheProcessor) {
   EXPECT_LT(worst, 1e-9 * scale);
 }
 
-TEST(Engine, BooksTheEnergyOfAnInitialStress) {
-  CaseSpec s = small_case();
-  s.run.plasticity = true;  // of which nothing may yield
-  s.mesh.largest = 8e-3;
-  LayerSpec layer;
-  layer.name = "clad";
-  layer.thickness = 4e-3;
-  layer.material = s.rail_material;
-  layer.material.strength.initial_stress = {-344e6, -200e6};
-  s.layers = {layer};
-  const RollingSystem system = small_system(s);
-  ASSERT_FALSE(system.rail().initial_stress.empty());
-  ASSERT_FALSE(system.end_loads.empty());
-  ASSERT_EQ(not_on_a_device(system, false), "");
-  const PreloadResult preload = solve_preload(system, 1e-3);
-  EmulatedDevice device(Protection::open);
-  Stepper here(system, preload), there(system, preload);
-  there.use(on(device));
-  roll(here, 20);
-  roll(there, 20);
-  const EnergyBalance &a = here.energy(), &b = there.energy();
-  EXPECT_NEAR(b.strain, a.strain, 1e-9 * std::abs(a.strain));
-  EXPECT_NEAR(b.hourglass, a.hourglass, 1e-9 * std::abs(a.strain));
-  EXPECT_NEAR(b.weight, a.weight, 1e-9 * std::abs(a.weight));
-  EXPECT_NEAR(b.total(), a.total(), 1e-9 * std::abs(a.strain));
-}
-
 TEST(Engine, CountsWhatACardWouldNeed) {
   const RollingSystem system = small_system(small_case());
   StepPlan plan(system);
@@ -185,7 +158,9 @@ TEST(Engine, CountsWhatACardWouldNeed) {
   EmulatedDevice device(Protection::open);
   Stepper stepper(system, solve_preload(system, 1e-2));
   stepper.use(on(device));
-  EXPECT_NEAR(need.memory(), static_cast<double>(device.allocated()), 0.02 * need.memory());  // whole pages
+  const double whole_pages = static_cast<double>(device.allocated()), most = 200 * 4096;  // a page for each array
+  EXPECT_GE(whole_pages, need.memory());
+  EXPECT_LT(whole_pages - need.memory(), most);
   EXPECT_GT(need.tables, 0);
   ASSERT_EQ(need.cards.size(), 3u);
   EXPECT_LT(need.cards[2].step, need.cards[0].step);
