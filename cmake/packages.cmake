@@ -35,7 +35,7 @@ macro(debian_package part name depends section summary text)
   set(CPACK_DEBIAN_${id}_FILE_NAME DEB-DEFAULT)
   set(CPACK_DEBIAN_${id}_PACKAGE_DEPENDS "${depends}")
   set(CPACK_DEBIAN_${id}_PACKAGE_SECTION ${section})
-  if(NOT "${part}" MATCHES "^(dev|mpi)$")  # has shared libraries: the loader's list is made anew
+  if(NOT "${part}" STREQUAL "dev")  # has shared libraries: the loader's list is made anew
     set(CPACK_DEBIAN_${id}_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/packaging/triggers)
   endif()
   set(CPACK_COMPONENT_${id}_DESCRIPTION "${summary}\n${text}")
