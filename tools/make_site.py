@@ -4,9 +4,9 @@
 usage: make_site.py [--out FOLDER] [--run] [--explorer PAGE] [ROOT]
 
 Writes the site to FOLDER (default: ROOT/build/site) by MkDocs (Debian: mkdocs, mkdocs-material), strictly: a link to a
-page that is not there ends it. --run executes the tutorial for its pictures, with the package in build/python. --explorer: a page of `railstrata
-explore`, which the first page then leads to. Pages
-ask for nothing from other machines; the search needs a server (python3 -m http.server -d FOLDER).
+page that is not there ends it. --run executes the tutorial for its pictures, with the package in build/python.
+--explorer: a page of `railstrata explore`, which the first page then leads to. Pages ask for nothing from other
+machines; the search needs a server (python3 -m http.server -d FOLDER).
 Exit code: 0 done, 1 something is wrong, 77 a program is missing.
 """
 import argparse

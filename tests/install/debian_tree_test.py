@@ -4,8 +4,8 @@
 usage: debian_tree_test.py BUILD_DIR SOURCE_DIR FOLDER [--packages FOLDER_WITH_DEBS] [--tree TREE]
 
 Makes a minimal system by mmdebstrap, installs the packages with what they ask for, and goes the README's ways there:
-the program, two of its ranks, Python, a C and a Fortran program; then takes the packages off again. Needs root, mmdebstrap and an archive
-of Debian; skipped (77) without. --packages: those of another build (build-install/packages: all processors); --tree: an
+the program, two of its ranks, Python, a C and a Fortran program; then takes the packages off again. Needs root,
+mmdebstrap and an archive of Debian; skipped (77) without. --packages: those of another build (build-install/packages: all processors); --tree: an
 existing minimal system, kept as it is left.
 """
 import argparse
@@ -85,7 +85,8 @@ def the_ranks(tree, source):
     tree.apt("openmpi-bin")
     shutil.copy(source / "tests/program/soak.toml", tree.folder / "root/small.toml")
     short = "--set run.positions='[\"6 mm\"]' --set drive.speed='10 m/s'"
-    tree.run("cd /root && OMPI_MCA_btl_vader_single_copy_mechanism=none mpirun --oversubscribe --allow-run-as-root -n 2 "
+    tree.run("cd /root && OMPI_MCA_btl_vader_single_copy_mechanism=none "
+             "mpirun --oversubscribe --allow-run-as-root -n 2 "
              f"railstrata run small.toml {short} --no-report -j 1 --out results/ranks")
     assert (tree.folder / "root/results/ranks/summary.json").exists()
 

@@ -65,7 +65,8 @@ class SlurmTest(SharedStudy):
         self.wait_for(array, task, "RUNNING")
         self.wait_until(lambda: self.rolling(job), seconds=PATIENCE)
         self.slurm.ask("scancel", "--signal=USR1", "--batch", job)
-        self.wait_until(lambda: any((folder / "checkpoint.h5").exists() for folder in self.rolling(job)), seconds=PATIENCE)
+        self.wait_until(lambda: any((folder / "checkpoint.h5").exists() for folder in self.rolling(job)),
+                        seconds=PATIENCE)
         study = self.claims(job)[0][1]["process"]
         return study, self.hold(study)
 
@@ -74,7 +75,7 @@ class SlurmTest(SharedStudy):
                 for folder in file.parent.glob(f"fem.part-*-{claim['process']}") if (folder / "history.csv").exists()]
 
     def end(self, array, expected):
-        """Every task has its results. A task that is requeued is for a moment as it ended before: the results decide."""
+        """Every task has its results. One that is requeued is for a moment as it ended before: the results decide."""
         self.wait_until(lambda: self.results_of(self.out).keys() == expected.keys()
                         and all(t["state"] in ("COMPLETED", "FAILED") for t in self.slurm.tasks(array).values()),
                         seconds=PATIENCE)

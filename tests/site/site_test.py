@@ -102,8 +102,8 @@ class Parts(unittest.TestCase):
 if __name__ == "__main__":
     SITE.parent.mkdir(parents=True, exist_ok=True)
     page = SITE.parent / "explore.html"
-    subprocess.run([pathlib.Path(sys.argv[3]).resolve(), "explore", "cases/quick", "--force", "--out", page], check=True,
-                   cwd=SOURCE)
+    explore = [pathlib.Path(sys.argv[3]).resolve(), "explore", "cases/quick", "--force", "--out", page]
+    subprocess.run(explore, check=True, cwd=SOURCE)
     made = subprocess.run([sys.executable, SOURCE / "tools/make_site.py", SOURCE, "--explorer", page, "--out", SITE])
     if made.returncode:
         sys.exit(made.returncode)
