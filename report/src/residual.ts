@@ -4,9 +4,9 @@ import {element, note} from "./dom";
 import type {Figure, Theme} from "./figures";
 import {linesFigure, type Series} from "./lines";
 import {residualMaps, type SectionStory} from "./passes";
-import {fixedText, percentText, runLabel} from "./text";
+import {fixedText, numberText, runLabel} from "./text";
 
-const named = (run: Run, runs: Run[], words: string) => (runs.length > 1 ? `${words}: ${runLabel(run)}` : words);
+const named = (run: Run, runs: Run[], words: string) => (runs.length > 1 ? `${runLabel(run)}: ${words}` : words);
 
 /// Of the rail's layers, from the surface down.
 function storyOf(run: Run, residual: Columns): SectionStory {
@@ -24,7 +24,7 @@ function words(run: Run): string {
   const mpa = (v: number|undefined) => `${fixedText(1e-6 * (v ?? 0), 0)} MPa`;
   return `When the wheel has gone, the rail keeps residual stress: ${mpa(r.sigma_x_min_Pa)} along and ` +
       `${mpa(r.sigma_y_min_Pa)} across at the most compressive places. Along the stations that this is taken from, ` +
-      `plastic strain differs by ${percentText(r.uneven ?? 0)} of its largest.`;
+      `plastic strain differs by ${numberText(100 * (r.uneven ?? 0), 2)} % of its largest.`;
 }
 
 /// The column of elements with the largest plastic strain, from the surface down.
