@@ -156,6 +156,14 @@ export interface PlasticNumbers {
   zone: string|null;
 }
 
+/// Stress when the wheel has gone; none: why it is not told.
+export interface ResidualNumbers {
+  none: string|null;
+  sigma_x_min_Pa?: number;
+  sigma_y_min_Pa?: number;
+  uneven?: number;
+}
+
 export interface Summary {
   state?: string;  // of a transient: which of its states this is
   position_m: number|null;
@@ -165,6 +173,7 @@ export interface Summary {
   shakedown?: {factors: Factors; verdict?: string; fails_by?: string[]; bodies: BodyShakedown[]};
   fatigue?: BodyFatigue[];
   plastic?: PlasticNumbers;
+  residual?: ResidualNumbers;
   run: Record<string, number|string|null>;
 }
 
@@ -185,6 +194,7 @@ export interface Run {
   wheel_depth_line: Columns|null;
   history: Columns|null;
   film: Film|null;
+  residual: Columns|null;  // of the rail's section when the wheel has gone
   sections: Partial<Record<BodyName, BodySections>>;
   slices: Partial<Record<BodyName, Slices|null>>;
   shakedown: Partial < Record < BodyName, {

@@ -7,11 +7,18 @@ import {linesFigure, type Series} from "./lines";
 import {magnitudeColours, mapFigure, signedColours, type Line, type Marker} from "./maps";
 import {countText, numberText, powerText} from "./text";
 
+/// What maps of a section take: of passes, or of a single run.
+export interface SectionStory {
+  name: string;
+  summary: Pick<PassesSummary, "zones"|"loops">;
+  residual: Columns;
+}
+
 const kClasses = ["elastic shakedown", "plastic shakedown", "ratchetting", "no claim yet"];
 /// From good to bad and not known, told apart with any colour vision.
 const kClassFills = ["#0072b2", "#56b4e9", "#d55e00", "#b9bec5"];
-const several = (all: PassesStory[]) => all.length > 1;
-const called = (s: PassesStory, all: PassesStory[], words: string) => (several(all) ? `${words}: ${s.name}` : words);
+const several = (all: SectionStory[]) => all.length > 1;
+const called = (s: SectionStory, all: SectionStory[], words: string) => (several(all) ? `${words}: ${s.name}` : words);
 const strain = (v: number|null|undefined) => (v === 0 ? "0" : powerText(v));
 const depthText = (metres: number) => `${(1e3 * metres).toFixed(2)} mm`;
 
@@ -96,7 +103,7 @@ interface Section {
   rows: (values: Values) => Values[];  // a row for each depth; null where there is no point
 }
 
-function sectionOf(s: PassesStory): Section {
+function sectionOf(s: SectionStory): Section {
   if (s.residual.row) return elementSection(s.residual);
   const depth = s.residual.depth_mm;
   let width = 0;
@@ -127,12 +134,12 @@ function elementSection(residual: Columns): Section {
 }
 
 /// Lower borders of layers [mm].
-function borders(s: PassesStory): number[] { return (s.summary.zones ?? []).slice(1).map((z) => 1e3 * z.top_m); }
+function borders(s: SectionStory): number[] { return (s.summary.zones ?? []).slice(1).map((z) => 1e3 * z.top_m); }
 
 const largest = (values: Values) => values.reduce<number>((m, v) => Math.max(m, Math.abs(v ?? 0)), 0);
 
 /// Across, where the rail has yielded or keeps a quarter of the largest stress, with room to either side.
-function windowOf(s: PassesStory, section: Section): Span {
+function windowOf(s: SectionStory, section: Section): Span {
   const {residual} = s;
   const p = 0.02 * largest(residual.plastic_p);
   const stress = 0.25 * largest(residual.sigma_xx_MPa);
@@ -147,6 +154,7 @@ function windowOf(s: PassesStory, section: Section): Span {
 }
 
 interface Quantity {
+  id?: string;  // of the figure, before the column's name
   column: string;
   title: string;
   bar: string;
@@ -200,7 +208,7 @@ function classScale(): [number, string][] {
   return kClassFills.flatMap((c, k): [number, string][] => [[k / n, c], [(k + 1) / n, c]]);
 }
 
-function marker(s: PassesStory): Marker|undefined {
+function marker(s: SectionStory): Marker|undefined {
   const at = s.summary.loops?.[0];
   if (!at) return undefined;
   return {x: 1e3 * at.y_m, y: 1e3 * at.depth_m, text: `governing point, ${depthText(at.depth_m)} deep`};
@@ -212,7 +220,7 @@ interface Frame {
   foot: number;
 }
 
-function commonFrame(all: PassesStory[]): Frame {
+function commonFrame(all: SectionStory[]): Frame {
   const windows = all.map((s) => windowOf(s, sectionOf(s)));
   const feet = all.map((s) => {
     const {depth} = sectionOf(s);
@@ -223,14 +231,14 @@ function commonFrame(all: PassesStory[]): Frame {
   return {across, foot: Math.min(...feet)};
 }
 
-function sectionMap(s: PassesStory, all: PassesStory[], q: Quantity, scale: number, shown: Frame): Figure {
+function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: number, shown: Frame): Figure {
   const section = sectionOf(s);
   const yielded = (v: number, i: number) => (q.classes && s.residual.plastic_p[i] === 0 ? null : v);
   const values = section.rows(s.residual[q.column].map(yielded));
   const across = (depth: number): Line => ({x: shown.across, y: [depth, depth]});
   const range: Span = q.classes ? [-0.5, 3.5] : q.signed ? [-scale, scale] : [0, scale];
   return mapFigure({
-    id: `passes-${q.column.replace("_MPa", "").replace("_", "-")}-${all.indexOf(s) + 1}`,
+    id: `${q.id ?? "passes"}-${q.column.replace("_MPa", "").replace("_", "-")}-${all.indexOf(s) + 1}`,
     title: called(s, all, q.title),
     words: q.classes ? [classLegend(s), ...q.words] : q.words,
     x: section.y,
@@ -257,7 +265,7 @@ function sectionMap(s: PassesStory, all: PassesStory[], q: Quantity, scale: numb
   });
 }
 
-function classLegend(s: PassesStory): HTMLElement {
+function classLegend(s: SectionStory): HTMLElement {
   const yielded = s.residual.class.filter((_, i) => s.residual.plastic_p[i] !== 0);
   const there = kClasses.flatMap((name, k) => {
     if (!yielded.includes(k)) return [];
@@ -267,14 +275,21 @@ function classLegend(s: PassesStory): HTMLElement {
   return element("span", {class: "legend"}, ...there, element("br"));
 }
 
-function sectionMaps(all: PassesStory[]): Figure[] {
+function sectionMaps(all: SectionStory[], quantities: Quantity[]): Figure[] {
   const wide = all.filter((s) => sectionOf(s).width > 1);
   const shown = commonFrame(wide);
-  return kMaps.flatMap((q) => {
+  return quantities.flatMap((q) => {
     const columns = q.signed ? ["sigma_xx_MPa", "sigma_yy_MPa"] : [q.column];
     const scale = Math.max(1e-12, ...wide.flatMap((s) => columns.map((c) => largest(s.residual[c]))));
     return wide.map((s) => sectionMap(s, all, q, scale, shown));
   });
+}
+
+/// Residual stress of single runs, which have made one pass.
+export function residualMaps(all: SectionStory[]): Figure[] {
+  const [along, across] = kMaps;
+  const words = ["Blue presses, red pulls. What the wheel leaves behind."];
+  return sectionMaps(all, [{...along, id: "residual", words}, {...across, id: "residual"}]);
 }
 
 // ---- lines
@@ -439,7 +454,7 @@ function assumptions(all: PassesStory[]): Child[] {
 /// The whole page of passes, below its header.
 export function passesParts(all: PassesStory[]): HTMLElement[] {
   const stress: [string, string][] = [["sigma_xx_MPa", "σ_x"], ["sigma_yy_MPa", "σ_y"]];
-  const maps = sectionMaps(all);
+  const maps = sectionMaps(all, kMaps);
   const loops = all.flatMap((s) => loopFigures(s, all));
   const along = all.flatMap((s) => alongMaps(s, all));
   const axes = note(

@@ -5,6 +5,7 @@ import {rowsOf, unpack, type BodyName, type PlasticNumbers, type Run} from "./da
 import {element, note, part} from "./dom";
 import {frame, type Figure, type Painted} from "./figures";
 import {cellsBelow, layerWords, paintSection, type Cell} from "./profile";
+import {residualOf} from "./residual";
 import {sectionMaps} from "./stress";
 import {countText, fixedText, numberText, powerText, runLabel} from "./text";
 
@@ -121,5 +122,9 @@ export function yieldedPart(runs: Run[]): HTMLElement|null {
   const about =
       "Accumulated plastic strain p = ∫ √(2/3) |dE^p|: means over an element at this position of the wheel. " +
       "The words tell of the largest point anywhere at the end of the rolling.";
-  return part("yielded", "What yielded", ...told, note(about), element("div", {class: "grid"}, ...figures.map(frame)));
+  const left = residualOf(runs);
+  const grid = (all: Figure[]) => element("div", {class: "grid"}, ...all.map(frame));
+  return part(
+      "yielded", "What yielded", ...told, note(about), grid(figures), ...left.told,
+      ...(left.figures.length ? [grid(left.figures)] : []));
 }

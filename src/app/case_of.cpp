@@ -21,7 +21,7 @@ LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
   LoadedCase loaded = load_case(file, options.overrides);
   warn_of(loaded.notes);
   if (use != CaseUse::yielding) warn_of(loaded.elastic_notes);
-  if (use != CaseUse::steady_rolling) warn_of(loaded.static_notes);
+  if (use == CaseUse::contact) warn_of(loaded.static_notes);
   return loaded;
 }
 

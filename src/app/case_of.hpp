@@ -8,8 +8,8 @@
 
 namespace railstrata {
 
-/// What a command makes of a case: elastic contact, rolling or at rest; steady rolling whatever run.rolling says; a
-/// body that yields.
+/// What a command makes of a case: elastic contact, rolling or at rest; steady rolling whatever run.rolling says; the
+/// same over a body that yields.
 enum class CaseUse { contact, steady_rolling, yielding };
 
 /// The case with the overrides applied; those of its notes that hold for the use are logged.

@@ -23,6 +23,15 @@ double roll_length(const PassesOptions& options) {
   return options.roll_length.empty() ? 0 : length_of("--roll-length", options.roll_length);
 }
 
+/// Options of the finite elements alone, which the stationary method would pass over in silence.
+void require_stationary(const PassesOptions& options) {
+  if (!options.roll_length.empty())
+    throw CaseError("--roll-length: the stationary method rolls no length", "take it out, or add --engine fem");
+  if (options.wheels != "new")
+    throw CaseError("--wheels: the wheel of the stationary method is elastic, and the same for ever",
+                    "take it out, or add --engine fem");
+}
+
 PassOrder order_of(const CommandOptions& options, const LoadedCase& loaded) {
   PassOrder order;
   order.folder = output_folder_of(options, loaded, "-passes");
@@ -52,6 +61,7 @@ ExitCode code_of(const PassesEnd& end) { return end.converged ? ExitCode::ok : E
 
 ExitCode command_passes(const CommandOptions& options) {
   if (options.passes.engine == engine_word(Engine::fem)) return command_rolled_passes(options);
+  require_stationary(options.passes);
   LoadedCase loaded = load_case_of(options, CaseUse::yielding);
   PassOrder order = order_of(options, loaded);
   order.cell = cell_size(options.cell);
@@ -62,6 +72,9 @@ ExitCode command_passes(const CommandOptions& options) {
 }
 
 ExitCode command_rolled_passes(const CommandOptions& options) {
+  if (!options.cell.empty())
+    throw CaseError("--cell: finite elements have no cells",
+                    "take it out, and give mesh.element_size, or --engine bem");
   CommandOptions own = options;  // with run.plasticity, so that what it asks of others is checked
   own.overrides.emplace_back("run.plasticity=true");
   own.overrides.emplace_back("run.rolling=true");

@@ -81,6 +81,7 @@ FolderRun new_run(const CommandOptions& options) {
 struct RunOutcome {
   std::vector<Summary> summaries;
   bool stopped = false, limit_reached = false;
+  std::optional<RunResidual> residual;
 };
 
 RunOutcome solve_and_write(FolderRun& run, const CommandOptions& options, const FemOptions& fem) {
@@ -96,9 +97,14 @@ RunOutcome solve_and_write(FolderRun& run, const CommandOptions& options, const 
   observer.writing = [&] { report.results(); };
   observer.warn = [&](const std::string& text) { report.warning(text); };
   const FemSolution solution = solve_in_folder(run, {options.command_line, options.threads}, observer, fem);
-  RunOutcome out{{}, solution.stopped, solution.limit_reached};
+  RunOutcome out{{}, solution.stopped, solution.limit_reached, solution.residual};
   for (const FemPosition& position : solution.positions) out.summaries.push_back(position.summary);
   return out;
+}
+
+void tell_residual(const RunResidual& residual) {
+  spdlog::info("{}", words_of(residual));
+  if (const std::string doubt = doubt_of(residual); !doubt.empty()) spdlog::warn("{}", doubt);
 }
 
 void warn_of_shared_processors(int threads) {
@@ -149,6 +155,7 @@ ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem) {
   const RunOutcome outcome = solve_and_write(run, options, fem);
 
   for (const Summary& s : outcome.summaries) print_summary(s, options.json);
+  if (outcome.residual) tell_residual(*outcome.residual);
   if (outcome.stopped) {
     spdlog::warn("stopped {}; go on with\n    {}", outcome.limit_reached ? "for --max-time" : "on request",
                  resume_command(run.folder));

@@ -27,7 +27,12 @@ void require_strength(const LoadedCase& loaded) {
 ExitCode command_shakedown(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
   require_strength(loaded);
-  if (options.shakedown.engine == "fem") require_elastic_run(loaded);
+  if (options.shakedown.engine == "fem") {
+    require_elastic_run(loaded);
+    if (!options.cell.empty())
+      throw CaseError("--cell: finite elements have no cells",
+                      "take it out, and give mesh.element_size, or --engine bem");
+  }
   CommandOptions solve = options;
   solve.out = output_folder_of(options, loaded, "-shakedown");
   solve.shakedown.maps = true;

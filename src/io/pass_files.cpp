@@ -245,18 +245,22 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
 }
 
 void write_pass_points(const std::filesystem::path& file, const std::vector<std::string>& provenance,
-                       const std::vector<PassPoint>& points) {
+                       const std::vector<PassPoint>& points, PointColumns which) {
   std::vector<CsvColumn> columns;
-  for (const char* name : {"y_mm", "depth_mm", "zone", "accumulated_strain", "net_strain", "class", "sigma_xx_MPa",
-                           "sigma_yy_MPa", "sigma_zz_MPa", "tau_xy_MPa", "tau_yz_MPa", "tau_xz_MPa", "plastic_xx",
-                           "plastic_yy", "plastic_zz", "plastic_xy", "plastic_yz", "plastic_xz", "plastic_p"})
+  for (const char* name : {"y_mm", "depth_mm", "zone"}) columns.push_back({name, {}});
+  if (which == PointColumns::of_passes)
+    for (const char* name : {"accumulated_strain", "net_strain", "class"}) columns.push_back({name, {}});
+  for (const char* name :
+       {"sigma_xx_MPa", "sigma_yy_MPa", "sigma_zz_MPa", "tau_xy_MPa", "tau_yz_MPa", "tau_xz_MPa", "plastic_xx",
+        "plastic_yy", "plastic_zz", "plastic_xy", "plastic_yz", "plastic_xz", "plastic_p"})
     columns.push_back({name, {}});
   const bool of_elements = std::any_of(points.begin(), points.end(), [](const PassPoint& p) { return p.row >= 0; });
   if (of_elements)
     for (const char* name : {"row", "column"}) columns.push_back({name, {}});
   for (const PassPoint& p : points) {
-    std::vector<double> row{kMilli * p.y,         kMilli * p.depth, static_cast<double>(p.zone),
-                            p.strain.accumulated, p.strain.net,     static_cast<double>(p.kind)};
+    std::vector<double> row{kMilli * p.y, kMilli * p.depth, static_cast<double>(p.zone)};
+    if (which == PointColumns::of_passes)
+      row.insert(row.end(), {p.strain.accumulated, p.strain.net, static_cast<double>(p.kind)});
     for (const double s : p.stress) row.push_back(kMega * s);
     for (const double e : p.plastic) row.push_back(e);
     row.push_back(p.accumulated);

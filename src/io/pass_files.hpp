@@ -49,9 +49,11 @@ PassVerdict verdict_of(const std::vector<std::vector<double>>& table);
 /// Adds a pass to the last ones of a point.
 void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes);
 
+/// Quantities of a series of passes (class, strain of the last pass), or none of a single run.
+enum class PointColumns { of_passes, of_a_run };
 /// A table of points: residual.csv and profile.csv. Of elements with their row and column in the fine zone, -1 deeper.
 void write_pass_points(const std::filesystem::path& file, const std::vector<std::string>& provenance,
-                       const std::vector<PassPoint>& points);
+                       const std::vector<PassPoint>& points, PointColumns which = PointColumns::of_passes);
 /// What passes.json says by either method: classes, last pass; points: the last passes of each.
 nlohmann::ordered_json pass_verdict(const std::string& title, const std::vector<std::string>& columns,
                                     const std::vector<std::vector<double>>& table,

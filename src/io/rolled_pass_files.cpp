@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "io/pass_way_files.hpp"
+#include "io/vtk.hpp"
 #include "post/row_strength.hpp"
 
 namespace railstrata {
@@ -182,6 +184,34 @@ nlohmann::ordered_json zones_json(const CaseSpec& spec) {
   return out;
 }
 
+/// A cell a quadrilateral, in the axes of write_section_vtk.
+void write_elements_vtk(const std::filesystem::path& file, const RolledPass& pass, PointColumns which) {
+  VtkQuads mesh;
+  for (const Vec2& node : pass.mesh.nodes) mesh.points.push_back({0, node.y, -node.z});
+  for (const std::array<int, 4>& quad : pass.mesh.quads) mesh.cells.push_back({quad[0], quad[1], quad[2], quad[3]});
+  std::vector<double> stress, strain, p, accumulated, net;
+  std::vector<std::int32_t> kind, zone;
+  for (const PassPoint& at : pass.points) {
+    for (const double s : at.stress) stress.push_back(kMega * s);
+    strain.insert(strain.end(), at.plastic.begin(), at.plastic.end());
+    p.push_back(at.accumulated);
+    accumulated.push_back(at.strain.accumulated);
+    net.push_back(at.strain.net);
+    kind.push_back(static_cast<std::int32_t>(at.kind));
+    zone.push_back(at.zone);
+  }
+  mesh.cell_fields = {{"residual_stress_MPa", 6, std::move(stress)},
+                      {"plastic_strain", 6, std::move(strain)},
+                      {"plastic_p", 1, std::move(p)}};
+  if (which == PointColumns::of_passes) {
+    mesh.cell_fields.push_back({"accumulated_strain", 1, std::move(accumulated)});
+    mesh.cell_fields.push_back({"net_strain", 1, std::move(net)});
+    mesh.cell_fields.push_back({"class", 1, std::move(kind)});
+  }
+  mesh.cell_fields.push_back({"zone", 1, std::move(zone)});
+  write_vtp(file, mesh);
+}
+
 std::vector<WayLoop> files_loops(const std::vector<RolledLoop>& loops) {
   std::vector<WayLoop> out;
   for (const RolledLoop& loop : loops) out.push_back({loop.y, loop.depth, loop.x, loop.states});
@@ -202,6 +232,7 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   write_pass_points(folder / "residual.csv", remarks, points);
   remarks.emplace_back("Below the place with the largest plastic strain.");
   write_pass_points(folder / "profile.csv", remarks, profile_of(points));
+  if (!points.empty()) write_elements_vtk(folder / "section.vtp", pass, PointColumns::of_passes);
   if (!loops.empty()) write_loops(folder / "loops.csv", provenance, files_loops(loops));
   nlohmann::ordered_json out = pass_verdict(spec.title, table_columns(), series.table, series.points);
   out["engine"] = "fem";
@@ -219,6 +250,33 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   out["assumptions"] = {"every pass begins with the state of the steady stations at every station",
                         "the wheel is a new one in every pass, with a given creepage", "small strains"};
   write_whole_file(folder / "passes.json", json_text(out, 2) + "\n");
+}
+
+void write_run_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                        const RunResidual& residual) {
+  if (!residual.none.empty()) {
+    write_whole_file(folder / "residual.json", json_text(nlohmann::ordered_json{{"none", residual.none}}, 2) + "\n");
+    return;
+  }
+  const PassRow& row = residual.pass.row;
+  const nlohmann::ordered_json out{{"none", nullptr},
+                                   {"sigma_x_min_Pa", row.stress[0]},
+                                   {"sigma_x_depth_m", row.stress_depth[0]},
+                                   {"sigma_y_min_Pa", row.stress[1]},
+                                   {"sigma_y_depth_m", row.stress_depth[1]},
+                                   {"plastic_strain", row.strain},
+                                   {"balance", row.balance},
+                                   {"steady_from_m", residual.from},
+                                   {"steady_to_m", residual.to},
+                                   {"uneven", residual.pass.uneven}};
+  std::vector<std::string> remarks = provenance;
+  remarks.push_back(fmt::format(
+      "What the wheel leaves behind: mean of the stations from {:.6g} to {:.6g} mm, in an endless rail at rest. y, "
+      "depth: axes of the rigid contact point. plastic_xy ...: tensor shears.",
+      kMilli * residual.from, kMilli * residual.to));
+  write_pass_points(folder / "residual.csv", remarks, residual.pass.points, PointColumns::of_a_run);
+  write_elements_vtk(folder / "section.vtp", residual.pass, PointColumns::of_a_run);
+  write_whole_file(folder / "residual.json", json_text(out, 2) + "\n");
 }
 
 }  // namespace railstrata

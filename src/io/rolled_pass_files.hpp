@@ -6,6 +6,7 @@
 
 #include "io/pass_files.hpp"
 #include "post/rolled_way.hpp"
+#include "post/run_residual.hpp"
 
 namespace railstrata {
 
@@ -35,9 +36,14 @@ void write_rolled_state(const std::filesystem::path& file, const std::vector<std
 /// Both back: the table as far as the state. Throws CaseError if they do not belong together.
 RolledSeries read_rolled_series(const std::filesystem::path& state, const std::filesystem::path& table);
 
-/// residual.csv, profile.csv, loops.csv (not where nothing has yielded) and passes.json. pass: the last one.
+/// residual.csv, profile.csv, section.vtp, loops.csv (the last two not where nothing has yielded) and passes.json.
+/// pass: the last one.
 void write_rolled_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                          const CaseSpec& spec, const PassRoll& roll, const RolledSeries& series, const RolledPass& pass,
                          const std::vector<RolledLoop>& loops);
+
+/// residual.json of a single run, and where there is residual stress residual.csv and section.vtp.
+void write_run_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                        const RunResidual& residual);
 
 }  // namespace railstrata

@@ -110,9 +110,18 @@ class Rows {
   Rows(const CaseSpec& spec, const LayeredHalfSpace& body) : body_(body) {
     const int layers = static_cast<int>(layer_extents(body).size());
     for (int zone = 0; zone <= layers; ++zone) {
-      laws_.push_back(plastic_law(zone_material(spec, BodyId::rail, zone), zone_name(spec, BodyId::rail, zone),
-                                  zone == 0 ? "material.rail" : fmt::format("layer.{}", zone - 1)));
-      if (!laws_.back()) continue;
+      const MaterialSpec& material = zone_material(spec, BodyId::rail, zone);
+      const std::string name = zone_name(spec, BodyId::rail, zone),
+                        key = zone == 0 ? "material.rail" : fmt::format("layer.{}", zone - 1);
+      laws_.push_back(plastic_law(material, name, key));
+      if (!laws_.back()) {
+        if (!material.strength.elastic)
+          notes_.push_back(
+              fmt::format("{}: the case says no strength of it, and it stays elastic: give "
+                          "{}.yield_strength, or {}.elastic = true",
+                          name, key, key));
+        continue;
+      }
       any_ = true;
       for (const std::string& note : laws_.back()->notes) notes_.push_back(note);
     }
@@ -194,8 +203,10 @@ void require_known(const CaseSpec& spec, const std::vector<BemResult>& solutions
       throw CaseError("the wheel touches the rail at several places: passes follow one patch",
                       "move the wheel (geometry.lateral_shift) until it touches at one place");
   if (!rows.any())
-    throw CaseError("the case does not say how strong the rail is, or its layers",
-                    "give yield_strength = \"500 MPa\", or grade = \"R260\", in [material.rail] or a [[layer]]");
+    throw CaseError(
+        "the case does not say how strong the rail is, or its layers, or has elastic = true for all that it "
+        "says a strength of: nothing can yield",
+        "give yield_strength = \"500 MPa\", or grade = \"R260\", in [material.rail] or a [[layer]]");
   if (const double most = kFarthest * f.y.half(); !f.line && farthest_pass(spec.passes) > most)
     throw CaseError(
         fmt::format("wheels that run {:.1f} mm to the side touch another part of the profile: passes take the patch "

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "body/stress.hpp"
 #include "material/strain_claim.hpp"
@@ -31,6 +33,26 @@ PassPoint point_of(const RollingSystem& sys, PlasticSection::Quad q, const Conta
   out.plastic = plane.turned({e[0], e[1], e[2], e[3], e[4], e[5]});
   const int station = element_at(rail.mesh.blocks[q.block].stations, middle);
   out.stress = plane.turned(element_stress(rail, at_rest.u, at_rest.history, q.block, q.quad, station));
+  return out;
+}
+
+/// Corners of the quadrilaterals, each node once.
+SectionMesh mesh_of(const SweptBody& rail, const std::vector<PlasticSection::Quad>& quads, const ContactPlane& plane) {
+  SectionMesh out;
+  std::map<std::pair<int, int>, int> number;  // of (block, node)
+  for (const PlasticSection::Quad& q : quads) {
+    const Section& section = rail.blocks[q.block].section;
+    std::array<int, 4> corners{};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const int node = section.quads[q.quad][k];
+      const auto [at, is_new] = number.try_emplace({q.block, node}, static_cast<int>(out.nodes.size()));
+      corners[k] = at->second;
+      if (!is_new) continue;
+      const Vec2 from = section.nodes[node] - plane.point;
+      out.nodes.push_back({dot(from, plane.across), dot(from, plane.into)});
+    }
+    out.quads.push_back(corners);
+  }
   return out;
 }
 
@@ -94,6 +116,7 @@ RolledPass rolled_pass(const RollingSystem& sys, const Model& base, const Plasti
   for (std::size_t n = 0; n < after.quads.size(); ++n)
     out.points.push_back(point_of(sys, after.quads[n], plane, section_strain(sys.rail(), before, n),
                                   section_strain(sys.rail(), after, n), at_rest, middle));
+  out.mesh = mesh_of(sys.rail().mesh, after.quads, plane);
   add_extremes(out.points, out.row);
   add_displacement(sys, plane, at_rest.u, middle, out.row);
   add_balance(sys, at_rest, middle, out.row);

@@ -308,6 +308,12 @@ Json all_columns(const CsvTable& table) {
   return out;
 }
 
+/// Of the rail's section when the wheel has gone.
+Json residual(const ReportRun& run) {
+  const auto found = run.sections.find("residual");
+  return found == run.sections.end() ? Json(nullptr) : all_columns(found->second);
+}
+
 Json shakedown(const ReportRun& run) {
   Json out = Json::object();
   for (const char* body : {"rail", "wheel"}) {
@@ -373,6 +379,7 @@ Json run_json(const ReportRun& run, bool with_slices) {
           {"history", columns(run.history)},
           {"film", film(run.film, is_engine(run.result.engine, Engine::fem))},
           {"sections", sections(run)},
+          {"residual", residual(run)},
           {"slices", with_slices ? slices(run) : Json::object()},
           {"shakedown", shakedown(run)}};
 }

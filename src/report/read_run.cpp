@@ -109,6 +109,9 @@ ReportRun read_report_run(const fs::path& folder) {
   for (const char* name : {"rail_longitudinal", "rail_cross", "wheel_longitudinal", "wheel_cross"})
     if (auto table = table_of(file_of(folder, std::string(name) + "_section.csv")))
       run.sections.emplace(name, std::move(*table));
+  if (auto table = table_of(file_of(folder, "residual.csv"))) run.sections.emplace("residual", std::move(*table));
+  if (auto residual = json_of(file_of(folder, "residual.json")); residual.is_object())
+    run.result.summary["residual"] = nlohmann::json::parse(residual.dump());
   for (const char* body : {"rail", "wheel"})
     if (auto table = table_of(file_of(folder, std::string(body) + "_slices.csv")))
       run.slices.emplace(body, std::move(*table));

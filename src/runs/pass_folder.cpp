@@ -55,14 +55,16 @@ class SteadyFolder {
     const FolderHold hold = prepare_output_folder(order_.folder, order_.force || order_.resume);
     order_.resume ? resume() : begin_pass_folder(loaded_, order_, identity());
     for (const std::string& note : rail_.notes) tell_.info(note);
+    for (const std::string& doubt : doubts_) tell_.warn(doubt);
+    rail_.notes.insert(rail_.notes.end(), doubts_.begin(), doubts_.end());
     limits_.stop = tell_.wishes().stop;
     while (series_.state.passes < order_.passes && !stopped() && take_pass()) {
     }
     if (last_)
       finish();
     else if (!stopped())
-      tell_.info(fmt::format("{}: {} passes are there already", order_.folder.string(), series_.state.passes));
-    return {series_.state.passes, series_.state.passes < order_.passes, converged_};
+      tell_.info(fmt::format("{}: there already: {}", order_.folder.string(), passes_text(series_.state.passes)));
+    return {series_.state.passes, series_.state.passes < order_.passes, converged_ && sound_};
   }
 
  private:
@@ -74,12 +76,27 @@ class SteadyFolder {
     std::vector<BemResult> solutions;
     for (const CaseSpec& spec : cases_of_tractions(loaded_.spec)) {
       HalfSpaceSolution solution = solve_half_space_contact(spec, place(spec, loaded_.folder()), bem);
+      doubt(solution.summary);
       if (solutions.empty()) judge_elastic(solution);
       const ContactSummary& c = solution.summary.contact;
       traction_.push_back(c.F_x / c.F_z);
       solutions.push_back(std::move(solution.result));
     }
     return rail_passes(loaded_.spec, solutions);
+  }
+
+  /// What the contact that all passes take over makes of itself, each once: checks that fail, warnings.
+  void doubt(const Summary& contact) {
+    const auto add = [&](std::string text) {
+      if (std::find(doubts_.begin(), doubts_.end(), text) == doubts_.end()) doubts_.push_back(std::move(text));
+    };
+    for (const Check& c : contact.checks) {
+      if (c.ok) continue;
+      sound_ = false;
+      add(fmt::format("a check of the contact fails: {} is {:.3g}, limit {:.3g}", c.name, c.value, c.limit));
+    }
+    for (const Warning& w : contact.warnings)
+      add(fmt::format("{} (here {:.3g}, limit {:.3g})", w.text, w.value, w.limit));
   }
 
   /// Shakedown factors of the elastic stress, to stand beside the class; where no strength is given there are none.
@@ -176,7 +193,7 @@ class SteadyFolder {
     save();
     write_results();
     tell_.warn_of_large_strain(last_row_.strain);
-    tell_.info(fmt::format("after {} passes: {} Results are in {}", series_.state.passes, answer_.verdict,
+    tell_.info(fmt::format("after {}: {} Results are in {}", passes_text(series_.state.passes), answer_.verdict,
                            order_.folder.string()));
     tell_.write_page(order_, answer_.verdict);
   }
@@ -198,8 +215,10 @@ class SteadyFolder {
   LoadedCase loaded_;
   PassTeller tell_;
   PassAnswer answer_;
-  std::vector<double> traction_;  ///< of each solution
-  RailPasses rail_;               ///< fills the two before
+  std::vector<double> traction_;     ///< of each solution
+  std::vector<std::string> doubts_;  ///< of the contact
+  bool sound_ = true;                ///< its checks hold
+  RailPasses rail_;                  ///< fills the four before
   SteadyBody body_;
   Field strain_;  ///< of the contact at place_
   Place place_;
@@ -216,6 +235,7 @@ class SteadyFolder {
 PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, const PassFolderObserver& observer) {
   require_steady(loaded);
   require_cell(order.cell);
+  loaded.spec.run.rolling = true;  // passes roll, as those by finite elements do
   return SteadyFolder(order, std::move(loaded), observer).run();
 }
 

@@ -40,7 +40,7 @@ struct PassFolderObserver {
 struct PassesEnd {
   int passes = 0;         ///< that the folder now has
   bool stopped = false;   ///< before all that were wanted
-  bool converged = true;  ///< stationary: every pass of this call settled
+  bool converged = true;  ///< stationary: every pass of this call settled, and the checks of its contact hold
 };
 
 /// Passes by the stationary method (post/rail_passes.hpp). A pass that is stopped has not been: its folder goes on

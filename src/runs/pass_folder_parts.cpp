@@ -16,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 }  // namespace
 
+std::string passes_text(int passes) { return fmt::format("{} {}", passes, passes == 1 ? "pass" : "passes"); }
+
 void PassTeller::info(const std::string& text) const {
   if (observer_.info) observer_.info(text);
 }

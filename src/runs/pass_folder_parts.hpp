@@ -10,6 +10,9 @@ namespace railstrata {
 inline constexpr const char *kPassTable = "passes.csv", *kPassState = "state.csv", *kPassIdentity = "identity.txt",
                             *kPassSummary = "passes.json", *kPassPage = "report.html";
 
+/// "1 pass", "20 passes"
+std::string passes_text(int passes);
+
 /// What follows them, whether there is somebody or not.
 class PassTeller {
  public:

@@ -13,8 +13,6 @@
 namespace railstrata {
 namespace {
 
-constexpr double kUneven = 0.1;  // of a pass's plastic strain along the steady stations
-
 RolledPasses passes_of(const LoadedCase& loaded, double roll_length) {
   if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
   try {
@@ -113,7 +111,7 @@ class RolledFolder {
                     "MPa across; uneven by {:.2g}",
                     row.pass, row.largest.accumulated, row.largest.net, 1e3 * row.net_depth, 1e-6 * row.stress[0],
                     1e-6 * row.stress[1], pass.uneven));
-    if (pass.uneven > kUneven)
+    if (pass.uneven > kLargestUnevenness)
       tell_.warn(fmt::format("pass {}: plastic strain differs by {:.2g} of itself along the steady stations", row.pass,
                              pass.uneven));
     const std::filesystem::path& folder = order_.folder;
@@ -126,7 +124,7 @@ class RolledFolder {
 
   void conclude() {
     const PassVerdict verdict = verdict_of(series_.table);
-    tell_.info(fmt::format("after {} passes: {}; net strain {:.3g} per pass; results are in {}", series_.passes,
+    tell_.info(fmt::format("after {}: {}; net strain {:.3g} per pass; results are in {}", passes_text(series_.passes),
                            words(verdict.kind), verdict.rate, order_.folder.string()));
     tell_.write_page(order_, words(verdict.kind));
   }

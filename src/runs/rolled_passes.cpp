@@ -129,6 +129,7 @@ std::optional<RolledPasses::Pass> RolledPasses::next(RolledSeries& series, const
   const std::optional<double> traction = case_of(pass).drive.traction();
   FemOptions own = options;
   own.before = nullptr;
+  own.residual = false;  // that of the series is computed here
   if (pass == 1 && traction) {
     const std::optional<double> shift = measured_shift(model_of(pass, 0), *traction, roll_, own);
     if (!shift) return std::nullopt;

@@ -74,6 +74,11 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
   return out;
 }
 
+/// On the rank that has the positions.
+bool leaves_residual(const RollingSystem& system, const FemOptions& options) {
+  return options.residual && system.model.spec.run.plasticity && options.ranks.speaks();
+}
+
 RunResult roll(const RollingSystem& system, const RunObserver& observer, const RunControl& control,
                const FemOptions& options, std::optional<RunState> begun) {
   const std::unique_ptr<device::Device> device = device::device_of(system.model.spec);
@@ -113,10 +118,16 @@ FemSolution solve_fem(const RollingSystem& system, const FemObserver& observer, 
   run_observer.history = observer.history;
   run_observer.progress = observer.rolling;
   run_observer.frame = observer.frame;
-  run_observer.finished = observer.finished;
+  std::optional<RunResidual> residual;
+  run_observer.finished = [&](const RollingState& state) {
+    if (observer.finished) observer.finished(state);
+    if (leaves_residual(system, options)) residual = run_residual(system, state);
+  };
   states.observe(run_observer);
 
   RunResult run = roll(system, run_observer, control, options, std::move(begun));
+  if (!system.model.spec.run.rolling && leaves_residual(system, options))
+    residual.emplace().none = "the wheel stands where it was put on";
   FemSolution out;
   out.stopped = run.stopped;
   out.limit_reached = control.limit_reached();
@@ -126,6 +137,7 @@ FemSolution solve_fem(const RollingSystem& system, const FemObserver& observer, 
     if (samples.samples.empty()) break;
     out.positions.push_back(position_of(system, run, samples));
   }
+  out.residual = std::move(residual);
   out.history = std::move(run.history);
   return out;
 }

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "post/run_residual.hpp"
 #include "post/shakedown_summary.hpp"
 #include "post/streamlines.hpp"
 #include "post/stress_maxima.hpp"
@@ -30,6 +31,7 @@ struct FemOptions {
   RunTimes times;
   RunWishes wishes;
   const RailBefore* before = nullptr;  ///< what earlier wheels have left in the rail; none: nothing
+  bool residual = true;                ///< with run.plasticity: what the run leaves in the rail
   Ranks ranks = {};                    ///< that solve the case together; positions are for rank 0 alone
 };
 
@@ -45,9 +47,10 @@ struct FemPosition {
 struct FemSolution {
   std::vector<FemPosition> positions;  ///< in their order; of a stopped run those that were finished
   std::vector<HistoryRow> history;
-  bool stopped = false;           ///< before the last position
-  bool limit_reached = false;     ///< that was for RunTimes::limit
-  std::optional<RunState> state;  ///< of a stopped run: what solve_fem goes on from
+  bool stopped = false;                 ///< before the last position
+  bool limit_reached = false;           ///< that was for RunTimes::limit
+  std::optional<RunState> state;        ///< of a stopped run: what solve_fem goes on from
+  std::optional<RunResidual> residual;  ///< of a run with run.plasticity that was not stopped
 };
 
 /// Meshes the case and makes both bodies ready for computing. Relative profile names are looked for in `folder`. Throws

@@ -13,6 +13,7 @@
 #include "io/output_folder.hpp"
 #include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
+#include "io/rolled_pass_files.hpp"
 #include "io/summary_json.hpp"
 #include "io/transient_files.hpp"
 #include "post/stress_sections.hpp"
@@ -159,6 +160,7 @@ void FemWriter::write(const FemSolution& solution) {
     if (!last) make_folder(folder, Above::there);
     write_position(system_.model, position, folder, origin_.provenance);
   }
+  if (solution.residual) write_run_residual(folder_, origin_.provenance, *solution.residual);
   if (!solution.stopped) remove_checkpoints(folder_);
 }
 

@@ -149,12 +149,35 @@ class Passes(FromOutside):
         self.assertEqual(zones["1.0" if "1.0" in zones else "1"], 0)
         self.assertGreater(zones["0.0" if "0.0" in zones else "0"], 0)
 
+    def test_cells_too_coarse_for_the_patch_and_layers_without_strength_are_said(self):
+        out = self.folder / "coarse"
+        words = [word for word in COARSE if word != "-q"]
+        words[words.index("1 mm")] = "5 mm"
+        rc, _, err = railstrata("passes", LAYERED, *words, *strength(450), "--passes", 1, "--no-report", "--out", out)
+        self.assertEqual(rc, 1, err)
+        self.assertIn("a check of the contact fails: cell_of_patch", err)
+        self.assertRegex(err, "the case says no strength of it, and it stays elastic: give layer.0.yield_strength")
+        notes = " ".join(json.loads((out / "passes.json").read_text())["notes"])
+        self.assertIn("cell_of_patch", notes)
+        self.assertIn("stays elastic", notes)
+        self.assertIn("after 1 pass:", err)
+
+    def test_passes_roll_whatever_the_case_says_of_a_run(self):
+        rolling = self.passes("rolling", *strength(450), "--passes", 1, "--no-report")
+        still = self.passes("still", *strength(450), "--passes", 1, "--no-report", "--set", "run.rolling=false")
+        self.same_numbers(rolling, still)
+
     def test_what_it_cannot_answer_is_refused_with_a_remedy(self):
         self.refused(2, ["passes", BASE, "--cell", "1 mm", *strength(400), "--out", self.folder / "none"],
                      "its material bears 231 MPa in shear", "friction_coefficient")
         self.refused(2, ["passes", BASE, *COARSE, "--out", self.folder / "none"], "does not say how strong",
                      "yield_strength")
         weak = [*strength(400), "--out", self.folder / "none"]
+        self.refused(2, ["passes", BASE, *COARSE, *strength(400), "--set", "material.rail.elastic=true", "--out",
+                         self.folder / "none"], "has elastic = true for all", "yield_strength")
+        self.refused(2, ["passes", BASE, *weak, "--roll-length", "80 mm"], "rolls no length", "--engine fem")
+        self.refused(2, ["passes", BASE, *weak, "--wheels", "same"], "--wheels", "--engine fem")
+        self.refused(2, ["passes", BASE, *weak, "--engine", "fem", "--cell", "1 mm"], "--cell", "mesh.element_size")
         self.refused(2, ["passes", BASE, "--passes", "0", *weak], "--passes")
         self.assertFalse((self.folder / "none").exists())
 

@@ -193,6 +193,56 @@ class YieldingRun(Results):
         self.assertAlmostEqual(history["plastic_J"][-1] / told["work_J"], 1, delta=0.1)
         self.assertTrue(next(c for c in self.summary["checks"] if c["name"] == "plastic_strain")["ok"])
 
+    def test_why_a_short_run_has_no_residual_stress_is_said(self):
+        why = json.loads((self.out / "residual.json").read_text())["none"]
+        self.assertRegex(why, r"^the run is too short: .*; let run.positions end at 7\d.* mm or more$")
+        self.assertFalse((self.out / "residual.csv").exists() or (self.out / "section.vtp").exists())
+
+
+class Residual(Results):
+    """What a single run of 82 mm leaves in a rail that yields, beside the first of rolled passes."""
+
+    @classmethod
+    def make(cls):
+        case = cls.folder / "case.toml"
+        case.write_text(TINY.replace('["30 mm"]', '["82 mm"]'))
+        weak = ["--set", 'material.rail.yield_strength="450 MPa"', "--set",
+                'material.rail.kinematic_hardening=[{modulus = "20 GPa", recall = 50}]', "--set",
+                "drive.traction_coefficient=0", "--quiet", "--no-report"]
+        cls.rolled, cls.passed = cls.folder / "run", cls.folder / "passes"
+        cls.call("run", case, "--set", "run.plasticity=true", *weak, "--out", cls.rolled)
+        cls.call("passes", case, "--engine", "fem", "--roll-length", "50 mm", "--passes", "1", *weak, "--out",
+                 cls.passed)
+
+    @staticmethod
+    def table(folder):
+        lines = (folder / "residual.csv").read_text().splitlines()
+        return np.genfromtxt([line for line in lines if not line.startswith("#")], delimiter=",", names=True)
+
+    def test_the_section_has_the_cells_and_numbers_of_the_table(self):
+        for folder, own in ((self.rolled, set()), (self.passed, {"accumulated_strain", "net_strain", "class"})):
+            section, table = read(folder / "section.vtp"), self.table(folder)
+            fields = section.GetCellData()
+            self.assertEqual(section.GetNumberOfPolys(), len(table))
+            self.assertEqual(names(fields), {"residual_stress_MPa", "plastic_strain", "plastic_p", "zone"} | own)
+            self.assertEqual({"class"} & set(table.dtype.names), own & {"class"})
+            np.testing.assert_allclose(array(fields, "residual_stress_MPa")[:, 1], table["sigma_yy_MPa"], rtol=1e-12)
+            np.testing.assert_allclose(array(fields, "plastic_strain")[:, 5], table["plastic_xz"], rtol=1e-12)
+            places = np.column_stack([table["y_mm"], -table["depth_mm"]])
+            for k in range(len(table)):
+                corners = np.array([section.GetCell(k).GetPoints().GetPoint(c) for c in range(4)])
+                np.testing.assert_allclose(1e3 * corners.mean(axis=0)[1:], places[k], atol=1e-9)
+
+    def test_it_is_what_the_first_pass_leaves(self):
+        told = json.loads((self.rolled / "residual.json").read_text())
+        table, other = self.table(self.rolled), self.table(self.passed)
+        for key, column in (("sigma_x_min_Pa", "sigma_xx_MPa"), ("sigma_y_min_Pa", "sigma_yy_MPa")):
+            self.assertAlmostEqual(1e-6 * told[key], table[column].min(), places=6)
+            self.assertAlmostEqual(table[column].min() / other[column].min(), 1, delta=0.1)
+        self.assertLess(told["sigma_x_min_Pa"], -50e6)
+        self.assertLess(told["uneven"], 0.2)
+        self.assertLess(told["balance"], 1e-3)
+
 
 class HalfSpace(Results):
     """`bem` of the same case."""

@@ -1,0 +1,77 @@
+#include "post/run_residual.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/faults.hpp"
+#include "fem/rail_at_rest.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kStart = 6, kFarthest = 6, kNearest = 4;  // half-lengths
+
+std::string too_short(const Model& model, double a) {
+  const double run_up = model.spec.run.run_up, start = std::max(kStart * a, run_up);
+  return fmt::format(
+      "the run is too short: stations are steady from {:.3g} mm ({}) to {:g} half-lengths of the patch ({:.3g} mm) "
+      "behind the wheel; let run.positions end at {:.3g} mm or more",
+      1e3 * start,
+      run_up > kStart * a ? std::string("run.run_up") : fmt::format("{:g} half-lengths of the patch", kStart), kNearest,
+      1e3 * kNearest * a, 1e3 * (start + kFarthest * a));
+}
+
+}  // namespace
+
+RunResidual run_residual(const RollingSystem& system, const RollingState& end) {
+  RunResidual out;
+  const Model& model = system.model;
+  const double a = hertz_estimate(model.spec, model.placement.contact).a, wheel = end.axle.pose().x;
+  out.from = wheel - kFarthest * a;
+  out.to = wheel - kNearest * a;
+  if (out.from < std::max(kStart * a, model.spec.run.run_up)) {
+    out.none = too_short(model, a);
+    return out;
+  }
+  const Body& rail = system.rail();
+  const Field& history = end.bodies[kRail].history;
+  const double middle = 0.5 * (out.from + out.to);
+  const PlasticSection after = plastic_section(rail, history, out.from, out.to), before = on_quads({}, after);
+  const bool yielded = std::any_of(after.history.begin(), after.history.end(), [](double v) { return v != 0; });
+  if (!yielded) {
+    out.none = "the rail has not yielded there";
+    return out;
+  }
+  RailBefore at_rest;
+  at_rest.history = history_of_section(rail, after);
+  try {
+    at_rest.u = endless_rail_at_rest(system, at_rest.history);
+  } catch (const NumericalError& e) {  // the run itself is sound
+    out.none = e.what();
+    return out;
+  }
+  out.pass = rolled_pass(system, model, before, after, at_rest, middle);
+  out.pass.uneven = unevenness(before, plastic_section(rail, history, out.from, middle),
+                               plastic_section(rail, history, middle, out.to));
+  return out;
+}
+
+std::string words_of(const RunResidual& residual) {
+  if (!residual.none.empty()) return fmt::format("no residual stress is told: {}", residual.none);
+  const PassRow& row = residual.pass.row;
+  return fmt::format(
+      "residual stress behind the wheel: {:.0f} MPa along, {:.0f} MPa across at the most compressive "
+      "places",
+      1e-6 * row.stress[0], 1e-6 * row.stress[1]);
+}
+
+std::string doubt_of(const RunResidual& residual) {
+  if (!residual.none.empty() || residual.pass.uneven <= kLargestUnevenness) return {};
+  return fmt::format(
+      "plastic strain differs by {:.2g} of its largest along the stations that the residual stress is taken from: roll "
+      "farther, or let `railstrata passes --engine fem` roll with a given creepage, which is steady sooner",
+      residual.pass.uneven);
+}
+
+}  // namespace railstrata
