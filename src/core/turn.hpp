@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "core/rotation.hpp"
-#include "core/simd.hpp"
+#include "core/pointwise.hpp"
 
 namespace railstrata {
 

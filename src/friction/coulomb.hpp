@@ -2,7 +2,7 @@
 // Coulomb friction as a pointwise law.
 #include <cmath>
 
-#include "core/simd.hpp"
+#include "core/pointwise.hpp"
 
 namespace railstrata {
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/simd.hpp"
+#include "core/pointwise.hpp"
 
 namespace railstrata {
 

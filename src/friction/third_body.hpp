@@ -8,7 +8,7 @@
 // slides. Elastic shear is a part of the bodies' flexibility (bem/influence_operator.hpp).
 #include <algorithm>
 
-#include "core/simd.hpp"
+#include "core/pointwise.hpp"
 
 namespace railstrata {
 
