@@ -20,16 +20,8 @@ void Stepper::use(const EngineOf& engine_of) {
 
 // The state by moves, without a copy of its fields.
 RestartState Stepper::lend_state() {
-  RestartState out;
+  RestartState out = restart_beside_state();
   out.state = std::move(state_);
-  out.balance = balance_;
-  out.mean = bodies_[kWheel].mean;
-  out.axle_z0 = axle_rest_z_;
-  out.side_force = side_force_;
-  out.dt = dt();
-  ContactStep::Restart contact = contact_.restart();
-  out.facets = std::move(contact.facets);
-  out.reached_edge = contact.reached_edge;
   return out;
 }
 

@@ -70,11 +70,16 @@ Stepper::Stepper(const RollingSystem& system, RestartState restart, const Ranks&
 }
 
 RestartState Stepper::restart_state() const {
-  RestartState out;
+  RestartState out = restart_beside_state();
   out.state = {state_.time, state_.step, {}, state_.axle, state_.groups, state_.tractions};
   for (std::size_t k = 0; k < bodies_.size(); ++k)
     for (const StateArray& a : kStateArrays)
       if (a.restart) out.state.bodies[k].*a.values = state_.bodies[k].*a.values;
+  return out;
+}
+
+RestartState Stepper::restart_beside_state() const {
+  RestartState out;
   out.balance = balance_;
   out.mean = bodies_[kWheel].mean;
   out.axle_z0 = axle_rest_z_;

@@ -101,6 +101,7 @@ class Stepper {
   void take_over(const StepRecord& record);
   int steps_until_look() const;
   void require_none_ahead() const;
+  RestartState restart_beside_state() const;  // all but the state itself
   RestartState lend_state();
   void take_back(RestartState lent);
   void book_contact(const ContactLosses& losses);
