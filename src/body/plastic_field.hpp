@@ -2,16 +2,9 @@
 // What has become of the elements that may yield: element by element for pictures, the place of the largest plastic
 // strain, and what of the plastic work hardening has stored.
 #include "body/body.hpp"
+#include "body/element_plasticity.hpp"
 
 namespace railstrata {
-
-/// Means over an element's points by their shares of the volume, in the model frame: the element's own frame turned as
-/// its body is (the rotation that strains bring along is left out).
-struct ElementPlasticity {
-  Sym3 strain;             ///< Ep, tensor shears
-  Sym3 backstress;         ///< Pa, sum of all
-  double accumulated = 0;  ///< p
-};
 
 /// psi: rotation of a wheel, as in the traversal. Zeros of an element that stays elastic.
 ElementPlasticity element_plasticity(const Body& body, double psi, const Field& history, int block, int quad,

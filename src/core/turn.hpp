@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/rotation.hpp"
 #include "core/pointwise.hpp"
+#include "core/rotation.hpp"
 
 namespace railstrata {
 

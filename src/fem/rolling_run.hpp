@@ -2,6 +2,7 @@
 // A whole run: static preload, run-up, rolling, samples around the wanted positions.
 #include <atomic>
 
+#include "body/plastic_field.hpp"
 #include "body/plastic_pass.hpp"
 #include "fem/rolling_sample.hpp"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "body/plastic_field.hpp"
 #include "body/stress.hpp"
 #include "core/rotation.hpp"
 

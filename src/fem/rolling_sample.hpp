@@ -2,23 +2,10 @@
 // What a run records of the moving contact: samples of both bodies around the wheel, and rows of the history.
 #include <vector>
 
-#include "body/plastic_field.hpp"
+#include "fem/band_sample.hpp"
 #include "fem/stepper.hpp"
 
 namespace railstrata {
-
-/// Stresses and displacements of a body's contact band around the wheel, on stations counted from the wheel's position
-/// (relative station 0 is nearest to it). On a wheel they run on over the place where its ring closes.
-struct BandSample {
-  int columns = 0, rows = 0, stations = 0;  ///< elements
-  std::vector<double> along;  ///< stations + 1: distance of the node planes from the axle in the rolling direction, m
-                              ///< (arc length on the wheel)
-  std::vector<Sym3> stress;   ///< Cauchy stress at the element centres, model frame, Pa; index (station * rows + row) *
-                              ///< columns + column
-  std::vector<ElementPlasticity> plastic;  ///< of the elements, as stress; empty where nothing may yield
-  std::vector<Vec3> displacement;  ///< of the nodes, m, model frame, without the wheel's rigid motion; index (station *
-                                   ///< (rows + 1) + row) * (columns + 1) + column
-};
 
 /// One look at the moving contact.
 struct RollingSample {

@@ -1,7 +1,7 @@
 #pragma once
 // A half-space result as a Summary, with its checks: the same keys with the same meanings as a finite element result.
 #include "bem/solve_bem.hpp"
-#include "post/stress_maxima.hpp"
+#include "post/band_stress.hpp"
 #include "post/summary.hpp"
 
 namespace railstrata {

@@ -77,11 +77,6 @@ SectionShakedown least_of_patches(const CaseSpec& spec, BodyId body, const BemRe
   return std::move(*least);
 }
 
-/// Of the middle of the contact band.
-double surface_poisson(const SweptBody& body, const std::vector<Elastic>& at_surface) {
-  return poisson(at_surface[body.blocks[body.contact.block].section.quad_material[body.contact.columns / 2]]);
-}
-
 /// m, of what bears pressure.
 struct Middle {
   double x = 0, y = 0;
@@ -139,30 +134,25 @@ std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const B
   return out;
 }
 
-std::vector<SectionShakedown> fem_shakedown(const RollingSystem& system, const MeanContact& contact,
-                                            const BandStress& rail, const BandStress& wheel) {
-  const Model& model = system.model;
+std::vector<SectionShakedown> fem_shakedown(const Model& model, const PatchMeasures& patch, const BandBody& rail,
+                                            const BandBody& wheel) {
   std::vector<SectionShakedown> out;
-  const auto add = [&](BodyId body, const BandStress& band, const BandSurface& surface) {
+  const auto add = [&](BodyId body, const BandBody& band) {
     if (!wanted(model.spec, body)) return;
-    const StressHistory history = band_cycles(band, surface);
+    const StressHistory history = band_cycles(band.below, band.surface);
     out.push_back(section_shakedown(model.spec, body, history));
     SectionShakedown& section = out.back();
-    if (!section.strength.any() || !(contact.patch.length > 0 && contact.patch.width > 0)) return;
+    if (!section.strength.any() || !(patch.length > 0 && patch.width > 0)) return;
     section.single_track = one_track(section.found, [&] {
-      const Middle middle = middle_of(contact.field);
-      SingleTrackInput in =
-          single_track_input(history, section.strength.shear, 0.5 * contact.patch.length, 0.5 * contact.patch.width,
-                             middle.x, middle.y - model.placement.contact.point.y);
+      const Middle middle = middle_of(band.surface.field);
+      SingleTrackInput in = single_track_input(history, section.strength.shear, 0.5 * patch.length, 0.5 * patch.width,
+                                               middle.x, middle.y - model.placement.contact.point.y);
       in.shear_strength = shear_strength_by_depth(model.spec, body);
       return in;
     });
   };
-  add(BodyId::rail, rail,
-      {rail_surface_stress(system, contact), contact.field, surface_poisson(model.rail, model.rail_at_surface), 0});
-  add(BodyId::wheel, wheel,
-      {wheel_surface_stress(system, contact), contact.field, surface_poisson(model.wheel, model.wheel_at_surface),
-       system.rolling_radius});
+  add(BodyId::rail, rail);
+  add(BodyId::wheel, wheel);
   return out;
 }
 

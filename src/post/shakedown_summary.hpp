@@ -6,9 +6,11 @@
 #include "bem/solve_bem.hpp"
 #include "case/case_spec.hpp"
 #include "damage/shakedown.hpp"
+#include "model/model.hpp"
+#include "post/band_stress.hpp"
+#include "post/patch.hpp"
 #include "post/row_strength.hpp"
 #include "post/section_fatigue.hpp"
-#include "post/stress_maxima.hpp"
 #include "post/summary.hpp"
 
 namespace railstrata {
@@ -30,8 +32,14 @@ struct SectionShakedown {
 /// Of the bodies whose strength or fatigue limits the case says; of several patches the one that decides. Throws
 /// CaseError where a table of strengths ends too early.
 std::vector<SectionShakedown> half_space_shakedown(const CaseSpec& spec, const BemResult& result);
-std::vector<SectionShakedown> fem_shakedown(const RollingSystem& system, const MeanContact& contact,
-                                            const BandStress& rail, const BandStress& wheel);
+/// A finite element body: what its contact band has below the surface and at it.
+struct BandBody {
+  const BandStress& below;
+  BandSurface surface;
+};
+/// patch: of the field of both surfaces.
+std::vector<SectionShakedown> fem_shakedown(const Model& model, const PatchMeasures& patch, const BandBody& rail,
+                                            const BandBody& wheel);
 
 /// Of the sections that have a strength.
 ShakedownSummary shakedown_summary(const CaseSpec& spec, const std::vector<SectionShakedown>& sections);

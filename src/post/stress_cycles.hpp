@@ -7,7 +7,7 @@
 
 #include "bem/solve_bem.hpp"
 #include "damage/stress_history.hpp"
-#include "post/stress_maxima.hpp"
+#include "post/band_stress.hpp"
 
 namespace railstrata {
 
@@ -25,14 +25,6 @@ std::vector<CycleRow> cycle_rows(const LayeredHalfSpace& body, double shorter);
 /// 1.5 to either side, at most about 90 and 50. y is that of the patch's grid.
 StressHistory rail_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows);
 StressHistory wheel_cycles(const BemResult& result, const BemPatch& patch, const std::vector<CycleRow>& rows);
-
-/// The surface of a finite element body.
-struct BandSurface {
-  std::vector<Sym3> stress;  ///< Pa, rail_surface_stress or wheel_surface_stress
-  const ContactField& field;
-  double poisson = 0;  ///< of the surface
-  double radius = 0;   ///< m, of the wheel; 0: the rail
-};
 
 /// Of the contact band of a finite element body: the surface (recovered at the nodes, with the peaks between them,
 /// post/surface_peaks.hpp), the elements' centres, and both sides of every interface. Samples are at the nodes and

@@ -11,20 +11,6 @@
 
 namespace railstrata {
 
-int layer_of(const BandStress& b, int column, int row) {
-  const ContactBand& band = b.body->contact;
-  return b.body->layer_of(
-      b.body->blocks[band.block].section.quad_material[static_cast<std::size_t>(row) * band.columns + column]);
-}
-
-Sym3 stress_at_interface(const BandStress& b, int column, int row, int station, bool below) {
-  const int near = below ? row : row - 1, far = below ? row + 1 : row - 2;
-  const Sym3 stress = b.at(column, near, station);
-  if (far < 0 || far >= b.sample.rows || layer_of(b, column, far) != layer_of(b, column, near)) return stress;
-  const double t = (b.body->contact.depth[row] - b.centre_depth[near]) / (b.centre_depth[near] - b.centre_depth[far]);
-  return stress + t * (stress - b.at(column, far, station));
-}
-
 namespace {
 
 double largest_principal(const Sym3& s) { return principal_stresses(s).x; }
@@ -99,15 +85,6 @@ void below_surface(const BandStress& b, double begin, bool layered, StressSummar
 }
 
 }  // namespace
-
-BandStress band_stress(const SweptBody& body, BandSample sample, double contact_y) {
-  BandStress b{&body, std::move(sample), contact_y, {}, {}};
-  const ContactBand& band = body.contact;
-  const auto& nodes = body.blocks[band.block].section.nodes;
-  for (int c = 0; c < band.columns; ++c) b.centre_y.push_back(0.5 * (nodes[c].y + nodes[c + 1].y));
-  for (int r = 0; r < band.rows; ++r) b.centre_depth.push_back(0.5 * (band.depth[r] + band.depth[r + 1]));
-  return b;
-}
 
 Sym3 surface_stress(const Elastic& material, Vec3 n, Vec3 t1, Vec3 t2, double e11, double e22, double g12,
                     Vec3 traction) {
@@ -186,6 +163,11 @@ StressPair surface_maxima(const std::vector<Sym3>& stress, const BandSample& sam
   return best;
 }
 
+/// Of the middle of the contact band.
+double surface_poisson(const SweptBody& body, const std::vector<Elastic>& at_surface) {
+  return poisson(at_surface[body.blocks[body.contact.block].section.quad_material[body.contact.columns / 2]]);
+}
+
 /// Where the subsurface begins: subsurface_begin, no nearer than an element.
 double begin_of(const CaseSpec& spec, BodyId body, const MeanContact& m) {
   double first_layer = HUGE_VAL;
@@ -213,6 +195,15 @@ std::vector<Sym3> wheel_surface_stress(const RollingSystem& sys, const MeanConta
                          });
 }
 
+BandSurface rail_band_surface(const RollingSystem& sys, const MeanContact& m) {
+  return {rail_surface_stress(sys, m), m.field, surface_poisson(sys.model.rail, sys.model.rail_at_surface), 0};
+}
+
+BandSurface wheel_band_surface(const RollingSystem& sys, const MeanContact& m) {
+  return {wheel_surface_stress(sys, m), m.field, surface_poisson(sys.model.wheel, sys.model.wheel_at_surface),
+          sys.rolling_radius};
+}
+
 StressSummary rail_stress_summary(const RollingSystem& sys, const MeanContact& m) {
   StressSummary out;
   const double contact_y = sys.model.placement.contact.point.y - sys.model.rail.origin.y;
@@ -231,24 +222,6 @@ StressSummary wheel_stress_summary(const RollingSystem& sys, const MeanContact& 
   out.surface =
       surface_maxima(wheel_surface_stress(sys, m), m.wheel, sys.wheel_surface(), sys.model.placement.contact.point.y);
   return out;
-}
-
-DepthLine depth_line(const BandStress& b, double x, double y) {
-  DepthLine line{x, y, {}, {}, {}, {}};
-  int station = 0, column = 0;
-  for (int s = 1; s < b.sample.stations; ++s)
-    if (std::abs(b.x(s) - x) < std::abs(b.x(station) - x)) station = s;
-  for (int c = 1; c < b.sample.columns; ++c)
-    if (std::abs(b.centre_y[c] - b.contact_y - y) < std::abs(b.centre_y[column] - b.contact_y - y)) column = c;
-  line.x = b.x(station);
-  line.y = b.centre_y[column] - b.contact_y;
-  for (int r = 0; r < b.sample.rows; ++r) {
-    line.depth.push_back(b.centre_depth[r]);
-    line.stress.push_back(b.at(column, r, station));
-    line.material.push_back(layer_of(b, column, r));
-    if (!b.sample.plastic.empty()) line.plastic.push_back(b.sample.plastic[b.index(column, r, station)]);
-  }
-  return line;
 }
 
 }  // namespace railstrata

@@ -5,7 +5,7 @@
 
 #include "bem/solve_bem.hpp"
 #include "core/vec.hpp"
-#include "post/stress_maxima.hpp"
+#include "post/band_stress.hpp"
 
 namespace railstrata {
 

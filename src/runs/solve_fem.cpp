@@ -65,7 +65,8 @@ FemPosition position_of(const RollingSystem& system, const RunResult& run, const
   out.streamlines = streamlines(model.spec, out.contact.field);
   out.summary.damage = damage_summary(model.spec, out.summary, out.streamlines);
   if (!model.spec.run.plasticity)  // its theorems judge elastic stresses
-    out.shakedown = fem_shakedown(system, out.contact, out.rail, out.wheel);
+    out.shakedown = fem_shakedown(model, out.contact.patch, {out.rail, rail_band_surface(system, out.contact)},
+                                  {out.wheel, wheel_band_surface(system, out.contact)});
   out.summary.shakedown = shakedown_summary(model.spec, out.shakedown);
   for (const SectionShakedown& section : out.shakedown) out.summary.fatigue.push_back(section.fatigue);
   out.summary.run.commit = commit_text();

@@ -1,0 +1,52 @@
+#pragma once
+// The stress of a body's contact band at the centres of its elements, where that of these elements is most accurate,
+// and along lines through it. Plain numbers: nothing here knows the finite element solver.
+#include <vector>
+
+#include "contact/contact_field.hpp"
+#include "fem/band_sample.hpp"
+#include "mesh/swept.hpp"
+
+namespace railstrata {
+
+/// A body's contact band around the wheel: geometry and mean stresses, ready for maxima, lines and pictures.
+struct BandStress {
+  const SweptBody* body = nullptr;
+  BandSample sample;
+  double contact_y = 0;              ///< y of the rigid contact point in section coordinates
+  std::vector<double> centre_y;      ///< per column, section coordinate
+  std::vector<double> centre_depth;  ///< per row
+  std::size_t index(int column, int row, int station) const {
+    return (static_cast<std::size_t>(station) * sample.rows + row) * sample.columns + column;
+  }
+  Sym3 at(int column, int row, int station) const { return sample.stress[index(column, row, station)]; }
+  double x(int station) const { return 0.5 * (sample.along[station] + sample.along[station + 1]); }
+};
+BandStress band_stress(const SweptBody& body, BandSample sample, double contact_y);
+
+/// The surface of a finite element body.
+struct BandSurface {
+  std::vector<Sym3> stress;  ///< Pa, at the nodes (stress_maxima.hpp)
+  const ContactField& field;
+  double poisson = 0;  ///< of the surface
+  double radius = 0;   ///< m, of the wheel; 0: the rail
+};
+
+/// Of an element of the band: 0 the matrix, then the layers from the surface down.
+int layer_of(const BandStress& band, int column, int row);
+
+/// Stress at the upper face of row `row`, which is an interface: extrapolated linearly from the two nearest centres
+/// above it or below.
+Sym3 stress_at_interface(const BandStress& band, int column, int row, int station, bool below);
+
+/// Stress against depth below the point (x, y) of largest subsurface von Mises stress.
+struct DepthLine {
+  double x = 0, y = 0;
+  std::vector<double> depth;
+  std::vector<Sym3> stress;
+  std::vector<int> material;
+  std::vector<ElementPlasticity> plastic;  ///< empty where nothing may yield
+};
+DepthLine depth_line(const BandStress& band, double x, double y);
+
+}  // namespace railstrata
