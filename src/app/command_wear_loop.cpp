@@ -93,6 +93,7 @@ class Loop {
 
   ExitCode run() {
     const FolderHold hold = prepare_output_folder(out_, options_.force || options_.wear_loop.resume);
+    remove_parts(out_, PartsOf::dead);
     options_.wear_loop.resume ? resume() : begin();
     while (!finished())
       if (!take_step()) return interrupted();

@@ -111,8 +111,7 @@ class Rows {
     const int layers = static_cast<int>(layer_extents(body).size());
     for (int zone = 0; zone <= layers; ++zone) {
       const MaterialSpec& material = zone_material(spec, BodyId::rail, zone);
-      const std::string name = zone_name(spec, BodyId::rail, zone),
-                        key = zone == 0 ? "material.rail" : fmt::format("layer.{}", zone - 1);
+      const std::string name = zone_name(spec, BodyId::rail, zone), key = zone_key(spec, BodyId::rail, zone);
       laws_.push_back(plastic_law(material, name, key));
       if (!laws_.back()) {
         if (!material.strength.elastic)

@@ -29,11 +29,12 @@ struct Zone {
 Zone zone_of(const CaseSpec& spec, BodyId body, int zone) {
   const StrengthSpec& strength = zone_material(spec, body, zone).strength;
   const std::string name = zone_name(spec, body, zone);
-  if (zone == 0) return {strength, name, fmt::format("material.{}", body_word(body)), 0};
+  const std::string key = zone_key(spec, body, zone);
+  if (zone == 0) return {strength, name, key, 0};
   const std::vector<std::size_t> layers = layers_on(spec, body);
   double top = 0;
   for (int k = 0; k + 1 < zone; ++k) top += spec.layers[layers[k]].thickness;
-  return {strength, name, fmt::format("layer.{}", layers.at(zone - 1)), top};
+  return {strength, name, key, top};
 }
 
 class ZoneStrength {
@@ -85,6 +86,11 @@ const MaterialSpec& zone_material(const CaseSpec& spec, BodyId body, int zone) {
 std::string zone_name(const CaseSpec& spec, BodyId body, int zone) {
   if (zone == 0) return std::string(body_word(body));
   return spec.layers.at(layers_on(spec, body).at(zone - 1)).name;
+}
+
+std::string zone_key(const CaseSpec& spec, BodyId body, int zone) {
+  if (zone == 0) return fmt::format("material.{}", body_word(body));
+  return fmt::format("layer.{}", layers_on(spec, body).at(zone - 1));
 }
 
 bool strength_given(const CaseSpec& spec, BodyId body) {

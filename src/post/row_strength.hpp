@@ -31,5 +31,7 @@ std::function<double(double depth, bool below_interface)> shear_strength_by_dept
 const MaterialSpec& zone_material(const CaseSpec& spec, BodyId body, int zone);
 /// "rail", "wheel", or the layer's name.
 std::string zone_name(const CaseSpec& spec, BodyId body, int zone);
+/// Its table in the case: "material.rail", "layer.0" by the layer's place there.
+std::string zone_key(const CaseSpec& spec, BodyId body, int zone);
 
 }  // namespace railstrata

@@ -86,14 +86,14 @@ ReportChart depth_chart(const WearLoopStory& story, Reach reach) {
 
 /// A line for each load over the passages.
 ReportChart load_chart(const WearLoopStory& story, const std::string& id, const std::string& title,
-                       const std::string& note, const std::string& label, double WearLoad::*value, double unit) {
+                       const std::string& note, const std::string& label, double WearLoad::*value) {
   ReportChart out{id, title, note, kPassages, label, {}};
   for (std::size_t k = 0; k < story.loads.size(); ++k) {
     ReportSeries s{.name = story.loads[k], .x = {}, .y = {}};
     for (const WearLoad& load : story.contacts)
       if (load.load == static_cast<int>(k)) {
         s.x.push_back(load.passages);
-        s.y.push_back(load.*value / unit);
+        s.y.push_back(load.*value);
       }
     if (!s.x.empty()) out.series.push_back(std::move(s));
   }
@@ -135,7 +135,7 @@ ReportTable steps_table(const WearLoopStory& story) {
     const std::vector<double> depth = worn_depth(story.unworn, p.points);
     const auto at = static_cast<std::size_t>(std::max_element(depth.begin(), depth.end()) - depth.begin());
     t.rows.push_back({std::to_string(p.step), p.passages, 1e6 * depth[at], 1e3 * story.unworn[at].y, 1e6 * p.area,
-                      finite(1e-6 * of_step(story, p.step, &WearLoad::pressure, larger)),
+                      finite(of_step(story, p.step, &WearLoad::pressure, larger)),
                       finite(of_step(story, p.step, &WearLoad::t_gamma, larger))});
   }
   return t;
@@ -149,8 +149,8 @@ std::vector<WearLoad> wear_loads(const WearStep& step, double passages_before) {
     const CollectiveRow& row = step.rows[k];
     if (!row.solved()) continue;
     out.push_back({step.rail.step, passages_before, static_cast<int>(k),
-                   model_to_rail(row.track, row.patches.front().contact.point).y, row.summary.contact.patch.p_max,
-                   row.summary.damage.t_gamma});
+                   1e3 * model_to_rail(row.track, row.patches.front().contact.point).y,
+                   1e-6 * row.summary.contact.patch.p_max, row.summary.damage.t_gamma});
   }
   return out;
 }
@@ -160,8 +160,8 @@ void write_wear_loads(const std::filesystem::path& file, const std::vector<std::
   std::vector<CsvColumn> columns{{"step", {}},      {"passages", {}},  {"load", {}},
                                  {"rail_y_mm", {}}, {"p_max_MPa", {}}, {"t_gamma_N", {}}};
   for (const WearLoad& l : loads) {
-    const double row[] = {static_cast<double>(l.step), l.passages, static_cast<double>(l.load + 1), 1e3 * l.y,
-                          1e-6 * l.pressure,           l.t_gamma};
+    const double row[] = {static_cast<double>(l.step), l.passages, static_cast<double>(l.load + 1), l.y, l.pressure,
+                          l.t_gamma};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
   write_csv(file, origin, columns);
@@ -170,8 +170,8 @@ void write_wear_loads(const std::filesystem::path& file, const std::vector<std::
 std::vector<WearLoad> read_wear_loads(const std::filesystem::path& file) {
   const CsvTable table = read_csv(file);
   const std::vector<double> step = table.column("step"), passages = table.column("passages"),
-                            load = table.column("load"), y = table.column("rail_y_mm", 1e-3),
-                            pressure = table.column("p_max_MPa", 1e6), t_gamma = table.column("t_gamma_N");
+                            load = table.column("load"), y = table.column("rail_y_mm"),
+                            pressure = table.column("p_max_MPa"), t_gamma = table.column("t_gamma_N");
   std::vector<WearLoad> out;
   for (std::size_t i = 0; i < step.size(); ++i)
     out.push_back(
@@ -201,9 +201,9 @@ void write_wear_loop_page(const std::filesystem::path& page, const WearLoopStory
       depth_chart(story, reach),
       profile_chart(story, reach),
       load_chart(story, "contact", "Where each load touches", "First contact, y from the rail's axis.",
-                 "contact y [mm]", &WearLoad::y, 1e-3),
-      load_chart(story, "pressure", "Largest pressure of each load", "", "p_max [MPa]", &WearLoad::pressure, 1e6),
-      load_chart(story, "t-gamma", "T-gamma of each load", "", "T-gamma [N]", &WearLoad::t_gamma, 1),
+                 "contact y [mm]", &WearLoad::y),
+      load_chart(story, "pressure", "Largest pressure of each load", "", "p_max [MPa]", &WearLoad::pressure),
+      load_chart(story, "t-gamma", "T-gamma of each load", "", "T-gamma [N]", &WearLoad::t_gamma),
       area_chart(story)};
   write_whole_file(page, report_page(report));
 }

@@ -8,13 +8,14 @@
 
 namespace railstrata {
 
-/// One load of a step, on the rail before it.
+/// One load of a step, on the rail before it: a row of the table, in its units, so that a loop that goes on writes the
+/// bits that it has read.
 struct WearLoad {
   int step = 0;
   double passages = 0;  ///< of the whole collective before the step
   int load = 0;         ///< its place in the collective
-  double y = 0;         ///< m, of the first contact, from the rail's axis
-  double pressure = 0;  ///< Pa, the largest
+  double y = 0;         ///< mm, of the first contact, from the rail's axis
+  double pressure = 0;  ///< MPa, the largest
   double t_gamma = 0;   ///< N
 };
 std::vector<WearLoad> wear_loads(const WearStep& step, double passages_before);
