@@ -1,5 +1,6 @@
 #include "fem/node_update.hpp"
 
+#include "core/apart_loop.hpp"
 #include "core/parallel.hpp"
 #include "core/staged_loop.hpp"
 #include "core/vectorize.hpp"
@@ -219,7 +220,7 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
       sums = fused_chain(updates[item.body], chain);
     }
   };
-  for_each(own(0) + own(1), run, true);
+  for_each_apart(own(0) + own(1), run);
   scope.lap(StepPart::elements);
   if (exchange)
     exchange->share_forces(bodies, states, scope);
