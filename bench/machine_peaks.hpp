@@ -39,7 +39,7 @@ void multiply_adds(long rounds) {
   asm volatile("" : "+v"(sum));
 }
 template <class Real>
-inline constexpr double kOperationsOfARound = 2.0 * kMultiplyAdds * kLanesOf<Real>;
+inline constexpr double kOperationsOfARound = 2.0 * kMultiplyAdds* kLanesOf<Real>;
 
 /// Nodal values as a step moves them, piece by piece: u and v read and written, 1/m read.
 struct NodalStreams {

@@ -11,13 +11,14 @@ enum class StepPart {
   begin,        ///< ghosts, carried frames, elements that may yield
   elements,     ///< with the updates on the way
   planes,       ///< between chains
-  tie_forces,   ///< of slaves, to their masters; ends of the rail, bore
+  tie_forces,   ///< of slaves, to their masters
+  ends,         ///< of the rail; bore; added mass
   rows,         ///< of the contact
   contact,      ///< its solution and forces
   waiting,      ///< update of nodes that waited for the contact
   constraints,  ///< axle, bore and slaves
 };
-inline constexpr std::size_t kStepParts = 8;
+inline constexpr std::size_t kStepParts = 9;
 
 class StepLaps {
  public:

@@ -155,11 +155,12 @@ void Stepper::step() {
   scope.lap(StepPart::planes);
   if (want_energy_) book_stored_energy(turned);
   const double tie_moment = reduce_ties(turned);
+  scope.lap(StepPart::tie_forces);
   absorb_at_ends();
   const AxleLoads loads =
       bore_loads(sys_.axle, state_.bodies[kWheel].f, rotation_by(turned[kWheel]), tie_moment, bodies_[kWheel].frame);
   for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].steps.scaling.scale(state_.bodies[k].f);
-  scope.lap(StepPart::tie_forces);
+  scope.lap(StepPart::ends);
 
   contact_.find_rows(state_.step, bodies_, state_.bodies, pose, state_.tractions);
   scope.lap(StepPart::rows);
