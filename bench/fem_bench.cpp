@@ -16,47 +16,21 @@
 #include <random>
 #include <string>
 
+#include "base_case.hpp"
+#include "core/apart_loop.hpp"
 #include "core/parallel.hpp"
 #include "core/vectorize.hpp"
 #include "fem/stepper.hpp"
+#include "machine_peaks.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kFlops[2] = {534, 568};  // extruded, revolved: kinematics 129, stress 98, hourglass 136, forces 156,
                                           // per node sums and differences 15; frames 34
-constexpr double kBytes = 104;            // u and v read and written, 1/m read, 24 + 24 + 24 + 24 + 8
+constexpr double kBytes = NodalStreams::kBytes;
 
 // -- the machine ----------------------------------------------------------------------------------
-
-/// N dependent chains of fused multiply-adds, every link in a register (an array of packs would be kept in memory).
-template <class P, int N>
-struct Chains {
-  P x = P{} + N;
-  Chains<P, N - 1> others;
-  void go_on(P m, P c) {
-    x = x * m + c;
-    asm volatile("" : "+v"(x));
-    others.go_on(m, c);
-  }
-  P sum() const { return x + others.sum(); }
-};
-template <class P>
-struct Chains<P, 0> {
-  void go_on(P, P) {}
-  P sum() const { return P{}; }
-};
-
-constexpr int kChains = 12;
-template <class Real>
-void multiply_adds(long rounds) {
-  using P = PackOf<Real>;
-  Chains<P, kChains> chains;
-  const P m = P{} + Real(0.999999), c = P{} + Real(1e-9);
-  for (long k = 0; k < rounds; ++k) chains.go_on(m, c);
-  P sum = chains.sum();
-  benchmark::DoNotOptimize(sum);
-}
 
 template <class Real>
 void peak_arithmetic(benchmark::State& state) {
@@ -64,24 +38,18 @@ void peak_arithmetic(benchmark::State& state) {
   set_threads(threads);
   double flops = 0;
   for (auto _ : state) for_each(threads, [](std::ptrdiff_t) { multiply_adds<Real>(200000); });
-  flops = static_cast<double>(state.iterations()) * threads * 200000.0 * kChains * 2 * kLanesOf<Real>;
+  flops = static_cast<double>(state.iterations()) * threads * 200000.0 * kOperationsOfARound<Real>;
   state.counters["GF/s"] = benchmark::Counter(1e-9 * flops, benchmark::Counter::kIsRate);
 }
 BENCHMARK(peak_arithmetic<double>)->Arg(1)->Arg(2)->UseRealTime();
 BENCHMARK(peak_arithmetic<float>)->Arg(1)->Arg(2)->UseRealTime();
 
-/// Reads and writes 13 doubles a node in as many streams as a step has.
 void memory_traffic(benchmark::State& state) {
   const int threads = static_cast<int>(state.range(0));
   set_threads(threads);
   const std::ptrdiff_t nodes = 1 << 20;
-  std::vector<Field> u(6, Field(nodes, 1.0));
-  Field m(nodes, 1e-9);
-  for (auto _ : state)
-    for_each(nodes / 4096, [&](std::ptrdiff_t piece) {
-      for (std::ptrdiff_t i = 4096 * piece; i < 4096 * (piece + 1); ++i)
-        for (int k = 0; k < 3; ++k) u[k][i] += m[i] * (u[k + 3][i] += m[i]);
-    });
+  NodalStreams streams(nodes);
+  for (auto _ : state) for_each(streams.pieces(), [&](std::ptrdiff_t piece) { streams.move(piece); });
   state.counters["GB/s"] =
       benchmark::Counter(static_cast<double>(state.iterations() * nodes) * kBytes * 1e-9, benchmark::Counter::kIsRate);
 }
@@ -152,12 +120,9 @@ struct Lines {
       for (int i = 0; i < 3; ++i) lines.add(&v[l.line(node, i) + t.first]);
       lines.add(&inverse_mass[l.line(node, 0) + t.first]);
     };
-    for_each(
-        static_cast<std::ptrdiff_t>(chained.size()),
-        [&](std::ptrdiff_t k) {
-          elements.chain_forces(chained[k], u, f, history, FuseUpdate{take, expect});
-        },
-        true);
+    for_each_apart(static_cast<std::ptrdiff_t>(chained.size()), [&](std::ptrdiff_t k) {
+      elements.chain_forces(chained[k], u, f, history, FuseUpdate{take, expect});
+    });
     elements.end(chained, f);
     for_each(l.nodes, [&](std::ptrdiff_t n) {
       const double* row[3] = {f.data() + l.line(static_cast<int>(n), 0), f.data() + l.line(static_cast<int>(n), 1),
@@ -226,18 +191,7 @@ struct Rolling {
   }
   /// layer: thickness [m] of one of four times the modulus, 0: none.
   static CaseSpec spec(double millimetres, ArithmeticPrecision precision, double layer) {
-    CaseSpec s;
-    s.geometry.wheel_profile = "LMA";
-    s.geometry.rail_profile = "CN60";
-    s.geometry.cant = 1.0 / 40;
-    s.geometry.lateral_shift = 1.5e-3;
-    s.drive.speed = 27.78;
-    s.drive.traction_coefficient = 0.2;
-    s.drive.friction_coefficient = 0.5;
-    s.mesh.element_size = 1e-3 * millimetres;
-    s.run.positions = {0.3};
-    s.run.run_up = 0;
-    s.run.precision = precision;
+    CaseSpec s = base_case(millimetres, precision);
     if (layer > 0) {
       LayerSpec l;
       l.thickness = layer;

@@ -6,6 +6,7 @@
 #include "body/plastic_pass.hpp"
 #include "body/scratch_rows.hpp"
 #include "body/traversal.hpp"
+#include "core/apart_loop.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {
@@ -362,7 +363,7 @@ void TraversalOf<Element>::forces_of(const std::vector<Chain>& chains, Field& u,
                                      const Field& history, Field* advanced) {
   begin(u, psi);
   const auto run = [&](std::ptrdiff_t k) { run_chain<double, how>(chains[k], u, f, history, advanced, StoreForces{}); };
-  for_each(static_cast<std::ptrdiff_t>(chains.size()), run, true);
+  for_each_apart(static_cast<std::ptrdiff_t>(chains.size()), run);
   end(chains, f);
 }
 

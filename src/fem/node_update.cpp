@@ -1,5 +1,6 @@
 #include "fem/node_update.hpp"
 
+#include "core/apart_loop.hpp"
 #include "core/parallel.hpp"
 #include "core/staged_loop.hpp"
 #include "core/vectorize.hpp"
@@ -202,6 +203,7 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
     advance_plastic_elements(bodies[k].body, states[k].u, drift[k], states[k].history, scope.look, cut);
     chain_tiles(bodies[k], scope.sums_wanted());
   }
+  scope.lap(StepPart::begin);
   const BodyUpdate updates[] = {update_of(bodies[0], states[0], scope), update_of(bodies[1], states[1], scope)};
   const auto own = [&](std::size_t k) { return static_cast<std::ptrdiff_t>(bodies[k].schedule.own.size()); };
   const auto run = [&](std::ptrdiff_t task) {
@@ -218,7 +220,8 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
       sums = fused_chain(updates[item.body], chain);
     }
   };
-  for_each(own(0) + own(1), run, true);
+  for_each_apart(own(0) + own(1), run);
+  scope.lap(StepPart::elements);
   if (exchange)
     exchange->share_forces(bodies, states, scope);
   else if (scope.energy_wanted)

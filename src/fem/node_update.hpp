@@ -4,6 +4,7 @@
 
 #include "body/plastic_pass.hpp"
 #include "fem/rolling_body.hpp"
+#include "fem/step_laps.hpp"
 
 namespace railstrata {
 
@@ -14,7 +15,11 @@ struct StepScope {
   double damping_rate = 0;  ///< 1/s, run-up damping
   bool energy_wanted = false;
   PlasticLook look = PlasticLook::all;  ///< at elements that may yield
+  StepLaps* laps = nullptr;             ///< if somebody wants to know
   bool sums_wanted() const { return damping_rate > 0 || energy_wanted; }
+  void lap(StepPart part) const {
+    if (laps) laps->lap(part);
+  }
 };
 
 class RankExchange;

@@ -141,7 +141,8 @@ void Stepper::step() {
   if (engine_) return step_on_engine();
   const EnergyBalance before = balance_;
   const PlasticLook look = state_.step % kLookInterval == 0 ? PlasticLook::all : PlasticLook::awake;
-  const StepScope scope{dt(), sys_.gravity, damping_rate(), want_energy_, look};
+  const StepScope scope{dt(), sys_.gravity, damping_rate(), want_energy_, look, laps_};
+  if (laps_) laps_->start();
   const std::array<double, 2> turned = drift();
   const AxlePose pose = state_.axle.pose();
 
@@ -151,21 +152,27 @@ void Stepper::step() {
     exchange_->prepare(bodies_, state_.bodies, scope);
   }
   evaluate_elements(bodies_, state_.bodies, turned, scope, exchange());
+  scope.lap(StepPart::planes);
   if (want_energy_) book_stored_energy(turned);
   const double tie_moment = reduce_ties(turned);
+  scope.lap(StepPart::tie_forces);
   absorb_at_ends();
   const AxleLoads loads =
       bore_loads(sys_.axle, state_.bodies[kWheel].f, rotation_by(turned[kWheel]), tie_moment, bodies_[kWheel].frame);
   for (std::size_t k = 0; k < bodies_.size(); ++k) bodies_[k].steps.scaling.scale(state_.bodies[k].f);
+  scope.lap(StepPart::ends);
 
   contact_.find_rows(state_.step, bodies_, state_.bodies, pose, state_.tractions);
+  scope.lap(StepPart::rows);
   contact_.refine_local_steps(bodies_, state_.bodies, turned, scope, state_.tractions);
   contact_.gather(bodies_, state_.bodies, scope);
   contact_.enforce(scope.dt, state_.tractions);
   contact_.apply_tractions(bodies_, state_.bodies, state_.tractions);
   book_contact(contact_.measure(scope.dt, state_.tractions));
+  scope.lap(StepPart::contact);
 
   update_waiting_nodes(bodies_, state_.bodies, scope);
+  scope.lap(StepPart::waiting);
   sums_ = update_sums(bodies_, scope);
   book_update(scope);
   const double axle_kinetic = advance_axle(axle_law(sys_, axle_rest_z_), loads, axle_drive(), scope.dt,
@@ -176,6 +183,7 @@ void Stepper::step() {
   }
   advance_clock();
   sys_.apply_constraints(state_.bodies[kRail].u, state_.bodies[kWheel].u, pose_in_frame());
+  scope.lap(StepPart::constraints);
   want_energy_ = false;
 }
 

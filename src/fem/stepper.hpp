@@ -79,6 +79,8 @@ class Stepper {
   const EnergyBalance& energy() const { return recorded_; }
   /// Ask for the energies with the next step.
   void want_energy() { want_energy_ = true; }
+  /// Time the parts of the steps that follow; nullptr: no more.
+  void time_parts(StepLaps* laps) { laps_ = laps; }
   bool reached_edge() const { return engine_ ? record_.reached_edge : contact_.reached_edge(); }
   /// First node whose displacement is not finite, described; empty if all is well.
   std::string check_finite() const;
@@ -119,6 +121,7 @@ class Stepper {
   std::array<UpdateSums, 2> sums_;  // of this step
   double axle_rest_z_ = 0, side_force_ = 0;
   bool want_energy_ = false;
+  StepLaps* laps_ = nullptr;
   std::unique_ptr<StepEngine> engine_;
   std::span<const StepRecord> ahead_;  // steps that the engine has taken and this has not
   StepRecord record_;                  // of the last one
