@@ -126,16 +126,17 @@ ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem);
 }  // namespace
 
 ExitCode command_run(const CommandOptions& options) {
-  MpiRanks mpi;
   FemOptions fem;
-  fem.ranks = mpi.ranks();
   fem.wishes = {&stop_flag(), &save_flag()};  // from here on a signal is a wish
   fem.times.checkpoint_every = wall_time("--checkpoint-every", options.run.checkpoint_every);
   fem.times.limit = wall_time("--max-time", options.run.max_time);
   if (options.run.resume.empty() && options.case_file.empty())
     throw CaseError("run: no case was named",
                     "name a case file, or go on with an interrupted run: railstrata run --resume FOLDER");
+  MpiRanks mpi;
+  fem.ranks = mpi.ranks();
   try {
+    if (mpi.any_asked(stop_flag())) throw Interrupted("stopped before the run began; nothing was written");
     const ExitCode code = fem.ranks.speaks() ? run_and_speak(options, fem) : run_along(options, fem);
     mpi.leave();
     return code;

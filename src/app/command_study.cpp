@@ -201,6 +201,7 @@ ExitCode command_study(const CommandOptions& options) {
   if (options.study.dry_run) return list_cases(options, out, cases, ours);
 
   start_children_alone();
+  stop_flag();  // from here on a signal is a wish: what is claimed is given back
   const FolderHold hold =
       prepare_study_folder(out, study, options.command_line, options.overrides, options.threads, options.force);
   recover(out, cases, lease);

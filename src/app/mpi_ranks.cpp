@@ -52,6 +52,12 @@ void require(const char* trouble) {
     throw EnvironmentError(trouble, "look for the message of the rank that ended first; checkpoints stay as they are");
 }
 
+// Of those that do not speak.
+void wait_for_the_end() {
+  constexpr unsigned kSeconds = 5;  // signals wake; what ends the others when rank 0 has ended comes sooner
+  for (unsigned left = kSeconds; left > 0;) left = sleep(left);
+}
+
 void gather(void* context, double* all, const std::ptrdiff_t* sizes) {
   require(static_cast<const RailstrataRanks*>(context)->gather(all, sizes));
 }
@@ -68,10 +74,22 @@ void MpiRanks::leave() {
   if (joined_.leave != nullptr) require(joined_.leave());
 }
 
+bool MpiRanks::any_asked(bool this_one) { return largest_of_all(ranks(), this_one ? 1 : 0) > 0; }
+
 void MpiRanks::let_rank_0_speak() const {
-  constexpr unsigned kSeconds = 5;  // signals wake; what ends the others when rank 0 has ended comes sooner
-  if (joined_.rank > 0)
-    for (unsigned left = kSeconds; left > 0;) left = sleep(left);
+  if (joined_.rank > 0) wait_for_the_end();
+}
+
+void refuse_ranks(const std::string& command) {
+  if (started_among_ranks())
+    throw CaseError(fmt::format("{} was started as several ranks, and shares no work among them", command),
+                    "start it without mpirun; `run` shares one case among ranks, `study` its cases among processes");
+}
+
+void leave_words_to_rank_0() {
+  if (!started_among_ranks()) return;
+  const bool by_mpirun = std::getenv("OMPI_COMM_WORLD_RANK") != nullptr;
+  if (number_in_environment(by_mpirun ? "OMPI_COMM_WORLD_RANK" : "PMIX_RANK") > 0) wait_for_the_end();
 }
 
 void start_children_alone() {

@@ -24,6 +24,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/mpi_ranks.hpp"
 #include "app/processors.hpp"
 #include "app/reference_commands.hpp"
 #include "app/usage.hpp"
@@ -473,6 +474,9 @@ constexpr Entry kEntries[] = {
      [](CLI::App& sub, CommandOptions&) { add_manual(sub); }, done_by_parsing},
 };
 
+/// `run` shares its work among ranks; processes of `study` share cases by their claims.
+bool may_be_ranks(Command command) { return command == command_run || command == command_study; }
+
 std::vector<std::string> command_names() {
   std::vector<std::string> names;
   for (const Entry& e : kEntries) names.emplace_back(e.name);
@@ -602,8 +606,11 @@ int parse_and_run(const std::vector<std::string>& given, CommandOptions& options
   }
   set_up_log(quiet, verbose);
   set_threads(options.threads);
-  for (const auto& [sub, command] : commands)
-    if (sub->parsed()) return static_cast<int>(command(options));
+  for (const auto& [sub, command] : commands) {
+    if (!sub->parsed()) continue;
+    if (!may_be_ranks(command)) refuse_ranks(sub->get_name());
+    return static_cast<int>(command(options));
+  }
   return static_cast<int>(ExitCode::user);
 }
 
@@ -623,6 +630,7 @@ int run_program(int argc, const char* const* argv) {
     if (std::ferror(stdout)) throw std::system_error(EIO, std::generic_category(), "cannot write to standard output");
     return code;
   } catch (const CaseError& e) {
+    leave_words_to_rank_0();  // a mistake is that of all
     return tell(e, options.json);
   } catch (const NumericalError& e) {
     return tell(ExitCode::numerics, e.what());

@@ -2,7 +2,8 @@
 // or wait.
 //   RAILSTRATA_FAULT="CALL NAME REASON SKIP"   the calls (open, write, fsync, rename) on files whose path contains NAME
 //                                              fail with errno REASON, after SKIP that succeed;
-//                                              REASON "wait": they take ten seconds instead. A write that fails for
+//                                              REASON "wait": they take ten seconds instead; "term": the first one
+//                                              is made, after a SIGTERM to this process. A write that fails for
 //                                              lack of room has written half of its bytes before, as on a real disk.
 //   RAILSTRATA_HOST="north"                    the name of the machine that the program sees
 //   RAILSTRATA_CLOCK="-600"                    its clock is so many seconds ahead; that of the file system is not
@@ -10,6 +11,7 @@
 #include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -26,6 +28,10 @@ static int fault(const char* call, const char* path) {
   const char* text = getenv("RAILSTRATA_FAULT");
   if (!text || sscanf(text, "%15s %127s %15s %d", wanted, name, reason, &skip) < 3) return 0;
   if (strcmp(wanted, call) != 0 || !strstr(path, name) || skipped++ < skip) return 0;
+  if (strcmp(reason, "term") == 0) {
+    if (skipped == skip + 1) kill(getpid(), SIGTERM);
+    return 0;
+  }
   if (strcmp(reason, "wait") != 0) return atoi(reason);
   for (int tenths = 0; tenths < 100; ++tenths) usleep(100000);
   return 0;

@@ -154,6 +154,19 @@ class FullDisk(Faults):
             self.assertEqual([str(f) for f in self.out.rglob("*") if ".part" in f.name or ".failed" in f.name], [])
             shutil.rmtree(self.out)
 
+    def test_a_study_that_is_ended_before_its_first_case_leaves_no_claim(self):
+        self.case(TINY)
+        (self.folder / "study.toml").write_text(
+            '[study]\nbase = "case.toml"\nengines = ["bem"]\ncell = "1.5 mm"\n[[group]]\nname = "g"\n')
+        words = ["study", self.folder / "study.toml", "--out", self.out, "--no-report"]
+        for place in ("provenance.json", "study.toml", ".claim"):
+            code, _, err = railstrata(*words, env=with_fault("open", place, "term"))
+            self.assertEqual(code, 130, f"{place}: {err}")
+            self.assertIn("stopped; the same command goes on where it was", err)
+            self.assertEqual([str(f) for f in self.out.rglob("*") if ".part" in f.name or ".claim" in f.name], [])
+        code, _, err = railstrata(*words)
+        self.assertEqual(code, 0, err)
+
     def test_standard_output_that_is_full_is_no_success(self):
         with open("/dev/full", "w") as full:
             done = subprocess.run([sys.argv[1], "info", "--json"], stdout=full, stderr=subprocess.PIPE, text=True)

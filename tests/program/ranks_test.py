@@ -150,6 +150,19 @@ class Ranks(FromOutside):
         rc, _, err = finished(ranked(2, "run", wrong, "--out", self.out))
         self.assertEqual(rc, 2, err)
         self.assertEqual(err.count("did you mean"), 1, err)
+        for words in (["--threads", "0"], ["--max-time", "soon"], ["--wrong"]):
+            rc, _, err = finished(ranked(2, "run", self.case(SMALL), *words, "--out", self.out))
+            self.assertEqual(rc, 2, err)
+            self.assertEqual(err.count("error: "), 1, err)
+        self.assertFalse(self.out.exists())
+
+    def test_commands_that_share_no_work_are_refused(self):
+        for command in ("bem", "mesh", "passes"):
+            rc, _, err = finished(ranked(2, command, self.case(SMALL), "--out", self.out))
+            self.assertEqual(rc, 2, err)
+            self.assertEqual(err.count(f"error: {command} was started as several ranks, and shares no work"), 1, err)
+            self.assertIn("remedy: start it without mpirun", err)
+            self.assertFalse(self.out.exists())
 
 
 class WithoutMpi(FromOutside):
