@@ -254,13 +254,14 @@ def sections_of(root):
 
 
 def with_explorer(page, folder):
-    """The page with the engine inside, and the first page's words for it as a link."""
+    """The page with the engine inside, and the first page's link to that of the repository as one to it."""
     shutil.copy(page, folder / "explore.html")
     first = folder / "index.md"
-    words, text = "open `explore.html`", first.read_text()
-    if words not in text:
-        sys.exit(f"make_site.py: README.md does not say: {words}")
-    first.write_text(text.replace(words, "open [`explore.html`](explore.html)", 1))
+    there = r"(\[explore/explore\.html\]\([^)]*\)|`explore/explore\.html`)"
+    text, count = re.subn(there, "[explore.html](explore.html)", first.read_text())
+    if not count:
+        sys.exit("make_site.py: README.md has no link to explore/explore.html")
+    first.write_text(text)
 
 
 def make(root, site, run, explorer=None):

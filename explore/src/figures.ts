@@ -80,7 +80,7 @@ function frame(title: string, caption: string, extra: HTMLElement[] = []): [HTML
 
 /// A plot of the patch's plane: x rolling, y across, both to one scale as far as the width goes.
 function patchPlot(canvas: HTMLCanvasElement, w: Window): Plot|null {
-  const left = 48, right = 58, top = 8, bottom = 38;
+  const left = 56, right = 58, top = 8, bottom = 38;
   const place = canvas.parentElement?.clientWidth ?? 0;
   const wide = place - left - right;
   if (wide < 60) return null;
@@ -247,7 +247,7 @@ function lineAxes(canvas: HTMLCanvasElement, x: Axis, y: Axis, height = 250): Pl
   const g = prepare(canvas, height);
   if (!g) return null;
   const width = canvas.parentElement!.clientWidth;
-  return new Plot(g, {left: 52, top: 8, width: width - 66, height: height - 48}, x, y, theme());
+  return new Plot(g, {left: 56, top: 8, width: width - 78, height: height - 48}, x, y, theme());
 }
 
 export function centreLine(): Figure {
@@ -363,7 +363,7 @@ export function sectionFigure(choice: Choice, which: "section"|"cross"): Figure 
         canvas, {low: span[0], high: span[1], title: along ? "x rolling → [mm]" : "y [mm]"},
         {low: Math.min(deepest, span[1] - span[0]), high: 0, title: "depth [mm]"});
     if (!p) return;
-    p.box.width -= 44;
+    p.box.width -= 38;
     const signed = choice.value() !== "von_mises";
     const top = roundUp(b.values.reduce((m, v) => Math.max(m, Math.abs(v)), 0));
     p.axes();

@@ -151,7 +151,10 @@ class Result:
     def peaks(self, body: str = "rail", zone: str = "subsurface") -> Peaks:
         """Largest von Mises and principal stress. body: "rail", "wheel"; zone: "surface", "subsurface", "layer",
         "interface", "matrix". KeyError where the result has no such."""
-        entry = self.summary["stress"][body].get(zone)
+        stress = self.summary["stress"]
+        if body not in stress:
+            raise KeyError(f"{body!r} is no body of the result: {', '.join(stress)}")
+        entry = stress[body].get(zone)
         if entry is None:
             raise KeyError(f"{body} has no zone {zone!r} with stresses")
         return Peaks(_peak(entry["von_mises_max"]), _peak(entry["sigma1_max"]))

@@ -207,6 +207,8 @@ def passes(
 def open_folder(folder: PathLike) -> Union[FolderResult, PassesResult]:
     """The results of a folder: of `railstrata run` and `bem` a FolderResult, of `railstrata passes` a PassesResult.
     CaseError: it holds no finished result."""
+    if not isinstance(folder, (str, os.PathLike)):
+        raise TypeError(f"a folder is wanted, as text or pathlib.Path, not {folder!r:.60}")
     if (Path(folder) / "passes.json").exists():
         return PassesResult(folder)
     return FolderResult(folder)

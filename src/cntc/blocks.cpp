@@ -29,11 +29,20 @@ void require_count(std::span<const double> values, bool three, const char* name)
     if (!std::isfinite(v)) throw Refused(kGrid, fmt::format("a number for {} of a block is not finite", name));
 }
 
+/// Numbers that count: of depths, and the increments of columns and rows.
+void require_counts(const BlockInput& in) {
+  const auto counts = [](double value) { return value >= 1 && value <= kMostValues; };
+  if (regular_depths(in.kind) && !counts(in.z[0]))
+    throw Refused(kGrid, fmt::format("NZ = {:g} is no number of depths", in.z[0]));
+  if (regular_elements(in.kind) && !(counts(in.x[1]) && counts(in.y[1])))
+    throw Refused(kGrid,
+                  fmt::format("increments of columns and rows are 1 or more, not {:g} and {:g}", in.x[1], in.y[1]));
+}
+
 std::vector<double> depths(const BlockInput& in, double length) {
   std::vector<double> out;
   if (regular_depths(in.kind)) {
-    const double count = std::clamp(std::round(in.z[0]), 1.0, double{kMostValues});
-    for (int k = 0; k < static_cast<int>(count); ++k) out.push_back((in.z[1] + k * in.z[2]) * length);
+    for (int k = 0; k < static_cast<int>(std::lround(in.z[0])); ++k) out.push_back((in.z[1] + k * in.z[2]) * length);
   } else {
     for (const double z : in.z) out.push_back(z * length);
   }
@@ -252,6 +261,7 @@ void add_block(Problem& p, const BlockInput& in) {
     require_count(in.y, regular_elements(in.kind), "y");
   }
   require_count(in.z, regular_depths(in.kind), "z");
+  require_counts(in);
   Block block;
   block.kind = in.kind;
   block.x = along(in, in.x, p.units.length);

@@ -173,8 +173,10 @@ void cntc_setrollingstepsize(const int* ire, const int* icp, const double* chi, 
 }
 
 void cntc_setfrictionmethod(const int* ire, const int* icp, const int* imeth, const int* nparam, const double* params) {
-  set(ire, icp, Setting::friction, "cntc_setfrictionmethod",
-      [&](Problem& p) { set_friction(p, *imeth, given(params, *nparam)); });
+  set(ire, icp, Setting::friction, "cntc_setfrictionmethod", [&](Problem& p) {
+    const std::string remark = set_friction(p, *imeth, given(params, *nparam));
+    if (!remark.empty()) registry().tell(*ire, *icp, &p, "cntc_setfrictionmethod", 0, remark);
+  });
 }
 
 void cntc_sethertzcontact(const int* ire, const int* icp, const int* ipotcn, const int* nparam, const double* rparam) {
@@ -256,7 +258,7 @@ void subs_addblock(const int* ire, const int* icp, const int* iblk, const int* i
 void rscntc_setlayers(const int* ire, const int* icp, const int* body, const int* n, const double* thickness,
                       const double* young, const double* poisson) {
   set(ire, icp, Setting::layers, "rscntc_setlayers",
-      [&](Problem& p) { set_layers(p, *body, given(thickness, *n), given(young, *n), given(poisson, *n)); });
+      [&](Problem& p) { set_layers(p, *body, *n, given(thickness, *n), given(young, *n), given(poisson, *n)); });
 }
 
 // ----------------------------------------------------------------------------------------------------------- solutions

@@ -55,12 +55,17 @@ bool same_grid(const PatchGrid& a, const PatchGrid& b) {
 
 PlanePair extra_slip(const Settings& s, const PatchGrid& g, double unit) {
   if (flag(s, kExtraSlip) == 0) return {};
+  for (const auto* part : {&s.extra_x, &s.extra_y})
+    if (part->size() != g.size())
+      throw Refused(kGrid,
+                    fmt::format("E = 1 has {} values of extra rigid slip, the potential contact area {} elements",
+                                part->size(), g.size()));
   PlanePair out{Plane(g.size()), Plane(g.size())};
   for (int i = 0; i < g.nx; ++i)
     for (int j = 0; j < g.ny; ++j) {
       const auto at = static_cast<std::size_t>(i + g.nx * j);
-      if (at < s.extra_x.size()) out.x[g.index(i, j)] = unit * s.extra_x[at];
-      if (at < s.extra_y.size()) out.y[g.index(i, j)] = unit * s.extra_y[at];
+      out.x[g.index(i, j)] = unit * s.extra_x[at];
+      out.y[g.index(i, j)] = unit * s.extra_y[at];
     }
   return out;
 }

@@ -11,6 +11,8 @@
 namespace railstrata::cntc {
 namespace {
 
+constexpr double kLeastFriction = 1e-6;
+
 void require_finite(Numbers values, int code, const char* what) {
   for (const double v : values)
     if (!std::isfinite(v)) throw Refused(code, fmt::format("{} has a number that is not finite", what));
@@ -87,8 +89,11 @@ void set_materials(Problem& p, int digit, Numbers v) {
   p.settings.has_materials = true;
 }
 
-void set_layers(Problem& p, int body, Numbers thickness, Numbers young, Numbers poisson) {
+void set_layers(Problem& p, int body, int count, Numbers thickness, Numbers young, Numbers poisson) {
   if (body != 1 && body != 2) throw Refused(kOther, fmt::format("layers are on body 1 or 2, not {}", body));
+  for (const Numbers& v : {thickness, young, poisson})
+    if (count < 0 || v.size() != static_cast<std::size_t>(count))
+      throw Refused(kOther, fmt::format("{} layers, and {} numbers for them", count, v.size()));
   for (const Numbers& v : {thickness, young, poisson}) require_finite(v, kOther, "a layer");
   std::vector<HalfSpaceLayer> out;
   for (std::size_t k = 0; k < thickness.size(); ++k) {
@@ -103,16 +108,18 @@ void set_layers(Problem& p, int body, Numbers thickness, Numbers young, Numbers 
   p.settings.materials.layers[static_cast<std::size_t>(body - 1)] = std::move(out);
 }
 
-void set_friction(Problem& p, int method, Numbers v) {
+std::string set_friction(Problem& p, int method, Numbers v) {
   const int digit = method % 10;
   if (method < 0 || method > 9)
     throw Refused(kFriction, fmt::format("friction V = {} is of module 1: 0 is offered", method / 10));
-  if (digit == 1) return;  // as before
+  if (digit == 1) return "";  // as before
   FrictionLaw law;
   law.digit = digit;
   if (digit == 0) {
     require_count(v, 2, kFriction, "L = 0");
-    law.at_rest = std::max(1e-6, std::min(v[0], v[1]));
+    if (!(v[0] >= 0) || !(v[1] >= 0))
+      throw Refused(kFriction, fmt::format("FSTAT and FKIN are 0 or more, not {:g} and {:g}", v[0], v[1]));
+    law.at_rest = std::min(v[0], v[1]);
   } else if (digit == 3 || digit == 4) {
     require_count(v, 7, kFriction, fmt::format("L = {}", digit));
     law.at_rest = v[0] + v[1];
@@ -122,7 +129,10 @@ void set_friction(Problem& p, int method, Numbers v) {
   } else {
     throw Refused(kFriction, fmt::format("friction L = {} is not offered: 0, 3 and 4 are", digit));
   }
+  const bool raised = law.at_rest < kLeastFriction;
+  if (raised) law.at_rest = kLeastFriction;
   p.settings.friction = law;
+  return raised ? fmt::format("friction below {0:g} is taken as {0:g}; without friction: T = 0", kLeastFriction) : "";
 }
 
 void set_hertz(Problem& p, int number, Numbers v) {
@@ -208,14 +218,14 @@ void set_extra_slip(Problem& p, Numbers x, Numbers y) {
 void set_forces(Problem& p, double x, double y) {
   const double both[] = {x, y};
   require_finite(both, kTotalForce, "tangential forces");
-  const double over = std::max(1.0, std::hypot(x, y));
-  p.settings.relative_x = x / over;
-  p.settings.relative_y = y / over;
+  p.settings.relative_x = x;
+  p.settings.relative_y = y;
 }
 
 void set_speed(Problem& p, double speed) {
-  if (!std::isfinite(speed) || speed == 0) throw Refused(kOther, fmt::format("a rolling velocity of {:g}", speed));
-  p.settings.speed = std::abs(speed) * p.units.length;
+  if (!(speed > 0) || !std::isfinite(speed))
+    throw Refused(kOther, fmt::format("a rolling velocity is above 0, not {:g}: chi has its direction", speed));
+  p.settings.speed = speed * p.units.length;
 }
 
 void set_rolling_step(Problem& p, double chi, double step) {
@@ -233,7 +243,9 @@ void set_solver(Problem& p, int digit, std::span<const int> ints, Numbers reals)
   if (ints.size() != kInts[digit] || reals.size() != kReals[digit])
     throw Refused(kOther,
                   fmt::format("G = {} takes {} whole numbers and {} others", digit, kInts[digit], kReals[digit]));
+  require_finite(reals, kOther, fmt::format("G = {}", digit).c_str());
   if (digit == 1 || digit == 6) return;
+  if (!(reals[0] > 0)) throw Refused(kOther, fmt::format("EPS is above 0, not {:g}", reals[0]));
   // Never looser than the engine's own, which costs little: Newton's method.
   constexpr double kSharpest = 1e-9, kStandard = 1e-5;
   p.settings.tolerance = std::clamp(reals[0], kSharpest, kStandard);

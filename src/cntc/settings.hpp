@@ -2,6 +2,7 @@
 // What the cntc_set… calls give to a contact problem, in the user's units. Each throws Refused for what is not offered
 // and then changes nothing; where it returns a text, that is a remark.
 #include <span>
+#include <string>
 
 #include "cntc/problem.hpp"
 
@@ -12,9 +13,9 @@ using Numbers = std::span<const double>;
 /// M = 0 and, with a film that is elastic, 4.
 void set_materials(Problem& problem, int digit, Numbers values);
 /// Layers on body 1 or 2, from the surface down.
-void set_layers(Problem& problem, int body, Numbers thickness, Numbers young, Numbers poisson);
-/// L = 0 (fstat = fkin), and 3 and 4 with one term and without memory, which are the laws of friction/.
-void set_friction(Problem& problem, int method, Numbers values);
+void set_layers(Problem& problem, int body, int count, Numbers thickness, Numbers young, Numbers poisson);
+/// L = 0 (the smaller of fstat and fkin), and the laws of friction/: 3 and 4 with one term and without memory.
+std::string set_friction(Problem& problem, int method, Numbers values);
 /// IPOTCN -1 to -3 and 1 to 4.
 void set_hertz(Problem& problem, int number, Numbers values);
 void set_potential_contact(Problem& problem, int number, Numbers values);
@@ -24,6 +25,7 @@ void set_load(Problem& problem, double force);
 void set_approach(Problem& problem, double approach);
 void set_creepages(Problem& problem, double x, double y, double spin);
 void set_extra_slip(Problem& problem, Numbers x, Numbers y);
+/// On body 1, over FSTAT FN. What friction cannot carry is refused by the solution.
 void set_forces(Problem& problem, double x, double y);
 void set_speed(Problem& problem, double speed);
 void set_rolling_step(Problem& problem, double chi, double step);

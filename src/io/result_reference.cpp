@@ -7,6 +7,7 @@
 
 #include "post/check_limits.hpp"
 #include "post/result_table.hpp"
+#include "post/run_residual.hpp"
 #include "post/verdict.hpp"
 
 namespace railstrata {
@@ -125,6 +126,16 @@ std::string stress_markdown() {
   return out;
 }
 
+std::string residual_markdown() {
+  std::string out =
+      "\n## residual.json\n\n"
+      "What a run with `run.plasticity` leaves in the rail at rest; its section is `residual.csv`. `none` says in\n"
+      "words why there is none, and then stands alone; else it is null.\n\n| key | unit | meaning |\n|---|---|---|\n";
+  for (const ResidualNumber& n : residual_numbers())
+    out += fmt::format("| `{}` | {} | {} |\n", n.key(), n.unit.si(), cell(n.doc));
+  return out;
+}
+
 std::string limit_cell(const CheckRow& c, double limit) {
   return std::isfinite(limit) ? limit_text(c.unit, limit) : std::string(c.case_option);
 }
@@ -204,7 +215,7 @@ std::string results_reference_markdown() {
     if (group == "contact") out += std::string(kSeveralPatches) + stress_markdown();
     if (group == "plastic") out += std::string(kPlasticPlace);
   }
-  return out + checks_markdown();
+  return out + residual_markdown() + checks_markdown();
 }
 
 Json results_reference_json() {
@@ -215,6 +226,9 @@ Json results_reference_json() {
   out["measures"] = named(stress_measures());
   out["checks"] = Json::array();
   for (const CheckRow& c : kCheckRows) out["checks"].push_back(check_json(c));
+  out["residual"] = Json::array();
+  for (const ResidualNumber& n : residual_numbers())
+    out["residual"].push_back({{"key", n.key()}, {"unit", unit_json(n.unit)}, {"doc", n.doc}});
   out["verdicts"] = Json::array();
   for (const VerdictWords& v : kVerdicts)
     out["verdicts"].push_back({{"words", v.words}, {"means", v.means}, {"lasts", v.lasts}});

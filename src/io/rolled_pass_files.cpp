@@ -258,17 +258,8 @@ void write_run_residual(const std::filesystem::path& folder, const std::vector<s
     write_whole_file(folder / "residual.json", json_text(nlohmann::ordered_json{{"none", residual.none}}, 2) + "\n");
     return;
   }
-  const PassRow& row = residual.pass.row;
-  const nlohmann::ordered_json out{{"none", nullptr},
-                                   {"sigma_x_min_Pa", row.stress[0]},
-                                   {"sigma_x_depth_m", row.stress_depth[0]},
-                                   {"sigma_y_min_Pa", row.stress[1]},
-                                   {"sigma_y_depth_m", row.stress_depth[1]},
-                                   {"plastic_strain", row.strain},
-                                   {"balance", row.balance},
-                                   {"steady_from_m", residual.from},
-                                   {"steady_to_m", residual.to},
-                                   {"uneven", residual.pass.uneven}};
+  nlohmann::ordered_json out{{"none", nullptr}};
+  for (const ResidualNumber& n : residual_numbers()) out[n.key()] = n.value(residual);
   std::vector<std::string> remarks = provenance;
   remarks.push_back(fmt::format(
       "What the wheel leaves behind: mean of the stations from {:.6g} to {:.6g} mm, in an endless rail at rest. y, "

@@ -9,6 +9,7 @@
 
 #include "model/model.hpp"
 #include "post/check_limits.hpp"
+#include "post/result_table.hpp"
 #include "post/row_strength.hpp"
 
 namespace railstrata {
@@ -29,11 +30,11 @@ class Warnings {
   void above(std::string_view name, double value, double limit, const std::string& more = "") {
     const CheckRow& row = check_row(name);
     if (!(value > limit)) return;
-    const std::string unit = row.unit.si().empty() ? "" : fmt::format(" [{}]", row.unit.si());
     out_.push_back({.name = std::string(name),
                     .value = value,
                     .limit = limit,
-                    .text = fmt::format("{}{}{}: {}", row.what, unit, more, row.advice)});
+                    .text = fmt::format("{}{} ({}, limit {}): {}", row.what, more, with_unit(row.unit, value, 3),
+                                        limit_text(row.unit, limit), row.advice)});
   }
   /// Against the table's limit for this engine, if it has one.
   void above(std::string_view name, double value, const std::string& more = "") {

@@ -20,7 +20,7 @@ void warn_within_ramp(const CaseSpec& spec, double position, std::vector<Warning
   out.push_back(
       {kWithinRamp, ramp, begin,
        fmt::format("the torque rises over {:.4g} ms, {:.4g} mm at this speed, and the measuring window begins "
-                   "at {:.4g} mm [m]: later run.positions, or a shorter drive.torque_ramp",
+                   "at {:.4g} mm: later run.positions, or a shorter drive.torque_ramp",
                    1e3 * drive.torque_ramp, 1e3 * ramp, 1e3 * begin)});
 }
 

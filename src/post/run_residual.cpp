@@ -22,7 +22,31 @@ std::string too_short(const Model& model, double a) {
       1e3 * kNearest * a, 1e3 * (start + kFarthest * a));
 }
 
+using R = RunResidual;
+constexpr ResidualNumber kNumbers[] = {
+    {"sigma_x_min", result_unit::kMPa, "Most compressive residual stress along the rail",
+     [](const R& r) { return r.pass.row.stress[0]; }},
+    {"sigma_x_depth", result_unit::kMillimetres, "Its depth", [](const R& r) { return r.pass.row.stress_depth[0]; }},
+    {"sigma_y_min", result_unit::kMPa, "Most compressive residual stress across the rail, along the surface",
+     [](const R& r) { return r.pass.row.stress[1]; }},
+    {"sigma_y_depth", result_unit::kMillimetres, "Its depth", [](const R& r) { return r.pass.row.stress_depth[1]; }},
+    {"plastic_strain", result_unit::kNone, "Largest equivalent plastic strain √(2/3) |E^p|",
+     [](const R& r) { return r.pass.row.strain; }},
+    {"balance", result_unit::kNone,
+     "Larger resultant of the shear stresses τ_xy and τ_xz over the section, over the integral of |σ_x|: 0 in "
+     "equilibrium",
+     [](const R& r) { return r.pass.row.balance; }},
+    {"steady_from", result_unit::kMillimetres, "First station of the mean, from where the wheel was put on",
+     [](const R& r) { return r.from; }},
+    {"steady_to", result_unit::kMillimetres, "Last station of the mean", [](const R& r) { return r.to; }},
+    {"uneven", result_unit::kNone,
+     "Largest difference of the plastic strain between the two halves of these stations, over the largest plastic "
+     "strain: 0 where rolling is steady",
+     [](const R& r) { return r.pass.uneven; }}};
+
 }  // namespace
+
+std::span<const ResidualNumber> residual_numbers() { return kNumbers; }
 
 RunResidual run_residual(const RollingSystem& system, const RollingState& end) {
   RunResidual out;

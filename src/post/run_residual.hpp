@@ -1,9 +1,12 @@
 #pragma once
 // What a run with run.plasticity leaves in the rail: plastic strain of the section and the residual stress of the rail
 // at rest, when the wheel has gone.
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "fem/rolling_run.hpp"
+#include "post/result_unit.hpp"
 #include "post/rolled_pass.hpp"
 
 namespace railstrata {
@@ -20,6 +23,18 @@ struct RunResidual {
 /// One more increment of the rail's equilibrium is solved, with that state at all stations of an endless rail; nothing
 /// yields in it. None, in words: the run is too short, nothing has yielded, no equilibrium.
 RunResidual run_residual(const RollingSystem& system, const RollingState& end);
+
+/// A number of residual.json, SI.
+struct ResidualNumber {
+  std::string_view name;  ///< its key, less the unit's ending
+  ResultUnit unit;
+  std::string_view doc;
+  double (*value)(const RunResidual&);
+
+  std::string key() const { return std::string(name) + std::string(unit.key_ending); }
+};
+/// In the order of the file. What writes it and what documents it take them from here.
+std::span<const ResidualNumber> residual_numbers();
 
 /// One line for the screen: the most compressive stresses, or why there are none.
 std::string words_of(const RunResidual& residual);

@@ -10,9 +10,11 @@
 #include "core/faults.hpp"
 #include "io/pass_files.hpp"
 #include "io/pass_way_files.hpp"
+#include "post/check_limits.hpp"
 #include "post/pass_plan.hpp"
 #include "post/pass_way.hpp"
 #include "post/pass_words.hpp"
+#include "post/result_table.hpp"
 #include "runs/pass_folder_parts.hpp"
 #include "runs/solve_half_space.hpp"
 #include "runs/solve_settings.hpp"
@@ -93,10 +95,12 @@ class SteadyFolder {
     for (const Check& c : contact.checks) {
       if (c.ok) continue;
       sound_ = false;
-      add(fmt::format("a check of the contact fails: {} is {:.3g}, limit {:.3g}", c.name, c.value, c.limit));
+      const CheckRow* row = find_check(c.name);
+      const ResultUnit unit = row ? row->unit : result_unit::kNone;
+      add(fmt::format("a check of the contact fails: {} is {}, limit {}", c.name, with_unit(unit, c.value, 3),
+                      limit_text(unit, c.limit)));
     }
-    for (const Warning& w : contact.warnings)
-      add(fmt::format("{} (here {:.3g}, limit {:.3g})", w.text, w.value, w.limit));
+    for (const Warning& w : contact.warnings) add(w.text);
   }
 
   /// Shakedown factors of the elastic stress, to stand beside the class; where no strength is given there are none.

@@ -392,6 +392,36 @@ class Interface(unittest.TestCase):
             (lambda c: (c.flags(T=2), c.call("cntc_setrollingstepsize", 0.0, 0.7)), -34, "DQ has to be DX"),
             (lambda c: c.call("cntc_setcreepages", math.nan, 0.0, 0.0), -99, "not finite"),
             (lambda c: (c.flags(F=1), c.call("cntc_settangentialforces", 1.0, 0.0)), -26, "friction"),
+            (lambda c: (c.flags(F=1), c.call("cntc_settangentialforces", -1.2, 0.0)), -26, "friction"),
+            (lambda c: (c.flags(F=2), c.call("cntc_settangentialforces", 0.8, 0.8)), -26, "friction"),
+            (lambda c: c.friction(-1), -33, "not -1 and -1"), (lambda c: c.friction(math.nan), -33, "not finite"),
+            (lambda c: c.set("cntc_setfrictionmethod", 0, [0.3, -0.1]), -33, "0.3 and -0.1"),
+            (lambda c: c.set("cntc_setfrictionmethod", 4, [-0.1, 0.15, 600, 0, 1, 0, 0]), -33, "FKIN > 0"),
+            (lambda c: c.materials(0.3, 0.6, SHEAR, SHEAR), -99, "0.6"),
+            (lambda c: c.materials(0.3, -0.1, SHEAR, SHEAR), -99, "-0.1"),
+            (lambda c: c.materials(0.3, 0.3, 0, SHEAR), -99, "above 0"),
+            (lambda c: c.materials(0.3, 0.3, SHEAR, -SHEAR), -99, "above 0"),
+            (lambda c: c.materials(0.3, 0.3, SHEAR, math.nan), -99, "not finite"),
+            (lambda c: c.materials(0.3, 0.3, SHEAR, math.inf), -99, "not finite"),
+            (lambda c: c.grid(3, [0, 31, -7, -7.5, 0.5, 0.5]), -34, "MX = 0"),
+            (lambda c: c.grid(3, [29, -31, -7, -7.5, 0.5, 0.5]), -34, "MY = -31"),
+            (lambda c: c.grid(3, [29, math.nan, -7, -7.5, 0.5, 0.5]), -34, "not finite"),
+            (lambda c: c.grid(3, [29, 31, -7, -7.5, 0, 0.5]), -34, "without a size"),
+            (lambda c: c.hertz(-2, [29, 31, 0.0008, 0, 1.1]), -34, "above 0"),
+            (lambda c: c.gap(1, [math.nan, 0, 1, 0, 0, 0]), -99, "not finite"),
+            (lambda c: c.call("cntc_setnormalforce", -6e4), -99, "-60000"),
+            (lambda c: c.call("cntc_setnormalforce", 0.0), -99, "above 0"),
+            (lambda c: c.call("cntc_setnormalforce", math.nan), -99, "nan"),
+            (lambda c: c.call("cntc_setpenetration", math.inf), -99, "not finite"),
+            (lambda c: c.call("cntc_setreferencevelocity", -3e4), -99, "-30000"),
+            (lambda c: c.call("cntc_setrollingstepsize", 0.0, 0.0), -34, "step of 0"),
+            (lambda c: c.call("cntc_settangentialforces", math.nan, 0.0), -26, "not finite"),
+            (lambda c: c.call("cntc_setsolverflags", 0, 4, [200, 30, 30, 10], 1, [0.0]), -99, "EPS"),
+            (lambda c: c.call("cntc_setsolverflags", 0, 4, [200, 30, 30, 10], 1, [math.nan]), -99, "not finite"),
+            (lambda c: c.call("cntc_setextrarigidslip", 5, [0.0] * 5, [0.0] * 5), -34, "899 elements"),
+            (lambda c: c.call("rscntc_setlayers", 1, -1, [1.0], [2e5], [0.3]), -99, "-1 layers"),
+            (lambda c: c.call("rscntc_setlayers", 1, 1, [1.0], [2e5], [0.6]), -99, "0 to 0.5"),
+            (lambda c: c.call("rscntc_setlayers", 3, 1, [1.0], [2e5], [0.3]), -99, "not 3"),
         ]
         for refuse, code, words in refusals:
             with self.subTest(words):
@@ -402,6 +432,32 @@ class Interface(unittest.TestCase):
                 self.assertEqual(c.error()[0], code)
                 self.assertIn(words, c.error()[1])
                 self.assertTrue(np.isnan(c.forces()).all())
+
+    def test_friction_too_small_to_compute_with_is_raised_and_said_to_be(self):
+        c = self.contact()
+        c.friction(0)
+        self.assertEqual(c.error()[0], 0)
+        self.assertIn("taken as 1e-06", c.error()[1])
+        self.assertEqual(c.calculate(), 0, c.error())
+        self.assertLess(abs(c.forces()[1]), 1.01e-6 * 60000)
+
+    def test_forces_that_are_not_asked_for_leave_the_others_as_they_are(self):
+        c = self.contact()
+        c.flags(F=1)
+        for lateral in (0.0, 0.9):
+            c.call("cntc_settangentialforces", 0.8, lateral)
+            self.assertEqual(c.calculate(), 0, c.error())
+            self.assertAlmostEqual(c.forces()[1] / (0.3 * 60000), 0.8, delta=1e-4)
+
+    def test_blocks_without_points_are_refused(self):
+        c = self.contact()
+        self.assertEqual(c.calculate(), 0)
+        for block in ((1, [-999], [-999], [0, 0.1, 1.0]), (2, [1, 0, 9], [1, 1, 9], [1, 0.1, 1.0]),
+                      (9, [0.0], [0.0], [math.nan])):
+            c.block(*block)
+            error = c_int(0)
+            c.call("subs_calculate", error)
+            self.assertEqual(error.value, -34, block)
 
     def test_refusals_end_when_the_setting_is_taken(self):
         c = self.contact()

@@ -156,6 +156,17 @@ TEST(Plausibility, ASecondContactNamesBothPlaces) {
     EXPECT_NE(text.find(part), std::string::npos) << text;
 }
 
+TEST(Plausibility, TextsHaveTheNumbersInUnitsOfThePage) {
+  Sound s;
+  s.summary.rail.subsurface = StressPair{};
+  s.summary.rail.subsurface->von_mises.value = 652.4e6;
+  s.spec.mesh.element_size = 1e-3;
+  const std::vector<Warning> all = implausible(s.summary, s.spec, s.around, 0.25e-3);
+  ASSERT_EQ(all.size(), 1U);
+  EXPECT_EQ(all[0].value, 652.4e6);
+  EXPECT_NE(all[0].text.find(" steels (652 MPa, limit 500 MPa): "), std::string::npos) << all[0].text;
+}
+
 // Largest pressures of this sphere: within 1 % at six cells across the patch, 8.5 % off at two and a half.
 TEST(Plausibility, CoarseCellsAreToldAndUselessOnesFail) {
   const Summary fine = solved(sphere(), 1e-3), coarse = solved(sphere(), 2e-3), useless = solved(sphere(), 5e-3);

@@ -243,6 +243,11 @@ class Residual(Results):
         self.assertLess(told["uneven"], 0.2)
         self.assertLess(told["balance"], 1e-3)
 
+    def test_every_number_of_its_file_stands_in_the_schema(self):
+        told = json.loads((self.rolled / "residual.json").read_text())
+        schema = json.loads(railstrata("schema", "--results")[1])["residual"]
+        self.assertEqual(list(told), ["none", *(number["key"] for number in schema)])
+
 
 class HalfSpace(Results):
     """`bem` of the same case."""

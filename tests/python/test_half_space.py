@@ -72,6 +72,15 @@ def test_stresses_at_points_planes_and_maxima_agree(result):
     assert section[:, i, 1] == pytest.approx(result.rail.at([[x[i], y[j], 2e-3]])[0], rel=1e-12)
 
 
+def test_a_body_or_zone_that_is_none_is_named(result):
+    with pytest.raises(KeyError, match="'sleeper' is no body of the result: rail, wheel"):
+        result.peaks("sleeper")
+    with pytest.raises(KeyError, match="rail has no zone 'core'"):
+        result.peaks("rail", "core")
+    with pytest.raises(TypeError, match="a folder is wanted"):
+        rs.open(3)
+
+
 def test_faults_keep_place_and_remedy():
     with pytest.raises(rs.CaseError) as caught:
         rs.Case("cases/quick", {"layer.0.thicknes": "1 mm", "friction.coefficient": -1})
