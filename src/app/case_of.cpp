@@ -25,6 +25,14 @@ LoadedCase load_case_of(const CommandOptions& options, CaseUse use) {
   return loaded;
 }
 
+LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use) {
+  LoadedCase loaded = load_case_of(options, use);
+  const RunSpec& run = loaded.spec.run;
+  if (run.rolling && run.device != ComputeDevice::cpu)  // else a note of the case says so
+    spdlog::warn("run.device has no effect: half-spaces are computed on processors");
+  return loaded;
+}
+
 void require_finite_elements(const LoadedCase& loaded) {
   if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
 }

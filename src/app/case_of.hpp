@@ -15,6 +15,9 @@ enum class CaseUse { contact, steady_rolling, yielding };
 /// The case with the overrides applied; those of its notes that hold for the use are logged.
 LoadedCase load_case_of(const CommandOptions& options, CaseUse use = CaseUse::contact);
 
+/// The same for the half-space engine, which says what it passes over: run.device.
+LoadedCase load_half_space_case_of(const CommandOptions& options, CaseUse use = CaseUse::contact);
+
 /// The work's result; CaseErrors of it get their places in the case (in_case_file).
 template <class Work>
 auto with_places(const LoadedCase& loaded, Work&& work) {

@@ -34,7 +34,7 @@ struct HalfSpaceJob {
 };
 
 HalfSpaceJob job_of(const CommandOptions& options) {
-  LoadedCase loaded = load_case_of(options);
+  LoadedCase loaded = load_half_space_case_of(options);
   Placement placement = place(loaded.spec, loaded.folder());
   HalfSpaceJob job{std::move(loaded), std::move(placement), {}, {}, {}};
   job.out = output_folder_of(options, job.loaded, "-bem");

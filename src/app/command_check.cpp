@@ -12,6 +12,7 @@
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "post/run_advice.hpp"
+#include "runs/device_at_hand.hpp"
 #include "runs/memory_need.hpp"
 #include "runs/run_estimate.hpp"
 
@@ -58,6 +59,16 @@ void print_layers(const CaseSpec& spec) {
     fmt::print("layer          {} on the {}: {:.3g} mm thick, {:.3g} mm wide, E = {} GPa\n", l.name, body_word(l.on),
                1e3 * l.thickness, 1e3 * l.width, young);
   }
+}
+
+/// Why a run would be refused here, though the case is sound: the card that it asks for; empty: it would not.
+std::string lacking_here(const LoadedCase& loaded) {
+  try {
+    require_device(loaded);
+  } catch (const EnvironmentError& e) {
+    return fmt::format("{}\n    remedy: {}", e.what(), e.remedy);
+  }
+  return {};
 }
 
 void print_card(const RunEstimate& e) {
@@ -228,14 +239,18 @@ ExitCode command_check(const CommandOptions& options) {
   for (const std::string& note : model.placement.notes) spdlog::info("{}", note);
   require_memory(model);
   const RunEstimate estimate = estimate_run(model);
+  const std::string lacking = lacking_here(loaded);
   if (options.json) {
-    fmt::print("{}\n", as_json(model, estimate).dump(2));
+    nlohmann::ordered_json out = as_json(model, estimate);
+    if (!lacking.empty()) out["not_here"] = lacking;
+    fmt::print("{}\n", out.dump(2));
     return ExitCode::ok;
   }
   print_title(loaded);
   print_geometry(loaded.spec, model.placement);
   print_layers(loaded.spec);
   print_estimate(model, estimate);
+  if (!lacking.empty()) fmt::print("not here       {}\n", printable(lacking));
   for (const Warning& w : warnings_of(model, estimate)) fmt::print("warning        {}: {}\n", w.name, w.text);
   fmt::print("\n{}", mesh_table(mesh_rows(model)));
   return ExitCode::ok;

@@ -100,7 +100,7 @@ bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded
 }  // namespace
 
 ExitCode command_collective(const CommandOptions& options) {
-  const LoadedCase loaded = load_case_of(options);
+  const LoadedCase loaded = load_half_space_case_of(options);
   std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
   const double cell = cell_size(options.cell);
   const Placement placement = place(loaded.spec, loaded.folder());

@@ -132,7 +132,7 @@ std::vector<std::string> creep_curve_words() {
 ExitCode command_creep_curve(const CommandOptions& options) {
   const Curve curve = curve_of(options.creep_curve);
   const std::vector<double> varied = creepages(curve, options.creep_curve);
-  const LoadedCase loaded = load_case_of(options, CaseUse::steady_rolling);
+  const LoadedCase loaded = load_half_space_case_of(options, CaseUse::steady_rolling);
   const std::filesystem::path out = output_folder_of(options, loaded, "-creep-curve");
   BemOptions bem;
   bem.cell = cell_size(options.cell);

@@ -121,7 +121,7 @@ ExitCode stopped(Keeper& keeper) {
 
 ExitCode command_creep_table(const CommandOptions& options) {
   std::vector<CreepAxis> axes = parse_axes(options.creep_table.axes);
-  const LoadedCase base = load_case_of(options, CaseUse::steady_rolling);
+  const LoadedCase base = load_half_space_case_of(options, CaseUse::steady_rolling);
   if (!base.spec.run.rolling)
     spdlog::warn("run.rolling = false has no effect: a creep table is of steady rolling, with the case's friction");
   if (base.spec.transient.kind != TransientKind::none)

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "damage/grades.hpp"
+#include "device/card.hpp"
 #include "geometry/profile_names.hpp"
 #include "io/provenance.hpp"
 
@@ -35,6 +37,16 @@ std::vector<std::string> grade_names() {
   return out;
 }
 
+/// What run.device = "gpu" would take, or why there is none.
+std::string card() {
+  try {
+    device::require_card();
+    return device::card_name();
+  } catch (const EnvironmentError& e) {
+    return fmt::format("none: {}", e.what());
+  }
+}
+
 }  // namespace
 
 ExitCode command_info(const CommandOptions& options) {
@@ -53,6 +65,7 @@ ExitCode command_info(const CommandOptions& options) {
                                     {"cpu", cpu_name()},
                                     {"cores", std::thread::hardware_concurrency()},
                                     {"threads", max_threads()},
+                                    {"card", card()},
                                     {"libraries", libraries}};
   if (options.json)
     fmt::print("{}\n", info.dump(2));

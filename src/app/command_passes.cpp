@@ -62,7 +62,7 @@ ExitCode code_of(const PassesEnd& end) { return end.converged ? ExitCode::ok : E
 ExitCode command_passes(const CommandOptions& options) {
   if (options.passes.engine == engine_word(Engine::fem)) return command_rolled_passes(options);
   require_stationary(options.passes);
-  LoadedCase loaded = load_case_of(options, CaseUse::yielding);
+  LoadedCase loaded = load_half_space_case_of(options, CaseUse::yielding);
   PassOrder order = order_of(options, loaded);
   order.cell = cell_size(options.cell);
   const PassesEnd end = passes_in_folder(std::move(loaded), order, teller());

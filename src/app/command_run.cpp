@@ -59,9 +59,9 @@ void require_resume_alone(const CommandOptions& options) {
                     "leave out the case, --set, --out and --force; another case is another run");
 }
 
-FolderRun resumed_run(const CommandOptions& options) {
+FolderRun resumed_run(const CommandOptions& options, const Ranks& ranks) {
   require_resume_alone(options);
-  FolderRun run = resume_run(options.run.resume);
+  FolderRun run = resume_run(options.run.resume, ranks);
   for (const std::string& note : run.notes) spdlog::warn("{}", note);
   const auto& begun = run.begun->stepper.state;
   spdlog::info("{}: goes on in {} at x = {:.2f} mm, t = {:.4g} ms", run.loaded.spec.title, run.folder.string(),
@@ -69,10 +69,10 @@ FolderRun resumed_run(const CommandOptions& options) {
   return run;
 }
 
-FolderRun new_run(const CommandOptions& options) {
+FolderRun new_run(const CommandOptions& options, const Ranks& ranks) {
   LoadedCase loaded = load_case_of(options);
   const std::filesystem::path out = output_folder_of(options, loaded);
-  FolderRun run = begin_run(std::move(loaded), out, options.force);
+  FolderRun run = begin_run(std::move(loaded), out, options.force, ranks);
   spdlog::info("{}: results go to {}", run.loaded.spec.title, out.string());
   return run;
 }
@@ -116,7 +116,8 @@ void warn_of_shared_processors(int threads) {
 ExitCode run_along(const CommandOptions& options, const FemOptions& fem) {
   spdlog::set_level(spdlog::level::off);
   if (!options.run.resume.empty()) require_resume_alone(options);
-  RankedRun run = options.run.resume.empty() ? join_run(load_case_of(options)) : join_resumed_run(options.run.resume);
+  RankedRun run = options.run.resume.empty() ? join_run(load_case_of(options), fem.ranks)
+                                             : join_resumed_run(options.run.resume, fem.ranks);
   follow_run(run, fem);
   return ExitCode::ok;
 }
@@ -151,7 +152,7 @@ ExitCode command_run(const CommandOptions& options) {
 namespace {
 
 ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem) {
-  FolderRun run = options.run.resume.empty() ? new_run(options) : resumed_run(options);
+  FolderRun run = options.run.resume.empty() ? new_run(options, fem.ranks) : resumed_run(options, fem.ranks);
   warn_of_shared_processors(options.threads);
   const RunOutcome outcome = solve_and_write(run, options, fem);
 

@@ -16,6 +16,7 @@
 #include "app/write_page.hpp"
 #include "core/faults.hpp"
 #include "io/json_text.hpp"
+#include "runs/device_at_hand.hpp"
 #include "study/study_folder.hpp"
 #include "study/study_page.hpp"
 #include "study/study_results.hpp"
@@ -123,6 +124,17 @@ std::vector<const StudyCase*> cases_to_do(const fs::path& out, const std::vector
   return to_do;
 }
 
+/// Before the first case: where a card is missing each of them would fail by itself.
+void require_devices(const fs::path& out, std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
+  const auto asks = [](const StudyCase& c) {
+    return c.engine == Engine::fem && c.loaded.spec.run.device != ComputeDevice::cpu;
+  };
+  if (std::none_of(cases.begin(), cases.end(), asks)) return;
+  find_results(out, cases);
+  for (const StudyCase* c : cases_to_do(out, cases, ours))
+    if (asks(*c)) require_device(c->loaded);
+}
+
 /// Computes what is to do; study.csv follows every case that ends. Returns how many are left to other processes.
 std::ptrdiff_t compute(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
                        const std::vector<StudyCase>& cases, const std::vector<bool>& ours, double lease) {
@@ -200,6 +212,7 @@ ExitCode command_study(const CommandOptions& options) {
   if (options.study.list || !options.study.batch.empty()) return tell_cases(options, study, out, cases, ours);
   if (options.study.dry_run) return list_cases(options, out, cases, ours);
 
+  require_devices(out, cases, ours);
   start_children_alone();
   stop_flag();  // from here on a signal is a wish: what is claimed is given back
   const FolderHold hold =

@@ -115,7 +115,7 @@ nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::v
 
 ExitCode command_sweep(const CommandOptions& options) {
   const std::vector<VariedKey> keys = parse_vary(options.sweep.vary);
-  const LoadedCase base = load_case_of(options);
+  const LoadedCase base = load_half_space_case_of(options);
   std::vector<SweepCase> cases = plan_sweep(base, options.overrides, keys);
   warn_of_notes(base, cases);
   InfluenceCache cache;

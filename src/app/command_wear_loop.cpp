@@ -252,7 +252,7 @@ class Loop {
 ExitCode command_wear_loop(const CommandOptions& options) {
   if (options.wear_loop.steps == 0 && options.wear_loop.passages == 0)
     throw CaseError("wear-loop: how far?", "give --steps 10, or --passages 2e6, or both");
-  return Loop(options, load_case_of(options)).run();
+  return Loop(options, load_half_space_case_of(options)).run();
 }
 
 }  // namespace railstrata

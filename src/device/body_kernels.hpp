@@ -17,6 +17,11 @@ struct TieTables {
   View<const double> share, delta_x, delta_z;
 };
 
+/// The three components of a node: `x` of the first, the others `stride` and twice that behind it.
+RAILSTRATA_POINTWISE Vec3 gather(const View<const double>& values, std::ptrdiff_t x, std::ptrdiff_t stride) {
+  return {values[x], values[x + stride], values[x + 2 * stride]};
+}
+
 /// What an index stands for where it counts components, then lanes of pieces.
 struct Place {
   int component, record, station;
@@ -147,8 +152,7 @@ struct ScaleForces {
 template <SweepKind kind, bool before>
 RAILSTRATA_POINTWISE Vec3 chain_velocity(const ReferenceFrame& frame, const View<const double>& v, const ChainNode& n,
                                          int stride, int station, double cosine, double sine) {
-  const std::ptrdiff_t x = n.x + station;
-  const Vec3 w{v[x], v[x + stride], v[x + 2 * static_cast<std::ptrdiff_t>(stride)]};
+  const Vec3 w = gather(v, n.x + station, stride);
   if constexpr (kind == SweepKind::extrude) return w;
   const Vec3 arm{-n.radius * sine, 0, n.radius * cosine}, moving = w + frame.rigid_rate(arm);
   return before ? frame.step_back(moving) : moving;
@@ -186,9 +190,7 @@ struct ChainEnergy {
           differences[at + c.stations] = difference.y;
           differences[at + 2 * static_cast<std::ptrdiff_t>(c.stations)] = difference.z;
         } else {
-          const Vec3 was{differences[at], differences[at + c.stations],
-                         differences[at + 2 * static_cast<std::ptrdiff_t>(c.stations)]};
-          sum += 0.5 * added[factor + j] * dot(was, difference);
+          sum += 0.5 * added[factor + j] * dot(gather(differences, at, c.stations), difference);
         }
         here = below;
       }
@@ -235,9 +237,9 @@ struct BoreForces {
 
   RAILSTRATA_POINTWISE void operator()(std::ptrdiff_t i) const {
     const BoreRecord& n = bore[i];
-    const double fx = -f[n.x], fy = -f[n.x + n.stride], fz = -f[n.x + 2 * static_cast<std::ptrdiff_t>(n.stride)];
+    const Vec3 given = -gather(f, n.x, n.stride);
     const PlaneVector<double> r = now[0].turn.forward(n.arm_x, n.arm_z);
-    const double all[4] = {fx, fy, fz, r.z * fx - r.x * fz};
+    const double all[4] = {given.x, given.y, given.z, r.z * given.x - r.x * given.z};
     for (int k = 0; k < 4; ++k) loads[k * bore.size() + i] = all[k];
   }
 };

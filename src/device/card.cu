@@ -52,12 +52,6 @@ class Card : public Device {
     return p;
   }
   void release(void* memory, std::size_t) override { cudaFree(memory); }
-  void* allocate_staging(std::size_t bytes) override {
-    void* p = nullptr;
-    require(cudaMallocHost(&p, bytes), "not enough memory of the host that copies are fast from");
-    return p;
-  }
-  void release_staging(void* memory, std::size_t) override { cudaFreeHost(memory); }
   void upload(void* to, const void* from, std::size_t bytes) override {
     require(cudaMemcpyAsync(to, from, bytes, cudaMemcpyHostToDevice, stream), "a copy to it failed");
     finish();
@@ -126,13 +120,19 @@ RAILSTRATA_EVERY_KERNEL(RAILSTRATA_INSTANTIATE)
 
 bool built_for_cards() { return true; }
 
-std::unique_ptr<Device> open_card() {
+void require_card() {
   int cards = 0;
-  if (const cudaError_t code = cudaGetDeviceCount(&cards); code != cudaSuccess || cards == 0)
-    throw EnvironmentError(
-        std::string("run.device = \"gpu\": no card was found (") +
-            (code != cudaSuccess ? cudaGetErrorString(code) : "none is there") + ")",
-        "run.device = \"cpu\", or a machine with an NVIDIA card and its driver (nvidia-smi lists it)");
+  const cudaError_t code = cudaGetDeviceCount(&cards);
+  if (code == cudaSuccess && cards > 0) return;
+  const char* const why = code == cudaSuccess                   ? "none is there"
+                          : code == cudaErrorInsufficientDriver ? "no NVIDIA driver, or one too old for this program"
+                                                                : cudaGetErrorString(code);
+  throw EnvironmentError(std::string("no card was found (") + why + ")",
+                         "run.device = \"cpu\", or a machine with an NVIDIA card and its driver (nvidia-smi lists it)");
+}
+
+std::unique_ptr<Device> open_card() {
+  require_card();
   return std::make_unique<Card>();
 }
 

@@ -11,8 +11,7 @@ struct RailDisplacement {
   const SurfaceView& surface;
   const View<const double>& u;
   RAILSTRATA_POINTWISE Vec3 operator()(int column, int station) const {
-    const std::ptrdiff_t x = surface.index(column, station);
-    return {u[x], u[x + surface.stride], u[x + 2 * static_cast<std::ptrdiff_t>(surface.stride)]};
+    return gather(u, surface.index(column, station), surface.stride);
   }
 };
 

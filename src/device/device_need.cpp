@@ -13,8 +13,6 @@ class CountedDevice : public Device {
     return &nowhere_;
   }
   void release(void*, std::size_t) override {}
-  void* allocate_staging(std::size_t) override { return &nowhere_; }
-  void release_staging(void*, std::size_t) override {}
   void upload(void*, const void*, std::size_t) override {}
   void download(void*, const void*, std::size_t) override {}
   void finish() override {}

@@ -22,36 +22,29 @@ std::size_t lead(std::size_t bytes) { return (whole_pages(bytes) - bytes) / kAli
 
 }  // namespace
 
-void* EmulatedDevice::map_pages(std::size_t bytes, Pages& pages, bool closed) {
+void* EmulatedDevice::allocate(std::size_t bytes) {
   const std::size_t size = whole_pages(bytes);
   void* const first = mmap(nullptr, size + page_size(), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (first == MAP_FAILED) throw EnvironmentError("no memory for an emulated device");
-  if (!closed) mprotect(first, size, PROT_READ | PROT_WRITE);
-  pages.emplace(first, size);
+  if (protection_ == Protection::open) mprotect(first, size, PROT_READ | PROT_WRITE);
+  arrays_.emplace(first, size);
+  allocated_ += bytes;
   return static_cast<char*>(first) + lead(bytes);
 }
 
-void EmulatedDevice::unmap(void* memory, std::size_t bytes, Pages& pages) {
+void EmulatedDevice::release(void* memory, std::size_t bytes) {
   void* const first = static_cast<char*>(memory) - lead(bytes);
   munmap(first, whole_pages(bytes) + page_size());
-  pages.erase(first);
+  arrays_.erase(first);
+  allocated_ -= bytes;
 }
-
-void* EmulatedDevice::allocate(std::size_t bytes) {
-  return map_pages(bytes, arrays_, protection_ == Protection::closed);
-}
-void EmulatedDevice::release(void* memory, std::size_t bytes) { unmap(memory, bytes, arrays_); }
-void* EmulatedDevice::allocate_staging(std::size_t bytes) { return map_pages(bytes, staging_, false); }
-void EmulatedDevice::release_staging(void* memory, std::size_t bytes) { unmap(memory, bytes, staging_); }
 
 void EmulatedDevice::protect(const Pages& pages, bool open) {
   for (const auto& [first, bytes] : pages) mprotect(first, bytes, open ? PROT_READ | PROT_WRITE : PROT_NONE);
 }
 
 void EmulatedDevice::open_device(bool open) {
-  if (protection_ == Protection::open) return;
-  protect(arrays_, open);
-  protect(staging_, !open);
+  if (protection_ == Protection::closed) protect(arrays_, open);
 }
 
 void EmulatedDevice::upload(void* to, const void* from, std::size_t bytes) { copy(to, from, bytes, to); }
@@ -83,12 +76,6 @@ void EmulatedDevice::copy(void* to, const void* from, std::size_t bytes, const v
   if (protection_ == Protection::closed) protect(pages, true);
   std::memcpy(to, from, bytes);
   if (protection_ == Protection::closed) protect(pages, false);
-}
-
-std::size_t EmulatedDevice::allocated() const {
-  std::size_t sum = 0;
-  for (const auto& [first, bytes] : arrays_) sum += bytes;
-  return sum;
 }
 
 }  // namespace railstrata::device

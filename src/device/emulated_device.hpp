@@ -44,8 +44,6 @@ class EmulatedDevice : public Device {
   /// Every array has pages of its own; it ends where its last page does, and behind that is one which nobody may touch.
   void* allocate(std::size_t bytes) override;
   void release(void* memory, std::size_t bytes) override;
-  void* allocate_staging(std::size_t bytes) override;
-  void release_staging(void* memory, std::size_t bytes) override;
   void upload(void* to, const void* from, std::size_t bytes) override;
   void download(void* to, const void* from, std::size_t bytes) override;
   void finish() override {}
@@ -70,8 +68,8 @@ class EmulatedDevice : public Device {
   long launches() const { return launches_; }
   /// Copies to and from it so far.
   long copies() const { return copies_; }
-  /// Bytes of arrays now.
-  std::size_t allocated() const;
+  /// Bytes of arrays now, as they were asked for.
+  std::size_t allocated() const { return allocated_; }
 
  private:
   struct Running {
@@ -82,15 +80,14 @@ class EmulatedDevice : public Device {
     EmulatedDevice& of;
   };
   using Pages = std::map<void*, std::size_t>;  // first page and bytes, without the page that guards them
-  void* map_pages(std::size_t bytes, Pages& pages, bool closed);
-  void unmap(void* memory, std::size_t bytes, Pages& pages);
   void copy(void* to, const void* from, std::size_t bytes, const void* array);
   void open_device(bool open);
   static void protect(const Pages& pages, bool open);
 
   Protection protection_;
   LaunchOrder order_;
-  Pages arrays_, staging_;
+  Pages arrays_;
+  std::size_t allocated_ = 0;
   long launches_ = 0, copies_ = 0;
 };
 

@@ -39,9 +39,6 @@ class Device {
   /// Zero. Throws EnvironmentError where there is not so much.
   virtual void* allocate(std::size_t bytes) = 0;
   virtual void release(void* memory, std::size_t bytes) = 0;
-  /// Memory of the host that copies are fast from and to; pages of their own, closed while kernels run.
-  virtual void* allocate_staging(std::size_t bytes) = 0;
-  virtual void release_staging(void* memory, std::size_t bytes) = 0;
   // Copies wait for what was launched before, and are done when they return.
   virtual void upload(void* to, const void* from, std::size_t bytes) = 0;
   virtual void download(void* to, const void* from, std::size_t bytes) = 0;
@@ -128,40 +125,6 @@ class DeviceArray {
 
  private:
   void swap(DeviceArray& other) {
-    std::swap(device_, other.device_);
-    std::swap(data_, other.data_);
-    std::swap(size_, other.size_);
-  }
-  Device* device_ = nullptr;
-  T* data_ = nullptr;
-  std::size_t size_ = 0;
-};
-
-/// Memory of the host beside a device's: what a step copies goes through it.
-template <class T>
-class Staging {
- public:
-  Staging() = default;
-  Staging(Device& device, std::size_t size)
-      : device_(&device),
-        data_(size ? static_cast<T*>(device.allocate_staging(size * sizeof(T))) : nullptr),
-        size_(size) {}
-  Staging(Staging&& other) noexcept { swap(other); }
-  Staging& operator=(Staging&& other) noexcept {
-    swap(other);
-    return *this;
-  }
-  ~Staging() {
-    if (data_) device_->release_staging(data_, size_ * sizeof(T));
-  }
-  std::size_t size() const { return size_; }
-  std::span<T> first(std::size_t count) {
-    assert(count <= size_);
-    return {data_, count};
-  }
-
- private:
-  void swap(Staging& other) {
     std::swap(device_, other.device_);
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);

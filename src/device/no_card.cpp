@@ -24,10 +24,15 @@ RAILSTRATA_EVERY_KERNEL(RAILSTRATA_INSTANTIATE)
 
 bool built_for_cards() { return false; }
 
-std::unique_ptr<Device> open_card() {
+void require_card() {
   throw EnvironmentError(
-      "run.device = \"gpu\": this program was built without CUDA",
+      "this program was built without CUDA",
       "run.device = \"cpu\", or build it where nvcc is found (docs/gpu.md; cmake -DRAILSTRATA_CUDA=ON says why not)");
+}
+
+std::unique_ptr<Device> open_card() {
+  require_card();
+  return nullptr;
 }
 
 std::string card_name() { return {}; }

@@ -9,6 +9,7 @@
 #include "io/folder_kind.hpp"
 #include "io/provenance.hpp"
 #include "model/model.hpp"
+#include "runs/device_at_hand.hpp"
 
 namespace railstrata {
 namespace {
@@ -67,8 +68,9 @@ std::string resume_command(const std::filesystem::path& folder) {
   return fmt::format("railstrata run --resume {}", shell_word(folder.string()));
 }
 
-FolderRun begin_run(LoadedCase loaded, const std::filesystem::path& folder, bool force) {
+FolderRun begin_run(LoadedCase loaded, const std::filesystem::path& folder, bool force, const Ranks& ranks) {
   if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
+  require_device(loaded, ranks);
   place(loaded.spec, loaded.folder());  // faults of the input before a folder is made
   require_apart(folder, loaded);
   FolderHold hold = prepare_output_folder(folder, force);
@@ -76,8 +78,9 @@ FolderRun begin_run(LoadedCase loaded, const std::filesystem::path& folder, bool
   return {std::move(loaded), folder, std::move(origin), std::move(hold)};
 }
 
-FolderRun resume_run(const std::filesystem::path& folder) {
+FolderRun resume_run(const std::filesystem::path& folder, const Ranks& ranks) {
   LoadedCase loaded = case_of_folder(folder);
+  require_device(loaded, ranks);
   CheckpointOrigin origin = origin_of(loaded, identity_in_folder(folder, loaded));
   FolderHold hold(folder);
   if (!has_checkpoint(folder))

@@ -21,11 +21,13 @@ struct FolderRun {
 };
 
 /// Makes the folder and holds it; with `force` it may hold an older result, which is removed when the run begins.
-/// Throws CaseError (what finite elements refuse, faulty profiles, a folder in use), EnvironmentError.
-FolderRun begin_run(LoadedCase loaded, const std::filesystem::path& folder, bool force = false);
+/// `ranks`: of the run. Throws CaseError (what finite elements refuse, faulty profiles, a folder in use),
+/// EnvironmentError (a device that is not here, the disk).
+FolderRun begin_run(LoadedCase loaded, const std::filesystem::path& folder, bool force = false,
+                    const Ranks& ranks = {});
 
 /// Goes on with the newest whole checkpoint of the folder. Throws CaseError: no run to go on with; EnvironmentError.
-FolderRun resume_run(const std::filesystem::path& folder);
+FolderRun resume_run(const std::filesystem::path& folder, const Ranks& ranks = {});
 
 /// What can be followed of a run in a folder. Any may be empty.
 struct FolderRunObserver {

@@ -4,16 +4,19 @@
 
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
+#include "runs/device_at_hand.hpp"
 
 namespace railstrata {
 
-RankedRun join_run(LoadedCase loaded) {
+RankedRun join_run(LoadedCase loaded, const Ranks& ranks) {
   if (!loaded.not_in_fem.empty()) throw CaseError(loaded.not_in_fem);
+  require_device(loaded, ranks);
   return {std::move(loaded)};
 }
 
-RankedRun join_resumed_run(const std::filesystem::path& folder) {
+RankedRun join_resumed_run(const std::filesystem::path& folder, const Ranks& ranks) {
   LoadedCase loaded = load_case(folder / "case.toml");
+  require_device(loaded, ranks);
   FoundCheckpoint found = read_checkpoint(folder, identity_in_folder(folder, loaded));
   return {std::move(loaded), std::move(found.checkpoint.run)};
 }

@@ -8,6 +8,7 @@
 #include "device/device_of.hpp"
 #include "io/provenance.hpp"
 #include "post/fem_summary.hpp"
+#include "runs/device_at_hand.hpp"
 #include "runs/memory_need.hpp"
 #include "runs/peak_memory.hpp"
 
@@ -82,10 +83,8 @@ bool leaves_residual(const RollingSystem& system, const FemOptions& options) {
 
 RunResult roll(const RollingSystem& system, const RunObserver& observer, const RunControl& control,
                const FemOptions& options, std::optional<RunState> begun) {
+  require_device(system.model.spec, options.ranks);
   const std::unique_ptr<device::Device> device = device::device_of(system.model.spec);
-  if (device && !options.ranks.alone())
-    throw CaseError("run.device: several ranks share a run on processors only",
-                    "start one rank, or take out run.device");
   const StepBy by{options.ranks, device::engine_on(device.get())};
   try {
     return begun ? resume_rolling(system, observer, *std::move(begun), by)

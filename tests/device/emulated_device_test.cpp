@@ -72,16 +72,6 @@ TEST(EmulatedDeviceDeathTest, TheHostCannotReadMemoryOfTheDevice) {
   EXPECT_DEATH(std::exit(view[0] == 0 ? 0 : 1), "");
 }
 
-TEST(EmulatedDeviceDeathTest, AKernelCannotReadStagingOfTheHost) {
-  EmulatedDevice device;
-  Staging<int> staging(device, 10);
-  int* const host = staging.first(10).data();
-  *host = 1;
-  const auto kernel = [host](std::ptrdiff_t) { *host = 2; };
-  EXPECT_DEATH(device.run(1, kernel), "");
-  EXPECT_EQ(*host, 1);
-}
-
 TEST(EmulatedDeviceDeathTest, AnIndexTooFarEndsTheTest) {
   EmulatedDevice device;
   DeviceArray<double> array(device, 64), behind(device, 64);

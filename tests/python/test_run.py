@@ -1,6 +1,7 @@
 """rs.run: a folder, progress, Ctrl-C, resume to the same bits."""
 import json
 import os
+import shutil
 import signal
 import threading
 import time
@@ -67,6 +68,15 @@ def test_a_folder_with_files_is_not_overwritten(small, in_one_go):
         rs.run(small, in_one_go.folder)
     with pytest.raises(rs.CaseError, match="nothing to resume"):
         rs.resume(in_one_go.folder)
+
+
+@pytest.mark.skipif(shutil.which("nvidia-smi") is not None, reason="there may be a card here")
+def test_a_card_that_is_not_here_is_refused_before_anything_is_made(tmp_path):
+    case = rs.Case("cases/quick", {**SMALL, "run.device": "gpu"})
+    with pytest.raises(rs.MachineError, match="run.device: (no card was found|this program was built)") as refused:
+        rs.run(case, tmp_path / "out")
+    assert refused.value.remedy.startswith('run.device = "cpu"')
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_report_is_written(in_one_go):

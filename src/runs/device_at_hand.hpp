@@ -1,0 +1,15 @@
+#pragma once
+// Whether this machine and its ranks can compute where a case asks for, found before anything is computed.
+#include "case/case_file.hpp"
+#include "core/ranks.hpp"
+
+namespace railstrata {
+
+/// Of a case that rolls on a device. Throws CaseError where several ranks are to share it, EnvironmentError where
+/// run.device = "gpu" and the program was built without CUDA or no card is found; both with what to do.
+void require_device(const CaseSpec& spec, const Ranks& ranks = {});
+
+/// The same with the place of the key in the case's file.
+void require_device(const LoadedCase& loaded, const Ranks& ranks = {});
+
+}  // namespace railstrata
