@@ -221,8 +221,8 @@ class Explorer(unittest.TestCase):
             BROWSER.js("const c = document.getElementById('cell'); c.value = arguments[0]; "
                        "c.dispatchEvent(new Event('change'))", cell)
             moves = 5 if cell == "0.0005" else 3
-            for name, knob, values in (("another layer", "h1", (2.15, 2.3, 2.5, 2.2, 2.7)),
-                                       ("another traction", "t", (0.15, 0.17, 0.12, 0.18, 0.14)),
+            for name, knob, values in (("another traction", "t", (0.15, 0.17, 0.12, 0.18, 0.14)),
+                                       ("another layer", "h1", (2.15, 2.3, 2.5, 2.2, 2.7)),
                                        ("no layer", "t", (0.16, 0.13, 0.19, 0.11, 0.2))):
                 if name == "no layer":
                     self.move(h1=0)
