@@ -28,6 +28,7 @@ CompliancePoint layered_compliance_at(const LayeredHalfSpace& body, double k) {
 namespace {
 
 using Four = Eigen::Matrix<double, 1, 4>;
+using Compliances = Eigen::Matrix<double, Eigen::Dynamic, 4>;
 Four four(const CompliancePoint& c) { return {c.zz, c.rz, c.rr, c.tt}; }
 
 // Without interfaces between equal materials: a reflection there would be round-off, and a body of equal layers is
@@ -47,11 +48,11 @@ LayeredHalfSpace merged(const LayeredHalfSpace& body) {
 
 struct Samples {
   Eigen::VectorXd k;
-  Eigen::Matrix<double, Eigen::Dynamic, 4> c;
+  Compliances c;
 };
 // At n wave numbers spaced geometrically.
 Samples sample(const LayeredHalfSpace& body, double k_low, double k_high, int n) {
-  Samples s{Eigen::VectorXd(n), Eigen::Matrix<double, Eigen::Dynamic, 4>(n, 4)};
+  Samples s{Eigen::VectorXd(n), Compliances(n, 4)};
   for (int i = 0; i < n; ++i) {
     s.k[i] = k_low * std::pow(k_high / k_low, static_cast<double>(i) / (n - 1));
     s.c.row(i) = four(layered_compliance_at(body, s.k[i]));
@@ -62,6 +63,23 @@ Samples sample(const LayeredHalfSpace& body, double k_low, double k_high, int n)
 // exp(-k_i d_j): what image j adds at wave number i per unit coefficient.
 Eigen::MatrixXd exponentials(const Eigen::VectorXd& k, const Eigen::VectorXd& depth) {
   return (-(k * depth.transpose())).array().exp().matrix();
+}
+
+/// Of a fit from the compliances, relative to them; what is over `enough` need not be the largest. The coupling may
+/// pass through zero: it counts over the geometric mean of the two that it couples.
+double largest_deviation(const Samples& s, const Four& top, const Eigen::VectorXd& depth,
+                         const Compliances& coefficient, double enough) {
+  constexpr Eigen::Index kTogether = 32;
+  double largest = 0;
+  for (Eigen::Index first = 0; first < s.k.size() && !(largest > enough); first += kTogether) {
+    const Eigen::Index count = std::min(kTogether, s.k.size() - first);
+    const Compliances c = s.c.middleRows(first, count);
+    Compliances size = c;
+    size.col(1) = c.col(0).cwiseProduct(c.col(2)).cwiseSqrt();
+    const Compliances deviation = (c.rowwise() - top) - exponentials(s.k.segment(first, count), depth) * coefficient;
+    largest = std::max(largest, deviation.cwiseQuotient(size).cwiseAbs().maxCoeff());
+  }
+  return largest;
 }
 
 /// Depths nearest, nearest ratio, nearest ratio², … of `count` images.
@@ -107,20 +125,16 @@ SurfaceCompliance layered_compliance(const LayeredHalfSpace& given, double toler
   const Samples fit = sample(body, k_low, k_high, 400), check = sample(body, k_low, k_high, 1013);
   // relative to the compliance itself: a soft layer's 1/k is as exact as the stiff substrate's
   const Eigen::VectorXd weight = fit.c.col(0).cwiseInverse();
-  Eigen::Matrix<double, Eigen::Dynamic, 4> size = check.c;
-  size.col(1) = check.c.col(0).cwiseProduct(check.c.col(2)).cwiseSqrt();  // the coupling may pass through zero
   double best = std::numeric_limits<double>::infinity();
   for (const DepthLadder& ladder : ladders(0.4 * thinnest, total)) {
     const Eigen::VectorXd depth = ladder.depths();
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> qr;
     qr.setThreshold(1e-15);
     qr.compute(weight.asDiagonal() * exponentials(fit.k, depth));
-    const Eigen::Matrix<double, Eigen::Dynamic, 4> coefficient =
-        qr.solve(weight.asDiagonal() * (fit.c.rowwise() - top));
-    const Eigen::Matrix<double, Eigen::Dynamic, 4> deviation =
-        (check.c.rowwise() - top) - exponentials(check.k, depth) * coefficient;
-    best = std::min(best, deviation.cwiseQuotient(size).cwiseAbs().maxCoeff());
-    if (best > tolerance) continue;
+    const Compliances coefficient = qr.solve(weight.asDiagonal() * (fit.c.rowwise() - top));
+    const double deviation = largest_deviation(check, top, depth, coefficient, tolerance);
+    best = std::min(best, deviation);
+    if (deviation > tolerance) continue;
     for (int j = 0; j < depth.size(); ++j)
       out.push_back({depth[j], {coefficient(j, 0), coefficient(j, 1), coefficient(j, 2), coefficient(j, 3)}});
     return out;

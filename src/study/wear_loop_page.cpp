@@ -160,8 +160,8 @@ void write_wear_loads(const std::filesystem::path& file, const std::vector<std::
   std::vector<CsvColumn> columns{{"step", {}},      {"passages", {}},  {"load", {}},
                                  {"rail_y_mm", {}}, {"p_max_MPa", {}}, {"t_gamma_N", {}}};
   for (const WearLoad& l : loads) {
-    const double row[] = {static_cast<double>(l.step), l.passages, static_cast<double>(l.load + 1), l.y, l.pressure,
-                          l.t_gamma};
+    const double row[] = {
+        static_cast<double>(l.step), l.passages, static_cast<double>(l.load + 1), l.y, l.pressure, l.t_gamma};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
   write_csv(file, origin, columns);
