@@ -44,6 +44,14 @@ macro(debian_package part name depends section summary text)
     DESTINATION share/doc/${name} COMPONENT deb-${part} EXCLUDE_FROM_ALL)
 endmacro()
 
+# debian_shlibs(PART NAME SONAME): the package has this library. CPack's own table has a line for every file, and
+# libraries for several processors are three files of one name.
+macro(debian_shlibs part name soname)
+  file(WRITE ${debian}/${part}/shlibs "${soname} ${so_version} ${name} (= ${PROJECT_VERSION}-1)\n")
+  string(TOUPPER "deb-${part}" id)
+  list(APPEND CPACK_DEBIAN_${id}_PACKAGE_CONTROL_EXTRA ${debian}/${part}/shlibs)
+endmacro()
+
 set(CPACK_COMPONENTS_ALL "")
 set(library_package librailstrata${so_version})
 set(about "Rolling contact of a wheel on a rail whose surface carries layers: contact\npressure, shear, stick and slip, \
@@ -51,8 +59,10 @@ creepage and the stresses below the\nsurface, by finite elements and by Kalker's
 set(same "(= ${PROJECT_VERSION}-1)")
 debian_package(library ${library_package} "" libs "rolling contact of layered rails - library"
   "${about}\nThis package has the shared library and CONTACT's interface to it.")
+debian_shlibs(library ${library_package} librailstrata)
 debian_package(program railstrata "${library_package} ${same}" science "rolling contact of a wheel on a layered rail"
   "${about}\nThis package has the program with its cases, profiles and manual.")
+debian_shlibs(program railstrata librailstrata-commands)
 debian_package(dev librailstrata-dev "${library_package} ${same}" libdevel
   "rolling contact of layered rails - headers" "${about}\nThis package has the headers for C, C++ and Fortran programs.")
 if(RAILSTRATA_PYTHON)
@@ -60,6 +70,7 @@ if(RAILSTRATA_PYTHON)
   debian_package(python python3-railstrata "${library_package} ${same}, python3 (>= 3.${Python3_VERSION_MINOR}), \
 python3 (<< 3.${next_python}), python3-numpy" python "rolling contact of layered rails - Python 3"
     "${about}\nThis package has the Python package of the same name.")
+  debian_shlibs(python python3-railstrata librailstrata-python)
   list(APPEND CPACK_DEBIAN_DEB-PYTHON_PACKAGE_CONTROL_EXTRA
     ${CMAKE_SOURCE_DIR}/packaging/postinst ${CMAKE_SOURCE_DIR}/packaging/prerm)
   set(CPACK_DEBIAN_DEB-PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-pandas, python3-xarray")
@@ -78,8 +89,6 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER "${RAILSTRATA_MAINTAINER}")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${libraries_folder})
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_STRIP_FILES ON)

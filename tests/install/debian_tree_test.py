@@ -54,7 +54,7 @@ def packed(given):
     if given.packages:
         return list(given.packages.glob("*.deb"))
     folder = given.folder / "packages"
-    folder.mkdir(parents=True)
+    folder.mkdir()
     done("cpack", "-G", "DEB", "--config", given.build / "CPackConfig.cmake", "-B", folder)
     return list(folder.glob("*.deb"))
 
@@ -122,6 +122,7 @@ def main():
         print(f"skipped: needs root{', ' + ', '.join(missing) if missing else ''}")
         return 77
     shutil.rmtree(given.folder, ignore_errors=True)
+    given.folder.mkdir(parents=True)
     debs = packed(given)
     found = sorted(d.name.split("_")[0] for d in debs)
     assert all(any(re.fullmatch(name, f) for f in found) for name in NAMES), found
