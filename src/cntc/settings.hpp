@@ -1,5 +1,5 @@
 #pragma once
-// What the cntc_set… calls give to a contact problem, in the user's units. Each throws Refused for what is not offered
+// What the cntc_set calls give to a contact problem, in the user's units. Each throws Refused for what is not offered
 // and then changes nothing; where it returns a text, that is a remark.
 #include <span>
 #include <string>
