@@ -264,12 +264,6 @@ CachedTimes cached_times(int threads) {
 
 // -- the table ------------------------------------------------------------------------------------
 
-constexpr const char* kPartName[kStepParts] = {"begin: ghosts, frames",        "elements and updates on the way",
-                                               "planes between chains",        "ties: forces",
-                                               "ends of the rail, bore",       "rows of the contact",
-                                               "contact: solution and forces", "update of waiting nodes",
-                                               "axle; ties: displacements"};
-
 double roof_seconds(const Need& need, const Machine& m) {
   return std::max({need.operations / m.flops, need.instructions / m.instructions(), need.bytes / m.bandwidth()});
 }
@@ -355,7 +349,8 @@ void print_roofline(Case& of, Machine m) {
       "measured [ms] | roof/measured |\n|---|---|---|---|---|---|---|---|---|\n");
   Need all;
   for (std::size_t p = 0; p < kStepParts; ++p) {
-    print_row(kPartName[p], needs[p], steps.part[p], elements, m);
+    if (p == static_cast<std::size_t>(StepPart::exchange)) continue;  // one rank
+    print_row(kStepPartNames[p], needs[p], steps.part[p], elements, m);
     all += needs[p];
   }
   print_row("whole step", all, steps.step, elements, m);

@@ -226,6 +226,7 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
     exchange->share_forces(bodies, states, scope);
   else if (scope.energy_wanted)
     for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].elements.end(bodies[k].schedule.chains, states[k].f);
+  scope.lap(StepPart::exchange);
   if (scope.energy_wanted) return;
   const auto chains = [&](std::size_t k) { return static_cast<std::ptrdiff_t>(bodies[k].schedule.chains.size()); };
   const auto complete = [&](std::ptrdiff_t task) {

@@ -10,6 +10,7 @@ namespace railstrata {
 enum class StepPart {
   begin,        ///< ghosts, carried frames, elements that may yield
   elements,     ///< with the updates on the way
+  exchange,     ///< with other ranks
   planes,       ///< between chains
   tie_forces,   ///< of slaves, to their masters
   ends,         ///< of the rail; bore; added mass
@@ -18,7 +19,17 @@ enum class StepPart {
   waiting,      ///< update of nodes that waited for the contact
   constraints,  ///< axle, bore and slaves
 };
-inline constexpr std::size_t kStepParts = 9;
+inline constexpr std::size_t kStepParts = 10;
+inline constexpr std::array<const char*, kStepParts> kStepPartNames = {"begin: ghosts, frames",
+                                                                       "elements and updates on the way",
+                                                                       "exchange with other ranks",
+                                                                       "planes between chains",
+                                                                       "ties: forces",
+                                                                       "ends of the rail, bore",
+                                                                       "rows of the contact",
+                                                                       "contact: solution and forces",
+                                                                       "update of waiting nodes",
+                                                                       "axle; ties: displacements"};
 
 class StepLaps {
  public:
