@@ -39,8 +39,9 @@ Vec3 MortarContact::rail_point(const Field& u, int c, int j, double wy, double w
   return in_wheel_axes(wheel_, mortar_law::rail_point(rail_, SurfaceField{u, rail_}, c, j, wy, wx));
 }
 
-MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose, Vec3 p, Tangential correction) const {
-  return mortar_law::opposite(wheel_, sin_t_, cos_t_, SurfaceField{u, wheel_}, pose, turned_, p, correction);
+MortarContact::Hit MortarContact::opposite(const Field& u, const AxlePose& pose, Vec3 p, Tangential correction,
+                                           const Hit& guess) const {
+  return mortar_law::opposite(wheel_, sin_t_, cos_t_, SurfaceField{u, wheel_}, pose, turned_, p, correction, guess);
 }
 
 Vec3 MortarContact::gauss_point(const Field& u_rail, const Facet& facet, int g) const {
@@ -159,7 +160,7 @@ void MortarContact::update_hits(const Field& u_rail, const Field& u_wheel, const
     Facet& facet = facets_[f];
     for (int g = 0; g < 4; ++g) {
       Hit& h = hits_[f][g];
-      h = opposite(u_wheel, pose, gauss_point(u_rail, facet, g), facet.correction[g]);
+      h = opposite(u_wheel, pose, gauss_point(u_rail, facet, g), facet.correction[g], h);
       facet.correction[g] = facet.correction[g] + Tangential{h.offset.x, h.offset.y};
     }
   });

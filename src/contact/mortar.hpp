@@ -86,7 +86,8 @@ class MortarContact {
 
   Vec3 rail_point(const Field& u, int column, int station, double weight_y, double weight_x) const;
   Vec3 gauss_point(const Field& u_rail, const Facet& facet, int g) const;
-  Hit opposite(const Field& u_wheel, const AxlePose& pose, Vec3 point, Tangential correction) const;
+  Hit opposite(const Field& u_wheel, const AxlePose& pose, Vec3 point, Tangential correction,
+               const Hit& guess = Hit{}) const;
 
   void reserve_window();
   void test_nodes(const Field& u_rail, const Field& u_wheel, const AxlePose& pose, double gap_limit);

@@ -91,6 +91,14 @@ RAILSTRATA_POINTWISE int count_up_to(const Values& values, int count, X x, Below
   return first;
 }
 
+/// The same, looked for at `guess` first, and one further either way.
+template <class Values, class X, class Below>
+RAILSTRATA_POINTWISE int count_up_to(const Values& values, int count, X x, Below below, int guess) {
+  for (const int n : {guess, guess + 1, guess - 1})
+    if (n > 0 && n < count && !below(x, values[n - 1]) && below(x, values[n])) return n;
+  return count_up_to(values, count, x, below);
+}
+
 /// Stations of the rail that a search looks at.
 struct Window {
   int first = 0, stations = 0;
@@ -107,13 +115,16 @@ RAILSTRATA_POINTWISE Window window_around(const Surface& rail, double centre, do
 }
 
 /// Index of the station at or before theta, whatever turn it is counted in, and the share of the way to the next one.
+/// guess: where it may be.
 template <class Surface>
-RAILSTRATA_POINTWISE int wheel_station(const Surface& wheel, double theta, double& weight) {
+RAILSTRATA_POINTWISE int wheel_station(const Surface& wheel, double theta, double& weight, int guess = 0) {
   const auto& at = wheel.stations.at;
   const int stations = wheel.stations.nodes();
   if (!std::isfinite(theta)) return weight = 0, 0;  // guards end such a run
   theta -= kPeriod * std::floor((theta - at[0]) / kPeriod);
-  const int j = std::max(count_up_to(at, stations, theta, [](double x, double v) { return x < v; }) - 1,
+  const int j = std::max(count_up_to(
+                             at, stations, theta, [](double x, double v) { return x < v; }, guess + 1) -
+                             1,
                          0);  // round-off may leave theta below the first station
   const double next = j + 1 < stations ? at[j + 1] : at[0] + kPeriod;
   weight = (theta - at[j]) / (next - at[j]);
@@ -121,15 +132,18 @@ RAILSTRATA_POINTWISE int wheel_station(const Surface& wheel, double theta, doubl
 }
 
 /// The wheel's facet on the radius through a point at `arm` from the moved axle. The correction takes off the
-/// tangential mismatch that the radial projection had the last time.
+/// tangential mismatch that the radial projection had the last time. guess: where the facet may be.
 template <class Surface>
-RAILSTRATA_POINTWISE Hit facet_below(const Surface& wheel, const AxlePose& pose, Vec3 arm, Tangential correction) {
+RAILSTRATA_POINTWISE Hit facet_below(const Surface& wheel, const AxlePose& pose, Vec3 arm, Tangential correction,
+                                     const Hit& guess) {
   Hit h{};
   const double radius = std::sqrt(arm.x * arm.x + arm.z * arm.z);
   const double theta = std::atan2(arm.x, -arm.z) + pose.psi - correction.x / radius;
-  h.station = wheel_station(wheel, theta, h.weight_t);
+  h.station = wheel_station(wheel, theta, h.weight_t, guess.station);
   const double y = arm.y - correction.y;
-  h.column = count_up_to(wheel.node, wheel.columns, y, [](double v, Vec2 n) { return v < n.y; }) - 1;
+  h.column = count_up_to(
+                 wheel.node, wheel.columns, y, [](double v, Vec2 n) { return v < n.y; }, guess.column + 1) -
+             1;
   h.inside = h.column >= 1 && h.column < wheel.columns - 2;
   h.column = h.column < 0 ? 0 : h.column > wheel.columns - 2 ? wheel.columns - 2 : h.column;
   const Vec2 a = wheel.node[h.column], b = wheel.node[h.column + 1];
@@ -166,12 +180,13 @@ RAILSTRATA_POINTWISE Vec3 wheel_point(const Surface& wheel, const Angles& sine, 
   return x;
 }
 
-/// The wheel's surface opposite a point p of the rail, all in the wheel's axes.
+/// The wheel's surface opposite a point p of the rail, all in the wheel's axes. guess: what it was the last time.
 template <class Surface, class Angles, class U>
 RAILSTRATA_POINTWISE Hit opposite(const Surface& wheel, const Angles& sine, const Angles& cosine, const U& u,
-                                  const AxlePose& pose, const Rotation<double>& turned, Vec3 p, Tangential correction) {
+                                  const AxlePose& pose, const Rotation<double>& turned, Vec3 p, Tangential correction,
+                                  const Hit& guess = {}) {
   const Vec3 arm{p.x - wheel.origin.x - pose.x, p.y - wheel.origin.y - pose.y, p.z - wheel.origin.z - pose.z};
-  Hit h = facet_below(wheel, pose, arm, correction);
+  Hit h = facet_below(wheel, pose, arm, correction, guess);
   h.offset = wheel_point(wheel, sine, cosine, u, pose, turned, h) - p;
   return h;
 }
