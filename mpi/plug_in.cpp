@@ -1,19 +1,23 @@
 // The ranks of one run by MPI. This is all of MPI that RailStrata knows; the program loads it where mpirun has started
 // it (src/app/mpi_ranks.cpp) and needs no MPI otherwise.
 //
-// A rank that waits looks now and then whether the processes of the others on this machine are alive, so that it ends
-// with a message where MPI alone would wait for ever.
+// Ranks on one machine exchange lists in memory that they share; long ones, and those of ranks on several machines, are
+// messages. A rank that waits looks now and then whether the processes of the others on this machine are alive, so that
+// it ends with a message where MPI alone would wait for ever.
 #include <mpi.h>
 
 #include <sched.h>
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <climits>
 #include <cstdio>
 #include <ctime>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -55,12 +59,13 @@ const char* missing_peer() {
   return nullptr;
 }
 
-// nap: seconds asleep between two looks.
-const char* wait_for(MPI_Request& request, double nap) {
+// look(done) says what went wrong; nap: seconds asleep between two looks.
+template <class Look>
+const char* wait_until(Look&& look, double nap) {
   auto next_look = Clock::now() + kLookAround;
   for (int looks = 0;; ++looks) {
-    int done = 0;
-    if (const int code = MPI_Test(&request, &done, MPI_STATUS_IGNORE); code != MPI_SUCCESS) return fault_of(code);
+    bool done = false;
+    if (const char* wrong = look(done)) return wrong;
     if (done) return nullptr;
     if (looks < kSpins) continue;
     if (looks < kYields) {
@@ -75,7 +80,80 @@ const char* wait_for(MPI_Request& request, double nap) {
   }
 }
 
+const char* wait_for(MPI_Request& request, double nap) {
+  const auto look = [&](bool& done) -> const char* {
+    int flag = 0;
+    if (const int code = MPI_Test(&request, &flag, MPI_STATUS_IGNORE); code != MPI_SUCCESS) return fault_of(code);
+    done = flag != 0;
+    return nullptr;
+  };
+  return wait_until(look, nap);
+}
+
+// Lists of up to kSharedNumbers in memory that ranks on one machine share: each puts its part there, says so by the
+// number of the exchange, and copies those of the others. Two lists take turns: who is at the next exchange has read
+// this one, so that the one after it may be written.
+class SharedLists {
+ public:
+  // All ranks call it; without shared memory it is not there.
+  void make(MPI_Comm here, int rank, int count) {
+    const MPI_Aint bytes =
+        rank == 0 ? kLineBytes * count + 2 * kSharedNumbers * static_cast<MPI_Aint>(sizeof(double)) : 0;
+    void* own = nullptr;
+    int made = MPI_Win_allocate_shared(bytes, 1, MPI_INFO_NULL, here, &own, &window_) == MPI_SUCCESS;
+    MPI_Allreduce(MPI_IN_PLACE, &made, 1, MPI_INT, MPI_MIN, here);
+    if (!made) return;
+    MPI_Aint size = 0;
+    int unit = 0;
+    void* first = nullptr;
+    MPI_Win_shared_query(window_, 0, &size, &unit, &first);
+    rank_ = rank;
+    count_ = count;
+    arrived_ = static_cast<char*>(first);
+    lists_ = reinterpret_cast<double*>(arrived_ + kLineBytes * count);
+    std::atomic_ref<long>(exchange_of(rank)).store(0);
+    MPI_Barrier(here);
+  }
+  void release() {
+    if (window_ != MPI_WIN_NULL) MPI_Win_free(&window_);
+  }
+  bool hold(std::ptrdiff_t total) const { return lists_ != nullptr && total <= kSharedNumbers; }
+
+  const char* gather(double* all, const std::ptrdiff_t* sizes) {
+    double* const list = lists_ + (++exchange_ % 2) * kSharedNumbers;
+    std::ptrdiff_t before = 0;
+    for (int r = 0; r < rank_; ++r) before += sizes[r];
+    std::copy_n(all + before, sizes[rank_], list + before);
+    std::atomic_ref<long>(exchange_of(rank_)).store(exchange_, std::memory_order_release);
+    std::ptrdiff_t first = 0;
+    for (int r = 0; r < count_; first += sizes[r++]) {
+      if (r == rank_) continue;
+      const auto look = [&](bool& done) -> const char* {
+        done = std::atomic_ref<long>(exchange_of(r)).load(std::memory_order_acquire) >= exchange_;
+        return nullptr;
+      };
+      if (const char* missing = wait_until(look, kNap)) return missing;
+      std::copy_n(list + first, sizes[r], all + first);
+    }
+    return nullptr;
+  }
+
+ private:
+  static constexpr std::ptrdiff_t kSharedNumbers = 1 << 17, kLineBytes = 64;
+  long& exchange_of(int rank) { return *reinterpret_cast<long*>(arrived_ + kLineBytes * rank); }
+
+  MPI_Win window_ = MPI_WIN_NULL;
+  int rank_ = 0, count_ = 0;
+  long exchange_ = 0;
+  char* arrived_ = nullptr;  // the last exchange of each rank, in lines of memory of their own
+  double* lists_ = nullptr;
+};
+SharedLists shared_lists;
+
 const char* gather(double* all, const std::ptrdiff_t* sizes) {
+  if (const std::ptrdiff_t total = std::accumulate(sizes, sizes + sizes_in_list.size(), std::ptrdiff_t{0});
+      shared_lists.hold(total))
+    return shared_lists.gather(all, sizes);
   std::ptrdiff_t total = 0;
   for (std::size_t r = 0; r < sizes_in_list.size(); ++r) {
     sizes_in_list[r] = static_cast<int>(sizes[r]);
@@ -93,6 +171,7 @@ const char* leave() {
   MPI_Request request = MPI_REQUEST_NULL;
   if (const int code = MPI_Ibarrier(MPI_COMM_WORLD, &request); code != MPI_SUCCESS) return fault_of(code);
   if (const char* missing = wait_for(request, kLongNap)) return missing;
+  shared_lists.release();
   MPI_Finalize();
   return nullptr;
 }
@@ -106,6 +185,7 @@ void find_peers(RailstrataRanks& out) {
   MPI_Allgather(&own, 2, MPI_INT, all.data(), 2, MPI_INT, here);
   for (const Peer& p : all)
     if (p.rank != out.rank) peers.push_back(p);
+  if (out.on_this_machine == out.count) shared_lists.make(here, out.rank, out.count);
   MPI_Comm_free(&here);
 }
 
