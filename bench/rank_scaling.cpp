@@ -27,7 +27,7 @@ void print_rows(const Model& model, const std::string& size, double rate) {
     }
     const double relative = relative_step_time(need, step);
     fmt::print("| {} | {:.2f} | {} | {:.1f} % | {:.1f} % | {:.2f} | {:.1f} |\n", size, 1e-6 * elements, ranks,
-               100 * need.lines, 100 * need.largest_share, 1e-6 * need.bytes, 1 / relative);
+               100 * need.kept, 100 * need.largest_share, 1e-6 * need.bytes, 1 / relative);
   }
 }
 
@@ -39,7 +39,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    fmt::print("| elements of | million | ranks | lines | largest part | MB a step | times as fast |\n");
+    fmt::print("| elements of | million | ranks | lines of a rank | largest part | MB a step | times as fast |\n");
     fmt::print("|---|---|---|---|---|---|---|\n");
     for (int k = 3; k < argc; ++k) {
       const LoadedCase loaded = load_case(argv[1], {fmt::format("mesh.element_size=\"{}\"", argv[k])});

@@ -1,7 +1,7 @@
 // Where the time of a step goes, rank by rank: whole steps of a case after its preload, by the ranks that mpirun has
 // started, or by one with OMP_NUM_THREADS threads. Medians over the steps in us, a column a rank.
 //
-// usage: [mpirun -n N] rank_steps PLUG_IN CASE ELEMENT_SIZE STEPS
+// usage: [mpirun -n N] rank_steps PLUG_IN CASE STEPS [KEY=VALUE...], as `railstrata run --set`
 #include <dlfcn.h>
 #include <fmt/format.h>
 
@@ -56,16 +56,15 @@ double median(std::vector<double>& values) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    fmt::print(stderr, "usage: [mpirun -n N] rank_steps PLUG_IN CASE ELEMENT_SIZE STEPS\n");
+  if (argc < 4) {
+    fmt::print(stderr, "usage: [mpirun -n N] rank_steps PLUG_IN CASE STEPS [KEY=VALUE...]\n");
     return 2;
   }
   Timed timed;
   join(argv[1], timed.joined);
   const Ranks ranks = timed.ranks();
-  const LoadedCase loaded =
-      load_case(argv[2], {fmt::format("mesh.element_size=\"{}\"", argv[3]), "run.run_up=\"0 mm\""});
-  const int steps = std::atoi(argv[4]);
+  const LoadedCase loaded = load_case(argv[2], {argv + 4, argv + argc});
+  const int steps = std::atoi(argv[3]);
   const RollingSystem system(build_model(loaded.spec, loaded.folder()));
   Stepper stepper(system, solve_preload(system, 1e-2), ranks);
   StepLaps laps;

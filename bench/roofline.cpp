@@ -134,17 +134,17 @@ Counts counts_of(const RollingBody& b) {
   return out;
 }
 
-/// Masters gather what their slaves have, the slaves' forces are cleared.
+/// What slaves have is gathered at their masters' stations and added to the masters; then they are cleared.
 Need collecting(const Body& body) {
   Need out;
   const auto& blocks = body.layout.blocks;
+  for (const Ties::Line& line : body.ties.lines()) {
+    const double slots = body.ties.interpolations()[line.interpolation].slots;
+    out += 3.0 * blocks[line.master_block].stations * Need{2 * slots, slots, 8};
+  }
   for (const Ties::Level& level : body.ties.levels())
     for (const Ties::Master& m : level.masters)
-      for (int s = m.first_share; s < m.first_share + m.shares; ++s) {
-        const Ties::Line& line = body.ties.lines()[level.shares[s].line];
-        const int slots = body.ties.interpolations()[line.interpolation].slots;
-        out += 3.0 * blocks[m.block].stations * Need{2.0 * slots + 2, slots + 1.0, 16};
-      }
+      out += 3.0 * blocks[m.block].stations * (m.shares * Need{2, 1, 8} + Need{0, 0, 16});
   const Need moment = body.mesh.kind == SweepKind::revolve ? Need{10, 6, 48 + 16} : Need{0, 0, 48};
   for (const Ties::Line& line : body.ties.lines()) out += blocks[line.slave_block].stations * moment;
   return out;

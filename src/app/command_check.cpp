@@ -104,7 +104,7 @@ void print_estimate(const Model& m, const RunEstimate& e) {
   fmt::print("memory         {:.0f} MB\n", 1e-6 * e.memory_bytes);
   if (e.steps > 0) fmt::print("rolling        {} steps, about {} here\n", e.steps, duration_text(e.seconds));
   for (const RunEstimate::OnRanks& r : e.ranks)
-    fmt::print("on {} ranks     about {}; one has {:.0f} % of the elements and gets {:.2f} MB a step; {:.0f} MB each\n",
+    fmt::print("on {} ranks     about {}; one has {:.0f} % of the work and gets {:.2f} MB a step; {:.0f} MB each\n",
                r.need.ranks, duration_text(r.seconds), 100 * r.need.largest_share, 1e-6 * r.need.bytes,
                1e-6 * r.memory_bytes);
   if (!e.ranks.empty())

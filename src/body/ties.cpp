@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "body/tiling.hpp"
 #include "core/staged_loop.hpp"
 #include "core/vectorize.hpp"
 #include "mesh/station_weights.hpp"
@@ -19,6 +20,8 @@ double* station_values(int stations) {
   if (values.size() < static_cast<std::size_t>(stations)) values.resize(static_cast<std::size_t>(stations));
   return values.data();
 }
+
+int tiles_of(const BlockLayout& block) { return (block.elements + kTile - 1) / kTile; }
 
 // (1 - w) a + w b. The fused products are written out: which of the two a compiler fuses is its choice, and the offsets
 // of the ties stand in every result.
@@ -64,6 +67,11 @@ Ties::Ties(const SweptBody& body, const BodyLayout& layout) : layout_(layout), k
   const MastersFirst sorted(body);
   for (int t : sorted.order()) add_line(body, body.ties[t]);
   add_levels();
+  first_piece_.push_back(0);
+  for (const Line& line : lines_) first_piece_.push_back(first_piece_.back() + moment_pieces(line));
+  gathered_.push_back(0);
+  for (const Line& line : lines_)
+    gathered_.push_back(gathered_.back() + 3L * layout.blocks[line.master_block].stations);
   int longest = 0;
   for (const BlockLayout& l : layout.blocks) longest = std::max(longest, l.stations);
 #pragma omp parallel
@@ -173,77 +181,153 @@ void Ties::add_masters(Level& level) const {
   }
 }
 
+// visit(range) for what is kept of a line.
+template <class Visit>
+void Ties::each_range(const LineStations* kept, SectionNode line, Visit&& visit) const {
+  if (kept == nullptr) return visit(StationRange{0, layout_.blocks[line.block].stations});
+  for (const StationRange& range : (*kept)[line.block][line.node]) visit(range);
+}
+
 void Ties::spread_line(const Line& line, int i, const TiedField& field) const {
+  const LineStations* const kept = field.part ? &field.part->values : nullptr;
+  const SectionNode slave{line.slave_block, line.slave_node};
   const BlockLayout& from = layout_.blocks[line.master_block];
   const Interpolation& in = interpolations_[line.interpolation];
   const double* m0 = field.values.data() + from.line(line.node0, i);
   const double* m1 = field.values.data() + from.line(line.node1, i);
   double* const carried = station_values(from.stations);
   const double w = line.weight1;
-  RAILSTRATA_INDEPENDENT
-  for (int j = 0; j < from.stations; ++j) carried[j] = (1 - w) * m0[j] + w * m1[j];
+  each_range(kept, {line.master_block, line.node0}, [&](StationRange range) {
+    RAILSTRATA_INDEPENDENT
+    for (int j = range.begin; j < range.end; ++j) carried[j] = (1 - w) * m0[j] + w * m1[j];
+  });
   double* out = field.values.data() + layout_.blocks[line.slave_block].line(line.slave_node, i);
   const int *left = in.left.data(), *right = in.right.data();
   const double* weight = in.weight.data();
-  const int n = static_cast<int>(in.left.size());
-  RAILSTRATA_INDEPENDENT
-  for (int j = 0; j < n; ++j) {
-    const double a = carried[left[j]], b = carried[right[j]];
-    out[j] = a + weight[j] * (b - a);
-  }
+  each_range(kept, slave, [&](StationRange range) {
+    RAILSTRATA_INDEPENDENT
+    for (int j = range.begin; j < range.end; ++j) {
+      const double a = carried[left[j]], b = carried[right[j]];
+      out[j] = a + weight[j] * (b - a);
+    }
+  });
   if (field.homogeneous || kind_ != SweepKind::revolve || i == 1) return;
   // (R(psi) - I) delta; psi turns z towards x
   const double* along = (i == 0 ? delta_x_ : delta_z_).data() + line.delta;
   const double* across = (i == 0 ? delta_z_ : delta_x_).data() + line.delta;
   const double c = field.turn.c - 1, s = i == 0 ? field.turn.s : -field.turn.s;
-  RAILSTRATA_INDEPENDENT
-  for (int j = 0; j < n; ++j) out[j] += c * along[j] + s * across[j];
+  each_range(kept, slave, [&](StationRange range) {
+    RAILSTRATA_INDEPENDENT
+    for (int j = range.begin; j < range.end; ++j) out[j] += c * along[j] + s * across[j];
+  });
 }
 
-// What a master gets of the slaves of a level.
-void Ties::gather(const Level& level, const Master& master, int i, Field& f) const {
-  const BlockLayout& to = layout_.blocks[master.block];
+void Ties::gather(int index, const TiedField& field, double* room) const {
+  const Line& line = lines_[index];
+  const Interpolation& in = interpolations_[line.interpolation];
+  const BlockLayout &from = layout_.blocks[line.slave_block], &to = layout_.blocks[line.master_block];
+  const double* const x = field.values.data() + from.line(line.slave_node, 0);
+  const double *const y = x + from.stride, *const z = y + from.stride;
+  double* const gathered = room + gathered_[index];
   const int stations = to.stations;
-  double* const sum = f.data() + to.line(master.node, i);
-  double* const gathered = station_values(stations);
-  for (int s = master.first_share; s < master.first_share + master.shares; ++s) {
-    const Line& line = lines_[level.shares[s].line];
-    const Interpolation& in = interpolations_[line.interpolation];
-    const double* slave = f.data() + layout_.blocks[line.slave_block].line(line.slave_node, i);
-    std::fill_n(gathered, stations, 0.0);
+  const auto gather_range = [&](StationRange range) {
+    double *const gx = gathered, *const gy = gx + stations, *const gz = gy + stations;
+    for (double* const g : {gx, gy, gz}) std::fill(g + range.begin, g + range.end, 0.0);
     for (int slot = 0; slot < in.slots; ++slot) {
-      const int* from = in.slot_from.data() + static_cast<std::ptrdiff_t>(slot) * stations;
+      const int* at = in.slot_from.data() + static_cast<std::ptrdiff_t>(slot) * stations;
       const double* share = in.slot_share.data() + static_cast<std::ptrdiff_t>(slot) * stations;
       RAILSTRATA_INDEPENDENT
-      for (int j = 0; j < stations; ++j) gathered[j] += share[j] * slave[from[j]];
+      for (int j = range.begin; j < range.end; ++j) {
+        gx[j] += share[j] * x[at[j]];
+        gy[j] += share[j] * y[at[j]];
+        gz[j] += share[j] * z[at[j]];
+      }
     }
+  };
+  const LineStations* const kept = field.part ? &field.part->forces : nullptr;
+  each_range(kept, {line.master_block, line.node0}, gather_range);
+  if (kept != nullptr && (*kept)[line.master_block][line.node1] != (*kept)[line.master_block][line.node0])
+    each_range(kept, {line.master_block, line.node1}, gather_range);
+}
+
+void Ties::add_gathered(const Level& level, const Master& master, int i, const TiedField& field,
+                        const double* room) const {
+  const BlockLayout& to = layout_.blocks[master.block];
+  double* const sum = field.values.data() + to.line(master.node, i);
+  for (int s = master.first_share; s < master.first_share + master.shares; ++s) {
+    const double* const gathered =
+        room + gathered_[level.shares[s].line] + static_cast<std::ptrdiff_t>(i) * to.stations;
     const double weight = level.shares[s].weight;
-    RAILSTRATA_INDEPENDENT
-    for (int j = 0; j < stations; ++j) sum[j] += weight * gathered[j];
+    each_range(field.part ? &field.part->forces : nullptr, {master.block, master.node}, [&](StationRange range) {
+      RAILSTRATA_INDEPENDENT
+      for (int j = range.begin; j < range.end; ++j) sum[j] += weight * gathered[j];
+    });
   }
 }
 
-// What the offsets of a line of slaves hand to the body's rotation; then the slaves have no forces.
-double Ties::take_moment(const Line& line, const TiedField& field) const {
+int Ties::moment_pieces(const Line& line) const {
+  const BlockLayout& lay = layout_.blocks[line.slave_block];
+  return 2 * tiles_of(lay) + (lay.closed ? 0 : 1);
+}
+
+double Ties::piece(const Line& line, const TiedField& field, StationRange at) const {
   constexpr int kParts = 8;  // a fixed number, so that the sum has the same order on every machine
   const BlockLayout& lay = layout_.blocks[line.slave_block];
-  double* const x = field.values.data() + lay.line(line.slave_node, 0);
-  double *const y = x + lay.stride, *const z = y + lay.stride;
-  const int n = lay.stations;
-  double moment = 0;
-  if (kind_ == SweepKind::revolve) {
-    const double *dx = delta_x_.data() + line.delta, *dz = delta_z_.data() + line.delta;
-    const double c = field.turn.c, s = field.turn.s;
-    const auto at = [&](int j) { return x[j] * (c * dz[j] - s * dx[j]) - z[j] * (c * dx[j] + s * dz[j]); };
-    double part[kParts] = {};
-    const int whole = n / kParts * kParts;
-    for (int j = 0; j < whole; j += kParts)
-      for (int k = 0; k < kParts; ++k) part[k] += at(j + k);
-    for (int j = whole; j < n; ++j) part[j - whole] += at(j);
-    for (double p : part) moment += p;
+  const double *x = field.values.data() + lay.line(line.slave_node, 0), *z = x + 2 * lay.stride;
+  const double *dx = delta_x_.data() + line.delta, *dz = delta_z_.data() + line.delta;
+  const double c = field.turn.c, s = field.turn.s;
+  double moment[kTile] = {};
+  const int n = at.end - at.begin;
+  RAILSTRATA_INDEPENDENT
+  for (int k = 0; k < n; ++k) {
+    const int j = at.begin + k;
+    moment[k] = x[j] * (c * dz[j] - s * dx[j]) - z[j] * (c * dx[j] + s * dz[j]);
   }
-  for (double* values : {x, y, z}) std::fill_n(values, n, 0.0);
-  return moment;
+  double part[kParts] = {};
+  for (int j = 0; j < kTile; j += kParts)
+    for (int k = 0; k < kParts; ++k) part[k] += moment[j + k];
+  double sum = 0;
+  for (double p : part) sum += p;
+  return sum;
+}
+
+void Ties::find_moment_pieces(const Line& line, const TiedField& field, int first, int end, double* pieces) const {
+  const int elements = layout_.blocks[line.slave_block].elements;
+  for (int t = first; t < end; ++t) {
+    const int plane = t * kTile;
+    if (t > first) pieces[2 * t] = piece(line, field, {plane, plane + 1});
+    pieces[2 * t + 1] = piece(line, field, {plane + 1, std::min(plane + kTile, elements)});
+  }
+}
+
+double Ties::moment(int index, const TiedField& field) const {
+  if (kind_ != SweepKind::revolve) return 0;
+  const Line& line = lines_[index];
+  const BlockLayout& lay = layout_.blocks[line.slave_block];
+  const int count = moment_pieces(line);
+  const bool given = field.part != nullptr && !field.part->moments.empty();
+  double* const pieces = given ? field.part->moments.data() + first_piece_[index] : station_values(count);
+  const auto find_plane = [&](int station) {
+    pieces[2 * (station / kTile)] = piece(line, field, {station, station + 1});
+  };
+  if (given) {
+    for (int station : field.part->planes[line.slave_block]) find_plane(station);
+  } else {
+    find_plane(0);
+    find_moment_pieces(line, field, 0, tiles_of(lay), pieces);
+  }
+  if (!lay.closed) pieces[count - 1] = piece(line, field, {lay.elements, lay.elements + 1});
+  return std::accumulate(pieces, pieces + count, 0.0);
+}
+
+void Ties::clear(const Line& line, const TiedField& field) const {
+  const LineStations* const kept = field.part ? &field.part->forces : nullptr;
+  const BlockLayout& lay = layout_.blocks[line.slave_block];
+  for (int i = 0; i < 3; ++i) {
+    double* const values = field.values.data() + lay.line(line.slave_node, i);
+    each_range(kept, {line.slave_block, line.slave_node},
+               [&](StationRange range) { std::fill(values + range.begin, values + range.end, 0.0); });
+  }
 }
 
 namespace {
@@ -294,35 +378,50 @@ void spread_ties(std::span<const TiedField> fields) {
       });
 }
 
-// Masters gather level by level, the highest first; then the slaves give their moments and are cleared, all at once.
+// Level by level, the highest first: forces of slaves at their masters' stations, then these to the masters. At the end
+// the slaves give their moments and are cleared, all at once.
 double collect_ties(std::span<const TiedField> fields) {
-  thread_local std::vector<double> room;
+  thread_local std::vector<double> moments, gathered;
   const int levels = most_levels(fields);
   const auto lines = [&](std::size_t f) { return static_cast<std::ptrdiff_t>(fields[f].ties.lines().size()); };
-  room.assign(static_cast<std::size_t>(all_items(fields, lines)), 0.0);
-  double* const moment = room.data();  // of this thread, for all of the loop's
+  const auto room = [&](std::size_t f) { return fields[f].ties.gathered_.back(); };
+  moments.assign(static_cast<std::size_t>(all_items(fields, lines)), 0.0);
+  if (const auto wanted = static_cast<std::size_t>(all_items(fields, room)); gathered.size() < wanted)
+    gathered.resize(wanted);
+  double *const moment = moments.data(), *const first_room = gathered.data();  // of this thread, for all of the loop's
+  const auto level_of = [&](std::size_t f, int stage) -> const Ties::Level* {
+    const auto& own = fields[f].ties.levels();
+    const auto level = static_cast<std::size_t>(levels - 1 - stage / 2);
+    return level < own.size() ? &own[level] : nullptr;
+  };
   const auto items_at = [&](int stage) {
-    return [&, stage](std::size_t f) {
-      if (stage == levels) return lines(f);
-      const auto& own = fields[f].ties.levels();
-      const auto level = static_cast<std::size_t>(levels - 1 - stage);
-      return level < own.size() ? kComponents * static_cast<std::ptrdiff_t>(own[level].masters.size()) : 0;
+    return [&, stage](std::size_t f) -> std::ptrdiff_t {
+      if (stage == 2 * levels) return lines(f);
+      const Ties::Level* const level = level_of(f, stage);
+      if (level == nullptr) return 0;
+      return static_cast<std::ptrdiff_t>(stage % 2 == 0 ? level->lines.size() : kComponents * level->masters.size());
     };
   };
   for_each_in_stages(
-      levels + 1, [&](int stage) { return all_items(fields, items_at(stage)); },
+      2 * levels + 1, [&](int stage) { return all_items(fields, items_at(stage)); },
       [&](int stage, std::ptrdiff_t k) {
         visit_item(fields, k, items_at(stage), [&](std::size_t f, std::ptrdiff_t item) {
           const Ties& ties = fields[f].ties;
-          if (stage == levels) {
-            moment[k] = ties.take_moment(ties.lines_[item], fields[f]);
+          if (stage == 2 * levels) {
+            moment[k] = ties.moment(static_cast<int>(item), fields[f]);
+            ties.clear(ties.lines_[item], fields[f]);
             return;
           }
-          const Ties::Level& level = ties.levels_[static_cast<std::size_t>(levels - 1 - stage)];
-          ties.gather(level, level.masters[item / kComponents], static_cast<int>(item % kComponents), fields[f].values);
+          double* const own_room = first_room + all_items(fields.first(f), room);
+          const Ties::Level& level = *level_of(f, stage);
+          if (stage % 2 == 0)
+            ties.gather(level.lines[item], fields[f], own_room);
+          else
+            ties.add_gathered(level, level.masters[item / kComponents], static_cast<int>(item % kComponents), fields[f],
+                              own_room);
         });
       });
-  return std::accumulate(room.begin(), room.end(), 0.0);
+  return std::accumulate(moments.begin(), moments.end(), 0.0);
 }
 
 void Ties::apply(Field& u, double psi) const {

@@ -15,12 +15,35 @@ namespace railstrata {
 
 class Ties;
 
+/// Stations begin <= j < end of a line.
+struct StationRange {
+  int begin = 0, end = 0;
+  bool operator==(const StationRange&) const = default;
+};
+/// Of one line, in order; they begin with multiples of kStationGroup and end with such or with the line, so that loops
+/// over them make the same packs as those over whole lines.
+using StationRanges = std::vector<StationRange>;
+inline constexpr int kStationGroup = 8;
+/// By block and section node.
+using LineStations = std::vector<std::vector<StationRanges>>;
+
+/// What one of several processes keeps of the lines at ties (fem/line_reach.hpp).
+struct TiedPart {
+  LineStations values;  ///< where it carries slaves
+  LineStations forces;  ///< where it collects forces: wherever those of `values` come from
+  /// N m, Ties::moment_pieces of all lines, given but at the stations in `planes`, by block, whose forces it has.
+  /// Empty: it has those on all slaves.
+  std::vector<double> moments;
+  std::vector<std::vector<int>> planes;
+};
+
 /// A field of a body and how far the body is turned; homogeneous: increments, which the offsets leave out.
 struct TiedField {
   const Ties& ties;
   Field& values;
   Rotation<double> turn{};
   bool homogeneous = false;
+  TiedPart* part = nullptr;  ///< none: whole lines
 };
 /// Ties::apply on several bodies in one parallel loop.
 void spread_ties(std::span<const TiedField> fields);
@@ -41,6 +64,17 @@ class Ties {
   /// sum f_s . d(R delta)/dpsi [N m]: without it the work of the forces on the slaves is not that of those at the
   /// masters.
   double apply_transpose_turned(Field& f, double psi) const;
+
+  struct Line;
+  /// What the forces on a line of slaves of a revolved body hand to its rotation through the offsets [N m], of single
+  /// tiles (body/tiling.hpp): piece 2 t of the first station of tile t, piece 2 t + 1 of those within; the last piece
+  /// is that of an open block's end. Summed in this order, they are the moment of the line.
+  int moment_pieces(const Line& line) const;
+  /// Of the stations within the tiles first <= t < end, and on the planes between them: those that only these tiles
+  /// give forces. pieces: of this line.
+  void find_moment_pieces(const Line& line, const TiedField& field, int first, int end, double* pieces) const;
+  /// Where those of a line begin in a list of all, and the size of that list for the line behind the last.
+  std::ptrdiff_t first_piece(std::size_t line) const { return first_piece_[line]; }
 
   bool is_slave(int block, int node) const { return slave_[block][node]; }
 
@@ -97,12 +131,22 @@ class Ties {
   friend void spread_ties(std::span<const TiedField> fields);
   friend double collect_ties(std::span<const TiedField> fields);
   void spread_line(const Line& line, int component, const TiedField& field) const;
-  void gather(const Level& level, const Master& master, int component, Field& f) const;
-  double take_moment(const Line& line, const TiedField& field) const;
+  template <class Visit>
+  void each_range(const LineStations* kept, SectionNode line, Visit&& visit) const;
+  // Forces on a line of slaves as its masters' stations get them, in the room of a loop over all lines; and what a
+  // master gets of them.
+  void gather(int line, const TiedField& field, double* room) const;
+  void add_gathered(const Level& level, const Master& master, int component, const TiedField& field,
+                    const double* room) const;
+  double piece(const Line& line, const TiedField& field, StationRange at) const;
+  double moment(int line, const TiedField& field) const;
+  void clear(const Line& line, const TiedField& field) const;
 
   BodyLayout layout_;
   SweepKind kind_;
-  std::vector<Line> lines_;  // masters' own ties come before
+  std::vector<Line> lines_;               // masters' own ties come before
+  std::vector<std::ptrdiff_t> gathered_;  // by line: start in the room of gather(); then its size
+  std::vector<std::ptrdiff_t> first_piece_;
   std::vector<Level> levels_;
   std::vector<Interpolation> interpolations_;
   std::vector<double> delta_x_, delta_z_;

@@ -28,9 +28,23 @@ std::vector<int> filled(const std::vector<long>& work, long most) {
 
 }  // namespace
 
-long tile_elements(const Body& body, int tile) {
-  const Tile& t = body.tiling.tiles[tile];
-  return static_cast<long>(body.mesh.blocks[t.block].section.quads.size()) * (t.end - t.first);
+std::vector<long> tile_work(const SweptBody& mesh, const Tiling& tiling) {
+  // measured by bench/rank_steps.cpp: 21.2 and 23.1 ns an element, 9 a node on a line
+  const long of_element = mesh.kind == SweepKind::revolve ? 109 : 100, of_line_node = 43;
+  std::vector<std::vector<char>> on_line;
+  for (const Block& b : mesh.blocks) on_line.emplace_back(b.section.nodes.size(), 0);
+  for (int c = 0; c <= mesh.contact.columns; ++c) on_line[mesh.contact.block][c] = 1;
+  for (const Tie& t : mesh.ties) {
+    on_line[t.slave_block][t.slave_node] = 1;
+    on_line[t.master_block][t.master_node0] = on_line[t.master_block][t.master_node1] = 1;
+  }
+  std::vector<long> of_station;  // by block
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b)
+    of_station.push_back(of_element * static_cast<long>(mesh.blocks[b].section.quads.size()) +
+                         of_line_node * std::count(on_line[b].begin(), on_line[b].end(), 1));
+  std::vector<long> out;
+  for (const Tile& t : tiling.tiles) out.push_back(of_station[t.block] * (t.end - t.first));
+  return out;
 }
 
 std::vector<int> cut_evenly(const std::vector<long>& work, int parts) {
@@ -50,8 +64,10 @@ std::vector<TileCut> cut_tiles(const std::vector<const Body*>& bodies, int ranks
   std::vector<TileCut> out(bodies.size());
   if (ranks == 1) return out;
   std::vector<long> work;
-  for (const Body* body : bodies)
-    for (int t = 0; t < static_cast<int>(body->tiling.tiles.size()); ++t) work.push_back(tile_elements(*body, t));
+  for (const Body* body : bodies) {
+    const std::vector<long> of_body = tile_work(body->mesh, body->tiling);
+    work.insert(work.end(), of_body.begin(), of_body.end());
+  }
   if (static_cast<std::size_t>(ranks) > work.size())
     throw CaseError(
         fmt::format("{} ranks cannot share this mesh: it has {} pieces of {} stations", ranks, work.size(), kTile),
@@ -86,7 +102,7 @@ std::vector<Chain> cut_chains(const Tiling& tiling, const TileCut& cut, int at_l
   out.clear();
   for (const OwnedChain& s : stretches(tiling, cut)) {
     const int tiles = s.end_tile - s.first_tile;
-    const int pieces = single_tiles || s.owner == cut.rank ? (tiles + length - 1) / length : 1;
+    const int pieces = s.owner == cut.rank ? (tiles + length - 1) / length : 1;
     for (int k = 0; k < pieces; ++k)
       out.push_back({s.first_tile + k * tiles / pieces, s.first_tile + (k + 1) * tiles / pieces});
   }

@@ -2,7 +2,7 @@
 // Which tiles of the bodies each of several ranks evaluates.
 //
 // The tiles of all bodies stand in one row, body by body, block by block, station by station, and the row is cut into
-// stretches, one a rank, so that the largest has as few elements as can be. Forces of a tile do not depend on who
+// stretches, one a rank, so that the largest has as little work as can be. Forces of a tile do not depend on who
 // evaluates it, and planes between tiles are summed in one order (body/tiling.hpp), so neither do the bits.
 #include <vector>
 
@@ -18,8 +18,9 @@ struct TileCut {
   bool is_own(int tile) const { return owner.empty() || owner[static_cast<std::size_t>(tile)] == rank; }
 };
 
-/// Elements of a tile, the measure of its work.
-long tile_elements(const Body& body, int tile);
+/// The work of each tile, of its elements and of the nodes on its lines (at ties, on the running surface), in
+/// hundredths of that of an extruded element.
+std::vector<long> tile_work(const SweptBody& mesh, const Tiling& tiling);
 
 /// Consecutive stretches of a row of pieces of work, at most `parts`, so that the largest sum is least: per piece the
 /// number of its stretch, from 0.
@@ -35,7 +36,7 @@ struct OwnedChain : Chain {
 std::vector<OwnedChain> stretches(const Tiling& tiling, const TileCut& cut);
 
 /// Chains of a cut body in the order of their tiles, in the memory of `reuse`: at least so many of this rank's own if
-/// it has as many tiles; of the others their stretches, or single tiles.
+/// it has as many tiles, or its single tiles; of the others their stretches.
 std::vector<Chain> cut_chains(const Tiling& tiling, const TileCut& cut, int at_least, bool single_tiles,
                               std::vector<Chain> reuse = {});
 

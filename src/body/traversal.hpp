@@ -79,6 +79,8 @@ class TraversalOf {
   void chain_forces(const Chain& chain, const Field& u, Field& f, Field& history, const Policy& policy);
   /// Forces on the border planes of all chains, and on the last station of an open block.
   void end(const std::vector<Chain>& chains, Field& f);
+  /// The same for some section nodes of each block.
+  void end(const std::vector<Chain>& chains, Field& f, const std::vector<std::vector<int>>& nodes);
 
   /// What the chains leave on the first plane of a tile and behind its last element, [node][component], tile after
   /// tile within a block: for tiles that somebody else has evaluated, to be put here before end().
@@ -86,6 +88,8 @@ class TraversalOf {
   double* rear_forces(int tile) { return &border_end_[body_->tiling.border[tile]]; }
 
  private:
+  template <class EachLine>
+  void end_lines(const std::vector<Chain>& chains, Field& f, EachLine&& each_line);
   struct CarriedFrame {
     Field cosine, sine;  // of the element centres, turned back by psi: R of the element class
   };

@@ -329,23 +329,39 @@ void TraversalOf<Element>::chain_forces(const Chain& chain, const Field& u, Fiel
 }
 
 template <class Element>
-void TraversalOf<Element>::end(const std::vector<Chain>& chains, Field& f) {
+template <class EachLine>
+void TraversalOf<Element>::end_lines(const std::vector<Chain>& chains, Field& f, EachLine&& each_line) {
   const Tiling& tiling = body_->tiling;
   for_each(static_cast<std::ptrdiff_t>(chains.size()), [&](std::ptrdiff_t k) {
     const int t = chains[k].first_tile, b = tiling.tiles[t].block;
     const BlockLayout& l = body_->layout.blocks[b];
-    const std::ptrdiff_t lines = static_cast<std::ptrdiff_t>(l.nodes) * 3;
     const int block_end = tiling.first_tile[b + 1];
     const auto left_by = [&](int tile) { return &border_end_[tiling.border[tile]]; };
     const double* front = &border_first_[tiling.border[t]];
     const double* behind = t > tiling.first_tile[b] ? left_by(t - 1) : l.closed ? left_by(block_end - 1) : nullptr;
     double* out = f.data() + l.offset + tiling.tiles[t].first;
-    for (std::ptrdiff_t line = 0; line < lines; ++line)
-      out[line * l.stride] = behind ? behind[line] + front[line] : front[line];
+    each_line(b,
+              [&](std::ptrdiff_t line) { out[line * l.stride] = behind ? behind[line] + front[line] : front[line]; });
     if (chains[k].end_tile < block_end || l.closed) return;
     const double* end = left_by(chains[k].end_tile - 1);
     double* last = f.data() + l.offset + l.elements;
-    for (std::ptrdiff_t line = 0; line < lines; ++line) last[line * l.stride] = end[line];
+    each_line(b, [&](std::ptrdiff_t line) { last[line * l.stride] = end[line]; });
+  });
+}
+
+template <class Element>
+void TraversalOf<Element>::end(const std::vector<Chain>& chains, Field& f) {
+  end_lines(chains, f, [&](int block, auto&& visit) {
+    const std::ptrdiff_t lines = static_cast<std::ptrdiff_t>(body_->layout.blocks[block].nodes) * 3;
+    for (std::ptrdiff_t line = 0; line < lines; ++line) visit(line);
+  });
+}
+
+template <class Element>
+void TraversalOf<Element>::end(const std::vector<Chain>& chains, Field& f, const std::vector<std::vector<int>>& nodes) {
+  end_lines(chains, f, [&](int block, auto&& visit) {
+    for (int n : nodes[block])
+      for (int i = 0; i < 3; ++i) visit(3 * static_cast<std::ptrdiff_t>(n) + i);
   });
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/body_id.hpp"
+#include "fem/line_reach.hpp"
 
 namespace railstrata {
 namespace {
@@ -77,9 +78,7 @@ void gather_wheel(const std::vector<std::ptrdiff_t>& nodes, const RollingBody& b
 }  // namespace
 
 SearchWindow search_window(const RollingSystem& sys) {
-  const HertzContact& hertz = sys.model.hertz;
-  const double ahead = std::abs(sys.model.placement.contact.x);  // of the axle: a yawed wheel's contact
-  return {1.5 * hertz.a + 3 * sys.options.element_size + ahead, 0.25 * hertz.approach};
+  return {search_half_length(sys.model), 0.25 * sys.model.hertz.approach};
 }
 
 ContactStep::ContactStep(const ContactSurface& rail, const ContactSurface& wheel, const EnforcementOptions& options,

@@ -223,7 +223,7 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
   for_each_apart(own(0) + own(1), run);
   scope.lap(StepPart::elements);
   if (exchange)
-    exchange->share_forces(bodies, states, scope);
+    exchange->share_forces(bodies, states, drift, scope);
   else if (scope.energy_wanted)
     for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].elements.end(bodies[k].schedule.chains, states[k].f);
   scope.lap(StepPart::exchange);
@@ -236,6 +236,55 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
   };
   for_each(chains(0) + chains(1), complete, true);
 }
+
+namespace {
+
+// A tile's stations of a line, with the end of an open block.
+StationRange stations_of(const Tile& tile, const BlockLayout& block) {
+  return {tile.first, tile.end + (!block.closed && tile.end == block.elements)};
+}
+
+// A node that waited, with sums tile by tile: of the tiles that this rank has; all where energies are wanted.
+void advance_measured(const BodyUpdate& of, std::size_t waiting, const double* const (&f)[3], bool all) {
+  RollingBody& b = of.body;
+  const SectionNode node = b.schedule.waiting[waiting];
+  const Tiling& tiling = b.body.tiling;
+  const int first = tiling.first_tile[node.block];
+  for (int t = first; t < tiling.first_tile[node.block + 1]; ++t) {
+    const StationRange at = stations_of(tiling.tiles[t], b.body.layout.blocks[node.block]);
+    UpdateSums sums;
+    if (all || b.part == nullptr || b.cut.is_own(t)) {
+      advance(of, node, at.begin, at.end, f, sums);
+      b.schedule.waiting_sums[b.schedule.first_waiting_sum[waiting] + static_cast<std::size_t>(t - first)] = sums;
+      continue;
+    }
+    for (const StationRange& kept : b.part->values[node.block][node.node]) {
+      const int begin = std::max(kept.begin, at.begin), end = std::min(kept.end, at.end);
+      if (begin < end) advance(of, node, begin, end, f, sums);
+    }
+  }
+}
+
+void add_up_tiles(RollingBody& b, bool all) {
+  UpdateSchedule& schedule = b.schedule;
+  const Tiling& tiling = b.body.tiling;
+  std::fill(schedule.tile_sums.begin(), schedule.tile_sums.end(), UpdateSums{});
+  if (!all)
+    for (int c : schedule.own) {
+      UpdateSums& sums = schedule.tile_sums[schedule.chains[c].first_tile];
+      sums += schedule.chain_sums[c];
+      sums += schedule.plane_sums[c];
+    }
+  for (std::size_t w = 0; w < schedule.waiting.size(); ++w) {
+    const int block = schedule.waiting[w].block, first = tiling.first_tile[block];
+    for (int t = first; t < tiling.first_tile[block + 1]; ++t)
+      if (all || b.cut.is_own(t))
+        schedule.tile_sums[t] +=
+            schedule.waiting_sums[schedule.first_waiting_sum[w] + static_cast<std::size_t>(t - first)];
+  }
+}
+
+}  // namespace
 
 void update_waiting_nodes(RollingBodies& bodies, BodyStates& states, const StepScope& scope) {
   const BodyUpdate updates[] = {update_of(bodies[0], states[0], scope), update_of(bodies[1], states[1], scope)};
@@ -253,30 +302,34 @@ void update_waiting_nodes(RollingBodies& bodies, BodyStates& states, const StepS
     const BlockLayout& lay = b.body.layout.blocks[node.block];
     const double* line = states[item.body].f.data() + lay.line(node.node, 0);
     const double* const f[3] = {line, line + lay.stride, line + 2 * lay.stride};
+    if (!border && scope.sums_wanted()) {
+      advance_measured(updates[item.body], static_cast<std::size_t>(item.index), f, scope.energy_wanted);
+      return;
+    }
     UpdateSums sums;
-    if (!border || scope.energy_wanted) {
+    if (!border && b.part != nullptr) {
+      for (const StationRange& at : b.part->values[node.block][node.node])
+        advance(updates[item.body], node, at.begin, at.end, f, sums);
+    } else if (!border || scope.energy_wanted) {
       advance(updates[item.body], node, 0, lay.stations, f, sums);
     } else if (!lay.closed) {
       advance_at(updates[item.body], node, 0, f, sums);
       advance_at(updates[item.body], node, lay.elements, f, sums);
     }
-    (border ? schedule.border_sums : schedule.waiting_sums)[item.index] = sums;
+    if (border) schedule.border_sums[item.index] = sums;
   };
   for_each_in_stages(
       1, [&](int) { return count(0) + count(1); }, update);
 }
 
-std::array<UpdateSums, 2> update_sums(const RollingBodies& bodies, const StepScope& scope) {
+std::array<UpdateSums, 2> update_sums(RollingBodies& bodies, const StepScope& scope, RankExchange* exchange) {
   std::array<UpdateSums, 2> out;
   if (!scope.sums_wanted()) return out;
+  for (RollingBody& b : bodies) add_up_tiles(b, scope.energy_wanted);
+  if (exchange && !scope.energy_wanted) exchange->share_sums(bodies);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    const UpdateSchedule& schedule = bodies[k].schedule;
-    if (!scope.energy_wanted) {
-      for (const UpdateSums& s : schedule.chain_sums) out[k] += s;
-      for (const UpdateSums& s : schedule.plane_sums) out[k] += s;
-    }
-    for (const UpdateSums& s : schedule.waiting_sums) out[k] += s;
-    for (const UpdateSums& s : schedule.border_sums) out[k] += s;
+    for (const UpdateSums& s : bodies[k].schedule.tile_sums) out[k] += s;
+    for (const UpdateSums& s : bodies[k].schedule.border_sums) out[k] += s;
   }
   return out;
 }

@@ -34,7 +34,7 @@ void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::arr
 /// The nodes that waited for the contact, and the ends of open blocks.
 void update_waiting_nodes(RollingBodies& bodies, BodyStates& states, const StepScope& scope);
 
-/// Sums of this step's updates; zero if none were wanted.
-std::array<UpdateSums, 2> update_sums(const RollingBodies& bodies, const StepScope& scope);
+/// Sums of this step's updates, of all ranks' tiles; zero if none were wanted.
+std::array<UpdateSums, 2> update_sums(RollingBodies& bodies, const StepScope& scope, RankExchange* exchange);
 
 }  // namespace railstrata

@@ -1,9 +1,10 @@
 #include "fem/rank_exchange.hpp"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 
 #include "core/body_id.hpp"
+#include "core/parallel.hpp"
 
 namespace railstrata {
 namespace {
@@ -11,87 +12,160 @@ namespace {
 constexpr std::ptrdiff_t kSums = sizeof(UpdateSums) / sizeof(double);
 static_assert(kSums * sizeof(double) == sizeof(UpdateSums));
 
-// Section nodes of a body whose forces the step reads at all stations: those that wait for the contact, those that are
-// carried, and what stands on the axle.
-std::vector<std::vector<int>> read_lines(const RollingBody& b) {
-  std::vector<std::vector<char>> wanted;
-  for (const BlockLayout& l : b.body.layout.blocks) wanted.emplace_back(l.nodes, 0);
-  for (const SectionNode& n : b.schedule.waiting) wanted[n.block][n.node] = 1;
-  for (const Tie& t : b.body.mesh.ties) wanted[t.slave_block][t.slave_node] = 1;
-  if (b.turns())
-    for (const SectionNode& n : b.body.mesh.prescribed) wanted[n.block][n.node] = 1;
-  std::vector<std::vector<int>> out(wanted.size());
-  for (std::size_t k = 0; k < wanted.size(); ++k)
-    for (int n = 0; n < static_cast<int>(wanted[k].size()); ++n)
-      if (wanted[k][n]) out[k].push_back(n);
+std::vector<std::vector<char>> no_nodes(const RollingBody& b) {
+  std::vector<std::vector<char>> out;
+  for (const BlockLayout& l : b.body.layout.blocks) out.emplace_back(l.nodes, 0);
   return out;
 }
 
-std::vector<std::vector<int>> updated_at_once(const RollingBody& b) {
-  std::vector<std::vector<int>> out(b.body.layout.blocks.size());
+// Section nodes of a body on its lines: those that wait for the contact, and those that are carried.
+NodesOfBlocks line_nodes(const RollingBody& b) {
+  std::vector<std::vector<char>> wanted = no_nodes(b);
+  for (const SectionNode& n : b.schedule.waiting) wanted[n.block][n.node] = 1;
+  for (const Tie& t : b.body.mesh.ties) wanted[t.slave_block][t.slave_node] = 1;
+  return chosen_nodes(wanted);
+}
+
+// What stands on the axle.
+NodesOfBlocks bore_nodes(const RollingBody& b, const NodesOfBlocks& lines) {
+  std::vector<std::vector<char>> wanted = no_nodes(b);
+  if (b.turns())
+    for (const SectionNode& n : b.body.mesh.prescribed) wanted[n.block][n.node] = 1;
+  for (std::size_t k = 0; k < lines.size(); ++k)
+    for (int n : lines[k]) wanted[k][n] = 0;
+  return chosen_nodes(wanted);
+}
+
+NodesOfBlocks lines_with_moments(const RollingBody& b) {
+  NodesOfBlocks out(b.body.layout.blocks.size());
+  const std::vector<Ties::Line>& lines = b.body.ties.lines();
+  if (b.turns() && moments_of_tiles(b.body.mesh, b.body.ties))
+    for (int k = 0; k < static_cast<int>(lines.size()); ++k) out[lines[k].slave_block].push_back(k);
+  return out;
+}
+
+NodesOfBlocks updated_at_once(const RollingBody& b) {
+  NodesOfBlocks out(b.body.layout.blocks.size());
   for (const SectionNode& n : b.schedule.bordered) out[n.block].push_back(n.node);
   return out;
 }
 
+// Forces on lines where this rank does not collect them: nobody writes them, and mass scaling would make them smaller
+// and smaller.
+void clear_elsewhere(const RollingBody& b, const NodesOfBlocks& lines, const LineStations& kept, Field& f) {
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const BlockLayout& lay = b.body.layout.blocks[k];
+    for (int n : lines[k])
+      for (int i = 0; i < 3; ++i) {
+        double* const line = f.data() + lay.line(n, i);
+        int from = 0;
+        for (const StationRange& r : kept[k][n]) {
+          std::fill(line + from, line + r.begin, 0.0);
+          from = r.end;
+        }
+        std::fill(line + from, line + lay.stations, 0.0);
+      }
+  }
+}
+
 }  // namespace
 
-RankExchange::RankExchange(const Ranks& ranks, const RollingBodies& bodies)
+RankExchange::RankExchange(const Ranks& ranks, const Model& model, RollingBodies& bodies)
     : ranks_(ranks),
       exchange_(ranks),
       stretches_(all_stretches({&bodies[kRail].body, &bodies[kWheel].body}, {bodies[kRail].cut, bodies[kWheel].cut})),
-      marks_(2 * static_cast<std::size_t>(ranks.count)) {
+      marks_(2 * static_cast<std::size_t>(ranks.count)),
+      divided_(std::all_of(bodies.begin(), bodies.end(), [](const RollingBody& b) { return b.steps.local.empty(); })),
+      window_(model, bodies[kRail].body.mesh, bodies[kWheel].body.mesh) {
   for (const Stretch& s : stretches_) borders_[s.body].push_back(s);
   for (std::size_t k = 0; k < bodies.size(); ++k) {
-    lines_[k] = read_lines(bodies[k]);
+    lines_[k] = line_nodes(bodies[k]);
+    bore_[k] = bore_nodes(bodies[k], lines_[k]);
+    slaves_[k] = lines_with_moments(bodies[k]);
     inner_nodes_[k] = updated_at_once(bodies[k]);
+    const Ties& ties = bodies[k].body.ties;
+    if (moments_of_tiles(bodies[k].body.mesh, ties))
+      parts_[k].moments.assign(static_cast<std::size_t>(ties.first_piece(ties.lines().size())), 0.0);
+    parts_[k].planes.resize(bodies[k].body.layout.blocks.size());
   }
-  count_forces(bodies);
+  for (const Stretch& s : stretches_) parts_[s.body].planes[s.block].push_back(s.first - 1);
+  place_windows(bodies, {});
 }
 
-RankExchange::Kind RankExchange::kind_of(const StepScope& scope) {
-  return scope.energy_wanted ? whole : scope.sums_wanted() ? measured : plain;
+void RankExchange::place_windows(RollingBodies& bodies, const AxlePose& pose) {
+  placed_ = pose;
+  gifts_.clear();
+  const double contact[] = {window_.rail_start + pose.x, pose.psi}, half_width = window_.half_length + window_.stride,
+               width[] = {half_width, half_width / window_.radius};
+  for (std::size_t k = 0; k < bodies.size(); ++k) {
+    const Body& b = bodies[k].body;
+    const SharedLines shared{
+        b.mesh,     b.layout, b.tiling, b.ties, bodies[k].cut, lines_[k], bodies[k].steps.scaling.chains(),
+        contact[k], width[k]};
+    std::vector<LineReach> reaches = line_reaches(shared, ranks_.count);
+    for (LineGift& gift : line_gifts(shared, reaches)) gifts_.push_back(std::move(gift));
+    parts_[k].values = std::move(reaches[ranks_.rank].values);
+    parts_[k].forces = std::move(reaches[ranks_.rank].forces);
+  }
 }
+
+bool RankExchange::left_windows(const AxlePose& pose) const {
+  return !(std::abs(pose.x - placed_.x) <= window_.stride &&
+           std::abs(pose.psi - placed_.psi) * window_.radius <= window_.stride);
+}
+
+RankExchange::Kind RankExchange::kind_of(const StepScope& scope) { return scope.energy_wanted ? whole : usual; }
 
 // visit(first number, how many) for all that a rank gives in a step.
 template <class Visit>
 void RankExchange::each_force(int rank, Kind kind, RollingBodies& bodies, BodyStates& states, Visit&& visit) {
   visit(marks_.data() + 2 * rank, 2);
-  for (const Stretch& s : stretches_) {
+  for (std::size_t k = 0; k < stretches_.size(); ++k) {
+    const Stretch& s = stretches_[k];
     if (s.owner != rank) continue;
     RollingBody& b = bodies[s.body];
-    const int block = s.block, tiles = s.end_tile - s.first_tile;
+    const int block = s.block;
     const BlockLayout& lay = b.body.layout.blocks[block];
     const std::ptrdiff_t plane = static_cast<std::ptrdiff_t>(lay.nodes) * 3;
-    if (kind == plain) {
-      visit(b.elements.front_forces(s.first_tile), plane);
-      visit(b.elements.rear_forces(s.end_tile - 1), plane);
-    } else {
-      visit(b.elements.front_forces(s.first_tile), tiles * plane);
-      visit(b.elements.rear_forces(s.first_tile), tiles * plane);
-    }
-    if (kind == measured) visit(&b.schedule.chain_sums[s.first_tile].kinetic, tiles * kSums);  // chains: single tiles
+    visit(b.elements.front_forces(s.first_tile), plane);
+    visit(b.elements.rear_forces(s.end_tile - 1), plane);
     double* f = states[s.body].f.data();
-    const auto visit_node = [&](int node) {
-      for (int i = 0; i < 3; ++i) visit(f + lay.line(node, i) + s.first, s.end - s.first);
+    const auto visit_node = [&](int node, StationRange at) {
+      for (int i = 0; i < 3; ++i) visit(f + lay.line(node, i) + at.begin, at.end - at.begin);
     };
-    if (kind == whole)
-      for (int n = 0; n < lay.nodes; ++n) visit_node(n);
-    else
-      for (int n : lines_[s.body][block]) visit_node(n);
+    const StationRange all{s.first, s.end};
+    if (kind == whole) {
+      for (int n = 0; n < lay.nodes; ++n) visit_node(n, all);
+      continue;
+    }
+    for (int n : bore_[s.body][block]) visit_node(n, all);
+    if (!divided_) {
+      for (int n : lines_[s.body][block]) visit_node(n, all);
+      continue;
+    }
+    for (int n : lines_[s.body][block])
+      for (const StationRange& r : gifts_[k][n]) visit_node(n, r);
+    for (int line : slaves_[s.body][block])
+      visit(moment_pieces(s, b.body.ties, line) + 2 * (s.first_tile - b.body.tiling.first_tile[block]) + 1,
+            moment_numbers(s));
   }
 }
 
-// The nodes that a rank alone updates.
+// The nodes that a rank alone updates, and its part of the lines.
 template <class Visit>
 void RankExchange::each_value(int rank, const RollingBodies& bodies, BodyStates& states, Field BodyState::*field,
                               Visit&& visit) const {
   for (const Stretch& s : stretches_) {
     if (s.owner != rank) continue;
-    const Body& body = bodies[s.body].body;
-    const int block = s.block;
+    const BlockLayout& lay = bodies[s.body].body.layout.blocks[s.block];
     double* values = (states[s.body].*field).data();
-    for (int n : inner_nodes_[s.body][block])
-      for (int i = 0; i < 3; ++i) visit(values + body.layout.blocks[block].line(n, i) + s.first, s.end - s.first);
+    const auto visit_nodes = [&](const std::vector<int>& nodes, int first, int end) {
+      for (int n : nodes)
+        for (int i = 0; i < 3; ++i) visit(values + lay.line(n, i) + first, end - first);
+    };
+    visit_nodes(inner_nodes_[s.body][s.block], s.first, s.end);
+    // with the plane in front, and the ghost of a ring (body/traversal.hpp)
+    if (divided_) visit_nodes(lines_[s.body][s.block], s.first - 1, s.end + (lay.closed && s.end == lay.stations));
   }
 }
 
@@ -108,48 +182,64 @@ void RankExchange::each_slot(int rank, const RollingBodies& bodies, BodyStates& 
   }
 }
 
-void RankExchange::count_forces(const RollingBodies& bodies) {
-  for (int kind = 0; kind < kKinds; ++kind) {
-    counts_[kind].assign(static_cast<std::size_t>(ranks_.count), 2);
-    for (const Stretch& s : stretches_) {
-      const Body& body = bodies[s.body].body;
-      const int block = s.block, tiles = s.end_tile - s.first_tile;
-      const std::ptrdiff_t nodes = body.layout.blocks[block].nodes;
-      const auto lines = kind == whole ? nodes : static_cast<std::ptrdiff_t>(lines_[s.body][block].size());
-      const std::ptrdiff_t planes = kind == plain ? 2 : 2 * tiles, sums = kind == measured ? tiles * kSums : 0;
-      counts_[kind][s.owner] += 3 * (planes * nodes + lines * (s.end - s.first)) + sums;
-    }
-  }
-}
-
-std::array<double, 2> RankExchange::step_bytes() const {
-  const auto received = [](const std::vector<std::ptrdiff_t>& counts) {
-    const std::ptrdiff_t all = std::accumulate(counts.begin(), counts.end(), std::ptrdiff_t{0});
-    return 8.0 * static_cast<double>(all - *std::min_element(counts.begin(), counts.end()));
-  };
-  return {received(counts_[plain]), received(counts_[measured])};
-}
-
-void RankExchange::prepare(const RollingBodies& bodies, BodyStates& states, const StepScope& scope) {
+void RankExchange::prepare(RollingBodies& bodies, BodyStates& states, const StepScope& scope, const AxlePose& pose) {
   const Kind kind = kind_of(scope);
-  if ((kind == measured && !planes_known_) || (kind == whole && !all_known_)) complete(bodies, states);
-  if (kind == plain) planes_known_ = false;
+  const bool parts = kind == usual && divided_, moves = parts && left_windows(pose);
+  if ((kind == whole || moves) && !all_known_) complete(bodies, states);
+  if (moves) place_windows(bodies, pose);
+  if (parts && all_known_)
+    for (std::size_t k = 0; k < bodies.size(); ++k)
+      clear_elsewhere(bodies[k], lines_[k], parts_[k].forces, states[k].f);
+  for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].part = parts ? &parts_[k] : nullptr;
   if (kind != whole) all_known_ = false;
 }
 
-void RankExchange::share_forces(RollingBodies& bodies, BodyStates& states, const StepScope& scope) {
+double* RankExchange::moment_pieces(const Stretch& s, const Ties& ties, int line) {
+  return parts_[s.body].moments.data() + ties.first_piece(static_cast<std::size_t>(line));
+}
+
+// Of the slaves in a rank's stretches, whose forces come from its elements alone.
+void RankExchange::own_moments(const RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift) {
+  for (const Stretch& s : stretches_) {
+    if (s.owner != ranks_.rank) continue;
+    const Body& body = bodies[s.body].body;
+    const TiedField field{body.ties, states[s.body].f, rotation_by(drift[s.body])};
+    const int first = s.first_tile - body.tiling.first_tile[s.block], end = first + s.end_tile - s.first_tile;
+    const std::vector<int>& slaves = slaves_[s.body][s.block];
+    const auto find = [&](std::ptrdiff_t item) {
+      const int line = slaves[item];
+      body.ties.find_moment_pieces(body.ties.lines()[line], field, first, end, moment_pieces(s, body.ties, line));
+    };
+    for_each(static_cast<std::ptrdiff_t>(slaves.size()), find);
+  }
+}
+
+void RankExchange::share_forces(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
+                                const StepScope& scope) {
   const Kind kind = kind_of(scope);
-  if (kind == plain)  // planes within the own stretches
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
-      own_chains_.clear();
-      for (int c : bodies[k].schedule.own) own_chains_.push_back(bodies[k].schedule.chains[c]);
+  for (std::size_t k = 0; k < bodies.size(); ++k) {  // planes within the own stretches
+    own_chains_.clear();
+    for (int c : bodies[k].schedule.own) own_chains_.push_back(bodies[k].schedule.chains[c]);
+    if (kind == whole) {
       bodies[k].elements.end(own_chains_, states[k].f);
+      continue;
     }
+    for (const NodesOfBlocks* nodes : {&lines_[k], &bore_[k]}) bodies[k].elements.end(own_chains_, states[k].f, *nodes);
+  }
+  if (kind == usual && divided_) own_moments(bodies, states, drift);
   std::copy(mark_.begin(), mark_.end(), marks_.begin() + 2 * ranks_.rank);
   exchange_([&](int rank, auto&& visit) { each_force(rank, kind, bodies, states, visit); });
   require_same_bits(ranks_, marks_);
-  for (std::size_t k = 0; k < bodies.size(); ++k)
-    bodies[k].elements.end(kind == plain ? borders_[k] : bodies[k].schedule.chains, states[k].f);
+  if (kind == usual) return;  // evaluate_elements goes on with the border planes
+  for (std::size_t k = 0; k < bodies.size(); ++k) bodies[k].elements.end(borders_[k], states[k].f);
+}
+
+void RankExchange::share_sums(RollingBodies& bodies) {
+  exchange_([&](int rank, auto&& visit) {
+    for (const Stretch& s : stretches_)
+      if (s.owner == rank)
+        visit(&bodies[s.body].schedule.tile_sums[s.first_tile].kinetic, (s.end_tile - s.first_tile) * kSums);
+  });
 }
 
 void RankExchange::complete(const RollingBodies& bodies, BodyStates& states) {
@@ -157,7 +247,7 @@ void RankExchange::complete(const RollingBodies& bodies, BodyStates& states) {
   for (Field BodyState::*field : {&BodyState::u, &BodyState::v})
     exchange_([&](int rank, auto&& visit) { each_value(rank, bodies, states, field, visit); });
   exchange_([&](int rank, auto&& visit) { each_slot(rank, bodies, states, visit); });
-  planes_known_ = all_known_ = true;
+  all_known_ = true;
 }
 
 }  // namespace railstrata

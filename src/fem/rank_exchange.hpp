@@ -2,19 +2,22 @@
 // What the ranks of one run give to one another (core/ranks.hpp).
 //
 // Every rank has both bodies whole in its memory. Each evaluates the elements of its own tiles (body/tile_cut.hpp) and
-// updates the nodes within them whose forces come from elements alone: that is nearly all of the work. Everything else
-// is done by every rank for itself, from the same numbers in the same order: border planes, ties, contact, mass
-// scaling, running surface, axle. So a step has one exchange,
+// updates the nodes within them whose forces come from elements alone: that is nearly all of the work. Lines of nodes
+// at ties, on the running surface and with added mass are updated by the ranks that look at them, where they look
+// (fem/line_reach.hpp); border planes, contact and axle by every rank for itself, from the same numbers in the same
+// order. So a step has one exchange of
 //
-//   forces   on both sides of the border planes between stretches (between all tiles where sums over nodes are wanted);
-//            on all lines that the rest of the step reads: running surface, ties, bore, nodes with added mass or local
-//            steps; sums of the nodes that were updated on the way
+//   forces on both sides of the border planes between stretches; on lines where another rank collects them; on the bore
 //
-// after which all ranks go on alike. What a rank does not know is the inside of the others' tiles. complete() brings it
-// where it is asked for: energies, samples, checkpoints, looks at all elements that may yield.
+//   moments that the offsets of ties hand to the wheel's rotation
+//
+// after which all ranks go on alike; where sums over the nodes are wanted a second, of some numbers a tile. Bodies with
+// local steps have all lines of all ranks. What a rank does not know is the inside of the others' tiles; complete()
+// brings it where it is asked for: energies, samples, checkpoints, looks at all elements that may yield.
 #include <array>
 #include <vector>
 
+#include "fem/line_reach.hpp"
 #include "fem/node_update.hpp"
 #include "fem/part_exchange.hpp"
 
@@ -22,24 +25,25 @@ namespace railstrata {
 
 class RankExchange {
  public:
-  /// `bodies`: already cut.
-  RankExchange(const Ranks& ranks, const RollingBodies& bodies);
+  /// `bodies`: already cut, and at the start.
+  RankExchange(const Ranks& ranks, const Model& model, RollingBodies& bodies);
 
-  /// To be called before a step: brings what it will read of other ranks' tiles.
-  void prepare(const RollingBodies& bodies, BodyStates& states, const StepScope& scope);
+  /// To be called before a step: brings what it will read of other ranks' tiles, and tells the bodies which part of
+  /// their lines it has (RollingBody::part).
+  void prepare(RollingBodies& bodies, BodyStates& states, const StepScope& scope, const AxlePose& pose);
   /// Two numbers of the step that all ranks must have to the last bit; they go with its forces.
   void mark(double first, double second) { mark_ = {first, second}; }
   /// After a rank's own chains: forces on border planes and lines, as one rank alone would have them. Throws
   /// EnvironmentError when a rank computes other bits.
-  void share_forces(RollingBodies& bodies, BodyStates& states, const StepScope& scope);
+  void share_forces(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
+                    const StepScope& scope);
+  /// Sums over the nodes of all tiles to every rank (UpdateSchedule::tile_sums).
+  void share_sums(RollingBodies& bodies);
   /// Displacements, velocities and history of all tiles to every rank.
   void complete(const RollingBodies& bodies, BodyStates& states);
 
-  /// Bytes that a rank receives in a step, the most of all ranks: of the usual steps, and of those with sums.
-  std::array<double, 2> step_bytes() const;
-
  private:
-  enum Kind { plain, measured, whole, kKinds };  // steps: fused, fused with sums, energies
+  enum Kind { usual, whole };  // steps: fused, or with energies
   static Kind kind_of(const StepScope& scope);
   template <class Visit>
   void each_force(int rank, Kind kind, RollingBodies& bodies, BodyStates& states, Visit&& visit);
@@ -48,19 +52,28 @@ class RankExchange {
                   Visit&& visit) const;
   template <class Visit>
   void each_slot(int rank, const RollingBodies& bodies, BodyStates& states, Visit&& visit) const;
-  void count_forces(const RollingBodies& bodies);
+  void place_windows(RollingBodies& bodies, const AxlePose& pose);
+  bool left_windows(const AxlePose& pose) const;
+  double* moment_pieces(const Stretch& s, const Ties& ties, int line);
+  void own_moments(const RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift);
 
   Ranks ranks_;
   PartExchange exchange_;
   std::vector<Stretch> stretches_;
-  std::array<std::vector<Chain>, 2> borders_;                 // by body: the stretches as chains
-  std::array<std::vector<std::vector<int>>, 2> lines_;        // by body and block: nodes whose forces all ranks read
-  std::array<std::vector<std::vector<int>>, 2> inner_nodes_;  // likewise: those that the owner alone updates
+  std::array<std::vector<Chain>, 2> borders_;  // by body: the stretches as chains
+  std::array<NodesOfBlocks, 2> lines_;         // by body and block: nodes of which others read forces
+  std::array<NodesOfBlocks, 2> bore_;          // likewise: all stations of them
+  std::array<NodesOfBlocks, 2> slaves_;        // likewise: lines of ties (Ties::lines) that have moments
+  std::array<NodesOfBlocks, 2> inner_nodes_;   // likewise: those that the owner alone updates
+  AxlePose placed_;                            // of the axle when windows were placed
+  std::array<TiedPart, 2> parts_;              // of this rank
+  std::vector<LineGift> gifts_;                // by stretch
   std::vector<Chain> own_chains_;
   std::array<double, 2> mark_{};
   std::vector<double> marks_;  // of all ranks
-  std::array<std::vector<std::ptrdiff_t>, kKinds> counts_;
-  bool planes_known_ = true, all_known_ = true;  // u and v on all planes between tiles; everywhere, with the history
+  bool divided_;               // each rank has a part of the lines; else all of them
+  ContactWindow window_;
+  bool all_known_ = true;  // u, v and history of all tiles
 };
 
 }  // namespace railstrata

@@ -4,79 +4,117 @@
 #include <cmath>
 #include <numeric>
 
-#include "body/tile_cut.hpp"
+#include "fem/line_reach.hpp"
 
 namespace railstrata {
 namespace {
 
-// Of a step of cases/paper/base.toml (bench/rank_pairs.cpp), and the share of its nodes that are on lines.
-constexpr double kMeasuredOwn = 0.31, kMeasuredLines = 0.233;
+// Of a step of cases/paper/base.toml (bench/rank_steps.cpp): the contact by the share of the nodes that are on lines;
+// lines, planes and copies by the share that a rank keeps.
+constexpr double kContact = 0.055 / 0.229, kOwnLines = 0.13 / 0.141;
 
-// Section nodes of a block whose forces all ranks read.
-std::vector<int> line_counts(const SweptBody& body) {
-  std::vector<std::vector<char>> wanted;
-  for (const Block& b : body.blocks) wanted.emplace_back(b.section.nodes.size(), 0);
-  for (int c = 0; c <= body.contact.columns; ++c) wanted[body.contact.block][c] = 1;
-  for (const Tie& t : body.ties) {
-    wanted[t.slave_block][t.slave_node] = 1;
-    wanted[t.master_block][t.master_node0] = wanted[t.master_block][t.master_node1] = 1;
+// By block: section nodes on lines, others on the axle, and how many slaves there are.
+struct Lines {
+  NodesOfBlocks lines, bore;
+  std::vector<long> slaves;
+};
+
+Lines lines_of(const SweptBody& body) {
+  std::vector<std::vector<char>> on_line, on_axle;
+  for (const Block& b : body.blocks) on_line.emplace_back(b.section.nodes.size(), 0);
+  on_axle = on_line;
+  std::vector<long> slaves(body.blocks.size());
+  for (int c = 0; c <= body.contact.columns; ++c) on_line[body.contact.block][c] = 1;
+  for (const Tie& t : body.ties) on_line[t.master_block][t.master_node0] = on_line[t.master_block][t.master_node1] = 1;
+  for (const SectionNode& n : body.prescribed) {
+    on_line[n.block][n.node] = 0;
+    on_axle[n.block][n.node] = body.kind == SweepKind::revolve;
   }
-  if (body.kind == SweepKind::revolve)
-    for (const SectionNode& n : body.prescribed) wanted[n.block][n.node] = 1;
-  std::vector<int> out;
-  for (const std::vector<char>& w : wanted) out.push_back(static_cast<int>(std::count(w.begin(), w.end(), 1)));
+  for (const Tie& t : body.ties) {
+    on_line[t.slave_block][t.slave_node] = 1;
+    on_axle[t.slave_block][t.slave_node] = 0;
+    ++slaves[t.slave_block];
+  }
+  return {chosen_nodes(on_line), chosen_nodes(on_axle), slaves};
+}
+
+// A body as far as its elements are not needed.
+struct Skeleton {
+  explicit Skeleton(const SweptBody& body)
+      : mesh(body), layout(layout_of(body)), tiling(tiling_of(body, layout)), ties(body, layout) {}
+  const SweptBody& mesh;
+  BodyLayout layout;
+  Tiling tiling;
+  Ties ties;
+};
+
+double line_nodes(const Skeleton& b) {
+  const Lines lines = lines_of(b.mesh);
+  double out = 0;
+  for (std::size_t k = 0; k < lines.lines.size(); ++k)
+    out += static_cast<double>(lines.lines[k].size()) * b.layout.blocks[k].stations;
   return out;
 }
 
-struct Piece {
-  const Tile tile;
-  std::size_t body;
-  long nodes, lines;  // of its block's section
-};
+// Of one body, added to what each rank gives in a step and to the nodes on lines that it keeps.
+void add_lines(const Skeleton& b, const TileCut& cut, double contact, double half_width, std::vector<double>& given,
+               std::vector<double>& kept) {
+  const Lines lines = lines_of(b.mesh);
+  const SharedLines shared{b.mesh, b.layout, b.tiling, b.ties, cut, lines.lines, {}, contact, half_width};
+  const std::vector<LineReach> reaches = line_reaches(shared, static_cast<int>(given.size()));
+  const std::vector<LineGift> gifts = line_gifts(shared, reaches);
+  const std::vector<OwnedChain> all = stretches(b.tiling, cut);
+  const bool gives_moments = b.mesh.kind == SweepKind::revolve && moments_of_tiles(b.mesh, b.ties);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const auto block = static_cast<std::size_t>(b.tiling.block(all[k]));
+    const long nodes = b.layout.blocks[block].nodes, bore = static_cast<long>(lines.bore[block].size()),
+               inner = b.tiling.tiles[all[k].end_tile - 1].end - b.tiling.border_plane(all[k]) - 1;
+    const long moments = gives_moments ? lines.slaves[block] * moment_numbers(all[k]) : 0;
+    given[all[k].owner] += static_cast<double>(6 * nodes + 3 * bore * inner + given_numbers(gifts[k]) + moments);
+  }
+  for (std::size_t r = 0; r < kept.size(); ++r)
+    for (std::size_t block = 0; block < lines.lines.size(); ++block)
+      for (int n : lines.lines[block])
+        for (const StationRange& at : reaches[r].values[block][n]) kept[r] += at.end - at.begin;
+}
 
 }  // namespace
 
 RankNeed rank_need(const Model& model, int ranks) {
   RankNeed need;
-  std::vector<Piece> pieces;
+  const Skeleton bodies[] = {Skeleton(model.rail), Skeleton(model.wheel)};
   std::vector<long> work;
-  double all_lines = 0;
-  const SweptBody* const bodies[] = {&model.rail, &model.wheel};
-  for (std::size_t k = 0; k < 2; ++k) {
-    const std::vector<int> lines = line_counts(*bodies[k]);
-    const Tiling tiling = tiling_of(*bodies[k], layout_of(*bodies[k]));
-    for (const Tile& t : tiling.tiles) {
-      const Section& section = bodies[k]->blocks[t.block].section;
-      pieces.push_back({t, k, static_cast<long>(section.nodes.size()), lines[t.block]});
-      work.push_back(static_cast<long>(section.quads.size()) * (t.end - t.first));
-    }
-    for (std::size_t b = 0; b < lines.size(); ++b) all_lines += lines[b] * bodies[k]->blocks[b].stations.nodes();
+  for (const Skeleton& b : bodies) {
+    const std::vector<long> of_body = tile_work(b.mesh, b.tiling);
+    work.insert(work.end(), of_body.begin(), of_body.end());
   }
-  need.tiles = static_cast<int>(pieces.size());
+  need.tiles = static_cast<int>(work.size());
   need.ranks = std::min(ranks, need.tiles);
-  need.lines = all_lines / static_cast<double>(model.rail.nodes() + model.wheel.nodes());
+  const double nodes = static_cast<double>(model.rail.nodes() + model.wheel.nodes());
+  for (const Skeleton& b : bodies) need.lines += line_nodes(b) / nodes;
+  need.kept = need.lines;
+  if (need.ranks == 1) return need;
   const std::vector<int> owner = cut_evenly(work, need.ranks);
-  std::vector<double> elements(static_cast<std::size_t>(need.ranks)), given(elements.size(), 2);
-  for (std::size_t p = 0; p < pieces.size(); ++p) {
-    const Piece& at = pieces[p];
-    const bool anew = p == 0 || owner[p] != owner[p - 1] || at.body != pieces[p - 1].body ||
-                      at.tile.block != pieces[p - 1].tile.block;
-    const auto r = static_cast<std::size_t>(owner[p]);
-    elements[r] += static_cast<double>(work[p]);
-    // lines without the plane in front of a stretch, and the forces on either side of its two border planes
-    given[r] += 3.0 * static_cast<double>(at.lines * (at.tile.end - at.tile.first - (anew ? 1 : 0)) +
-                                          (anew ? 2 * at.nodes : 0));
-  }
-  need.largest_share =
-      *std::max_element(elements.begin(), elements.end()) / std::accumulate(elements.begin(), elements.end(), 0.0);
-  if (need.ranks > 1)
-    need.bytes = 8 * (std::accumulate(given.begin(), given.end(), 0.0) - *std::min_element(given.begin(), given.end()));
+  std::vector<double> share(static_cast<std::size_t>(need.ranks)), given(share.size(), 2), kept(share.size());
+  for (std::size_t p = 0; p < work.size(); ++p) share[owner[p]] += static_cast<double>(work[p]);
+  const ContactWindow window(model, model.rail, model.wheel);
+  const double half_width = window.half_length + window.stride;
+  const auto rail_tiles = static_cast<std::ptrdiff_t>(bodies[0].tiling.tiles.size());
+  const TileCut rail{0, {owner.begin(), owner.begin() + rail_tiles}},
+      wheel{0, {owner.begin() + rail_tiles, owner.end()}};
+  add_lines(bodies[0], rail, window.rail_start, half_width, given, kept);
+  add_lines(bodies[1], wheel, 0, half_width / window.radius, given, kept);
+  const auto largest = [](const std::vector<double>& of) { return *std::max_element(of.begin(), of.end()); };
+  const auto sum = [](const std::vector<double>& of) { return std::accumulate(of.begin(), of.end(), 0.0); };
+  need.largest_share = largest(share) / sum(share);
+  need.kept = largest(kept) / nodes;
+  need.bytes = 8 * (sum(given) - *std::min_element(given.begin(), given.end()));
   return need;
 }
 
 double relative_step_time(const RankNeed& need, double step, const RankNetwork& network) {
   if (need.ranks == 1) return 1;
-  const double own = std::min(1.0, kMeasuredOwn * need.lines / kMeasuredLines);
+  const double own = std::min(1.0, kContact * need.lines + kOwnLines * need.kept);
   const double network_time = network.latency * std::ceil(std::log2(need.ranks)) + need.bytes / network.bandwidth;
   return own + (1 - own) * need.largest_share + network_time / step;
 }

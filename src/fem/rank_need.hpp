@@ -2,11 +2,12 @@
 // What several ranks would do of one run (fem/rank_exchange.hpp), counted from the meshes alone, and the time that a
 // step of theirs takes by a model of it:
 //
-//   T(n)/T(1) = r + (1 - r) s_n + (l ceil(log2 n) + B_n/b)/T(1)
+//   T(n)/T(1) = r_n + (1 - r_n) s_n + (l ceil(log2 n) + B_n/b)/T(1),   r_n = c L + o K_n
 //
-// s_n: share of the elements that the rank with most of them evaluates; B_n: bytes that a rank receives; l, b: latency
-// and bandwidth of the network; r: share of T(1) that every rank spends for itself, with copies into and out of
-// messages, measured for one mesh (docs/ranks.md) and taken in proportion to the lines' share of the nodes.
+// s_n: share of the work of the rank that has most; B_n: bytes that a rank receives; l, b: latency and bandwidth of the
+// network; r_n: share of T(1) that a rank spends on what others do too: the contact, in proportion to the share L of
+// the nodes that are on lines, and the lines that it keeps, in proportion to their share K_n, with copies into and out
+// of messages. c and o are measured for one mesh (docs/ranks.md).
 #include "model/model.hpp"
 
 namespace railstrata {
@@ -14,8 +15,9 @@ namespace railstrata {
 struct RankNeed {
   int ranks = 1;
   int tiles = 0;             ///< pieces that the mesh can be cut into: the most ranks
-  double largest_share = 1;  ///< of the elements
-  double lines = 0;          ///< share of the nodes that every rank updates
+  double largest_share = 1;  ///< of the work (body/tile_cut.hpp)
+  double lines = 0;          ///< share of the nodes that are on lines
+  double kept = 0;           ///< share of the nodes that are on lines and kept by the rank that keeps most of them
   double bytes = 0;          ///< that a rank receives in a usual step, the most of all ranks
 };
 

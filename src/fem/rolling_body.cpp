@@ -50,7 +50,13 @@ UpdateSchedule schedule_of(const Body& body, const ContactSurface& surface, cons
   each_node([&](int b, int n) {
     if (out.at_once[b][n]) out.bordered.push_back({b, n});
   });
-  out.waiting_sums.resize(out.waiting.size());
+  std::size_t sums = 0;
+  for (const SectionNode& n : out.waiting) {
+    out.first_waiting_sum.push_back(sums);
+    sums += static_cast<std::size_t>(body.tiling.first_tile[n.block + 1] - body.tiling.first_tile[n.block]);
+  }
+  out.waiting_sums.resize(sums);
+  out.tile_sums.resize(body.tiling.tiles.size());
   out.border_sums.resize(out.bordered.size());
   return out;
 }

@@ -18,11 +18,14 @@ struct UpdateSchedule {
   std::vector<SectionNode> waiting;   ///< free nodes on the running surface, at ties, with added mass or local steps
   std::vector<SectionNode> bordered;  ///< nodes updated at once, but for the ends of open blocks
   int chains_wanted = 0;              ///< what chains were made for
-  std::vector<Chain> chains;  ///< enough to keep the threads busy; single tiles where sums are wanted, whose bits are
-                              ///< not to depend on the threads. Of other ranks' tiles too
+  std::vector<Chain> chains;  ///< enough to keep the threads busy; where sums are wanted this rank's are single tiles,
+                              ///< so that the bits do not depend on the threads. Those of other ranks: their stretches
   std::vector<int> own;       ///< those of the chains that this rank works through
   std::vector<UpdateSums> chain_sums, plane_sums;  ///< by chain; of the planes in front of them
-  std::vector<UpdateSums> waiting_sums, border_sums;
+  std::vector<UpdateSums> waiting_sums;            ///< by waiting node and tile of its block
+  std::vector<std::size_t> first_waiting_sum;      ///< by waiting node
+  std::vector<UpdateSums> border_sums;
+  std::vector<UpdateSums> tile_sums;  ///< by tile: all nodes in its stations, but for those in border_sums
 };
 
 struct RollingBody {
@@ -36,6 +39,7 @@ struct RollingBody {
   ReferenceFrame frame;
   Traversal elements;
   UpdateSchedule schedule;
+  TiedPart* part = nullptr;  ///< of the lines that this step has; none: whole lines
   MeanMotion mean;
   std::vector<std::vector<double>> cos_node, sin_node;  ///< of the station angles, per block; 1 and 0 if extruded
   double free_mass = 0, free_inertia = 0;               ///< kg, kg m², of the free nodes of a revolved body

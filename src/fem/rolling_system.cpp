@@ -184,7 +184,8 @@ RollingSystem::RollingSystem(const Model& m)
   surfaces[kWheel].yaw = {std::cos(yaw_angle), std::sin(yaw_angle)};
 }
 
-void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose) const {
+void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose,
+                                      const std::array<TiedPart*, 2>& parts) const {
   const Rotation<double> turn = rotation_by(pose.psi);
   for (const BoreNode& n : axle.bore) {
     const auto shift = rigid_displacement({pose.x, pose.z}, turn, {n.arm.x, n.arm.z});
@@ -192,7 +193,8 @@ void RollingSystem::apply_constraints(Field& u_rail, Field& u_wheel, const AxleP
     u_wheel[n.index + n.stride] = pose.y;
     u_wheel[n.index + 2 * n.stride] = shift.z;
   }
-  const TiedField tied[] = {{rail().ties, u_rail}, {wheel().ties, u_wheel, turn}};
+  const TiedField tied[] = {{.ties = rail().ties, .values = u_rail, .part = parts[kRail]},
+                            {.ties = wheel().ties, .values = u_wheel, .turn = turn, .part = parts[kWheel]}};
   spread_ties(tied);
 }
 

@@ -91,8 +91,10 @@ struct RollingSystem {
   const ContactSurface& rail_surface() const { return surface(BodyId::rail); }
   const ContactSurface& wheel_surface() const { return surface(BodyId::wheel); }
 
-  /// Moves the bore's nodes with the axle and the slaves with their masters; u_wheel and pose in the same axes.
-  void apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose) const;
+  /// Moves the bore's nodes with the axle and the slaves with their masters; u_wheel and pose in the same axes. parts:
+  /// of the bodies' lines; none: whole.
+  void apply_constraints(Field& u_rail, Field& u_wheel, const AxlePose& pose,
+                         const std::array<TiedPart*, 2>& parts = {}) const;
 };
 
 }  // namespace railstrata

@@ -46,7 +46,7 @@ Stepper::Stepper(const RollingSystem& system, const Ranks& ranks)
       plan_(system),
       bodies_(rolling_bodies(system, plan_, ranks)),
       contact_(system.rail_surface(), system.wheel_surface(), system.options.contact, search_window(system)) {
-  if (!ranks.alone()) exchange_.emplace(ranks, bodies_);
+  if (!ranks.alone()) exchange_.emplace(ranks, system.model, bodies_);
 }
 
 Stepper::Stepper(const RollingSystem& system, const PreloadResult& preload, const Ranks& ranks)
@@ -149,7 +149,7 @@ void Stepper::step() {
   if (state_.step % kExtendInterval == 0) extend_hot_elements(turned);
   if (exchange_) {
     exchange_->mark(state_.time, state_.axle.z);
-    exchange_->prepare(bodies_, state_.bodies, scope);
+    exchange_->prepare(bodies_, state_.bodies, scope, pose);
   }
   evaluate_elements(bodies_, state_.bodies, turned, scope, exchange());
   scope.lap(StepPart::planes);
@@ -173,7 +173,7 @@ void Stepper::step() {
 
   update_waiting_nodes(bodies_, state_.bodies, scope);
   scope.lap(StepPart::waiting);
-  sums_ = update_sums(bodies_, scope);
+  sums_ = update_sums(bodies_, scope, exchange());
   book_update(scope);
   const double axle_kinetic = advance_axle(axle_law(sys_, axle_rest_z_), loads, axle_drive(), scope.dt,
                                            scope.damping_rate, state_.axle, state_.groups, balance_);
@@ -182,7 +182,8 @@ void Stepper::step() {
     recorded_ = halfway(before, balance_);
   }
   advance_clock();
-  sys_.apply_constraints(state_.bodies[kRail].u, state_.bodies[kWheel].u, pose_in_frame());
+  sys_.apply_constraints(state_.bodies[kRail].u, state_.bodies[kWheel].u, pose_in_frame(),
+                         {bodies_[kRail].part, bodies_[kWheel].part});
   scope.lap(StepPart::constraints);
   want_energy_ = false;
 }
@@ -221,8 +222,11 @@ void Stepper::book_stored_energy(const std::array<double, 2>& turned) {
 
 // Forces on slaves go to their masters; returns what the offsets hand to the wheel's rotation.
 double Stepper::reduce_ties(const std::array<double, 2>& turned) {
-  const TiedField tied[] = {{sys_.rail().ties, state_.bodies[kRail].f},
-                            {sys_.wheel().ties, state_.bodies[kWheel].f, rotation_by(turned[kWheel])}};
+  const TiedField tied[] = {{.ties = sys_.rail().ties, .values = state_.bodies[kRail].f, .part = bodies_[kRail].part},
+                            {.ties = sys_.wheel().ties,
+                             .values = state_.bodies[kWheel].f,
+                             .turn = rotation_by(turned[kWheel]),
+                             .part = bodies_[kWheel].part}};
   return collect_ties(tied);
 }
 
