@@ -17,7 +17,7 @@ struct RunEstimate {
   long steps = 0;  ///< over the path; 0 for a static case
   double seconds =
       0;  ///< of explicit rolling: measured force evaluations on this machine, these threads; the preload comes on top
-  double memory_bytes = 0;  ///< in use with both bodies ready for computing
+  double memory_bytes = 0;  ///< at the peak: of this process with both bodies ready, and what a run takes beyond them
   /// Of several processes with as many threads each, on machines like this one in a network like that of RankNetwork.
   struct OnRanks {
     RankNeed need;
