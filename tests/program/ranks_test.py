@@ -137,7 +137,7 @@ class Ranks(FromOutside):
         rc, text, err = railstrata("check", case)
         self.assertIn(rc, (0, 1), err)
         for count in (2, 4):
-            self.assertRegex(text, rf"on {count} ranks     about .*; one has [0-9]+ % of the elements and gets")
+            self.assertRegex(text, rf"on {count} ranks     about .*; one has [0-9]+ % of the work and gets")
         rc, text, err = railstrata("check", case, "--json")
         found = json.loads(text)
         for count, ranks in zip((2, 4), found["on_ranks"]):
