@@ -3,7 +3,6 @@
 // since other programs may have the cores.
 //
 // usage: mpirun -n 2 rank_messages PLUG_IN TIMES BYTES...
-#include <dlfcn.h>
 #include <fmt/format.h>
 #include <mpi.h>
 
@@ -11,7 +10,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "core/rank_plug_in.hpp"
+#include "bench/plug_in_ranks.hpp"
 
 namespace {
 
@@ -48,11 +47,8 @@ void ping_pong(int rank, std::vector<double>& message) {
 }
 
 RailstrataRanks joined(const char* plug_in) {
-  void* const library = dlopen(plug_in, RTLD_NOW | RTLD_GLOBAL);
-  void* const symbol = library == nullptr ? nullptr : dlsym(library, railstrata::kJoinSymbol);
   RailstrataRanks out{};
-  const auto join = reinterpret_cast<RailstrataJoin>(symbol);
-  if (join == nullptr || join(&out) != nullptr || out.count != 2) {
+  if (!railstrata::join_ranks(plug_in, out) || out.count != 2) {
     fmt::print(stderr, "start two ranks, and name build/railstrata_mpi.so\n");
     std::exit(1);
   }

@@ -2,7 +2,6 @@
 // started, or by one with OMP_NUM_THREADS threads. Medians over the steps in us, a column a rank.
 //
 // usage: [mpirun -n N] rank_steps PLUG_IN CASE STEPS [KEY=VALUE...], as `railstrata run --set`
-#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,8 +9,8 @@
 #include <cstdlib>
 #include <vector>
 
+#include "bench/plug_in_ranks.hpp"
 #include "case/case_file.hpp"
-#include "core/rank_plug_in.hpp"
 #include "fem/step_laps.hpp"
 #include "fem/stepper.hpp"
 
@@ -38,16 +37,6 @@ struct Timed {
   Ranks ranks() { return {joined.count, joined.rank, this, gather}; }
 };
 
-void join(const char* plug_in, RailstrataRanks& out) {
-  if (std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr) return;
-  void* const library = dlopen(plug_in, RTLD_NOW | RTLD_GLOBAL);
-  void* const symbol = library == nullptr ? nullptr : dlsym(library, kJoinSymbol);
-  const auto joined = reinterpret_cast<RailstrataJoin>(symbol);
-  if (joined != nullptr && joined(&out) == nullptr) return;
-  fmt::print(stderr, "name build/railstrata_mpi.so\n");
-  std::exit(1);
-}
-
 double median(std::vector<double>& values) {
   std::sort(values.begin(), values.end());
   return values[values.size() / 2];
@@ -61,7 +50,10 @@ int main(int argc, char** argv) {
     return 2;
   }
   Timed timed;
-  join(argv[1], timed.joined);
+  if (std::getenv("OMPI_COMM_WORLD_SIZE") != nullptr && !join_ranks(argv[1], timed.joined)) {
+    fmt::print(stderr, "name build/railstrata_mpi.so\n");
+    return 1;
+  }
   const Ranks ranks = timed.ranks();
   const LoadedCase loaded = load_case(argv[2], {argv + 4, argv + argc});
   const int steps = std::atoi(argv[3]);
