@@ -17,7 +17,6 @@
 #include <climits>
 #include <cstdio>
 #include <ctime>
-#include <numeric>
 #include <string>
 #include <vector>
 
@@ -151,15 +150,13 @@ class SharedLists {
 SharedLists shared_lists;
 
 const char* gather(double* all, const std::ptrdiff_t* sizes) {
-  if (const std::ptrdiff_t total = std::accumulate(sizes, sizes + sizes_in_list.size(), std::ptrdiff_t{0});
-      shared_lists.hold(total))
-    return shared_lists.gather(all, sizes);
   std::ptrdiff_t total = 0;
   for (std::size_t r = 0; r < sizes_in_list.size(); ++r) {
     sizes_in_list[r] = static_cast<int>(sizes[r]);
     places_in_list[r] = static_cast<int>(total);
     total += sizes[r];
   }
+  if (shared_lists.hold(total)) return shared_lists.gather(all, sizes);
   if (total > INT_MAX) return fault("the bodies are too large for one message between the ranks");
   MPI_Request request = MPI_REQUEST_NULL;
   const int code = MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, all, sizes_in_list.data(), places_in_list.data(),
