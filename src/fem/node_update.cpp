@@ -1,5 +1,7 @@
 #include "fem/node_update.hpp"
 
+#include <algorithm>
+
 #include "core/apart_loop.hpp"
 #include "core/parallel.hpp"
 #include "core/staged_loop.hpp"
