@@ -7,13 +7,9 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
@@ -27,6 +23,7 @@
 #include "app/mpi_ranks.hpp"
 #include "app/processors.hpp"
 #include "app/reference_commands.hpp"
+#include "app/surroundings.hpp"
 #include "app/usage.hpp"
 #include "core/engine.hpp"
 #include "core/nearest_word.hpp"
@@ -530,15 +527,6 @@ void require_utf8(const std::vector<std::string>& words) {
   }
 }
 
-/// A launcher may have closed them, and the next file opened would get their number: a table would get the messages.
-/// Output that is not there stays an error.
-void occupy_standard_streams() {
-  for (const auto& [stream, flags] :
-       {std::pair{STDIN_FILENO, O_RDONLY}, std::pair{STDOUT_FILENO, O_RDONLY}, std::pair{STDERR_FILENO, O_WRONLY}})
-    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
-      static_cast<void>(::open("/dev/null", flags));  // takes the lowest number that is free
-}
-
 /// For messages, which must not fail in their turn.
 void say(FILE* stream, const std::string& text) {
   std::fputs(text.c_str(), stream);
@@ -617,10 +605,7 @@ int parse_and_run(const std::vector<std::string>& given, CommandOptions& options
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
-  occupy_standard_streams();
-  std::signal(SIGUSR1, SIG_IGN);  // a wish for a checkpoint where there is none to make
-  for (const int limit : {SIGXFSZ, SIGPIPE})
-    std::signal(limit, SIG_IGN);  // a limit on file sizes, a reader that is gone: errors of the write, with a message
+  settle_in();
   CommandOptions options;
   options.command_line.assign(argv, argv + argc);
   try {
