@@ -490,9 +490,9 @@ void check_command_word(const std::vector<std::string>& words) {
     if (words[i].starts_with("-")) continue;
     const std::vector<std::string> names = command_names();
     if (std::find(names.begin(), names.end(), words[i]) != names.end()) return;
-    const std::string near = nearest_word(words[i], names);
+    const std::string meant = nearest_word(words[i], names);
     throw CaseError(fmt::format("unknown command \"{}\"", words[i]),
-                    fmt::format("{}commands: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
+                    fmt::format("{}commands: {}", meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
                                 fmt::join(names, ", ")));
   }
 }
