@@ -15,7 +15,8 @@ function(railstrata_dll target room header)
   list(JOIN names "\n" names)
   set(exports ${CMAKE_BINARY_DIR}/generated/${target}.def)
   file(CONFIGURE OUTPUT ${exports} CONTENT "EXPORTS\n${names}\n" @ONLY)
-  add_library(${target} SHARED $<TARGET_OBJECTS:room_${room}> ${exports})
+  add_library(${target} SHARED $<TARGET_OBJECTS:room_${room}> ${CMAKE_SOURCE_DIR}/src/core/windows/stay_loaded.cpp
+    ${exports})
   target_link_libraries(${target} PRIVATE room_${room})
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX PREFIX "" IMPORT_PREFIX "" IMPORT_SUFFIX ".lib")
 endfunction()
@@ -37,7 +38,6 @@ foreach(package libfmt-dev libspdlog-dev libcli11-dev nlohmann-json3-dev libtoml
 endforeach()
 file(WRITE ${licences} "${text}")
 
-set(CMAKE_INSTALL_SYSTEM_RUNTIME_LIBS_SKIP ON)
 install(TARGETS railstrata railstrata_library RUNTIME DESTINATION . ARCHIVE DESTINATION .)
 install(TARGETS contact_addon RUNTIME DESTINATION contact)
 install(FILES ${c_header} ${contact_header} DESTINATION include/railstrata)

@@ -51,9 +51,9 @@ CaseError left_over(const CLI::App& app, const CLI::App* sub, const std::string&
                     command));
   const std::vector<std::string> names = option_names(app, sub);
   const std::string option = word.substr(0, word.find('=')), meant = nearest_word(option, names);
-  return CaseError(
-      fmt::format("{} has no option {}", command, option),
-      fmt::format("{}options: {}", meant.empty() ? "" : fmt::format("did you mean {}? ", meant), fmt::join(names, ", ")));
+  return CaseError(fmt::format("{} has no option {}", command, option),
+                   fmt::format("{}options: {}", meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
+                               fmt::join(names, ", ")));
 }
 
 }  // namespace

@@ -13,6 +13,9 @@ namespace railstrata {
 /// Texts of the file itself: the case, the program, the measured error of interpolation.
 using TableRemarks = std::vector<std::pair<std::string, std::string>>;
 
+/// Throws EnvironmentError where the program has no HDF5.
+void require_table_files();
+
 /// Writes the whole file (io/output_file). The same table has the same bytes. Throws EnvironmentError.
 void write_force_table(const std::filesystem::path& file, const ForceTable& table, const TableRemarks& remarks);
 

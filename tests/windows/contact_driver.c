@@ -13,10 +13,12 @@
 #include <windows.h>
 static void* opened(const char* file) { return (void*)LoadLibraryA(file); }
 static void* found(void* library, const char* name) { return (void*)GetProcAddress((HMODULE)library, name); }
+static void closed(void* library) { FreeLibrary((HMODULE)library); }
 #else
 #include <dlfcn.h>
 static void* opened(const char* file) { return dlopen(file, RTLD_NOW); }
 static void* found(void* library, const char* name) { return dlsym(library, name); }
+static void closed(void* library) { dlclose(library); }
 #endif
 
 static void* library;
@@ -107,5 +109,6 @@ int main(int argc, char** argv) {
     print_results(error);
   }
   CALL(cntc_finalizelast)();
+  closed(library);
   return 0;
 }
