@@ -3,7 +3,7 @@
 #   RAILSTRATA_CUDA           AUTO, ON (an error says what is missing), OFF
 #   RAILSTRATA_NVCC           the compiler
 #   RAILSTRATA_CUDA_ARCHITECTURES   e.g. "80;90"; the last one's intermediate code is kept for newer cards
-set(RAILSTRATA_CUDA AUTO CACHE STRING "Build for NVIDIA cards: AUTO (if nvcc is found and works), ON, OFF")
+set(RAILSTRATA_CUDA OFF CACHE STRING "Build for NVIDIA cards: AUTO (if nvcc is found and works), ON, OFF")
 set_property(CACHE RAILSTRATA_CUDA PROPERTY STRINGS AUTO ON OFF)
 set(RAILSTRATA_CUDA_ARCHITECTURES "80;90" CACHE STRING "Compute capabilities that kernels are compiled for")
 find_program(RAILSTRATA_NVCC nvcc HINTS /usr/local/cuda/bin ENV CUDA_HOME ENV CUDA_PATH PATH_SUFFIXES bin)

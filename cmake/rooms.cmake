@@ -45,6 +45,24 @@ function(railstrata_flags target)
   endif()
 endfunction()
 
+# A light build. Three quarters of what a source file reads are headers of others, and most of what it compiles are their
+# templates, again in every file: the sources of a room are compiled together (RAILSTRATA_UNITY), so many at a time; a
+# source with compile options of its own stays alone. Rooms that compute nothing are compiled with -O1.
+set(ROOMS_AT_ONCE 12)
+set(ROOMS_THAT_COMPUTE_NOTHING case io export report runs study explore app)
+
+# railstrata_light(TARGET NAME): these rules for the sources of a room or of its tests.
+function(railstrata_light target name)
+  if(RAILSTRATA_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${ROOMS_AT_ONCE})
+    # g++ takes the unnamed namespace of a source for that of a header where another file includes it
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+  if(name IN_LIST ROOMS_THAT_COMPUTE_NOTHING AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+endfunction()
+
 # Third-party libraries each room links. Every room may use fmt; the others stand where they are used.
 set(ROOM_LIBS_core fmt::fmt OpenMP::OpenMP_CXX)
 set(ROOM_LIBS_material Eigen3::Eigen)
@@ -120,6 +138,7 @@ function(railstrata_rooms variant wide_vectors)
         add_library(${room} STATIC ${sources})
         set_target_properties(${room} PROPERTIES WIDE_VECTORS ${wide_vectors})
         target_link_libraries(${room} PUBLIC railstrata_flags${suffix} ${below} ${ROOM_LIBS_${name}})
+        railstrata_light(${room} ${name})
         if(name STREQUAL "device" AND RAILSTRATA_WITH_CUDA)
           add_dependencies(${room} card_object)
           target_link_libraries(${room} PRIVATE ${RAILSTRATA_CUDART} Threads::Threads rt ${CMAKE_DL_LIBS})

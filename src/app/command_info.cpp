@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/version.h>
+#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "damage/grades.hpp"
@@ -47,8 +49,6 @@ std::string card() {
   }
 }
 
-}  // namespace
-
 ExitCode command_info(const CommandOptions& options) {
   const BuildInfo& build = build_info();
   nlohmann::ordered_json libraries;
@@ -73,5 +73,11 @@ ExitCode command_info(const CommandOptions& options) {
     print_text(info);
   return ExitCode::ok;
 }
+
+}  // namespace
+
+const Command kInfoCommand{"info", "Built-in profiles, compiler, instruction set, libraries, threads",
+                           "Examples:\n  railstrata info\n  railstrata info --json\n",
+                           [](CLI::App&, CommandOptions&) {}, command_info};
 
 }  // namespace railstrata

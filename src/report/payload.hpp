@@ -10,4 +10,7 @@ namespace railstrata {
 /// number and thinned to 300 points a side.
 nlohmann::ordered_json report_payload(const Report& report);
 
+/// Six digits of a number; null for what is not finite.
+nlohmann::ordered_json short_number(double v);
+
 }  // namespace railstrata
