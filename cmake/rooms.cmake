@@ -48,18 +48,34 @@ endfunction()
 # A light build. Three quarters of what a source file reads are headers of others, and most of what it compiles are their
 # templates, again in every file: the sources of a room are compiled together (RAILSTRATA_UNITY), so many at a time; a
 # source with compile options of its own stays alone. Rooms that compute nothing are compiled with -O1.
-set(ROOMS_AT_ONCE 12)
+set(SOURCES_AT_ONCE 24)
 set(ROOMS_THAT_COMPUTE_NOTHING case io export report runs study explore app)
 
 # railstrata_light(TARGET NAME): these rules for the sources of a room or of its tests.
 function(railstrata_light target name)
   if(RAILSTRATA_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${ROOMS_AT_ONCE})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${SOURCES_AT_ONCE})
     # g++ takes the unnamed namespace of a source for that of a header where another file includes it
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
   if(name IN_LIST ROOMS_THAT_COMPUTE_NOTHING AND CMAKE_BUILD_TYPE STREQUAL "Release")
     target_compile_options(${target} PRIVATE -O1)
+  endif()
+endfunction()
+
+# railstrata_light_test(TARGET): the same for a program of tests. Their sources stay apart, since each says its names
+# anew; they read the headers that most of them share compiled, once for all programs.
+function(railstrata_light_test target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+  get_property(first GLOBAL PROPERTY RAILSTRATA_FIRST_TEST)
+  if(first)
+    target_precompile_headers(${target} REUSE_FROM ${first})
+  else()
+    set_property(GLOBAL PROPERTY RAILSTRATA_FIRST_TEST ${target})
+    target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <fmt/format.h> <algorithm> <array> <cmath> <filesystem>
+      <fstream> <functional> <limits> <map> <numbers> <optional> <random> <sstream> <string> <vector>)
   endif()
 endfunction()
 

@@ -24,6 +24,10 @@ void print_text(const nlohmann::ordered_json& info) {
   for (const auto& [key, value] : info.items()) {
     std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     if (value.is_array()) text = fmt::format("{}", fmt::join(value.get<std::vector<std::string>>(), ", "));
+    if (key == "parts") {
+      for (const auto& [name, state] : value.items()) fmt::print("{:<16} {}\n", name, state.get<std::string>());
+      continue;
+    }
     if (value.is_object()) {
       text.clear();
       for (const auto& [name, version] : value.items())
@@ -54,6 +58,8 @@ ExitCode command_info(const CommandOptions& options) {
   nlohmann::ordered_json libraries;
   for (const auto& [name, version] : library_versions()) libraries[name] = version;
   libraries["spdlog"] = fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH);
+  nlohmann::ordered_json parts;
+  for (const auto& [name, state] : build.parts) parts[name] = state;
   const nlohmann::ordered_json info{{"version", version_text()},
                                     {"rail_profiles", builtin_profile_names(ProfileKind::rail)},
                                     {"wheel_profiles", builtin_profile_names(ProfileKind::wheel)},
@@ -66,6 +72,7 @@ ExitCode command_info(const CommandOptions& options) {
                                     {"cores", std::thread::hardware_concurrency()},
                                     {"threads", max_threads()},
                                     {"card", card()},
+                                    {"parts", parts},
                                     {"libraries", libraries}};
   if (options.json)
     fmt::print("{}\n", info.dump(2));

@@ -143,7 +143,7 @@ ElementArrays<Real> element_arrays(Device& device, const Body& body, const Stati
       line[n].resize(end, Real{0});
     }
   }
-  return {on<HexReference<Real, MaterialParameters<Real>>>(device, references),
+  return {on_device<HexReference<Real, MaterialParameters<Real>>>(device, references),
           on_device<Real>(device, hourglass),
           on_device<Real>(device, eigenstress),
           on_device<Real>(device, line[0]),
@@ -338,7 +338,7 @@ BodyTables::BodyTables(Device& device, const RollingBody& b)
   for (const QuadRecord& q : records.quads) elements += q.elements;
   quads = on_device<QuadRecord>(device, records.quads);
   nodes = on_device<NodeRecord>(device, records.nodes);
-  corners = on<std::ptrdiff_t>(device, records.corners);
+  corners = on_device<std::ptrdiff_t>(device, records.corners);
   quad_pieces = on_device<Piece>(device, device::quad_pieces(records));
   node_pieces = on_device<Piece>(device, device::node_pieces(records));
   waiting_pieces = on_device<Piece>(device, device::waiting_pieces(b, records));

@@ -30,3 +30,5 @@ add_test(NAME versions COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/instal
   $<TARGET_FILE:railstrata> ${CMAKE_SOURCE_DIR})
 add_test(NAME front_door COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/install/front_door_test.py
   ${CMAKE_SOURCE_DIR})
+add_test(NAME install:optional_parts COMMAND /usr/bin/python3
+  ${CMAKE_SOURCE_DIR}/tests/install/optional_parts_test.py ${CMAKE_SOURCE_DIR})
