@@ -43,7 +43,7 @@ def run(*command, cwd=ROOT):
 def configure():
     """A compilation database of clang++, so that its flags are those that clang-tidy knows."""
     code, out, err = run("cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                         "-DCMAKE_CXX_COMPILER=clang++", "-DRAILSTRATA_TESTS=OFF")
+                         "-DCMAKE_CXX_COMPILER=clang++", "-DRAILSTRATA_TESTS=OFF", "-DRAILSTRATA_UNITY=OFF")
     if code:
         sys.exit(f"lint: configuring failed\n{out}{err}")
 

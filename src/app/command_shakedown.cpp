@@ -1,7 +1,11 @@
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "post/row_strength.hpp"
 

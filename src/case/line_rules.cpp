@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "case/case_spec.hpp"
+
 namespace railstrata {
 namespace {
 

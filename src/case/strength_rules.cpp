@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "case/case_spec.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
 #include "damage/grades.hpp"

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <utility>
+#include <nlohmann/json.hpp>
 
 #include "core/si_prefix.hpp"
 #include "io/csv.hpp"

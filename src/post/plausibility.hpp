@@ -2,7 +2,7 @@
 // Results that were computed soundly and yet say that the case leaves what its model can mean.
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "model/surroundings.hpp"
 #include "post/summary.hpp"
 

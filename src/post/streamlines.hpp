@@ -3,7 +3,7 @@
 // across the rail, from the contact field of either engine.
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "contact/contact_field.hpp"
 #include "damage/wear_indices.hpp"
 #include "post/summary.hpp"

@@ -1,6 +1,6 @@
 #pragma once
 // A report as JSON for the script of its page.
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "report/report.hpp"
 

@@ -9,13 +9,12 @@ mmdebstrap and an archive of Debian; skipped (77) without. --packages: those of 
 all processors); --tree: an existing minimal system, kept as it is left.
 """
 import argparse
-import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
-import time
+
+from debian_tree import Tree, done, made, missing
 
 ARGUMENTS = argparse.ArgumentParser(description=__doc__.split("\n")[0])
 for name in ("build", "source", "folder"):
@@ -24,30 +23,6 @@ ARGUMENTS.add_argument("--packages", type=pathlib.Path)
 ARGUMENTS.add_argument("--tree", type=pathlib.Path)
 NAMES = ["railstrata", r"librailstrata[\d.]+", "librailstrata-dev", "python3-railstrata"]
 PLUG_IN = "railstrata-mpi"
-
-
-def done(*words, **options):
-    begun = time.monotonic()
-    out = subprocess.run([str(w) for w in words], capture_output=True, text=True, timeout=3600, **options)
-    print(f"{time.monotonic() - begun:7.1f} s  {' '.join(map(str, words))[:150]}", flush=True)
-    if out.returncode:
-        sys.exit(f"exit code {out.returncode}\n{out.stdout[-4000:]}{out.stderr[-4000:]}")
-    return out.stdout
-
-
-class Tree:
-    """A system in a folder; commands in it have its /proc and nothing of this session's environment."""
-
-    def __init__(self, folder):
-        self.folder = folder
-
-    def run(self, command):
-        return done("unshare", "--mount", "--pid", "--fork", "sh", "-ec",
-                    'mount -t proc proc "$0/proc"; exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin '
-                    'HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive sh -ec "$1"', self.folder, command)
-
-    def apt(self, *names):
-        return self.run("apt-get install -y -qq --no-install-recommends " + " ".join(names))
 
 
 def packed(given):
@@ -60,9 +35,7 @@ def packed(given):
 
 
 def made_tree(given):
-    if not given.tree:
-        done("mmdebstrap", "--mode=root", "--variant=minbase", "bookworm", given.folder / "tree")
-    return Tree(given.tree or given.folder / "tree")
+    return Tree(given.tree) if given.tree else made(given.folder / "tree")
 
 
 def library_first(tree, debs):
@@ -117,9 +90,8 @@ def taken_off(tree):
 
 def main():
     given = ARGUMENTS.parse_args()
-    missing = [tool for tool in ("mmdebstrap", "unshare", "cpack", "dpkg-shlibdeps") if not shutil.which(tool)]
-    if os.geteuid() != 0 or missing:
-        print(f"skipped: needs root{', ' + ', '.join(missing) if missing else ''}")
+    if lacking := missing("cpack", "dpkg-shlibdeps"):
+        print(f"skipped: needs {lacking}")
         return 77
     shutil.rmtree(given.folder, ignore_errors=True)
     given.folder.mkdir(parents=True)
