@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "case/case_fwd.hpp"
+#include "core/body_id.hpp"
 #include "damage/stress_history.hpp"
 
 namespace railstrata {

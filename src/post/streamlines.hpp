@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "case/case_fwd.hpp"
+#include "case/history_spec.hpp"
 #include "contact/contact_field.hpp"
 #include "damage/wear_indices.hpp"
 #include "post/summary.hpp"
