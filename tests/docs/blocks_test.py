@@ -42,7 +42,7 @@ esac
 case $word in
   python) shift; exec /usr/bin/python3 "$@" ;;
 esac
-{binary} "$@" || test $? = 1
+{binary} "$@" || {{ code=$?; test $code = 1 || exit $code; }}
 """
 
 
@@ -62,6 +62,8 @@ def made_folder(name):
     shutil.rmtree(folder, ignore_errors=True)
     (folder / "bin").mkdir(parents=True)
     shutil.copytree(SOURCE / "cases", folder / "cases", ignore=shutil.ignore_patterns("recorded"))
+    for study in folder.glob("cases/*/study.toml"):
+        study.write_text(study.read_text().replace("[study]\n", f'[study]\ncell = "{CELL}"\n'))
     for shared in ("data", "docs"):
         (folder / shared).symlink_to(SOURCE / shared)
     sets = " ".join(f"--set '{key}={text_of(value)}'" for key, value in SHORT.items())
@@ -182,8 +184,11 @@ class Blocks(unittest.TestCase):
         for name in (name for name in chosen if found[name]):
             folder, names = made_folder(name), {"rs": rs}
             for block in (b for b in found[name] if not b.left_out):
+                begun = os.times()
                 with self.subTest(str(block)):
                     run(block, folder, names)
+                seconds = sum(now - then for now, then in zip(os.times()[:4], begun))
+                print(f"{block}: {block.language}, {seconds:.1f} s of processor time", flush=True)
             shutil.rmtree(folder)
 
     def test_few_blocks_are_left_out_and_they_say_why(self):
