@@ -31,7 +31,8 @@ def value(row, column, factor, form):
 def table(study):
     out = ["| | " + " | ".join(CASES) + " |", "|---" * (len(CASES) + 1) + "|"]
     for name, *what in ROWS:
-        cells = [f"{value(study[*case, 'fem'], *what)} ({value(study[*case, 'bem'], *what)})" for case in CASES.values()]
+        pairs = [[value(study[*case, engine], *what) for engine in ("fem", "bem")] for case in CASES.values()]
+        cells = [f"{elements} ({half_spaces})" for elements, half_spaces in pairs]
         out.append(f"| {name} | " + " | ".join(cells) + " |")
     return "\n".join(out)
 

@@ -73,7 +73,8 @@ def done(block, folder, *words):
     ran = subprocess.run(words, cwd=folder, env=environment(folder), stdin=subprocess.DEVNULL, capture_output=True,
                          text=True, timeout=600)
     if ran.returncode:
-        raise AssertionError(f"{block}: exit code {ran.returncode}\n{block.kept()}\n{(ran.stdout + ran.stderr)[-3000:]}")
+        said = (ran.stdout + ran.stderr)[-3000:]
+        raise AssertionError(f"{block}: exit code {ran.returncode}\n{block.kept()}\n{said}")
 
 
 def run_sh(block, folder):
@@ -149,7 +150,7 @@ def run(block, folder, names):
     elif block.language == "matlab":
         run_matlab(block, folder)
     elif block.language != "text":
-        raise AssertionError(f"{block}: a block of \"{block.language}\": write sh, python, …, or text for what is no code")
+        raise AssertionError(f"{block}: a block of \"{block.language}\": write sh, python, …, or text for no code")
 
 
 def all_pages():
@@ -157,7 +158,8 @@ def all_pages():
     markdown = [SOURCE / "README.md", *sorted((SOURCE / "docs").glob("*.md"))]
     modules = sorted((SOURCE / "python/railstrata").glob("*.py"))
     named = [(file.relative_to(SOURCE).as_posix(), file.read_text()) for file in (*markdown, *modules)]
-    return {name: (blocks.of_page if name.endswith(".md") else blocks.of_docstrings)(name, text) for name, text in named}
+    return {name: blocks.of_page(name, text) if name.endswith(".md") else blocks.of_docstrings(name, text)
+            for name, text in named}
 
 
 def left_out(found):
@@ -221,7 +223,8 @@ class Parts(unittest.TestCase):
         shutil.rmtree(folder)
 
     def test_examples_of_docstrings_are_found(self):
-        text = '"""Words.\n\n    import a as rs\n    rs.b()\n\nMore.\n"""\ndef f():\n    """g\n\n        y = x\n    """\n'
+        text = ('"""Words.\n\n    import a as rs\n    rs.b()\n\nMore.\n"""\n'
+                'def f():\n    """g\n\n        y = x\n    """\n')
         self.assertEqual([b.text for b in blocks.of_docstrings("m", text)], ["import a as rs\nrs.b()\n"])
 
 

@@ -5,8 +5,8 @@ usage: debian_tree_test.py BUILD_DIR SOURCE_DIR FOLDER [--packages FOLDER_WITH_D
 
 Makes a minimal system by mmdebstrap, installs the packages with what they ask for, and goes the ways of
 docs/commands.md there: the program, two of its ranks, Python, a C and a Fortran program; then takes the packages off
-again. Needs root, mmdebstrap and an archive of Debian; skipped (77) without. --packages: those of another build (build-install/packages:
-all processors); --tree: an existing minimal system, kept as it is left.
+again. Needs root, mmdebstrap and an archive of Debian; skipped (77) without. --packages: those of another build
+(build-install/packages: all processors); --tree: an existing minimal system, kept as it is left.
 """
 import argparse
 import os

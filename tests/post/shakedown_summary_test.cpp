@@ -79,7 +79,7 @@ TEST(ShakedownSummary, HalfTheCellsGiveTheSameFactors) {
         << coarse.factors.*factor << " at " << coarse.body.depth;
 }
 
-// The residual stress of one track holds shear that depth alone cannot: with slip at 0.2 by 16 % (docs/damage-verification.md).
+// The residual stress of one track holds shear that depth alone cannot: with slip at 0.2 by 16 % (docs/damage.md).
 TEST(ShakedownSummary, OneTrackLiesBetweenAnyTrafficAndTheUpperBound) {
   CaseSpec spec = frictionless();
   const Found free = shakedown_of(spec, 0.5e-3, true);
