@@ -47,7 +47,7 @@ def text_of(value):
 def environment(folder):
     return {**os.environ, "PATH": f"{folder}/bin:{os.environ['PATH']}", "MPLBACKEND": "Agg",
             "PYTHONPATH": str(BUILD / "python"), "PYTHONDONTWRITEBYTECODE": "1", "LD_LIBRARY_PATH": str(BUILD / "lib"),
-            "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+            "OMP_NUM_THREADS": "1", "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
             "OMPI_MCA_rmaps_base_oversubscribe": "1", "OMPI_MCA_btl_vader_single_copy_mechanism": "none"}
 
 
@@ -119,7 +119,7 @@ def shortened(rs):
     """The package with shorter runs and fewer passes, once for the process."""
     run, passes = rs.run, rs.passes
     rs.run = lambda case, folder, **more: run(case.with_(SHORT), folder, **more)
-    rs.passes = lambda case, folder, count=20, **more: passes(case, folder, max(2, count // 10), **more)
+    rs.passes = lambda case, folder, count=20, **more: passes(case, folder, max(2, count // 10), cell=CELL, **more)
     return rs
 
 
