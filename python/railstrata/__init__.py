@@ -1,12 +1,13 @@
 """RailStrata: rolling contact of a wheel on a layered rail.
 
     import railstrata as rs
-    case = rs.Case("cases/paper/base.toml", {"layer.0.thickness": "2 mm"})
+    case = rs.Case("cases/paper/base.toml", {"layer.0.thickness": "2 mm", "layer.0.young_ratio": 2})
     result = rs.bem(case)               # half-spaces, tens of milliseconds
     result.p_max, result.patch.p        # Pa; arrays are read-only views (stations, columns)
     result.rail.at([[0, 0, 2e-3]])      # stresses 2 mm below the contact
     run = rs.run(case, "results/base")  # finite elements; Ctrl-C leaves a checkpoint
-    rs.passes(strong, "results/yields") # wheel after wheel over a rail that yields
+    weak = case.with_({"material.rail.hardening": "R260", "drive.traction_coefficient": 0.05})
+    rs.passes(weak, "results/yields")   # wheel after wheel over a rail that yields
 
 SI units everywhere; signs and axes as in docs/conventions.md.
 """

@@ -104,7 +104,7 @@ def _case_of(given: Union["Case", str, os.PathLike]) -> "Case":
 class Case:
     """A case file with changes, read and checked.
 
-    Case("cases/paper/base.toml", {"layer.0.thickness": "2 mm"})
+        rs.Case("cases/paper/base.toml", {"layer.0.thickness": "2 mm", "layer.0.young_ratio": 2})
 
     path: a case file, a folder with a case.toml, or the name of a shipped case ("cases/quick"). changes: keys and
     values as `railstrata ... --set` takes them, with units in quotes; numbers for what has no unit. Raises CaseError

@@ -1,9 +1,11 @@
 """Fatigue and wear indices for numbers of your own: the functions that `railstrata` itself computes summaries with.
 
+    import numpy as np
     import railstrata as rs
     t = rs.damage.t_gamma(force_x=17e3, force_y=0, creepage_x=-1.2e-3, creepage_y=0)
     rs.damage.rcf_damage(t.without_spin), rs.damage.brr_wear(t.without_spin, wheel_diameter=0.92)
     x = np.linspace(-0.03, 0.03, 241)
+    result = rs.bem("cases/quick")
     cycle = result.rail.at([[xi, 0, 2e-3] for xi in x])      # one passage of the wheel at a point
     rs.damage.dang_van(cycle, c=0.3).stress
 

@@ -34,9 +34,9 @@ constexpr auto plastic = &at<&Summary::plastic, Member>;
 template <auto Member>
 constexpr auto run = &at<&Summary::run, Member>;
 
-// The forces of several patches close to 1e-6 of the load (docs/bem.md), those that symmetry cancels to 1e-9: below
-// 1e-7 of the normal force there is no result, nor in what follows from forces. A creepage of 1e-10 is a slip of a
-// picometre over a patch of 10 mm, a spin of 1e-8/m as much.
+// The forces of several patches close to 1e-6 of the load (docs/bem-theory.md), those that symmetry cancels to 1e-9:
+// below 1e-7 of the normal force there is no result, nor in what follows from forces. A creepage of 1e-10 is a slip of
+// a picometre over a patch of 10 mm, a spin of 1e-8/m as much.
 constexpr std::string_view kNormalForce = "/contact/normal_force_N";
 constexpr double kNoise = 1e-7;
 constexpr RoundOff kOfForce{kNoise, kNormalForce}, kOfMoment{kNoise, kNormalForce, "/contact/patch_length_m"},

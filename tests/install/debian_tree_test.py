@@ -3,10 +3,10 @@
 
 usage: debian_tree_test.py BUILD_DIR SOURCE_DIR FOLDER [--packages FOLDER_WITH_DEBS] [--tree TREE]
 
-Makes a minimal system by mmdebstrap, installs the packages with what they ask for, and goes the README's ways there:
-the program, two of its ranks, Python, a C and a Fortran program; then takes the packages off again. Needs root,
-mmdebstrap and an archive of Debian; skipped (77) without. --packages: those of another build (build-install/packages:
-all processors); --tree: an existing minimal system, kept as it is left.
+Makes a minimal system by mmdebstrap, installs the packages with what they ask for, and goes the ways of
+docs/commands.md there: the program, two of its ranks, Python, a C and a Fortran program; then takes the packages off
+again. Needs root, mmdebstrap and an archive of Debian; skipped (77) without. --packages: those of another build
+(build-install/packages: all processors); --tree: an existing minimal system, kept as it is left.
 """
 import argparse
 import pathlib
@@ -64,14 +64,14 @@ def the_ranks(tree, source):
     assert (tree.folder / "root/results/ranks/summary.json").exists()
 
 
-def the_ways_of_the_readme(tree, source):
+def the_ways_of_the_page(tree, source):
     """Its blocks as they are written, without `sudo apt install`."""
-    readme = (source / "README.md").read_text()
-    code = re.search(r"\*\*A researcher.*?```python\n(.*?)```", readme, re.S)[1]
+    page = (source / "docs/commands.md").read_text()
+    code = re.search(r"\*\*A notebook.*?```python\n(.*?)```", page, re.S)[1]
     (tree.folder / "root/way.py").write_text(code)
     rows = tree.run("cd /root && python3 way.py").splitlines()
     assert [row.split()[:2] for row in rows] == [[t, "mm"] for t in ("0.5", "1", "2", "4")], rows
-    commands = re.search(r"\*\*A programmer.*?```\n(.*?)```", readme, re.S)[1]
+    commands = re.search(r"\*\*A program of your own.*?```sh\n(.*?)```", page, re.S)[1]
     lines = [line for line in commands.splitlines() if "apt install" not in line]
     out = tree.run("cd /root\n" + "\n".join(lines)).split()
     assert len(out) == 3 and all(float(word) for word in out), out
@@ -108,7 +108,7 @@ def main():
     the_program(tree)
     if any(d.name.startswith(f"{PLUG_IN}_") for d in debs):
         the_ranks(tree, given.source)
-    the_ways_of_the_readme(tree, given.source)
+    the_ways_of_the_page(tree, given.source)
     taken_off(tree)
     if not given.tree:
         shutil.rmtree(given.folder)

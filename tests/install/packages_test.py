@@ -124,16 +124,16 @@ class Installed(unittest.TestCase):
         out = done(FOLDER / "mine", TREE / "usr/share/railstrata/cases/quick/case.toml", env=environment())
         self.assertEqual(len(out.split()), 3, out)
 
-    def test_the_ways_in_of_the_readme_as_they_are_written(self):
+    def test_the_ways_in_from_the_packages_as_they_are_written(self):
         """Its blocks of the notebook and of the vehicle code, with the tree in place of /; each within five minutes."""
-        readme = (SOURCE / "README.md").read_text()
+        page = (SOURCE / "docs/commands.md").read_text()
         folder = FOLDER / "ways"
         folder.mkdir()
         here = environment(LIBRARY_PATH=str(libraries()))
-        code = re.search(r"\*\*A researcher.*?```python\n(.*?)```", readme, re.S)[1]
+        code = re.search(r"\*\*A notebook.*?```python\n(.*?)```", page, re.S)[1]
         rows = done("/usr/bin/python3", "-c", code, cwd=folder, env=here).splitlines()
         self.assertEqual([row.split()[:2] for row in rows], [[t, "mm"] for t in ("0.5", "1", "2", "4")])
-        commands = re.search(r"\*\*A programmer.*?```\n(.*?)```", readme, re.S)[1]
+        commands = re.search(r"\*\*A program of your own.*?```sh\n(.*?)```", page, re.S)[1]
         lines = [line for line in commands.replace("/usr/", f"{TREE}/usr/").splitlines() if "apt install" not in line]
         out = done("sh", "-ec", "\n".join(lines), cwd=folder, env=here).split()
         self.assertEqual(len(out), 3, out)
