@@ -6,7 +6,7 @@ import subprocess
 import sys
 import unittest
 
-from outside import BINARY, TINY, FromOutside, railstrata
+from outside import BINARY, TINY, FromOutside, main, railstrata
 
 CROWN = [(0.8 * i, -0.0064 * i * i) for i in range(-40, 41)]  # mm
 
@@ -189,7 +189,7 @@ class Folders(FromOutside):
         self.refused(4, self.run_into("/proc/railstrata"),
                      "error: cannot make the output folder /proc/railstrata: No such file or directory\n")
 
-    @unittest.skipIf(os.geteuid() == 0, "SKIPPED: permissions do not bind the superuser")
+    @unittest.skipIf(os.geteuid() == 0, "permissions do not bind the superuser")
     def test_one_without_the_permission_to_write(self):
         (self.folder / "out").mkdir(mode=0o555)
         self.refused(4, self.run_into(self.folder / "out"), "Permission denied")
@@ -253,4 +253,4 @@ class DuringTheRun(FromOutside):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    main()

@@ -19,7 +19,7 @@ import time
 import tomllib
 import unittest
 
-from outside import SMALL, TINY, FromOutside, broken_files, fact, railstrata, results, start
+from outside import SMALL, TINY, FromOutside, broken_files, fact, main, railstrata, results, slow, start
 
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 KILLS = int(sys.argv[3]) if len(sys.argv) > 3 else 4
@@ -528,4 +528,4 @@ class Refused(StudyTest):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
+    main(*sys.argv[4:])
