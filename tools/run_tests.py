@@ -6,8 +6,8 @@ usage: run_tests.py BUILD [--slow] [--costs CSV] [CTEST'S OWN OPTION]...
 Without --slow all tests but those with the label long or slow, with it those with the label slow. Tests get a temporary
 folder (TMPDIR) of their own; what they leave there is a fault. After CTest's lines those that were skipped are named,
 with their reasons.
---costs: measures the processor time of each test, children included, and keeps the sums by room in CSV, in place of
-those of the same commit.
+--costs: measures the processor time of each test, children included, and keeps the sums by room in CSV
+(bench/results/test_cost.csv), in place of those of the same commit.
 Exit code: CTest's; 1 if only files were left.
 """
 import argparse
@@ -74,7 +74,12 @@ def one(costs, name, *command):
     return code if code >= 0 else 128 - code
 
 
-def keep_costs(csv, tests, costs):
+def commit_of(build):
+    cache = (build / "CMakeCache.txt").read_text()
+    return records.commit(re.search(r"^CMAKE_HOME_DIRECTORY:\w+=(.*)$", cache, re.M)[1])
+
+
+def keep_costs(csv, commit, tests, costs):
     rooms = collections.defaultdict(list)
     for line in costs.read_text().splitlines():
         seconds, name = line.split(" ", 1)
@@ -82,7 +87,7 @@ def keep_costs(csv, tests, costs):
     rows = []
     for room, found in sorted(rooms.items()):
         most, dearest = max(found)
-        rows.append({"commit": records.commit(), "tests_of": tests, "room": room, "tests": len(found),
+        rows.append({"commit": commit, "tests_of": tests, "room": room, "tests": len(found),
                      "processor_s": f"{sum(s for s, _ in found):.1f}", "dearest": dearest, "its_s": f"{most:.1f}"})
     records.keep(csv, ["commit", "tests_of", "room"], rows)
     print(f"processor time: {sum(float(row['processor_s']) for row in rows):.0f} s, by room in {csv}")
@@ -102,7 +107,7 @@ def run(given, words, folder):
     if left:
         print(f"left in the temporary folder by tests: {', '.join(left)}", file=sys.stderr)
     if given.costs:
-        keep_costs(given.costs, "slow" if given.slow else "default", folder / "costs")
+        keep_costs(given.costs, commit_of(given.build), "slow" if given.slow else "default", folder / "costs")
     return code or bool(left)
 
 
