@@ -7,7 +7,6 @@ import pathlib
 import signal
 import sys
 import tomllib
-import unittest
 import xml.etree.ElementTree
 
 from outside import FromOutside, main, railstrata, slow, start, wait_for

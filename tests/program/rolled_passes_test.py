@@ -3,7 +3,6 @@
 import csv
 import json
 import signal
-import unittest
 
 from outside import TINY, FromOutside, main, railstrata, slow, start, wait_for
 
