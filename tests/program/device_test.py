@@ -7,8 +7,6 @@ import os
 import shutil
 import signal
 import subprocess
-import sys
-import unittest
 
 from outside import BINARY, SMALL, FromOutside, main, railstrata, rows, start, wait_for
 
