@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/faults.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -16,7 +17,8 @@ TEST(Provenance, Sha256OfAbcIsTheOneOfTheStandard) {  // FIPS 180-4, example "ab
 }
 
 TEST(Provenance, NamesEveryInputWithItsSha256AndTheCommandLine) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "provenance_input.txt";
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "input.txt";
   std::ofstream(file) << "abc";
   const auto json =
       nlohmann::json::parse(provenance_json({"railstrata", "run", "a.toml"}, {"mesh.element_size=2 mm"}, {file}, 3));
@@ -30,7 +32,8 @@ TEST(Provenance, NamesEveryInputWithItsSha256AndTheCommandLine) {
 }
 
 TEST(Provenance, NamesTheCopiesThatAResultKeeps) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "kept_input.txt";
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "input.txt";
   std::ofstream(file) << "abc";
   const auto json = nlohmann::json::parse(provenance_json({}, {}, {file}, 1, {"12ab", {{file, "inputs/w.csv"}}}));
   EXPECT_EQ(json["inputs"][0]["kept"], "inputs/w.csv");
