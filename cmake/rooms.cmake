@@ -95,7 +95,8 @@ set(ROOM_LIBS_case nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus)
 set(ROOM_LIBS_body Eigen3::Eigen)
 set(ROOM_LIBS_fem Eigen3::Eigen)
 set(ROOM_LIBS_post Eigen3::Eigen)
-set(ROOM_LIBS_io nlohmann_json::nlohmann_json ZLIB::ZLIB OpenSSL::Crypto hdf5::hdf5 hdf5::hdf5_hl)
+set(ROOM_LIBS_hdf5 hdf5::hdf5 hdf5::hdf5_hl)
+set(ROOM_LIBS_io nlohmann_json::nlohmann_json ZLIB::ZLIB)
 set(ROOM_LIBS_app spdlog::spdlog CLI11::CLI11)
 
 # Products of complex numbers in kiss FFT without a look at every one for NaN: else it is three times slower.

@@ -11,13 +11,9 @@
 
 SI units everywhere; signs and axes as in docs/conventions.md.
 """
-import os as _os
+from __future__ import annotations
 
-# Threads that spin long while they wait take the core from those that work. Read when OpenMP is loaded, with _core.
-_os.environ.setdefault("OMP_WAIT_POLICY", "passive")
-_os.environ.setdefault("GOMP_SPINCOUNT", "3000")
-
-from . import _core, damage  # noqa: E402
+from . import _bridge, damage
 from .case import Case, _thread_count, schema, shipped_data
 from .errors import CaseError, CheckWarning, Diagnostic, MachineError, NumericalError
 from .law import DrivenPath, MaterialFit, calibrate, material
@@ -28,15 +24,12 @@ from .table import Table
 from .yielding import PassesResult, passes
 from .yielding import open_folder as open  # noqa: A004 - the word users expect
 
-__version__: str = _core.version()
+__version__: str = _bridge.call("version")["version"]
 
 
 def threads(count: int = 0) -> int:
     """The number of threads that solvers called from this Python thread use; sets it if `count` is positive."""
-    count = _thread_count(count)
-    if count > 0:
-        _core.set_threads(count)
-    return _core.threads()
+    return _bridge.call("threads", count=_thread_count(count))["threads"]
 
 
 __all__ = [

@@ -1,5 +1,5 @@
 # Blocks of code of README.md, docs/ and the Python package's docstrings, as they are printed.
-if(RAILSTRATA_PYTHON AND RAILSTRATA_LIBRARY)
+if(RAILSTRATA_LIBRARY)
   set(first_pages README.md docs/python.md python/railstrata/__init__.py python/railstrata/case.py)
   set(blocks_test /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/blocks_test.py ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}
     $<TARGET_FILE:railstrata>)
