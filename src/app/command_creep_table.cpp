@@ -131,6 +131,7 @@ ExitCode command_creep_table(const CommandOptions& options) {
   how.bem.cell = cell_size(options.cell);
   how.stop = &stop_flag();
 
+  require_table_files();
   const fs::path out = output_folder_of(options, base, "-creep-table");
   const bool resume = options.creep_table.resume;
   const FolderHold hold = prepare_output_folder(out, options.force || resume);

@@ -212,6 +212,7 @@ ExitCode command_study(const CommandOptions& options) {
   if (options.study.list || !options.study.batch.empty()) return tell_cases(options, study, out, cases, ours);
   if (options.study.dry_run) return list_cases(options, out, cases, ours);
 
+  require_case_processes();
   require_devices(out, cases, ours);
   start_children_alone();
   stop_flag();  // from here on a signal is a wish: what is claimed is given back

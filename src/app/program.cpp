@@ -7,12 +7,8 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
-#include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <memory>
@@ -24,6 +20,7 @@
 #include "app/commands.hpp"
 #include "app/mpi_ranks.hpp"
 #include "app/processors.hpp"
+#include "app/surroundings.hpp"
 #include "app/usage.hpp"
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
@@ -58,9 +55,9 @@ void check_command_word(const std::vector<std::string>& words) {
     if (words[i].starts_with("-")) continue;
     const std::vector<std::string> names = command_names();
     if (std::find(names.begin(), names.end(), words[i]) != names.end()) return;
-    const std::string near = nearest_word(words[i], names);
+    const std::string meant = nearest_word(words[i], names);
     throw CaseError(fmt::format("unknown command \"{}\"", words[i]),
-                    fmt::format("{}commands: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near),
+                    fmt::format("{}commands: {}", meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
                                 fmt::join(names, ", ")));
   }
 }
@@ -93,15 +90,6 @@ void require_utf8(const std::vector<std::string>& words) {
       throw CaseError(fmt::format("\"{}\" is not UTF-8", word), "give files and folders names in UTF-8");
     }
   }
-}
-
-/// A launcher may have closed them, and the next file opened would get their number: a table would get the messages.
-/// Output that is not there stays an error.
-void occupy_standard_streams() {
-  for (const auto& [stream, flags] :
-       {std::pair{STDIN_FILENO, O_RDONLY}, std::pair{STDOUT_FILENO, O_RDONLY}, std::pair{STDERR_FILENO, O_WRONLY}})
-    if (::fcntl(stream, F_GETFD) < 0 && errno == EBADF)
-      static_cast<void>(::open("/dev/null", flags));  // takes the lowest number that is free
 }
 
 /// For messages, which must not fail in their turn.
@@ -180,10 +168,7 @@ int parse_and_run(const std::vector<std::string>& given, CommandOptions& options
 }  // namespace
 
 int run_program(int argc, const char* const* argv) {
-  occupy_standard_streams();
-  std::signal(SIGUSR1, SIG_IGN);  // a wish for a checkpoint where there is none to make
-  for (const int limit : {SIGXFSZ, SIGPIPE})
-    std::signal(limit, SIG_IGN);  // a limit on file sizes, a reader that is gone: errors of the write, with a message
+  settle_in();
   CommandOptions options;
   options.command_line.assign(argv, argv + argc);
   try {

@@ -1,8 +1,8 @@
 #include "io/pass_way_files.hpp"
 
 #include <cstdint>
-#include <utility>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "core/si_prefix.hpp"
 #include "io/csv.hpp"

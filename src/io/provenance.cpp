@@ -2,19 +2,12 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <unistd.h>
-#include <zlib.h>
 
-#include <toml++/toml.h>
 #include <ctime>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
-#if __has_include(<hdf5.h>)  // a build may be without the room hdf5
-#include <hdf5.h>
-#endif
 
 #include "core/faults.hpp"
 #include "core/simd.hpp"
@@ -30,18 +23,6 @@ std::string version_text() {
 
 std::string commit_text() { return build_info().commit + (build_info().dirty ? "+dirty" : ""); }
 
-std::vector<std::pair<std::string, std::string>> library_versions() {
-  const auto dotted = [](int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); };
-  return {
-      {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-#ifdef H5_VERS_MAJOR
-      {"hdf5", dotted(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
-#endif
-      {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
-      {"toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
-      {"zlib", zlibVersion()}};
-}
-
 std::string compiled_isa() {
 #if defined(__AVX512F__)
   const char* name = "AVX-512";
@@ -55,14 +36,6 @@ std::string compiled_isa() {
   const char* name = "generic";
 #endif
   return fmt::format("{}, {} doubles a vector", name, kLanes);
-}
-
-std::string cpu_name() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name"))
-      if (const auto colon = line.find(": "); colon != std::string::npos) return line.substr(colon + 2);
-  return {};
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {

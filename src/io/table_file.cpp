@@ -8,6 +8,7 @@
 namespace railstrata {
 
 void write_force_table(const std::filesystem::path& file, const ForceTable& table, const TableRemarks& remarks) {
+  require_table_files();
   check(table);
   const std::string image = table_image(table, remarks);
   if (image.empty())
@@ -16,6 +17,7 @@ void write_force_table(const std::filesystem::path& file, const ForceTable& tabl
 }
 
 ForceTable read_force_table(const std::filesystem::path& file) {
+  require_table_files();
   const std::string remedy = "name a creep_table.h5 of railstrata creep-table";
   if (!std::filesystem::is_regular_file(file)) throw CaseError("there is no such file", remedy, file.string());
   const std::optional<ForceTable> out = table_in_file(file);

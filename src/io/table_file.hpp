@@ -7,6 +7,9 @@
 
 namespace railstrata {
 
+/// Throws EnvironmentError where the program has no HDF5.
+void require_table_files();
+
 /// Writes the whole file (io/output_file). The same table has the same bytes. Throws EnvironmentError.
 void write_force_table(const std::filesystem::path& file, const ForceTable& table, const TableRemarks& remarks);
 
