@@ -10,6 +10,12 @@ if(RAILSTRATA_LIBRARY)
     add_test(NAME install:${group} COMMAND ${install_test} ${group})
     set_tests_properties(install:${group} PROPERTIES FIXTURES_REQUIRED installed)
   endforeach()
+  foreach(group Wheel Tarball)
+    add_test(NAME install:${group} COMMAND /usr/bin/python3 ${here}/wheel_test.py ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}
+      ${installed}/prefix ${CMAKE_CURRENT_BINARY_DIR}/packed_${group} ${group})
+    set_tests_properties(install:${group} PROPERTIES FIXTURES_REQUIRED installed SKIP_RETURN_CODE 77 LABELS slow
+      TIMEOUT 600)
+  endforeach()
   add_test(NAME install:packages COMMAND /usr/bin/python3 ${here}/packages_test.py ${CMAKE_BINARY_DIR}
     ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/packages)
   set_tests_properties(install:packages PROPERTIES SKIP_RETURN_CODE 77 LABELS packages TIMEOUT 600)

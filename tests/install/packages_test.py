@@ -64,7 +64,8 @@ class Packages(unittest.TestCase):
                 self.assertIn("libopenmpi", found["Depends"])
             elif name != LIBRARY:
                 self.assertIn(f"{LIBRARY} (= {VERSION}-1)", found["Depends"])
-        self.assertIn("libfftw3", fields(packages()[LIBRARY])["Depends"])
+        self.assertIn("libhdf5", fields(packages()[LIBRARY])["Depends"])
+        self.assertNotIn("libfftw3", fields(packages()[LIBRARY])["Depends"])
         self.assertRegex(fields(packages()["python3-railstrata"])["Depends"], r"python3 \(>= 3.*python3-numpy")
 
     def test_apt_finds_what_they_ask_for(self):
@@ -157,8 +158,8 @@ if __name__ == "__main__":
         if not shutil.which(tool):
             print(f"{tool} is missing (Debian: cmake, dpkg-dev, fakeroot): nothing was packed")
             sys.exit(77)
-    if not (BUILD / "CPackConfig.cmake").exists() or not list(BUILD.glob("python-module/*.so")):
-        print("the build has no packages with Python (-DRAILSTRATA_PYTHON=ON)")
+    if not (BUILD / "CPackConfig.cmake").exists():
+        print("the build makes no packages (RAILSTRATA_LIBRARY)")
         sys.exit(77)
     pack()
     unittest.main(argv=[sys.argv[0], "-v"])
