@@ -6,10 +6,10 @@ import subprocess
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 
-def commit():
+def commit(root=ROOT):
     """Short hash of the checkout, with a + when files of the program differ from it."""
     def git(*args):
-        return subprocess.run(["git", "-C", str(ROOT), *args], capture_output=True, text=True).stdout.strip()
+        return subprocess.run(["git", "-C", str(root), *args], capture_output=True, text=True).stdout.strip()
 
     return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+"
                                                                     if git("status", "--porcelain", "--", "src",

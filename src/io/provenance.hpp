@@ -12,6 +12,7 @@ struct BuildInfo {
   std::string version, commit;  ///< commit is empty outside a git checkout
   bool dirty = false;           ///< the checkout had uncommitted changes
   std::string compiler, flags, build_type;
+  std::vector<std::pair<std::string, std::string>> parts;  ///< optional ones: there, or what to install
 };
 const BuildInfo& build_info();
 

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "core/faults.hpp"
+#include "core/text.hpp"
 #include "io/kept_inputs.hpp"
 #include "io/output_file.hpp"
 #include "study/child_process.hpp"
@@ -27,13 +28,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPatience = 20;  // s; batch systems wait about thirty before they kill
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// What the log says went wrong: its first error, else its last line.
 std::string reason_of(const std::string& log, int status) {
@@ -53,7 +47,7 @@ bool has_result(int status) {
 
 /// How far a case is by the last percentage in its log.
 double fraction_of(const fs::path& log) {
-  const std::string text = text_of(log);
+  const std::string text = file_text(log);
   const auto at = text.rfind(" %");
   if (at == std::string::npos || at < 3) return 0;
   double percent = 0;
@@ -198,8 +192,8 @@ class Pool {
 
   std::string fault_of(const Running& r, int status) const {
     const StudyCase& c = *r.study_case;
-    if (!has_result(status)) return reason_of(text_of(r.folder / "log.txt"), status);
-    if (!text_of(r.folder / "case.toml").ends_with(kept_case(c.loaded, kept_inputs(c.loaded, r.folder))))
+    if (!has_result(status)) return reason_of(file_text(r.folder / "log.txt"), status);
+    if (!file_text(r.folder / "case.toml").ends_with(kept_case(c.loaded, kept_inputs(c.loaded, r.folder))))
       return "the base case changed while the study ran: start it again";
     return "";
   }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/places.hpp"
+
 namespace railstrata {
 
 struct ReferenceRow {
@@ -17,7 +19,7 @@ struct ReferenceRow {
 };
 
 inline std::vector<ReferenceRow> reference_table(const std::string& file) {
-  std::ifstream in(std::string(RAILSTRATA_SOURCE_DIR) + "/tests/data/reference/" + file);
+  std::ifstream in(source_dir() / "tests/data/reference" / file);
   if (!in) throw std::runtime_error("cannot open " + file);
   std::vector<std::string> header;
   std::vector<ReferenceRow> rows;

@@ -10,12 +10,13 @@
 
 #include "capi/railstrata.h"
 #include "runs/library.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-const std::string kQuick = RAILSTRATA_SOURCE_DIR "/cases/quick/case.toml";
+const std::string kQuick = source_dir() / "cases/quick/case.toml";
 
 struct Contact {
   explicit Contact(const std::vector<const char*>& overrides = {})

@@ -1,6 +1,5 @@
 // Tables through the C interface.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -8,6 +7,7 @@
 
 #include "capi/railstrata.h"
 #include "io/table_file.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -17,14 +17,13 @@ namespace fs = std::filesystem;
 class CTable : public ::testing::Test {
  protected:
   void SetUp() override {
-    file_ = fs::temp_directory_path() / ("railstrata_c_" + std::to_string(::getpid()) + ".h5");
     write_force_table(file_,
                       {{{"creepage_x", "", {-0.01, 0, 0.02}}, {"load", "N", {50e3, 1e5}}},
                        {{"force_x", "N", {10, 20, 0, 0, -20, -40}}}},
                       {});
   }
-  void TearDown() override { fs::remove(file_); }
-  fs::path file_;
+  const TemporaryFolder folder_;
+  const fs::path file_ = folder_.path() / "table.h5";
 };
 
 }  // namespace

@@ -7,12 +7,13 @@
 #include <sstream>
 
 #include "case/option_table.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
 
 TEST(CaseReference, ThePageInDocsIsTheOneTheProgramWrites) {
-  std::ifstream file(RAILSTRATA_SOURCE_DIR "/docs/case-reference.md");
+  std::ifstream file(source_dir() / "docs/case-reference.md");
   std::ostringstream text;
   text << file.rdbuf();
   EXPECT_EQ(text.str(), case_reference_markdown())

@@ -8,6 +8,7 @@
 
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -81,8 +82,8 @@ TEST(LoadRows, AreSetFromTheCommandLine) {
 }
 
 TEST(LoadRows, ATableInAFileGivesTheSameRowsAsTheCase) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "load_rows";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
   std::ofstream(folder / "loads.csv")
       << "name;passages;axle_load [t];lateral_shift_mm;yaw [mrad];speed [m/s]\n\"freight\";4e5;22;-3;2;\n;5;;;;30\n";
   const LoadedCase loaded = parse_case("[collective]\nfile = \"loads.csv\"\n", folder / "a.toml");

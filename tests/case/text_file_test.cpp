@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "core/faults.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -15,12 +16,6 @@ namespace fs = std::filesystem;
 
 class TextFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) / "text_file_test";
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
   fs::path pipe() const {
     const fs::path name = folder_ / "pipe";
     EXPECT_EQ(::mkfifo(name.c_str(), 0600), 0);
@@ -35,7 +30,8 @@ class TextFile : public ::testing::Test {
     ADD_FAILURE() << "read " << file;
     return {};
   }
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(TextFile, ANamedPipeThatNobodyWritesIntoIsRefusedAfterAWhile) {

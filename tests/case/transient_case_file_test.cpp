@@ -7,6 +7,7 @@
 #include "case/case_file.hpp"
 #include "case/engine_scope.hpp"
 #include "case/history_table.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -63,8 +64,8 @@ TEST(TransientCaseFile, AHistoryFileStandsForItsColumns) {
   EXPECT_EQ(spec.transient.creepage, (std::vector<double>{0, -1e-3}));
   EXPECT_EQ(spec.transient.spin, (std::vector<double>{0.1, 0.2}));
 
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "history_file";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
   std::ofstream(folder / "h.csv") << "\xEF\xBB\xBF"
                                      "displacement [um],lateral_displacement_um\n2,0\n-2,1\n";
   const LoadedCase loaded = parse_case("[transient]\nkind = \"shift\"\nhistory_file = \"h.csv\"\n", folder / "a.toml");
@@ -98,8 +99,8 @@ TEST(TransientCaseFile, TablesOfSpreadsheetsAreRead) {
 
 /// What is said of a case beside a history file of this text.
 std::string refusal_of_history(const std::string& table, const std::string& kind = "shift") {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "history_refused";
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
   std::ofstream(folder / "h.csv") << table;
   try {
     parse_case("[transient]\nkind = \"" + kind + "\"\nhistory_file = \"h.csv\"\n", folder / "a.toml");

@@ -2,8 +2,7 @@
 add_executable(test_card ${CMAKE_CURRENT_SOURCE_DIR}/device/card/card_test.cpp)
 target_link_libraries(test_card PRIVATE room_device GTest::gtest_main)
 target_include_directories(test_card PRIVATE ${CMAKE_SOURCE_DIR})
-gtest_discover_tests(test_card TEST_PREFIX device: DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-  PROPERTIES ENVIRONMENT OMP_WAIT_POLICY=passive LABELS gpu)
+railstrata_gtest(test_card device: gpu)
 add_executable(measure_card ${CMAKE_CURRENT_SOURCE_DIR}/device/card/measure.cpp)
 target_link_libraries(measure_card PRIVATE room_device)
 

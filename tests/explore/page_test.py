@@ -13,10 +13,11 @@ import unittest
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "report"))
-from browser import Browser
+from browser import SLOW, Browser, run, slow
 
 BINARY, SOURCES = str(pathlib.Path(sys.argv[1]).resolve()), pathlib.Path(sys.argv[2]).resolve()
 CASE = "cases/paper/layer_3mm_2E0.toml"
+CELL = "0.5 mm" if SLOW else "1 mm"  # engine and program have the same ones, whatever they are
 SAME = 1e-6  # of a number here and there; of a stress, over the largest pressure
 
 
@@ -37,18 +38,20 @@ class Explorer(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
         cls.page = cls.folder / "explore.html"
-        subprocess.run([BINARY, "explore", CASE, "--cell", "0.5 mm", "--out", str(cls.page)], cwd=SOURCES, check=True,
+        subprocess.run([BINARY, "explore", CASE, "--cell", CELL, "--out", str(cls.page)], cwd=SOURCES, check=True,
                        capture_output=True)
+        BROWSER.open(cls.page)
 
     @classmethod
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
     def setUp(self):
-        BROWSER.driver.get("about:blank")
-        BROWSER.open(self.page)
-        self.asked = BROWSER.requests()
+        """The case as it was given: a page opened once for all costs each test a second less."""
+        for button in ("b-unpin", "b-reset"):
+            BROWSER.js("document.getElementById(arguments[0]).click()", button)
         self.settle()
+        BROWSER.console(), BROWSER.requests()
 
     def data(self, name):
         return BROWSER.js("return document.documentElement.dataset[arguments[0]]", name)
@@ -85,8 +88,11 @@ class Explorer(unittest.TestCase):
         return expected
 
     def test_it_asks_for_nothing_and_complains_of_nothing(self):
+        BROWSER.driver.get("about:blank")
+        BROWSER.open(self.page)
+        asked = BROWSER.requests()
         self.assertEqual(self.settle(), "settled")
-        self.assertEqual([url for url in self.asked if not url.startswith("blob:")], [self.page.resolve().as_uri()])
+        self.assertEqual([url for url in asked if not url.startswith("blob:")], [self.page.resolve().as_uri()])
         self.move(h1=1.5)
         self.assertEqual([url for url in BROWSER.requests() if not url.startswith("blob:")], [])
         self.assertEqual(BROWSER.console(), [])
@@ -170,7 +176,7 @@ class Explorer(unittest.TestCase):
         BROWSER.js("document.getElementById('b-case-file').click()")
         case = BROWSER.downloads / "layer_3mm_2E0-explored.toml"
         BROWSER.wait(case.exists, "the case file is saved", 10)
-        command = f"railstrata bem {shlex.quote(str(case))} --cell '0.5 mm'"
+        command = f"railstrata bem {shlex.quote(str(case))} --cell '{CELL}'"
         again = half_space(command, self.folder)["contact"]["p_max_Pa"]
         self.assertAlmostEqual(p_max, again, delta=SAME * again)
         BROWSER.js("document.querySelector('dialog')?.remove(); document.getElementById('b-csv').click()")
@@ -191,6 +197,7 @@ class Explorer(unittest.TestCase):
         self.assertIn("vs pin", BROWSER.text(".tiles"))
         self.assertIn("%", BROWSER.text(".numbers"))
 
+    @slow
     def test_sixty_changes_leave_the_memory_as_it_is(self):
         def change(k):
             self.move(h1=0.5 + 0.05 * k, load=60 + k % 7)
@@ -214,6 +221,7 @@ class Explorer(unittest.TestCase):
         finally:
             BROWSER.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
+    @slow
     def test_times(self):
         """Printed, not judged: this machine may be busy. The browser compiles what is used often once more, and better,
         so that the first update is the slowest: it is printed beside the median of those of a slider that moves."""
@@ -237,5 +245,5 @@ class Explorer(unittest.TestCase):
 
 if __name__ == "__main__":
     with Browser() as BROWSER:
-        result = unittest.main(argv=[sys.argv[0], *sys.argv[3:]], exit=False, verbosity=2).result
-    sys.exit(not result.wasSuccessful())
+        code = run(*sys.argv[3:])
+    sys.exit(code)

@@ -26,7 +26,7 @@ double descent(double sprung_mass) {
 
 // Finite bodies add a linear term to Hertz's approach: d(F) = c F^(2/3) + F/k. Two loads separate them; c is Hertz's
 // within 2 %. [Johnson1985 eq. 4.23]
-TEST(Approach, SlowThePartThatGrowsWithTheTwoThirdsPowerOfTheLoadIsHertz) {
+TEST(SlowApproach, ThePartThatGrowsWithTheTwoThirdsPowerOfTheLoadIsHertz) {
   const double g = 9.81, wheel = 660, heavy = (wheel + 8000) * g, light = (wheel + 3670) * g;
   const double d1 = descent(8000), d2 = descent(3670);
   const double c = (d1 / heavy - d2 / light) / (std::pow(heavy, -1.0 / 3) - std::pow(light, -1.0 / 3));

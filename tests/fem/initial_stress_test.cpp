@@ -79,7 +79,7 @@ TEST(InitialStress, StartsTheRollingWithoutAJoltAndClosesTheEnergyBalance) {
   EXPECT_LT(closure[1], 2 * closure[0]);
 }
 
-TEST(InitialStress, OfALayerThatYieldsGoesOnFromARestartWithTheSameBits) {
+TEST(SlowInitialStress, OfALayerThatYieldsGoesOnFromARestartWithTheSameBits) {
   const RollingSystem sys = small_system(stressed_case(450e6));
   const PreloadResult preload = solve_preload(sys, 1e-3);
   Stepper whole(sys, preload), first(sys, preload);

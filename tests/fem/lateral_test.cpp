@@ -71,7 +71,7 @@ TEST(Lateral, DisplacementsOfAYawedWheelAreItsDeformationAlone) {
 }
 
 // The rigid slip of a wheel that is yawed by psi is that of one which moves sideways with -V tan(psi).
-TEST(Lateral, AYawedBallPullsLikeOneThatMovesSideways) {
+TEST(SlowLateral, AYawedBallPullsLikeOneThatMovesSideways) {
   CaseSpec yawed = ball_case(), moved = ball_case();
   yawed.geometry.yaw = 2e-3;
   moved.drive.lateral_creepage = -2e-3;
@@ -86,7 +86,7 @@ TEST(Lateral, AYawedBallPullsLikeOneThatMovesSideways) {
 }
 
 // Nodes of a thin layer on the wheel answer one another's impulses in its own axes.
-TEST(Lateral, LocalStepsOfAYawedWheelsLayerAreThoseOfTheShortStep) {
+TEST(SlowLateral, LocalStepsOfAYawedWheelsLayerAreThoseOfTheShortStep) {
   const auto forces = [](TimeStepMethod method) {
     CaseSpec spec = thinly_layered(small_case(), method);
     spec.layers.back().on = BodyId::wheel;

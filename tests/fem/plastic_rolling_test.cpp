@@ -109,7 +109,7 @@ TEST(PlasticRolling, ClosesTheEnergyBalanceWithThePlasticWork) {
   EXPECT_LT(closure[1], closure[0] + 0.01 * plastic[1]);
 }
 
-TEST(PlasticRolling, PreloadBeyondYieldFindsOneEquilibriumHoweverCloselyItIsApproached) {
+TEST(SlowPlasticRolling, PreloadBeyondYieldFindsOneEquilibriumHoweverCloselyItIsApproached) {
   const RollingSystem elastic = small_system(small_case()), system = small_system(yielding_case(300e6));
   const PreloadResult hard = solve_preload(elastic, 1e-7), rough = solve_preload(system, 1e-4),
                       fine = solve_preload(system, 1e-7);
@@ -133,7 +133,7 @@ std::array<long, 2> hot_elements(const RollingSystem& sys, const std::array<Fiel
 }
 
 // A box around all that yields and none at all: which elements are hot must not be seen.
-TEST(PlasticRolling, ElementsThatBecomeHotOnTheWayGiveTheResultsOfThoseThatWereFromTheStart) {
+TEST(SlowPlasticRolling, ElementsThatBecomeHotOnTheWayGiveTheResultsOfThoseThatWereFromTheStart) {
   CaseSpec boxed = yielding_case(300e6);
   boxed.run.plastic_depth = 0.06;
   boxed.run.plastic_width = 0.06;
@@ -173,7 +173,7 @@ TEST(PlasticRolling, WhatComesNearYieldingOnTheWayBecomesHotAndTheBitsDoNotTell)
 }
 
 // A layer of a millimetre on 4 mm elements: inertia is added across its thin row.
-TEST(PlasticRolling, WithMassScalingClosesTheEnergyBalanceAndGoesOnFromARestart) {
+TEST(SlowPlasticRolling, WithMassScalingClosesTheEnergyBalanceAndGoesOnFromARestart) {
   CaseSpec spec = thinly_layered(yielding_case(300e6), TimeStepMethod::mass_scaling);
   spec.layers.back().material = spec.rail_material;
   const RollingSystem system = small_system(spec);

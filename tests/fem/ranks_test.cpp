@@ -118,11 +118,11 @@ void expect_bits_of_one_rank(const CaseSpec& spec, const std::vector<int>& count
 
 TEST(Ranks, ComputeTheBitsOfOne) { expect_bits_of_one_rank(damped_case()); }
 
-TEST(Ranks, WithAThinLayerAndScaledMassesToo) {
+TEST(SlowRanks, WithAThinLayerAndScaledMassesToo) {
   expect_bits_of_one_rank(thinly_layered(damped_case(), TimeStepMethod::mass_scaling));
 }
 
-TEST(Ranks, WithLocalStepsToo) {
+TEST(SlowRanks, WithLocalStepsToo) {
   CaseSpec spec = thinly_layered(damped_case(), TimeStepMethod::local);
   expect_bits_of_one_rank(spec, {3}, 32);
 }
@@ -146,11 +146,11 @@ CaseSpec yielding(CaseSpec spec) {
 }
 
 // Bodies yield, and elements become hot on the way.
-TEST(Ranks, OfBodiesThatYieldToo) { expect_bits_of_one_rank(yielding(damped_case()), {2, 4}); }
+TEST(SlowRanks, OfBodiesThatYieldToo) { expect_bits_of_one_rank(yielding(damped_case()), {2, 4}); }
 
 TEST(Ranks, FindThePreloadOfOne) { expect_preload_of_one_rank(small_case(), {{2, 2}, {3, 1}, {4, 1}}); }
 
-TEST(Ranks, FindThePreloadOfOneOfBodiesThatYieldAndAreLayeredAndYawedToo) {
+TEST(SlowRanks, FindThePreloadOfOneOfBodiesThatYieldAndAreLayeredAndYawedToo) {
   CaseSpec spec = thinly_layered(yielding(damped_case()), TimeStepMethod::mass_scaling);
   spec.geometry.yaw = 5e-3;
   spec.drive.lateral_traction_coefficient = 0.1;

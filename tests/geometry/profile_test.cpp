@@ -12,6 +12,7 @@
 #include "geometry/builtin_profiles.hpp"
 #include "geometry/profile_names.hpp"
 #include "geometry/smoothing_spline.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -27,7 +28,7 @@ std::vector<Profile> all_profiles() {
 
 /// Points of a reference list, in metres, z up.
 std::vector<Vec2> listed(const std::string& file) {
-  std::ifstream in(std::string(RAILSTRATA_SOURCE_DIR) + "/data/profiles/" + file);
+  std::ifstream in(source_dir() / "data/profiles" / file);
   std::vector<Vec2> points;
   for (std::string line; std::getline(in, line);) {
     double y, z;

@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdio>
@@ -12,6 +11,7 @@
 #include "geometry/profile_names.hpp"
 #include "geometry/profile_texts.hpp"
 #include "geometry/read_profile.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -19,16 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 constexpr double mm = 1e-3;
 
-fs::path shipped(const char* name) { return fs::path(RAILSTRATA_SOURCE_DIR) / "data" / "profiles" / name; }
+fs::path shipped(const char* name) { return source_dir() / "data" / "profiles" / name; }
 
 class ReadProfile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::temp_directory_path() / ("railstrata_profiles_" + std::to_string(::getpid()));
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   fs::path written(const std::string& text, const char* name = "list.csv") {
     const fs::path file = folder_ / name;
     std::ofstream(file) << text;
@@ -58,7 +52,8 @@ class ReadProfile : public ::testing::Test {
     for (const std::string& row : rows) text += row + "\n";
     return text;
   }
-  fs::path folder_;
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 std::string formatted(const char* format, double a, double b) {

@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "core/faults.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -89,9 +90,8 @@ std::string edited(const std::string& checkpoint, const std::function<void(hid_t
 
 class Checkpoints : public testing::Test {
  protected:
-  fs::path folder = fs::path(testing::TempDir()) / ("checkpoint_" + std::to_string(::getpid()));
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path();
   static std::string bytes_of(const fs::path& file) {
     std::ifstream in(file, std::ios::binary);
     std::ostringstream out;

@@ -1,7 +1,6 @@
 #include "io/csv.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,6 +10,7 @@
 #include <stdexcept>
 
 #include "core/faults.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -19,13 +19,12 @@ namespace fs = std::filesystem;
 
 class Csv : public ::testing::Test {
  protected:
-  void SetUp() override { file_ = fs::temp_directory_path() / ("railstrata_" + std::to_string(::getpid()) + ".csv"); }
-  void TearDown() override { fs::remove(file_); }
   std::string content() const {
     std::ifstream in(file_);
     return {std::istreambuf_iterator<char>(in), {}};
   }
-  fs::path file_;
+  const TemporaryFolder folder_;
+  const fs::path file_ = folder_.path() / "table.csv";
 };
 
 TEST_F(Csv, a_table_has_provenance_lines_a_header_and_rows) {

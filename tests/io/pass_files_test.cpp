@@ -1,12 +1,12 @@
 #include "io/pass_files.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
 
 #include "core/faults.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -38,12 +38,8 @@ PassSeries series_of(const SteadyGrid& g) {
 
 class PassFiles : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("pass_files_" + std::to_string(::getpid()));
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_;
+  const TemporaryFolder temporary_;
+  const std::filesystem::path folder_ = temporary_.path();
 };
 
 TEST_F(PassFiles, StateAndTableAreReadBackToTheSameBits) {

@@ -4,8 +4,10 @@
 
 #include <fstream>
 #include <sstream>
+#include <nlohmann/json.hpp>
 
 #include "io/summary_json.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -13,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string text_of(const std::string& file) {
-  std::ifstream in(RAILSTRATA_SOURCE_DIR + file);
+  std::ifstream in(source_dir() / file);
   std::ostringstream text;
   text << in.rdbuf();
   return text.str();
@@ -30,7 +32,7 @@ std::string keys_among(const Json& object, const std::string& known) {
 void expect_keys(const Json& object, const std::string& known) { EXPECT_EQ(keys_among(object, known), known); }
 
 TEST(ResultsReference, ThePageInDocsIsTheOneTheProgramWrites) {
-  EXPECT_EQ(text_of("/docs/results-reference.md"), results_reference_markdown())
+  EXPECT_EQ(text_of("docs/results-reference.md"), results_reference_markdown())
       << "write it again: ./railstrata schema --results --markdown > docs/results-reference.md";
 }
 

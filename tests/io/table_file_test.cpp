@@ -1,13 +1,13 @@
 #include "io/table_file.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
 #include <iterator>
 
 #include "core/faults.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -16,14 +16,13 @@ namespace fs = std::filesystem;
 
 class TableFile : public ::testing::Test {
  protected:
-  void SetUp() override { file_ = fs::temp_directory_path() / ("railstrata_" + std::to_string(::getpid()) + ".h5"); }
-  void TearDown() override { fs::remove(file_); }
   std::string content() const {
     std::ifstream in(file_, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
   }
   void put(const std::string& bytes) const { std::ofstream(file_, std::ios::binary) << bytes; }
-  fs::path file_;
+  const TemporaryFolder folder_;
+  const fs::path file_ = folder_.path() / "table.h5";
 };
 
 ForceTable sample() {

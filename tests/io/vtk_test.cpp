@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -13,6 +12,7 @@
 
 #include "core/faults.hpp"
 #include "io/output_file.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -33,15 +33,11 @@ class Vtk : public ::testing::Test {
   /// The reader's test (read_vtk.py) names the folder in which it wants to find the samples.
   void SetUp() override {
     const char* wanted = std::getenv("RAILSTRATA_VTK_SAMPLES");
-    keep_ = wanted != nullptr;
-    folder_ = keep_ ? fs::path(wanted) : fs::temp_directory_path() / ("railstrata_vtk_" + std::to_string(::getpid()));
+    folder_ = wanted != nullptr ? fs::path(wanted) : temporary_.path();
     fs::create_directories(folder_);
   }
-  void TearDown() override {
-    if (!keep_) fs::remove_all(folder_);
-  }
+  const TemporaryFolder temporary_;
   fs::path folder_;
-  bool keep_ = false;
 };
 
 /// A brick of n³ hexahedra with corners (0,0,0) and (1,2,3). Fields are simple functions of place that read_vtk.py

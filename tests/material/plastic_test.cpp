@@ -19,6 +19,7 @@
 
 #include "material/elastic.hpp"
 #include "material/material_path.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -152,7 +153,7 @@ struct Answer {
 };
 
 std::vector<std::vector<std::string>> rows_of(const std::string& name) {
-  std::ifstream file(std::string(RAILSTRATA_SOURCE_DIR) + "/tests/data/reference/" + name);
+  std::ifstream file(source_dir() / "tests/data/reference" / name);
   std::vector<std::vector<std::string>> out;
   bool names = true;
   for (std::string line; std::getline(file, line);) {

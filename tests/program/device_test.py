@@ -7,10 +7,8 @@ import os
 import shutil
 import signal
 import subprocess
-import sys
-import unittest
 
-from outside import BINARY, SMALL, FromOutside, railstrata, rows, start, wait_for
+from outside import BINARY, SMALL, FromOutside, main, railstrata, rows, start, wait_for
 
 MPIRUN = shutil.which("mpirun")
 WORDS = ["--no-report", "--threads", "1"]
@@ -167,4 +165,4 @@ class Emulated(FromOutside):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    main()

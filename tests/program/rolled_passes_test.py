@@ -3,13 +3,14 @@
 import csv
 import json
 import signal
-import unittest
 
-from outside import TINY, FromOutside, railstrata, start, wait_for
+from outside import TINY, FromOutside, main, railstrata, slow, start, wait_for
 
 WEAK = ["--set", 'material.rail.yield_strength="450 MPa"', "--set",
         'material.rail.kinematic_hardening=[{modulus = "20 GPa", recall = 50}]', "--set",
         "drive.traction_coefficient=0.1"]
+# For what does not depend on the elements: a sixth of the time of those of tiny.toml.
+COARSE = ["--set", 'mesh.element_size="6 mm"']
 FILES = ["passes.csv", "residual.csv", "profile.csv", "loops.csv", "state.csv", "passes.json"]
 
 
@@ -33,7 +34,7 @@ class RolledPasses(FromOutside):
         return self.folder / name
 
     def test_below_yield_nothing_accumulates(self):
-        out = self.passes("strong", "--set", 'material.rail.yield_strength="3 GPa"', "--passes", 2)
+        out = self.passes("strong", *COARSE, "--set", 'material.rail.yield_strength="3 GPa"', "--passes", 2)
         told = json.loads((out / "passes.json").read_text())
         self.assertEqual(told["class"], "elastic shakedown")
         self.assertEqual(told["last_pass"]["accumulated_strain"], 0)
@@ -42,30 +43,31 @@ class RolledPasses(FromOutside):
             self.assertEqual(float(row["sigma_xx_MPa"]), 0)
 
     def test_has_the_same_bits_however_it_is_cut_and_for_any_threads(self):
-        whole = numbers(self.passes("whole", *WEAK, "--passes", 2))
+        weak = [*WEAK, *COARSE]
+        whole = numbers(self.passes("whole", *weak, "--passes", 2))
         rows = table(self.folder / "whole" / "passes.csv")
         self.assertGreater(float(rows[0]["accumulated_strain"]), 1e-4)
         self.assertLess(float(rows[1]["accumulated_strain"]), float(rows[0]["accumulated_strain"]))
         self.assertLess(float(rows[0]["sigma_x_min_MPa"]), -10)
         self.assertAlmostEqual(float(rows[1]["traction"]), 0.1, delta=0.01)
-        self.loops_are_those_of_the_section(self.folder / "whole")
-        self.assertEqual(whole, numbers(self.passes("threads", *WEAK, "--passes", 2, threads=2)))
-        self.passes("parts", *WEAK, "--passes", 1)
+        self.assertEqual(whole, numbers(self.passes("threads", *weak, "--passes", 2, threads=2)))
+        self.passes("parts", *weak, "--passes", 1)
         parts = self.folder / "parts"
         # killed inside pass 2, with a checkpoint of it
-        process = start(*self.words("parts", *WEAK, "--passes", 2, "--resume", "--checkpoint-every", "0.05 s"))
+        process = start(*self.words("parts", *weak, "--passes", 2, "--resume", "--checkpoint-every", "0.01 s"))
         wait_for((parts / "checkpoint.h5").exists, process)
         process.send_signal(signal.SIGKILL)
         process.communicate()
         self.assertEqual(len(table(parts / "passes.csv")), 1)
-        self.passes("parts", *WEAK, "--passes", 2, "--resume")
+        self.passes("parts", *weak, "--passes", 2, "--resume")
         self.assertEqual(whole, numbers(parts))
         self.assertFalse((parts / "checkpoint.h5").exists())
         self.refused(2, self.words("parts", *WEAK, "--set", "drive.speed=\"20 m/s\"", "--resume"),
                      "no passes of this very case")
 
+    @slow
     def test_killed_in_the_middle_of_pass_7_of_10_it_goes_on_to_the_same_bits(self):
-        coarse = [*WEAK, "--set", 'mesh.element_size="6 mm"', "--passes", 10, "--no-report"]
+        coarse = [*WEAK, *COARSE, "--passes", 10, "--no-report"]
         whole = numbers(self.passes("whole", *coarse))
         cut = self.folder / "cut"
         rows = lambda: len(table(cut / "passes.csv"))
@@ -91,6 +93,7 @@ class RolledPasses(FromOutside):
         self.assertEqual(whole, numbers(cut))
         self.assertEqual(rows(), 10)
 
+    @slow
     def test_above_shakedown_it_flows_on_as_the_stationary_method_says_at_some_half_of_its_rate(self):
         """R260's cyclic law; rolled, pressure falls to 0.84 of the elastic one and elements of 4 mm take means."""
         strong = ["--set", 'material.rail.hardening="R260"', "--set", "drive.friction_coefficient=0.3", "--set",
@@ -109,7 +112,9 @@ class RolledPasses(FromOutside):
         self.assertAlmostEqual(net[0][3] / net[0][2], net[1][3] / net[1][2], delta=0.05)  # falling alike
         self.assertLess(float(table(rolled / "passes.csv")[-1]["p_max_MPa"]), 950)
 
-    def loops_are_those_of_the_section(self, out):
+    @slow
+    def test_loops_are_those_of_the_section(self):
+        out = self.passes("loops", *WEAK, "--passes", 2)
         told = json.loads((out / "passes.json").read_text())
         self.assertEqual(told["loops"][0]["name"], "governing")
         self.assertEqual(told["zones"], [{"name": "rail", "zone": 0, "top_m": 0}])
@@ -137,7 +142,7 @@ class RolledPasses(FromOutside):
                                json.loads((out / "passes.json").read_text())["last_pass"]["sigma_x_min_MPa"], delta=40)
 
     def test_the_contact_moves_with_a_wheel_that_wanders(self):
-        out = self.passes("wanders", *WEAK, "--set", 'passes.lateral_positions=["-3 mm", "3 mm"]', "--passes", 2)
+        out = self.passes("wanders", *WEAK, *COARSE, "--set", 'passes.lateral_positions=["-3 mm", "3 mm"]', "--passes", 2)
         rows = table(out / "passes.csv")
         self.assertEqual([float(row["lateral_mm"]) for row in rows], [-3, 3])
         self.assertLess(float(rows[0]["net_y_mm"]), 0)
@@ -152,5 +157,4 @@ class RolledPasses(FromOutside):
 
 
 if __name__ == "__main__":
-    import sys
-    unittest.main(argv=sys.argv[:1])
+    main()

@@ -17,9 +17,8 @@ import subprocess
 import sys
 import time
 import tomllib
-import unittest
 
-from outside import SMALL, TINY, FromOutside, broken_files, fact, railstrata, results, start
+from outside import SMALL, TINY, FromOutside, broken_files, fact, main, railstrata, results, slow, start
 
 SOURCE = pathlib.Path(sys.argv[2]).resolve()
 KILLS = int(sys.argv[3]) if len(sys.argv) > 3 else 4
@@ -356,6 +355,7 @@ class Killed(StudyTest):
         self.assert_same(expected)
         fact("study_fem_killed", kills=kills, resumed=resumed, cases=len(expected))
 
+    @slow
     def test_a_checkpoint_of_another_case_or_a_damaged_one_is_not_gone_on_from(self):
         self.case(self.WHEEL)
         text = self.WHEELS.replace("0.1, 0.2", "0.1")
@@ -380,6 +380,7 @@ class Killed(StudyTest):
             self.assert_same(expected)
             shutil.rmtree(self.out)
 
+    @slow
     def test_two_studies_that_start_after_a_kill_do_not_share_a_checkpoint(self):
         self.case(self.WHEEL)
         text = self.WHEELS.replace("0.1, 0.2", "0.1")
@@ -528,4 +529,4 @@ class Refused(StudyTest):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[4:])
+    main(*sys.argv[4:])

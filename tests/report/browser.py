@@ -8,6 +8,9 @@ import sys
 import tempfile
 import time
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from selected import SLOW, run, slow  # noqa: F401 (for the scripts; it takes --slow from the words)
+
 try:
     from selenium import webdriver
     from selenium.webdriver.chrome.service import Service

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-from browser import Browser
+from browser import Browser, run, slow
 from tables import read_table, row_borders
 
 BINARY, RESULTS = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
@@ -109,6 +109,7 @@ class Run(Page):
         self.assertIsNone(self.js("return window.intruder ?? null"))
         self.browser.console()  # it has just complained about this
 
+    @slow
     def test_a_telephone_needs_no_sideways_scrolling(self):
         device = self.browser.driver.execute_cdp_cmd
         device("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2,
@@ -441,6 +442,7 @@ class Run(Page):
         self.assertEqual({b for b in buttons if re.search("cloud|share|edit|send", b, re.I)}, set())
         self.assertEqual(len(set(buttons)), 4, set(buttons))
 
+    @slow
     def test_light_dark_and_light_again_in_print(self):
         def look():
             return self.js(
@@ -997,4 +999,5 @@ del Page  # only its heirs are tests
 
 if __name__ == "__main__":
     with Browser() as BROWSER:
-        unittest.main(argv=sys.argv[:1])
+        code = run()
+    sys.exit(code)

@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-from browser import Browser
+from browser import Browser, run
 from tables import read_table
 
 BINARY, CASE = sys.argv[1], pathlib.Path(sys.argv[2]).resolve() / "cases" / "plastic" / "brittle_0.5mm.toml"
@@ -79,4 +79,5 @@ class PassesPage(unittest.TestCase):
 
 if __name__ == "__main__":
     with Browser() as BROWSER:
-        unittest.main(argv=sys.argv[:1])
+        code = run()
+    sys.exit(code)

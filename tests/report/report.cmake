@@ -1,12 +1,14 @@
-# Results of a small layered rolling and of its half-space solution, then what is made of them: the page in a browser, the picture by VTK.
+# Results of a small layered rolling and of its half-space solution, then what is made of them: the page in a browser,
+# the picture by VTK.
 set(results ${CMAKE_CURRENT_BINARY_DIR}/report_results)
 set(here ${CMAKE_SOURCE_DIR}/tests/report)
-add_test(NAME report:results COMMAND /usr/bin/python3 ${here}/make_results.py $<TARGET_FILE:railstrata> ${results})
-add_test(NAME report:page COMMAND /usr/bin/python3 ${here}/page_test.py $<TARGET_FILE:railstrata> ${results})
-add_test(NAME report:passes_page COMMAND /usr/bin/python3 ${here}/passes_page_test.py $<TARGET_FILE:railstrata> ${CMAKE_SOURCE_DIR})
-set_tests_properties(report:passes_page PROPERTIES SKIP_RETURN_CODE 77)
-add_test(NAME report:view COMMAND /usr/bin/python3 ${here}/view_test.py ${results})
-add_test(NAME report:bundle COMMAND /usr/bin/python3 ${here}/bundle_test.py ${CMAKE_SOURCE_DIR}/report)
+set(railstrata $<TARGET_FILE:railstrata>)
+railstrata_python_test(report:results ${here}/make_results.py ${railstrata} ${results})
+railstrata_python_test(report:page SLOW ${here}/page_test.py ${railstrata} ${results})
+railstrata_python_test(report:passes_page ${here}/passes_page_test.py ${railstrata} ${CMAKE_SOURCE_DIR})
+railstrata_python_test(report:view ${here}/view_test.py ${results})
+railstrata_python_test(report:bundle ${here}/bundle_test.py ${CMAKE_SOURCE_DIR}/report)
+railstrata_python_test(report:what_if ${here}/what_if_page_test.py ${railstrata} ${results})
 set_tests_properties(report:results PROPERTIES FIXTURES_SETUP report_results)
-add_test(NAME report:what_if COMMAND /usr/bin/python3 ${here}/what_if_page_test.py $<TARGET_FILE:railstrata> ${results})
-set_tests_properties(report:page report:view report:what_if PROPERTIES FIXTURES_REQUIRED report_results SKIP_RETURN_CODE 77)
+set_tests_properties(report:page report:page_slow report:view report:what_if PROPERTIES
+  FIXTURES_REQUIRED report_results)

@@ -11,7 +11,7 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
-from browser import Browser
+from browser import Browser, run
 
 BINARY, RESULTS = sys.argv[1], pathlib.Path(sys.argv[2]).resolve()
 
@@ -27,20 +27,24 @@ class WhatIf(unittest.TestCase):
         cls.temporary = tempfile.TemporaryDirectory()
         cls.folder = pathlib.Path(cls.temporary.name)
         cls.page = cls.folder / "what_if.html"
-        run = report(RESULTS / "bem", cls.page, "--what-if")
-        assert run.returncode in (0, 1), run.stderr
-        cls.said = run.stderr + run.stdout
+        done = report(RESULTS / "bem", cls.page, "--what-if")
+        assert done.returncode in (0, 1), done.stderr
+        cls.said = done.stderr + done.stdout
         cls.summary = json.loads((RESULTS / "bem" / "summary.json").read_text())
+        cls.is_open = False
 
     @classmethod
     def tearDownClass(cls):
         cls.temporary.cleanup()
 
     def open(self):
-        """Opens the page and its explorer; what follows is said to the frame."""
-        BROWSER.driver.switch_to.default_content()
-        BROWSER.driver.get("about:blank")
+        """The page with its explorer, opened once, as it begins; what follows is said to the frame."""
+        if self.is_open:
+            for button in ("b-unpin", "b-reset"):
+                BROWSER.js("document.getElementById(arguments[0]).click()", button)
+            return self.settle()
         BROWSER.open(self.page)
+        type(self).is_open = True
         BROWSER.js("document.getElementById('what-if-fold').open = true")
         frame = BROWSER.wait(lambda: BROWSER.js("return document.querySelector('iframe.what-if')"), "the frame")
         BROWSER.driver.switch_to.frame(frame)
@@ -109,8 +113,9 @@ class WhatIf(unittest.TestCase):
             self.open()
             inner = BROWSER.js("return [document.documentElement.scrollWidth, innerWidth]")
             self.assertLessEqual(inner[0], inner[1])
-            BROWSER.driver.switch_to.default_content()
+            BROWSER.driver.switch_to.parent_frame()
             self.assertLessEqual(BROWSER.js("return document.documentElement.scrollWidth"), 390)
+            BROWSER.driver.switch_to.frame(BROWSER.driver.find_element("css selector", "iframe.what-if"))
         finally:
             BROWSER.driver.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
@@ -128,13 +133,13 @@ class WhatIf(unittest.TestCase):
 
     def test_what_it_cannot_show_is_refused(self):
         page = self.folder / "never.html"
-        run = report(RESULTS / "rest", page, "--what-if")
-        self.assertEqual(run.returncode, 2)
-        self.assertIn("history in time", run.stderr)
+        done = report(RESULTS / "rest", page, "--what-if")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("history in time", done.stderr)
         self.assertFalse(page.exists())
 
 
 if __name__ == "__main__":
     with Browser() as BROWSER:
-        result = unittest.main(argv=[sys.argv[0], *sys.argv[3:]], exit=False, verbosity=2).result
-    sys.exit(not result.wasSuccessful())
+        code = run(*sys.argv[3:])
+    sys.exit(code)

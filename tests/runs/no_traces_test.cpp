@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -9,6 +8,7 @@
 
 #include "runs/solve_fem.hpp"
 #include "runs/solve_half_space.hpp"
+#include "tests/places.hpp"
 #include "tests/runs/small_run.hpp"
 
 namespace railstrata {
@@ -19,22 +19,15 @@ namespace fs = std::filesystem;
 /// The working folder for as long as it lives: empty at first, removed at the end.
 class EmptyWorkingFolder {
  public:
-  EmptyWorkingFolder() : before_(fs::current_path()) {
-    std::string name = (fs::temp_directory_path() / "railstrata-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    folder_ = name;
-    fs::current_path(folder_);
-  }
-  ~EmptyWorkingFolder() {
-    fs::current_path(before_);
-    fs::remove_all(folder_);
-  }
+  EmptyWorkingFolder() { fs::current_path(folder_.path()); }
+  ~EmptyWorkingFolder() { fs::current_path(before_); }
   EmptyWorkingFolder(const EmptyWorkingFolder&) = delete;
   EmptyWorkingFolder& operator=(const EmptyWorkingFolder&) = delete;
-  bool empty() const { return fs::is_empty(folder_); }
+  bool empty() const { return fs::is_empty(folder_.path()); }
 
  private:
-  fs::path before_, folder_;
+  const fs::path before_ = fs::current_path();
+  const TemporaryFolder folder_;
 };
 
 bool is_default(int signal) {

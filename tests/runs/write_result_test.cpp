@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cstdlib>
@@ -17,6 +16,7 @@
 #include "runs/write_fem_result.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "runs/write_transient.hpp"
+#include "tests/places.hpp"
 #include "tests/runs/small_run.hpp"
 
 namespace railstrata {
@@ -27,18 +27,13 @@ using Names = std::set<std::string>;
 
 class WriteResult : public testing::Test {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "railstrata-XXXXXX").string();
-    ASSERT_NE(mkdtemp(name.data()), nullptr);
-    folder = name;
-  }
-  void TearDown() override { fs::remove_all(folder); }
   static Names names_in(const fs::path& where) {
     Names names;
     for (const auto& entry : fs::directory_iterator(where)) names.insert(entry.path().filename().string());
     return names;
   }
-  fs::path folder;
+  const TemporaryFolder temporary;
+  const fs::path folder = temporary.path();
 };
 
 const Names kPosition{"centre_line.csv",

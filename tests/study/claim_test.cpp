@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/faults.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -20,9 +21,6 @@ namespace fs = std::filesystem;
 
 class ClaimTest : public testing::Test {
  protected:
-  ClaimTest() { fs::create_directories(folder_); }
-  ~ClaimTest() override { fs::remove_all(folder_); }
-
   std::string text() const {
     std::ostringstream all;
     all << std::ifstream(file_).rdbuf();
@@ -40,7 +38,8 @@ class ClaimTest : public testing::Test {
     return all;
   }
 
-  const fs::path folder_ = fs::temp_directory_path() / ("claim_test-" + std::to_string(::getpid()));
+  const TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
   const fs::path file_ = folder_ / "fem.claim";
 };
 

@@ -3,11 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "study/variation.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
 
-const std::filesystem::path kFile = std::filesystem::path(RAILSTRATA_SOURCE_DIR) / "cases/paper/made_up_study.toml";
+const std::filesystem::path kFile = source_dir() / "cases/paper/made_up_study.toml";
 
 LoadedStudy study(const std::string& groups) { return parse_study("[study]\nbase = \"base.toml\"\n" + groups, kFile); }
 

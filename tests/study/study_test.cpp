@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "core/faults.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -171,8 +172,8 @@ TEST(AxisValue, IsTheNumberAndItsUnit) {
 }
 
 TEST(Published, ThePapersFileIsReadAndItsCasesAreInTheStudy) {
-  const std::filesystem::path folder = std::filesystem::path(RAILSTRATA_SOURCE_DIR) / "cases/paper";
-  const Published p = load_published(std::filesystem::path(RAILSTRATA_SOURCE_DIR) / "data/paper/published.toml");
+  const std::filesystem::path folder = source_dir() / "cases/paper";
+  const Published p = load_published(source_dir() / "data/paper/published.toml");
   const LoadedStudy study = load_study(folder / "study.toml");
   EXPECT_EQ(p.columns.size(), 3u);
   EXPECT_GT(p.numbers.size(), 25u);
@@ -191,7 +192,8 @@ TEST(Published, ThePapersFileIsReadAndItsCasesAreInTheStudy) {
 }
 
 TEST(Published, MistakesAreToldWithTheirPlace) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "published_test.toml";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "published_test.toml";
   std::ofstream(file) << "[[number]]\nsection = \"1\"\nquantity = \"a\"\nvalue = \"x\"\ncolumn = \"p\"\ngiven = "
                          "\"a/b\"\nbond = \"at most\"\nwithin = 1\n";
   try {

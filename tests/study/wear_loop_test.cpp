@@ -13,6 +13,7 @@
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
 #include "study/wear_loop_page.hpp"
+#include "tests/places.hpp"
 
 namespace railstrata {
 namespace {
@@ -36,18 +37,13 @@ WearStepOptions coarse(double max_wear) {
   return options;
 }
 
-std::filesystem::path folder(const std::string& name) {
-  const std::filesystem::path out = std::filesystem::path(testing::TempDir()) / name;
-  std::filesystem::create_directories(out);
-  return out;
-}
-
 /// A rail worn in steps until so many passages are over.
 struct Worn {
   WornRail rail;
   double wanted_area = 0;
 };
-Worn worn(const CaseSpec& spec, const std::string& name, double passages, int steps) {
+Worn worn(const CaseSpec& spec, double passages, int steps) {
+  const TemporaryFolder folder;
   const Placement original = place(spec, {});
   Worn out{unworn(original, kCell), 0};
   WearStepOptions options = coarse(1e-3);
@@ -56,7 +52,7 @@ Worn worn(const CaseSpec& spec, const std::string& name, double passages, int st
     WearStep step = wear_step(spec, {}, original, out.rail, options);
     out.wanted_area += step.wanted_area;
     out.rail = step.rail;
-    out.rail.file = folder(name) / ("step" + std::to_string(k) + ".csv");
+    out.rail.file = folder.path() / ("step" + std::to_string(k) + ".csv");
     write_worn_profile(out.rail.file, {}, out.rail.points);
   }
   return out;
@@ -77,7 +73,7 @@ constexpr double kPassages = 2e5;
 
 TEST(WearLoop, TheAreaOffTheProfileIsThatOfTheStreamlines) {
   const CaseSpec spec = arcs("[[load]]\npassages = 3\nlateral_shift = \"2 mm\"\n[[load]]\nwheel_load = \"60 kN\"\n");
-  const Worn result = worn(spec, "wear_area", kPassages, 2);
+  const Worn result = worn(spec, kPassages, 2);
   EXPECT_NEAR(result.rail.area / result.wanted_area, 1, 0.01);
   EXPECT_NEAR(result.rail.passages, kPassages, 1e-6 * kPassages);
   EXPECT_GT(deepest(result.rail, spec), 20e-6);
@@ -85,7 +81,7 @@ TEST(WearLoop, TheAreaOffTheProfileIsThatOfTheStreamlines) {
 
 TEST(WearLoop, SymmetricLoadsWearSymmetrically) {
   const CaseSpec spec = arcs("[[load]]\nlateral_shift = \"3 mm\"\n[[load]]\nlateral_shift = \"-3 mm\"\n");
-  const WornRail rail = worn(spec, "wear_symmetry", kPassages, 2).rail;
+  const WornRail rail = worn(spec, kPassages, 2).rail;
   const double depth = deepest(rail, spec);
   ASSERT_GT(depth, 20e-6);
   const std::size_t n = rail.points.size();
@@ -98,7 +94,7 @@ TEST(WearLoop, SymmetricLoadsWearSymmetrically) {
 TEST(WearLoop, HalvingTheStepChangesTheProfileLittle) {
   const CaseSpec spec = arcs("[[load]]\n[[load]]\nlateral_shift = \"2 mm\"\n");
   constexpr double kFew = 2e4;  // some 5 µm a step
-  const WornRail coarse_steps = worn(spec, "wear_2", kFew, 2).rail, fine_steps = worn(spec, "wear_4", kFew, 4).rail;
+  const WornRail coarse_steps = worn(spec, kFew, 2).rail, fine_steps = worn(spec, kFew, 4).rail;
   const double depth = deepest(fine_steps, spec);
   ASSERT_GT(depth, 5e-6);
   EXPECT_NEAR(coarse_steps.area / fine_steps.area, 1, 0.02);
@@ -124,7 +120,8 @@ TEST(WearLoopPage, TheDepthIsTheDistanceToTheWornProfile) {
 }
 
 TEST(WearLoopPage, ContactsAreReadBackAndThePageNamesTheLoads) {
-  const std::filesystem::path out = folder("wear_page");
+  const TemporaryFolder folder;
+  const std::filesystem::path out = folder.path();
   const std::vector<WearLoad> loads{
       {1, 0, 0, 1, 1200, 13}, {1, 0, 1, -2, 800, 2}, {2, 4e3, 0, 4.787483858534468, 1350.0862428485952, 12}};
   write_wear_loads(out / "loads.csv", {}, loads);
@@ -174,7 +171,8 @@ TEST(WearLoop, TheRailStaysInItsPlaceAndTheGaugeWidens) {
   const CaseSpec spec = parse_case("[[load]]\n", "a.toml").spec;
   const Placement original = place(spec, {});
   WornRail rail = unworn(original, kCell);
-  rail.file = folder("wear_gauge") / "rail.csv";
+  const TemporaryFolder folder;
+  rail.file = folder.path() / "rail.csv";
   for (Vec2& p : rail.points)
     if (p.y < 0) p.y += 0.1e-3;  // the gauge face gives way by 0.1 mm
   const CaseSpec worn = on_worn_rail(spec, original, rail);
