@@ -100,7 +100,7 @@ def run(given, words, folder):
     temporary.mkdir()
     code = subprocess.run(["ctest", "--test-dir", build, "-j", "2", "--output-on-failure", "--output-junit", results,
                            "--test-output-size-passed", "100000", *chosen],
-                          env={**os.environ, **WAIT, "TMPDIR": str(temporary)}).returncode
+                          env={**os.environ, **WAIT, "TMPDIR": str(temporary), "TEST_TMPDIR": str(temporary)}).returncode
     for name, reason in skipped(results) if results.exists() else ():
         print(f"skipped: {name}: {reason}")
     left = sorted(file.name for file in temporary.iterdir())

@@ -61,21 +61,21 @@ void wear_number(Call& call) {
   call.answer["value"] = number(brr_wear(call.number("t_gamma"), call.number("wheel_diameter")));
 }
 
-EllipticPatch patch_of(const Call& call) {
+EllipticPatch elliptic_patch(const Call& call) {
   return {call.number("a"), call.number("b"), call.number("load"), call.number("utilised_friction")};
 }
 
 void surface_fatigue(Call& call) {
-  call.answer["value"] = number(surface_fatigue_index(patch_of(call), call.number("cyclic_shear_yield")));
+  call.answer["value"] = number(surface_fatigue_index(elliptic_patch(call), call.number("cyclic_shear_yield")));
 }
 
 void subsurface_fatigue(Call& call) {
-  call.answer["value"] = number(
-      subsurface_fatigue_index(patch_of(call), call.number("dang_van_constant"), call.number("residual_hydrostatic")));
+  call.answer["value"] = number(subsurface_fatigue_index(elliptic_patch(call), call.number("dang_van_constant"),
+                                                         call.number("residual_hydrostatic")));
 }
 
 /// The arrays of a row by their names, of one length; none: that of the first.
-Streamline row_of(const Call& call, std::array<const char*, 5> names) {
+Streamline streamline_of(const Call& call, std::array<const char*, 5> names) {
   std::array<std::span<const double>, 5> all;
   for (std::size_t k = 0; k < names.size(); ++k) {
     const Array numbers = call.array(names[k]);
@@ -91,12 +91,12 @@ Streamline row_of(const Call& call, std::array<const char*, 5> names) {
 void wear_rate(Call& call) { call.answer["value"] = number(usfd_rate(call.number("t_gamma_per_area"))); }
 
 void wear_depth(Call& call) {
-  const Streamline line = row_of(call, {"q_x", "q_x", "q_y", "slip_x", "slip_y"});
+  const Streamline line = streamline_of(call, {"q_x", "q_x", "q_y", "slip_x", "slip_y"});
   call.answer["value"] = number(usfd_depth(line, call.number("density")));
 }
 
 void archard(Call& call) {
-  const Streamline line = row_of(call, {"p", "p", "p", "slip_x", "slip_y"});
+  const Streamline line = streamline_of(call, {"p", "p", "p", "slip_x", "slip_y"});
   const double depth = archard_depth(line, laboratory_dry_archard(), call.number("hardness"), call.number("scale"));
   call.answer["value"] = number(depth);
 }

@@ -54,7 +54,7 @@ HalfSpaceSolution solved(const HalfSpaceRun& run, const Wanted& wanted, const Tr
   return solution;
 }
 
-void solve(Call& call) {
+void answer_half_space(Call& call) {
   const auto loaded = call.made<LoadedCase>("case");
   const Wanted wanted{call.number("cell"), call.whole("threads"), call.flag("stresses"), call.flag("single_track"),
                       call.flag("maps")};
@@ -155,7 +155,7 @@ void write(Call& call) {
 }  // namespace
 
 Functions half_space_functions() {
-  return {{"solve_half_space", solve},
+  return {{"solve_half_space", answer_half_space},
           {"stresses_at", stresses_at},
           {"stress_plane", stress_plane},
           {"grid", grid_axes},

@@ -20,7 +20,7 @@ PassOrder order_of(const Call& call) {
 }
 
 /// Tells the pass under way and how far all are.
-void solve(Call& call) {
+void solve_passes(Call& call) {
   const auto loaded = call.made<LoadedCase>("case");
   const PassOrder order = order_of(call);
   std::vector<std::string> notes;
@@ -37,6 +37,6 @@ void solve(Call& call) {
 
 }  // namespace
 
-Functions pass_functions() { return {{"passes", solve}}; }
+Functions pass_functions() { return {{"passes", solve_passes}}; }
 
 }  // namespace railstrata::bridge

@@ -17,7 +17,7 @@ FolderRunObserver teller(Call& call, std::vector<std::string>& notes) {
   return observer;
 }
 
-void solve(Call& call, FolderRun& run) {
+void solve_run(Call& call, FolderRun& run) {
   std::vector<std::string> notes = run.notes;
   FemOptions options;
   options.wishes.stop = &call.stop;
@@ -30,12 +30,12 @@ void solve(Call& call, FolderRun& run) {
 
 void run_case(Call& call) {
   FolderRun run = begin_run(*call.made<LoadedCase>("case"), call.text("folder"), call.flag("force"));
-  solve(call, run);
+  solve_run(call, run);
 }
 
 void go_on(Call& call) {
   FolderRun run = resume_run(call.text("folder"));
-  solve(call, run);
+  solve_run(call, run);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ hid_t checked(hid_t id) {
   return id;
 }
 
-struct Handle : Hdf5Handle {
-  Handle(hid_t id, Close close) : Hdf5Handle(checked(id), close) {}
+struct TableHandle : Hdf5Handle {
+  TableHandle(hid_t id, Close close) : Hdf5Handle(checked(id), close) {}
 };
 
 /// HDF5 prints its stack of errors unless it is told not to.
@@ -41,15 +41,15 @@ class Quiet {
 };
 
 void add_text(hid_t at, const char* name, std::string_view text) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
+  const TableHandle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
   checked(H5Tset_size(type, text.size() + 1));
   checked(H5Tset_cset(type, H5T_CSET_UTF8));
-  const Handle attribute(H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  const TableHandle attribute(H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   checked(H5Awrite(attribute, type, std::string(text).c_str()));
 }
 
 std::string text_of(hid_t at, const char* name) {
-  const Handle attribute(H5Aopen(at, name, H5P_DEFAULT), H5Aclose), type(H5Aget_type(attribute), H5Tclose);
+  const TableHandle attribute(H5Aopen(at, name, H5P_DEFAULT), H5Aclose), type(H5Aget_type(attribute), H5Tclose);
   if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) throw Refused{};
   std::string out(H5Tget_size(type) + 1, '\0');
   checked(H5Aread(attribute, type, out.data()));
@@ -59,10 +59,10 @@ std::string text_of(hid_t at, const char* name) {
 /// Without the time of day in it: the same table has the same bytes.
 void add_numbers(hid_t file, const std::string& name, const std::string& unit, const std::vector<hsize_t>& size,
                  const std::vector<double>& values) {
-  const Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose),
+  const TableHandle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose),
       how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
   checked(H5Pset_obj_track_times(how, false));
-  const Handle set(H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
+  const TableHandle set(H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
   checked(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   add_text(set, kUnits, unit);
 }
@@ -74,25 +74,25 @@ void fill(hid_t file, const ForceTable& table, const TableRemarks& remarks) {
     names += (names.empty() ? "" : ",") + axis.name;
     size.push_back(axis.at.size());
     add_numbers(file, axis.name, axis.unit, {axis.at.size()}, axis.at);
-    const Handle set(H5Dopen2(file, axis.name.c_str(), H5P_DEFAULT), H5Dclose);
+    const TableHandle set(H5Dopen2(file, axis.name.c_str(), H5P_DEFAULT), H5Dclose);
     checked(H5DSset_scale(set, axis.name.c_str()));
   }
   add_text(file, kAxes, names);
   for (const auto& [name, text] : remarks) add_text(file, name.c_str(), text);
   for (const TableNumber& number : table.numbers) {
     add_numbers(file, number.name, number.unit, size, number.values);
-    const Handle set(H5Dopen2(file, number.name.c_str(), H5P_DEFAULT), H5Dclose);
+    const TableHandle set(H5Dopen2(file, number.name.c_str(), H5P_DEFAULT), H5Dclose);
     for (std::size_t k = 0; k < table.axes.size(); ++k) {
-      const Handle scale(H5Dopen2(file, table.axes[k].name.c_str(), H5P_DEFAULT), H5Dclose);
+      const TableHandle scale(H5Dopen2(file, table.axes[k].name.c_str(), H5P_DEFAULT), H5Dclose);
       checked(H5DSattach_scale(set, scale, static_cast<unsigned>(k)));
     }
   }
 }
 
 std::string image_of(const ForceTable& table, const TableRemarks& remarks) {
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  const TableHandle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   checked(H5Pset_fapl_core(access, kGrowth, 0));
-  const Handle file(H5Fcreate("table", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+  const TableHandle file(H5Fcreate("table", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
   fill(file, table, remarks);
   checked(H5Fflush(file, H5F_SCOPE_GLOBAL));
   std::string out(static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0))), '\0');
@@ -101,7 +101,7 @@ std::string image_of(const ForceTable& table, const TableRemarks& remarks) {
 }
 
 std::vector<double> numbers_of(hid_t set) {
-  const Handle space(H5Dget_space(set), H5Sclose);
+  const TableHandle space(H5Dget_space(set), H5Sclose);
   const hssize_t count = H5Sget_simple_extent_npoints(space);
   if (count < 1 || static_cast<std::size_t>(count) > kMostPoints) throw Refused{};
   std::vector<double> out(static_cast<std::size_t>(count));
@@ -126,13 +126,13 @@ ForceTable table_in(hid_t file) {
     const std::size_t comma = names.find(',');
     const std::string name = names.substr(0, comma);
     names = comma == std::string::npos ? "" : names.substr(comma + 1);
-    const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const TableHandle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
     out.axes.push_back({name, text_of(set, kUnits), numbers_of(set)});
   }
   std::vector<std::string> numbers;
   checked(H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &numbers));
   for (const std::string& name : numbers) {
-    const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const TableHandle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
     out.numbers.push_back({name, text_of(set, kUnits), numbers_of(set)});
   }
   return out;
@@ -152,7 +152,7 @@ std::string table_image(const ForceTable& table, const TableRemarks& remarks) {
 std::optional<ForceTable> table_in_file(const std::filesystem::path& file) {
   const Quiet quiet;
   try {
-    const Handle from(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    const TableHandle from(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
     return table_in(from);
   } catch (const Refused&) {
     return std::nullopt;

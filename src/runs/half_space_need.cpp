@@ -7,6 +7,7 @@
 #include "bem/case_patch.hpp"
 #include "bem/transient.hpp"
 #include "core/faults.hpp"
+#include "runs/memory_need.hpp"
 #include "runs/process_memory.hpp"
 
 namespace railstrata {

@@ -187,7 +187,7 @@ struct LongPatch {
   std::size_t middle(int i) const { return grid.index(i, grid.ny / 2); }
 };
 
-TEST(LineContact, LayeredLineIsTheMiddleOfAVeryLongPatch) {
+TEST(SlowLineContact, LayeredLineIsTheMiddleOfAVeryLongPatch) {
   for (const LayeredHalfSpace& rail :
        {LayeredHalfSpace{{{1e-3, {420e9, 0.3}}}, kSteel}, LayeredHalfSpace{{{0.6e-3, {105e9, 0.3}}}, kSteel}}) {
     const LongPatch patch(rail);

@@ -235,7 +235,7 @@ TEST(Indentation, BallAtFiveTimesTheApproachOfFirstYieldHasThePublishedLoadAndPa
   expect_published_load_and_patch(5);
 }
 
-TEST(Indentation, BallAtTwentyTimesTheApproachOfFirstYieldHasThePublishedLoadAndPatchWithinFivePercent) {
+TEST(SlowIndentation, BallAtTwentyTimesTheApproachOfFirstYieldHasThePublishedLoadAndPatchWithinFivePercent) {
   expect_published_load_and_patch(20);
 }
 

@@ -34,7 +34,7 @@ TEST(Engine, InSinglePrecisionDisplacementsAndPressuresAre) {
   expect_same_steps_in_single_precision(device);
 }
 
-TEST(Engine, TheSameBitsInAnyOrderOfThreads) {
+TEST(SlowEngine, TheSameBitsInAnyOrderOfThreads) {
   const RollingSystem system = small_system(layered_case(ArithmeticPrecision::double_precision));
   const PreloadResult preload = solve_preload(system, 1e-3);
   EmulatedDevice forward(Protection::closed), backward(Protection::closed, LaunchOrder::backward),

@@ -105,7 +105,7 @@ struct BothRolled {
 constexpr int kSteps = 24;
 constexpr double kTolerance = 1e-9;
 
-TEST(DeviceOptions, EveryOneThatStepsReadGivesTheProcessorsPressure) {
+TEST(SlowDeviceOptions, EveryOneThatStepsReadGivesTheProcessorsPressure) {
   const BothRolled base(spec_with({}), kSteps);
   for (const Overrides& set : taken()) {
     std::string name;

@@ -27,7 +27,7 @@ CaseSpec short_ball_case() {
 
 // Under a film much more flexible than the bodies each point is sheared by eta times its distance from the leading
 // edge: traction grows along each column by (G/h) eta.
-TEST(FrictionLaws, ASoftFilmIsShearedInProportionToTheDistanceFromTheLeadingEdge) {
+TEST(SlowFrictionLaws, ASoftFilmIsShearedInProportionToTheDistanceFromTheLeadingEdge) {
   CaseSpec spec = short_ball_case();
   spec.mesh.element_size = 2e-3;
   spec.mesh.fine_depth = 4e-3;

@@ -196,7 +196,7 @@ TEST(Ranks, GoOnWithTheStateOfAnotherNumberOfRanks) {
 
 // A run with its samples, histories, frames and saved states, beyond the window around the contact in which all ranks
 // know the running surface (4 elements, fem/line_reach.hpp).
-TEST(Ranks, RunACaseToTheBitsOfOne) {
+TEST(SlowRanks, RunACaseToTheBitsOfOne) {
   CaseSpec spec = damped_case();
   spec.drive.speed = 12;
   spec.run.positions = {5e-3, 4.5 * spec.mesh.element_size};

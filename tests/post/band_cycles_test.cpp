@@ -81,7 +81,7 @@ struct HertzBand {
 }  // namespace
 
 // docs/damage-verification.md, p0/k: elements of a fifth of the half-length see limits that are decided in depth.
-TEST(BandCycles, OfACircularContactGiveTheFactorsOfItsExactStress) {
+TEST(SlowBandCycles, OfACircularContactGiveTheFactorsOfItsExactStress) {
   struct Row {
     double friction, offset, first_yield, wandering, track, upper;
   };

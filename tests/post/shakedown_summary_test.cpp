@@ -80,7 +80,7 @@ TEST(ShakedownSummary, HalfTheCellsGiveTheSameFactors) {
 }
 
 // The residual stress of one track holds shear that depth alone cannot: with slip at 0.2 by 16 % (docs/damage.md).
-TEST(ShakedownSummary, OneTrackLiesBetweenAnyTrafficAndTheUpperBound) {
+TEST(SlowShakedownSummary, OneTrackLiesBetweenAnyTrafficAndTheUpperBound) {
   CaseSpec spec = frictionless();
   const Found free = shakedown_of(spec, 0.5e-3, true);
   EXPECT_EQ(free.factors.single_track, free.factors.wandering) << "within 2 % of the bound";

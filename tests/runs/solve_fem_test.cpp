@@ -75,7 +75,7 @@ TEST(SolveFem, GivesPatchStressesAndSummaryOfEveryPosition) {
   EXPECT_GT(solution.history.size(), 30u);  // 12 mm by rows of 0.2 mm
 }
 
-TEST(SolveFem, GivesTheNumbersOfDamageThatHalfSpacesGive) {
+TEST(SlowSolveFem, GivesTheNumbersOfDamageThatHalfSpacesGive) {
   const CaseSpec spec =
       small_case({"material.rail.yield_strength=\"400 MPa\"", "material.wheel.yield_strength=\"400 MPa\""}).spec;
   const RollingSystem system = fem_system(spec, ".");

@@ -92,7 +92,7 @@ TEST(PatchRolling, YieldsFromTheClosedFormOn) {
   EXPECT_GT(roll(above, 1)[0].accumulated, 0);
 }
 
-TEST(PatchRolling, WithoutFrictionItShakesDownToTheLimitOfOneTrackAndNotBeyond) {
+TEST(SlowPatchRolling, WithoutFrictionItShakesDownToTheLimitOfOneTrackAndNotBeyond) {
   const SteadyGrid g = patch_grid(0.2, 0.1);
   for (const double load : {4.0, 4.6}) {  // limit 4.675
     PatchRolling run(g, load);
