@@ -11,7 +11,7 @@ function(railstrata_build_info suffix)
   add_custom_target(build_info${suffix} BYPRODUCTS ${output} COMMENT "" VERBATIM
     COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DSOURCE=${CMAKE_SOURCE_DIR} "-DGIT=${GIT_EXECUTABLE}"
       "-DVERSION=${PROJECT_VERSION}" "-DCOMPILER=${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
-      "-DFLAGS=${flags}" "-DBUILD_TYPE=${CMAKE_BUILD_TYPE}" -P ${CMAKE_SOURCE_DIR}/cmake/write_build_info.cmake)
+      "-DFLAGS=${flags}" -DPARTS=${RAILSTRATA_PARTS_FILE} "-DBUILD_TYPE=${CMAKE_BUILD_TYPE}" -P ${CMAKE_SOURCE_DIR}/cmake/write_build_info.cmake)
   add_library(railstrata_build_info${suffix} STATIC ${output})
   add_dependencies(railstrata_build_info${suffix} build_info${suffix})
   target_link_libraries(railstrata_build_info${suffix} PRIVATE railstrata_flags${suffix})

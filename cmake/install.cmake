@@ -34,10 +34,12 @@ function(railstrata_install_libraries layout libdir)
   railstrata_part(program)
   install(TARGETS railstrata_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} ${part})
   install(TARGETS railstrata_commands${installed_suffix} LIBRARY DESTINATION ${libdir} ${part} NAMELINK_SKIP)
+  install(TARGETS railstrata_hdf5${installed_suffix} LIBRARY DESTINATION ${libdir} ${library_part} NAMELINK_SKIP)
   install(TARGETS contact_addon LIBRARY DESTINATION ${libdir}/railstrata/contact ${library_part})
   foreach(level IN LISTS levels)
     set(folder ${libdir}/${hwcaps}/x86-64-${level})
-    install(TARGETS railstrata_library_${level} LIBRARY DESTINATION ${folder} ${library_part} NAMELINK_SKIP)
+    install(TARGETS railstrata_library_${level} railstrata_hdf5_${level} LIBRARY DESTINATION ${folder} ${library_part}
+      NAMELINK_SKIP)
     install(TARGETS railstrata_commands_${level} LIBRARY DESTINATION ${folder} ${part} NAMELINK_SKIP)
   endforeach()
 endfunction()
@@ -85,13 +87,13 @@ endfunction()
 
 function(railstrata_install_python layout libdir folder)
   railstrata_part(python)
-  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/python/railstrata/*.py ${CMAKE_SOURCE_DIR}/python/railstrata/*.pyi
+  file(GLOB files CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/python/railstrata/*.py
     ${CMAKE_SOURCE_DIR}/python/railstrata/py.typed)
   install(FILES ${files} DESTINATION ${folder}/railstrata ${part})
-  install(TARGETS python_module LIBRARY DESTINATION ${folder}/railstrata ${part})
-  install(TARGETS railstrata_python${installed_suffix} LIBRARY DESTINATION ${libdir} ${part} NAMELINK_SKIP)
+  install(TARGETS python_bridge LIBRARY DESTINATION ${folder}/railstrata ${part})
+  install(TARGETS railstrata_bridge${installed_suffix} LIBRARY DESTINATION ${libdir} ${part} NAMELINK_SKIP)
   foreach(level IN LISTS levels)
-    install(TARGETS railstrata_python_${level} LIBRARY DESTINATION ${libdir}/${hwcaps}/x86-64-${level} ${part}
+    install(TARGETS railstrata_bridge_${level} LIBRARY DESTINATION ${libdir}/${hwcaps}/x86-64-${level} ${part}
       NAMELINK_SKIP)
   endforeach()
 endfunction()
@@ -101,9 +103,7 @@ function(railstrata_install layout libdir python_folder)
   railstrata_install_libraries("${layout}" ${libdir})
   railstrata_install_headers("${layout}" ${libdir})
   railstrata_install_data("${layout}")
-  if(RAILSTRATA_PYTHON)
-    railstrata_install_python("${layout}" ${libdir} ${python_folder})
-  endif()
+  railstrata_install_python("${layout}" ${libdir} ${python_folder})
   if(TARGET railstrata_mpi)  # where the program looks for it: src/app/mpi_ranks.cpp
     railstrata_part(mpi)
     install(TARGETS railstrata_mpi LIBRARY DESTINATION lib/railstrata ${part})
@@ -119,17 +119,15 @@ target_compile_features(railstrata_library${installed_suffix} INTERFACE cxx_std_
 # Where libraries look for each other, seen from their own folder: the tree can be moved.
 set(python_folder ${CMAKE_INSTALL_LIBDIR}/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages
   CACHE STRING "Folder of the Python package below the prefix: that of users (~/.local) and virtual environments")
-foreach(level IN LISTS levels)
-  set_target_properties(railstrata_commands_${level} PROPERTIES INSTALL_RPATH "$ORIGIN/../..")
-endforeach()
-if(RAILSTRATA_PYTHON)
-  set_target_properties(railstrata_python${installed_suffix} PROPERTIES INSTALL_RPATH "$ORIGIN")
+foreach(name library commands bridge hdf5)
+  set_target_properties(railstrata_${name}${installed_suffix} PROPERTIES INSTALL_RPATH "$ORIGIN")
   foreach(level IN LISTS levels)
-    set_target_properties(railstrata_python_${level} PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/../..")
+    set_target_properties(railstrata_${name}_${level} PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/../..")
   endforeach()
-  file(RELATIVE_PATH lib_from_python /prefix/${python_folder}/railstrata /prefix/${CMAKE_INSTALL_LIBDIR})
-  set_target_properties(python_module PROPERTIES INSTALL_RPATH "$ORIGIN/${lib_from_python}")
-endif()
+endforeach()
+# of a prefix, and of a wheel, whose libraries stand in the package
+file(RELATIVE_PATH lib_from_python /prefix/${python_folder}/railstrata /prefix/${CMAKE_INSTALL_LIBDIR})
+set_target_properties(python_bridge PROPERTIES INSTALL_RPATH "$ORIGIN/lib;$ORIGIN/${lib_from_python}")
 
 railstrata_install("" ${CMAKE_INSTALL_LIBDIR} ${python_folder})
 

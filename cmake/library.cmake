@@ -5,24 +5,28 @@
 #   librailstrata-commands.so   the rooms `study`, `explore` and `app`: the command line of the program, and nothing for
 #                               others.
 #   railstrata                  main() alone.
-#   librailstrata-python.so     the rooms `study` and the handles of the Python module, which is an empty file beside the
-#                               Python files that asks for this library: so the loader's choice holds for it too.
+#   librailstrata-bridge.so     the rooms `study` and `bridge`: what the Python package calls.
+#   librailstrata-hdf5.so       the room `hdf5`, loaded by librailstrata.so when a checkpoint or a table is first asked
+#                               for: a program that only solves contacts needs no HDF5.
 #   contact_addon_linux64.so    the room `cntc` with all it needs inside, so that this one file can stand in for that of
 #                               CONTACT; in a folder of its own, where nobody finds it by accident.
 #
-# The libraries are linked from the objects of the static rooms; nothing is compiled twice. Because a SIMD pack has
-# another width with every instruction set, both libraries are built for each of them, and the loader takes the pair
-# from lib/glibc-hwcaps/x86-64-v3 or -v4 if the processor has what it needs [ld.so(8), glibc 2.33 and later].
+# The libraries are linked from the objects of the static rooms; nothing is compiled twice. fmt, toml++ and zlib are
+# inside, so that a program which links librailstrata.so needs the compiler's own libraries alone. Because a SIMD pack has
+# another width with every instruction set, all are built for each of them, and the loader takes them from lib/glibc-hwcaps/x86-64-v3 or -v4 if the processor has what it needs [ld.so(8), glibc 2.33 and later].
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 include(CheckLinkerFlag)
+set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python that runs the tools of the build")
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 # The headers that a user of the library includes; those that they include are public too. C++ API, unstable until 1.0.
 set(PUBLIC_HEADERS core/faults.hpp case/case_file.hpp io/provenance.hpp runs/library.hpp)
 set(C_HEADER capi/railstrata.h)
 set(ROOMS_OF_THE_PROGRAM study explore app)
+set(ROOMS_OF_PYTHON study bridge)
 set(ROOM_OF_CONTACT cntc)
+set(ROOM_OF_HDF5 hdf5)
 # The mark by which the loader refuses a processor that is too old, in words instead of an illegal instruction.
 check_linker_flag(CXX -Wl,-z,x86-64-v2 has_level_mark)
 
@@ -43,6 +47,11 @@ add_custom_command(OUTPUT ${headers_stamp} DEPFILE ${headers_stamp}.d DEPENDS ${
   COMMENT "Collecting the library's public headers")
 add_custom_target(public_headers ALL DEPENDS ${headers_stamp})
 
+# What stands inside the libraries in place of libfmt.so, libtomlplusplus.so and libz.so; where it cannot, the linker
+# takes those.
+find_library(RAILSTRATA_ZLIB_ARCHIVE libz.a)
+set(inside_sources ${CMAKE_SOURCE_DIR}/packaging/inside/fmt.cpp ${CMAKE_SOURCE_DIR}/packaging/inside/toml.cpp)
+
 # railstrata_collect(OUT SUFFIX room...): OUT_objects, OUT_archives and the third parties' OUT_libraries of rooms.
 function(railstrata_collect out suffix)
   foreach(room IN LISTS ARGN)
@@ -51,22 +60,41 @@ function(railstrata_collect out suffix)
     list(APPEND libraries ${ROOM_LIBS_${room}})
   endforeach()
   list(REMOVE_DUPLICATES libraries)
+  if(RAILSTRATA_ZLIB_ARCHIVE)
+    list(TRANSFORM libraries REPLACE "^ZLIB::ZLIB$" "${RAILSTRATA_ZLIB_ARCHIVE}")
+  endif()
   foreach(part objects archives libraries)
     set(${out}_${part} ${${part}} PARENT_SCOPE)
   endforeach()
 endfunction()
 
-# railstrata_library(VARIANT FOLDER LEVEL): both libraries of a variant, written to FOLDER of the build. LEVEL, if
-# given, is the instruction set that the loader asks the processor for before it takes them.
+# railstrata_shared(TARGET NAME FOLDER MAP): lib<NAME>.so with its version, and what it carries inside.
+function(railstrata_shared target name folder map)
+  add_library(${target} SHARED ${ARGN} $<TARGET_OBJECTS:inside${suffix}>)
+  target_link_options(${target} PRIVATE -Wl,--as-needed -Wl,--no-undefined -Wl,--version-script=${map})
+  set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
+    SOVERSION ${so_version} LINK_DEPENDS ${map} LIBRARY_OUTPUT_DIRECTORY ${folder} BUILD_RPATH "$ORIGIN")
+  if(level AND has_level_mark)
+    target_link_options(${target} PRIVATE -Wl,-z,${level})
+  endif()
+  if(RAILSTRATA_SANITIZE)
+    target_link_options(${target} PRIVATE -fsanitize=${RAILSTRATA_SANITIZE})
+  endif()
+endfunction()
+
+# railstrata_library(VARIANT FOLDER LEVEL): the libraries of a variant, written to FOLDER of the build. LEVEL, if given,
+# is the instruction set that the loader asks the processor for before it takes them.
 function(railstrata_library variant folder level)
   set(suffix "")
   if(variant)
     set(suffix "_${variant}")
   endif()
   set(rooms ${ROOMS${suffix}})
-  list(REMOVE_ITEM rooms ${ROOMS_OF_THE_PROGRAM} ${ROOM_OF_CONTACT})
+  list(REMOVE_ITEM rooms ${ROOMS_OF_THE_PROGRAM} ${ROOMS_OF_PYTHON} ${ROOM_OF_CONTACT} ${ROOM_OF_HDF5})
   railstrata_collect(lower "${suffix}" ${rooms})
   railstrata_collect(upper "${suffix}" ${ROOMS_OF_THE_PROGRAM})
+  railstrata_collect(python "${suffix}" ${ROOMS_OF_PYTHON})
+  railstrata_collect(hdf5 "${suffix}" ${ROOM_OF_HDF5})
   list(APPEND lower_objects $<TARGET_OBJECTS:railstrata_build_info${suffix}>)
   list(APPEND lower_archives $<TARGET_FILE:railstrata_build_info${suffix}>)
   if(RAILSTRATA_WITH_CUDA)  # not among the objects of its room: another compiler has made it
@@ -74,55 +102,50 @@ function(railstrata_library variant folder level)
     list(APPEND lower_libraries ${RAILSTRATA_CUDART} Threads::Threads rt ${CMAKE_DL_LIBS})
   endif()
 
-  set(user_objects "")
-  if(RAILSTRATA_PYTHON)
-    set(user_objects $<TARGET_OBJECTS:python_objects${suffix}>)
-  endif()
+  # Of the libraries, not of their rooms: what they have inside, and the two ends of the plug-in.
+  add_library(inside${suffix} OBJECT ${inside_sources})
+  target_link_libraries(inside${suffix} PRIVATE railstrata_flags${suffix} fmt::fmt tomlplusplus::tomlplusplus)
+  target_compile_options(inside${suffix} PRIVATE -w)
+  foreach(end plug_in load_plug_in)
+    add_library(hdf5_${end}${suffix} OBJECT ${CMAKE_SOURCE_DIR}/src/hdf5/in_library/${end}.cpp)
+    target_link_libraries(hdf5_${end}${suffix} PRIVATE room_table${suffix} room_fem${suffix})
+  endforeach()
+  target_compile_definitions(hdf5_load_plug_in${suffix} PRIVATE
+    RAILSTRATA_HDF5_PLUG_IN="librailstrata-hdf5.so.${so_version}")
+  list(APPEND lower_objects $<TARGET_OBJECTS:hdf5_load_plug_in${suffix}>)
+  list(APPEND lower_libraries ${CMAKE_DL_LIBS})
+
   # The version script: a public version with what the public headers declare, a private one with what the program's
-  # rooms and the Python module call besides, all else local.
+  # rooms, the bridge and the plug-in call besides, all else local.
   set(map ${CMAKE_BINARY_DIR}/generated/librailstrata${suffix}.map)
-  add_custom_command(OUTPUT ${map} DEPENDS ${interface_tool} ${lower_archives} ${upper_archives} ${headers_stamp}
-    ${user_objects} VERBATIM
+  add_custom_command(OUTPUT ${map} DEPENDS ${interface_tool} ${lower_archives} ${upper_archives} ${python_archives}
+    ${hdf5_archives} ${headers_stamp} VERBATIM
     COMMAND Python3::Interpreter ${interface_tool} exports --headers ${public_include}/railstrata --nm ${CMAKE_NM}
       --version ${PROJECT_VERSION} --public-version ${so_version} --out ${map} --library ${lower_archives}
-      --users ${upper_archives} ${user_objects}
+      --users ${upper_archives} ${python_archives} ${hdf5_archives}
     COMMAND_EXPAND_LISTS COMMENT "Listing the symbols of librailstrata${suffix}.so")
   add_custom_target(railstrata_map${suffix} DEPENDS ${map})
 
   set(library railstrata_library${suffix})
-  add_library(${library} SHARED ${lower_objects})
+  railstrata_shared(${library} railstrata ${folder} ${map} ${lower_objects})
+  set_target_properties(${library} PROPERTIES EXPORT_NAME railstrata)
   add_dependencies(${library} railstrata_map${suffix})
   if(RAILSTRATA_WITH_CUDA)
     add_dependencies(${library} card_object)
   endif()
   target_link_libraries(${library} PRIVATE ${lower_libraries})
-  target_link_options(${library} PRIVATE -Wl,--version-script=${map})
-  set_target_properties(${library} PROPERTIES OUTPUT_NAME railstrata EXPORT_NAME railstrata LINKER_LANGUAGE CXX
-    VERSION ${PROJECT_VERSION} SOVERSION ${so_version} LINK_DEPENDS ${map} LIBRARY_OUTPUT_DIRECTORY ${folder})
 
-  set(commands railstrata_commands${suffix})
-  add_library(${commands} SHARED ${upper_objects})
-  target_link_libraries(${commands} PRIVATE ${library} ${upper_libraries} ${lower_libraries})
-  target_link_options(${commands} PRIVATE -Wl,--version-script=${CMAKE_SOURCE_DIR}/cmake/commands.map)
-  set_target_properties(${commands} PROPERTIES OUTPUT_NAME railstrata-commands LINKER_LANGUAGE CXX
-    VERSION ${PROJECT_VERSION} SOVERSION ${so_version} LINK_DEPENDS ${CMAKE_SOURCE_DIR}/cmake/commands.map
-    LIBRARY_OUTPUT_DIRECTORY ${folder})
+  railstrata_shared(railstrata_commands${suffix} railstrata-commands ${folder} ${CMAKE_SOURCE_DIR}/cmake/commands.map
+    ${upper_objects})
+  target_link_libraries(railstrata_commands${suffix} PRIVATE ${library} ${upper_libraries} ${lower_libraries})
 
-  target_link_options(${library} PRIVATE -Wl,--no-undefined)
-  target_link_options(${commands} PRIVATE -Wl,--no-undefined)
-  set(targets ${library} ${commands})
-  if(RAILSTRATA_PYTHON)
-    railstrata_python_library(${library} "${suffix}" ${folder})
-    list(APPEND targets railstrata_python${suffix})
-  endif()
-  foreach(target IN LISTS targets)
-    if(level AND has_level_mark)
-      target_link_options(${target} PRIVATE -Wl,-z,${level})
-    endif()
-    if(RAILSTRATA_SANITIZE)
-      target_link_options(${target} PRIVATE -fsanitize=${RAILSTRATA_SANITIZE})
-    endif()
-  endforeach()
+  railstrata_shared(railstrata_bridge${suffix} railstrata-bridge ${folder} ${CMAKE_SOURCE_DIR}/cmake/bridge.map
+    ${python_objects})
+  target_link_libraries(railstrata_bridge${suffix} PRIVATE ${library} ${python_libraries} ${lower_libraries})
+
+  railstrata_shared(railstrata_hdf5${suffix} railstrata-hdf5 ${folder} ${CMAKE_SOURCE_DIR}/cmake/hdf5.map
+    ${hdf5_objects} $<TARGET_OBJECTS:hdf5_plug_in${suffix}>)
+  target_link_libraries(railstrata_hdf5${suffix} PRIVATE ${library} ${hdf5_libraries} ${ROOM_LIBS_core})
 endfunction()
 
 set(libraries_folder ${CMAKE_BINARY_DIR}/lib)
@@ -139,9 +162,6 @@ if(RAILSTRATA_VARIANTS)
     railstrata_flags(railstrata_flags_${variant} -march=x86-64-${variant})
     railstrata_rooms(${variant} ${wide_vectors})
     railstrata_build_info(_${variant})
-    if(RAILSTRATA_PYTHON)
-      railstrata_python_objects(_${variant})
-    endif()
   endforeach()
   railstrata_library(v2 ${libraries_folder} x86-64-v2)
   railstrata_library(v3 ${libraries_folder}/${hwcaps}/x86-64-v3 x86-64-v3)
@@ -152,23 +172,24 @@ else()
   railstrata_library("" ${libraries_folder} "")
 endif()
 
+# For wheels and tarballs (tools/pack.py): stands in for what HDF5 asks for and RailStrata never uses.
+add_library(railstrata_no_remote SHARED ${CMAKE_SOURCE_DIR}/packaging/inside/no_remote.c)
+target_link_options(railstrata_no_remote PRIVATE
+  -Wl,--version-script=${CMAKE_SOURCE_DIR}/packaging/inside/no_remote.map)
+set_target_properties(railstrata_no_remote PROPERTIES OUTPUT_NAME railstrata-no-remote
+  LIBRARY_OUTPUT_DIRECTORY ${libraries_folder})
+
 # One file for all processors that are served: a program that loads it by its path gets that one.
 set(contact_map ${CMAKE_SOURCE_DIR}/cmake/contact_addon.map)
-add_library(contact_addon SHARED $<TARGET_OBJECTS:room_${ROOM_OF_CONTACT}${installed_suffix}>)
+add_library(contact_addon SHARED $<TARGET_OBJECTS:room_${ROOM_OF_CONTACT}${installed_suffix}>
+  $<TARGET_OBJECTS:inside${installed_suffix}>)
 target_link_libraries(contact_addon PRIVATE room_bem${installed_suffix} room_material${installed_suffix})
-target_link_options(contact_addon PRIVATE -Wl,--version-script=${contact_map} -Wl,--no-undefined)
+target_link_options(contact_addon PRIVATE -Wl,--as-needed -Wl,--version-script=${contact_map} -Wl,--no-undefined)
 set_target_properties(contact_addon PROPERTIES OUTPUT_NAME contact_addon_linux64 PREFIX "" LINKER_LANGUAGE CXX
-  LINK_DEPENDS ${contact_map} LIBRARY_OUTPUT_DIRECTORY ${libraries_folder}/railstrata/contact)
+  LINK_DEPENDS ${contact_map} LIBRARY_OUTPUT_DIRECTORY ${libraries_folder}/railstrata/contact
+  INSTALL_RPATH "$ORIGIN/../..")
 if(RAILSTRATA_VARIANTS AND has_level_mark)
   target_link_options(contact_addon PRIVATE -Wl,-z,x86-64-v2)
-endif()
-
-if(RAILSTRATA_PYTHON)
-  add_library(python_module MODULE ${CMAKE_SOURCE_DIR}/python/module/module.c)
-  target_link_libraries(python_module PRIVATE railstrata_python${installed_suffix})
-  target_link_options(python_module PRIVATE -Wl,--no-as-needed)
-  set_target_properties(python_module PROPERTIES PREFIX "" OUTPUT_NAME _core SUFFIX ".${python_suffix}"
-    LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/python-module)
 endif()
 
 # The program that is installed; railstrata-bin, which the tests look at, has its rooms inside.
@@ -181,8 +202,7 @@ target_include_directories(railstrata_program PRIVATE ${CMAKE_SOURCE_DIR}/src)
 target_link_libraries(railstrata_program PRIVATE railstrata_commands${installed_suffix})
 set_target_properties(railstrata_program PROPERTIES OUTPUT_NAME railstrata
   RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
-set_target_properties(railstrata_commands${installed_suffix} PROPERTIES INSTALL_RPATH "$ORIGIN")
-
+add_subdirectory(python)
 
 include(cmake/install.cmake)
 include(cmake/packages.cmake)

@@ -1,9 +1,9 @@
 # Debian packages by `cpack -G DEB` in a build folder (packaging/README.md):
 #
 #   railstrata               the program, its commands, cases and profiles, manual, completion
-#   librailstrata0.2         librailstrata.so and CONTACT's interface
+#   librailstrata0.3         librailstrata.so and CONTACT's interface
 #   librailstrata-dev        headers, CMake package, pkg-config
-#   python3-railstrata       the Python package (with RAILSTRATA_PYTHON)
+#   python3-railstrata       the Python package
 #   railstrata-mpi           the plug-in for runs over Open MPI (with RAILSTRATA_MPI)
 #
 # Their files are those of `cmake --install` in Debian's folders, without the paths that libraries of a prefix have.
@@ -65,16 +65,12 @@ debian_package(program railstrata "${library_package} ${same}" science "rolling 
 debian_shlibs(program railstrata librailstrata-commands)
 debian_package(dev librailstrata-dev "${library_package} ${same}" libdevel
   "rolling contact of layered rails - headers" "${about}\nThis package has the headers for C, C++ and Fortran programs.")
-if(RAILSTRATA_PYTHON)
-  math(EXPR next_python "${Python3_VERSION_MINOR} + 1")
-  debian_package(python python3-railstrata "${library_package} ${same}, python3 (>= 3.${Python3_VERSION_MINOR}), \
-python3 (<< 3.${next_python}), python3-numpy" python "rolling contact of layered rails - Python 3"
-    "${about}\nThis package has the Python package of the same name.")
-  debian_shlibs(python python3-railstrata librailstrata-python)
-  list(APPEND CPACK_DEBIAN_DEB-PYTHON_PACKAGE_CONTROL_EXTRA
-    ${CMAKE_SOURCE_DIR}/packaging/postinst ${CMAKE_SOURCE_DIR}/packaging/prerm)
-  set(CPACK_DEBIAN_DEB-PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-pandas, python3-xarray")
-endif()
+debian_package(python python3-railstrata "${library_package} ${same}, python3, python3-numpy" python
+  "rolling contact of layered rails - Python 3" "${about}\nThis package has the Python package of the same name.")
+debian_shlibs(python python3-railstrata librailstrata-bridge)
+list(APPEND CPACK_DEBIAN_DEB-PYTHON_PACKAGE_CONTROL_EXTRA
+  ${CMAKE_SOURCE_DIR}/packaging/postinst ${CMAKE_SOURCE_DIR}/packaging/prerm)
+set(CPACK_DEBIAN_DEB-PYTHON_PACKAGE_RECOMMENDS "python3-matplotlib, python3-pandas, python3-xarray")
 if(TARGET railstrata_mpi)
   debian_package(mpi railstrata-mpi "railstrata ${same}" science "rolling contact of a layered rail - runs over MPI"
     "${about}\nThis package has the plug-in that shares one run among processes by Open MPI.")

@@ -45,6 +45,40 @@ function(railstrata_flags target)
   endif()
 endfunction()
 
+# A light build. Three quarters of what a source file reads are headers of others, and most of what it compiles are their
+# templates, again in every file: the sources of a room are compiled together (RAILSTRATA_UNITY), so many at a time; a
+# source with compile options of its own stays alone. Rooms that compute nothing are compiled with -O1.
+set(SOURCES_AT_ONCE 24)
+set(ROOMS_THAT_COMPUTE_NOTHING case io export report runs study explore app)
+
+# railstrata_light(TARGET NAME): these rules for the sources of a room or of its tests.
+function(railstrata_light target name)
+  if(RAILSTRATA_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${SOURCES_AT_ONCE})
+    # g++ takes the unnamed namespace of a source for that of a header where another file includes it
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
+  if(name IN_LIST ROOMS_THAT_COMPUTE_NOTHING AND CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+endfunction()
+
+# railstrata_light_test(TARGET): the same for a program of tests. Their sources stay apart, since each says its names
+# anew; they read the headers that most of them share compiled, once for all programs.
+function(railstrata_light_test target)
+  if(CMAKE_BUILD_TYPE STREQUAL "Release")
+    target_compile_options(${target} PRIVATE -O1)
+  endif()
+  get_property(first GLOBAL PROPERTY RAILSTRATA_FIRST_TEST)
+  if(first)
+    target_precompile_headers(${target} REUSE_FROM ${first})
+  else()
+    set_property(GLOBAL PROPERTY RAILSTRATA_FIRST_TEST ${target})
+    target_precompile_headers(${target} PRIVATE <gtest/gtest.h> <fmt/format.h> <algorithm> <array> <cmath> <filesystem>
+      <fstream> <functional> <limits> <map> <numbers> <optional> <random> <sstream> <string> <vector>)
+  endif()
+endfunction()
+
 # Third-party libraries each room links. Every room may use fmt; the others stand where they are used.
 set(ROOM_LIBS_core fmt::fmt OpenMP::OpenMP_CXX)
 set(ROOM_LIBS_material Eigen3::Eigen)
@@ -61,7 +95,10 @@ set(ROOM_LIBS_case nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus)
 set(ROOM_LIBS_body Eigen3::Eigen)
 set(ROOM_LIBS_fem Eigen3::Eigen)
 set(ROOM_LIBS_post Eigen3::Eigen)
-set(ROOM_LIBS_io nlohmann_json::nlohmann_json ZLIB::ZLIB OpenSSL::Crypto hdf5::hdf5 hdf5::hdf5_hl)
+if(NOT WIN32)
+  set(ROOM_LIBS_hdf5 hdf5::hdf5 hdf5::hdf5_hl)
+endif()
+set(ROOM_LIBS_io nlohmann_json::nlohmann_json ZLIB::ZLIB)
 set(ROOM_LIBS_app spdlog::spdlog CLI11::CLI11)
 
 # Products of complex numbers in kiss FFT without a look at every one for NaN: else it is three times slower.
@@ -102,8 +139,16 @@ function(railstrata_rooms variant wide_vectors)
     set(this_line "")
     foreach(name IN LISTS names)
       file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+      if(WIN32)  # src/<room>/windows/<file>.cpp stands in for src/<room>/<file>.cpp
+        file(GLOB twins CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/windows/*.cpp)
+        foreach(twin IN LISTS twins)
+          get_filename_component(file ${twin} NAME)
+          list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/${name}/${file})
+        endforeach()
+        list(APPEND sources ${twins})
+      endif()
       if(name STREQUAL "app")
-        list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/app/main.cpp)
+        list(FILTER sources EXCLUDE REGEX "/main\\.cpp$")
       endif()
       foreach(fft fftw kiss)
         if(name STREQUAL "fft" AND NOT fft STREQUAL RAILSTRATA_FFT)
@@ -120,6 +165,7 @@ function(railstrata_rooms variant wide_vectors)
         add_library(${room} STATIC ${sources})
         set_target_properties(${room} PROPERTIES WIDE_VECTORS ${wide_vectors})
         target_link_libraries(${room} PUBLIC railstrata_flags${suffix} ${below} ${ROOM_LIBS_${name}})
+        railstrata_light(${room} ${name})
         if(name STREQUAL "device" AND RAILSTRATA_WITH_CUDA)
           add_dependencies(${room} card_object)
           target_link_libraries(${room} PRIVATE ${RAILSTRATA_CUDART} Threads::Threads rt ${CMAKE_DL_LIBS})

@@ -1,4 +1,4 @@
-# cmake -P script: OUTPUT SOURCE GIT VERSION COMPILER FLAGS BUILD_TYPE -> definition of build_info() in
+# cmake -P script: OUTPUT SOURCE GIT VERSION COMPILER FLAGS PARTS BUILD_TYPE -> definition of build_info() in
 # io/provenance.hpp
 set(commit "")
 set(dirty false)
@@ -12,11 +12,19 @@ if(GIT)
   endif()
 endif()
 string(REPLACE "\"" "\\\"" FLAGS "${FLAGS}")
+file(STRINGS ${PARTS} lines)
+set(parts "")
+foreach(line IN LISTS lines)
+  string(REPLACE "\"" "\\\"" line "${line}")
+  string(REGEX REPLACE "^([^|]*)[|](.*)$" "{\"\\1\", \"\\2\"}" line "${line}")
+  list(APPEND parts "${line}")
+endforeach()
+string(JOIN ", " parts ${parts})
 set(text "#include \"io/provenance.hpp\"
 
 const railstrata::BuildInfo& railstrata::build_info() {
   static const BuildInfo info{\"${VERSION}\", \"${commit}\", ${dirty}, \"${COMPILER}\",
-                              \"${FLAGS}\", \"${BUILD_TYPE}\"};
+                              \"${FLAGS}\", \"${BUILD_TYPE}\", {${parts}}};
   return info;
 }
 ")

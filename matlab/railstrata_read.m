@@ -33,12 +33,8 @@ function result = railstrata_read(folder)
   for k = 1:numel(files)
     name = strrep(files(k).name, '.csv', '');
     table = read_table(fullfile(folder, files(k).name));
-    if strncmp(name, 'patch', 5) && isfield(table, 'x_mm') && isfield(table, 'p_MPa')
-      if isempty(result.patch)
-        result.patch = as_matrices(table, 'x_mm');
-      else
-        result.patch(end + 1) = as_matrices(table, 'x_mm');
-      end
+    if strcmp(name, 'patch')
+      result.patch = patches_of(table);
     elseif ~isempty(strfind(name, '_section'))
       result.sections.(name) = as_matrices(table, 'depth_mm');
     else
@@ -83,6 +79,22 @@ function unit = unit_of(name)
       unit = written{k};
       return
     end
+  end
+end
+
+% Matrices of patch.csv, a struct for each patch: the table of several patches has their numbers in a column.
+function patches = patches_of(table)
+  number = ones(size(table.x_mm));
+  if isfield(table, 'patch')
+    number = table.patch;
+  end
+  patches = [];
+  for k = unique(number).'
+    one = table;
+    for name = fieldnames(rmfield(table, 'units')).'
+      one.(name{1}) = table.(name{1})(number == k);
+    end
+    patches = [patches, as_matrices(one, 'x_mm')];
   end
 end
 

@@ -4,6 +4,7 @@
 usage: check_docs.py [--wrap] [ROOT]
 
 - files and headings that a page names exist; prose is at most 120 characters a line (--wrap wraps what is longer);
+- a page of docs/ that a person writes has at most 3,000 words, README.md at most 90 lines;
 - docs/images/rooms.svg shows the rooms as they are (tools/draw_rooms.py);
 - CHANGELOG.md: versions with dates, newest first, the version of CMakeLists.txt among them;
 - CITATION.cff: the required keys of CFF 1.2.0, the newest version of CHANGELOG.md;
@@ -25,6 +26,8 @@ import draw_rooms
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 WIDTH = 120
 GENERATED = {"docs/case-reference.md"}
+MOST_WORDS, MOST_LINES = 3000, {"README.md": 90}
+REFERENCES = {"docs/results-reference.md"}  # written by the program, as long as they have to be
 LEFT_OUT = re.compile(r"(^|/)(build[^/]*|results|runs|node_modules|dist|\.git)/")
 LIST_ITEM = re.compile(r"^\s*([-*]|\d+\.)\s+")
 CODE, KEPT = re.compile(r"`[^`]{1,60}`"), "\x00"  # code that is not broken; what stands for its blanks
@@ -83,6 +86,16 @@ def long_lines(page, text):
     ours, theirs = text.splitlines(), wrap(text).splitlines()
     number = next((k for k, (a, b) in enumerate(zip(ours, theirs), 1) if a != b), len(theirs))
     return [f"{page}:{number}: a line is longer than {WIDTH}; tools/check_docs.py --wrap wraps it"]
+
+
+def too_long(name, text):
+    """Of a page by its name in the repository: more words than a page of docs/ has, more lines than README.md has."""
+    words, lines = len(text.split()), len(text.splitlines())
+    if name.startswith("docs/") and name not in REFERENCES and words > MOST_WORDS:
+        return [f"{name}: {words} words, of at most {MOST_WORDS}; make two pages of it (theory, use, verification)"]
+    if lines > MOST_LINES.get(name, lines):
+        return [f"{name}: {lines} lines, of at most {MOST_LINES[name]}; move what is not for everybody to docs/"]
+    return []
 
 
 # -- links ----------------------------------------------------------------------------------------------------------
@@ -173,6 +186,7 @@ def check(root):
         text = page.read_text()
         out += check_layers.missing_files(page, [page.parent, root, root / "src"])
         out += missing_headings(page, text) + long_lines(page, text)
+        out += too_long(page.relative_to(root).as_posix(), text)
     if (root / "docs/images/rooms.svg").read_text() != draw_rooms.draw(root / "src"):
         out.append("docs/images/rooms.svg: not up to date; write it anew by tools/draw_rooms.py")
     changelog = (root / "CHANGELOG.md").read_text()
@@ -215,6 +229,8 @@ def test_wrap():
     assert all(len(line) <= WIDTH for line in lines) and lines[1].startswith("  word") and lines[-1] == "- next"
     assert all(line.count("`") % 2 == 0 for line in wrap("`--cell \"1 mm\"` " * 20).splitlines())
     assert long_lines("page", f"short\n\n{long}\n")[0].startswith("page:3:")
+    assert "3001 words" in too_long("docs/a.md", "word " * 3001)[0] and not too_long("docs/a.md", "word " * 3000)
+    assert "91 lines" in too_long("README.md", "\n" * 91)[0] and not too_long("README.md", "\n" * 90)
 
 
 def test_links():

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The two bounds of docs/bem.md, "What is checked", computed from elasticity. Needs numpy.
+"""The two bounds of docs/checks.md, computed from elasticity. Needs numpy.
 
 conformal   By how much one contact plane errs in the largest pressure where the profiles turn with the patch: the plane
             problem of a disc in a hole of the same material against two half-planes with the same gap under the same

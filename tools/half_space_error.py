@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Error of half-space results against the time they take, by cell and leading edge (docs/bem.md):
+"""Error of half-space results against the time they take, by cell and leading edge (docs/bem-verification.md):
 
     tools/half_space_error.py CASE [--cells 1,0.5,0.25,0.125] [--reference 0.0625] [--repeats 3] [--csv error.csv]
                               [--program build/railstrata-bin] [--set KEY=VALUE ...]

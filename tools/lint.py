@@ -4,8 +4,8 @@ and a verdict.
 
 usage: lint.py [--jobs N] [--csv docs/reliability/lint.csv] [FILE.cpp ...]
 
-  clang-format      layout of src/, python/, tests/, fuzz/, bench/ and the report's TypeScript as in .clang-format, by
-                    version 14 alone: others break lines elsewhere
+  clang-format      layout of src/, packaging/, tests/, fuzz/, bench/ and the report's TypeScript as in .clang-format,
+                    by version 14 alone: others break lines elsewhere
   statement_lines   one statement a line, at most 120 columns (tools/statement_lines.py)
   function_lengths  no function of src/ over 60 lines (tools/function_lengths.py)
 
@@ -30,7 +30,7 @@ ROOT = records.ROOT
 BUILD = ROOT / "build-lint"
 FINDING = re.compile(r"^(\S+?):(\d+):(?:(\d+):)? (warning|error|style|performance|portability|note): (.*)$")
 SCRIPTS = ["railstrata", ".ci/run"]
-FORMATTED = ["src/**/*", "python/core/*", "tests/**/*", "fuzz/**/*", "bench/**/*", "report/src/*", "report/*"]
+FORMATTED = ["src/**/*", "packaging/inside/*.cpp", "tests/**/*", "fuzz/**/*", "bench/**/*", "report/src/*", "report/*"]
 FORMATTED_SUFFIXES = statement_lines.CPP | statement_lines.SCRIPTS
 FORMAT_VERSION = "14."
 
@@ -43,7 +43,7 @@ def run(*command, cwd=ROOT):
 def configure():
     """A compilation database of clang++, so that its flags are those that clang-tidy knows."""
     code, out, err = run("cmake", "-S", ROOT, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                         "-DCMAKE_CXX_COMPILER=clang++", "-DRAILSTRATA_TESTS=OFF")
+                         "-DCMAKE_CXX_COMPILER=clang++", "-DRAILSTRATA_TESTS=OFF", "-DRAILSTRATA_UNITY=OFF")
     if code:
         sys.exit(f"lint: configuring failed\n{out}{err}")
 

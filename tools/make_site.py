@@ -24,11 +24,14 @@ LIST = re.compile(r"^\s*([-*]|\d+\.) ")
 
 # Title, then pages by their place in the repository; those below cases/ and src/ follow by themselves.
 SECTIONS = [
-    ("Start", ["README.md", "docs/tutorial.ipynb", "docs/conventions.md"]),
-    ("Theory", ["docs/bem.md", "docs/finite-elements.md", "docs/damage.md", "docs/damage-indices.md",
-                "docs/material.md", "docs/passes.md"]),
-    ("Use", ["docs/study.md", "docs/report.md", "docs/explorer.md", "docs/export.md", "docs/creep-table.md",
-             "docs/gpu.md"]),
+    ("Start", ["README.md", "docs/tutorial.ipynb", "docs/commands.md", "docs/windows.md", "docs/conventions.md"]),
+    ("Use", ["docs/bem.md", "docs/finite-elements.md", "docs/friction.md", "docs/checks.md", "docs/damage.md",
+             "docs/passes.md", "docs/study.md", "docs/report.md", "docs/explorer.md", "docs/export.md",
+             "docs/creep-table.md", "docs/gpu.md"]),
+    ("Theory", ["docs/bem-theory.md", "docs/finite-elements-theory.md", "docs/damage-theory.md",
+                "docs/damage-indices.md", "docs/material.md", "docs/passes-theory.md"]),
+    ("Verification", ["docs/bem-verification.md", "docs/finite-elements-verification.md",
+                      "docs/finite-elements-speed.md", "docs/damage-verification.md", "docs/passes-verification.md"]),
     ("Reference", ["docs/case-reference.md", "docs/results-reference.md", "CHANGELOG.md"]),
     ("Programming", ["docs/python.md", "python-interface.md", "docs/library.md", "c-interface.md",
                      "docs/contact-interface.md"]),

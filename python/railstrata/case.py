@@ -9,7 +9,7 @@ from typing import Any, Mapping, Optional, Union
 
 import numpy as np
 
-from . import _core
+from . import _bridge
 from .errors import CaseError, Diagnostic
 
 Value = Union[str, int, float, bool, list]
@@ -69,7 +69,7 @@ def _overrides(changes: Optional[Mapping[str, Value]]) -> list[str]:
 def _metres(value: Length, what: str) -> float:
     """A length: a number of metres, or a text with its unit."""
     if isinstance(value, str):
-        return _core.length_of(what, value)
+        return _bridge.call("length", what=what, text=value)["metres"]
     try:
         return float(value)
     except (TypeError, ValueError):
@@ -104,7 +104,7 @@ def _case_of(given: Union["Case", str, os.PathLike]) -> "Case":
 class Case:
     """A case file with changes, read and checked.
 
-    Case("cases/paper/base.toml", {"layer.0.thickness": "2 mm"})
+        rs.Case("cases/paper/base.toml", {"layer.0.thickness": "2 mm", "layer.0.young_ratio": 2})
 
     path: a case file, a folder with a case.toml, or the name of a shipped case ("cases/quick"). changes: keys and
     values as `railstrata ... --set` takes them, with units in quotes; numbers for what has no unit. Raises CaseError
@@ -112,55 +112,50 @@ class Case:
     """
 
     def __init__(self, path: Union[str, os.PathLike], changes: Optional[Mapping[str, Value]] = None) -> None:
-        self._loaded = _core.load_case(str(_file_of(path)), _overrides(changes))
+        self._loaded = _bridge.call("load_case", file=str(_file_of(path)), overrides=_overrides(changes))
 
     @classmethod
     def from_text(cls, text: str, name: str = "case.toml", changes: Optional[Mapping[str, Value]] = None) -> "Case":
         """The case of a TOML text. `name` stands for the file in messages; profiles are looked for in its folder."""
         if not isinstance(text, str):
             raise TypeError(f"text: the TOML text of a case is wanted, not {type(text).__name__}")
-        case = cls.__new__(cls)
-        case._loaded = _core.parse_case(text, name, _overrides(changes))
-        return case
+        return _parsed(text, str(name), _overrides(changes))
 
     def with_(self, changes: Mapping[str, Value]) -> "Case":
         """The same case with further changes; this one stays as it is."""
-        case = Case.__new__(Case)
-        case._loaded = _core.parse_case(
-            self._loaded.source, self._loaded.file, [*self._loaded.overrides, *_overrides(changes)]
-        )
-        return case
+        loaded = self._loaded
+        return _parsed(loaded["source"], loaded["file"], [*loaded["overrides"], *_overrides(changes)])
 
     @property
     def title(self) -> str:
         """The case's title."""
-        return self._loaded.title
+        return self._loaded["title"]
 
     @property
     def file(self) -> str:
         """The file it was read from, as given."""
-        return self._loaded.file
+        return self._loaded["file"]
 
     @property
     def toml(self) -> str:
         """The case with every option written out; reads back to the same numbers."""
-        return self._loaded.toml
+        return self._loaded["toml"]
 
     @property
     def notes(self) -> list[str]:
         """What is allowed and yet worth knowing."""
-        return self._loaded.notes
+        return self._loaded["notes"]
 
     @property
     def not_in_fem(self) -> list[Diagnostic]:
         """What the finite element engine refuses of this case; empty: it runs."""
-        return self._loaded.not_in_fem
+        return [Diagnostic(*one) for one in self._loaded["not_in_fem"]]
 
     def __getitem__(self, key: str) -> Any:
         """The value of a key in the resolved case, as the file would hold it: case["layer.0.thickness"]."""
         if not isinstance(key, str):
             raise TypeError(f'a key is wanted, case["layer.0.thickness"], not {key!r:.40}')
-        value: Any = _toml(self.toml)
+        value: Any = _bridge.call("case_values", case=self._loaded)["values"]
         for part in key.split("."):
             try:
                 value = value[int(part)] if isinstance(value, list) else value[part]
@@ -170,27 +165,21 @@ class Case:
 
     def __reduce__(self) -> tuple:
         """Pickled by its text: other processes (multiprocessing "spawn") and copies read the same case again."""
-        return _again, (self._loaded.source, self._loaded.file, list(self._loaded.overrides))
+        return _parsed, (self._loaded["source"], self._loaded["file"], self._loaded["overrides"])
 
     def __repr__(self) -> str:
         return f"railstrata.Case({self.file!r}: {self.title})"
 
 
-def _again(source: str, file: str, overrides: list[str]) -> Case:
+def _parsed(source: str, file: str, overrides: list[str]) -> Case:
     case = Case.__new__(Case)
-    case._loaded = _core.parse_case(source, file, overrides)
+    case._loaded = _bridge.call("parse_case", text=source, name=file, overrides=overrides)
     return case
-
-
-def _toml(text: str) -> dict:
-    import tomllib
-
-    return tomllib.loads(text)
 
 
 def schema() -> dict:
     """Every key of a case file with its unit, range and meaning, as a JSON schema."""
-    return json.loads(_core.schema())
+    return _bridge.call("schema")["schema"]
 
 
 __all__ = ["Case", "CaseError", "schema", "shipped_data"]

@@ -1,9 +1,11 @@
 """Fatigue and wear indices for numbers of your own: the functions that `railstrata` itself computes summaries with.
 
+    import numpy as np
     import railstrata as rs
     t = rs.damage.t_gamma(force_x=17e3, force_y=0, creepage_x=-1.2e-3, creepage_y=0)
     rs.damage.rcf_damage(t.without_spin), rs.damage.brr_wear(t.without_spin, wheel_diameter=0.92)
     x = np.linspace(-0.03, 0.03, 241)
+    result = rs.bem("cases/quick")
     cycle = result.rail.at([[xi, 0, 2e-3] for xi in x])      # one passage of the wheel at a point
     rs.damage.dang_van(cycle, c=0.3).stress
 
@@ -14,10 +16,15 @@ from __future__ import annotations
 
 from typing import Any, NamedTuple, Optional, Sequence, Union
 
-from . import _core
+from . import _bridge
 
-_damage = _core.damage
 _NO_STRESS = (0.0,) * 6
+
+
+def _value(function: str, /, **arguments: Any) -> Any:
+    """A number of the library; one that is infinite comes as a text."""
+    found = _bridge.call(function, **arguments)["value"]
+    return float(found) if isinstance(found, str) else found
 
 
 class TGamma(NamedTuple):
@@ -51,6 +58,14 @@ class Planes(NamedTuple):
     jiang_sehitoglu: Optional[Plane]
 
 
+def _rows(arrays: dict) -> dict:
+    return {name: _bridge.numbers(values) for name, values in arrays.items()}
+
+
+def _plane(value: float, normal: Sequence[float], *cycle: float) -> Plane:
+    return Plane(float(value), tuple(normal), *map(float, cycle))
+
+
 def t_gamma(
     force_x: float, force_y: float, creepage_x: float, creepage_y: float, moment: float = 0.0, spin: float = 0.0
 ) -> TGamma:
@@ -59,7 +74,10 @@ def t_gamma(
     without_spin: |F_x xi| + |F_y eta|, which the damage functions were fitted with; with_spin: with |M_z phi|; energy:
     with signs, what friction takes.
     """
-    return TGamma(*_damage.t_gamma(force_x, force_y, creepage_x, creepage_y, moment, spin))
+    return TGamma(*map(float, _value(
+        "t_gamma", force_x=force_x, force_y=force_y, creepage_x=creepage_x, creepage_y=creepage_y, moment=moment,
+        spin=spin,
+    )))
 
 
 def rcf_damage(
@@ -70,16 +88,13 @@ def rcf_damage(
     function: "15" (break points 15, 65 and 175 N), "15 clipped", "20", or break points [(N, damage), ...]; for these
     wear_removes says whether the last slope goes on.
     """
-    if isinstance(function, str):
-        points, wear_removes = _damage.rcf_preset(function)
-    else:
-        points = [(float(at), float(damage)) for at, damage in function]
-    return _damage.rcf_damage(t_gamma, points, wear_removes)
+    points = function if isinstance(function, str) else [(float(at), float(damage)) for at, damage in function]
+    return _value("rcf_damage", t_gamma=t_gamma, function=points, wear_removes=bool(wear_removes))
 
 
 def brr_wear(t_gamma: float, wheel_diameter: float) -> float:
     """British Rail Research's wear number: m² of the profile per m rolled (1 mm²/km = 1e-9) [PearceSherratt1991]."""
-    return _damage.brr_wear(t_gamma, wheel_diameter)
+    return _value("brr_wear", t_gamma=t_gamma, wheel_diameter=wheel_diameter)
 
 
 def surface_fatigue_index(
@@ -87,7 +102,10 @@ def surface_fatigue_index(
 ) -> float:
     """FI_surf = mu - 2 pi a b k/(3 F_z) of an elliptic patch, semi-axes in m; above 0: surface fatigue
     [EkbergKaboAndersson2002]."""
-    return _damage.surface_fatigue_index(a, b, load, utilised_friction, cyclic_shear_yield)
+    return _value(
+        "surface_fatigue_index", a=a, b=b, load=load, utilised_friction=utilised_friction,
+        cyclic_shear_yield=cyclic_shear_yield,
+    )
 
 
 def subsurface_fatigue_index(
@@ -95,19 +113,23 @@ def subsurface_fatigue_index(
     residual_hydrostatic: float = 0.0,
 ) -> float:
     """FI_sub = F_z (1 + mu²)/(4 pi a b) + c sigma_h, Pa [EkbergKaboAndersson2002]."""
-    return _damage.subsurface_fatigue_index(a, b, load, utilised_friction, dang_van_constant, residual_hydrostatic)
+    return _value(
+        "subsurface_fatigue_index", a=a, b=b, load=load, utilised_friction=utilised_friction,
+        dang_van_constant=dang_van_constant, residual_hydrostatic=residual_hydrostatic,
+    )
 
 
 def usfd_rate(t_gamma_per_area: float) -> float:
     """kg lost per m rolled and m² of surface, from |q·s|/V in Pa [LewisDwyerJoyce2004]; 1 µg/(m mm²) is 1e-3."""
-    return _damage.usfd_rate(t_gamma_per_area)
+    return _value("usfd_rate", t_gamma_per_area=t_gamma_per_area)
 
 
 def usfd_depth(
     q_x: Any, q_y: Any, slip_x: Any, slip_y: Any, dx: float, speed: float, density: float = 7800.0
 ) -> float:
     """m worn off a streamline per passage: tractions [Pa] and slip [m/s] of its cells of length dx [m]."""
-    return _damage.usfd_depth(q_x, q_y, slip_x, slip_y, dx, speed, density)
+    rows = {"q_x": q_x, "q_y": q_y, "slip_x": slip_x, "slip_y": slip_y}
+    return _value("usfd_depth", **_rows(rows), dx=dx, speed=speed, density=density)
 
 
 def archard_depth(
@@ -117,7 +139,8 @@ def archard_depth(
 
     hardness: Pa (9.80665e6 HV). scale: multiplies every coefficient, for lubrication.
     """
-    return _damage.archard_depth(p, slip_x, slip_y, dx, speed, hardness, scale)
+    rows = {"p": p, "slip_x": slip_x, "slip_y": slip_y}
+    return _value("archard_depth", **_rows(rows), dx=dx, speed=speed, hardness=hardness, scale=scale)
 
 
 def dang_van(cycle: Any, c: float, residual: Sequence[float] = _NO_STRESS) -> DangVan:
@@ -125,7 +148,7 @@ def dang_van(cycle: Any, c: float, residual: Sequence[float] = _NO_STRESS) -> Da
 
     cycle: (samples, 6) stresses of one point, Pa, components xx, yy, zz, xy, yz, xz, as `Body.at` gives them.
     """
-    return DangVan(*_damage.dang_van(cycle, c, tuple(residual)))
+    return DangVan(*_value("dang_van", cycle=_bridge.numbers(cycle), c=c, residual=tuple(residual)))
 
 
 def critical_plane(
@@ -136,15 +159,19 @@ def critical_plane(
 
     cycle: as in `dang_van`. fatemi_socie: (k, yield strength [Pa]); jiang_sehitoglu: J.
     """
-    found = _damage.critical_plane(cycle, young, poisson, fatemi_socie, jiang_sehitoglu, tuple(residual))
-    return Planes(*(None if plane is None else Plane(*plane) for plane in found))
+    found = _value(
+        "critical_plane", cycle=_bridge.numbers(cycle), young=young, poisson=poisson, fatemi_socie=fatemi_socie,
+        jiang_sehitoglu=jiang_sehitoglu, residual=tuple(residual),
+    )
+    return Planes(*(None if plane is None else _plane(*plane) for plane in found))
 
 
 def critical_flaw(toughness: float, sigma_1: float) -> float:
     """m, depth of the edge crack that runs under a stress [Pa] at a toughness [Pa √m]; infinite without tension."""
-    return _damage.critical_flaw(toughness, sigma_1)
+    return _value("critical_flaw", toughness=toughness, sigma_1=sigma_1)
 
 
 def grade(name: str) -> dict:
     """Strengths of a steel by its name ("R260"): (low, high) in Pa and HBW, None where nothing is known."""
-    return _damage.grade(name)
+    found = _value("grade", name=name)
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in found.items()}

@@ -1,6 +1,7 @@
 """What can go wrong, as exceptions."""
 from __future__ import annotations
 
+import builtins
 from dataclasses import dataclass
 
 
@@ -44,6 +45,17 @@ class MachineError(OSError):
     def __init__(self, text: str, remedy: str = "") -> None:
         self.remedy = _in_python(remedy)
         super().__init__(f"{text}\n    remedy: {self.remedy}" if remedy else text)
+
+
+def raised(kind: str, text: str, remedy: str, diagnostics: list) -> BaseException:
+    """The exception of a fault that the library tells: one of these classes, or one of Python's own by its name."""
+    if kind == "CaseError":
+        return CaseError(text, [Diagnostic(*one) for one in diagnostics])
+    if kind == "MachineError":
+        return MachineError(text, remedy)
+    if kind == "NumericalError":
+        return NumericalError(text)
+    return getattr(builtins, kind)(text)
 
 
 class CheckWarning(UserWarning):

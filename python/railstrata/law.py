@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Mapping, Optional, Union
 
 import numpy as np
 
-from . import _core
+from . import _bridge
 from .case import Case, _case_of, _file_of
 from .errors import CheckWarning
 from .patch import needs
@@ -21,7 +21,7 @@ PathLike = Union[str, os.PathLike]
 Card = Union[Case, PathLike]
 
 
-def _columns(given: Any, names: Mapping[str, Any]) -> list[tuple[str, list[float]]]:
+def _columns(given: Any, names: Mapping[str, Any]) -> list[tuple[str, np.ndarray]]:
     """Names and numbers of what maps names to columns (a dict, a DataFrame), in SI units."""
     out = []
     for name in given.keys():
@@ -30,25 +30,25 @@ def _columns(given: Any, names: Mapping[str, Any]) -> list[tuple[str, list[float
             raise ValueError(f"column {name!r}: one of {', '.join(names)} is wanted, strain without unit, stress in Pa")
         if np.atleast_1d(values).ndim != 1:
             raise ValueError(f"column {name!r}: one number a point is wanted")
-        out.append((name, np.atleast_1d(values).tolist()))
+        out.append((name, _bridge.numbers(np.atleast_1d(values))))
     return out
 
 
 def _given(what: Any, names: Mapping[str, Any], of_array: Any) -> Any:
     if isinstance(what, (str, os.PathLike)):
-        return _core.Given(str(_file_of(what)), [])
+        return {"file": str(_file_of(what)), "columns": []}
     if hasattr(what, "keys"):
-        return _core.Given("", _columns(what, names))
-    return _core.Given("", of_array(what))
+        return {"file": "", "columns": _columns(what, names)}
+    return {"file": "", "columns": of_array(what)}
 
 
 def _path(what: Any, letter: str, names: Mapping[str, Any]) -> Any:
-    def of_array(values: Any) -> list[tuple[str, list[float]]]:
+    def of_array(values: Any) -> list[tuple[str, np.ndarray]]:
         numbers = np.asarray(values, float)
         if numbers.ndim != 2 or numbers.shape[1] != 6:
             raise ValueError("a path: an array of shape (points, 6) is wanted, components xx, yy, zz, xy, yz, xz; or a "
                              "dict of the components that are prescribed")
-        return [(f"{letter}_{c}", numbers[:, j].tolist()) for j, c in enumerate(COMPONENTS)]
+        return [(f"{letter}_{c}", _bridge.numbers(numbers[:, j])) for j, c in enumerate(COMPONENTS)]
 
     return _given(what, names, of_array)
 
@@ -56,17 +56,21 @@ def _path(what: Any, letter: str, names: Mapping[str, Any]) -> Any:
 def _curve(what: Any, kind: str) -> Any:
     names = dict.fromkeys(("strain", "plastic_strain", "stress"))
 
-    def of_array(values: Any) -> list[tuple[str, list[float]]]:
+    def of_array(values: Any) -> list[tuple[str, np.ndarray]]:
         numbers = np.asarray(values, float)
         if numbers.ndim != 2 or numbers.shape[1] != 2:
             raise ValueError(f"{kind}: an array of shape (points, 2) is wanted, strain and stress [Pa]")
-        return [("strain", numbers[:, 0].tolist()), ("stress", numbers[:, 1].tolist())]
+        return [(name, _bridge.numbers(numbers[:, j])) for j, name in enumerate(("strain", "stress"))]
 
     if hasattr(what, "keys"):
         have = set(what.keys())
         if "stress" not in have or len(have & {"strain", "plastic_strain"}) != 1 or len(have) != 2:
             raise ValueError(f"{kind}: the columns stress [Pa] and strain or plastic_strain are wanted")
     return _given(what, names, of_array)
+
+
+def _law(found: dict) -> dict:
+    return {**found, "backstresses": [tuple(term) for term in found["backstresses"]]}
 
 
 class DrivenPath:
@@ -77,9 +81,9 @@ class DrivenPath:
     states between the points.
     """
 
-    def __init__(self, handle: Any, on_the_way: bool = False) -> None:
-        self._handle, self._on_the_way = handle, on_the_way
-        states = handle.states(on_the_way)
+    def __init__(self, driven: _bridge.Answer, on_the_way: bool = False) -> None:
+        self._driven = driven
+        states = driven["on_the_way" if on_the_way else "states"]
         self.strain: np.ndarray = states["strain"]
         self.stress: np.ndarray = states["stress"]
         self.plastic_strain: np.ndarray = states["plastic_strain"]
@@ -90,37 +94,37 @@ class DrivenPath:
     def on_the_way(self) -> "DrivenPath":
         """The states of the increments, for pictures: every one of them, of long paths every n-th; the first one is
         unloaded."""
-        return DrivenPath(self._handle, True)
+        return DrivenPath(self._driven, True)
 
     @property
     def net(self) -> np.ndarray:
         """(cycles, 6) what each time through the rows adds to the plastic strain: ratchetting."""
-        return self._handle.cycles()[0]
+        return self._driven["net"]
 
     @property
     def p_of_cycle(self) -> np.ndarray:
         """(cycles,) plastic strain accumulated in each time through the rows."""
-        return self._handle.cycles()[1]
+        return self._driven["p_of_cycle"]
 
     @property
     def law(self) -> dict:
         """The law that was driven: young, yield_strength, saturation (Q) [Pa], rate (b), backstresses [(C, gamma)]."""
-        return self._handle.law
+        return _law(self._driven["law"])
 
     @property
     def notes(self) -> list[str]:
         """Which numbers of the law are estimates, and by what."""
-        return self._handle.notes
+        return self._driven["notes"]
 
     def to_dataframe(self) -> "pandas.DataFrame":
         """The table that `railstrata material` writes, in its units (MPa)."""
-        return needs("pandas", "python3-pandas").DataFrame(dict(self._handle.table()))
+        return needs("pandas", "python3-pandas").DataFrame(_bridge.call("driven_table", driven=self._driven)["columns"])
 
     def __len__(self) -> int:
         return len(self.p)
 
     def __repr__(self) -> str:
-        return f"<railstrata.DrivenPath of {self._handle.name}: {len(self)} points, p {self.p[-1]:.3g}>"
+        return f"<railstrata.DrivenPath of {self._driven['name']}: {len(self)} points, p {self.p[-1]:.3g}>"
 
 
 def material(
@@ -157,13 +161,16 @@ def material(
     both = {**strains, **dict.fromkeys(f"s_{c}" for c in COMPONENTS)}
     path = _path(strain, "e", strains) if stress is None else _path(stress, "s", both)
     loaded = _case_of(card)._loaded
-    handle = _core.drive_material(loaded, of, float(depth), path, stress is not None, increments, cycles)
-    largest = handle.largest_plastic_strain
+    driven = _bridge.work(
+        "drive_material", card=loaded, of=of, depth=float(depth), path=path, by_stress=stress is not None,
+        increments=increments, cycles=cycles,
+    )
+    largest = driven["largest_plastic_strain"]
     if largest > 0.05:
         warnings.warn(f"plastic strain reaches {100 * largest:.1f} %: the law is one of small strain, " + (
             "the stresses are no claim" if largest > 0.1 else "stresses are some per cent off"), CheckWarning,
             stacklevel=2)
-    return DrivenPath(handle)
+    return DrivenPath(driven)
 
 
 class MaterialFit:
@@ -175,8 +182,8 @@ class MaterialFit:
     about the tests and the fit.
     """
 
-    def __init__(self, found: dict) -> None:
-        self.law: dict = found["law"]
+    def __init__(self, found: _bridge.Answer) -> None:
+        self.law: dict = _law(found["law"])
         self.card: str = found["card"]
         self.error: float = found["error"]
         self.largest_error: float = found["largest_error"]
@@ -216,7 +223,10 @@ def calibrate(
     of_loop = loop is not None
     cyclic = _curve(loop if of_loop else amplitudes, "loop" if of_loop else "amplitudes")
     tension: Optional[Any] = None if monotonic is None else _curve(monotonic, "monotonic")
-    fit = MaterialFit(_core.calibrate(_case_of(card)._loaded, of, cyclic, of_loop, tension, backstresses))
+    fit = MaterialFit(_bridge.work(
+        "calibrate", card=_case_of(card)._loaded, of=of, cyclic=cyclic, of_loop=of_loop, monotonic=tension,
+        backstresses=backstresses,
+    ))
     for note in fit.notes:
         warnings.warn(note, CheckWarning, stacklevel=2)
     return fit

@@ -46,63 +46,63 @@ class Patch:
     Stations run along the rail (x, rolling direction), columns across it (y). Tractions act on the rail.
     """
 
-    def __init__(self, handle: Any) -> None:
-        self._handle = handle
+    def __init__(self, arrays: dict) -> None:
+        self._arrays = arrays
 
     @property
     def x(self) -> np.ndarray:
         """m, from the wheel's axle in the rolling direction."""
-        return self._handle.x
+        return self._arrays["x"]
 
     @property
     def y(self) -> np.ndarray:
         """m, lateral, model frame."""
-        return self._handle.y
+        return self._arrays["y"]
 
     @property
     def z(self) -> np.ndarray:
         """m, height, model frame."""
-        return self._handle.z
+        return self._arrays["z"]
 
     @property
     def area(self) -> np.ndarray:
         """m², of the surface that each point stands for."""
-        return self._handle.area
+        return self._arrays["area"]
 
     @property
     def p(self) -> np.ndarray:
         """Pa, pressure."""
-        return self._handle.p
+        return self._arrays["p"]
 
     @property
     def q_x(self) -> np.ndarray:
         """Pa, longitudinal traction on the rail."""
-        return self._handle.q_x
+        return self._arrays["q_x"]
 
     @property
     def q_y(self) -> np.ndarray:
         """Pa, lateral traction on the rail."""
-        return self._handle.q_y
+        return self._arrays["q_y"]
 
     @property
     def slip_x(self) -> np.ndarray:
         """m/s, longitudinal slip of the wheel's surface over the rail's; m where slip_is_distance."""
-        return self._handle.slip_x
+        return self._arrays["slip_x"]
 
     @property
     def slip_y(self) -> np.ndarray:
         """m/s, lateral slip; m where slip_is_distance."""
-        return self._handle.slip_y
+        return self._arrays["slip_y"]
 
     @property
     def state(self) -> np.ndarray:
         """PatchState of each point, uint8."""
-        return self._handle.state
+        return self._arrays["state"]
 
     @property
     def slip_is_distance(self) -> bool:
         """Of a shift, which has no speed: slip stands in m, over its last increment."""
-        return self._handle.slip_is_distance
+        return self._arrays["slip_is_distance"]
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -1,7 +1,6 @@
 """Results of either engine."""
 from __future__ import annotations
 
-import json
 import os
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Optional, Union
 
 import numpy as np
 
-from . import _core, _html
+from . import _bridge, _html
 from .patch import Patch, needs
 
 if TYPE_CHECKING:
@@ -57,9 +56,9 @@ class Result:
     does not apply. The properties are its main numbers.
     """
 
-    def __init__(self, handle: Any) -> None:
-        self._handle = handle
-        self.summary: dict = json.loads(handle.summary())
+    def __init__(self, found: _bridge.Answer) -> None:
+        self._found = found
+        self.summary: dict = found["summary"]
 
     def number(self, path: str) -> float:
         """A number of the summary by its path, "contact.p_max_Pa"; NaN where it does not apply. KeyError: no such."""
@@ -141,12 +140,12 @@ class Result:
     @property
     def patch(self) -> Patch:
         """The contact patch; of several the one with the largest pressure."""
-        return Patch(self._handle.patch(0))
+        return self.patches[0]
 
     @property
     def patches(self) -> list[Patch]:
         """All patches, that of the largest pressure first."""
-        return [Patch(self._handle.patch(k)) for k in range(self._handle.patches)]
+        return [Patch(arrays) for arrays in self._found["patches"]]
 
     def peaks(self, body: str = "rail", zone: str = "subsurface") -> Peaks:
         """Largest von Mises and principal stress. body: "rail", "wheel"; zone: "surface", "subsurface", "layer",
@@ -202,31 +201,35 @@ class Body:
     into the body [m]. Stresses [Pa] have the components xx, yy, zz, xy, yz, xz in these axes, z into the body.
     """
 
-    def __init__(self, handle: Any, name: str, patch: int) -> None:
-        self._handle, self.name, self._patch = handle, name, patch
+    def __init__(self, run: _bridge.Answer, name: str, patch: int) -> None:
+        self._run, self.name, self._patch = run, name, patch
 
     def at(self, points: Any, below_interface: bool = False) -> np.ndarray:
         """(n, 6) stresses [Pa] at (n, 3) points (x, y, depth) [m]. Points of one depth cost one plane together, some 10
         ms; each distinct depth costs one. On an interface those of the material above, or below if asked. ValueError: a
         point above the surface, or more than ten lengths of the patch's grid away from it (fewer with layers and small
         cells)."""
-        points = np.asarray(points, float)
+        points = _bridge.numbers(points)
         if points.ndim == 2 and points.shape[1] == 3 and np.any(points[:, 2] < 0):
             raise ValueError(f"points: row {int(np.argmax(points[:, 2] < 0))} lies above the surface: depths count "
                              "downwards, from 0")
-        try:
-            return self._handle.stresses_at(self.name, self._patch, points, below_interface)
-        except IndexError as error:  # std::out_of_range
-            raise ValueError(str(error)) from None
+        return _bridge.work(
+            "stresses_at", run=self._run, body=self.name, patch=self._patch, points=points,
+            below_interface=bool(below_interface),
+        )["stresses"]
 
     def plane(self, depth: float, below_interface: bool = False) -> np.ndarray:
         """(6, nx, ny) stresses [Pa] at a depth [m], in the cells of `axes`."""
-        return self._handle.stress_plane(self.name, self._patch, float(depth), below_interface)
+        return _bridge.work(
+            "stress_plane", run=self._run, body=self.name, patch=self._patch, depth=float(depth),
+            below_interface=bool(below_interface),
+        )["stresses"]
 
     @property
     def axes(self) -> tuple[np.ndarray, np.ndarray]:
         """m, x and y of the cells of `plane`."""
-        return self._handle.grid(self._patch)
+        grid = _bridge.call("grid", run=self._run, patch=self._patch)
+        return grid["x"], grid["y"]
 
     def section(self, depths: Any, y: float = 0.0) -> np.ndarray:
         """(6, nx, depths) stresses [Pa] in the plane y = const [m], at the x of `axes` and at these depths [m]."""
@@ -255,21 +258,21 @@ class BemResult(Result):
     @property
     def notes(self) -> list[str]:
         """What the user should know: a grown grid, …"""
-        return self._handle.notes
+        return self._found["notes"]
 
     @property
     def rail(self) -> Body:
         """The inside of the rail below the patch of the largest pressure."""
-        return Body(self._handle, "rail", 0)
+        return Body(self._found, "rail", 0)
 
     @property
     def wheel(self) -> Body:
         """The inside of the wheel above the patch of the largest pressure."""
-        return Body(self._handle, "wheel", 0)
+        return Body(self._found, "wheel", 0)
 
     def save(self, folder: PathLike, force: bool = False) -> "Result":
         """Writes the result folder that `railstrata bem` writes; force: an older result there is replaced."""
-        self._handle.write(str(folder), force)
+        _bridge.call("write_half_space", run=self._found, folder=str(folder), force=bool(force))
         return open_result(folder)
 
 
@@ -277,7 +280,7 @@ class FolderResult(Result):
     """A result folder read back."""
 
     def __init__(self, folder: PathLike) -> None:
-        super().__init__(_core.read_result_folder(str(folder)))
+        super().__init__(_bridge.call("read_result_folder", folder=str(folder)))
         self.folder = Path(folder)
 
     @property
@@ -300,7 +303,7 @@ class FolderResult(Result):
         """Writes the report page and returns its path; by default report.html in the folder. reference: a finite
         element result is set against the half-space solution of its case."""
         page = Path(page) if page else self.folder / "report.html"
-        _core.write_report(str(page), [str(self.folder)], reference)
+        _bridge.work("write_report", page=str(page), folders=[str(self.folder)], reference=bool(reference))
         return page
 
 

@@ -1,7 +1,6 @@
 """Solving cases."""
 from __future__ import annotations
 
-import json
 import os
 import sys
 import time
@@ -10,7 +9,7 @@ from typing import Any, Callable, Mapping, Optional, Sequence, Union
 
 import numpy as np
 
-from . import _core
+from . import _bridge
 from .case import Case, Length, Value, _case_of, _metres, _text_of, _thread_count
 from .errors import CheckWarning
 from .results import BemResult, FolderResult, open_result
@@ -73,11 +72,11 @@ def bem(
     makes a drive void. Several Python threads may call it at a time.
     """
     case = _case_of(case)
-    handle = _core.solve_half_space(
-        case._loaded, _metres(cell, "cell"), _thread_count(threads), stresses, single_track, False,
-        _callback(progress, "steps", False),
+    solution = _bridge.work(
+        "solve_half_space", _callback(progress, "steps", False), case=case._loaded, cell=_metres(cell, "cell"),
+        threads=_thread_count(threads), stresses=bool(stresses), single_track=bool(single_track), maps=False,
     )
-    return _say(BemResult(handle), case._loaded.static_notes)
+    return _say(BemResult(solution), case._loaded["static_notes"])
 
 
 def shakedown(case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0) -> BemResult:
@@ -86,13 +85,13 @@ def shakedown(case: AnyCase, cell: Length = 0.25e-3, *, threads: int = 0) -> Bem
     The case must say strengths (yield_strength or grade). `result.shakedown` has the factors by body and zone.
     """
     case = _case_of(case)
-    handle = _core.solve_half_space(
-        case._loaded, _metres(cell, "cell"), _thread_count(threads), True, True, False, None
-    )
-    result = BemResult(handle)
+    result = BemResult(_bridge.work(
+        "solve_half_space", case=case._loaded, cell=_metres(cell, "cell"), threads=_thread_count(threads),
+        stresses=True, single_track=True, maps=False,
+    ))
     if not result.shakedown:
         raise ValueError('the case says no strength: give yield_strength = "500 MPa" or grade = "R260" to materials')
-    return _say(result, case._loaded.static_notes)
+    return _say(result, case._loaded["static_notes"])
 
 
 def run(
@@ -107,8 +106,8 @@ def run(
     """
     case = _case_of(case)
     return _finish(
-        lambda follow: _core.run_case(case._loaded, str(folder), force, checkpoint_every, max_time, follow),
-        folder, progress,
+        folder, progress, "run", case=case._loaded, folder=str(folder), force=bool(force),
+        checkpoint_every=checkpoint_every, limit=max_time,
     )
 
 
@@ -118,22 +117,22 @@ def resume(
 ) -> FolderResult:
     """Goes on with an interrupted run of a folder, to the bits of a run in one go."""
     return _finish(
-        lambda follow: _core.resume_run(str(folder), checkpoint_every, max_time, follow), folder, progress
+        folder, progress, "resume", folder=str(folder), checkpoint_every=checkpoint_every, limit=max_time
     )
 
 
-def _finish(work: Callable[[Any], tuple], folder: Any, progress: Progress) -> FolderResult:
+def _finish(where: Union[str, os.PathLike], progress: Progress, function: str, **arguments: Any) -> FolderResult:
     follow = _callback(progress, "rolling", True)
     try:
-        stopped, notes = work(follow)
+        done = _bridge.work(function, follow, **arguments)
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"stopped; rs.resume({str(folder)!r}) goes on") from None
+        raise KeyboardInterrupt(f"stopped; rs.resume({str(where)!r}) goes on") from None
     finally:
         if isinstance(follow, _Bar):
             follow.end()
-    if stopped:
-        raise TimeoutError(f"max_time is over; rs.resume({str(folder)!r}) goes on")
-    return _say(open_result(folder), notes)
+    if done["stopped"]:
+        raise TimeoutError(f"max_time is over; rs.resume({str(where)!r}) goes on")
+    return _say(open_result(where), done["notes"])
 
 
 def _listed(values: Any) -> Sequence[Value]:
@@ -158,10 +157,13 @@ def sweep(
         raise TypeError('varied: a dict of keys and their values is wanted, {"layer.0.thickness": ["1 mm", "3 mm"]}')
     case = _case_of(case)
     keys = [(key, [_text_of(v, key) for v in _listed(values)]) for key, values in varied.items()]
-    rows = _core.sweep(case._loaded, keys, _metres(cell, "cell"), stresses, _callback(progress, "sweep", False))
+    swept = _bridge.work(
+        "sweep", _callback(progress, "sweep", False), case=case._loaded, varied=keys, cell=_metres(cell, "cell"),
+        stresses=bool(stresses),
+    )
+    rows = swept["rows"]
     for note in dict.fromkeys(note for row in rows for note in row["static_notes"]):
         warnings.warn(note, CheckWarning, stacklevel=2)
-    columns = _core.result_columns(stresses)
-    return Table([key for key, _ in keys], columns, [
-        (row["values"], None if row["summary"] is None else json.loads(row["summary"]), row["fault"]) for row in rows
+    return Table([key for key, _ in keys], swept["columns"], [
+        (row["values"], row["summary"], row["fault"]) for row in rows
     ])

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Optional, Union
 
 import numpy as np
 
-from . import _core
+from . import _bridge
 from .case import Case, Length, _case_of, _metres
 from .errors import CaseError, CheckWarning, Diagnostic
 from .patch import needs
@@ -85,7 +85,7 @@ class PassesResult:
             if name not in _TABLES or not file.exists():
                 raise KeyError(f"{self.folder} has no table {name!r}; there are " + ", ".join(
                     t for t in _TABLES if (self.folder / f"{t}.csv").exists()))
-            self._tables[name] = _core.read_table(str(file))
+            self._tables[name] = _bridge.call("read_table", file=str(file))["columns"]
         return self._tables[name]
 
     @property
@@ -138,7 +138,7 @@ class PassesResult:
     def report(self, page: Optional[PathLike] = None) -> Path:
         """Writes the page of the passes and returns its path; by default report.html in the folder."""
         page = Path(page) if page else self.folder / "report.html"
-        _core.write_passes_page(str(page), [str(self.folder)])
+        _bridge.work("write_passes_page", page=str(page), folders=[str(self.folder)])
         return page
 
     def __repr__(self) -> str:
@@ -190,16 +190,17 @@ def passes(
     if bar is not None:
         follow = lambda number, fraction: bar(f"pass {number}", fraction)  # noqa: E731
     try:
-        _, _, notes = _core.run_passes(
-            case._loaded, str(folder), engine == "fem", passes, resume, force, page, _metres(cell, "cell"),
-            _metres(roll_length, "roll_length"), float(checkpoint_every), follow,
+        done = _bridge.work(
+            "passes", follow, case=case._loaded, folder=str(folder), rolled=engine == "fem", passes=passes,
+            resume=bool(resume), force=bool(force), page=bool(page), cell=_metres(cell, "cell"),
+            roll_length=_metres(roll_length, "roll_length"), checkpoint_every=float(checkpoint_every),
         )
     except KeyboardInterrupt:
         raise KeyboardInterrupt(f"stopped; rs.passes(..., {str(folder)!r}, resume=True) goes on") from None
     finally:
         if bar is not None:
             bar.end()
-    for note in [*case._loaded.static_notes, *notes]:
+    for note in [*case._loaded["static_notes"], *done["notes"]]:
         warnings.warn(note, CheckWarning, stacklevel=2)
     return PassesResult(folder)
 

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <optional>
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "app/signals.hpp"
@@ -111,5 +113,25 @@ ExitCode command_bem(const CommandOptions& options) {
   if (!ok) spdlog::warn("a check failed: read the results with care");
   return ok ? ExitCode::ok : ExitCode::failed_checks;
 }
+
+namespace {
+
+void declare_bem(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-bem");
+  add_cell(sub, options);
+  sub.add_flag_callback(
+      "--no-single-track", [&options] { options.shakedown.single_track = false; },
+      "Of shakedown leave out the limit for one track, which takes some seconds");
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kBemCommand{
+    "bem", "Solve a case by half-space theory, in about a second: the files and numbers of `run`, no meshes",
+    "Examples:\n  railstrata bem cases/paper/base.toml\n  railstrata bem cases/quick --cell \"0.5 mm\" --out "
+    "results/quick-coarse\n  railstrata bem cases/paper/base.toml --set drive.traction_coefficient=0.3 --json\n",
+    declare_bem, command_bem};
 
 }  // namespace railstrata

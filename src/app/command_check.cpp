@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -7,6 +8,7 @@
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/mesh_report.hpp"
 #include "app/progress.hpp"
 #include "core/faults.hpp"
@@ -230,8 +232,6 @@ Model model_for_run(const LoadedCase& loaded) {
   }
 }
 
-}  // namespace
-
 ExitCode command_check(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
   if (!loaded.not_in_fem.empty()) return check_without_mesh(loaded, options.json);
@@ -255,5 +255,13 @@ ExitCode command_check(const CommandOptions& options) {
   fmt::print("\n{}", mesh_table(mesh_rows(model)));
   return ExitCode::ok;
 }
+
+}  // namespace
+
+const Command kCheckCommand{
+    "check", "Read a case and tell what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
+    "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 "
+    "mm\"\n  railstrata check cases/paper/base.toml --json\n",
+    add_case, command_check};
 
 }  // namespace railstrata

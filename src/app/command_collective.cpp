@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "app/signals.hpp"
@@ -97,8 +99,6 @@ bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded
   });
 }
 
-}  // namespace
-
 ExitCode command_collective(const CommandOptions& options) {
   const LoadedCase loaded = load_half_space_case_of(options);
   std::vector<CollectiveRow> rows = plan_collective(loaded.spec);
@@ -130,5 +130,22 @@ ExitCode command_collective(const CommandOptions& options) {
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());
   return failed > 0 || !page_holds ? ExitCode::failed_checks : ExitCode::ok;
 }
+
+void declare_collective(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-collective");
+  add_cell(sub, options);
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kCollectiveCommand{
+    "collective",
+    "All rows of the case's load collective by half-space theory, and what their passages do to the rail together: "
+    "wear, rolling contact fatigue, shakedown, by position across it",
+    "Examples:\n  railstrata collective cases/collective/mixed_traffic.toml\n  railstrata collective "
+    "cases/collective/mixed_traffic.toml --set load.0.passages=1e6 --out results/more-freight\n",
+    declare_collective, command_collective};
 
 }  // namespace railstrata

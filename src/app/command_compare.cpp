@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "io/csv.hpp"
@@ -197,8 +199,6 @@ std::string last_name(const fs::path& folder) {
   return fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
 }
 
-}  // namespace
-
 ExitCode command_compare(const CommandOptions& options) {
   const ResultFolder a = read_result_folder(options.case_file), b = read_result_folder(options.reference);
   const fs::path out =
@@ -230,5 +230,19 @@ ExitCode command_compare(const CommandOptions& options) {
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
 }
+
+void declare_compare(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("a", options.case_file, "Result folder A")->required();
+  sub.add_option("b", options.reference, "Result folder B: differences are relative to it")->required();
+  add_output(sub, options, "results/<folder A>-against-<folder B>");
+}
+
+}  // namespace
+
+const Command kCompareCommand{
+    "compare", "Two results, of either engine, on one grid: a table, the differences of the fields, a picture",
+    "Examples:\n  railstrata compare results/quick results/quick-bem\n  railstrata compare results/thin results/thick "
+    "--out results/thin-against-thick\n",
+    declare_compare, command_compare};
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/waiting.hpp"
 #include "bem/creep_curve.hpp"
@@ -121,8 +123,6 @@ std::vector<std::string> notes_of(const CaseSpec& spec) {
   return out;
 }
 
-}  // namespace
-
 std::vector<std::string> creep_curve_words() {
   std::vector<std::string> out;
   for (const Curve& c : kCurves) out.emplace_back(c.word);
@@ -164,5 +164,34 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
 }
+
+void declare_creep_curve(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-creep-curve");
+  add_cell(sub, options);
+  sub.add_option(
+         "--of", options.creep_curve.of,
+         "What varies: creepage (longitudinal, default), lateral_creepage or spin; the rest is as the case says")
+      ->check(CLI::IsMember(creep_curve_words()));
+  sub.add_option("--largest", options.creep_curve.largest, "Largest creepage (default: 0.02), or spin in 1/m (5)")
+      ->check(CLI::Range(1e-6, 1000.0))
+      ->check(finite());
+  sub.add_option("--points", options.creep_curve.points,
+                 "Creepages, spaced geometrically over two and a half decades (default: 21)")
+      ->check(CLI::Range(2, 1000));
+  sub.add_flag("--both-sides", options.creep_curve.both_sides,
+               "The curve through zero: driving and braking, slip to the gauge and to the field side");
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kCreepCurveCommand{
+    "creep-curve",
+    "Force against longitudinal or lateral creepage or spin, by the full half-space theory and by the fast ones",
+    "Examples:\n  railstrata creep-curve cases/paper/base.toml\n  railstrata creep-curve cases/quick --largest 0.01 "
+    "--points 11 --cell \"0.5 mm\" --out results/creep\n  railstrata creep-curve cases/paper/layer_3mm_2E0.toml --of "
+    "lateral_creepage --both-sides --set drive.traction_coefficient=0\n",
+    declare_creep_curve, command_creep_curve};
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <chrono>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "app/signals.hpp"
@@ -80,7 +82,7 @@ void print(const CreepTable& table, const TableError& error) {
   for (const std::string& fault : table.faults()) spdlog::warn("{}", fault);
 }
 
-TableRemarks remarks_of(const LoadedCase& base, const TableError& error) {
+TableRemarks table_remarks(const LoadedCase& base, const TableError& error) {
   std::string origin, accuracy;
   for (const std::string& line : table_origin(base)) origin += (origin.empty() ? "" : "; ") + line;
   for (const TableError::Number& n : error.numbers)
@@ -117,8 +119,6 @@ ExitCode stopped(Keeper& keeper) {
   return ExitCode::interrupted;
 }
 
-}  // namespace
-
 ExitCode command_creep_table(const CommandOptions& options) {
   std::vector<CreepAxis> axes = parse_axes(options.creep_table.axes);
   const LoadedCase base = load_half_space_case_of(options, CaseUse::steady_rolling);
@@ -131,6 +131,7 @@ ExitCode command_creep_table(const CommandOptions& options) {
   how.bem.cell = cell_size(options.cell);
   how.stop = &stop_flag();
 
+  require_table_files();
   const fs::path out = output_folder_of(options, base, "-creep-table");
   const bool resume = options.creep_table.resume;
   const FolderHold hold = prepare_output_folder(out, options.force || resume);
@@ -158,7 +159,7 @@ ExitCode command_creep_table(const CommandOptions& options) {
   if (stop_flag()) return stopped(keeper);
   for (const std::string& axis : table.idle_axes())
     spdlog::warn("--axis {}: no number of the table changes with it", axis);
-  write_force_table(out / kTable, table.table(), remarks_of(base, error));
+  write_force_table(out / kTable, table.table(), table_remarks(base, error));
   std::vector<std::string> origin = table_origin(base);
   origin.emplace_back("forces on the wheel: along x, lateral in the contact plane, along its normal; moment about it");
   write_csv(out / "creep_table.csv", origin, columns_of(table.table()));
@@ -173,5 +174,29 @@ ExitCode command_creep_table(const CommandOptions& options) {
   if (table.missing() > 0) spdlog::warn("{} of {} points have no answer", table.missing(), table.points());
   return table.missing() > 0 ? ExitCode::failed_checks : ExitCode::ok;
 }
+
+void declare_creep_table(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-creep-table");
+  add_cell(sub, options);
+  add_repeated(sub, "--axis", options.creep_table.axes, "WORD=VALUES",
+               "An axis: creepage_x, creepage_y, spin, load, friction, lateral_shift, yaw or a key of the case; values "
+               "\"v1,v2,...\", \"from:to:count\" or, dense about 0, \"+-largest:count\"")
+      ->required();
+  sub.add_option("--places", options.creep_table.places,
+                 "Places where interpolation is compared with a solution (default: 200; 0: none)")
+      ->check(CLI::Range(0, 100'000));
+  sub.add_flag("--resume", options.creep_table.resume, "Go on with a table that was stopped");
+}
+
+}  // namespace
+
+const Command kCreepTableCommand{
+    "creep-table", "Table of creep forces over axes of your choice, for vehicle codes: HDF5, CSV and a reader in C",
+    "Examples:\n  railstrata creep-table cases/paper/base.toml --axis creepage_x=+-0.02:21 --axis "
+    "creepage_y=+-0.02:21 "
+    "--axis spin=\"-0.5:0.5 1/m:5\" --axis load=\"40 kN,80 kN,120 kN\" --out results/table\n  railstrata creep-table "
+    "cases/paper/layer_3mm_2E0.toml --axis layer.0.thickness=\"1 mm,2 mm,3 mm\" --axis creepage_x=+-0.01:15\n",
+    declare_creep_table, command_creep_table};
 
 }  // namespace railstrata

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <fstream>
 #include <iterator>
 
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/shipped_files.hpp"
 
 namespace railstrata {
@@ -27,8 +29,6 @@ void print_what_is_there(const fs::path& out, const fs::path& case_file) {
       out.string(), case_file.string());
 }
 
-}  // namespace
-
 ExitCode command_demo(const CommandOptions& options) {
   const fs::path shipped = shipped_folder();
   if (shipped.empty())
@@ -45,5 +45,17 @@ ExitCode command_demo(const CommandOptions& options) {
     print_what_is_there(run.out, run.case_file);
   return code;
 }
+
+void declare_demo(CLI::App& sub, CommandOptions& options) {
+  add_output(sub, options, "results/quick");
+  add_set(sub, options, "Override a key of the case; once for each key");
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kDemoCommand{
+    "demo", "Run the shipped case cases/quick, in a minute or two, and tell what the results are",
+    "Examples:\n  railstrata demo\n  railstrata demo --out /tmp/quick\n", declare_demo, command_demo};
 
 }  // namespace railstrata

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/page_name.hpp"
 #include "explore/page.hpp"
@@ -16,8 +18,6 @@ namespace {
 
 /// What there is to look at without a case: a layer on a rail.
 constexpr const char* kShippedCase = "cases/paper/layer_3mm_2E0.toml";
-
-}  // namespace
 
 ExitCode command_explore(const CommandOptions& given) {
   CommandOptions options = given;
@@ -34,5 +34,22 @@ ExitCode command_explore(const CommandOptions& given) {
   spdlog::info("the explorer is {}: open it in any browser, also without a network", page.string());
   return ExitCode::ok;
 }
+
+void declare_explore(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("case", options.case_file,
+                 "Case file, or a folder with case.toml (default: cases/paper/layer_3mm_2E0.toml)");
+  add_set(sub, options, "Override a key of the case; once for each key");
+  add_out(sub, options, "The page to write, NAME.html (default: explore.html)");
+  sub.add_flag("--force", options.force, "Replace a file of this name");
+  add_cell(sub, options);
+}
+
+}  // namespace
+
+const Command kExploreCommand{
+    "explore",
+    "One page with the half-space engine inside: sliders for layers, load and drive, and a contact that follows them",
+    "Examples:\n  railstrata explore\n  railstrata explore cases/paper/layer_3mm_2E0.toml --out layer.html\n",
+    declare_explore, command_explore};
 
 }  // namespace railstrata

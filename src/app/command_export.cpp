@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <map>
 
@@ -7,6 +8,7 @@
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "export/abaqus_deck.hpp"
 #include "export/contact_files.hpp"
@@ -92,8 +94,6 @@ Files contact_result(const LoadedCase& loaded, const std::string& cell) {
   return out;
 }
 
-}  // namespace
-
 std::vector<std::string> export_words() { return {"calculix", "abaqus", "lsdyna", "contact"}; }
 
 ExitCode command_export(const CommandOptions& options) {
@@ -116,5 +116,29 @@ ExitCode command_export(const CommandOptions& options) {
                out.string());
   return ExitCode::ok;
 }
+
+void declare_export(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("case", options.case_file, "Case file, or a folder with case.toml: a case's or a result's")
+      ->required();
+  add_set(sub, options, "Override a key of the case; once for each key");
+  sub.add_option("--to", options.export_to.to, "The program that reads it")
+      ->check(CLI::IsMember(export_words()))
+      ->required();
+  add_output(sub, options, "results/<case name>-<program>");
+  sub.add_flag("--friction", options.export_to.friction,
+               "abaqus, calculix, lsdyna: the contact has the case's friction coefficient (default: none, as in the "
+               "preload here)");
+  add_cell(sub, options);
+}
+
+}  // namespace
+
+const Command kExportCommand{
+    "export",
+    "The case in the files of other programs: mesh and static preload for Abaqus, CalculiX and LS-DYNA; case and "
+    "half-space result for CONTACT",
+    "Examples:\n  railstrata export cases/quick --to calculix --out /tmp/quick-ccx\n  railstrata export "
+    "cases/verification/hertz_sphere.toml --to contact\n",
+    declare_export, command_export};
 
 }  // namespace railstrata

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <spdlog/version.h>
+#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,12 +9,14 @@
 #include <vector>
 
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 #include "damage/grades.hpp"
 #include "device/card.hpp"
 #include "geometry/profile_names.hpp"
 #include "io/provenance.hpp"
+#include "io/this_process.hpp"
 
 namespace railstrata {
 namespace {
@@ -22,6 +25,10 @@ void print_text(const nlohmann::ordered_json& info) {
   for (const auto& [key, value] : info.items()) {
     std::string text = value.is_string() ? value.get<std::string>() : value.dump();
     if (value.is_array()) text = fmt::format("{}", fmt::join(value.get<std::vector<std::string>>(), ", "));
+    if (key == "parts") {
+      for (const auto& [name, state] : value.items()) fmt::print("{:<16} {}\n", name, state.get<std::string>());
+      continue;
+    }
     if (value.is_object()) {
       text.clear();
       for (const auto& [name, version] : value.items())
@@ -47,13 +54,13 @@ std::string card() {
   }
 }
 
-}  // namespace
-
 ExitCode command_info(const CommandOptions& options) {
   const BuildInfo& build = build_info();
   nlohmann::ordered_json libraries;
   for (const auto& [name, version] : library_versions()) libraries[name] = version;
   libraries["spdlog"] = fmt::format("{}.{}.{}", SPDLOG_VER_MAJOR, SPDLOG_VER_MINOR, SPDLOG_VER_PATCH);
+  nlohmann::ordered_json parts;
+  for (const auto& [name, state] : build.parts) parts[name] = state;
   const nlohmann::ordered_json info{{"version", version_text()},
                                     {"rail_profiles", builtin_profile_names(ProfileKind::rail)},
                                     {"wheel_profiles", builtin_profile_names(ProfileKind::wheel)},
@@ -66,6 +73,7 @@ ExitCode command_info(const CommandOptions& options) {
                                     {"cores", std::thread::hardware_concurrency()},
                                     {"threads", max_threads()},
                                     {"card", card()},
+                                    {"parts", parts},
                                     {"libraries", libraries}};
   if (options.json)
     fmt::print("{}\n", info.dump(2));
@@ -73,5 +81,11 @@ ExitCode command_info(const CommandOptions& options) {
     print_text(info);
   return ExitCode::ok;
 }
+
+}  // namespace
+
+const Command kInfoCommand{"info", "Built-in profiles, compiler, instruction set, libraries, threads",
+                           "Examples:\n  railstrata info\n  railstrata info --json\n",
+                           [](CLI::App&, CommandOptions&) {}, command_info};
 
 }  // namespace railstrata

@@ -7,9 +7,9 @@
 #include <system_error>
 
 #include "app/command_words.hpp"
+#include "app/commands.hpp"
 #include "app/completion.hpp"
 #include "app/manual.hpp"
-#include "app/reference_commands.hpp"
 #include "case/case_schema.hpp"
 #include "core/faults.hpp"
 #include "io/provenance.hpp"
@@ -40,16 +40,14 @@ void manual(const CLI::App& program, const std::string& wanted, const std::files
   }
 }
 
-}  // namespace
-
-void add_completion(CLI::App& sub) {
+void declare_completion(CLI::App& sub, CommandOptions&) {
   const auto shell = std::make_shared<std::string>();
   sub.add_option("shell", *shell, "The shell that reads it")->required()->check(CLI::IsMember({"bash"}));
   sub.final_callback(
       [shell, &sub] { fmt::print("{}", bash_completion(command_words(*sub.get_parent()), case_keys())); });
 }
 
-void add_manual(CLI::App& sub) {
+void declare_manual(CLI::App& sub, CommandOptions&) {
   std::vector<std::string> pages{"case"};
   for (const CLI::App* command : sub.get_parent()->get_subcommands([](const CLI::App*) { return true; }))
     pages.push_back(command->get_name());
@@ -60,5 +58,27 @@ void add_manual(CLI::App& sub) {
   sub.add_option("-o,--out", *folder, "Folder for all pages, which go to man1 and man5 there");
   sub.final_callback([page, folder, &sub] { manual(*sub.get_parent(), *page, *folder); });
 }
+
+/// Both print what the parser knows of itself, as the last step of parsing.
+ExitCode done_by_parsing(const CommandOptions&) { return ExitCode::ok; }
+
+}  // namespace
+
+const Command kCompletionCommand{
+    "completion",
+    "Print the script that completes commands, options, keys of --set, their words and units in a shell",
+    "Examples:\n  source <(railstrata completion bash)\n  railstrata completion bash > "
+    "~/.local/share/bash-completion/completions/railstrata\n",
+    declare_completion,
+    done_by_parsing,
+    true};
+
+const Command kManualCommand{
+    "manual",
+    "Print the manual page of the program, of a command or of case files, or write all of them",
+    "Examples:\n  railstrata manual run | man -l -\n  railstrata manual --out ~/.local/share/man\n",
+    declare_manual,
+    done_by_parsing,
+    true};
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -7,12 +8,14 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/shipped_files.hpp"
 #include "app/waiting.hpp"
 #include "case/text_file.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
 #include "core/shell_word.hpp"
+#include "core/si_prefix.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "material/strain_claim.hpp"
@@ -23,7 +26,6 @@ namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double kMega = 1e-6, kPercent = 100;
 constexpr std::size_t kShownCycles = 5;
 
 fs::path card_of(const CommandOptions& options) {
@@ -71,11 +73,11 @@ fs::path output_of(const CommandOptions& options, const std::string& preset, con
 
 std::string law_text(const PlasticMaterial& m) {
   const PlasticParameters<double>& p = m.plastic;
-  std::string out = fmt::format("yields at {:.1f} MPa", kMega * p.yield);
-  if (p.saturation != 0) out += fmt::format(", Q = {:.1f} MPa with b = {:g}", kMega * p.saturation, p.rate);
+  std::string out = fmt::format("yields at {:.1f} MPa", kToMega * p.yield);
+  if (p.saturation != 0) out += fmt::format(", Q = {:.1f} MPa with b = {:g}", kToMega * p.saturation, p.rate);
   for (int k = 0; k < kMostBackstresses; ++k)
     if (p.modulus[k] > 0)
-      out += fmt::format(", C{0} = {1:.0f} MPa with gamma{0} = {2:g}", k + 1, kMega * p.modulus[k], p.recall[k]);
+      out += fmt::format(", C{0} = {1:.0f} MPa with gamma{0} = {2:g}", k + 1, kToMega * p.modulus[k], p.recall[k]);
   return out;
 }
 
@@ -85,7 +87,7 @@ std::string cycles_text(const MaterialRun& run) {
   for (std::size_t i = 0; i < n; ++i)
     if (i < kShownCycles || i + 1 == n)
       out += fmt::format("{}  {:>6} {:>13.6f}% {:>13.6f}%\n", i + 1 == n && n > kShownCycles + 1 ? "  ...\n" : "",
-                         i + 1, kPercent * run.cycles[i].largest_net(), kPercent * run.cycles[i].accumulated);
+                         i + 1, kToPercent * run.cycles[i].largest_net(), kToPercent * run.cycles[i].accumulated);
   return out;
 }
 
@@ -135,8 +137,8 @@ ExitCode drive(const CommandOptions& options, const LoadedCase& loaded) {
   } else {
     fmt::print(
         "{}: {}\n{} points, {} increments each; accumulated plastic strain {:.6f} %, dissipated {:.6g} MJ/m3\n{}",
-        which.name, law_text(material), run.states.size(), o.increments, kPercent * run.states.back().history[6],
-        kMega * run.states.back().dissipated, run.cycles.size() > 1 ? cycles_text(run) : "");
+        which.name, law_text(material), run.states.size(), o.increments, kToPercent * run.states.back().history[6],
+        kToMega * run.states.back().dissipated, run.cycles.size() > 1 ? cycles_text(run) : "");
   }
   spdlog::info("the table is {}, the picture beside it", out.string());
   return ExitCode::ok;
@@ -181,8 +183,6 @@ ExitCode calibrate(const CommandOptions& options, const LoadedCase& loaded) {
   return ExitCode::ok;
 }
 
-}  // namespace
-
 ExitCode command_material(const CommandOptions& options) {
   const MaterialOptions& o = options.material;
   const bool path = !o.strain.empty() || !o.stress.empty(), fit = !o.calibrate.empty() || !o.cyclic_curve.empty();
@@ -196,5 +196,45 @@ ExitCode command_material(const CommandOptions& options) {
   const LoadedCase loaded = load_case(card_of(options), options.overrides);
   return path ? drive(options, loaded) : calibrate(options, loaded);
 }
+
+void declare_material(CLI::App& sub, CommandOptions& options) {
+  MaterialOptions& m = options.material;
+  sub.add_option("card", options.case_file, "Case file with the material, e.g. one with [material.rail] alone")
+      ->required();
+  add_set(sub, options, "Override a key of the card; once for each key");
+  auto* strain = sub.add_option("--strain", m.strain, "A path of strains: CSV with e_xx, e_yy, e_zz, e_xy, e_yz, e_xz");
+  sub.add_option("--stress", m.stress,
+                 "A path of stresses: CSV with s_xx_MPa, …; what has no column is free of stress, e_xx prescribes a "
+                 "strain instead")
+      ->excludes(strain);
+  sub.add_option("--increments", m.increments, "Equal steps from row to row (default: 100); the error falls as 1/N")
+      ->check(CLI::Range(1, 10000000));
+  sub.add_option("--cycles", m.cycles, "Times through the rows (default: 1)")->check(CLI::Range(1, 1000000));
+  auto* loop = sub.add_option("--calibrate", m.calibrate,
+                              "Fit the law to a stabilised loop: CSV with strain, stress_MPa, once around");
+  sub.add_option("--cyclic-curve", m.cyclic_curve,
+                 "Fit it to amplitudes of stabilised cycles: CSV with strain_amplitude, stress_amplitude_MPa")
+      ->excludes(loop);
+  sub.add_option("--monotonic", m.monotonic,
+                 "With a fit: a tensile curve, for the isotropic part: CSV with strain, stress_MPa");
+  sub.add_option("--backstresses", m.backstresses,
+                 "Of a fit (default: one more as long as it lowers the error by a quarter)")
+      ->check(CLI::Range(1, 4));
+  sub.add_option("--of", m.of, "The material: rail (default), wheel or a layer's name");
+  sub.add_option("--depth", m.depth, "Of a material graded with depth: where (default: its top)");
+  add_out(sub, options, "The table to write, NAME.csv, or the card of a fit, NAME.toml; the picture is NAME.svg");
+  sub.add_flag("--force", options.force, "Replace a file that this command has not written");
+}
+
+}  // namespace
+
+const Command kMaterialCommand{
+    "material", "A material law along a path of strain or stress, or fitted to a test: tables, a ready card, a picture",
+    "Examples:\n  railstrata material cases/material/r260.toml --strain cases/material/strain_path.csv --increments "
+    "200 --out loops.csv\n  railstrata material cases/material/r260.toml --stress cases/material/ratchetting.csv "
+    "--cycles 50 --out ratchetting.csv\n  railstrata material cases/material/r260.toml --calibrate "
+    "cases/material/loop.csv --monotonic cases/material/tension.csv --out fitted.toml\n\nCtrl-C: nothing is "
+    "written.\n",
+    declare_material, command_material};
 
 }  // namespace railstrata

@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/mesh_report.hpp"
 #include "io/output_folder.hpp"
 #include "io/vtk.hpp"
@@ -36,8 +38,6 @@ nlohmann::ordered_json as_json(const std::vector<MeshRow>& rows) {
   return out;
 }
 
-}  // namespace
-
 ExitCode command_mesh(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
   require_finite_elements(loaded);
@@ -54,5 +54,11 @@ ExitCode command_mesh(const CommandOptions& options) {
     fmt::print("{}\nrail.vtu and wheel.vtu are in {}\n", mesh_table(rows), out.string());
   return ExitCode::ok;
 }
+
+}  // namespace
+
+const Command kMeshCommand{"mesh", "Make the meshes and write them as VTU with a table of their quality",
+                           "Examples:\n  railstrata mesh cases/quick --out /tmp/mesh\n", add_case_and_output,
+                           command_mesh};
 
 }  // namespace railstrata

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <optional>
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "app/signals.hpp"
@@ -57,20 +59,6 @@ PassFolderObserver teller() {
 
 ExitCode code_of(const PassesEnd& end) { return end.converged ? ExitCode::ok : ExitCode::failed_checks; }
 
-}  // namespace
-
-ExitCode command_passes(const CommandOptions& options) {
-  if (options.passes.engine == engine_word(Engine::fem)) return command_rolled_passes(options);
-  require_stationary(options.passes);
-  LoadedCase loaded = load_half_space_case_of(options, CaseUse::yielding);
-  PassOrder order = order_of(options, loaded);
-  order.cell = cell_size(options.cell);
-  const PassesEnd end = passes_in_folder(std::move(loaded), order, teller());
-  if (!end.stopped) return code_of(end);
-  spdlog::warn("stopped after pass {}; go on with --resume", end.passes);
-  return ExitCode::interrupted;
-}
-
 ExitCode command_rolled_passes(const CommandOptions& options) {
   if (!options.cell.empty())
     throw CaseError("--cell: finite elements have no cells",
@@ -98,5 +86,53 @@ ExitCode command_rolled_passes(const CommandOptions& options) {
   spdlog::warn("stopped in pass {}; go on with --resume", end.passes + 1);
   return ExitCode::interrupted;
 }
+
+ExitCode command_passes(const CommandOptions& options) {
+  if (options.passes.engine == engine_word(Engine::fem)) return command_rolled_passes(options);
+  require_stationary(options.passes);
+  LoadedCase loaded = load_half_space_case_of(options, CaseUse::yielding);
+  PassOrder order = order_of(options, loaded);
+  order.cell = cell_size(options.cell);
+  const PassesEnd end = passes_in_folder(std::move(loaded), order, teller());
+  if (!end.stopped) return code_of(end);
+  spdlog::warn("stopped after pass {}; go on with --resume", end.passes);
+  return ExitCode::interrupted;
+}
+
+void declare_passes(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-passes");
+  sub.add_option("--engine", options.passes.engine,
+                 "bem: stationary method, pressure and friction of the half-spaces; fem: every pass is rolled")
+      ->check(CLI::IsMember(engine_words()))
+      ->capture_default_str();
+  add_cell(sub, options);
+  sub.add_option("--passes", options.passes.passes, "End after so many passes of a wheel, since the first one")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
+  sub.add_flag("--resume", options.passes.resume, "Go on with the passes of the folder: the same bits as in one go");
+  add_no_report(sub, options);
+  sub.add_option("--checkpoint-every", options.passes.checkpoint_every,
+                 "fem: save the pass under way this often (default: \"10 min\"; 0: only when stopped)");
+  sub.add_option(
+      "--roll-length", options.passes.roll_length,
+      "fem: rolled in a pass (default: 12 half-lengths of the patch); stations in its middle are the result");
+  sub.add_option("--wheels", options.passes.wheels, "fem: of every pass: new")
+      ->check(CLI::IsMember({"new", "same"}))
+      ->capture_default_str();
+}
+
+}  // namespace
+
+const Command kPassesCommand{
+    "passes",
+    "Wheel after wheel over a rail that yields: residual stress, plastic strain of every pass, and whether it settles "
+    "or ratchets",
+    "Examples:\n  railstrata passes cases/paper/base.toml --set material.rail.hardening=R260 --passes 20\n  "
+    "railstrata "
+    "passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" --passes 200 --out "
+    "results/yields\n  railstrata passes cases/paper/base.toml --set material.rail.yield_strength=\"750 MPa\" "
+    "--passes 400 --out results/yields --resume\n\nCtrl-C: the pass under way is finished and kept.\n",
+    declare_passes, command_passes};
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/page_name.hpp"
 #include "app/write_page.hpp"
 #include "bem/bem_options.hpp"
@@ -65,8 +67,6 @@ ExitCode finish(const CommandOptions& options, const std::filesystem::path& page
   return ok ? ExitCode::ok : ExitCode::failed_checks;
 }
 
-}  // namespace
-
 ExitCode command_report(const CommandOptions& options) {
   if (options.report.folders.size() > 1 && options.out.empty())
     throw CaseError(
@@ -97,5 +97,28 @@ ExitCode command_report(const CommandOptions& options) {
   log_page(written);
   return finish(options, page, written.verdict.ok);
 }
+
+void declare_report(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("folders", options.report.folders,
+                 "Result folders of `run` or `bem`; the second is drawn beside the first")
+      ->required();
+  add_out(sub, options, "The page to write, NAME.html (default: report.html in the folder, made anew if it is there)");
+  sub.add_flag("--force", options.force, "Replace the file that --out names");
+  sub.add_flag_callback(
+      "--no-reference", [&options] { options.report.reference = false; },
+      "Do not set a finite element result against the half-space solution of its case");
+  sub.add_flag("--what-if", options.report.what_if,
+               "Put the explorer on the case of the first folder into the page: some 1.1 MB more");
+}
+
+}  // namespace
+
+const Command kReportCommand{
+    "report",
+    "One page on a result, or on several side by side: verdict, patch, stresses, history; opens in any browser, "
+    "without a network",
+    "Examples:\n  railstrata report results/quick\n  railstrata report results/thin results/thick --out "
+    "thin-thick.html\n",
+    declare_report, command_report};
 
 }  // namespace railstrata

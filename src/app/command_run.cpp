@@ -1,4 +1,5 @@
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -6,6 +7,7 @@
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/mpi_ranks.hpp"
 #include "app/option_values.hpp"
 #include "app/processors.hpp"
@@ -170,4 +172,33 @@ ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem) {
 }
 
 }  // namespace
+namespace {
+
+void declare_run(CLI::App& sub, CommandOptions& options) {
+  add_case_and_output(sub, options);
+  sub.get_option("case")->required(false);
+  sub.add_option("--resume", options.run.resume,
+                 "Go on with the interrupted run of this result folder: the same bits as in one go")
+      ->type_name("FOLDER");
+  sub.add_option("--checkpoint-every", options.run.checkpoint_every,
+                 "Wall time between checkpoints (default: \"10 min\"; 0: only when stopped)");
+  sub.add_option("--max-time", options.run.max_time,
+                 "Stop in time for a batch limit, with a checkpoint: \"110 min\" (exit code 5)");
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kRunCommand{
+    "run",
+    "Run a case: static preload, rolling, results",
+    "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n "
+    " railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n"
+    "  railstrata run cases/paper/base.toml --max-time \"110 min\"; railstrata run --resume results/base\n\n"
+    "Ctrl-C, SIGTERM: finish the step, write a checkpoint, say how to go on (a second one quits at once). SIGUSR1: "
+    "write a checkpoint, go on.\n",
+    declare_run,
+    command_run,
+    true};
+
 }  // namespace railstrata

@@ -1,5 +1,11 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
+#include "core/engine.hpp"
 #include "core/faults.hpp"
 #include "post/row_strength.hpp"
 
@@ -22,8 +28,6 @@ void require_strength(const LoadedCase& loaded) {
                   loaded.file.string());
 }
 
-}  // namespace
-
 ExitCode command_shakedown(const CommandOptions& options) {
   const LoadedCase loaded = load_case_of(options);
   require_strength(loaded);
@@ -38,5 +42,25 @@ ExitCode command_shakedown(const CommandOptions& options) {
   solve.shakedown.maps = true;
   return options.shakedown.engine == "fem" ? command_run(solve) : command_bem(solve);
 }
+
+void declare_shakedown(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-shakedown");
+  sub.add_option("--engine", options.shakedown.engine, fmt::format("Where the stresses come from: {}", engines_text()))
+      ->check(CLI::IsMember(engine_words()))
+      ->capture_default_str();
+  add_cell(sub, options);
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kShakedownCommand{
+    "shakedown",
+    "Does it last? Load factors to first yield and to shakedown, by layer, and the strength that every depth asks for",
+    "Examples:\n  railstrata shakedown cases/paper/base.toml --set material.rail.grade=R260\n  railstrata shakedown "
+    "cases/quick --set material.rail.yield_strength=\"480 MPa\" --set layer.0.yield_strength=\"900 MPa\" --engine fem "
+    "--out results/quick-shakedown\n",
+    declare_shakedown, command_shakedown};
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/mpi_ranks.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
@@ -195,8 +197,6 @@ ExitCode warn_of_faults(const std::vector<StudyRow>& rows) {
   return ExitCode::failed_checks;
 }
 
-}  // namespace
-
 ExitCode command_study(const CommandOptions& options) {
   const LoadedStudy study = study_of(options);
   cell_size(study.spec.cell);  // what is wrong is reported before the first case
@@ -212,6 +212,7 @@ ExitCode command_study(const CommandOptions& options) {
   if (options.study.list || !options.study.batch.empty()) return tell_cases(options, study, out, cases, ours);
   if (options.study.dry_run) return list_cases(options, out, cases, ours);
 
+  require_case_processes();
   require_devices(out, cases, ours);
   start_children_alone();
   stop_flag();  // from here on a signal is a wish: what is claimed is given back
@@ -234,5 +235,54 @@ ExitCode command_study(const CommandOptions& options) {
   const ExitCode code = warn_of_faults(our_rows);
   return page_ok && lost(our_rows, left) == 0 ? code : ExitCode::failed_checks;
 }
+
+void declare_study(CLI::App& sub, CommandOptions& options) {
+  sub.add_option("study", options.case_file, "Study file, or a folder with study.toml")->required();
+  add_set(sub, options, "Override a key in all cases: --set mesh.element_size=\"2 mm\"; once for each key");
+  add_out(
+      sub, options,
+      "Folder for the results (default: results/<study name>); a study that is there already goes on where it stopped");
+  sub.add_flag("--force", options.force, "Write into a folder that is not empty and holds no study");
+  sub.add_option("--jobs", options.study.jobs, "Cases at a time; they share the threads (default: one thread a case)")
+      ->check(CLI::Range(1, 1024));
+  sub.add_option("--engine", options.study.engine, fmt::format("Only the cases of one engine: {}", engines_text()))
+      ->check(CLI::IsMember(engine_words()));
+  add_repeated(sub, "--group", options.study.groups, "NAME", "Only the cases of this group; once for each group");
+  sub.add_option("--shard", options.study.shard,
+                 "i/n: only every n-th case from the i-th on, for n machines that share the folder");
+  auto* list = sub.add_flag("--list", options.study.list,
+                            "List the cases with index, state and estimates of time and memory; compute nothing. With "
+                            "--json also key and command");
+  sub.add_option("--batch", options.study.batch,
+                 "Print a job script for the cases to do, with time and memory from the estimates: slurm")
+      ->check(CLI::IsMember({"slurm"}))
+      ->excludes(list);
+  sub.add_option("--only", options.study.only, "Only the case of this index, as --list counts")
+      ->check(CLI::Range(1, 1000000));
+  sub.add_flag_callback(
+      "--no-wait", [&options] { options.study.wait = false; },
+      "End when all that is left is being computed by other processes; else wait for it, and take over from "
+      "those that die");
+  sub.add_option("--lease", options.study.lease,
+                 "A process that has not touched the claim of its case for so long is held for dead (by the clock of "
+                 "the file server)")
+      ->capture_default_str();
+  sub.add_flag("--dry-run", options.study.dry_run, "List the cases and what is done of them; compute nothing");
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kStudyCommand{
+    "study",
+    "Many cases from one file, by both engines, several at a time; goes on where it stopped; a table and a page over "
+    "all of them",
+    "Examples:\n  railstrata study cases/paper/study.toml --dry-run\n  railstrata study cases/paper/study.toml "
+    "--engine bem --out results/study\n  railstrata study cases/paper/study.toml --out results/study --jobs 2 "
+    "--threads 2\n  railstrata study cases/paper/study.toml --out /shared/study --shard 3/8     # one of eight "
+    "machines\n",
+    declare_study,
+    command_study,
+    true};
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "app/signals.hpp"
@@ -111,8 +113,6 @@ nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::v
   return out;
 }
 
-}  // namespace
-
 ExitCode command_sweep(const CommandOptions& options) {
   const std::vector<VariedKey> keys = parse_vary(options.sweep.vary);
   const LoadedCase base = load_half_space_case_of(options);
@@ -157,5 +157,28 @@ ExitCode command_sweep(const CommandOptions& options) {
   if (faults > 0) spdlog::warn("{} of {} cases failed: see the column fault", faults, cases.size());
   return faults > 0 ? ExitCode::failed_checks : ExitCode::ok;
 }
+
+void declare_sweep(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-sweep");
+  add_cell(sub, options);
+  add_repeated(
+      sub, "--vary", options.sweep.vary, "KEY=VALUES",
+      "A key and its values: --vary layer.0.young_ratio=0.5,1,2; once for each key: every combination is solved")
+      ->required();
+  sub.add_flag("--stresses", options.sweep.stresses,
+               "Largest stresses in the rail too (takes longer than the contact)");
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kSweepCommand{
+    "sweep", "Half-space solutions over every combination of values, one table out",
+    "Examples:\n  railstrata sweep cases/paper/layer_3mm_2E0.toml --vary layer.0.thickness=\"1 mm,2 mm,3 mm\" --vary "
+    "layer.0.young_ratio=0.5,1,2\n"
+    "  railstrata sweep cases/paper/base.toml --vary drive.traction_coefficient=0.1,0.2,0.3 --stresses --out "
+    "results/traction\n",
+    declare_sweep, command_sweep};
 
 }  // namespace railstrata

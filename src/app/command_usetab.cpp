@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/progress.hpp"
 #include "app/signals.hpp"
 #include "io/output_file.hpp"
@@ -11,6 +13,7 @@
 #include "study/usetab.hpp"
 
 namespace railstrata {
+namespace {
 
 ExitCode command_usetab(const CommandOptions& options) {
   const std::filesystem::path out = options.out.empty() ? "results/usetab" : options.out;
@@ -41,5 +44,18 @@ ExitCode command_usetab(const CommandOptions& options) {
   spdlog::info("the table is {}", (out / "tabcon").string());
   return ExitCode::ok;
 }
+
+void declare_usetab(CLI::App& sub, CommandOptions& options) {
+  add_output(sub, options, "results/usetab");
+  sub.add_option("--cells", options.usetab_cells, "Cells along either axis of the ellipse (default: 20)")
+      ->check(CLI::Range(6, 100));
+}
+
+}  // namespace
+
+const Command kUsetabCommand{
+    "usetab", "Kalker's table of creep forces of ellipses of steel, as programs with a USETAB reader take it",
+    "Examples:\n  railstrata usetab --out results/usetab\n  railstrata usetab --cells 30\n", declare_usetab,
+    command_usetab};
 
 }  // namespace railstrata

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +10,7 @@
 
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
+#include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "app/signals.hpp"
@@ -29,8 +31,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char *kTable = "wear_loop.csv", *kLoads = "wear_loads.csv", *kUnworn = "unworn.csv";
-constexpr const char* kIdentity = "wear_loop.id";  // of the case, for --resume
+constexpr const char *kWearTable = "wear_loop.csv", *kLoads = "wear_loads.csv", *kUnworn = "unworn.csv";
+constexpr const char* kWearIdentity = "wear_loop.id";  // of the case, for --resume
 constexpr const char* kPage = "report.html";
 constexpr const char* kStepFiles[] = {"rail_profile.csv", "rail_profile.prr", "rail_profile.ban", "collective.csv",
                                       "rail_damage.csv"};
@@ -74,9 +76,9 @@ std::string whole_text(const fs::path& file) {
 }
 
 /// The loop of one folder.
-class Loop {
+class WearLoopRun {
  public:
-  Loop(const CommandOptions& options, LoadedCase loaded)
+  WearLoopRun(const CommandOptions& options, LoadedCase loaded)
       : options_(options),
         loaded_(std::move(loaded)),
         out_(output_folder_of(options, loaded_, "-wear-loop")),
@@ -108,16 +110,16 @@ class Loop {
   void begin() {
     remove_old_steps();
     write_origin(out_, loaded_, options_.command_line, options_.threads);
-    write_whole_file(out_ / kIdentity, case_identity(loaded_) + "\n");
+    write_whole_file(out_ / kWearIdentity, case_identity(loaded_) + "\n");
     write_worn_profile(out_ / kUnworn, table_origin(loaded_), rail_.points);
     write_table();
   }
 
   void resume() {
-    if (whole_text(out_ / kIdentity) != case_identity(loaded_) + "\n")
+    if (whole_text(out_ / kWearIdentity) != case_identity(loaded_) + "\n")
       throw CaseError(fmt::format("{}: no wear loop of this very case", out_.string()),
                       "give the case and the --set of its beginning, or another --out without --resume");
-    const CsvTable table = read_csv(out_ / kTable);
+    const CsvTable table = read_csv(out_ / kWearTable);
     for (std::size_t i = 0; i < table.rows(); ++i) {
       table_.emplace_back();
       for (const std::string& name : kNames) table_.back().push_back(table.column(name).at(i));
@@ -195,7 +197,7 @@ class Loop {
     for (const std::string& name : kNames) columns.push_back({name, {}});
     for (const std::vector<double>& row : table_)
       for (std::size_t k = 0; k < row.size(); ++k) columns[k].values.push_back(row[k]);
-    write_csv(out_ / kTable, table_origin(loaded_), columns);
+    write_csv(out_ / kWearTable, table_origin(loaded_), columns);
   }
 
   /// The worn rail for other programs.
@@ -247,12 +249,36 @@ class Loop {
   std::vector<WearLoad> loads_;
 };
 
-}  // namespace
-
 ExitCode command_wear_loop(const CommandOptions& options) {
   if (options.wear_loop.steps == 0 && options.wear_loop.passages == 0)
     throw CaseError("wear-loop: how far?", "give --steps 10, or --passages 2e6, or both");
-  return Loop(options, load_half_space_case_of(options)).run();
+  return WearLoopRun(options, load_half_space_case_of(options)).run();
 }
+
+void declare_wear_loop(CLI::App& sub, CommandOptions& options) {
+  add_case(sub, options);
+  add_output(sub, options, "results/<case name>-wear-loop");
+  add_cell(sub, options);
+  sub.add_option("--steps", options.wear_loop.steps, "End after so many steps")->check(CLI::Range(1, 9999));
+  sub.add_option("--passages", options.wear_loop.passages, "End after so many passages of the whole collective")
+      ->check(CLI::Range(1.0, 1e15))
+      ->check(finite());
+  sub.add_option("--max-wear", options.wear_loop.max_wear, "Depth at the deepest place in one step")
+      ->capture_default_str();
+  sub.add_flag("--resume", options.wear_loop.resume, "Go on with the loop of the folder where it stopped");
+  add_no_report(sub, options);
+}
+
+}  // namespace
+
+const Command kWearLoopCommand{
+    "wear-loop",
+    "Wear of the case's load collective taken off the rail's profile, step by step: the worn profiles, and how the "
+    "contact changes",
+    "Examples:\n  railstrata wear-loop cases/collective/mixed_traffic.toml --steps 10\n  railstrata wear-loop "
+    "cases/collective/mixed_traffic.toml --passages 1e5 --max-wear \"0.002 mm\" --out results/worn\n  railstrata "
+    "wear-loop cases/collective/mixed_traffic.toml --passages 2e5 --out results/worn --resume\n\nCtrl-C: nothing of "
+    "the step under way is kept, everything before is.\n",
+    declare_wear_loop, command_wear_loop};
 
 }  // namespace railstrata

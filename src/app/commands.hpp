@@ -7,6 +7,10 @@
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
 
+namespace CLI {
+class App;
+}
+
 namespace railstrata {
 
 /// Options that only one command has.
@@ -116,28 +120,39 @@ std::vector<std::string> creep_curve_words();
 /// The words of --to.
 std::vector<std::string> export_words();
 
-ExitCode command_demo(const CommandOptions& options);
-ExitCode command_check(const CommandOptions& options);
-ExitCode command_mesh(const CommandOptions& options);
+/// A subcommand, defined beside its code in command_<name>.cpp.
+struct Command {
+  const char *name, *what, *examples;                       ///< of its help and its manual page
+  void (*declare)(CLI::App& sub, CommandOptions& options);  ///< adds its options
+  ExitCode (*run)(const CommandOptions& options);
+  bool among_ranks = false;  ///< may be started by mpirun: `run` shares its work, processes of `study` their cases
+};
+extern const Command kDemoCommand;
+extern const Command kCheckCommand;
+extern const Command kMeshCommand;
+extern const Command kRunCommand;
+extern const Command kBemCommand;
+extern const Command kShakedownCommand;
+extern const Command kMaterialCommand;
+extern const Command kPassesCommand;
+extern const Command kCompareCommand;
+extern const Command kCreepCurveCommand;
+extern const Command kCreepTableCommand;
+extern const Command kUsetabCommand;
+extern const Command kSweepCommand;
+extern const Command kCollectiveCommand;
+extern const Command kWearLoopCommand;
+extern const Command kStudyCommand;
+extern const Command kReportCommand;
+extern const Command kExploreCommand;
+extern const Command kExportCommand;
+extern const Command kSchemaCommand;
+extern const Command kInfoCommand;
+extern const Command kCompletionCommand;
+extern const Command kManualCommand;
+
+// Commands that others end with.
 ExitCode command_run(const CommandOptions& options);
 ExitCode command_bem(const CommandOptions& options);
-ExitCode command_shakedown(const CommandOptions& options);
-ExitCode command_material(const CommandOptions& options);
-ExitCode command_passes(const CommandOptions& options);
-/// The same with --engine fem.
-ExitCode command_rolled_passes(const CommandOptions& options);
-ExitCode command_compare(const CommandOptions& options);
-ExitCode command_creep_curve(const CommandOptions& options);
-ExitCode command_creep_table(const CommandOptions& options);
-ExitCode command_usetab(const CommandOptions& options);
-ExitCode command_sweep(const CommandOptions& options);
-ExitCode command_collective(const CommandOptions& options);
-ExitCode command_wear_loop(const CommandOptions& options);
-ExitCode command_study(const CommandOptions& options);
-ExitCode command_report(const CommandOptions& options);
-ExitCode command_explore(const CommandOptions& options);
-ExitCode command_export(const CommandOptions& options);
-ExitCode command_schema(const CommandOptions& options);
-ExitCode command_info(const CommandOptions& options);
 
 }  // namespace railstrata

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "core/faults.hpp"
+#include "io/this_process.hpp"
 
 namespace railstrata {
 namespace {
@@ -26,7 +27,7 @@ bool started_among_ranks() {
 }
 
 fs::path plug_in() {
-  const fs::path program = fs::read_symlink("/proc/self/exe").parent_path();
+  const fs::path program = program_file().parent_path();
   for (const fs::path& folder : {program, program / "../lib/railstrata"})
     if (fs::exists(folder / kRankPlugIn)) return folder / kRankPlugIn;
   throw EnvironmentError("this program was started as one of several ranks, but its plug-in for MPI is not here",

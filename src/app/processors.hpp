@@ -4,9 +4,6 @@
 
 namespace railstrata {
 
-/// Cores this process may run on, two hardware threads of one core counted once; at least 1. They share their
-/// arithmetic units: a second one on a core wins nothing here.
-int physical_cores();
 inline constexpr int kMostThreads = 1024;
 
 /// Threads to start with: OMP_NUM_THREADS if that is set (at most kMostThreads), otherwise physical_cores(), shared

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "io/this_process.hpp"
+
 // Path of the data folder, seen from that of the program; the build gives the one it installs to.
 #ifndef RAILSTRATA_DATA_FROM_PROGRAM
 #define RAILSTRATA_DATA_FROM_PROGRAM "../share/railstrata"
@@ -24,9 +26,8 @@ bool is_there(const fs::path& file) {
 
 fs::path shipped_folder() {
   if (const char* wanted = std::getenv("RAILSTRATA_DATA"); wanted != nullptr && *wanted != '\0') return wanted;
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error).parent_path();
-  if (error) return {};
+  const fs::path program = program_file().parent_path();
+  if (program.empty()) return {};
   for (const char* place : {RAILSTRATA_DATA_FROM_PROGRAM, ".."})
     if (is_there(program / place / "cases/quick/case.toml")) return (program / place).lexically_normal();
   return {};

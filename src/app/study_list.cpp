@@ -11,6 +11,7 @@
 
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
+#include "io/this_process.hpp"
 #include "runs/half_space_need.hpp"
 #include "runs/memory_need.hpp"
 #include "runs/run_estimate.hpp"
@@ -95,7 +96,7 @@ void print_cases(const std::vector<ListedCase>& cases, const CommandOptions& opt
 
 void print_batch(const std::vector<ListedCase>& cases, const CommandOptions& options, const fs::path& study,
                  const fs::path& out) {
-  BatchJob job{.program = fs::read_symlink("/proc/self/exe").string(),
+  BatchJob job{.program = program_file().string(),
                .study = whole_path(study),
                .out = whole_path(out),
                .options = {},

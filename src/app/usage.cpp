@@ -50,10 +50,10 @@ CaseError left_over(const CLI::App& app, const CLI::App* sub, const std::string&
                     "{} --help",
                     command));
   const std::vector<std::string> names = option_names(app, sub);
-  const std::string option = word.substr(0, word.find('=')), near = nearest_word(option, names);
-  return CaseError(
-      fmt::format("{} has no option {}", command, option),
-      fmt::format("{}options: {}", near.empty() ? "" : fmt::format("did you mean {}? ", near), fmt::join(names, ", ")));
+  const std::string option = word.substr(0, word.find('=')), meant = nearest_word(option, names);
+  return CaseError(fmt::format("{} has no option {}", command, option),
+                   fmt::format("{}options: {}", meant.empty() ? "" : fmt::format("did you mean {}? ", meant),
+                               fmt::join(names, ", ")));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ static_assert(std::atomic<const char*>::is_always_lock_free, "read in a signal h
 
 void answer_interrupt(int) {
   const char* text = interrupt_answer;
-  static_cast<void>(::write(STDERR_FILENO, text, std::strlen(text)) < 0);
+  static_cast<void>(::write(STDERR_FILENO, text, static_cast<unsigned>(std::strlen(text))) < 0);
   _exit(static_cast<int>(ExitCode::interrupted));
 }
 

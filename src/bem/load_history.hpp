@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "bem/tangential_problem.hpp"
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "geometry/placement.hpp"
 
 namespace railstrata {

@@ -15,6 +15,7 @@
 
 #include "bem/plane_fft.hpp"
 #include "core/parabola.hpp"
+#include "core/stop_wish.hpp"
 #include "halfspace/layer_waves.hpp"
 #include "halfspace/line_contact.hpp"
 #include "material/elastic.hpp"
@@ -317,6 +318,7 @@ Subsurface::~Subsurface() = default;
 Subsurface::Subsurface(Subsurface&&) noexcept = default;
 
 StatePlane Subsurface::plane(double depth) const {
+  stop_if_wished();
   StatePlane out;
   out.depth = depth;
   const PlaneFft fft(grid_.nx, grid_.ny, reach_x_, reach_y_);
@@ -326,7 +328,10 @@ StatePlane Subsurface::plane(double depth) const {
   convolve(fft, {p_.data(), q_x_.data(), q_y_.data()}, table, kParity, pointers(out, grid_.size()),
            [](const InteriorInfluence& t, std::size_t load, std::size_t s) { return t[load].*kState[s]; });
   straighten_steps(depth, out);
-  if (layered_) add_layer_difference(depth, out);
+  if (layered_) {
+    stop_if_wished();
+    add_layer_difference(depth, out);
+  }
   return out;
 }
 
@@ -342,7 +347,10 @@ DisplacementPlane Subsurface::displacement(double depth) const {
       rectangle_displacement_table(body_.substrate, depth, fft.mx() / 2 + 1, fft.my() / 2 + 1, grid_.dx, grid_.dy);
   convolve(fft, {p_.data(), q_x_.data(), q_y_.data()}, table, kDisplacementParity, pointers(out, grid_.size()),
            [](const InteriorDisplacement& t, std::size_t load, std::size_t axis) { return t[load].*kAxis[axis]; });
-  if (layered_) add_layer_difference(depth, out);
+  if (layered_) {
+    stop_if_wished();
+    add_layer_difference(depth, out);
+  }
   return out;
 }
 

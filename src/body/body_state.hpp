@@ -1,6 +1,5 @@
 #pragma once
-// What changes of a body: named arrays, listed once. Checkpoints go through this list; so shall whatever else moves a
-// state (halos between ranks, copies on a device, views from Python).
+// What changes of a body: named arrays, listed once. Checkpoints go through this list.
 #include <array>
 
 #include "body/body.hpp"

@@ -8,8 +8,8 @@
 namespace railstrata {
 namespace {
 
-constexpr double kSlack = 1.2;    // elements that miss the wanted step by less are left alone, as with mass scaling
-constexpr double kMargin = 1.02;  // of the stages' reach over the Ritz value of omega_max
+constexpr double kStepSlack = 1.2;  // elements that miss the wanted step by less are left alone, as with mass scaling
+constexpr double kMargin = 1.02;    // of the stages' reach over the Ritz value of omega_max
 
 using NodeSets = std::vector<std::vector<bool>>;  // per block and section node
 
@@ -48,7 +48,7 @@ NodeSets fast_nodes(const SweptBody& body, const std::vector<Elastic>& materials
       const double area = quad_area(s, k);
       const double across = area / std::max(0.5 * (edge(0) + edge(2)), 0.5 * (edge(1) + edge(3)));
       const double least = std::min(across, shortest_spacing(body, body.blocks[b], std::abs(s.nodes[k[0]].z)));
-      if (std::sqrt(m.p_wave_modulus() / m.density) * step <= kSlack * least) continue;
+      if (std::sqrt(m.p_wave_modulus() / m.density) * step <= kStepSlack * least) continue;
       for (int n : k) out[b][n] = true;
     }
   }

@@ -11,7 +11,7 @@
 namespace railstrata {
 namespace {
 
-constexpr double kSlack =
+constexpr double kMassSlack =
     1.2;  // rows that miss the wanted step by less are left alone: an unlayered mesh stays as it is
 constexpr double kThin =
     0.85;  // of an element's width: what is higher has modes along the row that are as fast as those across it
@@ -38,7 +38,7 @@ MassScaling::Edges MassScaling::thin_edges(const SweptBody& body, int block, con
           0.5 * (edge_length(s, k[side + 1], k[(side + 2) % 4]) + edge_length(s, k[(side + 3) % 4], k[side]));
       const double height = area / width,
                    excess = std::pow(wanted_step / height, 2) * m.p_wave_modulus() / m.density - 1;
-      if (height > kThin * width || excess < kSlack * kSlack - 1) continue;
+      if (height > kThin * width || excess < kMassSlack * kMassSlack - 1) continue;
       const std::array<Vec2, 4> corners{s.nodes[k[0]], s.nodes[k[1]], s.nodes[k[2]], s.nodes[k[3]]};
       for (int e = 0; e < elements; ++e) {
         const double t0 = b.stations.at[e],

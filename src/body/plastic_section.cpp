@@ -12,13 +12,13 @@ namespace railstrata {
 namespace {
 
 using Entries = PlasticEntries;
-using Place = PlasticElements::Place;
+using HotPlace = PlasticElements::Place;
 
 /// Of hot places.
 std::vector<PlasticSection::Quad> quads_of(const Body& body, const Field& history) {
   std::vector<PlasticSection::Quad> out;
   for (int slot = 0; slot < body.plastic.hot_places(history); ++slot) {
-    const Place p = body.plastic.hot(history, slot);
+    const HotPlace p = body.plastic.hot(history, slot);
     out.push_back({body.tiling.tiles[p.tile].block, p.quad});
   }
   const auto before = [](const PlasticSection::Quad& a, const PlasticSection::Quad& b) {
@@ -59,7 +59,7 @@ void add_element(const Body& body, const Field& history, int block, int quad, in
 }
 
 /// Eigenstress and bubbles of an element whose pairs are alike.
-Eigenstress<double> eigenstress_of(const Body& body, const Place& place, int element, const double* points) {
+Eigenstress<double> eigenstress_of(const Body& body, const HotPlace& place, int element, const double* points) {
   const Tile& tile = body.tiling.tiles[place.tile];
   const PlasticElements::Quad& quad = body.plastic.quad(place);
   const int cls = body.elements[tile.block].hourglass_class[element / kHourglassGroup];
@@ -76,7 +76,7 @@ Eigenstress<double> eigenstress_of(const Body& body, const Place& place, int ele
   return out;
 }
 
-void put_place(const Body& body, const Place& place, const double* points, double* rows) {
+void put_place(const Body& body, const HotPlace& place, const double* points, double* rows) {
   const Tile& tile = body.tiling.tiles[place.tile];
   const int entries = body.plastic.point_entries();
   for (int e = tile.first; e < tile.end; ++e) {
@@ -143,7 +143,7 @@ Field history_of_section(const Body& body, const PlasticSection& section) {
   Field out = initial_history(body);
   std::vector<char> placed(section.quads.size(), 0);
   for (std::size_t c = 0; c < body.plastic.candidates().size(); ++c) {
-    const Place& place = body.plastic.candidates()[c];
+    const HotPlace& place = body.plastic.candidates()[c];
     const auto found = at.find({body.tiling.tiles[place.tile].block, place.quad});
     if (found == at.end()) continue;
     if (section.point_entries != body.plastic.point_entries()) refuse();

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "case/case_source.hpp"
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 
 namespace railstrata {
 

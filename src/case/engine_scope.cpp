@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "case/case_spec.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {

@@ -4,12 +4,14 @@
 
 #include <string>
 
+#include "case/case_spec.hpp"
+
 namespace railstrata {
 namespace {
 
-class Rules {
+class LineRules {
  public:
-  Rules(const CaseSpec& spec, CaseSource& source) : spec_(spec), source_(source) {}
+  LineRules(const CaseSpec& spec, CaseSource& source) : spec_(spec), source_(source) {}
 
   void check() {
     if (!spec_.geometry.line_length)
@@ -88,7 +90,7 @@ class Rules {
 }  // namespace
 
 void check_line_contact(const CaseSpec& spec, CaseSource& source) {
-  if (spec.geometry.in_line()) return Rules(spec, source).check();
+  if (spec.geometry.in_line()) return LineRules(spec, source).check();
   if (spec.geometry.line_length)
     source.complain("geometry.line_length", "geometry.line_length has no meaning with geometry.contact = \"point\"",
                     "take it out, or give contact = \"line\"");

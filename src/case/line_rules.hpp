@@ -2,7 +2,7 @@
 // What a line contact (geometry.contact = "line") cannot have: anything that turns or moves the cylinder sideways, and
 // whatever asks for a displacement of distant points, which plane strain does not know.
 #include "case/case_source.hpp"
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 
 namespace railstrata {
 

@@ -7,7 +7,6 @@ namespace {
 
 using namespace dimension;
 using namespace option_slot;
-using L = LoadSpec;
 
 template <auto Member>
 Slot load(CaseSpec& spec, std::size_t index) {
@@ -16,24 +15,31 @@ Slot load(CaseSpec& spec, std::size_t index) {
 
 bool has_loads(const CaseSpec& spec, std::size_t) { return !spec.loads.empty(); }
 bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(index).name.empty(); }
-bool never(const CaseSpec&, std::size_t) { return false; }
 
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
 
 std::vector<Option> force_options() {
-  return {{"traction_coefficient", load<&L::traction_coefficient>, "Wanted F_T / G; positive drives", kNumber, {-1, 1}},
-          {"creepage", load<&L::creepage>, "Longitudinal, instead of the traction; negative drives", kNumber, {-10, 1}},
+  return {{"traction_coefficient",
+           load<&LoadSpec::traction_coefficient>,
+           "Wanted F_T / G; positive drives",
+           kNumber,
+           {-1, 1}},
+          {"creepage",
+           load<&LoadSpec::creepage>,
+           "Longitudinal, instead of the traction; negative drives",
+           kNumber,
+           {-10, 1}},
           {"lateral_traction_coefficient",
-           load<&L::lateral_traction_coefficient>,
+           load<&LoadSpec::lateral_traction_coefficient>,
            "Friction force F_y on the wheel along the contact plane, over G",
            kNumber,
            {-1, 1}},
           {"lateral_creepage",
-           load<&L::lateral_creepage>,
+           load<&LoadSpec::lateral_creepage>,
            "Instead of the lateral force; else that of the yaw",
            kNumber,
            {-10, 10}},
-          {"friction_coefficient", load<&L::friction_coefficient>, "Of friction at rest", kNumber, {0, 2}}};
+          {"friction_coefficient", load<&LoadSpec::friction_coefficient>, "Of friction at rest", kNumber, {0, 2}}};
 }
 
 }  // namespace
@@ -44,26 +50,34 @@ OptionTable load_table() {
       "A row of a load collective, for `railstrata collective`: a wheel and how often it passes. What a row "
       "does not give is the case's; signs and meanings are those of the keys of the same names",
       {{"name",
-        load<&L::name>,
+        load<&LoadSpec::name>,
         "What results call the row; \"load 1\", \"load 2\", … by its place",
         {},
         {},
         {},
         {},
         has_name},
-       {"passages", load<&L::passages>, "How often such a wheel passes", kNumber, above(0, 1e12)},
-       {"wheel_load", load<&L::wheel_load>, "Load of the wheel on the rail, a force", kForce, above(0, 1e7)},
+       {"passages", load<&LoadSpec::passages>, "How often such a wheel passes", kNumber, above(0, 1e12)},
+       {"wheel_load", load<&LoadSpec::wheel_load>, "Load of the wheel on the rail, a force", kForce, above(0, 1e7)},
        {"axle_load",
-        load<&L::wheel_load>,
+        load<&LoadSpec::wheel_load>,
         "Load of both wheels on the track, a force or a mass; this wheel carries half",
         kForce,
         above(0, 2e7),
         {},
         {half, "choose a load in this range", true}},
-       {"lateral_shift", load<&L::lateral_shift>, "Of the wheel, positive to the field side", kLength, {-0.05, 0.05}},
-       {"yaw", load<&L::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}},
-       {"curve_radius", load<&L::curve_radius>, "Positive with the centre on the field side", kLength, {-1e6, 1e6}},
-       {"speed", load<&L::speed>, "Rolling speed", kSpeed, above(0, 200)}},
+       {"lateral_shift",
+        load<&LoadSpec::lateral_shift>,
+        "Of the wheel, positive to the field side",
+        kLength,
+        {-0.05, 0.05}},
+       {"yaw", load<&LoadSpec::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}},
+       {"curve_radius",
+        load<&LoadSpec::curve_radius>,
+        "Positive with the centre on the field side",
+        kLength,
+        {-1e6, 1e6}},
+       {"speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200)}},
       list_of<&CaseSpec::loads>(),
       {{"wheel_load", "axle_load"},
        {"traction_coefficient", "creepage"},

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "case/case_source.hpp"
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 
 namespace railstrata {
 

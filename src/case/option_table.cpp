@@ -9,6 +9,7 @@
 #include "case/load_options.hpp"
 #include "case/option_slots.hpp"
 #include "case/strength_options.hpp"
+#include "core/si_prefix.hpp"
 
 namespace railstrata {
 namespace {
@@ -53,12 +54,9 @@ bool starts(const CaseSpec& spec, std::size_t) {
 bool shifts(const CaseSpec& spec, std::size_t) {
   return spec.transient.kind == TransientKind::shift || spec.transient.increments != TransientSpec{}.increments;
 }
-bool never(const CaseSpec&, std::size_t) { return false; }
 
 bool uniform(const CaseSpec& spec, std::size_t index) { return !spec.layers.at(index).graded(); }
 bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(index).graded(); }
-
-constexpr double kMilli = 1e-3;
 
 std::vector<Option> shape_options() {
   return {

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "case/option_slots.hpp"
+#include "core/si_prefix.hpp"
 
 namespace railstrata {
 namespace {
@@ -12,7 +13,7 @@ using namespace option_slot;
 using M = MaterialSpec;
 using S = StrengthSpec;
 
-constexpr double kMega = 1e6, kDeepest = 0.2;
+constexpr double kDeepest = 0.2;
 const Range kStrength = {10 * kMega, 2e4 * kMega}, kHardnessRange = {50, 2000}, kResidual = {-5e3 * kMega, 5e3 * kMega};
 constexpr std::string_view kBeyondStrength = "rail steel yields at 400 to 1000 MPa: look at the unit";
 constexpr std::string_view kBeyondHardness = "rail steel has 220 to 450 HV, martensite up to 1000 HV";

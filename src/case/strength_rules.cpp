@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "case/case_spec.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
 #include "damage/grades.hpp"
@@ -21,8 +22,8 @@ constexpr double kPascalOfVickers = 9.80665e6;  // a hardness of 1 HV is 1 kgf/m
 /// A ball or a pyramid is pressed in by a mean pressure of 2.5 to 3 times the yield strength [Johnson1985 6.3].
 constexpr double kLeastConstraint = 2.5;
 
-std::string pressure(double value) { return format_quantity(value, dimension::kPressure); }
-std::string length(double value) { return format_quantity(value, dimension::kLength); }
+std::string pressure_text(double value) { return format_quantity(value, dimension::kPressure); }
+std::string length_text(double value) { return format_quantity(value, dimension::kLength); }
 
 /// A property with depth as the case says it; a value that is the same everywhere is one row.
 struct Said {
@@ -41,9 +42,9 @@ double at_depth(const std::vector<DepthPoint>& rows, double depth) {
   return a.value + (depth - a.depth) / (b.depth - a.depth) * (b.value - a.value);
 }
 
-class Rules {
+class StrengthRules {
  public:
-  Rules(std::string table, const MaterialSpec& material, CaseSource& source)
+  StrengthRules(std::string table, const MaterialSpec& material, CaseSource& source)
       : table_(std::move(table)), material_(material), s_(material.strength), source_(source) {}
 
   void check() const {
@@ -120,18 +121,18 @@ class Rules {
     for (const DepthPoint& row : s_.strength_table) least = std::min(least, row.value);
     if (!(least + h.saturation > 0))
       complain("isotropic_hardening",
-               fmt::format(": saturation = {} takes the whole yield strength of {} away", pressure(h.saturation),
-                           pressure(least)),
+               fmt::format(": saturation = {} takes the whole yield strength of {} away", pressure_text(h.saturation),
+                           pressure_text(least)),
                "the sum of both must be above zero");
     if (h.saturation != 0 && h.rate == 0)
       complain("isotropic_hardening",
-               fmt::format(": saturation = {} is never reached at rate = 0", pressure(h.saturation)),
+               fmt::format(": saturation = {} is never reached at rate = 0", pressure_text(h.saturation)),
                "give the rate b of sigma = saturation (1 - exp(-b p)), 5 to 20 is usual, or leave both out");
     const double shear = material_.young / (2 * (1 + material_.poisson));
     if (!(3 * shear + h.saturation * h.rate > 0))
       complain("isotropic_hardening",
                fmt::format(": softens by saturation x rate = {}, faster than the material unloads, 3 G = {}",
-                           pressure(-h.saturation * h.rate), pressure(3 * shear)),
+                           pressure_text(-h.saturation * h.rate), pressure_text(3 * shear)),
                "lower the rate");
   }
 
@@ -169,10 +170,10 @@ class Rules {
     if (strength.rows.empty() || !s_.tensile_strength) return;
     const double most = std::max_element(strength.rows.begin(), strength.rows.end(), by_value)->value;
     if (most <= *s_.tensile_strength) return;
-    complain(
-        "tensile_strength",
-        fmt::format(" = {}: must be at least {} = {}", pressure(*s_.tensile_strength), strength.name, pressure(most)),
-        "a material does not yield beyond its tensile strength: correct one of them");
+    complain("tensile_strength",
+             fmt::format(" = {}: must be at least {} = {}", pressure_text(*s_.tensile_strength), strength.name,
+                         pressure_text(most)),
+             "a material does not yield beyond its tensile strength: correct one of them");
   }
 
   /// At every depth that one of the two says.
@@ -185,11 +186,11 @@ class Rules {
         const double most = value * kPascalOfVickers / kLeastConstraint;
         if (there <= most) continue;
         const bool everywhere = hard.rows.size() == 1 && strength.rows.size() == 1;
-        const std::string depth = everywhere ? "" : fmt::format(" at a depth of {}", length(p.depth));
+        const std::string depth = everywhere ? "" : fmt::format(" at a depth of {}", length_text(p.depth));
         complain(hard.name.c_str(),
                  fmt::format(" = {}{}: does not fit to {} = {}, a material of this hardness yields at {:.0f} MPa at "
                              "most",
-                             format_quantity(value, dimension::kHardness), depth, strength.name, pressure(there),
+                             format_quantity(value, dimension::kHardness), depth, strength.name, pressure_text(there),
                              1e-6 * most),
                  "correct one of them; hardness is about three times the yield strength");
         return;
@@ -199,8 +200,9 @@ class Rules {
   template <class Row>
   void reach(const char* name, const std::vector<Row>& rows, double thickness) const {
     if (rows.empty() || rows.back().depth >= thickness - kRoundOff) return;
-    complain(name, fmt::format(": ends at {}, the layer is {} thick", length(rows.back().depth), length(thickness)),
-             fmt::format("add a row at {}", length(thickness)));
+    complain(name,
+             fmt::format(": ends at {}, the layer is {} thick", length_text(rows.back().depth), length_text(thickness)),
+             fmt::format("add a row at {}", length_text(thickness)));
   }
 
   std::string table_;
@@ -212,10 +214,10 @@ class Rules {
 }  // namespace
 
 void check_strengths(const CaseSpec& spec, CaseSource& source) {
-  Rules("material.rail", spec.rail_material, source).check();
-  Rules("material.wheel", spec.wheel_material, source).check();
+  StrengthRules("material.rail", spec.rail_material, source).check();
+  StrengthRules("material.wheel", spec.wheel_material, source).check();
   for (std::size_t i = 0; i < spec.layers.size(); ++i) {
-    const Rules rules(fmt::format("layer.{}", i), spec.layers[i].material, source);
+    const StrengthRules rules(fmt::format("layer.{}", i), spec.layers[i].material, source);
     rules.check();
     rules.check_reach(spec.layers[i].thickness);
   }

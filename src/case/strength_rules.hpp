@@ -1,7 +1,7 @@
 #pragma once
 // What the strengths of a case ask of each other.
 #include "case/case_source.hpp"
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 
 namespace railstrata {
 

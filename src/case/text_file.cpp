@@ -1,14 +1,12 @@
 #include "case/text_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
 
+#include "case/open_file.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 
@@ -18,28 +16,6 @@ namespace {
 constexpr std::size_t kLargest = std::size_t{4} << 20;  // nobody writes more by hand
 constexpr int kPatience = 2000;                         // ms, for somebody to open a named pipe for writing
 constexpr int kForEver = -1;
-
-/// A file that is open for reading, closed at the end. It does not block: a named pipe without a writer would for ever.
-class OpenFile {
- public:
-  explicit OpenFile(const std::filesystem::path& file) : descriptor_(::open(file.c_str(), O_RDONLY | O_NONBLOCK)) {}
-  ~OpenFile() {
-    if (is_open()) ::close(descriptor_);
-  }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  bool is_open() const { return descriptor_ >= 0; }
-  /// Bytes read; 0 at the end, and of a pipe that has no writer; -1: none yet (EAGAIN), or an error.
-  ssize_t read(char* into, std::size_t most) const { return ::read(descriptor_, into, most); }
-  /// Whether within this time there is something to read, or the end.
-  bool wait(int milliseconds) const {
-    pollfd one{descriptor_, POLLIN, 0};
-    return ::poll(&one, 1, milliseconds) > 0;
-  }
-
- private:
-  int descriptor_;
-};
 
 [[noreturn]] void refuse_unreadable(const std::filesystem::path& file, int reason, const std::string& remedy) {
   throw CaseError(fmt::format("cannot read {}: {}", file.string(), std::strerror(reason)),
@@ -60,7 +36,7 @@ std::string read_text_file(const std::filesystem::path& file, const std::string&
   std::string text;
   std::array<char, 1 << 16> piece;
   for (;;) {
-    const ssize_t count = in.read(piece.data(), piece.size());
+    const std::ptrdiff_t count = in.read(piece.data(), piece.size());
     const int reason = errno;
     if (count == 0) break;
     if (count > 0)

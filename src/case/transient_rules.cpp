@@ -16,9 +16,9 @@ bool is_any(const std::string& key, std::initializer_list<std::string_view> of) 
   return std::find(of.begin(), of.end(), key) != of.end();
 }
 
-class Rules {
+class TransientRules {
  public:
-  Rules(const CaseSpec& spec, CaseSource& source)
+  TransientRules(const CaseSpec& spec, CaseSource& source)
       : spec_(spec), t_(spec.transient), source_(source), columns_(given_columns(spec)) {}
 
   void check() {
@@ -162,7 +162,7 @@ std::vector<GivenColumn> given_columns(CaseSpec spec) {
 
 void check_transient(const CaseSpec& spec, CaseSource& source) {
   if (spec.transient.kind == TransientKind::none) return;
-  Rules(spec, source).check();
+  TransientRules(spec, source).check();
 }
 
 }  // namespace railstrata

@@ -12,6 +12,7 @@
 #include "core/faults.hpp"
 #include "core/nearest_word.hpp"
 #include "core/printable.hpp"
+#include "core/text.hpp"
 
 namespace railstrata {
 namespace {
@@ -30,10 +31,7 @@ struct Column {
   bool text = false;
 };
 
-std::string trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r\""), last = text.find_last_not_of(" \t\r\"");
-  return first == std::string_view::npos ? std::string() : std::string(text.substr(first, last - first + 1));
-}
+std::string cell_of(std::string_view text) { return std::string(trimmed(text, " \t\r\"")); }
 
 /// By the line of names. One column alone has nothing to separate.
 char separator_of(const std::string& names) {
@@ -54,7 +52,7 @@ std::vector<std::string> cells_of(const std::string& line, char separator, std::
     else
       out.back() += c;
   }
-  for (std::string& cell : out) cell = trimmed(cell);
+  for (std::string& cell : out) cell = cell_of(cell);
   if (out.size() > asked && out.back().empty()) out.pop_back();
   return out;
 }
@@ -63,9 +61,9 @@ std::vector<std::string> cells_of(const std::string& line, char separator, std::
 /// that does not begin with the key.
 std::optional<std::string> unit_after(const std::string& name, std::string_view key) {
   if (!name.starts_with(key)) return std::nullopt;
-  std::string rest = trimmed(std::string_view(name).substr(key.size()));
+  std::string rest = cell_of(std::string_view(name).substr(key.size()));
   if (rest.empty()) return "";
-  if (rest.size() > 2 && rest.front() == '[' && rest.back() == ']') return trimmed(rest.substr(1, rest.size() - 2));
+  if (rest.size() > 2 && rest.front() == '[' && rest.back() == ']') return cell_of(rest.substr(1, rest.size() - 2));
   if (rest.front() != '_') return std::nullopt;
   rest.erase(0, 1);
   std::replace(rest.begin(), rest.end(), '_', '/');
@@ -214,7 +212,7 @@ UnitTable read_unit_table(const std::string& text, const std::filesystem::path& 
     ++number;
     if (number == 1 && line.starts_with("\xEF\xBB\xBF")) line.erase(0, 3);
     line = line.substr(0, line.find('#'));
-    if (trimmed(line).empty()) continue;
+    if (cell_of(line).empty()) continue;
     reader.read_line(line, {file, number});
   }
   UnitTable table = std::move(reader).table();

@@ -1,10 +1,10 @@
 #pragma once
 // Arrays aligned for SIMD loads.
-#include <sys/mman.h>
-
 #include <cstddef>
 #include <new>
 #include <vector>
+
+#include "core/huge_pages.hpp"
 
 namespace railstrata {
 
@@ -16,16 +16,13 @@ struct CacheLineAllocator {
   explicit CacheLineAllocator(const CacheLineAllocator<U>&) {}
   T* allocate(std::size_t n) {
     T* p = static_cast<T*>(::operator new(n * sizeof(T), alignment(n)));
-    if (n * sizeof(T) >= kHugePage)
-      madvise(p, n * sizeof(T),
-              MADV_HUGEPAGE);  // a sweep over the lines of a body meets a new page with nearly every one; only a wish
+    if (n * sizeof(T) >= kHugePage) prefer_huge_pages(p, n * sizeof(T));
     return p;
   }
   void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
   friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
 
  private:
-  static constexpr std::size_t kHugePage = std::size_t{2} << 20;
   static constexpr std::align_val_t alignment(std::size_t n) {
     return std::align_val_t{n * sizeof(T) >= kHugePage ? kHugePage : 64};
   }

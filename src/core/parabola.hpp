@@ -1,9 +1,11 @@
 #pragma once
-// The top of a parabola through three points: where a largest value between samples lies, and how much it exceeds the
-// middle one.
+// Squares, and the top of a parabola through three points: where a largest value between samples lies, and how much it
+// exceeds the middle one.
 #include <algorithm>
 
 namespace railstrata {
+
+inline double square(double v) { return v * v; }
 
 struct ParabolaTop {
   double at = 0;     ///< abscissa

@@ -8,6 +8,7 @@
 
 #include "core/faults.hpp"
 #include "core/nearest_word.hpp"
+#include "damage/positive.hpp"
 
 namespace railstrata {
 namespace {
@@ -47,10 +48,6 @@ std::string capitals(std::string_view text) {
   return out;
 }
 
-double positive(double value, const char* what) {
-  if (!(value > 0)) throw std::invalid_argument(std::string(what) + " must be positive");
-  return value;
-}
 double share_of_tensile(double share) {
   if (!(share > 0 && share <= 1)) throw std::invalid_argument("yield over tensile strength must lie in (0, 1]");
   return share;

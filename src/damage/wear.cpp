@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "core/faults.hpp"
+#include "damage/positive.hpp"
 
 namespace railstrata {
 namespace {
@@ -28,11 +29,6 @@ double slip(const Streamline& line, std::size_t i) { return std::hypot(line.slip
 double pressed_slip(const Streamline& line, std::size_t i) {
   if (!line.pressed.empty()) return line.pressed[i];
   return line.p[i] > 0 ? line.p[i] * slip(line, i) : 0;
-}
-
-double positive(double value, const char* what) {
-  if (!(value > 0)) throw std::invalid_argument(std::string(what) + " must be positive");
-  return value;
 }
 
 }  // namespace

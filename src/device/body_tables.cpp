@@ -10,11 +10,6 @@ constexpr int kEigenstressNumbers = 18;
 
 int whole_lanes(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
 
-template <class T, class Container>
-DeviceArray<T> on(Device& device, const Container& values) {
-  return {device, std::span<const T>(values.data(), values.size())};
-}
-
 void add_pieces(int record, int stations, std::vector<Piece>& pieces) {
   for (int first = 0; first < stations; first += kLanes)
     pieces.push_back({record, first, std::min(kLanes, stations - first)});
@@ -148,16 +143,16 @@ ElementArrays<Real> element_arrays(Device& device, const Body& body, const Stati
       line[n].resize(end, Real{0});
     }
   }
-  return {on<HexReference<Real, MaterialParameters<Real>>>(device, references),
-          on<Real>(device, hourglass),
-          on<Real>(device, eigenstress),
-          on<Real>(device, line[0]),
-          on<Real>(device, line[1]),
-          on<Real>(device, line[2]),
-          on<Real>(device, line[3]),
-          on<Real>(device, line[4]),
-          on<Real>(device, line[5]),
-          on<Real>(device, line[6]),
+  return {on_device<HexReference<Real, MaterialParameters<Real>>>(device, references),
+          on_device<Real>(device, hourglass),
+          on_device<Real>(device, eigenstress),
+          on_device<Real>(device, line[0]),
+          on_device<Real>(device, line[1]),
+          on_device<Real>(device, line[2]),
+          on_device<Real>(device, line[3]),
+          on_device<Real>(device, line[4]),
+          on_device<Real>(device, line[5]),
+          on_device<Real>(device, line[6]),
           {device, static_cast<std::size_t>(rows)}};
 }
 
@@ -193,12 +188,12 @@ std::vector<InterpolationStart> add_interpolations(Device& device, const Ties& t
     from.insert(from.end(), in.from.begin(), in.from.end());
     share.insert(share.end(), in.share.begin(), in.share.end());
   }
-  out.left = on<int>(device, left);
-  out.right = on<int>(device, right);
-  out.first = on<int>(device, first);
-  out.from = on<int>(device, from);
-  out.weight = on<double>(device, weight);
-  out.share = on<double>(device, share);
+  out.left = on_device<int>(device, left);
+  out.right = on_device<int>(device, right);
+  out.first = on_device<int>(device, first);
+  out.from = on_device<int>(device, from);
+  out.weight = on_device<double>(device, weight);
+  out.share = on_device<double>(device, share);
   return start;
 }
 
@@ -229,8 +224,8 @@ TieLevel tie_level(Device& device, const Body& body, const std::vector<TieRecord
         {line, lay.stride, lay.stations, static_cast<int>(shares.size()), static_cast<int>(shares_of[line].size())});
     shares.insert(shares.end(), shares_of[line].begin(), shares_of[line].end());
   }
-  return {on<Piece>(device, slaves), on<Piece>(device, masters), on<MasterRecord>(device, records),
-          on<TieShare>(device, shares)};
+  return {on_device<Piece>(device, slaves), on_device<Piece>(device, masters), on_device<MasterRecord>(device, records),
+          on_device<TieShare>(device, shares)};
 }
 
 TieArrays tie_arrays(Device& device, const Body& body) {
@@ -245,9 +240,9 @@ TieArrays tie_arrays(Device& device, const Body& body) {
                        start[l.interpolation].between, start[l.interpolation].shares, l.delta, slave.stride,
                        slave.stations, master.stride, master.stations, l.weight1});
   }
-  out.ties = on<TieRecord>(device, records);
-  out.delta_x = on<double>(device, ties.delta_x());
-  out.delta_z = on<double>(device, ties.delta_z());
+  out.ties = on_device<TieRecord>(device, records);
+  out.delta_x = on_device<double>(device, ties.delta_x());
+  out.delta_z = on_device<double>(device, ties.delta_z());
   const std::vector<int> levels = tie_levels(ties);
   const int last = *std::max_element(levels.begin(), levels.end());
   for (int level = 0; level <= last; ++level) {
@@ -263,7 +258,7 @@ ChainArrays chain_arrays(Device& device, const RollingBody& b, const StationList
   const Body& body = b.body;
   ChainArrays out;
   std::vector<int> chain_at(static_cast<std::size_t>(b.surface.columns), -1);
-  out.chain_at = on<int>(device, chain_at);
+  out.chain_at = on_device<int>(device, chain_at);
   if (scaling.empty()) return out;
   std::vector<ChainRecord> records;
   std::vector<ChainNode> nodes;
@@ -280,14 +275,14 @@ ChainArrays chain_arrays(Device& device, const RollingBody& b, const StationList
   }
   out.chain_at.upload(chain_at);
   const MassScaling::Factors f = scaling.factors();
-  out.chains = on<ChainRecord>(device, records);
-  out.nodes = on<ChainNode>(device, nodes);
-  out.added = on<double>(device, f.added);
-  out.forward = on<double>(device, f.forward);
-  out.pivot = on<double>(device, f.pivot);
-  out.backward = on<double>(device, f.backward);
-  out.response = on<double>(device, f.response);
-  out.pieces = on<Piece>(device, pieces);
+  out.chains = on_device<ChainRecord>(device, records);
+  out.nodes = on_device<ChainNode>(device, nodes);
+  out.added = on_device<double>(device, f.added);
+  out.forward = on_device<double>(device, f.forward);
+  out.pivot = on_device<double>(device, f.pivot);
+  out.backward = on_device<double>(device, f.backward);
+  out.response = on_device<double>(device, f.response);
+  out.pieces = on_device<Piece>(device, pieces);
   return out;
 }
 
@@ -341,19 +336,19 @@ BodyTables::BodyTables(Device& device, const RollingBody& b)
     in_single = element_arrays<float>(device, body, at, rounded, records.rows);
   }
   for (const QuadRecord& q : records.quads) elements += q.elements;
-  quads = on<QuadRecord>(device, records.quads);
-  nodes = on<NodeRecord>(device, records.nodes);
-  corners = on<std::ptrdiff_t>(device, records.corners);
-  quad_pieces = on<Piece>(device, device::quad_pieces(records));
-  node_pieces = on<Piece>(device, device::node_pieces(records));
-  waiting_pieces = on<Piece>(device, device::waiting_pieces(b, records));
-  classes = on<int>(device, at.classes);
-  cos_q = on<double>(device, at.cos_q);
-  sin_q = on<double>(device, at.sin_q);
-  cos_node = on<double>(device, at.cos_node);
-  sin_node = on<double>(device, at.sin_node);
-  inverse_mass = on<double>(device, body.inverse_mass);
-  mass = on<double>(device, body.mass);
+  quads = on_device<QuadRecord>(device, records.quads);
+  nodes = on_device<NodeRecord>(device, records.nodes);
+  corners = on_device<std::ptrdiff_t>(device, records.corners);
+  quad_pieces = on_device<Piece>(device, device::quad_pieces(records));
+  node_pieces = on_device<Piece>(device, device::node_pieces(records));
+  waiting_pieces = on_device<Piece>(device, device::waiting_pieces(b, records));
+  classes = on_device<int>(device, at.classes);
+  cos_q = on_device<double>(device, at.cos_q);
+  sin_q = on_device<double>(device, at.sin_q);
+  cos_node = on_device<double>(device, at.cos_node);
+  sin_node = on_device<double>(device, at.sin_node);
+  inverse_mass = on_device<double>(device, body.inverse_mass);
+  mass = on_device<double>(device, body.mass);
   ties = tie_arrays(device, body);
   added_mass = chain_arrays(device, b, at);
 }

@@ -8,11 +8,6 @@
 namespace railstrata::device {
 namespace {
 
-template <class T>
-DeviceArray<T> on(Device& device, const std::vector<T>& values) {
-  return {device, std::span<const T>(values.data(), values.size())};
-}
-
 std::vector<double> of_each(const std::vector<double>& angles, double (*function)(double)) {
   std::vector<double> out;
   for (double t : angles) out.push_back(function(t));
@@ -68,13 +63,13 @@ SurfaceArrays::SurfaceArrays(Device& device, const ContactSurface& s)
       columns_(s.columns),
       stride_(s.stride),
       first_line_(s.first_line),
-      node_(on(device, s.node)),
-      outward_(on(device, s.outward)),
-      sagitta_(on(device, s.sagitta)),
-      at_(on(device, s.stations.at)),
-      width_(on(device, s.width)),
-      sine_(on(device, of_each(s.stations.at, [](double t) { return std::sin(t); }))),
-      cosine_(on(device, of_each(s.stations.at, [](double t) { return std::cos(t); }))) {}
+      node_(on_device(device, s.node)),
+      outward_(on_device(device, s.outward)),
+      sagitta_(on_device(device, s.sagitta)),
+      at_(on_device(device, s.stations.at)),
+      width_(on_device(device, s.width)),
+      sine_(on_device(device, of_each(s.stations.at, [](double t) { return std::sin(t); }))),
+      cosine_(on_device(device, of_each(s.stations.at, [](double t) { return std::cos(t); }))) {}
 
 SurfaceView SurfaceArrays::view() const {
   return {origin_,         yaw_,          columns_,     stride_,

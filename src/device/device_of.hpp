@@ -1,6 +1,6 @@
 #pragma once
 // The device that a case asks for.
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "device/memory.hpp"
 #include "fem/step_engine.hpp"
 

@@ -1,19 +1,13 @@
 #include "device/emulated_device.hpp"
 
-#include <sys/mman.h>
-#include <unistd.h>
-
 #include <cstring>
 
 #include "core/faults.hpp"
+#include "device/pages.hpp"
 
 namespace railstrata::device {
 namespace {
 
-std::size_t page_size() {
-  static const auto size = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-  return size;
-}
 std::size_t whole_pages(std::size_t bytes) { return (bytes + page_size() - 1) / page_size() * page_size(); }
 
 // The array ends where its last page does, as far as its alignment lets it.
@@ -24,9 +18,9 @@ std::size_t lead(std::size_t bytes) { return (whole_pages(bytes) - bytes) / kAli
 
 void* EmulatedDevice::allocate(std::size_t bytes) {
   const std::size_t size = whole_pages(bytes);
-  void* const first = mmap(nullptr, size + page_size(), PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-  if (first == MAP_FAILED) throw EnvironmentError("no memory for an emulated device");
-  if (protection_ == Protection::open) mprotect(first, size, PROT_READ | PROT_WRITE);
+  void* const first = closed_pages(size + page_size());
+  if (first == nullptr) throw EnvironmentError("no memory for an emulated device");
+  if (protection_ == Protection::open) protect_pages(first, size, true);
   arrays_.emplace(first, size);
   allocated_ += bytes;
   return static_cast<char*>(first) + lead(bytes);
@@ -34,13 +28,13 @@ void* EmulatedDevice::allocate(std::size_t bytes) {
 
 void EmulatedDevice::release(void* memory, std::size_t bytes) {
   void* const first = static_cast<char*>(memory) - lead(bytes);
-  munmap(first, whole_pages(bytes) + page_size());
+  release_pages(first, whole_pages(bytes) + page_size());
   arrays_.erase(first);
   allocated_ -= bytes;
 }
 
 void EmulatedDevice::protect(const Pages& pages, bool open) {
-  for (const auto& [first, bytes] : pages) mprotect(first, bytes, open ? PROT_READ | PROT_WRITE : PROT_NONE);
+  for (const auto& [first, bytes] : pages) protect_pages(first, bytes, open);
 }
 
 void EmulatedDevice::open_device(bool open) {

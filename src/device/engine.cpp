@@ -13,11 +13,6 @@ namespace {
 
 constexpr std::ptrdiff_t kFan = 64;  // numbers that one thread of a tree adds
 
-template <class T, class Container>
-DeviceArray<T> on(Device& device, const Container& values) {
-  return {device, std::span<const T>(values.data(), values.size())};
-}
-
 std::ptrdiff_t lanes(const DeviceArray<Piece>& pieces) { return static_cast<std::ptrdiff_t>(pieces.size()) * kLanes; }
 
 template <class T>
@@ -105,9 +100,9 @@ Engine::Engine(Device& device, const RollingSystem& system, const RollingBodies&
     : device_(device),
       law_(rolling_law(system, bodies, dt)),
       contact_(device, system, law_.dt),
-      dashpots_(on<EndDashpotRecord>(device, dashpot_records(system))),
-      end_loads_(on<EndLoadRecord>(device, end_load_records(system))),
-      bore_(on<BoreRecord>(device, bore_records(system.axle))),
+      dashpots_(on_device<EndDashpotRecord>(device, dashpot_records(system))),
+      end_loads_(on_device<EndLoadRecord>(device, end_load_records(system))),
+      bore_(on_device<BoreRecord>(device, bore_records(system.axle))),
       dashpot_power_(device, dashpots_.size()),
       end_work_(device, end_loads_.size()),
       bore_loads_(device, 4 * bore_.size()),

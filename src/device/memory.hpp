@@ -134,4 +134,14 @@ class DeviceArray {
   std::size_t size_ = 0;
 };
 
+/// The numbers of a container in a device's memory.
+template <class T, class Container>
+DeviceArray<T> on_device(Device& device, const Container& values) {
+  return {device, std::span<const T>(values.data(), values.size())};
+}
+template <class T>
+DeviceArray<T> on_device(Device& device, const std::vector<T>& values) {
+  return on_device<T, std::vector<T>>(device, values);
+}
+
 }  // namespace railstrata::device

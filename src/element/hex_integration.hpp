@@ -12,6 +12,27 @@ using Gradients = Eigen::Matrix<double, 3, 8>;
 using Matrix6x24 = Eigen::Matrix<double, 6, 24>;
 constexpr double kGauss = 0.57735026918962576451;
 
+// a b and a^T b, entry by entry: Eigen's own products of these sizes take seconds each to compile.
+template <int R, int K, int C>
+Eigen::Matrix<double, R, C> product(const Eigen::Matrix<double, R, K>& a, const Eigen::Matrix<double, K, C>& b) {
+  Eigen::Matrix<double, R, C> out = Eigen::Matrix<double, R, C>::Zero();
+  for (int j = 0; j < C; ++j)
+    for (int k = 0; k < K; ++k)
+      for (int i = 0; i < R; ++i) out(i, j) += a(i, k) * b(k, j);
+  return out;
+}
+template <int R, int K, int C>
+Eigen::Matrix<double, R, C> transposed_product(const Eigen::Matrix<double, K, R>& a,
+                                               const Eigen::Matrix<double, K, C>& b) {
+  Eigen::Matrix<double, R, C> out;
+  for (int j = 0; j < C; ++j)
+    for (int i = 0; i < R; ++i) {
+      out(i, j) = 0;
+      for (int k = 0; k < K; ++k) out(i, j) += a(k, i) * b(k, j);
+    }
+  return out;
+}
+
 // Natural coordinates: xi along the sweep; corner a < 4 at xi = -1, a >= 4 at xi = +1.
 inline double xi_of(int a) { return a < 4 ? -1.0 : 1.0; }
 
@@ -53,7 +74,8 @@ inline MeanGradients mean_gradients(const std::array<Vec3, 8>& corners) {
     const Gradients natural = natural_gradients(xi, eta, zeta);
     const Matrix3 j = jacobian(corners, natural);
     const double det = j.determinant();
-    m.b += det * (j.inverse() * natural);
+    const Matrix3 inverse = j.inverse();
+    m.b += det * product(inverse, natural);
     m.volume += det;
   });
   m.b /= m.volume;
@@ -110,11 +132,11 @@ inline Eigen::Matrix<double, 24, 12> unit_hourglass_modes(const std::array<Vec3,
                                                           const MeanGradients& mean) {
   const Eigen::Matrix<double, 8, 4> h = hourglass_patterns();
   const Eigen::Matrix<double, 8, 3> x = positions(corners);
-  const Eigen::Matrix<double, 8, 4> gamma = h - mean.b.transpose() * (x.transpose() * h);
-  const Eigen::Matrix<double, 8, 4> phi = h - x * (mean.b * h);
-  const Eigen::Matrix4d amplitude =
-      (gamma.transpose() * phi).inverse();  // phi * amplitude has unit hourglass amplitudes
-  const Eigen::Matrix<double, 8, 4> unit = phi * amplitude;
+  const Eigen::Matrix<double, 8, 4> gamma = h - transposed_product(mean.b, transposed_product(x, h));
+  const Eigen::Matrix<double, 8, 4> phi = h - product(x, product(mean.b, h));
+  const Eigen::Matrix4d overlap = transposed_product(gamma, phi);
+  const Eigen::Matrix4d amplitude = overlap.inverse();  // phi * amplitude has unit hourglass amplitudes
+  const Eigen::Matrix<double, 8, 4> unit = product(phi, amplitude);
   Eigen::Matrix<double, 24, 12> modes = Eigen::Matrix<double, 24, 12>::Zero();
   for (int l = 0; l < 4; ++l)
     for (int i = 0; i < 3; ++i)
@@ -143,7 +165,8 @@ void for_gauss_strains(const std::array<Vec3, 8>& corners, Visit&& visit) {
     const Gradients natural = natural_gradients(xi, eta, zeta);
     const Matrix3 j = jacobian(corners, natural);
     const double det = j.determinant();
-    const Gradients g = j.inverse() * natural;
+    const Matrix3 inverse = j.inverse();
+    const Gradients g = product(inverse, natural);
     Matrix6x24 b;
     for (int a = 0; a < 8; ++a) b.middleCols<3>(3 * a) = strain_rows(g.col(a));
     visit(det, b, bubble_strains(j0_inverse, det0 / det, xi, eta, zeta));

@@ -12,12 +12,13 @@ Eigen::Matrix<double, 3, 4> pattern_gradients(const std::array<Vec3, 8>& corners
                                               const Eigen::Matrix<double, 24, 12>& modes, double xi, double eta,
                                               double zeta) {
   const Gradients natural = natural_gradients(xi, eta, zeta);
-  const Gradients g = jacobian(corners, natural).inverse() * natural;
+  const Matrix3 inverse = jacobian(corners, natural).inverse();
+  const Gradients g = product(inverse, natural);
   Eigen::Matrix<double, 3, 4> out;
   for (int l = 0; l < 4; ++l) {
     Eigen::Matrix<double, 8, 1> unit;
     for (int a = 0; a < 8; ++a) unit(a) = modes(3 * a, 3 * l);
-    out.col(l) = g * unit;
+    out.col(l) = product(g, unit);
   }
   return out;
 }
@@ -39,8 +40,9 @@ BubbleStiffness bubble_stiffness(const std::array<Vec3, 8>& corners, const Elast
   const Eigen::Matrix<double, 24, 12> modes = unit_hourglass_modes(corners, mean_gradients(corners));
   BubbleStiffness out;
   for_gauss_strains(corners, [&](double det, const Matrix6x24& b, const Eigen::Matrix<double, 6, 9>& m) {
-    out.kaa += det * m.transpose() * c * m;
-    out.kaq += det * m.transpose() * c * (b * modes);
+    const Eigen::Matrix<double, 6, 9> stress = product(c, m);
+    out.kaa += det * transposed_product(m, stress);
+    out.kaq += det * transposed_product(stress, product(b, modes));
   });
   return out;
 }

@@ -82,11 +82,13 @@ Matrix24 incompatible_mode_stiffness(const std::array<Vec3, 8>& corners, const E
   Eigen::Matrix<double, 9, 24> kau = Eigen::Matrix<double, 9, 24>::Zero();
   Eigen::Matrix<double, 9, 9> kaa = Eigen::Matrix<double, 9, 9>::Zero();
   for_gauss_strains(corners, [&](double det, const Matrix6x24& b, const Eigen::Matrix<double, 6, 9>& m) {
-    kuu += det * b.transpose() * c * b;
-    kau += det * m.transpose() * c * b;
-    kaa += det * m.transpose() * c * m;
+    const Matrix6x24 stress = product(c, b);
+    kuu += det * transposed_product(b, stress);
+    kau += det * transposed_product(m, stress);
+    kaa += det * transposed_product(m, product(c, m));
   });
-  return kuu - kau.transpose() * kaa.ldlt().solve(kau);
+  const Eigen::Matrix<double, 9, 24> follow = kaa.ldlt().solve(kau);
+  return kuu - transposed_product(kau, follow);
 }
 
 HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale,
@@ -99,7 +101,7 @@ HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>
         (kappa * material.p_wave_modulus() * mean.volume * mean.b.squaredNorm() / 8);
   } else {
     const Eigen::Matrix<double, 24, 12> modes = unit_hourglass_modes(corners, mean);
-    k = modes.transpose() * incompatible_mode_stiffness(corners, material) * modes;
+    k = transposed_product(modes, product(incompatible_mode_stiffness(corners, material), modes));
   }
   HourglassStiffness out{};
   int e = 0;

@@ -1,17 +1,9 @@
 #include "explore/assets.hpp"
 
-// As report/assets.cpp: the assembler takes the files in as they are. RAILSTRATA_EXPLORE_FOLDER comes from CMake.
-#define RAILSTRATA_ASSET(name, file)                                                                \
-  asm(".pushsection .rodata\n"                                                                      \
-      ".global railstrata_explorer_" #name "_begin\n.hidden railstrata_explorer_" #name             \
-      "_begin\n"                                                                                    \
-      ".global railstrata_explorer_" #name "_end\n.hidden railstrata_explorer_" #name               \
-      "_end\n"                                                                                      \
-      "railstrata_explorer_" #name "_begin:\n.incbin \"" RAILSTRATA_EXPLORE_FOLDER "/" file         \
-      "\"\n"                                                                                        \
-      "railstrata_explorer_" #name "_end:\n.byte 0\n.popsection\n");                                \
-  extern "C" __attribute__((visibility("hidden"))) const char railstrata_explorer_##name##_begin[], \
-      railstrata_explorer_##name##_end[];
+#include "core/embedded_file.hpp"
+
+// RAILSTRATA_EXPLORE_FOLDER comes from CMake.
+#define RAILSTRATA_ASSET(name, file) RAILSTRATA_EMBED(railstrata_explorer_##name, RAILSTRATA_EXPLORE_FOLDER "/" file)
 
 RAILSTRATA_ASSET(script, "explore.js")
 RAILSTRATA_ASSET(style, "explore.css")

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string_view>
 #include <variant>
+#include <nlohmann/json.hpp>
 
 #include "case/option_table.hpp"
 

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 
 namespace railstrata {
 

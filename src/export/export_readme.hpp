@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "export/solid_model.hpp"
 
 namespace railstrata {

@@ -9,8 +9,8 @@
 namespace railstrata {
 namespace {
 
-constexpr int kMostSteps = 20, kMostIterations = 20000;
-constexpr double kForcing = 1e-3;  // of the residual, left over by a linear step
+constexpr int kMostRestSteps = 20, kMostRestIterations = 20000;
+constexpr double kRestForcing = 1e-3;  // of the residual, left over by a linear step
 
 class RailAtRest {
  public:
@@ -26,12 +26,12 @@ class RailAtRest {
   Field solve(double tolerance) {
     Field u = rail_.layout.field();
     double first = 0;
-    for (int step = 0; step < kMostSteps; ++step) {
+    for (int step = 0; step < kMostRestSteps; ++step) {
       Field r = residual(u);
       const double size = std::sqrt(dot(r, r));
       if (step == 0) first = size;
       if (size <= tolerance * first) return u;
-      conjugate_gradients(r, std::max(kForcing * size, 0.3 * tolerance * first));
+      conjugate_gradients(r, std::max(kRestForcing * size, 0.3 * tolerance * first));
       rail_.ties.apply_homogeneous(r);
       add(u, 1.0, r);
     }
@@ -75,7 +75,7 @@ class RailAtRest {
   void conjugate_gradients(Field& r, double wanted) {
     Field x = rail_.layout.field(), z = x, p = x, q = x;
     double rz = 1;
-    for (int iteration = 0; iteration < kMostIterations && dot(r, r) > wanted * wanted; ++iteration) {
+    for (int iteration = 0; iteration < kMostRestIterations && dot(r, r) > wanted * wanted; ++iteration) {
       for_each(static_cast<std::ptrdiff_t>(z.size()), [&](std::ptrdiff_t i) { z[i] = inverse_[i] * r[i]; });
       const double next = dot(r, z);
       scale_and_add(p, iteration > 0 ? next / rz : 0.0, z);

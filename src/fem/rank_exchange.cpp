@@ -9,8 +9,8 @@
 namespace railstrata {
 namespace {
 
-constexpr std::ptrdiff_t kSums = sizeof(UpdateSums) / sizeof(double);
-static_assert(kSums * sizeof(double) == sizeof(UpdateSums));
+constexpr std::ptrdiff_t kUpdateSums = sizeof(UpdateSums) / sizeof(double);
+static_assert(kUpdateSums * sizeof(double) == sizeof(UpdateSums));
 
 std::vector<std::vector<char>> no_nodes(const RollingBody& b) {
   std::vector<std::vector<char>> out;
@@ -238,7 +238,7 @@ void RankExchange::share_sums(RollingBodies& bodies) {
   exchange_([&](int rank, auto&& visit) {
     for (const Stretch& s : stretches_)
       if (s.owner == rank)
-        visit(&bodies[s.body].schedule.tile_sums[s.first_tile].kinetic, (s.end_tile - s.first_tile) * kSums);
+        visit(&bodies[s.body].schedule.tile_sums[s.first_tile].kinetic, (s.end_tile - s.first_tile) * kUpdateSums);
   });
 }
 

@@ -1,5 +1,7 @@
 #include "fem/suspension.hpp"
 
+#include "case/case_spec.hpp"
+
 namespace railstrata {
 
 SuspensionLaw suspension_law(const VehicleSpec& v) {

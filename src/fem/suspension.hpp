@@ -6,7 +6,7 @@
 // z is counted from static equilibrium, where the springs carry the weight.
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "fem/axle_law.hpp"
 
 namespace railstrata {

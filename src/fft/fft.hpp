@@ -2,9 +2,9 @@
 // Fourier transforms of rows, of groups of columns and of planes: the one place that knows whose FFT it is. Two of
 // them:
 //
-//   fftw   FFTW [FrigoJohnson2005], the default. Under the GNU GPL: whoever passes on a binary with it passes that on
-//          under the GPL too
-//   kiss   kiss FFT as Eigen has it, under MPL-2 and BSD: two to six times slower, no condition on binaries
+//   kiss   kiss FFT as Eigen has it, under MPL-2 and BSD: the default, and what is passed on
+//   fftw   FFTW [FrigoJohnson2005], two to six times faster. Under the GNU GPL: whoever passes on a binary with it
+//          passes that on under the GPL too
 //
 // The build chooses (-DRAILSTRATA_FFT). Transforms are not scaled; each has the same bits every time.
 #include <complex>

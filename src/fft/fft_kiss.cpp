@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cassert>
-#include <cstdlib>
 #include <new>
 #include <vector>
 
@@ -15,6 +14,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
+constexpr std::align_val_t kAlignment{64};
+
 /// Each thread has its own: it keeps tables by length, which grow as they are asked for.
 Eigen::FFT<double>& kiss() {
   thread_local Eigen::FFT<double> fft(
@@ -26,13 +27,9 @@ Eigen::FFT<double>& kiss() {
 }  // namespace
 
 std::complex<double>* fft_alloc(std::size_t n) {
-  constexpr std::size_t kAlignment = 64;
-  const std::size_t bytes = (n * sizeof(std::complex<double>) + kAlignment - 1) / kAlignment * kAlignment;
-  void* memory = std::aligned_alloc(kAlignment, bytes);
-  if (!memory) throw std::bad_alloc();
-  return static_cast<std::complex<double>*>(memory);
+  return static_cast<std::complex<double>*>(::operator new(n * sizeof(std::complex<double>), kAlignment));
 }
-void fft_free(std::complex<double>* numbers) { std::free(numbers); }
+void fft_free(std::complex<double>* numbers) { ::operator delete(numbers, kAlignment); }
 
 struct Fft::Plans {
   int rows, columns, together;

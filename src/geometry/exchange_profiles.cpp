@@ -10,17 +10,10 @@
 #include <vector>
 
 #include "core/faults.hpp"
+#include "core/text.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr const char* kBlank = " \t\r\f\v";
-
-std::string_view trimmed(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  return begin == std::string_view::npos ? std::string_view()
-                                         : text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
 
 std::string lower(std::string_view text) {
   std::string out(text);

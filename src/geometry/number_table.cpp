@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "core/faults.hpp"
+#include "core/text.hpp"
 
 namespace railstrata {
 namespace {
@@ -18,11 +19,6 @@ struct Line {
 };
 
 constexpr const char* kBlank = " \t\r\f\v";
-
-std::string trimmed(const std::string& text) {
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  return begin == std::string::npos ? "" : text.substr(begin, text.find_last_not_of(kBlank) - begin + 1);
-}
 
 bool looks_numeric(const std::string& text) {
   return !text.empty() && std::string("0123456789+-.").find(text.front()) != std::string::npos;
@@ -38,7 +34,7 @@ std::vector<Line> split_lines(std::string_view all, std::string& comments) {
     all.remove_prefix(std::min(length + 1, all.size()));
     const std::size_t comment = text.find_first_of("#%!\"");
     if (comment != std::string::npos && !rows_begun) comments += text.substr(comment) + '\n';
-    const std::string content = trimmed(text.substr(0, comment));
+    const std::string content(trimmed(text.substr(0, comment)));
     rows_begun = rows_begun || looks_numeric(content);
     if (!content.empty()) lines.push_back({number, content});
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include "core/faults.hpp"
@@ -13,7 +14,7 @@ namespace railstrata {
 namespace {
 
 constexpr double kSagitta = 2e-6;  // m
-constexpr double kDegree = M_PI / 180;
+constexpr double kDegree = std::numbers::pi / 180;
 
 // CN60 below its flank, right half, in metres and z up, from the drawing's radii and lines (data/profiles/README.md).
 constexpr Vec2 mm(double y, double z) { return {1e-3 * y, -1e-3 * z}; }

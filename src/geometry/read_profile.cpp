@@ -21,9 +21,9 @@
 namespace railstrata {
 namespace {
 
-constexpr std::size_t kMostPoints = 20'000;                // all pairs of chords are held against each other
-constexpr std::streamsize kLargestFile = 16 << 20;         // bytes
-constexpr double kShortest = 0.020, kLongest = 0.500;      // m, curve of a listed profile
+constexpr std::size_t kMostPoints = 20'000;                      // all pairs of chords are held against each other
+constexpr std::streamsize kLargestFile = 16 << 20;               // bytes
+constexpr double kShortestCurve = 0.020, kLongestCurve = 0.500;  // m, curve of a listed profile
 constexpr double kSmallestFlange = 0.009;                  // m: lower than any flange, higher than any tread's fall
 constexpr double kCrestNear = -0.035, kCrestFar = -0.075;  // m, y of the flange's crest (nominal -0.054 to -0.056)
 constexpr double kAxisTolerance = 0.015;                   // m, of the middle of a rail head
@@ -112,8 +112,8 @@ class Reading {
            "give both columns in millimetres or both in metres");
     double length = 0;
     for (std::size_t i = 1; i < points_.size(); ++i) length += norm(points_[i] - points_[i - 1]);
-    const bool metres = length >= kShortest && length <= kLongest,
-               millimetres = length >= 1e3 * kShortest && length <= 1e3 * kLongest;
+    const bool metres = length >= kShortestCurve && length <= kLongestCurve,
+               millimetres = length >= 1e3 * kShortestCurve && length <= 1e3 * kLongestCurve;
     if (!metres && !millimetres)
       fail(fmt::format("the curve is {:.4g} long, which fits a profile neither in millimetres (20 to 500) nor in "
                        "metres (0.02 to 0.5)",

@@ -10,23 +10,13 @@
 #include <string_view>
 #include <vector>
 
-#include "fem/rolling_run.hpp"
+#include "hdf5/checkpoint_image.hpp"
 
 namespace railstrata {
 
 /// 2: the columns of contact_facets have their own names. A checkpoint of another format is refused, its text says
 /// which program wrote it.
 inline constexpr int kCheckpointFormat = 6;
-
-struct CheckpointOrigin {
-  std::string case_sha256;              ///< of the resolved case and its profiles
-  std::string program;                  ///< version_text() of the writer
-  std::vector<std::string> provenance;  ///< "#" lines of the run's tables
-};
-struct Checkpoint {
-  CheckpointOrigin origin;
-  RunState run;
-};
 
 /// The file's bytes, and back. checkpoint_of throws CaseError that tells what is wrong with them; `file` names them.
 std::string checkpoint_bytes(const CheckpointOrigin& origin, const RunState& run);

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/si_prefix.hpp"
 #include "io/csv.hpp"
+#include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "post/result_table.hpp"
 #include "post/verdict.hpp"
@@ -14,9 +16,6 @@ namespace railstrata {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kMilli = 1e3, kMega = 1e-6;
-
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
 struct Factor {
   const char* key;
@@ -30,12 +29,12 @@ constexpr Factor kFactors[] = {{"first_yield", &ShakedownFactors::first_yield},
 
 Json factors_json(const ShakedownFactors& f) {
   Json out;
-  for (const Factor& factor : kFactors) out[factor.key] = number(f.*factor.member);
+  for (const Factor& factor : kFactors) out[factor.key] = json_number(f.*factor.member);
   return out;
 }
 
 Json governing_json(const BodyShakedown& b) {
-  return {{"body", b.body}, {"zone", b.zone}, {"depth_m", number(b.depth)}, {"y_m", number(b.y)}};
+  return {{"body", b.body}, {"zone", b.zone}, {"depth_m", json_number(b.depth)}, {"y_m", json_number(b.y)}};
 }
 
 Json body_json(const BodyShakedown& b) {
@@ -45,7 +44,7 @@ Json body_json(const BodyShakedown& b) {
            {"governing", governing_json(b)}};
   for (const ZoneShakedown& z : b.zones)
     out["zones"].push_back({{"zone", z.zone},
-                            {"depth_m", number(z.depth)},
+                            {"depth_m", json_number(z.depth)},
                             {"factors", factors_json(z.factors)},
                             {"verdict", words_of(verdict_of(z.factors)).words}});
   out["notes"] = b.notes;
@@ -54,40 +53,35 @@ Json body_json(const BodyShakedown& b) {
 
 Json value_json(const std::optional<FatigueValue>& v, const char* key) {
   if (!v) return nullptr;
-  return {{key, number(v->value)}, {"zone", v->zone}, {"depth_m", number(v->depth)}, {"y_m", number(v->y)}};
+  return {
+      {key, json_number(v->value)}, {"zone", v->zone}, {"depth_m", json_number(v->depth)}, {"y_m", json_number(v->y)}};
 }
 
 Json brittle_json(const BrittleSummary& z) {
   return {{"zone", z.zone},
-          {"sigma1_max_Pa", number(z.sigma1)},
-          {"depth_m", number(z.depth)},
-          {"share_of_tensile_strength", number(z.share_of_tensile)},
-          {"critical_flaw_m", number(z.critical_flaw)},
-          {"thickness_m", number(z.thickness)}};
+          {"sigma1_max_Pa", json_number(z.sigma1)},
+          {"depth_m", json_number(z.depth)},
+          {"share_of_tensile_strength", json_number(z.share_of_tensile)},
+          {"critical_flaw_m", json_number(z.critical_flaw)},
+          {"thickness_m", json_number(z.thickness)}};
 }
 
 Json interface_json(const InterfaceSummary& i) {
   return {{"above", i.above},
           {"below", i.below},
-          {"depth_m", number(i.depth)},
-          {"tension_Pa", number(i.tension)},
-          {"shear_Pa", number(i.shear)},
-          {"shear_range_Pa", number(i.shear_range)},
-          {"sigma_xx_range_above_Pa", number(i.sigma_xx_range_above)},
-          {"sigma_xx_range_below_Pa", number(i.sigma_xx_range_below)},
-          {"delamination", number(i.delamination)}};
+          {"depth_m", json_number(i.depth)},
+          {"tension_Pa", json_number(i.tension)},
+          {"shear_Pa", json_number(i.shear)},
+          {"shear_range_Pa", json_number(i.shear_range)},
+          {"sigma_xx_range_above_Pa", json_number(i.sigma_xx_range_above)},
+          {"sigma_xx_range_below_Pa", json_number(i.sigma_xx_range_below)},
+          {"delamination", json_number(i.delamination)}};
 }
 
 /// Of pure shear to uniaxial, in MPa.
 std::vector<double> uniaxial(const std::vector<double>& shear) {
   std::vector<double> out(shear);
-  for (double& k : out) k *= std::numbers::sqrt3 * kMega;
-  return out;
-}
-
-std::vector<double> scaled(const std::vector<double>& v, double factor) {
-  std::vector<double> out(v);
-  for (double& x : out) x *= factor;
+  for (double& k : out) k *= std::numbers::sqrt3 * kToMega;
   return out;
 }
 
@@ -96,11 +90,11 @@ void write_profile(const std::filesystem::path& file, const std::vector<std::str
   const std::vector<double> zone(s.zone.begin(), s.zone.end());
   const RequiredStrength& r = s.found.required;
   write_csv(file, provenance,
-            {{"depth_mm", scaled(s.depth, kMilli)},
+            {{"depth_mm", scaled(s.depth, kToMilli)},
              {"zone", zone},
              {"yield_strength_MPa", uniaxial(s.strength.shear)},
-             {"initial_stress_x_MPa", scaled(s.strength.residual_x, kMega)},
-             {"initial_stress_y_MPa", scaled(s.strength.residual_y, kMega)},
+             {"initial_stress_x_MPa", scaled(s.strength.residual_x, kToMega)},
+             {"initial_stress_y_MPa", scaled(s.strength.residual_y, kToMega)},
              {"required_first_yield_MPa", uniaxial(r.first_yield)},
              {"required_wandering_MPa", uniaxial(r.wandering)},
              {"required_upper_MPa", uniaxial(r.upper)},
@@ -115,7 +109,7 @@ void write_map(const std::filesystem::path& file, const std::vector<std::string>
   for (std::size_t r = 0; r < s.depth.size(); ++r)
     for (std::size_t c = 0; c < s.y.size(); ++c) {
       const double asked = required[r * s.y.size() + c];
-      const double row[] = {kMilli * s.y[c], kMilli * s.depth[r], static_cast<double>(s.zone[r]), asked,
+      const double row[] = {kToMilli * s.y[c], kToMilli * s.depth[r], static_cast<double>(s.zone[r]), asked,
                             asked / there[r]};
       for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
     }
@@ -132,8 +126,8 @@ void write_streamlines(const std::filesystem::path& file, const std::vector<std:
     columns.push_back({name, {}});
     for (const StreamlineRow& r : rows) columns.back().values.push_back(factor * r.*member);
   };
-  add("y_mm", &StreamlineRow::y, kMilli);
-  add("width_mm", &StreamlineRow::width, kMilli);
+  add("y_mm", &StreamlineRow::y, kToMilli);
+  add("width_mm", &StreamlineRow::width, kToMilli);
   add("friction_energy_J_per_m2", &StreamlineRow::friction_energy, 1);
   add("wear_usfd_nm", &StreamlineRow::usfd_depth, 1e9);
   add("wear_kth_nm", &StreamlineRow::kth_depth, 1e9);
@@ -151,7 +145,7 @@ Json shakedown_json(const Summary& summary) {
   if (!governing) return nullptr;
   Json out;
   for (const ResultNumber& n : result_numbers())
-    if (n.group == kShakedownGroup) out["factors"][n.key()] = number(std::get<double>(n.value(summary)));
+    if (n.group == kShakedownGroup) out["factors"][n.key()] = json_number(std::get<double>(n.value(summary)));
   out["verdict"] = words_of(verdict_of(summary.shakedown)).words;
   out["fails_by"] = Json::array();
   for (const Verdict v : fails_by(summary)) out["fails_by"].push_back(words_of(v).words);
@@ -199,7 +193,7 @@ void write_sliding_maps(const std::filesystem::path& folder, const std::vector<s
       if (f.member != &ShakedownFactors::single_track) add(f.key, f.member, 1);
     for (const Factor& f : kFactors)
       if (f.member != &ShakedownFactors::single_track)
-        add(fmt::format("p_max_{}_MPa", f.key), f.member, kMega * map.p_max);
+        add(fmt::format("p_max_{}_MPa", f.key), f.member, kToMega * map.p_max);
     write_csv(folder / fmt::format("shakedown_{}_sliding.csv", body_word(map.body)), provenance, columns);
   }
 }

@@ -2,7 +2,7 @@
 // What shakedown has found, as files: shakedown.json, and of each body what every depth asks for and the map of the
 // section.
 #include <filesystem>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "geometry/turned_wheel.hpp"
 #include "io/output_file.hpp"

@@ -1,16 +1,12 @@
 #include "io/output_file.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
 #include "core/faults.hpp"
+#include "io/disk.hpp"
 #include "io/this_process.hpp"
 
 namespace railstrata {
@@ -24,8 +20,10 @@ std::string remedy_of(int reason) {
   switch (reason) {
     case ENOSPC:
       return "make room on the disk";
+#ifdef EDQUOT
     case EDQUOT:
       return "make room within your disk quota";
+#endif
     case EFBIG:
       return "raise the limit on the size of files (ulimit -f)";
     case ENOENT:
@@ -44,20 +42,19 @@ std::string remedy_of(int reason) {
                          remedy_of(reason));
 }
 
-/// A rename is on the disk when its folder is.
-void sync_folder(const fs::path& path) {
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  ::fsync(descriptor);  // not every file system can; the file itself is safe by now
-  ::close(descriptor);
+/// None if it is done.
+int renamed(const fs::path& from, const fs::path& to) {
+  std::error_code error;
+  fs::rename(from, to, error);
+  return error.default_error_condition().value();
 }
 
 /// Whoever reads an old file of this name keeps it, and where a link leads nothing is changed.
 int open_anew(const fs::path& path) {
-  struct stat there {};
-  if (::lstat(path.c_str(), &there) == 0 && (S_ISREG(there.st_mode) || S_ISLNK(there.st_mode))) ::unlink(path.c_str());
-  return ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  std::error_code ignored;
+  const fs::file_status there = fs::symlink_status(path, ignored);
+  if (fs::is_regular_file(there) || fs::is_symlink(there)) fs::remove(path, ignored);
+  return disk::create(path);
 }
 
 }  // namespace
@@ -70,19 +67,18 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 OutputFile::~OutputFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  if (descriptor_ >= 0) disk::close(descriptor_);
 }
 
 void OutputFile::fail() const { fail_on(path_, errno); }
 
 void OutputFile::write(std::string_view bytes) {
-  for (off_t written = 0; !bytes.empty();) {
-    const ssize_t n = ::write(descriptor_, bytes.data(), bytes.size());
+  for (std::ptrdiff_t written = 0; !bytes.empty();) {
+    const std::ptrdiff_t n = disk::write(descriptor_, bytes);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) {
       const int reason = errno;
-      if (const off_t end = ::lseek(descriptor_, 0, SEEK_CUR); written > 0 && end >= written)
-        static_cast<void>(::ftruncate(descriptor_, end - written) == 0);  // no part of a row
+      if (written > 0) disk::cut_back(descriptor_, written);  // no part of a row
       fail_on(path_, reason);
     }
     written += n;
@@ -91,11 +87,11 @@ void OutputFile::write(std::string_view bytes) {
 }
 
 void OutputFile::finish() {
-  if (::fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail();  // EINVAL: pipes and devices
-  if (::close(std::exchange(descriptor_, -1)) != 0) fail();
+  if (!disk::sync(descriptor_)) fail();
+  if (!disk::close(std::exchange(descriptor_, -1))) fail();
 }
 
-std::string part_ending() { return kPart + host_name() + "-" + std::to_string(::getpid()); }
+std::string part_ending() { return kPart + host_name() + "-" + std::to_string(process_id()); }
 
 bool is_part(const std::string& name) { return name.find(kPart) != std::string::npos; }
 
@@ -107,7 +103,7 @@ bool is_abandoned_part(const std::string& name) {
   if (before == std::string::npos) return false;
   const std::string digits = tail.substr(before + host.size());
   if (digits.empty() || digits.size() > 9 || digits.find_first_not_of("0123456789") != std::string::npos) return false;
-  return ::kill(std::stoi(digits), 0) != 0 && errno == ESRCH;
+  return !is_running(std::stol(digits));
 }
 
 void make_folder(const fs::path& folder, Above above) {
@@ -124,21 +120,21 @@ void write_whole_file(const fs::path& path, std::string_view bytes, const fs::pa
     OutputFile file(temporary);
     file.write(bytes);
     file.finish();
-    const bool kept = !previous.empty() && ::rename(path.c_str(), previous.c_str()) == 0;
-    if (!previous.empty() && !kept && errno != ENOENT) fail_on(path, errno);
-    if (::rename(temporary.c_str(), path.c_str()) != 0) {
-      const int reason = errno;
-      if (kept) ::rename(previous.c_str(), path.c_str());
+    const int kept = previous.empty() ? ENOENT : renamed(path, previous);
+    if (kept != 0 && kept != ENOENT) fail_on(path, kept);
+    if (const int reason = renamed(temporary, path); reason != 0) {
+      if (kept == 0) renamed(previous, path);
       fail_on(path, reason);
     }
   } catch (const EnvironmentError& e) {
-    ::unlink(temporary.c_str());
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
     std::string text = e.what();
     if (const std::size_t at = text.find(temporary.string()); at != std::string::npos)
       text.replace(at, temporary.string().size(), path.string());
     throw EnvironmentError(text, e.remedy);
   }
-  sync_folder(path);
+  disk::sync_folder_of(path);
 }
 
 }  // namespace railstrata

@@ -1,13 +1,8 @@
 #include "io/output_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <utility>
 
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
@@ -69,21 +64,6 @@ std::string without_device(std::string resolved) {
 }
 
 }  // namespace
-
-FolderHold::FolderHold(const std::filesystem::path& folder, bool shared)
-    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  if (descriptor_ < 0 || ::flock(descriptor_, (shared ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-    return;
-  ::close(descriptor_);
-  throw CaseError(fmt::format("another railstrata is writing into {}", folder.string()),
-                  "wait until it has ended, or choose another folder with --out");
-}
-
-FolderHold::~FolderHold() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-FolderHold::FolderHold(FolderHold&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
 
 FolderHold prepare_output_folder(const std::filesystem::path& folder, bool force, const std::function<bool()>& begun) {
   std::error_code error;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "case/case_file.hpp"
+#include "io/folder_hold.hpp"
 
 namespace railstrata {
 
@@ -13,21 +14,6 @@ namespace railstrata {
 /// ("position_170mm").
 inline constexpr const char *kReferenceFolder = "half_space", *kSeriesFolder = "patch_series",
                             *kPositionFolder = "position_";
-
-/// Holds a folder for as long as it lives, against every other program that would write there: two runs never mix their
-/// files. Ends with the process, however that ends; leaves no file. Shared: several that know of each other (the shards
-/// of a study) may hold it together. On file systems that cannot lock it holds nothing.
-class FolderHold {
- public:
-  /// Throws CaseError if the folder is held already.
-  explicit FolderHold(const std::filesystem::path& folder, bool shared = false);
-  ~FolderHold();
-  FolderHold(FolderHold&& other) noexcept;
-  FolderHold& operator=(FolderHold&&) = delete;
-
- private:
-  int descriptor_ = -1;
-};
 
 /// Makes the folder, holds it and tries to write in it. With `begun` several may work together in one that it calls
 /// theirs, or that is empty. Throws CaseError when it is held or holds files and `force` is not set, EnvironmentError

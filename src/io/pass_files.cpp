@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/faults.hpp"
+#include "core/si_prefix.hpp"
 #include "io/csv.hpp"
 #include "io/damage_files.hpp"
 #include "io/json_text.hpp"
@@ -20,7 +21,6 @@ namespace railstrata {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kMilli = 1e3, kMega = 1e-6, kMicro = 1e6;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Columns of passes.csv that both methods have; the strains of classify() have no unit, so that they are read back as
@@ -53,15 +53,15 @@ std::vector<double> pass_values(const PassRow& r) {
   return {static_cast<double>(r.pass),
           r.largest.accumulated,
           r.largest.net,
-          kMilli * r.net_y,
-          kMilli * r.net_depth,
-          kMega * r.stress[0],
-          kMilli * r.stress_depth[0],
-          kMega * r.stress[1],
-          kMilli * r.stress_depth[1],
-          kMicro * r.forward,
-          kMicro * r.lateral,
-          kMicro * r.sinking,
+          kToMilli * r.net_y,
+          kToMilli * r.net_depth,
+          kToMega * r.stress[0],
+          kToMilli * r.stress_depth[0],
+          kToMega * r.stress[1],
+          kToMilli * r.stress_depth[1],
+          kToMicro * r.forward,
+          kToMicro * r.lateral,
+          kToMicro * r.sinking,
           r.force,
           r.balance,
           static_cast<double>(r.iterations),
@@ -70,7 +70,7 @@ std::vector<double> pass_values(const PassRow& r) {
 
 namespace {
 
-std::vector<std::string> table_columns() {
+std::vector<std::string> stationary_columns() {
   std::vector<std::string> names = pass_columns();
   names.insert(names.end(), kFurtherColumns.begin(), kFurtherColumns.end());
   return names;
@@ -78,7 +78,7 @@ std::vector<std::string> table_columns() {
 
 std::vector<double> row_of(const PassRow& r) {
   std::vector<double> row = pass_values(r);
-  row.insert(row.end(), {kMilli * r.place, r.traction, r.force_share, kNone, kNone});
+  row.insert(row.end(), {kToMilli * r.place, r.traction, r.force_share, kNone, kNone});
   return row;
 }
 
@@ -175,7 +175,7 @@ void write_pass_rows(const std::filesystem::path& file, const std::vector<std::s
 
 void write_pass_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                       const PassSeries& series) {
-  write_pass_rows(file, provenance, table_columns(), series.table);
+  write_pass_rows(file, provenance, stationary_columns(), series.table);
 }
 
 void write_pass_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -206,7 +206,7 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
   const std::vector<std::string> names = state_names(grid);
   bool same = values.rows() == grid.points() && values.columns.size() == names.size();
   for (std::size_t c = 0; same && c < names.size(); ++c) same = values.columns[c].name == names[c];
-  if (!same || rows.columns.size() != table_columns().size())
+  if (!same || rows.columns.size() != stationary_columns().size())
     throw CaseError("the state is of another grid", "give --cell as in the beginning, or begin anew with --force",
                     state.string());
   const double passes = values.columns[0].values[0];
@@ -258,10 +258,10 @@ void write_pass_points(const std::filesystem::path& file, const std::vector<std:
   if (of_elements)
     for (const char* name : {"row", "column"}) columns.push_back({name, {}});
   for (const PassPoint& p : points) {
-    std::vector<double> row{kMilli * p.y, kMilli * p.depth, static_cast<double>(p.zone)};
+    std::vector<double> row{kToMilli * p.y, kToMilli * p.depth, static_cast<double>(p.zone)};
     if (which == PointColumns::of_passes)
       row.insert(row.end(), {p.strain.accumulated, p.strain.net, static_cast<double>(p.kind)});
-    for (const double s : p.stress) row.push_back(kMega * s);
+    for (const double s : p.stress) row.push_back(kToMega * s);
     for (const double e : p.plastic) row.push_back(e);
     row.push_back(p.accumulated);
     if (of_elements) row.insert(row.end(), {static_cast<double>(p.row), static_cast<double>(p.column)});
@@ -399,7 +399,7 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   out["passes_per_cycle"] = series.cycle;
   out["net_strain_per_pass"] = verdict.rate;
   out["trend"] = verdict.trend;
-  const std::vector<std::string> columns = table_columns();
+  const std::vector<std::string> columns = stationary_columns();
   for (std::size_t c = 1; c < columns.size(); ++c)
     out["last_pass"][columns[c]] = std::isfinite(last[c]) ? Json(last[c]) : Json(nullptr);
   if (answer.ductility)

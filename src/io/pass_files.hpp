@@ -10,7 +10,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "post/pass_point.hpp"
 #include "post/pass_way.hpp"
 #include "post/pass_words.hpp"

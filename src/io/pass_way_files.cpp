@@ -1,15 +1,16 @@
 #include "io/pass_way_files.hpp"
 
 #include <cstdint>
+#include <nlohmann/json.hpp>
 #include <utility>
 
+#include "core/si_prefix.hpp"
 #include "io/csv.hpp"
 #include "io/vtk.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr double kMilli = 1e3, kMega = 1e-6;
 constexpr const char* kTensor[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
 
 std::vector<WayLoop> loops_of(const RailPasses& rail, const PassWay& way) {
@@ -35,9 +36,9 @@ void write_along(const std::filesystem::path& file, std::vector<std::string> rem
   std::size_t n = 0;
   for (int r = 0; r < g.rows(); ++r)
     for (int i = 0; i < g.active_stations(); ++i, ++n) {
-      const double row[] = {kMilli * g.x(i),        kMilli * g.y(way.column),
-                            kMilli * g.depth(r),    static_cast<double>(rail.zone[static_cast<std::size_t>(r)]),
-                            kMega * way.elastic[n], kMega * way.yielding[n]};
+      const double row[] = {kToMilli * g.x(i),        kToMilli * g.y(way.column),
+                            kToMilli * g.depth(r),    static_cast<double>(rail.zone[static_cast<std::size_t>(r)]),
+                            kToMega * way.elastic[n], kToMega * way.yielding[n]};
       for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(row[c]);
     }
   write_csv(file, remarks, columns);
@@ -75,9 +76,9 @@ void write_loops(const std::filesystem::path& file, std::vector<std::string> rem
   for (std::size_t k = 0; k < loops.size(); ++k)
     for (std::size_t i = 0; i < loops[k].states.size(); ++i) {
       const StationState& s = loops[k].states[i];
-      std::vector<double> row{static_cast<double>(k), kMilli * loops[k].y, kMilli * loops[k].depth,
-                              kMilli * loops[k].x[i]};
-      for (const double stress : s.stress) row.push_back(kMega * stress);
+      std::vector<double> row{static_cast<double>(k), kToMilli * loops[k].y, kToMilli * loops[k].depth,
+                              kToMilli * loops[k].x[i]};
+      for (const double stress : s.stress) row.push_back(kToMega * stress);
       row.insert(row.end(), s.strain.begin(), s.strain.end());
       row.push_back(s.accumulated);
       for (std::size_t c = 0; c < row.size(); ++c) columns[c].values.push_back(row[c]);
@@ -99,7 +100,7 @@ void write_section_vtk(const std::filesystem::path& file, const RailPasses& rail
   std::vector<std::int32_t> kind, zone;
   const PassClass whole = verdict_of(series).kind;
   for (std::size_t n = 0; n < g.points(); ++n) {
-    for (const double s : last.residual_stress[n]) stress.push_back(kMega * s);
+    for (const double s : last.residual_stress[n]) stress.push_back(kToMega * s);
     strain.insert(strain.end(), last.plastic_strain[n].begin(), last.plastic_strain[n].end());
     p.push_back(series.state.history[n * kStreamlineHistory + 6]);
     kind.push_back(static_cast<std::int32_t>(class_of_point(series.points[n], whole)));

@@ -10,13 +10,13 @@
 namespace railstrata {
 namespace {
 
-constexpr double kSpacing = 1e-3, kReach = 80e-3, kHalfLength = 0.1;
+constexpr double kSurfaceSpacing = 1e-3, kSurfaceReach = 80e-3, kHalfLength = 0.1;
 constexpr int kStations = 21, kAngles = 181;
 
 std::vector<Vec2> outline(const Profile& profile, double contact_s) {
-  const double begin = std::max(profile.s_min(), contact_s - kReach),
-               end = std::min(profile.s_max(), contact_s + kReach);
-  const int pieces = static_cast<int>(std::ceil((end - begin) / kSpacing));
+  const double begin = std::max(profile.s_min(), contact_s - kSurfaceReach),
+               end = std::min(profile.s_max(), contact_s + kSurfaceReach);
+  const int pieces = static_cast<int>(std::ceil((end - begin) / kSurfaceSpacing));
   std::vector<Vec2> out;
   for (int k = 0; k <= pieces; ++k)
     out.push_back(profile.at(k == pieces ? end : begin + (end - begin) * k / pieces).position);

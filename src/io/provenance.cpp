@@ -2,17 +2,9 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <hdf5.h>
-#include <openssl/crypto.h>
-#include <openssl/evp.h>
-#include <unistd.h>
-#include <zlib.h>
 
-#include <toml++/toml.h>
-#include <array>
 #include <ctime>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <thread>
@@ -31,17 +23,6 @@ std::string version_text() {
 
 std::string commit_text() { return build_info().commit + (build_info().dirty ? "+dirty" : ""); }
 
-std::vector<std::pair<std::string, std::string>> library_versions() {
-  const auto dotted = [](int major, int minor, int patch) { return fmt::format("{}.{}.{}", major, minor, patch); };
-  return {
-      {"fmt", dotted(FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100)},
-      {"hdf5", dotted(H5_VERS_MAJOR, H5_VERS_MINOR, H5_VERS_RELEASE)},
-      {"nlohmann-json", dotted(NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH)},
-      {"openssl", OpenSSL_version(OPENSSL_VERSION_STRING)},
-      {"toml++", dotted(TOML_LIB_MAJOR, TOML_LIB_MINOR, TOML_LIB_PATCH)},
-      {"zlib", zlibVersion()}};
-}
-
 std::string compiled_isa() {
 #if defined(__AVX512F__)
   const char* name = "AVX-512";
@@ -55,24 +36,6 @@ std::string compiled_isa() {
   const char* name = "generic";
 #endif
   return fmt::format("{}, {} doubles a vector", name, kLanes);
-}
-
-std::string cpu_name() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);)
-    if (line.starts_with("model name"))
-      if (const auto colon = line.find(": "); colon != std::string::npos) return line.substr(colon + 2);
-  return {};
-}
-
-std::string sha256_of(std::string_view bytes) {
-  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
-  unsigned int length = 0;
-  if (EVP_Digest(bytes.data(), bytes.size(), digest.data(), &length, EVP_sha256(), nullptr) != 1)
-    throw EnvironmentError("libcrypto has no SHA-256");
-  std::string out;
-  for (unsigned int i = 0; i < length; ++i) out += fmt::format("{:02x}", digest[i]);
-  return out;
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {

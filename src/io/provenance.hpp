@@ -12,6 +12,7 @@ struct BuildInfo {
   std::string version, commit;  ///< commit is empty outside a git checkout
   bool dirty = false;           ///< the checkout had uncommitted changes
   std::string compiler, flags, build_type;
+  std::vector<std::pair<std::string, std::string>> parts;  ///< optional ones: there, or what to install
 };
 const BuildInfo& build_info();
 
@@ -26,9 +27,6 @@ std::vector<std::pair<std::string, std::string>> library_versions();
 
 /// "avx512, 8 doubles a vector": what the kernels were compiled for.
 std::string compiled_isa();
-
-/// The processor's name as the system tells it; empty if it does not.
-std::string cpu_name();
 
 /// SHA-256 in hexadecimal [FIPS 180-4]. The file's: throws EnvironmentError if it cannot be read.
 std::string sha256_of(std::string_view bytes);

@@ -6,18 +6,11 @@
 #include <array>
 #include <cmath>
 
+#include "core/si_prefix.hpp"
 #include "material/elastic.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr double kMilli = 1e3, kMega = 1e-6;
-
-std::vector<double> scaled(const std::vector<double>& v, double factor) {
-  std::vector<double> out(v);
-  for (double& x : out) x *= factor;
-  return out;
-}
 
 std::vector<double> state_numbers(const ContactField& f) {
   std::vector<double> out;
@@ -30,7 +23,7 @@ std::string slip_column(const char* direction, const ContactField& f) {
 }
 
 void push(std::vector<float>& out, const Sym3& s) {
-  for (double v : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) out.push_back(static_cast<float>(kMega * v));
+  for (double v : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) out.push_back(static_cast<float>(kToMega * v));
 }
 
 constexpr const char* kComponents[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
@@ -48,7 +41,7 @@ void add_plastic(const std::vector<ElementPlasticity>& states, std::vector<CsvCo
     add(fmt::format("plastic_{}", kComponents[i]), [&](const ElementPlasticity& e) { return components(e.strain)[i]; });
   for (std::size_t i = 0; i < 6; ++i)
     add(fmt::format("backstress_{}_MPa", kComponents[i]),
-        [&](const ElementPlasticity& e) { return kMega * components(e.backstress)[i]; });
+        [&](const ElementPlasticity& e) { return kToMega * components(e.backstress)[i]; });
 }
 
 void write_section(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -61,17 +54,17 @@ void write_section(const std::filesystem::path& file, const std::vector<std::str
   for (std::size_t i = 0; i < section.stress.size(); ++i) {
     const Sym3& s = section.stress[i];
     const double along = section.along[i % section.along.size()], depth = section.depth[i / section.along.size()];
-    const double row[] = {kMilli * (longitudinal ? along : section.at),
-                          kMilli * (longitudinal ? section.at : along),
-                          kMilli * depth,
-                          kMega * s.xx,
-                          kMega * s.yy,
-                          kMega * s.zz,
-                          kMega * s.xy,
-                          kMega * s.yz,
-                          kMega * s.xz,
-                          kMega * von_mises(s),
-                          kMega * principal_stresses(s).x,
+    const double row[] = {kToMilli * (longitudinal ? along : section.at),
+                          kToMilli * (longitudinal ? section.at : along),
+                          kToMilli * depth,
+                          kToMega * s.xx,
+                          kToMega * s.yy,
+                          kToMega * s.zz,
+                          kToMega * s.xy,
+                          kToMega * s.yz,
+                          kToMega * s.xz,
+                          kToMega * von_mises(s),
+                          kToMega * principal_stresses(s).x,
                           static_cast<double>(section.material[i])};
     for (std::size_t k = 0; k < columns.size(); ++k)
       columns[k].values.push_back(k < 3 ? std::round(1e6 * row[k]) / 1e6 : std::round(1e3 * row[k]) / 1e3);
@@ -97,13 +90,13 @@ void write_slices(const std::filesystem::path& file, const std::vector<std::stri
       const Sym3& s = slice.stress[i];
       const Vec3 principal = principal_stresses(s);
       const double y = slice.along[i % slice.along.size()], depth = slice.depth[i / slice.along.size()];
-      const double row[] = {kMilli * slice.at,
-                            kMilli * y,
-                            kMilli * depth,
-                            kMega * von_mises(s),
-                            kMega * principal.x,
-                            kMega * s.xz,
-                            kMega * largest_shear(principal),
+      const double row[] = {kToMilli * slice.at,
+                            kToMilli * y,
+                            kToMilli * depth,
+                            kToMega * von_mises(s),
+                            kToMega * principal.x,
+                            kToMega * s.xz,
+                            kToMega * largest_shear(principal),
                             static_cast<double>(slice.material[i])};
       for (std::size_t k = 0; k < columns.size(); ++k)
         columns[k].values.push_back(k < 3 ? std::round(1e4 * row[k]) / 1e4 : std::round(10 * row[k]) / 10);
@@ -112,15 +105,15 @@ void write_slices(const std::filesystem::path& file, const std::vector<std::stri
 }
 
 std::vector<CsvColumn> patch_columns(const ContactField& f) {
-  return {{"x_mm", scaled(f.x, kMilli)},
-          {"y_mm", scaled(f.y, kMilli)},
-          {"z_mm", scaled(f.z, kMilli)},
+  return {{"x_mm", scaled(f.x, kToMilli)},
+          {"y_mm", scaled(f.y, kToMilli)},
+          {"z_mm", scaled(f.z, kToMilli)},
           {"area_mm2", scaled(f.area, 1e6)},
-          {"p_MPa", scaled(f.p, kMega)},
-          {"q_x_MPa", scaled(f.q_x, kMega)},
-          {"q_y_MPa", scaled(f.q_y, kMega)},
-          {slip_column("x", f), scaled(f.slip_x, kMilli)},
-          {slip_column("y", f), scaled(f.slip_y, kMilli)},
+          {"p_MPa", scaled(f.p, kToMega)},
+          {"q_x_MPa", scaled(f.q_x, kToMega)},
+          {"q_y_MPa", scaled(f.q_y, kToMega)},
+          {slip_column("x", f), scaled(f.slip_x, kToMilli)},
+          {slip_column("y", f), scaled(f.slip_y, kToMilli)},
           {"state_0separated_1stick_2slip", state_numbers(f)}};
 }
 
@@ -160,11 +153,11 @@ void write_patch_tables(const std::filesystem::path& folder, const std::vector<s
   const ContactField& f = *fields.front();
   const CentreLine line = centre_line(f);
   write_csv(folder / "centre_line.csv", provenance,
-            {{"x_mm", scaled(line.x, kMilli)},
-             {"p_MPa", scaled(line.p, kMega)},
-             {"q_x_MPa", scaled(line.q_x, kMega)},
-             {"q_y_MPa", scaled(line.q_y, kMega)},
-             {slip_column("x", f), scaled(line.slip_x, kMilli)}});
+            {{"x_mm", scaled(line.x, kToMilli)},
+             {"p_MPa", scaled(line.p, kToMega)},
+             {"q_x_MPa", scaled(line.q_x, kToMega)},
+             {"q_y_MPa", scaled(line.q_y, kToMega)},
+             {slip_column("x", f), scaled(line.slip_x, kToMilli)}});
 }
 
 void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -177,17 +170,17 @@ void write_depth_line(const std::filesystem::path& file, const std::vector<std::
   for (std::size_t i = 0; i < line.depth.size(); ++i) {
     const Sym3& s = line.stress[i];
     const Vec3 p = principal_stresses(s);
-    const double row[] = {kMilli * line.depth[i],
-                          kMega * s.xx,
-                          kMega * s.yy,
-                          kMega * s.zz,
-                          kMega * s.xy,
-                          kMega * s.yz,
-                          kMega * s.xz,
-                          kMega * von_mises(s),
-                          kMega * p.x,
-                          kMega * p.y,
-                          kMega * p.z,
+    const double row[] = {kToMilli * line.depth[i],
+                          kToMega * s.xx,
+                          kToMega * s.yy,
+                          kToMega * s.zz,
+                          kToMega * s.xy,
+                          kToMega * s.yz,
+                          kToMega * s.xz,
+                          kToMega * von_mises(s),
+                          kToMega * p.x,
+                          kToMega * p.y,
+                          kToMega * p.z,
                           static_cast<double>(line.material[i])};
     for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
   }
@@ -204,9 +197,9 @@ VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel
     const auto first = static_cast<long long>(mesh.points.size());
     for (int i = 0; i < f.size(); ++i) {
       mesh.points.push_back({wheel_x + f.x[i], f.y[i], f.z[i]});
-      pressure.push_back(static_cast<float>(kMega * f.p[i]));
-      for (double v : {f.q_x[i], f.q_y[i], 0.0}) traction.push_back(static_cast<float>(kMega * v));
-      for (double v : {f.slip_x[i], f.slip_y[i], 0.0}) slip.push_back(static_cast<float>(kMilli * v));
+      pressure.push_back(static_cast<float>(kToMega * f.p[i]));
+      for (double v : {f.q_x[i], f.q_y[i], 0.0}) traction.push_back(static_cast<float>(kToMega * v));
+      for (double v : {f.slip_x[i], f.slip_y[i], 0.0}) slip.push_back(static_cast<float>(kToMilli * v));
       state.push_back(static_cast<std::int32_t>(f.state[i]));
     }
     for (long long s = 0; s + 1 < f.stations; ++s)
@@ -257,7 +250,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
       p.x += wheel_x;
       mesh.points.push_back(p);
       const Vec3 u = b.sample.displacement[static_cast<std::size_t>(s) * per_station + k];
-      for (double v : {u.x, u.y, u.z}) displacement.push_back(static_cast<float>(kMilli * v));
+      for (double v : {u.x, u.y, u.z}) displacement.push_back(static_cast<float>(kToMilli * v));
     }
   std::vector<float> stress, equivalent, principal;
   std::vector<std::int32_t> material;
@@ -272,8 +265,8 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
                               a + per_station + q[2], a + per_station + q[3]});
         const Sym3 value = b.at(c, r, s);
         push(stress, value);
-        equivalent.push_back(static_cast<float>(kMega * von_mises(value)));
-        principal.push_back(static_cast<float>(kMega * principal_stresses(value).x));
+        equivalent.push_back(static_cast<float>(kToMega * von_mises(value)));
+        principal.push_back(static_cast<float>(kToMega * principal_stresses(value).x));
         const int m = b.body->layer_of(section.quad_material[static_cast<std::size_t>(r) * band.columns + c]);
         material.push_back(m);
         for (long long n : mesh.cells.back()) {
@@ -286,7 +279,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
       }
   std::vector<float> smooth;
   for (std::size_t n = 0; n < sum.size(); ++n)
-    smooth.push_back(static_cast<float>(kMega * von_mises((1.0 / std::max(count[n], 1)) * sum[n])));
+    smooth.push_back(static_cast<float>(kToMega * von_mises((1.0 / std::max(count[n], 1)) * sum[n])));
   mesh.point_fields = {{"displacement_mm", 3, displacement}, {"von_mises_smooth_MPa", 1, smooth}};
   mesh.cell_fields = {{"stress_MPa", 6, stress},
                       {"von_mises_MPa", 1, equivalent},
@@ -308,17 +301,17 @@ HistoryLog::HistoryLog(const std::filesystem::path& file, const std::vector<std:
 void HistoryLog::add(const HistoryRow& r) {
   const EnergyBalance& e = r.energy;
   log_.add({1e3 * r.time,
-            kMilli * r.position,
+            kToMilli * r.position,
             r.torque,
             r.forces.x,
             r.forces.y,
             r.forces.z,
-            kMega * r.p_max,
+            kToMega * r.p_max,
             r.creepage,
             r.lateral_creepage,
             1e6 * r.forces.penetration,
             static_cast<double>(r.forces.nodes),
-            kMilli * r.axle_y,
+            kToMilli * r.axle_y,
             r.axle_vx,
             r.axle_vz,
             r.spin,

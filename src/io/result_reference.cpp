@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "post/check_limits.hpp"
 #include "post/result_table.hpp"

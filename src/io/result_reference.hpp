@@ -2,7 +2,7 @@
 // The reference of results, written from the tables of post/result_table.hpp and post/check_limits.hpp.
 #include <string>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace railstrata {
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "core/faults.hpp"
+#include "core/si_prefix.hpp"
 #include "io/csv.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
@@ -21,11 +22,10 @@
 namespace railstrata {
 namespace {
 
-constexpr double kMilli = 1e3, kMega = 1e-6;
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNoQuad = -1;  // in state.csv: no element has become hot
 
-std::vector<std::string> table_columns() {
+std::vector<std::string> rolled_columns() {
   std::vector<std::string> names = pass_columns();
   for (const char* name : {"traction", "creepage", "p_max_MPa", "lateral_mm"}) names.emplace_back(name);
   return names;
@@ -64,7 +64,7 @@ void add_rolled_pass(const PlasticSection& section, const PassContact& contact, 
   ++series.passes;
   pass.row.pass = series.passes;
   std::vector<double> row = pass_values(pass.row);
-  row.insert(row.end(), {contact.traction, contact.creepage, kMega * contact.p_max, kMilli * contact.lateral});
+  row.insert(row.end(), {contact.traction, contact.creepage, kToMega * contact.p_max, kToMilli * contact.lateral});
   series.table.push_back(std::move(row));
   const PassClass whole = verdict_of(series.table).kind;
   for (std::size_t n = 0; n < pass.points.size(); ++n) {
@@ -75,7 +75,7 @@ void add_rolled_pass(const PlasticSection& section, const PassContact& contact, 
 
 void write_rolled_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                         const RolledSeries& series) {
-  write_pass_rows(file, provenance, table_columns(), series.table);
+  write_pass_rows(file, provenance, rolled_columns(), series.table);
 }
 
 void write_rolled_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -92,8 +92,8 @@ void write_rolled_state(const std::filesystem::path& file, const std::vector<std
       put(series.creepage_shift);
       for (std::size_t k = 0; k < kPointPasses; ++k) {
         const bool known = k < series.points[n].size();
-        put(known ? series.points[n][k].accumulated : kNone);
-        put(known ? series.points[n][k].net : kNone);
+        put(known ? series.points[n][k].accumulated : kUnknown);
+        put(known ? series.points[n][k].net : kUnknown);
       }
       for (int k = 0; k < section.point_entries; ++k) put(section.point(n, pair)[k]);
     }
@@ -115,7 +115,7 @@ RolledSeries read_rolled_series(const std::filesystem::path& state, const std::f
   RolledSeries series;
   series.passes = whole(values, "passes", 0);
   series.creepage_shift = values.column("creepage_shift")[0];
-  if (static_cast<std::size_t>(series.passes) > rows.rows() || rows.columns.size() != table_columns().size())
+  if (static_cast<std::size_t>(series.passes) > rows.rows() || rows.columns.size() != rolled_columns().size())
     refuse("fewer passes than the state has seen", table);
   for (int n = 0; n < series.passes; ++n) {
     series.table.emplace_back();
@@ -192,7 +192,7 @@ void write_elements_vtk(const std::filesystem::path& file, const RolledPass& pas
   std::vector<double> stress, strain, p, accumulated, net;
   std::vector<std::int32_t> kind, zone;
   for (const PassPoint& at : pass.points) {
-    for (const double s : at.stress) stress.push_back(kMega * s);
+    for (const double s : at.stress) stress.push_back(kToMega * s);
     strain.insert(strain.end(), at.plastic.begin(), at.plastic.end());
     p.push_back(at.accumulated);
     accumulated.push_back(at.strain.accumulated);
@@ -234,7 +234,7 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   write_pass_points(folder / "profile.csv", remarks, profile_of(points));
   if (!points.empty()) write_elements_vtk(folder / "section.vtp", pass, PointColumns::of_passes);
   if (!loops.empty()) write_loops(folder / "loops.csv", provenance, files_loops(loops));
-  nlohmann::ordered_json out = pass_verdict(spec.title, table_columns(), series.table, series.points);
+  nlohmann::ordered_json out = pass_verdict(spec.title, rolled_columns(), series.table, series.points);
   out["engine"] = "fem";
   out["verdict"] = pass_words(standing_of(verdict_of(series.table), series.table, pass.row));
   if (spec.passes.ductility)
@@ -264,7 +264,7 @@ void write_run_residual(const std::filesystem::path& folder, const std::vector<s
   remarks.push_back(fmt::format(
       "What the wheel leaves behind: mean of the stations from {:.6g} to {:.6g} mm, in an endless rail at rest. y, "
       "depth: axes of the rigid contact point. plastic_xy ...: tensor shears.",
-      kMilli * residual.from, kMilli * residual.to));
+      kToMilli * residual.from, kToMilli * residual.to));
   write_pass_points(folder / "residual.csv", remarks, residual.pass.points, PointColumns::of_a_run);
   write_elements_vtk(folder / "section.vtp", residual.pass, PointColumns::of_a_run);
   write_whole_file(folder / "residual.json", json_text(out, 2) + "\n");

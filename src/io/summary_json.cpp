@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "io/damage_files.hpp"
+#include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "post/result_table.hpp"
 
@@ -12,13 +13,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
-Json number(long v) { return v; }
-
 /// The numbers of one group, in the order of the table.
 void add_numbers(std::string_view group, const Summary& s, Json& out) {
   for (const ResultNumber& n : result_numbers())
-    if (n.group == group) out[n.key()] = std::visit([](auto v) { return number(v); }, n.value(s));
+    if (n.group == group) out[n.key()] = std::visit([](auto v) { return json_number(v); }, n.value(s));
 }
 
 Json patches(const Summary& s) {
@@ -26,7 +24,7 @@ Json patches(const Summary& s) {
   for (const PatchSummary& p : s.patches) {
     Summary of_patch;
     of_patch.contact = p.contact;
-    Json patch{{"y_m", number(p.y)}, {"rail_y_m", number(p.rail_y)}, {"wheel_y_m", number(p.wheel_y)}};
+    Json patch{{"y_m", json_number(p.y)}, {"rail_y_m", json_number(p.rail_y)}, {"wheel_y_m", json_number(p.wheel_y)}};
     add_numbers("contact", of_patch, patch);
     out.push_back(std::move(patch));
   }
@@ -37,7 +35,7 @@ Json maximum(const StressMaximum& m) {
   if (!std::isfinite(m.value)) return nullptr;
   Json out;
   for (const StressNumber& n : stress_numbers())
-    out[std::string(n.key) + std::string(n.unit.key_ending)] = number(m.*n.member);
+    out[std::string(n.key) + std::string(n.unit.key_ending)] = json_number(m.*n.member);
   return out;
 }
 
@@ -88,11 +86,12 @@ Json summary_json(const Summary& s) {
   run["commit"] = s.run.commit;
   out["checks"] = Json::array();
   for (const Check& k : s.checks)
-    out["checks"].push_back({{"name", k.name}, {"ok", k.ok}, {"value", number(k.value)}, {"limit", number(k.limit)}});
+    out["checks"].push_back(
+        {{"name", k.name}, {"ok", k.ok}, {"value", json_number(k.value)}, {"limit", json_number(k.limit)}});
   out["warnings"] = Json::array();
   for (const Warning& w : s.warnings)
     out["warnings"].push_back(
-        {{"name", w.name}, {"value", number(w.value)}, {"limit", number(w.limit)}, {"text", w.text}});
+        {{"name", w.name}, {"value", json_number(w.value)}, {"limit", json_number(w.limit)}, {"text", w.text}});
   return out;
 }
 

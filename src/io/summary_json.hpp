@@ -3,7 +3,7 @@
 // at several places `patches` has the numbers of `contact` for each, that of the largest pressure first.
 #include <filesystem>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "post/summary.hpp"
 

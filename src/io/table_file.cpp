@@ -1,170 +1,29 @@
 #include "io/table_file.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
-#include <hdf5_hl.h>
-
-#include <string_view>
 
 #include "core/faults.hpp"
-#include "io/hdf5_handle.hpp"
 #include "io/output_file.hpp"
 
 namespace railstrata {
-namespace {
-
-constexpr const char *kUnits = "units", *kAxes = "axes";
-constexpr std::size_t kGrowth = std::size_t{1} << 20, kMostPoints = 100'000'000;
-
-struct Refused {};  // by HDF5
-
-hid_t checked(hid_t id) {
-  if (id < 0) throw Refused{};
-  return id;
-}
-
-struct Handle : Hdf5Handle {
-  Handle(hid_t id, Close close) : Hdf5Handle(checked(id), close) {}
-};
-
-/// HDF5 prints its stack of errors unless it is told not to.
-class Quiet {
- public:
-  Quiet() {
-    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~Quiet() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
-  Quiet(const Quiet&) = delete;
-  Quiet& operator=(const Quiet&) = delete;
-
- private:
-  H5E_auto2_t function_ = nullptr;
-  void* data_ = nullptr;
-};
-
-void add_text(hid_t at, const char* name, std::string_view text) {
-  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose), space(H5Screate(H5S_SCALAR), H5Sclose);
-  checked(H5Tset_size(type, text.size() + 1));
-  checked(H5Tset_cset(type, H5T_CSET_UTF8));
-  const Handle attribute(H5Acreate2(at, name, type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  checked(H5Awrite(attribute, type, std::string(text).c_str()));
-}
-
-std::string text_of(hid_t at, const char* name) {
-  const Handle attribute(H5Aopen(at, name, H5P_DEFAULT), H5Aclose), type(H5Aget_type(attribute), H5Tclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) throw Refused{};
-  std::string out(H5Tget_size(type) + 1, '\0');
-  checked(H5Aread(attribute, type, out.data()));
-  return out.c_str();
-}
-
-/// Without the time of day in it: the same table has the same bytes.
-void add_numbers(hid_t file, const std::string& name, const std::string& unit, const std::vector<hsize_t>& size,
-                 const std::vector<double>& values) {
-  const Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose),
-      how(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-  checked(H5Pset_obj_track_times(how, false));
-  const Handle set(H5Dcreate2(file, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, how, H5P_DEFAULT), H5Dclose);
-  checked(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
-  add_text(set, kUnits, unit);
-}
-
-void fill(hid_t file, const ForceTable& table, const TableRemarks& remarks) {
-  std::string names;
-  std::vector<hsize_t> size;
-  for (const TableAxis& axis : table.axes) {
-    names += (names.empty() ? "" : ",") + axis.name;
-    size.push_back(axis.at.size());
-    add_numbers(file, axis.name, axis.unit, {axis.at.size()}, axis.at);
-    const Handle set(H5Dopen2(file, axis.name.c_str(), H5P_DEFAULT), H5Dclose);
-    checked(H5DSset_scale(set, axis.name.c_str()));
-  }
-  add_text(file, kAxes, names);
-  for (const auto& [name, text] : remarks) add_text(file, name.c_str(), text);
-  for (const TableNumber& number : table.numbers) {
-    add_numbers(file, number.name, number.unit, size, number.values);
-    const Handle set(H5Dopen2(file, number.name.c_str(), H5P_DEFAULT), H5Dclose);
-    for (std::size_t k = 0; k < table.axes.size(); ++k) {
-      const Handle scale(H5Dopen2(file, table.axes[k].name.c_str(), H5P_DEFAULT), H5Dclose);
-      checked(H5DSattach_scale(set, scale, static_cast<unsigned>(k)));
-    }
-  }
-}
-
-std::string image_of(const ForceTable& table, const TableRemarks& remarks) {
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  checked(H5Pset_fapl_core(access, kGrowth, 0));
-  const Handle file(H5Fcreate("table", H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
-  fill(file, table, remarks);
-  checked(H5Fflush(file, H5F_SCOPE_GLOBAL));
-  std::string out(static_cast<std::size_t>(checked(H5Fget_file_image(file, nullptr, 0))), '\0');
-  checked(H5Fget_file_image(file, out.data(), out.size()));
-  return out;
-}
-
-std::vector<double> numbers_of(hid_t set) {
-  const Handle space(H5Dget_space(set), H5Sclose);
-  const hssize_t count = H5Sget_simple_extent_npoints(space);
-  if (count < 1 || static_cast<std::size_t>(count) > kMostPoints) throw Refused{};
-  std::vector<double> out(static_cast<std::size_t>(count));
-  checked(H5Dread(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()));
-  return out;
-}
-
-/// Every data set that is no axis, by name.
-herr_t collect(hid_t group, const char* name, const H5L_info_t*, void* names) {
-  const hid_t object = H5Oopen(group, name, H5P_DEFAULT);
-  if (object < 0) return -1;
-  if (H5Iget_type(object) == H5I_DATASET && H5DSis_scale(object) == 0)
-    static_cast<std::vector<std::string>*>(names)->emplace_back(name);
-  H5Oclose(object);
-  return 0;
-}
-
-ForceTable table_in(hid_t file) {
-  ForceTable out;
-  std::string names = text_of(file, kAxes);
-  while (!names.empty()) {
-    const std::size_t comma = names.find(',');
-    const std::string name = names.substr(0, comma);
-    names = comma == std::string::npos ? "" : names.substr(comma + 1);
-    const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-    out.axes.push_back({name, text_of(set, kUnits), numbers_of(set)});
-  }
-  std::vector<std::string> numbers;
-  checked(H5Literate(file, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &numbers));
-  for (const std::string& name : numbers) {
-    const Handle set(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
-    out.numbers.push_back({name, text_of(set, kUnits), numbers_of(set)});
-  }
-  return out;
-}
-
-}  // namespace
 
 void write_force_table(const std::filesystem::path& file, const ForceTable& table, const TableRemarks& remarks) {
+  require_table_files();
   check(table);
-  const Quiet quiet;
-  try {
-    write_whole_file(file, image_of(table, remarks));
-  } catch (const Refused&) {
+  const std::string image = table_image(table, remarks);
+  if (image.empty())
     throw EnvironmentError(fmt::format("{}: HDF5 cannot make the table", file.string()), "free memory and try again");
-  }
+  write_whole_file(file, image);
 }
 
 ForceTable read_force_table(const std::filesystem::path& file) {
-  const Quiet quiet;
+  require_table_files();
   const std::string remedy = "name a creep_table.h5 of railstrata creep-table";
   if (!std::filesystem::is_regular_file(file)) throw CaseError("there is no such file", remedy, file.string());
-  try {
-    const Handle from(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    ForceTable out = table_in(from);
-    check(out);
-    return out;
-  } catch (const Refused&) {
-    throw CaseError("is no creep-force table", remedy, file.string());
-  }
+  const std::optional<ForceTable> out = table_in_file(file);
+  if (!out) throw CaseError("is no creep-force table", remedy, file.string());
+  check(*out);
+  return *out;
 }
 
 }  // namespace railstrata

@@ -2,16 +2,13 @@
 // A creep-force table as an HDF5 file: a data set for each axis, as a dimension scale, and one for each number over all
 // of them, with the unit as the attribute `units`. h5py, h5dump, MATLAB and netCDF's readers (xarray) open it.
 #include <filesystem>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "table/force_table.hpp"
+#include "hdf5/table_image.hpp"
 
 namespace railstrata {
 
-/// Texts of the file itself: the case, the program, the measured error of interpolation.
-using TableRemarks = std::vector<std::pair<std::string, std::string>>;
+/// Throws EnvironmentError where the program has no HDF5.
+void require_table_files();
 
 /// Writes the whole file (io/output_file). The same table has the same bytes. Throws EnvironmentError.
 void write_force_table(const std::filesystem::path& file, const ForceTable& table, const TableRemarks& remarks);

@@ -45,12 +45,29 @@ std::string host_name() {
   return host.data();
 }
 
+std::string cpu_name() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);)
+    if (line.starts_with("model name"))
+      if (const auto colon = line.find(": "); colon != std::string::npos) return line.substr(colon + 2);
+  return {};
+}
+
+std::filesystem::path program_file() {
+  std::error_code error;
+  return std::filesystem::read_symlink("/proc/self/exe", error);
+}
+
+long process_id() { return ::getpid(); }
+
+bool is_running(long process) { return ::kill(static_cast<pid_t>(process), 0) == 0 || errno != ESRCH; }
+
 ProcessName this_process() { return {host_name(), this_system(), ::getpid(), started(::getpid())}; }
 
 bool is_known_dead(const ProcessName& process) {
   if (process.system.empty() || process.host != host_name() || process.system != this_system() || process.id < 1)
     return false;
-  if (::kill(static_cast<pid_t>(process.id), 0) != 0) return errno == ESRCH;
+  if (!is_running(process.id)) return true;
   const long long now = started(process.id);
   return now >= 0 && process.started >= 0 && now != process.started;
 }

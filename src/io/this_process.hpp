@@ -1,11 +1,24 @@
 #pragma once
 // What tells this process from every other one, on any machine.
+#include <filesystem>
 #include <string>
 
 namespace railstrata {
 
 /// The name of this machine in its network.
 std::string host_name();
+
+/// The processor's name as the system tells it; empty if it does not.
+std::string cpu_name();
+
+/// The file of the program that this process runs; empty if the system does not tell.
+std::filesystem::path program_file();
+
+/// The number of this process on this machine.
+long process_id();
+
+/// Whether a process of this machine has this number now.
+bool is_running(long process);
 
 /// A process of the machine `host` as that machine knows it. `system`: one start of one kernel and one space of process
 /// numbers (a container has its own); `started`: when, in ticks since the kernel began, for numbers are used again.

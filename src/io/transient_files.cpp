@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include "core/si_prefix.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr double kMilli = 1e3, kMicro = 1e6, kMega = 1e-6;
 
 struct HistoryColumn {
   enum class Of { both, rolling, shift, timed };
@@ -19,11 +18,11 @@ using Row = TransientRow;
 using Of = HistoryColumn::Of;
 constexpr HistoryColumn kColumns[] = {
     {"step", [](const Row& r) { return static_cast<double>(r.step); }},
-    {"distance_mm", [](const Row& r) { return kMilli * r.distance; }, Of::rolling},
-    {"time_ms", [](const Row& r) { return kMilli * r.time; }, Of::timed},
+    {"distance_mm", [](const Row& r) { return kToMilli * r.distance; }, Of::rolling},
+    {"time_ms", [](const Row& r) { return kToMilli * r.time; }, Of::timed},
     {"wheel_load_N", [](const Row& r) { return r.load; }},
-    {"displacement_um", [](const Row& r) { return kMicro * r.displacement_x; }, Of::shift},
-    {"lateral_displacement_um", [](const Row& r) { return kMicro * r.displacement_y; }, Of::shift},
+    {"displacement_um", [](const Row& r) { return kToMicro * r.displacement_x; }, Of::shift},
+    {"lateral_displacement_um", [](const Row& r) { return kToMicro * r.displacement_y; }, Of::shift},
     {"creepage", [](const Row& r) { return r.creepage_x; }, Of::rolling},
     {"lateral_creepage", [](const Row& r) { return r.creepage_y; }, Of::rolling},
     {"spin_1_m", [](const Row& r) { return r.spin; }, Of::rolling},
@@ -33,12 +32,12 @@ constexpr HistoryColumn kColumns[] = {
     {"normal_force_N", [](const Row& r) { return r.normal_force; }},
     {"lateral_force_N", [](const Row& r) { return r.lateral_force; }},
     {"spin_moment_N_m", [](const Row& r) { return r.spin_moment; }},
-    {"approach_um", [](const Row& r) { return kMicro * r.approach; }},
-    {"p_max_MPa", [](const Row& r) { return kMega * r.p_max; }},
-    {"q_max_MPa", [](const Row& r) { return kMega * r.q_max; }},
-    {"contact_area_mm2", [](const Row& r) { return kMicro * r.contact_area; }},
-    {"stick_area_mm2", [](const Row& r) { return kMicro * r.stick_area; }},
-    {"slip_area_mm2", [](const Row& r) { return kMicro * r.slip_area; }},
+    {"approach_um", [](const Row& r) { return kToMicro * r.approach; }},
+    {"p_max_MPa", [](const Row& r) { return kToMega * r.p_max; }},
+    {"q_max_MPa", [](const Row& r) { return kToMega * r.q_max; }},
+    {"contact_area_mm2", [](const Row& r) { return kToMicro * r.contact_area; }},
+    {"stick_area_mm2", [](const Row& r) { return kToMicro * r.stick_area; }},
+    {"slip_area_mm2", [](const Row& r) { return kToMicro * r.slip_area; }},
     {"friction_power_W", [](const Row& r) { return r.friction_power; }, Of::rolling},
     {"friction_work_J", [](const Row& r) { return r.friction_work; }},
 };
@@ -80,9 +79,9 @@ void PatchFilm::add(int step, double distance, const ContactField& f) {
     for (int c = (f.columns / 2) % stride; c < f.columns; c += stride) {
       const auto k = static_cast<std::size_t>(s) * static_cast<std::size_t>(f.columns) + static_cast<std::size_t>(c);
       if (!(f.p[k] > 0)) continue;
-      log_.add({static_cast<double>(step), kMilli * distance, rounded(kMilli * f.x[k], 1e-6),
-                rounded(kMilli * f.y[k], 1e-6), rounded(kMega * f.p[k], 0.1), rounded(kMega * f.q_x[k], 0.1),
-                rounded(kMega * f.q_y[k], 0.1), static_cast<double>(f.state[k])});
+      log_.add({static_cast<double>(step), kToMilli * distance, rounded(kToMilli * f.x[k], 1e-6),
+                rounded(kToMilli * f.y[k], 1e-6), rounded(kToMega * f.p[k], 0.1), rounded(kToMega * f.q_x[k], 0.1),
+                rounded(kToMega * f.q_y[k], 0.1), static_cast<double>(f.state[k])});
     }
 }
 

@@ -20,7 +20,7 @@ struct Term {
   double modulus, recall;
 };
 constexpr double kYieldShare = 0.150199;
-constexpr std::array<Term, 4> kTerms{{{230.112, 4000}, {55.7830, 700}, {14.7029, 120}, {3.42482, 8}}};
+constexpr std::array<Term, 4> kFlowTerms{{{230.112, 4000}, {55.7830, 700}, {14.7029, 120}, {3.42482, 8}}};
 
 constexpr std::string_view kEstimate = "FKM estimate of the cyclic curve from tensile strength (Wächter 2016)";
 constexpr std::string_view kRollover =
@@ -63,9 +63,9 @@ double cyclic_strength_coefficient(double tensile) {
 PlasticParameters<double> estimated_hardening(double tensile) {
   const double k = cyclic_strength_coefficient(tensile);
   PlasticParameters<double> out{0, kYieldShare * k, 0, 0, {}, {}};
-  for (std::size_t i = 0; i < kTerms.size(); ++i) {
-    out.modulus[i] = kTerms[i].modulus * k;
-    out.recall[i] = kTerms[i].recall;
+  for (std::size_t i = 0; i < kFlowTerms.size(); ++i) {
+    out.modulus[i] = kFlowTerms[i].modulus * k;
+    out.recall[i] = kFlowTerms[i].recall;
   }
   return out;
 }

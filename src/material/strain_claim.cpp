@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "core/si_prefix.hpp"
 #include "material/plastic.hpp"
 
 namespace railstrata {
@@ -11,14 +12,13 @@ namespace railstrata {
 double equivalent_strain(const double* plastic) { return std::sqrt(2.0 / 3 * double_contraction(plastic, plastic)); }
 
 std::string strain_words(double largest) {
-  constexpr double kPercent = 100;
   if (largest > kNoClaimStrain)
     return fmt::format("No claim of accuracy: plastic strain reaches {:.1f} %, and the law is one of small strains.",
-                       kPercent * largest);
+                       kToPercent * largest);
   if (largest > kLargeStrain)
     return fmt::format(
         "Plastic strain reaches {:.1f} %: the law is one of small strains, numbers are some percent off.",
-        kPercent * largest);
+        kToPercent * largest);
   return {};
 }
 

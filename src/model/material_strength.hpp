@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/layer_spec.hpp"
 #include "damage/grades.hpp"
 #include "material/material_path.hpp"
 

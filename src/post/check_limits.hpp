@@ -46,7 +46,7 @@ struct CheckRow {
 inline constexpr double kCommonRailYield = 500e6;
 
 /// A cell or element, of the patch's shorter axis: where results suffer, and where they mean nothing. Reasons and
-/// figures of this and of the following limits: docs/bem.md, "What is checked".
+/// figures of this and of the following limits: docs/checks.md.
 inline constexpr double kCellOfPatch = 0.1, kElementOfPatch = 0.2, kUnresolvedPatch = 0.35;
 inline constexpr double kLargestAngleSpanned = 20 * std::numbers::pi / 180;
 inline constexpr double kLargestOfRadius = 0.05;

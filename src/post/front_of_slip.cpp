@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parabola.hpp"
+
 namespace railstrata {
 namespace {
-
-double square(double v) { return v * v; }
 
 /// Mean of sqrt(t) over the cell whose middle is at t = b; nothing is left where t < 0.
 double mean_root(double b) {

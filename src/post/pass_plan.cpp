@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "case/case_spec.hpp"
+
 namespace railstrata {
 namespace {
 

@@ -6,7 +6,7 @@
 // --resume.
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 
 namespace railstrata {
 

@@ -2,7 +2,7 @@
 // Results that were computed soundly and yet say that the case leaves what its model can mean.
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "model/surroundings.hpp"
 #include "post/summary.hpp"
 
@@ -20,7 +20,7 @@ double film_shear(const CaseSpec& spec, const PatchMeasures& patch);
 /// few_cells_over_patch, contact_on_flange_crest, flange_outside_gauge, patch_wider_than_layer,
 /// von_mises_above_common_rail_yield; of finite elements patch_near_border_of_fine_zone (nearer than an element on each
 /// side) and second_contact; of half-spaces patches_near_each_other, patch_spans_angle, patch_large_against_radius,
-/// patch_near_edge, soft_film, stress_maximum_at_rim. Limits and words: check_limits.hpp; reasons: docs/bem.md.
+/// patch_near_edge, soft_film, stress_maximum_at_rim. Limits and words: check_limits.hpp; reasons: docs/checks.md.
 std::vector<Warning> implausible(const Summary& summary, const CaseSpec& spec, const PatchSurroundings& around,
                                  double element);
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bem/solve_bem.hpp"
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "steady/pass_class.hpp"
 #include "steady/steady_pass.hpp"
 

@@ -34,9 +34,9 @@ constexpr auto plastic = &at<&Summary::plastic, Member>;
 template <auto Member>
 constexpr auto run = &at<&Summary::run, Member>;
 
-// The forces of several patches close to 1e-6 of the load (docs/bem.md), those that symmetry cancels to 1e-9: below
-// 1e-7 of the normal force there is no result, nor in what follows from forces. A creepage of 1e-10 is a slip of a
-// picometre over a patch of 10 mm, a spin of 1e-8/m as much.
+// The forces of several patches close to 1e-6 of the load (docs/bem-theory.md), those that symmetry cancels to 1e-9:
+// below 1e-7 of the normal force there is no result, nor in what follows from forces. A creepage of 1e-10 is a slip of
+// a picometre over a patch of 10 mm, a spin of 1e-8/m as much.
 constexpr std::string_view kNormalForce = "/contact/normal_force_N";
 constexpr double kNoise = 1e-7;
 constexpr RoundOff kOfForce{kNoise, kNormalForce}, kOfMoment{kNoise, kNormalForce, "/contact/patch_length_m"},
@@ -517,7 +517,7 @@ std::vector<ResultNumber> effort_numbers() {
 }
 
 template <auto Member>
-ResultValue shakedown(const Summary& s) {
+ResultValue shakedown_number(const Summary& s) {
   return s.shakedown.least(Member);
 }
 
@@ -537,17 +537,17 @@ std::vector<ResultNumber> shakedown_numbers() {
                         .shown = true,
                         .comparable = true};
   };
-  return {row("first_yield", shakedown<&F::first_yield>, "Load factor to first yield",
+  return {row("first_yield", shakedown_number<&F::first_yield>, "Load factor to first yield",
               "What the elastic stress may be multiplied by until the first point yields, residual stress of the "
               "process included"),
-          row("wandering", shakedown<&F::wandering>, "Load factor to shakedown, any traffic",
+          row("wandering", shakedown_number<&F::wandering>, "Load factor to shakedown, any traffic",
               "Elastic shakedown with residual stresses of depth alone: safe for every traffic, the limit itself where "
               "wheels wander sideways over more than the patch"),
-          row("single_track", shakedown<&F::single_track>, "Load factor to shakedown, one track",
+          row("single_track", shakedown_number<&F::single_track>, "Load factor to shakedown, one track",
               "Elastic shakedown where every wheel runs in the same place; null where it was not asked for"),
-          row("upper", shakedown<&F::upper>, "Upper bound of shakedown",
+          row("upper", shakedown_number<&F::upper>, "Upper bound of shakedown",
               "No load beyond it can shake down elastically, whatever the residual stress"),
-          row("kinematic", shakedown<&F::kinematic>, "Load factor to ratchetting with hardening",
+          row("kinematic", shakedown_number<&F::kinematic>, "Load factor to ratchetting with hardening",
               "Elastic shakedown of a material with unlimited linear kinematic hardening")};
 }
 

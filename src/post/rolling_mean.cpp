@@ -10,12 +10,12 @@
 namespace railstrata {
 namespace {
 
-constexpr double kNoise = 0.025;  // of p_max: points below are left out of areas and ratios
+constexpr double kPressureNoise = 0.025;  // of p_max: points below are left out of areas and ratios
 
 template <class Slips>
 void set_states(ContactField& f, Slips&& slips) {
   const double p_max = f.p.empty() ? 0 : *std::max_element(f.p.begin(), f.p.end());
-  f.p_noise = kNoise * p_max;
+  f.p_noise = kPressureNoise * p_max;
   for (int i = 0; i < f.size(); ++i)
     f.state[i] = f.p[i] <= 0 ? ContactState::separated : slips(i) ? ContactState::slip : ContactState::stick;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "case/case_spec.hpp"
 #include "model/material_strength.hpp"
 
 namespace railstrata {

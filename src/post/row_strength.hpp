@@ -4,7 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
+#include "core/body_id.hpp"
 #include "damage/stress_history.hpp"
 
 namespace railstrata {

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "fem/step_plan.hpp"
 #include "post/check_limits.hpp"
 #include "post/summary.hpp"

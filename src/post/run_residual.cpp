@@ -10,7 +10,7 @@
 namespace railstrata {
 namespace {
 
-constexpr double kStart = 6, kFarthest = 6, kNearest = 4;  // half-lengths
+constexpr double kStart = 6, kFarthestBehind = 6, kNearest = 4;  // half-lengths
 
 std::string too_short(const Model& model, double a) {
   const double run_up = model.spec.run.run_up, start = std::max(kStart * a, run_up);
@@ -19,30 +19,31 @@ std::string too_short(const Model& model, double a) {
       "behind the wheel; let run.positions end at {:.3g} mm or more",
       1e3 * start,
       run_up > kStart * a ? std::string("run.run_up") : fmt::format("{:g} half-lengths of the patch", kStart), kNearest,
-      1e3 * kNearest * a, 1e3 * (start + kFarthest * a));
+      1e3 * kNearest * a, 1e3 * (start + kFarthestBehind * a));
 }
 
-using R = RunResidual;
 constexpr ResidualNumber kNumbers[] = {
     {"sigma_x_min", result_unit::kMPa, "Most compressive residual stress along the rail",
-     [](const R& r) { return r.pass.row.stress[0]; }},
-    {"sigma_x_depth", result_unit::kMillimetres, "Its depth", [](const R& r) { return r.pass.row.stress_depth[0]; }},
+     [](const RunResidual& r) { return r.pass.row.stress[0]; }},
+    {"sigma_x_depth", result_unit::kMillimetres, "Its depth",
+     [](const RunResidual& r) { return r.pass.row.stress_depth[0]; }},
     {"sigma_y_min", result_unit::kMPa, "Most compressive residual stress across the rail, along the surface",
-     [](const R& r) { return r.pass.row.stress[1]; }},
-    {"sigma_y_depth", result_unit::kMillimetres, "Its depth", [](const R& r) { return r.pass.row.stress_depth[1]; }},
+     [](const RunResidual& r) { return r.pass.row.stress[1]; }},
+    {"sigma_y_depth", result_unit::kMillimetres, "Its depth",
+     [](const RunResidual& r) { return r.pass.row.stress_depth[1]; }},
     {"plastic_strain", result_unit::kNone, "Largest equivalent plastic strain √(2/3) |E^p|",
-     [](const R& r) { return r.pass.row.strain; }},
+     [](const RunResidual& r) { return r.pass.row.strain; }},
     {"balance", result_unit::kNone,
      "Larger resultant of the shear stresses τ_xy and τ_xz over the section, over the integral of |σ_x|: 0 in "
      "equilibrium",
-     [](const R& r) { return r.pass.row.balance; }},
+     [](const RunResidual& r) { return r.pass.row.balance; }},
     {"steady_from", result_unit::kMillimetres, "First station of the mean, from where the wheel was put on",
-     [](const R& r) { return r.from; }},
-    {"steady_to", result_unit::kMillimetres, "Last station of the mean", [](const R& r) { return r.to; }},
+     [](const RunResidual& r) { return r.from; }},
+    {"steady_to", result_unit::kMillimetres, "Last station of the mean", [](const RunResidual& r) { return r.to; }},
     {"uneven", result_unit::kNone,
      "Largest difference of the plastic strain between the two halves of these stations, over the largest plastic "
      "strain: 0 where rolling is steady",
-     [](const R& r) { return r.pass.uneven; }}};
+     [](const RunResidual& r) { return r.pass.uneven; }}};
 
 }  // namespace
 
@@ -52,7 +53,7 @@ RunResidual run_residual(const RollingSystem& system, const RollingState& end) {
   RunResidual out;
   const Model& model = system.model;
   const double a = hertz_estimate(model.spec, model.placement.contact).a, wheel = end.axle.pose().x;
-  out.from = wheel - kFarthest * a;
+  out.from = wheel - kFarthestBehind * a;
   out.to = wheel - kNearest * a;
   if (out.from < std::max(kStart * a, model.spec.run.run_up)) {
     out.none = too_short(model, a);

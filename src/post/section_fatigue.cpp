@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "case/case_spec.hpp"
 #include "damage/brittle.hpp"
 #include "damage/critical_plane.hpp"
 #include "damage/dang_van.hpp"

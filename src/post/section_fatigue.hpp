@@ -1,6 +1,6 @@
 #pragma once
 // Fatigue below the surface, brittle layers and interfaces of a body's section, as far as the case gives constants.
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "damage/stress_history.hpp"
 #include "post/row_strength.hpp"
 #include "post/summary.hpp"

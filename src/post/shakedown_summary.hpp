@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bem/solve_bem.hpp"
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "damage/shakedown.hpp"
 #include "model/model.hpp"
 #include "post/band_stress.hpp"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "case/case_spec.hpp"
 #include "damage/flash_temperature.hpp"
 #include "damage/grades.hpp"
 #include "damage/wear.hpp"

@@ -3,7 +3,8 @@
 // across the rail, from the contact field of either engine.
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
+#include "case/history_spec.hpp"
 #include "contact/contact_field.hpp"
 #include "damage/wear_indices.hpp"
 #include "post/summary.hpp"

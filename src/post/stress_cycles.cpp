@@ -13,14 +13,14 @@ constexpr double kBehind = 3, kNear = 1.15, kBeside = 1.5;  // semi-axes of the 
 constexpr int kMostSamples = 160, kMostColumns = 50, kFarSamples = 12;
 
 /// First and last cell of a direction that carry pressure.
-struct Extent {
+struct CellExtent {
   int first = 0, last = 0;
   double middle() const { return 0.5 * (first + last); }
   double half() const { return 0.5 * (last - first + 1); }
 };
 
 struct PatchExtent {
-  Extent x, y;  ///< in cells
+  CellExtent x, y;  ///< in cells
 };
 
 PatchExtent extent_of(const ContactField& f) {
@@ -35,7 +35,7 @@ PatchExtent extent_of(const ContactField& f) {
 }
 
 /// Every n-th cell of a direction out to `reach` semi-axes; cells may lie outside the grid (negative, or beyond it).
-std::vector<int> sampled(const Extent& e, double reach, int most) {
+std::vector<int> sampled(const CellExtent& e, double reach, int most) {
   const int from = static_cast<int>(std::floor(e.middle() - reach * e.half())),
             to = static_cast<int>(std::ceil(e.middle() + reach * e.half())),
             stride = std::max(1, (to - from) / most + 1);
@@ -45,7 +45,7 @@ std::vector<int> sampled(const Extent& e, double reach, int most) {
 }
 
 /// Densely as far as the patch and a little beyond, then every few cells.
-std::vector<int> sampled_along(const Extent& e) {
+std::vector<int> sampled_along(const CellExtent& e) {
   const std::vector<int> near = sampled(e, kNear, kMostSamples);
   const int apart = std::max(1, static_cast<int>((kBehind - kNear) * e.half() / kFarSamples));
   std::vector<int> out;

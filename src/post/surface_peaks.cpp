@@ -4,14 +4,13 @@
 #include <cmath>
 #include <optional>
 
+#include "core/parabola.hpp"
 #include "post/front_of_slip.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr int kLeastPoints = 4;
-
-double square(double v) { return v * v; }
 
 Sym3 smooth(const SurfaceRow& row, int i) {
   Sym3 s = row.stress(i);

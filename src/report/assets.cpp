@@ -1,17 +1,9 @@
 #include "report/assets.hpp"
 
-// The assembler takes the files in as they are: no array of a million numbers to compile. RAILSTRATA_REPORT_FOLDER
-// comes from CMake.
-#define RAILSTRATA_ASSET(name, file)                                              \
-  asm(".pushsection .rodata\n"                                                    \
-      ".global railstrata_" #name "_begin\n.hidden railstrata_" #name             \
-      "_begin\n"                                                                  \
-      ".global railstrata_" #name "_end\n.hidden railstrata_" #name               \
-      "_end\n"                                                                    \
-      "railstrata_" #name "_begin:\n.incbin \"" RAILSTRATA_REPORT_FOLDER "/" file \
-      "\"\n"                                                                      \
-      "railstrata_" #name "_end:\n.byte 0\n.popsection\n");                       \
-  extern "C" __attribute__((visibility("hidden"))) const char railstrata_##name##_begin[], railstrata_##name##_end[];
+#include "core/embedded_file.hpp"
+
+// RAILSTRATA_REPORT_FOLDER comes from CMake.
+#define RAILSTRATA_ASSET(name, file) RAILSTRATA_EMBED(railstrata_##name, RAILSTRATA_REPORT_FOLDER "/" file)
 
 RAILSTRATA_ASSET(script, "dist/report.js")
 RAILSTRATA_ASSET(style, "dist/report.css")

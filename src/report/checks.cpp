@@ -89,8 +89,8 @@ double number_in(const nlohmann::json& object, const char* key) {
                                                          : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// The largest cell of half-spaces too misses the cusp at the front of slip, which their q_max is: docs/bem.md. So
-/// points are compared with cells of the same size.
+/// The largest cell of half-spaces too misses the cusp at the front of slip, which their q_max is
+/// (docs/bem-verification.md). So points are compared with cells of the same size.
 ReportCheck shear_check(const ReportRun& fem, const ReportRun& bem, const std::vector<int>& both) {
   const double ours = fem.result.number("/contact/q_max_Pa"), theirs = bem.result.number("/contact/q_max_Pa");
   if (!std::isfinite(fem.shear_on_elements)) return within("q_max", both, ours, theirs);

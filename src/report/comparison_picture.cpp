@@ -6,13 +6,13 @@
 #include <array>
 #include <cmath>
 
+#include "core/si_prefix.hpp"
 #include "post/patch.hpp"
 #include "report/svg_page.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr double kMilli = 1e3, kMega = 1e-6;
 constexpr int kMapPoints = 72;
 constexpr const char* kColourA = "#0b5fa5";
 constexpr const char* kColourB = "#c2410c";
@@ -45,9 +45,9 @@ double largest(const std::vector<double>& v) { return v.empty() ? 0 : *std::max_
 void draw_centre_line(SvgPage& page, const SvgFrame& f, const PictureSide& side, const char* stroke) {
   const CentreLine line = centre_line(side.field);
   std::vector<double> q;
-  for (std::size_t i = 0; i < line.q_x.size(); ++i) q.push_back(kMega * std::hypot(line.q_x[i], line.q_y[i]));
-  page.line(f, scaled(line.x, kMilli), scaled(line.p, kMega), stroke, false);
-  page.line(f, scaled(line.x, kMilli), q, stroke, true);
+  for (std::size_t i = 0; i < line.q_x.size(); ++i) q.push_back(kToMega * std::hypot(line.q_x[i], line.q_y[i]));
+  page.line(f, scaled(line.x, kToMilli), scaled(line.p, kToMega), stroke, false);
+  page.line(f, scaled(line.x, kToMilli), q, stroke, true);
 }
 
 void draw_map(SvgPage& page, const SvgFrame& f, const FieldComparison& g, const std::array<Rgb, 5>& stops,
@@ -60,7 +60,8 @@ void draw_map(SvgPage& page, const SvgFrame& f, const FieldComparison& g, const 
       const std::size_t k = static_cast<std::size_t>(i) * g.y.size() + static_cast<std::size_t>(j);
       if (!(g.p_a[k] > 0 || g.p_b[k] > 0)) continue;
       page.add("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"{}\"/>\n",
-               f.px(kMilli * g.x[i]) - w / 2, f.py(kMilli * g.y[j]) - h / 2, w + 0.2, h + 0.2, colour(stops, shade[k]));
+               f.px(kToMilli * g.x[i]) - w / 2, f.py(kToMilli * g.y[j]) - h / 2, w + 0.2, h + 0.2,
+               colour(stops, shade[k]));
     }
 }
 
@@ -71,16 +72,17 @@ void draw_maps(SvgPage& page, double top, double width, const PictureSide& a, co
   double reach = 1;  // Pa
   for (std::size_t k = 0; k < g.p_a.size(); ++k) reach = std::max(reach, std::abs(g.p_a[k] - g.p_b[k]));
   for (std::size_t k = 0; k < g.p_a.size(); ++k) gap.push_back(0.5 + 0.5 * (g.p_a[k] - g.p_b[k]) / reach);
-  const double x0 = kMilli * g.x.front(), x1 = kMilli * g.x.back(), y0 = kMilli * g.y.front(), y1 = kMilli * g.y.back();
+  const double x0 = kToMilli * g.x.front(), x1 = kToMilli * g.x.back(), y0 = kToMilli * g.y.front(),
+               y1 = kToMilli * g.y.back();
   const double height = width * (y1 - y0) / (x1 - x0);
   const auto frame = [&](int k) { return SvgFrame{60 + k * (width + 60), top, width, height, x0, x1, y0, y1}; };
   draw_map(page, frame(0), g, kPressureColours, scaled(g.p_a, 1 / p));
   draw_map(page, frame(1), g, kPressureColours, scaled(g.p_b, 1 / p));
   draw_map(page, frame(2), g, kDifferenceColours, gap);
   page.axes(frame(0), "x [mm], rolling to the right",
-            fmt::format("p of {}: 0 to {:.0f} MPa, y [mm]", a.name, kMega * p));
+            fmt::format("p of {}: 0 to {:.0f} MPa, y [mm]", a.name, kToMega * p));
   page.axes(frame(1), "x [mm]", fmt::format("p of {}, same colours", b.name));
-  page.axes(frame(2), "x [mm]", fmt::format("difference: -{0:.0f} (blue) to {0:.0f} MPa (red)", kMega * reach));
+  page.axes(frame(2), "x [mm]", fmt::format("difference: -{0:.0f} (blue) to {0:.0f} MPa (red)", kToMega * reach));
 }
 
 }  // namespace
@@ -92,10 +94,10 @@ std::string comparison_svg(const PictureSide& a, const PictureSide& b, const Fie
                        50,
                        930,
                        280,
-                       kMilli * g.x.front(),
-                       kMilli * g.x.back(),
+                       kToMilli * g.x.front(),
+                       kToMilli * g.x.back(),
                        0,
-                       1.08 * kMega * std::max({largest(g.p_a), largest(g.p_b), 1.0})};
+                       1.08 * kToMega * std::max({largest(g.p_a), largest(g.p_b), 1.0})};
   page.axes(lines, "x [mm] from the axle, rolling to the right",
             "p (lines) and |q| (dashed) through the largest pressure [MPa]");
   draw_centre_line(page, lines, a, kColourA);

@@ -9,8 +9,10 @@
 
 #include "core/faults.hpp"
 #include "io/csv.hpp"
+#include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "report/page.hpp"
+#include "report/payload.hpp"
 
 namespace railstrata {
 namespace {
@@ -18,22 +20,20 @@ namespace {
 using Json = nlohmann::ordered_json;
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostRows = 1000;  // of passes.csv
+constexpr std::size_t kMostPasses = 1000;  // of passes.csv
 
-/// Six digits.
-Json number(double v) { return std::isfinite(v) ? Json(std::stod(fmt::format("{:.6g}", v))) : Json(nullptr); }
-
+/// Every `step`-th row.
 Json columns(const CsvTable& table, std::size_t step = 1) {
   Json out = Json::object();
   for (const CsvColumn& c : table.columns) {
     Json& values = out[c.name] = Json::array();
-    for (std::size_t i = 0; i < c.values.size(); i += step) values.push_back(number(c.values[i]));
+    for (std::size_t i = 0; i < c.values.size(); i += step) values.push_back(short_number(c.values[i]));
   }
   return out;
 }
 
 /// Of many passes every so many, as a chart shows them.
-Json passes_columns(const CsvTable& table) { return columns(table, 1 + table.rows() / kMostRows); }
+Json passes_columns(const CsvTable& table) { return columns(table, 1 + table.rows() / kMostPasses); }
 
 Json columns_if_there(const fs::path& file) { return fs::exists(file) ? columns(read_csv(file)) : Json(nullptr); }
 

@@ -10,6 +10,8 @@
 
 #include "core/engine.hpp"
 #include "core/faults.hpp"
+#include "core/si_prefix.hpp"
+#include "io/json_text.hpp"
 #include "io/provenance.hpp"
 #include "io/result_reference.hpp"
 #include "material/elastic.hpp"
@@ -23,13 +25,10 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int kMostPoints = 300, kMostRows = 1500;
-constexpr double kMilli = 1e3, kMicro = 1e6, kMega = 1e-6;
-
-Json number(double v) { return std::isfinite(v) ? Json(std::stod(fmt::format("{:.6g}", v))) : Json(nullptr); }
 
 Json numbers(const std::vector<double>& values, double factor = 1) {
   Json out = Json::array();
-  for (double v : values) out.push_back(number(factor * v));
+  for (double v : values) out.push_back(short_number(factor * v));
   return out;
 }
 
@@ -97,18 +96,18 @@ Json patch(const ContactField& f) {
   Json out;
   out["x"] = Json::array();
   out["y"] = Json::array();
-  for (int s : stations) out["x"].push_back(number(kMilli * f.x[at(s, 0)]));
-  for (int c : columns) out["y"].push_back(number(kMilli * f.y[c]));
+  for (int s : stations) out["x"].push_back(short_number(kToMilli * f.x[at(s, 0)]));
+  for (int c : columns) out["y"].push_back(short_number(kToMilli * f.y[c]));
   const auto values = [&](const std::vector<double>& all, double factor) {
     std::vector<double> v;
     for (int s : stations)
       for (int c : columns) v.push_back(factor * all[at(s, c)]);
     return packed(v);
   };
-  out["p"] = values(f.p, kMega);
-  out["q_x"] = values(f.q_x, kMega);
-  out["q_y"] = values(f.q_y, kMega);
-  const double slip_unit = f.slip_is_distance ? kMicro : kMilli;
+  out["p"] = values(f.p, kToMega);
+  out["q_x"] = values(f.q_x, kToMega);
+  out["q_y"] = values(f.q_y, kToMega);
+  const double slip_unit = f.slip_is_distance ? kToMicro : kToMilli;
   out["slip_x"] = values(f.slip_x, slip_unit);
   out["slip_y"] = values(f.slip_y, slip_unit);
   out["slip_unit"] = f.slip_is_distance ? "µm" : "mm/s";
@@ -121,11 +120,11 @@ Json patch(const ContactField& f) {
 
 Json centre(const ContactField& field) {
   const CentreLine line = centre_line(field);
-  return {{"x_mm", numbers(line.x, kMilli)},
-          {"p_MPa", numbers(line.p, kMega)},
-          {"q_x_MPa", numbers(line.q_x, kMega)},
-          {"q_y_MPa", numbers(line.q_y, kMega)},
-          {"y", Json::array({number(kMilli * line.y)})}};
+  return {{"x_mm", numbers(line.x, kToMilli)},
+          {"p_MPa", numbers(line.p, kToMega)},
+          {"q_x_MPa", numbers(line.q_x, kToMega)},
+          {"q_y_MPa", numbers(line.q_y, kToMega)},
+          {"y", Json::array({short_number(kToMilli * line.y)})}};
 }
 
 Json of_each(const std::vector<ContactField>& fields, Json (*part)(const ContactField&)) {
@@ -181,7 +180,7 @@ Json film(const std::optional<CsvTable>& table, bool own_grids) {
                             state = table->column("state_0separated_1stick_2slip");
   const FilmRows rows{x, y, q_x, q_y, state};
   const std::vector<double> all_x = unique(x), all_y = unique(y);
-  Json out{{"x", own_grids ? Json::array({number(all_x.front()), number(all_x.back())}) : numbers(all_x)},
+  Json out{{"x", own_grids ? Json::array({short_number(all_x.front()), short_number(all_x.back())}) : numbers(all_x)},
            {"y", numbers(all_y)},
            {"frames", Json::array()}};
   for (std::size_t i = 0; i < step.size();) {
@@ -191,7 +190,7 @@ Json film(const std::optional<CsvTable>& table, bool own_grids) {
     const std::vector<double> own = unique({from, to});
     Json frame = rows.on_grid(first, i, own_grids ? own : all_x, all_y);
     frame["step"] = step[first];
-    frame["distance_mm"] = number(distance[first]);
+    frame["distance_mm"] = short_number(distance[first]);
     if (own_grids) frame["x"] = numbers(own);
     out["frames"].push_back(std::move(frame));
   }
@@ -236,7 +235,7 @@ Json section(const CsvTable& table, bool longitudinal) {
   const std::vector<double>& along = longitudinal ? x : y;
   std::vector<double> rows;
   for (std::size_t i = 0; i < depth.size(); i += width) rows.push_back(depth[i]);
-  Json out{{"at", number(longitudinal ? y[0] : x[0])},
+  Json out{{"at", short_number(longitudinal ? y[0] : x[0])},
            {"along", numbers({along.begin(), along.begin() + static_cast<std::ptrdiff_t>(width)})},
            {"depth", numbers(rows)},
            {"von_mises", packed(table.column("von_mises_MPa"))},
@@ -384,8 +383,6 @@ Json run_json(const ReportRun& run, bool with_slices) {
           {"shakedown", shakedown(run)}};
 }
 
-Json finite(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
-
 Json grids_json(const ReportGrids& row) {
   Json grids = Json::array();
   for (const ReportGrid& g : row.grids) {
@@ -393,7 +390,7 @@ Json grids_json(const ReportGrids& row) {
     for (const ReportGridCell& c : g.cells)
       cells.push_back(c.verdict.empty() && !std::isfinite(c.factor)
                           ? Json(nullptr)
-                          : Json{{"verdict", c.verdict}, {"factor", finite(c.factor)}, {"fails_by", c.fails_by}});
+                          : Json{{"verdict", c.verdict}, {"factor", json_number(c.factor)}, {"fails_by", c.fails_by}});
     grids.push_back({{"name", g.name}, {"x", g.x}, {"y", g.y}, {"cells", cells}});
   }
   return {{"id", row.id}, {"title", row.title}, {"note", row.note}, {"x", row.x},
@@ -401,6 +398,10 @@ Json grids_json(const ReportGrids& row) {
 }
 
 }  // namespace
+
+Json short_number(double v) {
+  return std::isfinite(v) ? json_number(std::stod(fmt::format("{:.6g}", v))) : json_number(v);
+}
 
 Json report_payload(const Report& report) {
   Json out;
@@ -418,8 +419,8 @@ Json report_payload(const Report& report) {
                              {"runs", c.runs},
                              {"judged", c.judged},
                              {"ok", c.ok},
-                             {"value", finite(c.value)},
-                             {"limit", finite(c.limit)},
+                             {"value", json_number(c.value)},
+                             {"limit", json_number(c.limit)},
                              {"note", c.note}});
   for (const ReportRun& run : report.runs) out["runs"].push_back(run_json(run, report.runs.size() < 3));
   for (const ReportTable& t : report.tables)

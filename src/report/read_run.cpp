@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "core/faults.hpp"
+#include "core/text.hpp"
 #include "io/provenance.hpp"
 
 namespace railstrata {
@@ -22,26 +23,13 @@ fs::path file_of(const fs::path& folder, const std::string& name) {
   return {};
 }
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 nlohmann::ordered_json json_of(const fs::path& file) {
   if (file.empty()) return nullptr;
-  nlohmann::ordered_json out = nlohmann::ordered_json::parse(text_of(file), nullptr, false);
+  nlohmann::ordered_json out = nlohmann::ordered_json::parse(file_text(file), nullptr, false);
   if (!out.is_object())
     throw CaseError("this is not a JSON object", "write the results anew with `railstrata run` or `railstrata bem`",
                     file.string());
   return out;
-}
-
-std::string trimmed(std::string text) {
-  text.erase(0, text.find_first_not_of(" \t"));
-  text.erase(text.find_last_not_of(" \t\r") + 1);
-  return text;
 }
 
 std::string unquoted(const std::string& text) {
@@ -62,7 +50,8 @@ std::vector<CaseOption> options_of(const std::string& text) {
     else if (line[0] == '[')
       table = line.substr(1, line.find(']') - 1);
     else if (const auto equals = line.find('='); equals != std::string::npos)
-      out.push_back({table, trimmed(line.substr(0, equals)), unquoted(trimmed(line.substr(equals + 1)))});
+      out.push_back({table, std::string(trimmed(line.substr(0, equals))),
+                     unquoted(std::string(trimmed(line.substr(equals + 1))))});
   }
   return out;
 }
@@ -97,7 +86,7 @@ ReportRun read_report_run(const fs::path& folder) {
   run.result = read_result_folder(folder);
   run.name = fs::absolute(folder / "").lexically_normal().parent_path().filename().string();
   if (const fs::path file = file_of(folder, "case.toml"); !file.empty()) {
-    run.options = options_of(text_of(file));
+    run.options = options_of(file_text(file));
     run.profile_sha256 = profiles_of(run, file.parent_path());
   }
   run.doubts = result_doubts(run.result);

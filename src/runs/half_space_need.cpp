@@ -8,6 +8,7 @@
 #include "bem/transient.hpp"
 #include "core/faults.hpp"
 #include "runs/memory_need.hpp"
+#include "runs/process_memory.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 // What a half-space solution of a case will cost, found before it is begun.
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "model/model.hpp"
 
 namespace railstrata {

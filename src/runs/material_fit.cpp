@@ -12,13 +12,13 @@
 #include "case/text_file.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
+#include "core/si_prefix.hpp"
 #include "io/provenance.hpp"
 #include "report/plots.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr double kMega = 1e-6, kPercent = 100;
 constexpr int kDrawn = 200;  // points of a fitted curve
 
 std::string file_text(const std::filesystem::path& file) {
@@ -36,13 +36,13 @@ auto at_place(const std::string& place, Work&& work) {
   }
 }
 
-std::string megapascal(double value) { return fmt::format("\"{:.10g} MPa\"", kMega * value); }
+std::string megapascal(double value) { return fmt::format("\"{:.10g} MPa\"", kToMega * value); }
 
 PlotCurve measured(const std::string& name, const std::vector<CurvePoint>& points) {
   PlotCurve out{name, {}, {}, true};
   for (const CurvePoint& p : points) {
-    out.x.push_back(kPercent * p.plastic_strain);
-    out.y.push_back(kMega * p.stress);
+    out.x.push_back(kToPercent * p.plastic_strain);
+    out.y.push_back(kToMega * p.stress);
   }
   return out;
 }
@@ -52,8 +52,8 @@ PlotCurve fitted(double from, double to, Stress&& stress) {
   PlotCurve out{"fit", {}, {}, false};
   for (int i = 0; i <= kDrawn; ++i) {
     const double e = from + (to - from) * i / kDrawn;
-    out.x.push_back(kPercent * e);
-    out.y.push_back(kMega * stress(e));
+    out.x.push_back(kToPercent * e);
+    out.y.push_back(kToMega * stress(e));
   }
   return out;
 }
@@ -78,7 +78,7 @@ void note_large_strains(const std::vector<CurvePoint>& points, const std::string
   if (largest > from)
     notes.push_back(fmt::format(
         "{}: plastic strain reaches {:.1f} %: {}; percents need their unit in the column's name, \"strain [%]\"", place,
-        kPercent * largest,
+        kToPercent * largest,
         largest > kNoClaim ? "small strain no longer describes it, the fit is no claim"
                            : "the law is one of small strain, stresses are some per cent off"));
 }
@@ -153,10 +153,10 @@ MaterialFit fit_material(const MaterialTests& tests, double young) {
 std::vector<std::string> fit_remarks(const MaterialFit& fit, const std::string& cyclic, const std::string& monotonic) {
   std::vector<std::string> out{fmt::format(
       "Fitted by RailStrata {} to {}: error {:.2f} % of the largest stress (root mean square), {:.2f} % at most",
-      version_text(), cyclic, kPercent * fit.stabilised.error, kPercent * fit.stabilised.largest_error)};
+      version_text(), cyclic, kToPercent * fit.stabilised.error, kToPercent * fit.stabilised.largest_error)};
   if (!monotonic.empty())
-    out.push_back(fmt::format("and to {}: error {:.2f} %, {:.2f} % at most", monotonic, kPercent * fit.whole.error,
-                              kPercent * fit.whole.largest_error));
+    out.push_back(fmt::format("and to {}: error {:.2f} %, {:.2f} % at most", monotonic, kToPercent * fit.whole.error,
+                              kToPercent * fit.whole.largest_error));
   else
     out.emplace_back("yield_strength is that of the stabilised cycle: a monotonic curve (--monotonic) tells Q and b");
   return out;

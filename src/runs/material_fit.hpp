@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "case/case_spec.hpp"
+#include "case/case_fwd.hpp"
 #include "material/calibrate.hpp"
 
 namespace railstrata {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/faults.hpp"
+#include "core/si_prefix.hpp"
 #include "material/strain_claim.hpp"
 #include "model/material_strength.hpp"
 #include "report/plots.hpp"
@@ -13,7 +14,6 @@
 namespace railstrata {
 namespace {
 
-constexpr double kMega = 1e-6, kPercent = 100;
 constexpr std::size_t kMostTraced = 20000;  // states that a picture shows
 constexpr double kStill = 0.02;             // of the largest range: a component that moves less is not drawn
 constexpr std::size_t kMostLoops = 3;
@@ -24,8 +24,8 @@ CaseError beyond(const PlasticMaterial& material, const MaterialPathTable& table
   const double most = largest_stress(material.plastic);
   return CaseError(
       fmt::format("no strain gives the stress of this row: the material follows to {:.0f} % of the way{}",
-                  kPercent * e.reached,
-                  std::isfinite(most) ? fmt::format(", it bears {:.1f} MPa (von Mises) at most", kMega * most) : ""),
+                  kToPercent * e.reached,
+                  std::isfinite(most) ? fmt::format(", it bears {:.1f} MPa (von Mises) at most", kToMega * most) : ""),
       "lower the stress, or prescribe the strain of this direction (a column e_xx instead of s_xx)", table.where(row));
 }
 
@@ -56,8 +56,8 @@ Plot loops(const MaterialRun& run) {
   for (const std::size_t j : moving(run.trace, &MaterialState::stress)) {
     PlotCurve curve{fmt::format("s_{0} by e_{0}", kComponents[j]), {}, {}, false};
     for (const MaterialState& s : run.trace) {
-      curve.x.push_back(kPercent * s.strain[j]);
-      curve.y.push_back(kMega * s.stress[j]);
+      curve.x.push_back(kToPercent * s.strain[j]);
+      curve.y.push_back(kToMega * s.stress[j]);
     }
     out.curves.push_back(std::move(curve));
   }
@@ -69,12 +69,12 @@ Plot along_path(const MaterialRun& run) {
   PlotCurve accumulated{"p, accumulated", {}, {}, false};
   const auto n = static_cast<double>(std::max<std::size_t>(run.trace.size(), 2) - 1);
   for (std::size_t i = 0; i < run.trace.size(); ++i) {
-    accumulated.x.push_back(kPercent * static_cast<double>(i) / n);
-    accumulated.y.push_back(kPercent * run.trace[i].history[6]);
+    accumulated.x.push_back(kToPercent * static_cast<double>(i) / n);
+    accumulated.y.push_back(kToPercent * run.trace[i].history[6]);
   }
   for (const std::size_t j : moving(run.trace, &MaterialState::strain)) {
     PlotCurve curve{fmt::format("{}", kComponents[j]), accumulated.x, {}, false};
-    for (const MaterialState& s : run.trace) curve.y.push_back(kPercent * s.history[j]);
+    for (const MaterialState& s : run.trace) curve.y.push_back(kToPercent * s.history[j]);
     out.curves.push_back(std::move(curve));
   }
   out.curves.push_back(std::move(accumulated));
@@ -87,7 +87,7 @@ Plot by_cycle(const MaterialRun& run) {
     PlotCurve curve{fmt::format("{}", kComponents[j]), {}, {}, run.cycles.size() < 3};
     for (std::size_t n = 0; n < run.cycles.size(); ++n) {
       curve.x.push_back(static_cast<double>(n + 1));
-      curve.y.push_back(kPercent * run.cycles[n].net[j]);
+      curve.y.push_back(kToPercent * run.cycles[n].net[j]);
     }
     out.curves.push_back(std::move(curve));
   }
@@ -166,7 +166,7 @@ std::vector<CsvColumn> point_columns(const MaterialRun& run, bool strains) {
   }
   for (std::size_t j = 0; j < 6; ++j) {
     out.push_back({fmt::format("s_{}_MPa", kComponents[j]), {}});
-    for (const MaterialState& s : run.states) out.back().values.push_back(kMega * s.stress[j]);
+    for (const MaterialState& s : run.states) out.back().values.push_back(kToMega * s.stress[j]);
   }
   out.push_back({"p", {}});
   for (const MaterialState& s : run.states) out.back().values.push_back(s.history[6]);

@@ -1,14 +1,9 @@
 #include "runs/memory_need.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
-
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <string>
 
 #include "core/faults.hpp"
+#include "runs/process_memory.hpp"
 
 namespace railstrata {
 namespace {
@@ -18,34 +13,10 @@ namespace {
 // bytes.
 constexpr double kBytesPerNode = 300 + 3 * 96, kBase = 60e6;
 
-/// A file of one number of bytes; without limit if it says so or is not there.
-double number_in(const char* file) {
-  double value = 0;
-  std::ifstream in(file);
-  return in >> value ? value : HUGE_VAL;
-}
-
-double available_in_system() {
-  std::ifstream in("/proc/meminfo");
-  for (std::string word; in >> word;)
-    if (double kilobytes = 0; word == "MemAvailable:" && in >> kilobytes) return 1024 * kilobytes;
-  return HUGE_VAL;
-}
-
 }  // namespace
 
 double memory_needed(const Model& model) {
   return kBase + kBytesPerNode * static_cast<double>(model.rail.nodes() + model.wheel.nodes());
-}
-
-double memory_at_hand() {
-  rlimit limit{};
-  getrlimit(RLIMIT_AS, &limit);
-  const double address_space = limit.rlim_cur == RLIM_INFINITY ? HUGE_VAL : static_cast<double>(limit.rlim_cur);
-  const double group =
-      number_in("/sys/fs/cgroup/memory.max") -
-      (std::ifstream("/sys/fs/cgroup/memory.current") ? number_in("/sys/fs/cgroup/memory.current") : 0);
-  return std::min({available_in_system(), group, address_space});
 }
 
 void require_memory(const Model& model) {

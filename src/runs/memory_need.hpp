@@ -7,10 +7,6 @@ namespace railstrata {
 /// Bytes that a run of the model needs at its peak, a checkpoint, from the number of its nodes; rounded up.
 double memory_needed(const Model& model);
 
-/// Bytes that this process may still take: the least of what the system has available, its control group's limit and
-/// the limit of its address space.
-double memory_at_hand();
-
 /// Throws EnvironmentError that names both and what to change if the run does not fit.
 void require_memory(const Model& model);
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "body/traversal.hpp"
-#include "runs/peak_memory.hpp"
+#include "runs/process_memory.hpp"
 
 namespace railstrata {
 namespace {

@@ -10,7 +10,7 @@
 #include "post/fem_summary.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/memory_need.hpp"
-#include "runs/peak_memory.hpp"
+#include "runs/process_memory.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,7 +7,7 @@
 #include "io/provenance.hpp"
 #include "post/bem_summary.hpp"
 #include "post/half_space_track.hpp"
-#include "runs/peak_memory.hpp"
+#include "runs/process_memory.hpp"
 
 namespace railstrata {
 namespace {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 #include <vector>
+#include <nlohmann/json.hpp>
 
 #include "core/faults.hpp"
 #include "io/damage_files.hpp"

@@ -1,5 +1,7 @@
 #include "runs/write_half_space_result.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "io/damage_files.hpp"
 #include "io/geometry_json.hpp"
 #include "io/placed_surfaces.hpp"

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/shell_word.hpp"
+
 namespace railstrata {
 namespace {
 
@@ -28,14 +30,6 @@ std::string index_ranges(const std::vector<int>& indices) {
     k = last + 1;
   }
   return out;
-}
-
-std::string shell_word(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
 }
 
 std::string slurm_script(const BatchJob& job) {

@@ -26,7 +26,5 @@ std::string slurm_script(const BatchJob& job);
 
 /// "1-3,7": ascending.
 std::string index_ranges(const std::vector<int>& indices);
-/// For a shell: 'it'\''s'; words of plain characters as they are.
-std::string shell_word(const std::string& word);
 
 }  // namespace railstrata

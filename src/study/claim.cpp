@@ -17,6 +17,7 @@
 
 #include "core/faults.hpp"
 #include "core/printable.hpp"
+#include "core/text.hpp"
 #include "io/output_file.hpp"
 #include "io/this_process.hpp"
 
@@ -42,13 +43,6 @@ std::optional<double> time_of(int descriptor) {
   struct stat s {};
   if (descriptor < 0 || ::fstat(descriptor, &s) != 0) return std::nullopt;
   return static_cast<double>(s.st_mtim.tv_sec) + 1e-9 * static_cast<double>(s.st_mtim.tv_nsec);
-}
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
 }
 
 std::string job_id() {
@@ -113,7 +107,7 @@ bool create(const fs::path& file, const std::string& text) {
 bool remove(const fs::path& file, const std::string& text) {
   const fs::path aside = file.string() + part_ending();
   if (::rename(file.c_str(), aside.c_str()) != 0) return false;
-  const bool right = text_of(aside) == text;
+  const bool right = file_text(aside) == text;
   if (!right) static_cast<void>(::link(aside.c_str(), file.c_str()) == 0);
   ::unlink(aside.c_str());
   return right;
@@ -163,7 +157,7 @@ std::optional<double> written_at(const fs::path& file) {
 }
 
 std::string claimed_by(const fs::path& file) {
-  const std::optional<Owner> owner = owner_of(text_of(file));
+  const std::optional<Owner> owner = owner_of(file_text(file));
   if (!owner) return fs::exists(file) ? "an unknown process" : "";
   return printable(fmt::format("{}, process {}{}", owner->process.host, owner->process.id,
                                owner->job.empty() ? "" : ", job " + owner->job));
@@ -188,12 +182,12 @@ std::optional<Claim> Claim::take(const fs::path& file, double lease) {
   const std::string text = new_text(lease);
   if (create(file, text)) return Claim(file, text, lease);
   refuse_what_is_no_file(file);
-  const std::string others = text_of(file);
+  const std::string others = file_text(file);
   if (!is_dead(file, others, lease) || !remove(file, others) || !create(file, text)) return std::nullopt;
   return Claim(file, text, lease);
 }
 
-bool Claim::is_ours() const { return ours_ && text_of(file_) == text_; }
+bool Claim::is_ours() const { return ours_ && file_text(file_) == text_; }
 
 bool Claim::renew() {
   const auto now = std::chrono::steady_clock::now();

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/si_prefix.hpp"
 #include "io/csv.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMilli = 1e-3, kMicro = 1e-6, kSquareMillimetre = 1e-6;
+constexpr double kSquareMillimetre = 1e-6;
 constexpr double kPerThousandKilometres = 1e-12;  // of m per m: µm per 1000 km
 
 bool known(const std::vector<double>& values) {
@@ -149,8 +150,6 @@ ReportTable totals_table(const std::vector<CollectiveRow>& rows, const RailDamag
   t.rows.push_back({"RCF damage", "", nullptr, damage.rcf_damage[cracked], damage.y[cracked] / kMilli});
   return t;
 }
-
-constexpr const char* kAcross = "y across the rail, from its axis to the field side [mm]";
 
 /// The cells that are rolled over, with a little room on either side, from `first` up to `second`.
 std::pair<std::size_t, std::size_t> rolled_range(const std::vector<double>& passages) {

@@ -9,6 +9,9 @@
 
 namespace railstrata {
 
+/// Title of the axis of pictures across the rail.
+inline constexpr const char* kAcross = "y across the rail, from its axis to the field side [mm]";
+
 /// collective.csv: a row for each load.
 void write_collective_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
                             const std::vector<CollectiveRow>& rows);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 #include <sstream>
+#include <nlohmann/json.hpp>
 
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"

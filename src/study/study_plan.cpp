@@ -16,8 +16,6 @@
 namespace railstrata {
 namespace {
 
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
-
 /// The last part of a key, or all of it where two keys of the group end alike.
 std::string short_name(const std::string& key, const StudyPoint& point) {
   const auto alike = std::count_if(point.begin(), point.end(),
@@ -76,6 +74,8 @@ void add_placed(const CaseError& e, const LoadedStudy& study, const std::vector<
 }
 
 }  // namespace
+
+std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
 
 std::string result_key(const LoadedCase& loaded, Engine engine, const std::string& cell) {
   std::string text = fmt::format("{} {} {}\n", engine_word(engine), kResultVersion, engine == Engine::bem ? cell : "");

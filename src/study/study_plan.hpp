@@ -29,6 +29,9 @@ struct StudyCase {
   std::string label() const { return group + "/" + name + " (" + std::string(engine_title(engine)) + ")"; }
 };
 
+/// "thickness" of "layer.0.thickness".
+std::string last_part(const std::string& key);
+
 /// What decides a result: engine, kResultVersion, the resolved case without its title (profile files by their content),
 /// and of the half-space engine the cell size.
 std::string result_key(const LoadedCase& loaded, Engine engine, const std::string& cell);

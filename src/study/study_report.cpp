@@ -17,15 +17,14 @@
 #include "report/read_run.hpp"
 #include "study/published_table.hpp"
 #include "study/result_columns.hpp"
+#include "study/study_plan.hpp"
 
 namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
-
-std::string last_part(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
 
 /// What a key is called on an axis.
 std::string key_name(const std::string& key) {
@@ -402,13 +401,13 @@ std::string StudyEntry::value(const std::string& key) const {
 double StudyEntry::number(const std::string& column) const {
   for (const auto& [known, v] : numbers)
     if (known == column) return v;
-  return kNothing;
+  return kNotThere;
 }
 
 std::pair<double, std::string> axis_value(const std::string& text) {
   char* end = nullptr;
   const double v = std::strtod(text.c_str(), &end);
-  if (end == text.c_str()) return {kNothing, text};
+  if (end == text.c_str()) return {kNotThere, text};
   std::string unit(end);
   unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
   return {v, unit};

@@ -14,9 +14,9 @@
 #include <thread>
 
 #include "core/faults.hpp"
+#include "core/text.hpp"
 #include "io/kept_inputs.hpp"
 #include "io/output_file.hpp"
-#include "post/row_strength.hpp"
 #include "study/child_process.hpp"
 #include "study/study_results.hpp"
 
@@ -28,13 +28,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double kPatience = 20;  // s; batch systems wait about thirty before they kill
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 /// What the log says went wrong: its first error, else its last line.
 std::string reason_of(const std::string& log, int status) {
@@ -54,7 +47,7 @@ bool has_result(int status) {
 
 /// How far a case is by the last percentage in its log.
 double fraction_of(const fs::path& log) {
-  const std::string text = text_of(log);
+  const std::string text = file_text(log);
   const auto at = text.rfind(" %");
   if (at == std::string::npos || at < 3) return 0;
   double percent = 0;
@@ -199,8 +192,8 @@ class Pool {
 
   std::string fault_of(const Running& r, int status) const {
     const StudyCase& c = *r.study_case;
-    if (!has_result(status)) return reason_of(text_of(r.folder / "log.txt"), status);
-    if (!text_of(r.folder / "case.toml").ends_with(kept_case(c.loaded, kept_inputs(c.loaded, r.folder))))
+    if (!has_result(status)) return reason_of(file_text(r.folder / "log.txt"), status);
+    if (!file_text(r.folder / "case.toml").ends_with(kept_case(c.loaded, kept_inputs(c.loaded, r.folder))))
       return "the base case changed while the study ran: start it again";
     return "";
   }
@@ -295,22 +288,7 @@ class Pool {
 
 }  // namespace
 
-std::vector<std::string> case_command(const StudyCase& c, const std::string& cell, int threads,
-                                      const fs::path& folder) {
-  std::vector<std::string> words{std::string(row_of(c.engine).command), c.loaded.file.string()};
-  for (const std::string& o : c.overrides) words.insert(words.end(), {"--set", o});
-  if (c.engine == Engine::bem && !cell.empty()) words.insert(words.end(), {"--cell", cell});
-  const CaseSpec& spec = c.loaded.spec;
-  if (c.engine == Engine::bem && (strength_given(spec, BodyId::rail) || strength_given(spec, BodyId::wheel)))
-    words.emplace_back("--no-single-track");  // a third of the time of a case, and the same for hundreds of them
-  words.insert(words.end(),
-               {"--out", folder.string(), "--force", "--no-report", "--threads", fmt::format("{}", threads)});
-  return words;
-}
-
-std::vector<std::string> resume_command(int threads, const fs::path& folder) {
-  return {"run", "--resume", folder.string(), "--no-report", "--threads", fmt::format("{}", threads)};
-}
+void require_case_processes() {}
 
 StudyRunEnd run_cases(const StudyRun& run, const std::vector<const StudyCase*>& cases) {
   return Pool(run, cases).work();

@@ -31,6 +31,9 @@ std::vector<std::string> case_command(const StudyCase& c, const std::string& cel
 /// Those that go on with a finite element case from the checkpoint of its folder.
 std::vector<std::string> resume_command(int threads, const std::filesystem::path& folder);
 
+/// Throws EnvironmentError on a system where the program does not start processes.
+void require_case_processes();
+
 /// Computes those of these cases that no living process claims, in their order; of the others it waits for the results.
 /// Cases not yet ended when `stop` is set are left for the next time, those by finite elements with a checkpoint to go
 /// on from. Throws EnvironmentError for the disk, CaseError where another

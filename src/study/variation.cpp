@@ -5,26 +5,24 @@
 #include <algorithm>
 
 #include "core/faults.hpp"
+#include "core/text.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr const char* kHowTo = "write --vary key=value,value, for example --vary layer.0.young_ratio=0.5,1,2";
 
-/// Without blanks and quotes around it: "3 mm" and 3 mm are the same value here.
-std::string trimmed(const std::string& text) {
-  const auto begin = text.find_first_not_of(" \t\"'"), end = text.find_last_not_of(" \t\"'");
-  return begin == std::string::npos ? "" : text.substr(begin, end - begin + 1);
-}
+/// "3 mm" and 3 mm are the same value here.
+std::string value_of(std::string_view text) { return std::string(trimmed(text, " \t\"'")); }
 
 VariedKey parse_one(const std::string& text) {
   const auto equals = text.find('=');
-  if (equals == std::string::npos || trimmed(text.substr(0, equals)).empty())
+  if (equals == std::string::npos || value_of(text.substr(0, equals)).empty())
     throw CaseError(fmt::format("--vary \"{}\" names no key", text), kHowTo);
-  VariedKey out{trimmed(text.substr(0, equals)), {}};
+  VariedKey out{value_of(text.substr(0, equals)), {}};
   for (std::size_t begin = equals + 1; begin <= text.size();) {
     const auto comma = std::min(text.find(',', begin), text.size());
-    out.values.push_back(trimmed(text.substr(begin, comma - begin)));
+    out.values.push_back(value_of(text.substr(begin, comma - begin)));
     if (out.values.back().empty()) throw CaseError(fmt::format("--vary \"{}\" has an empty value", text), kHowTo);
     begin = comma + 1;
   }

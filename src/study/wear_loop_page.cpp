@@ -9,14 +9,14 @@
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
 #include "report/page.hpp"
+#include "study/collective_files.hpp"
 
 namespace railstrata {
 namespace {
 
-constexpr const char* kAcross = "y across the rail, from its axis to the field side [mm]";
 constexpr const char* kPassages = "passages of the whole collective";
-constexpr double kWorn = 1e-8;         // m, less is the round-off of the files
-constexpr std::size_t kMostLines = 6;  // profiles in one chart
+constexpr double kWorn = 1e-8;            // m, less is the round-off of the files
+constexpr std::size_t kMostProfiles = 6;  // profiles in one chart
 
 double distance_to_piece(Vec2 p, Vec2 a, Vec2 b) {
   const Vec2 along = b - a;
@@ -42,7 +42,7 @@ Reach reach_of(const std::vector<double>& depth) {
 /// The last profile and some before it, evenly.
 std::vector<const WornProfile*> some_of(const std::vector<WornProfile>& profiles) {
   std::vector<const WornProfile*> out;
-  const std::size_t n = std::min(profiles.size(), kMostLines);
+  const std::size_t n = std::min(profiles.size(), kMostProfiles);
   for (std::size_t k = 1; k <= n; ++k) out.push_back(&profiles[(k * profiles.size()) / n - 1]);
   return out;
 }

@@ -329,6 +329,21 @@ class Octave(Exported):
         self.assertAlmostEqual(float(words[3]) / p_max, 1, places=9)
         self.assertEqual(words[4:], ["MPa", "1", "1", "railstrata:no_result"])
 
+    def test_each_patch_of_a_wheel_is_a_struct_and_a_film_is_no_patch(self):
+        if shutil.which("octave-cli") is None:
+            print("skipped: Octave is not installed")
+            sys.exit(77)
+        out = self.folder / "two"
+        out.mkdir()
+        (out / "summary.json").write_text("{}")
+        (out / "patch.csv").write_text("patch,x_mm,p_MPa\n" + "".join(f"{k},{x},{10 * k + x}\n" for k, x in
+                                                                      [(1, 0), (1, 0), (1, 1), (1, 1), (2, 5), (2, 6)]))
+        (out / "patch_film.csv").write_text("at_mm,x_mm,p_MPa\n0,1,2\n")
+        script = f"addpath('{SOURCES}/matlab'); r = railstrata_read('{out}'); " \
+                 "printf('%d ', numel(r.patch), size(r.patch(1).p_MPa), r.patch(2).p_MPa, r.patch_film.p_MPa);"
+        done = subprocess.run(["octave-cli", "-q", "--eval", script], capture_output=True, text=True, timeout=300)
+        self.assertEqual(done.stdout.split(), ["2", "2", "2", "25", "26", "2"], done.stderr)
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

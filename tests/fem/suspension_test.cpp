@@ -1,3 +1,4 @@
+#include "case/case_spec.hpp"
 #include "fem/suspension.hpp"
 
 #include <gtest/gtest.h>

@@ -3,19 +3,18 @@
 
 usage: debian_tree_test.py BUILD_DIR SOURCE_DIR FOLDER [--packages FOLDER_WITH_DEBS] [--tree TREE]
 
-Makes a minimal system by mmdebstrap, installs the packages with what they ask for, and goes the README's ways there:
-the program, two of its ranks, Python, a C and a Fortran program; then takes the packages off again. Needs root,
-mmdebstrap and an archive of Debian; skipped (77) without. --packages: those of another build (build-install/packages:
-all processors); --tree: an existing minimal system, kept as it is left.
+Makes a minimal system by mmdebstrap, installs the packages with what they ask for, and goes the ways of
+docs/commands.md there: the program, two of its ranks, Python, a C and a Fortran program; then takes the packages off
+again. Needs root, mmdebstrap and an archive of Debian; skipped (77) without. --packages: those of another build
+(build-install/packages: all processors); --tree: an existing minimal system, kept as it is left.
 """
 import argparse
-import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
-import time
+
+from debian_tree import Tree, done, made, missing
 
 ARGUMENTS = argparse.ArgumentParser(description=__doc__.split("\n")[0])
 for name in ("build", "source", "folder"):
@@ -24,30 +23,6 @@ ARGUMENTS.add_argument("--packages", type=pathlib.Path)
 ARGUMENTS.add_argument("--tree", type=pathlib.Path)
 NAMES = ["railstrata", r"librailstrata[\d.]+", "librailstrata-dev", "python3-railstrata"]
 PLUG_IN = "railstrata-mpi"
-
-
-def done(*words, **options):
-    begun = time.monotonic()
-    out = subprocess.run([str(w) for w in words], capture_output=True, text=True, timeout=3600, **options)
-    print(f"{time.monotonic() - begun:7.1f} s  {' '.join(map(str, words))[:150]}", flush=True)
-    if out.returncode:
-        sys.exit(f"exit code {out.returncode}\n{out.stdout[-4000:]}{out.stderr[-4000:]}")
-    return out.stdout
-
-
-class Tree:
-    """A system in a folder; commands in it have its /proc and nothing of this session's environment."""
-
-    def __init__(self, folder):
-        self.folder = folder
-
-    def run(self, command):
-        return done("unshare", "--mount", "--pid", "--fork", "sh", "-ec",
-                    'mount -t proc proc "$0/proc"; exec chroot "$0" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin '
-                    'HOME=/root LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive sh -ec "$1"', self.folder, command)
-
-    def apt(self, *names):
-        return self.run("apt-get install -y -qq --no-install-recommends " + " ".join(names))
 
 
 def packed(given):
@@ -60,9 +35,7 @@ def packed(given):
 
 
 def made_tree(given):
-    if not given.tree:
-        done("mmdebstrap", "--mode=root", "--variant=minbase", "bookworm", given.folder / "tree")
-    return Tree(given.tree or given.folder / "tree")
+    return Tree(given.tree) if given.tree else made(given.folder / "tree")
 
 
 def library_first(tree, debs):
@@ -91,14 +64,14 @@ def the_ranks(tree, source):
     assert (tree.folder / "root/results/ranks/summary.json").exists()
 
 
-def the_ways_of_the_readme(tree, source):
+def the_ways_of_the_page(tree, source):
     """Its blocks as they are written, without `sudo apt install`."""
-    readme = (source / "README.md").read_text()
-    code = re.search(r"\*\*A researcher.*?```python\n(.*?)```", readme, re.S)[1]
+    page = (source / "docs/commands.md").read_text()
+    code = re.search(r"\*\*A notebook.*?```python\n(.*?)```", page, re.S)[1]
     (tree.folder / "root/way.py").write_text(code)
     rows = tree.run("cd /root && python3 way.py").splitlines()
     assert [row.split()[:2] for row in rows] == [[t, "mm"] for t in ("0.5", "1", "2", "4")], rows
-    commands = re.search(r"\*\*A programmer.*?```\n(.*?)```", readme, re.S)[1]
+    commands = re.search(r"\*\*A program of your own.*?```sh\n(.*?)```", page, re.S)[1]
     lines = [line for line in commands.splitlines() if "apt install" not in line]
     out = tree.run("cd /root\n" + "\n".join(lines)).split()
     assert len(out) == 3 and all(float(word) for word in out), out
@@ -117,9 +90,8 @@ def taken_off(tree):
 
 def main():
     given = ARGUMENTS.parse_args()
-    missing = [tool for tool in ("mmdebstrap", "unshare", "cpack", "dpkg-shlibdeps") if not shutil.which(tool)]
-    if os.geteuid() != 0 or missing:
-        print(f"skipped: needs root{', ' + ', '.join(missing) if missing else ''}")
+    if lacking := missing("cpack", "dpkg-shlibdeps"):
+        print(f"skipped: needs {lacking}")
         return 77
     shutil.rmtree(given.folder, ignore_errors=True)
     given.folder.mkdir(parents=True)
@@ -136,7 +108,7 @@ def main():
     the_program(tree)
     if any(d.name.startswith(f"{PLUG_IN}_") for d in debs):
         the_ranks(tree, given.source)
-    the_ways_of_the_readme(tree, given.source)
+    the_ways_of_the_page(tree, given.source)
     taken_off(tree)
     if not given.tree:
         shutil.rmtree(given.folder)

@@ -10,14 +10,18 @@ if(RAILSTRATA_LIBRARY)
     add_test(NAME install:${group} COMMAND ${install_test} ${group})
     set_tests_properties(install:${group} PROPERTIES FIXTURES_REQUIRED installed)
   endforeach()
+  foreach(group Wheel Tarball)
+    add_test(NAME install:${group} COMMAND /usr/bin/python3 ${here}/wheel_test.py ${CMAKE_BINARY_DIR} ${CMAKE_SOURCE_DIR}
+      ${installed}/prefix ${CMAKE_CURRENT_BINARY_DIR}/packed_${group} ${group})
+    set_tests_properties(install:${group} PROPERTIES FIXTURES_REQUIRED installed SKIP_RETURN_CODE 77 LABELS slow
+      TIMEOUT 600)
+  endforeach()
   add_test(NAME install:packages COMMAND /usr/bin/python3 ${here}/packages_test.py ${CMAKE_BINARY_DIR}
     ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/packages)
   set_tests_properties(install:packages PROPERTIES SKIP_RETURN_CODE 77 LABELS packages TIMEOUT 600)
-  if(RAILSTRATA_PYTHON)
-    add_test(NAME install:debian_tree COMMAND /usr/bin/python3 ${here}/debian_tree_test.py ${CMAKE_BINARY_DIR}
-      ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/debian)
-    set_tests_properties(install:debian_tree PROPERTIES SKIP_RETURN_CODE 77 LABELS long TIMEOUT 7200)
-  endif()
+  add_test(NAME install:debian_tree COMMAND /usr/bin/python3 ${here}/debian_tree_test.py ${CMAKE_BINARY_DIR}
+    ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/debian)
+  set_tests_properties(install:debian_tree PROPERTIES SKIP_RETURN_CODE 77 LABELS long TIMEOUT 7200)
   if(RAILSTRATA_VARIANTS)
     add_test(NAME install:Variants COMMAND ${install_test} Variants)
     add_test(NAME install:compare_variants COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tools/compare_variants.py
@@ -30,3 +34,5 @@ add_test(NAME versions COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/instal
   $<TARGET_FILE:railstrata> ${CMAKE_SOURCE_DIR})
 add_test(NAME front_door COMMAND /usr/bin/python3 ${CMAKE_SOURCE_DIR}/tests/install/front_door_test.py
   ${CMAKE_SOURCE_DIR})
+add_test(NAME install:optional_parts COMMAND /usr/bin/python3
+  ${CMAKE_SOURCE_DIR}/tests/install/optional_parts_test.py ${CMAKE_SOURCE_DIR})

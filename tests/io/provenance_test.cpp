@@ -14,6 +14,14 @@ namespace {
 TEST(Provenance, Sha256OfAbcIsTheOneOfTheStandard) {  // FIPS 180-4, example "abc"
   EXPECT_EQ(sha256_of("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
   EXPECT_EQ(sha256_of(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  // lengths around the ends of blocks; the digest of all digests by Python's hashlib
+  std::string all;
+  for (const int n : {0, 3, 55, 56, 63, 64, 65, 119, 120, 1000}) {
+    std::string bytes;
+    for (int k = 0; k < n; ++k) bytes += static_cast<char>((7 * k + n) % 256);
+    all += sha256_of(bytes);
+  }
+  EXPECT_EQ(sha256_of(all), "6f04da4c287b22df9679ecb8506df1b0cdf7f08de7fd92724a8757241aafb929");
 }
 
 TEST(Provenance, NamesEveryInputWithItsSha256AndTheCommandLine) {

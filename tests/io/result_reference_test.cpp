@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <sstream>
+#include <nlohmann/json.hpp>
 
 #include "io/summary_json.hpp"
 #include "tests/places.hpp"

@@ -80,7 +80,7 @@ struct HertzBand {
 
 }  // namespace
 
-// docs/damage.md, p0/k: elements of a fifth of the half-length see limits that are decided in depth.
+// docs/damage-verification.md, p0/k: elements of a fifth of the half-length see limits that are decided in depth.
 TEST(SlowBandCycles, OfACircularContactGiveTheFactorsOfItsExactStress) {
   struct Row {
     double friction, offset, first_yield, wandering, track, upper;

@@ -1,3 +1,4 @@
+#include "case/case_spec.hpp"
 #include "post/pass_plan.hpp"
 
 #include <gtest/gtest.h>

@@ -70,7 +70,7 @@ TEST(RunAdvice, GivesTheRampAsTheReasonOfATractionThatIsNotReached) {
   EXPECT_NE(missed.warnings[0].text.find(reason), std::string::npos);
 }
 
-// A ball of 6 mm semi-axes at 1051 MPa needs about 10 um (docs/bem.md); a law that does not fall, or falls gently,
+// A ball of 6 mm semi-axes at 1051 MPa needs about 10 um (docs/friction.md); a law that does not fall, or falls gently,
 // none.
 TEST(RunAdvice, WarnsOfAFrictionMemoryTooShortForStableSliding) {
   CaseSpec spec;

@@ -46,7 +46,7 @@ CaseSpec frictionless() {
 }
 
 // Circular Hertz pressure, nu = 0.3: first yield at p0/k = 2.795, shakedown 4.632 (residual stress of depth alone) and
-// at most 4.677 [Johnson1985 sec. 9.2]; docs/damage.md.
+// at most 4.677 [Johnson1985 sec. 9.2]; docs/damage-verification.md.
 TEST(ShakedownSummary, OfACircularContactIsThatOfHertzsStresses) {
   const Found found = shakedown_of(frictionless(), 0.25e-3);
   EXPECT_NEAR(found.limit(&ShakedownFactors::first_yield) / 2.795, 1, 5e-3);
@@ -92,7 +92,7 @@ TEST(SlowShakedownSummary, OneTrackLiesBetweenAnyTrafficAndTheUpperBound) {
   EXPECT_LE(sliding.factors.single_track, sliding.factors.upper);
 }
 
-// Plane strain, full slip: first yield, shakedown and kinematic limit of docs/damage.md; p0/k.
+// Plane strain, full slip: first yield, shakedown and kinematic limit of docs/damage-verification.md; p0/k.
 TEST(ShakedownSummary, OfALineContactIsTheClosedFormsStress) {
   CaseSpec spec = frictionless();
   spec.geometry.contact = ContactShape::line;
@@ -113,7 +113,7 @@ TEST(ShakedownSummary, OfALineContactIsTheClosedFormsStress) {
   }
 }
 
-// The same circle from one solution without friction: docs/damage.md at 0 and with full slip at 0.2, p0/k.
+// The same circle from one solution without friction: docs/damage-verification.md at 0 and with full slip at 0.2, p0/k.
 TEST(SlidingMap, OfACircularContactMeetsTheNumbersWithAndWithoutFriction) {
   const CaseSpec spec = frictionless();
   const BemResult r = solve_bem(spec, place(spec, {}), cells(0.25e-3));

@@ -55,7 +55,7 @@ class HalfSpaceCommands(FromOutside):
         contact = summary["contact"]
         self.assertAlmostEqual(contact["F_z_N"] / LOAD, 1, delta=1e-5)
         self.assertAlmostEqual(contact["F_x_N"] / LOAD, 0.2, delta=1e-5)
-        self.assertAlmostEqual(contact["p_max_Pa"] / 1074e6, 1, delta=0.02)  # docs/bem.md: 1072.9 MPa at 0.25 mm
+        self.assertAlmostEqual(contact["p_max_Pa"] / 1074e6, 1, delta=0.02)  # 1072.9 MPa at 0.25 mm
         self.assertLess(contact["creepage_x"], 0)
         for key in ["penetration_max_m", "p_max_scatter"]:
             self.assertIsNone(contact[key])

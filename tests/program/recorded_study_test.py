@@ -9,6 +9,7 @@ SOURCE, PROGRAM = pathlib.Path(sys.argv.pop(1)), sys.argv.pop(1)
 FOLDER = SOURCE / "cases/paper/recorded/study"
 sys.path.insert(0, str(SOURCE / "tools"))
 import engine_agreement  # noqa: E402
+import layer_table  # noqa: E402
 
 
 class RecordedStudy(unittest.TestCase):
@@ -50,6 +51,10 @@ class RecordedStudy(unittest.TestCase):
             recorded = list(csv.DictReader(file))
         self.assertEqual([(r["group"], r["case"], r["verdict"]) for r in recorded],
                          [(r["group"], r["case"], r["verdict"]) for r in self.table])
+
+    def test_the_first_page_shows_what_is_recorded(self):
+        shown, _ = layer_table.of_page((SOURCE / "README.md").read_text())
+        self.assertEqual(shown, layer_table.table(self.study), "write it anew: tools/layer_table.py --write")
 
 
 if __name__ == "__main__":

@@ -2,9 +2,12 @@
 import copy
 import gc
 import json
+import os
 import pickle
+import signal
 import subprocess
 import threading
+import time
 import warnings
 
 import numpy as np
@@ -151,6 +154,21 @@ def test_a_shift_history_is_followed_and_stopped_by_its_progress_function():
 
     with pytest.raises(RuntimeError, match="enough"):
         rs.bem(fretting, 0.1e-3, stresses=False, progress=stop)
+
+
+def test_ctrl_c_stops_a_solution_soon(case):
+    """On cells so fine that it would take long."""
+    pressed = []
+
+    def press():
+        pressed.append(time.monotonic())
+        os.kill(os.getpid(), signal.SIGINT)
+
+    timer = threading.Timer(1.0, press)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        rs.bem(case, cell=0.03e-3)
+    assert time.monotonic() - pressed[0] < 5  # a loaded machine; 0.1 s on a free one
 
 
 @pytest.mark.parametrize("none", [[], np.array([]), ()])

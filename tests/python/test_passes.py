@@ -30,7 +30,7 @@ def numbers(folder, names=NAMES):
 
 
 def words_of(case):
-    return [word for change in case._loaded.overrides for word in ("--set", change)]
+    return [word for change in case._loaded["overrides"] for word in ("--set", change)]
 
 
 def test_numbers_are_those_of_the_program_to_the_bit(program, weak, two, tmp_path):

@@ -1,0 +1,17 @@
+# For Windows: third parties that are headers alone, as Debian has them for this machine. A folder of links, because the
+# rest of /usr/include is not for that compiler.
+set(headers ${CMAKE_BINARY_DIR}/headers)
+file(MAKE_DIRECTORY ${headers})
+foreach(folder fmt spdlog CLI nlohmann toml++)
+  if(NOT EXISTS /usr/include/${folder})
+    message(FATAL_ERROR "/usr/include/${folder} is not there: ./railstrata windows installs what is needed")
+  endif()
+  file(CREATE_LINK /usr/include/${folder} ${headers}/${folder} SYMBOLIC)
+endforeach()
+foreach(target fmt::fmt spdlog::spdlog CLI11::CLI11 nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus)
+  add_library(${target} INTERFACE IMPORTED)
+  target_include_directories(${target} SYSTEM INTERFACE ${headers})
+  target_compile_definitions(${target} INTERFACE FMT_HEADER_ONLY SPDLOG_FMT_EXTERNAL)
+endforeach()
+add_library(Eigen3::Eigen INTERFACE IMPORTED)
+target_include_directories(Eigen3::Eigen SYSTEM INTERFACE /usr/include/eigen3)

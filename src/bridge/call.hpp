@@ -1,0 +1,90 @@
+#pragma once
+// A call as the functions of the bridge see it: arguments by name, an answer, and what the caller may look at while it
+// lasts. Numbers that JSON lacks travel as texts: "inf", "-inf", "nan".
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <typeinfo>
+#include <vector>
+
+namespace railstrata::bridge {
+
+using Json = nlohmann::ordered_json;
+
+/// An argument is of the wrong kind.
+struct WrongType : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Something that a call has made and later ones take.
+struct Made {
+  std::shared_ptr<void> object;
+  const std::type_info* type = nullptr;
+};
+
+/// Numbers of the caller's, or of an answer; they are not copied.
+struct Array {
+  const double* data = nullptr;
+  std::vector<std::size_t> shape;
+  std::size_t size() const;
+  std::span<const double> all() const { return {data, size()}; }
+};
+
+Json number(double value);
+std::vector<std::string> texts_of(const Json& list);
+double double_of(const Json& value);
+Array array_of(const Json& value);
+
+class Call {
+ public:
+  explicit Call(Json arguments) : arguments_(std::move(arguments)) {}
+
+  // what is asked
+  const Json& argument(const char* name) const;
+  bool flag(const char* name) const;
+  int whole(const char* name) const;
+  double number(const char* name) const;
+  std::string text(const char* name) const;
+  std::vector<std::string> texts(const char* name) const { return texts_of(argument(name)); }
+  Array array(const char* name) const { return array_of(argument(name)); }
+  /// What an earlier call has made; it lives as long as this call does too.
+  template <class T>
+  std::shared_ptr<T> made(const char* name) {
+    return std::static_pointer_cast<T>(made_before(name, typeid(T)));
+  }
+
+  // what is answered
+  Json answer = Json::object();
+  template <class T>
+  void make(std::shared_ptr<T> object) {
+    made_ = {std::move(object), &typeid(T)};
+  }
+  const Made& made() const { return made_; }
+  /// A view of numbers that this call, what it has made or an argument holds. strides: bytes, empty for an array in one
+  /// piece.
+  static Json view(const double* data, const std::vector<std::size_t>& shape, const std::vector<std::size_t>& strides);
+  static Json view(const double* data, const std::vector<std::size_t>& shape) { return view(data, shape, {}); }
+  static Json view(const unsigned char* data, const std::vector<std::size_t>& shape);
+  /// A view of numbers that the call keeps.
+  Json kept(std::vector<double> values, const std::vector<std::size_t>& shape);
+
+  // while it lasts
+  std::atomic<bool> stop{false};
+  /// What a progress function is called with.
+  void tell(const Json& how_far);
+  std::string told() const;
+
+ private:
+  std::shared_ptr<void> made_before(const char* name, const std::type_info& type);
+  Json arguments_;
+  std::vector<std::shared_ptr<void>> held_;
+  Made made_;
+  mutable std::mutex lock_;
+  std::string told_;
+};
+
+}  // namespace railstrata::bridge

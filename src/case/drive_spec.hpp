@@ -1,0 +1,52 @@
+#pragma once
+// Vehicle, drive and friction, as a case says them, in SI units.
+#include <optional>
+
+#include "friction/falling_friction.hpp"
+
+namespace railstrata {
+
+struct VehicleSpec {
+  double wheel_mass = 660.0, sprung_mass = 8000.0;
+  double suspension_stiffness = 0.95e6, suspension_damping = 10.4e3;
+  int suspension_groups = 8;
+  double gravity = 9.81;
+  std::optional<double> approach;  ///< m, of the bodies along the contact normal: then the load is a result
+  bool couple_sprung_mass = true;  ///< the sprung mass rides along with the axle in x (else it only moves vertically
+                                   ///< and does not add inertia to it)
+};
+
+/// Each direction is driven by a force or by a creepage. Forces act on the wheel, creepages are rigid slips of the
+/// wheel over the rail divided by the speed; lateral ones lie in the contact plane.
+struct DriveSpec {
+  double speed = 27.78;
+  double traction_coefficient = 0.2;                                     ///< F_T / G, unless a creepage is given
+  std::optional<double> creepage;                                        ///< longitudinal: negative drives
+  std::optional<double> lateral_creepage, lateral_traction_coefficient;  ///< at most one; neither: no lateral creepage
+  std::optional<double> spin;                                            ///< 1/m; if not given, of the geometry
+  double friction_coefficient = 0.5;
+  double torque_ramp = 4e-3;    ///< s, smooth rise of the torque; a shorter one overshoots the wanted traction
+  double creepage_start = 0.0;  ///< longitudinal creepage at the start, (V - omega r)/V: negative drives
+  /// The longitudinal force on the wheel over the load G, if it is given.
+  std::optional<double> traction() const {
+    return creepage ? std::optional<double>() : std::optional<double>(traction_coefficient);
+  }
+};
+
+/// Friction at rest is drive.friction_coefficient.
+struct FrictionSpec {
+  FrictionForm law = FrictionForm::coulomb;
+  std::optional<double> kinetic_coefficient;  ///< limit of fast slip; with a falling law
+  std::optional<double> half_velocity;        ///< m/s, where half of the fall is done; with a falling law
+  double memory_distance = 0;                 ///< m, slid until the coefficient has followed; 0: at once
+  double memory_velocity = 1e-3;              ///< m/s, at least, by which it follows: at rest too
+};
+
+/// A layer of wear debris, sand, … between wheel and rail; none without a thickness.
+struct ThirdBodySpec {
+  std::optional<double> thickness, shear_modulus;
+  std::optional<double> yield_shear;  ///< Pa; none: elastic
+  double hardening = 0;               ///< Pa/m, by plastic shear
+};
+
+}  // namespace railstrata

@@ -1,0 +1,35 @@
+#pragma once
+// Shapes and places of wheel and rail, as a case says them, in SI units.
+#include <optional>
+#include <string>
+
+#include "geometry/body_shapes.hpp"
+
+namespace railstrata {
+
+enum class ContactShape {
+  point,  ///< a patch, closed all round
+  line    ///< a cylinder along its whole length: plane strain (halfspace/line_contact.hpp)
+};
+
+struct GeometrySpec {
+  std::string rail_profile = "CN60";  ///< a built-in name or a file
+  std::string wheel_profile = "LMA";
+  RailShape rail_shape = RailShape::rail;
+  WheelShape wheel_shape = WheelShape::wheel;
+  ContactShape contact = ContactShape::point;
+  std::optional<double> line_length;  ///< m, of a line contact: what bears the load
+  double gauge = 1.435, gauge_depth = 0.016, back_to_back = 1.353, flange_back_to_tape = 0.070;
+  double cant = 0.025;  ///< tangent (1:40)
+  double lateral_shift = 0.0;
+  double yaw = 0.0;                    ///< tangent of the angle of attack, positive towards the field side
+  double roll = 0.0;                   ///< tangent of the wheelset's roll, positive with the field side up
+  std::optional<double> curve_radius;  ///< m, positive with the centre on the field side; none: straight track
+  double wheel_radius = 0.430;
+  double block_width = 0.06, block_height = 0.06;
+  double rim_thickness = 0.060, web_thickness = 0.030, web_offset = 0.0, hub_radius = 0.135, hub_width = 0.17,
+         bore_radius = 0.095;
+  bool in_line() const { return contact == ContactShape::line; }
+};
+
+}  // namespace railstrata

@@ -1,0 +1,67 @@
+#pragma once
+// Loads that change: transients, load collectives, passes; in SI units.
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace railstrata {
+
+/// What the half-space engine follows in time (bem/transient.hpp).
+enum class TransientKind {
+  none,     ///< steady rolling
+  rolling,  ///< rolling from a beginning, step by step
+  shift     ///< loads and displacements sideways without rolling: presliding, fretting
+};
+
+enum class TransientStart {
+  rest,   ///< pressed together, then shifted by the first forces
+  steady  ///< as if it had rolled so for ever
+};
+
+/// A history of loads and motions, linear between its rows: columns of one length, an empty one is not given. What
+/// rolls takes from the drive what has no column; what is shifted is held where nothing is given.
+struct TransientSpec {
+  TransientKind kind = TransientKind::none;
+  TransientStart start = TransientStart::rest;
+  std::optional<double> distance;               ///< m, rolled altogether; not given: to the last row
+  int increments = 10;                          ///< shift: from row to row
+  std::string history_file;                     ///< empty once it is read into the columns
+  std::vector<double> at_distance, at_time;     ///< m, s: where the rows are
+  std::vector<double> wheel_load, load_factor;  ///< N; over the static load
+  std::vector<double> traction_coefficient, tractive_force, creepage, displacement;
+  std::vector<double> lateral_traction_coefficient, lateral_force, lateral_creepage, lateral_displacement;
+  std::vector<double> spin;  ///< 1/m
+};
+
+/// How deep wear is (damage/wear.hpp).
+enum class WearLaw {
+  usfd,    ///< University of Sheffield, from T-gamma over the area
+  kth,     ///< Archard with Jendel's map of coefficients
+  archard  ///< Archard with the rail's wear_coefficient
+};
+
+/// A row of a load collective: what it does not give is the case's (case/load_rows.hpp).
+struct LoadSpec {
+  std::string name;     ///< empty: "load 1", "load 2", … by its place
+  double passages = 1;  ///< of such a wheel
+  std::optional<double> wheel_load, lateral_shift, yaw, curve_radius, speed;
+  std::optional<double> traction_coefficient, creepage;                  ///< at most one
+  std::optional<double> lateral_traction_coefficient, lateral_creepage;  ///< at most one
+  std::optional<double> friction_coefficient;
+};
+
+struct CollectiveSpec {
+  std::string file;  ///< empty once it is read into the rows
+  WearLaw wear_law = WearLaw::usfd;
+};
+
+/// Passes over a rail that yields (`railstrata passes`); lists begin again after their last value.
+struct PassesSpec {
+  std::vector<double> lateral_positions;      ///< m, of pass 1, 2, …, positive to the field side; empty: 0
+  std::optional<double> lateral_deviation;    ///< m, of a normal distribution about them, cut at three of it
+  int lateral_seed = 1;                       ///< of its random numbers
+  std::vector<double> traction_coefficients;  ///< of pass 1, 2, …; empty: that of the drive
+  std::optional<double> ductility;            ///< net plastic strain that the material bears
+};
+
+}  // namespace railstrata

@@ -1,0 +1,38 @@
+#pragma once
+// Materials and layers, as a case says them, in SI units.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "case/strength_spec.hpp"
+#include "core/body_id.hpp"
+
+namespace railstrata {
+
+struct MaterialSpec {
+  double young = 210e9, poisson = 0.3, density = 7800.0;
+  StrengthSpec strength = {};
+};
+
+/// Young's modulus at a depth below a layer's top; linear between two of them.
+struct ModulusPoint {
+  double depth = 0, young = 0;
+  friend bool operator==(const ModulusPoint&, const ModulusPoint&) = default;
+};
+
+inline std::array<double*, 2> columns(ModulusPoint& p) { return {&p.depth, &p.young}; }
+
+struct LayerSpec {
+  std::string name = "layer";  ///< of several of a body that have none in the file: "layer 1", "layer 2", …
+  BodyId on = BodyId::rail;
+  double thickness = 1e-3;  ///< of a graded layer: its table's last depth
+  double width = 0.060;
+  MaterialSpec material;                  ///< young of a graded layer: the mean over its depth
+  std::vector<ModulusPoint> young_table;  ///< a modulus that varies with depth, from 0 down; empty: uniform
+  double grading_tolerance = 0.05;  ///< half-space engine: largest relative change of the modulus within one of the
+                                    ///< layers that a graded one is cut into
+  int elements = 0;                 ///< through the thickness; 0 = chosen
+  bool graded() const { return !young_table.empty(); }
+};
+
+}  // namespace railstrata

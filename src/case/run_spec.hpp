@@ -1,0 +1,82 @@
+#pragma once
+// How a case is computed: mesh, contact, steps, the half-space engine, output; in SI units.
+#include <optional>
+#include <vector>
+
+namespace railstrata {
+
+enum class ElementFormulation {
+  full,      ///< fully integrated, free of locking
+  one_point  ///< with scaled hourglass stiffness
+};
+
+enum class ContactMethod {
+  mortar,  ///< no penetration at the end of each step
+  penalty
+};
+
+/// How thin layers are kept from shortening the time step (fem/step_plan.hpp).
+enum class TimeStepMethod { automatic, uniform, mass_scaling, local };
+
+/// Of the element arithmetic while rolling; nodal values and the static preload stay double.
+enum class ArithmeticPrecision { double_precision, single_precision };
+
+/// Where the fields of a rolling are computed (docs/gpu.md). emulated: the card's kernels on the processor, for tests.
+enum class ComputeDevice { cpu, gpu, emulated };
+
+/// Where the half-space engine takes the leading edge of the patch (bem/leading_edge.hpp).
+enum class LeadingEdge {
+  sub_cell,   ///< inside a cell, told by the gap ahead of it
+  whole_cell  ///< between two cells, as Kalker and CONTACT do
+};
+
+struct MeshSpec {
+  double element_size = 1e-3, fine_width = 24e-3, fine_depth = 8e-3, largest = 12e-3;
+  int coarse_ratio = 3;
+  ElementFormulation element = ElementFormulation::full;
+  double hourglass_coefficient = 0.05;  ///< one_point only: kappa of the Flanagan–Belytschko stiffness
+  double end_length = 0.12;
+  bool elements_through_layer_one = false;  ///< a coarser mesh than `elements` of the layers asks for
+};
+
+struct ContactSpec {
+  ContactMethod method = ContactMethod::mortar;
+  double penalty_scale = 0.1;  ///< penalty only: k = scale * K A / V of the rail's surface elements
+};
+
+struct RunSpec {
+  std::vector<double> positions = {0.3};  ///< wheel positions at which results are wanted, m
+  double window = 0.010;                  ///< m of rolling, centred on each position, over which results are averaged
+  double run_up = 0.12;                   ///< m of rolling over which the run-up damping fades to zero
+  double run_up_damping = 2000.0;         ///< 1/s, mass-proportional damping of vibration at the start
+  double step_safety = 0.9;               ///< of the stable step
+  TimeStepMethod time_step_method = TimeStepMethod::automatic;
+  double mass_scaling_step =
+      1.0;  ///< wanted step of thin rows of elements, in element sizes over the matrix's pressure wave speed
+  ArithmeticPrecision precision = ArithmeticPrecision::double_precision;
+  ComputeDevice device = ComputeDevice::cpu;
+  double preload_tolerance = 1e-6;                     ///< relative residual of the static equilibrium
+  double history_interval = 0.2e-3;                    ///< m of rolling between rows of history.csv
+  bool rolling = true;                                 ///< false: stop after the static preload
+  bool plasticity = false;                             ///< finite elements: materials that say a strength yield
+  std::optional<double> plastic_depth, plastic_width;  ///< m, box of the elements that may (fem/plastic_zone.hpp)
+};
+
+/// Angle of the surfaces that the lateral slip of spin is taken with (bem/case_patch.hpp).
+enum class SpinAngle {
+  local,  ///< of each place of the patch
+  patch   ///< of the contact plane everywhere
+};
+
+struct BemSpec {
+  LeadingEdge leading_edge = LeadingEdge::sub_cell;
+  SpinAngle spin_angle = SpinAngle::local;
+};
+
+struct OutputSpec {
+  bool volume = true;        ///< VTU of the fine zone
+  bool patch_series = true;  ///< VTP series of the patch during the rolling, PVD
+  int series_frames = 30;
+};
+
+}  // namespace railstrata

@@ -1,0 +1,24 @@
+#pragma once
+// A wish to stop what a thread computes. Who starts a computation has a flag and a StopWish; solvers that iterate call
+// stop_if_wished between two iterations.
+#include <atomic>
+
+namespace railstrata {
+
+/// As long as it lives, what this thread computes stops once the flag is set. Wishes nest: the innermost counts.
+class StopWish {
+ public:
+  explicit StopWish(const std::atomic<bool>* flag);
+  ~StopWish();
+  StopWish(const StopWish&) = delete;
+  StopWish& operator=(const StopWish&) = delete;
+
+ private:
+  const std::atomic<bool>* before_;
+};
+
+/// Throws Interrupted where a StopWish of this thread is set; inside a parallel loop, which nothing may leave, it waits
+/// for the loop's end.
+void stop_if_wished();
+
+}  // namespace railstrata

@@ -1,0 +1,71 @@
+#!/usr/bin/env python3
+"""What someone meets who has none of the project's packages: a minimal Debian 12, a clean clone, the README's commands.
+
+usage: fresh_tree_test.py SOURCE FOLDER [--test-first] [--keep]
+
+Clones the commit of SOURCE into a new system and runs `./railstrata demo` there to its exit code, without a compiler
+cache; then `./railstrata test` with the tests that need each optional part (MPI, Python, a browser, Fortran), none of
+which may be skipped. --test-first: in the other order. --keep: the tree stays. Needs root, mmdebstrap and an archive of
+Debian; skipped (77) without.
+"""
+import argparse
+import json
+import pathlib
+import re
+import shutil
+import sys
+
+from debian_tree import done, made, missing
+
+HOME = "/root/checkout"
+# Of every optional part a test that needs it: tests/program, tests/python, tests/report, tests/install.
+PARTS = {"MPI": "program:ranks", "Python": "python", "browser": "report:page", "Fortran": "install:CConsumer"}
+
+
+def demo(tree):
+    tree.run(f"cd {HOME} && ./railstrata demo")
+    results = tree.folder / HOME[1:] / "results/quick"
+    assert json.loads((results / "summary.json").read_text())["contact"]["p_max_Pa"] > 1e9
+    assert (results / "report.html").stat().st_size > 100000
+
+
+def test(tree):
+    names = "|".join(f"^{name}$" for name in PARTS.values())
+    out = tree.run(f"cd {HOME} && ./railstrata test -R '{names}'")
+    for part, name in PARTS.items():
+        found = re.search(rf"Test +#\d+: {re.escape(name)} \.+ *(\S+)", out)
+        assert found and found[1] == "Passed", f"{part}: {name}: {found[1] if found else 'no such test'}\n{out[-3000:]}"
+
+
+def parts(tree):
+    """Every part says what it is."""
+    said = json.loads(tree.run(f"cd {HOME} && ./railstrata info --json"))["parts"]
+    print(json.dumps(said, indent=1))
+    assert set(said) >= {"ranks", "cards", "python", "benchmarks"}, said
+    for part, state in said.items():
+        assert re.match("there|not there: |half there: |not asked for: ", state), (part, state)
+
+
+def main():
+    arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    arguments.add_argument("source", type=pathlib.Path)
+    arguments.add_argument("folder", type=pathlib.Path)
+    arguments.add_argument("--test-first", action="store_true")
+    arguments.add_argument("--keep", action="store_true")
+    given = arguments.parse_args()
+    if lacking := missing("git"):
+        print(f"skipped: install:fresh_tree: needs {lacking}")
+        return 77
+    shutil.rmtree(given.folder, ignore_errors=True)
+    given.folder.mkdir(parents=True)
+    tree = made(given.folder / "tree", "git", "ca-certificates")
+    done("git", "clone", "--quiet", given.source, tree.folder / HOME[1:])
+    for step in [test, parts, demo] if given.test_first else [demo, parts, test, parts]:
+        step(tree)
+    if not given.keep:
+        shutil.rmtree(given.folder)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
