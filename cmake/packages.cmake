@@ -44,10 +44,13 @@ macro(debian_package part name depends section summary text)
     DESTINATION share/doc/${name} COMPONENT deb-${part} EXCLUDE_FROM_ALL)
 endmacro()
 
-# debian_shlibs(PART NAME SONAME): the package has this library. CPack's own table has a line for every file, and
+# debian_shlibs(PART NAME SONAME...): the package has these libraries. CPack's own table has a line for every file, and
 # libraries for several processors are three files of one name.
-macro(debian_shlibs part name soname)
-  file(WRITE ${debian}/${part}/shlibs "${soname} ${so_version} ${name} (= ${PROJECT_VERSION}-1)\n")
+macro(debian_shlibs part name)
+  file(WRITE ${debian}/${part}/shlibs "")
+  foreach(soname ${ARGN})
+    file(APPEND ${debian}/${part}/shlibs "${soname} ${so_version} ${name} (= ${PROJECT_VERSION}-1)\n")
+  endforeach()
   string(TOUPPER "deb-${part}" id)
   list(APPEND CPACK_DEBIAN_${id}_PACKAGE_CONTROL_EXTRA ${debian}/${part}/shlibs)
 endmacro()
@@ -59,13 +62,17 @@ creepage and the stresses below the\nsurface, by finite elements and by Kalker's
 set(same "(= ${PROJECT_VERSION}-1)")
 debian_package(library ${library_package} "" libs "rolling contact of layered rails - library"
   "${about}\nThis package has the shared library and CONTACT's interface to it.")
-debian_shlibs(library ${library_package} librailstrata)
+debian_shlibs(library ${library_package} librailstrata librailstrata-hdf5)
+# zlib is inside on purpose: the library needs the compiler's own libraries alone (docs/library.md).
+file(WRITE ${debian}/overrides "${library_package}: embedded-library zlib *\n")
+install(FILES ${debian}/overrides DESTINATION share/lintian/overrides RENAME ${library_package}
+  COMPONENT deb-library EXCLUDE_FROM_ALL)
 debian_package(program railstrata "${library_package} ${same}" science "rolling contact of a wheel on a layered rail"
   "${about}\nThis package has the program with its cases, profiles and manual.")
 debian_shlibs(program railstrata librailstrata-commands)
 debian_package(dev librailstrata-dev "${library_package} ${same}" libdevel
   "rolling contact of layered rails - headers" "${about}\nThis package has the headers for C, C++ and Fortran programs.")
-debian_package(python python3-railstrata "${library_package} ${same}, python3, python3-numpy" python
+debian_package(python python3-railstrata "${library_package} ${same}, python3 (>= 3.9), python3-numpy" python
   "rolling contact of layered rails - Python 3" "${about}\nThis package has the Python package of the same name.")
 debian_shlibs(python python3-railstrata librailstrata-bridge)
 list(APPEND CPACK_DEBIAN_DEB-PYTHON_PACKAGE_CONTROL_EXTRA

@@ -1,3 +1,4 @@
+#include "app/processor_use.hpp"
 #include "app/processors.hpp"
 
 #include <gtest/gtest.h>
