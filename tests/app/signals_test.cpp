@@ -11,7 +11,7 @@ namespace railstrata {
 namespace {
 
 TEST(Signals, TheFirstSignalAsksAndTheSecondEndsTheProgramWith130) {
-  EXPECT_EXIT(
+  EXPECT_EXIT(  // in a process of its own: the handlers of a process are installed once
       {
         if (stop_flag()) std::exit(3);
         std::raise(SIGTERM);

@@ -89,7 +89,7 @@ class Passes(FromOutside):
 
     def test_wheels_that_scatter_take_the_seeds_places(self):
         def places(seed):
-            out = self.passes(f"seed{seed}", *strength(2000), "--passes", 4, "--no-report", "--set",
+            out = self.passes(f"seed{seed}", *strength(2000), "--passes", 6, "--no-report", "--set",
                               'passes.lateral_deviation="2 mm"', "--set", f"passes.lateral_seed={seed}")
             return [float(row["lateral_mm"]) for row in rows(out / "passes.csv")]
         one = places(1)
