@@ -145,6 +145,7 @@ function(railstrata_rooms variant wide_vectors)
           get_filename_component(file ${twin} NAME)
           list(REMOVE_ITEM sources ${CMAKE_SOURCE_DIR}/src/${name}/${file})
         endforeach()
+        set_source_files_properties(${twins} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # windows.h has macros
         list(APPEND sources ${twins})
       endif()
       if(name STREQUAL "app")
