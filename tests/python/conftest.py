@@ -7,6 +7,10 @@ import pytest
 import railstrata as rs
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "slow: looks deeper than another test; ./railstrata test --slow")
+
+
 @pytest.fixture(scope="session")
 def program():
     return Path(os.environ["RAILSTRATA_PROGRAM"])
