@@ -54,7 +54,7 @@ def tearDownModule():
 def wine(*words, **options):
     done = subprocess.run([WINE, *map(str, words)], capture_output=True, timeout=600, env=ENVIRONMENT, check=False,
                           **options)
-    return done.returncode, *(text.decode().replace("\r\n", "\n") for text in (done.stdout, done.stderr))
+    return done.returncode, *(text.decode(errors="replace").replace("\r\n", "\n") for text in (done.stdout, done.stderr))
 
 
 def far_apart(a, b, scale, where=""):
