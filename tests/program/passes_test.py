@@ -162,6 +162,7 @@ class Passes(FromOutside):
         self.assertIn("stays elastic", notes)
         self.assertIn("after 1 pass:", err)
 
+    @slow
     def test_passes_roll_whatever_the_case_says_of_a_run(self):
         rolling = self.passes("rolling", *strength(450), "--passes", 1, "--no-report")
         still = self.passes("still", *strength(450), "--passes", 1, "--no-report", "--set", "run.rolling=false")
