@@ -51,7 +51,7 @@ endif()
 
 if(NOT cuda_missing)
   set(RAILSTRATA_WITH_CUDA ON)
-  railstrata_part(cards "there (${RAILSTRATA_NVCC}, compute capability ${RAILSTRATA_CUDA_ARCHITECTURES})")
+  railstrata_optional_part(cards "there (${RAILSTRATA_NVCC}, compute capability ${RAILSTRATA_CUDA_ARCHITECTURES})")
   set(RAILSTRATA_CARD_OBJECT ${CMAKE_BINARY_DIR}/card.o)
   add_custom_command(OUTPUT ${RAILSTRATA_CARD_OBJECT}
     COMMAND ${RAILSTRATA_NVCC} ${cuda_flags} ${cuda_architectures} -MD -MF ${CMAKE_BINARY_DIR}/card.d
@@ -63,5 +63,5 @@ elseif(RAILSTRATA_CUDA AND NOT RAILSTRATA_CUDA STREQUAL "AUTO")
   message(FATAL_ERROR "RAILSTRATA_CUDA is ON and cards are ${cuda_missing}")
 else()
   set(RAILSTRATA_WITH_CUDA OFF)
-  railstrata_part(cards "${cuda_missing}")
+  railstrata_optional_part(cards "${cuda_missing}")
 endif()

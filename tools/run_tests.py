@@ -132,6 +132,7 @@ def main():
     given.build = given.build.resolve()
     # not in the build: sockets of browsers and daemons allow no long names
     with tempfile.TemporaryDirectory(prefix="railstrata-tests-") as folder:
+        os.chmod(folder, 0o755)  # some tests become another user
         return run(given, words, pathlib.Path(folder))
 
 

@@ -115,7 +115,7 @@ TEST(SeveralPatches, ALowerCrownTakesWhatHertzGivesIt) {
 }
 
 // From one patch to two and back the loads are continuous; the second begins with none.
-TEST(SeveralPatches, TheSecondStartsFromNoLoad) {
+TEST(SlowSeveralPatches, TheSecondStartsFromNoLoad) {
   const CaseSpec spec = driven(0.05);
   double previous = 0.5;
   bool ended = false;
@@ -163,7 +163,7 @@ double flange_load(const CaseSpec& spec, const BemResult& r) {
 
 // S1002 on UIC60 inclined by 1:20 goes over to the flange within half a millimetre: one patch on the tread (of two
 // lobes), that and one in the flange's root 22 degrees steep, the root alone.
-TEST(SeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
+TEST(SlowSeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
   CaseSpec spec = driven(0.02);
   spec.geometry.rail_profile = "UIC60";
   spec.geometry.wheel_profile = "S1002";
@@ -194,7 +194,7 @@ TEST(SeveralPatches, S1002OnUic60GoesOverToTheFlangeWithoutAGap) {
 
 // UIC60 inclined by 1:40: solved apart, the patch in the flange's root at 17 degrees and that on the gauge corner at 7
 // both reach the ridge between them.
-TEST(SeveralPatches, PatchesThatReachTheRidgeBetweenThemAreOneInThePlaneOfTheFirst) {
+TEST(SlowSeveralPatches, PatchesThatReachTheRidgeBetweenThemAreOneInThePlaneOfTheFirst) {
   CaseSpec spec = driven(0);
   spec.geometry.rail_profile = "UIC60";
   spec.geometry.wheel_profile = "S1002";

@@ -9,4 +9,4 @@ target_link_libraries(measure_card PRIVATE room_device)
 # Every .cu compiles and spills nothing; needs nvcc and no card.
 add_test(NAME device:kernels_compile_without_spills COMMAND /usr/bin/python3
   ${CMAKE_CURRENT_SOURCE_DIR}/device/card/spills_test.py ${CMAKE_SOURCE_DIR} "${RAILSTRATA_NVCC}" ${CMAKE_CXX_COMPILER})
-set_tests_properties(device:kernels_compile_without_spills PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900)
+set_tests_properties(device:kernels_compile_without_spills PROPERTIES SKIP_RETURN_CODE 77 TIMEOUT 900 LABELS slow)

@@ -19,12 +19,12 @@ TEST(Engine, ForcesAreThoseOfTheTraversal) {
 }
 
 // Against double precision: a strain of 1e-3 is a difference of numbers near one, which are rounded by 6e-8.
-TEST(Engine, InSinglePrecisionToItsRounding) {
+TEST(SlowEngine, InSinglePrecisionToItsRounding) {
   EmulatedDevice device;
   expect_same_forces(device, ArithmeticPrecision::single_precision, 5e-4);
 }
 
-TEST(Engine, StepsAreThoseOfTheStepper) {
+TEST(SlowEngine, StepsAreThoseOfTheStepper) {
   EmulatedDevice device;
   expect_same_steps(device);
 }

@@ -57,7 +57,7 @@ TEST(InitialStress, StandsInTheLayerBesideTheContactAndLeavesThePressureAsItIs) 
   EXPECT_NEAR(s.zz - own.zz, 0, 0.005 * std::abs(kLongitudinal));
 }
 
-TEST(InitialStress, StartsTheRollingWithoutAJoltAndClosesTheEnergyBalance) {
+TEST(SlowInitialStress, StartsTheRollingWithoutAJoltAndClosesTheEnergyBalance) {
   double closure[2], fastest[2];
   for (int k : {0, 1}) {
     CaseSpec spec = stressed_case(kNever);

@@ -114,7 +114,7 @@ TEST(Lateral, FullSlipBearsAllTheFriction) {
 
 // The axle starts with the friction and an estimate of its creepage, and rings about them by the estimate's error on
 // elements of 4 mm.
-TEST(Lateral, AGivenLateralForceIsHeldByCreeping) {
+TEST(SlowLateral, AGivenLateralForceIsHeldByCreeping) {
   CaseSpec spec = ball_case();
   spec.drive.lateral_traction_coefficient = 0.1;
   spec.run.run_up = 0.06;

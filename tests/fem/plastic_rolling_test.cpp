@@ -45,7 +45,7 @@ void expect_same_motion(const Stepper& a, const Stepper& b) {
   EXPECT_EQ(a.energy().total(), b.energy().total());
 }
 
-TEST(PlasticRolling, WithoutYieldHasTheBitsOfTheElasticRun) {
+TEST(SlowPlasticRolling, WithoutYieldHasTheBitsOfTheElasticRun) {
   for (ArithmeticPrecision precision : {ArithmeticPrecision::double_precision, ArithmeticPrecision::single_precision}) {
     CaseSpec elastic = small_case(), spec = yielding_case(kNever);
     elastic.run.precision = spec.run.precision = precision;
@@ -74,7 +74,7 @@ TEST(PlasticRolling, GoesOnFromARestartStateWithTheSameBits) {
   EXPECT_GT(plastic_extent(system.rail(), second.state().bodies[kRail].history).yielded, 10);
 }
 
-TEST(PlasticRolling, HasTheSameBitsOnAnyNumberOfThreads) {
+TEST(SlowPlasticRolling, HasTheSameBitsOnAnyNumberOfThreads) {
   const int before = max_threads();
   const RollingSystem system = small_system(yielding_case(300e6));
   set_threads(1);

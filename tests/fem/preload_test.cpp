@@ -81,7 +81,7 @@ TEST(Preload, PressuresAndGapsAreComplementary) {
   EXPECT_GT(open, 9);
 }
 
-TEST(Preload, ClustersChangeTheIterationsAndNotTheResult) {
+TEST(SlowPreload, ClustersChangeTheIterationsAndNotTheResult) {
   const RollingSystem sys = small_system(static_case());
   const PreloadResult fine = solve_preload(sys, 1e-8, {}, nullptr, {24e-3, 0.2}),
                       one = solve_preload(sys, 1e-8, {}, nullptr, {10.0, 0.0});
@@ -125,7 +125,7 @@ TEST(Preload, PeakPressureOfASphereLikePairIsHertzWithin2Percent) {
   EXPECT_NEAR(largest_pressure(solve_preload(sys, 1e-5)) / hertz.p0, 1.0, 0.02);
 }
 
-TEST(Preload, ALayerFourTimesAsStiffAndThinIsReachedToo) {
+TEST(SlowPreload, ALayerFourTimesAsStiffAndThinIsReachedToo) {
   CaseSpec s = static_case();
   LayerSpec layer;
   layer.thickness = 0.2e-3;

@@ -18,7 +18,7 @@ if(RAILSTRATA_LIBRARY)
   endforeach()
   add_test(NAME install:packages COMMAND /usr/bin/python3 ${here}/packages_test.py ${CMAKE_BINARY_DIR}
     ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/packages)
-  set_tests_properties(install:packages PROPERTIES SKIP_RETURN_CODE 77 LABELS packages TIMEOUT 600)
+  set_tests_properties(install:packages PROPERTIES SKIP_RETURN_CODE 77 LABELS "packages;slow" TIMEOUT 600)
   add_test(NAME install:debian_tree COMMAND /usr/bin/python3 ${here}/debian_tree_test.py ${CMAKE_BINARY_DIR}
     ${CMAKE_SOURCE_DIR} ${CMAKE_CURRENT_BINARY_DIR}/debian)
   set_tests_properties(install:debian_tree PROPERTIES SKIP_RETURN_CODE 77 LABELS long TIMEOUT 7200)

@@ -17,7 +17,7 @@ import tempfile
 import time
 import unittest
 
-from outside import SMALL, TINY, FromOutside, broken_files, fact, railstrata, results, rows, start, wait_for
+from outside import SMALL, TINY, FromOutside, broken_files, fact, main, railstrata, results, rows, slow, start, wait_for
 
 INJECTOR = pathlib.Path(sys.argv[2]).resolve()
 WORDS = ["--threads", "1", "--no-report"]
@@ -59,6 +59,7 @@ class Faults(FromOutside):
 
 
 class FullDisk(Faults):
+    @slow
     def test_at_any_file_of_a_run(self):
         injected = 0
         for text, wanted in ((STILL, lambda name: "history" not in name),
@@ -109,6 +110,7 @@ class FullDisk(Faults):
             self.assert_same(reference)
         fact("disk_full_resumed", injected=len(faults), survived=len(faults))
 
+    @slow
     def test_a_checkpoint_that_cannot_be_written_leaves_the_one_before(self):
         rc, reference = self.whole(SMALL)
         faults = [(call, reason, skip) for call, reason in (("write", errno.ENOSPC), ("fsync", errno.EIO),
@@ -134,6 +136,7 @@ class FullDisk(Faults):
         self.assertEqual(railstrata("report", self.out)[0], code)
         self.assertTrue((self.out / "report.html").exists())
 
+    @slow
     def test_a_study_takes_up_again_when_there_is_room(self):
         base = self.folder / "base.toml"
         base.write_text(TINY)
@@ -274,6 +277,7 @@ class Checkpoints(Faults):
         self.assert_same(reference)
         fact("second_signal", signals=2)
 
+    @slow
     def test_those_that_cannot_be_read_are_named_and_the_one_before_is_taken(self):
         rc, reference = self.whole(SMALL)
         self.interrupted()
@@ -342,4 +346,4 @@ class TwoAtOnce(Faults):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1] + sys.argv[3:])
+    main(*sys.argv[3:])

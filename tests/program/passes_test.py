@@ -89,7 +89,7 @@ class Passes(FromOutside):
 
     def test_wheels_that_scatter_take_the_seeds_places(self):
         def places(seed):
-            out = self.passes(f"seed{seed}", *strength(2000), "--passes", 4, "--no-report", "--set",
+            out = self.passes(f"seed{seed}", *strength(2000), "--passes", 6, "--no-report", "--set",
                               'passes.lateral_deviation="2 mm"', "--set", f"passes.lateral_seed={seed}")
             return [float(row["lateral_mm"]) for row in rows(out / "passes.csv")]
         one = places(1)
@@ -162,6 +162,7 @@ class Passes(FromOutside):
         self.assertIn("stays elastic", notes)
         self.assertIn("after 1 pass:", err)
 
+    @slow
     def test_passes_roll_whatever_the_case_says_of_a_run(self):
         rolling = self.passes("rolling", *strength(450), "--passes", 1, "--no-report")
         still = self.passes("still", *strength(450), "--passes", 1, "--no-report", "--set", "run.rolling=false")

@@ -153,7 +153,9 @@ class Program(FromOutside):
         self.assertIn("LMA", info["wheel_profiles"])
         self.assertIn("CN60", info["rail_profiles"])
         text = railstrata("info")[1]
-        self.assertEqual([line.split()[0] for line in text.splitlines()], list(info))
+        names = [name for key in info for name in (info["parts"] if key == "parts" else [key])]
+        self.assertEqual([line.split()[0] for line in text.splitlines()], names)
+        self.assertEqual(set(info["parts"]), {"ranks", "cards", "python", "benchmarks"})
         self.assertRegex(text, r"\nwheel_profiles +LMA, ")
         self.assertRegex(text, r"\nlibraries .*hdf5 \d")
 

@@ -9,9 +9,8 @@ import subprocess
 import sys
 import tempfile
 import time
-import unittest
 
-from outside import BINARY, SMALL, FromOutside, fact, railstrata, results, rows, wait_for
+from outside import BINARY, SMALL, FromOutside, fact, main, railstrata, results, rows, slow, wait_for
 
 MPIRUN = shutil.which("mpirun")
 PLUG_IN = BINARY.parent / "railstrata_mpi.so"
@@ -81,6 +80,7 @@ class Ranks(FromOutside):
             self.assertEqual(err.count("static preload"), 1, err)  # one rank speaks
         fact("ranks give the bits of one", ranks="2, 3, 4", files=len(self.reference))
 
+    @slow
     def test_with_a_layer_and_a_yawed_wheel_too(self):
         case = self.case(LAYERED)
         rc, _, err = railstrata("run", case, *WORDS, *YAWED, "-j", 1, "--out", self.folder / "one")
@@ -122,6 +122,7 @@ class Ranks(FromOutside):
         self.assertEqual(rc, self.rc, err)
         self.expect_same(self.out)
 
+    @slow
     def test_where_a_rank_is_lost_before_the_rolling_the_others_end_too(self):
         process = ranked(3, "run", self.case(SMALL), *WORDS, "-j", 1, "--out", self.out)
         wait_for((self.out / "provenance.json").exists, process)  # all have joined by then
@@ -183,4 +184,4 @@ if __name__ == "__main__":
     if MPIRUN is None or not PLUG_IN.exists():
         print("SKIPPED: no mpirun, or the program was built without MPI (Debian: libopenmpi-dev openmpi-bin)")
         sys.exit(77)
-    unittest.main(argv=sys.argv[:1])
+    main()

@@ -12,9 +12,8 @@ import subprocess
 import sys
 import tempfile
 import time
-import unittest
 
-from outside import TWO, FromOutside, fact, railstrata, results, rows, start, wait_for
+from outside import TWO, FromOutside, fact, main, railstrata, results, rows, slow, start, wait_for
 
 KILLS = int(sys.argv[2]) if len(sys.argv) > 2 else 4
 WORDS = ["--threads", "1", "--no-report"]
@@ -121,6 +120,7 @@ class Resume(FromOutside):
         self.same_as_whole()
         fact("run_killed", kills=kills, files=len(self.reference))
 
+    @slow
     def test_a_time_limit_is_kept_with_a_checkpoint(self):
         rc, _, err = railstrata("run", self.case(TWO), *WORDS, "--out", self.out, "--max-time", "1 ms")
         self.assertEqual(rc, 4, err)
@@ -157,6 +157,7 @@ class Resume(FromOutside):
         self.assertEqual(rc, self.rc, err)
         self.same_as_whole()
 
+    @slow
     def test_a_full_disk_costs_a_checkpoint_and_not_the_run(self):
         def small_files():
             resource.setrlimit(resource.RLIMIT_FSIZE, (700_000, 700_000))
@@ -201,4 +202,4 @@ class Resume(FromOutside):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    main()

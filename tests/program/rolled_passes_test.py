@@ -142,7 +142,8 @@ class RolledPasses(FromOutside):
                                json.loads((out / "passes.json").read_text())["last_pass"]["sigma_x_min_MPa"], delta=40)
 
     def test_the_contact_moves_with_a_wheel_that_wanders(self):
-        out = self.passes("wanders", *WEAK, *COARSE, "--set", 'passes.lateral_positions=["-3 mm", "3 mm"]', "--passes", 2)
+        sides = ["--set", 'passes.lateral_positions=["-3 mm", "3 mm"]']
+        out = self.passes("wanders", *WEAK, *COARSE, *sides, "--passes", 2)
         rows = table(out / "passes.csv")
         self.assertEqual([float(row["lateral_mm"]) for row in rows], [-3, 3])
         self.assertLess(float(rows[0]["net_y_mm"]), 0)

@@ -152,6 +152,7 @@ class Cases(StudyTest):
         self.assertIn("8 cases, 1 of them to compute", self.solve(text, code=1))
         self.assertIn("7 cases, 0 of them to compute", self.solve(text.replace('"1.7 m", ', "")))
 
+    @slow
     def test_two_different_studies_on_one_folder_do_not_both_end_well(self):
         for _ in range(2):
             first, second = (self.start(text, "--jobs", "1") for text in (GRID, GRID.replace('"1.5 mm"', '"1.4 mm"')))
@@ -186,6 +187,7 @@ class Cases(StudyTest):
                     self.assertEqual(numbers(self.rows()), numbers(table(alone / "study.csv")))
                 shutil.rmtree(self.out)
 
+    @slow
     def test_what_decides_a_result_decides_whether_it_is_computed_again(self):
         self.solve(GRID)
         before = self.stamps()

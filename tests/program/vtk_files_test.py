@@ -8,7 +8,7 @@ import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 
-from outside import TINY, railstrata
+from outside import TINY, main, railstrata, slow
 
 try:
     import numpy as np
@@ -199,6 +199,7 @@ class YieldingRun(Results):
         self.assertFalse((self.out / "residual.csv").exists() or (self.out / "section.vtp").exists())
 
 
+@slow
 class Residual(Results):
     """What a single run of 82 mm leaves in a rail that yields, beside the first of rolled passes."""
 
@@ -297,4 +298,4 @@ class Passes(Results):
 del Results  # only its heirs are tests
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    main()

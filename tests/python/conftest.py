@@ -1,10 +1,23 @@
 """Shared by the tests of the Python package: the program beside it, and a case that is solved once."""
 import os
+import tempfile
 from pathlib import Path
 
 import pytest
 
 import railstrata as rs
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_configure(config):
+    """Folders of tests stand in one that goes with the session: pytest by itself keeps those of the last three."""
+    config.folder_of_session = tempfile.TemporaryDirectory()
+    config.option.basetemp = str(Path(config.folder_of_session.name) / "tests")
+    config.addinivalue_line("markers", "slow: looks deeper than another test; ./railstrata test --slow")
+
+
+def pytest_unconfigure(config):
+    config.folder_of_session.cleanup()
 
 
 @pytest.fixture(scope="session")

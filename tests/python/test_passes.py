@@ -62,6 +62,7 @@ def test_tables_are_read_only_arrays_with_the_numbers_of_the_files(two):
         two.table("no_such")
 
 
+@pytest.mark.slow
 def test_ctrl_c_keeps_the_passes_before_and_resume_has_the_same_bits(weak, two, tmp_path):
     """Wheels that wander, so that a pass which is given up has moved the load."""
     case = weak.with_({"passes.lateral_positions": ["0 mm", "4 mm"]})
@@ -82,6 +83,7 @@ def test_ctrl_c_keeps_the_passes_before_and_resume_has_the_same_bits(weak, two, 
     assert numbers(tmp_path / "parts") == numbers(whole.folder)
 
 
+@pytest.mark.slow
 def test_what_the_progress_function_raises_arrives(weak, tmp_path):
     def progress(number, fraction):
         raise RuntimeError("enough")

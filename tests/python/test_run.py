@@ -51,6 +51,7 @@ def test_ctrl_c_leaves_a_checkpoint_within_half_a_second_and_resume_has_the_same
     assert numbers(rs.resume(folder)) == numbers(in_one_go)
 
 
+@pytest.mark.slow
 def test_what_the_progress_function_raises_arrives_and_the_run_can_go_on(small, in_one_go, tmp_path):
     folder = tmp_path / "raised"
 

@@ -11,6 +11,8 @@ import tempfile
 import unittest
 
 sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
+from selected import main, slow  # noqa: E402
 from tables import read_table, row_borders
 
 try:
@@ -83,6 +85,7 @@ class View(unittest.TestCase):
         steel = (np.ptp(bodies, axis=2) < 12) & (bodies.min(axis=2) > 80) & (bodies.max(axis=2) < 245)
         self.assertGreater(steel.mean(), 0.02, "wheel and rail around")
 
+    @slow
     def test_black_lines_border_the_layer_of_3_mm(self):
         bodies = picture(RESULTS / "fem")[120:, :1180]
         black = bodies.max(axis=2) < 12
@@ -92,6 +95,7 @@ class View(unittest.TestCase):
         rows = np.flatnonzero(black[:, column])
         self.assertAlmostEqual(np.ptp(rows) * PIXEL / RISE, 3e-3, delta=0.25e-3)
 
+    @slow
     def test_principal_stresses_have_tension_and_compression(self):
         bodies = picture(RESULTS / "fem", "--field", "sigma1_MPa")[:, :1180]
         self.assertGreater(share(bodies, BLUE, 40), 5e-3)
@@ -104,6 +108,7 @@ class View(unittest.TestCase):
         self.assertAlmostEqual(coloured(bodies).sum() * PIXEL**2 / (area * SIGHT[2]), 1, delta=0.2)
         self.assertGreater(share(bodies, YELLOW, 60), 1e-4)
 
+    @slow
     def test_arrows_of_10_mm_show_the_axes(self):
         corner = picture(RESULTS / "fem")[650:, :420]
         dark = (np.abs(corner - 51).max(axis=2) < 8)
@@ -147,4 +152,4 @@ class View(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    main()

@@ -33,7 +33,9 @@ if WHAT == "build":
 
 PROGRAM, LIBRARY, CONTACT = (pathlib.Path(sys.argv.pop(1)).resolve() for _ in range(3))
 # The environment of wine: no messages of its own, nothing in the home folder.
-ENVIRONMENT = {**os.environ, "WINEPREFIX": str(FOLDER.resolve() / "prefix"), "WINEDEBUG": "-all", "LC_ALL": "C.UTF-8"}
+# Its server, which outlives the programs, keeps a folder of its own.
+ENVIRONMENT = {**os.environ, "WINEPREFIX": str(FOLDER.resolve() / "prefix"), "TMPDIR": str(FOLDER.resolve()),
+               "WINEDEBUG": "-all", "LC_ALL": "C.UTF-8"}
 
 
 def setUpModule():
