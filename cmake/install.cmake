@@ -33,14 +33,12 @@ function(railstrata_install_libraries layout libdir)
     INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
   railstrata_part(program)
   install(TARGETS railstrata_program RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} ${part})
-  install(TARGETS railstrata_commands${installed_suffix} LIBRARY DESTINATION ${libdir} ${part} NAMELINK_SKIP)
-  install(TARGETS railstrata_hdf5${installed_suffix} LIBRARY DESTINATION ${libdir} ${library_part} NAMELINK_SKIP)
+  install(TARGETS railstrata_commands LIBRARY DESTINATION ${libdir} ${part} NAMELINK_SKIP)
+  install(TARGETS railstrata_hdf5 LIBRARY DESTINATION ${libdir} ${library_part} NAMELINK_SKIP)
   install(TARGETS contact_addon LIBRARY DESTINATION ${libdir}/railstrata/contact ${library_part})
   foreach(level IN LISTS levels)
-    set(folder ${libdir}/${hwcaps}/x86-64-${level})
-    install(TARGETS railstrata_library_${level} railstrata_hdf5_${level} LIBRARY DESTINATION ${folder} ${library_part}
+    install(TARGETS railstrata_library_${level} LIBRARY DESTINATION ${libdir}/${hwcaps}/x86-64-${level} ${library_part}
       NAMELINK_SKIP)
-    install(TARGETS railstrata_commands_${level} LIBRARY DESTINATION ${folder} ${part} NAMELINK_SKIP)
   endforeach()
 endfunction()
 
@@ -91,11 +89,7 @@ function(railstrata_install_python layout libdir folder)
     ${CMAKE_SOURCE_DIR}/python/railstrata/py.typed)
   install(FILES ${files} DESTINATION ${folder}/railstrata ${part})
   install(TARGETS python_bridge LIBRARY DESTINATION ${folder}/railstrata ${part})
-  install(TARGETS railstrata_bridge${installed_suffix} LIBRARY DESTINATION ${libdir} ${part} NAMELINK_SKIP)
-  foreach(level IN LISTS levels)
-    install(TARGETS railstrata_bridge_${level} LIBRARY DESTINATION ${libdir}/${hwcaps}/x86-64-${level} ${part}
-      NAMELINK_SKIP)
-  endforeach()
+  install(TARGETS railstrata_bridge LIBRARY DESTINATION ${libdir} ${part} NAMELINK_SKIP)
 endfunction()
 
 # railstrata_install(LAYOUT LIBDIR PYTHON): all of it. LAYOUT: "" or the beginning of the components' names.
@@ -119,11 +113,10 @@ target_compile_features(railstrata_library${installed_suffix} INTERFACE cxx_std_
 # Where libraries look for each other, seen from their own folder: the tree can be moved.
 set(python_folder ${CMAKE_INSTALL_LIBDIR}/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages
   CACHE STRING "Folder of the Python package below the prefix: that of users (~/.local) and virtual environments")
-foreach(name library commands bridge hdf5)
-  set_target_properties(railstrata_${name}${installed_suffix} PROPERTIES INSTALL_RPATH "$ORIGIN")
-  foreach(level IN LISTS levels)
-    set_target_properties(railstrata_${name}_${level} PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/../..")
-  endforeach()
+set_target_properties(railstrata_library${installed_suffix} railstrata_commands railstrata_bridge railstrata_hdf5
+  PROPERTIES INSTALL_RPATH "$ORIGIN")
+foreach(level IN LISTS levels)  # the plug-in stands beside the library of all processors
+  set_target_properties(railstrata_library_${level} PROPERTIES INSTALL_RPATH "$ORIGIN;$ORIGIN/../..")
 endforeach()
 # of a prefix, and of a wheel, whose libraries stand in the package
 file(RELATIVE_PATH lib_from_python /prefix/${python_folder}/railstrata /prefix/${CMAKE_INSTALL_LIBDIR})

@@ -12,8 +12,10 @@
 #                               CONTACT; in a folder of its own, where nobody finds it by accident.
 #
 # The libraries are linked from the objects of the static rooms; nothing is compiled twice. fmt, toml++ and zlib are
-# inside, so that a program which links librailstrata.so needs the compiler's own libraries alone. Because a SIMD pack has
-# another width with every instruction set, all are built for each of them, and the loader takes them from lib/glibc-hwcaps/x86-64-v3 or -v4 if the processor has what it needs [ld.so(8), glibc 2.33 and later].
+# inside, so that a program which links librailstrata.so needs the compiler's own libraries alone. For installation
+# librailstrata.so is built for three instruction sets: the rooms that compute (ROOMS_OF_VARIANTS) for each of them, the
+# others once. The loader takes it from lib/glibc-hwcaps/x86-64-v3 or -v4 if the processor has what it needs
+# [ld.so(8), glibc 2.33 and later].
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 include(CheckLinkerFlag)
@@ -52,11 +54,16 @@ add_custom_target(public_headers ALL DEPENDS ${headers_stamp})
 find_library(RAILSTRATA_ZLIB_ARCHIVE libz.a)
 set(inside_sources ${CMAKE_SOURCE_DIR}/packaging/inside/fmt.cpp ${CMAKE_SOURCE_DIR}/packaging/inside/toml.cpp)
 
-# railstrata_collect(OUT SUFFIX room...): OUT_objects, OUT_archives and the third parties' OUT_libraries of rooms.
+# railstrata_collect(OUT SUFFIX room...): OUT_objects, OUT_archives and the third parties' OUT_libraries of rooms; of
+# those that have no such variant, the ones of all processors.
 function(railstrata_collect out suffix)
   foreach(room IN LISTS ARGN)
-    list(APPEND objects $<TARGET_OBJECTS:room_${room}${suffix}>)
-    list(APPEND archives $<TARGET_FILE:room_${room}${suffix}>)
+    set(target room_${room}${suffix})
+    if(NOT room IN_LIST ROOMS${suffix})
+      set(target room_${room}${installed_suffix})
+    endif()
+    list(APPEND objects $<TARGET_OBJECTS:${target}>)
+    list(APPEND archives $<TARGET_FILE:${target}>)
     list(APPEND libraries ${ROOM_LIBS_${room}})
   endforeach()
   list(REMOVE_DUPLICATES libraries)
@@ -70,7 +77,7 @@ endfunction()
 
 # railstrata_shared(TARGET NAME FOLDER MAP): lib<NAME>.so with its version, and what it carries inside.
 function(railstrata_shared target name folder map)
-  add_library(${target} SHARED ${ARGN} $<TARGET_OBJECTS:inside${suffix}>)
+  add_library(${target} SHARED ${ARGN} $<TARGET_OBJECTS:inside>)
   target_link_options(${target} PRIVATE -Wl,--as-needed -Wl,--no-undefined -Wl,--version-script=${map})
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} LINKER_LANGUAGE CXX VERSION ${PROJECT_VERSION}
     SOVERSION ${so_version} LINK_DEPENDS ${map} LIBRARY_OUTPUT_DIRECTORY ${folder} BUILD_RPATH "$ORIGIN")
@@ -82,47 +89,44 @@ function(railstrata_shared target name folder map)
   endif()
 endfunction()
 
-# railstrata_library(VARIANT FOLDER LEVEL): the libraries of a variant, written to FOLDER of the build. LEVEL, if given,
-# is the instruction set that the loader asks the processor for before it takes them.
+# Of the libraries, not of their rooms: what they have inside, and the two ends of the plug-in.
+function(railstrata_parts_of_libraries)
+  add_library(inside OBJECT ${inside_sources})
+  target_link_libraries(inside PRIVATE railstrata_flags${installed_suffix} fmt::fmt tomlplusplus::tomlplusplus)
+  target_compile_options(inside PRIVATE -w)
+  foreach(end plug_in load_plug_in)
+    add_library(hdf5_${end} OBJECT ${CMAKE_SOURCE_DIR}/src/hdf5/in_library/${end}.cpp)
+    target_link_libraries(hdf5_${end} PRIVATE room_table${installed_suffix} room_fem${installed_suffix})
+  endforeach()
+  target_compile_definitions(hdf5_load_plug_in PRIVATE RAILSTRATA_HDF5_PLUG_IN="librailstrata-hdf5.so.${so_version}")
+endfunction()
+
+# railstrata_library(VARIANT FOLDER LEVEL): librailstrata.so of a variant, written to FOLDER of the build. LEVEL, if
+# given, is the instruction set that the loader asks the processor for before it takes it.
 function(railstrata_library variant folder level)
   set(suffix "")
   if(variant)
     set(suffix "_${variant}")
   endif()
-  set(rooms ${ROOMS${suffix}})
+  set(rooms ${ROOMS${installed_suffix}})
   list(REMOVE_ITEM rooms ${ROOMS_OF_THE_PROGRAM} ${ROOMS_OF_PYTHON} ${ROOM_OF_CONTACT} ${ROOM_OF_HDF5})
   railstrata_collect(lower "${suffix}" ${rooms})
-  railstrata_collect(upper "${suffix}" ${ROOMS_OF_THE_PROGRAM})
-  railstrata_collect(python "${suffix}" ${ROOMS_OF_PYTHON})
-  railstrata_collect(hdf5 "${suffix}" ${ROOM_OF_HDF5})
-  list(APPEND lower_objects $<TARGET_OBJECTS:railstrata_build_info${suffix}>)
+  railstrata_collect(users "${installed_suffix}" ${ROOMS_OF_THE_PROGRAM} ${ROOMS_OF_PYTHON} ${ROOM_OF_HDF5})
+  list(APPEND lower_objects $<TARGET_OBJECTS:railstrata_build_info${suffix}> $<TARGET_OBJECTS:hdf5_load_plug_in>)
   list(APPEND lower_archives $<TARGET_FILE:railstrata_build_info${suffix}>)
+  list(APPEND lower_libraries ${CMAKE_DL_LIBS})
   if(RAILSTRATA_WITH_CUDA)  # not among the objects of its room: another compiler has made it
     list(APPEND lower_objects ${RAILSTRATA_CARD_OBJECT})
-    list(APPEND lower_libraries ${RAILSTRATA_CUDART} Threads::Threads rt ${CMAKE_DL_LIBS})
+    list(APPEND lower_libraries ${RAILSTRATA_CUDART} Threads::Threads rt)
   endif()
-
-  # Of the libraries, not of their rooms: what they have inside, and the two ends of the plug-in.
-  add_library(inside${suffix} OBJECT ${inside_sources})
-  target_link_libraries(inside${suffix} PRIVATE railstrata_flags${suffix} fmt::fmt tomlplusplus::tomlplusplus)
-  target_compile_options(inside${suffix} PRIVATE -w)
-  foreach(end plug_in load_plug_in)
-    add_library(hdf5_${end}${suffix} OBJECT ${CMAKE_SOURCE_DIR}/src/hdf5/in_library/${end}.cpp)
-    target_link_libraries(hdf5_${end}${suffix} PRIVATE room_table${suffix} room_fem${suffix})
-  endforeach()
-  target_compile_definitions(hdf5_load_plug_in${suffix} PRIVATE
-    RAILSTRATA_HDF5_PLUG_IN="librailstrata-hdf5.so.${so_version}")
-  list(APPEND lower_objects $<TARGET_OBJECTS:hdf5_load_plug_in${suffix}>)
-  list(APPEND lower_libraries ${CMAKE_DL_LIBS})
 
   # The version script: a public version with what the public headers declare, a private one with what the program's
   # rooms, the bridge and the plug-in call besides, all else local.
   set(map ${CMAKE_BINARY_DIR}/generated/librailstrata${suffix}.map)
-  add_custom_command(OUTPUT ${map} DEPENDS ${interface_tool} ${lower_archives} ${upper_archives} ${python_archives}
-    ${hdf5_archives} ${headers_stamp} VERBATIM
+  add_custom_command(OUTPUT ${map} DEPENDS ${interface_tool} ${lower_archives} ${users_archives} ${headers_stamp} VERBATIM
     COMMAND Python3::Interpreter ${interface_tool} exports --headers ${public_include}/railstrata --nm ${CMAKE_NM}
       --version ${PROJECT_VERSION} --public-version ${so_version} --out ${map} --library ${lower_archives}
-      --users ${upper_archives} ${python_archives} ${hdf5_archives}
+      --users ${users_archives}
     COMMAND_EXPAND_LISTS COMMENT "Listing the symbols of librailstrata${suffix}.so")
   add_custom_target(railstrata_map${suffix} DEPENDS ${map})
 
@@ -134,18 +138,24 @@ function(railstrata_library variant folder level)
     add_dependencies(${library} card_object)
   endif()
   target_link_libraries(${library} PRIVATE ${lower_libraries})
+endfunction()
 
-  railstrata_shared(railstrata_commands${suffix} railstrata-commands ${folder} ${CMAKE_SOURCE_DIR}/cmake/commands.map
-    ${upper_objects})
-  target_link_libraries(railstrata_commands${suffix} PRIVATE ${library} ${upper_libraries} ${lower_libraries})
-
-  railstrata_shared(railstrata_bridge${suffix} railstrata-bridge ${folder} ${CMAKE_SOURCE_DIR}/cmake/bridge.map
-    ${python_objects})
-  target_link_libraries(railstrata_bridge${suffix} PRIVATE ${library} ${python_libraries} ${lower_libraries})
-
-  railstrata_shared(railstrata_hdf5${suffix} railstrata-hdf5 ${folder} ${CMAKE_SOURCE_DIR}/cmake/hdf5.map
-    ${hdf5_objects} $<TARGET_OBJECTS:hdf5_plug_in${suffix}>)
-  target_link_libraries(railstrata_hdf5${suffix} PRIVATE ${library} ${hdf5_libraries} ${ROOM_LIBS_core})
+# railstrata_library_users(FOLDER LEVEL): what calls librailstrata.so, the same for every variant of it.
+function(railstrata_library_users folder level)
+  set(hdf5_rooms ${ROOM_OF_HDF5})
+  set(bridge_rooms ${ROOMS_OF_PYTHON})
+  set(commands_rooms ${ROOMS_OF_THE_PROGRAM})
+  foreach(user hdf5 bridge commands)
+    railstrata_collect(own "${installed_suffix}" ${${user}_rooms})
+    set(plug_in_end "")
+    if(user STREQUAL "hdf5")
+      set(plug_in_end $<TARGET_OBJECTS:hdf5_plug_in>)
+    endif()
+    railstrata_shared(railstrata_${user} railstrata-${user} ${folder} ${CMAKE_SOURCE_DIR}/cmake/${user}.map ${own_objects}
+      ${plug_in_end})
+    target_link_libraries(railstrata_${user} PRIVATE railstrata_library${installed_suffix} ${own_libraries}
+      ${ROOM_LIBS_core} ${ROOM_LIBS_io})
+  endforeach()
 endfunction()
 
 set(libraries_folder ${CMAKE_BINARY_DIR}/lib)
@@ -154,22 +164,28 @@ set(installed_suffix "")
 set(levels "")
 if(RAILSTRATA_VARIANTS)
   # The oldest processor served is an x86-64-v2 (SSE4.2, from 2009 on); the loader says so on an older one.
-  foreach(variant v2 v3 v4)
-    set(wide_vectors OFF)
-    if(variant STREQUAL "v4")
-      set(wide_vectors ON)
-    endif()
-    railstrata_flags(railstrata_flags_${variant} -march=x86-64-${variant})
-    railstrata_rooms(${variant} ${wide_vectors})
-    railstrata_build_info(_${variant})
-  endforeach()
-  railstrata_library(v2 ${libraries_folder} x86-64-v2)
-  railstrata_library(v3 ${libraries_folder}/${hwcaps}/x86-64-v3 x86-64-v3)
-  railstrata_library(v4 ${libraries_folder}/${hwcaps}/x86-64-v4 x86-64-v4)
   set(installed_suffix _v2)
   set(levels v3 v4)
+  foreach(variant v2 ${levels})
+    railstrata_flags(railstrata_flags_${variant} -march=x86-64-${variant})
+  endforeach()
+  railstrata_rooms(v2 OFF)
+  railstrata_rooms(v3 OFF ${ROOMS_OF_VARIANTS})
+  railstrata_rooms(v4 ON ${ROOMS_OF_VARIANTS})
+  railstrata_parts_of_libraries()
+  foreach(variant v2 ${levels})
+    railstrata_build_info(_${variant})
+    set(folder ${libraries_folder})
+    if(variant IN_LIST levels)
+      string(APPEND folder /${hwcaps}/x86-64-${variant})
+    endif()
+    railstrata_library(${variant} ${folder} x86-64-${variant})
+  endforeach()
+  railstrata_library_users(${libraries_folder} x86-64-v2)
 else()
+  railstrata_parts_of_libraries()
   railstrata_library("" ${libraries_folder} "")
+  railstrata_library_users(${libraries_folder} "")
 endif()
 
 # For wheels and tarballs (tools/pack.py): stands in for what HDF5 asks for and RailStrata never uses.
@@ -182,7 +198,7 @@ set_target_properties(railstrata_no_remote PROPERTIES OUTPUT_NAME railstrata-no-
 # One file for all processors that are served: a program that loads it by its path gets that one.
 set(contact_map ${CMAKE_SOURCE_DIR}/cmake/contact_addon.map)
 add_library(contact_addon SHARED $<TARGET_OBJECTS:room_${ROOM_OF_CONTACT}${installed_suffix}>
-  $<TARGET_OBJECTS:inside${installed_suffix}>)
+  $<TARGET_OBJECTS:inside>)
 target_link_libraries(contact_addon PRIVATE room_bem${installed_suffix} room_material${installed_suffix})
 target_link_options(contact_addon PRIVATE -Wl,--as-needed -Wl,--version-script=${contact_map} -Wl,--no-undefined)
 set_target_properties(contact_addon PROPERTIES OUTPUT_NAME contact_addon_linux64 PREFIX "" LINKER_LANGUAGE CXX
@@ -199,7 +215,7 @@ set_source_files_properties(${CMAKE_SOURCE_DIR}/src/app/shipped_files.cpp PROPER
 file(RELATIVE_PATH lib_from_bin ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_LIBDIR})
 add_executable(railstrata_program src/app/main.cpp)
 target_include_directories(railstrata_program PRIVATE ${CMAKE_SOURCE_DIR}/src)
-target_link_libraries(railstrata_program PRIVATE railstrata_commands${installed_suffix})
+target_link_libraries(railstrata_program PRIVATE railstrata_commands)
 set_target_properties(railstrata_program PROPERTIES OUTPUT_NAME railstrata
   RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin INSTALL_RPATH "$ORIGIN/${lib_from_bin}")
 add_subdirectory(python)

@@ -1,7 +1,8 @@
 # Rooms: every folder of src/ named in src/LAYERS becomes a library room_<name> that sees the rooms on lower lines and
-# nothing else. A variant is a second, wholly separate build of the rooms for another instruction set: its targets end
-# in _<variant> (room_fem_v3). The width of a SIMD pack (core/simd.hpp) follows from the instruction set, so objects of
-# two variants must never meet in one library.
+# nothing else. A variant is a second build of some of them for another instruction set: its targets end in _<variant>
+# (room_fem_v3). The width of a SIMD pack follows from the instruction set: whatever has a pack in it, or is laid out by
+# packs, belongs to these rooms, and its names say the width (core/simd.hpp).
+set(ROOMS_OF_VARIANTS core material friction halfspace fft damage steady mesh element contact body bem fem device)
 
 include(CheckCXXCompilerFlag)
 # Objects are position independent because the shared library is linked from the very objects of the static rooms. With
@@ -124,8 +125,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
   endforeach()
 endif()
 
-# railstrata_rooms(VARIANT WIDE_VECTORS): the rooms of a variant; "" is the developer's build, whose targets have no
-# suffix. Sets ROOMS<suffix> to the names of rooms with sources, lowest first, in the caller's scope.
+# railstrata_rooms(VARIANT WIDE_VECTORS [room]...): the rooms of a variant; "" is the developer's build, whose targets
+# have no suffix. Rooms, if given, are all that is compiled. Sets ROOMS<suffix> to the names of rooms with sources, lowest
+# first, in the caller's scope.
 function(railstrata_rooms variant wide_vectors)
   set(suffix "")
   if(variant)
@@ -162,7 +164,7 @@ function(railstrata_rooms variant wide_vectors)
         set_source_files_properties(${RAILSTRATA_CARD_OBJECT} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
       endif()
       set(room room_${name}${suffix})
-      if(sources)
+      if(sources AND (NOT ARGN OR name IN_LIST ARGN))
         add_library(${room} STATIC ${sources})
         set_target_properties(${room} PROPERTIES WIDE_VECTORS ${wide_vectors})
         target_link_libraries(${room} PUBLIC railstrata_flags${suffix} ${below} ${ROOM_LIBS_${name}})

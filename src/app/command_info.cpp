@@ -12,6 +12,7 @@
 #include "app/common_options.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
+#include "core/simd.hpp"
 #include "damage/grades.hpp"
 #include "device/card.hpp"
 #include "geometry/profile_names.hpp"
@@ -68,7 +69,7 @@ ExitCode command_info(const CommandOptions& options) {
                                     {"compiler", build.compiler},
                                     {"flags", build.flags},
                                     {"build_type", build.build_type},
-                                    {"isa", compiled_isa()},
+                                    {"isa", instruction_set()},
                                     {"cpu", cpu_name()},
                                     {"cores", std::thread::hardware_concurrency()},
                                     {"threads", max_threads()},

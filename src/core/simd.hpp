@@ -1,9 +1,13 @@
 #pragma once
 // The SIMD pack: a vector as wide as the machine's registers, with + - * / and mixed scalar operations from the
 // compiler's vector extension. Laws are templates on the number type and take a scalar or a pack alike.
+//
+// What depends on the width stands in a namespace named after it, so that the same function of two instruction sets is
+// two functions to the linker: the installed library holds rooms of both (cmake/rooms.cmake).
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <string>
 #include <type_traits>
 #include <utility>
 
@@ -13,12 +17,16 @@ namespace railstrata {
 
 #ifndef __CUDACC__  // a thread of a device computes with numbers; no layout that nvcc sees depends on packs
 #if defined(__AVX512F__)
+#define RAILSTRATA_PACKS packs_of_64_bytes
 inline constexpr int kPackBytes = 64;
 #elif defined(__AVX__)
+#define RAILSTRATA_PACKS packs_of_32_bytes
 inline constexpr int kPackBytes = 32;
 #else
+#define RAILSTRATA_PACKS packs_of_16_bytes
 inline constexpr int kPackBytes = 16;
 #endif
+inline namespace RAILSTRATA_PACKS {
 
 template <class Real>
 struct PackType {
@@ -28,6 +36,7 @@ template <class Real>
 using PackOf = typename PackType<Real>::type;
 template <class Real>
 inline constexpr int kLanesOf = kPackBytes / static_cast<int>(sizeof(Real));
+}  // namespace RAILSTRATA_PACKS
 #endif
 
 /// The number type of a scalar or a pack.
@@ -47,6 +56,7 @@ template <class T>
 using ScalarOf = typename ScalarType<T>::type;
 
 #ifndef __CUDACC__
+inline namespace RAILSTRATA_PACKS {
 using Pack = PackOf<double>;
 inline constexpr int kLanes = kLanesOf<double>;
 
@@ -58,6 +68,7 @@ inline PackOf<Real> load(const Real* p) {
 }
 inline void store(double* p, Pack v) { std::memcpy(p, &v, sizeof v); }
 inline void store(float* p, PackOf<float> v) { std::memcpy(p, &v, sizeof v); }
+}  // namespace RAILSTRATA_PACKS
 #endif
 
 /// Of a scalar, or of every lane of a pack. To choose between two values a law writes `a > b ? x : y`, which packs do
@@ -75,6 +86,7 @@ RAILSTRATA_POINTWISE T square_root(const T& x) {
 }
 
 #ifndef __CUDACC__
+inline namespace RAILSTRATA_PACKS {
 /// The lower lanes of one pack and the upper ones of another.
 template <class P>
 inline P halves(P lower, P upper) {
@@ -87,6 +99,10 @@ inline P halves(P lower, P upper) {
 
 /// n rounded up to whole packs of doubles.
 constexpr int whole_packs(int n) { return (n + kLanes - 1) / kLanes * kLanes; }
+}  // namespace RAILSTRATA_PACKS
+
+/// The instruction set that the rooms which compute are compiled for, e.g. "AVX-512, 8 doubles a vector".
+std::string instruction_set();
 #endif
 
 }  // namespace railstrata

@@ -23,21 +23,6 @@ std::string version_text() {
 
 std::string commit_text() { return build_info().commit + (build_info().dirty ? "+dirty" : ""); }
 
-std::string compiled_isa() {
-#if defined(__AVX512F__)
-  const char* name = "AVX-512";
-#elif defined(__AVX2__)
-  const char* name = "AVX2";
-#elif defined(__AVX__)
-  const char* name = "AVX";
-#elif defined(__x86_64__)
-  const char* name = "SSE2";
-#else
-  const char* name = "generic";
-#endif
-  return fmt::format("{}, {} doubles a vector", name, kLanes);
-}
-
 std::string sha256_of_file(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream bytes;
@@ -67,7 +52,7 @@ std::string provenance_json(const std::vector<std::string>& command_line, const 
            {"build_type", build.build_type},
            {"libraries", libraries},
            {"cpu", cpu_name()},
-           {"isa", compiled_isa()},
+           {"isa", instruction_set()},
            {"cores", std::thread::hardware_concurrency()},
            {"threads", threads},
            {"host", host_name()},

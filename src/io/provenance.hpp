@@ -25,9 +25,6 @@ std::string commit_text();
 /// Name and version of every library linked.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
-/// "avx512, 8 doubles a vector": what the kernels were compiled for.
-std::string compiled_isa();
-
 /// SHA-256 in hexadecimal [FIPS 180-4]. The file's: throws EnvironmentError if it cannot be read.
 std::string sha256_of(std::string_view bytes);
 std::string sha256_of_file(const std::filesystem::path& file);

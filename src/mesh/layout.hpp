@@ -3,7 +3,6 @@
 // stations contiguous and padded to whole packs, so that lines of elements load their corners as plain vectors. A
 // closed ring keeps a ghost of station 0 behind its last station. Padding is zero.
 #include "core/array.hpp"
-#include "core/simd.hpp"
 #include "mesh/swept.hpp"
 
 namespace railstrata {
@@ -29,21 +28,6 @@ struct BodyLayout {
 /// x, y and z of a node, from the index of its component x; stride: BlockLayout::stride.
 inline Vec3 vector_at(const Field& f, std::ptrdiff_t x, int stride) { return {f[x], f[x + stride], f[x + 2 * stride]}; }
 
-inline BodyLayout layout_of(const SweptBody& body) {
-  BodyLayout layout;
-  layout.size = kLanes - 1;
-  for (const Block& b : body.blocks) {
-    BlockLayout l;
-    l.offset = layout.size;
-    l.nodes = static_cast<int>(b.section.nodes.size());
-    l.stations = b.stations.nodes();
-    l.elements = b.stations.elements();
-    l.closed = b.stations.closed;
-    l.stride = whole_packs(l.elements) + kLanes;
-    layout.size += static_cast<std::ptrdiff_t>(l.nodes) * 3 * l.stride;
-    layout.blocks.push_back(l);
-  }
-  return layout;
-}
+BodyLayout layout_of(const SweptBody& body);
 
 }  // namespace railstrata

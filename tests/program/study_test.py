@@ -407,10 +407,18 @@ class Killed(StudyTest):
         return self.children(process)
 
     def gone(self, pids):
+        """Whether they have ended; one that nobody has waited for yet stays as a zombie."""
+        def runs(pid):
+            try:
+                return pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+            except (FileNotFoundError, ProcessLookupError):
+                return False
         end = time.monotonic() + 30
-        while time.monotonic() < end and any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids):
+        while any(map(runs, pids)):
+            if time.monotonic() > end:
+                return False
             time.sleep(0.01)
-        return not any(pathlib.Path(f"/proc/{pid}").exists() for pid in pids)
+        return True
 
     def test_kill_9_at_any_moment_neither_redoes_nor_loses_a_case(self):
         text = GRID.replace('cell = "1.5 mm"', 'cell = "0.6 mm"')
