@@ -1,8 +1,10 @@
 # What is passed on for Windows: the program, the C library and CONTACT's interface, each with all it needs inside but
 # for what every Windows has, and `cpack -G ZIP`, which puts them into one folder.
-add_executable(railstrata src/app/windows/main.cpp)
+set(utf8_letters ${CMAKE_SOURCE_DIR}/src/core/windows/utf8_letters.cpp)
+set(utf8_wraps -Wl,--wrap=mbrtowc -Wl,--wrap=wcrtomb)
+add_executable(railstrata src/app/windows/main.cpp ${utf8_letters})
 target_link_libraries(railstrata PRIVATE room_app)
-target_link_options(railstrata PRIVATE -Wl,--stack,8388608)  # bytes, as on Linux
+target_link_options(railstrata PRIVATE -Wl,--stack,8388608 ${utf8_wraps})  # bytes of the stack, as on Linux
 # The programs of a folder and their data lie side by side.
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/app/shipped_files.cpp PROPERTIES
   COMPILE_DEFINITIONS RAILSTRATA_DATA_FROM_PROGRAM=".")
@@ -16,8 +18,9 @@ function(railstrata_dll target room header)
   set(exports ${CMAKE_BINARY_DIR}/generated/${target}.def)
   file(CONFIGURE OUTPUT ${exports} CONTENT "EXPORTS\n${names}\n" @ONLY)
   add_library(${target} SHARED $<TARGET_OBJECTS:room_${room}> ${CMAKE_SOURCE_DIR}/src/core/windows/stay_loaded.cpp
-    ${exports})
+    ${utf8_letters} ${exports})
   target_link_libraries(${target} PRIVATE room_${room})
+  target_link_options(${target} PRIVATE ${utf8_wraps})
   set_target_properties(${target} PROPERTIES LINKER_LANGUAGE CXX PREFIX "" IMPORT_PREFIX "" IMPORT_SUFFIX ".lib")
 endfunction()
 set(c_header ${CMAKE_SOURCE_DIR}/src/capi/railstrata.h)

@@ -1,8 +1,6 @@
 #pragma once
 // Isotropic linear elasticity as pointwise functions: no arrays, no memory, any number type.
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/simd.hpp"
 #include "core/vec.hpp"
@@ -79,18 +77,7 @@ inline double von_mises(const Sym3& s) {
   return std::sqrt(0.5 * (a * a + b * b + c * c) + 3 * (s.xy * s.xy + s.yz * s.yz + s.xz * s.xz));
 }
 
-/// Principal stresses, largest first (trigonometric solution of the characteristic equation; exact for repeated roots).
-inline Vec3 principal_stresses(const Sym3& s) {
-  const double mean = (s.xx + s.yy + s.zz) / 3;
-  const double xx = s.xx - mean, yy = s.yy - mean, zz = s.zz - mean;
-  const double j2 = 0.5 * (xx * xx + yy * yy + zz * zz) + s.xy * s.xy + s.yz * s.yz + s.xz * s.xz;
-  if (j2 <= 0) return {mean, mean, mean};
-  const double j3 = xx * (yy * zz - s.yz * s.yz) - s.xy * (s.xy * zz - s.yz * s.xz) + s.xz * (s.xy * s.yz - yy * s.xz);
-  const double r = std::sqrt(j2 / 3);
-  const double angle = std::acos(std::clamp(j3 / (2 * r * r * r), -1.0, 1.0)) / 3;
-  const double third = 2 * std::numbers::pi / 3;
-  return {mean + 2 * r * std::cos(angle), mean + 2 * r * std::cos(angle - third),
-          mean + 2 * r * std::cos(angle + third)};
-}
+/// Principal stresses, largest first, to rounding, repeated ones too.
+Vec3 principal_stresses(const Sym3& s);
 
 }  // namespace railstrata

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Dense>
 #include <cmath>
+#include <random>
 
 namespace railstrata {
 namespace {
@@ -30,10 +32,29 @@ TEST(Elastic, PrincipalStressesOfPureShearAndRepeatedRoots) {
   EXPECT_NEAR(shear.y, 0, 1e-12);
   EXPECT_NEAR(shear.z, -5, 1e-12);
   const Vec3 uniaxial = principal_stresses({-7, 0, 0, 0, 0, 0});
-  EXPECT_NEAR(uniaxial.x, 0, 1e-7);
+  EXPECT_NEAR(uniaxial.x, 0, 1e-14);
+  EXPECT_NEAR(uniaxial.y, 0, 1e-14);
   EXPECT_NEAR(uniaxial.z, -7, 1e-12);
   EXPECT_NEAR(von_mises({-7, 0, 0, 0, 0, 0}), 7, 1e-12);
   EXPECT_NEAR(von_mises({0, 0, 0, 0, 0, 2}), 2 * std::sqrt(3.0), 1e-12);
+}
+
+TEST(Elastic, PrincipalStressesAreThoseOfAnEigensolverToRounding) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> number;
+  for (int i = 0; i < 20000; ++i) {
+    Eigen::Matrix3d axes = Eigen::Quaterniond::UnitRandom().toRotationMatrix();
+    const double gap = std::pow(10.0, -i % 18);  // two that come as close as rounding lets them
+    const Eigen::Vector3d roots{number(random), 1.0, 1.0 + gap * number(random)};
+    const Eigen::Matrix3d a = 1e9 * axes * roots.asDiagonal() * axes.transpose();
+    const Eigen::Vector3d expected =
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(a, Eigen::EigenvaluesOnly).eigenvalues();
+    const Vec3 found = principal_stresses({a(0, 0), a(1, 1), a(2, 2), a(0, 1), a(1, 2), a(0, 2)});
+    const double tolerance = 1e-14 * a.norm();
+    EXPECT_NEAR(found.x, expected[2], tolerance) << i;
+    EXPECT_NEAR(found.y, expected[1], tolerance) << i;
+    EXPECT_NEAR(found.z, expected[0], tolerance) << i;
+  }
 }
 
 TEST(Elastic, PacksOfBothPrecisionsGiveTheScalarsStress) {
