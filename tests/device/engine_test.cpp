@@ -55,7 +55,7 @@ TEST(SlowEngine, TheSameBitsInAnyOrderOfThreads) {
   }
 }
 
-TEST(Engine, StepsTakenTogetherHaveTheBitsOfSingleOnesAndOneCopy) {
+TEST(SlowEngine, StepsTakenTogetherHaveTheBitsOfSingleOnesAndOneCopy) {
   const RollingSystem system = small_system(layered_case(ArithmeticPrecision::double_precision));
   const PreloadResult preload = solve_preload(system, 1e-3);
   EmulatedDevice device(Protection::open), other(Protection::open);
@@ -121,7 +121,7 @@ TEST(Engine, CheckpointsGoEitherWay) {
   expect_checkpoints_go_either_way(device);
 }
 
-TEST(Engine, AWholeRunHasTheHistoryAndSamplesOfTheProcessor) {
+TEST(SlowEngine, AWholeRunHasTheHistoryAndSamplesOfTheProcessor) {
   CaseSpec spec = layered_case(ArithmeticPrecision::double_precision);
   spec.run.positions = {0.012};
   spec.run.run_up = 0.006;
@@ -169,7 +169,7 @@ TEST(Engine, CountsWhatACardWouldNeed) {
 }
 
 // In a case it goes with run.plasticity, which a device does not take; the kernels have it.
-TEST(Engine, TakesAnInitialStress) {
+TEST(SlowEngine, TakesAnInitialStress) {
   CaseSpec spec = small_case();
   spec.run.plasticity = true;
   spec.rail_material.strength.yield_strength = spec.wheel_material.strength.yield_strength = 1e20;

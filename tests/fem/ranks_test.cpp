@@ -127,7 +127,7 @@ TEST(SlowRanks, WithLocalStepsToo) {
   expect_bits_of_one_rank(spec, {3}, 32);
 }
 
-TEST(Ranks, InSinglePrecisionOfAYawedWheelThatIsFreeSidewaysToo) {
+TEST(SlowRanks, InSinglePrecisionOfAYawedWheelThatIsFreeSidewaysToo) {
   CaseSpec spec = damped_case();
   spec.run.precision = ArithmeticPrecision::single_precision;
   spec.geometry.yaw = 5e-3;
@@ -174,7 +174,7 @@ TEST(Ranks, StopTogetherInThePreload) {
   EXPECT_EQ(ended, (std::array<int, 2>{2, 2}));
 }
 
-TEST(Ranks, GoOnWithTheStateOfAnotherNumberOfRanks) {
+TEST(SlowRanks, GoOnWithTheStateOfAnotherNumberOfRanks) {
   const RollingSystem system = small_system(damped_case());
   const PreloadResult preload = solve_preload(system, 1e-4);
   Stepper one(system, preload);

@@ -1,13 +1,12 @@
 #!/usr/bin/env python3
 """Completion in bash and manual pages. usage: completion_test.py BINARY"""
-import pathlib
 import re
 import shutil
 import subprocess
 import sys
 import unittest
 
-from outside import FromOutside, railstrata
+from outside import FromOutside, main, railstrata, slow
 
 # What bash itself does before it calls a completion function: words are split at blanks and, with "=" in
 # COMP_WORDBREAKS, at "=", which is a word of its own.
@@ -92,6 +91,7 @@ class Completion(FromOutside):
         self.assertEqual(self.after('railstrata bem c --set layer.2.thickness="2 m'), ["2 mm", "2 m"])
         self.assertEqual(self.after(r"railstrata bem c --set vehicle.wheel_load=85\ k"), [r"85\ kN"])
 
+    @slow
     def test_every_default_and_unit_offered_is_taken(self):
         """The default of a quantity, read back by the program."""
         case = self.folder / "case.toml"
@@ -139,4 +139,4 @@ class Manual(FromOutside):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=[sys.argv[0], "-v"])
+    main()

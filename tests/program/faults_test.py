@@ -94,6 +94,7 @@ class FullDisk(Faults):
         self.assert_same(reference)
         fact("disk_full_bem", injected=len(reference), survived=len(reference))
 
+    @slow
     def test_the_run_goes_on_from_its_checkpoint_when_there_is_room(self):
         rc, reference = self.whole(SMALL)
         faults = (("write", "history.csv", 60), ("write", "rail.vtu", 0), ("fsync", "wheel.vtu", 0),
@@ -194,6 +195,7 @@ def file_system(options):
 
 
 class SmallFileSystem(Faults):
+    @slow
     def test_a_disk_that_is_really_full(self):
         rc, reference = self.whole(SMALL)
         size = sum(len(content) for content in reference.values())

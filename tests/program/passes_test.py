@@ -57,6 +57,7 @@ class Passes(FromOutside):
         self.assertLess(float(first["sigma_x_min_MPa"]), -5)
         self.assertLess(abs(float(first["balance"])), 1e-6)
 
+    @slow
     def test_resumed_passes_have_the_bits_of_passes_in_one_go(self):
         weak = strength(400)
         whole = self.passes("whole", *weak, "--passes", 2)
@@ -67,6 +68,7 @@ class Passes(FromOutside):
         self.refused(2, ["passes", BASE, *COARSE, *other],
                      "no passes of this very case")
 
+    @slow
     def test_wheels_that_wander_and_pull_in_turn_run_where_the_case_says_and_resume_to_the_same_bits(self):
         plan = [*strength(450), "--set", 'passes.lateral_positions=["0 mm", "4 mm"]', "--set",
                 "passes.traction_coefficients=[0.05, -0.05]", "--no-report"]

@@ -95,6 +95,7 @@ class Resume(FromOutside):
             self.assertGreater(abs(held["state/u_rail"][:]).max(), 1e-6)
             held.close()
 
+    @slow
     def test_killed_at_random_moments(self):
         dice = random.Random(20)
         kills = 0
@@ -141,6 +142,7 @@ class Resume(FromOutside):
         self.assertIn(f"stopped for --max-time; go on with\n    railstrata run --resume {self.out}\n", err)
         self.assertTrue((self.out / "checkpoint.h5").exists())
 
+    @slow
     def test_a_signal_during_the_preload_leaves_nothing_half_done(self):
         process = self.begin()
         wait_for((self.out / "provenance.json").exists, process)

@@ -42,6 +42,7 @@ class RolledPasses(FromOutside):
             self.assertEqual(float(row["plastic_p"]), 0)
             self.assertEqual(float(row["sigma_xx_MPa"]), 0)
 
+    @slow
     def test_has_the_same_bits_however_it_is_cut_and_for_any_threads(self):
         weak = [*WEAK, *COARSE]
         whole = numbers(self.passes("whole", *weak, "--passes", 2))

@@ -174,6 +174,7 @@ class Cases(StudyTest):
         self.assertEqual([r["state"] for r in self.rows()], ["done"] * 6)
         self.assertEqual({k: v for k, v in self.stamps().items() if k in first}, first)
 
+    @slow
     def test_studies_that_start_at_once_share_a_folder(self):
         alone = self.folder / "alone"
         rc, _, err = railstrata("study", self.study(GRID), "--out", alone, "--no-report")

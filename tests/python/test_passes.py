@@ -111,6 +111,7 @@ def test_faults_keep_their_remedies(weak, two, tmp_path):
         rs.passes(weak, tmp_path / "none", 1, cell=1.0)
 
 
+@pytest.mark.slow
 def test_passes_by_the_finite_elements_stop_within_a_pass_and_go_on_to_the_same_bits(tiny_text, tmp_path):
     case = rs.Case.from_text(tiny_text, str(tmp_path / "tiny.toml"), {
         "material.rail.yield_strength": "450 MPa", "drive.traction_coefficient": 0.1, "mesh.element_size": "6 mm"})
