@@ -69,9 +69,10 @@ function(railstrata_install_data layout)
   install(FILES ${CMAKE_SOURCE_DIR}/tests/install/consumer/mine.c ${CMAKE_SOURCE_DIR}/tests/install/consumer/mine.f90
     DESTINATION ${data_folder}/examples ${part})
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/matlab DESTINATION ${data_folder} ${part})
-  install(FILES ${CMAKE_SOURCE_DIR}/report/view.py ${CMAKE_SOURCE_DIR}/report/dist/report.js
-    ${CMAKE_SOURCE_DIR}/report/dist/report.css ${CMAKE_SOURCE_DIR}/report/dist/LICENSES.txt
-    DESTINATION ${data_folder}/report ${part})
+  install(FILES ${CMAKE_SOURCE_DIR}/src/report/view.py ${CMAKE_SOURCE_DIR}/web/dist/report.js
+    ${CMAKE_SOURCE_DIR}/web/dist/report.css DESTINATION ${data_folder}/report ${part})
+  install(FILES ${CMAKE_SOURCE_DIR}/web/dist/report_licences.txt DESTINATION ${data_folder}/report
+    RENAME LICENSES.txt ${part})
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/railstrata)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/ DESTINATION ${doc} ${part} FILES_MATCHING PATTERN "*.md"
     PATTERN "*.bib" PATTERN "*.png" PATTERN "*.svg" PATTERN "*.ipynb" PATTERN "reliability" EXCLUDE)

@@ -16,7 +16,7 @@ SOURCES = {".hpp", ".cpp", ".cu", ".h"}
 NAMED = re.compile(r"`([^`\s]+)`|\]\(([^)\s#]+)(?:#[^)]*)?\)")
 ENDING = re.compile(r"\.(hpp|cpp|md|py|cmake|ts|svg|bib)$")
 RESULTS = {"view.py", "compare.svg"}  # written by the program into its results
-FOLDERS = ("src/", "tests/", "docs/", "tools/", "cases/", "report/src", "data/", "fuzz/", "cmake/", "bench/")
+FOLDERS = ("src/", "tests/", "docs/", "tools/", "cases/", "web/src", "data/", "fuzz/", "cmake/", "bench/")
 LOUD = re.compile(r"\bspdlog\b|\bfmt::print\b|\bstd::(?:cout|cerr|clog)\b|\bf?(?:printf|puts)\(|\bstd(?:out|err)\b"
                   r"|\b_?exit\(|\babort\(|\b(?:signal|sigaction)\(")
 LOUD_FILES = {"study/child_process.cpp",  # what a child does between fork and exec

@@ -30,7 +30,7 @@ ROOT = records.ROOT
 BUILD = ROOT / "build-lint"
 FINDING = re.compile(r"^(\S+?):(\d+):(?:(\d+):)? (warning|error|style|performance|portability|note): (.*)$")
 SCRIPTS = ["railstrata", ".ci/run"]
-FORMATTED = ["src/**/*", "packaging/inside/*.cpp", "tests/**/*", "fuzz/**/*", "bench/**/*", "report/src/*", "report/*"]
+FORMATTED = ["src/**/*", "packaging/inside/*.cpp", "tests/**/*", "fuzz/**/*", "bench/**/*", "web/src/**/*", "web/*"]
 FORMATTED_SUFFIXES = statement_lines.CPP | statement_lines.SCRIPTS
 FORMAT_VERSION = "14."
 

@@ -260,10 +260,10 @@ def with_explorer(page, folder):
     """The page with the engine inside, and the first page's link to that of the repository as one to it."""
     shutil.copy(page, folder / "explore.html")
     first = folder / "index.md"
-    there = r"(\[explore/explore\.html\]\([^)]*\)|`explore/explore\.html`)"
+    there = r"(\[web/explore\.html\]\([^)]*\)|`web/explore\.html`)"
     text, count = re.subn(there, "[explore.html](explore.html)", first.read_text())
     if not count:
-        sys.exit("make_site.py: README.md has no link to explore/explore.html")
+        sys.exit("make_site.py: README.md has no link to web/explore.html")
     first.write_text(text)
 
 

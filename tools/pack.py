@@ -110,7 +110,7 @@ def add_licences(folder, packages):
     folder.mkdir(parents=True)
     shutil.copy(ROOT / "LICENSE", folder / "LICENSE")
     for page in ("report", "explore"):
-        shutil.copy(ROOT / page / "dist/LICENSES.txt", folder / f"{page}-page.txt")
+        shutil.copy(ROOT / f"web/dist/{page}_licences.txt", folder / f"{page}-page.txt")
     for name in sorted({*INSIDE, *packages}):
         shutil.copyfile(f"/usr/share/doc/{name}/copyright", folder / f"{name}.txt")
 

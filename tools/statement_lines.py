@@ -18,7 +18,7 @@ MOST_NAMES = 6  # a symmetric tensor has six components
 CPP = {".cpp", ".hpp", ".c", ".h"}
 SCRIPTS = {".ts", ".mjs", ".js"}
 OTHERS = {".py"}
-WRITTEN_BY_PROGRAMS = ("report/dist/", "explore/dist/")
+WRITTEN_BY_PROGRAMS = ("web/dist/",)
 
 # comments, raw strings, strings, characters, templates and preprocessor lines, in the order in which they hide one
 # another

@@ -2,14 +2,14 @@
 
 #include "core/embedded_file.hpp"
 
-// RAILSTRATA_EXPLORE_FOLDER comes from CMake.
-#define RAILSTRATA_ASSET(name, file) RAILSTRATA_EMBED(railstrata_explorer_##name, RAILSTRATA_EXPLORE_FOLDER "/" file)
+// RAILSTRATA_WEB_FOLDER comes from CMake.
+#define RAILSTRATA_ASSET(name, file) RAILSTRATA_EMBED(railstrata_explorer_##name, RAILSTRATA_WEB_FOLDER "/" file)
 
 RAILSTRATA_ASSET(script, "explore.js")
 RAILSTRATA_ASSET(style, "explore.css")
 RAILSTRATA_ASSET(worker, "worker.js")
 RAILSTRATA_ASSET(engine, "engine.wasm.gz")
-RAILSTRATA_ASSET(licences, "LICENSES.txt")
+RAILSTRATA_ASSET(licences, "explore_licences.txt")
 
 namespace railstrata {
 

@@ -1,5 +1,5 @@
 #pragma once
-// Files of explore/dist that the program carries with it.
+// Files of web/dist that the program carries with it.
 #include <string_view>
 
 namespace railstrata {
@@ -8,6 +8,6 @@ std::string_view explorer_script();    ///< explore.js: the page
 std::string_view explorer_style();     ///< explore.css
 std::string_view explorer_worker();    ///< worker.js: the engine's thread
 std::string_view explorer_engine();    ///< engine.wasm.gz
-std::string_view explorer_licences();  ///< LICENSES.txt: of the software in the engine
+std::string_view explorer_licences();  ///< explore_licences.txt: of the software in the engine
 
 }  // namespace railstrata

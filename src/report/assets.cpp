@@ -2,13 +2,13 @@
 
 #include "core/embedded_file.hpp"
 
-// RAILSTRATA_REPORT_FOLDER comes from CMake.
-#define RAILSTRATA_ASSET(name, file) RAILSTRATA_EMBED(railstrata_##name, RAILSTRATA_REPORT_FOLDER "/" file)
+// RAILSTRATA_WEB_FOLDER and RAILSTRATA_VIEW_FILE come from CMake.
+#define RAILSTRATA_ASSET(name, file) RAILSTRATA_EMBED(railstrata_##name, RAILSTRATA_WEB_FOLDER "/" file)
 
-RAILSTRATA_ASSET(script, "dist/report.js")
-RAILSTRATA_ASSET(style, "dist/report.css")
-RAILSTRATA_ASSET(licences, "dist/LICENSES.txt")
-RAILSTRATA_ASSET(view, "view.py")
+RAILSTRATA_ASSET(script, "report.js")
+RAILSTRATA_ASSET(style, "report.css")
+RAILSTRATA_ASSET(licences, "report_licences.txt")
+RAILSTRATA_EMBED(railstrata_view, RAILSTRATA_VIEW_FILE)
 
 namespace railstrata {
 

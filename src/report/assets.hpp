@@ -4,9 +4,9 @@
 
 namespace railstrata {
 
-std::string_view report_script();    ///< report/dist/report.js
-std::string_view report_style();     ///< report/dist/report.css
-std::string_view report_licences();  ///< report/dist/LICENSES.txt: of the software inside report.js
-std::string_view view_script();      ///< report/view.py
+std::string_view report_script();    ///< web/dist/report.js
+std::string_view report_style();     ///< web/dist/report.css
+std::string_view report_licences();  ///< web/dist/report_licences.txt: of the software inside report.js
+std::string_view view_script();      ///< src/report/view.py
 
 }  // namespace railstrata

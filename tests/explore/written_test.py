@@ -66,7 +66,7 @@ class Kept(unittest.TestCase):
             page = pathlib.Path(folder) / "explore.html"
             subprocess.run([BINARY, "explore", "cases/quick", "--out", page], cwd=SOURCES, capture_output=True,
                            check=True)
-            now, then = (file.read_text() for file in (page, SOURCES / "explore/explore.html"))
+            now, then = (file.read_text() for file in (page, SOURCES / "web/explore.html"))
         self.assertNotIn(str(SOURCES), then)
         texts = [text.replace(seed(text)["version"], "VERSION") for text in (now, then)]
         self.assertTrue(texts[0] == texts[1], "run `./railstrata wasm`")

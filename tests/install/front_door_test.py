@@ -20,12 +20,12 @@ class FrontDoor(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.folder.chmod(0o755)
         self.root, self.tools, self.work = (self.folder / name for name in ("checkout", "tools", "work"))
-        inside = [self.root / name for name in ("src/core", "cmake", "report/dist", "explore/dist", "build")]
+        inside = [self.root / name for name in ("src/core", "cmake", "src/report", "web/dist", "build")]
         for folder in (*inside, self.tools, self.work):
             folder.mkdir(parents=True)
         self.work.chmod(0o777)
         shutil.copy(SOURCE / "railstrata", self.root)
-        for file in ("CMakeLists.txt", "src/core/vec.hpp", "report/view.py", "build/build.ninja"):
+        for file in ("CMakeLists.txt", "src/core/vec.hpp", "src/report/view.py", "build/build.ninja"):
             (self.root / file).write_text("")
         self.script(self.root / "build/railstrata-bin", 'echo "program: $*"')
         for name in ("ninja", "cmake"):

@@ -2,7 +2,7 @@
 """Builds dist/engine.js and dist/engine.wasm.gz, the engine of the explorer's page, from the rooms of src/ as they
 stand, with the licences of what is inside and the hashes of the sources, which a test compares.
 
-usage: explore/build_engine.py [--list] [FOLDER FOR OBJECTS]      --list: names sources and hashes, builds nothing
+usage: web/engine/build_engine.py [--list] [FOLDER FOR OBJECTS]      --list: names sources and hashes, builds nothing
 
 It needs Debian's packages emscripten, ninja-build, libfmt-dev, libeigen3-dev, libtomlplusplus-dev and
 nlohmann-json3-dev. The sources are those that src/explore/calls.cpp reaches by its #includes.
@@ -17,8 +17,9 @@ import shutil
 import subprocess
 import sys
 
-EXPLORE = pathlib.Path(__file__).resolve().parent
-SRC = EXPLORE.parent / "src"
+HERE = pathlib.Path(__file__).resolve().parent
+ROOT = HERE.parent.parent
+SRC = ROOT / "src"
 ENTRY = "explore/calls.cpp"
 # Rooms whose headers others include for the types, and whose functions nobody calls here: the linker would say.
 TYPES_ALONE = ("body/", "element/", "fem/", "mesh/", "contact/", "io/provenance.cpp")
@@ -64,7 +65,7 @@ def sources():
 
 
 def ninja_file(objects, compiled):
-    lines = ["rule cc", f"  command = em++ {FLAGS} $more -I{SRC} -I{EXPLORE}/stand_in -I{objects}/headers "
+    lines = ["rule cc", f"  command = em++ {FLAGS} $more -I{SRC} -I{HERE}/stand_in -I{objects}/headers "
              f"-I{objects}/headers/eigen3 -MMD -MF $out.d -c $in -o $out", "  depfile = $out.d", "  deps = gcc",
              "rule link", f"  command = em++ {LINK} $in -o $out", ""]
     names = []
@@ -81,8 +82,8 @@ def ninja_file(objects, compiled):
 def hashes():
     """SHA-256 of every file that goes into the engine."""
     _, read = sources()
-    files = [SRC / f for f in read] + sorted((EXPLORE / "stand_in").iterdir()) + [EXPLORE / "build_engine.py"]
-    return {str(f.relative_to(EXPLORE.parent)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
+    files = [SRC / f for f in read] + sorted((HERE / "stand_in").iterdir()) + [HERE / "build_engine.py"]
+    return {str(f.relative_to(ROOT)): hashlib.sha256(f.read_bytes()).hexdigest() for f in files}
 
 
 def licences():
@@ -111,19 +112,19 @@ def main():
     if sys.argv[1:] == ["--list"]:
         print(json.dumps(hashes(), indent=2))
         return 0
-    objects = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else EXPLORE.parent / "build/wasm").resolve()
+    objects = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ROOT / "build/wasm").resolve()
     before = hashes()
     if build(objects):
         return 1
     if hashes() != before:
         print("a source has changed while this was built: start it again", file=sys.stderr)
         return 1
-    dist = EXPLORE / "dist"
+    dist = HERE.parent / "dist"
     dist.mkdir(exist_ok=True)
     shutil.copyfile(objects / "engine.js", dist / "engine.js")
     packed = gzip.compress((objects / "engine.wasm").read_bytes(), mtime=0)
     (dist / "engine.wasm.gz").write_bytes(packed)
-    (dist / "LICENSES.txt").write_text(licences())
+    (dist / "explore_licences.txt").write_text(licences())
     (dist / "engine_sources.json").write_text(json.dumps(before, indent=2) + "\n")
     print(f"dist/engine.wasm.gz: {len(packed) / 1e6:.2f} MB from {len(sources()[0])} sources")
     return 0
