@@ -1,5 +1,5 @@
-# The card: src/device/card.cu, compiled by nvcc alone and linked as an object into room device. nvcc is never required:
-# with AUTO a machine without one, or with one that cannot read the kernels, builds the program without a card.
+# The card: extras/device/card.cu, compiled by nvcc alone and linked as an object into the extra device. nvcc is never
+# required: with AUTO a machine without one, or with one that cannot read the kernels, builds the program without a card.
 #   RAILSTRATA_CUDA           OFF (the default: kernels take a minute to compile), AUTO, ON (an error says what is missing)
 #   RAILSTRATA_NVCC           the compiler
 #   RAILSTRATA_CUDA_ARCHITECTURES   e.g. "80;90"; the last one's intermediate code is kept for newer cards
@@ -25,7 +25,7 @@ endforeach()
 list(GET RAILSTRATA_CUDA_ARCHITECTURES -1 architecture)
 list(APPEND cuda_architectures -gencode arch=compute_${architecture},code=compute_${architecture})
 set(cuda_flags -std=c++20 --expt-relaxed-constexpr -O3 -ccbin ${CMAKE_CXX_COMPILER} -I ${CMAKE_SOURCE_DIR}/src
-  -Xcompiler -fPIC -DNDEBUG)
+  -I ${CMAKE_SOURCE_DIR}/extras -Xcompiler -fPIC -DNDEBUG)
 
 if(NOT cuda_missing)
   get_filename_component(nvcc_file ${RAILSTRATA_NVCC} REALPATH)
@@ -55,8 +55,8 @@ if(NOT cuda_missing)
   set(RAILSTRATA_CARD_OBJECT ${CMAKE_BINARY_DIR}/card.o)
   add_custom_command(OUTPUT ${RAILSTRATA_CARD_OBJECT}
     COMMAND ${RAILSTRATA_NVCC} ${cuda_flags} ${cuda_architectures} -MD -MF ${CMAKE_BINARY_DIR}/card.d
-      -c ${CMAKE_SOURCE_DIR}/src/device/card.cu -o ${RAILSTRATA_CARD_OBJECT}
-    DEPENDS ${CMAKE_SOURCE_DIR}/src/device/card.cu DEPFILE ${CMAKE_BINARY_DIR}/card.d
+      -c ${CMAKE_SOURCE_DIR}/extras/device/card.cu -o ${RAILSTRATA_CARD_OBJECT}
+    DEPENDS ${CMAKE_SOURCE_DIR}/extras/device/card.cu DEPFILE ${CMAKE_BINARY_DIR}/card.d
     COMMENT "Compiling the kernels for cards" VERBATIM)
   add_custom_target(card_object DEPENDS ${RAILSTRATA_CARD_OBJECT})
 elseif(RAILSTRATA_CUDA AND NOT RAILSTRATA_CUDA STREQUAL "AUTO")

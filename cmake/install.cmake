@@ -44,7 +44,7 @@ endfunction()
 
 function(railstrata_install_headers layout libdir)
   railstrata_part(dev)
-  install(FILES ${CMAKE_SOURCE_DIR}/src/${ROOM_OF_CONTACT}/railstrata_cntc.h
+  install(FILES ${CMAKE_SOURCE_DIR}/extras/${ROOM_OF_CONTACT}/railstrata_cntc.h
     DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/railstrata ${part})
   install(DIRECTORY ${public_include}/railstrata DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${part}
     FILES_MATCHING PATTERN "*.hpp" PATTERN "*.h")

@@ -1,6 +1,7 @@
 # ctest reads this when it starts, once for each GoogleTest program: a test for each suite, since a process for each of
 # its tests costs more than most of them. The name is <prefix><suite>; what failed is named in the output, and
-# `<program> --gtest_filter=Suite.Test` runs one alone. Suites whose name begins with Slow or Long get that label.
+# `<program> --gtest_filter=Suite.Test` runs one alone. Suites whose name begins with Slow or Long get that label
+# besides.
 if(NOT EXISTS "${program}")
   add_test("${prefix}NOT_BUILT" "${program}")
   return()
@@ -16,7 +17,8 @@ foreach(suite IN LISTS suites)
   add_test("${test}" "${program}" "--gtest_filter=${suite}.*")
   set(kind "${labels}")
   if(suite MATCHES "(^|/)(Long|Slow)")
-    string(TOLOWER "${CMAKE_MATCH_2}" kind)
+    string(TOLOWER "${CMAKE_MATCH_2}" size)
+    list(APPEND kind ${size})
   endif()
   # threads that wait sleep (the program's do nearly so, src/app/main.cpp): spinning, a test of a few seconds takes a
   # minute on shared cores

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks every #include of src/ against src/LAYERS: a room sees itself and the rooms on lines above its own, nothing
-else. Every room has a card, README.md, whose first heading is the room's name; the files that a card names exist.
-Below the highest room nothing prints, logs, ends the program or touches signals: others can call it.
+else. Beside src/, extras/LAYERS says of each extra which floors of src/ it sees and which rooms see it. Every room has a
+card, README.md, whose first heading is the room's name; the files that a card names exist. Below the highest room
+nothing prints, logs, ends the program or touches signals: others can call it.
 
 usage: check_layers.py SRC
 """
@@ -15,11 +16,13 @@ SOURCES = {".hpp", ".cpp", ".cu", ".h"}
 # a file of the project as pages name it: `body/ties.hpp`, `tests/mesh`, [the reference](docs/case-reference.md#mesh)
 NAMED = re.compile(r"`([^`\s]+)`|\]\(([^)\s#]+)(?:#[^)]*)?\)")
 ENDING = re.compile(r"\.(hpp|cpp|md|py|cmake|ts|svg|bib)$")
+EXTRA = re.compile(r"(\w+) above (\w+)(?: seen by (.+))?")
 RESULTS = {"view.py", "compare.svg"}  # written by the program into its results
-FOLDERS = ("src/", "tests/", "docs/", "tools/", "cases/", "web/src", "data/", "fuzz/", "cmake/", "bench/")
+FOLDERS = ("src/", "extras/", "tests/", "docs/", "tools/", "cases/", "web/src", "data/", "fuzz/", "cmake/", "bench/")
 LOUD = re.compile(r"\bspdlog\b|\bfmt::print\b|\bstd::(?:cout|cerr|clog)\b|\bf?(?:printf|puts)\(|\bstd(?:out|err)\b"
                   r"|\b_?exit\(|\babort\(|\b(?:signal|sigaction)\(")
-LOUD_FILES = {"study/child_process.cpp",  # what a child does between fork and exec
+LOUD_FILES = {"mpi/plug_in.cpp",  # the end of all ranks, where one has died
+              "study/child_process.cpp",  # what a child does between fork and exec
               "cntc/message_file.cpp"}  # the screen, where a user of CONTACT's interface asks for it
 
 
@@ -30,11 +33,23 @@ def read_layers(text):
     return {room: level for level, rooms in enumerate(lines) for room in rooms}
 
 
-def complaint(room, target, levels):
+def read_extras(text):
+    """Extra -> (room of src/ on whose floor it stands, rooms of src/ that see it)."""
+    matches = [EXTRA.fullmatch(line) for line in text.splitlines() if line.strip() and not line.startswith("#")]
+    assert all(matches), "a line of extras/LAYERS is not NAME above ROOM [seen by ROOM...]"
+    return {m.group(1): (m.group(2), (m.group(3) or "").split()) for m in matches}
+
+
+def complaint(room, target, levels, extras):
     """Why `room` must not include `target` ("room/file.hpp"), or None."""
     other = target.split("/")[0]
-    if "/" not in target or other not in levels:
+    if "/" not in target or other not in {*levels, *extras}:
         return "does not start with a room of LAYERS"
+    if other in extras:
+        return None if room == other or room in extras[other][1] else f"{other} is an extra that {room} does not see"
+    if room in extras:
+        floor = extras[room][0]
+        return None if levels[other] <= levels[floor] else f"{other} is higher than {floor}"
     if other == room or levels[other] < levels[room]:
         return None
     side = "is on the same line of LAYERS" if levels[other] == levels[room] else "is a higher room"
@@ -84,12 +99,12 @@ def card_complaints(room):
     wrong = []
     if headings[:1] != [f"# {room.name}"]:
         wrong.append(f'{card}: the first heading is not "# {room.name}"')
-    return wrong + missing_files(card, [room, room.parent, room.parent.parent])
+    return wrong + missing_files(card, [room, room.parent, room.parent.parent, room.parent.parent / "src"])
 
 
-def loud_word(room, file, line, levels):
+def loud_word(room, file, line, level, highest):
     """The word of the line by which a room below the highest prints, ends the program or touches signals, or None."""
-    if levels[room] == max(levels.values()) or f"{room}/{file.name}" in LOUD_FILES:
+    if level == highest or f"{room}/{file.name}" in LOUD_FILES:
         return None
     match = LOUD.search(line.split("//")[0])
     return match and match.group(0)
@@ -97,26 +112,39 @@ def loud_word(room, file, line, levels):
 
 def check(src):
     levels = read_layers((src / "LAYERS").read_text())
+    apart = src.parent / "extras"
+    extras = read_extras((apart / "LAYERS").read_text()) if apart.exists() else {}
     found = []
-    for folder in sorted(p for p in src.iterdir() if p.is_dir()):
-        if folder.name not in levels:
-            found.append(f"{folder}: not a room of LAYERS")
+    for names, place in ((levels, src), (extras, apart)) if extras else ((levels, src),):
+        for folder in sorted(p for p in place.iterdir() if p.is_dir()):
+            if folder.name not in names:
+                found.append(f"{folder}: not a room of LAYERS")
+            else:
+                found += card_complaints(folder) + room_complaints(folder, levels, extras)
+    return found
+
+
+def room_complaints(folder, levels, extras):
+    """What is wrong with the sources of a room; tests beside it may include what they want."""
+    found = []
+    level = levels[extras[folder.name][0] if folder.name in extras else folder.name]
+    for file, number, line in source_lines(folder):
+        if "tests" in file.relative_to(folder).parts:
             continue
-        found += card_complaints(folder)
-        for file, number, line in source_lines(folder):
-            word = loud_word(folder.name, file, line, levels)
-            if word:
-                found.append(f"{file}:{number}: {folder.name} must not print, log, exit or handle signals: {word}")
-        for file, number, target in includes(folder):
-            reason = complaint(folder.name, target, levels)
-            if reason:
-                found.append(f"{file}:{number}: {folder.name} must not include \"{target}\": {reason}")
+        word = loud_word(folder.name, file, line, level, max(levels.values()))
+        if word:
+            found.append(f"{file}:{number}: {folder.name} must not print, log, exit or handle signals: {word}")
+        include = INCLUDE.match(line)
+        reason = include and complaint(folder.name, include.group(1), levels, extras)
+        if reason:
+            found.append(f"{file}:{number}: {folder.name} must not include \"{include.group(1)}\": {reason}")
     return found
 
 
 def self_test():
     """The check catches an upward, a same-line, a roomless include and an unknown folder, and passes the rest."""
     test_includes()
+    test_extras()
     test_cards()
 
 
@@ -134,12 +162,31 @@ def test_includes():
         (src / "top" / "b.cpp").write_text('void f() { std::puts("here"); }\n')
         found = check(src)
         expected = [
-            "b.cpp:2: left must not print",
             'left must not include "right/a.hpp"',
+            "b.cpp:2: left must not print",
             'low must not include "top/a.hpp"',
             "stray: not a room",
             'top must not include "a.hpp"',
         ]
+        assert len(found) == len(expected) and all(e in f for e, f in zip(expected, found)), found
+
+
+def test_extras():
+    """An extra sees its floor and those below, no other extra; the rooms that see it are named."""
+    with tempfile.TemporaryDirectory() as name:
+        root = pathlib.Path(name)
+        included = {"src/low": "one/a.hpp", "src/middle": "one/a.hpp", "src/top": "low/a.hpp",
+                    "extras/one": "middle/a.hpp", "extras/two": "top/a.hpp", "extras/three": "one/a.hpp",
+                    "extras/stray": "low/a.hpp"}
+        for room, include in included.items():
+            (root / room).mkdir(parents=True)
+            (root / room / "README.md").write_text(f"# {pathlib.Path(room).name}\n")
+            (root / room / "a.hpp").write_text(f'#include "{include}"\n')
+        (root / "src/LAYERS").write_text("low\nmiddle\ntop\n")
+        (root / "extras/LAYERS").write_text("one above middle seen by middle top\ntwo above middle\nthree above top\n")
+        found = check(root / "src")
+        expected = ["one is an extra that low does not see", "stray: not a room", "one is an extra that three does not",
+                    "top is higher than middle"]
         assert len(found) == len(expected) and all(e in f for e, f in zip(expected, found)), found
 
 

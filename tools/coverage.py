@@ -16,6 +16,7 @@ import pathlib
 import subprocess
 import sys
 
+import check_layers
 import records
 
 BUILD = records.ROOT / "build-coverage"
@@ -37,8 +38,8 @@ def measure(rooms, jobs, ctest):
 
 
 def read(build, jobs):
-    done = subprocess.run(["gcovr", "--root", str(records.ROOT), "--filter", str(records.ROOT / "src") + "/",
-                           "--exclude-throw-branches", "--exclude-unreachable-branches", "-j", str(jobs), "--json", "-",
+    done = subprocess.run(["gcovr", "--root", str(records.ROOT), "--filter",
+                           f"{records.ROOT}/(src|extras/[a-z]+/[a-z_]+[.])", "--exclude-throw-branches", "--exclude-unreachable-branches", "-j", str(jobs), "--json", "-",
                            str(build)], cwd=records.ROOT, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"coverage: gcovr failed\n{done.stderr}")
@@ -68,8 +69,8 @@ def main():
         for room in (name.parts[1], "all"):
             rooms[room] = [a + b for a, b in zip(rooms[room], numbers)]
         missed.append((name, [line["line_number"] for line in lines if line["count"] == 0]))
-    order = [room for line in (records.ROOT / "src/LAYERS").read_text().splitlines() if not line.startswith("#")
-             for room in line.split()] + ["all"]
+    order = [*check_layers.read_layers((records.ROOT / "src/LAYERS").read_text()),
+             *check_layers.read_extras((records.ROOT / "extras/LAYERS").read_text()), "all"]
     rows = []
     print(f"{'room':10} {'lines':>7} {'run':>7}        {'branches':>8} {'run':>7}")
     for room in order:

@@ -3,7 +3,7 @@
 
 usage: function_lengths.py [--most LINES] [PATH ...]
 
-PATH: files or folders, src/ if none is given. Lines count from the one with the name to the closing brace.
+PATH: files or folders, src/ and extras/ if none is given. Lines count from the one with the name to the closing brace.
 Exit code: 0 none is too long, 1 some are, 4 Universal Ctags is missing.
 """
 import argparse
@@ -61,7 +61,7 @@ def main():
     given = options.parse_args()
     try:
         self_test()
-        found = findings(given.paths or [ROOT / "src"], given.most)
+        found = findings(given.paths or [ROOT / "src", ROOT / "extras"], given.most)
     except FileNotFoundError:
         print("function_lengths: Universal Ctags is not installed", file=sys.stderr)
         return 4

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""clang-tidy and cppcheck over src/, shellcheck over the shell scripts, layout and size of all sources: what they find
+"""clang-tidy and cppcheck over src/ and extras/, shellcheck over the shell scripts, layout and size of all sources: what they find
 and a verdict.
 
 usage: lint.py [--jobs N] [--csv docs/reliability/lint.csv] [FILE.cpp ...]
@@ -28,9 +28,11 @@ import statement_lines
 
 ROOT = records.ROOT
 BUILD = ROOT / "build-lint"
+PLACES = [ROOT / "src", ROOT / "extras"]
 FINDING = re.compile(r"^(\S+?):(\d+):(?:(\d+):)? (warning|error|style|performance|portability|note): (.*)$")
 SCRIPTS = ["railstrata", ".ci/run"]
-FORMATTED = ["src/**/*", "packaging/inside/*.cpp", "tests/**/*", "fuzz/**/*", "bench/**/*", "web/src/**/*", "web/*"]
+FORMATTED = ["src/**/*", "extras/**/*", "packaging/inside/*.cpp", "tests/**/*", "fuzz/**/*", "bench/**/*", "web/src/**/*",
+             "web/*"]
 FORMATTED_SUFFIXES = statement_lines.CPP | statement_lines.SCRIPTS
 FORMAT_VERSION = "14."
 
@@ -76,8 +78,8 @@ def cppcheck(jobs):
     code, out, err = run("cppcheck", "--enable=warning,performance,portability", "--inline-suppr",
                          f"--suppressions-list={ROOT / 'tools/cppcheck.txt'}", "--std=c++20", "--language=c++",
                          "--library=googletest", "--template={file}:{line}:{column}: {severity}: {message} [{id}]",
-                         "--quiet", f"--cppcheck-build-dir={folder}", "-j", jobs, "-I", ROOT / "src",
-                         ROOT / "src")
+                         "--quiet", f"--cppcheck-build-dir={folder}", "-j", jobs, *(word for place in PLACES for word in ("-I", place)),
+                         *PLACES)
     found = findings(err)
     if code and not found:
         found = {f"cppcheck failed: {(err or out).strip()}"}
@@ -112,7 +114,7 @@ def layout(files):
     lines = files or statement_lines.all_files()
     statement_lines.self_test()
     function_lengths.self_test()
-    sized = files or sorted(f for f in (ROOT / "src").rglob("*") if f.suffix in {".cpp", ".hpp"})
+    sized = files or sorted(f for place in PLACES for f in place.rglob("*") if f.suffix in {".cpp", ".hpp"})
     return {"clang-format": (code, clang_format(code)),
             "statement_lines": (lines, shown(set(statement_lines.findings(lines)))),
             "function_lengths": (sized, shown(set(function_lengths.findings(sized))))}
@@ -140,7 +142,7 @@ def main():
         print(f"lint: not installed: {', '.join(missing)}", file=sys.stderr)
         return 4
     files = [f.resolve() for f in given.files]
-    sources = sorted((ROOT / "src").rglob("*.cpp"))
+    sources = sorted(f for place in PLACES for f in place.rglob("*.cpp"))
     results = layout(files)
     if not files:
         results["shellcheck"] = (SCRIPTS, shellcheck())

@@ -244,7 +244,8 @@ def navigation(sections, folder):
 
 def sections_of(root):
     cases = sorted(f.relative_to(root).as_posix() for f in root.glob("cases/**/README.md"))
-    cards = sorted(f.relative_to(root).as_posix() for f in [*root.glob("src/*/README.md"), *root.glob("*/README.md")])
+    cards = sorted(f.relative_to(root).as_posix() for f in [
+        *root.glob("src/*/README.md"), *root.glob("extras/*/README.md"), *root.glob("*/README.md")])
     profiles = [f.relative_to(root).as_posix() for f in root.glob("data/*/README.md")]
     out = []
     for title, names in SECTIONS:

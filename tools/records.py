@@ -12,7 +12,7 @@ def commit(root=ROOT):
         return subprocess.run(["git", "-C", str(root), *args], capture_output=True, text=True).stdout.strip()
 
     return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+"
-                                                                    if git("status", "--porcelain", "--", "src",
+                                                                    if git("status", "--porcelain", "--", "src", "extras",
                                                                            "tests", "cmake", "CMakeLists.txt") else "")
 
 

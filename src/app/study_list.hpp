@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "app/commands.hpp"
-#include "study/batch_script.hpp"
+#include "batch/batch_script.hpp"
 #include "study/study_results.hpp"
 
 namespace railstrata {

@@ -19,7 +19,7 @@ from debian_tree import done, made, missing
 
 HOME = "/root/checkout"
 # Of every optional part a test that needs it: tests/program, tests/python, tests/report, tests/install.
-PARTS = {"MPI": "program:ranks", "Python": "python", "browser": "report:page", "Fortran": "install:CConsumer"}
+PARTS = {"MPI": "mpi:ranks", "Python": "python", "browser": "report:page", "Fortran": "install:CConsumer"}
 
 
 def demo(tree):

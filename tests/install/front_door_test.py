@@ -20,7 +20,7 @@ class FrontDoor(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         self.folder.chmod(0o755)
         self.root, self.tools, self.work = (self.folder / name for name in ("checkout", "tools", "work"))
-        inside = [self.root / name for name in ("src/core", "cmake", "src/report", "web/dist", "build")]
+        inside = [self.root / name for name in ("src/core", "extras", "cmake", "src/report", "web/dist", "build")]
         for folder in (*inside, self.tools, self.work):
             folder.mkdir(parents=True)
         self.work.chmod(0o777)

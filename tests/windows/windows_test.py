@@ -240,7 +240,7 @@ class Library(unittest.TestCase):
 
 class Contact(unittest.TestCase):
     def set_ups(self):
-        """The rows of half_space.csv up to 0.5 mm, as tests/cntc/contact_test.py sets them up."""
+        """The rows of half_space.csv up to 0.5 mm, as extras/cntc/tests/contact_test.py sets them up."""
         with open(SOURCE / "tests/data/reference/half_space.csv", encoding="utf-8") as file:
             for row in csv.DictReader(line for line in file if not line.startswith("#")):
                 number = lambda key, of=row: float(of[key]) if of[key] else 0.0
@@ -255,7 +255,7 @@ class Contact(unittest.TestCase):
         driver = SOURCE / "tests/windows/contact_driver.c"
         with tempfile.TemporaryDirectory() as place:
             for compiler, program in ((COMPILER, "driver.exe"), ("gcc", "driver")):
-                subprocess.run([compiler, "-Wall", "-Werror", "-I", SOURCE / "src", driver, "-o", f"{place}/{program}",
+                subprocess.run([compiler, "-Wall", "-Werror", "-I", SOURCE / "extras", driver, "-o", f"{place}/{program}",
                                 *(["-ldl"] if compiler == "gcc" else [])], check=True)
             code, out, errors = wine(f"{place}/driver.exe", WINDOWS / "contact/contact_addon_win64.dll",
                                      input=lines.encode())

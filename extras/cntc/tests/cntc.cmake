@@ -1,0 +1,9 @@
+# The shared library as CONTACT's Python interface calls it.
+if(RAILSTRATA_LIBRARY)
+  add_test(NAME cntc:ctypes COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/contact_test.py
+    $<TARGET_FILE:contact_addon> ${CMAKE_SOURCE_DIR}/extras/cntc/railstrata_cntc.h
+    ${CMAKE_SOURCE_DIR}/tests/data/reference)
+  add_test(NAME cntc:exported COMMAND /usr/bin/python3 ${CMAKE_CURRENT_LIST_DIR}/exported_test.py
+    $<TARGET_FILE:contact_addon> $<TARGET_FILE:railstrata>)
+  set_tests_properties(cntc:ctypes cntc:exported PROPERTIES LABELS extras TIMEOUT 600 ENVIRONMENT PYTHONDONTWRITEBYTECODE=1)
+endif()

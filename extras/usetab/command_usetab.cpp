@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <CLI/CLI.hpp>
+
+#include "app/case_of.hpp"
+#include "app/commands.hpp"
+#include "app/common_options.hpp"
+#include "app/progress.hpp"
+#include "app/signals.hpp"
+#include "io/output_file.hpp"
+#include "io/output_folder.hpp"
+#include "io/provenance.hpp"
+#include "usetab/usetab.hpp"
+
+namespace railstrata {
+namespace {
+
+ExitCode command_usetab(const CommandOptions& options) {
+  const std::filesystem::path out = options.out.empty() ? "results/usetab" : options.out;
+  const FolderHold hold = prepare_output_folder(out, options.force);
+  const UsetabAxes axes = usetab_axes();
+  UsetabOptions how;
+  how.cells = options.usetab_cells;
+  how.stop = &stop_flag();
+  std::string text = usetab_head(axes, how.cells, fmt::format("RailStrata {}", build_info().version));
+  {
+    Progress progress("usetab", spdlog::default_logger()->level() <= spdlog::level::info);
+    std::size_t done = 0;
+    how.solved = [&](double fraction) {
+      progress.update((static_cast<double>(done) + fraction) / static_cast<double>(axes.aspect.size()));
+    };
+    for (const double aspect : axes.aspect) {
+      const std::vector<UsetabForce> forces = usetab_forces(aspect, axes, how);
+      if (stop_flag()) break;
+      text += usetab_rows(aspect, axes, forces);
+      ++done;
+    }
+  }
+  if (stop_flag()) {
+    spdlog::warn("stopped: nothing was written");
+    return ExitCode::interrupted;
+  }
+  write_whole_file(out / "tabcon", text + usetab_end());
+  spdlog::info("the table is {}", (out / "tabcon").string());
+  return ExitCode::ok;
+}
+
+void declare_usetab(CLI::App& sub, CommandOptions& options) {
+  add_output(sub, options, "results/usetab");
+  sub.add_option("--cells", options.usetab_cells, "Cells along either axis of the ellipse (default: 20)")
+      ->check(CLI::Range(6, 100));
+}
+
+}  // namespace
+
+const Command kUsetabCommand{
+    "usetab", "Kalker's table of creep forces of ellipses of steel, as programs with a USETAB reader take it",
+    "Examples:\n  railstrata usetab --out results/usetab\n  railstrata usetab --cells 30\n", declare_usetab,
+    command_usetab};
+
+}  // namespace railstrata
