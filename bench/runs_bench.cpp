@@ -9,10 +9,10 @@
 #include <algorithm>
 
 #include "core/parallel.hpp"
-#include "post/half_space_track.hpp"
-#include "post/rail_passes.hpp"
-#include "post/shakedown_summary.hpp"
-#include "post/stress_cycles.hpp"
+#include "judge/half_space_track.hpp"
+#include "judge/shakedown_summary.hpp"
+#include "passes/rail_passes.hpp"
+#include "result/stress_cycles.hpp"
 #include "runs/solve_half_space.hpp"
 
 namespace railstrata {

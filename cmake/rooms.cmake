@@ -51,7 +51,7 @@ endfunction()
 # templates, again in every file: the sources of a room are compiled together (RAILSTRATA_UNITY), so many at a time; a
 # source with compile options of its own stays alone. Rooms that compute nothing are compiled with -O1.
 set(SOURCES_AT_ONCE 24)
-set(ROOMS_THAT_COMPUTE_NOTHING case hdf5 io report runs study explore app bridge batch usetab export)
+set(ROOMS_THAT_COMPUTE_NOTHING case hdf5 io passes report runs study explore app bridge batch usetab export)
 
 # railstrata_light(TARGET NAME): these rules for the sources of a room or of its tests.
 function(railstrata_light target name)
@@ -96,7 +96,6 @@ endif()
 set(ROOM_LIBS_case nlohmann_json::nlohmann_json tomlplusplus::tomlplusplus)
 set(ROOM_LIBS_body Eigen3::Eigen)
 set(ROOM_LIBS_fem Eigen3::Eigen)
-set(ROOM_LIBS_post Eigen3::Eigen)
 if(NOT WIN32)
   set(ROOM_LIBS_hdf5 hdf5::hdf5 hdf5::hdf5_hl)
 endif()

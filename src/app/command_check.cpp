@@ -13,7 +13,7 @@
 #include "app/progress.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
-#include "post/run_advice.hpp"
+#include "judge/run_advice.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/memory_need.hpp"
 #include "runs/run_estimate.hpp"

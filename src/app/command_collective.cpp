@@ -16,7 +16,7 @@
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
-#include "post/row_strength.hpp"
+#include "judge/row_strength.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "study/collective.hpp"
 #include "study/collective_files.hpp"

@@ -20,9 +20,9 @@
 #include "io/provenance.hpp"
 #include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
-#include "post/compare.hpp"
-#include "post/result_table.hpp"
 #include "report/comparison_picture.hpp"
+#include "result/compare.hpp"
+#include "result/result_table.hpp"
 
 namespace railstrata {
 namespace {

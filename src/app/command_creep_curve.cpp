@@ -18,8 +18,8 @@
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/output_folder.hpp"
-#include "post/result_table.hpp"
 #include "report/creep_curve_page.hpp"
+#include "result/result_table.hpp"
 #include "runs/half_space_need.hpp"
 
 namespace railstrata {

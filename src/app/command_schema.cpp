@@ -5,7 +5,7 @@
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "case/case_schema.hpp"
-#include "io/result_reference.hpp"
+#include "report/result_reference.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,7 +7,7 @@
 #include "app/common_options.hpp"
 #include "core/engine.hpp"
 #include "core/faults.hpp"
-#include "post/row_strength.hpp"
+#include "judge/row_strength.hpp"
 
 namespace railstrata {
 namespace {

@@ -16,7 +16,7 @@
 #include "app/progress.hpp"
 #include "app/signals.hpp"
 #include "io/output_folder.hpp"
-#include "post/check_limits.hpp"
+#include "judge/check_limits.hpp"
 #include "study/sweep.hpp"
 #include "study/sweep_page.hpp"
 

@@ -10,9 +10,9 @@
 
 #include "core/printable.hpp"
 #include "io/summary_json.hpp"
-#include "post/check_limits.hpp"
-#include "post/result_table.hpp"
-#include "post/verdict.hpp"
+#include "judge/check_limits.hpp"
+#include "judge/verdict.hpp"
+#include "result/result_table.hpp"
 
 namespace railstrata {
 namespace {

@@ -2,7 +2,7 @@
 // What a person reads of a result, the same for both engines.
 #include <string>
 
-#include "post/summary.hpp"
+#include "result/summary.hpp"
 
 namespace railstrata {
 

@@ -14,8 +14,8 @@
 #include "capi/state_of_case.hpp"
 #include "case/case_file.hpp"
 #include "io/provenance.hpp"
+#include "judge/bem_summary.hpp"
 #include "model/model.hpp"
-#include "post/bem_summary.hpp"
 #include "runs/solve_half_space.hpp"
 #include "runs/solve_settings.hpp"
 

@@ -19,9 +19,9 @@
 #include "io/json_text.hpp"
 #include "io/markup_text.hpp"
 #include "io/provenance.hpp"
-#include "post/patch.hpp"
 #include "report/base64.hpp"
 #include "report/page_parts.hpp"
+#include "result/patch.hpp"
 
 namespace railstrata {
 namespace {

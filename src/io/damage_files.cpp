@@ -9,8 +9,8 @@
 #include "io/csv.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
-#include "post/result_table.hpp"
-#include "post/verdict.hpp"
+#include "judge/verdict.hpp"
+#include "result/result_table.hpp"
 
 namespace railstrata {
 namespace {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "post/shakedown_summary.hpp"
-#include "post/sliding_map.hpp"
-#include "post/streamlines.hpp"
-#include "post/summary.hpp"
+#include "judge/shakedown_summary.hpp"
+#include "judge/sliding_map.hpp"
+#include "judge/streamlines.hpp"
+#include "result/summary.hpp"
 
 namespace railstrata {
 

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/provenance.hpp"
-#include "post/patch.hpp"
+#include "result/patch.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "io/csv.hpp"
 #include "io/vtk.hpp"
-#include "post/rolling_mean.hpp"
-#include "post/stress_maxima.hpp"
-#include "post/stress_sections.hpp"
+#include "result/rolling_mean.hpp"
+#include "result/stress_maxima.hpp"
+#include "result/stress_sections.hpp"
 
 namespace railstrata {
 

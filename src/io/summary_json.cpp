@@ -6,7 +6,7 @@
 #include "io/damage_files.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
-#include "post/result_table.hpp"
+#include "result/result_table.hpp"
 
 namespace railstrata {
 namespace {

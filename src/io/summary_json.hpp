@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "post/summary.hpp"
+#include "result/summary.hpp"
 
 namespace railstrata {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "io/csv.hpp"
-#include "post/transient_row.hpp"
+#include "result/transient_row.hpp"
 
 namespace railstrata {
 

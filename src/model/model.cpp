@@ -80,7 +80,7 @@ std::vector<Row> rows_on(const CaseSpec& spec, BodyId body) {
   return out;
 }
 
-std::vector<LayerMesh> layers_on(const CaseSpec& spec, BodyId body) {
+std::vector<LayerMesh> layer_meshes(const CaseSpec& spec, BodyId body) {
   std::vector<LayerMesh> out;
   for (const Row& row : rows_on(spec, body)) out.push_back(row.mesh);
   return out;
@@ -259,7 +259,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   rail.end_length = spec.mesh.end_length;
   rail.block_width = g.block_width;
   rail.block_height = g.block_height;
-  rail.layers = layers_on(spec, BodyId::rail);
+  rail.layers = layer_meshes(spec, BodyId::rail);
   m.rail = meshed_rail ? *meshed_rail : mesh_rail(m.placement.rail, m.placement.track, rail, sizes);
 
   WheelMeshSpec wheel;
@@ -273,7 +273,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   wheel.hub_radius = g.hub_radius;
   wheel.hub_width = g.hub_width;
   wheel.bore_radius = g.bore_radius;
-  wheel.layers = layers_on(spec, BodyId::wheel);
+  wheel.layers = layer_meshes(spec, BodyId::wheel);
   m.wheel =
       mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);
   require_sound_mesh(m.rail, BodyId::rail, spec);

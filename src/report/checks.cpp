@@ -10,8 +10,8 @@
 
 #include "case/units.hpp"
 #include "core/engine.hpp"
-#include "post/check_limits.hpp"
-#include "post/result_table.hpp"
+#include "judge/check_limits.hpp"
+#include "result/result_table.hpp"
 
 namespace railstrata {
 namespace {

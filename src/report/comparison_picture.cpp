@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "core/si_prefix.hpp"
-#include "post/patch.hpp"
 #include "report/svg_page.hpp"
+#include "result/patch.hpp"
 
 namespace railstrata {
 namespace {

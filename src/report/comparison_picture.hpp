@@ -4,7 +4,7 @@
 #include <string>
 
 #include "contact/contact_field.hpp"
-#include "post/compare.hpp"
+#include "result/compare.hpp"
 
 namespace railstrata {
 

@@ -1,5 +1,5 @@
 #pragma once
-// The page of passes over a rail that yields, from the files of their folders (io/pass_files.hpp): the verdict in
+// The page of passes over a rail that yields, from the files of their folders (passes/pass_files.hpp): the verdict in
 // words, what every pass has done, maps of the section, profiles, loops.
 #include <filesystem>
 #include <vector>

@@ -13,11 +13,11 @@
 #include "core/si_prefix.hpp"
 #include "io/json_text.hpp"
 #include "io/provenance.hpp"
-#include "io/result_reference.hpp"
 #include "material/elastic.hpp"
-#include "post/patch.hpp"
-#include "post/stress_sections.hpp"
 #include "report/base64.hpp"
+#include "report/result_reference.hpp"
+#include "result/patch.hpp"
+#include "result/stress_sections.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "case/case_file.hpp"
 #include "contact/contact_field.hpp"
-#include "post/summary.hpp"
+#include "result/summary.hpp"
 
 namespace railstrata {
 

@@ -1,6 +1,6 @@
 #pragma once
 // Passes of wheels over a rail that yields in a result folder, by either method, begun anew or gone on with: what the
-// command line and Python share. The files are those of io/pass_files.hpp, with report.html at the end.
+// command line and Python share. The files are those of passes/pass_files.hpp, with report.html at the end.
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -43,7 +43,7 @@ struct PassesEnd {
   bool converged = true;  ///< stationary: every pass of this call settled, and the checks of its contact hold
 };
 
-/// Passes by the stationary method (post/rail_passes.hpp). A pass that is stopped has not been: its folder goes on
+/// Passes by the stationary method (passes/rail_passes.hpp). A pass that is stopped has not been: its folder goes on
 /// with it from its beginning. Throws CaseError (transients, no strength, a folder in use or of another case),
 /// NumericalError, EnvironmentError.
 PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, const PassFolderObserver& observer = {});

@@ -11,7 +11,7 @@
 #include "fem/plastic_zone.hpp"
 #include "fem/rail_at_rest.hpp"
 #include "model/model_on_rail.hpp"
-#include "post/pass_plan.hpp"
+#include "passes/pass_plan.hpp"
 #include "runs/memory_need.hpp"
 
 namespace railstrata {

@@ -15,7 +15,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/rolled_pass_files.hpp"
+#include "passes/rolled_pass_files.hpp"
 #include "runs/solve_fem.hpp"
 
 namespace railstrata {

@@ -7,7 +7,7 @@
 #include "core/parallel.hpp"
 #include "device/device_of.hpp"
 #include "io/provenance.hpp"
-#include "post/fem_summary.hpp"
+#include "judge/fem_summary.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/memory_need.hpp"
 #include "runs/process_memory.hpp"

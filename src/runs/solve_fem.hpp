@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "post/run_residual.hpp"
-#include "post/shakedown_summary.hpp"
-#include "post/streamlines.hpp"
-#include "post/stress_maxima.hpp"
-#include "post/summary.hpp"
+#include "judge/shakedown_summary.hpp"
+#include "judge/streamlines.hpp"
+#include "passes/run_residual.hpp"
+#include "result/stress_maxima.hpp"
+#include "result/summary.hpp"
 #include "runs/run_control.hpp"
 
 namespace railstrata {

@@ -5,8 +5,8 @@
 
 #include "core/parallel.hpp"
 #include "io/provenance.hpp"
-#include "post/bem_summary.hpp"
-#include "post/half_space_track.hpp"
+#include "judge/bem_summary.hpp"
+#include "judge/half_space_track.hpp"
 #include "runs/process_memory.hpp"
 
 namespace railstrata {

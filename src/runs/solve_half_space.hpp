@@ -6,11 +6,11 @@
 
 #include "bem/solve_bem.hpp"
 #include "bem/transient.hpp"
-#include "post/shakedown_summary.hpp"
-#include "post/sliding_map.hpp"
-#include "post/streamlines.hpp"
-#include "post/summary.hpp"
-#include "post/transient_row.hpp"
+#include "judge/shakedown_summary.hpp"
+#include "judge/sliding_map.hpp"
+#include "judge/streamlines.hpp"
+#include "result/summary.hpp"
+#include "result/transient_row.hpp"
 
 namespace railstrata {
 

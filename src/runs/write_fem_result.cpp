@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
-#include <nlohmann/json.hpp>
 
 #include "core/faults.hpp"
 #include "io/damage_files.hpp"
@@ -14,11 +14,11 @@
 #include "io/output_folder.hpp"
 #include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
-#include "io/rolled_pass_files.hpp"
 #include "io/summary_json.hpp"
 #include "io/transient_files.hpp"
-#include "post/stress_sections.hpp"
+#include "passes/rolled_pass_files.hpp"
 #include "report/view.hpp"
+#include "result/stress_sections.hpp"
 
 namespace railstrata {
 namespace {

@@ -7,9 +7,9 @@
 #include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
-#include "post/bem_summary.hpp"
-#include "post/stress_sections.hpp"
+#include "judge/bem_summary.hpp"
 #include "report/view.hpp"
+#include "result/stress_sections.hpp"
 
 namespace railstrata {
 

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "post/row_strength.hpp"
+#include "judge/row_strength.hpp"
 #include "study/study_run.hpp"
 
 namespace railstrata {

@@ -10,10 +10,10 @@
 
 #include "bem/bem_options.hpp"
 #include "case/case_spec.hpp"
+#include "judge/rail_damage.hpp"
+#include "judge/wheel_damage.hpp"
 #include "model/model.hpp"
-#include "post/rail_damage.hpp"
-#include "post/summary.hpp"
-#include "post/wheel_damage.hpp"
+#include "result/summary.hpp"
 
 namespace railstrata {
 

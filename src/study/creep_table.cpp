@@ -16,8 +16,8 @@
 #include "core/faults.hpp"
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
+#include "judge/bem_summary.hpp"
 #include "model/model.hpp"
-#include "post/bem_summary.hpp"
 #include "runs/solve_half_space.hpp"
 #include "study/for_each_ended.hpp"
 

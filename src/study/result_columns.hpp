@@ -1,12 +1,12 @@
 #pragma once
 // The main numbers of a result as columns of a table, units in their names: what `sweep` and `study` write. Which ones
-// there are and what they are called stands in post/result_table.hpp.
+// there are and what they are called stands in result/result_table.hpp.
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "post/result_table.hpp"
+#include "result/result_table.hpp"
 
 namespace railstrata {
 

@@ -11,8 +11,8 @@
 #include <set>
 
 #include "core/faults.hpp"
-#include "post/check_limits.hpp"
-#include "post/verdict.hpp"
+#include "judge/check_limits.hpp"
+#include "judge/verdict.hpp"
 #include "report/checks.hpp"
 #include "report/read_run.hpp"
 #include "study/published_table.hpp"

@@ -9,7 +9,7 @@
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/summary_json.hpp"
-#include "post/bem_summary.hpp"
+#include "judge/bem_summary.hpp"
 #include "runs/solve_half_space.hpp"
 #include "study/for_each_ended.hpp"
 

@@ -14,7 +14,7 @@
 #include "explore/case_values.hpp"
 #include "explore/page.hpp"
 #include "io/summary_json.hpp"
-#include "post/stress_sections.hpp"
+#include "result/stress_sections.hpp"
 #include "runs/solve_half_space.hpp"
 
 namespace railstrata {

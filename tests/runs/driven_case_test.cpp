@@ -6,7 +6,7 @@
 #include <numbers>
 
 #include "case/case_file.hpp"
-#include "post/bem_summary.hpp"
+#include "judge/bem_summary.hpp"
 #include "runs/solve_half_space.hpp"
 #include "tests/bem/reference_table.hpp"
 

@@ -12,7 +12,7 @@
 #include "io/csv.hpp"
 #include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
-#include "post/patch.hpp"
+#include "result/patch.hpp"
 #include "runs/write_fem_result.hpp"
 #include "runs/write_half_space_result.hpp"
 #include "runs/write_transient.hpp"

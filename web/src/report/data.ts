@@ -343,7 +343,7 @@ export interface VerdictWords {
   lasts: boolean;
 }
 
-/// The words for results, from the program's tables (src/post/result_table.cpp, src/post/check_limits.hpp).
+/// The words for results, from the program's tables (src/result/result_table.cpp, src/judge/check_limits.hpp).
 export interface Words {
   numbers: Quantity[];
   zones: {key: string; name: string}[];

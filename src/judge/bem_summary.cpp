@@ -1,0 +1,223 @@
+#include "judge/bem_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/rotation.hpp"
+#include "judge/check_limits.hpp"
+#include "judge/plausibility.hpp"
+#include "result/patch.hpp"
+
+namespace railstrata {
+namespace {
+
+StressMaximum maximum(const StressPeak& p) { return {p.value, p.x, p.y, p.depth, p.at_rim >= p.value}; }
+StressPair pair(const ZonePeaks& z) { return {maximum(z.von_mises), maximum(z.sigma1)}; }
+
+std::optional<StressPair> largest(const std::vector<const std::vector<ZonePeaks>*>& groups) {
+  std::optional<StressPair> best;
+  for (const auto* group : groups)
+    for (const ZonePeaks& z : *group) {
+      const StressPair p = pair(z);
+      if (!best) best = p;
+      if (p.von_mises.value > best->von_mises.value) best->von_mises = p.von_mises;
+      if (p.sigma1.value > best->sigma1.value) best->sigma1 = p.sigma1;
+    }
+  return best;
+}
+
+StressSummary stress_summary(const SubsurfacePeaks& p) {
+  StressSummary s;
+  s.surface = pair(p.surface);
+  s.subsurface = pair(p.subsurface);
+  if (p.layers.empty()) return s;
+  s.layer = largest({&p.layers});
+  s.interface = largest({&p.above_interface, &p.below_interface});
+  s.matrix = pair(p.matrix);
+  return s;
+}
+
+bool reaches_edge(const ContactField& f) {
+  for (int s = 0; s < f.stations; ++s)
+    for (int c = 0; c < f.columns; ++c)
+      if ((s == 0 || s + 1 == f.stations || (f.line_length == 0 && (c == 0 || c + 1 == f.columns))) &&
+          f.p[c + f.columns * s] > 0)
+        return true;
+  return false;
+}
+
+Check bem_check(std::string_view name, double value) { return at_most(name, value, check_row(name).bem_limit); }
+
+/// The patches' own, the result's first.
+std::vector<const BemPatch*> patches_of(const BemResult& r) {
+  std::vector<const BemPatch*> out{&r};
+  for (const BemPatch& p : r.further) out.push_back(&p);
+  return out;
+}
+
+std::vector<Check> checks(const CaseSpec& spec, const BemResult& r) {
+  const bool load_given = !spec.vehicle.approach;
+  const double load = load_given ? static_load(spec) : -force_on_rail(r).z;
+  double force_x = 0, force_y = 0, reached = 0, cut_off = 0, cell = 0, film = 0;
+  for (const BemPatch* p : patches_of(r)) {
+    const PatchMeasures m = measure_patch(p->field);
+    force_x += m.force_x;
+    force_y += m.force_y;
+    if (reaches_edge(p->field)) reached = 1;
+    if (p->surroundings.cut_off) cut_off = 1;
+    cell = std::max(cell, p->grid.dx / shorter_axis(m));
+    film = std::max(film, film_shear(spec, m));
+  }
+  std::vector<Check> out;
+  if (load_given) out.push_back(bem_check("F_z_relative_to_weight", std::abs(-force_on_rail(r).z / load - 1)));
+  const bool friction = spec.drive.friction_coefficient > 0;
+  if (const double wanted = spec.drive.traction().value_or(0); friction && wanted != 0)
+    out.push_back(bem_check("traction_coefficient_reached", std::abs(force_x / load / wanted - 1)));
+  if (const double wanted = spec.drive.lateral_traction_coefficient.value_or(0); friction && wanted != 0)
+    out.push_back(bem_check("lateral_traction_reached", std::abs(force_y / load / wanted - 1)));
+  out.push_back(bem_check("patch_reaches_edge_of_grid", reached));
+  out.push_back(bem_check("patch_cut_off", cut_off));
+  out.push_back(bem_check("cell_of_patch", cell));
+  if (spec.third_body.thickness) out.push_back(bem_check("film_of_patch", film));
+  return out;
+}
+
+ContactSummary patch_numbers(const CaseSpec& spec, const BemPatch& r) {
+  ContactSummary c;
+  c.patch = measure_patch(r.field);
+  c.patch.q_max = shear_at_front_of_slip(r.field);
+  c.F_x = 0.0 - r.force.x;
+  c.F_y = 0.0 - r.force.y;
+  c.F_z = 0.0 - r.force.z;
+  turn_into_contact_plane(c, r.contact.angle);
+  c.spin_moment = 0.0 - r.force.moment;
+  c.approach = r.approach;
+  if (spec.drive.friction_coefficient > 0) {
+    c.creepage_x = r.rigid_slip.x;
+    c.creepage_y = r.rigid_slip.y;
+    c.spin_per_m = r.rigid_slip.spin;
+    c.motion_power = r.motion_power;
+  } else {
+    c.patch.slip_area_fraction = kNotApplicable;
+  }
+  return c;
+}
+
+/// The worse of two warnings of one name.
+void add_warning(Warning warning, std::vector<Warning>& out) {
+  const auto same = std::find_if(out.begin(), out.end(), [&](const Warning& w) { return w.name == warning.name; });
+  if (same == out.end())
+    out.push_back(std::move(warning));
+  else if (warning.value > same->value)
+    *same = std::move(warning);
+}
+
+/// From the rail's own axes (y along the common tangent, z down) to the model frame.
+Sym3 in_model_frame(const Sym3& s, double angle) {
+  return roll(rotation_by(angle), Sym3{s.xx, s.yy, s.zz, s.xy, -s.yz, -s.xz});
+}
+
+int cell(double at, double first, double size, int count) {
+  return std::clamp(static_cast<int>(std::lround((at - first) / size)), 0, count - 1);
+}
+
+}  // namespace
+
+SearchDepths depths_of_interest(const LayeredHalfSpace& body, const ContactSummary& contact) {
+  const std::vector<LayerExtent> layers = layer_extents(body);
+  const double bottom = layers.empty() ? 0.0 : layers.back().bottom,
+               first = layers.empty() ? HUGE_VAL : layers.front().bottom;
+  return {subsurface_begin(contact.patch, first), bottom + longer_axis(contact.patch)};
+}
+
+double cell_of_patch(const BemResult& r) {
+  double cell = 0;
+  for (const BemPatch* p : patches_of(r)) cell = std::max(cell, p->grid.dy / shorter_axis(measure_patch(p->field)));
+  return cell;
+}
+
+std::vector<Warning> bem_warnings(const Summary& summary, const CaseSpec& spec, const BemResult& r, double coarsest) {
+  const double cell = std::max(r.grid.dx, coarsest * shorter_axis(summary.contact.patch));
+  std::vector<Warning> out = implausible(summary, spec, r.surroundings, cell);
+  for (std::size_t k = 0; k < r.further.size(); ++k) {
+    Summary of_patch;
+    of_patch.run.engine = Engine::bem;
+    of_patch.contact = summary.patches.at(k + 1).contact;
+    for (Warning& w : implausible(of_patch, spec, r.further[k].surroundings, r.further[k].grid.dx))
+      add_warning(std::move(w), out);
+  }
+  return out;
+}
+
+void judge_coarsest_state(double coarsest, Summary& summary) {
+  for (Check& c : summary.checks)
+    if (c.name == "cell_of_patch" && coarsest > c.value) c = bem_check(c.name, coarsest);
+}
+
+Summary bem_contact_summary(const CaseSpec& spec, const BemResult& r) {
+  Summary s;
+  s.title = spec.title;
+  s.position = spec.run.rolling && !spec.run.positions.empty() ? spec.run.positions.back() : 0.0;
+  s.contact = patch_numbers(spec, r);
+  if (!r.further.empty()) {
+    for (const BemPatch* p : patches_of(r))
+      s.patches.push_back(
+          {p->contact.point.y, p->surroundings.rail_y, p->surroundings.wheel_y, patch_numbers(spec, *p)});
+    const Vec3 all = force_on_rail(r);
+    s.contact.F_x = 0.0 - all.x;
+    s.contact.F_y = 0.0 - all.y;
+    s.contact.F_z = 0.0 - all.z;
+  }
+  s.run.engine = Engine::bem;
+  s.run.wall_s = r.effort.wall_s;
+  for (const BemPatch* p : patches_of(r)) s.run.elements += static_cast<long>(p->grid.size());
+  s.checks = checks(spec, r);
+  s.warnings = bem_warnings(s, spec, r);
+  return s;
+}
+
+StressSummary bem_rail_stress(const BemResult& r, const ContactSummary& contact) {
+  return stress_summary(rail_interior(r).peaks(depths_of_interest(r.rail, contact)));
+}
+
+StressSummary bem_wheel_stress(const BemResult& r, const ContactSummary& contact) {
+  return stress_summary(wheel_interior(r).peaks(depths_of_interest(r.wheel, contact)));
+}
+
+Summary bem_summary(const CaseSpec& spec, const BemResult& r) {
+  Summary s = bem_contact_summary(spec, r);
+  s.rail = bem_rail_stress(r, s.contact);
+  s.wheel = bem_wheel_stress(r, s.contact);
+  s.warnings = bem_warnings(s, spec, r);
+  return s;
+}
+
+DepthLine rail_depth_line(const BemResult& r, double x, double y, double deepest) {
+  const Subsurface interior = rail_interior(r);
+  const PatchGrid& g = r.grid;
+  const int i = cell(x, g.x0, g.dx, g.nx), j = cell(y, g.y0, g.dy, g.ny);
+  DepthLine line;
+  line.x = g.x(i);
+  line.y = g.y(j);
+  const auto add = [&](const StatePlane& plane, bool below, int material) {
+    line.depth.push_back(plane.depth);
+    line.stress.push_back(in_model_frame(interior.stress(plane, g.index(i, j), below), r.contact.angle));
+    line.material.push_back(material);
+  };
+  const auto zone = [&](double top, double bottom, int material) {
+    const int pieces = std::clamp(static_cast<int>(std::ceil((bottom - top) / g.dx)), 2, 60);
+    for (int k = 0; k <= pieces; ++k)
+      add(interior.plane(k == pieces ? bottom : top + (bottom - top) * k / pieces), k == 0, material);
+  };
+  double top = 0;
+  int material = 0;
+  for (const LayerExtent& layer : layer_extents(r.rail)) {
+    zone(layer.top, layer.bottom, ++material);
+    top = layer.bottom;
+  }
+  zone(top, std::max(deepest, top + 4 * g.dx), 0);
+  return line;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,114 @@
+#include "judge/row_strength.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "case/case_spec.hpp"
+#include "model/material_strength.hpp"
+#include "model/zone.hpp"
+
+namespace railstrata {
+namespace {
+
+/// A zone with what its depths count from.
+struct Zone {
+  const StrengthSpec& strength;
+  std::string name, key;  ///< "rail", "material.rail"
+  double top = 0;         ///< m, where depth 0 of its tables is
+};
+
+Zone zone_of(const CaseSpec& spec, BodyId body, int zone) {
+  const StrengthSpec& strength = zone_material(spec, body, zone).strength;
+  const std::string name = zone_name(spec, body, zone);
+  const std::string key = zone_key(spec, body, zone);
+  if (zone == 0) return {strength, name, key, 0};
+  const std::vector<std::size_t> layers = layers_on(spec, body);
+  double top = 0;
+  for (int k = 0; k + 1 < zone; ++k) top += spec.layers[layers[k]].thickness;
+  return {strength, name, key, top};
+}
+
+class ZoneStrength {
+ public:
+  explicit ZoneStrength(const Zone& zone)
+      : s_(zone.strength),
+        name_(zone.name),
+        key_(zone.key),
+        top_(zone.top),
+        strength_(zone.strength, zone.name, zone.key) {}
+
+  /// Pa, uniaxial; NaN where the case does not say it.
+  double yield(double depth) const { return strength_.yield(depth - top_); }
+
+  /// m, the depth where the table that says the strength ends; infinite without one.
+  double end() const { return top_ + strength_.end(); }
+
+  StressPoint residual(double depth) const {
+    StressPoint out = process_stress(s_, depth - top_, key_);
+    out.depth = depth;
+    return out;
+  }
+
+  /// How a strength that was not given is known, or that it is not; empty if it was given.
+  std::string note() const {
+    if (s_.elastic || !std::isnan(strength_.yield(0))) return strength_.note();
+    return fmt::format("yield strength of {}: not known{}; it is taken to stay elastic and is not judged: give {}.{}",
+                       name_, s_.grade.empty() ? "" : fmt::format(" of grade {}", s_.grade), key_, "yield_strength");
+  }
+
+ private:
+  const StrengthSpec& s_;
+  std::string name_, key_;
+  double top_;
+  MaterialStrength strength_;
+};
+
+}  // namespace
+
+bool RowStrength::any() const {
+  return std::any_of(shear.begin(), shear.end(), [](double k) { return std::isfinite(k); });
+}
+
+bool strength_given(const CaseSpec& spec, BodyId body) {
+  const int layers = static_cast<int>(layers_on(spec, body).size());
+  for (int zone = 0; zone <= layers; ++zone)
+    if (says_strength(zone_material(spec, body, zone).strength)) return true;
+  return false;
+}
+
+std::function<double(double, bool)> shear_strength_by_depth(const CaseSpec& spec, BodyId body) {
+  std::vector<double> bottoms;
+  for (const std::size_t i : layers_on(spec, body))
+    bottoms.push_back((bottoms.empty() ? 0.0 : bottoms.back()) + spec.layers[i].thickness);
+  std::vector<ZoneStrength> zones;
+  for (int zone = 0; zone <= static_cast<int>(bottoms.size()); ++zone) zones.emplace_back(zone_of(spec, body, zone));
+  return [bottoms, zones](double depth, bool below) {
+    constexpr double kRoundOff = 1e-9;
+    std::size_t layer = 0;
+    while (layer < bottoms.size() && depth > bottoms[layer] + (below ? -kRoundOff : kRoundOff)) ++layer;
+    const ZoneStrength& zone = zones[layer < bottoms.size() ? layer + 1 : 0];
+    return zone.yield(std::min(depth, zone.end())) / std::numbers::sqrt3;
+  };
+}
+
+RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory& rows) {
+  std::vector<ZoneStrength> zones;
+  const int layers = static_cast<int>(layers_on(spec, body).size());
+  for (int zone = 0; zone <= layers; ++zone) zones.emplace_back(zone_of(spec, body, zone));
+  RowStrength out;
+  for (std::size_t r = 0; r < rows.depth.size(); ++r) {
+    const ZoneStrength& zone = zones.at(rows.zone[r]);
+    const StressPoint residual = zone.residual(rows.depth[r]);
+    out.shear.push_back(zone.yield(rows.depth[r]) / std::numbers::sqrt3);
+    out.residual_x.push_back(residual.longitudinal);
+    out.residual_y.push_back(residual.lateral);
+  }
+  for (const ZoneStrength& zone : zones)
+    if (std::string note = zone.note(); !note.empty()) out.notes.push_back(std::move(note));
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,31 @@
+#pragma once
+// What the rows of a section bear, from the strengths of a case.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "case/case_fwd.hpp"
+#include "core/body_id.hpp"
+#include "damage/stress_history.hpp"
+
+namespace railstrata {
+
+/// Per row of a stress history. A zone without a strength has NaN: it is taken to stay elastic.
+struct RowStrength {
+  std::vector<double> shear;                   ///< Pa, k = yield strength / sqrt(3)
+  std::vector<double> residual_x, residual_y;  ///< Pa, of the process
+  std::vector<std::string> notes;              ///< which strengths are estimates, and how, or not known
+  bool any() const;                            ///< of a strength
+};
+
+/// Whether a case says how strong a body, or a layer on it, is.
+bool strength_given(const CaseSpec& spec, BodyId body);
+
+/// Of a zone a yield strength, a table of them, a grade, else an estimate from hardness, in this order. Depths of rail
+/// and wheel count from the running surface. Throws CaseError where a table ends above the deepest row of its zone.
+RowStrength row_strength(const CaseSpec& spec, BodyId body, const StressHistory& rows);
+
+/// Pa, in shear, at a depth, of an interface above or below it; below the end of a table its last value.
+std::function<double(double depth, bool below_interface)> shear_strength_by_depth(const CaseSpec& spec, BodyId body);
+
+}  // namespace railstrata

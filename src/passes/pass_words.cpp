@@ -1,0 +1,71 @@
+#include "passes/pass_words.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "material/strain_claim.hpp"
+
+namespace railstrata {
+
+namespace {
+
+/// "3.1e-4"
+std::string strain_text(double v) {
+  std::string text = fmt::format("{:.1e}", v);
+  if (const std::size_t e = text.find('e'); e + 2 < text.size() && text[e + 2] == '0') text.erase(e + 2, 1);
+  return text;
+}
+
+constexpr double kConstant = 0.05;  // of a trend
+
+/// " as the pass to the power of -0.34"
+std::string trend_text(const PassVerdict& v) { return fmt::format(" as the pass to the power of -{:.2f}", v.trend); }
+
+std::string class_words(const PassStanding& s) {
+  const std::string where = fmt::format("{:.1f} mm depth", 1e3 * s.last.net_depth);
+  switch (s.verdict.kind) {
+    case PassClass::elastic_shakedown:
+      if (!s.ever_yielded) return "Stays elastic: no point has yielded.";
+      return fmt::format("Shakes down: from pass {} on nothing flows.", s.first_quiet);
+    case PassClass::plastic_shakedown:
+      return fmt::format("Closed cycles (plastic shakedown): {} plastic strain in every pass, none of it stays.",
+                         strain_text(s.last.largest.accumulated));
+    case PassClass::ratchetting:
+      return fmt::format(
+          "Ratchets: {} net strain per pass at {}, {}.", strain_text(s.verdict.rate), where,
+          s.verdict.trend > kConstant
+              ? fmt::format("within 2 % the same from pass to pass, but falling{}", trend_text(s.verdict))
+              : "the same from pass to pass");
+    case PassClass::transient:
+      break;
+  }
+  return fmt::format("No claim yet: {} net strain in pass {} at {}{}; more passes will tell.",
+                     strain_text(s.verdict.rate), s.last.pass, where,
+                     s.verdict.trend > kConstant ? ", falling" + trend_text(s.verdict) : "");
+}
+
+}  // namespace
+
+std::string pass_words(const PassStanding& s) {
+  const std::string claim = strain_words(s.last.strain);
+  return claim.empty() ? class_words(s) : class_words(s) + " " + claim;
+}
+
+std::string law_words(const PlasticParameters<double>& law) {
+  if (!std::isfinite(law.yield)) return "elastic: it does not yield";
+  bool recalls = false, linear = false;
+  for (int k = 0; k < kMostBackstresses; ++k)
+    if (law.modulus[k] > 0) (law.recall[k] > 0 ? recalls : linear) = true;
+  if (linear)
+    return "linear kinematic hardening: cannot ratchet for ever, ends in shakedown or closed cycles at any load";
+  if (recalls)
+    return "Armstrong–Frederick hardening: above its limit it ratchets for ever at a constant rate, which it tends to "
+           "overestimate";
+  if (law.saturation > 0)
+    return "isotropic hardening: grows stronger up to a limit, then perfect plasticity: shakes down, or ratchets for "
+           "ever beyond that limit";
+  return "perfect plasticity: above the shakedown limit it ratchets for ever or flows to and fro; below it settles";
+}
+
+}  // namespace railstrata

@@ -1,0 +1,25 @@
+#pragma once
+// What passes have come to, in words: the verdict of a series and the statement of the law behind it.
+#include <string>
+
+#include "material/plastic.hpp"
+#include "passes/rail_passes.hpp"
+
+namespace railstrata {
+
+/// Where a series stands.
+struct PassStanding {
+  PassVerdict verdict;
+  PassRow last;
+  bool ever_yielded = false;
+  int first_quiet = 0;  ///< the pass from which on nothing flowed
+};
+
+/// One sentence: "Ratchets: 3.1e-04 net strain per pass at 2.1 mm depth, the same from pass to pass."; a second one
+/// where the strain is no longer small.
+std::string pass_words(const PassStanding& standing);
+
+/// What a law allows in the long run, whatever the passes so far look like: "perfect plasticity: …".
+std::string law_words(const PlasticParameters<double>& law);
+
+}  // namespace railstrata

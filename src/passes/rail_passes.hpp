@@ -1,0 +1,67 @@
+#pragma once
+// Passes of a wheel over a rail that yields, from a half-space solution: the rail's rows, their laws and the strain of
+// the contact on the grid of the stationary method (steady/steady_pass.hpp).
+//
+// What it takes over from the half-space: pressure and friction of the elastic bodies, the same in every pass; layers
+// without sideways ends. One patch, which rolls along a straight rail.
+#include <array>
+#include <string>
+#include <vector>
+
+#include "bem/solve_bem.hpp"
+#include "case/case_fwd.hpp"
+#include "steady/pass_class.hpp"
+#include "steady/steady_pass.hpp"
+
+namespace railstrata {
+
+/// Cells of the grid over the patch: the errors of residual stress are some percent at 6, and fall with their square.
+struct PassGridOptions {
+  int cells = 6;    ///< over each half-axis of the patch
+  double rows = 8;  ///< over the shorter half-axis
+};
+
+/// A rail ready for passes.
+struct RailPasses {
+  SteadyGrid grid;        ///< x from the middle of the patch, y in the contact frame
+  double middle_x = 0;    ///< m, of the patch in the contact frame
+  std::vector<int> zone;  ///< of rows: 0 the rail, then its layers from the surface down
+  std::vector<SteadyRow> rows;
+  RowModuli below;                                    ///< of what lies under the rows
+  std::vector<std::array<double, 2>> initial_stress;  ///< Pa, of rows
+  std::vector<std::string> notes;                     ///< which strengths are estimates, and how
+  std::vector<Field> contact_stress;                  ///< Pa, SteadyGrid::size() each: of each solution
+};
+
+/// solutions: of cases_of_tractions (passes/pass_plan.hpp), the grid is that of the first one's patch, as wide as the
+/// wheels wander. Throws CaseError: no strength of rail or layers, several patches, wheels that wander too far.
+RailPasses rail_passes(const CaseSpec& spec, const std::vector<BemResult>& solutions,
+                       const PassGridOptions& options = {});
+
+/// The body of it, and the strain of the contact of a solution, so many columns to the side.
+SteadyBody body_of(const RailPasses& passes);
+Field contact_strain(const RailPasses& passes, const SteadyBody& body, std::size_t solution = 0, int columns = 0);
+/// The column nearest to a place across.
+int columns_to(const SteadyGrid& grid, double lateral);
+
+/// A pass as one row of a table.
+struct PassRow {
+  int pass = 0, iterations = 0;
+  double error = 0;
+  bool converged = true;
+  PassStrain largest;                    ///< Δp and net strain, each of the point where it is largest
+  double net_y = 0, net_depth = 0;       ///< m, where the net strain is largest
+  double strain = 0;                     ///< largest equivalent plastic strain √(2/3 Ep:Ep) so far
+  std::array<double, 2> stress{};        ///< Pa, most compressive residual stress along x and y
+  std::array<double, 2> stress_depth{};  ///< m, where
+  double forward = 0, lateral = 0;       ///< m, largest displacement of the surface since the first pass, with its sign
+  double sinking = 0;                    ///< m, largest
+  double place = 0;                      ///< m across, where the wheel ran: at a column of the grid
+  double traction = 0;                   ///< F_T over the normal force
+  double force = 0;                      ///< N along x: what the passes put into an endless rail; of a line contact N/m
+  double force_share = 0;                ///< the same, over the integral of |S_xx|
+  double balance = 0;  ///< largest |mean of S_zz, S_yz, S_xz of a row| over the largest mean |S_xx|: equilibrium
+};
+PassRow pass_row(const SteadyGrid& grid, int pass, const PassResult& result);
+
+}  // namespace railstrata

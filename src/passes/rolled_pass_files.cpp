@@ -1,0 +1,273 @@
+#include "passes/rolled_pass_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "core/faults.hpp"
+#include "core/si_prefix.hpp"
+#include "io/csv.hpp"
+#include "io/json_text.hpp"
+#include "io/output_file.hpp"
+#include "io/vtk.hpp"
+#include "model/zone.hpp"
+#include "passes/pass_way_files.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNoQuad = -1;  // in state.csv: no element has become hot
+
+std::vector<std::string> rolled_columns() {
+  std::vector<std::string> names = pass_columns();
+  for (const char* name : {"traction", "creepage", "p_max_MPa", "lateral_mm"}) names.emplace_back(name);
+  return names;
+}
+
+/// Columns of the state before the numbers of a point.
+std::vector<std::string> state_heads() {
+  std::vector<std::string> names{"passes", "block", "quadrilateral", "pair", "creepage_shift"};
+  for (std::size_t n = 0; n < kPointPasses; ++n)
+    for (const char* what : {"accumulated", "net"}) names.push_back(fmt::format("{}_{}", what, n));
+  return names;
+}
+
+[[noreturn]] void refuse(const std::string& what, const std::filesystem::path& file) {
+  throw CaseError(what, "begin anew with --force", file.string());
+}
+
+/// A whole number of a column.
+int whole(const CsvTable& table, const char* name, std::size_t row) {
+  const double v = table.column(name).at(row);
+  if (!(v >= 0 && v < std::numeric_limits<int>::max() && v == std::floor(v)))
+    refuse(fmt::format("{} cannot be {}", name, v), table.file);
+  return static_cast<int>(v);
+}
+
+}  // namespace
+
+void add_rolled_pass(const PlasticSection& section, const PassContact& contact, RolledPass& pass,
+                     RolledSeries& series) {
+  std::map<std::pair<int, int>, std::vector<PassStrain>> earlier;
+  for (std::size_t n = 0; n < series.section.quads.size(); ++n)
+    earlier[{series.section.quads[n].block, series.section.quads[n].quad}] = series.points[n];
+  series.points.clear();
+  for (const PlasticSection::Quad& q : section.quads) series.points.push_back(earlier[{q.block, q.quad}]);
+  series.section = section;
+  ++series.passes;
+  pass.row.pass = series.passes;
+  std::vector<double> row = pass_values(pass.row);
+  row.insert(row.end(), {contact.traction, contact.creepage, kToMega * contact.p_max, kToMilli * contact.lateral});
+  series.table.push_back(std::move(row));
+  const PassClass whole = verdict_of(series.table).kind;
+  for (std::size_t n = 0; n < pass.points.size(); ++n) {
+    remember_pass(pass.points[n].strain, series.points[n]);
+    pass.points[n].kind = class_of_point(series.points[n], whole);
+  }
+}
+
+void write_rolled_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                        const RolledSeries& series) {
+  write_pass_rows(file, provenance, rolled_columns(), series.table);
+}
+
+void write_rolled_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                        const RolledSeries& series) {
+  std::vector<CsvColumn> columns;
+  for (std::string& name : state_heads()) columns.push_back({std::move(name), {}});
+  const PlasticSection& section = series.section;
+  for (int k = 0; k < section.point_entries; ++k) columns.push_back({fmt::format("history_{}", k), {}});
+  for (std::size_t n = 0; n < section.quads.size(); ++n)
+    for (int pair = 0; pair < kGaussPairs; ++pair) {
+      std::size_t c = 0;
+      const auto put = [&](double value) { columns[c++].values.push_back(value); };
+      for (const int v : {series.passes, section.quads[n].block, section.quads[n].quad, pair}) put(v);
+      put(series.creepage_shift);
+      for (std::size_t k = 0; k < kPointPasses; ++k) {
+        const bool known = k < series.points[n].size();
+        put(known ? series.points[n][k].accumulated : kUnknown);
+        put(known ? series.points[n][k].net : kUnknown);
+      }
+      for (int k = 0; k < section.point_entries; ++k) put(section.point(n, pair)[k]);
+    }
+  if (section.quads.empty()) {  // nothing is hot: one row says how many passes and which creepage
+    for (CsvColumn& column : columns) column.values.push_back(0);
+    columns[0].values[0] = series.passes;
+    columns[2].values[0] = kNoQuad;
+    columns[4].values[0] = series.creepage_shift;
+  }
+  write_csv(file, provenance, columns);
+}
+
+RolledSeries read_rolled_series(const std::filesystem::path& state, const std::filesystem::path& table) {
+  const CsvTable values = read_csv(state), rows = read_csv(table);
+  const std::size_t heads = state_heads().size(), pairs = kGaussPairs;
+  const bool nothing_hot = values.rows() == 1 && values.column("quadrilateral")[0] == kNoQuad;
+  if (values.columns.size() < heads + 7 || values.rows() == 0 || (values.rows() % pairs != 0 && !nothing_hot))
+    refuse("the state is none of such passes", state);
+  RolledSeries series;
+  series.passes = whole(values, "passes", 0);
+  series.creepage_shift = values.column("creepage_shift")[0];
+  if (static_cast<std::size_t>(series.passes) > rows.rows() || rows.columns.size() != rolled_columns().size())
+    refuse("fewer passes than the state has seen", table);
+  for (int n = 0; n < series.passes; ++n) {
+    series.table.emplace_back();
+    for (const CsvColumn& column : rows.columns) series.table.back().push_back(column.values[n]);
+  }
+  series.section.point_entries = static_cast<int>(values.columns.size() - heads);
+  if (nothing_hot) return series;
+  for (std::size_t row = 0; row < values.rows(); ++row) {
+    for (std::size_t c = heads; c < values.columns.size(); ++c)
+      series.section.history.push_back(values.columns[c].values[row]);
+    if (row % pairs != 0) continue;
+    series.section.quads.push_back({whole(values, "block", row), whole(values, "quadrilateral", row)});
+    series.points.emplace_back();
+    for (std::size_t k = 0; k < kPointPasses; ++k) {
+      const double net = values.columns[heads - 2 * (kPointPasses - k) + 1].values[row];
+      if (!std::isnan(net))
+        series.points.back().push_back({values.columns[heads - 2 * (kPointPasses - k)].values[row], net});
+    }
+  }
+  if (!std::all_of(series.section.history.begin(), series.section.history.end(),
+                   [](double v) { return std::isfinite(v); }))
+    refuse("a value is not a finite number", state);
+  return series;
+}
+
+namespace {
+
+/// The points nearest across to the one with the largest plastic strain, from the surface down.
+std::vector<PassPoint> profile_of(const std::vector<PassPoint>& points) {
+  if (points.empty()) return {};
+  const auto most = std::max_element(points.begin(), points.end(), [](const PassPoint& a, const PassPoint& b) {
+    return a.accumulated < b.accumulated;
+  });
+  const double y = most->accumulated > 0 ? most->y : 0;
+  std::vector<PassPoint> out;
+  std::vector<PassPoint> sorted = points;
+  std::sort(sorted.begin(), sorted.end(), [](const PassPoint& a, const PassPoint& b) { return a.depth < b.depth; });
+  constexpr double kSameRow = 1e-4;  // m, rows follow the curved surface
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const PassPoint& p : sorted) nearest = std::min(nearest, std::abs(p.y - y));
+  for (const PassPoint& p : sorted)
+    if (std::abs(p.y - y) < nearest + kSameRow) out.push_back(p);
+  return out;
+}
+
+nlohmann::ordered_json way_json(const std::vector<RolledLoop>& loops) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  for (const RolledLoop& loop : loops) out.push_back({{"name", loop.name}, {"y_m", loop.y}, {"depth_m", loop.depth}});
+  return out;
+}
+
+/// The rail's layers from the surface down, then the rail.
+nlohmann::ordered_json zones_json(const CaseSpec& spec) {
+  nlohmann::ordered_json out = nlohmann::ordered_json::array();
+  double top = 0;
+  int zone = 0;
+  const auto add = [&](int number) {
+    out.push_back({{"name", zone_name(spec, BodyId::rail, number)}, {"zone", number}, {"top_m", top}});
+  };
+  for (const LayerSpec& layer : spec.layers) {
+    if (layer.on != BodyId::rail) continue;
+    add(++zone);
+    top += layer.thickness;
+  }
+  add(0);
+  return out;
+}
+
+/// A cell a quadrilateral, in the axes of write_section_vtk.
+void write_elements_vtk(const std::filesystem::path& file, const RolledPass& pass, PointColumns which) {
+  VtkQuads mesh;
+  for (const Vec2& node : pass.mesh.nodes) mesh.points.push_back({0, node.y, -node.z});
+  for (const std::array<int, 4>& quad : pass.mesh.quads) mesh.cells.push_back({quad[0], quad[1], quad[2], quad[3]});
+  std::vector<double> stress, strain, p, accumulated, net;
+  std::vector<std::int32_t> kind, zone;
+  for (const PassPoint& at : pass.points) {
+    for (const double s : at.stress) stress.push_back(kToMega * s);
+    strain.insert(strain.end(), at.plastic.begin(), at.plastic.end());
+    p.push_back(at.accumulated);
+    accumulated.push_back(at.strain.accumulated);
+    net.push_back(at.strain.net);
+    kind.push_back(static_cast<std::int32_t>(at.kind));
+    zone.push_back(at.zone);
+  }
+  mesh.cell_fields = {{"residual_stress_MPa", 6, std::move(stress)},
+                      {"plastic_strain", 6, std::move(strain)},
+                      {"plastic_p", 1, std::move(p)}};
+  if (which == PointColumns::of_passes) {
+    mesh.cell_fields.push_back({"accumulated_strain", 1, std::move(accumulated)});
+    mesh.cell_fields.push_back({"net_strain", 1, std::move(net)});
+    mesh.cell_fields.push_back({"class", 1, std::move(kind)});
+  }
+  mesh.cell_fields.push_back({"zone", 1, std::move(zone)});
+  write_vtp(file, mesh);
+}
+
+std::vector<WayLoop> files_loops(const std::vector<RolledLoop>& loops) {
+  std::vector<WayLoop> out;
+  for (const RolledLoop& loop : loops) out.push_back({loop.y, loop.depth, loop.x, loop.states});
+  return out;
+}
+
+}  // namespace
+
+void write_rolled_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                         const CaseSpec& spec, const PassRoll& roll, const RolledSeries& series, const RolledPass& pass,
+                         const std::vector<RolledLoop>& loops) {
+  const std::vector<PassPoint>& points = pass.points;
+  std::vector<std::string> remarks = provenance;
+  remarks.emplace_back(
+      "After the last pass. y, depth: axes of the rigid contact point. class: 0 elastic shakedown, 1 plastic "
+      "shakedown, "
+      "2 ratchetting, 3 transient. plastic_xy ...: tensor shears; plastic_p: accumulated over all passes.");
+  write_pass_points(folder / "residual.csv", remarks, points);
+  remarks.emplace_back("Below the place with the largest plastic strain.");
+  write_pass_points(folder / "profile.csv", remarks, profile_of(points));
+  if (!points.empty()) write_elements_vtk(folder / "section.vtp", pass, PointColumns::of_passes);
+  if (!loops.empty()) write_loops(folder / "loops.csv", provenance, files_loops(loops));
+  nlohmann::ordered_json out = pass_verdict(spec.title, rolled_columns(), series.table, series.points);
+  out["engine"] = "fem";
+  out["verdict"] = pass_words(standing_of(verdict_of(series.table), series.table, pass.row));
+  if (spec.passes.ductility)
+    out["ductility"] =
+        ductility_json(*spec.passes.ductility, largest_plastic_norm(pass.points), strains_of(series.table), 1);
+  out["zones"] = zones_json(spec);
+  out["loops"] = way_json(loops);
+  out["roll"] = {{"half_length_m", roll.half_length},
+                 {"length_m", roll.length},
+                 {"steady_from_m", roll.from},
+                 {"steady_to_m", roll.to}};
+  out["element_size_m"] = spec.mesh.element_size;
+  out["assumptions"] = {"every pass begins with the state of the steady stations at every station",
+                        "the wheel is a new one in every pass, with a given creepage", "small strains"};
+  write_whole_file(folder / "passes.json", json_text(out, 2) + "\n");
+}
+
+void write_run_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                        const RunResidual& residual) {
+  if (!residual.none.empty()) {
+    write_whole_file(folder / "residual.json", json_text(nlohmann::ordered_json{{"none", residual.none}}, 2) + "\n");
+    return;
+  }
+  nlohmann::ordered_json out{{"none", nullptr}};
+  for (const ResidualNumber& n : residual_numbers()) out[n.key()] = n.value(residual);
+  std::vector<std::string> remarks = provenance;
+  remarks.push_back(fmt::format(
+      "What the wheel leaves behind: mean of the stations from {:.6g} to {:.6g} mm, in an endless rail at rest. y, "
+      "depth: axes of the rigid contact point. plastic_xy ...: tensor shears.",
+      kToMilli * residual.from, kToMilli * residual.to));
+  write_pass_points(folder / "residual.csv", remarks, residual.pass.points, PointColumns::of_a_run);
+  write_elements_vtk(folder / "section.vtp", residual.pass, PointColumns::of_a_run);
+  write_whole_file(folder / "residual.json", json_text(out, 2) + "\n");
+}
+
+}  // namespace railstrata

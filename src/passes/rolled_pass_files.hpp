@@ -1,0 +1,49 @@
+#pragma once
+// Files of passes by the finite elements: those of passes/pass_files.hpp with the contact of every pass besides.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "passes/pass_files.hpp"
+#include "passes/rolled_way.hpp"
+#include "passes/run_residual.hpp"
+
+namespace railstrata {
+
+/// How a pass is rolled.
+struct PassRoll {
+  double half_length = 0;   ///< m, of Hertz's ellipse along the rail
+  double length = 0;        ///< m, from where the wheel is put on to where it is lifted off
+  double from = 0, to = 0;  ///< m, the steady stations
+};
+
+/// Of the contact in the middle of a pass's end.
+struct PassContact {
+  double traction = 0, creepage = 0;  ///< F_x over F_z on the wheel; longitudinal
+  double p_max = 0;                   ///< Pa
+  double lateral = 0;                 ///< m, of the wheel, to the field side of the case's own place
+};
+
+/// Adds a pass to the series: its row, its points and their class.
+void add_rolled_pass(const PlasticSection& section, const PassContact& contact, RolledPass& pass, RolledSeries& series);
+
+void write_rolled_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                        const RolledSeries& series);
+
+/// The state as one table that is whole or not there: a row a pair of Gauss points.
+void write_rolled_state(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                        const RolledSeries& series);
+/// Both back: the table as far as the state. Throws CaseError if they do not belong together.
+RolledSeries read_rolled_series(const std::filesystem::path& state, const std::filesystem::path& table);
+
+/// residual.csv, profile.csv, section.vtp, loops.csv (the last two not where nothing has yielded) and passes.json.
+/// pass: the last one.
+void write_rolled_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                         const CaseSpec& spec, const PassRoll& roll, const RolledSeries& series, const RolledPass& pass,
+                         const std::vector<RolledLoop>& loops);
+
+/// residual.json of a single run, and where there is residual stress residual.csv and section.vtp.
+void write_run_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
+                        const RunResidual& residual);
+
+}  // namespace railstrata

@@ -1,0 +1,62 @@
+#pragma once
+// The contact patch in numbers, from a ContactField of either engine.
+#include <algorithm>
+#include <cmath>
+
+#include "contact/contact_field.hpp"
+
+namespace railstrata {
+
+struct PatchMeasures {
+  double p_max = 0;  ///< Pa, top of the parabola through the largest value and its neighbours
+  double p_max_x = 0, p_max_y = 0;
+  double q_max = 0;        ///< Pa, largest magnitude of the tangential traction; half-spaces: shear_at_front_of_slip
+  double q_max_point = 0;  ///< Pa, the largest of a point
+  /// m, in and across the rolling direction; edges where p² extrapolates to zero, as Hertz's pressure does. A line
+  /// contact has no width: NaN
+  double length = 0, width = 0;
+  double area = 0;  ///< m², from the chords of the columns
+  /// area of slipping points / area of points in contact (those with p above ContactField::p_noise); where
+  /// ContactField::slip_share is known, of the columns' chords, cut where it passes one half
+  double slip_area_fraction = 0;
+  double force_x = 0, force_y = 0, force_z = 0;  ///< N on the wheel, sums of area times traction (z: normal)
+};
+
+/// m, of length and width; without a width the length.
+inline double shorter_axis(const PatchMeasures& patch) {
+  return patch.width < patch.length ? patch.width : patch.length;
+}
+inline double longer_axis(const PatchMeasures& patch) {
+  return patch.width > patch.length ? patch.width : patch.length;
+}
+
+/// The share of one point in the sums and extremes over all points.
+inline void add_point(PatchMeasures& m, const ContactField& f, int i) {
+  m.q_max = m.q_max_point = std::max(m.q_max_point, std::hypot(f.q_x[i], f.q_y[i]));
+  m.force_x -= f.area[i] * f.q_x[i];
+  m.force_y -= f.area[i] * f.q_y[i];
+  m.force_z += f.area[i] * f.p[i];
+}
+
+PatchMeasures measure_patch(const ContactField& field);
+
+/// Largest |q| [Pa] of half-spaces that roll: the largest of a point, or of a row's front of slip where that is more.
+/// There |q| has a cusp that points miss by up to half their distance: it follows f p in slip behind the front and
+/// leaves it like the square root of the distance in stick ahead of it, so that (f p - |q|)² of the last two points
+/// that stick is linear and zero at the front; |q| there is f p between the points on either side. f is |q|/p of the
+/// point that slips.
+double shear_at_front_of_slip(const ContactField& field);
+
+/// Values along the rolling direction through the point of largest pressure.
+struct CentreLine {
+  std::vector<double> x, p, q_x, q_y, slip_x;
+  double y = 0;
+};
+CentreLine centre_line(const ContactField& field);
+
+/// m, where "below the surface" begins: a tenth of the patch's shorter semi-axis, or half of a thinner surface layer.
+/// Nearer to the surface a stress is the surface's, whatever the cell: tension behind the patch dies out within a few
+/// hundredths of the patch.
+double subsurface_begin(const PatchMeasures& patch, double first_layer);
+
+}  // namespace railstrata

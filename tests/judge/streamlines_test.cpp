@@ -1,0 +1,68 @@
+#include "judge/streamlines.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/result/crossed_cylinders.hpp"
+#include "judge/bem_summary.hpp"
+
+namespace railstrata {
+namespace {
+
+DamageSummary damage_of(const CaseSpec& spec) {
+  BemOptions options;
+  options.cell = 0.5e-3;
+  const BemResult r = solve_bem(spec, place(spec, {}), options);
+  return damage_summary(spec, bem_summary(spec, r), streamlines(spec, r.field));
+}
+
+CaseSpec sliding() {
+  CaseSpec spec = post_checks::crossed_cylinders();
+  spec.drive.friction_coefficient = 0.3;
+  spec.drive.creepage = -0.02;
+  return spec;
+}
+
+}  // namespace
+
+// In steady rolling elastic displacements take no work round: friction has what the rigid motion puts in. LMA on CN60
+// has rows with rolling radii of their own, which creepages and a spin do not know.
+TEST(Streamlines, FrictionEnergyIsThatOfTheTractionsInTheRigidMotion) {
+  CaseSpec spec;
+  spec.drive.traction_coefficient = 0.2;
+  spec.drive.friction_coefficient = 0.5;
+  const DamageSummary found = damage_of(spec);
+  EXPECT_NEAR(found.friction_energy / found.motion_energy, 1, 0.01);
+  EXPECT_LT(found.t_gamma_with_spin, 0.99 * found.motion_energy) << "the rows' own radii are more than a spin";
+}
+
+TEST(Streamlines, ShowTheShareOfAustenitisationWhereTheCaseSaysItsTemperature) {
+  CaseSpec spec = sliding();
+  EXPECT_TRUE(std::isnan(damage_of(spec).austenitisation));
+  spec.rail_material.strength.austenitisation_rise = 700;
+  const DamageSummary found = damage_of(spec);
+  EXPECT_GT(found.temperature_rise, 10);
+  EXPECT_EQ(found.austenitisation, found.temperature_rise / 700);
+  EXPECT_EQ(found.temperature_rise_lower, found.temperature_rise) << "there is no layer";
+  EXPECT_EQ(found.temperature_rise_upper, found.temperature_rise);
+}
+
+// The running surface is that of the first layer, whatever the rail's own temperature; the bounds know the second.
+TEST(Streamlines, OfALayeredRailTakeItsSurfaceAndAllItsLayers) {
+  CaseSpec spec = sliding();
+  spec.rail_material.strength.austenitisation_rise = 700;
+  spec.layers.resize(2);
+  for (LayerSpec& layer : spec.layers) {
+    layer.thickness = 0.5e-3;
+    layer.material = spec.rail_material;
+  }
+  spec.layers[0].material.strength.austenitisation_rise = 350;
+  spec.layers[1].material.strength.conductivity = 5;
+  const DamageSummary found = damage_of(spec);
+  EXPECT_EQ(found.austenitisation, found.temperature_rise / 350);
+  EXPECT_NEAR(found.temperature_rise_lower / found.temperature_rise, 1, 1e-3) << "heat does not reach the second layer";
+  EXPECT_GT(found.temperature_rise_upper, 1.2 * found.temperature_rise);
+}
+
+}  // namespace railstrata
