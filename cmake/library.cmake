@@ -2,10 +2,10 @@
 #
 #   librailstrata.so            every room but those of the program. Exported are the functions that the public headers
 #                               declare, in C++ and in C.
-#   librailstrata-commands.so   the rooms `study`, `explore` and `app`, the extras `batch`, `usetab` and `export`: the
-#                               command line of the program, and nothing for others.
+#   librailstrata-commands.so   the rooms `many`, `study`, `explore` and `app`, the extras `batch`, `usetab` and
+#                               `export`: the command line of the program, and nothing for others.
 #   railstrata                  main() alone.
-#   librailstrata-bridge.so     the rooms `study` and `bridge`: what the Python package calls.
+#   librailstrata-bridge.so     the rooms `many` and `bridge`: what the Python package calls.
 #   librailstrata-hdf5.so       the room `hdf5`, loaded by librailstrata.so when a checkpoint or a table is first asked
 #                               for: a program that only solves contacts needs no HDF5.
 #   contact_addon_linux64.so    the extra `cntc` with all it needs inside, so that this one file can stand in for that of
@@ -25,8 +25,8 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 # The headers that a user of the library includes; those that they include are public too. C++ API, unstable until 1.0.
 set(PUBLIC_HEADERS core/faults.hpp case/case_file.hpp io/provenance.hpp runs/library.hpp)
 set(C_HEADER capi/railstrata.h)
-set(ROOMS_OF_THE_PROGRAM study explore app batch usetab export)
-set(ROOMS_OF_PYTHON study bridge)
+set(ROOMS_OF_THE_PROGRAM many study explore app batch usetab export)
+set(ROOMS_OF_PYTHON many bridge)
 set(ROOM_OF_CONTACT cntc)
 set(ROOM_OF_HDF5 hdf5)
 # The mark by which the loader refuses a processor that is too old, in words instead of an illegal instruction.

@@ -6,7 +6,7 @@
 
 #include "case/option_table.hpp"
 #include "reader.hpp"
-#include "study/variation.hpp"
+#include "many/axis.hpp"
 
 using namespace railstrata;
 using fuzz::promise;

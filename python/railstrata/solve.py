@@ -150,8 +150,9 @@ def sweep(
     """Half-space solutions of every combination of values, side by side on all threads (`railstrata sweep`).
 
     varied: keys of the case and their values, {"layer.0.thickness": ["1 mm", "3 mm"]}; the last key changes fastest.
-    A text or a number alone is one value. A case that cannot be solved says why in the column "fault"; CaseError: a key
-    without values, or all cases refused.
+    A text or a number alone is one value, or a range like "0.5:3 mm:6"; words and ranges are those of
+    `railstrata sweep`. A case that cannot be solved says why in the column "fault"; CaseError: a key without values, or
+    all cases refused.
     """
     if not hasattr(varied, "items"):
         raise TypeError('varied: a dict of keys and their values is wanted, {"layer.0.thickness": ["1 mm", "3 mm"]}')

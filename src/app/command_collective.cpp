@@ -18,8 +18,8 @@
 #include "io/output_folder.hpp"
 #include "judge/row_strength.hpp"
 #include "runs/write_half_space_result.hpp"
-#include "study/collective.hpp"
-#include "study/collective_files.hpp"
+#include "many/collective.hpp"
+#include "many/collective_files.hpp"
 
 namespace railstrata {
 namespace {

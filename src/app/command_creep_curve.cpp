@@ -18,14 +18,13 @@
 #include "core/faults.hpp"
 #include "io/csv.hpp"
 #include "io/output_folder.hpp"
+#include "many/axis.hpp"
 #include "report/creep_curve_page.hpp"
 #include "result/result_table.hpp"
 #include "runs/half_space_need.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr double kDecades = 2.5;
 
 /// What a curve varies. `side`: of a curve to one side, driving.
 struct Curve {
@@ -52,8 +51,7 @@ Curve curve_of(const CreepCurveOptions& options) {
 std::vector<double> creepages(const Curve& curve, const CreepCurveOptions& options) {
   std::vector<double> out;
   for (int i = 0; i < options.points; ++i)
-    out.push_back(curve.side * curve.largest *
-                  std::pow(10.0, -kDecades * (options.points - 1 - i) / (options.points - 1)));
+    out.push_back(curve.side * curve.largest * decade_share(i, options.points - 1));
   if (!options.both_sides) return out;
   std::vector<double> whole;
   for (auto c = out.rbegin(); c != out.rend(); ++c) whole.push_back(-std::abs(*c));

@@ -19,7 +19,7 @@
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/table_file.hpp"
-#include "study/creep_table.hpp"
+#include "many/table_error.hpp"
 
 namespace railstrata {
 namespace {
@@ -120,7 +120,7 @@ ExitCode stopped(Keeper& keeper) {
 }
 
 ExitCode command_creep_table(const CommandOptions& options) {
-  std::vector<CreepAxis> axes = parse_axes(options.creep_table.axes);
+  std::vector<NumberAxis> axes = parse_number_axes("--axis", options.creep_table.axes);
   const LoadedCase base = load_half_space_case_of(options, CaseUse::steady_rolling);
   if (!base.spec.run.rolling)
     spdlog::warn("run.rolling = false has no effect: a creep table is of steady rolling, with the case's friction");

@@ -17,8 +17,8 @@
 #include "app/signals.hpp"
 #include "io/output_folder.hpp"
 #include "judge/check_limits.hpp"
-#include "study/sweep.hpp"
-#include "study/sweep_page.hpp"
+#include "many/sweep.hpp"
+#include "many/sweep_page.hpp"
 
 namespace railstrata {
 namespace {
@@ -64,7 +64,7 @@ void print_warnings(const std::vector<SweepCase>& cases) {
   }
 }
 
-void print_table(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys) {
+void print_table(const std::vector<SweepCase>& cases, const std::vector<Axis>& keys) {
   std::vector<std::size_t> width;
   for (std::size_t k = 0; k < keys.size(); ++k) {
     width.push_back(keys[k].key.size());
@@ -92,7 +92,7 @@ void print_table(const std::vector<SweepCase>& cases, const std::vector<VariedKe
   print_warnings(cases);
 }
 
-nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::vector<VariedKey>& keys,
+nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::vector<Axis>& keys,
                                const std::vector<ResultColumn>& columns) {
   auto out = nlohmann::ordered_json::array();
   for (const SweepCase& c : cases) {
@@ -114,7 +114,7 @@ nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::v
 }
 
 ExitCode command_sweep(const CommandOptions& options) {
-  const std::vector<VariedKey> keys = parse_vary(options.sweep.vary);
+  const std::vector<Axis> keys = parse_axes("--vary", options.sweep.vary);
   const LoadedCase base = load_half_space_case_of(options);
   std::vector<SweepCase> cases = plan_sweep(base, options.overrides, keys);
   warn_of_notes(base, cases);

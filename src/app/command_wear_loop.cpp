@@ -22,7 +22,7 @@
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
-#include "study/collective_files.hpp"
+#include "many/collective_files.hpp"
 #include "study/wear_loop.hpp"
 #include "study/wear_loop_page.hpp"
 

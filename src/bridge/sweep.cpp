@@ -1,13 +1,13 @@
-#include "study/sweep.hpp"
+#include "many/sweep.hpp"
 
 #include "bridge/functions.hpp"
 
 namespace railstrata::bridge {
 namespace {
 
-std::vector<VariedKey> keys_of(const Json& varied) {
-  std::vector<VariedKey> out;
-  for (const Json& one : varied) out.push_back({one.at(0).get<std::string>(), texts_of(one.at(1))});
+std::vector<Axis> keys_of(const Json& varied) {
+  std::vector<Axis> out;
+  for (const Json& one : varied) out.push_back(make_axis(one.at(0).get<std::string>(), texts_of(one.at(1))));
   return out;
 }
 

@@ -9,6 +9,8 @@
 #include <map>
 #include <optional>
 
+#include "many/axis.hpp"
+
 namespace railstrata {
 namespace {
 

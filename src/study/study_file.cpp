@@ -5,17 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
-#include <nlohmann/json.hpp>
 
 #include "case/option_table.hpp"
 #include "case/text_file.hpp"
 #include "case/toml_document.hpp"
 #include "case/units.hpp"
 #include "core/nearest_word.hpp"
-#include "study/result_columns.hpp"
-#include "study/variation.hpp"
+#include "many/axis.hpp"
+#include "many/result_columns.hpp"
 
 namespace railstrata {
 namespace {
@@ -133,7 +133,7 @@ class StudyReader {
                             fmt::format("groups: {}", fmt::join(names_, ", ")));
     if (f.groups.empty()) f.groups.assign(names_.begin(), names_.end());
     f.engines = engines_of(t, engines_);
-    for (const VariedKey& k : lists_at(t, "where")) f.where[k.key] = k.values;
+    for (const Axis& k : lists_at(t, "where")) f.where[k.key] = k.values;
     spec_.figures.push_back(std::move(f));
   }
 
@@ -236,7 +236,8 @@ class StudyReader {
   }
 
   void flatten(const toml::table& t, const std::string& prefix, StudyPoint& out) {
-    each_key(t, prefix, [&](const std::string& full, const toml::key& key, const toml::node& node) {
+    each_key(t, prefix, [&](const std::string& word, const toml::key& key, const toml::node& node) {
+      const std::string full = axis_key(word);
       if (check_key(full, key)) out.push_back({full, plain_text(node), toml_text(node), place_of(node)});
     });
   }
@@ -258,15 +259,14 @@ class StudyReader {
     std::vector<std::vector<StudyValue>> out;
     const toml::table* inner = table_at(t, name, fmt::format("[group.{}]", name));
     if (!inner) return out;
-    each_key(*inner, "", [&](const std::string& full, const toml::key& key, const toml::node& node) {
+    each_key(*inner, "", [&](const std::string& word, const toml::key& key, const toml::node& node) {
+      const std::string full = axis_key(word);
       if (!check_key(full, key)) return;
-      const toml::array* list = node.as_array();
-      if (!list || list->empty())
+      std::vector<StudyValue> values = values_of(full, node);
+      if (values.empty())
         return source_.complain_at(
             place_of(node), fmt::format("{} under {}: must be a list of at least one value", full, name),
             fmt::format("write \"{}\" = [{}], or put a single value into [group.set]", full, plain_example(node)));
-      std::vector<StudyValue> values;
-      for (const toml::node& item : *list) values.push_back({full, plain_text(item), toml_text(item), place_of(item)});
       for (std::size_t i = 0; i < values.size(); ++i)
         for (std::size_t j = 0; j < i; ++j)
           if (values[i].toml == values[j].toml)
@@ -277,12 +277,28 @@ class StudyReader {
     return out;
   }
 
+  /// Those of a list, or of a range that a text says (many/axis.hpp).
+  std::vector<StudyValue> values_of(const std::string& key, const toml::node& node) {
+    std::vector<StudyValue> out;
+    if (const toml::array* list = node.as_array())
+      for (const toml::node& item : *list) out.push_back({key, plain_text(item), toml_text(item), place_of(item)});
+    if (!node.is_string()) return out;
+    try {
+      const Axis axis = make_axis(key, {plain_text(node)});
+      if (axis.values.size() > 1)
+        for (const std::string& value : axis.values) out.push_back({key, value, value, place_of(node)});
+    } catch (const CaseError& e) {
+      source_.complain_at(place_of(node), e.diagnostics.front().message, e.diagnostics.front().remedy);
+    }
+    return out;
+  }
+
   static std::string plain_example(const toml::node& node) {
     return node.is_array() ? "value, value" : toml_text(node);
   }
 
-  std::vector<VariedKey> lists_at(const toml::table& t, const char* name) {
-    std::vector<VariedKey> out;
+  std::vector<Axis> lists_at(const toml::table& t, const char* name) {
+    std::vector<Axis> out;
     for (const auto& key : keyed_lists(t, name)) {
       out.push_back({key.front().key, {}});
       for (const StudyValue& v : key) out.back().values.push_back(v.text);

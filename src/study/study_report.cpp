@@ -13,10 +13,11 @@
 #include "core/faults.hpp"
 #include "judge/check_limits.hpp"
 #include "judge/verdict.hpp"
+#include "many/axis.hpp"
+#include "many/result_columns.hpp"
 #include "report/checks.hpp"
 #include "report/read_run.hpp"
 #include "study/published_table.hpp"
-#include "study/result_columns.hpp"
 #include "study/study_plan.hpp"
 
 namespace railstrata {
@@ -402,15 +403,6 @@ double StudyEntry::number(const std::string& column) const {
   for (const auto& [known, v] : numbers)
     if (known == column) return v;
   return kNotThere;
-}
-
-std::pair<double, std::string> axis_value(const std::string& text) {
-  char* end = nullptr;
-  const double v = std::strtod(text.c_str(), &end);
-  if (end == text.c_str()) return {kNotThere, text};
-  std::string unit(end);
-  unit.erase(0, std::min(unit.find_first_not_of(' '), unit.size()));
-  return {v, unit};
 }
 
 Report study_report(const StudySpec& study, const Published& published, const std::vector<StudyEntry>& entries) {

@@ -25,9 +25,6 @@ struct StudyEntry {
   double number(const std::string& column) const;   ///< NaN if there is none
 };
 
-/// What the value of a key is on an axis: its number, and what follows it ("0.2 mm": 0.2, "mm"); NaN for a word.
-std::pair<double, std::string> axis_value(const std::string& text);
-
 /// The report. Full runs are those the maps show; the verdict is over all cases: what each says of itself, and every
 /// finite element case against its half-space case (limits of report_checks).
 Report study_report(const StudySpec& study, const Published& published, const std::vector<StudyEntry>& entries);

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "many/result_columns.hpp"
 #include "study/claim.hpp"
-#include "study/result_columns.hpp"
 #include "study/study_plan.hpp"
 
 namespace railstrata {

@@ -7,7 +7,7 @@
 
 #include "core/faults.hpp"
 #include "io/csv.hpp"
-#include "study/collective_files.hpp"
+#include "many/collective_files.hpp"
 
 namespace railstrata {
 namespace {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "study/collective.hpp"
+#include "many/collective.hpp"
 
 namespace railstrata {
 

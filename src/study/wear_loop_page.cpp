@@ -8,8 +8,8 @@
 
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
+#include "many/collective_files.hpp"
 #include "report/page.hpp"
-#include "study/collective_files.hpp"
 
 namespace railstrata {
 namespace {

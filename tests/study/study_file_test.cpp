@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "study/variation.hpp"
+#include "many/axis.hpp"
 #include "tests/places.hpp"
 
 namespace railstrata {

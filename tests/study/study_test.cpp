@@ -165,12 +165,6 @@ TEST(ClaimsTable, LimitsAndMissingResults) {
   EXPECT_EQ(claim(along_modulus("rises"), {}), "no result yet");
 }
 
-TEST(AxisValue, IsTheNumberAndItsUnit) {
-  EXPECT_EQ(axis_value("0.2 mm"), (std::pair<double, std::string>(0.2, "mm")));
-  EXPECT_EQ(axis_value("1.67"), (std::pair<double, std::string>(1.67, "")));
-  EXPECT_TRUE(std::isnan(axis_value("full").first));
-}
-
 TEST(Published, ThePapersFileIsReadAndItsCasesAreInTheStudy) {
   const std::filesystem::path folder = source_dir() / "cases/paper";
   const Published p = load_published(source_dir() / "data/paper/published.toml");

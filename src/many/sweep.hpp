@@ -13,8 +13,8 @@
 #include "bem/bem_options.hpp"
 #include "case/case_file.hpp"
 #include "io/output_file.hpp"
-#include "study/result_columns.hpp"
-#include "study/variation.hpp"
+#include "many/axis.hpp"
+#include "many/result_columns.hpp"
 
 namespace railstrata {
 
@@ -29,7 +29,7 @@ struct SweepCase {
 /// The cases of all combinations, in their order. One whose values are refused carries the fault; if all are, the first
 /// one's CaseError is thrown: a key that does not exist, most likely. Throws CaseError for a key without values.
 std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
-                                  const std::vector<VariedKey>& keys);
+                                  const std::vector<Axis>& keys);
 
 struct SweepOptions {
   BemOptions bem;
@@ -46,8 +46,8 @@ void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options);
 /// order in which they end.
 class SweepTable {
  public:
-  SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin,
-             const std::vector<VariedKey>& keys, std::vector<ResultColumn> columns);
+  SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin, const std::vector<Axis>& keys,
+             std::vector<ResultColumn> columns);
   /// Writes the rows that are done and not yet written.
   void add_done(const std::vector<SweepCase>& cases);
 

@@ -1,38 +1,28 @@
 #pragma once
 // A creep-force table: half-space solutions over a grid of creepages, loads, places and whatever else a case says.
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bem/bem_options.hpp"
 #include "case/case_file.hpp"
+#include "many/axis.hpp"
 #include "table/force_table.hpp"
 
 namespace railstrata {
 
-/// An axis as it is asked for: a key of the case, or one of the words of creep_table_words(), and its values in SI.
-struct CreepAxis {
-  std::string word, key, unit;
-  std::vector<double> at;
-  std::vector<std::string> texts;  ///< as an override takes them
-};
-
-/// Words for keys that tables often have: creepage_x, creepage_y, spin, load, friction, lateral_shift, yaw.
-std::vector<std::string> creep_table_words();
-
-/// Reads "WORD=VALUES". VALUES: "v1,v2,…"; "from:to:count" at equal distances; "+-largest:count", odd, through 0 with
-/// distances that grow by the same factor to both sides, over two and a half decades. Slopes are tangents. Throws
-/// CaseError: an unknown word
-/// or key, a key that is no number, values out of its range or that do not ascend, a creepage
-/// and a force in one direction, more axes than a table may have.
-std::vector<CreepAxis> parse_axes(const std::vector<std::string>& options);
-
 /// As many solutions as a table may have.
 inline constexpr std::size_t kMostTablePoints = 2'000'000;
+
+/// The numbers of a point in the order of the table's.
+inline constexpr std::size_t kCreepNumbers = 10;
+using CreepNumbers = std::array<double, kCreepNumbers>;
 
 struct CreepTableOptions {
   BemOptions bem;                                ///< its cache and neighbour are not used
@@ -48,9 +38,9 @@ struct CreepTableOptions {
 /// so that a table does not depend on the number of threads or on interruptions.
 class CreepTable {
  public:
-  /// Reads the case once for every combination of what is no creepage. Throws CaseError: the case refuses a value, too
-  /// many points.
-  CreepTable(const LoadedCase& base, const std::vector<std::string>& overrides, std::vector<CreepAxis> axes);
+  /// Loads the case once for every combination of the axes that are not creepages. Throws CaseError: the case refuses a
+  /// value or two axes together, too many points.
+  CreepTable(const LoadedCase& base, const std::vector<std::string>& overrides, std::vector<NumberAxis> axes);
   ~CreepTable();
   CreepTable(CreepTable&&) noexcept;
   CreepTable& operator=(CreepTable&&) = delete;
@@ -68,40 +58,30 @@ class CreepTable {
 
   void solve(const CreepTableOptions& options);
 
-  /// The table's numbers at any place within the axes, solved for; empty where it fails.
-  std::vector<double> direct(const std::vector<double>& point, const BemOptions& bem) const;
+  /// The numbers at any place within the axes, solved for; none where it fails.
+  std::optional<CreepNumbers> direct(const std::vector<double>& point, const BemOptions& bem) const;
 
  private:
   struct Outer;
   struct Row;
-  std::size_t outer_of(const std::vector<std::size_t>& index) const;
-  CaseSpec spec_at(const Outer& outer, const std::vector<double>& point) const;
+  std::vector<std::size_t> index_of(std::size_t point) const;
+  std::vector<double> place_of(std::size_t point) const;
+  const Outer& outer_at(std::size_t point) const;
+  Outer load(const std::vector<std::string>& values) const;
+  CaseSpec spec_at(const Outer& outer, const std::vector<double>& place) const;
   Row row(std::size_t number) const;
-  using Numbers = std::vector<double>;  ///< of a point; empty: there is no answer
-  std::vector<Numbers> solve_row(const Row& row, const CreepTableOptions& options, InfluenceCache& cache);
-  void note_fault(const std::vector<double>& point, const std::string& fault);
+  std::vector<std::optional<CreepNumbers>> solve_row(const Row& row, const CreepTableOptions& options,
+                                                     InfluenceCache& cache);
+  void note_fault(std::size_t point, const std::string& fault);
 
   LoadedCase base_;
   std::vector<std::string> overrides_;
-  std::vector<CreepAxis> axes_;
+  std::vector<NumberAxis> axes_;
   std::size_t row_axis_ = 0;
   ForceTable table_;
   std::vector<Outer> outer_;
   std::vector<std::string> faults_;
   std::unique_ptr<std::mutex> noting_;
 };
-
-/// How far interpolation is from direct solutions at places spread over the table.
-struct TableError {
-  struct Number {
-    std::string name, unit;
-    double largest = 0, mean = 0;  ///< absolute differences
-    double scale = 0;              ///< the table's largest magnitude
-  };
-  int places = 0;
-  std::vector<Number> numbers;
-};
-/// At `places` places of a fixed sequence of numbers. [Halton1960]
-TableError interpolation_error(const CreepTable& table, int places, const CreepTableOptions& options);
 
 }  // namespace railstrata

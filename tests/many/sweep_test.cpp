@@ -1,4 +1,4 @@
-#include "study/sweep.hpp"
+#include "many/sweep.hpp"
 
 #include <gtest/gtest.h>
 

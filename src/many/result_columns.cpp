@@ -1,4 +1,4 @@
-#include "study/result_columns.hpp"
+#include "many/result_columns.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "study/collective.hpp"
+#include "many/collective.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
-#include "study/collective_files.hpp"
+#include "many/collective_files.hpp"
 
 namespace railstrata {
 namespace {

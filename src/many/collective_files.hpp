@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "many/collective.hpp"
 #include "report/checks.hpp"
-#include "study/collective.hpp"
 
 namespace railstrata {
 

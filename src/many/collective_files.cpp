@@ -1,4 +1,4 @@
-#include "study/collective_files.hpp"
+#include "many/collective_files.hpp"
 
 #include <fmt/format.h>
 
@@ -10,10 +10,10 @@
 #include "io/csv.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
+#include "many/result_columns.hpp"
 #include "report/checks.hpp"
 #include "report/page.hpp"
 #include "report/read_run.hpp"
-#include "study/result_columns.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,4 +1,4 @@
-#include "study/collective.hpp"
+#include "many/collective.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 #include "damage/wear_indices.hpp"
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
+#include "many/each_case.hpp"
+#include "many/result_columns.hpp"
 #include "runs/solve_half_space.hpp"
-#include "study/for_each_ended.hpp"
-#include "study/result_columns.hpp"
 
 namespace railstrata {
 namespace {

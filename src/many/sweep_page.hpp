@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "study/sweep.hpp"
+#include "many/sweep.hpp"
 
 namespace railstrata {
 
 /// A chart for each number over the key with most values on an axis, a line for each combination of the other keys'.
 /// Throws EnvironmentError for the disk.
-void write_sweep_page(const std::filesystem::path& page, const std::string& title, const std::vector<VariedKey>& keys,
+void write_sweep_page(const std::filesystem::path& page, const std::string& title, const std::vector<Axis>& keys,
                       const std::vector<SweepCase>& cases, const std::vector<ResultColumn>& columns);
 
 }  // namespace railstrata

@@ -1,4 +1,4 @@
-#include "study/sweep_page.hpp"
+#include "many/sweep_page.hpp"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,6 @@
 
 #include "io/output_file.hpp"
 #include "report/page.hpp"
-#include "study/study_report.hpp"
 
 namespace railstrata {
 namespace {
@@ -27,7 +26,7 @@ bool shown(const ResultColumn& column) {
 }
 
 /// The place of the key along the axes: of those whose values are all numbers the one with most; -1: there is none.
-int axis_key(const std::vector<VariedKey>& keys) {
+int axis_key(const std::vector<Axis>& keys) {
   int best = -1;
   for (std::size_t k = 0; k < keys.size(); ++k) {
     const std::vector<std::string>& values = keys[k].values;
@@ -41,7 +40,7 @@ int axis_key(const std::vector<VariedKey>& keys) {
 }
 
 /// "layer.0.thickness 1 mm, drive.friction_coefficient 0.3": the values of all keys but one.
-std::string line_name(const std::vector<VariedKey>& keys, const SweepCase& c, int without) {
+std::string line_name(const std::vector<Axis>& keys, const SweepCase& c, int without) {
   std::string out;
   for (std::size_t k = 0; k < keys.size(); ++k)
     if (static_cast<int>(k) != without)
@@ -50,7 +49,7 @@ std::string line_name(const std::vector<VariedKey>& keys, const SweepCase& c, in
 }
 
 /// The cases of each line in the order of their values.
-ReportChart chart_of(const ResultColumn& column, const std::vector<VariedKey>& keys, int axis,
+ReportChart chart_of(const ResultColumn& column, const std::vector<Axis>& keys, int axis,
                      const std::vector<SweepCase>& cases) {
   const auto key = static_cast<std::size_t>(axis);
   const std::string unit = axis_value(keys[key].values.front()).second;
@@ -80,14 +79,14 @@ ReportChart chart_of(const ResultColumn& column, const std::vector<VariedKey>& k
   return chart;
 }
 
-ReportTable table_of(const std::vector<VariedKey>& keys, const std::vector<SweepCase>& cases,
+ReportTable table_of(const std::vector<Axis>& keys, const std::vector<SweepCase>& cases,
                      const std::vector<ResultColumn>& columns) {
   ReportTable out{.id = "cases",
                   .title = "Cases",
                   .note = "sweep.csv has more columns and every digit.",
                   .columns = {},
                   .rows = {}};
-  for (const VariedKey& key : keys) out.columns.push_back(key.key);
+  for (const Axis& key : keys) out.columns.push_back(key.key);
   for (const ResultColumn& c : columns)
     if (shown(c)) out.columns.push_back(column_title(std::string(c.name)));
   out.columns.emplace_back("fault or failed check");
@@ -107,7 +106,7 @@ ReportTable table_of(const std::vector<VariedKey>& keys, const std::vector<Sweep
 
 }  // namespace
 
-void write_sweep_page(const std::filesystem::path& page, const std::string& title, const std::vector<VariedKey>& keys,
+void write_sweep_page(const std::filesystem::path& page, const std::string& title, const std::vector<Axis>& keys,
                       const std::vector<SweepCase>& cases, const std::vector<ResultColumn>& columns) {
   Report report;
   report.title = fmt::format("{}: sweep", title);

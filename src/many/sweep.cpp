@@ -1,4 +1,4 @@
-#include "study/sweep.hpp"
+#include "many/sweep.hpp"
 
 #include <fmt/format.h>
 
@@ -10,8 +10,8 @@
 #include "io/csv.hpp"
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
+#include "many/each_case.hpp"
 #include "runs/solve_half_space.hpp"
-#include "study/for_each_ended.hpp"
 
 namespace railstrata {
 namespace {
@@ -37,7 +37,7 @@ void solve(SweepCase& c, const BemOptions& bem, bool stresses) {
 }  // namespace
 
 std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std::string>& overrides,
-                                  const std::vector<VariedKey>& keys) {
+                                  const std::vector<Axis>& keys) {
   std::vector<SweepCase> cases;
   std::optional<CaseError> first_error;
   bool any = false;
@@ -68,10 +68,10 @@ void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options) {
 }
 
 SweepTable::SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin,
-                       const std::vector<VariedKey>& keys, std::vector<ResultColumn> columns)
+                       const std::vector<Axis>& keys, std::vector<ResultColumn> columns)
     : file_(file), columns_(std::move(columns)) {
   std::string head = csv_remarks(origin) + csv_remarks({patches_remark(columns_)});
-  for (const VariedKey& k : keys) head += k.key + ',';
+  for (const Axis& k : keys) head += k.key + ',';
   for (const ResultColumn& c : columns_) head += std::string(c.name) + ',';
   file_.write(head + "fault,patches,checks,warnings\n");
 }

@@ -1,4 +1,4 @@
-#include "study/creep_table.hpp"
+#include "many/table_error.hpp"
 
 #include <gtest/gtest.h>
 
@@ -33,9 +33,11 @@ std::size_t number(const ForceTable& table, const std::string& name) {
   return 0;
 }
 
+std::vector<NumberAxis> axes_of(const std::vector<std::string>& texts) { return parse_number_axes("--axis", texts); }
+
 std::string refusal(const std::string& axis) {
   try {
-    parse_axes({axis});
+    axes_of({axis});
   } catch (const CaseError& e) {
     return e.what();
   }
@@ -45,8 +47,8 @@ std::string refusal(const std::string& axis) {
 }  // namespace
 
 TEST(CreepTable, ReadsAxesInThreeForms) {
-  const std::vector<CreepAxis> axes = parse_axes(
-      {"load=50 kN, 0.1 MN", "lateral_shift=-2 mm:2 mm:5", "creepage_x=+-0.01:5", "layer.0.thickness=1,2 mm"});
+  const std::vector<NumberAxis> axes =
+      axes_of({"load=50 kN, 0.1 MN", "lateral_shift=-2 mm:2 mm:5", "creepage_x=+-0.01:5", "layer.0.thickness=1,2 mm"});
   ASSERT_EQ(axes.size(), 4u);
   EXPECT_EQ(axes[0].at, (std::vector<double>{50e3, 100e3}));
   EXPECT_EQ(axes[0].unit, "N");
@@ -58,7 +60,7 @@ TEST(CreepTable, ReadsAxesInThreeForms) {
   EXPECT_EQ(axes[2].at[0], -0.01);
   EXPECT_NEAR(axes[2].at[3], 0.01 * std::pow(10, -1.25), 1e-12);
   EXPECT_EQ(axes[3].at, (std::vector<double>{1e-3, 2e-3}));
-  EXPECT_EQ(parse_axes({"drive.creepage=0,0.1"})[0].word, "creepage_x");
+  EXPECT_EQ(axes_of({"drive.creepage=0,0.1"})[0].word, "creepage_x");
 }
 
 TEST(CreepTable, SaysWhatIsWrongWithAnAxis) {
@@ -74,28 +76,38 @@ TEST(CreepTable, SaysWhatIsWrongWithAnAxis) {
   EXPECT_NE(refusal("load=5 t,10 t").find("write the weight, \"49.05 kN\""), std::string::npos);
   EXPECT_NE(refusal("lateral_shift=0,,1 mm").find("a value is missing"), std::string::npos);
   EXPECT_NE(refusal("Load=1 kN,2 kN").find("did you mean load?"), std::string::npos);
-  EXPECT_THROW(parse_axes({"creepage_x=0,1e-3", "drive.traction_coefficient=0.1,0.2"}), CaseError);
-  EXPECT_THROW(parse_axes({"drive.lateral_force=0,1 kN", "creepage_y=0,1e-3"}), CaseError);
-  EXPECT_THROW(parse_axes({"spin=0:1:3", "drive.spin=0:1:3"}), CaseError);
-  EXPECT_THROW(parse_axes({}), CaseError);
+  EXPECT_THROW(axes_of({"spin=0:1:3", "drive.spin=0:1:3"}), CaseError);
+  EXPECT_THROW(axes_of({}), CaseError);
 }
 
 TEST(CreepTable, TakesUnitsWithOrWithoutABlankAndSlopesAsTangents) {
-  EXPECT_EQ(parse_axes({"layer.0.thickness=100,200µm"})[0].at, (std::vector<double>{1e-4, 2e-4}));
-  EXPECT_EQ(parse_axes({"layer.0.thickness=100um,0.2mm"})[0].at, (std::vector<double>{1e-4, 2e-4}));
-  EXPECT_EQ(parse_axes({"friction=10,30 %"})[0].at, (std::vector<double>{0.1, 0.3}));
-  EXPECT_EQ(parse_axes({"geometry.cant=0.025,1/20"})[0].at, (std::vector<double>{0.025, 0.05}));
-  const CreepAxis yaw = parse_axes({"yaw=-1:1 deg:3"})[0];
+  EXPECT_EQ(axes_of({"layer.0.thickness=100,200µm"})[0].at, (std::vector<double>{1e-4, 2e-4}));
+  EXPECT_EQ(axes_of({"layer.0.thickness=100um,0.2mm"})[0].at, (std::vector<double>{1e-4, 2e-4}));
+  EXPECT_EQ(axes_of({"friction=10,30 %"})[0].at, (std::vector<double>{0.1, 0.3}));
+  EXPECT_EQ(axes_of({"geometry.cant=0.025,1/20"})[0].at, (std::vector<double>{0.025, 0.05}));
+  const NumberAxis yaw = axes_of({"yaw=-1:1 deg:3"})[0];
   EXPECT_EQ(yaw.at[2], std::tan(std::numbers::pi / 180));
   EXPECT_EQ(yaw.unit, "") << "a tangent, not an angle";
 }
 
 TEST(CreepTable, NamesTheAxisWhoseValueTheCaseRefuses) {
   try {
-    CreepTable table(ball(), {}, parse_axes({"creepage_x=0,1e-3", "layer.0.thickness=1 mm,2 mm"}));
+    CreepTable table(ball(), {}, axes_of({"creepage_x=0,1e-3", "layer.0.thickness=1 mm,2 mm"}));
     FAIL() << "a layer without a modulus";
   } catch (const CaseError& e) {
     EXPECT_EQ(e.diagnostics.front().where, "--axis layer.0.thickness, 1 mm");
+  }
+}
+
+TEST(CreepTable, RefusesTwoAxesOfWhichOneGivesTheOther) {
+  for (const auto& [one, other] : {std::pair{"creepage_x=0,1e-3", "drive.traction_coefficient=0.1,0.2"},
+                                   std::pair{"drive.lateral_force=0,1 kN", "creepage_y=0,1e-3"}}) {
+    try {
+      CreepTable(ball(), {}, axes_of({one, other}));
+      FAIL() << one << " and " << other;
+    } catch (const CaseError& e) {
+      EXPECT_NE(std::string(e.what()).find("a case has one of them"), std::string::npos) << e.what();
+    }
   }
 }
 
@@ -104,20 +116,20 @@ TEST(CreepTable, CountsItsPointsBeforeItMakesThem) {
   for (const char* axis : {"creepage_x=0:0.01", "creepage_y=0:0.01", "spin=0:0.1 1/m", "load=10:100 kN",
                            "friction=0.1:0.3", "lateral_shift=0:1 mm", "yaw=0:0.01", "drive.speed=1:10 m/s"})
     axes.push_back(std::string(axis) + ":256");  // 256^8 = 2^64
-  EXPECT_THROW(CreepTable(ball(), {}, parse_axes(axes)), CaseError);
+  EXPECT_THROW(CreepTable(ball(), {}, axes_of(axes)), CaseError);
 }
 
 TEST(CreepTable, LeavesTheTractionOfTheCaseWhereACreepageIsGiven) {
   LoadedCase driven = ball();
   driven.source_text += "traction_coefficient = 0.2\n";  // more than the smaller friction
-  CreepTable table(driven, {}, parse_axes({"creepage_x=-1e-3,1e-3", "friction=0.1,0.3", "mesh.element_size=1,2 mm"}));
+  CreepTable table(driven, {}, axes_of({"creepage_x=-1e-3,1e-3", "friction=0.1,0.3", "mesh.element_size=1,2 mm"}));
   table.solve(coarse());
   EXPECT_EQ(table.missing(), 0u);
   EXPECT_EQ(table.idle_axes(), (std::vector<std::string>{"mesh.element_size"}));
 }
 
 TEST(CreepTable, HasTheSolutionsOfItsPoints) {
-  CreepTable table(ball(), {}, parse_axes({"creepage_x=+-0.01:7", "load=60 kN,90 kN"}));
+  CreepTable table(ball(), {}, axes_of({"creepage_x=+-0.01:7", "load=60 kN,90 kN"}));
   table.solve(coarse());
   EXPECT_EQ(table.points(), 14u);
   EXPECT_EQ(table.missing(), 0u);
@@ -125,9 +137,9 @@ TEST(CreepTable, HasTheSolutionsOfItsPoints) {
   const std::size_t force = number(t, "force_x"), bound = number(t, "bound"), normal = number(t, "normal_force");
   for (std::size_t i = 0; i < 7; ++i)
     for (std::size_t j = 0; j < 2; ++j) {
-      const std::vector<double> direct = table.direct({t.axes[0].at[i], t.axes[1].at[j]}, coarse().bem);
-      ASSERT_FALSE(direct.empty());
-      EXPECT_NEAR(t.numbers[force].values[2 * i + j], direct[force], 1e-4 * 90e3);
+      const auto direct = table.direct({t.axes[0].at[i], t.axes[1].at[j]}, coarse().bem);
+      ASSERT_TRUE(direct);
+      EXPECT_NEAR(t.numbers[force].values[2 * i + j], (*direct)[force], 1e-4 * 90e3);
       EXPECT_NEAR(t.numbers[normal].values[2 * i + j], t.axes[1].at[j], 1);
       EXPECT_LE(t.numbers[bound].values[2 * i + j], 1 + 1e-4);
     }
@@ -137,7 +149,7 @@ TEST(CreepTable, HasTheSolutionsOfItsPoints) {
 TEST(CreepTable, RollsWhateverRunRollingSays) {
   LoadedCase still = ball();
   still.source_text += "\n[run]\nrolling = false\n";
-  const auto axes = [] { return parse_axes({"creepage_x=+-0.01:3"}); };
+  const auto axes = [] { return axes_of({"creepage_x=+-0.01:3"}); };
   CreepTable rolling(ball(), {}, axes()), table(still, {}, axes());
   rolling.solve(coarse());
   table.solve(coarse());
@@ -147,7 +159,7 @@ TEST(CreepTable, RollsWhateverRunRollingSays) {
 }
 
 TEST(CreepTable, HasTheSameBitsForAnyThreadsAndAfterAStop) {
-  const std::vector<CreepAxis> axes = parse_axes({"creepage_x=+-0.01:5", "spin=0,0.4 1/m", "load=60 kN,90 kN"});
+  const std::vector<NumberAxis> axes = axes_of({"creepage_x=+-0.01:5", "spin=0,0.4 1/m", "load=60 kN,90 kN"});
   std::vector<std::vector<double>> forces;
   for (const int threads : {1, 2}) {
     const int before = max_threads();
@@ -170,13 +182,13 @@ TEST(CreepTable, HasTheSameBitsForAnyThreadsAndAfterAStop) {
   resumed.solve(coarse());
   EXPECT_EQ(resumed.missing(), 0u);
   EXPECT_EQ(resumed.table().numbers[number(resumed.table(), "force_x")].values, forces[0]);
-  CreepTable other(ball(), {}, parse_axes({"creepage_x=+-0.02:5"}));
+  CreepTable other(ball(), {}, axes_of({"creepage_x=+-0.02:5"}));
   EXPECT_THROW(other.take(begun.table()), CaseError);
 }
 
 TEST(CreepTable, SaysWhichPointsHaveNoAnswer) {
   const LoadedCase whole = parse_case("", "base.toml", {});
-  CreepTable table(whole, {}, parse_axes({"lateral_shift=0 mm,30 mm", "creepage_x=0,0.001"}));
+  CreepTable table(whole, {}, axes_of({"lateral_shift=0 mm,30 mm", "creepage_x=0,0.001"}));
   table.solve(coarse());
   EXPECT_EQ(table.missing(), 2u) << "the wheel has left the rail";
   ASSERT_FALSE(table.faults().empty());
@@ -186,7 +198,7 @@ TEST(CreepTable, SaysWhichPointsHaveNoAnswer) {
 TEST(CreepTable, ErrorOfInterpolationFallsWithTheSquareOfItsCells) {
   double before = 0;
   for (const int n : {5, 9}) {
-    CreepTable table(ball(), {}, parse_axes({"creepage_x=-0.002:-0.0002:" + std::to_string(n), "load=60 kN,60.1 kN"}));
+    CreepTable table(ball(), {}, axes_of({"creepage_x=-0.002:-0.0002:" + std::to_string(n), "load=60 kN,60.1 kN"}));
     table.solve(coarse());
     const TableError error = interpolation_error(table, 40, coarse());
     EXPECT_EQ(error.places, 40);

@@ -1,0 +1,267 @@
+#include "many/creep_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "core/faults.hpp"
+#include "judge/bem_summary.hpp"
+#include "many/each_case.hpp"
+#include "model/model.hpp"
+#include "runs/solve_half_space.hpp"
+
+namespace railstrata {
+namespace {
+
+constexpr std::string_view kLongitudinal = "drive.creepage", kLateral = "drive.lateral_creepage", kSpin = "drive.spin";
+
+/// Creepages are set in a spec that is loaded already: a row along one of them needs no case to be read.
+bool is_creepage(const NumberAxis& axis) {
+  return axis.key == kLongitudinal || axis.key == kLateral || axis.key == kSpin;
+}
+
+void set_creepage(CaseSpec& spec, std::string_view key, double value) {
+  if (key == kLongitudinal) spec.drive.creepage = value;
+  if (key == kSpin) spec.drive.spin = value;
+  if (key != kLateral) return;
+  spec.drive.lateral_creepage = value;
+  spec.drive.lateral_traction_coefficient.reset();
+}
+
+struct Number {
+  const char *name, *unit;
+  double (*of)(const CaseSpec&, const BemResult&, const ContactSummary&);
+};
+double dissipated(const BemResult& r) {
+  double out = r.dissipation;
+  for (const BemPatch& p : r.further) out += p.dissipation;
+  return out;
+}
+constexpr Number kNumbers[kCreepNumbers] = {
+    {"force_x", "N", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.F_x; }},
+    {"lateral_force", "N", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.lateral_force; }},
+    {"normal_force", "N", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.normal_force; }},
+    {"spin_moment", "N m", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.spin_moment; }},
+    {"approach", "m", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.approach; }},
+    {"p_max", "Pa", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.patch.p_max; }},
+    {"patch_area", "m2", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.patch.area; }},
+    {"slip", "", [](const CaseSpec&, const BemResult&, const ContactSummary& c) { return c.patch.slip_area_fraction; }},
+    {"dissipation", "W", [](const CaseSpec&, const BemResult& r, const ContactSummary&) { return dissipated(r); }},
+    {"bound", "", [](const CaseSpec& s, const BemResult&, const ContactSummary& c) {
+       return std::hypot(c.F_x, c.lateral_force) / (s.drive.friction_coefficient * c.normal_force);
+     }}};
+
+CreepNumbers solved(const CaseSpec& spec, const Placement& placement, const BemOptions& bem) {
+  const BemResult result = solve_bem(spec, placement, bem);
+  const Summary summary = bem_contact_summary(spec, result);
+  for (const Check& check : summary.checks)
+    if (!check.ok)
+      throw CaseError(fmt::format("check {} fails: {:.3g}, limit {:.3g}", check.name, check.value, check.limit));
+  CreepNumbers out{};
+  for (std::size_t k = 0; k < kCreepNumbers; ++k) out[k] = kNumbers[k].of(spec, result, summary.contact);
+  return out;
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+/// The case at a combination of what is no creepage, or why there is none.
+struct CreepTable::Outer {
+  std::optional<CaseSpec> spec;
+  Placement placement;
+  std::string fault;
+};
+
+/// Points along one axis, in its order.
+struct CreepTable::Row {
+  std::size_t first = 0, stride = 1;
+};
+
+CreepTable::~CreepTable() = default;
+CreepTable::CreepTable(CreepTable&&) noexcept = default;
+
+CreepTable::CreepTable(const LoadedCase& base, const std::vector<std::string>& overrides, std::vector<NumberAxis> axes)
+    : base_(base),
+      overrides_(overrides),
+      axes_(std::move(axes)),
+      row_axis_(axes_.size() - 1),
+      noting_(std::make_unique<std::mutex>()) {
+  double points_asked = 1;
+  std::vector<Axis> outer_axes;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    points_asked *= static_cast<double>(axes_[k].at.size());
+    table_.axes.push_back({axes_[k].word, axes_[k].unit, axes_[k].at});
+    outer_axes.push_back({axes_[k].key, axes_[k].values});
+    if (!is_creepage(axes_[k])) continue;
+    row_axis_ = k;
+    outer_axes.back().values.resize(1);  // in place of the case's own traction
+  }
+  if (points_asked > kMostTablePoints)
+    throw CaseError(fmt::format("{:.7g} points", points_asked), fmt::format("give {} at most", kMostTablePoints));
+  for (const Number& n : kNumbers) table_.numbers.push_back({n.name, n.unit, std::vector<double>(points(), NAN)});
+  std::optional<CaseError> first_error;
+  for (const std::vector<std::string>& values : combinations(outer_axes, kMostTablePoints)) {
+    try {
+      outer_.push_back(load(values));
+    } catch (const CaseError& e) {
+      outer_.push_back({{}, {}, first_line(e.what())});
+      if (!first_error) first_error = e;
+    }
+  }
+  if (std::none_of(outer_.begin(), outer_.end(), [](const Outer& o) { return o.spec.has_value(); })) throw *first_error;
+}
+
+/// Where the case refuses a value, the axis is named instead of the setting.
+CreepTable::Outer CreepTable::load(const std::vector<std::string>& values) const {
+  std::vector<std::string> all = overrides_;
+  for (std::size_t k = 0; k < axes_.size(); ++k) all.push_back(fmt::format("{}=\"{}\"", axes_[k].key, values[k]));
+  try {
+    const LoadedCase loaded = parse_case(base_.source_text, base_.file, all);
+    CaseSpec spec = loaded.spec;
+    spec.run.rolling = true;  // whatever the case says
+    spec = half_space_case(std::move(spec));
+    Placement placement = place(spec, loaded.folder());
+    return {std::move(spec), std::move(placement), {}};
+  } catch (CaseError& e) {
+    for (Diagnostic& d : e.diagnostics)
+      for (std::size_t k = 0; k < axes_.size(); ++k)
+        if (d.where == fmt::format("--set {}=\"{}\"", axes_[k].key, values[k]))
+          d.where = fmt::format("--axis {}, {}", axes_[k].word, values[k]);
+    throw CaseError(e.diagnostics);
+  }
+}
+
+std::size_t CreepTable::missing() const {
+  const std::vector<double>& force = table_.numbers.front().values;
+  return static_cast<std::size_t>(std::count_if(force.begin(), force.end(), [](double v) { return std::isnan(v); }));
+}
+
+std::vector<std::size_t> CreepTable::index_of(std::size_t point) const {
+  std::vector<std::size_t> out(axes_.size());
+  for (std::size_t k = axes_.size(); k-- > 0; point /= axes_[k].at.size()) out[k] = point % axes_[k].at.size();
+  return out;
+}
+
+std::vector<double> CreepTable::place_of(std::size_t point) const {
+  const std::vector<std::size_t> index = index_of(point);
+  std::vector<double> out;
+  for (std::size_t k = 0; k < axes_.size(); ++k) out.push_back(axes_[k].at[index[k]]);
+  return out;
+}
+
+const CreepTable::Outer& CreepTable::outer_at(std::size_t point) const {
+  const std::vector<std::size_t> index = index_of(point);
+  std::size_t out = 0;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    if (!is_creepage(axes_[k])) out = out * axes_[k].at.size() + index[k];
+  return outer_[out];
+}
+
+CaseSpec CreepTable::spec_at(const Outer& outer, const std::vector<double>& place) const {
+  CaseSpec spec = *outer.spec;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    if (is_creepage(axes_[k])) set_creepage(spec, axes_[k].key, place[k]);
+  return spec;
+}
+
+CreepTable::Row CreepTable::row(std::size_t number) const {
+  std::size_t stride = 1;
+  for (std::size_t k = row_axis_ + 1; k < axes_.size(); ++k) stride *= axes_[k].at.size();
+  return {number / stride * stride * axes_[row_axis_].at.size() + number % stride, stride};
+}
+
+void CreepTable::note_fault(std::size_t point, const std::string& fault) {
+  const std::lock_guard lock(*noting_);
+  const std::vector<double> at = place_of(point);
+  std::string place;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    place += fmt::format("{}{} = {:.6g}{}{}", k == 0 ? "" : ", ", axes_[k].word, at[k],
+                         axes_[k].unit.empty() ? "" : " ", axes_[k].unit);
+  if (faults_.size() < 20) faults_.push_back(fmt::format("{}: {}", place, first_line(fault)));
+}
+
+void CreepTable::take(const ForceTable& earlier) {
+  const auto same = [](const TableAxis& a, const TableAxis& b) { return a.name == b.name && a.at == b.at; };
+  if (!std::equal(table_.axes.begin(), table_.axes.end(), earlier.axes.begin(), earlier.axes.end(), same))
+    throw CaseError("the table that was begun has other axes",
+                    "give those of its beginning, or another --out without --resume");
+  for (TableNumber& number : table_.numbers)
+    for (const TableNumber& n : earlier.numbers)
+      if (n.name == number.name) number.values = n.values;
+}
+
+std::vector<std::optional<CreepNumbers>> CreepTable::solve_row(const Row& row, const CreepTableOptions& options,
+                                                               InfluenceCache& cache) {
+  BemOptions bem = options.bem;
+  BemNeighbour neighbour;
+  bem.cache = &cache;
+  bem.neighbour = &neighbour;
+  std::vector<std::optional<CreepNumbers>> out(axes_[row_axis_].at.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const std::size_t point = row.first + i * row.stride;
+    const Outer& outer = outer_at(point);
+    try {
+      if (!outer.spec) throw CaseError(outer.fault);
+      out[i] = solved(spec_at(outer, place_of(point)), outer.placement, bem);
+    } catch (const std::exception& e) {
+      neighbour = {};
+      note_fault(point, e.what());
+    }
+  }
+  return out;
+}
+
+std::vector<std::string> CreepTable::idle_axes() const {
+  std::vector<std::string> out;
+  std::size_t stride = points();
+  for (const NumberAxis& axis : axes_) {
+    const std::size_t n = axis.at.size();
+    stride /= n;
+    bool changes = is_creepage(axis);
+    for (const TableNumber& number : table_.numbers)
+      for (std::size_t i = 0; !changes && i + stride < points(); ++i)
+        changes = i / stride % n + 1 < n && number.values[i] != number.values[i + stride];
+    if (!changes) out.push_back(axis.word);
+  }
+  return out;
+}
+
+void CreepTable::solve(const CreepTableOptions& options) {
+  InfluenceCache cache;
+  const std::size_t length = axes_[row_axis_].at.size();
+  std::size_t done = 0;
+  for_each_ended(points() / length, options.stop, [&](std::size_t r) {
+    const Row next = row(r);
+    const double* force = table_.numbers.front().values.data() + next.first;
+    bool whole = true;
+    for (std::size_t i = 0; i < length; ++i) whole = whole && !std::isnan(force[i * next.stride]);
+    std::vector<std::optional<CreepNumbers>> found;
+    if (!whole) found = solve_row(next, options, cache);
+    return [&, next, found = std::move(found)] {
+      for (std::size_t i = 0; i < found.size(); ++i)
+        for (std::size_t n = 0; found[i] && n < kCreepNumbers; ++n)
+          table_.numbers[n].values[next.first + i * next.stride] = (*found[i])[n];
+      done += length;
+      if (options.solved) options.solved(done);
+    };
+  });
+  std::sort(faults_.begin(), faults_.end());
+}
+
+std::optional<CreepNumbers> CreepTable::direct(const std::vector<double>& point, const BemOptions& bem) const {
+  std::vector<std::string> values;
+  for (std::size_t k = 0; k < axes_.size(); ++k)
+    values.push_back(is_creepage(axes_[k]) ? axes_[k].values.front() : axis_text(axes_[k], point[k]));
+  try {
+    const Outer outer = load(values);
+    return solved(spec_at(outer, point), outer.placement, bem);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace railstrata
