@@ -71,8 +71,6 @@ function(railstrata_install_data layout)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/matlab DESTINATION ${data_folder} ${part})
   install(FILES ${CMAKE_SOURCE_DIR}/src/report/view.py ${CMAKE_SOURCE_DIR}/web/dist/report.js
     ${CMAKE_SOURCE_DIR}/web/dist/report.css DESTINATION ${data_folder}/report ${part})
-  install(FILES ${CMAKE_SOURCE_DIR}/web/dist/report_licences.txt DESTINATION ${data_folder}/report
-    RENAME LICENSES.txt ${part})
   set(doc ${CMAKE_INSTALL_DATADIR}/doc/railstrata)
   install(DIRECTORY ${CMAKE_SOURCE_DIR}/docs/ DESTINATION ${doc} ${part} FILES_MATCHING PATTERN "*.md"
     PATTERN "*.bib" PATTERN "*.png" PATTERN "*.svg" PATTERN "*.ipynb" PATTERN "reliability" EXCLUDE)

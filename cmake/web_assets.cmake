@@ -4,7 +4,7 @@ set(web ${CMAKE_SOURCE_DIR}/web/dist)
 set(view ${CMAKE_SOURCE_DIR}/src/report/view.py)
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/report/assets.cpp PROPERTIES
   COMPILE_DEFINITIONS "RAILSTRATA_WEB_FOLDER=\"${web}\";RAILSTRATA_VIEW_FILE=\"${view}\""
-  OBJECT_DEPENDS "${web}/report.js;${web}/report.css;${web}/report_licences.txt;${view}")
+  OBJECT_DEPENDS "${web}/report.js;${web}/report.css;${view}")
 set_source_files_properties(${CMAKE_SOURCE_DIR}/src/explore/assets.cpp PROPERTIES
   COMPILE_DEFINITIONS RAILSTRATA_WEB_FOLDER="${web}"
   OBJECT_DEPENDS "${web}/explore.js;${web}/explore.css;${web}/worker.js;${web}/engine.wasm.gz;${web}/explore_licences.txt")

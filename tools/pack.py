@@ -109,8 +109,7 @@ def add_licences(folder, packages):
     """RailStrata's, those of what is inside, and those of what has come along."""
     folder.mkdir(parents=True)
     shutil.copy(ROOT / "LICENSE", folder / "LICENSE")
-    for page in ("report", "explore"):
-        shutil.copy(ROOT / f"web/dist/{page}_licences.txt", folder / f"{page}-page.txt")
+    shutil.copy(ROOT / "web/dist/explore_licences.txt", folder / "explore-page.txt")
     for name in sorted({*INSIDE, *packages}):
         shutil.copyfile(f"/usr/share/doc/{name}/copyright", folder / f"{name}.txt")
 

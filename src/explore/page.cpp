@@ -161,9 +161,7 @@ constexpr const char* kWorkers = "worker-src blob:; ";
 
 std::string page_of(const LoadedCase& loaded, const Json& seed) {
   const std::string policy = fmt::format(
-      "default-src 'none'; script-src {}; style-src {}; style-src-attr 'unsafe-inline'; img-src data: blob:; "
-      "{}base-uri "
-      "'none'; form-action 'none'",
+      "default-src 'none'; script-src {}; style-src {}; {}base-uri 'none'; form-action 'none'",
       scripts(), policy_hash(explorer_style()), kWorkers);
   return fmt::format(
              "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "

@@ -7,14 +7,12 @@
 
 RAILSTRATA_ASSET(script, "report.js")
 RAILSTRATA_ASSET(style, "report.css")
-RAILSTRATA_ASSET(licences, "report_licences.txt")
 RAILSTRATA_EMBED(railstrata_view, RAILSTRATA_VIEW_FILE)
 
 namespace railstrata {
 
 std::string_view report_script() { return {railstrata_script_begin, railstrata_script_end}; }
 std::string_view report_style() { return {railstrata_style_begin, railstrata_style_end}; }
-std::string_view report_licences() { return {railstrata_licences_begin, railstrata_licences_end}; }
 std::string_view view_script() { return {railstrata_view_begin, railstrata_view_end}; }
 
 }  // namespace railstrata

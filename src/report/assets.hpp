@@ -6,7 +6,6 @@ namespace railstrata {
 
 std::string_view report_script();    ///< web/dist/report.js
 std::string_view report_style();     ///< web/dist/report.css
-std::string_view report_licences();  ///< web/dist/report_licences.txt: of the software inside report.js
 std::string_view view_script();      ///< src/report/view.py
 
 }  // namespace railstrata

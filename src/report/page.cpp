@@ -24,24 +24,20 @@ std::string frame_block(const FramedPage& frame) {
 std::string report_page(const Report& report) { return report_page(report, {}); }
 
 std::string report_page(const Report& report, const FramedPage& what_if) {
-  // Plotly makes an empty style element and fills it rule by rule: the empty text has a hash too; and it sets style
-  // attributes, which can do no more than look. Maps and saved pictures are data and blob addresses of the page itself.
   const std::string policy = fmt::format(
-      "default-src 'none'; script-src {}{}; style-src {} {}{}; style-src-attr 'unsafe-inline'; img-src data: blob:; "
-      "{}base-uri 'none'; form-action 'none'",
-      policy_hash(report_script()), what_if.script_policy, policy_hash(report_style()), policy_hash(""),
-      what_if.style_policy, what_if.further_policy);
+      "default-src 'none'; script-src {}{}; style-src {}{}; {}base-uri 'none'; form-action 'none'",
+      policy_hash(report_script()), what_if.script_policy, policy_hash(report_style()), what_if.style_policy,
+      what_if.further_policy);
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
       "http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<meta name=\"generator\" "
       "content=\"RailStrata {}\">\n<title>{}</title>\n<style>{}</style>\n</head>\n"
       "<body>\n<noscript>This page draws its figures with a script of its own; allow scripts to see it.</noscript>\n"
-      "<script type=\"application/json\" id=\"data\">{}</script>\n{}<template "
-      "id=\"licences\"><pre>{}</pre></template>\n<script>{}</script>\n</body>\n</html>\n",
+      "<script type=\"application/json\" id=\"data\">{}</script>\n{}<script>{}</script>\n"
+      "</body>\n</html>\n",
       policy, version_text(), markup_text(report.title), report_style(),
-      json_in_page(json_text(report_payload(report))), frame_block(what_if), markup_text(report_licences()),
-      report_script());
+      json_in_page(json_text(report_payload(report))), frame_block(what_if), report_script());
 }
 
 }  // namespace railstrata

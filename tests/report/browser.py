@@ -75,26 +75,51 @@ class Browser:
     def text(self, selector):
         return self.js("return document.querySelector(arguments[0])?.innerText ?? null", selector)
 
+    def trace(self, plot, k=0):
+        """What a figure has drawn: its cells (with their borders and middles) or its curves, in order."""
+        return self.js(
+            """const t = document.getElementById(arguments[0]).drawn.data[arguments[1]];
+               return {x: [...t.x], y: [...t.y], z: t.z && t.z.map(r => [...r]), at: t.at, name: t.name}""", plot, k)
+
+    def place(self, plot, x, y):
+        """Where a point of a figure's axes is in the window, after the figure has been brought there."""
+        return self.js(
+            """const host = document.getElementById(arguments[0]);
+               host.scrollIntoView({block: 'center', behavior: 'instant'});
+               const p = host.drawn.plane, box = host.getBoundingClientRect();
+               return [box.left + p.left + p.width * (arguments[1] - p.x[0]) / (p.x[1] - p.x[0]),
+                       box.top + p.top + p.height * (p.y[1] - arguments[2]) / (p.y[1] - p.y[0])];""", plot, x, y)
+
+    def mouse(self, kind, place, **more):
+        self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": f"mouse{kind}", "x": place[0], "y": place[1],
+                                                                 **more})
+
+    def drag(self, start, end, **more):
+        button = {"button": "left", "clickCount": 1, **more}
+        self.mouse("Moved", start, **more)
+        self.mouse("Pressed", start, **button)
+        for share in (0.3, 0.7, 1):
+            self.mouse("Moved", [a + share * (b - a) for a, b in zip(start, end)], **button)
+        self.mouse("Released", end, **button)
+
+    def double_click(self, place):
+        for count in (1, 2):
+            for kind in ("Pressed", "Released"):
+                self.mouse(kind, place, button="left", clickCount=count)
+
+    def words(self, plot):
+        """The words beside the pointer, None without."""
+        return self.js("const words = document.querySelector('#' + arguments[0] + ' .under'); "
+                       "return words && !words.hidden ? words.textContent : null", plot)
+
     def hover(self, plot, x, y):
         """The words at a point of a figure's axes."""
-        place = self.js(
-            """const g = document.getElementById(arguments[0]);
-               g.scrollIntoView({block: 'center', behavior: 'instant'});
-               const f = g._fullLayout, box = g.getBoundingClientRect();
-               return [box.left + f.xaxis._offset + f.xaxis.d2p(arguments[1]),
-                       box.top + f.yaxis._offset + f.yaxis.d2p(arguments[2])];""", plot, x, y)
-        for step in (3, 0):  # a pointer that only appears does not move
-            self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {"type": "mouseMoved", "x": place[0] + step,
-                                                                     "y": place[1]})
-            time.sleep(0.2)  # words follow a pointer at rest
-        return self.wait(
-            lambda: self.js(
-            "return [...document.querySelectorAll('#' + arguments[0] + ' .hoverlayer .hovertext')].map(e => "
-            "e.textContent).join(' ')", plot), f"words over {plot}", 10)
+        self.mouse("Moved", self.place(plot, x, y))
+        return self.wait(lambda: self.words(plot), f"words over {plot}", 10)
 
-    def download(self, figure):
-        self.js("document.querySelector(`[data-csv='${arguments[0]}']`).click()", figure)
-        file = self.downloads / f"{figure}.csv"
+    def download(self, figure, kind="csv"):
+        self.js("document.querySelector(`[data-${arguments[1]}='${arguments[0]}']`).click()", figure, kind)
+        file = self.downloads / f"{figure}.{kind}"
         self.wait(lambda: file.exists() and file.stat().st_size > 0, f"{file.name} is saved", 10)
         return file
 

@@ -50,9 +50,7 @@ class Page(unittest.TestCase):
         return self.browser.js(script, *arguments)
 
     def trace(self, plot, k=0):
-        return self.js(
-            "const t = document.getElementById(arguments[0]).data[arguments[1]]; return {x: [...t.x], y: [...t.y], z: "
-            "t.z && t.z.map(r => [...r]), name: t.name}", plot, k)
+        return self.browser.trace(plot, k)
 
     def saved(self, figure):
         """The rows of a figure's table as the CSV button offers them."""
@@ -75,7 +73,7 @@ class Page(unittest.TestCase):
     def map_peak(self, plot):
         t = self.trace(plot)
         value, i, j = max((v, i, j) for j, row in enumerate(t["z"]) for i, v in enumerate(row) if v is not None)
-        return t["x"][i], t["y"][j], value
+        return t["at"]["x"][i], t["at"]["y"][j], value
 
 
 class Run(Page):
@@ -86,7 +84,7 @@ class Run(Page):
     def test_nothing_is_fetched_and_nothing_is_wrong(self):
         self.browser.console()
         self.js("document.querySelector('#wheel').open = true; window.scrollTo(0, document.body.scrollHeight)")
-        self.browser.wait(lambda: self.js("return document.querySelectorAll('#wheel .main-svg').length > 0"),
+        self.browser.wait(lambda: self.js("return document.querySelectorAll('#wheel .plot canvas').length > 0"),
                           "the wheel's sections are drawn")
         self.assertEqual(self.first_words + self.browser.console(), [])
         self.js("document.querySelector('#wheel').open = false")
@@ -115,7 +113,7 @@ class Run(Page):
         device("Emulation.setDeviceMetricsOverride", {"width": 390, "height": 844, "deviceScaleFactor": 2,
                                                       "mobile": False})
         try:
-            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width <= "
+            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0').drawn.width <= "
                                               "document.getElementById('plot-map-p-0').clientWidth"),
                               "figures have followed")
             self.assertLessEqual(self.js("return document.documentElement.scrollWidth"), 390)
@@ -124,7 +122,7 @@ class Run(Page):
             self.assertLessEqual(right, 390)
         finally:
             device("Emulation.clearDeviceMetricsOverride", {})
-            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0')._fullLayout.width > 400"),
+            self.browser.wait(lambda: self.js("return document.getElementById('plot-map-p-0').drawn.width > 400"),
                               "figures have followed back")
 
     def test_names_of_checks_are_those_of_the_program_s_table(self):
@@ -291,7 +289,7 @@ class Run(Page):
 
     def test_shear_stresses_are_those_of_the_tables(self):
         self.js("document.querySelector('#shear-rail').open = true")
-        self.browser.wait(lambda: self.js("return document.querySelectorAll('#shear-rail .main-svg').length > 0"),
+        self.browser.wait(lambda: self.js("return document.querySelectorAll('#shear-rail .plot canvas').length > 0"),
                           "the sections are drawn")
         table = read_table(FEM / "rail_cross_section.csv")
         shown = [v for row in self.trace("plot-section-rail-cross-sigma_xz-0")["z"] for v in row]
@@ -338,18 +336,18 @@ class Run(Page):
         for plot in ["plot-map-p-0", "plot-section-rail-longitudinal-von_mises-0", "plot-section-rail-cross-sigma_1-1",
                      "plot-profiles"]:
             scale = self.js(
-                "const f = document.getElementById(arguments[0])._fullLayout; return [f.xaxis, f.yaxis].map(a => "
-                "a._length / Math.abs(a.range[1] - a.range[0]))", plot)
+                "const p = document.getElementById(arguments[0]).drawn.plane; return [[p.width, p.x], [p.height, p.y]]"
+                ".map(([length, range]) => length / Math.abs(range[1] - range[0]))", plot)
             self.assertAlmostEqual(scale[0] / scale[1], 1, delta=0.01, msg=plot)
 
     def test_the_words_over_a_map_tell_value_and_units(self):
         t = self.trace("plot-map-p-1")
         # away from the cross at the contact point
-        i, j = (min(range(len(line)), key=lambda k: abs(line[k] - wanted)) for line,
-                wanted in ((t["x"], 3), (t["y"], -2)))
-        words = self.browser.hover("plot-map-p-1", t["x"][i], t["y"][j])
+        x, y = t["at"]["x"], t["at"]["y"]
+        i, j = (min(range(len(line)), key=lambda k: abs(line[k] - wanted)) for line, wanted in ((x, 3), (y, -2)))
+        words = self.browser.hover("plot-map-p-1", x[i], y[j]).replace("−", "-")
         self.assertEqual(re.findall(r"(-?[\d.]+) (mm|MPa)", words),
-                         [(f"{t['x'][i]:.2f}", "mm"), (f"{t['y'][j]:.2f}", "mm"), (f"{t['z'][j][i]:.1f}", "MPa")])
+                         [(f"{x[i]:.2f}", "mm"), (f"{y[j]:.2f}", "mm"), (f"{t['z'][j][i]:.1f}", "MPa")])
 
     def test_the_sections_have_the_tables_peaks_and_the_layer_s_border(self):
         for n, folder in enumerate([FEM, HALF_SPACE]):
@@ -371,7 +369,7 @@ class Run(Page):
                     self.assertAlmostEqual(max(v for v in border["x"] if v is not None), self.trace(plot)["x"][-1])
 
     def test_the_centre_lines_are_those_of_both_engines_and_hertz(self):
-        names = self.js("return document.getElementById('plot-centre-p').data.map(t => t.name)")
+        names = self.js("return document.getElementById('plot-centre-p').drawn.data.map(t => t.name)")
         self.assertEqual(len(names), 3)
         for n, folder in enumerate([FEM, HALF_SPACE]):
             line, shown = read_table(folder / "centre_line.csv"), self.trace("plot-centre-p", n)
@@ -409,7 +407,7 @@ class Run(Page):
             rows = [i for i, s in enumerate(film["step"]) if s == steps[k]]
             self.assertEqual(self.browser.text("#film-at"), f"wheel at {film['distance_mm'][rows[0]]:.1f} mm")
             shown = self.trace("plot-film-q")
-            for x, wanted in zip(shown["x"], sorted({film["x_mm"][i] for i in rows}), strict=True):
+            for x, wanted in zip(shown["at"]["x"], sorted({film["x_mm"][i] for i in rows}), strict=True):
                 self.assertAlmostEqual(x, wanted, delta=1e-4)
             values = [v for row in shown["z"] for v in row if v is not None]
             self.assertEqual(len(values), len(rows))
@@ -437,17 +435,133 @@ class Run(Page):
                                    patch["p_MPa"][k], delta=2e-5 * max(patch["p_MPa"]))
 
     def test_no_button_sends_anything_away(self):
-        buttons = self.js("return [...document.querySelectorAll('.modebar-btn')].map(b => b.dataset.title)")
+        buttons = self.js("return [...document.querySelectorAll('.tool')].map(b => b.title)")
         self.assertGreater(len(buttons), 50)
         self.assertEqual({b for b in buttons if re.search("cloud|share|edit|send", b, re.I)}, set())
         self.assertEqual(len(set(buttons)), 4, set(buttons))
+
+    def view(self, plot):
+        return self.js("const p = document.getElementById(arguments[0]).drawn.plane; return [...p.x, ...p.y]", plot)
+
+    def pixels(self, plot):
+        return self.js("return document.querySelector('#' + arguments[0] + ' canvas').toDataURL()", plot)
+
+    def test_a_drag_shows_a_part_large_and_a_double_click_the_whole_again(self):
+        for plot, equal in [("plot-history-forces", False), ("plot-map-p-1", True)]:
+            whole, before = self.view(plot), self.pixels(plot)
+            inside = [whole[0] + share * (whole[1] - whole[0]) for share in (0.3, 0.6)]
+            across = [whole[2] + share * (whole[3] - whole[2]) for share in (0.4, 0.8)]
+            start, end = (self.browser.place(plot, x, y) for x, y in zip(inside, across))
+            self.browser.drag(start, end)
+            large = self.view(plot)
+            if equal:  # as much more as keeps both units of one length
+                self.assertAlmostEqual((large[1] - large[0]) / (whole[1] - whole[0]),
+                                       (large[3] - large[2]) / (whole[3] - whole[2]), delta=1e-6)
+            self.assertLess(large[0], inside[0] + 0.02 * (whole[1] - whole[0]))
+            self.assertAlmostEqual((large[2] + large[3]) / 2, sum(across) / 2, delta=0.02 * (whole[3] - whole[2]))
+            self.assertAlmostEqual((large[0] + large[1]) / 2, sum(inside) / 2, delta=0.02 * (whole[1] - whole[0]))
+            self.assertLess(large[1] - large[0], 0.5 * (whole[1] - whole[0]))
+            self.assertNotEqual(self.pixels(plot), before)
+            middle = self.browser.place(plot, sum(inside) / 2, sum(across) / 2)
+            self.browser.drag(middle, [middle[0] + 30, middle[1]], modifiers=8)  # with shift it moves
+            moved = self.view(plot)
+            self.assertAlmostEqual(moved[1] - moved[0], large[1] - large[0], delta=1e-9 * (whole[1] - whole[0]))
+            self.assertLess(moved[0], large[0])
+            self.browser.double_click(middle)
+            self.assertEqual(self.view(plot), whole)
+            self.browser.mouse("Moved", [1, 1])
+            self.assertEqual(self.pixels(plot), before)
+
+    def test_a_line_tells_the_values_of_the_point_under_the_pointer(self):
+        line = self.trace("plot-centre-p", 1)
+        k = max(range(len(line["y"])), key=lambda i: line["y"][i])
+        words = self.browser.hover("plot-centre-p", line["x"][k], line["y"][k]).replace("−", "-")
+        told = re.search(r"x (-?[\d.]+) mm\np ([\d.]+) MPa\n(.*)", words)
+        self.assertAlmostEqual(float(told[1]), line["x"][k], delta=0.3)
+        self.assertAlmostEqual(float(told[2]), line["y"][k], delta=0.01 * line["y"][k])
+        self.assertIn("half-space", told[3])
+
+    def test_the_legend_hides_a_curve_and_shows_it_again(self):
+        before = self.pixels("plot-history-forces")
+        key = "document.querySelectorAll('#history-forces .keys button')[1]"
+        self.assertEqual(self.js(f"return [{key}.textContent, {key}.getAttribute('aria-pressed')]"), ["F_x", "true"])
+        self.js(f"{key}.click()")
+        self.assertEqual(self.js(f"return {key}.getAttribute('aria-pressed')"), "false")
+        self.assertNotEqual(self.pixels("plot-history-forces"), before)
+        x, y = self.trace("plot-history-forces", 1)["x"][-1], self.trace("plot-history-forces", 1)["y"][-1]
+        self.browser.mouse("Moved", self.browser.place("plot-history-forces", x, y))
+        self.assertNotIn("F_x", self.browser.words("plot-history-forces") or "")
+        self.js(f"{key}.click()")
+        self.browser.mouse("Moved", [1, 1])
+        self.assertEqual(self.pixels("plot-history-forces"), before)
+
+    def test_keys_lead_from_point_to_point_and_make_larger(self):
+        key = ("document.getElementById(arguments[0]).dispatchEvent(new KeyboardEvent('keydown', {key: arguments[1], "
+               "bubbles: true, shiftKey: !!arguments[2]}))")
+        line = self.trace("plot-history-forces", 0)
+        self.js(key, "plot-history-forces", "ArrowRight")
+        first = number_in(self.browser.words("plot-history-forces").split("wheel at ")[1])
+        self.js(key, "plot-history-forces", "ArrowRight")
+        second = number_in(self.browser.words("plot-history-forces").split("wheel at ")[1])
+        at = min(range(len(line["x"])), key=lambda k: abs(line["x"][k] - first))
+        self.assertAlmostEqual(second, line["x"][at + 1], delta=0.11)
+        whole = self.view("plot-history-forces")
+        self.js(key, "plot-history-forces", "+")
+        large = self.view("plot-history-forces")
+        self.assertAlmostEqual((whole[1] - whole[0]) / (large[1] - large[0]), 1.5, delta=1e-6)
+        self.js(key, "plot-history-forces", "ArrowRight", True)
+        self.assertGreater(self.view("plot-history-forces")[0], large[0])
+        self.js(key, "plot-history-forces", "0")
+        self.assertEqual(self.view("plot-history-forces"), whole)
+        self.js(key, "plot-map-p-1", "ArrowUp")
+        there = self.browser.words("plot-map-p-1")
+        self.js(key, "plot-map-p-1", "ArrowLeft")
+        a, b = (re.findall(r"(-?[\d.]+) mm", w.replace("−", "-")) for w in (there, self.browser.words("plot-map-p-1")))
+        step = self.trace("plot-map-p-1")["at"]["x"]
+        self.assertAlmostEqual(float(b[0]) - float(a[0]), step[0] - step[1], delta=0.011)
+        self.assertEqual(a[1], b[1])
+
+    def test_a_finger_is_told_the_values_and_two_make_larger(self):
+        def touch(kind, *points):
+            self.browser.driver.execute_cdp_cmd("Input.dispatchTouchEvent", {
+                "type": f"touch{kind}", "touchPoints": [{"x": x, "y": y, "id": k} for k, (x, y) in enumerate(points)]})
+
+        t = self.trace("plot-map-p-1")
+        place = self.browser.place("plot-map-p-1", t["at"]["x"][len(t["at"]["x"]) // 2 + 2], -1)
+        touch("Start", place)
+        touch("End")
+        self.assertIn("MPa", self.browser.wait(lambda: self.browser.words("plot-map-p-1"), "words at the finger", 10))
+        whole, (x, y) = self.view("plot-map-p-1"), place
+        touch("Start", (x - 20, y), (x + 20, y))
+        touch("Move", (x - 30, y), (x + 30, y))
+        touch("Move", (x - 40, y), (x + 40, y))
+        touch("End")
+        large = self.view("plot-map-p-1")
+        self.assertAlmostEqual((whole[1] - whole[0]) / (large[1] - large[0]), 2, delta=0.2)
+        for _ in range(2):  # two taps: the whole again
+            touch("Start", place)
+            touch("End")
+        self.browser.wait(lambda: self.view("plot-map-p-1") == whole, "the whole", 10)
+
+    def test_every_figure_can_be_saved_as_a_picture(self):
+        self.assertEqual(self.js("return [...document.querySelectorAll('[data-png]')].map(b => b.dataset.png)"),
+                         self.js("return [...document.querySelectorAll('figure')].map(f => f.id)"))
+        for figure in ("centre-p", "hero-section"):
+            data = self.browser.download(figure, "png").read_bytes()
+            self.assertTrue(data.startswith(b"\x89PNG"))
+            width, height = (int.from_bytes(data[k:k + 4], "big") for k in (16, 20))
+            canvas = self.js("const c = document.querySelector(`#${arguments[0]} canvas`); return [c.width, c.height]",
+                             figure)
+            self.assertEqual(width, canvas[0])
+            self.assertGreater(height, canvas[1], "with its title")
+            self.browser.downloads.joinpath(f"{figure}.png").unlink()
 
     @slow
     def test_light_dark_and_light_again_in_print(self):
         def look():
             return self.js(
                 "return [document.documentElement.dataset.theme, getComputedStyle(document.body).backgroundColor, "
-                "document.getElementById('plot-map-p-0')._fullLayout.paper_bgcolor]")
+                "document.getElementById('plot-map-p-0').drawn.paper]")
 
         light = look()
         self.js("document.getElementById('theme').click()")
@@ -455,8 +569,8 @@ class Run(Page):
         self.assertEqual([light[0], dark[0]], ["light", "dark"])
         self.assertTrue(all(a != b for a, b in zip(light, dark)))
         self.js("window.printed = []; window.addEventListener('beforeprint', () => "
-                "document.querySelectorAll('.js-plotly-plot').forEach(g => g.clientWidth !== 0 && "
-                "window.printed.push([g._fullLayout.width, g._fullLayout.paper_bgcolor])))")
+                "document.querySelectorAll('.plot').forEach(g => g.clientWidth !== 0 && g.drawn && "
+                "window.printed.push([g.drawn.width, g.drawn.paper])))")
         pdf = self.browser.pdf()
         self.assertTrue(pdf.startswith(b"%PDF"))
         self.assertIn(len(re.findall(rb"/Type\s*/Page\b", pdf)), range(4, 16))
@@ -493,7 +607,7 @@ class Yields(Page):
         k = cells(section, "plastic_p")
         self.assertAlmostEqual(value / section["plastic_p"][k], 1, delta=1e-4)
         depths = sorted(set(section["depth_mm"]))
-        self.assertAlmostEqual(depth, row_borders(depths)[depths.index(section["depth_mm"][k])], delta=1e-2)
+        self.assertAlmostEqual(depth, section["depth_mm"][k], delta=1e-2)
 
     def test_pictures_on_the_profiles_stand_beside_each_other_on_one_scale(self):
         shown = self.js("return [...document.querySelectorAll('#yielded figure h3, #yielded figcaption, #yielded h3')]"
@@ -547,7 +661,7 @@ class HalfSpace(Page):
         depths = {round(d, 3) for d in self.trace("plot-section-rail-longitudinal-von_mises-0", 1)["y"]
                   if d is not None}
         self.assertEqual(depths, {0.5, 2.0})
-        levels = self.js("return document.getElementById('plot-depth').layout.shapes.map(s => s.y0)")
+        levels = self.js("return document.getElementById('plot-depth').drawn.chart.levels")
         self.assertEqual([round(d, 3) for d in levels], [0.5, 2.0])
 
     def test_the_console_is_silent(self):
@@ -622,7 +736,7 @@ class TwoPatches(Page):
         self.assertEqual(len(geometry["patches"]), 2)
         self.assertAlmostEqual(sum(p["load_N"] for p in geometry["patches"]),
                                sum(p["normal_force_N"] for p in summary["patches"]), delta=1)
-        names = self.js("return document.getElementById('plot-profiles').data.map(t => t.name)")
+        names = self.js("return document.getElementById('plot-profiles').drawn.data.map(t => t.name)")
         self.assertEqual(names[-2:], ["rigid contact point, patch 1", "rigid contact point, patch 2"])
         for k, patch in enumerate(summary["patches"]):
             self.assertAlmostEqual(self.trace("plot-profiles", len(names) - 2 + k)["x"][0], 1e3 * patch["y_m"],
@@ -636,7 +750,7 @@ class TwoPatches(Page):
 
     def test_the_centre_lines_are_those_of_both_with_hertz_under_the_load_of_each(self):
         geometry = json.loads((RESULTS / "two" / "geometry.json").read_text())
-        names = self.js("return document.getElementById('plot-centre-p').data.map(t => t.name)")
+        names = self.js("return document.getElementById('plot-centre-p').drawn.data.map(t => t.name)")
         self.assertEqual(names, ["two (half-space), patch 1", "two (half-space), patch 2", "Hertz, no layer, patch 1",
                                  "Hertz, no layer, patch 2"])
         for k, patch in enumerate(geometry["patches"]):
@@ -675,8 +789,8 @@ class WheelLayer(Page):
         depths = {round(d, 3) for d in self.trace("plot-section-wheel-longitudinal-von_mises-0", 1)["y"]
                   if d is not None}
         self.assertEqual(depths, {1.5})
-        self.assertEqual([round(s["y0"], 3) for s in
-                          self.js("return document.getElementById('plot-depth-wheel').layout.shapes")], [1.5])
+        self.assertEqual([round(y, 3) for y in
+                          self.js("return document.getElementById('plot-depth-wheel').drawn.chart.levels")], [1.5])
         self.assertIn("tyre on the wheel", self.browser.text("#hero-section figcaption"))
         self.assertIn("Wheel, von Mises below the surface", self.browser.text(".tiles"))
 
@@ -719,7 +833,7 @@ class Sweep(Page):
                 self.assertAlmostEqual(y, float(wanted["p_max_MPa"]), delta=1e-5 * y)
         self.assertEqual(len(self.js("return [...document.querySelectorAll('#table-cases tbody tr')].map(r => 1)")), 6)
         self.assertIn("layer.0.thickness [mm]", self.js(
-            "return document.getElementById('plot-p_max_MPa')._fullLayout.xaxis.title.text"))
+            "return document.getElementById('plot-p_max_MPa').drawn.chart.x.title"))
         self.assertEqual(self.first_words + self.browser.console(), [])
 
 
@@ -793,7 +907,7 @@ class Old(Page):
         try:
             self.browser.wait(
                 lambda: self.js(
-                "return document.getElementById('plot-map-p-0')._fullLayout.width <= "
+                "return document.getElementById('plot-map-p-0').drawn.width <= "
                 "document.getElementById('plot-map-p-0').clientWidth"), "figures have followed")
             self.assertLessEqual(
                 self.js("return document.documentElement.scrollWidth - document.documentElement.clientWidth"), 1)
@@ -823,7 +937,7 @@ class Study(Page):
     def test_its_chart_has_the_lines(self):
         self.assertEqual(self.trace("plot-fig", 1)["y"], [1100, 1150, 1250])
         self.assertEqual(
-            self.js("return [...document.querySelectorAll('#plot-fig .legendtext')].map(e => e.textContent)"),
+            self.js("return [...document.querySelectorAll('#fig .keys button')].map(e => e.textContent)"),
             ["2 E0", "<b>4</b> E0 & more"])
 
     def test_its_table_has_the_cells(self):
@@ -868,7 +982,7 @@ class WholeStudy(Page):
 
     def test_a_chart_for_each_thickness_has_a_line_for_each_stiffness_and_the_plain_case(self):
         for n, thickness in [(1, "0.5 mm"), (2, "10 mm")]:
-            names = self.js("return document.getElementById(arguments[0]).data.map(t => t.name)", f"plot-lines-{n}")
+            names = self.js("return document.getElementById(arguments[0]).drawn.data.map(t => t.name)", f"plot-lines-{n}")
             self.assertEqual(names, ["E₁ = E₀, half-space", "E₁ = 1.5 E₀, half-space", "E₁ = 4 E₀, half-space"])
             wanted = [*self.rows("plain"), *(r for r in self.rows("grid") if r["layer.0.thickness"] == thickness)]
             for k, row in enumerate(wanted):

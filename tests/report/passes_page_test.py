@@ -33,9 +33,7 @@ class PassesPage(unittest.TestCase):
         return BROWSER.js("return document.querySelector(arguments[0]).textContent", place)
 
     def trace(self, plot, k=0):
-        return BROWSER.js(
-            "const t = document.getElementById(arguments[0]).data[arguments[1]]; return {x: [...t.x], y: [...t.y], z: "
-            "t.z && t.z.map(r => [...r]), name: t.name}", plot, k)
+        return BROWSER.trace(plot, k)
 
     def test_it_asks_for_nothing_and_has_nothing_to_complain_of(self):
         self.assertEqual(self.first_words, [])

@@ -267,17 +267,17 @@ TEST(ReportPage, RunsOnlyItsOwnScriptAndHoldsNoTagsOfOthers) {
   };
   EXPECT_EQ(count("</script>"), 2) << "the data and the page's own";
   EXPECT_EQ(count("</style>"), 1);
-  EXPECT_EQ(count("unsafe"), 1) << "style attributes alone";
-  EXPECT_LT(page.size(), 2e6);
+  EXPECT_EQ(count("unsafe"), 0);
+  EXPECT_LT(page.size(), 5e5);
   const auto data = page.find("id=\"data\">") + 10;
   EXPECT_EQ(Json::parse(page.substr(data, page.find("</script>", data) - data))["runs"][0]["name"],
             report.runs[0].name);
 }
 
 TEST(ReportAssets, StandInTheProgramWhole) {
-  EXPECT_GT(report_script().size(), 5e5);
+  EXPECT_GT(report_script().size(), 5e4);
+  EXPECT_LT(report_script().size(), 2e5) << "without a library for charts";
   EXPECT_NE(report_style().find("@media print"), std::string_view::npos);
-  EXPECT_NE(report_licences().find("plotly.js"), std::string_view::npos);
   EXPECT_TRUE(view_script().starts_with("#!/usr/bin/env python3\n"));
   EXPECT_TRUE(view_script().ends_with("main()\n"));
 }

@@ -1,5 +1,5 @@
 // Sliders with a field beside each: a slider for looking around, a field for a number.
-import {element} from "./dom";
+import {element} from "../dom";
 import {kKnobs, type Knob, type State} from "./state";
 
 /// From the slider's own scale to the shown number and back; stiffness goes by factors.

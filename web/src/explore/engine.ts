@@ -1,5 +1,5 @@
 // The engine's worker: one request at a time, and of those that wait only the newest.
-import {embedded} from "./dom";
+import {embedded} from "../dom";
 import type {Answer, Fault, FromWorker, Head, Request, Seed, ToWorker} from "./types";
 
 export interface Listener {

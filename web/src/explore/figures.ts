@@ -1,6 +1,6 @@
 // The page's figures: patch, centre line, stresses below. Millimetres and MPa.
+import {element} from "../dom";
 import {colourAt, colourBar, Plot, prepare, roundUp, stepOf, theme, type Axis, type Theme} from "./canvas";
-import {element} from "./dom";
 import {numbersOf, type Answer, type SectionHead, type Slice} from "./types";
 
 const kStick = "#0072b2", kSlip = "#e69f00", kPressure = "#7a3b9a", kTraction = "#d55e00";

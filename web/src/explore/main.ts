@@ -1,6 +1,6 @@
 // The explorer: sliders at the side, the contact that follows them.
+import {copy, download, element, embedded} from "../dom";
 import {controls} from "./controls";
-import {copy, download, element, embedded} from "./dom";
 import {Engine} from "./engine";
 import {
   centreLine,
@@ -261,7 +261,7 @@ function caseFile(): void {
 
 function copyCase(text: string): void {
   const clean = text.split(`${seed.folder}/`).join("");
-  download(`${seed.name || "case"}-explored.toml`, clean, "text/plain");
+  download(`${seed.name || "case"}-explored.toml`, new Blob([clean], {type: "text/plain;charset=utf-8"}));
   void copy(clean, say, "Case file");
 }
 

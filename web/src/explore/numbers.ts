@@ -1,5 +1,5 @@
 // The numbers of a state, with what they have changed by against the pinned one.
-import {element} from "./dom";
+import {element} from "../dom";
 import type {Answer, StressMaximum, Summary} from "./types";
 
 interface Number_ {

@@ -1,5 +1,5 @@
 // Profiles by drag and drop, or by a file dialogue. What is wrong with one the engine's own reader says.
-import {element} from "./dom";
+import {element} from "../dom";
 
 export type Kind = "rail"|"wheel";
 const kLargest = 4 << 20;

@@ -1,10 +1,7 @@
 // What the program puts into the page: src/report/payload.cpp writes it, this file reads it. Millimetres, MPa,
 // milliseconds and newtons, except in `summary`, which is summary.json as it stands (SI).
-
-/// Numbers, some of them missing.
-export type Values = (number|null)[];
-export type Span = [low: number, high: number];
-export type BodyName = "rail"|"wheel";
+import type {Dash} from "../chart";
+import type {BodyName, Measure, Summary, Values} from "../types";
 
 /// Numbers to 1/65534 of their range: 16-bit steps in base64; 65535 is "no value".
 interface PackedNumbers {
@@ -62,15 +59,6 @@ export interface BodySections {
 export type Columns = Record<string, number[]>;
 export type CentreLine = Columns&{y: number[]};
 
-export interface StressMaximum {
-  value_Pa: number;
-  x_m: number|null;
-  y_m: number|null;
-  depth_m: number|null;
-}
-export type Measure = "von_mises_max"|"sigma1_max";
-export type Zones = Record<string, Record<Measure, StressMaximum|null>|null>;
-
 export interface Layer {
   name: string;
   on: string;
@@ -97,84 +85,6 @@ export interface Geometry extends LoadedContact {
   rail_m: [number, number][];
   wheel_m: [number, number][];
   layers: Layer[];
-}
-
-/// By what the elastic stress may be multiplied; null where it was not computed or nothing decides.
-export type Factors = Record<"first_yield"|"wandering"|"single_track"|"upper"|"kinematic", number|null>;
-
-export interface ZoneShakedown {
-  zone: string;
-  depth_m: number|null;
-  factors: Factors;
-  verdict?: string;
-}
-
-export interface BodyShakedown {
-  body: string;
-  factors: Factors;
-  zones?: ZoneShakedown[];
-  notes: string[];
-}
-
-/// The largest principal stress of a zone.
-export interface PrincipalZone {
-  zone: string;
-  sigma1_max_Pa: number|null;
-  depth_m: number|null;
-  share_of_tensile_strength: number|null;
-  critical_flaw_m: number|null;
-  thickness_m?: number|null;  // of a layer
-}
-
-export interface InterfaceStress {
-  above: string;
-  below: string;
-  depth_m: number|null;
-  tension_Pa: number|null;
-  shear_Pa: number|null;
-  shear_range_Pa: number|null;
-  delamination: number|null;
-}
-
-export interface BodyFatigue {
-  body: string;
-  zones?: PrincipalZone[];
-  interfaces?: InterfaceStress[];
-}
-
-/// What yielded; place: of the largest accumulated plastic strain.
-export interface PlasticNumbers {
-  strain: number|null;
-  accumulated: number|null;
-  elements: number|null;
-  x_m: number|null;
-  y_m: number|null;
-  depth_m: number|null;
-  work_J: number|null;
-  dissipated_J: number|null;
-  body: BodyName|null;
-  zone: string|null;
-}
-
-/// Stress when the wheel has gone; none: why it is not told.
-export interface ResidualNumbers {
-  none: string|null;
-  sigma_x_min_Pa?: number;
-  sigma_y_min_Pa?: number;
-  uneven?: number;
-}
-
-export interface Summary {
-  state?: string;  // of a transient: which of its states this is
-  position_m: number|null;
-  contact: Record<string, number|null>;
-  patches?: Record<string, number|null>[];  // where the wheel touches at several places
-  stress: Record<BodyName, Zones>;
-  shakedown?: {factors: Factors; verdict?: string; fails_by?: string[]; bodies: BodyShakedown[]};
-  fatigue?: BodyFatigue[];
-  plastic?: PlasticNumbers;
-  residual?: ResidualNumbers;
-  run: Record<string, number|string|null>;
 }
 
 export interface Run {
@@ -230,11 +140,11 @@ export interface ChartSeries {
   y: number[];
   markers: boolean;
   colour: number;  // place among the page's; -1: the series' own
-  dash: string;
+  dash: Dash;
 }
 
 /// A chart of lines for the study.
-export interface Chart {
+export interface ChartData {
   id: string;
   title: string;
   note: string;
@@ -359,7 +269,7 @@ export interface Report {
   checks: Check[];
   runs: Run[];
   tables: Table[];
-  charts: Chart[];
+  charts: ChartData[];
   maps: Maps[];
   grids: Grids[];
   passes?: PassesStory[];  // over rails that yield

@@ -1,51 +1,42 @@
 // The wheel on the rail: profiles as placed, where they touch, layers and Hertz's estimate.
+import type {Chart, Curve, Dash} from "../chart";
+import {table} from "../dom";
+import type {Figure} from "../figures";
+import {fixedText, numberText} from "../text";
+import type {Theme} from "../theme";
 import {option, type Geometry, type Layer, type LoadedContact, type Run} from "./data";
-import {table} from "./dom";
-import {axis, baseLayout, type Figure, type Theme} from "./figures";
-import {fixedText, numberText, plotText, withoutRoundOff} from "./text";
+import {withoutRoundOff} from "./words";
 
-interface Curve {
+interface Line {
   name: string;
   line: {x: number[]; y: number[]};
   colour: (t: Theme) => string;
-  dash: string;
+  dash: Dash;
 }
 
-function millimetres(points: [number, number][]): Curve["line"] {
+function millimetres(points: [number, number][]): Line["line"] {
   return {x: points.map((p) => 1e3 * p[0]), y: points.map((p) => 1e3 * p[1])};
 }
 
-function curvesOf(g: Geometry): Curve[] {
+function curvesOf(g: Geometry): Line[] {
   const wheel = {name: `wheel ${g.wheel_profile}`, line: millimetres(g.wheel_m), colour: (t: Theme) => t.series[1]};
   const rail = {name: `rail ${g.rail_profile}`, line: millimetres(g.rail_m), colour: (t: Theme) => t.series[0]};
-  const bottoms = g.layers.map((l): Curve => {
+  const bottoms = g.layers.map((l): Line => {
     const line = millimetres(l.bottom_m);
     return {name: `bottom of ${l.name}`, line, colour: (t) => t.ink, dash: "dash"};
   });
   return [{...wheel, dash: "solid"}, {...rail, dash: "solid"}, ...bottoms];
 }
 
-function curveTrace(c: Curve, theme: Theme): Record<string, unknown> {
-  return {
-    type: "scatter",
-    mode: "lines",
-    name: plotText(c.name),
-    ...c.line,
-    line: {color: c.colour(theme), dash: c.dash, width: 2},
-    hovertemplate: `y %{x:.2f} mm<br>z %{y:.3f} mm<extra>${plotText(c.name)}</extra>`,
-  };
+function curveOf(c: Line, theme: Theme): Curve {
+  const words = (y: number, z: number) => `y ${fixedText(y, 2)} mm\nz ${fixedText(z, 3)} mm`;
+  return {name: c.name, ...c.line, colour: c.colour(theme), dash: c.dash, width: 2, words};
 }
 
-function contactTrace(contact: Point, theme: Theme): Record<string, unknown> {
-  return {
-    type: "scatter",
-    mode: "markers",
-    name: contact.name,
-    x: [contact.x],
-    y: [contact.y],
-    marker: {size: 10, symbol: contact.patch > 1 ? "square-open" : "circle-open", color: theme.ink, line: {width: 2}},
-    hovertemplate: `y %{x:.3f} mm<br>z %{y:.3f} mm<extra>${contact.name}</extra>`,
-  };
+function contactCurve(contact: Point, theme: Theme): Curve {
+  const words = (y: number, z: number) => `y ${fixedText(y, 3)} mm\nz ${fixedText(z, 3)} mm`;
+  const mark = contact.patch > 1 ? "square" : "circle";
+  return {name: contact.name, x: [contact.x], y: [contact.y], colour: theme.ink, width: 0, mark, words};
 }
 
 interface Point {
@@ -79,18 +70,18 @@ function pointsOf(g: Geometry): Point[] {
   return all.map(pointOf);
 }
 
-function viewLayout({middle, halfWidth, ratio}: View, theme: Theme, width: number): Record<string, unknown> {
-  const plotHeight = Math.min(Math.max(180, (width - 80) * 0.62), 380);
-  const halfHeight = (halfWidth * plotHeight) / (width - 80) / ratio;
-  const rangeX = [middle.x - halfWidth, middle.x + halfWidth];
-  const rangeY = [middle.y - halfHeight, middle.y + halfHeight];
-  const anchor = ratio === 1 ? {scaleanchor: "x"} : {};
+function chartOf({middle, halfWidth, ratio}: View, curves: Curve[], width: number): Chart {
+  const wide = width - 80;
+  const height = Math.min(Math.max(180, wide * 0.62), 380);
+  const halfHeight = (halfWidth * height) / wide / ratio;
   return {
-    ...baseLayout(theme, width, plotHeight + 90),
-    margin: {l: 58, r: 16, t: 30, b: 46},
-    showlegend: true,
-    xaxis: axis(theme, "y, field side right [mm]", {range: rangeX, constrain: "domain"}),
-    yaxis: axis(theme, "z [mm]", {range: rangeY, ...anchor, constrain: "domain"}),
+    x: {title: "y, field side right [mm]", range: [middle.x - halfWidth, middle.x + halfWidth]},
+    y: {title: "z [mm]", range: [middle.y - halfHeight, middle.y + halfHeight]},
+    height,
+    equal: ratio === 1,
+    grid: true,
+    legend: true,
+    curves,
   };
 }
 
@@ -128,10 +119,10 @@ export function geometryFigures(run: Run): Figure[] {
     id,
     title,
     words: [words],
-    draw: (theme, width) => ({
-      data: [...curves.map((c) => curveTrace(c, theme)), ...points.map((p) => contactTrace(p, theme))],
-      layout: viewLayout(view, theme, width),
-    }),
+    chart: (theme, width) => {
+      const all = [...curves.map((c) => curveOf(c, theme)), ...points.map((p) => contactCurve(p, theme))];
+      return chartOf(view, all, width);
+    },
     table: () => ({names: ["curve", "y_mm", "z_mm"], rows: [...rows, ...points.map((p) => [p.name, p.x, p.y])]}),
   });
   return [

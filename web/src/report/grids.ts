@@ -1,9 +1,13 @@
 // Grids of verdicts: which of a study's cases last.
+import type {Axis} from "../axes";
+import type {Chart} from "../chart";
+import {element, note} from "../dom";
+import {frame, type DataTable, type Figure} from "../figures";
+import {kindScale, magnitudeScale, type Scale} from "../scale";
+import {numberText} from "../text";
+import type {Theme} from "../theme";
 import type {GridCell, Grids, VerdictGrid} from "./data";
-import {element, note} from "./dom";
-import {axis, baseLayout, frame, type DataTable, type Figure, type Theme} from "./figures";
-import {magnitudeColours} from "./maps";
-import {allVerdicts, numberText, plotText} from "./text";
+import {allVerdicts} from "./words";
 
 /// From the best verdict to the worst, told apart with any colour vision; the letters on them.
 const kFills = ["#0072b2", "#56b4e9", "#f0e442", "#e6c27a", "#d55e00", "#7a1020", "#cc79a7", "#8a8f98"];
@@ -16,24 +20,13 @@ const kMarks: Record<string, string> = {
 
 const place = (c: GridCell) => allVerdicts().findIndex((v) => v.words === c.verdict);
 
-/// Each colour as long as one step of the scale.
-function scale(): [number, string][] {
-  const n = kFills.length;
-  return kFills.flatMap((c, k): [number, string][] => [[k / n, c], [(k + 1) / n, c]]);
-}
-
 /// The factor, and below it what else ends the layer.
-function cellText(c: GridCell): string {
+function cellLines(c: GridCell): string[] {
   const marks = c.fails_by.flatMap((words) => (kMarks[words] ? [kMarks[words]] : []));
-  return [numberText(c.factor, 3), ...marks].join("<br>");
+  return [numberText(c.factor, 3), ...marks];
 }
 
 const hasMarks = (g: VerdictGrid) => g.cells.some((c) => c && c.fails_by.some((words) => kMarks[words]));
-
-const shownCells = (g: VerdictGrid) => g.y.flatMap((_, j) => g.x.flatMap((_x, i) => {
-  const c = g.cells[i + g.x.length * j];
-  return c ? [{c, i, j}] : [];
-}));
 
 /// One value for all grids of a row has one colour.
 function rangeOf(m: Grids): [number, number] {
@@ -44,9 +37,8 @@ function rangeOf(m: Grids): [number, number] {
 /// What a picture of cells takes from each: its number on a scale, its text, the colour of that, the words over it.
 interface CellLook {
   z: (c: GridCell) => number | null;
-  range: [low: number, high: number];
-  colours: unknown;
-  text: (c: GridCell) => string;
+  scale: Scale;
+  lines: (c: GridCell) => string[];
   letters: (c: GridCell) => string;
   words: (c: GridCell) => string;
 }
@@ -54,75 +46,55 @@ interface CellLook {
 /// Values on one scale for all grids of a row.
 function lookOfValues(m: Grids): CellLook {
   const [low, high] = rangeOf(m);
-  const light = (v: number|null) => v !== null && v > low + 0.6 * (high - low);
+  const {colour} = magnitudeScale(1);
+  const share = (v: number) => (v - low) / (high - low || 1);
   return {
     z: (c) => c.factor,
-    range: [low, high],
-    colours: magnitudeColours(),
-    text: (c) => numberText(c.factor, 3),
-    letters: (c) => (light(c.factor) ? "#1b1f24" : "#ffffff"),
-    words: (c) => `${plotText(m.value)} ${numberText(c.factor, 3)}`,
+    scale: {range: [low, high], colour: (v, theme) => colour(share(v), theme)},
+    lines: (c) => [numberText(c.factor, 3)],
+    letters: (c) => (c.factor !== null && share(c.factor) > 0.6 ? "#1b1f24" : "#ffffff"),
+    words: (c) => `${m.value} ${numberText(c.factor, 3)}`,
   };
 }
 
 function lookOfVerdicts(theme: Theme): CellLook {
   return {
     z: place,
-    range: [-0.5, kFills.length - 0.5],
-    colours: scale(),
-    text: cellText,
+    scale: kindScale(0, kFills.length, () => kFills),
+    lines: cellLines,
     letters: (c) => kLetters[place(c)] ?? theme.ink,
     words: (c) => {
       const why = [c.verdict, ...c.fails_by.filter((words) => words !== c.verdict)].join("; ");
-      return `<b>${why}</b><br>factor ${numberText(c.factor, 3)}`;
+      return `${why}\nfactor ${numberText(c.factor, 3)}`;
     },
   };
 }
 
-function dataOf(g: VerdictGrid, look: CellLook, theme: Theme): Record<string, unknown>[] {
-  const shown = shownCells(g);
-  const valueOf = (c: GridCell|null) => (c ? look.z(c) : null);
-  return [
-    {
-      type: "heatmap",
-      x: g.x.map((_, i) => i),
-      y: g.y.map((_, j) => j),
-      z: g.y.map((_, j) => g.x.map((_x, i) => valueOf(g.cells[i + g.x.length * j]))),
-      zmin: look.range[0],
-      zmax: look.range[1],
-      colorscale: look.colours,
-      showscale: false,
-      xgap: 2,
-      ygap: 2,
-      hoverinfo: "skip",
-    },
-    {
-      type: "scatter",
-      mode: "text",
-      x: shown.map(({i}) => i),
-      y: shown.map(({j}) => j),
-      text: shown.map(({c}) => look.text(c)),
-      textfont: {color: shown.map(({c}) => look.letters(c)), size: theme.size + 1},
-      customdata: shown.map(({c, i, j}) => `${plotText(g.x[i])}, ${plotText(g.y[j])}<br>${look.words(c)}`),
-      hovertemplate: "%{customdata}<extra></extra>",
-    },
-  ];
-}
-
-function layoutOf(m: Grids, g: VerdictGrid, theme: Theme, width: number): Record<string, unknown> {
-  const along = (title: string, values: string[]) => axis(theme, title, {
-    tickmode: "array",
-    tickvals: values.map((_, i) => i),
-    ticktext: values.map(plotText),
-    range: [-0.5, values.length - 0.5],
-    showgrid: false,
-    zeroline: false,
-  });
+function chartOf(m: Grids, g: VerdictGrid, look: CellLook): Chart {
+  const cell = (i: number, j: number) => g.cells[i + g.x.length * j];
+  const axis = (title: string, names: string[]): Axis => ({title, names, range: [-0.5, names.length - 0.5]});
+  const places = (names: string[]) => names.map((_, k) => k);
   return {
-    ...baseLayout(theme, width, Math.round(110 + (hasMarks(g) ? 48 : 34) * g.y.length)),
-    margin: {l: 58, r: 12, t: 30, b: 46},
-    xaxis: along(m.x, g.x),
-    yaxis: along(m.y, g.y),
+    x: axis(m.x, g.x),
+    y: axis(m.y, g.y),
+    height: 34 + (hasMarks(g) ? 48 : 34) * g.y.length,
+    curves: [],
+    cells: {
+      x: [-0.5, ...places(g.x).map((k) => k + 0.5)],
+      y: [-0.5, ...places(g.y).map((k) => k + 0.5)],
+      at: {x: places(g.x), y: places(g.y)},
+      z: g.y.map((_, j) => g.x.map((_x, i) => {
+        const c = cell(i, j);
+        return c ? look.z(c) : null;
+      })),
+      scale: look.scale,
+      gap: 2,
+      words: (i, j) => `${g.x[i]}, ${g.y[j]}\n${look.words(cell(i, j)!)}`,
+      letters: (i, j) => {
+        const c = cell(i, j);
+        return c && {lines: look.lines(c), colour: look.letters(c)};
+      },
+    },
   };
 }
 
@@ -139,10 +111,7 @@ function gridFigure(m: Grids, g: VerdictGrid, n: number): Figure {
   return {
     id: `${m.id}-${n + 1}`,
     title: g.name,
-    draw: (theme, width) => ({
-      data: dataOf(g, m.value ? lookOfValues(m) : lookOfVerdicts(theme), theme),
-      layout: layoutOf(m, g, theme, width),
-    }),
+    chart: (theme) => chartOf(m, g, m.value ? lookOfValues(m) : lookOfVerdicts(theme)),
     table: () => tableOf(m, g),
   };
 }

@@ -1,13 +1,12 @@
 // The first pictures of a page: what presses, what drags, what slips, and what it does to the bodies in their own
 // shape.
+import {drawAxes} from "../axes";
 import {
   canvasIn,
   drawArrow,
-  drawAxes,
   drawBar,
   drawCross,
   drawRolling,
-  magnitudeScale,
   paintPieces,
   planeFor,
   px,
@@ -15,12 +14,16 @@ import {
   wordsAt,
   wordsUnderPointer,
   type Piece,
-  type Plane,
-  type Scale
-} from "./canvas";
-import {rowsOf, unpack, type BodyName, type Run, type Values} from "./data";
-import {element} from "./dom";
-import {frame, type DataTable, type Painted, type Theme} from "./figures";
+  type Plane
+} from "../canvas";
+import {element} from "../dom";
+import {frame, type DataTable, type Painted} from "../figures";
+import {magnitudeScale, rgb, stateScale, type Scale} from "../scale";
+import {fixedText} from "../text";
+import type {Theme} from "../theme";
+import type {BodyName, Values} from "../types";
+import {rowsOf, unpack, type Run} from "./data";
+import {columnEdges} from "./edges";
 import {
   contactY,
   hasTraction,
@@ -28,12 +31,11 @@ import {
   largest,
   patchesOf,
   patchWindow,
+  stateLegend,
   tractionArrows,
   type Patch
 } from "./patch";
 import {cellsBelow, layerWords, paintSection} from "./profile";
-import {columnEdges} from "./stress";
-import {fixedText} from "./text";
 
 const kHighest = 300;  // px, of a picture's plane
 
@@ -71,9 +73,8 @@ function patchPicture(patches: Patch[], what: PatchPicture): Painted {
   const paint = (host: HTMLElement, theme: Theme, width: number) => {
     const {plane, height} = planeFor(width, x, y, kHighest);
     const c = canvasIn(host, width, height);
-    c.clearRect(0, 0, width, height);
     const pieces = patches.flatMap(
-        (patch) => cellsOf(plane, patch, what.values(patch), (v) => what.scale.colour(v, theme), what.words));
+        (patch) => cellsOf(plane, patch, what.values(patch), (v) => rgb(what.scale.colour(v, theme)), what.words));
     paintPieces(c, pieces);
     if (what.arrows)
       for (const a of patches.flatMap((patch) => tractionArrows(patch, [x, y], what.arrows!)))
@@ -81,10 +82,10 @@ function patchPicture(patches: Patch[], what: PatchPicture): Painted {
             c, [px(plane, a.x), py(plane, a.y)], [px(plane, a.x + a.alongX), py(plane, a.y + a.alongY)], "#ffffff", 1.3,
             "#1b1f24");
     patches.forEach((patch, k) => drawCross(c, px(plane, 0), py(plane, contactY(patch.run, k) - contactY(patch.run))));
-    drawAxes(c, plane, theme, ["x [mm]", "y, field side up [mm]"]);
+    drawAxes(c, plane, theme, [{title: "x [mm]", range: x}, {title: "y, field side up [mm]", range: y}]);
     drawRolling(c, plane, theme);
     if (what.bar) drawBar(c, plane, theme, what.scale, what.bar);
-    wordsUnderPointer(host, (x, y) => wordsAt(pieces, [x, y]));
+    wordsUnderPointer(host, (place) => wordsAt(pieces, place));
   };
   const rows =
       patches.flatMap((p) => p.y.flatMap((y, j) => p.x.map((x, i): (number|null)[] => [x, y, what.values(p)[j][i]])));
@@ -127,15 +128,14 @@ function patchPictures(run: Run): Painted[] {
     arrows: q,
     about: [kAboutArrows],
   });
-  const swatch = (state: string) => element("span", {class: `swatch ${state}`});
   const states = patchPicture(patches, {
     id: "hero-state",
     title: "Stick and slip",
     column: "state_1stick_2slip",
     values: (patch) => patch.state,
-    scale: {range: [0, 2], colour: (v, theme) => (v === 2 ? theme.slip : theme.stick)},
+    scale: stateScale,
     words: (v) => (v === 2 ? "slip" : "stick"),
-    about: [element("span", {class: "legend"}, swatch("stick"), "stick ", swatch("slip"), "slip")],
+    about: [stateLegend()],
   });
   return [pressure, traction, states];
 }

@@ -1,8 +1,9 @@
 // What happened on the way: charts of a history. Those of a transient stand in transient.ts.
-import {option, type Run, type Span} from "./data";
-import type {Figure} from "./figures";
+import type {Figure} from "../figures";
+import type {Span} from "../types";
+import {option, type Run} from "./data";
 import {linesFigure, type LinesSpec, type Series} from "./lines";
-import {runLabel} from "./text";
+import {runLabel} from "./words";
 
 export interface HistoryLine {
   column: string;
@@ -107,7 +108,7 @@ function historySeries(runs: Run[], lines: HistoryLine[], along: Along): Series[
     y: run.history![column].map((v) => (v === null ? null : scale * v)),
     colour: (t) => t.series[(several ? n : k) % t.series.length],
     dash: several && k > 0 ? "dot" : "solid",
-    hover: `${along.hover}<br>${hover}`,
+    hover: `${along.hover}\n${hover}`,
   });
   return runs.flatMap((run, n) => lines.map((line, k) => seriesOf(run, n, line, k)));
 }

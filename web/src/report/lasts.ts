@@ -1,10 +1,14 @@
 // Does it last? Shakedown factors, the strength that depths ask for, and where most of it is used.
-import type {BodyName, Columns, Factors, PrincipalZone, Run, Values, ZoneShakedown} from "./data";
-import {element, note, part, table, type Cell} from "./dom";
-import {frame, type Figure} from "./figures";
+import type {Dash} from "../chart";
+import {element, note, part, table, type Cell} from "../dom";
+import {frame, type Figure} from "../figures";
+import {magnitudeScale} from "../scale";
+import {minus, numberText} from "../text";
+import type {BodyName, Factors, PrincipalZone, Values, ZoneShakedown} from "../types";
+import type {Columns, Run} from "./data";
 import {linesFigure, type Series} from "./lines";
-import {magnitudeColours, mapFigure} from "./maps";
-import {minus, numberText, runLabel, verdictWords} from "./text";
+import {mapFigure} from "./maps";
+import {runLabel, verdictWords} from "./words";
 
 const kFactors: [key: keyof Factors, name: string][] = [
   ["first_yield", "first yield"],
@@ -52,7 +56,7 @@ function byDepth(profile: Columns, column: string): {x: Values; y: Values} {
   return {x, y};
 }
 
-const kLines: [column: string, name: string, dash: string][] = [
+const kLines: [column: string, name: string, dash: Dash][] = [
   ["yield_strength_MPa", "there is", "solid"],
   ["required_first_yield_MPa", "asked for to stay elastic", "dot"],
   ["required_wandering_MPa", "asked for to shake down, any traffic", "dash"],
@@ -85,7 +89,7 @@ function strengthFigure(runs: Run[], body: BodyName): Figure|null {
                                              name: given.length > 1 ? `${name}, ${runLabel(run)}` : name,
                                              dash,
                                              colour: (t) => t.series[(given.length > 1 ? n : k) % t.series.length],
-                                             hover: `depth %{y:.2f} mm<br>${name} %{x:.0f} MPa`,
+                                             hover: `depth %{y:.2f} mm\n${name} %{x:.0f} MPa`,
                                            })));
   const levels = [...new Set(given.flatMap((run) => borders(run.shakedown[body]!.profile)))];
   return linesFigure({
@@ -238,16 +242,15 @@ function usedFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
     hover: "used %{z:.2f}",
     hoverY: "depth",
     bar: "used",
-    range: [0, best.value],
-    colours: magnitudeColours,
+    scale: magnitudeScale(best.value),
     reversed: body === "rail",
     windowX: [across[0], across[width - 1]],
     windowY: [0, down[down.length - 1]],
-    marker: {x: best.x, y: best.y, text: `used ${best.value.toFixed(2)}<br>${where}`, symbol: "circle"},
+    marker: {x: best.x, y: best.y, text: `used ${best.value.toFixed(2)}\n${where}`, mark: "circle"},
   });
 }
 
-const kLimits: [column: string, name: string, dash: string][] = [
+const kLimits: [column: string, name: string, dash: Dash][] = [
   ["p_max_first_yield_MPa", "first yield", "dot"],
   ["p_max_wandering_MPa", "shakedown, any traffic", "solid"],
   ["p_max_upper_MPa", "upper bound", "dashdot"],
@@ -263,7 +266,7 @@ function slidingFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
                                y: map[column],
                                dash,
                                colour: (t) => t.series[k],
-                               hover: `q/p %{x:.2f}<br>${name} at %{y:.0f} MPa`,
+                               hover: `q/p %{x:.2f}\n${name} at %{y:.0f} MPa`,
                              }));
   const {p_max_Pa: p, F_x_N: force, normal_force_N: load} = run.summary.contact;
   if (p && load && force !== null)
@@ -273,7 +276,7 @@ function slidingFigure(run: Run, runs: Run[], body: BodyName): Figure|null {
       y: [1e-6 * p],
       markers: true,
       colour: (t) => t.ink,
-      hover: "F_x/F_n %{x:.2f}<br>p_max %{y:.0f} MPa",
+      hover: "F_x/F_n %{x:.2f}\np_max %{y:.0f} MPa",
     });
   return linesFigure({
     id: `strength-sliding-${body}-${runs.indexOf(run)}`,

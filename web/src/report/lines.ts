@@ -1,7 +1,9 @@
 // Charts of lines.
-import type {Span, Values} from "./data";
-import {axis, baseLayout, type DataTable, type Plotted, type Theme} from "./figures";
-import {plotText} from "./text";
+import type {Chart, Dash} from "../chart";
+import type {DataTable, Plotted} from "../figures";
+import {filled} from "../text";
+import type {Theme} from "../theme";
+import type {Span, Values} from "../types";
 
 export interface Series {
   name: string;
@@ -9,9 +11,9 @@ export interface Series {
   y: Values;
   colour: (theme: Theme) => string;
   markers?: boolean;
-  dash?: string;
+  dash?: Dash;
   quiet?: boolean;  // not in the legend
-  hover: string;    // with units: "x %{x:.2f} mm<br>p %{y:.1f} MPa"
+  hover: string;    // with units: "x %{x:.2f} mm\np %{y:.1f} MPa"
 }
 
 export interface LinesSpec {
@@ -48,31 +50,6 @@ function roomFor(values: Values[], leastSpan = 0): Span {
   return [middle - 0.54 * span, middle + 0.54 * span];
 }
 
-function trace(s: Series, theme: Theme): Record<string, unknown> {
-  return {
-    type: "scatter",
-    mode: s.markers ? "lines+markers" : "lines",
-    name: plotText(s.name),
-    showlegend: !s.quiet,
-    x: s.x,
-    y: s.y,
-    connectgaps: false,
-    line: {color: s.colour(theme), width: 1.8, dash: s.dash ?? "solid"},
-    marker: {size: 5, color: s.colour(theme)},
-    hovertemplate: `${s.hover}<extra>${plotText(s.name)}</extra>`,
-  };
-}
-
-function shadedBand([x0, x1]: Span, theme: Theme): Record<string, unknown> {
-  const place = {xref: "x", yref: "paper", x0, x1, y0: 0, y1: 1};
-  return {type: "rect", ...place, fillcolor: theme.soft, opacity: 0.15, line: {width: 0}};
-}
-
-function dashedLevel(y: number, theme: Theme): Record<string, unknown> {
-  const place = {xref: "paper", yref: "y", x0: 0, x1: 1, y0: y, y1: y};
-  return {type: "line", ...place, line: {color: theme.ink, width: 1.4, dash: "dash"}};
-}
-
 /// Exponents of ten that hold the values; at least from 1 to 10.
 function decades(values: Values[]): Span {
   const all = values.flat().filter((v): v is number => v !== null && v > 0).map(Math.log10);
@@ -88,38 +65,27 @@ function rangeOfY(c: LinesSpec): Span {
   return [1.02 * Math.max(...lines.flat().map((v) => v ?? 0)), 0];
 }
 
-/// Rows of the legend above the plot: its entries are as wide as the longest.
-function legendRows(c: LinesSpec, theme: Theme, width: number): number {
-  const named = c.series.filter((s) => !s.quiet);
-  if (c.series.length < 2) return 0;
-  const entry = 50 + 0.52 * theme.size * Math.max(...named.map((s) => s.name.length));
-  return Math.ceil(named.length / Math.max(1, Math.floor((width - 78) / entry)));
-}
-
-function axesOf(c: LinesSpec, theme: Theme): Record<string, unknown> {
-  const [x, y] = c.labels;
-  if (c.log) {
-    const log = (title: string, values: Values[]) => axis(theme, title, {type: "log", range: decades(values)});
-    return {xaxis: log(x, c.series.map((s) => s.x)), yaxis: log(y, c.series.map((s) => s.y))};
-  }
+function chartOf(c: LinesSpec, theme: Theme, width: number): Chart {
+  const log = c.log !== undefined;
+  const rangeX = log ? decades(c.series.map((s) => s.x)) : c.window ?? roomFor(c.series.map((s) => s.x));
   return {
-    xaxis: axis(theme, x, {range: c.window ?? roomFor(c.series.map((s) => s.x))}),
-    yaxis: axis(theme, y, {range: rangeOfY(c)}),
-  };
-}
-
-function layoutOf(c: LinesSpec, theme: Theme, width: number): Record<string, unknown> {
-  const band = c.band ? [shadedBand(c.band, theme)] : [];
-  const levels = (c.levels ?? []).map((y) => dashedLevel(y, theme));
-  const legend = 19 * Math.max(0, legendRows(c, theme, width) - 1);  // the plot keeps its height below it
-  const base = baseLayout(theme, width, Math.min(c.height ?? 330, 0.75 * width + 40) + legend);
-  return {
-    ...base,
-    legend: {...(base.legend as object), maxheight: 600},
-    margin: {l: 62, r: 16, t: 30 + legend, b: 46},
-    showlegend: c.series.length > 1,
-    ...axesOf(c, theme),
-    shapes: [...band, ...levels],
+    x: {title: c.labels[0], range: rangeX, log},
+    y: {title: c.labels[1], range: log ? decades(c.series.map((s) => s.y)) : rangeOfY(c), log},
+    height: Math.min((c.height ?? 330) - 76, 0.75 * width - 36),
+    grid: true,
+    legend: c.series.length > 1,
+    band: c.band,
+    levels: c.levels,
+    curves: c.series.map((s) => ({
+                           name: s.name,
+                           x: s.x,
+                           y: s.y,
+                           colour: s.colour(theme),
+                           dash: s.dash,
+                           mark: s.markers ? "dot" : undefined,
+                           quiet: s.quiet,
+                           words: (x, y) => filled(s.hover, {x, y}),
+                         })),
   };
 }
 
@@ -134,7 +100,7 @@ export function linesFigure(c: LinesSpec): Plotted {
     title: c.title,
     words: c.words,
     wide: c.wide,
-    draw: (theme, width) => ({data: c.series.map((s) => trace(s, theme)), layout: layoutOf(c, theme, width)}),
+    chart: (theme, width) => chartOf(c, theme, width),
     table: (): DataTable => ({names: ["series", ...c.names], rows: c.series.flatMap(rowsOfSeries)}),
   };
 }

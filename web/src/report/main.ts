@@ -1,23 +1,27 @@
 // The page of `railstrata report`: reads the data the program has put in, builds the parts, draws the figures.
-import type {BodyName, Chart, ChartSeries, Maps, Report, Run, Span, Table} from "./data";
-import {details, element, note, part, table} from "./dom";
-import {drawAll, forget, frame, kDark, kLight, setOrigin, type Figure, type Theme} from "./figures";
+import {paintFor} from "../canvas";
+import {details, element, note, part, table} from "../dom";
+import {drawAll, forget, frame, setOrigin, type Figure} from "../figures";
+import {numberText} from "../text";
+import {kDark, kLight, type Theme} from "../theme";
+import type {BodyName, Span} from "../types";
+import type {ChartData, ChartSeries, Maps, Report, Run, Table} from "./data";
+import {geometryFigures, geometryTable} from "./geometry";
 import {gridsRow} from "./grids";
+import {hero} from "./hero";
+import {historyFigures} from "./history";
 import {lastsPart} from "./lasts";
 import {linesFigure, type Series} from "./lines";
 import {passesContents, passesParts} from "./passes";
 import {centreLines, patchesTable, patchMaps} from "./patch";
-import {geometryFigures, geometryTable} from "./geometry";
-import {hero} from "./hero";
-import {historyFigures} from "./history";
 import {numbersTable, origin, tiles, verdict} from "./sections";
 import {slicesParts} from "./slices";
 import {spaceParts} from "./space";
 import {depthLines, kShear, maximaTable, sectionMaps} from "./stress";
 import {filmParts, transientFigures} from "./transient";
-import {engineName, numberText, plotText, runLabel, setWords} from "./text";
-import {yieldedPart} from "./yielded";
 import {hasWhatIf, whatIfPart} from "./whatif";
+import {engineName, runLabel, setWords} from "./words";
+import {yieldedPart} from "./yielded";
 
 const report = JSON.parse(document.getElementById("data")!.textContent!) as Report;
 setWords(report.words);
@@ -59,8 +63,8 @@ function studyTable(t: Table): HTMLElement[] {
   return rows.length > kManyRows ? [details(`${t.title}: ${rows.length} rows`, ...shown)] : shown;
 }
 
-function chartFigure(c: Chart): Figure {
-  const hover = `${plotText(c.x)} %{x:.4g}<br>${plotText(c.y)} %{y:.4g}`;
+function chartFigure(c: ChartData): Figure {
+  const hover = `${c.x} %{x:.4g}\n${c.y} %{y:.4g}`;
   const seriesOf = (s: ChartSeries, n: number): Series => ({
     name: s.name,
     x: s.x,
@@ -91,7 +95,7 @@ function studyParts(): HTMLElement[] {
 }
 
 /// Of a line through the patch only where it touches, with a little room; everything of a trend.
-function touched(c: Chart): Span|undefined {
+function touched(c: ChartData): Span|undefined {
   if (!c.x.startsWith("x, rolling")) return undefined;
   const x = c.series.flatMap((s) => s.x.filter((_, i) => s.y[i] > 0));
   return x.length ? [Math.min(...x) - 2, Math.max(...x) + 2] : undefined;
@@ -245,12 +249,6 @@ function header(): HTMLElement {
   return element("header", {}, top, subtitle(), element("nav", {}, ...links));
 }
 
-function footer(): HTMLElement {
-  const licences = document.getElementById("licences") as HTMLTemplateElement | null;
-  const text = licences ? licences.content.cloneNode(true) : null;
-  return element("footer", {}, details("Software in this page", text));
-}
-
 // ---- page
 setOrigin([
   `RailStrata ${report.program}: ${report.title}`,
@@ -264,7 +262,7 @@ const few = report.runs.length < 3 && !report.tables.length;
 const first = few ? [header(), glance, ...judgement] : [header(), ...judgement];
 const rest = few ? [] : [glance];
 const main =
-    element("main", {}, ...first, ...passes, ...studyParts(), chooser(), ...rest, stage, ...whatIfPart(), footer());
+    element("main", {}, ...first, ...passes, ...studyParts(), chooser(), ...rest, stage, ...whatIfPart());
 document.body.replaceChildren(main);
 document.documentElement.dataset.theme = isDark() ? "dark" : "light";
 showRuns();
@@ -279,7 +277,11 @@ wantsDark.addEventListener("change", () => applyTheme());
 window.addEventListener("beforeprint", () => {
   document.documentElement.dataset.theme = "light";
   for (const folded of document.querySelectorAll<HTMLDetailsElement>("#verdict details")) folded.open = true;
+  paintFor("print");
   drawAll({...kLight, size: 9}, (wide) => (wide ? 690 : 338));
 });
-window.addEventListener("afterprint", () => applyTheme());
+window.addEventListener("afterprint", () => {
+  paintFor("screen");
+  applyTheme();
+});
 document.documentElement.dataset.ready = "true";

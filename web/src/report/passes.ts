@@ -1,11 +1,13 @@
 // Passes over a rail that yields: the verdict, what every pass has done, maps of the section, profiles, loops.
-import type {Columns, PassesStory, PassesSummary, Span, Values} from "./data";
-import {rowsOf} from "./data";
-import {details, element, note, part, table, type Child} from "./dom";
-import {frame, type Figure, type Theme} from "./figures";
+import {details, element, note, part, table, type Child} from "../dom";
+import {frame, type Figure} from "../figures";
+import {kindScale, magnitudeScale, signedScale} from "../scale";
+import {countText, numberText, powerText} from "../text";
+import type {Theme} from "../theme";
+import type {Span, Values} from "../types";
+import {rowsOf, type Columns, type PassesStory, type PassesSummary} from "./data";
 import {linesFigure, type Series} from "./lines";
-import {magnitudeColours, mapFigure, signedColours, type Line, type Marker} from "./maps";
-import {countText, numberText, powerText} from "./text";
+import {mapFigure, type Line, type Marker} from "./maps";
 
 /// What maps of a section take: of passes, or of a single run.
 export interface SectionStory {
@@ -17,6 +19,7 @@ export interface SectionStory {
 const kClasses = ["elastic shakedown", "plastic shakedown", "ratchetting", "no claim yet"];
 /// From good to bad and not known, told apart with any colour vision.
 const kClassFills = ["#0072b2", "#56b4e9", "#d55e00", "#b9bec5"];
+const kClassScale = kindScale(0, kClassFills.length, () => kClassFills);
 const several = (all: SectionStory[]) => all.length > 1;
 const called = (s: SectionStory, all: SectionStory[], words: string) => (several(all) ? `${words}: ${s.name}` : words);
 const strain = (v: number|null|undefined) => (v === 0 ? "0" : powerText(v));
@@ -169,7 +172,7 @@ const kMaps: Quantity[] = [
   {
     column: "sigma_xx_MPa",
     title: "Residual stress along the rail, σ_x",
-    bar: "σ_x<br>MPa",
+    bar: "MPa",
     hover: "σ_x %{z:.0f} MPa",
     unit: "sigma_xx_MPa",
     words: ["Blue presses, red pulls. What the passes have left when no wheel is near."],
@@ -178,7 +181,7 @@ const kMaps: Quantity[] = [
   {
     column: "sigma_yy_MPa",
     title: "Residual stress across the rail, σ_y",
-    bar: "σ_y<br>MPa",
+    bar: "MPa",
     hover: "σ_y %{z:.0f} MPa",
     unit: "sigma_yy_MPa",
     words: ["On the scale of σ_x."],
@@ -202,11 +205,6 @@ const kMaps: Quantity[] = [
     classes: true,
   },
 ];
-
-function classScale(): [number, string][] {
-  const n = kClassFills.length;
-  return kClassFills.flatMap((c, k): [number, string][] => [[k / n, c], [(k + 1) / n, c]]);
-}
 
 function marker(s: SectionStory): Marker|undefined {
   const at = s.summary.loops?.[0];
@@ -236,13 +234,10 @@ function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: nu
   const yielded = (v: number, i: number) => (q.classes && s.residual.plastic_p[i] === 0 ? null : v);
   const values = section.rows(s.residual[q.column].map(yielded));
   const across = (depth: number): Line => ({x: shown.across, y: [depth, depth]});
-  const range: Span = q.classes ? [-0.5, 3.5] : q.signed ? [-scale, scale] : [0, scale];
   return mapFigure({
     id: `${q.id ?? "passes"}-${q.column.replace("_MPa", "").replace("_", "-")}-${all.indexOf(s) + 1}`,
     title: called(s, all, q.title),
     words: q.classes ? [classLegend(s), ...q.words] : q.words,
-    x: section.y,
-    y: section.depth,
     z: values,
     centresX: section.y,
     centresY: section.depth,
@@ -250,12 +245,8 @@ function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: nu
     labels: ["y across the rail [mm]", "depth [mm]"],
     hover: q.hover,
     hoverY: "depth",
-    bar: q.bar,
-    range,
-    colours: q.classes ? classScale
-        : q.signed     ? signedColours
-                       : magnitudeColours,
-    discrete: q.classes,
+    bar: q.classes ? undefined : q.bar,
+    scale: q.classes ? kClassScale : q.signed ? signedScale(scale) : magnitudeScale(scale),
     valueWords: q.classes ? kClasses : undefined,
     reversed: true,
     windowX: shown.across,
@@ -303,7 +294,7 @@ function profileFigure(
                                         name: called(s, all, name),
                                         dash: several(all) && k > 0 ? "dash" : "solid",
                                         colour: (t: Theme) => t.series[(several(all) ? n : k) % t.series.length],
-                                        hover: `depth %{y:.2f} mm<br>${name} %{x:.4g}`,
+                                        hover: `depth %{y:.2f} mm\n${name} %{x:.4g}`,
                                       })));
   return linesFigure({
     id,
@@ -331,7 +322,7 @@ function strainFigure(all: PassesStory[]): Figure {
                                         markers: s.passes.pass.length < 60,
                                         dash: several(all) && k > 0 ? "dash" : "solid",
                                         colour: (t: Theme) => t.series[(several(all) ? n : k) % t.series.length],
-                                        hover: `pass %{x}<br>${name} %{y:.3g}`,
+                                        hover: `pass %{x}\n${name} %{y:.3g}`,
                                       })));
   return linesFigure({
     id: "passes-strain",
@@ -358,7 +349,7 @@ function overPasses(
                                         markers: s.passes.pass.length < 60,
                                         dash: several(all) && k > 0 ? "dash" : "solid",
                                         colour: (t: Theme) => t.series[(several(all) ? n : k) % t.series.length],
-                                        hover: `pass %{x}<br>${name} %{y:.4g}`,
+                                        hover: `pass %{x}\n${name} %{y:.4g}`,
                                       })));
   return linesFigure({id, title, words: [words], labels: ["pass", unit], names: ["pass", unit], series});
 }
@@ -382,7 +373,7 @@ function loopFigures(s: PassesStory, all: PassesStory[]): Figure[] {
         x: mine.map((i) => 1e3 * factor * loops[strainColumn][i]),
         y: mine.map((i) => loops[stressColumn][i]),
         colour: (t: Theme) => t.series[k % t.series.length],
-        hover: "%{x:.3f} × 10⁻³<br>%{y:.0f} MPa",
+        hover: "%{x:.3f} × 10⁻³\n%{y:.0f} MPa",
       };
     });
     const axis = id === "x" ? "ε_x [10⁻³]" : "γ_xz [10⁻³]";
@@ -420,8 +411,6 @@ function alongMaps(s: PassesStory, all: PassesStory[]): Figure[] {
         id: `passes-${column === "von_mises_MPa" ? "yielding" : "elastic"}-${all.indexOf(s) + 1}`,
         title: called(s, all, title),
         words: [`y = ${numberText(along.y_mm[0], 3)} mm. The wheel travels to the right; one scale for both.`],
-        x,
-        y: depth,
         z: rowsOf<number|null>(along[column], width),
         centresX: x,
         centresY: depth,
@@ -430,8 +419,7 @@ function alongMaps(s: PassesStory, all: PassesStory[]): Figure[] {
         hover: "von Mises %{z:.0f} MPa",
         hoverY: "depth",
         bar: "MPa",
-        range: [0, scale],
-        colours: magnitudeColours,
+        scale: magnitudeScale(scale),
         reversed: true,
         windowX,
         windowY: [0, Math.max(...depth)],

@@ -1,4 +1,9 @@
 // The contact patch: maps of pressure, traction, slip and state, and the centre line.
+import {element, table} from "../dom";
+import type {Figure} from "../figures";
+import {magnitudeScale, signedScale, stateScale} from "../scale";
+import {fixedText, numberText} from "../text";
+import type {Span, Values} from "../types";
 import {
   columnsOf,
   option,
@@ -7,15 +12,11 @@ import {
   type Geometry,
   type Grid,
   type LoadedContact,
-  type Run,
-  type Span,
-  type Values
+  type Run
 } from "./data";
-import {element, table} from "./dom";
-import type {Figure, Theme} from "./figures";
 import {linesFigure, type Series} from "./lines";
-import {magnitudeColours, mapFigure, signedColours, type MapSpec} from "./maps";
-import {fixedText, numberText, runLabel, withoutRoundOff} from "./text";
+import {mapFigure, type Arrow, type MapSpec} from "./maps";
+import {runLabel, withoutRoundOff} from "./words";
 
 /// A patch of a run, y from the rigid contact point as in the tables; nothing outside the contact.
 export interface Patch {
@@ -94,21 +95,13 @@ export function patchWindow(patches: Patch[]): [x: Span, y: Span] {
   ];
 }
 
-/// From a cell's centre, as long as the traction on the rail is large.
-export interface TractionArrow {
-  x: number;
-  y: number;
-  alongX: number;
-  alongY: number;
-}
-
-/// Some fourteen of them across the window; the longest, of the traction `top`, reaches a little beyond the next.
-export function tractionArrows(patch: Patch, [x, y]: [Span, Span], top: number): TractionArrow[] {
+/// Each from a cell's centre, as long as the traction on the rail is large; some fourteen across the window; the longest, of the traction `top`, reaches a little beyond the next.
+export function tractionArrows(patch: Patch, [x, y]: [Span, Span], top: number): Arrow[] {
   const spacing = Math.max(x[1] - x[0], y[1] - y[0]) / 14;
   const cell = (at: number[]) => (at.length > 1 ? Math.abs(at[1] - at[0]) : spacing);
   const [stepX, stepY] = [patch.x, patch.y].map((at) => Math.max(1, Math.round(spacing / cell(at))));
   const scale = (1.25 * Math.max(spacing, cell(patch.x))) / top;
-  const out: TractionArrow[] = [];
+  const out: Arrow[] = [];
   for (let j = Math.floor(stepY / 2); j < patch.y.length; j += stepY)
     for (let i = Math.floor(stepX / 2); i < patch.x.length; i += stepX) {
       const [qX, qY] = [patch.qX[j][i], patch.qY[j][i]];
@@ -184,8 +177,6 @@ const kKinds: Kind[] = [
   },
 ];
 
-export const stateColours = (t: Theme) => [[0, t.stick], [0.5, t.stick], [0.5, t.slip], [1, t.slip]];
-
 export const kAboutArrows = "Arrows: the traction on the rail; on the wheel it is the opposite.";
 const kAboutSigns: Record<string, string> = {
   qx: "On the rail, positive in the rolling direction: a driving wheel pushes the rail backwards.",
@@ -193,12 +184,12 @@ const kAboutSigns: Record<string, string> = {
 };
 
 /// What a map of states has other than one of numbers up to `top`.
-function scaleOf(kind: Kind, top: number): Pick<MapSpec, "words"|"range"|"colours"|"discrete"|"valueWords"> {
+function scaleOf(kind: Kind, top: number): Pick<MapSpec, "words"|"scale"|"bar"|"valueWords"> {
   const words = kind.arrows ? [kAboutArrows] : kind.signed ? [kAboutSigns[kind.id]] : undefined;
-  if (kind.signed) return {range: [-top, top], colours: signedColours, discrete: false, words};
-  if (!kind.state) return {range: [0, top], colours: magnitudeColours, discrete: false, words};
+  if (kind.signed) return {scale: signedScale(top), bar: kind.bar, words};
+  if (!kind.state) return {scale: magnitudeScale(top), bar: kind.bar, words};
   const valueWords = ["separated", "stick", "slip"];
-  return {words: [stateLegend()], range: [0.5, 2.5], colours: stateColours, discrete: true, valueWords};
+  return {words: [stateLegend()], scale: stateScale, valueWords};
 }
 
 /// What a map is called: by its run where there are several, by its patch likewise.
@@ -221,8 +212,6 @@ export function patchMaps(runs: Run[]): Figure[] {
   const mapOf = (kind: Kind, top: number, patch: Patch, n: number) => mapFigure({
     id: `map-${kind.id}-${n}`,
     title: mapTitle(kind, patch, runs.length > 1),
-    x: patch.x,
-    y: patch.y,
     z: kind.values(patch),
     centresX: patch.x,
     centresY: patch.y,
@@ -230,7 +219,6 @@ export function patchMaps(runs: Run[]): Figure[] {
     labels: ["x, rolling direction [mm]", "y, field side up [mm]"],
     hover: kind.hover,
     hoverY: "y",
-    bar: kind.bar,
     ...scaleOf(kind, top),
     windowX,
     windowY,
@@ -252,7 +240,7 @@ function ofPatch(run: Run, k: number): string { return run.further_centre_lines.
 
 /// A line of each run and patch along x.
 function runLines(runs: Run[], values: (line: CentreLine) => number[], symbol: string): Series[] {
-  const hover = `x %{x:.2f} mm<br>${symbol} %{y:.1f} MPa`;
+  const hover = `x %{x:.2f} mm\n${symbol} %{y:.1f} MPa`;
   return runs.flatMap((run, n) => linesOf(run).map((line, k): Series => ({
                                                      name: runLabel(run) + ofPatch(run, k),
                                                      x: line.x_mm,
@@ -270,7 +258,7 @@ function tractionOf(line: CentreLine): number[] {
 function hertzLine({a_m, p0_Pa}: LoadedContact["hertz"], name: string): Series {
   const x = Array.from({length: 121}, (_, i) => 1e3 * a_m * -Math.cos((Math.PI * i) / 120));
   const y = x.map((v) => 1e-6 * p0_Pa * Math.sqrt(Math.max(0, 1 - (v / (1e3 * a_m)) ** 2)));
-  const hover = "x %{x:.2f} mm<br>p %{y:.1f} MPa";
+  const hover = "x %{x:.2f} mm\np %{y:.1f} MPa";
   return {name, x, y, colour: (t) => t.reference, dash: name.endsWith("2") ? "dashdot" : "dot", hover};
 }
 
@@ -282,7 +270,7 @@ function hertzLines(g: Geometry): Series[] {
 
 function limitLine(run: Run, line: CentreLine, k: number, friction: number): Series {
   const y = line.p_MPa.map((v) => friction * v);
-  const hover = "x %{x:.2f} mm<br>f p %{y:.1f} MPa";
+  const hover = "x %{x:.2f} mm\nf p %{y:.1f} MPa";
   const name = `limit f p, f = ${friction}${ofPatch(run, k)}`;
   return {name, x: line.x_mm, y, colour: (t) => t.reference, dash: k === 0 ? "dash" : "dashdot", hover};
 }

@@ -1,25 +1,25 @@
 // Cross sections in the bodies' own shape: cells below the profiles, layers, rail and wheel.
+import {drawAxes} from "../axes";
 import {
   canvasIn,
-  drawAxes,
   drawBar,
   drawPath,
-  letters,
   paintPieces,
   planeFor,
   px,
   py,
   wordsAt,
   wordsUnderPointer,
-  type Pixel,
-  type Plane,
   type Piece,
-  type Scale
-} from "./canvas";
-import {type BodyName, type Geometry, type Run, type Span, type Values} from "./data";
-import type {Theme} from "./figures";
-import {columnEdges, rowEdges} from "./stress";
-import {fixedText} from "./text";
+  type Pixel,
+  type Plane
+} from "../canvas";
+import {rgb, type Scale} from "../scale";
+import {fixedText} from "../text";
+import {letters, type Theme} from "../theme";
+import type {BodyName, Span, Values} from "../types";
+import type {Geometry, Run} from "./data";
+import {columnEdges, rowEdges} from "./edges";
 
 /// A profile as a line over y, with the direction into its body.
 class Outline {
@@ -48,7 +48,7 @@ export const outlines = (g: Geometry): Record<BodyName, Outline> =>
     ({rail: new Outline(g.rail_m, -1), wheel: new Outline(g.wheel_m, 1)});
 
 /// A cell of a cross section in its body's shape.
-export interface Cell {
+export interface SectionCell {
   corners: [y: number, z: number][];
   y: number;
   depth: number;
@@ -67,10 +67,10 @@ function turned(corners: Pixel[]): boolean {
 }
 
 /// The cells of a cross section: a row of values for each depth.
-export function cellsBelow(g: Geometry, body: BodyName, along: number[], depths: number[], values: Values[]): Cell[] {
+export function cellsBelow(g: Geometry, body: BodyName, along: number[], depths: number[], values: Values[]): SectionCell[] {
   const outline = outlines(g)[body];
   const [y, depth] = [columnEdges(along), rowEdges(depths)];
-  const out: Cell[] = [];
+  const out: SectionCell[] = [];
   values.forEach((row, j) => row.forEach((value, i) => {
     const places: [number, number][] =
         [[y[i], depth[j]], [y[i + 1], depth[j]], [y[i + 1], depth[j + 1]], [y[i], depth[j + 1]]];
@@ -146,7 +146,7 @@ function paintBorders(
 
 /// What a picture of a section shows.
 export interface SectionPicture {
-  cells: Cell[];
+  cells: SectionCell[];
   name: string;  // of the value
   scale: Scale;
   highest: number;  // px, of the plane
@@ -161,13 +161,12 @@ export function paintSection(
   const [y, z] = sectionWindow(run, g);
   const {plane, height} = planeFor(width, y, z, picture.highest);
   const c = canvasIn(host, width, height);
-  c.clearRect(0, 0, width, height);
-  const inside = (cell: Cell) => cell.corners.some(([a, b]) => a > y[0] && a < y[1] && b > z[0] && b < z[1]);
+  const inside = (cell: SectionCell) => cell.corners.some(([a, b]) => a > y[0] && a < y[1] && b > z[0] && b < z[1]);
   const pieces = picture.cells.filter(inside).map((cell): Piece => {
     const place = `${cell.body}, y ${fixedText(cell.y, 2)}, depth ${cell.depth.toFixed(2)} mm`;
     return {
       corners: cell.corners.map(([a, b]) => [px(plane, a), py(plane, b)]),
-      colour: picture.scale.colour(cell.value, theme),
+      colour: rgb(picture.scale.colour(cell.value, theme)),
       words: `${place}: ${picture.name} ${picture.text(cell.value)}`,
     };
   });
@@ -179,9 +178,9 @@ export function paintSection(
   paintPieces(c, pieces);
   paintBorders(c, plane, g, lines, theme);
   c.restore();
-  drawAxes(c, plane, theme, ["y, field side right [mm]", "z [mm]"]);
+  drawAxes(c, plane, theme, [{title: "y, field side right [mm]", range: y}, {title: "z [mm]", range: z}]);
   drawBar(c, plane, theme, picture.scale, picture.unit);
-  wordsUnderPointer(host, (a, b) => wordsAt(pieces, [a, b]));
+  wordsUnderPointer(host, (place) => wordsAt(pieces, place));
 }
 
 /// "Green, dashed: cladding on the rail."

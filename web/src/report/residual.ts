@@ -1,10 +1,12 @@
 // What the wheel of a run leaves behind in a rail that yields: in words, over the section, with depth.
+import {element, note} from "../dom";
+import type {Figure} from "../figures";
+import {fixedText, numberText} from "../text";
+import type {Theme} from "../theme";
 import type {Columns, Run} from "./data";
-import {element, note} from "./dom";
-import type {Figure, Theme} from "./figures";
 import {linesFigure, type Series} from "./lines";
 import {residualMaps, type SectionStory} from "./passes";
-import {fixedText, numberText, runLabel} from "./text";
+import {runLabel} from "./words";
 
 const named = (run: Run, runs: Run[], words: string) => (runs.length > 1 ? `${runLabel(run)}: ${words}` : words);
 
@@ -48,7 +50,7 @@ function profile(stories: SectionStory[]): Figure {
                         name: several ? `${name}: ${s.name}` : name,
                         dash: several && k > 0 ? (k > 1 ? "dot" : "dash") : "solid",
                         colour: (t: Theme) => t.series[(several ? n : k) % t.series.length],
-                        hover: `depth %{y:.2f} mm<br>${name} %{x:.1f} MPa`,
+                        hover: `depth %{y:.2f} mm\n${name} %{x:.1f} MPa`,
                       }));
   });
   return linesFigure({

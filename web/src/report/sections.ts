@@ -1,23 +1,12 @@
 // Verdict, numbers and origin: the parts of the page around the patch and its stresses.
-import {
-  numberAt,
-  option,
-  type BodyName,
-  type Check,
-  type CheckWords,
-  type Quantity,
-  type Report,
-  type Run,
-  type Values
-} from "./data";
-import {details, element, note, table, tableHead, type Cell} from "./dom";
+import {details, element, note, table, tableHead, type Cell} from "../dom";
+import {countText, numberText, percentText} from "../text";
+import type {BodyName, Values} from "../types";
+import {numberAt, option, type Check, type CheckWords, type Quantity, type Report, type Run} from "./data";
 import {
   checkWords,
-  countText,
   engineName,
   limitText,
-  numberText,
-  percentText,
   quantityAt,
   runLabel,
   shownBesideLimit,
@@ -25,7 +14,7 @@ import {
   unitText,
   withoutRoundOff,
   zones
-} from "./text";
+} from "./words";
 
 /// Whose check it is, where the page shows several runs.
 function whose(report: Report, check: Check): string {

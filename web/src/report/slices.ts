@@ -1,10 +1,12 @@
 // Through the body along the rail: a slider moves the cross section.
-import {magnitudeScale, signedScale, type Scale} from "./canvas";
-import {rowsOf, unpack, type BodyName, type Run, type Slices, type StressQuantity, type Values} from "./data";
-import {element, note} from "./dom";
-import {frame, redraw, type Painted} from "./figures";
-import {cellsBelow, layerWords, paintSection, type Cell} from "./profile";
-import {fixedText, runLabel} from "./text";
+import {element, note} from "../dom";
+import {frame, redraw, type Painted} from "../figures";
+import {magnitudeScale, signedScale, type Scale} from "../scale";
+import {fixedText} from "../text";
+import type {BodyName, Values} from "../types";
+import {rowsOf, unpack, type Run, type Slices, type StressQuantity} from "./data";
+import {cellsBelow, layerWords, paintSection, type SectionCell} from "./profile";
+import {runLabel} from "./words";
 
 const kNames: [key: StressQuantity, name: string, short: string][] = [
   ["von_mises", "von Mises stress", "von Mises"],
@@ -90,7 +92,7 @@ class Looker {
   }
 
   /// The wheel's slice is the one nearest to the rail's.
-  private cells(): Cell[] {
+  private cells(): SectionCell[] {
     const x = this.bodies[0][1].at[this.shown];
     return this.bodies.flatMap(([body, slices]) => {
       const k = slices.at.reduce((best, v, i) => (Math.abs(v - x) < Math.abs(slices.at[best] - x) ? i : best), 0);

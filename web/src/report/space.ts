@@ -1,8 +1,11 @@
 // The bodies in space: the rail with the pressure on it as colour and as a hill, the wheel as lines. A drag turns them.
-import {canvasIn, drawArrow, drawPath, letters, magnitudeScale, rgb, viridis, type Pixel} from "./canvas";
-import type {Geometry, Run, Span, Values} from "./data";
-import {element} from "./dom";
-import {frame, redraw, type Painted, type Theme} from "./figures";
+import {canvasIn, drawArrow, drawPath, type Pixel} from "../canvas";
+import {element} from "../dom";
+import {frame, redraw, type Painted} from "../figures";
+import {magnitudeScale, rgb} from "../scale";
+import {letters, type Theme} from "../theme";
+import type {Span, Values} from "../types";
+import type {Geometry, Run} from "./data";
 import {contactY, largest, patchesOf, patchWindow, type Patch} from "./patch";
 import {outlines} from "./profile";
 
@@ -62,7 +65,8 @@ interface Hill {
   height: number;
 }
 
-function hillFaces(hill: Hill, run: Run, height: (y: number) => number | null): Face[] {
+function hillFaces(hill: Hill, run: Run, height: (y: number) => number | null, theme: Theme): Face[] {
+  const scale = magnitudeScale(hill.top);
   return hill.patches.flatMap((patch, n) => {
     const shift = contactY(run, n);
     const z = (i: number, j: number) =>
@@ -76,7 +80,7 @@ function hillFaces(hill: Hill, run: Run, height: (y: number) => number | null): 
         const mean = four.reduce((sum: number, v) => sum + (v ?? 0), 0) / 4;
         out.push({
           corners: [corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)],
-          colour: rgb(viridis(mean / hill.top)),
+          colour: rgb(scale.colour(mean, theme)),
         });
       }
     return out;
@@ -154,7 +158,7 @@ function sceneOf(run: Run, g: Geometry, hill: Hill, theme: Theme, withWheel: boo
     return x.map((end) => points.map(([a, b]): Point => [end, a, Math.max(b, bottom)]));
   });
   return {
-    faces: [...railFaces(height, x, y, theme, bottom), ...hillFaces(hill, run, height)],
+    faces: [...railFaces(height, x, y, theme, bottom), ...hillFaces(hill, run, height, theme)],
     lines: withWheel ? wheelLines(g, [y[0], y[1]], [x[0] * 1.6, x[1] * 1.6]) : [],
     layers,
     middle: [0, middleY, 1e3 * g.contact.z_m - 2],
@@ -261,7 +265,6 @@ class Space {
   private paint(host: HTMLElement, theme: Theme, width: number): void {
     const height = Math.round(Math.min(Math.max(0.62 * width, 260), 460));
     const c = canvasIn(host, width, height);
-    c.clearRect(0, 0, width, height);
     const scene = sceneOf(this.run, this.g, this.hill, theme, this.withWheel);
     const scale = Math.min(width, 1.5 * height) / (2 * kReach);
     paintScene(
@@ -276,7 +279,7 @@ class Space {
   private bar(c: CanvasRenderingContext2D, width: number, theme: Theme): void {
     const {colour} = magnitudeScale(1);
     for (let k = 0; k < 120; ++k) {
-      c.fillStyle = colour(k / 120, theme);
+      c.fillStyle = rgb(colour(k / 120, theme));
       c.fillRect(width - 140 + k, 8, 1.5, 8);
     }
     c.fillStyle = theme.soft;

@@ -1,38 +1,19 @@
 // Stresses below the surface: sections, depth lines, table of maxima.
-import {fixedText, measures, numberText, percentText, powerText, runLabel, zones} from "./text";
-import {
-  rowsOf,
-  unpack,
-  type BodyName,
-  type Columns,
-  type Run,
-  type Section,
-  type Span,
-  type StressMaximum,
-  type StressQuantity,
-  type Values
-} from "./data";
-import {table, type Cell} from "./dom";
-import type {Figure} from "./figures";
+import type {Dash} from "../chart";
+import {table, type Cell} from "../dom";
+import type {Figure} from "../figures";
+import {magnitudeScale, signedScale} from "../scale";
+import {fixedText, numberText, percentText, powerText} from "../text";
+import type {BodyName, Span, StressMaximum, Values} from "../types";
+import {rowsOf, unpack, type Columns, type Run, type Section, type StressQuantity} from "./data";
+import {columnEdges, rowEdges} from "./edges";
 import {linesFigure, type Series} from "./lines";
-import {commonWindow, magnitudeColours, mapFigure, signedColours, type Line, type MapSpec} from "./maps";
+import {commonWindow, mapFigure, type Line, type MapSpec} from "./maps";
 import {contactY} from "./patch";
+import {measures, runLabel, zones} from "./words";
 
 type Plane = "longitudinal"|"cross";
 type Quantity = StressQuantity|"plastic_p";
-
-/// Borders of cells from their centres; the first row begins at the surface.
-export function rowEdges(centres: number[]): number[] {
-  const edges = [0];
-  for (const c of centres) edges.push(2 * c - edges[edges.length - 1]);
-  return edges;
-}
-export function columnEdges(centres: number[]): number[] {
-  const n = centres.length;
-  if (n === 1) return [centres[0] - 0.5, centres[0] + 0.5];
-  const middle = centres.slice(1).map((c, i) => 0.5 * (c + centres[i]));
-  return [1.5 * centres[0] - 0.5 * centres[1], ...middle, 1.5 * centres[n - 1] - 0.5 * centres[n - 2]];
-}
 
 /// Where the material changes: along rows and along columns.
 function materialBorders(section: Section, x: number[], depth: number[]): Line[] {
@@ -137,17 +118,17 @@ const valueText = (kind: Kind, v: number, decimals: number) =>
 export const kNormal: StressQuantity[] = ["von_mises", "sigma_1"];
 export const kShear: StressQuantity[] = ["sigma_xz", "tau_max"];
 
-type Scale = Pick<MapSpec, "floor"|"range"|"colours">;
+type Look = Pick<MapSpec, "floor"|"scale">;
 
 /// Colours of one quantity on all sections.
-function scaleOf(cuts: Cut[], kind: Kind): Scale {
+function scaleOf(cuts: Cut[], kind: Kind): Look {
   const all = extreme(cuts, kind.key, true);
   if (kind.key === "von_mises" || kind.key === "tau_max" || kind.key === "plastic_p")
-    return {floor: false, range: [0, all], colours: magnitudeColours};
-  if (kind.key === "sigma_xz") return {floor: false, range: [-all, all], colours: signedColours};
+    return {scale: magnitudeScale(all)};
+  if (kind.key === "sigma_xz") return {scale: signedScale(all)};
   // of the principal stress the tension counts: compression deeper than its range takes the darkest blue
   const top = Math.max(extreme(cuts, kind.key, false), 0.1 * all);
-  return {floor: top < all, range: [-top, top], colours: signedColours};
+  return {floor: top < all, scale: signedScale(top)};
 }
 
 /// Along the section: the axis, its words, the name of the plane and where it lies.
@@ -167,7 +148,7 @@ export function sectionMaps(runs: Run[], body: BodyName, quantities: Quantity[] 
   const cuts = runs.flatMap((run) => planes.map((plane) => cutOf(run, body, plane)))
                    .filter((cut) => cut !== null && kinds.every((kind) => cut.values[kind.key].length > 0)) as Cut[];
   const scales = kinds.map((kind) => scaleOf(cuts, kind));
-  const mapOf = (cut: Cut, kind: Kind, scale: Scale, windowX: Span, windowY: Span) => {
+  const mapOf = (cut: Cut, kind: Kind, scale: Look, windowX: Span, windowY: Span) => {
     const plane = planeWords(cut);
     const best = place(cut, kind.key, windowX, windowY);
     const where = `${plane.along} ${fixedText(best.x, 2)}, depth ${best.y.toFixed(2)} mm`;
@@ -177,7 +158,7 @@ export function sectionMaps(runs: Run[], body: BodyName, quantities: Quantity[] 
       `Circle: the largest shown, ${valueText(kind, best.value, 0)} at ${where}.`,
       ...(borders.length ? ["Dashed: border of the layer."] : []),
     ];
-    const largest = `largest here: ${valueText(kind, best.value, 1)}<br>${where}`;
+    const largest = `largest here: ${valueText(kind, best.value, 1)}\n${where}`;
     return mapFigure({
       id: `section-${body}-${cut.plane}-${kind.key}-${runs.indexOf(cut.run)}`,
       title: [kind.name, plane.name, ...(runs.length > 1 ? [runLabel(cut.run)] : [])].join(", "),
@@ -197,7 +178,7 @@ export function sectionMaps(runs: Run[], body: BodyName, quantities: Quantity[] 
       windowX,
       windowY,
       lines: borders,
-      marker: {x: best.x, y: best.y, text: largest, symbol: "circle"},
+      marker: {x: best.x, y: best.y, text: largest, mark: "circle"},
     });
   };
   return planes.flatMap((plane) => {
@@ -227,7 +208,7 @@ function depthLine(line: Columns, column: string): {x: Values; y: Values} {
 type Component = [column: string, name: string];
 
 function depthSeries(
-    run: Run, line: Columns, [column, name]: Component, n: number, dash: string, quiet = false): Series {
+    run: Run, line: Columns, [column, name]: Component, n: number, dash: Dash, quiet = false): Series {
   return {
     ...depthLine(line, column),
     name: `${name}, ${runLabel(run)}`,
@@ -235,7 +216,7 @@ function depthSeries(
     quiet,
     markers: line.depth_mm.length < 40,
     colour: (t) => t.series[n % t.series.length],
-    hover: `depth %{y:.2f} mm<br>${name} %{x:.1f} MPa`,
+    hover: `depth %{y:.2f} mm\n${name} %{x:.1f} MPa`,
   };
 }
 

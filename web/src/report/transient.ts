@@ -1,12 +1,16 @@
 // A transient of half-spaces: charts of its history and the film of its patch.
-import {columnsOf, unpack, type Columns, type Film, type Run, type Span, type Values} from "./data";
-import {element, note} from "./dom";
-import {frame, redraw, type Figure, type Theme} from "./figures";
+import {element, note} from "../dom";
+import {frame, redraw, type Figure} from "../figures";
+import {magnitudeScale, stateScale} from "../scale";
+import {fixedText} from "../text";
+import type {Theme} from "../theme";
+import type {Span, Values} from "../types";
+import {columnsOf, unpack, type Columns, type Film, type Run} from "./data";
 import {historyFigure, type Along, type HistoryChart, type HistoryLine} from "./history";
 import {linesFigure, type Series} from "./lines";
-import {magnitudeColours, mapFigure, type MapSpec} from "./maps";
-import {contactY, stateColours, stateLegend} from "./patch";
-import {fixedText, runLabel} from "./text";
+import {mapFigure, type MapSpec} from "./maps";
+import {contactY, stateLegend} from "./patch";
+import {runLabel} from "./words";
 
 const kDistance: Along = {
   column: "distance_mm",
@@ -92,7 +96,7 @@ function loop(runs: Run[], id: string, title: string, displacement: string, forc
                               x: run.history![displacement],
                               y: run.history![force].map((v) => -1e-3 * v),
                               colour: (t) => t.series[n % t.series.length],
-                              hover: "displacement %{x:.3f} µm<br>force %{y:.3f} kN",
+                              hover: "displacement %{x:.3f} µm\nforce %{y:.3f} kN",
                             }));
   return [linesFigure({
     id,
@@ -177,27 +181,24 @@ class Player {
   control(): HTMLElement { return element("div", {class: "film"}, this.button, this.slider, this.words); }
 
   figures(): Figure[] {
-    const traction = {range: [0, this.top] as Span, colours: magnitudeColours, discrete: false, bar: "MPa"};
-    const colours = {range: [0.5, 2.5] as Span, colours: stateColours, discrete: true, bar: ""};
+    const traction = {scale: magnitudeScale(this.top), bar: "MPa"};
     const valueWords = ["separated", "stick", "slip"];
     return [
       this.figure("film-q", "Traction |q| on the way", "q_MPa", "|q| %{z:.1f} MPa", () => this.traction, traction),
       this.figure(
           "film-state", "Stick and slip on the way", "state_1stick_2slip", "%{text}", () => this.states,
-          {...colours, valueWords, words: [stateLegend()]}),
+          {scale: stateScale, valueWords, words: [stateLegend()]}),
     ];
   }
 
   private figure(
       id: string, title: string, column: string, hover: string, values: () => Values[][],
-      scale: Pick<MapSpec, "range"|"colours"|"discrete"|"bar"|"valueWords"|"words">): Figure {
+      look: Pick<MapSpec, "scale"|"bar"|"valueWords"|"words">): Figure {
     const whole = this.film.x;
     const y = this.film.y.map((v) => v - contactY(this.run));
     const now = () => mapFigure({
       id,
       title,
-      x: this.film.frames[this.shown].x ?? whole,
-      y,
       z: values()[this.shown],
       centresX: this.film.frames[this.shown].x ?? whole,
       centresY: y,
@@ -205,12 +206,12 @@ class Player {
       labels: ["x, rolling direction [mm]", "y, field side up [mm]"],
       hover,
       hoverY: "y",
-      ...scale,
+      ...look,
       windowX: span(whole),
       windowY: span(y),
       marker: {x: 0, y: 0, text: "rigid contact point"},
     });
-    return {...now(), draw: (theme: Theme, width: number) => now().draw(theme, width), table: () => now().table()};
+    return {...now(), chart: (theme: Theme, width: number) => now().chart(theme, width), table: () => now().table()};
   }
 
   private show(k: number): void {

@@ -1,5 +1,5 @@
 // The explorer on the case of the report, in a frame of its own (src/explore/page.cpp): there if it was asked for.
-import {details, element, note, part} from "./dom";
+import {details, element, note, part} from "../dom";
 
 const page = () => document.getElementById("what-if-page");
 

@@ -1,13 +1,15 @@
 // What has yielded in a run with plasticity: in words, on the profiles, and along the rail; elastic and yielding runs
 // beside each other.
-import {magnitudeScale, type Scale} from "./canvas";
-import {rowsOf, unpack, type BodyName, type PlasticNumbers, type Run} from "./data";
-import {element, note, part} from "./dom";
-import {frame, type Figure, type Painted} from "./figures";
-import {cellsBelow, layerWords, paintSection, type Cell} from "./profile";
+import {element, note, part} from "../dom";
+import {frame, type Figure, type Painted} from "../figures";
+import {magnitudeScale, type Scale} from "../scale";
+import {countText, fixedText, numberText, powerText} from "../text";
+import type {BodyName, PlasticNumbers} from "../types";
+import {rowsOf, unpack, type Run} from "./data";
+import {cellsBelow, layerWords, paintSection, type SectionCell} from "./profile";
 import {residualOf} from "./residual";
 import {sectionMaps} from "./stress";
-import {countText, fixedText, numberText, powerText, runLabel} from "./text";
+import {runLabel} from "./words";
 
 const kHighest = 300;  // px, of a picture's plane
 const kBodies: BodyName[] = ["rail", "wheel"];
@@ -45,7 +47,7 @@ function words(run: Run): string {
 
 type Packed = "von_mises"|"plastic_p";
 
-function cellsOf(run: Run, quantity: Packed): Cell[] {
+function cellsOf(run: Run, quantity: Packed): SectionCell[] {
   return kBodies.flatMap((body) => {
     const section = run.sections[body]?.cross;
     const packed = section?.[quantity];
@@ -85,7 +87,7 @@ const kStrain: Look = {
   about: " Without colour: not yielded.",
 };
 
-function picture(run: Run, runs: Run[], look: Look, cells: Cell[], scale: Scale): Painted {
+function picture(run: Run, runs: Run[], look: Look, cells: SectionCell[], scale: Scale): Painted {
   const g = run.geometry!;
   const at = fixedText(run.sections.rail!.cross.at, 2);
   return {

@@ -1,4 +1,5 @@
-// Words: what checks and quantities are called, how numbers are written.
+// Words: what checks and quantities are called.
+import {minus, numberText} from "../text";
 import type {CheckWords, Quantity, Run, Unit, VerdictWords, Words} from "./data";
 
 export function engineName(engine: string): string {
@@ -7,50 +8,6 @@ export function engineName(engine: string): string {
 }
 
 export function runLabel(run: Run): string { return `${run.name} (${engineName(run.engine)})`; }
-
-/// Four significant digits, no exponent where it can be avoided; "–" for no number.
-export function numberText(value: number|null|undefined, digits = 4): string {
-  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  if (value === 0) return "0";
-  const size = Math.abs(value);
-  if (size < 1e-4 || size >= 1e7) {
-    const [mantissa, power] = value.toExponential(digits - 1).split("e");
-    return `${minus(mantissa.replace(/\.?0+$/, ""))} × 10${superscript(Number(power))}`;
-  }
-  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(size)));
-  return minus(value.toFixed(Math.min(decimals, 8)));
-}
-
-/// Two digits and a power of ten: "3.1 × 10⁻⁴".
-export function powerText(value: number|null|undefined): string {
-  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  const [mantissa, power] = value.toExponential(1).split("e");
-  return `${minus(mantissa)} × 10${superscript(Number(power))}`;
-}
-
-/// A whole number in groups of three.
-export function countText(value: number|null): string {
-  return value === null ? "–" : String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, "\u202f");
-}
-
-/// So many decimals, never "−0.00".
-export function fixedText(value: number, decimals: number): string {
-  const text = value.toFixed(decimals);
-  return minus(Number(text) === 0 ? text.replace("-", "") : text);
-}
-
-export function minus(text: string): string { return text.replace("-", "−"); }
-
-function superscript(n: number): string {
-  return String(n).split("").map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(c)])).join("");
-}
-
-export function percentText(fraction: number|null, digits = 2): string {
-  if (fraction === null || !Number.isFinite(fraction)) return "–";
-  const text = (100 * fraction).toFixed(digits);
-  if (Number(text) === 0) return `${text.replace("-", "")} %`;
-  return `${fraction > 0 ? "+" : ""}${minus(text)} %`;
-}
 
 // The program's tables of results give names and units; set once, before anything is built.
 let words: Words = {numbers: [], zones: [], measures: [], checks: [], verdicts: []};
@@ -115,7 +72,3 @@ export function shownBesideLimit(value: number|null, limit: number|null): number
 /// Where stresses are looked for: key and name of each zone, of each measure.
 export const zones = () => words.zones;
 export const measures = () => words.measures;
-
-/// A name as Plotly takes it: it reads a small markup ("<b>", "&amp;") in legends and hover words; titles of figures
-/// are set as text.
-export function plotText(text: string): string { return text.replace(/&/g, "&amp;").replace(/</g, "&lt;"); }

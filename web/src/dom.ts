@@ -4,7 +4,9 @@ export type Child = Node|string|null;
 export function element<K extends keyof HTMLElementTagNameMap>(
     tag: K, attributes: Record<string, string> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
   const e = document.createElement(tag);
-  for (const [name, value] of Object.entries(attributes)) e.setAttribute(name, value);
+  for (const [name, value] of Object.entries(attributes))
+    if (name === "style") e.style.cssText = value;  // the page's policy allows no attribute of it
+    else e.setAttribute(name, value);
   for (const child of children)
     if (child !== null) e.append(child);
   return e;
@@ -46,12 +48,33 @@ export function details(summary: string, ...children: Child[]): HTMLDetailsEleme
   return element("details", {}, element("summary", {}, summary), ...children);
 }
 
-/// Offers a text as a file; nothing leaves the page.
-export function download(name: string, text: string): void {
-  const address = URL.createObjectURL(new Blob([text], {type: "text/csv;charset=utf-8"}));
+/// What the program has put into the page.
+export const embedded = (id: string) => document.getElementById(id)?.textContent ?? "";
+
+/// Offers a file; nothing leaves the page.
+export function download(name: string, content: string|Blob): void {
+  const file = typeof content === "string" ? new Blob([content], {type: "text/csv;charset=utf-8"}) : content;
+  const address = URL.createObjectURL(file);
   const link = element("a", {href: address, download: name});
   document.body.append(link);
   link.click();
   link.remove();
   setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/// Copies a text; where the browser refuses (no focus, an old one) it is shown to be copied by hand.
+export async function copy(text: string, done: (words: string) => void, what: string): Promise<void> {
+  try {
+    await navigator.clipboard.writeText(text);
+    done(`${what} copied`);
+  } catch {
+    const area = element("textarea", {class: "copied", readonly: "", rows: "6", "aria-label": what});
+    area.value = text;
+    const close = element("button", {}, "Close");
+    const dialog = element("dialog", {}, element("p", {}, `${what}: copy it from here`), area, close);
+    close.onclick = () => dialog.remove();
+    document.body.append(dialog);
+    dialog.showModal();
+    area.select();
+  }
 }
