@@ -5,8 +5,7 @@
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
-#include "app/progress.hpp"
-#include "app/signals.hpp"
+#include "app/control.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
@@ -21,22 +20,20 @@ ExitCode command_usetab(const CommandOptions& options) {
   const UsetabAxes axes = usetab_axes();
   UsetabOptions how;
   how.cells = options.usetab_cells;
-  how.stop = &stop_flag();
+  how.control = &control_by_signals();
   std::string text = usetab_head(axes, how.cells, fmt::format("RailStrata {}", build_info().version));
-  {
-    Progress progress("usetab", spdlog::default_logger()->level() <= spdlog::level::info);
-    std::size_t done = 0;
-    how.solved = [&](double fraction) {
-      progress.update((static_cast<double>(done) + fraction) / static_cast<double>(axes.aspect.size()));
-    };
-    for (const double aspect : axes.aspect) {
-      const std::vector<UsetabForce> forces = usetab_forces(aspect, axes, how);
-      if (stop_flag()) break;
-      text += usetab_rows(aspect, axes, forces);
-      ++done;
-    }
+  std::size_t done = 0;
+  how.solved = [&](double fraction) {
+    how.control->progress("usetab", (static_cast<double>(done) + fraction) / static_cast<double>(axes.aspect.size()));
+  };
+  for (const double aspect : axes.aspect) {
+    const std::vector<UsetabForce> forces = usetab_forces(aspect, axes, how);
+    if (how.control->stop) break;
+    text += usetab_rows(aspect, axes, forces);
+    ++done;
   }
-  if (stop_flag()) {
+  how.control->progress("");
+  if (how.control->stop) {
     spdlog::warn("stopped: nothing was written");
     return ExitCode::interrupted;
   }

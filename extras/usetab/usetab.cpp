@@ -110,7 +110,7 @@ std::vector<UsetabForce> usetab_forces(double a_over_b, const UsetabAxes& axes, 
   for_each(
       static_cast<std::ptrdiff_t>(rows),
       [&](std::ptrdiff_t row) {
-        if (options.stop && *options.stop) return;
+        if (asked_to_stop(options.control)) return;
         try {
           const std::size_t r = static_cast<std::size_t>(row);
           RollingContact contact = ellipse.contact;

@@ -1,11 +1,11 @@
 #pragma once
 // Kalker's table of creep forces of an elliptic contact of equal bodies, in the form that programs with a USETAB reader
 // take ("tabcon"): forces over the ratio of the semi-axes and three scaled creepages. No layers: a half-space of steel.
-#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "core/control.hpp"
 #include "halfspace/creep_theories.hpp"
 
 namespace railstrata {
@@ -30,7 +30,7 @@ struct UsetabForce {
 
 struct UsetabOptions {
   int cells = 20;                               ///< along either axis of the ellipse
-  const std::atomic<bool>* stop = nullptr;      ///< true: the answer is not complete
+  const Control* control = nullptr;             ///< asked to stop, the answer is not complete
   std::function<void(double fraction)> solved;  ///< of an ellipse; from any thread, one at a time
 };
 

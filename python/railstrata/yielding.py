@@ -196,7 +196,9 @@ def passes(
             roll_length=_metres(roll_length, "roll_length"), checkpoint_every=float(checkpoint_every),
         )
     except KeyboardInterrupt:
-        raise KeyboardInterrupt(f"stopped; rs.passes(..., {str(folder)!r}, resume=True) goes on") from None
+        begun = Path(folder, "identity.txt").exists()
+        raise KeyboardInterrupt(f"stopped; rs.passes(..., {str(folder)!r}, resume=True) goes on" if begun else
+                                "stopped before the first pass; nothing was written") from None
     finally:
         if bar is not None:
             bar.end()

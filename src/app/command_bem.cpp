@@ -2,23 +2,20 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <optional>
-
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/option_values.hpp"
-#include "app/progress.hpp"
-#include "app/signals.hpp"
 #include "app/summary_text.hpp"
 #include "app/waiting.hpp"
-#include "app/write_page.hpp"
 #include "bem/film_capacity.hpp"
 #include "core/faults.hpp"
 #include "io/folder_kind.hpp"
 #include "io/output_folder.hpp"
 #include "runs/half_space_need.hpp"
 #include "runs/write_half_space_result.hpp"
+#include "runs/write_report.hpp"
 #include "runs/write_transient.hpp"
 
 namespace railstrata {
@@ -56,19 +53,17 @@ HalfSpaceSolution solve_steady(const HalfSpaceJob& job, const ShakedownOptions& 
 
 /// Its history and pictures are there while it is followed, and after Ctrl-C up to there.
 HalfSpaceSolution solve_and_show(const HalfSpaceJob& job) {
-  const std::atomic<bool>& stop = stop_flag();
+  const Control& control = control_by_signals();
   TransientWriter writer(job.loaded.spec, job.out, table_origin(job.loaded));
   spdlog::info("{}: {} steps, {}; results go to {}", job.loaded.spec.title,
                transient_steps(job.loaded.spec, job.placement, job.bem.cell), need_text(job.need), job.out.string());
-  std::optional<Progress> bar;
-  bar.emplace("steps", shown());
   HalfSpaceSolution solution =
       solve_half_space(job.loaded.spec, job.placement, job.bem, [&](const TransientState& state) {
         writer.add(state);
-        bar->update(static_cast<double>(state.step) / state.steps);
-        return !stop;
+        control.progress("steps", static_cast<double>(state.step) / state.steps);
+        return !control.stop;
       });
-  bar.reset();
+  control.progress("");
   if (solution.stopped)
     throw Interrupted(
         fmt::format("stopped {}: history.csv and the patch on its way are in {} up to there\n    remedy: "
@@ -109,7 +104,7 @@ ExitCode command_bem(const CommandOptions& options) {
   for (const std::string& note : solution.result.notes) spdlog::info("{}", note);
   print_summary(solution.summary, options.json);
   spdlog::info("results are in {}", job.out.string());
-  const bool page_ok = !options.page || add_report(job.out), ok = page_ok && all_checks_hold(solution.summary);
+  const bool page_ok = !options.page || add_report(job.out, control()), ok = page_ok && all_checks_hold(solution.summary);
   if (!ok) spdlog::warn("a check failed: read the results with care");
   return ok ? ExitCode::ok : ExitCode::failed_checks;
 }

@@ -8,10 +8,8 @@
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/option_values.hpp"
-#include "app/progress.hpp"
-#include "app/signals.hpp"
-#include "app/write_page.hpp"
 #include "bem/bem_options.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
@@ -20,6 +18,7 @@
 #include "runs/write_half_space_result.hpp"
 #include "many/collective.hpp"
 #include "many/collective_files.hpp"
+#include "runs/write_report.hpp"
 
 namespace railstrata {
 namespace {
@@ -32,11 +31,9 @@ void solve(const CommandOptions& options, const LoadedCase& loaded, InfluenceCac
   how.bem.cell = cell_size(options.cell);
   how.bem.cache = &cache;
   how.shakedown = strength_given(loaded.spec, BodyId::rail) || strength_given(loaded.spec, BodyId::wheel);
-  how.stop = &stop_flag();
-  Progress progress("loads", spdlog::default_logger()->level() <= spdlog::level::info);
-  std::size_t done = 0;
-  how.ended = [&] { progress.update(static_cast<double>(++done) / static_cast<double>(rows.size())); };
+  how.control = &control_by_signals();
   solve_collective(rows, loaded.folder(), how);
+  how.control->progress("");
 }
 
 /// The row that the page shows whole: with the least reserve, without strengths the one that rubs most.
@@ -93,7 +90,7 @@ bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded
   const CollectiveRow* shown = shown_row(rows);
   if (!shown) return true;
   const std::filesystem::path page = out / "report.html";
-  return write_page_or_warn(page, [&] {
+  return write_page_or_warn(page, control(), [&] {
     write_row(options, loaded, out / kRowFolder, *shown);
     return WrittenPage{write_collective_page(page, loaded.spec.title, rows, damage, out / kRowFolder, shown->name), {}};
   });
@@ -112,7 +109,7 @@ ExitCode command_collective(const CommandOptions& options) {
   InfluenceCache cache;
   solve(options, loaded, cache, rows);
   write_collective_table(out / "collective.csv", table_origin(loaded), rows);
-  if (stop_flag()) {
+  if (control().stop) {
     spdlog::warn("stopped; {} holds the loads that were solved", (out / "collective.csv").string());
     return ExitCode::interrupted;
   }

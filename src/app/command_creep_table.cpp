@@ -12,9 +12,8 @@
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/option_values.hpp"
-#include "app/progress.hpp"
-#include "app/signals.hpp"
 #include "io/csv.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
@@ -129,7 +128,7 @@ ExitCode command_creep_table(const CommandOptions& options) {
   CreepTable table(base, options.overrides, std::move(axes));
   CreepTableOptions how;
   how.bem.cell = cell_size(options.cell);
-  how.stop = &stop_flag();
+  how.control = &control_by_signals();
 
   require_table_files();
   const fs::path out = output_folder_of(options, base, "-creep-table");
@@ -146,17 +145,15 @@ ExitCode command_creep_table(const CommandOptions& options) {
   write_origin(out, base, options.command_line, options.threads);
   Keeper keeper(table, out / kBegun);
   spdlog::info("{} points", table.points());
-  {
-    Progress progress("creep table", spdlog::default_logger()->level() <= spdlog::level::info);
-    how.solved = [&](std::size_t done) {
-      progress.update(static_cast<double>(done) / static_cast<double>(table.points()));
-      keeper.now_and_then();
-    };
-    table.solve(how);
-  }
-  if (stop_flag()) return stopped(keeper);
+  how.solved = [&](std::size_t done) {
+    how.control->progress("creep table", static_cast<double>(done) / static_cast<double>(table.points()));
+    keeper.now_and_then();
+  };
+  table.solve(how);
+  how.control->progress("");
+  if (how.control->stop) return stopped(keeper);
   const TableError error = interpolation_error(table, options.creep_table.places, how);
-  if (stop_flag()) return stopped(keeper);
+  if (how.control->stop) return stopped(keeper);
   for (const std::string& axis : table.idle_axes())
     spdlog::warn("--axis {}: no number of the table changes with it", axis);
   write_force_table(out / kTable, table.table(), table_remarks(base, error));

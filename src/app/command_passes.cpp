@@ -2,15 +2,11 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <optional>
-
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/option_values.hpp"
-#include "app/progress.hpp"
-#include "app/signals.hpp"
-#include "app/write_page.hpp"
 #include "core/faults.hpp"
 #include "runs/pass_folder.hpp"
 
@@ -45,18 +41,6 @@ PassOrder order_of(const CommandOptions& options, const LoadedCase& loaded) {
   return order;
 }
 
-/// What both methods say on the screen.
-PassFolderObserver teller() {
-  PassFolderObserver out;
-  out.wishes = [] { return RunWishes{&stop_flag(), &save_flag()}; };
-  out.info = [](const std::string& text) { spdlog::info("{}", text); };
-  out.warn = [](const std::string& text) { spdlog::warn("{}", text); };
-  out.page = [](const std::filesystem::path& page, const std::function<WrittenPage()>& write) {
-    write_page_or_warn(page, write);
-  };
-  return out;
-}
-
 ExitCode code_of(const PassesEnd& end) { return end.converged ? ExitCode::ok : ExitCode::failed_checks; }
 
 ExitCode command_rolled_passes(const CommandOptions& options) {
@@ -71,17 +55,7 @@ ExitCode command_rolled_passes(const CommandOptions& options) {
   PassOrder order = order_of(options, loaded);
   order.roll_length = roll_length(options.passes);
   order.checkpoint_every = wall_time("--checkpoint-every", options.passes.checkpoint_every);
-  std::optional<Progress> bar;
-  PassFolderObserver observer = teller();
-  observer.preload = [](double residual, double wanted, int iterations) {
-    spdlog::debug("preload: residual {:.1e} (wanted {:.0e}), {} iterations", residual, wanted, iterations);
-  };
-  observer.going = [&](int pass, double fraction) {
-    if (!bar) bar.emplace(fmt::format("pass {}", pass), spdlog::default_logger()->level() <= spdlog::level::info);
-    bar->update(fraction);
-  };
-  observer.passed = [&] { bar.reset(); };
-  const PassesEnd end = rolled_passes_in_folder(std::move(loaded), order, observer);
+  const PassesEnd end = rolled_passes_in_folder(std::move(loaded), order, control_by_signals());
   if (!end.stopped) return code_of(end);
   spdlog::warn("stopped in pass {}; go on with --resume", end.passes + 1);
   return ExitCode::interrupted;
@@ -93,7 +67,7 @@ ExitCode command_passes(const CommandOptions& options) {
   LoadedCase loaded = load_half_space_case_of(options, CaseUse::yielding);
   PassOrder order = order_of(options, loaded);
   order.cell = cell_size(options.cell);
-  const PassesEnd end = passes_in_folder(std::move(loaded), order, teller());
+  const PassesEnd end = passes_in_folder(std::move(loaded), order, control_by_signals());
   if (!end.stopped) return code_of(end);
   spdlog::warn("stopped after pass {}; go on with --resume", end.passes);
   return ExitCode::interrupted;

@@ -9,8 +9,8 @@
 
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/page_name.hpp"
-#include "app/write_page.hpp"
 #include "bem/bem_options.hpp"
 #include "core/engine.hpp"
 #include "core/faults.hpp"
@@ -94,7 +94,7 @@ ExitCode command_report(const CommandOptions& options) {
       write_framed_report(page, options.report.folders, options.report.reference, what_if(options.report));
   if (options.report.what_if)
     spdlog::info("with the explorer: {:.1f} MB", 1e-6 * static_cast<double>(std::filesystem::file_size(page)));
-  log_page(written);
+  report_page(written, control());
   return finish(options, page, written.verdict.ok);
 }
 

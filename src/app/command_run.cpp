@@ -8,51 +8,17 @@
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/mpi_ranks.hpp"
 #include "app/option_values.hpp"
 #include "app/processors.hpp"
-#include "app/progress.hpp"
-#include "app/signals.hpp"
 #include "app/summary_text.hpp"
-#include "app/write_page.hpp"
 #include "runs/folder_run.hpp"
 #include "runs/ranked_run.hpp"
+#include "runs/write_report.hpp"
 
 namespace railstrata {
 namespace {
-
-/// The phases of a run on the screen: a line as each begins, a bar while it rolls.
-class PhaseReport {
- public:
-  explicit PhaseReport(bool shown) : shown_(shown) {}
-  void meshing() { spdlog::info("meshing wheel and rail"); }
-  void preload() { spdlog::info("static preload"); }
-  void preload_step(double residual, double wanted, int iterations) {
-    spdlog::debug("preload: residual {:.1e} (wanted {:.0e}), {} iterations", residual, wanted, iterations);
-  }
-  void rolling(double fraction, const HistoryRow& row) {
-    if (!bar_) bar_.emplace("rolling", shown_);
-    bar_->update(fraction);
-    spdlog::debug("rolling: x {:.1f} mm, F_z {:.2f} kN, F_x/F_z {:.3f}, p_max {:.0f} MPa", 1e3 * row.position,
-                  1e-3 * row.forces.z, row.forces.x / row.forces.z, 1e-6 * row.p_max);
-  }
-  void checkpoint(const RunState& state) {
-    clear();
-    spdlog::info("checkpoint at x = {:.2f} mm", 1e3 * state.stepper.state.axle.x);
-  }
-  void results() { bar_.reset(); }
-  void warning(const std::string& text) {
-    clear();
-    spdlog::warn("{}", text);
-  }
-
- private:
-  void clear() {
-    if (bar_) bar_->clear();
-  }
-  bool shown_;
-  std::optional<Progress> bar_;
-};
 
 // Throws CaseError for what does not go together with --resume.
 void require_resume_alone(const CommandOptions& options) {
@@ -87,24 +53,13 @@ struct RunOutcome {
 };
 
 RunOutcome solve_and_write(FolderRun& run, const CommandOptions& options, const FemOptions& fem) {
-  PhaseReport report(spdlog::default_logger()->level() <= spdlog::level::info);
-  FolderRunObserver observer;
-  observer.meshing = [&] { report.meshing(); };
-  observer.preload = [&] { report.preload(); };
-  observer.preload_step = [&](double residual, double wanted, int iterations) {
-    report.preload_step(residual, wanted, iterations);
-  };
-  observer.rolling = [&](double fraction, const HistoryRow& row) { report.rolling(fraction, row); };
-  observer.saved = [&](const RunState& state) { report.checkpoint(state); };
-  observer.writing = [&] { report.results(); };
-  observer.warn = [&](const std::string& text) { report.warning(text); };
-  const FemSolution solution = solve_in_folder(run, {options.command_line, options.threads}, observer, fem);
+  const FemSolution solution = solve_in_folder(run, {options.command_line, options.threads}, fem);
   RunOutcome out{{}, solution.stopped, solution.limit_reached, solution.residual};
   for (const FemPosition& position : solution.positions) out.summaries.push_back(position.summary);
   return out;
 }
 
-void tell_residual(const RunResidual& residual) {
+void report_residual(const RunResidual& residual) {
   spdlog::info("{}", words_of(residual));
   if (const std::string doubt = doubt_of(residual); !doubt.empty()) spdlog::warn("{}", doubt);
 }
@@ -130,7 +85,7 @@ ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem);
 
 ExitCode command_run(const CommandOptions& options) {
   FemOptions fem;
-  fem.wishes = {&stop_flag(), &save_flag()};  // from here on a signal is a wish
+  fem.control = &control_by_signals();
   fem.times.checkpoint_every = wall_time("--checkpoint-every", options.run.checkpoint_every);
   fem.times.limit = wall_time("--max-time", options.run.max_time);
   if (options.run.resume.empty() && options.case_file.empty())
@@ -139,7 +94,7 @@ ExitCode command_run(const CommandOptions& options) {
   MpiRanks mpi;
   fem.ranks = mpi.ranks();
   try {
-    if (mpi.any_asked(stop_flag())) throw Interrupted("stopped before the run began; nothing was written");
+    if (mpi.any_asked(fem.control->stop)) throw Interrupted("stopped before the run began; nothing was written");
     const ExitCode code = fem.ranks.speaks() ? run_and_speak(options, fem) : run_along(options, fem);
     mpi.leave();
     return code;
@@ -159,13 +114,13 @@ ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem) {
   const RunOutcome outcome = solve_and_write(run, options, fem);
 
   for (const Summary& s : outcome.summaries) print_summary(s, options.json);
-  if (outcome.residual) tell_residual(*outcome.residual);
+  if (outcome.residual) report_residual(*outcome.residual);
   if (outcome.stopped) {
     spdlog::warn("stopped {}; go on with\n    {}", outcome.limit_reached ? "for --max-time" : "on request",
                  resume_command(run.folder));
     return outcome.limit_reached ? ExitCode::unfinished : ExitCode::interrupted;
   }
-  const bool page_ok = !options.page || add_report(run.folder),
+  const bool page_ok = !options.page || add_report(run.folder, control()),
              all_ok = page_ok && std::all_of(outcome.summaries.begin(), outcome.summaries.end(), all_checks_hold);
   if (!all_ok) spdlog::warn("a check failed: read the results with care");
   return all_ok ? ExitCode::ok : ExitCode::failed_checks;

@@ -9,16 +9,16 @@
 
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/mpi_ranks.hpp"
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "app/shipped_files.hpp"
-#include "app/signals.hpp"
 #include "app/study_list.hpp"
-#include "app/write_page.hpp"
 #include "core/faults.hpp"
 #include "io/json_text.hpp"
 #include "runs/device_at_hand.hpp"
+#include "runs/write_report.hpp"
 #include "study/study_folder.hpp"
 #include "study/study_page.hpp"
 #include "study/study_results.hpp"
@@ -106,7 +106,7 @@ ExitCode list_cases(const CommandOptions& options, const fs::path& out, std::vec
 }
 
 /// --list and --batch.
-ExitCode tell_cases(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
+ExitCode report_cases(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
                     std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
   find_results(out, cases);
   const std::vector<StudyRow> rows = study_rows(out, cases);
@@ -147,24 +147,21 @@ std::ptrdiff_t compute(const CommandOptions& options, const LoadedStudy& study, 
   run.jobs = std::clamp(options.study.jobs > 0 ? options.study.jobs : options.threads, 1,
                         std::max(1, static_cast<int>(to_do.size())));
   run.threads = std::max(1, options.threads / run.jobs);
-  run.stop = &stop_flag();
-  run.save = &save_flag();
+  run.control = &control();
   spdlog::info("{}: {} cases, {} of them to compute, {} at a time with {} thread{} each; results go to {}",
                study.spec.title, std::count(ours.begin(), ours.end(), true), to_do.size(), run.jobs, run.threads,
                run.threads == 1 ? "" : "s", out.string());
-  Progress progress("study", spdlog::default_logger()->level() <= spdlog::level::info);
-  run.progress = [&](double fraction) { progress.update(fraction); };
   run.ended = [&](const StudyCase& c, const std::string& fault, double seconds, int done) {
-    progress.clear();
     if (fault.empty())
-      spdlog::info("{}/{}  {}: {}", done, to_do.size(), c.label(), duration_text(seconds));
+      control().info("{}/{}  {}: {}", done, to_do.size(), c.label(), duration_text(seconds));
     else
-      spdlog::warn("{}/{}  {} failed: {}", done, to_do.size(), c.label(), fault);
+      control().warn("{}/{}  {} failed: {}", done, to_do.size(), c.label(), fault);
     write_study_table(out / "study.csv", study_origin(study), study_rows(out, cases));
   };
   run.lease = lease;
   run.wait = options.study.wait;
   const StudyRunEnd end = run_cases(run, to_do);
+  control().progress("");
   if (end.elsewhere > 0) spdlog::info("{} more cases have been computed by other processes", end.elsewhere);
   for (const StudyCase* c : end.not_ours)
     if (const std::string owner = claimed_by(claim_file(out, *c)); !owner.empty())
@@ -187,7 +184,7 @@ bool add_study_page(const fs::path& out, const LoadedStudy& study, const Publish
                     const std::vector<StudyRow>& rows) {
   if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return true;
   const fs::path page = out / "report.html";
-  return write_page_or_warn(page, [&] { return WrittenPage{write_study_page(page, study, published, rows), {}}; });
+  return write_page_or_warn(page, control(), [&] { return WrittenPage{write_study_page(page, study, published, rows), {}}; });
 }
 
 ExitCode warn_of_faults(const std::vector<StudyRow>& rows) {
@@ -209,13 +206,13 @@ ExitCode command_study(const CommandOptions& options) {
   std::vector<bool> ours = chosen(study, cases, engine_of(options.study.engine), options.study.groups, shard);
   if (options.study.only > 0) ours = only(cases, options.study.only, ours);
   const fs::path out = folder_of(options, study);
-  if (options.study.list || !options.study.batch.empty()) return tell_cases(options, study, out, cases, ours);
+  if (options.study.list || !options.study.batch.empty()) return report_cases(options, study, out, cases, ours);
   if (options.study.dry_run) return list_cases(options, out, cases, ours);
 
   require_case_processes();
   require_devices(out, cases, ours);
   start_children_alone();
-  stop_flag();  // from here on a signal is a wish: what is claimed is given back
+  control_by_signals();  // what is claimed is given back
   const FolderHold hold =
       prepare_study_folder(out, study, options.command_line, options.overrides, options.threads, options.force);
   recover(out, cases, lease);
@@ -224,7 +221,7 @@ ExitCode command_study(const CommandOptions& options) {
 
   const std::vector<StudyRow> rows = study_rows(out, cases);
   write_study_table(out / "study.csv", study_origin(study), rows);
-  if (stop_flag()) {
+  if (control().stop) {
     spdlog::warn("stopped; the same command goes on where it was");
     return ExitCode::interrupted;
   }

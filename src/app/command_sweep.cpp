@@ -12,9 +12,8 @@
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/option_values.hpp"
-#include "app/progress.hpp"
-#include "app/signals.hpp"
 #include "io/output_folder.hpp"
 #include "judge/check_limits.hpp"
 #include "many/sweep.hpp"
@@ -130,22 +129,20 @@ ExitCode command_sweep(const CommandOptions& options) {
   write_origin(out, base, options.command_line, options.threads);
   spdlog::info("{} cases; the table grows in {}", cases.size(), (out / "sweep.csv").string());
   SweepTable table(out / "sweep.csv", table_origin(base), keys, columns);
-  sweep.stop = &stop_flag();
-  {
-    Progress progress("sweep", spdlog::default_logger()->level() <= spdlog::level::info);
-    std::size_t done = 0;
-    sweep.ended = [&] {
-      table.add_done(cases);
-      progress.update(static_cast<double>(++done) / static_cast<double>(cases.size()));
-    };
-    run_sweep(cases, sweep);
-  }
+  sweep.control = &control_by_signals();
+  std::size_t done = 0;
+  sweep.ended = [&] {
+    table.add_done(cases);
+    control().progress("sweep", static_cast<double>(++done) / static_cast<double>(cases.size()));
+  };
+  run_sweep(cases, sweep);
+  control().progress("");
 
   if (options.json)
     fmt::print("{}\n", as_json(cases, keys, columns).dump(2));
   else
     print_table(cases, keys);
-  if (stop_flag()) {
+  if (control().stop) {
     spdlog::warn("stopped; {} holds the first cases", (out / "sweep.csv").string());
     return ExitCode::interrupted;
   }

@@ -11,9 +11,8 @@
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
+#include "app/control.hpp"
 #include "app/option_values.hpp"
-#include "app/progress.hpp"
-#include "app/signals.hpp"
 #include "case/load_rows.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
@@ -86,7 +85,7 @@ class WearLoopRun {
     step_.collective.bem.cell = cell_size(options.cell);
     step_.collective.bem.cache = &cache_;
     step_.collective.shakedown = false;
-    step_.collective.stop = &stop_flag();
+    step_.collective.control = &control_by_signals();
     step_.max_wear = depth_option(options.wear_loop.max_wear);
     rail_ = unworn(original_, step_.collective.bem.cell);
     plan_collective(loaded_.spec);
@@ -151,7 +150,7 @@ class WearLoopRun {
 
   /// False: stopped before it was whole.
   bool take_step() {
-    if (stop_flag()) return false;
+    if (control().stop) return false;
     const double wanted = options_.wear_loop.passages;
     step_.passages_left = wanted > 0 ? wanted - rail_.passages : 0;
     WearStep step = wear_step(loaded_.spec, loaded_.folder(), original_, rail_, step_);

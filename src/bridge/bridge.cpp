@@ -104,7 +104,7 @@ const char* railstrata_progress(RailstrataCall* call) {
   return call->progress.empty() ? nullptr : call->progress.c_str();
 }
 
-void railstrata_stop(RailstrataCall* call) { call->call.stop = true; }
+void railstrata_stop(RailstrataCall* call) { call->call.control.stop = true; }
 
 const char* railstrata_answer(const RailstrataCall* call) { return call->answer.c_str(); }
 

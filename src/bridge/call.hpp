@@ -1,7 +1,6 @@
 #pragma once
 // A call as the functions of the bridge see it: arguments by name, an answer, and what the caller may look at while it
 // lasts. Numbers that JSON lacks travel as texts: "inf", "-inf", "nan".
-#include <atomic>
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -10,6 +9,8 @@
 #include <string>
 #include <typeinfo>
 #include <vector>
+
+#include "core/control.hpp"
 
 namespace railstrata::bridge {
 
@@ -73,7 +74,7 @@ class Call {
   Json kept(std::vector<double> values, const std::vector<std::size_t>& shape);
 
   // while it lasts
-  std::atomic<bool> stop{false};
+  Control control;
   /// What a progress function is called with.
   void tell(const Json& how_far);
   std::string told() const;

@@ -61,10 +61,10 @@ void answer_half_space(Call& call) {
   const auto run = std::make_shared<HalfSpaceRun>(HalfSpaceRun{*loaded, place(loaded->spec, loaded->folder()), {}});
   const TransientObserver observer = [&](const TransientState& state) {
     call.tell(Json::array({static_cast<double>(state.step) / state.steps}));
-    return !call.stop.load();
+    return !call.control.stop.load();
   };
   const ThreadsOfCaller threads(wanted.threads);
-  const StopWish wish(&call.stop);
+  const StopWish wish(&call.control.stop);
   try {
     run->solution = solved(*run, wanted, observer);
   } catch (const CaseError& e) {
@@ -105,7 +105,7 @@ std::size_t patch_asked(const Call& call) { return static_cast<std::size_t>(call
 /// (n, 6) stresses at (n, 3) points.
 void stresses_at(Call& call) {
   const auto run = call.made<HalfSpaceRun>("run");
-  const StopWish wish(&call.stop);
+  const StopWish wish(&call.control.stop);
   const std::vector<InteriorPoint> found = interior(*run, call.text("body"), patch_asked(call))
                                                .at(points_of(call.array("points")), call.flag("below_interface"));
   std::vector<double> out(6 * found.size());

@@ -19,19 +19,17 @@ PassOrder order_of(const Call& call) {
   return out;
 }
 
-/// Tells the pass under way and how far all are.
+/// Progress: the pass under way and how far all are.
 void solve_passes(Call& call) {
   const auto loaded = call.made<LoadedCase>("case");
   const PassOrder order = order_of(call);
   std::vector<std::string> notes;
-  PassFolderObserver observer;
-  observer.wishes = [&call] { return RunWishes{&call.stop, nullptr}; };
-  observer.warn = [&notes](const std::string& text) { notes.push_back(text); };
-  observer.going = [&](int pass, double fraction) {
-    if (pass > 0) call.tell({pass, (pass - 1 + fraction) / order.passes});
+  call.control.on_warning = [&notes](const std::string& text) { notes.push_back(text); };
+  call.control.on_progress = [&call](const std::string&, double fraction, int pass) {
+    if (pass > 0) call.tell({pass, fraction});
   };
-  const PassesEnd end = call.flag("rolled") ? rolled_passes_in_folder(*loaded, order, observer)
-                                            : passes_in_folder(*loaded, order, observer);
+  const PassesEnd end = call.flag("rolled") ? rolled_passes_in_folder(*loaded, order, call.control)
+                                            : passes_in_folder(*loaded, order, call.control);
   call.answer = {{"passes", end.passes}, {"stopped", end.stopped}, {"notes", notes}};
 }
 

@@ -5,26 +5,16 @@
 namespace railstrata::bridge {
 namespace {
 
-/// What a run says while it lasts: its phase and how far it is, and notes.
-FolderRunObserver teller(Call& call, std::vector<std::string>& notes) {
-  const auto phase = [&call](const char* name) { return [&call, name] { call.tell({name, 0.0}); }; };
-  FolderRunObserver observer;
-  observer.meshing = phase("meshing");
-  observer.preload = phase("preload");
-  observer.writing = [&call] { call.tell({"writing", 1.0}); };
-  observer.rolling = [&call](double fraction, const HistoryRow&) { call.tell({"rolling", fraction}); };
-  observer.warn = [&notes](const std::string& text) { notes.push_back(text); };
-  return observer;
-}
-
 void solve_run(Call& call, FolderRun& run) {
   std::vector<std::string> notes = run.notes;
+  call.control.on_progress = [&call](const std::string& phase, double fraction, int) { call.tell({phase, fraction}); };
+  call.control.on_warning = [&notes](const std::string& text) { notes.push_back(text); };
   FemOptions options;
-  options.wishes.stop = &call.stop;
+  options.control = &call.control;
   options.times.checkpoint_every = call.number("checkpoint_every");
   options.times.limit = call.number("limit");
   const RunCommand command{{"railstrata.run (Python)"}, max_threads()};
-  call.answer["stopped"] = solve_in_folder(run, command, teller(call, notes), options).stopped;
+  call.answer["stopped"] = solve_in_folder(run, command, options).stopped;
   call.answer["notes"] = notes;
 }
 

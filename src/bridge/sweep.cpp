@@ -29,7 +29,7 @@ void sweep(Call& call) {
   options.bem.cell = call.number("cell");
   options.bem.cache = &cache;
   options.stresses = call.flag("stresses");
-  options.stop = &call.stop;
+  options.control = &call.control;
   options.ended = [&] { call.tell(Json::array({static_cast<double>(++done) / static_cast<double>(cases.size())})); };
   run_sweep(cases, options);
   Json& rows = call.answer["rows"] = Json::array();

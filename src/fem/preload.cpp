@@ -42,7 +42,7 @@ class Preload {
     penalty_ = compliant_ ? sys_.options.contact.penalty_stiffness : kPenaltyScale * element_stiffness_;
   }
 
-  PreloadResult solve(double tolerance, const PreloadProgress& progress, const std::atomic<bool>* stop) {
+  PreloadResult solve(double tolerance, const PreloadProgress& progress) {
     start_from_overlap();
     PreloadResult out;
     const double load = load_norm();
@@ -52,7 +52,7 @@ class Preload {
       out.residual = std::sqrt(share_.dot(r, r)) / load;
       out.penetration = penetration();
       out.newton_steps = step;
-      if (progress) progress(out.residual, tolerance, out.cg_iterations);
+      const bool stop = progress && !progress(out.residual, tolerance, out.cg_iterations);
       if (!std::isfinite(out.residual))
         throw NumericalError("static preload: the residual is not a number" + what_to_try());
       if (out.residual < tolerance && (compliant_ || out.penetration < kPenetration * sys_.model.hertz.approach)) {
@@ -129,8 +129,7 @@ class Preload {
     return std::sqrt(share_.dot(f, f));
   }
   // Where the ranks look at one another.
-  bool any_rank_stops(const std::atomic<bool>* stop, double residual) const {
-    const bool own = stop && *stop;
+  bool any_rank_stops(bool own, double residual) const {
     if (share_.ranks().alone()) return own;
     const std::array<double, 2> marks = {residual, u_.axle};
     std::vector<double> numbers(marks.size() * share_.ranks().count);
@@ -353,10 +352,9 @@ class Preload {
 }  // namespace
 
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress,
-                            const std::atomic<bool>* stop, const ClusterSizes& clusters, const RailBefore* before,
-                            const Ranks& ranks) {
+                            const ClusterSizes& clusters, const RailBefore* before, const Ranks& ranks) {
   const auto start = std::chrono::steady_clock::now();
-  PreloadResult result = Preload(system, clusters, before, ranks).solve(tolerance, progress, stop);
+  PreloadResult result = Preload(system, clusters, before, ranks).solve(tolerance, progress);
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

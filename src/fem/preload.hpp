@@ -15,7 +15,6 @@
 // displacements, so that what a step on the way overshoots leaves nothing behind. The steps keep the elastic stiffness
 // (initial stress method) and converge the slower the more has yielded.
 #include <array>
-#include <atomic>
 #include <functional>
 
 #include "body/cluster_sizes.hpp"
@@ -43,14 +42,14 @@ struct PreloadResult {
   double wall_seconds = 0;
 };
 
-/// Called after every Newton step with (relative residual, wanted residual, CG iterations so far).
-using PreloadProgress = std::function<void(double, double, int)>;
+/// Called after every Newton step with (relative residual, wanted residual, CG iterations so far). False: stop.
+using PreloadProgress = std::function<bool(double, double, int)>;
 
 /// before: not null: what earlier wheels have left in the rail. ranks: that share the work (fem/static_share.hpp); all
-/// get the result of one to the last bit. Throws NumericalError when it does not converge, Interrupted when `stop` was
-/// set, on any rank.
+/// get the result of one to the last bit. Throws NumericalError when it does not converge, Interrupted when `progress`
+/// asks for it on any rank.
 PreloadResult solve_preload(const RollingSystem& system, double tolerance, const PreloadProgress& progress = {},
-                            const std::atomic<bool>* stop = nullptr, const ClusterSizes& clusters = {},
-                            const RailBefore* before = nullptr, const Ranks& ranks = {});
+                            const ClusterSizes& clusters = {}, const RailBefore* before = nullptr,
+                            const Ranks& ranks = {});
 
 }  // namespace railstrata

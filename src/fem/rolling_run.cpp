@@ -97,7 +97,7 @@ class Roller {
   void show_frame();
   void take_due_samples();
   void keep_state();
-  void save();
+  void save(bool stopping);
   void save_last_good_state();
   void drop_unfinished_positions();
   RunResult finish();
@@ -158,7 +158,7 @@ bool Roller::attend_to_demand() {
   if (!stepper_.is_restart_point()) return true;
   const Demand demand = observer_.demand ? observer_.demand() : Demand::go_on;
   if (demand != Demand::go_on)
-    time_output([&] { save(); });
+    time_output([&] { save(demand == Demand::save_and_stop); });
   else if (observer_.save && stepper_.state().step % kStepsBetweenGoodStates == 0)
     time_output([&] { keep_state(); });
   return demand != Demand::save_and_stop;
@@ -233,11 +233,11 @@ void Roller::keep_state() {
   good_.stepper = stepper_.restart_state();
 }
 
-void Roller::save() {
+void Roller::save(bool stopping) {
   if (!observer_.save) return;
   keep_state();
   swap_tables(good_.result, result());
-  observer_.save(good_);
+  observer_.save(good_, stopping);
   swap_tables(good_.result, result());
 }
 
@@ -245,7 +245,7 @@ void Roller::save_last_good_state() {
   if (!observer_.save || good_.stepper.dt == 0) return;
   cut_tables(result(), good_rows_, good_.next_sample, wanted_);
   swap_tables(good_.result, result());
-  observer_.save(good_);
+  observer_.save(good_, false);
 }
 
 // A position measured in a part of its window only is none.
@@ -305,7 +305,7 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer, con
   out.elements = sys.model.rail.elements() + sys.model.wheel.elements();
   out.nodes = sys.model.rail.nodes() + sys.model.wheel.nodes();
   PreloadResult preload =
-      solve_preload(sys, run.preload_tolerance, observer.preload, observer.stop, {}, before, by.ranks);
+      solve_preload(sys, run.preload_tolerance, observer.preload, {}, before, by.ranks);
   out.preload_wall_seconds = preload.wall_seconds;
 
   if (!run.rolling) {

@@ -1,7 +1,5 @@
 #pragma once
 // A whole run: static preload, run-up, rolling, samples around the wanted positions.
-#include <atomic>
-
 #include "body/plastic_field.hpp"
 #include "body/plastic_pass.hpp"
 #include "fem/rolling_sample.hpp"
@@ -61,16 +59,17 @@ struct RunObserver {
   std::function<void(double fraction, const HistoryRow&)> progress;  ///< with every row; fraction of the way, 0 to 1
   std::function<void(const HistoryRow&)> history;                    ///< every run.history_interval
   std::function<void(const RollingSample&)> frame;    ///< evenly spaced frames, output.series_frames of them
-  const std::atomic<bool>* stop = nullptr;            ///< of the static preload, which throws Interrupted
   std::function<Demand()> demand;                     ///< asked wherever the stepper can be restarted
   std::function<void(const RollingState&)> finished;  ///< the last state of a rolling that was not stopped
-  std::function<void(const RunState&)> save;          ///< on demand, and the last good state before a NumericalError
+  /// The state to go on from: on demand, when the run stops (`stopping`), and the last good one before a
+  /// NumericalError. May throw: that ends the run.
+  std::function<void(const RunState&, bool stopping)> save;
 };
 
 /// before: not null: what earlier wheels have left in the rail. Throws NumericalError (NaN, lost contact, a wheel that
 /// stops, no equilibrium), CaseError (wheel too heavy) and Interrupted.
 /// by: what computes the steps; the result of several ranks is the same on all of them, to the last bit, as that of
-/// one. Each has an observer whose functions are empty where they are on the others; its demand and stop are the same
+/// one. Each has an observer whose functions are empty where they are on the others; its demand and preload answer the same
 /// on all.
 RunResult run_rolling(const RollingSystem& system, const RunObserver& observer, const RailBefore* before = nullptr,
                       const StepBy& by = {});

@@ -82,11 +82,13 @@ std::vector<CollectiveRow> plan_collective(const CaseSpec& spec) {
 
 void solve_collective(std::vector<CollectiveRow>& rows, const std::filesystem::path& folder,
                       const CollectiveOptions& options) {
-  for_each_ended(rows.size(), options.stop, [&](std::size_t i) {
+  std::size_t done = 0;
+  for_each_ended(rows.size(), options.control, [&](std::size_t i) {
     solve_or_tell(rows[i], folder, options);
-    return [&rows, &options, i] {
+    return [&, i] {
       rows[i].done = true;
-      if (options.ended) options.ended();
+      if (options.control)
+        options.control->progress("loads", static_cast<double>(++done) / static_cast<double>(rows.size()));
     };
   });
 }

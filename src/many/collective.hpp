@@ -1,6 +1,5 @@
 #pragma once
 // A load collective: half-space solutions of the case's rows of [[load]], and what all their passages do to the rail.
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "bem/bem_options.hpp"
 #include "case/case_spec.hpp"
+#include "core/control.hpp"
 #include "judge/rail_damage.hpp"
 #include "judge/wheel_damage.hpp"
 #include "model/model.hpp"
@@ -37,9 +37,8 @@ std::vector<CollectiveRow> plan_collective(const CaseSpec& spec);
 
 struct CollectiveOptions {
   BemOptions bem;
-  bool shakedown = true;                    ///< factors of each row where the case says strengths (no single track)
-  const std::atomic<bool>* stop = nullptr;  ///< true: rows that have not begun are left out
-  std::function<void()> ended;              ///< after every row, from any thread, one at a time
+  bool shakedown = true;             ///< factors of each row where the case says strengths (no single track)
+  const Control* control = nullptr;  ///< asked to stop, rows that have not begun are left out; progress: "loads"
 };
 
 /// Solves the rows side by side, one thread each. What goes wrong with a row is its fault, and the others go on; what

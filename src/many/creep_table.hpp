@@ -1,7 +1,6 @@
 #pragma once
 // A creep-force table: half-space solutions over a grid of creepages, loads, places and whatever else a case says.
 #include <array>
-#include <atomic>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -12,6 +11,7 @@
 
 #include "bem/bem_options.hpp"
 #include "case/case_file.hpp"
+#include "core/control.hpp"
 #include "many/axis.hpp"
 #include "table/force_table.hpp"
 
@@ -26,7 +26,7 @@ using CreepNumbers = std::array<double, kCreepNumbers>;
 
 struct CreepTableOptions {
   BemOptions bem;                                ///< its cache and neighbour are not used
-  const std::atomic<bool>* stop = nullptr;       ///< true: rows that have not begun are left out
+  const Control* control = nullptr;              ///< asked to stop, rows that have not begun are left out
   std::function<void(std::size_t done)> solved;  ///< after every row, one at a time: points that are there
 };
 

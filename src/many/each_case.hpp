@@ -1,27 +1,27 @@
 #pragma once
 // Cases solved by one thread each, several at a time, with what follows on each of them one at a time.
-#include <atomic>
 #include <cstddef>
 #include <exception>
 #include <mutex>
 #include <string>
 
+#include "core/control.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
 
 namespace railstrata {
 
 /// solve(i) for every i below `count`; what it returns is called without arguments, one at a time. What these calls
-/// throw, the last one of it, is thrown at the end. Those that have not begun when `stop` is set are left out. `solve`
-/// throws nothing.
+/// throw, the last one of it, is thrown at the end. Those that have not begun when `control` asks to stop are left out.
+/// `solve` throws nothing.
 template <class Solve>
-void for_each_ended(std::size_t count, const std::atomic<bool>* stop, Solve&& solve) {
+void for_each_ended(std::size_t count, const Control* control, Solve&& solve) {
   std::mutex ending;
   std::exception_ptr failure;
   for_each(
       static_cast<std::ptrdiff_t>(count),
       [&](std::ptrdiff_t i) {
-        if (stop && *stop) return;
+        if (asked_to_stop(control)) return;
         const auto ended = solve(static_cast<std::size_t>(i));
         const std::lock_guard lock(ending);
         try {

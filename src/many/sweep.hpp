@@ -1,6 +1,5 @@
 #pragma once
 // Half-space solutions over every combination of values of a case's keys.
-#include <atomic>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -12,6 +11,7 @@
 
 #include "bem/bem_options.hpp"
 #include "case/case_file.hpp"
+#include "core/control.hpp"
 #include "io/output_file.hpp"
 #include "many/axis.hpp"
 #include "many/result_columns.hpp"
@@ -33,9 +33,9 @@ std::vector<SweepCase> plan_sweep(const LoadedCase& base, const std::vector<std:
 
 struct SweepOptions {
   BemOptions bem;
-  bool stresses = false;                    ///< the rail's largest stresses too
-  const std::atomic<bool>* stop = nullptr;  ///< true: cases that have not begun are left out
-  std::function<void()> ended;              ///< after every case, from any thread, one at a time
+  bool stresses = false;             ///< the rail's largest stresses too
+  const Control* control = nullptr;  ///< asked to stop, cases that have not begun are left out
+  std::function<void()> ended;       ///< after every case, from any thread, one at a time
 };
 
 /// Solves the cases side by side, one thread each: their grids are too small to share one. What goes wrong with a case

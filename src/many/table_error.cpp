@@ -44,7 +44,7 @@ TableError interpolation_error(const CreepTable& creep_table, int places, const 
   for_each(
       places,
       [&](std::ptrdiff_t i) {
-        if (options.stop && *options.stop) return;
+        if (asked_to_stop(options.control)) return;
         const auto n = static_cast<std::size_t>(i);
         const std::vector<double> point = place(table, n);
         BemOptions bem = options.bem;

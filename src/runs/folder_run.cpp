@@ -42,17 +42,18 @@ std::string how_to_go_on(const std::filesystem::path& folder) {
                                 : std::string(", then start the run again with --force");
 }
 
-FemSolution solve_with_files(FolderRun& run, const RollingSystem& system, const FolderRunObserver& follow,
-                             const FemOptions& options) {
+FemSolution solve_with_files(FolderRun& run, const RollingSystem& system, const FemOptions& options) {
+  const Control& control = control_or_none(options.control);
   FemWriter writer(system, run.folder, run.origin, run.begun ? &*run.begun : nullptr);
-  if (!run.begun && follow.preload) follow.preload();
-  FemObserver observer;
-  writer.observe(observer, follow.saved, follow.warn);
-  observer.preload = follow.preload_step;
-  observer.rolling = follow.rolling;
+  if (!run.begun) {
+    control.info("static preload");
+    control.progress("preload");
+  }
+  RunObserver observer;
+  writer.observe(observer, control);
   try {
     FemSolution solution = solve_fem(system, observer, options, std::exchange(run.begun, {}));
-    if (follow.writing) follow.writing();
+    control.progress("writing", 1);
     writer.write(solution);
     return solution;
   } catch (const NumericalError& e) {
@@ -100,16 +101,16 @@ FolderRun resume_run(const std::filesystem::path& folder, const Ranks& ranks) {
           std::move(notes)};
 }
 
-FemSolution solve_in_folder(FolderRun& run, const RunCommand& command, const FolderRunObserver& observer,
-                            const FemOptions& options) {
+FemSolution solve_in_folder(FolderRun& run, const RunCommand& command, const FemOptions& options) {
   try {
-    if (observer.meshing) observer.meshing();
+    control_or_none(options.control).info("meshing wheel and rail");
+    control_or_none(options.control).progress("meshing");
     const RollingSystem system = fem_system(run.loaded.spec, run.loaded.folder());
     if (!run.begun) {
       clear_old_results(run.folder);
       write_origin(run.folder, run.loaded, command.command_line, command.threads);
     }
-    return solve_with_files(run, system, observer, options);
+    return solve_with_files(run, system, options);
   } catch (EnvironmentError& e) {
     if (!e.remedy.empty()) e.remedy += how_to_go_on(run.folder);
     throw;

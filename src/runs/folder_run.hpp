@@ -1,7 +1,6 @@
 #pragma once
 // A finite element run in a result folder, begun anew or gone on with: what the command line and Python share.
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,25 +28,15 @@ FolderRun begin_run(LoadedCase loaded, const std::filesystem::path& folder, bool
 /// Goes on with the newest whole checkpoint of the folder. Throws CaseError: no run to go on with; EnvironmentError.
 FolderRun resume_run(const std::filesystem::path& folder, const Ranks& ranks = {});
 
-/// What can be followed of a run in a folder. Any may be empty.
-struct FolderRunObserver {
-  std::function<void()> meshing, preload, writing;                                   ///< these phases begin
-  std::function<void(double residual, double wanted, int iterations)> preload_step;  ///< after each Newton step
-  std::function<void(double fraction, const HistoryRow&)> rolling;                   ///< how far it is, 0..1
-  std::function<void(const RunState&)> saved;                                        ///< a checkpoint
-  std::function<void(const std::string&)> warn;
-};
-
 /// Where a run comes from, for its provenance.json.
 struct RunCommand {
   std::vector<std::string> command_line;
   int threads = 0;
 };
 
-/// Solves the run and writes its files (runs/write_fem_result.hpp). Throws as solve_fem and FemWriter; the messages
-/// say what can be done with the folder.
-FemSolution solve_in_folder(FolderRun& run, const RunCommand& command, const FolderRunObserver& observer = {},
-                            const FemOptions& options = {});
+/// Solves the run and writes its files (runs/write_fem_result.hpp). Its phases: meshing, preload, rolling, writing.
+/// Throws as solve_fem and FemWriter; the messages say what can be done with the folder.
+FemSolution solve_in_folder(FolderRun& run, const RunCommand& command, const FemOptions& options = {});
 
 /// "railstrata run --resume FOLDER"
 std::string resume_command(const std::filesystem::path& folder);

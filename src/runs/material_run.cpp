@@ -130,7 +130,7 @@ ChosenLaw law_of(const LoadedCase& card, const ChosenMaterial& chosen, double de
 }
 
 MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTable& table, int increments, int cycles,
-                         const std::atomic<bool>* stop) {
+                         const Control* control) {
   MaterialPath path{table.path.prescribed, {}};
   for (int n = 0; n < cycles; ++n)
     path.points.insert(path.points.end(), table.path.points.begin(), table.path.points.end());
@@ -139,7 +139,7 @@ MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTabl
   const std::size_t every = path.points.size() * static_cast<std::size_t>(increments) / kMostTraced + 1;
   std::size_t seen = 0;
   const auto look = [&](const MaterialState& s) {
-    if (stop && *stop) throw Interrupted("stopped on the path");
+    if (asked_to_stop(control)) throw Interrupted("stopped on the path");
     if (++seen % every == 0 || seen % static_cast<std::size_t>(increments) == 0) out.trace.push_back(s);
   };
   try {

@@ -1,13 +1,13 @@
 #pragma once
 // A material law driven along a path (material/material_path.hpp): tables and a picture of it.
 #include <array>
-#include <atomic>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "case/case_file.hpp"
 #include "case/material_tables.hpp"
+#include "core/control.hpp"
 #include "io/csv.hpp"
 
 namespace railstrata {
@@ -44,7 +44,7 @@ ChosenLaw law_of(const LoadedCase& card, const ChosenMaterial& chosen, double de
 /// Goes through the rows `cycles` times. Throws CaseError with the row's place where the material cannot follow,
 /// Interrupted when `stop` is set.
 MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTable& table, int increments, int cycles,
-                         const std::atomic<bool>* stop = nullptr);
+                         const Control* control = nullptr);
 
 /// s_xx_MPa .. s_xz_MPa, p by point; of a path of stresses with the strains before them.
 std::vector<CsvColumn> point_columns(const MaterialRun& run, bool strains);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/faults.hpp"
+#include "core/stop_wish.hpp"
 #include "judge/check_limits.hpp"
 #include "passes/pass_files.hpp"
 #include "passes/pass_plan.hpp"
@@ -42,10 +43,10 @@ auto with_places(const LoadedCase& loaded, Work&& work) {
 /// The passes of one folder.
 class SteadyFolder {
  public:
-  SteadyFolder(const PassOrder& order, LoadedCase loaded, const PassFolderObserver& observer)
+  SteadyFolder(const PassOrder& order, LoadedCase loaded, Control& control)
       : order_(order),
         loaded_(std::move(loaded)),
-        tell_(observer),
+        control_(control),
         rail_(with_places(loaded_, [&] { return rail_of(); })),
         body_(body_of(rail_)) {
     series_.state = body_.virgin();
@@ -56,25 +57,24 @@ class SteadyFolder {
   PassesEnd run() {
     const FolderHold hold = prepare_output_folder(order_.folder, order_.force || order_.resume);
     order_.resume ? resume() : begin_pass_folder(loaded_, order_, identity());
-    for (const std::string& note : rail_.notes) tell_.info(note);
-    for (const std::string& doubt : doubts_) tell_.warn(doubt);
+    for (const std::string& note : rail_.notes) control_.info("{}", note);
+    for (const std::string& doubt : doubts_) control_.warn("{}", doubt);
     rail_.notes.insert(rail_.notes.end(), doubts_.begin(), doubts_.end());
-    limits_.stop = tell_.wishes().stop;
-    while (series_.state.passes < order_.passes && !stopped() && take_pass()) {
+    limits_.control = &control_;
+    while (series_.state.passes < order_.passes && !control_.stop && take_pass()) {
     }
     if (last_)
       finish();
-    else if (!stopped())
-      tell_.info(fmt::format("{}: there already: {}", order_.folder.string(), passes_text(series_.state.passes)));
+    else if (!control_.stop)
+      control_.info("{}: there already: {}", order_.folder.string(), passes_text(series_.state.passes));
     return {series_.state.passes, series_.state.passes < order_.passes, converged_ && sound_};
   }
 
  private:
-  bool stopped() const { return limits_.stop && *limits_.stop; }
-
   RailPasses rail_of() {
     BemOptions bem;
     bem.cell = order_.cell;
+    const StopWish wish(&control_.stop);
     std::vector<BemResult> solutions;
     for (const CaseSpec& spec : cases_of_tractions(loaded_.spec)) {
       HalfSpaceSolution solution = solve_half_space_contact(spec, place(spec, loaded_.folder()), bem);
@@ -152,17 +152,15 @@ class SteadyFolder {
     const int pass = series_.state.passes + 1;
     const Place before = place_;
     Field guess = series_.state.residual_strain;
-    tell_.going(pass, 0);
+    report_passes(order_, pass, 0, control_);
     drive(pass);
     try {
       last_ = body_.run_pass(strain_, series_.state, limits_);
     } catch (const Interrupted&) {
       series_.state.residual_strain = std::move(guess);
       if (last_ && before != place_) stand(before);
-      tell_.passed();
       return false;
     }
-    tell_.passed();
     keep(pass_row(rail_.grid, pass, *last_));
     return true;
   }
@@ -172,15 +170,15 @@ class SteadyFolder {
     row.traction = traction_[place_.solution];
     last_row_ = row;
     add_pass(row, *last_, series_);
-    tell_.info(
-        fmt::format("pass {}: accumulated {:.3g}, net {:.3g} at {:.2f} mm; residual stress {:.0f} MPa along, {:.0f} "
-                    "MPa across; {} iterations",
-                    row.pass, row.largest.accumulated, row.largest.net, 1e3 * row.net_depth, 1e-6 * row.stress[0],
-                    1e-6 * row.stress[1], row.iterations));
+    control_.info(
+        "pass {}: accumulated {:.3g}, net {:.3g} at {:.2f} mm; residual stress {:.0f} MPa along, {:.0f} MPa across; "
+        "{} iterations",
+        row.pass, row.largest.accumulated, row.largest.net, 1e3 * row.net_depth, 1e-6 * row.stress[0],
+        1e-6 * row.stress[1], row.iterations);
     if (!row.converged) {
       converged_ = false;
-      tell_.warn(fmt::format("pass {} has not settled: stresses still change by {:.2g} of the shear strength", row.pass,
-                             row.error));
+      control_.warn("pass {} has not settled: stresses still change by {:.2g} of the shear strength", row.pass,
+                    row.error);
     }
     constexpr auto kOften = std::chrono::seconds(20);
     if (Clock::now() - saved_ > kOften) save();
@@ -196,10 +194,10 @@ class SteadyFolder {
   void finish() {
     save();
     write_results();
-    tell_.warn_of_large_strain(last_row_.strain);
-    tell_.info(fmt::format("after {}: {} Results are in {}", passes_text(series_.state.passes), answer_.verdict,
-                           order_.folder.string()));
-    tell_.write_page(order_, answer_.verdict);
+    warn_of_large_strain(last_row_.strain, control_);
+    control_.info("after {}: {} Results are in {}", passes_text(series_.state.passes), answer_.verdict,
+                  order_.folder.string());
+    write_pass_page(order_, answer_.verdict, control_);
   }
 
   void write_results() {
@@ -217,7 +215,7 @@ class SteadyFolder {
   using Clock = std::chrono::steady_clock;
   const PassOrder& order_;
   LoadedCase loaded_;
-  PassTeller tell_;
+  Control& control_;
   PassAnswer answer_;
   std::vector<double> traction_;     ///< of each solution
   std::vector<std::string> doubts_;  ///< of the contact
@@ -236,11 +234,11 @@ class SteadyFolder {
 
 }  // namespace
 
-PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, const PassFolderObserver& observer) {
+PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, Control& control) {
   require_steady(loaded);
   require_cell(order.cell);
   loaded.spec.run.rolling = true;  // passes roll, as those by finite elements do
-  return SteadyFolder(order, std::move(loaded), observer).run();
+  return SteadyFolder(order, std::move(loaded), control).run();
 }
 
 }  // namespace railstrata

@@ -2,7 +2,6 @@
 // Passes of wheels over a rail that yields in a result folder, by either method, begun anew or gone on with: what the
 // command line and Python share. The files are those of passes/pass_files.hpp, with report.html at the end.
 #include <filesystem>
-#include <functional>
 #include <string>
 
 #include "case/case_file.hpp"
@@ -25,31 +24,19 @@ struct PassOrder {
   RunCommand command;
 };
 
-/// What can be followed. Any may be empty.
-struct PassFolderObserver {
-  /// Asked for when there is something to keep, from then on they hold.
-  std::function<RunWishes()> wishes;
-  std::function<void(const std::string&)> info, warn;
-  std::function<void(double residual, double wanted, int iterations)> preload;  ///< finite elements: of a pass
-  std::function<void(int pass, double fraction)> going;  ///< a pass is so far, 0..1; stationary: 0 where it begins
-  std::function<void()> passed;                          ///< it has ended, or was stopped
-  /// The page: its file, and the call that writes it. Empty: it is written, and what fails is warned of.
-  std::function<void(const std::filesystem::path&, const std::function<WrittenPage()>&)> page;
-};
-
 struct PassesEnd {
   int passes = 0;         ///< that the folder now has
   bool stopped = false;   ///< before all that were wanted
   bool converged = true;  ///< stationary: every pass of this call settled, and the checks of its contact hold
 };
 
-/// Passes by the stationary method (passes/rail_passes.hpp). A pass that is stopped has not been: its folder goes on
-/// with it from its beginning. Throws CaseError (transients, no strength, a folder in use or of another case),
-/// NumericalError, EnvironmentError.
-PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, const PassFolderObserver& observer = {});
+/// Passes by the stationary method (passes/rail_passes.hpp). A pass that is stopped is given up: its folder goes on with
+/// it from its beginning. Progress: "passes". Throws CaseError (transients, no strength, a folder in use or of another
+/// case), NumericalError, EnvironmentError, Interrupted where it is stopped before there is a folder.
+PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, Control& control);
 
 /// Passes by the finite elements (runs/rolled_passes.hpp); a pass that is stopped leaves a checkpoint. `loaded`: with
 /// run.plasticity and run.rolling. Throws as the other, and as solve_fem.
-PassesEnd rolled_passes_in_folder(LoadedCase loaded, const PassOrder& order, const PassFolderObserver& observer = {});
+PassesEnd rolled_passes_in_folder(LoadedCase loaded, const PassOrder& order, Control& control);
 
 }  // namespace railstrata

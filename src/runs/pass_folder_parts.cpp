@@ -18,44 +18,21 @@ namespace fs = std::filesystem;
 
 std::string passes_text(int passes) { return fmt::format("{} {}", passes, passes == 1 ? "pass" : "passes"); }
 
-void PassTeller::info(const std::string& text) const {
-  if (observer_.info) observer_.info(text);
+void warn_of_large_strain(double strain, const Control& control) {
+  if (const std::string words = strain_words(strain); !words.empty()) control.warn("{}", words);
 }
 
-void PassTeller::warn(const std::string& text) const {
-  if (observer_.warn) observer_.warn(text);
+void report_passes(const PassOrder& order, int pass, double fraction, const Control& control) {
+  control.progress("passes", (pass - 1 + fraction) / order.passes, pass);
 }
 
-void PassTeller::going(int pass, double fraction) const {
-  if (observer_.going) observer_.going(pass, fraction);
-}
-
-void PassTeller::passed() const {
-  if (observer_.passed) observer_.passed();
-}
-
-void PassTeller::warn_of_large_strain(double strain) const {
-  if (const std::string words = strain_words(strain); !words.empty()) warn(words);
-}
-
-void PassTeller::write_page(const PassOrder& order, const std::string& verdict) const {
+void write_pass_page(const PassOrder& order, const std::string& verdict, const Control& control) {
   if (!order.page) return;
   const fs::path page = order.folder / kPassPage;
-  const auto write = [&] {
+  write_page_or_warn(page, control, [&] {
     write_passes_page(page, {order.folder});
     return WrittenPage{{true, verdict}, {}};
-  };
-  if (observer_.page) {
-    observer_.page(page, write);
-    return;
-  }
-  try {
-    write();
-  } catch (const CaseError& e) {
-    warn(fmt::format("no report: {}", e.what()));
-  } catch (const EnvironmentError& e) {
-    warn(fmt::format("no report: {}", e.what()));
-  }
+  });
 }
 
 void begin_pass_folder(const LoadedCase& loaded, const PassOrder& order, const std::string& identity) {

@@ -13,24 +13,14 @@ inline constexpr const char *kPassTable = "passes.csv", *kPassState = "state.csv
 /// "1 pass", "20 passes"
 std::string passes_text(int passes);
 
-/// What follows them, whether there is somebody or not.
-class PassTeller {
- public:
-  explicit PassTeller(const PassFolderObserver& observer) : observer_(observer) {}
-  RunWishes wishes() const { return observer_.wishes ? observer_.wishes() : RunWishes{}; }
-  void info(const std::string& text) const;
-  void warn(const std::string& text) const;
-  void going(int pass, double fraction) const;
-  void passed() const;
-  /// Warns of an equivalent plastic strain beyond small strains (material/strain_claim.hpp).
-  void warn_of_large_strain(double strain) const;
-  /// report.html, by the observer's way or with a warning where it fails.
-  void write_page(const PassOrder& order, const std::string& verdict) const;
-  const PassFolderObserver& observer() const { return observer_; }
+/// Warns of an equivalent plastic strain beyond small strains (material/strain_claim.hpp).
+void warn_of_large_strain(double strain, const Control& control);
 
- private:
-  const PassFolderObserver& observer_;
-};
+/// How far all wanted passes are, with the one under way.
+void report_passes(const PassOrder& order, int pass, double fraction, const Control& control);
+
+/// report.html if it is wanted; what fails is warned of.
+void write_pass_page(const PassOrder& order, const std::string& verdict, const Control& control);
 
 /// Takes older files of passes away; writes origin and identity.
 void begin_pass_folder(const LoadedCase& loaded, const PassOrder& order, const std::string& identity);

@@ -24,10 +24,10 @@ RankedRun join_resumed_run(const std::filesystem::path& folder, const Ranks& ran
 // What rank 0 is asked for, this rank is asked for too: the state must be made whole for it by all.
 void follow_run(RankedRun& run, const FemOptions& options) {
   const RollingSystem system = fem_system(run.loaded.spec, run.loaded.folder());
-  FemObserver observer;
+  RunObserver observer;
   const CaseSpec& spec = system.model.spec;
   if (spec.run.rolling && spec.output.patch_series) observer.frame = [](const RollingSample&) {};
-  observer.checkpoint = [](const RunState&, bool) {};
+  observer.save = [](const RunState&, bool) {};
   solve_fem(system, observer, options, std::exchange(run.begun, {}));
 }
 

@@ -9,6 +9,7 @@
 #include "io/provenance.hpp"
 #include "runs/pass_folder_parts.hpp"
 #include "runs/rolled_passes.hpp"
+#include "runs/write_fem_result.hpp"
 
 namespace railstrata {
 namespace {
@@ -25,10 +26,10 @@ RolledPasses passes_of(const LoadedCase& loaded, double roll_length) {
 /// The passes of one folder.
 class RolledFolder {
  public:
-  RolledFolder(const PassOrder& order, LoadedCase loaded, const PassFolderObserver& observer)
-      : order_(order), loaded_(std::move(loaded)), tell_(observer), passes_(passes_of(loaded_, order.roll_length)) {
+  RolledFolder(const PassOrder& order, LoadedCase loaded, Control& control)
+      : order_(order), loaded_(std::move(loaded)), control_(control), passes_(passes_of(loaded_, order.roll_length)) {
     require_apart(order_.folder, loaded_);
-    fem_.wishes = tell_.wishes();
+    fem_.control = &control_;
     fem_.times.checkpoint_every = order_.checkpoint_every;
   }
 
@@ -36,9 +37,8 @@ class RolledFolder {
     const FolderHold hold = prepare_output_folder(order_.folder, order_.force || order_.resume);
     order_.resume ? resume() : begin_pass_folder(loaded_, order_, identity());
     const PassRoll& roll = passes_.roll();
-    tell_.info(
-        fmt::format("{}: a pass rolls {:.1f} mm, steady from {:.1f} to {:.1f} mm (half-length of the patch {:.2f} mm)",
-                    loaded_.spec.title, 1e3 * roll.length, 1e3 * roll.from, 1e3 * roll.to, 1e3 * roll.half_length));
+    control_.info("{}: a pass rolls {:.1f} mm, steady from {:.1f} to {:.1f} mm (half-length of the patch {:.2f} mm)",
+                  loaded_.spec.title, 1e3 * roll.length, 1e3 * roll.from, 1e3 * roll.to, 1e3 * roll.half_length);
     while (series_.passes < order_.passes && take_pass()) {
     }
     const bool complete = series_.passes >= order_.passes;
@@ -68,25 +68,21 @@ class RolledFolder {
     try {
       FoundCheckpoint found = read_checkpoint(folder, origin().case_sha256);
       for (const std::string& note : found.notes)
-        tell_.warn(fmt::format("{}; the checkpoint before it is taken", note));
+        control_.warn("{}; the checkpoint before it is taken", note);
       return std::move(found.checkpoint.run);
     } catch (const CaseError&) {
-      tell_.info(fmt::format("pass {} begins anew", series_.passes + 1));
+      control_.info("pass {} begins anew", series_.passes + 1);
       return {};
     }
   }
 
-  FemObserver observer() {
-    FemObserver out;
-    out.preload = tell_.observer().preload;
-    out.rolling = [this](double fraction, const HistoryRow&) { tell_.going(series_.passes + 1, fraction); };
-    out.checkpoint = [this](const RunState& state, bool stopping) {
-      try {
-        write_checkpoint(order_.folder, origin(), state);
-      } catch (const EnvironmentError& e) {
-        if (stopping) throw;
-        tell_.warn(fmt::format("no checkpoint: {}; the pass goes on", e.what()));
-      }
+  RunObserver observer() {
+    RunObserver out;
+    out.progress = [this](double fraction, const HistoryRow&) {
+      report_passes(order_, series_.passes + 1, fraction, control_);
+    };
+    out.save = [this](const RunState& state, bool stopping) {
+      save_checkpoint(order_.folder, origin(), state, stopping, control_);
     };
     return out;
   }
@@ -99,39 +95,38 @@ class RolledFolder {
       pass = passes_.next(series_, observer(), fem_, std::exchange(begun_, {}));
     } catch (const Interrupted&) {
     }
-    tell_.passed();
     if (pass) keep(*pass);
     return pass.has_value();
   }
 
   void keep(const RolledPasses::Pass& pass) {
     const PassRow& row = pass.row;
-    tell_.info(
-        fmt::format("pass {}: accumulated {:.3g}, net {:.3g} at {:.2f} mm; residual stress {:.0f} MPa along, {:.0f} "
-                    "MPa across; uneven by {:.2g}",
-                    row.pass, row.largest.accumulated, row.largest.net, 1e3 * row.net_depth, 1e-6 * row.stress[0],
-                    1e-6 * row.stress[1], pass.uneven));
+    control_.info(
+        "pass {}: accumulated {:.3g}, net {:.3g} at {:.2f} mm; residual stress {:.0f} MPa along, {:.0f} MPa across; "
+        "uneven by {:.2g}",
+        row.pass, row.largest.accumulated, row.largest.net, 1e3 * row.net_depth, 1e-6 * row.stress[0],
+        1e-6 * row.stress[1], pass.uneven);
     if (pass.uneven > kLargestUnevenness)
-      tell_.warn(fmt::format("pass {}: plastic strain differs by {:.2g} of itself along the steady stations", row.pass,
-                             pass.uneven));
+      control_.warn("pass {}: plastic strain differs by {:.2g} of itself along the steady stations", row.pass,
+                    pass.uneven);
     const std::filesystem::path& folder = order_.folder;
     write_rolled_table(folder / kPassTable, table_origin(loaded_), series_);  // before the state, which cuts it
     write_rolled_result(folder, table_origin(loaded_), loaded_.spec, passes_.roll(), series_, pass, pass.loops);
     write_rolled_state(folder / kPassState, table_origin(loaded_), series_);
     remove_checkpoints(folder);
-    tell_.warn_of_large_strain(row.strain);
+    warn_of_large_strain(row.strain, control_);
   }
 
   void conclude() {
     const PassVerdict verdict = verdict_of(series_.table);
-    tell_.info(fmt::format("after {}: {}; net strain {:.3g} per pass; results are in {}", passes_text(series_.passes),
-                           words(verdict.kind), verdict.rate, order_.folder.string()));
-    tell_.write_page(order_, words(verdict.kind));
+    control_.info("after {}: {}; net strain {:.3g} per pass; results are in {}", passes_text(series_.passes),
+                  words(verdict.kind), verdict.rate, order_.folder.string());
+    write_pass_page(order_, words(verdict.kind), control_);
   }
 
   const PassOrder& order_;
   LoadedCase loaded_;
-  PassTeller tell_;
+  Control& control_;
   RolledPasses passes_;
   FemOptions fem_;
   RolledSeries series_;
@@ -140,8 +135,8 @@ class RolledFolder {
 
 }  // namespace
 
-PassesEnd rolled_passes_in_folder(LoadedCase loaded, const PassOrder& order, const PassFolderObserver& observer) {
-  return RolledFolder(order, std::move(loaded), observer).run();
+PassesEnd rolled_passes_in_folder(LoadedCase loaded, const PassOrder& order, Control& control) {
+  return RolledFolder(order, std::move(loaded), control).run();
 }
 
 }  // namespace railstrata

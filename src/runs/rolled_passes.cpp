@@ -123,7 +123,7 @@ Model RolledPasses::model_of(int pass, double creepage_shift) const {
   return model;
 }
 
-std::optional<RolledPasses::Pass> RolledPasses::next(RolledSeries& series, const FemObserver& follow,
+std::optional<RolledPasses::Pass> RolledPasses::next(RolledSeries& series, const RunObserver& follow,
                                                      const FemOptions& options, std::optional<RunState> begun) const {
   const int pass = series.passes + 1;
   const std::optional<double> traction = case_of(pass).drive.traction();
@@ -145,7 +145,7 @@ std::optional<RolledPasses::Pass> RolledPasses::next(RolledSeries& series, const
   }
   PlasticSection after, first, second;
   RolledRail rolled;
-  FemObserver observer = follow;
+  RunObserver observer = follow;
   observer.finished = [&](const RollingState& state) {
     const Field& history = state.bodies[kRail].history;
     rolled = {state.bodies[kRail].u, history, state.axle.pose().x, kBehind * roll_.half_length,

@@ -31,7 +31,7 @@ class RolledPasses {
   struct Pass : RolledPass {
     std::vector<RolledLoop> loops;
   };
-  std::optional<Pass> next(RolledSeries& series, const FemObserver& observer, const FemOptions& options,
+  std::optional<Pass> next(RolledSeries& series, const RunObserver& observer, const FemOptions& options,
                            std::optional<RunState> begun = {}) const;
 
  private:

@@ -13,7 +13,7 @@ bool RunControl::out_of_time(double now) const {
 }
 
 bool RunControl::must_stop(double now) {
-  if (wishes_.stop && *wishes_.stop) return true;
+  if (asked_.stop) return true;
   limit_reached_ = limit_reached_ || out_of_time(now);
   return limit_reached_;
 }
@@ -23,8 +23,7 @@ Demand RunControl::demand() {
   if (last_call_ >= 0) longest_pause_ = std::max(longest_pause_, now - last_call_);
   last_call_ = now;
   if (must_stop(now)) return Demand::save_and_stop;
-  if (wishes_.save && wishes_.save->load(std::memory_order_relaxed) && wishes_.save->exchange(false))
-    return Demand::save;
+  if (asked_.save.load(std::memory_order_relaxed) && asked_.save.exchange(false)) return Demand::save;
   return times_.checkpoint_every > 0 && now - last_save_ >= times_.checkpoint_every ? Demand::save : Demand::go_on;
 }
 
@@ -32,10 +31,6 @@ void RunControl::saved(double seconds) {
   last_save_ = elapsed();
   longest_save_ = std::max(longest_save_, seconds);
   last_call_ = -1;
-}
-
-void RunControl::watch_preload() {
-  if (must_stop(elapsed())) preload_stop_ = true;
 }
 
 }  // namespace railstrata

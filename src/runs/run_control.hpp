@@ -1,9 +1,9 @@
 #pragma once
-// When a run saves its state and when it stops: wishes from outside, the time between checkpoints, the time limit of a
-// batch queue.
-#include <atomic>
+// When a run saves its state and when it stops: what is asked from outside, the time between checkpoints, the time limit
+// of a batch queue.
 #include <chrono>
 
+#include "core/control.hpp"
 #include "fem/rolling_run.hpp"
 
 namespace railstrata {
@@ -15,25 +15,18 @@ struct RunTimes {
   std::chrono::steady_clock::time_point begun = std::chrono::steady_clock::now();  ///< both count from here
 };
 
-/// What another thread, or a signal's handler, may wish of a run. Either may be null.
-struct RunWishes {
-  const std::atomic<bool>* stop = nullptr;  ///< true: end between two steps and keep the state
-  std::atomic<bool>* save = nullptr;        ///< true: a checkpoint is wanted; the run sets it back
-};
-
 class RunControl {
  public:
-  RunControl(const RunTimes& times, const RunWishes& wishes) : times_(times), wishes_(wishes) {}
+  RunControl(const RunTimes& times, Control& asked) : times_(times), asked_(asked) {}
 
   /// What is asked of the run now. A limit is kept by stopping early: what is left must do for twice the longest
   /// checkpoint, the longest pause between two calls and one part in a hundred of the limit.
   Demand demand();
   /// A checkpoint took so long [s].
   void saved(double seconds);
-  /// To be called during the preload: raises preload_stop() when the run is to stop.
-  void watch_preload();
-  const std::atomic<bool>& preload_stop() const { return preload_stop_; }
-  /// Stopped by the limit, not by a wish.
+  /// The same during the preload, which has no state to save.
+  bool must_stop() { return must_stop(elapsed()); }
+  /// Stopped by the limit, not on request.
   bool limit_reached() const { return limit_reached_; }
 
  private:
@@ -41,10 +34,9 @@ class RunControl {
   bool out_of_time(double now) const;
   bool must_stop(double now);
   RunTimes times_;
-  RunWishes wishes_;
+  Control& asked_;
   double last_save_ = 0, longest_save_ = 0, last_call_ = -1, longest_pause_ = 0;
   bool limit_reached_ = false;
-  std::atomic<bool> preload_stop_{false};
 };
 
 }  // namespace railstrata

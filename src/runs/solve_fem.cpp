@@ -18,18 +18,18 @@ namespace {
 /// Asks the control on behalf of the rolling, and hands the states that it asked for to the observer.
 class StateKeeper {
  public:
-  StateKeeper(RunControl& control, const FemObserver& observer, const FemOptions& options)
+  StateKeeper(RunControl& control, const RunObserver& observer, const FemOptions& options)
       : control_(control),
         observer_(observer),
         ranks_(options.ranks),
-        states_wanted_(observer.checkpoint || options.wishes.stop || options.times.limit > 0) {}
+        states_wanted_(observer.save || options.control || options.times.limit > 0) {}
 
   void observe(RunObserver& run) {
     run.demand = [this] {  // of several ranks what any of them asks for: signals and clocks differ
       const auto own = static_cast<double>(answer(control_.demand()));
-      return demand_ = static_cast<Demand>(largest_of_all(ranks_, own));
+      return static_cast<Demand>(largest_of_all(ranks_, own));
     };
-    if (states_wanted_) run.save = [this](const RunState& state) { save(state); };
+    if (states_wanted_) run.save = [this](const RunState& state, bool stopping) { save(state, stopping); };
   }
 
   std::optional<RunState> stopped_at;
@@ -37,22 +37,20 @@ class StateKeeper {
  private:
   /// Without anyone to take a checkpoint, there is nothing to do on the way.
   Demand answer(Demand demand) const {
-    return demand == Demand::save && !observer_.checkpoint ? Demand::go_on : demand;
+    return demand == Demand::save && !observer_.save ? Demand::go_on : demand;
   }
 
-  void save(const RunState& state) {
-    const bool stopping = demand_ == Demand::save_and_stop;
+  void save(const RunState& state, bool stopping) {
     const auto start = std::chrono::steady_clock::now();
-    if (observer_.checkpoint) observer_.checkpoint(state, stopping);
+    if (observer_.save) observer_.save(state, stopping);
     control_.saved(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
     if (stopping) stopped_at = state;
   }
 
   RunControl& control_;
-  const FemObserver& observer_;
+  const RunObserver& observer_;
   Ranks ranks_;
   bool states_wanted_;
-  Demand demand_ = Demand::go_on;
 };
 
 FemPosition position_of(const RollingSystem& system, const RunResult& run, const PositionSamples& samples) {
@@ -105,19 +103,22 @@ RollingSystem fem_system(const CaseSpec& spec, const std::filesystem::path& fold
   return RollingSystem(model);
 }
 
-FemSolution solve_fem(const RollingSystem& system, const FemObserver& observer, const FemOptions& options,
+FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer, const FemOptions& options,
                       std::optional<RunState> begun) {
-  RunControl control(options.times, options.wishes);
+  Control& asked = control_or_none(options.control);
+  RunControl control(options.times, asked);
   StateKeeper states(control, observer, options);
-  RunObserver run_observer;
-  run_observer.stop = &control.preload_stop();
+  RunObserver run_observer = observer;
   run_observer.preload = [&](double residual, double wanted, int iterations) {
-    control.watch_preload();
-    if (observer.preload) observer.preload(residual, wanted, iterations);
+    asked.detail("preload: residual {:.1e} (wanted {:.0e}), {} iterations", residual, wanted, iterations);
+    return !control.must_stop();
   };
-  run_observer.history = observer.history;
-  run_observer.progress = observer.rolling;
-  run_observer.frame = observer.frame;
+  if (!observer.progress)
+    run_observer.progress = [&](double fraction, const HistoryRow& row) {
+      asked.progress("rolling", fraction);
+      asked.detail("rolling: x {:.1f} mm, F_z {:.2f} kN, F_x/F_z {:.3f}, p_max {:.0f} MPa", 1e3 * row.position,
+                   1e-3 * row.forces.z, row.forces.x / row.forces.z, 1e-6 * row.p_max);
+    };
   std::optional<RunResidual> residual;
   run_observer.finished = [&](const RollingState& state) {
     if (observer.finished) observer.finished(state);

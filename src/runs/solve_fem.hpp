@@ -2,7 +2,6 @@
 // The finite element solution of a case as values: from a system that is ready for computing to patch, stresses and
 // summary. Nothing is written, printed or installed here; files are made by an observer (runs/write_fem_result.hpp).
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -15,21 +14,9 @@
 
 namespace railstrata {
 
-/// What can be followed while a case is solved. Any may be empty.
-struct FemObserver {
-  std::function<void(double residual, double wanted, int iterations)> preload;  ///< after each Newton step
-  std::function<void(double fraction, const HistoryRow&)> rolling;              ///< how far it is, 0..1
-  std::function<void(const HistoryRow&)> history;                               ///< a row every run.history_interval
-  std::function<void(const RollingSample&)> frame;  ///< evenly spaced, output.series_frames of them
-  /// The state to go on from: on demand, when the run stops (`stopping`), and the last good one before a
-  /// NumericalError. May throw: that ends the run.
-  std::function<void(const RunState&, bool stopping)> checkpoint;
-  std::function<void(const RollingState&)> finished;  ///< the last state of a rolling that was not stopped
-};
-
 struct FemOptions {
   RunTimes times;
-  RunWishes wishes;
+  Control* control = nullptr;          ///< asked between two steps; progress: "rolling"
   const RailBefore* before = nullptr;  ///< what earlier wheels have left in the rail; none: nothing
   bool residual = true;                ///< with run.plasticity: what the run leaves in the rail
   Ranks ranks = {};                    ///< that solve the case together; positions are for rank 0 alone
@@ -58,11 +45,12 @@ struct FemSolution {
 RollingSystem fem_system(const CaseSpec& spec, const std::filesystem::path& folder);
 
 /// Preload, rolling (if the case rolls), means and stresses at every wanted position. `begun`: the state that an
-/// earlier run of the same system has left; the results then have the bits of a run in one go. summary.run.threads is
-/// the number of threads of the calling thread (core/parallel.hpp), commit that of the program.
+/// earlier run of the same system has left; the results then have the bits of a run in one go. `observer`: its preload
+/// and demand are the control's. summary.run.threads is the number of threads of the calling thread
+/// (core/parallel.hpp), commit that of the program.
 /// Throws NumericalError and CaseError as run_rolling does, Interrupted when it is stopped during the preload,
 /// EnvironmentError when the preload takes longer than the limit.
-FemSolution solve_fem(const RollingSystem& system, const FemObserver& observer = {}, const FemOptions& options = {},
+FemSolution solve_fem(const RollingSystem& system, const RunObserver& observer = {}, const FemOptions& options = {},
                       std::optional<RunState> begun = {});
 
 }  // namespace railstrata

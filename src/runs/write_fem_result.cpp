@@ -102,6 +102,17 @@ void write_position(const Model& model, const FemPosition& position, const fs::p
 
 }  // namespace
 
+void save_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, const RunState& state, bool stopping,
+                     const Control& control) {
+  try {
+    write_checkpoint(folder, origin, state);
+    control.info("checkpoint at x = {:.2f} mm", 1e3 * state.stepper.state.axle.x);
+  } catch (const EnvironmentError& e) {
+    if (stopping) throw;
+    control.warn("no checkpoint: {}; the run goes on", e.what());
+  }
+}
+
 // Made when there is something to put in: a run stopped before the rolling leaves none.
 struct FemWriter::GrowingFiles {
   std::optional<HistoryLog> history;
@@ -133,23 +144,15 @@ FemWriter::FemWriter(const RollingSystem& system, fs::path folder, CheckpointOri
 
 FemWriter::~FemWriter() = default;
 
-void FemWriter::observe(FemObserver& observer, std::function<void(const RunState&)> saved,
-                        std::function<void(const std::string&)> warn) {
+void FemWriter::observe(RunObserver& observer, const Control& control) {
   observer.history = [this](const HistoryRow& row) { growing_->history_in(folder_, origin_.provenance).add(row); };
   const CaseSpec& spec = system_.model.spec;
   if (spec.run.rolling && spec.output.patch_series)
     observer.frame = [this](const RollingSample& sample) {
       growing_->series_in(folder_, system_, origin_.provenance).add(sample);
     };
-  observer.checkpoint = [this, saved = std::move(saved), warn = std::move(warn)](const RunState& state, bool stopping) {
-    try {
-      write_checkpoint(folder_, origin_, state);
-    } catch (const EnvironmentError& e) {
-      if (stopping) throw;
-      if (warn) warn(fmt::format("no checkpoint: {}; the run goes on", e.what()));
-      return;
-    }
-    if (saved) saved(state);
+  observer.save = [this, &control](const RunState& state, bool stopping) {
+    save_checkpoint(folder_, origin_, state, stopping, control);
   };
 }
 

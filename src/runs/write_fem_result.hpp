@@ -1,7 +1,6 @@
 #pragma once
 // The files of a finite element run: those that grow while it is solved, and its results.
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
 
@@ -9,6 +8,11 @@
 #include "runs/solve_fem.hpp"
 
 namespace railstrata {
+
+/// Writes checkpoint.h5 and reports it. One that cannot be written is a warning; of a run that stops it throws
+/// EnvironmentError.
+void save_checkpoint(const std::filesystem::path& folder, const CheckpointOrigin& origin, const RunState& state,
+                     bool stopping, const Control& control);
 
 class FemWriter {
  public:
@@ -19,10 +23,8 @@ class FemWriter {
   ~FemWriter();
 
   /// Makes the observer write history.csv, patch.pvd with its frames in patch_series/ (if the case asks for them) and
-  /// checkpoint.h5. The writer must outlive the observer. A checkpoint on the way that cannot be written is reported to
-  /// `warn`, the last one of a run that stops throws EnvironmentError. `saved` hears of every checkpoint.
-  void observe(FemObserver& observer, std::function<void(const RunState&)> saved = {},
-               std::function<void(const std::string&)> warn = {});
+  /// checkpoint.h5, by save_checkpoint. The writer and the control must outlive the observer.
+  void observe(RunObserver& observer, const Control& control);
 
   /// Writes per position (in the folder itself for the last of a finished run, in position_<mm>/ for the others)
   /// summary.json; patch.csv, centre_line.csv, depth_line.csv and two sections a body; patch.vtp, rail_surface.vtp,

@@ -107,8 +107,33 @@ fs::path half_space_reference(const fs::path& folder, std::vector<std::string>& 
   return {};
 }
 
+bool write_page_or_warn(const fs::path& page, const Control& control, const std::function<WrittenPage()>& write) {
+  try {
+    const WrittenPage written = write();
+    report_page(written, control);
+    control.info("everything on one page: {}", page.string());
+    return written.verdict.ok;
+  } catch (const CaseError& e) {
+    control.warn("no report: {}", e.what());
+  } catch (const EnvironmentError& e) {
+    control.warn("no report: {}{}{}", e.what(), e.remedy.empty() ? "" : "\n    remedy: ", e.remedy);
+  }
+  return true;
+}
+
+void report_page(const WrittenPage& page, const Control& control) {
+  for (const std::string& note : page.notes) control.warn("{}", note);
+  const std::string verdict = fmt::format("verdict of the page: {}", page.verdict.text);
+  page.verdict.ok ? control.info("{}", verdict) : control.warn("{}", verdict);
+}
+
 WrittenPage write_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference) {
   return write_framed_report(page, folders, reference, {});
+}
+
+bool add_report(const fs::path& folder, const Control& control) {
+  const fs::path page = folder / "report.html";
+  return write_page_or_warn(page, control, [&] { return write_report(page, {folder}, true); });
 }
 
 WrittenPage write_framed_report(const fs::path& page, const std::vector<fs::path>& folders, bool reference,

@@ -1,18 +1,28 @@
 #pragma once
 // From result folders to a report.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "core/control.hpp"
 #include "report/checks.hpp"
 
 namespace railstrata {
+
 
 /// What the user should know of a page that was written.
 struct WrittenPage {
   ReportVerdict verdict;           ///< the one that stands on the page
   std::vector<std::string> notes;  ///< why there is no reference; why a result may not be that of its case
 };
+
+/// write(), which makes `page`, and reports its notes, its verdict and where it is. Failing, it warns: the results are
+/// there without a page. Returns whether the page's verdict holds, true without a page.
+bool write_page_or_warn(const std::filesystem::path& page, const Control& control,
+                        const std::function<WrittenPage()>& write);
+/// Reports what a written page has to say: its notes and its verdict, a failed one as a warning.
+void report_page(const WrittenPage& page, const Control& control);
 
 /// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that holds
 /// this case already. Of several positions each has the one of the run's folder. Returns the folder; empty, with a note
@@ -23,5 +33,9 @@ std::filesystem::path half_space_reference(const std::filesystem::path& folder, 
 /// finite element result is set against its half-space reference if `reference` says so.
 WrittenPage write_report(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders,
                          bool reference);
+
+/// What `run` and `bem` end with: report.html of a folder, or a warning. Returns whether its verdict holds, true without
+/// a page.
+bool add_report(const std::filesystem::path& folder, const Control& control);
 
 }  // namespace railstrata

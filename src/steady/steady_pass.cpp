@@ -180,7 +180,7 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
   Anderson anderson;
   PassResult out;
   for (;;) {
-    if (limits.stop && *limits.stop) throw Interrupted("stopped in a pass");
+    if (asked_to_stop(limits.control)) throw Interrupted("stopped in a pass");
     follow(contact_strain, state, work);
     response_.apply(work.field);
     out.error = compare(work);

@@ -14,10 +14,10 @@
 // Assumptions: pressure and friction are those of the elastic bodies; a straight rail, layers without sideways ends on
 // a half-space; small strains; the rail is endless and does not grow longer.
 #include <array>
-#include <atomic>
 #include <vector>
 
 #include "core/array.hpp"
+#include "core/control.hpp"
 #include "material/plastic.hpp"
 #include "steady/plastic_strain_response.hpp"
 #include "steady/steady_grid.hpp"
@@ -66,7 +66,7 @@ struct StationState {
 struct PassLimits {
   double tolerance = 1e-4;  ///< of the shear strength
   int iterations = 400;
-  const std::atomic<bool>* stop = nullptr;  ///< true: the pass is given up between two iterations
+  const Control* control = nullptr;  ///< asked to stop, the pass is given up between two iterations
 };
 
 /// A body and its grid; constant, but one pass at a time.

@@ -83,15 +83,15 @@ class Pool {
 
   StudyRunEnd work() {
     while (!pending_.empty() || !running_.empty()) {
-      if (*run_.stop) {
+      if (run_.control->stop) {
         stop();
         break;
       }
-      if (run_.save && run_.save->exchange(false)) pass_on(SIGUSR1);
+      if (run_.control->save.exchange(false)) pass_on(SIGUSR1);
       start_free();
       renew();
       collect();
-      run_.progress(fraction());
+      run_.control->progress("study", fraction());
       if (running_.empty() && !pending_.empty() && looked_ && !run_.wait) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
@@ -183,7 +183,7 @@ class Pool {
       const Running ended = std::move(*r);
       r = running_.erase(r);
       // once it is asked to stop, a case may end in any way: in the preload with an error
-      if (*run_.stop && !has_result(status))
+      if (run_.control->stop && !has_result(status))
         discard(ended);
       else
         finish(ended, status);

@@ -2,11 +2,11 @@
 // Runs the cases of a study, several at a time, each in a process of its own: a case that crashes or is killed takes
 // nothing with it, its memory is given back, and what it does is what `run` and `bem` do, so that any line of the table
 // can be had again by hand.
-#include <atomic>
 #include <filesystem>
 #include <functional>
 #include <vector>
 
+#include "core/control.hpp"
 #include "study/claim.hpp"
 #include "study/study_plan.hpp"
 
@@ -18,9 +18,7 @@ struct StudyRun {
   int jobs = 1, threads = 1;     ///< cases at a time; threads of each
   double lease = kDefaultLease;  ///< of the claims (study/claim.hpp), s
   bool wait = true;  ///< for cases that others compute, to take over those that die; false: they are left to them
-  const std::atomic<bool>* stop = nullptr;        ///< true: the cases end with a checkpoint
-  std::atomic<bool>* save = nullptr;              ///< true: they write a checkpoint; set back here; may be null
-  std::function<void(double fraction)> progress;  ///< of the work of this call
+  Control* control = nullptr;  ///< its stop and save are handed on to the cases, which write checkpoints; must be given
   std::function<void(const StudyCase&, const std::string& fault, double seconds, int done)>
       ended;  ///< a case has ended; fault: empty if it has a result
 };
@@ -35,7 +33,7 @@ std::vector<std::string> resume_command(int threads, const std::filesystem::path
 void require_case_processes();
 
 /// Computes those of these cases that no living process claims, in their order; of the others it waits for the results.
-/// Cases not yet ended when `stop` is set are left for the next time, those by finite elements with a checkpoint to go
+/// Cases not yet ended when the control asks to stop are left for the next time, those by finite elements with a checkpoint to go
 /// on from. Throws EnvironmentError for the disk, CaseError where another
 /// study writes into the folder, after the processes it has started are gone.
 struct StudyRunEnd {

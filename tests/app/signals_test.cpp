@@ -1,4 +1,4 @@
-#include "app/signals.hpp"
+#include "app/control.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,9 +13,9 @@ namespace {
 TEST(Signals, TheFirstSignalAsksAndTheSecondEndsTheProgramWith130) {
   EXPECT_EXIT(  // in a process of its own: the handlers of a process are installed once
       {
-        if (stop_flag()) std::exit(3);
+        if (control_by_signals().stop) std::exit(3);
         std::raise(SIGTERM);
-        if (!stop_flag()) std::exit(1);
+        if (!control_by_signals().stop) std::exit(1);
         std::raise(SIGINT);
         std::exit(2);
       },
@@ -26,10 +26,10 @@ TEST(Signals, InACaseOfAStudyTheSecondAsksTooAndEndsNothing) {
   EXPECT_EXIT(
       {
         ignore_second_signal_in_children();
-        static_cast<void>(stop_flag());
+        control_by_signals();
         std::raise(SIGTERM);
         std::raise(SIGINT);
-        std::exit(stop_flag() ? 3 : 1);
+        std::exit(control_by_signals().stop ? 3 : 1);
       },
       testing::ExitedWithCode(3), "");
 }
@@ -37,9 +37,9 @@ TEST(Signals, InACaseOfAStudyTheSecondAsksTooAndEndsNothing) {
 TEST(Signals, SIGUSR1AsksForACheckpoint) {
   EXPECT_EXIT(
       {
-        static_cast<void>(stop_flag());
+        control_by_signals();
         std::raise(SIGUSR1);
-        std::exit(save_flag().exchange(false) && !save_flag() && !stop_flag() ? 3 : 1);
+        std::exit(control().save.exchange(false) && !control().save && !control().stop ? 3 : 1);
       },
       testing::ExitedWithCode(3), "");
 }

@@ -206,7 +206,7 @@ TEST(SlowRanks, RunACaseToTheBitsOfOne) {
   const auto observed = [](std::vector<RollingSample>& frames, RestartState& saved) {
     RunObserver observer;
     observer.frame = [&](const RollingSample& sample) { frames.push_back(sample); };
-    observer.save = [&](const RunState& state) { saved = state.stepper; };
+    observer.save = [&](const RunState& state, bool) { saved = state.stepper; };
     observer.demand = [asked = 0]() mutable { return ++asked == 9 ? Demand::save : Demand::go_on; };
     return observer;
   };

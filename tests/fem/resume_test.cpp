@@ -124,7 +124,7 @@ TEST(Resume, FromTheLastGoodStateToo) {
   const RunResult expected = run_rolling(system, {});
   RunState saved;
   RunObserver observer;
-  observer.save = [&](const RunState& state) { saved = state; };
+  observer.save = [&](const RunState& state, bool) { saved = state; };
   observer.history = [&](const HistoryRow& row) {
     if (row.position > 10e-3) throw NumericalError("a guard");
   };

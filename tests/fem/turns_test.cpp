@@ -124,7 +124,7 @@ TEST(LongTurns, ResumeAcrossTheClosureComputesTheSameBits) {
   RunObserver observer;
   observer.history = [&](const HistoryRow& row) { x = row.position; };
   observer.demand = [&] { return x > roll.closure - 0.02 ? Demand::save_and_stop : Demand::go_on; };
-  observer.save = [&](const RunState& state) { saved = state; };
+  observer.save = [&](const RunState& state, bool) { saved = state; };
   EXPECT_TRUE(run_rolling(system, observer).stopped);
   ASSERT_GT(saved.stepper.state.axle.psi, 0.9 * kTurn);
   ASSERT_LT(saved.stepper.state.axle.x, roll.closure - 0.5 * roll.spec.run.window);

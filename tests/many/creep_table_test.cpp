@@ -170,11 +170,11 @@ TEST(CreepTable, HasTheSameBitsForAnyThreadsAndAfterAStop) {
     forces.push_back(table.table().numbers[number(table.table(), "force_x")].values);
   }
   EXPECT_EQ(forces[0], forces[1]);
-  std::atomic<bool> stop = false;
+  Control control;
   CreepTable begun(ball(), {}, axes);
   CreepTableOptions how = coarse();
-  how.stop = &stop;
-  how.solved = [&](std::size_t done) { stop = done >= 5; };
+  how.control = &control;
+  how.solved = [&](std::size_t done) { control.stop = done >= 5; };
   begun.solve(how);
   EXPECT_GT(begun.missing(), 0u);
   CreepTable resumed(ball(), {}, axes);

@@ -60,9 +60,10 @@ TEST(Sweep, IsRefusedIfNoCaseTakesItsValues) {
 
 TEST(Sweep, LeavesOutWhatHasNotBegunWhenItIsStopped) {
   std::vector<SweepCase> cases = plan_sweep(base(), {}, {{"drive.traction_coefficient", {"0.1", "0.2"}}});
-  const std::atomic<bool> stop{true};
+  Control control;
+  control.stop = true;
   SweepOptions options = coarse();
-  options.stop = &stop;
+  options.control = &control;
   run_sweep(cases, options);
   EXPECT_FALSE(cases[0].done || cases[1].done);
 }

@@ -14,36 +14,37 @@ RunTimes begun_ago(double seconds) {
 
 }  // namespace
 
-TEST(RunControl, WithoutWishesAndTimesItGoesOn) {
-  RunControl control({}, {});
+TEST(RunControl, AskedForNothingItGoesOn) {
+  Control nobody;
+  RunControl control({}, nobody);
   EXPECT_EQ(control.demand(), Demand::go_on);
-  control.watch_preload();
-  EXPECT_FALSE(control.preload_stop());
+  EXPECT_FALSE(control.must_stop());
 }
 
-TEST(RunControl, AWishToSaveIsFollowedOnce) {
-  std::atomic<bool> save{true};
-  RunControl control({}, {nullptr, &save});
+TEST(RunControl, ARequestToSaveIsFollowedOnce) {
+  Control asked;
+  asked.save = true;
+  RunControl control({}, asked);
   EXPECT_EQ(control.demand(), Demand::save);
-  EXPECT_FALSE(save);
+  EXPECT_FALSE(asked.save);
   EXPECT_EQ(control.demand(), Demand::go_on);
 }
 
-TEST(RunControl, AWishToStopIsNotTheLimit) {
-  std::atomic<bool> stop{false};
-  RunControl control({}, {&stop, nullptr});
+TEST(RunControl, ARequestToStopIsNotTheLimit) {
+  Control asked;
+  RunControl control({}, asked);
   EXPECT_EQ(control.demand(), Demand::go_on);
-  stop = true;
+  asked.stop = true;
   EXPECT_EQ(control.demand(), Demand::save_and_stop);
-  control.watch_preload();
-  EXPECT_TRUE(control.preload_stop());
+  EXPECT_TRUE(control.must_stop());
   EXPECT_FALSE(control.limit_reached());
 }
 
 TEST(RunControl, CheckpointsComeWhenTheirTimeIsOver) {
   RunTimes times = begun_ago(11);
   times.checkpoint_every = 10;
-  RunControl control(times, {});
+  Control nobody;
+  RunControl control(times, nobody);
   EXPECT_EQ(control.demand(), Demand::save);
   control.saved(0.1);
   EXPECT_EQ(control.demand(), Demand::go_on);
@@ -52,13 +53,13 @@ TEST(RunControl, CheckpointsComeWhenTheirTimeIsOver) {
 TEST(RunControl, TheLimitLeavesTimeForTwoCheckpoints) {
   RunTimes times = begun_ago(50);
   times.limit = 100;
-  RunControl early(times, {});
+  Control nobody;
+  RunControl early(times, nobody);
   EXPECT_EQ(early.demand(), Demand::go_on);
   early.saved(26);  // 50 + 2 x 26 is more than 100
   EXPECT_EQ(early.demand(), Demand::save_and_stop);
   EXPECT_TRUE(early.limit_reached());
-  early.watch_preload();
-  EXPECT_TRUE(early.preload_stop());
+  EXPECT_TRUE(early.must_stop());
 }
 
 }  // namespace railstrata

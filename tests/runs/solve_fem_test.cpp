@@ -39,11 +39,11 @@ TEST(SolveFem, StoppedByTheFlagItGoesOnFromItsStateToTheSameBits) {
   EXPECT_FALSE(whole.state);
   ASSERT_EQ(whole.positions.size(), 2u);
 
-  std::atomic<bool> stop{false};
-  FemObserver observer;
-  observer.history = [&](const HistoryRow& row) { stop = row.position > 9e-3; };  // its last sample
+  Control control;
+  RunObserver observer;
+  observer.history = [&](const HistoryRow& row) { control.stop = row.position > 9e-3; };  // its last sample
   FemOptions options;
-  options.wishes.stop = &stop;
+  options.control = &control;
   FemSolution first = solve_fem(system, observer, options);
   EXPECT_TRUE(first.stopped);
   EXPECT_FALSE(first.limit_reached);
@@ -95,9 +95,10 @@ TEST(SlowSolveFem, GivesTheNumbersOfDamageThatHalfSpacesGive) {
 }
 
 TEST(SolveFem, StoppedDuringThePreloadItIsInterrupted) {
-  const std::atomic<bool> stop{true};
+  Control control;
+  control.stop = true;
   FemOptions options;
-  options.wishes.stop = &stop;
+  options.control = &control;
   EXPECT_THROW(solve_fem(fem_system(small_case().spec, "."), {}, options), Interrupted);
 }
 
@@ -109,19 +110,20 @@ TEST(SolveFem, APreloadBeyondTheTimeLimitIsAnEnvironmentError) {
 
 TEST(SolveFem, AWishToSaveGivesOneCheckpointAndIsSetBack) {
   const RollingSystem system = fem_system(small_case().spec, ".");
-  std::atomic<bool> save{true};
+  Control control;
+  control.save = true;
   int checkpoints = 0;
-  FemObserver observer;
-  observer.checkpoint = [&](const RunState& state, bool stopping) {
+  RunObserver observer;
+  observer.save = [&](const RunState& state, bool stopping) {
     ++checkpoints;
     EXPECT_FALSE(stopping);
     EXPECT_GT(state.stepper.dt, 0);
   };
   FemOptions options;
-  options.wishes.save = &save;
+  options.control = &control;
   EXPECT_FALSE(solve_fem(system, observer, options).stopped);
   EXPECT_EQ(checkpoints, 1);
-  EXPECT_FALSE(save);
+  EXPECT_FALSE(control.save);
 }
 
 }  // namespace railstrata

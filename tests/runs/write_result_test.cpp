@@ -78,15 +78,17 @@ HalfSpaceSolution solve_and_write(const fs::path& folder, const std::vector<std:
 TEST_F(WriteResult, AWriterThatObservesARunLeavesItsFilesAndNoCheckpoint) {
   const RollingSystem system = fem_system(run_checks::small_case().spec, ".");
   FemWriter writer(system, folder, {"sha", "program", {"a case"}});
-  FemObserver observer;
+  RunObserver observer;
   int saved = 0;
-  writer.observe(observer, [&](const RunState&) {
-    ++saved;
+  Control control;
+  control.save = true;
+  control.on_info = [&](const std::string& text) {
+    saved += text.starts_with("checkpoint at x = ");
     EXPECT_TRUE(fs::exists(checkpoint_file(folder)));
-  });
-  std::atomic<bool> save{true};
+  };
+  writer.observe(observer, control);
   FemOptions options;
-  options.wishes.save = &save;
+  options.control = &control;
   const FemSolution solution = solve_fem(system, observer, options);
   EXPECT_EQ(saved, 1);
   EXPECT_EQ(read_csv(folder / "history.csv").rows(), solution.history.size());  // before the results are written
@@ -105,20 +107,20 @@ TEST_F(WriteResult, ACheckpointThatCannotBeWrittenIsAWarningUnlessTheRunStops) {
   const RollingSystem system = fem_system(run_checks::small_case({"output.patch_series=false"}).spec, ".");
   const fs::path gone = folder / "gone";
   FemWriter writer(system, gone, {"sha", "program", {}});
-  FemObserver observer;
+  RunObserver observer;
   std::vector<std::string> warnings;
-  writer.observe(observer, {}, [&](const std::string& text) { warnings.push_back(text); });
+  Control control;
+  control.save = true;
+  control.on_warning = [&](const std::string& text) { warnings.push_back(text); };
+  writer.observe(observer, control);
   observer.history = {};
-  std::atomic<bool> save{true};
   FemOptions options;
-  options.wishes.save = &save;
+  options.control = &control;
   EXPECT_FALSE(solve_fem(system, observer, options).stopped);
   ASSERT_EQ(warnings.size(), 1u);
   EXPECT_NE(warnings[0].find("the run goes on"), std::string::npos) << warnings[0];
 
-  std::atomic<bool> stop{false};
-  options.wishes = {&stop, nullptr};
-  observer.rolling = [&](double, const HistoryRow&) { stop = true; };
+  observer.progress = [&](double, const HistoryRow&) { control.stop = true; };
   EXPECT_THROW(solve_fem(system, observer, options), EnvironmentError);
 }
 

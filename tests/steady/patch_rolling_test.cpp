@@ -63,9 +63,10 @@ TEST(PatchRolling, APassThatIsGivenUpLeavesTheState) {
   PatchRolling rolling(patch_grid(.5, .2), 4);
   rolling.body.run_pass(rolling.contact, rolling.state);
   const PassState before = rolling.state;
-  const std::atomic<bool> stop{true};
+  Control control;
+  control.stop = true;
   PassLimits limits;
-  limits.stop = &stop;
+  limits.control = &control;
   EXPECT_THROW(rolling.body.run_pass(rolling.contact, rolling.state, limits), Interrupted);
   EXPECT_EQ(rolling.state.passes, 1);
   EXPECT_EQ(rolling.state.history, before.history);
