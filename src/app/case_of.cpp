@@ -45,4 +45,26 @@ std::filesystem::path output_folder_of(const CommandOptions& options, const Load
   return std::filesystem::path("results") / (name.string() + suffix);
 }
 
+JobOrder job_order_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix, bool resume) {
+  return {output_folder_of(options, loaded, suffix),
+          resume,
+          options.force,
+          options.page,
+          {options.command_line, options.threads}};
+}
+
+ExitCode code_of(JobEnd end) {
+  switch (end) {
+    case JobEnd::finished:
+      return ExitCode::ok;
+    case JobEnd::failed_checks:
+      return ExitCode::failed_checks;
+    case JobEnd::out_of_time:
+      return ExitCode::unfinished;
+    case JobEnd::stopped:
+      break;
+  }
+  return ExitCode::interrupted;
+}
+
 }  // namespace railstrata

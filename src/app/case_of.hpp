@@ -5,6 +5,7 @@
 
 #include "app/commands.hpp"
 #include "case/case_file.hpp"
+#include "jobs/job.hpp"
 
 namespace railstrata {
 
@@ -34,5 +35,10 @@ void require_finite_elements(const LoadedCase& loaded);
 /// --out, or results/<case name><suffix>.
 std::filesystem::path output_folder_of(const CommandOptions& options, const LoadedCase& loaded,
                                        const std::string& suffix = {});
+
+/// What any job on the case is asked for on the command line.
+JobOrder job_order_of(const CommandOptions& options, const LoadedCase& loaded, const std::string& suffix, bool resume);
+
+ExitCode code_of(JobEnd end);
 
 }  // namespace railstrata

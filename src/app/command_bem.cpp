@@ -104,7 +104,8 @@ ExitCode command_bem(const CommandOptions& options) {
   for (const std::string& note : solution.result.notes) spdlog::info("{}", note);
   print_summary(solution.summary, options.json);
   spdlog::info("results are in {}", job.out.string());
-  const bool page_ok = !options.page || add_report(job.out, control()), ok = page_ok && all_checks_hold(solution.summary);
+  const bool page_ok = !options.page || add_report(job.out, control()),
+             ok = page_ok && all_checks_hold(solution.summary);
   if (!ok) spdlog::warn("a check failed: read the results with care");
   return ok ? ExitCode::ok : ExitCode::failed_checks;
 }

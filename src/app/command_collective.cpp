@@ -15,9 +15,9 @@
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "judge/row_strength.hpp"
-#include "runs/write_half_space_result.hpp"
 #include "many/collective.hpp"
 #include "many/collective_files.hpp"
+#include "runs/write_half_space_result.hpp"
 #include "runs/write_report.hpp"
 
 namespace railstrata {

@@ -2,11 +2,6 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <chrono>
-#include <cmath>
-#include <fstream>
-#include <iterator>
-
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
@@ -14,58 +9,10 @@
 #include "app/common_options.hpp"
 #include "app/control.hpp"
 #include "app/option_values.hpp"
-#include "io/csv.hpp"
-#include "io/output_file.hpp"
-#include "io/output_folder.hpp"
-#include "io/table_file.hpp"
-#include "many/table_error.hpp"
+#include "study/creep_table_job.hpp"
 
 namespace railstrata {
 namespace {
-
-namespace fs = std::filesystem;
-
-constexpr const char *kTable = "creep_table.h5", *kBegun = "creep_table.begun.h5", *kIdentity = "creep_table.identity";
-
-std::string text_in(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string with_unit(const std::string& name, std::string unit) {
-  for (char& c : unit)
-    if (c == ' ' || c == '/') c = '_';
-  return unit.empty() ? name : name + "_" + unit;
-}
-
-std::vector<CsvColumn> columns_of(const ForceTable& table) {
-  std::vector<CsvColumn> out;
-  std::size_t after = table.points();
-  for (const TableAxis& axis : table.axes) {
-    after /= axis.at.size();
-    out.push_back({with_unit(axis.name, axis.unit), {}});
-    for (std::size_t k = 0; k < table.points(); ++k) out.back().values.push_back(axis.at[k / after % axis.at.size()]);
-  }
-  for (const TableNumber& number : table.numbers) out.push_back({with_unit(number.name, number.unit), number.values});
-  return out;
-}
-
-nlohmann::ordered_json as_json(const CreepTable& table, const TableError& error) {
-  nlohmann::ordered_json out;
-  for (const TableAxis& axis : table.table().axes)
-    out["axes"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"values", axis.at}});
-  out["points"] = table.points();
-  out["missing"] = table.missing();
-  out["faults"] = table.faults();
-  out["interpolation"]["places"] = error.places;
-  for (const TableError::Number& n : error.numbers)
-    out["interpolation"]["numbers"].push_back({{"name", n.name},
-                                               {"unit", n.unit},
-                                               {"largest", n.largest},
-                                               {"mean", n.mean},
-                                               {"of_largest_value", n.scale > 0 ? n.largest / n.scale : 0.0}});
-  return out;
-}
 
 void print(const CreepTable& table, const TableError& error) {
   for (const TableAxis& axis : table.table().axes)
@@ -81,43 +28,6 @@ void print(const CreepTable& table, const TableError& error) {
   for (const std::string& fault : table.faults()) spdlog::warn("{}", fault);
 }
 
-TableRemarks table_remarks(const LoadedCase& base, const TableError& error) {
-  std::string origin, accuracy;
-  for (const std::string& line : table_origin(base)) origin += (origin.empty() ? "" : "; ") + line;
-  for (const TableError::Number& n : error.numbers)
-    accuracy += fmt::format("{}{} {:.3g} {}", accuracy.empty() ? "" : ", ", n.name, n.largest, n.unit);
-  TableRemarks out{{"origin", origin}};
-  if (error.places > 0)
-    out.emplace_back("interpolation_error",
-                     fmt::format("largest differences at {} places: {}", error.places, accuracy));
-  return out;
-}
-
-/// Now and then what is there is kept.
-class Keeper {
- public:
-  Keeper(const CreepTable& table, fs::path file) : table_(table), file_(std::move(file)) {}
-  void now_and_then() {
-    constexpr std::chrono::seconds kApart{20};
-    if (std::chrono::steady_clock::now() - last_ > kApart) keep();
-  }
-  void keep() {
-    write_force_table(file_, table_.table(), {});
-    last_ = std::chrono::steady_clock::now();
-  }
-
- private:
-  const CreepTable& table_;
-  fs::path file_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-ExitCode stopped(Keeper& keeper) {
-  keeper.keep();
-  spdlog::warn("stopped; go on with --resume");
-  return ExitCode::interrupted;
-}
-
 ExitCode command_creep_table(const CommandOptions& options) {
   std::vector<NumberAxis> axes = parse_number_axes("--axis", options.creep_table.axes);
   const LoadedCase base = load_half_space_case_of(options, CaseUse::steady_rolling);
@@ -125,51 +35,19 @@ ExitCode command_creep_table(const CommandOptions& options) {
     spdlog::warn("run.rolling = false has no effect: a creep table is of steady rolling, with the case's friction");
   if (base.spec.transient.kind != TransientKind::none)
     spdlog::warn("[transient] has no effect: a creep table is of steady rolling");
-  CreepTable table(base, options.overrides, std::move(axes));
-  CreepTableOptions how;
-  how.bem.cell = cell_size(options.cell);
-  how.control = &control_by_signals();
-
-  require_table_files();
-  const fs::path out = output_folder_of(options, base, "-creep-table");
-  const bool resume = options.creep_table.resume;
-  const FolderHold hold = prepare_output_folder(out, options.force || resume);
-  const std::string identity = fmt::format("{} {:.17g}\n", case_identity(base), how.bem.cell);
-  if (resume && fs::exists(out / kBegun)) {
-    if (text_in(out / kIdentity) != identity)
-      throw CaseError(fmt::format("{}: no table of this very case", out.string()),
-                      "give the case, the --set and the --cell of its beginning, or another --out without --resume");
-    table.take(read_force_table(out / kBegun));
-  }
-  write_whole_file(out / kIdentity, identity);
-  write_origin(out, base, options.command_line, options.threads);
-  Keeper keeper(table, out / kBegun);
-  spdlog::info("{} points", table.points());
-  how.solved = [&](std::size_t done) {
-    how.control->progress("creep table", static_cast<double>(done) / static_cast<double>(table.points()));
-    keeper.now_and_then();
-  };
-  table.solve(how);
-  how.control->progress("");
-  if (how.control->stop) return stopped(keeper);
-  const TableError error = interpolation_error(table, options.creep_table.places, how);
-  if (how.control->stop) return stopped(keeper);
-  for (const std::string& axis : table.idle_axes())
-    spdlog::warn("--axis {}: no number of the table changes with it", axis);
-  write_force_table(out / kTable, table.table(), table_remarks(base, error));
-  std::vector<std::string> origin = table_origin(base);
-  origin.emplace_back("forces on the wheel: along x, lateral in the contact plane, along its normal; moment about it");
-  write_csv(out / "creep_table.csv", origin, columns_of(table.table()));
-  write_whole_file(out / "creep_table.json", as_json(table, error).dump(2) + "\n");
-  fs::remove(out / kBegun);
-  fs::remove(out / kIdentity);
-  if (options.json)
-    fmt::print("{}\n", as_json(table, error).dump(2));
-  else
-    print(table, error);
-  spdlog::info("results are in {}", out.string());
-  if (table.missing() > 0) spdlog::warn("{} of {} points have no answer", table.missing(), table.points());
-  return table.missing() > 0 ? ExitCode::failed_checks : ExitCode::ok;
+  CreepTableJob job(base,
+                    {job_order_of(options, base, "-creep-table", options.creep_table.resume), options.overrides,
+                     std::move(axes), cell_size(options.cell), options.creep_table.places},
+                    control_by_signals());
+  return code_of(job.carry_out([&] {
+    if (options.json)
+      fmt::print("{}\n", job.json().dump(2));
+    else
+      print(job.table(), job.error());
+    spdlog::info("results are in {}", job.folder().string());
+    if (job.table().missing() > 0)
+      spdlog::warn("{} of {} points have no answer", job.table().missing(), job.table().points());
+  }));
 }
 
 void declare_creep_table(CLI::App& sub, CommandOptions& options) {

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
 #include "app/case_of.hpp"
@@ -31,17 +30,8 @@ void require_stationary(const PassesOptions& options) {
 }
 
 PassOrder order_of(const CommandOptions& options, const LoadedCase& loaded) {
-  PassOrder order;
-  order.folder = output_folder_of(options, loaded, "-passes");
-  order.passes = options.passes.passes;
-  order.resume = options.passes.resume;
-  order.force = options.force;
-  order.page = options.page;
-  order.command = {options.command_line, options.threads};
-  return order;
+  return {job_order_of(options, loaded, "-passes", options.passes.resume), options.passes.passes};
 }
-
-ExitCode code_of(const PassesEnd& end) { return end.converged ? ExitCode::ok : ExitCode::failed_checks; }
 
 ExitCode command_rolled_passes(const CommandOptions& options) {
   if (!options.cell.empty())
@@ -55,10 +45,7 @@ ExitCode command_rolled_passes(const CommandOptions& options) {
   PassOrder order = order_of(options, loaded);
   order.roll_length = roll_length(options.passes);
   order.checkpoint_every = wall_time("--checkpoint-every", options.passes.checkpoint_every);
-  const PassesEnd end = rolled_passes_in_folder(std::move(loaded), order, control_by_signals());
-  if (!end.stopped) return code_of(end);
-  spdlog::warn("stopped in pass {}; go on with --resume", end.passes + 1);
-  return ExitCode::interrupted;
+  return code_of(rolled_passes_in_folder(std::move(loaded), order, control_by_signals()).end);
 }
 
 ExitCode command_passes(const CommandOptions& options) {
@@ -67,10 +54,7 @@ ExitCode command_passes(const CommandOptions& options) {
   LoadedCase loaded = load_half_space_case_of(options, CaseUse::yielding);
   PassOrder order = order_of(options, loaded);
   order.cell = cell_size(options.cell);
-  const PassesEnd end = passes_in_folder(std::move(loaded), order, control_by_signals());
-  if (!end.stopped) return code_of(end);
-  spdlog::warn("stopped after pass {}; go on with --resume", end.passes);
-  return ExitCode::interrupted;
+  return code_of(passes_in_folder(std::move(loaded), order, control_by_signals()).end);
 }
 
 void declare_passes(CLI::App& sub, CommandOptions& options) {

@@ -1,8 +1,6 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <optional>
 #include <utility>
 
 #include "app/case_of.hpp"
@@ -13,9 +11,8 @@
 #include "app/option_values.hpp"
 #include "app/processors.hpp"
 #include "app/summary_text.hpp"
-#include "runs/folder_run.hpp"
 #include "runs/ranked_run.hpp"
-#include "runs/write_report.hpp"
+#include "runs/run_job.hpp"
 
 namespace railstrata {
 namespace {
@@ -25,38 +22,6 @@ void require_resume_alone(const CommandOptions& options) {
   if (!options.case_file.empty() || !options.overrides.empty() || !options.out.empty() || options.force)
     throw CaseError("--resume goes on with the run of a folder as it was begun",
                     "leave out the case, --set, --out and --force; another case is another run");
-}
-
-FolderRun resumed_run(const CommandOptions& options, const Ranks& ranks) {
-  require_resume_alone(options);
-  FolderRun run = resume_run(options.run.resume, ranks);
-  for (const std::string& note : run.notes) spdlog::warn("{}", note);
-  const auto& begun = run.begun->stepper.state;
-  spdlog::info("{}: goes on in {} at x = {:.2f} mm, t = {:.4g} ms", run.loaded.spec.title, run.folder.string(),
-               1e3 * begun.axle.x, 1e3 * begun.time);
-  return run;
-}
-
-FolderRun new_run(const CommandOptions& options, const Ranks& ranks) {
-  LoadedCase loaded = load_case_of(options);
-  const std::filesystem::path out = output_folder_of(options, loaded);
-  FolderRun run = begin_run(std::move(loaded), out, options.force, ranks);
-  spdlog::info("{}: results go to {}", run.loaded.spec.title, out.string());
-  return run;
-}
-
-/// What is left of a solution when its files are written.
-struct RunOutcome {
-  std::vector<Summary> summaries;
-  bool stopped = false, limit_reached = false;
-  std::optional<RunResidual> residual;
-};
-
-RunOutcome solve_and_write(FolderRun& run, const CommandOptions& options, const FemOptions& fem) {
-  const FemSolution solution = solve_in_folder(run, {options.command_line, options.threads}, fem);
-  RunOutcome out{{}, solution.stopped, solution.limit_reached, solution.residual};
-  for (const FemPosition& position : solution.positions) out.summaries.push_back(position.summary);
-  return out;
 }
 
 void report_residual(const RunResidual& residual) {
@@ -79,13 +44,29 @@ ExitCode run_along(const CommandOptions& options, const FemOptions& fem) {
   return ExitCode::ok;
 }
 
-ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem);
+ExitCode run_and_report(const CommandOptions& options, const FemOptions& fem) {
+  const bool resume = !options.run.resume.empty();
+  if (resume) require_resume_alone(options);
+  LoadedCase loaded = resume ? case_to_resume(options.run.resume) : load_case_of(options);
+  JobOrder order = job_order_of(options, loaded, "", resume);
+  if (resume) order.folder = options.run.resume;
+  RunJob job(std::move(loaded), order, fem, control());
+  warn_of_shared_processors(options.threads);
+  const auto show = [&] {
+    for (const Summary& s : job.summaries()) print_summary(s, options.json);
+    if (job.residual()) report_residual(*job.residual());
+  };
+  const JobEnd end = job.carry_out(show);
+  if (end == JobEnd::failed_checks) spdlog::warn("a check failed: read the results with care");
+  if (end == JobEnd::stopped || end == JobEnd::out_of_time) show();
+  return code_of(end);
+}
 
 }  // namespace
 
 ExitCode command_run(const CommandOptions& options) {
   FemOptions fem;
-  fem.control = &control_by_signals();
+  const Control& asked = control_by_signals();
   fem.times.checkpoint_every = wall_time("--checkpoint-every", options.run.checkpoint_every);
   fem.times.limit = wall_time("--max-time", options.run.max_time);
   if (options.run.resume.empty() && options.case_file.empty())
@@ -94,8 +75,8 @@ ExitCode command_run(const CommandOptions& options) {
   MpiRanks mpi;
   fem.ranks = mpi.ranks();
   try {
-    if (mpi.any_asked(fem.control->stop)) throw Interrupted("stopped before the run began; nothing was written");
-    const ExitCode code = fem.ranks.speaks() ? run_and_speak(options, fem) : run_along(options, fem);
+    if (mpi.any_asked(asked.stop)) throw Interrupted("stopped before the run began; nothing was written");
+    const ExitCode code = fem.ranks.speaks() ? run_and_report(options, fem) : run_along(options, fem);
     mpi.leave();
     return code;
   } catch (const EnvironmentError&) {  // of this rank, or what it saw of another
@@ -106,27 +87,6 @@ ExitCode command_run(const CommandOptions& options) {
   }
 }
 
-namespace {
-
-ExitCode run_and_speak(const CommandOptions& options, const FemOptions& fem) {
-  FolderRun run = options.run.resume.empty() ? new_run(options, fem.ranks) : resumed_run(options, fem.ranks);
-  warn_of_shared_processors(options.threads);
-  const RunOutcome outcome = solve_and_write(run, options, fem);
-
-  for (const Summary& s : outcome.summaries) print_summary(s, options.json);
-  if (outcome.residual) report_residual(*outcome.residual);
-  if (outcome.stopped) {
-    spdlog::warn("stopped {}; go on with\n    {}", outcome.limit_reached ? "for --max-time" : "on request",
-                 resume_command(run.folder));
-    return outcome.limit_reached ? ExitCode::unfinished : ExitCode::interrupted;
-  }
-  const bool page_ok = !options.page || add_report(run.folder, control()),
-             all_ok = page_ok && std::all_of(outcome.summaries.begin(), outcome.summaries.end(), all_checks_hold);
-  if (!all_ok) spdlog::warn("a check failed: read the results with care");
-  return all_ok ? ExitCode::ok : ExitCode::failed_checks;
-}
-
-}  // namespace
 namespace {
 
 void declare_run(CLI::App& sub, CommandOptions& options) {

@@ -107,7 +107,7 @@ ExitCode list_cases(const CommandOptions& options, const fs::path& out, std::vec
 
 /// --list and --batch.
 ExitCode report_cases(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
-                    std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
+                      std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
   find_results(out, cases);
   const std::vector<StudyRow> rows = study_rows(out, cases);
   const std::vector<ListedCase> listed = listed_cases(rows, ours, study.spec.cell);
@@ -184,7 +184,9 @@ bool add_study_page(const fs::path& out, const LoadedStudy& study, const Publish
                     const std::vector<StudyRow>& rows) {
   if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return true;
   const fs::path page = out / "report.html";
-  return write_page_or_warn(page, control(), [&] { return WrittenPage{write_study_page(page, study, published, rows), {}}; });
+  return write_page_or_warn(page, control(), [&] {
+    return WrittenPage{write_study_page(page, study, published, rows), {}};
+  });
 }
 
 ExitCode warn_of_faults(const std::vector<StudyRow>& rows) {

@@ -88,7 +88,8 @@ void drive(Call& call) {
   const auto driven = std::make_shared<DrivenMaterial>(
       DrivenMaterial{chosen, law_of(*card, chosen, call.number("depth")), by_stress, {}});
   const MaterialPathTable table = path_of(given_of(call.argument("path")), by_stress);
-  driven->run = run_material(driven->law.material, table, call.whole("increments"), call.whole("cycles"), &call.control);
+  driven->run =
+      run_material(driven->law.material, table, call.whole("increments"), call.whole("cycles"), &call.control);
   call.answer = {{"name", driven->chosen.name},
                  {"notes", driven->law.notes},
                  {"law", law_json(driven->chosen.spec.young, driven->law.material.plastic)},

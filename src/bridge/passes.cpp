@@ -30,7 +30,7 @@ void solve_passes(Call& call) {
   };
   const PassesEnd end = call.flag("rolled") ? rolled_passes_in_folder(*loaded, order, call.control)
                                             : passes_in_folder(*loaded, order, call.control);
-  call.answer = {{"passes", end.passes}, {"stopped", end.stopped}, {"notes", notes}};
+  call.answer = {{"passes", end.passes}, {"stopped", end.end == JobEnd::stopped}, {"notes", notes}};
 }
 
 }  // namespace

@@ -304,8 +304,7 @@ RunResult run_rolling(const RollingSystem& sys, const RunObserver& observer, con
   RunResult out;
   out.elements = sys.model.rail.elements() + sys.model.wheel.elements();
   out.nodes = sys.model.rail.nodes() + sys.model.wheel.nodes();
-  PreloadResult preload =
-      solve_preload(sys, run.preload_tolerance, observer.preload, {}, before, by.ranks);
+  PreloadResult preload = solve_preload(sys, run.preload_tolerance, observer.preload, {}, before, by.ranks);
   out.preload_wall_seconds = preload.wall_seconds;
 
   if (!run.rolling) {

@@ -69,8 +69,8 @@ struct RunObserver {
 /// before: not null: what earlier wheels have left in the rail. Throws NumericalError (NaN, lost contact, a wheel that
 /// stops, no equilibrium), CaseError (wheel too heavy) and Interrupted.
 /// by: what computes the steps; the result of several ranks is the same on all of them, to the last bit, as that of
-/// one. Each has an observer whose functions are empty where they are on the others; its demand and preload answer the same
-/// on all.
+/// one. Each has an observer whose functions are empty where they are on the others; its demand and preload answer the
+/// same on all.
 RunResult run_rolling(const RollingSystem& system, const RunObserver& observer, const RailBefore* before = nullptr,
                       const StepBy& by = {});
 /// Goes on with a run that observer.save was given: result, history and samples have the same bits as those of a run in

@@ -1,22 +1,18 @@
-#include "runs/pass_folder.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <optional>
 #include <utility>
 
 #include "core/faults.hpp"
 #include "core/stop_wish.hpp"
 #include "judge/check_limits.hpp"
-#include "passes/pass_files.hpp"
 #include "passes/pass_plan.hpp"
 #include "passes/pass_way.hpp"
 #include "passes/pass_way_files.hpp"
 #include "passes/pass_words.hpp"
 #include "result/result_table.hpp"
-#include "runs/pass_folder_parts.hpp"
+#include "runs/pass_job.hpp"
 #include "runs/solve_half_space.hpp"
 #include "runs/solve_settings.hpp"
 
@@ -40,40 +36,22 @@ auto with_places(const LoadedCase& loaded, Work&& work) {
   }
 }
 
-/// The passes of one folder.
-class SteadyFolder {
+class SteadyPasses : public PassJob {
  public:
-  SteadyFolder(const PassOrder& order, LoadedCase loaded, Control& control)
-      : order_(order),
-        loaded_(std::move(loaded)),
-        control_(control),
+  SteadyPasses(LoadedCase loaded, const PassOrder& order, Control& control)
+      : PassJob("the case, the --set and the --cell of its beginning", std::move(loaded), order, control),
         rail_(with_places(loaded_, [&] { return rail_of(); })),
         body_(body_of(rail_)) {
     series_.state = body_.virgin();
     series_.cycle = passes_per_cycle(loaded_.spec.passes);
-    require_apart(order_.folder, loaded_);
-  }
-
-  PassesEnd run() {
-    const FolderHold hold = prepare_output_folder(order_.folder, order_.force || order_.resume);
-    order_.resume ? resume() : begin_pass_folder(loaded_, order_, identity());
-    for (const std::string& note : rail_.notes) control_.info("{}", note);
-    for (const std::string& doubt : doubts_) control_.warn("{}", doubt);
-    rail_.notes.insert(rail_.notes.end(), doubts_.begin(), doubts_.end());
     limits_.control = &control_;
-    while (series_.state.passes < order_.passes && !control_.stop && take_pass()) {
-    }
-    if (last_)
-      finish();
-    else if (!control_.stop)
-      control_.info("{}: there already: {}", order_.folder.string(), passes_text(series_.state.passes));
-    return {series_.state.passes, series_.state.passes < order_.passes, converged_ && sound_};
   }
+  int passes() const { return series_.state.passes; }
 
  private:
   RailPasses rail_of() {
     BemOptions bem;
-    bem.cell = order_.cell;
+    bem.cell = wanted_.cell;
     const StopWish wish(&control_.stop);
     std::vector<BemResult> solutions;
     for (const CaseSpec& spec : cases_of_tractions(loaded_.spec)) {
@@ -112,16 +90,27 @@ class SteadyFolder {
     answer_.shakedown = solution.summary.shakedown;
   }
 
-  std::string identity() const {
-    return fmt::format("{} {} {} {}\n", case_identity(loaded_), rail_.grid.nx, rail_.grid.ny, order_.cell);
+  std::string identity() const override {
+    return fmt::format("{} {} {} {}", CaseJob::identity(), rail_.grid.nx, rail_.grid.ny, wanted_.cell);
   }
 
-  void resume() {
-    require_same_passes(order_, identity(), "", "the --set and the --cell");
-    if (!std::filesystem::exists(order_.folder / kPassState)) return;
-    series_ = read_pass_series(order_.folder / kPassState, order_.folder / kPassTable, rail_.grid);
+  void begin() override {
+    PassJob::begin();
+    report_contact();
+  }
+
+  void resume() override {
+    report_contact();
+    if (!std::filesystem::exists(folder() / kPassState)) return;
+    series_ = read_pass_series(folder() / kPassState, folder() / kPassTable, rail_.grid);
     series_.cycle = passes_per_cycle(loaded_.spec.passes);
     if (series_.state.passes > 0) stand(place_of(series_.state.passes));
+  }
+
+  void report_contact() {
+    for (const std::string& note : rail_.notes) control_.info("{}", note);
+    for (const std::string& doubt : doubts_) control_.warn("{}", doubt);
+    rail_.notes.insert(rail_.notes.end(), doubts_.begin(), doubts_.end());
   }
 
   /// Where a wheel runs, and with which of the tractions.
@@ -147,12 +136,13 @@ class SteadyFolder {
     stand(next);
   }
 
-  /// False: it was stopped, and then it has not been.
-  bool take_pass() {
+  bool finished() const override { return series_.state.passes >= wanted_.passes; }
+
+  bool step() override {
     const int pass = series_.state.passes + 1;
     const Place before = place_;
     Field guess = series_.state.residual_strain;
-    report_passes(order_, pass, 0, control_);
+    report(pass, 0);
     drive(pass);
     try {
       last_ = body_.run_pass(strain_, series_.state, limits_);
@@ -170,57 +160,56 @@ class SteadyFolder {
     row.traction = traction_[place_.solution];
     last_row_ = row;
     add_pass(row, *last_, series_);
-    control_.info(
-        "pass {}: accumulated {:.3g}, net {:.3g} at {:.2f} mm; residual stress {:.0f} MPa along, {:.0f} MPa across; "
-        "{} iterations",
-        row.pass, row.largest.accumulated, row.largest.net, 1e3 * row.net_depth, 1e-6 * row.stress[0],
-        1e-6 * row.stress[1], row.iterations);
+    report(row, fmt::format("{} iterations", row.iterations));
     if (!row.converged) {
-      converged_ = false;
+      sound_ = false;
       control_.warn("pass {} has not settled: stresses still change by {:.2g} of the shear strength", row.pass,
                     row.error);
     }
-    constexpr auto kOften = std::chrono::seconds(20);
-    if (Clock::now() - saved_ > kOften) save();
   }
 
   /// Table before state: a table that has gone on is cut when the state is read.
-  void save() {
-    write_pass_table(order_.folder / kPassTable, table_origin(loaded_), series_);
-    write_pass_state(order_.folder / kPassState, table_origin(loaded_), rail_.grid, series_);
-    saved_ = Clock::now();
+  void save() override {
+    write_pass_table(folder() / kPassTable, origin(), series_);
+    write_pass_state(folder() / kPassState, origin(), rail_.grid, series_);
   }
 
-  void finish() {
+  void finish() override {
+    if (!last_) {
+      control_.info("{}: there already: {}", folder().string(), passes_text(passes()));
+      return;
+    }
     save();
     write_results();
-    warn_of_large_strain(last_row_.strain, control_);
-    control_.info("after {}: {} Results are in {}", passes_text(series_.state.passes), answer_.verdict,
-                  order_.folder.string());
-    write_pass_page(order_, answer_.verdict, control_);
+    warn_of_large_strain(last_row_.strain);
+    control_.info("after {}: {} Results are in {}", passes_text(passes()), verdict_, folder().string());
   }
+
+  /// The results are those of the last pass.
+  void stop() override {
+    if (!last_) return;
+    finish();
+    if (order_.page) write_page();
+  }
+  bool write_page() override { return !last_ || PassJob::write_page(); }
+  std::string how_far() const override { return fmt::format("after pass {}", passes()); }
 
   void write_results() {
     const PassWay way = pass_way(rail_, body_, strain_, *last_, series_.state);
     const std::size_t governing = way.points.front().point / static_cast<std::size_t>(rail_.grid.ny);
-    answer_.verdict = pass_words(standing_of(series_, last_row_));
+    answer_.verdict = verdict_ = pass_words(standing_of(series_, last_row_));
     answer_.law = law_words(rail_.rows[governing].law);
     answer_.ductility = loaded_.spec.passes.ductility;
-    write_residual(order_.folder, table_origin(loaded_), rail_, series_, *last_);
-    write_way(order_.folder, table_origin(loaded_), rail_, way);
-    write_section_vtk(order_.folder / "section.vtp", rail_, series_, *last_);
-    write_pass_summary(order_.folder / kPassSummary, loaded_.spec, rail_, series_, *last_, way, answer_);
+    write_residual(folder(), origin(), rail_, series_, *last_);
+    write_way(folder(), origin(), rail_, way);
+    write_section_vtk(folder() / "section.vtp", rail_, series_, *last_);
+    write_pass_summary(folder() / kPassSummary, loaded_.spec, rail_, series_, *last_, way, answer_);
   }
 
-  using Clock = std::chrono::steady_clock;
-  const PassOrder& order_;
-  LoadedCase loaded_;
-  Control& control_;
   PassAnswer answer_;
   std::vector<double> traction_;     ///< of each solution
   std::vector<std::string> doubts_;  ///< of the contact
-  bool sound_ = true;                ///< its checks hold
-  RailPasses rail_;                  ///< fills the four before
+  RailPasses rail_;                  ///< fills the three before
   SteadyBody body_;
   Field strain_;  ///< of the contact at place_
   Place place_;
@@ -228,8 +217,6 @@ class SteadyFolder {
   PassLimits limits_;
   std::optional<PassResult> last_;
   PassRow last_row_;
-  bool converged_ = true;
-  Clock::time_point saved_ = Clock::now();
 };
 
 }  // namespace
@@ -238,7 +225,9 @@ PassesEnd passes_in_folder(LoadedCase loaded, const PassOrder& order, Control& c
   require_steady(loaded);
   require_cell(order.cell);
   loaded.spec.run.rolling = true;  // passes roll, as those by finite elements do
-  return SteadyFolder(order, std::move(loaded), control).run();
+  SteadyPasses job(std::move(loaded), order, control);
+  const JobEnd end = job.carry_out();
+  return {job.passes(), end};
 }
 
 }  // namespace railstrata

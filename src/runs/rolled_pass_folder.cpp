@@ -7,7 +7,7 @@
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/provenance.hpp"
-#include "runs/pass_folder_parts.hpp"
+#include "runs/pass_job.hpp"
 #include "runs/rolled_passes.hpp"
 #include "runs/write_fem_result.hpp"
 
@@ -23,52 +23,47 @@ RolledPasses passes_of(const LoadedCase& loaded, double roll_length) {
   }
 }
 
-/// The passes of one folder.
-class RolledFolder {
+class RolledPassJob : public PassJob {
  public:
-  RolledFolder(const PassOrder& order, LoadedCase loaded, Control& control)
-      : order_(order), loaded_(std::move(loaded)), control_(control), passes_(passes_of(loaded_, order.roll_length)) {
-    require_apart(order_.folder, loaded_);
+  RolledPassJob(LoadedCase loaded, const PassOrder& order, Control& control)
+      : PassJob("the case, the --set and the --roll-length of its beginning, with --engine fem", std::move(loaded),
+                order, control),
+        passes_(passes_of(loaded_, order.roll_length)) {
     fem_.control = &control_;
-    fem_.times.checkpoint_every = order_.checkpoint_every;
+    fem_.times.checkpoint_every = order.checkpoint_every;
+  }
+  int passes() const { return series_.passes; }
+
+ private:
+  std::string identity() const override { return fmt::format("{} fem {}", CaseJob::identity(), wanted_.roll_length); }
+  CheckpointOrigin pass_origin() const {
+    return {fmt::format("{} pass {}", CaseJob::identity(), series_.passes + 1), version_text(), origin()};
   }
 
-  PassesEnd run() {
-    const FolderHold hold = prepare_output_folder(order_.folder, order_.force || order_.resume);
-    order_.resume ? resume() : begin_pass_folder(loaded_, order_, identity());
+  void begin() override {
+    PassJob::begin();
+    report_roll();
+  }
+
+  void resume() override {
+    if (std::filesystem::exists(folder() / kPassState))
+      series_ = read_rolled_series(folder() / kPassState, folder() / kPassTable);
+    begun_ = checkpoint_of_pass();
+    report_roll();
+  }
+
+  void report_roll() const {
     const PassRoll& roll = passes_.roll();
     control_.info("{}: a pass rolls {:.1f} mm, steady from {:.1f} to {:.1f} mm (half-length of the patch {:.2f} mm)",
                   loaded_.spec.title, 1e3 * roll.length, 1e3 * roll.from, 1e3 * roll.to, 1e3 * roll.half_length);
-    while (series_.passes < order_.passes && take_pass()) {
-    }
-    const bool complete = series_.passes >= order_.passes;
-    if (complete) conclude();
-    return {series_.passes, !complete, true};
-  }
-
- private:
-  std::string identity() const { return fmt::format("{} fem {}\n", case_identity(loaded_), order_.roll_length); }
-  CheckpointOrigin origin() const {
-    return {fmt::format("{} pass {}", case_identity(loaded_), series_.passes + 1), version_text(),
-            table_origin(loaded_)};
-  }
-
-  void resume() {
-    require_same_passes(order_, identity(), " by finite elements", "the --set and the --roll-length");
-    if (std::filesystem::exists(order_.folder / kPassState))
-      series_ = read_rolled_series(order_.folder / kPassState, order_.folder / kPassTable);
-    begun_ = checkpoint_of_pass();
   }
 
   /// That of the pass under way; one of the pass before is what a kill has left.
   std::optional<RunState> checkpoint_of_pass() const {
-    const std::filesystem::path& folder = order_.folder;
-    if (!std::filesystem::exists(checkpoint_file(folder)) && !std::filesystem::exists(previous_checkpoint_file(folder)))
-      return {};
+    if (!has_checkpoint(folder())) return {};
     try {
-      FoundCheckpoint found = read_checkpoint(folder, origin().case_sha256);
-      for (const std::string& note : found.notes)
-        control_.warn("{}; the checkpoint before it is taken", note);
+      FoundCheckpoint found = read_checkpoint(folder(), pass_origin().case_sha256);
+      for (const std::string& note : found.notes) control_.warn("{}; the checkpoint before it is taken", note);
       return std::move(found.checkpoint.run);
     } catch (const CaseError&) {
       control_.info("pass {} begins anew", series_.passes + 1);
@@ -78,17 +73,16 @@ class RolledFolder {
 
   RunObserver observer() {
     RunObserver out;
-    out.progress = [this](double fraction, const HistoryRow&) {
-      report_passes(order_, series_.passes + 1, fraction, control_);
-    };
+    out.progress = [this](double fraction, const HistoryRow&) { report(series_.passes + 1, fraction); };
     out.save = [this](const RunState& state, bool stopping) {
-      save_checkpoint(order_.folder, origin(), state, stopping, control_);
+      save_checkpoint(folder(), pass_origin(), state, stopping, control_);
     };
     return out;
   }
 
-  /// False when it was stopped on the way.
-  bool take_pass() {
+  bool finished() const override { return series_.passes >= wanted_.passes; }
+
+  bool step() override {
     std::optional<RolledPasses::Pass> pass;
     fem_.times.begun = std::chrono::steady_clock::now();
     try {
@@ -101,32 +95,25 @@ class RolledFolder {
 
   void keep(const RolledPasses::Pass& pass) {
     const PassRow& row = pass.row;
-    control_.info(
-        "pass {}: accumulated {:.3g}, net {:.3g} at {:.2f} mm; residual stress {:.0f} MPa along, {:.0f} MPa across; "
-        "uneven by {:.2g}",
-        row.pass, row.largest.accumulated, row.largest.net, 1e3 * row.net_depth, 1e-6 * row.stress[0],
-        1e-6 * row.stress[1], pass.uneven);
+    report(row, fmt::format("uneven by {:.2g}", pass.uneven));
     if (pass.uneven > kLargestUnevenness)
       control_.warn("pass {}: plastic strain differs by {:.2g} of itself along the steady stations", row.pass,
                     pass.uneven);
-    const std::filesystem::path& folder = order_.folder;
-    write_rolled_table(folder / kPassTable, table_origin(loaded_), series_);  // before the state, which cuts it
-    write_rolled_result(folder, table_origin(loaded_), loaded_.spec, passes_.roll(), series_, pass, pass.loops);
-    write_rolled_state(folder / kPassState, table_origin(loaded_), series_);
-    remove_checkpoints(folder);
-    warn_of_large_strain(row.strain, control_);
+    write_rolled_table(folder() / kPassTable, origin(), series_);  // before the state, which cuts it
+    write_rolled_result(folder(), origin(), loaded_.spec, passes_.roll(), series_, pass, pass.loops);
+    write_rolled_state(folder() / kPassState, origin(), series_);
+    remove_checkpoints(folder());
+    warn_of_large_strain(row.strain);
   }
 
-  void conclude() {
+  void finish() override {
     const PassVerdict verdict = verdict_of(series_.table);
-    control_.info("after {}: {}; net strain {:.3g} per pass; results are in {}", passes_text(series_.passes),
-                  words(verdict.kind), verdict.rate, order_.folder.string());
-    write_pass_page(order_, words(verdict.kind), control_);
+    verdict_ = words(verdict.kind);
+    control_.info("after {}: {}; net strain {:.3g} per pass; results are in {}", passes_text(passes()), verdict_,
+                  verdict.rate, folder().string());
   }
+  std::string how_far() const override { return fmt::format("in pass {}", passes() + 1); }
 
-  const PassOrder& order_;
-  LoadedCase loaded_;
-  Control& control_;
   RolledPasses passes_;
   FemOptions fem_;
   RolledSeries series_;
@@ -136,7 +123,9 @@ class RolledFolder {
 }  // namespace
 
 PassesEnd rolled_passes_in_folder(LoadedCase loaded, const PassOrder& order, Control& control) {
-  return RolledFolder(order, std::move(loaded), control).run();
+  RolledPassJob job(std::move(loaded), order, control);
+  const JobEnd end = job.carry_out();
+  return {job.passes(), end};
 }
 
 }  // namespace railstrata

@@ -1,6 +1,6 @@
 #pragma once
-// When a run saves its state and when it stops: what is asked from outside, the time between checkpoints, the time limit
-// of a batch queue.
+// When a run saves its state and when it stops: what is asked from outside, the time between checkpoints, the time
+// limit of a batch queue.
 #include <chrono>
 
 #include "core/control.hpp"

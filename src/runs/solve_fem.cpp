@@ -36,9 +36,7 @@ class StateKeeper {
 
  private:
   /// Without anyone to take a checkpoint, there is nothing to do on the way.
-  Demand answer(Demand demand) const {
-    return demand == Demand::save && !observer_.save ? Demand::go_on : demand;
-  }
+  Demand answer(Demand demand) const { return demand == Demand::save && !observer_.save ? Demand::go_on : demand; }
 
   void save(const RunState& state, bool stopping) {
     const auto start = std::chrono::steady_clock::now();

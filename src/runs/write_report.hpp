@@ -10,7 +10,6 @@
 
 namespace railstrata {
 
-
 /// What the user should know of a page that was written.
 struct WrittenPage {
   ReportVerdict verdict;           ///< the one that stands on the page
@@ -34,8 +33,8 @@ std::filesystem::path half_space_reference(const std::filesystem::path& folder, 
 WrittenPage write_report(const std::filesystem::path& page, const std::vector<std::filesystem::path>& folders,
                          bool reference);
 
-/// What `run` and `bem` end with: report.html of a folder, or a warning. Returns whether its verdict holds, true without
-/// a page.
+/// What `run` and `bem` end with: report.html of a folder, or a warning. Returns whether its verdict holds, true
+/// without a page.
 bool add_report(const std::filesystem::path& folder, const Control& control);
 
 }  // namespace railstrata

@@ -287,11 +287,6 @@ void recover(const fs::path& out, const std::vector<StudyCase>& cases, double le
   remove_half_tables(out, lease);
 }
 
-bool has_checkpoint(const fs::path& working) {
-  std::error_code error;
-  return fs::exists(checkpoint_file(working), error) || fs::exists(previous_checkpoint_file(working), error);
-}
-
 bool take_over(const fs::path& out, const StudyCase& c, const fs::path& working) {
   std::error_code error;
   // of an earlier process of the same name and number, as containers have them

@@ -54,8 +54,6 @@ void recover(const std::filesystem::path& out, const std::vector<StudyCase>& cas
 /// with a checkpoint of this very program, the `working` one; removes the others. False if there is none: then there is
 /// no working folder.
 bool take_over(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working);
-/// The folder of a case that was stopped has a checkpoint to go on from.
-bool has_checkpoint(const std::filesystem::path& working);
 
 /// The table as it stands, in the order of the cases.
 std::vector<StudyRow> study_rows(const std::filesystem::path& out, const std::vector<StudyCase>& cases);

@@ -15,6 +15,7 @@
 
 #include "core/faults.hpp"
 #include "core/text.hpp"
+#include "io/checkpoint_file.hpp"
 #include "io/kept_inputs.hpp"
 #include "io/output_file.hpp"
 #include "study/child_process.hpp"

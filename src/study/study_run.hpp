@@ -33,9 +33,9 @@ std::vector<std::string> resume_command(int threads, const std::filesystem::path
 void require_case_processes();
 
 /// Computes those of these cases that no living process claims, in their order; of the others it waits for the results.
-/// Cases not yet ended when the control asks to stop are left for the next time, those by finite elements with a checkpoint to go
-/// on from. Throws EnvironmentError for the disk, CaseError where another
-/// study writes into the folder, after the processes it has started are gone.
+/// Cases not yet ended when the control asks to stop are left for the next time, those by finite elements with a
+/// checkpoint to go on from. Throws EnvironmentError for the disk, CaseError where another study writes into the
+/// folder, after the processes it has started are gone.
 struct StudyRunEnd {
   int failures = 0;
   int elsewhere = 0;                       ///< ended meanwhile by other processes

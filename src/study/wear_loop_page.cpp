@@ -61,22 +61,22 @@ ReportSeries curve(const std::string& name, const std::vector<Vec2>& points, Rea
   return s;
 }
 
-ReportChart profile_chart(const WearLoopStory& story, Reach reach) {
+ReportChart profile_chart(const WearLoopHistory& history, Reach reach) {
   ReportChart out{"profile", "The rail before and after", "", kAcross, "z [mm]", {}};
-  out.series = {curve("unworn", story.unworn, reach),
-                curve(after(story.profiles.back()), story.profiles.back().points, reach)};
+  out.series = {curve("unworn", history.unworn, reach),
+                curve(after(history.profiles.back()), history.profiles.back().points, reach)};
   return out;
 }
 
-ReportChart depth_chart(const WearLoopStory& story, Reach reach) {
+ReportChart depth_chart(const WearLoopHistory& history, Reach reach) {
   ReportChart out{
       "depth", "Worn off so far, over the rail", "Along the normal of the unworn profile.", kAcross, "wear depth [µm]",
       {}};
-  for (const WornProfile* p : some_of(story.profiles)) {
-    const std::vector<double> depth = worn_depth(story.unworn, p->points);
+  for (const WornProfile* p : some_of(history.profiles)) {
+    const std::vector<double> depth = worn_depth(history.unworn, p->points);
     ReportSeries s{.name = after(*p), .x = {}, .y = {}, .markers = false};
     for (std::size_t i = reach.from; i < reach.to; ++i) {
-      s.x.push_back(1e3 * story.unworn[i].y);
+      s.x.push_back(1e3 * history.unworn[i].y);
       s.y.push_back(1e6 * depth[i]);
     }
     out.series.push_back(std::move(s));
@@ -85,13 +85,13 @@ ReportChart depth_chart(const WearLoopStory& story, Reach reach) {
 }
 
 /// A line for each load over the passages.
-ReportChart load_chart(const WearLoopStory& story, const std::string& id, const std::string& title,
+ReportChart load_chart(const WearLoopHistory& history, const std::string& id, const std::string& title,
                        const std::string& note, const std::string& label, double WearLoad::*value) {
   ReportChart out{id, title, note, kPassages, label, {}};
-  for (std::size_t k = 0; k < story.loads.size(); ++k) {
-    ReportSeries s{.name = story.loads[k], .x = {}, .y = {}};
-    for (const WearLoad& load : story.contacts)
-      if (load.load == static_cast<int>(k)) {
+  for (std::size_t k = 0; k < history.loads.size(); ++k) {
+    ReportSeries s{.name = history.loads[k], .x = {}, .y = {}};
+    for (const WearLoad& load : history.contacts)
+      if (load.load == static_cast<double>(k + 1)) {
         s.x.push_back(load.passages);
         s.y.push_back(load.*value);
       }
@@ -100,10 +100,10 @@ ReportChart load_chart(const WearLoopStory& story, const std::string& id, const 
   return out;
 }
 
-ReportChart area_chart(const WearLoopStory& story) {
+ReportChart area_chart(const WearLoopHistory& history) {
   ReportChart out{"area", "Area worn off", "", kPassages, "area [mm²]", {}};
   ReportSeries s{.name = "area", .x = {0}, .y = {0}};
-  for (const WornProfile& p : story.profiles) {
+  for (const WornProfile& p : history.profiles) {
     s.x.push_back(p.passages);
     s.y.push_back(1e6 * p.area);
   }
@@ -113,14 +113,14 @@ ReportChart area_chart(const WearLoopStory& story) {
 
 /// The most extreme of the loads of a step, NaN where it has none.
 template <class Better>
-double of_step(const WearLoopStory& story, int step, double WearLoad::*value, Better&& better) {
+double of_step(const WearLoopHistory& history, int step, double WearLoad::*value, Better&& better) {
   double out = std::numeric_limits<double>::quiet_NaN();
-  for (const WearLoad& load : story.contacts)
+  for (const WearLoad& load : history.contacts)
     if (load.step == step && (std::isnan(out) || better(load.*value, out))) out = load.*value;
   return out;
 }
 
-ReportTable steps_table(const WearLoopStory& story) {
+ReportTable steps_table(const WearLoopHistory& history) {
   ReportTable t{.id = "steps",
                 .title = "Steps",
                 .note = "Pressure and T-gamma: the largest of all loads, on the rail before the step.",
@@ -131,12 +131,12 @@ ReportTable steps_table(const WearLoopStory& story) {
     return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
   };
   const auto larger = [](double a, double b) { return a > b; };
-  for (const WornProfile& p : story.profiles) {
-    const std::vector<double> depth = worn_depth(story.unworn, p.points);
+  for (const WornProfile& p : history.profiles) {
+    const std::vector<double> depth = worn_depth(history.unworn, p.points);
     const auto at = static_cast<std::size_t>(std::max_element(depth.begin(), depth.end()) - depth.begin());
-    t.rows.push_back({std::to_string(p.step), p.passages, 1e6 * depth[at], 1e3 * story.unworn[at].y, 1e6 * p.area,
-                      finite(of_step(story, p.step, &WearLoad::pressure, larger)),
-                      finite(of_step(story, p.step, &WearLoad::t_gamma, larger))});
+    t.rows.push_back({std::to_string(p.step), p.passages, 1e6 * depth[at], 1e3 * history.unworn[at].y, 1e6 * p.area,
+                      finite(of_step(history, p.step, &WearLoad::pressure, larger)),
+                      finite(of_step(history, p.step, &WearLoad::t_gamma, larger))});
   }
   return t;
 }
@@ -148,35 +148,18 @@ std::vector<WearLoad> wear_loads(const WearStep& step, double passages_before) {
   for (std::size_t k = 0; k < step.rows.size(); ++k) {
     const CollectiveRow& row = step.rows[k];
     if (!row.solved()) continue;
-    out.push_back({step.rail.step, passages_before, static_cast<int>(k),
+    out.push_back({static_cast<double>(step.rail.step), passages_before, static_cast<double>(k + 1),
                    1e3 * model_to_rail(row.track, row.patches.front().contact.point).y,
                    1e-6 * row.summary.contact.patch.p_max, row.summary.damage.t_gamma});
   }
   return out;
 }
 
-void write_wear_loads(const std::filesystem::path& file, const std::vector<std::string>& origin,
-                      const std::vector<WearLoad>& loads) {
-  std::vector<CsvColumn> columns{{"step", {}},      {"passages", {}},  {"load", {}},
-                                 {"rail_y_mm", {}}, {"p_max_MPa", {}}, {"t_gamma_N", {}}};
-  for (const WearLoad& l : loads) {
-    const double row[] = {
-        static_cast<double>(l.step), l.passages, static_cast<double>(l.load + 1), l.y, l.pressure, l.t_gamma};
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
-  }
-  write_csv(file, origin, columns);
-}
-
-std::vector<WearLoad> read_wear_loads(const std::filesystem::path& file) {
-  const CsvTable table = read_csv(file);
-  const std::vector<double> step = table.column("step"), passages = table.column("passages"),
-                            load = table.column("load"), y = table.column("rail_y_mm"),
-                            pressure = table.column("p_max_MPa"), t_gamma = table.column("t_gamma_N");
-  std::vector<WearLoad> out;
-  for (std::size_t i = 0; i < step.size(); ++i)
-    out.push_back(
-        {static_cast<int>(step[i]), passages[i], static_cast<int>(load[i]) - 1, y[i], pressure[i], t_gamma[i]});
-  return out;
+const StateColumns<WearLoad>& wear_load_columns() {
+  static const StateColumns<WearLoad> columns{{"step", &WearLoad::step},          {"passages", &WearLoad::passages},
+                                              {"load", &WearLoad::load},          {"rail_y_mm", &WearLoad::y},
+                                              {"p_max_MPa", &WearLoad::pressure}, {"t_gamma_N", &WearLoad::t_gamma}};
+  return columns;
 }
 
 std::vector<double> worn_depth(const std::vector<Vec2>& unworn, const std::vector<Vec2>& worn) {
@@ -191,20 +174,20 @@ std::vector<double> worn_depth(const std::vector<Vec2>& unworn, const std::vecto
   return out;
 }
 
-void write_wear_loop_page(const std::filesystem::path& page, const WearLoopStory& story) {
-  if (story.profiles.empty()) return;
-  const Reach reach = reach_of(worn_depth(story.unworn, story.profiles.back().points));
+void write_wear_loop_page(const std::filesystem::path& page, const WearLoopHistory& history) {
+  if (history.profiles.empty()) return;
+  const Reach reach = reach_of(worn_depth(history.unworn, history.profiles.back().points));
   Report report;
-  report.title = fmt::format("{}: wear loop", story.title);
-  report.tables = {steps_table(story)};
+  report.title = fmt::format("{}: wear loop", history.title);
+  report.tables = {steps_table(history)};
   report.charts = {
-      depth_chart(story, reach),
-      profile_chart(story, reach),
-      load_chart(story, "contact", "Where each load touches", "First contact, y from the rail's axis.",
+      depth_chart(history, reach),
+      profile_chart(history, reach),
+      load_chart(history, "contact", "Where each load touches", "First contact, y from the rail's axis.",
                  "contact y [mm]", &WearLoad::y),
-      load_chart(story, "pressure", "Largest pressure of each load", "", "p_max [MPa]", &WearLoad::pressure),
-      load_chart(story, "t-gamma", "T-gamma of each load", "", "T-gamma [N]", &WearLoad::t_gamma),
-      area_chart(story)};
+      load_chart(history, "pressure", "Largest pressure of each load", "", "p_max [MPa]", &WearLoad::pressure),
+      load_chart(history, "t-gamma", "T-gamma of each load", "", "T-gamma [N]", &WearLoad::t_gamma),
+      area_chart(history)};
   write_whole_file(page, report_page(report));
 }
 

@@ -4,26 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "jobs/state_table.hpp"
 #include "study/wear_loop.hpp"
 
 namespace railstrata {
 
-/// One load of a step, on the rail before it: a row of the table, in its units, so that a loop that goes on writes the
-/// bits that it has read.
+/// One load of a step, on the rail before it: a row of wear_loads.csv, in its units.
 struct WearLoad {
-  int step = 0;
+  double step = 0;
   double passages = 0;  ///< of the whole collective before the step
-  int load = 0;         ///< its place in the collective
+  double load = 0;      ///< its number in the collective, from 1
   double y = 0;         ///< mm, of the first contact, from the rail's axis
   double pressure = 0;  ///< MPa, the largest
   double t_gamma = 0;   ///< N
 };
 std::vector<WearLoad> wear_loads(const WearStep& step, double passages_before);
-
-/// A table of numbers, read back for --resume.
-void write_wear_loads(const std::filesystem::path& file, const std::vector<std::string>& origin,
-                      const std::vector<WearLoad>& loads);
-std::vector<WearLoad> read_wear_loads(const std::filesystem::path& file);
+const StateColumns<WearLoad>& wear_load_columns();
 
 /// m, of every point the distance to the worn profile: how deep it has worn, along its normal. The two are of one
 /// loop: nearly the same points, from the same beginning; outside of what has worn it is zero to round-off.
@@ -37,13 +33,13 @@ struct WornProfile {
   std::vector<Vec2> points;
 };
 
-struct WearLoopStory {
+struct WearLoopHistory {
   std::string title;
   std::vector<std::string> loads;     ///< names
   std::vector<Vec2> unworn;           ///< m
   std::vector<WornProfile> profiles;  ///< in order
   std::vector<WearLoad> contacts;
 };
-void write_wear_loop_page(const std::filesystem::path& page, const WearLoopStory& story);
+void write_wear_loop_page(const std::filesystem::path& page, const WearLoopHistory& history);
 
 }  // namespace railstrata

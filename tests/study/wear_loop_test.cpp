@@ -123,11 +123,11 @@ TEST(WearLoopPage, ContactsAreReadBackAndThePageNamesTheLoads) {
   const TemporaryFolder folder;
   const std::filesystem::path out = folder.path();
   const std::vector<WearLoad> loads{
-      {1, 0, 0, 1, 1200, 13}, {1, 0, 1, -2, 800, 2}, {2, 4e3, 0, 4.787483858534468, 1350.0862428485952, 12}};
-  write_wear_loads(out / "loads.csv", {}, loads);
-  const std::vector<WearLoad> back = read_wear_loads(out / "loads.csv");
+      {1, 0, 1, 1, 1200, 13}, {1, 0, 2, -2, 800, 2}, {2, 4e3, 1, 4.787483858534468, 1350.0862428485952, 12}};
+  write_rows(out / "loads.csv", {}, wear_load_columns(), loads);
+  const std::vector<WearLoad> back = read_rows(out / "loads.csv", wear_load_columns());
   ASSERT_EQ(back.size(), 3u);
-  EXPECT_EQ(back[1].load, 1);
+  EXPECT_EQ(back[1].load, 2);
   EXPECT_EQ(back[1].y, -2);
   EXPECT_EQ(back[2].y, loads[2].y) << "to the bit: a loop that goes on writes them again";
   EXPECT_EQ(back[2].pressure, loads[2].pressure);

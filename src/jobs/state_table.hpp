@@ -1,0 +1,45 @@
+#pragma once
+// A state, or a part of it, as a table that is whole or not there: every number of a row is named once, for writing and
+// for reading back. Rows keep the units of their table, so that a job that goes on writes the bits that it has read.
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "io/csv.hpp"
+
+namespace railstrata {
+
+template <class Row>
+struct StateColumn {
+  const char* name;  ///< with its unit
+  double Row::*value;
+};
+
+template <class Row>
+using StateColumns = std::vector<StateColumn<Row>>;
+
+template <class Row>
+void write_rows(const std::filesystem::path& file, const std::vector<std::string>& origin,
+                const StateColumns<Row>& columns, const std::vector<Row>& rows) {
+  std::vector<CsvColumn> table;
+  for (const StateColumn<Row>& column : columns) {
+    table.push_back({column.name, {}});
+    for (const Row& row : rows) table.back().values.push_back(row.*column.value);
+  }
+  write_csv(file, origin, table);
+}
+
+/// Throws CaseError naming the file where a column is missing.
+template <class Row>
+std::vector<Row> read_rows(const std::filesystem::path& file, const StateColumns<Row>& columns) {
+  const CsvTable table = read_csv(file);
+  std::vector<Row> rows(table.rows());
+  for (const StateColumn<Row>& column : columns) {
+    const std::vector<double> values = table.column(column.name);
+    for (std::size_t k = 0; k < rows.size(); ++k) rows[k].*column.value = values[k];
+  }
+  return rows;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,127 @@
+#include "study/creep_table_job.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "io/csv.hpp"
+#include "io/output_file.hpp"
+#include "io/table_file.hpp"
+
+namespace railstrata {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr JobKind kCreepTable{"creep table", "creep_table.identity",
+                              "the case, the --set and the --cell of its beginning"};
+constexpr const char *kTable = "creep_table.h5", *kBegun = "creep_table.begun.h5";
+
+JobOrder order_in(JobOrder order) {
+  order.force = order.force || order.resume;
+  order.resume = order.resume && fs::exists(order.folder / kBegun);
+  return order;
+}
+
+std::string with_unit(const std::string& name, std::string unit) {
+  for (char& c : unit)
+    if (c == ' ' || c == '/') c = '_';
+  return unit.empty() ? name : name + "_" + unit;
+}
+
+std::vector<CsvColumn> columns_of(const ForceTable& table) {
+  std::vector<CsvColumn> out;
+  std::size_t after = table.points();
+  for (const TableAxis& axis : table.axes) {
+    after /= axis.at.size();
+    out.push_back({with_unit(axis.name, axis.unit), {}});
+    for (std::size_t k = 0; k < table.points(); ++k) out.back().values.push_back(axis.at[k / after % axis.at.size()]);
+  }
+  for (const TableNumber& number : table.numbers) out.push_back({with_unit(number.name, number.unit), number.values});
+  return out;
+}
+
+TableRemarks remarks_of(const std::vector<std::string>& lines, const TableError& error) {
+  std::string origin, accuracy;
+  for (const std::string& line : lines) origin += (origin.empty() ? "" : "; ") + line;
+  for (const TableError::Number& n : error.numbers)
+    accuracy += fmt::format("{}{} {:.3g} {}", accuracy.empty() ? "" : ", ", n.name, n.largest, n.unit);
+  TableRemarks out{{"origin", origin}};
+  if (error.places > 0)
+    out.emplace_back("interpolation_error",
+                     fmt::format("largest differences at {} places: {}", error.places, accuracy));
+  return out;
+}
+
+}  // namespace
+
+CreepTableJob::CreepTableJob(LoadedCase base, CreepTableOrder order, Control& control)
+    : CaseJob(kCreepTable, std::move(base), order_in(order), control),
+      table_(loaded_, order.overrides, std::move(order.axes)),
+      places_(order.places) {
+  require_table_files();
+  options_.bem.cell = order.cell;
+  options_.control = &control;
+  options_.solved = [this](std::size_t done) {
+    control_.progress("creep table", static_cast<double>(done) / static_cast<double>(table_.points()));
+    save_when_due();
+  };
+}
+
+std::string CreepTableJob::identity() const {
+  return fmt::format("{} {:.17g}", CaseJob::identity(), options_.bem.cell);
+}
+
+void CreepTableJob::begin() {
+  CaseJob::begin();
+  control_.info("{} points", table_.points());
+}
+
+void CreepTableJob::resume() {
+  table_.take(read_force_table(folder() / kBegun));
+  control_.info("{} points", table_.points());
+}
+
+bool CreepTableJob::step() {
+  table_.solve(options_);
+  control_.progress("");
+  if (!control_.stop) error_ = interpolation_error(table_, places_, options_);
+  solved_ = !control_.stop;
+  return solved_;
+}
+
+void CreepTableJob::save() { write_force_table(folder() / kBegun, table_.table(), {}); }
+
+void CreepTableJob::finish() {
+  for (const std::string& axis : table_.idle_axes())
+    control_.warn("--axis {}: no number of the table changes with it", axis);
+  write_force_table(folder() / kTable, table_.table(), remarks_of(origin(), error_));
+  std::vector<std::string> remarks = origin();
+  remarks.emplace_back("forces on the wheel: along x, lateral in the contact plane, along its normal; moment about it");
+  write_csv(folder() / "creep_table.csv", remarks, columns_of(table_.table()));
+  write_whole_file(folder() / "creep_table.json", json().dump(2) + "\n");
+  fs::remove(folder() / kBegun);
+  fs::remove(folder() / kCreepTable.identity);
+  sound_ = table_.missing() == 0;
+}
+
+nlohmann::ordered_json CreepTableJob::json() const {
+  nlohmann::ordered_json out;
+  for (const TableAxis& axis : table_.table().axes)
+    out["axes"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"values", axis.at}});
+  out["points"] = table_.points();
+  out["missing"] = table_.missing();
+  out["faults"] = table_.faults();
+  out["interpolation"]["places"] = error_.places;
+  for (const TableError::Number& n : error_.numbers)
+    out["interpolation"]["numbers"].push_back({{"name", n.name},
+                                               {"unit", n.unit},
+                                               {"largest", n.largest},
+                                               {"mean", n.mean},
+                                               {"of_largest_value", n.scale > 0 ? n.largest / n.scale : 0.0}});
+  return out;
+}
+
+}  // namespace railstrata
