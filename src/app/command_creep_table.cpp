@@ -35,19 +35,17 @@ ExitCode command_creep_table(const CommandOptions& options) {
     spdlog::warn("run.rolling = false has no effect: a creep table is of steady rolling, with the case's friction");
   if (base.spec.transient.kind != TransientKind::none)
     spdlog::warn("[transient] has no effect: a creep table is of steady rolling");
-  CreepTableJob job(base,
-                    {job_order_of(options, base, "-creep-table", options.creep_table.resume), options.overrides,
-                     std::move(axes), cell_size(options.cell), options.creep_table.places},
-                    control_by_signals());
-  return code_of(job.carry_out([&] {
+  CreepTableOrder order{job_order_of(options, base, "-creep-table", options.creep_table.resume), options.overrides,
+                        std::move(axes), cell_size(options.cell), options.creep_table.places};
+  const auto show = [&](const CreepTable& table, const TableError& error, const nlohmann::ordered_json& json) {
     if (options.json)
-      fmt::print("{}\n", job.json().dump(2));
+      fmt::print("{}\n", json.dump(2));
     else
-      print(job.table(), job.error());
-    spdlog::info("results are in {}", job.folder().string());
-    if (job.table().missing() > 0)
-      spdlog::warn("{} of {} points have no answer", job.table().missing(), job.table().points());
-  }));
+      print(table, error);
+    spdlog::info("results are in {}", order.folder.string());
+    if (table.missing() > 0) spdlog::warn("{} of {} points have no answer", table.missing(), table.points());
+  };
+  return code_of(carry_out_creep_table(base, order, control_by_signals(), show));
 }
 
 void declare_creep_table(CLI::App& sub, CommandOptions& options) {

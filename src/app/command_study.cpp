@@ -7,22 +7,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
 #include "app/mpi_ranks.hpp"
 #include "app/option_values.hpp"
-#include "app/progress.hpp"
 #include "app/shipped_files.hpp"
 #include "app/study_list.hpp"
 #include "core/faults.hpp"
 #include "io/json_text.hpp"
-#include "runs/device_at_hand.hpp"
-#include "runs/write_report.hpp"
-#include "study/study_folder.hpp"
-#include "study/study_page.hpp"
-#include "study/study_results.hpp"
-#include "study/study_run.hpp"
+#include "study/study_job.hpp"
 
 namespace railstrata {
 namespace {
@@ -86,14 +81,6 @@ void print_list(const std::vector<StudyRow>& rows, bool json) {
   }
 }
 
-/// The rows of the cases that this call is to see to.
-std::vector<StudyRow> rows_of(const std::vector<StudyRow>& all, const std::vector<bool>& ours) {
-  std::vector<StudyRow> rows;
-  for (std::size_t k = 0; k < all.size(); ++k)
-    if (ours[k]) rows.push_back(all[k]);
-  return rows;
-}
-
 ExitCode list_cases(const CommandOptions& options, const fs::path& out, std::vector<StudyCase>& cases,
                     const std::vector<bool>& ours) {
   find_results(out, cases);
@@ -115,91 +102,10 @@ ExitCode report_cases(const CommandOptions& options, const LoadedStudy& study, c
   return ExitCode::ok;
 }
 
-/// Half-spaces first: they show mistakes in seconds.
-std::vector<const StudyCase*> cases_to_do(const fs::path& out, const std::vector<StudyCase>& cases,
-                                          const std::vector<bool>& ours) {
-  std::vector<const StudyCase*> to_do;
-  for (std::size_t k = 0; k < cases.size(); ++k)
-    if (ours[k] && !is_done(out, cases[k])) to_do.push_back(&cases[k]);
-  std::stable_sort(to_do.begin(), to_do.end(),
-                   [](const StudyCase* a, const StudyCase* b) { return a->engine < b->engine; });
-  return to_do;
-}
-
-/// Before the first case: where a card is missing each of them would fail by itself.
-void require_devices(const fs::path& out, std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
-  const auto asks = [](const StudyCase& c) {
-    return c.engine == Engine::fem && c.loaded.spec.run.device != ComputeDevice::cpu;
-  };
-  if (std::none_of(cases.begin(), cases.end(), asks)) return;
-  find_results(out, cases);
-  for (const StudyCase* c : cases_to_do(out, cases, ours))
-    if (asks(*c)) require_device(c->loaded);
-}
-
-/// Computes what is to do; study.csv follows every case that ends. Returns how many are left to other processes.
-std::ptrdiff_t compute(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
-                       const std::vector<StudyCase>& cases, const std::vector<bool>& ours, double lease) {
-  const std::vector<const StudyCase*> to_do = cases_to_do(out, cases, ours);
-  StudyRun run;
-  run.out = out;
-  run.cell = study.spec.cell;
-  run.jobs = std::clamp(options.study.jobs > 0 ? options.study.jobs : options.threads, 1,
-                        std::max(1, static_cast<int>(to_do.size())));
-  run.threads = std::max(1, options.threads / run.jobs);
-  run.control = &control();
-  spdlog::info("{}: {} cases, {} of them to compute, {} at a time with {} thread{} each; results go to {}",
-               study.spec.title, std::count(ours.begin(), ours.end(), true), to_do.size(), run.jobs, run.threads,
-               run.threads == 1 ? "" : "s", out.string());
-  run.ended = [&](const StudyCase& c, const std::string& fault, double seconds, int done) {
-    if (fault.empty())
-      control().info("{}/{}  {}: {}", done, to_do.size(), c.label(), duration_text(seconds));
-    else
-      control().warn("{}/{}  {} failed: {}", done, to_do.size(), c.label(), fault);
-    write_study_table(out / "study.csv", study_origin(study), study_rows(out, cases));
-  };
-  run.lease = lease;
-  run.wait = options.study.wait;
-  const StudyRunEnd end = run_cases(run, to_do);
-  control().progress("");
-  if (end.elsewhere > 0) spdlog::info("{} more cases have been computed by other processes", end.elsewhere);
-  for (const StudyCase* c : end.not_ours)
-    if (const std::string owner = claimed_by(claim_file(out, *c)); !owner.empty())
-      spdlog::info("{}: left to {}", c->label(), owner);
-  return static_cast<std::ptrdiff_t>(end.not_ours.size());
-}
-
-/// Cases that had a result and have none now.
-std::ptrdiff_t lost(const std::vector<StudyRow>& rows, std::ptrdiff_t left) {
-  const std::ptrdiff_t to_do =
-      std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "to do"; });
-  if (to_do > left)
-    spdlog::warn("{} results have been replaced meanwhile: another study, with other settings, writes into this folder",
-                 to_do - left);
-  return std::max<std::ptrdiff_t>(0, to_do - left);
-}
-
-/// Returns whether its verdict holds.
-bool add_study_page(const fs::path& out, const LoadedStudy& study, const Published& published,
-                    const std::vector<StudyRow>& rows) {
-  if (std::none_of(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state == "done"; })) return true;
-  const fs::path page = out / "report.html";
-  return write_page_or_warn(page, control(), [&] {
-    return WrittenPage{write_study_page(page, study, published, rows), {}};
-  });
-}
-
-ExitCode warn_of_faults(const std::vector<StudyRow>& rows) {
-  const auto faults = std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return !r.fault.empty(); });
-  if (faults == 0) return ExitCode::ok;
-  spdlog::warn("{} of {} cases failed or have a failed check: see the column fault", faults, rows.size());
-  return ExitCode::failed_checks;
-}
-
 ExitCode command_study(const CommandOptions& options) {
   const LoadedStudy study = study_of(options);
   cell_size(study.spec.cell);  // what is wrong is reported before the first case
-  const Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
+  Published published = study.spec.published.empty() ? Published{} : load_published(study.spec.published);
   const Shard shard = parse_shard(options.study.shard);
   const double lease = lease_of(options);
   std::vector<StudyCase> cases = plan_study(study, options.overrides);
@@ -211,28 +117,18 @@ ExitCode command_study(const CommandOptions& options) {
   if (options.study.list || !options.study.batch.empty()) return report_cases(options, study, out, cases, ours);
   if (options.study.dry_run) return list_cases(options, out, cases, ours);
 
-  require_case_processes();
-  require_devices(out, cases, ours);
+  StudyOrder order{{out, false, options.force, options.page, {options.command_line, options.threads}},
+                   options.overrides,
+                   options.study.jobs,
+                   lease,
+                   options.study.wait};
   start_children_alone();
-  control_by_signals();  // what is claimed is given back
-  const FolderHold hold =
-      prepare_study_folder(out, study, options.command_line, options.overrides, options.threads, options.force);
-  recover(out, cases, lease);
-  find_results(out, cases);
-  const std::ptrdiff_t left = compute(options, study, out, cases, ours, lease);
-
-  const std::vector<StudyRow> rows = study_rows(out, cases);
-  write_study_table(out / "study.csv", study_origin(study), rows);
-  if (control().stop) {
-    spdlog::warn("stopped; the same command goes on where it was");
-    return ExitCode::interrupted;
-  }
-  const bool page_ok = !options.page || add_study_page(out, study, published, rows);
-  const std::vector<StudyRow> our_rows = rows_of(rows, ours);
-  print_list(our_rows, options.json);
-  spdlog::info("the table is {}", (out / "study.csv").string());
-  const ExitCode code = warn_of_faults(our_rows);
-  return page_ok && lost(our_rows, left) == 0 ? code : ExitCode::failed_checks;
+  const auto show = [&](const std::vector<StudyRow>& rows) {
+    print_list(rows, options.json);
+    spdlog::info("the table is {}", (out / "study.csv").string());
+  };
+  return code_of(carry_out_study(study, std::move(published), std::move(cases), std::move(ours), std::move(order),
+                                 control_by_signals(), show));
 }
 
 void declare_study(CLI::App& sub, CommandOptions& options) {

@@ -29,10 +29,8 @@ ExitCode command_wear_loop(const CommandOptions& options) {
   const WearLoopOrder order{job_order_of(options, loaded, "-wear-loop", options.wear_loop.resume),
                             options.wear_loop.steps, options.wear_loop.passages,
                             depth_option(options.wear_loop.max_wear), cell_size(options.cell)};
-  WearLoopJob job(std::move(loaded), order, control_by_signals());
-  return code_of(job.carry_out([&] {
+  return code_of(carry_out_wear_loop(std::move(loaded), order, control_by_signals(), [&](const WornRail& rail) {
     if (!options.json) return;
-    const WornRail& rail = job.rail();
     const nlohmann::ordered_json end{{"steps", rail.step},
                                      {"passages", rail.passages},
                                      {"worn_area_m2", rail.area},

@@ -4,17 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 namespace railstrata {
-
-std::string duration_text(double seconds) {
-  const long s = std::lround(std::max(0.0, seconds));
-  if (s < 60) return fmt::format("{} s", s);
-  if (s < 3600) return fmt::format("{} min {:02} s", s / 60, s % 60);
-  return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
-}
 
 std::string progress_bar(const std::string& what, double fraction, double elapsed, double begin) {
   constexpr int kWidth = 30;

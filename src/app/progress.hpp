@@ -3,10 +3,9 @@
 #include <chrono>
 #include <string>
 
-namespace railstrata {
+#include "jobs/duration_text.hpp"
 
-/// "3 s", "2 min 05 s", "1 h 02 min".
-std::string duration_text(double seconds);
+namespace railstrata {
 
 /// "rolling  [#####-----]  50 %  12 s left": fraction in [0, 1], elapsed: seconds since it was `begin` (a resumed run
 /// does not begin at 0).

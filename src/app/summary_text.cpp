@@ -209,4 +209,8 @@ void print_summary(const Summary& s, bool json) {
   std::fputs((json ? summary_json(s).dump(2) + "\n" : summary_text(s)).c_str(), stdout);
 }
 
+bool all_checks_hold(const Summary& s) {
+  return std::all_of(s.checks.begin(), s.checks.end(), [](const Check& k) { return k.ok; });
+}
+
 }  // namespace railstrata

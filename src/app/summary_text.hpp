@@ -13,4 +13,7 @@ std::string summary_text(const Summary& summary);
 /// only in std::ferror(stdout).
 void print_summary(const Summary& summary, bool json);
 
+/// Every check of the result holds.
+bool all_checks_hold(const Summary& summary);
+
 }  // namespace railstrata

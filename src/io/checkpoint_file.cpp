@@ -98,10 +98,6 @@ Checkpoint checkpoint_of(std::string_view bytes, const fs::path& file) {
 
 fs::path checkpoint_file(const fs::path& folder) { return folder / "checkpoint.h5"; }
 fs::path previous_checkpoint_file(const fs::path& folder) { return folder / "checkpoint.h5.previous"; }
-bool has_checkpoint(const fs::path& folder) {
-  std::error_code error;
-  return fs::exists(checkpoint_file(folder), error) || fs::exists(previous_checkpoint_file(folder), error);
-}
 
 void write_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, const RunState& run) {
   const GivesMemoryBack at_the_end;

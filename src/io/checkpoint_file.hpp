@@ -28,8 +28,6 @@ std::string sealed_checkpoint(std::string_view image);
 /// checkpoint.h5 of a result folder, and the one before it.
 std::filesystem::path checkpoint_file(const std::filesystem::path& folder);
 std::filesystem::path previous_checkpoint_file(const std::filesystem::path& folder);
-/// One of them is there.
-bool has_checkpoint(const std::filesystem::path& folder);
 
 /// Writes checkpoint.h5; the one that was there becomes checkpoint.h5.previous. Throws EnvironmentError, and leaves the
 /// old ones as they were.

@@ -2,11 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <utility>
 
 #include "core/faults.hpp"
+#include "core/text.hpp"
 #include "io/folder_kind.hpp"
 #include "io/output_file.hpp"
 #include "io/output_folder.hpp"
@@ -17,11 +16,6 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds kBetweenSaves{20};
 
-std::string text_in(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 }  // namespace
 
 Job::Job(const JobKind& kind, JobOrder order, Control& control)
@@ -30,18 +24,17 @@ Job::Job(const JobKind& kind, JobOrder order, Control& control)
 FolderHold Job::hold() { return prepare_output_folder(folder(), order_.force || order_.resume); }
 
 void Job::require_identity() const {
-  if (kind_.identity && text_in(folder() / kind_.identity) != identity() + "\n")
+  if (kind_.identity && file_text(folder() / kind_.identity) != identity() + "\n")
     throw CaseError(fmt::format("{}: no {} of this very case", folder().string(), kind_.name),
                     fmt::format("give {}, or another --out without --resume", kind_.to_repeat));
 }
 
 JobEnd Job::carry_out(const std::function<void()>& results_are_there) {
   const FolderHold held = hold();
-  remove_parts(folder(), PartsOf::dead);
   try {
     return work(results_are_there);
   } catch (EnvironmentError& e) {
-    if (!e.remedy.empty())
+    if (!e.remedy.empty() && !to_resume().empty())
       e.remedy += has_state() ? fmt::format(", then go on with{}", to_resume())
                               : fmt::format(", then start the {} again with --force", kind_.name);
     throw;
@@ -64,7 +57,7 @@ JobEnd Job::work(const std::function<void()>& results_are_there) {
       control_.progress("");
       stop();
       const std::string far = how_far();
-      control_.warn("stopped{}{}; go on with{}", far.empty() ? "" : " ", far, to_resume());
+      if (!to_resume().empty()) control_.warn("stopped{}{}; go on with{}", far.empty() ? "" : " ", far, to_resume());
       return out_of_time() ? JobEnd::out_of_time : JobEnd::stopped;
     }
     save_when_due();
@@ -87,7 +80,9 @@ CaseJob::CaseJob(const JobKind& kind, LoadedCase loaded, JobOrder order, Control
 
 FolderHold CaseJob::hold() {
   require_apart(folder(), loaded_);
-  return Job::hold();
+  FolderHold held = Job::hold();
+  remove_parts(folder(), PartsOf::dead);
+  return held;
 }
 
 std::string CaseJob::identity() const { return case_identity(loaded_); }

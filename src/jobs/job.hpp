@@ -76,7 +76,7 @@ class Job {
   /// It stopped by itself, for a limit of time.
   virtual bool out_of_time() const { return false; }
 
-  // For "stopped after pass 3; go on with --resume".
+  // For "stopped after pass 3; go on with --resume"; where nothing is to be added, to_resume() is empty.
   virtual std::string how_far() const { return {}; }
   virtual std::string to_resume() const { return " --resume"; }
   /// There is something to go on from.

@@ -1,7 +1,6 @@
 #pragma once
 // The numbers of a result, the same for both engines: what summary.json holds. SI units; a number that does not apply
 // is NaN (null in the file). result/result_table.hpp has a row for each: its key, unit, words and where it is shown.
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -213,9 +212,5 @@ struct Summary {
   std::vector<Check> checks;
   std::vector<Warning> warnings;
 };
-
-inline bool all_checks_hold(const Summary& s) {
-  return std::all_of(s.checks.begin(), s.checks.end(), [](const Check& check) { return check.ok; });
-}
 
 }  // namespace railstrata

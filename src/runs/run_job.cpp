@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <utility>
 
 #include "core/faults.hpp"
@@ -67,6 +66,7 @@ void RunJob::resume() {
     control_.warn(
         "the run was begun by RailStrata {}, this is {}: it goes on, but not with the bits of a run in one go",
         earlier.program, checkpoint_.program);
+  remove_parts(folder(), PartsOf::dead);
   checkpoint_.provenance = earlier.provenance;
   begun_ = std::move(found.checkpoint.run);
   const auto& state = begun_->stepper.state;
@@ -88,6 +88,8 @@ bool RunJob::step() {
     control_.progress("writing", 1);
     writer.write(solution);
     for (const FemPosition& position : solution.positions) summaries_.push_back(position.summary);
+    for (const Summary& s : summaries_)
+      for (const Check& check : s.checks) sound_ = sound_ && check.ok;
     residual_ = std::move(solution.residual);
     out_of_time_ = solution.limit_reached;
     finished_ = !solution.stopped;
@@ -97,7 +99,6 @@ bool RunJob::step() {
         fmt::format("{}\n    the last good state is in {}", e.what(), checkpoint_file(folder()).string()));
   }
   system_.reset();
-  sound_ = std::all_of(summaries_.begin(), summaries_.end(), all_checks_hold);
   return finished_;
 }
 

@@ -102,6 +102,11 @@ void write_position(const Model& model, const FemPosition& position, const fs::p
 
 }  // namespace
 
+bool has_checkpoint(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(checkpoint_file(folder), error) || fs::exists(previous_checkpoint_file(folder), error);
+}
+
 void save_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, const RunState& state, bool stopping,
                      const Control& control) {
   try {

@@ -14,6 +14,9 @@ namespace railstrata {
 void save_checkpoint(const std::filesystem::path& folder, const CheckpointOrigin& origin, const RunState& state,
                      bool stopping, const Control& control);
 
+/// A checkpoint is there, or the one before it.
+bool has_checkpoint(const std::filesystem::path& folder);
+
 class FemWriter {
  public:
   /// Into a folder that is there. `origin.provenance`: "#" lines of the tables. `begun`: the state that the run goes on

@@ -17,11 +17,11 @@ namespace fs = std::filesystem;
 
 constexpr JobKind kCreepTable{"creep table", "creep_table.identity",
                               "the case, the --set and the --cell of its beginning"};
-constexpr const char *kTable = "creep_table.h5", *kBegun = "creep_table.begun.h5";
+constexpr const char *kForceTable = "creep_table.h5", *kBegunTable = "creep_table.begun.h5";
 
 JobOrder order_in(JobOrder order) {
   order.force = order.force || order.resume;
-  order.resume = order.resume && fs::exists(order.folder / kBegun);
+  order.resume = order.resume && fs::exists(order.folder / kBegunTable);
   return order;
 }
 
@@ -55,73 +55,92 @@ TableRemarks remarks_of(const std::vector<std::string>& lines, const TableError&
   return out;
 }
 
+class CreepTableJob : public CaseJob {
+ public:
+  CreepTableJob(LoadedCase base, CreepTableOrder order, Control& control)
+      : CaseJob(kCreepTable, std::move(base), order_in(order), control),
+        table_(loaded_, order.overrides, std::move(order.axes)),
+        places_(order.places) {
+    require_table_files();
+    options_.bem.cell = order.cell;
+    options_.control = &control;
+    options_.solved = [this](std::size_t done) {
+      control_.progress("creep table", static_cast<double>(done) / static_cast<double>(table_.points()));
+      save_when_due();
+    };
+  }
+  nlohmann::ordered_json json() const {
+    nlohmann::ordered_json out;
+    for (const TableAxis& axis : table_.table().axes)
+      out["axes"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"values", axis.at}});
+    out["points"] = table_.points();
+    out["missing"] = table_.missing();
+    out["faults"] = table_.faults();
+    out["interpolation"]["places"] = error_.places;
+    for (const TableError::Number& n : error_.numbers)
+      out["interpolation"]["numbers"].push_back({{"name", n.name},
+                                                 {"unit", n.unit},
+                                                 {"largest", n.largest},
+                                                 {"mean", n.mean},
+                                                 {"of_largest_value", n.scale > 0 ? n.largest / n.scale : 0.0}});
+    return out;
+  }
+  const CreepTable& table() const { return table_; }
+  const TableError& error() const { return error_; }
+
+ private:
+  std::string identity() const override { return fmt::format("{} {:.17g}", CaseJob::identity(), options_.bem.cell); }
+
+  void begin() override {
+    CaseJob::begin();
+    control_.info("{} points", table_.points());
+  }
+
+  void resume() override {
+    table_.take(read_force_table(folder() / kBegunTable));
+    control_.info("{} points", table_.points());
+  }
+
+  bool step() override {
+    table_.solve(options_);
+    control_.progress("");
+    if (!control_.stop) error_ = interpolation_error(table_, places_, options_);
+    solved_ = !control_.stop;
+    return solved_;
+  }
+
+  void save() override { write_force_table(folder() / kBegunTable, table_.table(), {}); }
+
+  void finish() override {
+    for (const std::string& axis : table_.idle_axes())
+      control_.warn("--axis {}: no number of the table changes with it", axis);
+    write_force_table(folder() / kForceTable, table_.table(), remarks_of(origin(), error_));
+    std::vector<std::string> remarks = origin();
+    remarks.emplace_back(
+        "forces on the wheel: along x, lateral in the contact plane, along its normal; moment about it");
+    write_csv(folder() / "creep_table.csv", remarks, columns_of(table_.table()));
+    write_whole_file(folder() / "creep_table.json", json().dump(2) + "\n");
+    fs::remove(folder() / kBegunTable);
+    fs::remove(folder() / kCreepTable.identity);
+    sound_ = table_.missing() == 0;
+  }
+
+  bool finished() const override { return solved_; }
+
+  CreepTable table_;
+  CreepTableOptions options_;
+  int places_;
+  TableError error_;
+  bool solved_ = false;
+};
+
 }  // namespace
 
-CreepTableJob::CreepTableJob(LoadedCase base, CreepTableOrder order, Control& control)
-    : CaseJob(kCreepTable, std::move(base), order_in(order), control),
-      table_(loaded_, order.overrides, std::move(order.axes)),
-      places_(order.places) {
-  require_table_files();
-  options_.bem.cell = order.cell;
-  options_.control = &control;
-  options_.solved = [this](std::size_t done) {
-    control_.progress("creep table", static_cast<double>(done) / static_cast<double>(table_.points()));
-    save_when_due();
-  };
-}
-
-std::string CreepTableJob::identity() const {
-  return fmt::format("{} {:.17g}", CaseJob::identity(), options_.bem.cell);
-}
-
-void CreepTableJob::begin() {
-  CaseJob::begin();
-  control_.info("{} points", table_.points());
-}
-
-void CreepTableJob::resume() {
-  table_.take(read_force_table(folder() / kBegun));
-  control_.info("{} points", table_.points());
-}
-
-bool CreepTableJob::step() {
-  table_.solve(options_);
-  control_.progress("");
-  if (!control_.stop) error_ = interpolation_error(table_, places_, options_);
-  solved_ = !control_.stop;
-  return solved_;
-}
-
-void CreepTableJob::save() { write_force_table(folder() / kBegun, table_.table(), {}); }
-
-void CreepTableJob::finish() {
-  for (const std::string& axis : table_.idle_axes())
-    control_.warn("--axis {}: no number of the table changes with it", axis);
-  write_force_table(folder() / kTable, table_.table(), remarks_of(origin(), error_));
-  std::vector<std::string> remarks = origin();
-  remarks.emplace_back("forces on the wheel: along x, lateral in the contact plane, along its normal; moment about it");
-  write_csv(folder() / "creep_table.csv", remarks, columns_of(table_.table()));
-  write_whole_file(folder() / "creep_table.json", json().dump(2) + "\n");
-  fs::remove(folder() / kBegun);
-  fs::remove(folder() / kCreepTable.identity);
-  sound_ = table_.missing() == 0;
-}
-
-nlohmann::ordered_json CreepTableJob::json() const {
-  nlohmann::ordered_json out;
-  for (const TableAxis& axis : table_.table().axes)
-    out["axes"].push_back({{"name", axis.name}, {"unit", axis.unit}, {"values", axis.at}});
-  out["points"] = table_.points();
-  out["missing"] = table_.missing();
-  out["faults"] = table_.faults();
-  out["interpolation"]["places"] = error_.places;
-  for (const TableError::Number& n : error_.numbers)
-    out["interpolation"]["numbers"].push_back({{"name", n.name},
-                                               {"unit", n.unit},
-                                               {"largest", n.largest},
-                                               {"mean", n.mean},
-                                               {"of_largest_value", n.scale > 0 ? n.largest / n.scale : 0.0}});
-  return out;
+JobEnd carry_out_creep_table(LoadedCase base, CreepTableOrder order, Control& control, const CreepTableShown& at_end) {
+  CreepTableJob job(std::move(base), std::move(order), control);
+  return job.carry_out([&] {
+    if (at_end) at_end(job.table(), job.error(), job.json());
+  });
 }
 
 }  // namespace railstrata

@@ -1,6 +1,7 @@
 #pragma once
 // A table of creep forces as a job: creep_table.h5 (io/table_file.hpp), creep_table.csv and creep_table.json at the
 // end, creep_table.begun.h5 on the way.
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,29 +19,10 @@ struct CreepTableOrder : JobOrder {
   int places = 200;       ///< where interpolation is compared with direct solutions
 };
 
-/// Unsound where points have no answer. To resume where no table was begun begins one.
-class CreepTableJob : public CaseJob {
- public:
-  /// Throws CaseError as CreepTable, and where tables cannot be written here.
-  CreepTableJob(LoadedCase base, CreepTableOrder order, Control& control);
-  const CreepTable& table() const { return table_; }
-  const TableError& error() const { return error_; }
-  nlohmann::ordered_json json() const;  ///< creep_table.json
-
- private:
-  std::string identity() const override;
-  void begin() override;
-  void resume() override;
-  bool finished() const override { return solved_; }
-  bool step() override;
-  void save() override;
-  void finish() override;
-
-  CreepTable table_;
-  CreepTableOptions options_;
-  int places_;
-  TableError error_;
-  bool solved_ = false;
-};
+/// Carries the table out; checks fail where points have no answer. To resume where no table was begun begins one.
+/// `at_end`: called with the table, its error and creep_table.json. Throws CaseError as CreepTable.
+using CreepTableShown = std::function<void(const CreepTable&, const TableError&, const nlohmann::ordered_json&)>;
+JobEnd carry_out_creep_table(LoadedCase base, CreepTableOrder order, Control& control,
+                             const CreepTableShown& at_end = {});
 
 }  // namespace railstrata

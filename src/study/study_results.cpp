@@ -16,6 +16,7 @@
 #include "io/provenance.hpp"
 #include "io/result_folder.hpp"
 #include "report/view.hpp"
+#include "runs/write_fem_result.hpp"
 
 namespace railstrata {
 namespace {

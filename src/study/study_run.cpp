@@ -15,9 +15,9 @@
 
 #include "core/faults.hpp"
 #include "core/text.hpp"
-#include "io/checkpoint_file.hpp"
 #include "io/kept_inputs.hpp"
 #include "io/output_file.hpp"
+#include "runs/write_fem_result.hpp"
 #include "study/child_process.hpp"
 #include "study/study_results.hpp"
 

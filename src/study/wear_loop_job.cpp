@@ -10,16 +10,28 @@
 #include "geometry/profile_texts.hpp"
 #include "io/output_file.hpp"
 #include "many/collective_files.hpp"
+#include "study/wear_loop_page.hpp"
 
 namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
+/// A step as a row of wear_loop.csv, in its units.
+struct WearLoopRow {
+  double step = 0, passages = 0;  ///< with this step
+  double deepest = 0;             ///< um, of this step
+  double area = 0;                ///< mm², worn off with this step
+  double area_error = 0;          ///< of this step's area against that of its streamlines
+  double gauge = 0;               ///< mm, on the rail before the step; so the following
+  double pressure = 0;            ///< MPa, largest of all loads
+  double t_gamma = 0;             ///< N, likewise
+  double first_y = 0;             ///< mm, where the first load touches, from the rail's axis
+};
 using R = WearLoopRow;
 
 constexpr JobKind kWearLoop{"wear loop", "wear_loop.id", "the case and the --set of its beginning"};
-constexpr const char *kTable = "wear_loop.csv", *kLoads = "wear_loads.csv", *kUnworn = "unworn.csv",
-                     *kPage = "report.html", *kProfile = "rail_profile.csv";
+constexpr const char *kWearTable = "wear_loop.csv", *kWearLoads = "wear_loads.csv", *kUnworn = "unworn.csv",
+                     *kWearPage = "report.html", *kProfile = "rail_profile.csv";
 constexpr const char* kStepFiles[] = {kProfile, "rail_profile.prr", "rail_profile.ban", "collective.csv",
                                       "rail_damage.csv"};
 const StateColumns<R> kColumns{
@@ -52,126 +64,146 @@ void write_exchange_profiles(const fs::path& folder, const std::string& title, c
   write_whole_file(folder / "rail_profile.ban", miniprof_text(ProfileKind::rail, rail.points, remark));
 }
 
+class WearLoopJob : public CaseJob {
+ public:
+  WearLoopJob(LoadedCase loaded, WearLoopOrder order, Control& control)
+      : CaseJob(kWearLoop, std::move(loaded), order, control),
+        wanted_(std::move(order)),
+        original_(place(loaded_.spec, loaded_.folder())) {
+    options_.collective.bem.cell = wanted_.cell;
+    options_.collective.bem.cache = &cache_;
+    options_.collective.shakedown = false;
+    options_.collective.control = &control;
+    options_.max_wear = wanted_.max_wear;
+    rail_ = unworn(original_, wanted_.cell);
+    plan_collective(loaded_.spec);
+  }
+  const WornRail& rail() const { return rail_; }
+
+ private:
+  fs::path step_folder(double step) const { return folder() / fmt::format("step_{:04}", static_cast<int>(step)); }
+
+  /// Nothing of an older loop stands beside the steps of this one.
+  void remove_older_steps() const {
+    std::error_code ignored;
+    for (int step = 1; fs::is_directory(step_folder(step), ignored); ++step) {
+      for (const char* name : kStepFiles) fs::remove(step_folder(step) / name, ignored);
+      if (fs::is_empty(step_folder(step), ignored)) fs::remove(step_folder(step), ignored);
+    }
+  }
+
+  std::vector<std::string> older_results() const override { return {kWearPage, kWearLoads}; }
+
+  void begin() override {
+    remove_older_steps();
+    CaseJob::begin();
+    write_worn_profile(folder() / kUnworn, origin(), rail_.points);
+    write_rows(folder() / kWearTable, origin(), kColumns, rows_);
+  }
+
+  void resume() override {
+    rows_ = read_rows(folder() / kWearTable, kColumns);
+    if (rows_.empty()) return;
+    const WearLoopRow& last = rows_.back();
+    rail_ = {static_cast<int>(last.step), last.passages, 1e-6 * last.area, {}, step_folder(last.step) / kProfile};
+    rail_.points = read_worn_profile(rail_.file);
+    if (fs::exists(folder() / kWearLoads)) loads_ = read_rows(folder() / kWearLoads, wear_load_columns());
+    std::erase_if(loads_, [&](const WearLoad& load) { return load.step > last.step; });  // a kill came before their row
+  }
+
+  bool finished() const override {
+    return (wanted_.steps > 0 && rail_.step >= wanted_.steps) ||
+           (wanted_.passages > 0 && rail_.passages >= wanted_.passages * (1 - 1e-12));
+  }
+
+  bool step() override {
+    options_.passages_left = wanted_.passages > 0 ? wanted_.passages - rail_.passages : 0;
+    WearStep step = wear_step(loaded_.spec, loaded_.folder(), original_, rail_, options_);
+    control_.progress("");
+    if (step.stopped) return false;
+    keep(std::move(step));
+    return true;
+  }
+
+  /// The table last: a step counts once its row is there.
+  void keep(WearStep step) {
+    const fs::path in = step_folder(step.rail.step);
+    make_folder(in);
+    step.rail.file = in / kProfile;
+    write_worn_profile(step.rail.file, origin(), step.rail.points);
+    write_exchange_profiles(in, loaded_.spec.title, step.rail);
+    write_collective_table(in / "collective.csv", origin(), step.rows);
+    write_rail_damage(in / "rail_damage.csv", origin(), step.damage);
+    for (const WearLoad& load : wear_loads(step, rail_.passages)) loads_.push_back(load);
+    write_rows(folder() / kWearLoads, origin(), wear_load_columns(), loads_);
+    rows_.push_back(row_of(step, rail_.area));
+    write_rows(folder() / kWearTable, origin(), kColumns, rows_);
+    warn_of_jump();
+    const WearLoopRow& row = rows_.back();
+    control_.info("step {}: {:.4g} passages, deepest {:.3g} µm, {:.4g} mm² in all, p_max {:.0f} MPa", row.step,
+                  row.passages, row.deepest, row.area, row.pressure);
+    rail_ = std::move(step.rail);
+    rail_.points = read_worn_profile(rail_.file);  // as resume() has them
+  }
+
+  /// A jump of the contact shows a step that is too long: wear of that depth moves it further than it can follow.
+  void warn_of_jump() const {
+    constexpr double kJump = 0.2;
+    if (rows_.size() < 2) return;
+    const double before = rows_[rows_.size() - 2].pressure, now = rows_.back().pressure;
+    if (std::abs(now / before - 1) > kJump)
+      control_.warn(
+          "step {}: the largest pressure jumped from {:.0f} to {:.0f} MPa: the steps are too long, profiles from here "
+          "on "
+          "are not to be trusted; start anew with a smaller --max-wear",
+          rows_.back().step, before, now);
+  }
+
+  void finish() override {
+    control_.info("{:.6g} passages in {} steps, {:.4g} mm² worn off; the worn rail: {}", rail_.passages, rail_.step,
+                  1e6 * rail_.area, rail_.file.string());
+  }
+
+  bool write_page() override {
+    if (rows_.empty()) return true;
+    WearLoopHistory history;
+    history.title = loaded_.spec.title;
+    for (std::size_t i = 0; i < loaded_.spec.loads.size(); ++i) history.loads.push_back(load_name(loaded_.spec, i));
+    history.unworn = read_worn_profile(folder() / kUnworn);
+    for (const WearLoopRow& row : rows_)
+      history.profiles.push_back({static_cast<int>(row.step), row.passages, 1e-6 * row.area,
+                                  read_worn_profile(step_folder(row.step) / kProfile)});
+    history.contacts = loads_;
+    write_wear_loop_page(folder() / kWearPage, history);
+    control_.info("everything on one page: {}", (folder() / kWearPage).string());
+    return true;
+  }
+
+  void stop() override {
+    if (order_.page) write_page();
+  }
+
+  std::string how_far() const override {
+    return fmt::format("after step {}; what is done is in {}", rail_.step, folder().string());
+  }
+
+  const WearLoopOrder wanted_;
+  Placement original_;
+  InfluenceCache cache_;
+  WearStepOptions options_;
+  WornRail rail_;
+  std::vector<WearLoopRow> rows_;
+  std::vector<WearLoad> loads_;
+};
+
 }  // namespace
 
-WearLoopJob::WearLoopJob(LoadedCase loaded, WearLoopOrder order, Control& control)
-    : CaseJob(kWearLoop, std::move(loaded), order, control),
-      wanted_(std::move(order)),
-      original_(place(loaded_.spec, loaded_.folder())) {
-  options_.collective.bem.cell = wanted_.cell;
-  options_.collective.bem.cache = &cache_;
-  options_.collective.shakedown = false;
-  options_.collective.control = &control;
-  options_.max_wear = wanted_.max_wear;
-  rail_ = unworn(original_, wanted_.cell);
-  plan_collective(loaded_.spec);
-}
-
-fs::path WearLoopJob::step_folder(double step) const {
-  return folder() / fmt::format("step_{:04}", static_cast<int>(step));
-}
-
-/// Nothing of an older loop stands beside the steps of this one.
-void WearLoopJob::remove_older_steps() const {
-  std::error_code ignored;
-  for (int step = 1; fs::is_directory(step_folder(step), ignored); ++step) {
-    for (const char* name : kStepFiles) fs::remove(step_folder(step) / name, ignored);
-    if (fs::is_empty(step_folder(step), ignored)) fs::remove(step_folder(step), ignored);
-  }
-}
-
-std::vector<std::string> WearLoopJob::older_results() const { return {kPage, kLoads}; }
-
-void WearLoopJob::begin() {
-  remove_older_steps();
-  CaseJob::begin();
-  write_worn_profile(folder() / kUnworn, origin(), rail_.points);
-  write_rows(folder() / kTable, origin(), kColumns, rows_);
-}
-
-void WearLoopJob::resume() {
-  rows_ = read_rows(folder() / kTable, kColumns);
-  if (rows_.empty()) return;
-  const WearLoopRow& last = rows_.back();
-  rail_ = {static_cast<int>(last.step), last.passages, 1e-6 * last.area, {}, step_folder(last.step) / kProfile};
-  rail_.points = read_worn_profile(rail_.file);
-  if (fs::exists(folder() / kLoads)) loads_ = read_rows(folder() / kLoads, wear_load_columns());
-  std::erase_if(loads_, [&](const WearLoad& load) { return load.step > last.step; });  // a kill came before their row
-}
-
-bool WearLoopJob::finished() const {
-  return (wanted_.steps > 0 && rail_.step >= wanted_.steps) ||
-         (wanted_.passages > 0 && rail_.passages >= wanted_.passages * (1 - 1e-12));
-}
-
-bool WearLoopJob::step() {
-  options_.passages_left = wanted_.passages > 0 ? wanted_.passages - rail_.passages : 0;
-  WearStep step = wear_step(loaded_.spec, loaded_.folder(), original_, rail_, options_);
-  control_.progress("");
-  if (step.stopped) return false;
-  keep(std::move(step));
-  return true;
-}
-
-/// The table last: a step counts once its row is there.
-void WearLoopJob::keep(WearStep step) {
-  const fs::path in = step_folder(step.rail.step);
-  make_folder(in);
-  step.rail.file = in / kProfile;
-  write_worn_profile(step.rail.file, origin(), step.rail.points);
-  write_exchange_profiles(in, loaded_.spec.title, step.rail);
-  write_collective_table(in / "collective.csv", origin(), step.rows);
-  write_rail_damage(in / "rail_damage.csv", origin(), step.damage);
-  for (const WearLoad& load : wear_loads(step, rail_.passages)) loads_.push_back(load);
-  write_rows(folder() / kLoads, origin(), wear_load_columns(), loads_);
-  rows_.push_back(row_of(step, rail_.area));
-  write_rows(folder() / kTable, origin(), kColumns, rows_);
-  warn_of_jump();
-  const WearLoopRow& row = rows_.back();
-  control_.info("step {}: {:.4g} passages, deepest {:.3g} µm, {:.4g} mm² in all, p_max {:.0f} MPa", row.step,
-                row.passages, row.deepest, row.area, row.pressure);
-  rail_ = std::move(step.rail);
-  rail_.points = read_worn_profile(rail_.file);  // as resume() has them
-}
-
-/// A jump of the contact shows a step that is too long: wear of that depth moves it further than it can follow.
-void WearLoopJob::warn_of_jump() const {
-  constexpr double kJump = 0.2;
-  if (rows_.size() < 2) return;
-  const double before = rows_[rows_.size() - 2].pressure, now = rows_.back().pressure;
-  if (std::abs(now / before - 1) > kJump)
-    control_.warn(
-        "step {}: the largest pressure jumped from {:.0f} to {:.0f} MPa: the steps are too long, profiles from here on "
-        "are not to be trusted; start anew with a smaller --max-wear",
-        rows_.back().step, before, now);
-}
-
-void WearLoopJob::finish() {
-  control_.info("{:.6g} passages in {} steps, {:.4g} mm² worn off; the worn rail: {}", rail_.passages, rail_.step,
-                1e6 * rail_.area, rail_.file.string());
-}
-
-bool WearLoopJob::write_page() {
-  if (rows_.empty()) return true;
-  WearLoopHistory history;
-  history.title = loaded_.spec.title;
-  for (std::size_t i = 0; i < loaded_.spec.loads.size(); ++i) history.loads.push_back(load_name(loaded_.spec, i));
-  history.unworn = read_worn_profile(folder() / kUnworn);
-  for (const WearLoopRow& row : rows_)
-    history.profiles.push_back({static_cast<int>(row.step), row.passages, 1e-6 * row.area,
-                                read_worn_profile(step_folder(row.step) / kProfile)});
-  history.contacts = loads_;
-  write_wear_loop_page(folder() / kPage, history);
-  control_.info("everything on one page: {}", (folder() / kPage).string());
-  return true;
-}
-
-void WearLoopJob::stop() {
-  if (order_.page) write_page();
-}
-
-std::string WearLoopJob::how_far() const {
-  return fmt::format("after step {}; what is done is in {}", rail_.step, folder().string());
+JobEnd carry_out_wear_loop(LoadedCase loaded, const WearLoopOrder& order, Control& control,
+                           const std::function<void(const WornRail&)>& at_end) {
+  WearLoopJob job(std::move(loaded), order, control);
+  return job.carry_out([&] {
+    if (at_end) at_end(job.rail());
+  });
 }
 
 }  // namespace railstrata

@@ -70,7 +70,7 @@ void expect_preload_of_one_rank(const CaseSpec& spec, const std::vector<RanksAnd
   const PreloadResult expected = solve_preload(system, kTolerance);
   for (const auto& [ranks, threads] : counts)
     ThreadRanks(ranks).run(threads, [&, of = ranks](const Ranks& mine) {
-      const PreloadResult found = solve_preload(system, kTolerance, {}, nullptr, {}, nullptr, mine);
+      const PreloadResult found = solve_preload(system, kTolerance, {}, {}, nullptr, mine);
       expect_same_preload(found, expected, std::to_string(mine.rank) + " of " + std::to_string(of) + " ranks");
     });
 }
@@ -163,13 +163,12 @@ TEST(Ranks, StopTogetherInThePreload) {
   const RollingSystem system = small_system(small_case());
   std::array<int, 2> ended = {};
   ThreadRanks(2).run(1, [&](const Ranks& mine) {
-    std::atomic<bool> stop = false;
     int steps = 0;
     const auto progress = [&](double, double, int) {
-      stop = ++steps == 2 && mine.rank == 1;
-      ended[static_cast<std::size_t>(mine.rank)] = steps;
+      ended[static_cast<std::size_t>(mine.rank)] = ++steps;
+      return !(steps == 2 && mine.rank == 1);
     };
-    EXPECT_THROW(solve_preload(system, 1e-9, progress, &stop, {}, nullptr, mine), Interrupted);
+    EXPECT_THROW(solve_preload(system, 1e-9, progress, {}, nullptr, mine), Interrupted);
   });
   EXPECT_EQ(ended, (std::array<int, 2>{2, 2}));
 }
