@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/case_list.hpp"
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
@@ -64,25 +65,10 @@ void write_row(const CommandOptions& options, const LoadedCase& loaded, const st
   write_half_space_result(folder, table_origin(one), one.spec, placement, solution);
 }
 
-void print_rows(const std::vector<CollectiveRow>& rows) {
-  std::size_t width = 4;
-  for (const CollectiveRow& r : rows) width = std::max(width, r.name.size());
-  const auto cell = [](double v, int digits) {
-    return std::isfinite(v) ? fmt::format("  {:>10.{}f}", v, digits) : fmt::format("  {:>10}", "-");
-  };
-  fmt::print("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", "load", width, "passages", "F_z kN",
-             "p_max MPa", "T-gamma N", "USFD nm", "shakedown");
-  for (const CollectiveRow& r : rows) {
-    if (!r.done) continue;
-    const Summary& s = r.summary;
-    fmt::print("{:<{}}  {:>10.4g}", r.name, width, r.passages);
-    if (r.solved())
-      fmt::print("{}{}{}{}{}", cell(1e-3 * s.contact.F_z, 1), cell(1e-6 * s.contact.patch.p_max, 0),
-                 cell(s.damage.t_gamma, 1), cell(1e9 * s.damage.usfd_depth, 2),
-                 cell(s.shakedown.least(&ShakedownFactors::wandering), 3));
-    fmt::print("{}\n", r.fault.empty() ? "" : "  " + r.fault);
-  }
-}
+/// What the terminal shows of a load.
+const std::vector<ListedNumber> kListed{{"passages", "passages", 1, 0},     {"F_z kN", "F_z_kN"},
+                                        {"p_max MPa", "p_max_MPa", 1, 0},   {"T-gamma N", "t_gamma_N"},
+                                        {"USFD nm", "usfd_depth_nm", 1, 2}, {"shakedown", "shakedown_wandering", 1, 3}};
 
 /// Returns whether the page's verdict holds, true without a page.
 bool add_collective_page(const CommandOptions& options, const LoadedCase& loaded, const std::filesystem::path& out,
@@ -121,7 +107,7 @@ ExitCode command_collective(const CommandOptions& options) {
   if (options.json)
     fmt::print("{}\n", json_text(json, 2));
   else
-    print_rows(rows);
+    print_rows({{"load", [](const CaseRow& row) { return row.name; }}}, kListed, collective_table(rows).rows);
   const bool page_holds = !options.page || add_collective_page(options, loaded, out, rows, damage);
   const auto failed = faults(rows);
   if (failed > 0) spdlog::warn("{} of {} loads failed: see the last column", failed, rows.size());

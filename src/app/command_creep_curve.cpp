@@ -2,11 +2,6 @@
 #include <spdlog/spdlog.h>
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <string_view>
-
 #include <nlohmann/json.hpp>
 
 #include "app/case_of.hpp"
@@ -14,33 +9,17 @@
 #include "app/common_options.hpp"
 #include "app/option_values.hpp"
 #include "app/waiting.hpp"
-#include "bem/creep_curve.hpp"
 #include "core/faults.hpp"
-#include "io/csv.hpp"
 #include "io/output_folder.hpp"
-#include "many/axis.hpp"
-#include "report/creep_curve_page.hpp"
+#include "many/creep_curve.hpp"
 #include "result/result_table.hpp"
 #include "runs/half_space_need.hpp"
 
 namespace railstrata {
 namespace {
 
-/// What a curve varies. `side`: of a curve to one side, driving.
-struct Curve {
-  std::string_view word;
-  VariedCreepage varied;
-  const char *column, *force;
-  double side, largest, bound;
-};
-constexpr Curve kCurves[] = {
-    {"creepage", VariedCreepage::longitudinal, "creepage", "F_x", -1, 0.02, 0.5},
-    {"lateral_creepage", VariedCreepage::lateral, "lateral_creepage", "lateral force", 1, 0.02, 0.5},
-    {"spin", VariedCreepage::spin, "spin_per_m", "lateral force", 1, 5, 1000}};
-
-Curve curve_of(const CreepCurveOptions& options) {
-  Curve out =
-      *std::find_if(std::begin(kCurves), std::end(kCurves), [&](const Curve& c) { return c.word == options.of; });
+CurveAxis axis_of(const CreepCurveOptions& options) {
+  CurveAxis out = curve_axis(options.of);
   if (options.largest > out.bound)
     throw CaseError(fmt::format("--largest {:g} is out of range", options.largest),
                     fmt::format("write at most {:g} for --of {}", out.bound, out.word));
@@ -48,48 +27,11 @@ Curve curve_of(const CreepCurveOptions& options) {
   return out;
 }
 
-std::vector<double> creepages(const Curve& curve, const CreepCurveOptions& options) {
-  std::vector<double> out;
-  for (int i = 0; i < options.points; ++i)
-    out.push_back(curve.side * curve.largest * decade_share(i, options.points - 1));
-  if (!options.both_sides) return out;
-  std::vector<double> whole;
-  for (auto c = out.rbegin(); c != out.rend(); ++c) whole.push_back(-std::abs(*c));
-  whole.push_back(0);
-  for (const double c : out) whole.push_back(std::abs(c));
-  return whole;
-}
-
-// Forces on the wheel, a driving one's positive.
-struct Column {
-  const char* name;
-  double (*value)(const CreepCurvePoint&);
-};
-constexpr Column kColumns[] = {
-    {"full", [](const CreepCurvePoint& p) { return 0.0 - p.full; }},
-    {"fastsim", [](const CreepCurvePoint& p) { return 0.0 - p.fastsim; }},
-    {"polach", [](const CreepCurvePoint& p) { return 0.0 - p.polach; }},
-    {"vermeulen_johnson", [](const CreepCurvePoint& p) { return 0.0 - p.vermeulen_johnson; }},
-    {"linear", [](const CreepCurvePoint& p) { return 0.0 - p.linear; }},
-    {"slip_area_fraction", [](const CreepCurvePoint& p) { return p.slip_fraction; }},
-    {"full_across", [](const CreepCurvePoint& p) { return 0.0 - p.across; }},
-    {"full_moment_mm", [](const CreepCurvePoint& p) { return 0.0 - 1e3 * p.moment; }}};
-
-std::vector<CsvColumn> table_of(const char* varied, const std::vector<CreepCurvePoint>& curve) {
-  std::vector<CsvColumn> out{{varied, {}}};
-  for (const CreepCurvePoint& p : curve) out.back().values.push_back(p.creepage);
-  for (const Column& c : kColumns) {
-    out.push_back({c.name, {}});
-    for (const CreepCurvePoint& p : curve) out.back().values.push_back(c.value(p));
-  }
-  return out;
-}
-
 /// Wide enough for the name and a blank.
 std::size_t width(const CsvColumn& c) { return c.name.size() > 10 ? 20 : 12; }
 
-void print_table(const Curve& curve, const std::vector<CsvColumn>& table) {
-  fmt::print("{}/(f F_n) on the wheel; a driving wheel has creepage < 0 and F_x > 0\n\n", curve.force);
+void print_table(const CurveAxis& axis, const std::vector<CsvColumn>& table) {
+  fmt::print("{}/(f F_n) on the wheel; a driving wheel has creepage < 0 and F_x > 0\n\n", axis.force);
   for (const CsvColumn& c : table) fmt::print("{:>{}}", c.name, width(c));
   fmt::print("\n");
   for (std::size_t i = 0; i < table.front().values.size(); ++i) {
@@ -121,15 +63,10 @@ std::vector<std::string> notes_of(const CaseSpec& spec) {
   return out;
 }
 
-std::vector<std::string> creep_curve_words() {
-  std::vector<std::string> out;
-  for (const Curve& c : kCurves) out.emplace_back(c.word);
-  return out;
-}
-
 ExitCode command_creep_curve(const CommandOptions& options) {
-  const Curve curve = curve_of(options.creep_curve);
-  const std::vector<double> varied = creepages(curve, options.creep_curve);
+  const CreepCurveOptions& wanted = options.creep_curve;
+  const CurveAxis axis = axis_of(wanted);
+  const std::vector<double> varied = curve_values(axis, axis.largest, wanted.points, wanted.both_sides);
   const LoadedCase loaded = load_half_space_case_of(options, CaseUse::steady_rolling);
   const std::filesystem::path out = output_folder_of(options, loaded, "-creep-curve");
   BemOptions bem;
@@ -140,7 +77,7 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   const std::vector<CsvColumn> table = [&] {
     const Waiting waiting(fmt::format("creep curve of {} points", varied.size()),
                           spdlog::should_log(spdlog::level::info));
-    return table_of(curve.column, creep_curve(loaded.spec, placement, curve.varied, varied, bem));
+    return curve_table(axis, creep_curve(loaded.spec, placement, axis.varied, varied, bem));
   }();
 
   const FolderHold hold = prepare_output_folder(out, options.force);
@@ -149,16 +86,16 @@ ExitCode command_creep_curve(const CommandOptions& options) {
   origin.back() = fmt::format(
       "{}/(f F_n) on the wheel against {}; full: half-space theory with the case's layers, its other force and its "
       "moment over f F_n beside it; the others: the Hertz ellipse, homogeneous bodies",
-      curve.force, curve.column);
+      axis.force, axis.column);
   const std::vector<std::string> notes = notes_of(loaded.spec);
   origin.insert(origin.end(), notes.begin(), notes.end());
   write_csv(out / "creep_curve.csv", origin, table);
-  if (options.page) write_creep_curve_page(out / "report.html", loaded.spec.title, curve.force, table, notes);
+  if (options.page) write_creep_curve_page(out / "report.html", loaded.spec.title, axis, table, notes);
   for (const std::string& note : notes) spdlog::warn("{}", note);
   if (options.json)
     fmt::print("{}\n", as_json(loaded.spec.title, table, notes).dump(2));
   else
-    print_table(curve, table);
+    print_table(axis, table);
   spdlog::info("results are in {}", out.string());
   return ExitCode::ok;
 }

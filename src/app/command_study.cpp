@@ -3,10 +3,10 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include <nlohmann/json.hpp>
 
+#include "app/case_list.hpp"
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
@@ -45,19 +45,18 @@ double lease_of(const CommandOptions& options) {
   return lease;
 }
 
-void print_list(const std::vector<StudyRow>& rows, bool json) {
+void print_list(const std::vector<CaseRow>& rows, bool json) {
   if (json) {
     auto all = nlohmann::ordered_json::array();
-    for (const StudyRow& r : rows) {
+    for (const CaseRow& r : rows) {
       nlohmann::ordered_json values = nlohmann::ordered_json::object(), numbers = nlohmann::ordered_json::object();
-      for (const auto& [key, text] : r.study_case->values) values[key] = text;
-      for (const auto& [name, v] : r.numbers)
-        numbers[name] = std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
-      all.push_back({{"group", r.study_case->group},
-                     {"case", r.study_case->name},
-                     {"engine", r.study_case->engine},
+      for (const auto& [key, text] : r.values) values[key] = text;
+      for (const auto& [name, v] : r.numbers) numbers[name] = number_cell(v);
+      all.push_back({{"group", r.group},
+                     {"case", r.name},
+                     {"engine", r.engine},
                      {"values", values},
-                     {"folder", r.study_case->folder.generic_string()},
+                     {"folder", r.folder.generic_string()},
                      {"state", r.state},
                      {"fault", r.fault.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(r.fault)},
                      {"numbers", numbers}});
@@ -65,29 +64,19 @@ void print_list(const std::vector<StudyRow>& rows, bool json) {
     fmt::print("{}\n", json_text(all, 2));
     return;
   }
-  std::size_t width = 4;
-  for (const StudyRow& r : rows) width = std::max(width, r.study_case->group.size() + 1 + r.study_case->name.size());
-  fmt::print("{:<{}}  {:<6}  {:<6}  {:>9}  {:>9}  {:>9}  {:>6}\n", "case", width, "engine", "state", "p_max MPa",
-             "q_max MPa", "area mm²", "slip %");
-  for (const StudyRow& r : rows) {
-    const auto cell = [&](const char* name, double factor, int w) {
-      for (const auto& [n, v] : r.numbers)
-        if (n == name && std::isfinite(v)) return fmt::format("{:>{}.1f}", factor * v, w);
-      return fmt::format("{:>{}}", "-", w);
-    };
-    fmt::print("{:<{}}  {:<6}  {:<6}  {}  {}  {}  {}{}\n", r.study_case->group + "/" + r.study_case->name, width,
-               engine_word(r.study_case->engine), r.state, cell("p_max_MPa", 1, 9), cell("q_max_MPa", 1, 9),
-               cell("patch_area_mm2", 1, 8), cell("slip_area_fraction", 100, 6), r.fault.empty() ? "" : "  " + r.fault);
-  }
+  print_rows({{"case", [](const CaseRow& row) { return row.group + "/" + row.name; }},
+              {"engine", [](const CaseRow& row) { return std::string(engine_word(row.engine)); }},
+              {"state", [](const CaseRow& row) { return row.state; }}},
+             listed_numbers(), rows);
 }
 
 ExitCode list_cases(const CommandOptions& options, const fs::path& out, std::vector<StudyCase>& cases,
                     const std::vector<bool>& ours) {
   find_results(out, cases);
-  const std::vector<StudyRow> rows = rows_of(study_rows(out, cases), ours);
+  const std::vector<CaseRow> rows = rows_of(study_rows(out, cases), ours);
   print_list(rows, options.json);
   spdlog::info("{} cases, {} to compute into {}", rows.size(),
-               std::count_if(rows.begin(), rows.end(), [](const StudyRow& r) { return r.state != "done"; }),
+               std::count_if(rows.begin(), rows.end(), [](const CaseRow& r) { return r.state != "done"; }),
                out.string());
   return ExitCode::ok;
 }
@@ -96,8 +85,8 @@ ExitCode list_cases(const CommandOptions& options, const fs::path& out, std::vec
 ExitCode report_cases(const CommandOptions& options, const LoadedStudy& study, const fs::path& out,
                       std::vector<StudyCase>& cases, const std::vector<bool>& ours) {
   find_results(out, cases);
-  const std::vector<StudyRow> rows = study_rows(out, cases);
-  const std::vector<ListedCase> listed = listed_cases(rows, ours, study.spec.cell);
+  const std::vector<CaseRow> rows = study_rows(out, cases);
+  const std::vector<ListedCase> listed = listed_cases(cases, rows, ours, study.spec.cell);
   options.study.list ? print_cases(listed, options, study.file, out) : print_batch(listed, options, study.file, out);
   return ExitCode::ok;
 }
@@ -123,7 +112,7 @@ ExitCode command_study(const CommandOptions& options) {
                    lease,
                    options.study.wait};
   start_children_alone();
-  const auto show = [&](const std::vector<StudyRow>& rows) {
+  const auto show = [&](const std::vector<CaseRow>& rows) {
     print_list(rows, options.json);
     spdlog::info("the table is {}", (out / "study.csv").string());
   };

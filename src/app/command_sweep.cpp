@@ -3,12 +3,12 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
+#include "app/case_list.hpp"
 #include "app/case_of.hpp"
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
@@ -16,27 +16,12 @@
 #include "app/option_values.hpp"
 #include "io/output_folder.hpp"
 #include "judge/check_limits.hpp"
+#include "many/each_case.hpp"
 #include "many/sweep.hpp"
 #include "many/sweep_page.hpp"
 
 namespace railstrata {
 namespace {
-
-std::string cell_text(double v, int width, int digits) {
-  return fmt::format("  {:>{}}", std::isfinite(v) ? fixed(v, digits) : "-", width);
-}
-
-/// What the terminal shows of a case.
-struct Shown {
-  const char *heading, *path;
-  double factor;
-  int width, digits;
-};
-constexpr Shown kShown[] = {{"p_max MPa", "/contact/p_max_Pa", 1e-6, 9, 1},
-                            {"q_max MPa", "/contact/q_max_Pa", 1e-6, 9, 1},
-                            {"area mm²", "/contact/patch_area_m2", 1e6, 8, 1},
-                            {"slip %", "/contact/slip_area_fraction", 100, 6, 1},
-                            {"creep 1e-3", "/contact/creepage_x", 1e3, 10, 3}};
 
 /// Notes of cases that the case itself does not have, each once.
 void warn_of_notes(const LoadedCase& base, const std::vector<SweepCase>& cases) {
@@ -63,27 +48,12 @@ void print_warnings(const std::vector<SweepCase>& cases) {
   }
 }
 
-void print_table(const std::vector<SweepCase>& cases, const std::vector<Axis>& keys) {
-  std::vector<std::size_t> width;
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    width.push_back(keys[k].key.size());
-    for (const std::string& v : keys[k].values) width[k] = std::max(width[k], v.size());
-    fmt::print("{:<{}}  ", keys[k].key, width[k]);
-  }
+void print_table(const CaseTable& table, const std::vector<SweepCase>& cases) {
+  std::vector<CaseColumn> head = value_columns(table.rows);
   const bool several =
-      std::any_of(cases.begin(), cases.end(), [](const SweepCase& c) { return remarks_of(c.summary).patches > 1; });
-  for (const Shown& s : kShown) fmt::print("  {:>{}}", s.heading, s.width);
-  fmt::print("{}\n", several ? "  patches" : "");
-  for (const SweepCase& c : cases) {
-    if (!c.done) continue;
-    for (std::size_t k = 0; k < keys.size(); ++k) fmt::print("{:<{}}  ", c.values[k], width[k]);
-    if (!c.summary.is_null()) {
-      for (const Shown& s : kShown)
-        fmt::print("{}", cell_text(column_value({s.heading, s.path, s.factor}, c.summary), s.width, s.digits));
-      if (several) fmt::print("  {:>7}", remarks_of(c.summary).patches);
-    }
-    fmt::print("{}\n", c.fault.empty() ? "" : "  " + c.fault);
-  }
+      std::any_of(table.rows.begin(), table.rows.end(), [](const CaseRow& row) { return row.remarks.patches > 1; });
+  if (several) head.push_back({"patches", [](const CaseRow& row) { return fmt::format("{}", row.remarks.patches); }});
+  print_rows(head, listed_numbers(), table.rows);
   if (several)
     fmt::print(
         "\nof several patches: the numbers of the one with the largest pressure; sweep.csv has F_x, F_y and F_z of "
@@ -91,31 +61,10 @@ void print_table(const std::vector<SweepCase>& cases, const std::vector<Axis>& k
   print_warnings(cases);
 }
 
-nlohmann::ordered_json as_json(const std::vector<SweepCase>& cases, const std::vector<Axis>& keys,
-                               const std::vector<ResultColumn>& columns) {
-  auto out = nlohmann::ordered_json::array();
-  for (const SweepCase& c : cases) {
-    if (!c.done) continue;
-    nlohmann::ordered_json row;
-    for (std::size_t k = 0; k < keys.size(); ++k) row[keys[k].key] = c.values[k];
-    for (const ResultColumn& column : columns) {
-      const double v = column_value(column, c.summary);
-      row[column.name] = std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
-    }
-    row["fault"] = c.fault.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(c.fault);
-    const ResultRemarks remarks = remarks_of(c.summary);
-    row["patches"] = remarks.patches;
-    row["checks"] = remarks.checks;
-    row["warnings"] = remarks.warnings;
-    out.push_back(std::move(row));
-  }
-  return out;
-}
-
 ExitCode command_sweep(const CommandOptions& options) {
-  const std::vector<Axis> keys = parse_axes("--vary", options.sweep.vary);
+  const std::vector<Axis> axes = parse_axes("--vary", options.sweep.vary);
   const LoadedCase base = load_half_space_case_of(options);
-  std::vector<SweepCase> cases = plan_sweep(base, options.overrides, keys);
+  std::vector<SweepCase> cases = plan_sweep(base, options.overrides, axes);
   warn_of_notes(base, cases);
   InfluenceCache cache;
   SweepOptions sweep;
@@ -128,26 +77,34 @@ ExitCode command_sweep(const CommandOptions& options) {
   const FolderHold hold = prepare_output_folder(out, options.force);
   write_origin(out, base, options.command_line, options.threads);
   spdlog::info("{} cases; the table grows in {}", cases.size(), (out / "sweep.csv").string());
-  SweepTable table(out / "sweep.csv", table_origin(base), keys, columns);
+  std::vector<std::string> origin = table_origin(base);
+  origin.push_back(patches_remark(columns));
+  CaseTable table;
+  const auto write = [&] {
+    table = sweep_table(cases, axes, columns);
+    write_cases(out / "sweep.csv", origin, table);
+  };
   sweep.control = &control_by_signals();
+  NowAndThen now_and_then;
   std::size_t done = 0;
   sweep.ended = [&] {
-    table.add_done(cases);
+    now_and_then(write);
     control().progress("sweep", static_cast<double>(++done) / static_cast<double>(cases.size()));
   };
   run_sweep(cases, sweep);
   control().progress("");
+  write();
 
   if (options.json)
-    fmt::print("{}\n", as_json(cases, keys, columns).dump(2));
+    fmt::print("{}\n", json_of(table).dump(2));
   else
-    print_table(cases, keys);
+    print_table(table, cases);
   if (control().stop) {
-    spdlog::warn("stopped; {} holds the first cases", (out / "sweep.csv").string());
+    spdlog::warn("stopped; {} holds the cases that were solved", (out / "sweep.csv").string());
     return ExitCode::interrupted;
   }
   if (options.page) {
-    write_sweep_page(out / "report.html", base.spec.title, keys, cases, columns);
+    write_sweep_page(out / "report.html", base.spec.title, axes, table.rows);
     spdlog::info("everything on one page: {}", (out / "report.html").string());
   }
   const auto faults = std::count_if(cases.begin(), cases.end(), [](const SweepCase& c) { return !c.fault.empty(); });

@@ -115,8 +115,6 @@ struct CommandOptions {
   SchemaOptions schema;
 };
 
-/// The words of --of.
-std::vector<std::string> creep_curve_words();
 /// The words of --to.
 std::vector<std::string> export_words();
 

@@ -11,6 +11,7 @@
 
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
+#include "core/shell_word.hpp"
 #include "io/this_process.hpp"
 #include "runs/half_space_need.hpp"
 #include "runs/memory_need.hpp"
@@ -53,13 +54,13 @@ std::string command_of(const ListedCase& c, const CommandOptions& options, const
 
 nlohmann::ordered_json as_json(const ListedCase& c, const CommandOptions& options, const fs::path& study,
                                const fs::path& out) {
-  const StudyCase& s = *c.row.study_case;
+  const StudyCase& s = *c.study_case;
   const auto known = [](double v) { return v > 0 ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr); };
   return {{"index", c.index},
           {"group", s.group},
           {"case", s.name},
           {"engine", engine_word(s.engine)},
-          {"state", c.row.state},
+          {"state", c.state},
           {"key", s.key},
           {"seconds", known(c.need.seconds)},
           {"memory_bytes", known(c.need.memory_bytes)},
@@ -68,13 +69,13 @@ nlohmann::ordered_json as_json(const ListedCase& c, const CommandOptions& option
 
 }  // namespace
 
-std::vector<ListedCase> listed_cases(const std::vector<StudyRow>& all, const std::vector<bool>& ours,
-                                     const std::string& cell) {
+std::vector<ListedCase> listed_cases(const std::vector<StudyCase>& cases, const std::vector<CaseRow>& rows,
+                                     const std::vector<bool>& ours, const std::string& cell) {
   std::vector<ListedCase> out;
-  for (std::size_t k = 0; k < all.size(); ++k)
+  for (std::size_t k = 0; k < cases.size(); ++k)
     if (ours[k])
       out.push_back(
-          {static_cast<int>(k) + 1, all[k], all[k].state == "done" ? CaseNeed{} : need_of(*all[k].study_case, cell)});
+          {static_cast<int>(k) + 1, &cases[k], rows[k].state, rows[k].done() ? CaseNeed{} : need_of(cases[k], cell)});
   return out;
 }
 
@@ -88,10 +89,10 @@ void print_cases(const std::vector<ListedCase>& cases, const CommandOptions& opt
   }
   fmt::print("{:>5}  {:<6}  {:<6}  {:>12}  {:>9}  {}\n", "index", "engine", "state", "about", "memory MB", "case");
   for (const ListedCase& c : cases)
-    fmt::print("{:>5}  {:<6}  {:<6}  {:>12}  {:>9}  {}/{}\n", c.index, engine_word(c.row.study_case->engine),
-               c.row.state, c.need.seconds > 0 ? duration_text(c.need.seconds) : "-",
-               c.need.memory_bytes > 0 ? fmt::format("{:.0f}", 1e-6 * c.need.memory_bytes) : "-",
-               c.row.study_case->group, c.row.study_case->name);
+    fmt::print("{:>5}  {:<6}  {:<6}  {:>12}  {:>9}  {}/{}\n", c.index, engine_word(c.study_case->engine), c.state,
+               c.need.seconds > 0 ? duration_text(c.need.seconds) : "-",
+               c.need.memory_bytes > 0 ? fmt::format("{:.0f}", 1e-6 * c.need.memory_bytes) : "-", c.study_case->group,
+               c.study_case->name);
 }
 
 void print_batch(const std::vector<ListedCase>& cases, const CommandOptions& options, const fs::path& study,
@@ -109,8 +110,8 @@ void print_batch(const std::vector<ListedCase>& cases, const CommandOptions& opt
   if (options.study.shard != "1/1") job.options.insert(job.options.end(), {"--shard", options.study.shard});
   double half_space_seconds = 0;
   for (const ListedCase& c : cases) {
-    if (c.row.state == "done") continue;
-    const bool fem = c.row.study_case->engine == Engine::fem;
+    if (c.state == "done") continue;
+    const bool fem = c.study_case->engine == Engine::fem;
     if (fem) job.finite_elements.push_back(c.index);
     job.half_spaces = job.half_spaces || !fem;
     half_space_seconds += fem ? 0 : c.need.seconds;

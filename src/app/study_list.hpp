@@ -1,6 +1,7 @@
 #pragma once
 // The cases of a study for those who distribute them: batch systems, parallel, people.
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "app/commands.hpp"
@@ -12,14 +13,15 @@ namespace railstrata {
 /// A case with its place in the list of all, from 1.
 struct ListedCase {
   int index = 0;
-  StudyRow row;
+  const StudyCase* study_case = nullptr;
+  std::string state;
   CaseNeed need;  ///< of one that is to do
 };
 
 /// These cases with what those to do are estimated to need: seconds for each by finite elements, since it is meshed
 /// and its forces are timed on this machine. cell: of the half-spaces.
-std::vector<ListedCase> listed_cases(const std::vector<StudyRow>& all, const std::vector<bool>& ours,
-                                     const std::string& cell);
+std::vector<ListedCase> listed_cases(const std::vector<StudyCase>& cases, const std::vector<CaseRow>& rows,
+                                     const std::vector<bool>& ours, const std::string& cell);
 
 /// study: its file. --list: a case a line; with json an array, each of its lines an object.
 void print_cases(const std::vector<ListedCase>& cases, const CommandOptions& options,

@@ -70,6 +70,9 @@ std::vector<ResultColumn> columns_for(const std::vector<CollectiveRow>& rows) {
   return out;
 }
 
+/// Of a row that is solved, from the rail's axis, m.
+double contact_y(const CollectiveRow& row) { return model_to_rail(row.track, row.patches.front().contact.point).y; }
+
 std::string deciding_zone(const CollectiveRow& row) {
   const BodyShakedown* body = row.summary.shakedown.governing();
   if (!body) return {};
@@ -112,7 +115,7 @@ ReportTable rows_table(const std::vector<CollectiveRow>& rows) {
     const ContactSummary& c = row.summary.contact;
     const bool solved = row.solved();
     const auto number = [&](double v) { return solved ? finite(v) : Json(nullptr); };
-    const double y = solved ? model_to_rail(row.track, row.patches.front().contact.point).y : kNotApplicable;
+    const double y = solved ? contact_y(row) : kNotApplicable;
     t.rows.push_back({row.name, row.passages, number(kMilli * c.F_z), number(y / kMilli),
                       number(c.patch.p_max * kMicro), number(row.summary.damage.t_gamma),
                       number(row.summary.damage.usfd_depth * 1e9),
@@ -230,24 +233,31 @@ void write_wheel_damage(const std::filesystem::path& file, const std::vector<std
   write_csv(file, origin, columns);
 }
 
+CaseTable collective_table(const std::vector<CollectiveRow>& rows) {
+  const std::vector<ResultColumn> columns = columns_for(rows);
+  CaseTable out{{{"load", [](const CaseRow& row) { return row.name; }}}, {}};
+  for (const CollectiveRow& r : rows) {
+    CaseRow& row = out.rows.emplace_back();
+    row.name = r.name;
+    row.state = r.solved() ? "done" : r.done ? "failed" : "to do";
+    row.fault = r.fault;
+    row.numbers = {{"passages", r.passages},
+                   {"speed_m_s", r.spec.drive.speed},
+                   {"lateral_shift_mm", r.spec.geometry.lateral_shift / kMilli},
+                   {"friction_coefficient", r.spec.drive.friction_coefficient},
+                   {"rail_y_mm", r.solved() ? contact_y(r) / kMilli : kNotApplicable}};
+    for (const ResultColumn& c : columns) row.numbers.emplace_back(c.name, column_value(c, r.summary_json));
+    row.numbers.emplace_back("rcf_damage", r.summary.damage.rcf_damage);
+    row.values = {{"shakedown_zone", deciding_zone(r)}, {"warnings", warnings_text(r)}};
+  }
+  out.columns = joined(out.columns, number_columns(out.rows), value_columns(out.rows));
+  out.columns.push_back(remark_columns().front());
+  return out;
+}
+
 void write_collective_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
                             const std::vector<CollectiveRow>& rows) {
-  const std::vector<ResultColumn> columns = columns_for(rows);
-  std::string text = csv_remarks(origin) + "load,passages,speed_m_s,lateral_shift_mm,friction_coefficient,rail_y_mm,";
-  for (const ResultColumn& c : columns) text += c.name + ',';
-  text += "rcf_damage,shakedown_zone,warnings,fault\n";
-  for (const CollectiveRow& row : rows) {
-    const double y = row.solved() ? model_to_rail(row.track, row.patches.front().contact.point).y : kNotApplicable;
-    text += csv_cell(row.name);
-    for (const double v : {row.passages, row.spec.drive.speed, row.spec.geometry.lateral_shift / kMilli,
-                           row.spec.drive.friction_coefficient, y / kMilli})
-      text += ',' + csv_cell(v);
-    for (const ResultColumn& c : columns) text += ',' + csv_cell(column_value(c, row.summary_json));
-    text += ',' + csv_cell(row.summary.damage.rcf_damage);
-    for (const std::string& word : {deciding_zone(row), warnings_text(row), row.fault}) text += ',' + csv_cell(word);
-    text += '\n';
-  }
-  write_whole_file(file, text);
+  write_cases(file, origin, collective_table(rows));
 }
 
 void write_rail_damage(const std::filesystem::path& file, const std::vector<std::string>& origin, const RailDamage& d) {

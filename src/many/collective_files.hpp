@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "many/case_row.hpp"
 #include "many/collective.hpp"
 #include "report/checks.hpp"
 
@@ -12,7 +13,8 @@ namespace railstrata {
 /// Title of the axis of pictures across the rail.
 inline constexpr const char* kAcross = "y across the rail, from its axis to the field side [mm]";
 
-/// collective.csv: a row for each load.
+/// The columns of collective.csv, a row for each load.
+CaseTable collective_table(const std::vector<CollectiveRow>& rows);
 void write_collective_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
                             const std::vector<CollectiveRow>& rows);
 

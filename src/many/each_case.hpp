@@ -1,5 +1,7 @@
 #pragma once
 // Cases solved by one thread each, several at a time, with what follows on each of them one at a time.
+#include <algorithm>
+#include <chrono>
 #include <cstddef>
 #include <exception>
 #include <mutex>
@@ -33,6 +35,23 @@ void for_each_ended(std::size_t count, const Control* control, Solve&& solve) {
       true);
   if (failure) std::rethrow_exception(failure);
 }
+
+/// A table that grows is written anew, each second at most and for a twentieth of the time: else it would cost the
+/// square of its rows.
+class NowAndThen {
+ public:
+  template <class Write>
+  void operator()(Write&& write) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    if (begin < next_) return;
+    write();
+    next_ = Clock::now() + std::max<Clock::duration>(std::chrono::seconds(1), 20 * (Clock::now() - begin));
+  }
+
+ private:
+  std::chrono::steady_clock::time_point next_{};
+};
 
 /// For a table's column: one line.
 inline std::string fault_line(const std::exception& e) {

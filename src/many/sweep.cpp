@@ -1,13 +1,10 @@
 #include "many/sweep.hpp"
 
-#include <fmt/format.h>
-
 #include <cstddef>
 #include <exception>
 #include <utility>
 
 #include "core/faults.hpp"
-#include "io/csv.hpp"
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
 #include "many/each_case.hpp"
@@ -67,26 +64,22 @@ void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options) {
   });
 }
 
-SweepTable::SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin,
-                       const std::vector<Axis>& keys, std::vector<ResultColumn> columns)
-    : file_(file), columns_(std::move(columns)) {
-  std::string head = csv_remarks(origin) + csv_remarks({patches_remark(columns_)});
-  for (const Axis& k : keys) head += k.key + ',';
-  for (const ResultColumn& c : columns_) head += std::string(c.name) + ',';
-  file_.write(head + "fault,patches,checks,warnings\n");
-}
-
-void SweepTable::add_done(const std::vector<SweepCase>& cases) {
-  while (written_ < cases.size() && cases[written_].done) file_.write(row(cases[written_++]));
-}
-
-std::string SweepTable::row(const SweepCase& c) const {
-  std::string out;
-  for (const std::string& v : c.values) out += csv_cell(v) + ',';
-  for (const ResultColumn& column : columns_) out += csv_cell(column_value(column, c.summary)) + ',';
-  const ResultRemarks remarks = remarks_of(c.summary);
-  return out + fmt::format("{},{},{},{}\n", csv_cell(c.fault), remarks.patches, csv_cell(remarks.checks),
-                           csv_cell(remarks.warnings));
+CaseTable sweep_table(const std::vector<SweepCase>& cases, const std::vector<Axis>& axes,
+                      const std::vector<ResultColumn>& columns) {
+  static const nlohmann::ordered_json none;
+  std::vector<CaseRow> rows;
+  for (const SweepCase& c : cases) {
+    const nlohmann::ordered_json& summary = c.done ? c.summary : none;  // another thread may be at work on it
+    CaseRow& row = rows.emplace_back();
+    row.state = !c.done ? "to do" : summary.is_null() ? "failed" : "done";
+    if (c.done) row.fault = c.fault;
+    row.remarks = remarks_of(summary);
+    for (std::size_t k = 0; k < axes.size(); ++k) row.values.emplace_back(axes[k].key, c.values[k]);
+    for (const ResultColumn& column : columns) row.numbers.emplace_back(column.name, column_value(column, summary));
+  }
+  CaseTable out{joined(value_columns(rows), number_columns(rows), remark_columns()), std::move(rows)};
+  std::erase_if(out.rows, [](const CaseRow& row) { return row.state == "to do"; });
+  return out;
 }
 
 }  // namespace railstrata

@@ -1,7 +1,6 @@
 #pragma once
 // Half-space solutions over every combination of values of a case's keys.
 #include <cstddef>
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,9 +11,8 @@
 #include "bem/bem_options.hpp"
 #include "case/case_file.hpp"
 #include "core/control.hpp"
-#include "io/output_file.hpp"
 #include "many/axis.hpp"
-#include "many/result_columns.hpp"
+#include "many/case_row.hpp"
 
 namespace railstrata {
 
@@ -42,20 +40,8 @@ struct SweepOptions {
 /// is its fault; what `ended` throws, the last one of it, is thrown at the end.
 void run_sweep(std::vector<SweepCase>& cases, const SweepOptions& options);
 
-/// sweep.csv, whose head says what is of one patch and what of all; it grows in the order of the cases, whatever the
-/// order in which they end.
-class SweepTable {
- public:
-  SweepTable(const std::filesystem::path& file, const std::vector<std::string>& origin, const std::vector<Axis>& keys,
-             std::vector<ResultColumn> columns);
-  /// Writes the rows that are done and not yet written.
-  void add_done(const std::vector<SweepCase>& cases);
-
- private:
-  std::string row(const SweepCase& c) const;
-  OutputFile file_;
-  std::vector<ResultColumn> columns_;
-  std::size_t written_ = 0;
-};
+/// The cases that are done, in their order: keys, numbers, remarks.
+CaseTable sweep_table(const std::vector<SweepCase>& cases, const std::vector<Axis>& axes,
+                      const std::vector<ResultColumn>& columns);
 
 }  // namespace railstrata

@@ -11,6 +11,6 @@ namespace railstrata {
 /// A chart for each number over the key with most values on an axis, a line for each combination of the other keys'.
 /// Throws EnvironmentError for the disk.
 void write_sweep_page(const std::filesystem::path& page, const std::string& title, const std::vector<Axis>& keys,
-                      const std::vector<SweepCase>& cases, const std::vector<ResultColumn>& columns);
+                      const std::vector<CaseRow>& rows);
 
 }  // namespace railstrata

@@ -16,9 +16,9 @@ namespace {
 
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
-const StudyEntry* entry_at(const std::vector<StudyEntry>& entries, const std::string& given, Engine engine) {
+const CaseRow* entry_at(const std::vector<CaseRow>& entries, const std::string& given, Engine engine) {
   const auto slash = given.find('/');
-  for (const StudyEntry& e : entries)
+  for (const CaseRow& e : entries)
     if (e.engine == engine && e.group == given.substr(0, slash) &&
         (slash == std::string::npos || e.name == given.substr(slash + 1)))
       return &e;
@@ -27,19 +27,16 @@ const StudyEntry* entry_at(const std::vector<StudyEntry>& entries, const std::st
 
 /// The case a column of the comparison takes for `given`: the twin on its own mesh, if the study has that group, else
 /// the case itself.
-const StudyEntry* answer(const std::vector<StudyEntry>& entries, const AnswerColumn& column, const std::string& given) {
-  if (const StudyEntry* twin =
-          column.prefix.empty() ? nullptr : entry_at(entries, column.prefix + given, column.engine))
+const CaseRow* answer(const std::vector<CaseRow>& entries, const AnswerColumn& column, const std::string& given) {
+  if (const CaseRow* twin = column.prefix.empty() ? nullptr : entry_at(entries, column.prefix + given, column.engine))
     return twin;
   return entry_at(entries, given, column.engine);
 }
 
-double number_of(const StudyEntry* e, const std::string& column) {
-  return e && e->done() ? e->number(column) : kNothing;
-}
+double number_of(const CaseRow* e, const std::string& column) { return e && e->done() ? e->number(column) : kNothing; }
 
 double ours(const PublishedNumber& n, const std::string& column, const AnswerColumn& where,
-            const std::vector<StudyEntry>& entries) {
+            const std::vector<CaseRow>& entries) {
   const double a = number_of(answer(entries, where, n.given), column);
   if (n.engines)
     return where.engine == Engine::bem
@@ -90,8 +87,7 @@ std::string reason(const PublishedNumber& n, const Answers& a, const Answers& ot
 }
 
 /// A name that no column finds is a mistake of the file, not a result that is missing.
-bool is_known(const std::vector<AnswerColumn>& columns, const std::vector<StudyEntry>& entries,
-              const std::string& given) {
+bool is_known(const std::vector<AnswerColumn>& columns, const std::vector<CaseRow>& entries, const std::string& given) {
   return given.empty() || std::any_of(columns.begin(), columns.end(),
                                       [&](const AnswerColumn& c) { return answer(entries, c, given) != nullptr; });
 }
@@ -107,7 +103,7 @@ struct Point {
   double value;
 };
 
-bool passes(const StudyEntry& e, const std::map<std::string, std::vector<std::string>>& where) {
+bool passes(const CaseRow& e, const std::map<std::string, std::vector<std::string>>& where) {
   for (const auto& [key, allowed] : where) {
     const std::string v = e.value(key);
     if (!v.empty() && std::find(allowed.begin(), allowed.end(), v) == allowed.end()) return false;
@@ -119,8 +115,8 @@ bool passes(const StudyEntry& e, const std::map<std::string, std::vector<std::st
 /// belongs to every line.
 std::map<double, std::pair<std::string, std::vector<Point>>> lines_of(const PublishedClaim& c,
                                                                       const AnswerColumn& column,
-                                                                      const std::vector<StudyEntry>& entries) {
-  const auto wanted = [&](const StudyEntry& e) {
+                                                                      const std::vector<CaseRow>& entries) {
+  const auto wanted = [&](const CaseRow& e) {
     const bool twin =
         !column.prefix.empty() && std::any_of(c.groups.begin(), c.groups.end(),
                                               [&](const std::string& g) { return e.group == column.prefix + g; });
@@ -128,11 +124,11 @@ std::map<double, std::pair<std::string, std::vector<Point>>> lines_of(const Publ
     return e.engine == column.engine && (twin || own) && e.done() && passes(e, c.where) && !e.value(c.along).empty();
   };
   std::map<double, std::pair<std::string, std::vector<Point>>> lines;
-  for (const StudyEntry& e : entries)
+  for (const CaseRow& e : entries)
     if (wanted(e) && (c.each.empty() || !e.value(c.each).empty()))
       lines[c.each.empty() ? 0 : axis_value(e.value(c.each)).first].first = c.each.empty() ? "" : e.value(c.each);
   for (auto& [at, line] : lines) {
-    for (const StudyEntry& e : entries)
+    for (const CaseRow& e : entries)
       if (wanted(e) && (c.each.empty() || e.value(c.each).empty() || e.value(c.each) == line.first))
         line.second.push_back({axis_value(e.value(c.along)).first, e.value(c.along), c.factor * e.number(c.column)});
     std::stable_sort(line.second.begin(), line.second.end(),
@@ -163,7 +159,7 @@ std::string line_text(const std::pair<std::string, std::vector<Point>>& line) {
   return fmt::format("{}{}", line.first.empty() ? "" : line.first + ": ", fmt::join(values, ", "));
 }
 
-std::string claim_cell(const PublishedClaim& c, const AnswerColumn& column, const std::vector<StudyEntry>& entries) {
+std::string claim_cell(const PublishedClaim& c, const AnswerColumn& column, const std::vector<CaseRow>& entries) {
   const std::string unit = c.unit.empty() ? "" : " " + c.unit;
   if (c.kind == "above" || c.kind == "below") {
     const double v = c.factor * number_of(answer(entries, column, c.given), c.column);
@@ -186,7 +182,7 @@ std::string claim_cell(const PublishedClaim& c, const AnswerColumn& column, cons
 
 }  // namespace
 
-ReportTable published_table(const Published& published, const std::vector<StudyEntry>& entries) {
+ReportTable published_table(const Published& published, const std::vector<CaseRow>& entries) {
   ReportTable table{"published",
                     fmt::format("The paper's numbers [{}]", published.source),
                     "",
@@ -231,7 +227,7 @@ ReportTable published_table(const Published& published, const std::vector<StudyE
   return table;
 }
 
-ReportTable claims_table(const Published& published, const std::vector<StudyEntry>& entries) {
+ReportTable claims_table(const Published& published, const std::vector<CaseRow>& entries) {
   ReportTable table{"claims",
                     "The paper's conclusions",
                     "Every statement as a test of the numbers, in the order of stiffness or thickness.",

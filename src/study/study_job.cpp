@@ -13,6 +13,7 @@
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "jobs/duration_text.hpp"
+#include "many/each_case.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/write_report.hpp"
 #include "study/study_page.hpp"
@@ -52,7 +53,7 @@ class StudyJob : public Job {
     require_case_processes();
     require_devices();
   }
-  const std::vector<StudyRow>& rows() const { return our_rows_; }
+  const std::vector<CaseRow>& rows() const { return our_rows_; }
 
  private:
   /// Half-spaces first: they show mistakes in seconds.
@@ -113,12 +114,13 @@ class StudyJob : public Job {
     run.lease = wanted_.lease;
     run.wait = wanted_.wait;
     report(run, to_do.size());
+    NowAndThen now_and_then;
     run.ended = [&](const StudyCase& c, const std::string& fault, double seconds, int done) {
       if (fault.empty())
         control_.info("{}/{}  {}: {}", done, to_do.size(), c.label(), duration_text(seconds));
       else
         control_.warn("{}/{}  {} failed: {}", done, to_do.size(), c.label(), fault);
-      write_table();
+      now_and_then([&] { write_table(); });
     };
     const StudyRunEnd end = run_cases(run, to_do);
     control_.progress("");
@@ -146,20 +148,20 @@ class StudyJob : public Job {
     write_table();
     our_rows_ = rows_of(rows_, ours_);
     const auto to_do =
-        std::count_if(our_rows_.begin(), our_rows_.end(), [](const StudyRow& r) { return r.state == "to do"; });
+        std::count_if(our_rows_.begin(), our_rows_.end(), [](const CaseRow& r) { return r.state == "to do"; });
     if (to_do > left_)
       control_.warn(
           "{} results have been replaced meanwhile: another study, with other settings, writes into this folder",
           to_do - left_);
     const auto faults =
-        std::count_if(our_rows_.begin(), our_rows_.end(), [](const StudyRow& r) { return !r.fault.empty(); });
+        std::count_if(our_rows_.begin(), our_rows_.end(), [](const CaseRow& r) { return !r.fault.empty(); });
     if (faults > 0)
       control_.warn("{} of {} cases failed or have a failed check: see the column fault", faults, our_rows_.size());
     sound_ = to_do <= left_ && faults == 0;
   }
 
   bool write_page() override {
-    if (std::none_of(rows_.begin(), rows_.end(), [](const StudyRow& r) { return r.state == "done"; })) return true;
+    if (std::none_of(rows_.begin(), rows_.end(), [](const CaseRow& r) { return r.done(); })) return true;
     const fs::path page = folder() / "report.html";
     return write_page_or_warn(page, control_, [&] {
       return WrittenPage{write_study_page(page, study_, published_, rows_), {}};
@@ -177,20 +179,20 @@ class StudyJob : public Job {
   Published published_;
   bool computed_ = false;
   std::ptrdiff_t left_ = 0;  ///< to other processes
-  std::vector<StudyRow> rows_, our_rows_;
+  std::vector<CaseRow> rows_, our_rows_;
 };
 
 }  // namespace
 
 JobEnd carry_out_study(const LoadedStudy& study, Published published, std::vector<StudyCase> cases,
                        std::vector<bool> ours, StudyOrder order, Control& control,
-                       const std::function<void(const std::vector<StudyRow>&)>& at_end) {
+                       const std::function<void(const std::vector<CaseRow>&)>& at_end) {
   StudyJob job(study, std::move(published), std::move(cases), std::move(ours), std::move(order), control);
   return job.carry_out([&] { at_end(job.rows()); });
 }
 
-std::vector<StudyRow> rows_of(const std::vector<StudyRow>& all, const std::vector<bool>& ours) {
-  std::vector<StudyRow> rows;
+std::vector<CaseRow> rows_of(const std::vector<CaseRow>& all, const std::vector<bool>& ours) {
+  std::vector<CaseRow> rows;
   for (std::size_t k = 0; k < all.size(); ++k)
     if (ours[k]) rows.push_back(all[k]);
   return rows;

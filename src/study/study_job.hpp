@@ -25,9 +25,9 @@ struct StudyOrder : JobOrder {
 /// EnvironmentError for a device that a case asks for and this machine lacks, or where no processes are started.
 JobEnd carry_out_study(const LoadedStudy& study, Published published, std::vector<StudyCase> cases,
                        std::vector<bool> ours, StudyOrder order, Control& control,
-                       const std::function<void(const std::vector<StudyRow>&)>& at_end);
+                       const std::function<void(const std::vector<CaseRow>&)>& at_end);
 
 /// Those of the cases of `ours`.
-std::vector<StudyRow> rows_of(const std::vector<StudyRow>& all, const std::vector<bool>& ours);
+std::vector<CaseRow> rows_of(const std::vector<CaseRow>& all, const std::vector<bool>& ours);
 
 }  // namespace railstrata

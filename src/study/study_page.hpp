@@ -14,6 +14,6 @@ namespace railstrata {
 /// published.csv and claims.csv if the study compares. Returns the verdict that stands on it. Throws CaseError for a
 /// result that cannot be read, EnvironmentError for the disk.
 ReportVerdict write_study_page(const std::filesystem::path& page, const LoadedStudy& study, const Published& published,
-                               const std::vector<StudyRow>& rows);
+                               std::vector<CaseRow> rows);
 
 }  // namespace railstrata

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <set>
 
@@ -14,7 +13,7 @@
 #include "judge/check_limits.hpp"
 #include "judge/verdict.hpp"
 #include "many/axis.hpp"
-#include "many/result_columns.hpp"
+#include "many/case_page.hpp"
 #include "report/checks.hpp"
 #include "report/read_run.hpp"
 #include "study/published_table.hpp"
@@ -24,8 +23,6 @@ namespace railstrata {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr double kNotThere = std::numeric_limits<double>::quiet_NaN();
 
 /// What a key is called on an axis.
 std::string key_name(const std::string& key) {
@@ -50,16 +47,16 @@ bool one_of(const std::vector<T>& all, const T& word) {
   return std::find(all.begin(), all.end(), word) != all.end();
 }
 
-bool belongs(const StudyFigure& f, const StudyEntry& e) {
+bool belongs(const StudyFigure& f, const CaseRow& e) {
   if (!one_of(f.groups, e.group) || !one_of(f.engines, e.engine)) return false;
   return std::all_of(f.where.begin(), f.where.end(),
                      [&](const auto& kv) { return e.value(kv.first).empty() || one_of(kv.second, e.value(kv.first)); });
 }
 
 /// The values of a key among entries, by their numbers, each once; {""} for no key.
-std::vector<std::string> values_of(const std::string& key, const std::vector<const StudyEntry*>& entries) {
+std::vector<std::string> values_of(const std::string& key, const std::vector<const CaseRow*>& entries) {
   std::vector<std::string> out;
-  for (const StudyEntry* e : entries)
+  for (const CaseRow* e : entries)
     if (const std::string v = key.empty() ? "" : e->value(key); !one_of(out, v) && (key.empty() || !v.empty()))
       out.push_back(v);
   std::stable_sort(out.begin(), out.end(), [](const std::string& a, const std::string& b) {
@@ -70,18 +67,17 @@ std::vector<std::string> values_of(const std::string& key, const std::vector<con
 
 /// A figure's cases of one chart in the order of its lines, with the place of the line's value among all.
 struct Line {
-  const StudyEntry* entry;
+  const CaseRow* entry;
   int place;
   std::string name;
 };
 
-std::vector<Line> lines_of(const StudyFigure& f, const std::vector<const StudyEntry*>& members,
-                           const std::string& each) {
+std::vector<Line> lines_of(const StudyFigure& f, const std::vector<const CaseRow*>& members, const std::string& each) {
   const std::vector<std::string> series = values_of(f.series, members);
   std::vector<Line> out;
   for (const Engine engine : f.engines)
     for (std::size_t k = 0; k < series.size(); ++k)
-      for (const StudyEntry* e : members) {
+      for (const CaseRow* e : members) {
         const std::string at = f.each.empty() ? "" : e->value(f.each);
         if (e->engine != engine || !e->done() || (!at.empty() && at != each) ||
             (!f.series.empty() && e->value(f.series) != series[k]))
@@ -94,9 +90,9 @@ std::vector<Line> lines_of(const StudyFigure& f, const std::vector<const StudyEn
   return out;
 }
 
-std::vector<const StudyEntry*> members_of(const StudyFigure& f, const std::vector<StudyEntry>& entries) {
-  std::vector<const StudyEntry*> out;
-  for (const StudyEntry& e : entries)
+std::vector<const CaseRow*> members_of(const StudyFigure& f, const std::vector<CaseRow>& entries) {
+  std::vector<const CaseRow*> out;
+  for (const CaseRow& e : entries)
     if (belongs(f, e)) out.push_back(&e);
   return out;
 }
@@ -105,8 +101,8 @@ std::string chart_title(const StudyFigure& f, const std::string& each) {
   return each.empty() ? f.title : fmt::format("{}, {} {}", f.title, key_name(f.each), each);
 }
 
-void add_centre_lines(const StudyFigure& f, const std::vector<StudyEntry>& entries, Report& report) {
-  const std::vector<const StudyEntry*> members = members_of(f, entries);
+void add_centre_lines(const StudyFigure& f, const std::vector<CaseRow>& entries, Report& report) {
+  const std::vector<const CaseRow*> members = members_of(f, entries);
   const std::vector<std::string> panels = values_of(f.each, members);
   for (std::size_t n = 0; n < panels.size(); ++n) {
     ReportChart chart{panels.size() > 1 ? fmt::format("{}-{}", f.id, n + 1) : f.id,
@@ -133,48 +129,26 @@ void add_centre_lines(const StudyFigure& f, const std::vector<StudyEntry>& entri
   }
 }
 
-void add_trend(const StudyFigure& f, const std::vector<StudyEntry>& entries, Report& report) {
-  const std::vector<const StudyEntry*> members = members_of(f, entries);
+void add_trends(const StudyFigure& f, const std::vector<CaseRow>& entries, Report& report) {
+  const std::vector<const CaseRow*> members = members_of(f, entries);
   const std::vector<std::string> xs = values_of(f.x, members);
-  if (xs.empty()) return;
-  const std::string unit = axis_value(xs.front()).second;
   for (const std::string& panel : values_of(f.each, members)) {
     ReportChart chart{panel.empty() ? f.id : fmt::format("{}-{}", f.id, panel),
                       chart_title(f, panel),
                       f.note,
-                      fmt::format("{}{}", key_name(f.x), unit.empty() ? "" : fmt::format(" [{}]", unit)),
+                      axis_title(key_name(f.x), xs),
                       column_title(f.value),
                       {}};
-    for (const Line& line : lines_of(f, members, panel)) {
-      const double y = line.entry->number(f.value);
-      if (chart.series.empty() || chart.series.back().name != line.name)
-        chart.series.push_back(
-            {line.name, {}, {}, true, line.place, line.entry->engine == Engine::fem ? "solid" : "dash"});
-      ReportSeries& s = chart.series.back();
-      if (const std::string at = line.entry->value(f.x); !at.empty()) {
-        s.x.push_back(axis_value(at).first);
-        s.y.push_back(y);
-      } else
-        for (const std::string& x : {xs.front(), xs.back()}) {
-          s.x.push_back(axis_value(x).first);
-          s.y.push_back(y);  // the same at any x
-        }
-    }
-    for (ReportSeries& s : chart.series) {
-      std::vector<std::pair<double, double>> points;
-      for (std::size_t i = 0; i < s.x.size(); ++i) points.emplace_back(s.x[i], s.y[i]);
-      std::sort(points.begin(), points.end());
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        s.x[i] = points[i].first;
-        s.y[i] = points[i].second;
-      }
-    }
+    std::vector<LinePoint> points;
+    for (const Line& line : lines_of(f, members, panel))
+      points.push_back({line.entry, line.name, line.place, line.entry->engine == Engine::fem ? "solid" : "dash"});
+    add_trend(chart, f.x, f.value, points);
     if (!chart.series.empty()) report.charts.push_back(std::move(chart));
   }
 }
 
 /// The run of an entry in the report, read if it is not there yet.
-int run_of(const StudyEntry& e, Report& report) {
+int run_of(const CaseRow& e, Report& report) {
   for (std::size_t k = 0; k < report.runs.size(); ++k)
     if (report.runs[k].result.folder == e.folder) return static_cast<int>(k);
   report.runs.push_back(read_report_run(e.folder));
@@ -182,8 +156,8 @@ int run_of(const StudyEntry& e, Report& report) {
   return static_cast<int>(report.runs.size()) - 1;
 }
 
-void add_maps(const StudyFigure& f, const std::vector<StudyEntry>& entries, Report& report) {
-  const std::vector<const StudyEntry*> members = members_of(f, entries);
+void add_maps(const StudyFigure& f, const std::vector<CaseRow>& entries, Report& report) {
+  const std::vector<const CaseRow*> members = members_of(f, entries);
   for (const std::string& panel : values_of(f.each, members)) {
     ReportMaps maps{
         panel.empty() ? f.id : fmt::format("{}-{}", f.id, panel), chart_title(f, panel), f.note, f.value, {}, {}};
@@ -197,7 +171,7 @@ void add_maps(const StudyFigure& f, const std::vector<StudyEntry>& entries, Repo
 
 // ---- grids of verdicts
 /// Empty where the case has no result or no strength.
-ReportGridCell verdict_cell(const StudyEntry& e) {
+ReportGridCell verdict_cell(const CaseRow& e) {
   ShakedownFactors f;
   f.first_yield = e.number("shakedown_first_yield");
   f.wandering = e.number("shakedown_wandering");
@@ -212,14 +186,9 @@ ReportGridCell verdict_cell(const StudyEntry& e) {
   return cell;
 }
 
-ReportGridCell grid_cell(const StudyFigure& f, const StudyEntry& e) {
+ReportGridCell grid_cell(const StudyFigure& f, const CaseRow& e) {
   if (f.kind == "verdict") return verdict_cell(e);
   return {{}, e.number(f.value), {}};
-}
-
-std::string axis_title(const std::string& key, const std::vector<std::string>& values) {
-  const std::string unit = values.empty() ? "" : axis_value(values.front()).second;
-  return fmt::format("{}{}", key_name(key), unit.empty() ? "" : fmt::format(" [{}]", unit));
 }
 
 /// Values of a key without the unit that its axis says.
@@ -240,8 +209,8 @@ void put_cell(const StudyFigure& f, ReportGridCell& cell, ReportGridCell found) 
   if (empty || worse) cell = std::move(found);
 }
 
-void add_grids(const StudyFigure& f, const std::vector<StudyEntry>& entries, Report& report) {
-  const std::vector<const StudyEntry*> members = members_of(f, entries);
+void add_grids(const StudyFigure& f, const std::vector<CaseRow>& entries, Report& report) {
+  const std::vector<const CaseRow*> members = members_of(f, entries);
   const std::vector<std::string> xs = values_of(f.x, members), ys = values_of(f.y, members);
   const auto index = [](const std::vector<std::string>& all, const std::string& value) {
     return static_cast<std::size_t>(std::find(all.begin(), all.end(), value) - all.begin());
@@ -251,8 +220,8 @@ void add_grids(const StudyFigure& f, const std::vector<StudyEntry>& entries, Rep
     ReportGrids row{panels.size() > 1 ? fmt::format("{}-{}", f.id, n + 1) : f.id,
                     chart_title(f, panels[n]),
                     n == 0 ? f.note : "",
-                    axis_title(f.x, xs),
-                    axis_title(f.y, ys),
+                    axis_title(key_name(f.x), xs),
+                    axis_title(key_name(f.y), ys),
                     f.kind == "verdict" ? "" : column_title(f.value),
                     {}};
     for (const Line& line : lines_of(f, members, panels[n])) {
@@ -275,7 +244,7 @@ struct Worst {
 };
 
 /// A run without its fields: checks look at numbers and options alone.
-ReportRun for_checks(const StudyEntry& e) {
+ReportRun for_checks(const CaseRow& e) {
   ReportRun run = read_report_run(e.folder);
   run.result.field = {};
   run.sections.clear();
@@ -286,7 +255,7 @@ ReportRun for_checks(const StudyEntry& e) {
 }
 
 /// One line for each kind of check: how many cases hold it, the worst of them, and who does not.
-void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportTable& pairs) {
+void add_verdict(const std::vector<CaseRow>& entries, Report& report, ReportTable& pairs) {
   std::map<std::string, Worst> worst;
   std::vector<std::string> order;
   const auto add = [&](ReportCheck c, const std::string& whose) {
@@ -303,10 +272,10 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
   };
   std::set<fs::path> seen;
   std::vector<ReportRun> half_spaces;
-  for (const StudyEntry& e : entries)
+  for (const CaseRow& e : entries)
     if (e.engine == Engine::bem && e.done() && seen.insert(e.folder).second) half_spaces.push_back(for_checks(e));
   seen.clear();
-  for (const StudyEntry& e : entries) {
+  for (const CaseRow& e : entries) {
     if (!e.done() || !seen.insert(e.folder).second) continue;
     std::vector<ReportRun> both{for_checks(e)};
     std::vector<ReportCheck> checks = report_checks(both);
@@ -339,40 +308,6 @@ void add_verdict(const std::vector<StudyEntry>& entries, Report& report, ReportT
   }
 }
 
-/// The columns of the study's table that the page shows.
-constexpr const char* kCasesColumns[] = {"p_max_MPa",
-                                         "q_max_MPa",
-                                         "patch_length_mm",
-                                         "patch_width_mm",
-                                         "patch_area_mm2",
-                                         "slip_area_fraction",
-                                         "creepage_x",
-                                         "rail_von_mises_MPa",
-                                         "rail_von_mises_depth_mm",
-                                         "section_sigma_1_MPa",
-                                         "section_sigma_1_depth_mm"};
-
-ReportTable cases_table(const std::vector<StudyEntry>& entries) {
-  ReportTable t{.id = "cases", .title = "All cases", .note = "study.csv has every column.", .columns = {}, .rows = {}};
-  t.columns = {"case", "engine"};
-  for (const char* name : kCasesColumns) {
-    const ResultColumn& column = *find_column(name);
-    t.columns.push_back(fmt::format("{} [{}]", column.title, column.shown_unit.shown));
-  }
-  t.columns.push_back("state");
-  for (const StudyEntry& e : entries) {
-    std::vector<nlohmann::ordered_json> row{e.group + "/" + e.name, engine_title(e.engine)};
-    for (const char* name : kCasesColumns) {
-      const ResultColumn& column = *find_column(name);
-      const double v = e.number(name) * (column.shown_unit.factor / column.factor);
-      row.push_back(std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr));
-    }
-    row.push_back(e.fault.empty() ? e.state : fmt::format("{}: {}", e.state, e.fault));
-    t.rows.push_back(std::move(row));
-  }
-  return t;
-}
-
 ReportTable engines_table() {
   ReportTable t{.id = "engines",
                 .title = "Finite elements against half-spaces",
@@ -393,39 +328,31 @@ ReportTable engines_table() {
 
 }  // namespace
 
-std::string StudyEntry::value(const std::string& key) const {
-  for (const auto& [k, v] : values)
-    if (k == key) return v;
-  return {};
-}
-
-double StudyEntry::number(const std::string& column) const {
-  for (const auto& [known, v] : numbers)
-    if (known == column) return v;
-  return kNotThere;
-}
-
-Report study_report(const StudySpec& study, const Published& published, const std::vector<StudyEntry>& entries) {
+Report study_report(const StudySpec& study, const Published& published, const std::vector<CaseRow>& entries) {
   Report report;
   report.title = study.title;
   for (const StudyFigure& f : study.figures) {
     if (f.kind == "centre_line")
       add_centre_lines(f, entries, report);
     else if (f.kind == "trend")
-      add_trend(f, entries, report);
+      add_trends(f, entries, report);
     else if (f.kind == "verdict" || f.kind == "grid")
       add_grids(f, entries, report);
     else
       add_maps(f, entries, report);
   }
-  for (const StudyEntry& e : entries)  // something to look at, whatever the figures ask for
+  for (const CaseRow& e : entries)  // something to look at, whatever the figures ask for
     if (report.runs.empty() && e.done()) run_of(e, report);
   ReportTable pairs = engines_table();
   add_verdict(entries, report, pairs);
   if (!published.claims.empty()) report.tables.push_back(claims_table(published, entries));
   if (!published.numbers.empty()) report.tables.push_back(published_table(published, entries));
   if (!pairs.rows.empty()) report.tables.push_back(std::move(pairs));
-  report.tables.push_back(cases_table(entries));
+  report.tables.push_back(
+      cases_table("study.csv has every column.",
+                  {{"case", [](const CaseRow& row) { return row.group + "/" + row.name; }},
+                   {"engine", [](const CaseRow& row) { return std::string(engine_title(row.engine)); }}},
+                  entries));
   return report;
 }
 

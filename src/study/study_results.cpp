@@ -308,11 +308,11 @@ bool take_over(const fs::path& out, const StudyCase& c, const fs::path& working)
   return taken;
 }
 
-std::vector<StudyRow> study_rows(const fs::path& out, const std::vector<StudyCase>& cases) {
+std::vector<CaseRow> study_rows(const fs::path& out, const std::vector<StudyCase>& cases) {
   const std::vector<ResultColumn> columns = result_columns(true);
-  std::vector<StudyRow> rows;
+  std::vector<CaseRow> rows;
   for (const StudyCase& c : cases) {
-    StudyRow row{&c, "to do", last_failure(out, c), {}, {}};
+    CaseRow row{c.group, c.name, c.engine, "to do", last_failure(out, c), c.folder, c.values, {}, {}};
     if (is_done(out, c)) {
       const Json summary = read_json(out / c.folder / "summary.json"), study = read_json(out / c.folder / kStudyFile);
       row.state = "done";
@@ -332,41 +332,15 @@ std::vector<StudyRow> study_rows(const fs::path& out, const std::vector<StudyCas
   return rows;
 }
 
-std::vector<std::string> varied_keys(const std::vector<StudyRow>& rows) {
-  std::vector<std::string> keys;
-  for (const StudyRow& row : rows)
-    for (const auto& [key, text] : row.study_case->values)
-      if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
-  return keys;
-}
-
-void write_study_table(const fs::path& file, const std::vector<std::string>& origin,
-                       const std::vector<StudyRow>& rows) {
-  const std::vector<std::string> keys = varied_keys(rows);
-  std::vector<std::string> names;
-  for (const StudyRow& row : rows)
-    for (const auto& [name, value] : row.numbers)
-      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-  std::string text = csv_remarks(origin) + csv_remarks({patches_remark(result_columns(true))}) + "group,case,engine,";
-  for (const std::string& key : keys) text += csv_cell(key) + ',';
-  for (const std::string& name : names) text += name + ',';
-  text += "folder,state,fault,patches,checks,warnings\n";
-  for (const StudyRow& row : rows) {
-    const StudyCase& c = *row.study_case;
-    text += csv_cell(c.group) + ',' + csv_cell(c.name) + ',' + std::string(engine_word(c.engine)) + ',';
-    for (const std::string& key : keys) {
-      const auto v = std::find_if(c.values.begin(), c.values.end(), [&](const auto& kv) { return kv.first == key; });
-      text += (v == c.values.end() ? "" : csv_cell(v->second)) + ',';
-    }
-    for (const std::string& name : names) {
-      const auto v =
-          std::find_if(row.numbers.begin(), row.numbers.end(), [&](const auto& nv) { return nv.first == name; });
-      text += (v == row.numbers.end() ? "" : csv_cell(v->second)) + ',';
-    }
-    text += fmt::format("{},{},{},{},{},{}\n", csv_cell(c.folder.generic_string()), row.state, csv_cell(row.fault),
-                        row.remarks.patches, csv_cell(row.remarks.checks), csv_cell(row.remarks.warnings));
-  }
-  write_whole_file(file, text);
+void write_study_table(const fs::path& file, std::vector<std::string> origin, const std::vector<CaseRow>& rows) {
+  origin.push_back(patches_remark(result_columns(true)));
+  const std::vector<CaseColumn> head{
+      {"group", [](const CaseRow& row) { return row.group; }},
+      {"case", [](const CaseRow& row) { return row.name; }},
+      {"engine", [](const CaseRow& row) { return std::string(engine_word(row.engine)); }}};
+  const std::vector<CaseColumn> state{{"folder", [](const CaseRow& row) { return row.folder.generic_string(); }},
+                                      {"state", [](const CaseRow& row) { return row.state; }}};
+  write_cases(file, origin, {joined(head, value_columns(rows), number_columns(rows), state, remark_columns()), rows});
 }
 
 }  // namespace railstrata

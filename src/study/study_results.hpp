@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "many/result_columns.hpp"
+#include "many/case_row.hpp"
 #include "study/claim.hpp"
 #include "study/study_plan.hpp"
 
@@ -12,15 +12,6 @@ namespace railstrata {
 
 /// Beside the files of `run` or `bem`: the key of the result, the fault, numbers of the sections.
 inline constexpr const char* kStudyFile = "study.json";
-
-/// A line of the study's table.
-struct StudyRow {
-  const StudyCase* study_case = nullptr;
-  std::string state;  ///< "done", "failed", "to do"
-  std::string fault;  ///< of a failed case its reason; of a result the check that fails
-  std::vector<std::pair<std::string, double>> numbers;  ///< columns of the table; empty unless done
-  ResultRemarks remarks;
-};
 
 /// A result that stands where another case of the same key would put it (the groups have changed their order) is taken
 /// from there.
@@ -55,14 +46,11 @@ void recover(const std::filesystem::path& out, const std::vector<StudyCase>& cas
 /// no working folder.
 bool take_over(const std::filesystem::path& out, const StudyCase& c, const std::filesystem::path& working);
 
-/// The table as it stands, in the order of the cases.
-std::vector<StudyRow> study_rows(const std::filesystem::path& out, const std::vector<StudyCase>& cases);
+/// The table as it stands, a row for each of the cases; its folders are relative to `out`.
+std::vector<CaseRow> study_rows(const std::filesystem::path& out, const std::vector<StudyCase>& cases);
 
 /// study.csv: group, case, engine, the keys varied, the numbers with units in their names, folder, state, fault.
-void write_study_table(const std::filesystem::path& file, const std::vector<std::string>& origin,
-                       const std::vector<StudyRow>& rows);
-
-/// The keys that any case varies, in the order of the file.
-std::vector<std::string> varied_keys(const std::vector<StudyRow>& rows);
+void write_study_table(const std::filesystem::path& file, std::vector<std::string> origin,
+                       const std::vector<CaseRow>& rows);
 
 }  // namespace railstrata

@@ -1,17 +1,14 @@
 #include "study/study_run.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
-#include <fstream>
 #include <list>
 #include <map>
-#include <sstream>
-#include <thread>
+#include <memory>
+#include <optional>
+#include <semaphore>
 
 #include "core/faults.hpp"
 #include "core/text.hpp"
@@ -19,6 +16,7 @@
 #include "io/output_file.hpp"
 #include "runs/write_fem_result.hpp"
 #include "study/child_process.hpp"
+#include "study/running_case.hpp"
 #include "study/study_results.hpp"
 
 namespace railstrata {
@@ -30,56 +28,23 @@ constexpr double kPatience = 20;  // s; batch systems wait about thirty before t
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// What the log says went wrong: its first error, else its last line.
-std::string reason_of(const std::string& log, int status) {
-  std::istringstream lines(log);
-  std::string last;
-  for (std::string line; std::getline(lines, line);) {
-    if (const auto at = line.find("error: "); at != std::string::npos) return line.substr(at + 7);
-    if (!line.empty()) last = line;
-  }
-  return WIFEXITED(status) && !last.empty() ? fmt::format("{}: {}", describe_end(status), last) : describe_end(status);
-}
-
-bool has_result(int status) {
-  return WIFEXITED(status) && (WEXITSTATUS(status) == static_cast<int>(ExitCode::ok) ||
-                               WEXITSTATUS(status) == static_cast<int>(ExitCode::failed_checks));
-}
-
-/// How far a case is by the last percentage in its log.
-double fraction_of(const fs::path& log) {
-  const std::string text = file_text(log);
-  const auto at = text.rfind(" %");
-  if (at == std::string::npos || at < 3) return 0;
-  double percent = 0;
-  std::istringstream(text.substr(at - 3, 3)) >> percent;
-  return std::clamp(0.01 * percent, 0.0, 1.0);
-}
-
 struct Running {
   const StudyCase* study_case;
-  pid_t process;
+  std::unique_ptr<RunningCase> at_work;
   fs::path folder;
   Clock::time_point start;
   Claim claim;
 };
 
-void end_at_once(const Running& r) {
-  ::kill(r.process, SIGKILL);
-  ::waitpid(r.process, nullptr, 0);
-}
-
 class Pool {
  public:
   Pool(const StudyRun& run, const std::vector<const StudyCase*>& cases)
-      : run_(run), pending_(cases.begin(), cases.end()), began_(file_server_time(run.out / "study")) {
+      : run_(run),
+        settings_{run.cell, run.threads, &cache_, &wake_},
+        pending_(cases.begin(), cases.end()),
+        began_(file_server_time(run.out / "study")) {
     for (const StudyCase* c : cases) ++left_[c->engine];
     ignore_second_signal_in_children();
-  }
-
-  ~Pool() {
-    for (const Running& r : running_) ::kill(r.process, SIGKILL);
-    for (const Running& r : running_) ::waitpid(r.process, nullptr, 0);
   }
 
   StudyRunEnd work() {
@@ -88,19 +53,22 @@ class Pool {
         stop();
         break;
       }
-      if (run_.control->save.exchange(false)) pass_on(SIGUSR1);
+      if (run_.control->save.exchange(false)) for_all(&RunningCase::ask_to_save);
       start_free();
       renew();
       collect();
       run_.control->progress("study", fraction());
       if (running_.empty() && !pending_.empty() && looked_ && !run_.wait) break;
-      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      rest();
     }
     end_.not_ours.assign(pending_.begin(), pending_.end());
     return std::move(end_);
   }
 
  private:
+  /// Until a thread has ended, or a process may have.
+  void rest() { static_cast<void>(wake_.try_acquire_for(std::chrono::milliseconds(20))); }
+
   bool has_room() const { return static_cast<int>(running_.size()) < run_.jobs; }
 
   /// Starts cases that nobody computes. Where there is none it looks again after a while, that grows.
@@ -149,10 +117,9 @@ class Pool {
     const fs::path folder = working_folder(run_.out, c);
     const bool begun = take_over(run_.out, c, folder);
     if (!begun) make_folder(folder);
-    std::vector<std::string> words =
-        begun ? resume_command(run_.threads, folder) : case_command(c, run_.cell, run_.threads, folder);
-    words.insert(words.begin(), "railstrata");
-    running_.push_back({&c, start_self(words, folder / "log.txt"), folder, Clock::now(), std::move(claim)});
+    std::unique_ptr<RunningCase> at_work =
+        c.engine == Engine::bem ? start_thread(c, settings_, folder) : start_process(c, settings_, folder, begun);
+    running_.push_back({&c, std::move(at_work), folder, Clock::now(), std::move(claim)});
   }
 
   /// A case that another process has taken over, having held this one for dead, is left to it.
@@ -162,7 +129,7 @@ class Pool {
         ++r;
         continue;
       }
-      end_at_once(*r);
+      r->at_work.reset();
       leave(*r);
       r = running_.erase(r);
     }
@@ -176,32 +143,30 @@ class Pool {
 
   void collect() {
     for (auto r = running_.begin(); r != running_.end();) {
-      int status = 0;
-      if (!has_ended(r->process, status)) {
+      const std::optional<std::string> fault = r->at_work->ended();
+      if (!fault) {
         ++r;
         continue;
       }
       const Running ended = std::move(*r);
       r = running_.erase(r);
       // once it is asked to stop, a case may end in any way: in the preload with an error
-      if (run_.control->stop && !has_result(status))
+      if (run_.control->stop && !fault->empty())
         discard(ended);
       else
-        finish(ended, status);
+        finish(ended, *fault);
     }
   }
 
-  std::string fault_of(const Running& r, int status) const {
-    const StudyCase& c = *r.study_case;
-    if (!has_result(status)) return reason_of(file_text(r.folder / "log.txt"), status);
-    if (!file_text(r.folder / "case.toml").ends_with(kept_case(c.loaded, kept_inputs(c.loaded, r.folder))))
-      return "the base case changed while the study ran: start it again";
-    return "";
+  /// The base case may have changed while the study ran; the folder has the one that was solved.
+  static bool is_of_case(const Running& r) {
+    const LoadedCase& loaded = r.study_case->loaded;
+    return file_text(r.folder / "case.toml").ends_with(kept_case(loaded, kept_inputs(loaded, r.folder)));
   }
 
-  void finish(const Running& r, int status) {
+  void finish(const Running& r, std::string fault) {
     const StudyCase& c = *r.study_case;
-    std::string fault = fault_of(r, status);
+    if (fault.empty() && !is_of_case(r)) fault = "the base case changed while the study ran: start it again";
     bool ours = true;
     if (fault.empty()) {
       try {
@@ -224,8 +189,8 @@ class Pool {
     run_.ended(c, fault, seconds, ++done_);
   }
 
-  void pass_on(int signal) const {
-    for (const Running& r : running_) ::kill(r.process, signal);
+  void for_all(void (RunningCase::*ask)()) const {
+    for (const Running& r : running_) ((*r.at_work).*ask)();
   }
 
   /// What a later call cannot go on from.
@@ -237,14 +202,13 @@ class Pool {
   /// Those that can end their step do, with a checkpoint; who has not ended after that time is killed. A result that is
   /// whole by then is kept.
   void stop() {
-    pass_on(SIGTERM);
-    for (const auto asked = Clock::now(); !running_.empty() && seconds_since(asked) < kPatience;
-         std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+    for_all(&RunningCase::ask_to_stop);
+    for (const auto asked = Clock::now(); !running_.empty() && seconds_since(asked) < kPatience; rest()) {
       renew();
       collect();
     }
-    for (const Running& r : running_) {
-      end_at_once(r);
+    for (Running& r : running_) {
+      r.at_work.reset();
       discard(r);
     }
     running_.clear();
@@ -264,7 +228,7 @@ class Pool {
       }
       all += each * left;
       for (const Running& r : running_)
-        if (r.study_case->engine == engine) done += each * fraction_of(r.folder / "log.txt");
+        if (r.study_case->engine == engine) done += each * r.at_work->fraction();
     }
     return all > 0 ? done / all : 1;
   }
@@ -275,6 +239,9 @@ class Pool {
   };
   static constexpr long kShortPause = 100, kLongPause = 5000;  // ms
   const StudyRun& run_;
+  InfluenceCache cache_;
+  std::counting_semaphore<> wake_{0};
+  const CaseSettings settings_;
   std::list<const StudyCase*> pending_;
   const std::optional<double> began_;  ///< by the clock of the file server
   std::list<Running> running_;

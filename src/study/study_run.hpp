@@ -1,7 +1,6 @@
 #pragma once
-// Runs the cases of a study, several at a time, each in a process of its own: a case that crashes or is killed takes
-// nothing with it, its memory is given back, and what it does is what `run` and `bem` do, so that any line of the table
-// can be had again by hand.
+// Computes the cases of a study, several at a time (study/running_case.hpp). What it does with a case is what `run` and
+// `bem` do, so that any line of the table can be had again by hand.
 #include <filesystem>
 #include <functional>
 #include <vector>
@@ -14,7 +13,7 @@ namespace railstrata {
 
 struct StudyRun {
   std::filesystem::path out;
-  std::string cell;              ///< of the half-space engine
+  std::string cell;              ///< of the half-space engine; empty: its default
   int jobs = 1, threads = 1;     ///< cases at a time; threads of each
   double lease = kDefaultLease;  ///< of the claims (study/claim.hpp), s
   bool wait = true;  ///< for cases that others compute, to take over those that die; false: they are left to them
@@ -22,12 +21,6 @@ struct StudyRun {
   std::function<void(const StudyCase&, const std::string& fault, double seconds, int done)>
       ended;  ///< a case has ended; fault: empty if it has a result
 };
-
-/// The words after "railstrata" that compute a case into a folder.
-std::vector<std::string> case_command(const StudyCase& c, const std::string& cell, int threads,
-                                      const std::filesystem::path& folder);
-/// Those that go on with a finite element case from the checkpoint of its folder.
-std::vector<std::string> resume_command(int threads, const std::filesystem::path& folder);
 
 /// Throws EnvironmentError on a system where the program does not start processes.
 void require_case_processes();

@@ -15,8 +15,7 @@ namespace {
 using Numbers = std::vector<std::pair<std::string, double>>;
 using Values = std::vector<std::pair<std::string, std::string>>;
 
-StudyEntry entry(const std::string& group, const std::string& name, Engine engine, Numbers numbers,
-                 Values values = {}) {
+CaseRow entry(const std::string& group, const std::string& name, Engine engine, Numbers numbers, Values values = {}) {
   return {group, name, engine, "done", "", "", std::move(values), std::move(numbers)};
 }
 
@@ -36,15 +35,15 @@ PublishedNumber about(double value, double within) {
 }
 
 /// The answers of the three columns and the difference, then the reason.
-std::vector<nlohmann::ordered_json> row(const PublishedNumber& n, const std::vector<StudyEntry>& entries) {
+std::vector<nlohmann::ordered_json> row(const PublishedNumber& n, const std::vector<CaseRow>& entries) {
   return published_table({"S", kColumns, {n}, {}}, entries).rows.at(0);
 }
-std::string reason(const PublishedNumber& n, const std::vector<StudyEntry>& entries) {
+std::string reason(const PublishedNumber& n, const std::vector<CaseRow>& entries) {
   return row(n, entries).back().get<std::string>();
 }
 
-std::vector<StudyEntry> answers(double paper_mesh, double converged, double half_space) {
-  std::vector<StudyEntry> out;
+std::vector<CaseRow> answers(double paper_mesh, double converged, double half_space) {
+  std::vector<CaseRow> out;
   if (!std::isnan(paper_mesh))
     out.push_back(entry("paper_layers", "h 1", Engine::fem, {{"p", paper_mesh}, {"other", 500}}));
   if (!std::isnan(converged)) out.push_back(entry("layers", "h 1", Engine::fem, {{"p", converged}, {"other", 500}}));
@@ -77,7 +76,7 @@ TEST(PublishedTable, AChangeIsTakenWithinEachColumnAndAGroupWithoutTwinStandsFor
   PublishedNumber n = about(10, 1);
   n.unit = "%";
   n.against = "base/f 1";
-  std::vector<StudyEntry> all = answers(1200, 1100, 1090);
+  std::vector<CaseRow> all = answers(1200, 1100, 1090);
   all.push_back(entry("base", "f 1", Engine::fem, {{"p", 1000}}));
   all.push_back(entry("base", "f 1", Engine::bem, {{"p", 1000}}));
   const auto without = row(n, all);
@@ -102,12 +101,12 @@ TEST(PublishedTable, EnginesAreHeldAgainstEachOtherAndBoundsAreBounds) {
 }
 
 TEST(PublishedTable, WhatIsNotDoneHasNoNumber) {
-  std::vector<StudyEntry> all = answers(NAN, 1005, NAN);
+  std::vector<CaseRow> all = answers(NAN, 1005, NAN);
   all[0].state = "failed";
   EXPECT_EQ(reason(about(1000, 20), all), "no result yet");
 }
 
-std::string claim(PublishedClaim c, const std::vector<StudyEntry>& entries) {
+std::string claim(PublishedClaim c, const std::vector<CaseRow>& entries) {
   c.section = "6";
   c.text = "…";
   c.column = "p";
@@ -115,8 +114,8 @@ std::string claim(PublishedClaim c, const std::vector<StudyEntry>& entries) {
   return claims_table({"S", {{"half-space", Engine::bem, ""}}, {}, {c}}, entries).rows.at(0).at(2).get<std::string>();
 }
 
-std::vector<StudyEntry> grid(const std::vector<double>& thin, const std::vector<double>& thick) {
-  std::vector<StudyEntry> out{entry("base", "case", Engine::bem, {{"p", 100}}, {{"E", "1"}})};
+std::vector<CaseRow> grid(const std::vector<double>& thin, const std::vector<double>& thick) {
+  std::vector<CaseRow> out{entry("base", "case", Engine::bem, {{"p", 100}}, {{"E", "1"}})};
   const char* moduli[] = {"2", "10", "4"};  // by their numbers, not by their letters or their order
   for (int k = 0; k < 3; ++k) {
     out.push_back(entry("layers", "", Engine::bem, {{"p", thin[k]}}, {{"h", "0.5 mm"}, {"E", moduli[k]}}));

@@ -1,0 +1,92 @@
+#include "many/case_row.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "io/csv.hpp"
+#include "io/output_file.hpp"
+#include "result/result_table.hpp"
+
+namespace railstrata {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The names of pairs of any row, each once.
+template <class Pairs>
+std::vector<std::string> names_in(const std::vector<CaseRow>& rows, Pairs CaseRow::*pairs) {
+  std::vector<std::string> out;
+  for (const CaseRow& row : rows)
+    for (const auto& [name, value] : row.*pairs)
+      if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+  return out;
+}
+
+template <class Value>
+Value found(const std::vector<std::pair<std::string, Value>>& pairs, const std::string& name, Value otherwise) {
+  const auto at = std::find_if(pairs.begin(), pairs.end(), [&](const auto& pair) { return pair.first == name; });
+  return at == pairs.end() ? otherwise : at->second;
+}
+
+std::vector<Json> cells_of(const std::vector<CaseColumn>& columns, const CaseRow& row) {
+  std::vector<Json> out;
+  for (const CaseColumn& c : columns) out.push_back(c.cell(row));
+  return out;
+}
+
+}  // namespace
+
+std::string CaseRow::value(const std::string& key) const { return found(values, key, std::string()); }
+double CaseRow::number(const std::string& column) const { return found(numbers, column, kNotApplicable); }
+
+Json number_cell(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+std::vector<CaseColumn> value_columns(const std::vector<CaseRow>& rows) {
+  std::vector<CaseColumn> out;
+  for (const std::string& key : names_in(rows, &CaseRow::values))
+    out.push_back({key, [key](const CaseRow& row) { return row.value(key); }});
+  return out;
+}
+
+std::vector<CaseColumn> number_columns(const std::vector<CaseRow>& rows) {
+  std::vector<CaseColumn> out;
+  for (const std::string& name : names_in(rows, &CaseRow::numbers))
+    out.push_back({name, [name](const CaseRow& row) { return number_cell(row.number(name)); }});
+  return out;
+}
+
+std::vector<CaseColumn> remark_columns() {
+  return {{"fault", [](const CaseRow& row) { return row.fault.empty() ? Json(nullptr) : Json(row.fault); }},
+          {"patches", [](const CaseRow& row) { return row.remarks.patches; }},
+          {"checks", [](const CaseRow& row) { return row.remarks.checks; }},
+          {"warnings", [](const CaseRow& row) { return row.remarks.warnings; }}};
+}
+
+std::string csv_line(const std::vector<Json>& cells) {
+  std::string out;
+  for (const Json& cell : cells) {
+    if (cell.is_number()) out += csv_cell(cell.get<double>());
+    if (cell.is_string()) out += csv_cell(cell.get<std::string>());
+    out += &cell == &cells.back() ? '\n' : ',';
+  }
+  return out;
+}
+
+void write_cases(const std::filesystem::path& file, const std::vector<std::string>& origin, const CaseTable& table) {
+  std::vector<Json> names;
+  for (const CaseColumn& c : table.columns) names.emplace_back(c.name);
+  std::string text = csv_remarks(origin) + csv_line(names);
+  for (const CaseRow& row : table.rows) text += csv_line(cells_of(table.columns, row));
+  write_whole_file(file, text);
+}
+
+Json json_of(const CaseTable& table) {
+  Json out = Json::array();
+  for (const CaseRow& row : table.rows) {
+    Json& one = out.emplace_back(Json::object());
+    for (const CaseColumn& c : table.columns) one[c.name] = c.cell(row);
+  }
+  return out;
+}
+
+}  // namespace railstrata

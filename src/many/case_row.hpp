@@ -1,0 +1,65 @@
+#pragma once
+// A case's result as a row of a table over many cases, and the table as CSV and JSON.
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "core/engine.hpp"
+#include "many/result_columns.hpp"
+
+namespace railstrata {
+
+struct CaseRow {
+  std::string group, name;
+  Engine engine = Engine::bem;
+  std::string state;             ///< "done", "failed", "to do"
+  std::string fault;             ///< of a failed case its reason; of a result the check that fails
+  std::filesystem::path folder;  ///< of the result, if it has one
+  std::vector<std::pair<std::string, std::string>> values;  ///< what is varied: key and text
+  std::vector<std::pair<std::string, double>> numbers;      ///< columns by their names; empty unless done
+  ResultRemarks remarks{};
+
+  bool done() const { return state == "done"; }
+  std::string value(const std::string& key) const;  ///< "" if the case has no such key
+  double number(const std::string& column) const;   ///< NaN if there is none
+};
+
+/// A column of a table of cases; its cells are texts, numbers or null.
+struct CaseColumn {
+  std::string name;
+  std::function<nlohmann::ordered_json(const CaseRow&)> cell;
+};
+
+struct CaseTable {
+  std::vector<CaseColumn> columns;
+  std::vector<CaseRow> rows;
+};
+
+/// The keys that any case varies and the numbers that any case has, in the order of the rows.
+std::vector<CaseColumn> value_columns(const std::vector<CaseRow>& rows);
+std::vector<CaseColumn> number_columns(const std::vector<CaseRow>& rows);
+/// What stands at the end of every row: fault, patches, checks, warnings.
+std::vector<CaseColumn> remark_columns();
+
+template <class... Lists>
+std::vector<CaseColumn> joined(std::vector<CaseColumn> first, const Lists&... more) {
+  (first.insert(first.end(), more.begin(), more.end()), ...);
+  return first;
+}
+
+/// A cell that is a number; null where it is not finite.
+nlohmann::ordered_json number_cell(double value);
+
+/// Cells as a line of CSV.
+std::string csv_line(const std::vector<nlohmann::ordered_json>& cells);
+
+/// Writes the table whole, `origin` as "#" lines above it.
+void write_cases(const std::filesystem::path& file, const std::vector<std::string>& origin, const CaseTable& table);
+/// An object a row.
+nlohmann::ordered_json json_of(const CaseTable& table);
+
+}  // namespace railstrata

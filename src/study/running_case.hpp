@@ -1,0 +1,48 @@
+#pragma once
+// A case of a study on its way: a process for finite elements, a thread of this one for half-spaces. What ends a case
+// that way ends no other: a process may crash, and what a thread throws is caught.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <semaphore>
+#include <string>
+#include <vector>
+
+#include "bem/influence_cache.hpp"
+#include "study/study_plan.hpp"
+
+namespace railstrata {
+
+class RunningCase {
+ public:
+  /// Ends it at once, whatever is lost.
+  virtual ~RunningCase() = default;
+  /// Once it has ended: why it has no result, empty if it has one.
+  virtual std::optional<std::string> ended() = 0;
+  /// In good order: with a checkpoint, where it can have one.
+  virtual void ask_to_stop() = 0;
+  /// A checkpoint on its way, where it can have one.
+  virtual void ask_to_save() {}
+  /// How far it is, from 0 to 1.
+  virtual double fraction() const = 0;
+};
+
+/// What cases of one call have in common.
+struct CaseSettings {
+  std::string cell;  ///< of the half-space engine; empty: its default
+  int threads = 1;   ///< of each
+  InfluenceCache* cache = nullptr;
+  std::counting_semaphore<>* wake = nullptr;  ///< released when a thread has ended
+};
+
+/// The command line that computes a case into a folder.
+std::vector<std::string> case_command(const StudyCase& c, const CaseSettings& settings,
+                                      const std::filesystem::path& folder);
+
+/// `begun`: goes on from the checkpoint in the folder. To be called from the main thread. Throws EnvironmentError.
+std::unique_ptr<RunningCase> start_process(const StudyCase& c, const CaseSettings& settings,
+                                           const std::filesystem::path& folder, bool begun);
+std::unique_ptr<RunningCase> start_thread(const StudyCase& c, const CaseSettings& settings,
+                                          const std::filesystem::path& folder);
+
+}  // namespace railstrata
