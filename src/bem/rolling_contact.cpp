@@ -11,29 +11,30 @@ namespace railstrata {
 
 namespace {
 
-/// Rail minus wheel on the grid and one row of cells ahead of it.
-struct Displacement {
-  Plane x, y;
-  Displacement(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure)
-      : x(grid.size() + row(grid)), y(x.size()) {
-    influence.tangential_from_pressure(pressure.data(), x.data(), y.data(), grid.nx + 1);
-  }
-  Displacement(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& s)
-      : Displacement(influence, grid, s.normal.pressure) {
-    Plane qx(x.size()), qy(x.size());
-    influence.tangential(s.tangential.q_x.data(), s.tangential.q_y.data(), qx.data(), qy.data(), grid.nx + 1);
-    add_scaled(x, 1, qx);
-    add_scaled(y, 1, qy);
-  }
-  static std::size_t row(const PatchGrid& grid) { return static_cast<std::size_t>(grid.ny); }
-};
+/// Rail minus wheel by pressure on the grid and one row of cells ahead of it.
+PlanePair displacement_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure) {
+  const std::size_t n = grid.size() + static_cast<std::size_t>(grid.ny);
+  PlanePair u{Plane(n), Plane(n)};
+  influence.tangential_from_pressure(pressure.data(), u.x.data(), u.y.data(), grid.nx + 1);
+  return u;
+}
+
+/// Adds the part of the state before that pressure has made, of each cell or of the one ahead of it.
+void add_history_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure,
+                             std::size_t ahead, PlanePair& before) {
+  const PlanePair u = displacement_by_pressure(influence, grid, pressure);
+  for_cells(grid.size(), [&](std::size_t i) {
+    before.x[i] += u.x[i + ahead];
+    before.y[i] += u.y[i + ahead];
+  });
+}
 
 /// What the tangential problem sees of the displacement by pressure: rigid slip in steady rolling, else a part of the
 /// history.
 void add_displacement_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid, const Plane& pressure,
                                   TangentialProblem& t) {
-  const Displacement u(influence, grid, pressure);
-  const std::size_t n = grid.size(), row = Displacement::row(grid);
+  const PlanePair u = displacement_by_pressure(influence, grid, pressure);
+  const std::size_t n = grid.size(), row = static_cast<std::size_t>(grid.ny);
   const bool steady = t.kind == RollingKind::steady;
   auto& [x, y] = steady ? t.extra_slip : t.before;
   x.resize(n, 0.0);
@@ -59,26 +60,10 @@ void cut_leading_cells(const InfluenceOperator& influence, const PatchGrid& grid
 
 TangentialProblem tangential_part(const InfluenceOperator& influence, const PatchGrid& grid,
                                   const RollingContact& contact, const NormalSolution& normal) {
-  const Plane& pressure = normal.pressure;
-  TangentialProblem t;
-  t.kind = contact.kind;
-  t.traction_bound = pressure;
-  t.x = contact.x;
-  t.y = contact.y;
-  t.spin = contact.spin;
-  t.extra_slip = contact.extra_slip;
-  t.step = contact.step;
-  t.before = contact.before;
-  t.local_spin = contact.local_spin;
-  t.falling = contact.falling;
-  t.speed = contact.speed;
-  t.third_body = contact.third_body;
-  t.plastic_before = contact.plastic_before;
-  t.lost_before = contact.lost_before;
-  t.traction_before = contact.traction_before;
+  TangentialProblem t{contact, normal.pressure, {}};
   for (std::size_t i = 0; i < t.traction_bound.size(); ++i)
     t.traction_bound[i] *= contact.local_friction.empty() ? contact.friction : contact.local_friction[i];
-  if (influence.couples()) add_displacement_by_pressure(influence, grid, pressure, t);
+  if (influence.couples()) add_displacement_by_pressure(influence, grid, normal.pressure, t);
   if (contact.leading_edge == LeadingEdge::sub_cell) cut_leading_cells(influence, grid, normal, t);
   return t;
 }
@@ -167,25 +152,14 @@ RollingSolution solve_rolling(const InfluenceOperator& influence, const PatchGri
 
 void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,
                       RollingContact& contact) {
-  const Displacement u(influence, grid, before);
-  const auto row = static_cast<std::ptrdiff_t>(Displacement::row(grid));
-  contact.kind = RollingKind::transient;
-  contact.step = grid.dx;
-  contact.before.x.assign(u.x.begin() + row, u.x.end());
-  contact.before.y.assign(u.y.begin() + row, u.y.end());
-  contact.plastic_before = rolled_on(grid, before.tangential.plastic);
-  contact.lost_before = rolled_on(grid, before.tangential.lost_friction);
-  contact.traction_before = {rolled_on(grid, before.tangential.q_x), rolled_on(grid, before.tangential.q_y)};
+  roll_on_one_cell(influence, grid, before.tangential, contact);
+  add_history_by_pressure(influence, grid, before.normal.pressure, static_cast<std::size_t>(grid.ny), contact.before);
 }
 
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const RollingSolution& before,
               RollingContact& contact) {
-  const Displacement u(influence, grid, before);
-  const auto row = static_cast<std::ptrdiff_t>(Displacement::row(grid));
-  contact.kind = RollingKind::shift;
-  contact.before.x.assign(u.x.begin(), u.x.end() - row);
-  contact.before.y.assign(u.y.begin(), u.y.end() - row);
-  contact.plastic_before = before.tangential.plastic;
+  shift_on(influence, grid, before.tangential, contact);
+  add_history_by_pressure(influence, grid, before.normal.pressure, 0, contact.before);
 }
 
 }  // namespace railstrata

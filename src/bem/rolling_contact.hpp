@@ -12,25 +12,13 @@
 
 namespace railstrata {
 
-struct RollingContact {
+/// `before` of the conditions is the displacement by pressure and traction.
+struct RollingContact : RollingConditions {
   Plane gap;  ///< m
   NormalTarget target;
   double friction = 0.3;
-  Plane local_friction;     ///< in each cell, replaces `friction`; empty: uniform
-  FallingFriction falling;  ///< with slip, from `friction` on
-  double speed = 0;         ///< V [m/s], for `falling`
-  ThirdBody third_body;     ///< the influence operator has its flexibility
-  RollingKind kind = RollingKind::steady;
-  CreepOrForce x, y;
-  double spin = 0;       ///< 1/m
-  PlanePair extra_slip;  ///< further rigid slip, see TangentialProblem
-  double step = 0;       ///< rolled distance [m]: transient only
-  PlanePair before;      ///< history: displacement by pressure and traction of the state before, see TangentialProblem
+  Plane local_friction;  ///< in each cell, replaces `friction`; empty: uniform
   LeadingEdge leading_edge = LeadingEdge::sub_cell;
-  Plane local_spin;           ///< 1/m, beyond `spin` in each row of cells, see TangentialProblem
-  Plane plastic_before;       ///< m, history of a third body that yields
-  Plane lost_before;          ///< history of friction with a memory, see TangentialProblem
-  PlanePair traction_before;  ///< Pa, transient: of the state before, see TangentialProblem
 };
 
 struct RollingOptions {

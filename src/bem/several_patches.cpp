@@ -10,6 +10,7 @@
 
 #include <Eigen/LU>
 
+#include "bem/pressure_on_rail.hpp"
 #include "core/faults.hpp"
 
 namespace railstrata {
@@ -22,46 +23,6 @@ double modulus_of(const CaseSpec& spec) {
   return contact_modulus({spec.wheel_material.young, spec.wheel_material.poisson},
                          {spec.rail_material.young, spec.rail_material.poisson});
 }
-
-/// A pressure where it stands: of a patch that has not been solved yet a force at the rigid contact point.
-struct PressureOnRail {
-  const RigidContact& contact;
-  const PatchGrid& grid;
-  const Plane& pressure;
-  double force;
-
-  Vec3 point(double x, double t) const {
-    return {contact.x + x, contact.point.y + t * std::cos(contact.angle),
-            contact.point.z + t * std::sin(contact.angle)};
-  }
-  /// Calls share(force, place) for every cell that bears.
-  template <class Share>
-  void for_each_share(Share&& share) const {
-    if (pressure.empty()) return share(force, point(0, 0));
-    for (int i = 0; i < grid.nx; ++i)
-      for (int j = 0; j < grid.ny; ++j)
-        if (const double p = pressure[grid.index(i, j)]; p > 0)
-          share(p * grid.cell_area(), point(grid.x(i), grid.y(j)));
-  }
-  Vec3 centre() const {
-    Vec3 sum;
-    double total = 0;
-    for_each_share([&](double f, Vec3 place) {
-      sum += f * place;
-      total += f;
-    });
-    return total > 0 ? (1 / total) * sum : point(0, 0);
-  }
-  /// The sum of force/distance^power at a place, over pi E*.
-  double at(Vec3 place, int power, double modulus) const {
-    double sum = 0;
-    for_each_share([&](double f, Vec3 from) {
-      const Vec3 d = place - from;
-      sum += f / std::pow(std::hypot(d.x, d.y, d.z), power);
-    });
-    return sum / (std::numbers::pi * modulus);
-  }
-};
 
 PressureOnRail pressure_of(const PatchOnWheel& p) {
   return {p.contact, p.patch.grid, p.solution.normal.pressure, p.solution.normal.load};

@@ -5,33 +5,14 @@
 // plus for layers the difference of the Fourier-domain solutions (layer_waves.hpp), which dies out away from the patch,
 // so that the periodic images of its grid do not reach back. Of a line contact (PatchGrid::line) in plane strain, the
 // same along every y.
-#include <map>
 #include <memory>
-#include <string>
 #include <vector>
 
+#include "bem/interior_planes.hpp"
 #include "bem/patch_grid.hpp"
-#include "bem/plane_algebra.hpp"
-#include "core/vec.hpp"
-#include "halfspace/interior.hpp"
 #include "halfspace/layered.hpp"
 
 namespace railstrata {
-
-/// The state (halfspace/interior.hpp) in every cell of the grid at one depth. Axes: x rolling, y lateral, z into the
-/// body.
-struct StatePlane {
-  double depth = 0;
-  Plane e_xx, e_yy, e_xy, s_xz, s_yz, s_zz;
-  InteriorState at(std::size_t k) const { return {e_xx[k], e_yy[k], e_xy[k], s_xz[k], s_yz[k], s_zz[k]}; }
-};
-
-/// Displacement [m] in every cell of the grid at one depth, u_z into the body. The half-space is at rest far away;
-/// below a line contact it is nowhere, and the displacement NaN.
-struct DisplacementPlane {
-  double depth = 0;
-  Plane u_x, u_y, u_z;
-};
 
 struct InteriorPoint {
   Vec3 displacement;  ///< m
@@ -65,6 +46,8 @@ struct SubsurfacePeaks {
       below_interface;  ///< the two sides of each interface; the cuts of a graded layer are none
   ZonePeaks matrix;     ///< the substrate; of a homogeneous body as `subsurface`
 };
+
+class LayerCorrection;
 
 class Subsurface {
  public:
@@ -104,18 +87,15 @@ class Subsurface {
   SubsurfacePeaks peaks(SearchDepths depths) const;
 
  private:
-  struct Layered;
   /// Takes the first-order error of stepwise tractions out of a plane nearer to the surface than a cell.
   void straighten_steps(double depth, StatePlane& out) const;
-  void add_layer_difference(double depth, StatePlane& out) const;
-  void add_layer_difference(double depth, DisplacementPlane& out) const;
 
   LayeredHalfSpace body_;
   PatchGrid grid_;
-  Plane p_, q_x_, q_y_;
+  PlaneLoads loads_;
   double period_;
   int reach_x_, reach_y_;  ///< cells from a traction to the farthest cell
-  std::unique_ptr<Layered> layered_;
+  std::unique_ptr<LayerCorrection> layered_;
 };
 
 }  // namespace railstrata

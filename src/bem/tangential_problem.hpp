@@ -42,11 +42,13 @@ struct CreepOrForce {
   std::optional<double> force;
 };
 
-struct TangentialProblem {
+/// How two surfaces move over each other, what was before and how friction depends on slip: whatever the pressure.
+struct RollingConditions {
   RollingKind kind = RollingKind::steady;
-  Plane traction_bound;  ///< f p in each cell [Pa]; 0 outside the patch
   CreepOrForce x, y;
   double spin = 0;       ///< 1/m
+  Plane local_spin;      ///< 1/m, what the lateral slip has for a spin beyond `spin` in each row of cells, [j]; empty:
+                         ///< none
   PlanePair extra_slip;  ///< further rigid slip (or m for a shift) in each cell: conformity, dissimilar bodies; mean
                          ///< over the step
   double step = 0;       ///< rolled distance dq [m]: transient only
@@ -54,15 +56,18 @@ struct TangentialProblem {
                          ///< shift: at (x, y)
   PlanePair traction_before;  ///< Pa, transient: of the state before at (x + dq, y), for the work of friction alone;
                               ///< empty: not known
-  Plane leading_weight;  ///< lambda in each cell (leading_weights), 0 but in the first cells of the rows; empty: whole
-                         ///< cells
-  Plane local_spin;  ///< 1/m, what the lateral slip has for a spin beyond `spin` in each row of cells, [j]; empty: none
-  FallingFriction falling;  ///< steady rolling; traction_bound is the bound at rest
-  double speed = 0;         ///< V [m/s], for the slip velocity of `falling`
-  ThirdBody third_body;     ///< where it yields; its elastic part is the influence operator's
-  Plane plastic_before;     ///< m, history of the third body: as `before` (rolled_on); empty: none yet
+  FallingFriction falling;    ///< steady rolling; the bound of friction is that at rest
+  double speed = 0;           ///< V [m/s], for the slip velocity of `falling`
+  ThirdBody third_body;       ///< where it yields; its elastic part is the influence operator's
+  Plane plastic_before;       ///< m, history of the third body: as `before` (rolled_on); empty: none yet
   Plane lost_before;  ///< share of friction that slip has taken, history of a memory (friction_memory.hpp); as the one
                       ///< above
+};
+
+struct TangentialProblem : RollingConditions {
+  Plane traction_bound;  ///< f p in each cell [Pa]; 0 outside the patch
+  Plane leading_weight;  ///< lambda in each cell (leading_weights), 0 but in the first cells of the rows; empty: whole
+                         ///< cells
 };
 
 struct TangentialOptions {
@@ -86,12 +91,13 @@ struct TangentialSolution {
   double moment = 0;                     ///< N m about the normal at the grid's origin, on the rail
   double dissipation = 0;                ///< friction power over V [N]; shift: work [J] (dissipated, cell_slip.hpp)
   double stick_area = 0, slip_area = 0;  ///< m²
+  bool extrapolated = false;  ///< as a start: made of solutions of the steps before, close to the next one as a rule
   int outer_iterations = 0,
       iterations = 0;  ///< active sets; products with the influence operator and its preconditioner
 };
 
-/// start: traction of a similar problem, or null; taken as it is where it solves this problem; outer_iterations < 0:
-/// continued from solutions. Throws CaseError for a force that friction cannot carry, NumericalError without an end.
+/// start: traction of a similar problem, or null; taken as it is where it solves this problem. Throws CaseError for a
+/// force that friction cannot carry, NumericalError without an end.
 TangentialSolution solve_tangential(const InfluenceOperator& influence, const PatchGrid& grid,
                                     const TangentialProblem& problem, const TangentialOptions& options = {},
                                     const TangentialSolution* start = nullptr);
@@ -99,13 +105,13 @@ TangentialSolution solve_tangential(const InfluenceOperator& influence, const Pa
 /// Values of cells after the wheel has rolled on by one cell; new ones are zero.
 Plane rolled_on(const PatchGrid& grid, const Plane& values);
 
-/// Makes `problem` the transient step in which the wheel rolls on by one cell (dx) from the state `before`, at the same
+/// Makes `next` the transient step in which the wheel rolls on by one cell (dx) from the state `before`, at the same
 /// pressure.
 void roll_on_one_cell(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
-                      TangentialProblem& problem);
-/// Makes `problem` the next increment of a shift from the state `before`: creepages are further distances, forces the
-/// new totals.
+                      RollingConditions& next);
+/// Makes `next` the next increment of a shift from the state `before`: creepages are further distances, forces the new
+/// totals.
 void shift_on(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialSolution& before,
-              TangentialProblem& problem);
+              RollingConditions& next);
 
 }  // namespace railstrata

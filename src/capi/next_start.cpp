@@ -30,7 +30,7 @@ void continue_traction(double share, const TangentialSolution& before, Tangentia
     last.q_x[i] = continued(last.q_x[i], before.q_x[i], share);
     last.q_y[i] = continued(last.q_y[i], before.q_y[i], share);
   }
-  last.outer_iterations = -1;  // continued: solve_tangential takes it for close
+  last.extrapolated = true;
   for (double TangentialSolution::*number :
        {&TangentialSolution::creepage_x, &TangentialSolution::creepage_y, &TangentialSolution::force_y})
     last.*number = continued(last.*number, before.*number, share);

@@ -1,0 +1,60 @@
+#pragma once
+// One Newton step of the tangential problem with its sets of sticking and slipping cells. [Kalker1990 ch. 4]
+#include <array>
+#include <vector>
+
+#include "bem/gmres.hpp"
+#include "bem/tangential_state.hpp"
+
+namespace railstrata {
+
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
+/// With n = q/|q|, t across it and the slip
+/// s(q, xi) = w(xi) + history - L q, the equations of the sets are
+///   stick: s = 0 (two unknowns dq),   slip: |q| = g and s·t = 0 (one unknown: dq along t, then back to the circle),
+/// linearised at the last q. Turning q by dq/g turns t as well, so that a slipping cell's row is
+///   t·L dq + ((s·n)/g) dq·t = s·t:   the diagonal (s·n)/g >= 0 is what makes slip solvable by itself.
+/// Where a force is given its creepage is a further unknown, and the equation sum of dq dA = missing force a further
+/// row. Vectors of the Newton system hold the planes x and y one after the other, then one entry for each such
+/// direction.
+///
+/// Where the bound varies with slip (VaryingBound), the size of the traction of a slipping cell is unknown as well:
+///   n·dq + g' n·(L dq - dxi) = g(s·n) - |q|,   weighed like a row of slip, with L of a cell on itself.
+class NewtonStep {
+ public:
+  explicit NewtonStep(TangentialState& state);
+
+  const std::vector<int>& directions() const { return directions_; }  ///< 0 x, 1 y: those whose force is given
+  /// Changes tractions, given forces' creepages and, with a bound that varies, what slipping cells carry. accuracy: of
+  /// the linear system; close: a slip that may be left in every cell, 0: `accuracy` alone ends it. Cells that leave
+  /// the circle are kLoosened.
+  void take(double accuracy, double close = 0);
+
+ private:
+  using Components = std::array<double, 2>;
+  template <class Slip>
+  void change_bound(Slip&& slip);
+  void add_row_along(std::size_t i, const Plane& in, Plane& out) const;
+  double next_carried(std::size_t i) const;
+  void prepare_slip_cells();
+  void project(std::size_t i, double& x, double& y) const;
+  void solve(double accuracy, double close);
+  void product(const Plane& in, Plane& out);
+  void prepare_border();
+  void precondition(const Plane& in, Plane& out);
+  Components precondition_block(const double* in, double* out);
+  void integrate_from_leading_edge(const double* r);
+  void advance();
+
+  TangentialState& s_;
+  Plane normal_, diagonal_;  // of slipping cells: unit traction; (s.n)/g
+  Plane step_, right_side_, integral_;
+  std::vector<int> directions_;
+  double force_row_;  // a force residual weighs like a slip residual
+  std::vector<Plane> border_;
+  double border_force_[2][2] = {{1, 0}, {0, 1}};
+  GmresSpace space_;
+};
+
+}  // namespace railstrata

@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <stdexcept>
+
+#include "bem/layer_correction.hpp"
+#include "bem/subsurface.hpp"
+
+namespace railstrata {
+
+namespace {
+
+/// Cubic through four points at 0, 1, 2, 3.
+std::array<double, 4> cubic_weights(double t) {
+  return {-(t - 1) * (t - 2) * (t - 3) / 6, t * (t - 2) * (t - 3) / 2, -t * (t - 1) * (t - 3) / 2,
+          t * (t - 1) * (t - 2) / 6};
+}
+
+/// The sixteen cells around a point of the plan with their weights.
+struct Around {
+  std::size_t first;
+  std::array<double, 4> x, y;
+  Around(const PatchGrid& g, const Vec3& at) {
+    const double u = (at.x - g.x0) / g.dx, v = (at.y - g.y0) / g.dy;
+    const int i = std::clamp(static_cast<int>(std::floor(u)) - 1, 0, g.nx - 4),
+              j = g.line ? 0 : std::clamp(static_cast<int>(std::floor(v)) - 1, 0, g.ny - 4);
+    first = g.index(i, j);
+    x = cubic_weights(u - i);
+    if (g.line)
+      y = {1, 0, 0, 0};
+    else
+      y = cubic_weights(v - j);
+  }
+  double of(const PatchGrid& g, const Plane& v) const {
+    double sum = 0;
+    const std::size_t columns = g.line ? 1 : 4;
+    for (std::size_t a = 0; a < 4; ++a)
+      for (std::size_t b = 0; b < columns; ++b) sum += x[a] * y[b] * v[first + a * static_cast<std::size_t>(g.ny) + b];
+    return sum;
+  }
+};
+
+bool has_cells_around(const PatchGrid& g, const Vec3& at) {
+  return at.x >= g.x(1) && at.x <= g.x(g.nx - 2) && (g.line || (at.y >= g.y(1) && at.y <= g.y(g.ny - 2)));
+}
+
+/// Lengths of the grid beyond its rim, and points of a transform with layers: what lies farther feels a point load, and
+/// costs minutes and memory without end.
+constexpr double kFarthest = 10, kMostPoints = 2e7;
+
+double length_of(const PatchGrid& grid) { return std::max(grid.nx * grid.dx, grid.line ? 0.0 : grid.ny * grid.dy); }
+
+[[noreturn]] void refuse_far(const PatchGrid& grid, const Vec3& p, double reach) {
+  throw std::out_of_range(fmt::format(
+      "a point too far away, at x = {:.4g} m, y = {:.4g} m: points reach {:.3g} m beyond the grid of "
+      "x = {:.4g} to {:.4g} m, y = {:.4g} to {:.4g} m ({:.3g} of its lengths, for time and memory); they "
+      "are in metres, farther off the contact acts as a point load",
+      p.x, p.y, reach, grid.x0, grid.x(grid.nx - 1), grid.y0, grid.y(grid.ny - 1), reach / length_of(grid)));
+}
+
+}  // namespace
+
+bool Subsurface::covers(const Vec3& at) const { return has_cells_around(grid_, at); }
+
+Sym3 Subsurface::stress_at(const StatePlane& s, const Vec3& at, bool below_interface) const {
+  const Around near(grid_, at);
+  const auto of = [&](const Plane& v) { return near.of(grid_, v); };
+  return stress_of({of(s.e_xx), of(s.e_yy), of(s.e_xy), of(s.s_xz), of(s.s_yz), of(s.s_zz)},
+                   material_at(s.depth, below_interface));
+}
+
+std::unique_ptr<Subsurface> Subsurface::widened(int more_x, int more_y) const {
+  PatchGrid g{grid_.nx + 2 * more_x,        grid_.ny + 2 * more_y,        grid_.dx,  grid_.dy,
+              grid_.x0 - more_x * grid_.dx, grid_.y0 - more_y * grid_.dy, grid_.line};
+  const auto padded = [&](const Plane& v) {
+    Plane wide(g.size(), 0.0);
+    for (int i = 0; i < grid_.nx; ++i)
+      std::copy_n(v.begin() + static_cast<std::ptrdiff_t>(grid_.index(i, 0)), grid_.ny,
+                  wide.begin() + static_cast<std::ptrdiff_t>(g.index(i + more_x, more_y)));
+    return wide;
+  };
+  auto wide = std::make_unique<Subsurface>(body_, g, padded(loads_.p), padded(loads_.q_x), padded(loads_.q_y), period_);
+  wide->reach_x_ = reach_x_ + more_x;
+  wide->reach_y_ = reach_y_ + more_y;
+  return wide;
+}
+
+std::unique_ptr<Subsurface> Subsurface::coarsened() const {
+  constexpr int kCells = 3;
+  const double middle_x = grid_.x0 + 0.5 * (grid_.nx - 1) * grid_.dx,
+               middle_y = grid_.y0 + 0.5 * (grid_.ny - 1) * grid_.dy;
+  PatchGrid g = grid_.line ? line_grid(grid_.nx / 2, kCells * grid_.dx, grid_.dy)
+                           : centred_grid(grid_.nx / 2, grid_.ny / 2, kCells * grid_.dx, kCells * grid_.dy);
+  const double cells = grid_.line ? kCells : kCells * kCells;
+  g.x0 += middle_x;
+  g.y0 += middle_y;
+  const auto means = [&](const Plane& v) {
+    Plane out(g.size(), 0.0);
+    for (int i = 0; i < grid_.nx; ++i)
+      for (int j = 0; j < grid_.ny; ++j) {
+        const auto x = static_cast<int>(std::lround((grid_.x(i) - g.x0) / g.dx)),
+                   y = static_cast<int>(std::lround((grid_.y(j) - g.y0) / g.dy));
+        out[g.index(x, y)] += v[grid_.index(i, j)] / cells;
+      }
+    return out;
+  };
+  return std::make_unique<Subsurface>(body_, g, means(loads_.p), means(loads_.q_x), means(loads_.q_y),
+                                      std::max(2.5, period_ / kCells));
+}
+
+// Points outside the grid: the same tractions on a grid widened with empty cells. Points are taken by depth, since a
+// plane costs a convolution and a point on it next to nothing.
+std::vector<InteriorPoint> Subsurface::at(const std::vector<Vec3>& points, bool below_interface) const {
+  constexpr double kMostCells = 4e6;
+  double reach = kFarthest * length_of(grid_);
+  const auto points_at_reach = [&] {
+    PatchGrid wide = grid_;
+    wide.nx += static_cast<int>(2 * reach / grid_.dx);
+    if (!grid_.line) wide.ny += static_cast<int>(2 * reach / grid_.dy);
+    return LayerCorrection::points_of(body_, wide, period_);
+  };
+  while (layered_ && points_at_reach() > kMostPoints && reach > 0.1 * length_of(grid_)) reach *= 0.9;
+  int more_x = 0, more_y = 0;
+  for (const Vec3& p : points) {
+    if (!(p.z >= 0)) throw std::out_of_range("Subsurface::at: a point above the surface");
+    if (covers(p)) continue;
+    const double x = std::max(grid_.x0 - p.x, p.x - grid_.x(grid_.nx - 1)) / grid_.dx,
+                 y = grid_.line ? 0.0 : std::max(grid_.y0 - p.y, p.y - grid_.y(grid_.ny - 1)) / grid_.dy;
+    if (!(std::max(x * grid_.dx, y * grid_.dy) <= reach)) refuse_far(grid_, p, reach);
+    more_x = std::max(more_x, static_cast<int>(std::ceil(x)) + 2);
+    if (!grid_.line) more_y = std::max(more_y, static_cast<int>(std::ceil(y)) + 2);
+    if (!((grid_.nx + 2.0 * more_x) * (grid_.ny + 2.0 * more_y) < kMostCells))
+      throw std::out_of_range("Subsurface::at: a point too far away for cells of this size");
+  }
+  if (more_x > 0 || more_y > 0) return widened(more_x, more_y)->at(points, below_interface);
+
+  std::vector<std::size_t> order(points.size());
+  for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return points[a].z < points[b].z; });
+  std::vector<InteriorPoint> out(points.size());
+  StatePlane s;
+  DisplacementPlane u;
+  for (std::size_t k : order) {
+    const Vec3& p = points[k];
+    if (s.s_zz.empty() || s.depth != p.z) {
+      s = plane(p.z);
+      u = displacement(p.z);
+    }
+    const Around near(grid_, p);
+    const auto of = [&](const Plane& v) { return near.of(grid_, v); };
+    out[k].displacement = {of(u.u_x), of(u.u_y), of(u.u_z)};
+    out[k].stress = stress_at(s, p, below_interface);
+  }
+  return out;
+}
+
+}  // namespace railstrata

@@ -1,0 +1,124 @@
+#pragma once
+// What the solution of a tangential problem changes from step to step: traction, slip, and which cells stick.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "bem/given_slip.hpp"
+#include "bem/varying_bound.hpp"
+
+namespace railstrata {
+
+enum CellSet : unsigned char {
+  kOutside,
+  kStick,
+  kSlip,
+  kLoosened  ///< stuck before the Newton step, over the traction bound after it
+};
+
+/// L of tangential_problem.hpp: the slip that tractions take away, of one pair of planes at a time.
+class SlipOperator {
+ public:
+  SlipOperator(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem,
+               const std::vector<LeadingCell>& leading);
+
+  /// Prepares L in.
+  void apply(const double* in);
+  /// L in at cell i.
+  double x(std::size_t i) const { return (u_[i] - (steady_ ? u_[i + ahead_] : 0.0)) * inverse_step_; }
+  double y(std::size_t i) const {
+    const std::size_t k = n_ + ahead_ + i;
+    return (u_[k] - (steady_ ? u_[k + ahead_] : 0.0)) * inverse_step_;
+  }
+  /// The traction on the periodic grid that makes a displacement.
+  void traction_of(const Plane& displacement, double* out);
+
+  bool steady() const { return steady_; }
+  double step_length() const { return step_; }  ///< m
+  double self() const { return self_; }         ///< 1/Pa, L of one cell on itself
+  int products() const { return products_; }    ///< with the influence and its preconditioner, so far
+  /// Largest eigenvalue of L's symmetric part, 1/Pa.
+  double largest(const Plane& traction_bound) const;
+
+ private:
+  void extrapolate_at_leading_cells();
+
+  const InfluenceOperator& influence_;
+  const PatchGrid& grid_;
+  const std::vector<LeadingCell>& leading_;
+  bool steady_;
+  double step_, inverse_step_, self_;
+  std::size_t n_, ahead_;
+  Plane u_;  // rail minus wheel displacement, with a row of cells ahead
+  int products_ = 0;
+};
+
+inline double magnitude(double x, double y) { return std::sqrt(x * x + y * y); }
+
+/// Pairs of planes hold x and y one after the other.
+struct TangentialState {
+  TangentialState(const InfluenceOperator& influence, const PatchGrid& grid, const TangentialProblem& problem);
+  TangentialState(const TangentialState&) = delete;
+
+  const PatchGrid& grid;
+  const TangentialProblem& problem;
+  std::size_t n, ahead;  ///< cells of the grid and of one of its rows
+  Plane q, slip;         ///< unknown traction; its slip
+  Mask set;              ///< CellSet
+  GivenSlip given;
+  SlipOperator L;
+  std::optional<VaryingBound> varying;
+  Plane carried;        ///< with `varying`: the bound of sticking cells, |q| of slipping ones
+  const double* bound;  ///< of each cell: `carried`, or the problem's own
+  std::array<double, 2> creepage;
+
+  /// kernel(i) for every cell; each stands for the values of two planes.
+  template <class Kernel>
+  void for_both(Kernel&& kernel) const {
+    for_cells(n, kernel, 2);
+  }
+  using Components = std::array<double, 2>;
+  /// The same, and the sums of a pair of planes after it.
+  template <class Kernel>
+  Components for_both_summed(const double* pair, Kernel&& kernel) const {
+    std::vector<Components> part(pieces_of(n));
+    for_pieces(
+        n,
+        [&](std::size_t k, std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) kernel(i);
+          part[k] = {sum_of(begin, end, [&](std::size_t i) { return pair[i]; }),
+                     sum_of(begin, end, [&](std::size_t i) { return pair[n + i]; })};
+        },
+        2);
+    Components total{0, 0};
+    for (const Components& p : part) {
+      total[0] += p[0];
+      total[1] += p[1];
+    }
+    return total;
+  }
+
+  /// What a given force lacks, over the area of a cell.
+  double missing_force(int direction) const {
+    const double* values = q.data() + (direction ? n : 0);
+    return (direction ? *problem.y.force : *problem.x.force) / grid.cell_area() -
+           ordered_sum_of(n, [&](std::size_t i) { return values[i]; });
+  }
+
+  /// Lateral slip of a slipping cell at its own place: slip has the spin's mean over the step ahead. A small slip is
+  /// changed by a ninth of itself at most, so that Newton's method, which does not see the change, still contracts.
+  double lateral_slip(std::size_t i) const {
+    const double y = slip[n + i];
+    if (given.to_own_place.empty() || set[i] != kSlip) return y;
+    const double change = given.to_own_place[i];
+    return change == 0 ? y : y + change * std::min(1.0, magnitude(slip[i], y) / (9 * std::abs(change)));
+  }
+
+  void update_slip();
+  /// A bound that varies takes the slip along the traction; cells that stick are bound by its value at rest.
+  void follow_slip();
+};
+
+}  // namespace railstrata
