@@ -1,5 +1,5 @@
 #pragma once
-// From a TOML document to a CaseSpec by the option tables. toml++ stays inside case_tree.cpp.
+// From a TOML document to a CaseSpec by the option tables. toml++ stays in this room.
 #include <string>
 #include <vector>
 

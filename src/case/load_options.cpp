@@ -1,4 +1,4 @@
-#include "case/load_options.hpp"
+#include "case/case_tables.hpp"
 
 #include "case/option_slots.hpp"
 
@@ -19,27 +19,16 @@ bool has_name(const CaseSpec& spec, std::size_t index) { return !spec.loads.at(i
 double half(const CaseSpec&, std::size_t, double axle_load) { return 0.5 * axle_load; }
 
 std::vector<Option> force_options() {
-  return {{"traction_coefficient",
-           load<&LoadSpec::traction_coefficient>,
-           "Wanted F_T / G; positive drives",
-           kNumber,
-           {-1, 1}},
-          {"creepage",
-           load<&LoadSpec::creepage>,
-           "Longitudinal, instead of the traction; negative drives",
-           kNumber,
-           {-10, 1}},
-          {"lateral_traction_coefficient",
-           load<&LoadSpec::lateral_traction_coefficient>,
-           "Friction force F_y on the wheel along the contact plane, over G",
-           kNumber,
-           {-1, 1}},
-          {"lateral_creepage",
-           load<&LoadSpec::lateral_creepage>,
-           "Instead of the lateral force; else that of the yaw",
-           kNumber,
-           {-10, 10}},
-          {"friction_coefficient", load<&LoadSpec::friction_coefficient>, "Of friction at rest", kNumber, {0, 2}}};
+  return {
+      option("traction_coefficient", load<&LoadSpec::traction_coefficient>, "Wanted F_T / G; positive drives", kNumber,
+             {-1, 1}),
+      option("creepage", load<&LoadSpec::creepage>, "Longitudinal, instead of the traction; negative drives", kNumber,
+             {-10, 1}),
+      option("lateral_traction_coefficient", load<&LoadSpec::lateral_traction_coefficient>,
+             "Friction force F_y on the wheel along the contact plane, over G", kNumber, {-1, 1}),
+      option("lateral_creepage", load<&LoadSpec::lateral_creepage>,
+             "Instead of the lateral force; else that of the yaw", kNumber, {-10, 10}),
+      option("friction_coefficient", load<&LoadSpec::friction_coefficient>, "Of friction at rest", kNumber, {0, 2})};
 }
 
 }  // namespace
@@ -47,56 +36,43 @@ std::vector<Option> force_options() {
 OptionTable load_table() {
   OptionTable out{
       "load",
-      "A row of a load collective, for `railstrata collective`: a wheel and how often it passes. What a row "
-      "does not give is the case's; signs and meanings are those of the keys of the same names",
-      {{"name",
-        load<&LoadSpec::name>,
-        "What results call the row; \"load 1\", \"load 2\", … by its place",
-        {},
-        {},
-        {},
-        {},
-        has_name},
-       {"passages", load<&LoadSpec::passages>, "How often such a wheel passes", kNumber, above(0, 1e12)},
-       {"wheel_load", load<&LoadSpec::wheel_load>, "Load of the wheel on the rail, a force", kForce, above(0, 1e7)},
-       {"axle_load",
-        load<&LoadSpec::wheel_load>,
-        "Load of both wheels on the track, a force or a mass; this wheel carries half",
-        kForce,
-        above(0, 2e7),
-        {},
-        {half, "choose a load in this range", true}},
-       {"lateral_shift",
-        load<&LoadSpec::lateral_shift>,
-        "Of the wheel, positive to the field side",
-        kLength,
-        {-0.05, 0.05}},
-       {"yaw", load<&LoadSpec::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}},
-       {"curve_radius",
-        load<&LoadSpec::curve_radius>,
-        "Positive with the centre on the field side",
-        kLength,
-        {-1e6, 1e6}},
-       {"speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200)}},
+      "A row of a load collective, for `railstrata collective`: a wheel and how often it passes. What a row does not "
+      "give is the case's; signs and meanings are those of the keys of the same names",
+      {option("name", load<&LoadSpec::name>, "What results call the row; \"load 1\", \"load 2\", … by its place")
+           .where(has_name),
+       option("passages", load<&LoadSpec::passages>, "How often such a wheel passes", kNumber, above(0, 1e12)),
+       option("wheel_load", load<&LoadSpec::wheel_load>, "Load of the wheel on the rail, a force", kForce,
+              above(0, 1e7)),
+       option("axle_load", load<&LoadSpec::wheel_load>,
+              "Load of both wheels on the track, a force or a mass; this wheel carries half", kForce, above(0, 2e7))
+           .derived({half, "choose a load in this range", true}),
+       option("lateral_shift", load<&LoadSpec::lateral_shift>, "Of the wheel, positive to the field side", kLength,
+              {-0.05, 0.05}),
+       option("yaw", load<&LoadSpec::yaw>, "Angle of attack, a tangent", kSlope, {-0.05, 0.05}),
+       option("curve_radius", load<&LoadSpec::curve_radius>, "Positive with the centre on the field side", kLength,
+              {-1e6, 1e6}),
+       option("speed", load<&LoadSpec::speed>, "Rolling speed", kSpeed, above(0, 200))},
       list_of<&CaseSpec::loads>(),
       {{"wheel_load", "axle_load"},
        {"traction_coefficient", "creepage"},
        {"lateral_traction_coefficient", "lateral_creepage"}}};
-  for (const Option& option : force_options()) out.options.push_back(option);
+  append(out.options, force_options());
   return out;
 }
 
 OptionTable collective_table() {
   using C = CollectiveSpec;
-  Option file{"file", at<&CaseSpec::collective, &C::file>,
-              "A CSV file with the rows, instead of [[load]]: keys of [[load]] with their units as names of columns"};
-  file.applies = never;
-  Option law = choice_at<&CaseSpec::collective, &C::wear_law>(
-      "wear_law",
-      "Which wear `railstrata wear-loop` takes off the profile: University of Sheffield's of T-gamma, Archard with "
-      "Jendel's map, Archard with the rail's wear_coefficient",
-      {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}});
-  law.applies = has_loads;
+  const Option file =
+      option("file", at<&CaseSpec::collective, &C::file>,
+             "A CSV file with the rows, instead of [[load]]: keys of [[load]] with their units as names of columns")
+          .where(never);
+  const Option law =
+      choice_at<&CaseSpec::collective, &C::wear_law>(
+          "wear_law",
+          "Which wear `railstrata wear-loop` takes off the profile: University of Sheffield's of T-gamma, Archard with "
+          "Jendel's map, Archard with the rail's wear_coefficient",
+          {{"usfd", WearLaw::usfd}, {"kth", WearLaw::kth}, {"archard", WearLaw::archard}})
+          .where(has_loads);
   return {"collective", "All rows of [[load]] together", {file, law}};
 }
 

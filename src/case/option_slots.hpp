@@ -46,6 +46,19 @@ TableList list_of() {
           [](CaseSpec& spec, std::size_t n) { (spec.*List).resize(n); }};
 }
 
+/// A row of a table; what else it has follows as .where(…), .derived(…), ….
+inline Option option(std::string_view key, Slot (*slot)(CaseSpec&, std::size_t), std::string_view doc,
+                     const Dimension& dimension = {}, const Range& range = {}) {
+  return {.key = key, .slot = slot, .doc = doc, .dimension = dimension, .range = range};
+}
+/// A number in the rows of a table by depth or of named numbers.
+inline Option column(std::string_view key, std::string_view doc, const Dimension& dimension, const Range& range) {
+  return option(key, nullptr, doc, dimension, range);
+}
+inline void append(std::vector<Option>& to, const std::vector<Option>& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
 template <class Struct, class T>
 T type_of(T Struct::*);
 /// A word and the value it stands for, of the same enum as the member.
@@ -57,7 +70,7 @@ struct Word {
 template <auto Member>
 Option choice(std::string_view key, Slot (*slot)(CaseSpec&, std::size_t), std::string_view doc,
               std::initializer_list<Word<Member>> words) {
-  Option out{key, slot, doc};
+  Option out = option(key, slot, doc);
   for (const Word<Member>& w : words) out.choices.push_back({w.word, static_cast<int>(w.value)});
   return out;
 }

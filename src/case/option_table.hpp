@@ -139,6 +139,34 @@ struct Option {
   std::vector<Option> columns{};
   std::string_view example{};  ///< of a list or a table by depth
   RowForm form = RowForm::by_depth;
+
+  /// The same option with one thing more, for the rows of the tables.
+  Option where(bool (*condition)(const CaseSpec&, std::size_t)) const {
+    Option out = *this;
+    out.applies = condition;
+    return out;
+  }
+  Option derived(const Derivation& from) const {
+    Option out = *this;
+    out.derivation = from;
+    return out;
+  }
+  Option with_remedy(std::string_view text) const {
+    Option out = *this;
+    out.beyond = text;
+    return out;
+  }
+  Option with_example(std::string_view text) const {
+    Option out = *this;
+    out.example = text;
+    return out;
+  }
+  Option with_rows(RowForm of, const std::vector<Option>& numbers, std::string_view text) const {
+    Option out = with_example(text);
+    out.form = of;
+    out.columns = numbers;
+    return out;
+  }
 };
 
 /// Of a list of tables: how many a case has, and a case with so many.

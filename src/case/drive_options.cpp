@@ -1,0 +1,162 @@
+#include "case/case_tables.hpp"
+#include "case/option_slots.hpp"
+#include "core/si_prefix.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace dimension;
+using namespace option_slot;
+using C = CaseSpec;
+using V = VehicleSpec;
+using D = DriveSpec;
+
+/// A load is given by the sprung mass that makes it.
+double sprung_mass_under(const CaseSpec& spec, std::size_t, double wheel_load) {
+  return wheel_load / spec.vehicle.gravity - spec.vehicle.wheel_mass;
+}
+double sprung_mass_under_axle(const CaseSpec& spec, std::size_t index, double axle_load) {
+  return sprung_mass_under(spec, index, 0.5 * axle_load);
+}
+double over_static_load(const CaseSpec& spec, std::size_t, double force) {
+  return force / ((spec.vehicle.wheel_mass + spec.vehicle.sprung_mass) * spec.vehicle.gravity);
+}
+constexpr std::string_view kMoreLoad = "give more load, or less vehicle.wheel_mass",
+                           kLessForce = "give less force, or more load";
+
+bool traction_given(const CaseSpec& spec, std::size_t) { return spec.drive.traction().has_value(); }
+bool load_given(const CaseSpec& spec, std::size_t) { return !spec.vehicle.approach; }
+
+/// Not all of them are in both engines (case/engine_scope.hpp).
+std::vector<Option> creepage_options() {
+  return {
+      option("creepage", at<&C::drive, &D::creepage>,
+             "Longitudinal creepage (V - omega r) / V, instead of the traction; negative drives, 1 is a locked wheel",
+             kNumber, {-10, 1}),
+      option("lateral_force", at<&C::drive, &D::lateral_traction_coefficient>,
+             "Friction force F_y on the wheel along the contact plane; positive towards the field side", kForce,
+             {-1e7, 1e7})
+          .derived({over_static_load, kLessForce}),
+      option("lateral_traction_coefficient", at<&C::drive, &D::lateral_traction_coefficient>, "The same force over G",
+             kNumber, {-1, 1}),
+      option("lateral_creepage", at<&C::drive, &D::lateral_creepage>,
+             "Along the contact plane, positive where the wheel slips towards the field side; finite elements: the "
+             "wheel moves sideways on its way",
+             kNumber, {-10, 10}),
+      option("spin", at<&C::drive, &D::spin>,
+             "About the normal of the contact plane, over V, positive from the rolling direction towards the field "
+             "side; half-space engine",
+             kSpin, {-1000, 1000})};
+}
+
+bool falls(const CaseSpec& spec, std::size_t) { return spec.friction.law != FrictionForm::coulomb; }
+
+bool remembers(const CaseSpec& spec, std::size_t index) {
+  return falls(spec, index) && spec.friction.memory_distance > 0;
+}
+
+bool has_film(const CaseSpec& spec, std::size_t) { return spec.third_body.thickness.has_value(); }
+
+}  // namespace
+
+OptionTable vehicle_table() {
+  return {"vehicle",
+          "Masses and primary suspension of one wheel",
+          {option("wheel_mass", at<&C::vehicle, &V::wheel_mass>, "Mass of the wheel with its share of the axle", kMass,
+                  above(0, 1e5)),
+           option("sprung_mass", at<&C::vehicle, &V::sprung_mass>, "Mass on the suspension", kMass, {0, 1e6})
+               .where(load_given),
+           option("wheel_load", at<&C::vehicle, &V::sprung_mass>,
+                  "Load of the wheel on the rail, a force or a mass, instead of the sprung mass: that is load / "
+                  "gravity - wheel_mass; at least the wheel's own weight",
+                  kForce, above(0, 1e7))
+               .derived({sprung_mass_under, kMoreLoad, true}),
+           option("axle_load", at<&C::vehicle, &V::sprung_mass>,
+                  "Load of both wheels on the track, a force or a mass, instead of the sprung mass; each wheel carries "
+                  "half, at least its own weight",
+                  kForce, above(0, 2e7))
+               .derived({sprung_mass_under_axle, kMoreLoad, true}),
+           option("approach", at<&C::vehicle, &V::approach>,
+                  "By how much wheel and rail come together along the contact normal, instead of a load, which is then "
+                  "a result; half-space engine",
+                  kLength, above(0, 0.01)),
+           option("suspension_stiffness", at<&C::vehicle, &V::suspension_stiffness>, "Of all groups together",
+                  kStiffness, {0, 1e10}),
+           option("suspension_damping", at<&C::vehicle, &V::suspension_damping>, "Of all groups together", kDamping,
+                  {0, 1e8}),
+           option("suspension_groups", at<&C::vehicle, &V::suspension_groups>,
+                  "Spring and dashpot groups around the axle", kNumber, {1, 64}),
+           option("gravity", at<&C::vehicle, &V::gravity>, "Acceleration of gravity", kAcceleration, above(0, 100)),
+           option("couple_sprung_mass", at<&C::vehicle, &V::couple_sprung_mass>,
+                  "The sprung mass rides along with the axle lengthwise and adds its inertia to it")},
+          {},
+          {{"sprung_mass", "wheel_load", "axle_load", "approach"}}};
+}
+
+OptionTable drive_table() {
+  OptionTable out{
+      "drive",
+      "Speed, traction and friction",
+      {option("speed", at<&C::drive, &D::speed>, "Rolling speed", kSpeed, above(0, 200)),
+       option("traction_coefficient", at<&C::drive, &D::traction_coefficient>,
+              "Wanted F_T / G; positive drives, negative brakes", kNumber, {-1, 1})
+           .where(traction_given),
+       option("tractive_force", at<&C::drive, &D::traction_coefficient>, "Wanted F_T, instead of the coefficient",
+              kForce, {-1e7, 1e7})
+           .derived({over_static_load, kLessForce}),
+       option("friction_coefficient", at<&C::drive, &D::friction_coefficient>,
+              "Coulomb's coefficient; of friction that falls with slip the one at rest", kNumber, {0, 2}),
+       option("torque_ramp", at<&C::drive, &D::torque_ramp>, "Smooth rise of the torque at the start", kTime, {0, 1}),
+       option("creepage_start", at<&C::drive, &D::creepage_start>,
+              "Longitudinal creepage at the start, (V - omega r) / V: negative drives", kNumber, {-0.1, 0.1})},
+      {},
+      {{"traction_coefficient", "tractive_force", "creepage"},
+       {"lateral_traction_coefficient", "lateral_force", "lateral_creepage"}}};
+  append(out.options, creepage_options());
+  return out;
+}
+
+OptionTable friction_table() {
+  using F = FrictionSpec;
+  return {"friction",
+          "How friction depends on slip; at rest it is drive.friction_coefficient",
+          {choice_at<&C::friction, &F::law>("law",
+                                            "Coulomb's constant coefficient, or one that falls with the slip velocity "
+                                            "v: by 2^(-v/half_velocity), or by 1/(1 + v/half_velocity)",
+                                            {{"coulomb", FrictionForm::coulomb},
+                                             {"falling_exponential", FrictionForm::falling_exponential},
+                                             {"falling_rational", FrictionForm::falling_rational}}),
+           option("kinetic_coefficient", at<&C::friction, &F::kinetic_coefficient>,
+                  "Falling laws: the coefficient's limit for fast slip", kNumber, {0, 2})
+               .where(falls),
+           option("half_velocity", at<&C::friction, &F::half_velocity>,
+                  "Falling laws: slip velocity at which half of the fall is done", kSpeed, above(0, 100))
+               .where(falls),
+           option("memory_distance", at<&C::friction, &F::memory_distance>,
+                  "Falling laws: sliding distance over which the coefficient follows the slip velocity; 0: at once. "
+                  "Finite elements need one, 10 to 50 um",
+                  kLength, {0, 10 * kMilli})
+               .where(falls),
+           option("memory_velocity", at<&C::friction, &F::memory_velocity>,
+                  "With memory_distance: the coefficient follows as if slip were at least as fast, so that it comes "
+                  "back at rest",
+                  kSpeed, {0, 10})
+               .where(remembers)}};
+}
+
+OptionTable third_body_table() {
+  using Film = ThirdBodySpec;
+  return {"third_body",
+          "A layer of wear debris, sand, … between the surfaces, an elastic-plastic film in shear; none without a "
+          "thickness",
+          {option("thickness", at<&C::third_body, &Film::thickness>, "Of the film", kLength, above(0, kMilli)),
+           option("shear_modulus", at<&C::third_body, &Film::shear_modulus>, "Of the film", kPressure, above(0, 1e12)),
+           option("yield_shear", at<&C::third_body, &Film::yield_shear>,
+                  "Shear stress at which the film yields; none: it is elastic", kPressure, above(0, 1e11)),
+           option("hardening", at<&C::third_body, &Film::hardening>,
+                  "Rise of yield_shear by plastic shear displacement", kPressureGradient, {0, 1e15})
+               .where(has_film)
+               .with_remedy("a film that softens shears in one place and has no steady state: take 0")}};
+}
+
+}  // namespace railstrata

@@ -1,0 +1,84 @@
+#include "case/case_tables.hpp"
+#include "case/option_slots.hpp"
+#include "core/si_prefix.hpp"
+
+namespace railstrata {
+namespace {
+
+using namespace dimension;
+using namespace option_slot;
+using C = CaseSpec;
+using G = GeometrySpec;
+
+std::vector<Option> shape_options() {
+  return {option("rail_profile", at<&C::geometry, &G::rail_profile>,
+                 "A built-in name (see `railstrata info`), an arc, or a file (two columns, Simpack, MiniProf), "
+                 "relative to the case file"),
+          option("wheel_profile", at<&C::geometry, &G::wheel_profile>,
+                 "A built-in name, an arc, or a file (two columns, Simpack, MiniProf), relative to the case file"),
+          choice_at<&C::geometry, &G::rail_shape>(
+              "rail_shape", "Whole rail section, or a block with the profile on top (verification)",
+              {{"rail", RailShape::rail}, {"block", RailShape::block}}),
+          choice_at<&C::geometry, &G::wheel_shape>("wheel_shape", "Rim, web and hub, or a plain disc (verification)",
+                                                   {{"wheel", WheelShape::wheel}, {"disc", WheelShape::disc}}),
+          choice_at<&C::geometry, &G::contact>("contact",
+                                               "A patch, closed all round; or a line: a cylinder on a plane in plane "
+                                               "strain (both profiles \"flat\", half-space engine)",
+                                               {{"point", ContactShape::point}, {"line", ContactShape::line}}),
+          option("line_length", at<&C::geometry, &G::line_length>,
+                 "contact = \"line\": length that bears the load evenly", kLength, {0.1 * kMilli, 10.0})};
+}
+
+std::vector<Option> track_options() {
+  return {option("gauge", at<&C::geometry, &G::gauge>, "Track gauge between the gauge faces", kLength, {0.5, 2.0}),
+          option("gauge_depth", at<&C::geometry, &G::gauge_depth>,
+                 "Depth below the top of the rail at which the gauge is measured", kLength, {1 * kMilli, 50 * kMilli}),
+          option("back_to_back", at<&C::geometry, &G::back_to_back>,
+                 "Distance between the inner faces of the two wheels", kLength, {0.4, 2.0}),
+          option("flange_back_to_tape", at<&C::geometry, &G::flange_back_to_tape>,
+                 "Distance from the flange back to the tape circle", kLength, {10 * kMilli, 200 * kMilli}),
+          option("cant", at<&C::geometry, &G::cant>, "Inclination of the rail towards the track centre (a tangent)",
+                 kSlope, {-0.2, 0.2}),
+          option("lateral_shift", at<&C::geometry, &G::lateral_shift>, "Of the wheel, positive to the field side",
+                 kLength, {-0.05, 0.05}),
+          option("yaw", at<&C::geometry, &G::yaw>,
+                 "Angle of attack: the wheel's rolling direction, turned about the vertical through the middle of its "
+                 "tape circle, positive towards the field side",
+                 kSlope, {-0.05, 0.05}),
+          option("roll", at<&C::geometry, &G::roll>,
+                 "Of the wheelset, about the rolling direction through the middle of the tape circle's tread, positive "
+                 "with the field side up (a tangent); half-space engine",
+                 kSlope, {-0.1, 0.1}),
+          option("curve_radius", at<&C::geometry, &G::curve_radius>,
+                 "Of the track, positive with the centre on the field side (the inner wheel); none: straight. Adds to "
+                 "the spin alone; half-space engine",
+                 kLength, {-1e6, 1e6}),
+          option("wheel_radius", at<&C::geometry, &G::wheel_radius>, "At the tape circle", kLength, {0.05, 2.0})};
+}
+
+std::vector<Option> body_options() {
+  return {
+      option("block_width", at<&C::geometry, &G::block_width>, "rail_shape = \"block\": width of the block", kLength,
+             {kMilli, 2.0}),
+      option("block_height", at<&C::geometry, &G::block_height>, "rail_shape = \"block\": height of the block", kLength,
+             {kMilli, 2.0}),
+      option("rim_thickness", at<&C::geometry, &G::rim_thickness>, "From the tape circle to the inner face of the rim",
+             kLength, {5 * kMilli, 0.5}),
+      option("web_thickness", at<&C::geometry, &G::web_thickness>, "Of the wheel's plate", kLength, {5 * kMilli, 0.2}),
+      option("web_offset", at<&C::geometry, &G::web_offset>,
+             "Lateral position of the plate's middle from the tape circle", kLength, {-0.07, 0.07}),
+      option("hub_radius", at<&C::geometry, &G::hub_radius>, "Outer radius of the hub", kLength, {0.01, 1.0}),
+      option("hub_width", at<&C::geometry, &G::hub_width>, "Lateral width of the hub", kLength, {0.01, 0.5}),
+      option("bore_radius", at<&C::geometry, &G::bore_radius>, "Radius of the axle seat", kLength, {0.005, 1.0})};
+}
+
+}  // namespace
+
+OptionTable geometry_table() {
+  OptionTable out{"geometry", "Profiles, track and wheel", shape_options()};
+  append(out.options, track_options());
+  append(out.options, body_options());
+  return out;
+}
+
+}  // namespace railstrata
