@@ -7,7 +7,7 @@
 
 namespace railstrata {
 
-/// What a curve varies; everything else is driven as the case says.
+/// The creepage that a curve varies; everything else is as in the case.
 enum class VariedCreepage { longitudinal, lateral, spin };
 
 /// Forces on the rail over the friction bound f F_n, with the sign of the creepage's: along the varied creepage, F_x of

@@ -22,7 +22,7 @@ struct GivenSlip {
   Plane first_step;  ///< m, of the first cells (1 - lambda) times the step; empty: the step everywhere
 };
 
-/// What one step of the rolled distance is: dq, dx in steady rolling, 1 for a shift.
+/// One step of the rolled distance: dq [m], dx in steady rolling, 1 for a shift.
 inline double step_length(const PatchGrid& grid, const TangentialProblem& problem) {
   return problem.kind == RollingKind::transient ? problem.step : problem.kind == RollingKind::shift ? 1.0 : grid.dx;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Where the leading edge of the patch cuts a row of cells, told by the gap ahead of it.
+// Where the leading edge of the patch cuts a row of cells, found from the gap ahead of it.
 //
 // A particle sticks from the moment it enters the patch, so that u(x, y) = U(y) - xi x along a row: one constant U a
 // row, for the whole of its sticking part. A row of whole cells takes U from the displacement in the cell ahead of its

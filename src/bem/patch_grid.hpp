@@ -27,7 +27,7 @@ inline PatchGrid centred_grid(int half_nx, int half_ny, double dx, double dy) {
   return {2 * half_nx + 1, 2 * half_ny + 1, dx, dy, -half_nx * dx, -half_ny * dy};
 }
 
-/// Of a line contact: 2 i + 1 cells of a line.
+/// Grid of a line contact: 2 i + 1 cells of a line.
 inline PatchGrid line_grid(int half_nx, double dx, double length) {
   PatchGrid grid = centred_grid(half_nx, 0, dx, length);
   grid.line = true;

@@ -36,7 +36,7 @@ struct PatchPart {
     return out;
   }
   PlanePair take(const PlanePair& values) const { return {take(values.x), take(values.y)}; }
-  /// Of values per row of cells along x.
+  /// The part of values per row of cells along x.
   Plane take_rows(const Plane& values) const {
     return values.empty() ? Plane{} : Plane(values.begin() + first_y, values.begin() + first_y + ny);
   }

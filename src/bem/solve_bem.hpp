@@ -1,12 +1,12 @@
 #pragma once
 // The half-space solution of a case: the same case file the finite elements run, answered by Kalker's method.
 //
-// What it takes of a case: profiles and track, wheel radius, moduli, layers (unbounded sideways), load G = (wheel +
-// sprung mass) g as the vertical force, friction and the drive. Steady rolling: along and across the rail a force on
-// the wheel (over G) or a creepage; what is not given follows from the geometry: lateral creepage from the yaw, spin
-// from contact angle and curve, the variation of the rolling radius across the patch from the profiles.
-// The normal force is such that normal and lateral force together bear the load. Where the wheel touches at several
-// places they share it, each in its own plane (several_patches.hpp). Where the approach is given instead, the load is a
+// Options of a case that it uses: profiles and track, wheel radius, moduli, layers (unbounded sideways), load G =
+// (wheel + sprung mass) g as the vertical force, friction and the drive. Steady rolling: along and across the rail a
+// force on the wheel (over G) or a creepage; what is not given follows from the geometry: lateral creepage from the
+// yaw, spin from contact angle and curve, the variation of the rolling radius across the patch from the profiles. The
+// normal force is such that normal and lateral force together bear the load. Where the wheel touches at several places
+// they share it, each in its own plane (several_patches.hpp). Where the approach is given instead, the load is a
 // result, and forces of the drive count over it. Not in it: inertia, the bodies' shape outside the patches, the layer's
 // edges.
 #include <limits>

@@ -21,7 +21,8 @@ int step_count(const LoadHistory& history, const CaseSpec& spec, double cell) {
   return std::max(1, static_cast<int>(std::lround(history.end() / cell)));
 }
 
-/// Lateral friction on an inclined plane may add to the normal force; a wheel near wedging is told when it comes.
+/// Upper bound of the normal load: lateral friction on an inclined plane adds to it. Wedging is detected when it
+/// occurs.
 double largest_normal_load(const LoadHistory& history, double friction, const RigidContact& contact) {
   constexpr double kMostOfNormal = 2;
   const double alone = normal_load(history.largest_load(), 0, contact), c = std::cos(contact.angle),

@@ -46,7 +46,7 @@ struct Body {
   Field inverse_mass;  ///< 1/kg, zero likewise
   std::vector<NodeLine> lines;   ///< of free nodes
   PlasticElements plastic;       ///< that may yield; none unless they are put here before the body is used
-  InitialStress initial_stress;  ///< likewise; that of elements which may yield is also said with their material
+  InitialStress initial_stress;  ///< likewise; elements which may yield have theirs with their material too
 
   bool is_free(int block, int node) const { return inverse_mass[layout.blocks[block].line(node, 0)] > 0; }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// What changes of a body: named arrays, listed once. Checkpoints go through this list.
+// The state of a body: named arrays, listed once. Checkpoints go through this list.
 #include <array>
 
 #include "body/body.hpp"

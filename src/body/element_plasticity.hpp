@@ -1,5 +1,5 @@
 #pragma once
-// What an element that may yield has come to, as plain numbers.
+// Plastic state of one element, as plain numbers.
 #include "core/vec.hpp"
 
 namespace railstrata {

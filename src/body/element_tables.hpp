@@ -1,5 +1,5 @@
 #pragma once
-// What the elements of a block read while forces are computed: by quadrilateral, by station, and the hourglass
+// Tables that the elements of a block read while forces are computed: by quadrilateral, by station, and the hourglass
 // stiffness by both.
 //
 // Elements along the sweep have their own spacing and share the hourglass stiffness of their group: where the mesh is
@@ -17,7 +17,7 @@ namespace railstrata {
 /// (body/traversal.cpp), the states of bodies have its history and stresses are those of its law.
 using BodyElement = ElasticHex;
 
-/// Of the element's arithmetic while rolling; nodal values are kept in double precision. `single` wants displacements
+/// Arithmetic of the elements while rolling; nodal values are kept in double precision. `single` wants displacements
 /// that are small against the body: relative to a frame that moves with it.
 enum class Precision { double_precision, single_precision };
 

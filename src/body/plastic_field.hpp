@@ -1,5 +1,5 @@
 #pragma once
-// What has become of the elements that may yield: element by element for pictures, the place of the largest plastic
+// Plastic strains of the elements that may yield: element by element for pictures, the place of the largest plastic
 // strain, and what of the plastic work hardening has stored.
 #include "body/body.hpp"
 #include "body/element_plasticity.hpp"

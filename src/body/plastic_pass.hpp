@@ -35,18 +35,18 @@ int extend_plastic_elements(const Body& body, const Field& u, double psi, Field&
 /// the next pass starts from, stay; places that were cold in `from` are virgin. For trials from one state.
 void restore_points(const Body& body, const Field& from, Field& history);
 
-/// What the eigenstress adds to the stored energy that TraversalOf::energy finds for elastic elements [J], without that
-/// of the backstresses, which counts as plastic work.
+/// The eigenstress's part of the stored energy, added to what TraversalOf::energy finds for elastic elements [J],
+/// without that of the backstresses, which counts as plastic work.
 double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history);
 
-/// What the initial stress of cold elements adds to it, the integral of S0:E [J]: stored energies count from the body
+/// The initial stress's part of it in cold elements, the integral of S0:E [J]: stored energies count from the body
 /// before it has come to its equilibrium, and may be negative.
 double initial_stress_energy(const Body& body, const Field& u, double psi, const Field& history);
 
 /// Work done on the plastic strains so far: dissipated and stored by hardening [J].
 double plastic_work(const Body& body, const Field& history);
 
-/// Of one element.
+/// Plastic strain of one element.
 struct PlasticState {
   std::array<double, 6> mean{};      ///< plastic strain, mean of the points; element's frame
   double accumulated = 0, most = 0;  ///< p, mean of the points and the largest

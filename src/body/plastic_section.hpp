@@ -1,5 +1,5 @@
 #pragma once
-// What has yielded of a straight rail whose state is the same at all stations: plastic strains, accumulated plastic
+// Yielded section of a straight rail whose state is the same at all stations: plastic strains, accumulated plastic
 // strain and backstresses at the Gauss points of its section. It is taken from stations over which a wheel has rolled
 // steadily and put to all stations, as the beginning of the next pass.
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace railstrata {
 
-/// Of the quadrilaterals that may yield, in the order of blocks and quadrilaterals.
+/// State of the quadrilaterals that may yield, in the order of blocks and quadrilaterals.
 struct PlasticSection {
   struct Quad {
     int block, quad;

@@ -334,7 +334,7 @@ namespace {
 
 constexpr int kComponents = 3;
 
-// Items of several fields as one range: visit(field, item) of the k-th; items(field) says how many each has.
+// Items of several fields as one range: visit(field, item) of the k-th; items(field): how many each has.
 template <class Items, class Visit>
 void visit_item(std::span<const TiedField> fields, std::ptrdiff_t k, Items&& items, Visit&& visit) {
   for (std::size_t f = 0; f < fields.size(); ++f) {

@@ -20,14 +20,14 @@ struct StationRange {
   int begin = 0, end = 0;
   bool operator==(const StationRange&) const = default;
 };
-/// Of one line, in order; they begin with multiples of kStationGroup and end with such or with the line, so that loops
-/// over them make the same packs as those over whole lines.
+/// Station ranges of one line, in order; they begin with multiples of kStationGroup and end with such or with the line,
+/// so that loops over them make the same packs as those over whole lines.
 using StationRanges = std::vector<StationRange>;
 inline constexpr int kStationGroup = 8;
 /// By block and section node.
 using LineStations = std::vector<std::vector<StationRanges>>;
 
-/// What one of several processes keeps of the lines at ties (fem/line_reach.hpp).
+/// The lines at ties that one of several processes keeps (fem/line_reach.hpp).
 struct TiedPart {
   LineStations values;  ///< where it carries slaves
   LineStations forces;  ///< where it collects forces: wherever those of `values` come from
@@ -66,12 +66,12 @@ class Ties {
   double apply_transpose_turned(Field& f, double psi) const;
 
   struct Line;
-  /// What the forces on a line of slaves of a revolved body hand to its rotation through the offsets [N m], of single
+  /// Torque of the forces on a line of slaves of a revolved body through the offsets [N m], of single
   /// tiles (body/tiling.hpp): piece 2 t of the first station of tile t, piece 2 t + 1 of those within; the last piece
   /// is that of an open block's end. Summed in this order, they are the moment of the line.
   int moment_pieces(const Line& line) const;
-  /// Of the stations within the tiles first <= t < end, and on the planes between them: those that only these tiles
-  /// give forces. pieces: of this line.
+  /// Scatter at the stations within the tiles first <= t < end, and on the planes between them: those that only these
+  /// tiles give forces. pieces: of this line.
   void find_moment_pieces(const Line& line, const TiedField& field, int first, int end, double* pieces) const;
   /// Where those of a line begin in a list of all, and the size of that list for the line behind the last.
   std::ptrdiff_t first_piece(std::size_t line) const { return first_piece_[line]; }

@@ -10,7 +10,7 @@
 
 namespace railstrata {
 
-/// Of one body.
+/// The tiles of one body that a rank computes.
 struct TileCut {
   int rank = 0;            ///< of this process
   std::vector<int> owner;  ///< per tile, the rank that evaluates it; empty: all tiles are this process's

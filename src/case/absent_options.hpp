@@ -1,5 +1,6 @@
 #pragma once
-// What people look for in a case and do not find: plasticity, another word or another table for a key there is.
+// Words that people look for in a case and that do not exist: plasticity, another word or another table for a key there
+// is.
 #include <string_view>
 
 namespace railstrata {

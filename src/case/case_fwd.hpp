@@ -1,5 +1,5 @@
 #pragma once
-// Names of what a case says, for headers that only pass it on.
+// Forward declarations of a case's types, for headers that only pass them on.
 
 namespace railstrata {
 

@@ -1,10 +1,10 @@
 #pragma once
-// What options ask of each other.
+// Rules between the options of a case.
 #include <string>
 #include <vector>
 
-#include "case/case_source.hpp"
 #include "case/case_fwd.hpp"
+#include "case/case_source.hpp"
 
 namespace railstrata {
 

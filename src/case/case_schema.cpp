@@ -68,7 +68,7 @@ std::string allowed(const Option& option) {
                                 : fmt::format("`{}`", fmt::join(words_of(option), "`, `"));
 }
 
-/// A layer's modulus has no default: it must be said.
+/// A layer's modulus has no default: it must be given.
 std::string default_text(const OptionTable& table, const Option& option, CaseSpec& spec) {
   return option.derivation || (table.repeated && option.key.starts_with("young")) ? "" : toml_value(option, spec, 0);
 }

@@ -9,7 +9,7 @@ namespace railstrata {
 struct CaseKey {
   std::string key;                  ///< "mesh.element_size"; of a list of tables that of its first, "layer.0.thickness"
   std::string doc;                  ///< one line
-  std::string preset;               ///< its default as a case file says it; empty: none
+  std::string preset;               ///< its default as a case file writes it; empty: none
   std::string allowed;              ///< range or words, empty: everything
   std::vector<std::string> values;  ///< the words it takes or knows; a number has none
   std::vector<std::string> units;   ///< of a quantity, the customary one first; a plain number has none

@@ -1,5 +1,6 @@
 #pragma once
-// The text of a case file and everything said about it: places, source lines with a caret, and the errors found so far.
+// The text of a case file and everything known about it: places, source lines with a caret, and the errors found so
+// far.
 #include <filesystem>
 #include <initializer_list>
 #include <map>

@@ -1,5 +1,5 @@
 #pragma once
-// What a case file says, in SI units, with every default. case/case_file reads it; case/option_table gives names,
+// The options of a case, in SI units, with every default. case/case_file reads it; case/option_table gives names,
 // units, ranges, the words of the choices and documentation. Who needs one section includes that one.
 #include <string>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// Vehicle, drive and friction, as a case says them, in SI units.
+// Vehicle, drive and friction of a case, in SI units.
 #include <optional>
 
 #include "friction/falling_friction.hpp"

@@ -1,5 +1,5 @@
 #pragma once
-// What a case may ask of the half-space engine alone.
+// Options of a case that only the half-space engine has.
 #include <string>
 #include <vector>
 
@@ -7,7 +7,7 @@
 
 namespace railstrata {
 
-/// Of the creepages that a run of finite elements takes, in either direction.
+/// Largest creepage of a run of finite elements, in either direction.
 inline constexpr double kLargestRunCreepage = 0.1;
 
 /// A key of a case and why an engine does not compute it, with what to do instead.
@@ -15,7 +15,7 @@ struct BeyondEngine {
   std::string key, message, remedy;
 };
 
-/// What the finite element engine does not do; empty for a case that it runs.
+/// The reason why the finite element engine refuses a case; empty for one that it runs.
 std::vector<BeyondEngine> beyond_finite_elements(const CaseSpec& spec);
 
 /// Throws CaseError if there is any of it.

@@ -1,5 +1,5 @@
 #pragma once
-// Shapes and places of wheel and rail, as a case says them, in SI units.
+// Shapes and places of wheel and rail of a case, in SI units.
 #include <optional>
 #include <string>
 

@@ -6,7 +6,7 @@
 
 namespace railstrata {
 
-/// What the half-space engine follows in time (bem/transient.hpp).
+/// A history that the half-space engine follows in time (bem/transient.hpp).
 enum class TransientKind {
   none,     ///< steady rolling
   rolling,  ///< rolling from a beginning, step by step
@@ -19,7 +19,7 @@ enum class TransientStart {
 };
 
 /// A history of loads and motions, linear between its rows: columns of one length, an empty one is not given. What
-/// rolls takes from the drive what has no column; what is shifted is held where nothing is given.
+/// rolls takes from the drive what has no column; a shift stays where nothing is given.
 struct TransientSpec {
   TransientKind kind = TransientKind::none;
   TransientStart start = TransientStart::rest;

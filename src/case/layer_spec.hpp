@@ -1,5 +1,5 @@
 #pragma once
-// Materials and layers, as a case says them, in SI units.
+// Materials and layers of a case, in SI units.
 #include <array>
 #include <string>
 #include <vector>

@@ -1,8 +1,8 @@
 #pragma once
-// What a line contact (geometry.contact = "line") cannot have: anything that turns or moves the cylinder sideways, and
-// whatever asks for a displacement of distant points, which plane strain does not know.
-#include "case/case_source.hpp"
+// Options that a line contact (geometry.contact = "line") cannot have: anything that turns or moves the cylinder
+// sideways, and whatever asks for a displacement of distant points, which plane strain does not know.
 #include "case/case_fwd.hpp"
+#include "case/case_source.hpp"
 
 namespace railstrata {
 

@@ -12,7 +12,7 @@ class OpenFile {
   ~OpenFile();
   OpenFile(const OpenFile&) = delete;
   OpenFile& operator=(const OpenFile&) = delete;
-  /// If not, errno says why.
+  /// If not, the reason is in errno.
   bool is_open() const { return descriptor_ >= 0; }
   /// Bytes read; 0 at the end, and of a pipe that has no writer; -1: none yet (EAGAIN), or an error.
   std::ptrdiff_t read(char* into, std::size_t most) const;

@@ -18,7 +18,7 @@ enum class ContactMethod {
 /// How thin layers are kept from shortening the time step (fem/step_plan.hpp).
 enum class TimeStepMethod { automatic, uniform, mass_scaling, local };
 
-/// Of the element arithmetic while rolling; nodal values and the static preload stay double.
+/// Element arithmetic while rolling; nodal values and the static preload stay double.
 enum class ArithmeticPrecision { double_precision, single_precision };
 
 /// Where the fields of a rolling are computed (docs/gpu.md). emulated: the card's kernels on the processor, for tests.
@@ -26,7 +26,7 @@ enum class ComputeDevice { cpu, gpu, emulated };
 
 /// Where the half-space engine takes the leading edge of the patch (bem/leading_edge.hpp).
 enum class LeadingEdge {
-  sub_cell,   ///< inside a cell, told by the gap ahead of it
+  sub_cell,   ///< inside a cell, found from the gap ahead of it
   whole_cell  ///< between two cells, as Kalker and CONTACT do
 };
 

@@ -25,7 +25,7 @@ constexpr double kLeastConstraint = 2.5;
 std::string pressure_text(double value) { return format_quantity(value, dimension::kPressure); }
 std::string length_text(double value) { return format_quantity(value, dimension::kLength); }
 
-/// A property with depth as the case says it; a value that is the same everywhere is one row.
+/// A property with depth as the case gives it; a value that is the same everywhere is one row.
 struct Said {
   std::string name;
   std::vector<DepthPoint> rows;
@@ -150,7 +150,7 @@ class StrengthRules {
              R"(write e.g. ["-344 MPa", "-200 MPa"])");
   }
 
-  /// What the case says of the yield strength, and under which name; a hardness is no statement of it.
+  /// The yield strength that the case gives, and under which name; a hardness is none.
   Said yield() const {
     if (s_.yield_strength) return {"yield_strength", {{0, *s_.yield_strength}}};
     if (!s_.strength_table.empty()) return {"strength_table", s_.strength_table};
@@ -176,7 +176,7 @@ class StrengthRules {
              "a material does not yield beyond its tensile strength: correct one of them");
   }
 
-  /// At every depth that one of the two says.
+  /// At every depth of one of the two.
   void check_against_hardness() const {
     const Said strength = yield(), hard = hardness();
     if (strength.rows.empty() || hard.rows.empty() || strength.name.starts_with("the ")) return;

@@ -1,7 +1,7 @@
 #pragma once
-// What the strengths of a case ask of each other.
-#include "case/case_source.hpp"
+// Rules between the strengths of a case.
 #include "case/case_fwd.hpp"
+#include "case/case_source.hpp"
 
 namespace railstrata {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a material bears, as the case says it. Nothing of it enters a contact solution: shakedown, fatigue, wear and
+// Strength of a case's materials. Nothing of it enters a contact solution: shakedown, fatigue, wear and
 // heat are computed from what is given, and what would need more is left out.
 #include <array>
 #include <optional>

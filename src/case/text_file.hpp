@@ -5,7 +5,7 @@
 
 namespace railstrata {
 
-/// The whole file, of 4 MiB at most. Throws CaseError with the system's reason; `remedy` says where such files are.
+/// The whole file, of 4 MiB at most. Throws CaseError with the system's reason; `remedy`: where such files are.
 std::string read_text_file(const std::filesystem::path& file, const std::string& remedy);
 
 }  // namespace railstrata

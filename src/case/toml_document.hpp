@@ -16,7 +16,7 @@ inline TextPlace place_of(const toml::source_region& region) {
 inline TextPlace place_of(const toml::node& node) { return place_of(node.source()); }
 inline TextPlace place_of(const toml::key& key) { return place_of(key.source()); }
 
-/// Of a key: it has two or three. toml++ limits nested brackets, to 256, and not dotted keys.
+/// Dots of a key: it has two or three. toml++ limits nested brackets, to 256, and not dotted keys.
 inline constexpr std::ptrdiff_t kMostDots = 100;
 
 /// Where a text has the first key of more dots than that, those of the keys around it in brackets included. Dots of

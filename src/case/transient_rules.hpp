@@ -1,5 +1,5 @@
 #pragma once
-// What a transient asks of its rows and of the other options.
+// Rules of a transient's rows and of the options beside it.
 #include <string>
 #include <vector>
 

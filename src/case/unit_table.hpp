@@ -16,7 +16,7 @@
 
 namespace railstrata {
 
-/// What a table may hold.
+/// Columns that a table may have.
 struct UnitTableForm {
   struct Column {
     const Option* option;  ///< without a slot: a number

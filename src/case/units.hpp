@@ -31,13 +31,13 @@ inline constexpr Dimension kPressureGradient{1, -2, -2, 0};
 inline constexpr Dimension kSpin{0, -1, 0, 0};              ///< rotation over rolled distance; "rad/m" is "1/m"
 inline constexpr Dimension kToughness{1, -1, -2, 0, 0, 1};  ///< "15 MPa √m"
 inline constexpr Dimension kConductivity{1, 1, -3, 0, -1}, kHeatCapacity{0, 2, -2, 0, -1}, kTemperature{0, 0, 0, 0, 1};
-/// Of Vickers, in HV; "300 HBW" is 300 / 0.95 HV, good to 5 % up to 450 HV. [ISO18265]
+/// Vickers hardness, in HV; "300 HBW" is 300 / 0.95 HV, good to 5 % up to 450 HV. [ISO18265]
 inline constexpr Dimension kHardness{0, 0, 0, 0, 0, 0, 1};
 /// An inclination, kept as its tangent; written "1:40", "1/40", "25 mrad", "1.4 deg" or as the bare tangent.
 inline constexpr Dimension kSlope{0, 0, 0, 1};
 }  // namespace dimension
 
-/// What is wrong with the text of a quantity, and what to write instead.
+/// A fault of the text of a quantity, and what to write instead.
 struct UnitError : std::runtime_error {
   UnitError(const std::string& rule, std::string remedy_) : std::runtime_error(rule), remedy(std::move(remedy_)) {}
   std::string remedy;

@@ -54,7 +54,7 @@ struct ContactSide {
   }
 };
 
-/// What the contact works on, gathered for the rows of a step: rail nodes in the order of the rows, wheel nodes each
+/// Surface nodes, gathered for the rows of a step: rail nodes in the order of the rows, wheel nodes each
 /// once.
 struct ContactSystem {
   std::vector<std::ptrdiff_t> wheel_nodes;  ///< index of component x

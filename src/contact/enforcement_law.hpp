@@ -52,7 +52,7 @@ RAILSTRATA_POINTWISE Vec3 traction_vector(const NodeTraction& t, Vec3 n) {
   return -t.p * n + t.q1 * f.t1 + t.q2 * f.t2;
 }
 
-/// What all rows of a step share.
+/// Values that all rows of a step share.
 struct RowLaw {
   FrictionLaws friction;
   double dt = 0;                 ///< s
@@ -77,7 +77,7 @@ RAILSTRATA_POINTWISE bool return_to_friction(const RowLaw& law, double complianc
   return back.slips;
 }
 
-/// What a visit of a sweep to a row changes.
+/// Changes by one relaxation of a row.
 struct RowChange {
   bool acts = false, slips = false;
   Vec3 traction;  ///< Pa, on the rail

@@ -34,7 +34,7 @@ struct ContactSurface {
   std::vector<double> width;      ///< arc length of the facets, columns - 1
   std::ptrdiff_t first_line = 0;  ///< layout line of node 0, component 0
   int stride = 0;                 ///< between components; nodes are 3 strides apart
-  /// Of component x of a node in the body's fields; y and z follow one and two strides on.
+  /// Index of component x of a node in the body's fields; y and z follow one and two strides on.
   std::ptrdiff_t index(int column, int station) const {
     assert(column >= 0 && column < columns);
     assert(station >= 0 && station < stations.nodes());

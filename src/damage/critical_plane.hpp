@@ -28,18 +28,18 @@
 namespace railstrata {
 
 struct FatemiSocieConstants {
-  double k = 0;      ///< >= 0; 0.3 to 1 are said
+  double k = 0;      ///< >= 0; 0.3 to 1 in the literature
   double yield = 0;  ///< Y [Pa], > 0, uniaxial
 };
 
-/// Of a row. Constants that are not given leave their parameter out: they have no default.
+/// Material of a row. Constants that are not given leave their parameter out: they have no default.
 struct CriticalPlaneMaterial {
   double young = 0, poisson = 0;  ///< E [Pa]
   std::optional<FatemiSocieConstants> fatemi_socie;
-  std::optional<double> jiang_sehitoglu;  ///< J >= 0; 0.1 to 0.3 are said
+  std::optional<double> jiang_sehitoglu;  ///< J >= 0; 0.1 to 0.3 in the literature
 };
 
-/// What the cycle does on one plane.
+/// Stress and strain cycle on one plane.
 struct PlaneCycle {
   double normal_max = 0;           ///< Pa, residual stress included
   double normal_strain_range = 0;  ///< De_n

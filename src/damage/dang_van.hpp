@@ -18,7 +18,7 @@
 namespace railstrata {
 
 struct DangVanLimit {
-  double c = 0;      ///< >= 0; 0.3 to 0.4 are said for rail and wheel steel
+  double c = 0;      ///< >= 0; 0.3 to 0.4 for rail and wheel steel
   double limit = 0;  ///< Pa, > 0: the fatigue limit in alternating torsion; infinite: this row does not count
 };
 /// From the fatigue limits of alternating torsion and tension [Pa]. Throws CaseError unless torsion is 0.5 to 1 of

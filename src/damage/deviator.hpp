@@ -24,7 +24,7 @@ inline double dot(const Vec5& a, const Vec5& b) {
 inline Vec5 operator+(const Vec5& a, const Vec5& b) {
   return {a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3], a[4] + b[4]};
 }
-/// The von Mises stress without the factor sqrt 3: what is held against the shear strength k.
+/// The von Mises stress without the factor sqrt 3, to compare with the shear strength k.
 inline double equivalent_shear(const Sym3& s) { return std::sqrt(norm_squared(deviator(s))); }
 
 }  // namespace railstrata

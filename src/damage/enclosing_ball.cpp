@@ -10,7 +10,7 @@ namespace {
 
 using Matrix5 = std::array<Vec5, 5>;
 
-/// Points moved to the first one, free coordinates in front; what is held and the extras are in `fixed`.
+/// Points moved to the first one, free coordinates in front; the fixed ones and the extras are in `fixed`.
 struct Lifted {
   int dimensions = 0;
   std::array<int, 5> axis{};

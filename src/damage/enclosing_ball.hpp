@@ -19,7 +19,7 @@ constexpr FreeDirections free_directions(D... d) {
 }
 
 struct EnclosingBall {
-  Vec5 centre{};      ///< where it is held, the value asked for (0)
+  Vec5 centre{};      ///< in fixed coordinates the given value (0)
   double radius = 0;  ///< largest distance of a point, with its extra
   int support_count = 0;
   /// Indices of the points that hold the ball, with weights > 0 that add up to 1. In the free
@@ -30,7 +30,7 @@ struct EnclosingBall {
   int heaviest() const;
 };
 
-/// min over c of max over i of sqrt(|p_i - c|^2 + extra_i), c free in `free`, in the other coordinates at `held`.
+/// min over c of max over i of sqrt(|p_i - c|^2 + extra_i), c free in `free`, in the other coordinates fixed at `held`.
 /// extra: squared distances in directions that are not among the five (>= 0; empty: none). A dual active-set method
 /// [GoldfarbIdnani1983]: exact but for rounding (1e-12 of the radius, and 1e-15 of the largest coordinate's distance
 /// from the first point), finite, some d + 10 passes over the points. Repeated, collinear and single points are

@@ -71,7 +71,7 @@ double peclet(const HeatedLine& line, const ThermalBody& rail, const ThermalBody
   return line.speed * half_length / (2 * diffusivity);
 }
 
-/// The body as a half-space of its less (or more) effusive material; `name` says which.
+/// The body as a half-space of its less (or more) effusive material; `name`: which one.
 ThermalBody half_space(const ThermalBody& body, bool less_effusive, std::string_view& name) {
   if (!(body.layer_thickness > 0)) return {.base = body.base, .layer = {}};
   const ThermalMaterial* taken = &body.base;

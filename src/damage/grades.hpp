@@ -1,6 +1,6 @@
 #pragma once
-// Strengths of rail and wheel steels by grade, for users who know no more than the name. Every number says how sure it
-// is and where it comes from: nothing here replaces a measurement.
+// Strengths of rail and wheel steels by grade, for users who know no more than the name. Every number states how sure
+// it is and where it comes from: nothing here replaces a measurement.
 //
 // The standards' numbers are quoted as the field knows them: hold them against the edition that your delivery names. A
 // standard guarantees tensile strength and hardness of rails, not their yield strength: that of rails is a range of

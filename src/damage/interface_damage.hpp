@@ -1,5 +1,5 @@
 #pragma once
-// What an interface between materials carries while a wheel rolls over it.
+// Stresses of an interface between materials while a wheel rolls over it.
 #include <optional>
 #include <span>
 #include <vector>

@@ -62,7 +62,7 @@ struct EllipticPatch {
 double surface_fatigue_index(const EllipticPatch& patch, double cyclic_shear_yield);
 /// FI_sub = F_z (1 + mu²)/(4 pi a b) + c sigma_h, Pa; c Dang Van's constant, sigma_h [Pa] the hydrostatic residual
 /// stress (compression < 0). Fatigue below the surface where it exceeds the limit of the wheel's steel. c has no
-/// default: 0.3 to 0.4 are said for wheel steel.
+/// default: 0.3 to 0.4 for wheel steel.
 double subsurface_fatigue_index(const EllipticPatch& patch, double dang_van_constant, double residual_hydrostatic);
 
 }  // namespace railstrata

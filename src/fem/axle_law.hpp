@@ -18,7 +18,7 @@ struct SuspensionForce {
   double dashpot_power = 0;  ///< W
 };
 
-/// Of all groups together: kg, N/m, N s/m.
+/// Primary suspension, all groups together: kg, N/m, N s/m.
 struct SuspensionLaw {
   double sprung_mass = 0, stiffness = 0, damping = 0;
 };
@@ -43,7 +43,7 @@ struct AxleDrive {
   double lateral = 0;  ///< N, to the field side; of an axle that is free sideways
 };
 
-/// What stays as it is.
+/// Constants of the axle.
 struct AxleLaw {
   double mass_x = 0, mass_z = 0, inertia = 0;  ///< kg, kg m² (fem/rolling_system.hpp)
   SuspensionLaw suspension;

@@ -1,5 +1,5 @@
 #pragma once
-// What a sample of the moving contact holds of one body: plain numbers, without the solver that they come from.
+// A sample of one body at the moving contact: plain numbers, without the solver that they come from.
 #include <vector>
 
 #include "body/element_plasticity.hpp"

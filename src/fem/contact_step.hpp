@@ -49,7 +49,7 @@ class ContactStep {
   const ContactForces& forces() const { return forces_; }
   bool reached_edge() const { return reached_edge_; }
 
-  /// What the next search needs of this one.
+  /// Result of this search that the next one starts from.
   struct Restart {
     std::vector<MortarContact::Facet> facets;
     bool reached_edge = false;

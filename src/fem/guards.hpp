@@ -1,7 +1,7 @@
 #pragma once
 // Bounds that a run must keep while it rolls: finite numbers and a wheel that rolls forward after every step, the
 // others at the rows of the history. A run that leaves them computes nothing of use any more and ends with a
-// NumericalError that says what, where and what to try. They are wide: results are judged by the far narrower checks of
+// NumericalError with what, where and a remedy. They are wide: results are judged by the far narrower checks of
 // the summary.
 #include <optional>
 

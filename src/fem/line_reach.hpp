@@ -41,7 +41,7 @@ struct SharedLines {
   double contact = 0, half_width = 0;
 };
 
-/// Of one rank.
+/// Ranges of one rank.
 struct LineReach {
   LineStations values, forces;
 };
@@ -51,7 +51,7 @@ std::vector<LineReach> line_reaches(const SharedLines& body, int ranks);
 /// carry others, or the axle carries some. Then every rank collects those on all of them.
 bool moments_of_tiles(const SweptBody& mesh, const Ties& ties);
 
-/// Of a stretch and a line: all but that of its first plane.
+/// Numbers of a stretch and a line: all but those of its first plane.
 inline int moment_numbers(const Chain& stretch) { return 2 * (stretch.end_tile - stretch.first_tile) - 1; }
 
 /// Forces on lines that a stretch's owner gives in a usual step, by section node: those that another rank collects.

@@ -7,7 +7,7 @@
 
 namespace railstrata {
 
-/// What an update adds up.
+/// Sums over an update.
 struct UpdateSums {
   double kinetic = 0, damping = 0;                     ///< J, W
   double momentum_x = 0, momentum_z = 0, angular = 0;  ///< of the velocities in the frame; revolved bodies only
@@ -26,7 +26,7 @@ struct MeanMotion {
   double x = 0, z = 0, spin = 0;
 };
 
-/// What the nodes of a body share in a step.
+/// Values that all nodes of a body share in a step.
 struct NodeStep {
   ReferenceFrame frame;
   MeanMotion mean;
@@ -34,7 +34,7 @@ struct NodeStep {
   double gx = 0, gz = 0;    ///< m/s², gravity in the frame
 };
 
-/// Of a body of this kind in its frame.
+/// Kinematics of a body of this kind in its frame.
 template <SweepKind kind>
 RAILSTRATA_POINTWISE NodeStep node_step(const ReferenceFrame& frame, const MeanMotion& mean, double dt, double rate,
                                         double gravity) {
@@ -63,7 +63,7 @@ RAILSTRATA_POINTWISE RigidVelocity rigid_velocity(const ReferenceFrame& frame, d
 struct PlaneAndLateral {
   double x, y, z;
 };
-// What the run-up damping takes off a node's acceleration, components of this step's frame.
+// Deceleration of a node by the run-up damping, components of this step's frame.
 template <bool turning>
 RAILSTRATA_POINTWISE PlaneAndLateral run_up_damping(double rate, const MeanMotion& mean, Rotation<double> step,
                                                     double radius, double cosine, double sine, double wx, double wy,
@@ -81,7 +81,7 @@ RAILSTRATA_POINTWISE PlaneAndLateral run_up_damping(double rate, const MeanMotio
 
 }  // namespace node_law
 
-/// What a loop over nodes adds up, before it becomes UpdateSums.
+/// Sums of a loop over nodes, before they become UpdateSums.
 struct NodeSums {
   double twice_kinetic = 0, power = 0, px = 0, pz = 0, angular = 0;
 };

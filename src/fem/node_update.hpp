@@ -8,7 +8,7 @@
 
 namespace railstrata {
 
-/// What the functions of one step share.
+/// Data that the functions of one step share.
 struct StepScope {
   double dt = 0;            ///< s
   double gravity = 0;       ///< m/s²

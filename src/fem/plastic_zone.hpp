@@ -1,5 +1,5 @@
 #pragma once
-// What of rail and wheel may yield, and the stress that a process has left in them.
+// The parts of rail and wheel that may yield, and the initial stress of their manufacture.
 //
 // With run.plasticity materials that say a strength yield (model/material_strength.hpp). Their elements become hot
 // where the elastic stress comes near the strength: in the equilibrium before the rolling, and ahead of the wheel on

@@ -11,7 +11,7 @@ struct PositionSamples {
   std::vector<RollingSample> samples;
 };
 
-/// What yielding has left at the end.
+/// Plastic strains and residual stress at the end of the run.
 struct PlasticRemains {
   BodyId body = BodyId::rail;  ///< whose peak it is: the larger of both
   PlasticPeak peak;
@@ -50,10 +50,10 @@ struct RunState {
   double largest_closure = 0, largest_energy = 0;  ///< J
 };
 
-/// What may be asked of a run between two steps.
+/// Requests to a run, looked at between two steps.
 enum class Demand { go_on, save, save_and_stop };
 
-/// What the run calls on its way. Any may be empty.
+/// Callbacks of the run. Any may be empty.
 struct RunObserver {
   PreloadProgress preload;
   std::function<void(double fraction, const HistoryRow&)> progress;  ///< with every row; fraction of the way, 0 to 1

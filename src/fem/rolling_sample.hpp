@@ -1,5 +1,5 @@
 #pragma once
-// What a run records of the moving contact: samples of both bodies around the wheel, and rows of the history.
+// Records of the moving contact: samples of both bodies around the wheel, and rows of the history.
 #include <vector>
 
 #include "fem/band_sample.hpp"
@@ -39,10 +39,10 @@ struct SampledBody {
 RollingSample take_sample(const RollingSystem& system, const SampledBody& rail, const SampledBody& wheel,
                           const SurfaceTractions& tractions, const AxlePose& pose);
 
-/// Of the stepper's present state.
+/// Sample of the stepper's present state.
 RollingSample take_sample(const Stepper& stepper);
 
-/// Of the stepper's last step, whose energies were asked for.
+/// Row of the stepper's last step, whose energies must have been requested.
 HistoryRow history_row(const Stepper& stepper, const EnergyBalance& start);
 
 }  // namespace railstrata

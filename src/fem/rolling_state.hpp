@@ -1,5 +1,5 @@
 #pragma once
-// What changes while a wheel rolls.
+// The state of a rolling wheel and rail.
 #include <vector>
 
 #include "body/body_state.hpp"

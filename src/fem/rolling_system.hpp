@@ -8,7 +8,7 @@
 // equilibrium with the given friction. A yawed wheel has axes of its own, turned about the vertical through the axle's
 // start. The axle has what the given wheel mass exceeds the meshed one by, as a solid shaft of the bore's radius.
 // Suspension: groups of a spring and a dashpot with a share of the sprung mass each, vertical, around the axle's
-// (non-rotating) box. In x the sprung mass rides along with the axle if the case says so.
+// (non-rotating) box. In x the sprung mass moves with the axle if the case asks for it.
 #include <array>
 
 #include "body/body.hpp"
@@ -42,7 +42,7 @@ struct EndDashpot {
   double coefficient;
 };
 
-/// What the rail beyond the model's end holds a node of the end plane with [N], along x: the nodal force of its initial
+/// Force of the rail beyond the model's end on a node of the end plane [N], along x: the nodal force of its initial
 /// stress, so that the rail is as long as it is and keeps that stress up to its ends. A free end would be felt far into
 /// it: of a layer of thickness h on a block the stress comes back as 1 - 2.14 h/distance (a wedge of a right angle with
 /// a force along its edge [TimoshenkoGoodier1970 art. 38]).
@@ -51,7 +51,7 @@ struct EndLoad {
   double force;
 };
 
-/// What the rolling takes of a case, so that no step looks into the case itself.
+/// Options of a case that the steps use, so that no step reads the case itself.
 struct ExplicitOptions {
   double speed = 0;            ///< m/s
   double torque_ramp = 0;      ///< s

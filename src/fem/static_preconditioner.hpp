@@ -10,7 +10,7 @@
 // wheel on its contact, which a diagonal alone needs thousands of iterations for. P^T K P is found by applying K to the
 // modes of many clusters that do not touch at once.
 //
-// Of several ranks each restricts and prolongs at the stations of its own tiles; both factors every rank has whole.
+// With several ranks, each restricts and prolongs at the stations of its own tiles; every rank has both factors.
 #include <Eigen/SparseCholesky>
 #include <functional>
 
@@ -19,7 +19,7 @@
 
 namespace railstrata {
 
-/// Of the system's size.
+/// Sized for the system.
 StaticVector zero_vector(const RollingSystem& system);
 
 class StaticPreconditioner {

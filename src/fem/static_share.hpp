@@ -1,5 +1,5 @@
 #pragma once
-// What each of several ranks does of the static problem.
+// The part of the static problem that one of several ranks computes.
 //
 // A rank evaluates the elements of its own tiles (body/tile_cut.hpp) and keeps vectors up to date at the nodes there,
 // on the planes between stretches, and on the lines that ties, contact and axle read (body/kept_values.hpp); those

@@ -26,7 +26,7 @@ double wanted_step(const Body& body, const CaseSpec& spec, double units) {
   return units * spec.mesh.element_size / std::sqrt(matrix.p_wave_modulus() / matrix.density);
 }
 
-// To six digits: an estimate by Lanczos steps tells compilers apart in the ninth, and with another step samples are
+// To six digits: an estimate by Lanczos steps differs between compilers in the ninth, and with another step samples are
 // taken elsewhere.
 double rounded_down(double step) {
   const double unit = std::pow(10.0, std::floor(std::log10(step)) - 5);

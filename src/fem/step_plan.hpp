@@ -16,7 +16,7 @@ struct ScaledBlock {
   double mass = 0, added = 0;  ///< kg, of the whole block and by mass scaling
 };
 
-/// What limits the step [s]: 2/omega_max of the assembled bodies by Lanczos, the bound from single elements and where
+/// Limits of the step [s]: 2/omega_max of the assembled bodies by Lanczos, the bound from single elements and where
 /// that is smallest, the contact (penalty only).
 struct StepLimits {
   double lanczos = 0;   ///< with the added mass, or of the nodes that local steps leave coarse

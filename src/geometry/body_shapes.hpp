@@ -1,5 +1,5 @@
 #pragma once
-// What a body is below its running surface: a real section, or a plain solid for verification against closed forms.
+// The body below its running surface: a real section, or a plain solid for verification against closed forms.
 
 namespace railstrata {
 

@@ -1,5 +1,5 @@
 #pragma once
-// What can be wrong with a list of profile points.
+// Defects of a list of profile points.
 #include <optional>
 #include <string>
 #include <vector>

@@ -10,7 +10,7 @@
 namespace railstrata {
 
 /// Simpack .prr (rail) or .prw (wheel): one spline of points of weight 1, nothing shifted, cut, mirrored or smoothed.
-/// `remark` stands in its header; points in m, in the order along the curve.
+/// `remark`: a comment for its header; points in m, in the order along the curve.
 std::string simpack_text(ProfileKind kind, const std::vector<Vec2>& points, const std::string& remark);
 
 /// MiniProf .ban (rail) or .whl (wheel): keys, a blank line, X and Y in mm with a tab between.

@@ -21,7 +21,7 @@
 namespace railstrata {
 namespace {
 
-constexpr std::size_t kMostPoints = 20'000;                      // all pairs of chords are held against each other
+constexpr std::size_t kMostPoints = 20'000;                      // all pairs of chords are compared
 constexpr std::streamsize kLargestFile = 16 << 20;               // bytes
 constexpr double kShortestCurve = 0.020, kLongestCurve = 0.500;  // m, curve of a listed profile
 constexpr double kSmallestFlange = 0.009;                  // m: lower than any flange, higher than any tread's fall

@@ -24,7 +24,7 @@ struct CreepCoefficients {
 };
 CreepCoefficients kalker_coefficients(double a_over_b, double poisson);
 
-/// What the theories need: 2/G = 1/G1 + 1/G2 and nu/G the mean of the bodies' nu/G. [Kalker1990 eq. 1.44]
+/// Input of the theories: 2/G = 1/G1 + 1/G2 and nu/G the mean of the bodies' nu/G. [Kalker1990 eq. 1.44]
 struct RollingEllipse {
   HertzContact contact;
   double friction = 0, shear = 0;

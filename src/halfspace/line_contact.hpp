@@ -1,7 +1,7 @@
 #pragma once
 // Line contact: half-spaces in plane strain, loaded evenly along y without end.
 //
-// What boussinesq_cerruti.hpp and interior.hpp have for rectangles stands here for strips of the width dx along x.
+// Counterpart of boussinesq_cerruti.hpp and interior.hpp for strips of the width dx along x.
 // Displacements under a load per length grow with the logarithm of the distance, so that they are known up to a
 // constant alone: here they vanish (each image of a layered body by itself) at the distance `far` along the surface.
 // No approach of distant points follows from them. [Johnson1985 sec. 2.3–2.6, 4.3]

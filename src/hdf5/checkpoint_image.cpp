@@ -38,7 +38,7 @@ Handle memory_access(std::size_t growth) {
   return Handle(H5Pcopy(access), H5Pclose, "make a file in memory");
 }
 
-// Both archives are told the same names in the same order by describe(): row: one record of numbers; rows: a table of
+// describe() names the same entries in the same order to both archives: row: one record of numbers; rows: a table of
 // them; numbers: a long array; text; group: a part.
 class Writer {
  public:

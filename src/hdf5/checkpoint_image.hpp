@@ -19,7 +19,7 @@ struct Checkpoint {
   RunState run;
 };
 
-/// What is wrong with the bytes of a checkpoint, and what to do.
+/// A fault of the bytes of a checkpoint, and the remedy.
 struct CheckpointDamage {
   std::string what;
   std::string remedy = "start the run anew with --force, or put a whole copy of the file back";

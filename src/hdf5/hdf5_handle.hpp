@@ -1,5 +1,5 @@
 #pragma once
-// What HDF5 gives numbers to.
+// Handles of HDF5, closed by their destructors.
 #include <hdf5.h>
 
 namespace railstrata {

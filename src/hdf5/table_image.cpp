@@ -24,7 +24,7 @@ struct TableHandle : Hdf5Handle {
   TableHandle(hid_t id, Close close) : Hdf5Handle(checked(id), close) {}
 };
 
-/// HDF5 prints its stack of errors unless it is told not to.
+/// HDF5 prints its stack of errors unless that is turned off.
 class Quiet {
  public:
   Quiet() {

@@ -6,7 +6,7 @@
 //   monotonic tension                 σ = σ_s − Q e^{−b ε_p} + Σ C_i/γ_i (1 − e^{−γ_i ε_p}),   σ_s = σ_y0 + Q
 // With given γ_i the first two are linear in σ_y0 and C_i/γ_i >= 0: least squares of the relative stress. The γ_i are
 // sought on a geometric grid from 0.1 over the largest to 2 over the smallest plastic strain, four to a decade, then
-// moved to where the error is least. What stabilised cycles give is σ_s; a monotonic curve tells it apart from Q.
+// moved to where the error is least. Stabilised cycles give σ_s alone; a monotonic curve separates it from Q.
 #include <vector>
 
 #include "material/plastic.hpp"
@@ -51,7 +51,7 @@ struct RateBounds {
 RateBounds rate_bounds(const std::vector<CurvePoint>& monotonic);
 HardeningFit with_isotropic_part(HardeningFit stabilised, const std::vector<CurvePoint>& monotonic);
 
-// What a law gives, for pictures: uniaxial stress [Pa].
+// Curves of a law, for pictures: uniaxial stress [Pa].
 double amplitude_of(const PlasticParameters<double>& p, double plastic_amplitude);
 double loop_stress(const PlasticParameters<double>& p, double plastic_amplitude, double plastic_strain);
 double monotonic_stress(const PlasticParameters<double>& p, double plastic_strain);

@@ -31,8 +31,8 @@ RAILSTRATA_POINTWISE void elastic_stress(Real lambda, Real mu, const T (&strain)
   for (int i = 3; i < 6; ++i) stress[i] = 2 * mu * strain[i];
 }
 
-/// What laws read of a material, by quadrilateral; Real float or double. One list for all laws, so that what a body
-/// holds depends on none: a law reads what it needs. A further number stands here, in material_parameters and in
+/// Material parameters that laws read, by quadrilateral; Real float or double. One list for all laws, so that what a
+/// body holds depends on none: a law reads what it needs. A further number stands here, in material_parameters and in
 /// rounded_to.
 template <class Real>
 struct MaterialParameters {

@@ -31,7 +31,7 @@ const std::vector<HardeningSet>& hardening_sets();
 /// By name, capitals aside. Throws CaseError with the nearest name and the list.
 const HardeningSet& hardening_set(std::string_view name);
 
-/// Of steel of a tensile strength [Pa], 300 to 2500 MPa. [Waechter2016]
+/// Hardening of steel of a tensile strength [Pa], 300 to 2500 MPa. [Waechter2016]
 PlasticParameters<double> estimated_hardening(double tensile);
 
 /// K' [Pa] of the curve behind it, and its exponent.

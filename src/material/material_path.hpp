@@ -14,7 +14,7 @@ struct PlasticMaterial {
   PlasticParameters<double> plastic{};
 };
 
-/// What a uniaxial stress approaches after much plastic strain, σ_y0 + Q + Σ C_i/γ_i [Pa]; infinite where a backstress
+/// Limit of a uniaxial stress after much plastic strain, σ_y0 + Q + Σ C_i/γ_i [Pa]; infinite where a backstress
 /// does not recall.
 double largest_stress(const PlasticParameters<double>& p);
 

@@ -18,7 +18,7 @@ namespace railstrata {
 
 inline constexpr int kMostBackstresses = 4;
 
-/// Of one material; Real: float or double, whatever pack runs over the points.
+/// Parameters of one material; Real: float or double, whatever pack runs over the points.
 template <class Real>
 struct PlasticParameters {
   Real mu;                          ///< Pa
@@ -215,7 +215,7 @@ RAILSTRATA_POINTWISE T backstress_energy(const PlasticParameters<Real>& p, const
   return energy;
 }
 
-/// What a step dissipates, (S − Σ α_i) : ΔE^p + Σ 3 γ_i/(2 C_i) α_i:α_i Δp >= 0 [J/m³], with the stress and history at
+/// Dissipation of a step, (S − Σ α_i) : ΔE^p + Σ 3 γ_i/(2 C_i) α_i:α_i Δp >= 0 [J/m³], with the stress and history at
 /// its end and the history at its start; isotropic hardening counts as dissipated. With the free energies it is the
 /// work done, S : ΔE, to the second order of the step (backward Euler dissipates (1/2) |Δ|² of each more: > 0).
 template <int terms, class T, class Real>

@@ -31,7 +31,7 @@ std::vector<double> column_subset(const Profile& profile, const std::vector<doub
 /// Length of the polyline of the columns' points at a depth.
 double length_at_depth(const Profile& profile, const std::vector<double>& s, double depth);
 
-/// What differs between the bodies, in the profile frame (z may run either way).
+/// The differences between the bodies, in the profile frame (z may run either way).
 struct OffsetFrameSpec {
   std::string name, carrier;                               ///< of the block, in messages
   double width = std::numeric_limits<double>::infinity();  ///< where it is narrower than the profile

@@ -1,5 +1,5 @@
 #pragma once
-// What a material of a case bears, by depth, and the law by which it yields.
+// Strength of a case's materials by depth, and the law by which they yield.
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,7 +30,7 @@ class MaterialStrength {
   double yield(double depth) const;
   /// Vickers; NaN where the case does not say it.
   double hardness(double depth) const;
-  /// m, the depth where the table that says the strength ends; infinite without one.
+  /// m, the depth where the strength's table ends; infinite without one.
   double end() const;
   /// How a strength that was not given is known; empty if it was, or is not known.
   std::string note() const;
@@ -41,7 +41,7 @@ class MaterialStrength {
   std::optional<Grade> grade_;
 };
 
-/// Whether a case says how strong a material is.
+/// Whether a case gives a material's strength.
 bool says_strength(const StrengthSpec& strength);
 
 /// The law of a material that yields (material/plastic.hpp), with depth:
@@ -57,7 +57,7 @@ struct PlasticLaw {
   PlasticMaterial at(double depth) const;  ///< below the last row as there
 };
 
-/// None where the material is elastic on purpose (elastic = true) or says nothing of a strength. Throws CaseError.
+/// None where the material is elastic on purpose (elastic = true) or has no strength. Throws CaseError.
 std::optional<PlasticLaw> plastic_law(const MaterialSpec& material, const std::string& name, const std::string& key);
 
 }  // namespace railstrata

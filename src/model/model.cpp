@@ -29,7 +29,7 @@ Profile find_profile(ProfileKind kind, const std::string& name, const std::files
 
 Elastic to_elastic(const MaterialSpec& m) { return elastic(m.young, m.poisson, m.density); }
 
-/// A layer that says no width covers a block that is narrower.
+/// A layer without a given width covers a block that is narrower.
 double width_of(const CaseSpec& spec, const LayerSpec& l) {
   const bool on_block = l.on == BodyId::rail && spec.geometry.rail_shape == RailShape::block;
   return on_block && l.width == LayerSpec{}.width ? std::min(l.width, spec.geometry.block_width) : l.width;

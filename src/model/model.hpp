@@ -1,5 +1,5 @@
 #pragma once
-// What is true before anything moves: profiles, placement, meshes and loads built from a case.
+// The model before anything moves: profiles, placement, meshes and loads built from a case.
 #include <filesystem>
 #include <optional>
 

@@ -9,7 +9,7 @@ namespace railstrata {
 /// of one sign over the whole patch. 0: it needs none.
 double stable_memory_distance(const CaseSpec& spec, double p0, double longer_axis);
 
-/// What the half-space engine says of a case whose friction falls by more than waves carry away, and whose memory does
+/// The half-space engine's note on a case whose friction falls by more than waves carry away, and whose memory does
 /// not make up for it; else empty.
 std::string note_of_instability(const CaseSpec& spec, const HertzContact& patch);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What stands around a solved patch: how far the profiles turn over it, the nearest edges of bodies and layers, the
+// The surroundings of a solved patch: how far the profiles turn over it, the nearest edges of bodies and layers, the
 // wheel's flange, and places outside of it where the bodies would touch as well. Warnings are made of it in post.
 #include <optional>
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace railstrata {
 
-/// What an engine has solved, in the contact plane: t along the common tangent from the rigid contact point, m.
+/// The region that an engine has solved, in the contact plane: t along the common tangent from the rigid contact point,
+/// m.
 struct SolvedPatch {
   double low = 0, high = 0;                  ///< edges of the patch
   double covered_low = 0, covered_high = 0;  ///< where the engine looks for contact
@@ -59,7 +60,7 @@ PatchSurroundings patch_surroundings(const CaseSpec& spec, const Placement& plac
 /// gap g, the tangent's angle alpha and the distance r from the patch the bodies overlap by
 ///   (d - g) cos(alpha) - N/(pi E* r),
 /// the last term being the depression of both surfaces by the force N of the patch. [Johnson1985 eq. 3.22a] The largest
-/// overlap > 0 is told, of places that hang together neither with the patch nor lie in what the engine has covered.
+/// overlap > 0 is reported, at places that neither are connected to the patch nor lie in the solved region.
 std::optional<SecondContact> second_contact(const CaseSpec& spec, const Placement& placement, const SolvedPatch& patch);
 
 }  // namespace railstrata

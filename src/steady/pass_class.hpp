@@ -1,6 +1,6 @@
 #pragma once
-// What a series of passes has come to, at a point or as a whole, from two numbers of every pass: the plastic strain
-// accumulated in it, Δp, and its net plastic strain |E^p_n - E^p_(n-1)|.
+// Class of a series of passes (shakedown, ratchetting, …), at a point or as a whole, from two numbers of every pass:
+// the plastic strain accumulated in it, Δp, and its net plastic strain |E^p_n - E^p_(n-1)|.
 //
 //   elastic shakedown   Δp < 1e-6: nothing flows any more
 //   plastic shakedown   Δp the same from pass to pass, net < 1 % of it: closed cycles, no growth
@@ -19,7 +19,7 @@ inline constexpr double kNoFlow = 1e-6;
 
 enum class PassClass : int { elastic_shakedown, plastic_shakedown, ratchetting, transient };
 
-/// Of one pass.
+/// Plastic strain of one pass.
 struct PassStrain {
   double accumulated = 0, net = 0;
 };
@@ -30,12 +30,12 @@ struct PassVerdict {
   double trend = 0;  ///< s of net ~ n^-s over the later half of the passes; 0: constant, above 1: it will stop
 };
 
-/// Of all passes so far, the first one first.
+/// Class of all passes so far, the first one first.
 PassVerdict classify(const std::vector<PassStrain>& passes);
 
-/// Of a point of a rail whose governing point has come to `whole`. The residual stress ties the points to each other:
-/// while that one still changes, a point that flows the same for a few passes is on its way up or down, and has no
-/// class yet. That nothing flows any more is told anyway.
+/// Class of a point of a rail whose governing point has the class `whole`. The residual stress ties the points to each
+/// other: while that one still changes, a point that flows the same for a few passes is on its way up or down, and has
+/// no class yet, except "no flow", which is reported at once.
 PassClass class_of_point(const std::vector<PassStrain>& passes, PassClass whole);
 
 /// When the net strain that passes add up to reaches what the material bears.

@@ -35,7 +35,7 @@ struct SteadyGrid {
   double share(int i) const;
 
   std::size_t plane() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
-  /// Of a field of six components: xx, yy, zz, xy, yz, xz, each a plane per row, columns fastest.
+  /// Layout of a field of six components: xx, yy, zz, xy, yz, xz, each a plane per row, columns fastest.
   std::size_t size() const { return 6 * thickness.size() * plane(); }
   std::size_t index(int component, int row, int i, int j) const {
     return ((static_cast<std::size_t>(component) * thickness.size() + static_cast<std::size_t>(row)) *

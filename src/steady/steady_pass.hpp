@@ -32,7 +32,7 @@ struct SteadyRow {
   PlasticParameters<double> law;
 };
 
-/// What a pass leaves to the next.
+/// State that a pass hands on to the next.
 struct PassState {
   int passes = 0;
   std::vector<double> history;  ///< per point of the section (SteadyGrid::point) kStreamlineHistory numbers
@@ -42,7 +42,7 @@ struct PassState {
 /// Moves the first guess along with a load that runs so many columns to the side of the last one.
 void move_guess(const SteadyGrid& grid, int columns, PassState& state);
 
-/// What a pass has done to the points of the section (SteadyGrid::point).
+/// Changes by one pass at the points of the section (SteadyGrid::point).
 struct PassResult {
   int iterations = 0;
   double error = 0;                 ///< largest change of stress of the last iteration over the shear strength
@@ -82,7 +82,7 @@ class SteadyBody {
   PassState virgin() const;
 
   /// The next pass under the strain of a contact (SteadyGrid::size(); tensor shears). The state advances; where the
-  /// pass has not converged too, and the result says so. Throws NumericalError at a strain that is no number;
+  /// pass has not converged too, as the result states. Throws NumericalError at a strain that is no number;
   /// Interrupted when it is given up, the state is then as it was.
   PassResult run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits = {}) const;
   /// The way of points of the section through the pass that `result` and `state` are of, at the active stations in
