@@ -133,24 +133,24 @@ void check_path(const RunSpec& run, CaseSource& source) {
 void check_wheel(const GeometrySpec& g, CaseSource& source) {
   if (!source.sound({"geometry.wheel_radius", "geometry.rim_thickness", "geometry.hub_radius", "geometry.bore_radius"}))
     return;
-  const double rim_inside = g.wheel_radius - g.rim_thickness;
+  const double rim_inside = g.wheel_radius - g.wheel_section.rim_thickness;
   if (g.wheel_shape == WheelShape::disc) {
-    if (!(g.bore_radius < g.wheel_radius))
+    if (!(g.wheel_section.bore_radius < g.wheel_radius))
       source.complain("geometry.bore_radius",
-                      fmt::format("geometry.bore_radius = {}: must be below wheel_radius = {}", length(g.bore_radius),
-                                  length(g.wheel_radius)),
+                      fmt::format("geometry.bore_radius = {}: must be below wheel_radius = {}",
+                                  length(g.wheel_section.bore_radius), length(g.wheel_radius)),
                       "make the bore smaller");
     return;
   }
-  if (!(g.bore_radius < g.hub_radius))
+  if (!(g.wheel_section.bore_radius < g.wheel_section.hub_radius))
     source.complain("geometry.bore_radius",
-                    fmt::format("geometry.bore_radius = {}: must be below hub_radius = {}", length(g.bore_radius),
-                                length(g.hub_radius)),
+                    fmt::format("geometry.bore_radius = {}: must be below hub_radius = {}",
+                                length(g.wheel_section.bore_radius), length(g.wheel_section.hub_radius)),
                     "make the bore smaller or the hub larger");
-  if (!(g.hub_radius < rim_inside))
+  if (!(g.wheel_section.hub_radius < rim_inside))
     source.complain("geometry.hub_radius",
                     fmt::format("geometry.hub_radius = {}: must be below wheel_radius - rim_thickness = {}",
-                                length(g.hub_radius), length(rim_inside)),
+                                length(g.wheel_section.hub_radius), length(rim_inside)),
                     "make the hub or the rim smaller");
 }
 

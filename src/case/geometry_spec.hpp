@@ -27,8 +27,7 @@ struct GeometrySpec {
   std::optional<double> curve_radius;  ///< m, positive with the centre on the field side; none: straight track
   double wheel_radius = 0.430;
   double block_width = 0.06, block_height = 0.06;
-  double rim_thickness = 0.060, web_thickness = 0.030, web_offset = 0.0, hub_radius = 0.135, hub_width = 0.17,
-         bore_radius = 0.095;
+  WheelSection wheel_section;
   bool in_line() const { return contact == ContactShape::line; }
 };
 

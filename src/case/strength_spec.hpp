@@ -40,6 +40,20 @@ inline std::array<double*, 2> columns(KinematicHardening& h) { return {&h.modulu
 /// The word of StrengthSpec::hardening for a set from the tensile strength.
 inline constexpr std::string_view kEstimatedHardening = "estimated";
 
+/// Constants of the fatigue criteria; what is not given leaves its criterion out.
+struct FatigueSpec {
+  std::optional<double> limit;            ///< Pa, of Dang Van: in alternating shear
+  std::optional<double> dang_van;         ///< weight of the hydrostatic stress
+  std::optional<double> fatemi_socie;     ///< k of the term k sigma_n / yield strength
+  std::optional<double> jiang_sehitoglu;  ///< J
+};
+
+struct HeatSpec {
+  double conductivity = 50;                    ///< W/(m K)
+  double capacity = 460;                       ///< J/(kg K)
+  std::optional<double> austenitisation_rise;  ///< K, from the surface before the wheel to austenite
+};
+
 /// Depths of a layer's tables count from its top, those of rail and wheel from the running surface.
 struct StrengthSpec {
   std::string grade;                     ///< a name of damage/grades.hpp; it gives what is not given otherwise
@@ -52,19 +66,14 @@ struct StrengthSpec {
   double yield_to_tensile = 0.55;  ///< of a strength that is estimated from hardness
   std::optional<double> hardness;  ///< HV
   std::vector<DepthPoint> hardness_table;
-  std::vector<double> initial_stress;                 ///< Pa, longitudinal and lateral; empty: none
-  std::vector<StressPoint> initial_stress_table;      ///< instead
-  std::optional<double> tensile_strength;             ///< Pa
-  std::optional<double> fracture_toughness;           ///< Pa √m, K_Ic
-  std::optional<double> fatigue_limit;                ///< Pa, of Dang Van: in alternating shear
-  std::optional<double> dang_van_coefficient;         ///< weight of the hydrostatic stress
-  std::optional<double> fatemi_socie_coefficient;     ///< k of the term k sigma_n / yield strength
-  std::optional<double> jiang_sehitoglu_coefficient;  ///< J
-  std::optional<double> wear_coefficient;             ///< Archard's k, volume = k force distance / hardness
-  std::optional<double> bond_tension, bond_shear;     ///< Pa, of a layer's lower interface
-  double conductivity = 50;                           ///< W/(m K)
-  double heat_capacity = 460;                         ///< J/(kg K)
-  std::optional<double> austenitisation_rise;         ///< K, from the surface before the wheel to austenite
+  std::vector<double> initial_stress;             ///< Pa, longitudinal and lateral; empty: none
+  std::vector<StressPoint> initial_stress_table;  ///< instead
+  std::optional<double> tensile_strength;         ///< Pa
+  std::optional<double> fracture_toughness;       ///< Pa √m, K_Ic
+  FatigueSpec fatigue;
+  std::optional<double> wear_coefficient;          ///< Archard's k, volume = k force distance / hardness
+  std::optional<double> bond_tension, bond_shear;  ///< Pa, of a layer's lower interface
+  HeatSpec heat;
 };
 
 }  // namespace railstrata

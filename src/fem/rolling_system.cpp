@@ -90,7 +90,8 @@ Axle axle_of(const Body& wheel, const CaseSpec& spec) {
         "rim_thickness, hub_radius)");
   Axle axle;
   axle.mass_z = added;
-  axle.inertia = 0.5 * added * spec.geometry.bore_radius * spec.geometry.bore_radius;
+  const double bore = spec.geometry.wheel_section.bore_radius;
+  axle.inertia = 0.5 * added * bore * bore;
   for (const SectionNode& n : wheel.mesh.prescribed) {
     const BlockLayout& lay = wheel.layout.blocks[n.block];
     for (int j = 0; j < lay.stations; ++j) {

@@ -13,4 +13,11 @@ enum class WheelShape {
   disc    ///< the rim goes on down to the bore
 };
 
+/// The wheel below its tread, m.
+struct WheelSection {
+  double rim_thickness = 0.060;                    ///< tape circle to the rim's inner face
+  double web_thickness = 0.030, web_offset = 0.0;  ///< lateral position of the plate's middle, tape circle = 0
+  double hub_radius = 0.135, hub_width = 0.17, bore_radius = 0.095;
+};
+
 }  // namespace railstrata

@@ -26,7 +26,7 @@ bool any_zone(const CaseSpec& spec, BodyId body, const std::function<bool(const 
                      [&](const LayerSpec& layer) { return layer.on == body && says(layer.material.strength); });
 }
 
-bool says_dang_van(const StrengthSpec& s) { return s.fatigue_limit && s.dang_van_coefficient; }
+bool says_dang_van(const StrengthSpec& s) { return s.fatigue.limit && s.fatigue.dang_van; }
 
 /// Rows without a limit do not count.
 std::vector<DangVanLimit> dang_van_limits(const CaseSpec& spec, BodyId body, const StressHistory& history) {
@@ -34,7 +34,7 @@ std::vector<DangVanLimit> dang_van_limits(const CaseSpec& spec, BodyId body, con
   std::vector<DangVanLimit> out;
   for (int r = 0; r < history.rows(); ++r) {
     const StrengthSpec& s = strength_of_row(spec, body, history, r);
-    out.push_back(says_dang_van(s) ? DangVanLimit{*s.dang_van_coefficient, *s.fatigue_limit} : DangVanLimit{0, kNever});
+    out.push_back(says_dang_van(s) ? DangVanLimit{*s.fatigue.dang_van, *s.fatigue.limit} : DangVanLimit{0, kNever});
   }
   return out;
 }
@@ -61,9 +61,9 @@ std::vector<CriticalPlaneMaterial> plane_materials(const CaseSpec& spec, BodyId 
     CriticalPlaneMaterial row;
     row.young = m.young;
     row.poisson = m.poisson;
-    if (s.fatemi_socie_coefficient && std::isfinite(strength.shear[r]))
-      row.fatemi_socie = FatemiSocieConstants{*s.fatemi_socie_coefficient, std::numbers::sqrt3 * strength.shear[r]};
-    row.jiang_sehitoglu = s.jiang_sehitoglu_coefficient;
+    if (s.fatigue.fatemi_socie && std::isfinite(strength.shear[r]))
+      row.fatemi_socie = FatemiSocieConstants{*s.fatigue.fatemi_socie, std::numbers::sqrt3 * strength.shear[r]};
+    row.jiang_sehitoglu = s.fatigue.jiang_sehitoglu;
     out.push_back(row);
   }
   return out;
@@ -145,8 +145,8 @@ void add_interfaces(const CaseSpec& spec, BodyId body, const StressHistory& hist
 
 bool fatigue_given(const CaseSpec& spec, BodyId body) {
   return any_zone(spec, body, [](const StrengthSpec& s) {
-    return s.fatigue_limit || s.fracture_toughness || s.tensile_strength || s.bond_shear || s.bond_tension ||
-           s.fatemi_socie_coefficient || s.jiang_sehitoglu_coefficient;
+    return s.fatigue.limit || s.fracture_toughness || s.tensile_strength || s.bond_shear || s.bond_tension ||
+           s.fatigue.fatemi_socie || s.fatigue.jiang_sehitoglu;
   });
 }
 

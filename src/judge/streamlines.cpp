@@ -49,7 +49,7 @@ const MaterialSpec& surface_material(const CaseSpec& spec, BodyId body) {
 }
 
 ThermalMaterial thermal(const MaterialSpec& m) {
-  return {m.strength.conductivity, m.density, m.strength.heat_capacity};
+  return {m.strength.heat.conductivity, m.density, m.strength.heat.capacity};
 }
 
 ThermalBody thermal_body(const CaseSpec& spec, BodyId body) {
@@ -222,7 +222,7 @@ DamageSummary damage_summary(const CaseSpec& spec, const Summary& summary, const
   out.temperature_rise = largest(rows, &StreamlineRow::temperature_rise);
   out.temperature_rise_lower = largest(rows, &StreamlineRow::rise_lower);
   out.temperature_rise_upper = largest(rows, &StreamlineRow::rise_upper);
-  if (const auto& rise = surface_material(spec, BodyId::rail).strength.austenitisation_rise)
+  if (const auto& rise = surface_material(spec, BodyId::rail).strength.heat.austenitisation_rise)
     out.austenitisation = out.temperature_rise / *rise;
   out.local_fatigue = largest(rows, &StreamlineRow::local_fatigue);
   return out;

@@ -54,10 +54,7 @@ struct WheelMeshSpec {
   WheelShape shape = WheelShape::wheel;
   double contact_s = 0;
   double theta_begin = 0, theta_end = 0;
-  double rim_thickness = 0.060;  ///< tape circle to the rim's inner face
-  double web_thickness = 0.030,
-         web_offset = 0.0;  ///< plate thickness and lateral position of its middle (tape circle = 0)
-  double hub_radius = 0.135, hub_width = 0.17, bore_radius = 0.095;
+  WheelSection section;
   std::vector<LayerMesh> layers;
 };
 SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, const WheelMeshSpec& spec,

@@ -55,9 +55,10 @@ OffsetFrameSpec rim_frame(const Profile& profile, const WheelMeshSpec& spec, con
   };
   frame.fine_range = within(kFineAngle);
   frame.tread_range = within(kTreadAngle);
-  frame.band_limit = std::min(0.4 * spec.rim_thickness, 0.85 * smallest_convex_radius(profile, frame.tread_range.first,
-                                                                                      frame.tread_range.second));
-  frame.floor = spec.rim_thickness;
+  frame.band_limit =
+      std::min(0.4 * spec.section.rim_thickness,
+               0.85 * smallest_convex_radius(profile, frame.tread_range.first, frame.tread_range.second));
+  frame.floor = spec.section.rim_thickness;
 
   const std::pair tread = frame.tread_range;
   const double corner = left_corner(profile, tread.first);
@@ -136,11 +137,11 @@ Stations uniform_ring(double begin, double radius, double arc) {
 }
 
 void check_radii(double wheel_radius, const WheelMeshSpec& spec) {
-  const double inner = wheel_radius - spec.rim_thickness;
-  const double below = spec.shape == WheelShape::wheel ? spec.hub_radius : spec.bore_radius;
-  if (spec.bore_radius <= 0 || below < spec.bore_radius || inner <= below)
+  const double inner = wheel_radius - spec.section.rim_thickness;
+  const double below = spec.shape == WheelShape::wheel ? spec.section.hub_radius : spec.section.bore_radius;
+  if (spec.section.bore_radius <= 0 || below < spec.section.bore_radius || inner <= below)
     throw CaseError(fmt::format("wheel radii out of order: rim inside {:g} mm, hub {:g} mm, bore {:g} mm", 1e3 * inner,
-                                1e3 * spec.hub_radius, 1e3 * spec.bore_radius),
+                                1e3 * spec.section.hub_radius, 1e3 * spec.section.bore_radius),
                     "keep wheel_radius - rim_thickness > hub_radius > bore_radius > 0");
 }
 
@@ -158,8 +159,8 @@ SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, con
 
   const double left = profile.at(profile.s_min()).position.y, right = profile.at(profile.s_max()).position.y;
   const bool disc = spec.shape == WheelShape::disc;
-  const double y0 = disc ? left : spec.web_offset - 0.5 * spec.web_thickness,
-               y1 = disc ? right : spec.web_offset + 0.5 * spec.web_thickness;
+  const double y0 = disc ? left : spec.section.web_offset - 0.5 * spec.section.web_thickness,
+               y1 = disc ? right : spec.section.web_offset + 0.5 * spec.section.web_thickness;
   if (y0 < left || y1 > right)
     throw CaseError("the wheel's web is wider than its rim", "reduce web_thickness or web_offset");
 
@@ -173,11 +174,11 @@ SweptBody mesh_wheel(const Profile& profile, double wheel_radius, Vec3 axle, con
   const FrameNodes rim = add_offset_frame(body, profile, spec.contact_s, spec.layers, sizes, frame, {ring.fine, true},
                                           {ring.coarse, true}, ring);
 
-  WebSection web = web_section(y0, y1, spec.rim_thickness, wheel_radius - spec.hub_radius,
-                               wheel_radius - spec.bore_radius, disc ? 0 : spec.hub_width, sizes);
+  WebSection web = web_section(y0, y1, spec.section.rim_thickness, wheel_radius - spec.section.hub_radius,
+                               wheel_radius - spec.section.bore_radius, disc ? 0 : spec.section.hub_width, sizes);
   const int web_block = static_cast<int>(body.blocks.size());
-  body.blocks.push_back(
-      {"web", web.section, uniform_ring(spec.theta_begin, wheel_radius - spec.rim_thickness, 2 * sizes.largest)});
+  body.blocks.push_back({"web", web.section,
+                         uniform_ring(spec.theta_begin, wheel_radius - spec.section.rim_thickness, 2 * sizes.largest)});
   NodeLine carried;
   for (int node : rim.floor) {
     const double y = body.blocks[rim.block].section.nodes[node].y;

@@ -190,7 +190,7 @@ void require_sound_mesh(const SweptBody& body, BodyId id, const CaseSpec& spec) 
     const std::string shape =
         id == BodyId::wheel
             ? fmt::format("geometry.rim_thickness (now {:g} mm), geometry.flange_back_to_tape (now {:g} mm)",
-                          1e3 * g.rim_thickness, 1e3 * g.flange_back_to_tape)
+                          1e3 * g.wheel_section.rim_thickness, 1e3 * g.flange_back_to_tape)
             : fmt::format("geometry.block_width and block_height (now {:g} and {:g} mm)", 1e3 * g.block_width,
                           1e3 * g.block_height);
     throw CaseError(
@@ -267,12 +267,7 @@ Model build(const CaseSpec& spec, const std::filesystem::path& folder, const Swe
   wheel.contact_s = strip.wheel_s;
   wheel.theta_begin = -margin / contact.rolling_radius;
   wheel.theta_end = (m.x_end + margin) / contact.rolling_radius;
-  wheel.rim_thickness = g.rim_thickness;
-  wheel.web_thickness = g.web_thickness;
-  wheel.web_offset = g.web_offset;
-  wheel.hub_radius = g.hub_radius;
-  wheel.hub_width = g.hub_width;
-  wheel.bore_radius = g.bore_radius;
+  wheel.section = g.wheel_section;
   wheel.layers = layer_meshes(spec, BodyId::wheel);
   m.wheel =
       mesh_wheel(m.placement.wheel, g.wheel_radius, {0, contact.wheel_offset_y, contact.axle_height}, wheel, sizes);

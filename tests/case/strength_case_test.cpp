@@ -35,7 +35,7 @@ initial_stress_table = [["0 mm", "-300 MPa", "-200 MPa"], ["2 mm", "0 MPa", "10 
                      &first = spec.layers.at(0).material.strength, &second = spec.layers.at(1).material.strength;
   EXPECT_EQ(rail.strength_table, (std::vector<DepthPoint>{{0, 750e6}, {10e-3, 500e6}}));
   EXPECT_DOUBLE_EQ(rail.hardness.value(), 300);
-  EXPECT_EQ(rail.conductivity, 45);
+  EXPECT_EQ(rail.heat.conductivity, 45);
   EXPECT_FALSE(rail.yield_strength.has_value());
   EXPECT_DOUBLE_EQ(wheel.yield_strength.value(), std::sqrt(3) * 300e6);
   EXPECT_EQ(wheel.wear_coefficient, 3e-4);

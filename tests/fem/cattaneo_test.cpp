@@ -45,7 +45,7 @@ CaseSpec pressed_sphere() {
   spec.mesh.fine_depth = 6e-3;
   spec.mesh.coarse_ratio = 3;
   spec.mesh.largest = 24e-3;
-  spec.geometry.bore_radius = 0.36;
+  spec.geometry.wheel_section.bore_radius = 0.36;
   spec.vehicle.wheel_mass = 300;
   spec.vehicle.sprung_mass = 8200;
   spec.drive.speed = 0;

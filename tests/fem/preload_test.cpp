@@ -111,7 +111,7 @@ TEST(Preload, PeakPressureOfASphereLikePairIsHertzWithin2Percent) {
   CaseSpec s = static_case();
   s.geometry.wheel_radius = 0.15;
   s.geometry.wheel_profile = "arc:R=150 mm";
-  s.geometry.bore_radius = 0.05;
+  s.geometry.wheel_section.bore_radius = 0.05;
   s.vehicle.gravity = 2.87;
   s.mesh.element_size = 0.5e-3;
   s.mesh.fine_width = 9e-3;

@@ -11,7 +11,7 @@ inline CaseSpec small_case() {
   s.geometry.rail_shape = RailShape::block;
   s.geometry.wheel_shape = WheelShape::disc;
   s.geometry.cant = 0;
-  s.geometry.bore_radius = 0.25;
+  s.geometry.wheel_section.bore_radius = 0.25;
   s.vehicle.wheel_mass = 1500;
   s.vehicle.sprung_mass = 7000;
   s.mesh.element_size = 4e-3;

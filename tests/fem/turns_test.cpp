@@ -20,8 +20,8 @@ constexpr double kTurn = 2 * std::numbers::pi;
 CaseSpec tiny_wheel(std::vector<double> positions) {
   CaseSpec s = small_case();
   s.geometry.wheel_radius = 168 * 3e-3 / kTurn;  // nodes of rail and wheel meet alike all the way
-  s.geometry.rim_thickness = 0.02;
-  s.geometry.bore_radius = 0.05;
+  s.geometry.wheel_section.rim_thickness = 0.02;
+  s.geometry.wheel_section.bore_radius = 0.05;
   s.geometry.block_width = 0.04;
   s.geometry.block_height = 0.02;
   s.vehicle.wheel_mass = 200;

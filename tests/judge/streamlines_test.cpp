@@ -40,7 +40,7 @@ TEST(Streamlines, FrictionEnergyIsThatOfTheTractionsInTheRigidMotion) {
 TEST(Streamlines, ShowTheShareOfAustenitisationWhereTheCaseSaysItsTemperature) {
   CaseSpec spec = sliding();
   EXPECT_TRUE(std::isnan(damage_of(spec).austenitisation));
-  spec.rail_material.strength.austenitisation_rise = 700;
+  spec.rail_material.strength.heat.austenitisation_rise = 700;
   const DamageSummary found = damage_of(spec);
   EXPECT_GT(found.temperature_rise, 10);
   EXPECT_EQ(found.austenitisation, found.temperature_rise / 700);
@@ -51,14 +51,14 @@ TEST(Streamlines, ShowTheShareOfAustenitisationWhereTheCaseSaysItsTemperature) {
 // The running surface is that of the first layer, whatever the rail's own temperature; the bounds know the second.
 TEST(Streamlines, OfALayeredRailTakeItsSurfaceAndAllItsLayers) {
   CaseSpec spec = sliding();
-  spec.rail_material.strength.austenitisation_rise = 700;
+  spec.rail_material.strength.heat.austenitisation_rise = 700;
   spec.layers.resize(2);
   for (LayerSpec& layer : spec.layers) {
     layer.thickness = 0.5e-3;
     layer.material = spec.rail_material;
   }
-  spec.layers[0].material.strength.austenitisation_rise = 350;
-  spec.layers[1].material.strength.conductivity = 5;
+  spec.layers[0].material.strength.heat.austenitisation_rise = 350;
+  spec.layers[1].material.strength.heat.conductivity = 5;
   const DamageSummary found = damage_of(spec);
   EXPECT_EQ(found.austenitisation, found.temperature_rise / 350);
   EXPECT_NEAR(found.temperature_rise_lower / found.temperature_rise, 1, 1e-3) << "heat does not reach the second layer";

@@ -229,14 +229,14 @@ TEST(WheelVolume, IsThatOfItsSectionRevolvedByPappus) {
   std::vector<Vec2> rim;
   for (int i = 0; i <= 4000; ++i)
     rim.push_back(lma().at(lma().s_min() + (lma().s_max() - lma().s_min()) * i / 4000).position);
-  rim.push_back({rim.back().y, spec.rim_thickness});
-  rim.push_back({rim.front().y, spec.rim_thickness});
+  rim.push_back({rim.back().y, spec.section.rim_thickness});
+  rim.push_back({rim.front().y, spec.section.rim_thickness});
   for (Vec2& p : rim) p.z -= 0.430;
   const auto ring = [](double inner, double outer, double width) {
     return 0.5 * width * (outer * outer - inner * inner);
   };
-  const double moment = ring_moment(rim) + ring(spec.hub_radius, 0.430 - spec.rim_thickness, spec.web_thickness) +
-                        ring(spec.bore_radius, spec.hub_radius, spec.hub_width);
+  const double moment = ring_moment(rim) + ring(spec.section.hub_radius, 0.430 - spec.section.rim_thickness, spec.section.web_thickness) +
+                        ring(spec.section.bore_radius, spec.section.hub_radius, spec.section.hub_width);
   EXPECT_NEAR(volume(wheel()) / (2 * std::numbers::pi * moment), 1.0, 0.005);
 }
 
@@ -363,7 +363,7 @@ TEST(Faults, NameWhatDoesNotFitAndTheRemedy) {
   EXPECT_TRUE(has(message_of([] { rail({}, {}, 31e-3); }), "too close to the end of the rail's running surface"));
   EXPECT_TRUE(has(message_of([] { rail({}, {}, 31e-3); }), "remedy:"));
   WheelMeshSpec thin = wheel_spec();
-  thin.rim_thickness = 0.30;
+  thin.section.rim_thickness = 0.30;
   EXPECT_TRUE(has(message_of([&] { mesh_wheel(lma(), 0.43, {}, thin, {}); }), "radii out of order"));
 }
 

@@ -100,7 +100,7 @@ TEST(Primitives, ArcsAndPlanesGiveNearlyPerfectBlocksAndDiscs) {
     rail.block_width = 0.05;
     WheelMeshSpec wheel = wheel_spec();
     wheel.shape = WheelShape::disc;
-    wheel.rim_thickness = 0.05;
+    wheel.section.rim_thickness = 0.05;
     for (const SweptBody& body : {mesh_rail(circular_profile(ProfileKind::rail, radius), flat, rail, {}),
                                   mesh_wheel(circular_profile(ProfileKind::wheel, radius), 0.43, {}, wheel, {})})
       for (const BlockQuality& q : measure_quality(body))

@@ -21,7 +21,7 @@ CaseSpec crossed_cylinders() {
   spec.geometry.wheel_shape = WheelShape::disc;
   spec.geometry.wheel_radius = kRadius;
   spec.geometry.cant = 0;
-  spec.geometry.bore_radius = 0.25;
+  spec.geometry.wheel_section.bore_radius = 0.25;
   spec.geometry.block_width = 0.05;
   spec.mesh.element_size = 4e-3;
   spec.mesh.fine_width = 32e-3;
@@ -167,7 +167,7 @@ TEST(BuildModel, AMeshWithAnElementTurnedInsideOutIsACaseErrorThatNamesThePlaceA
   spec.mesh.element_size = 2e-3;
   spec.run.rolling = false;
   EXPECT_NO_THROW(build_model(spec, "."));
-  spec.geometry.rim_thickness = 8e-3;
+  spec.geometry.wheel_section.rim_thickness = 8e-3;
   try {
     build_model(spec, ".");
     FAIL() << "no error";
