@@ -1,9 +1,12 @@
 #include "bem/cell_slip.hpp"
 
+#include <cassert>
+
 namespace railstrata {
 
 PlanePair slip_of_cells(const PatchGrid& grid, RollingKind kind, const std::vector<ContactState>& state,
                         const StepSlip& steps) {
+  assert(state.size() == grid.size() && steps.x.size() == grid.size() && steps.y.size() == grid.size());
   if (kind == RollingKind::shift) return steps;
   PlanePair out{Plane(grid.size(), 0.0), Plane(grid.size(), 0.0)};
   const auto row = static_cast<std::size_t>(grid.ny);
@@ -22,6 +25,9 @@ PlanePair slip_of_cells(const PatchGrid& grid, RollingKind kind, const std::vect
 
 double dissipated(const PatchGrid& grid, RollingKind kind, const Plane& q_x, const Plane& q_y, const PlanePair& before,
                   const StepSlip& steps) {
+  assert(q_x.size() == grid.size() && q_y.size() == grid.size());
+  assert(steps.x.size() == grid.size() && steps.y.size() == grid.size());
+  assert(before.x.size() == before.y.size() && (before.x.empty() || before.x.size() == grid.size()));
   const auto row = static_cast<std::size_t>(grid.ny);
   const auto over_step = [&](const Plane& q, const Plane& q_before, std::size_t k) {
     if (kind == RollingKind::steady) return 0.5 * (q[k] + (k + row < q.size() ? q[k + row] : 0.0));

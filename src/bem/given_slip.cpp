@@ -1,5 +1,7 @@
 #include "bem/given_slip.hpp"
 
+#include <cassert>
+
 namespace railstrata {
 
 namespace {
@@ -46,6 +48,12 @@ void cut_first_cells(const PatchGrid& grid, const TangentialProblem& problem, do
 }  // namespace
 
 GivenSlip given_slip(const PatchGrid& grid, const TangentialProblem& problem) {
+  [[maybe_unused]] const auto fits = [&](const Plane& plane) { return plane.empty() || plane.size() == grid.size(); };
+  assert(problem.traction_bound.size() == grid.size() && fits(problem.leading_weight));
+  assert(fits(problem.extra_slip.x) && fits(problem.extra_slip.y) && fits(problem.before.x) && fits(problem.before.y));
+  assert(fits(problem.plastic_before) && fits(problem.lost_before));
+  assert(problem.local_spin.empty() || problem.local_spin.size() == static_cast<std::size_t>(grid.ny));
+  assert(problem.kind != RollingKind::transient || problem.step > 0);
   GivenSlip out{Plane(2 * grid.size()), Plane(2 * grid.size(), 0.0), {}, {}, {}, {}};
   const double step = step_length(grid, problem);
   fill_rigid_slip(grid, problem, step, out);

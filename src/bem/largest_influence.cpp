@@ -1,10 +1,12 @@
 #include "bem/largest_influence.hpp"
 
+#include <cassert>
 #include <cmath>
 
 namespace railstrata {
 
 double largest_tangential_influence(const InfluenceOperator& influence, const Plane& inside) {
+  assert(inside.size() == static_cast<std::size_t>(influence.nx()) * static_cast<std::size_t>(influence.ny()));
   constexpr int kPowers = 10;
   const std::size_t n = inside.size();
   Plane q_x(n), q_y(n), u_x(n), u_y(n);

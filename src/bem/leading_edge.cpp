@@ -1,6 +1,7 @@
 #include "bem/leading_edge.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -11,6 +12,7 @@ double film_share(const InfluenceOperator& influence) {
 }
 
 Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal, double film) {
+  assert(normal.pressure.size() == grid.size());
   constexpr double kLargest = 0.64, kLargestDistance = 0.9;
   Plane weight(grid.size(), 0.0);
   for (int i = 0; i + 2 < grid.nx; ++i)
@@ -30,6 +32,7 @@ Plane leading_weights(const PatchGrid& grid, const NormalSolution& normal, doubl
 
 PlanePair leading_slip_by_pressure(const InfluenceOperator& influence, const PatchGrid& grid,
                                    const NormalSolution& normal, const Plane& weight) {
+  assert(normal.pressure.size() == grid.size() && weight.size() == grid.size());
   const RectangleInfluence& near = influence.of_one_cell(1);
   const auto gap = [&](int i, int j) { return std::max(0.0, normal.gap[grid.index(i, j)]); };
   PlanePair slip{Plane(grid.size(), 0.0), Plane(grid.size(), 0.0)};

@@ -1,6 +1,7 @@
 #pragma once
 // The part of a grid that bears tractions: transforms of its planes cost less than those of the whole.
 #include <algorithm>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -27,6 +28,7 @@ struct PatchPart {
   template <class T>
   std::vector<T> take(const std::vector<T>& values) const {
     if (values.empty()) return {};
+    assert(values.size() == whole.size());
     std::vector<T> out;
     out.reserve(grid().size());
     for (int i = 0; i < nx; ++i) {
@@ -45,6 +47,7 @@ struct PatchPart {
   template <class T>
   std::vector<T> put(const std::vector<T>& values, T outside = {}) const {
     if (values.empty()) return {};
+    assert(values.size() == static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
     std::vector<T> out(whole.size(), outside);
     for (int i = 0; i < nx; ++i)
       std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i) * ny, ny,

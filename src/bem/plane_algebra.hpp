@@ -1,6 +1,7 @@
 #pragma once
 // Loops and sums over planes: threads only where they pay, sums in a fixed order whatever their number.
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <vector>
 
@@ -58,6 +59,7 @@ double ordered_sum_of(std::size_t n, Term&& term) {
 }
 
 inline double dot(const Plane& a, const Plane& b) {
+  assert(a.size() == b.size());
   return ordered_sum_of(a.size(), [&](std::size_t i) { return a[i] * b[i]; });
 }
 inline double sum(const Plane& a) {
@@ -77,6 +79,7 @@ void for_cells(std::size_t n, Kernel&& kernel, std::size_t values_per_index = 1)
 
 /// y += s x
 inline void add_scaled(Plane& y, double s, const Plane& x) {
+  assert(x.size() >= y.size());
   for_cells(y.size(), [&](std::size_t i) { y[i] += s * x[i]; });
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -160,6 +161,7 @@ void Aggregates::cut_into_parts() {
 }
 
 void Aggregates::restrict_parts(const Field& f, int begin, int end, double* forces) const {
+  assert(0 <= begin && begin <= end && end <= parts() && f.size() >= static_cast<std::size_t>(body_.layout.size));
   for_each(
       end - begin,
       [&](std::ptrdiff_t k) {
@@ -199,6 +201,7 @@ void Aggregates::restrict_to(const Field& f, double* out) const {
 }
 
 void Aggregates::prolong(const double* coefficients, Field& u, const KeptValues& kept) const {
+  assert(u.size() >= static_cast<std::size_t>(body_.layout.size));
   const BodyLayout& lay = body_.layout;
   for_each(
       clusters(),

@@ -1,6 +1,7 @@
 #include "body/body.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 #include "core/parallel.hpp"
@@ -116,6 +117,7 @@ CornerBlocks corner_blocks(SweepKind kind, const BlockElements& elements, int cl
 }  // namespace
 
 void stiffness_diagonal(const Body& body, Field& diagonal) {
+  assert(diagonal.size() == static_cast<std::size_t>(body.layout.size));
   std::fill(diagonal.begin(), diagonal.end(), 0.0);
   for (int b = 0; b < static_cast<int>(body.elements.size()); ++b) {
     const BlockElements& d = body.elements[b];

@@ -1,6 +1,7 @@
 #include "body/element_tables.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -32,6 +33,7 @@ std::vector<double> spacings(const Block& block, const BlockLayout& lay) {
 }
 
 void fill_station_lines(SweepKind kind, const std::vector<double>& spacing, int padded, ElementTable<double>& table) {
+  assert(padded >= static_cast<int>(spacing.size()));
   for (auto* line : {&table.inv_sigma, &table.inv_c, &table.v1, &table.v2, &table.v3, &table.sigma, &table.c})
     line->assign(padded, 0.0);
   for (std::size_t e = 0; e < spacing.size(); ++e) {
@@ -59,6 +61,7 @@ void fill_frames(SweepKind kind, const Block& block, const BlockLayout& lay, Blo
 
 // Groups and classes of the elements; returns the spacings that hourglass stiffnesses are made for.
 std::vector<double> classify(const std::vector<double>& spacing, int padded, BlockElements& out) {
+  assert(!spacing.empty() && padded >= static_cast<int>(spacing.size()));
   std::vector<double> hourglass_spacings;
   const int elements = static_cast<int>(spacing.size());
   for (int e = 0; e < elements; ++e) {

@@ -1,5 +1,7 @@
 #include "body/kept_values.hpp"
 
+#include <cassert>
+
 namespace railstrata {
 namespace {
 
@@ -22,6 +24,7 @@ StationRun own_stations(const Body& body, int tile) {
 }
 
 KeptValues kept_values(const Body& body, const TileCut& cut, std::vector<std::vector<char>> lines) {
+  assert(lines.size() == body.layout.blocks.size());
   std::vector<std::vector<char>> kept;
   for (const BlockLayout& l : body.layout.blocks) kept.emplace_back(l.stations, 0);
   for (int t = 0; t < static_cast<int>(body.tiling.tiles.size()); ++t) {

@@ -1,6 +1,7 @@
 #include "body/local_steps.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/parallel.hpp"
@@ -111,6 +112,7 @@ Kept kept_parts(const SweptBody& whole, const NodeSets& moving) {
 // The kept nodes and quadrilaterals of a block with numbers of their own; new_number: per node, -1 for those left out.
 Block extract_block(const Block& whole, const std::vector<bool>& nodes, const std::vector<bool>& quads,
                     std::vector<int>& new_number) {
+  assert(nodes.size() == whole.section.nodes.size() && quads.size() == whole.section.quads.size());
   const Section& from = whole.section;
   Block block{whole.name, {}, whole.stations};
   new_number.assign(from.nodes.size(), -1);

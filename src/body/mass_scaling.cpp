@@ -156,6 +156,7 @@ void MassScaling::add_chain(int block, const std::vector<int>& nodes, const Edge
 bool MassScaling::acts_on(int block, int node) const { return !empty() && chain_of_[block][node] != kNone; }
 
 void MassScaling::scale(Field& f) const {
+  assert(f.size() >= static_cast<std::size_t>(layout_.size));
   for_each(static_cast<std::ptrdiff_t>(chains_.size()) * 3, [&](std::ptrdiff_t task) {
     const Chain& chain = chains_[task / 3];
     const BlockLayout& lay = layout_.blocks[chain.block];
@@ -226,6 +227,7 @@ void MassScaling::each_edge(Visit&& visit) const {
 }
 
 Field MassScaling::differences(const Field& v, Field reuse) const {
+  assert(v.size() >= static_cast<std::size_t>(layout_.size));
   Field out = std::move(reuse);
   out.assign(3 * added_.size(), 0.0);
   each_edge([&](std::ptrdiff_t task, std::ptrdiff_t factor, std::ptrdiff_t here, std::ptrdiff_t below, int stations) {
@@ -236,6 +238,7 @@ Field MassScaling::differences(const Field& v, Field reuse) const {
 }
 
 double MassScaling::kinetic(const Field& differences_of_v, const Field& w) {
+  assert(differences_of_v.size() == 3 * added_.size() && w.size() >= static_cast<std::size_t>(layout_.size));
   std::vector<double>& part = chain_energy_;
   part.assign(3 * chains_.size(), 0.0);
   each_edge([&](std::ptrdiff_t task, std::ptrdiff_t factor, std::ptrdiff_t here, std::ptrdiff_t below, int stations) {

@@ -1,5 +1,7 @@
 #include "body/stress.hpp"
 
+#include <cassert>
+
 namespace railstrata {
 namespace {
 
@@ -28,6 +30,10 @@ std::array<double, Element::kHistory + 1> kept(const Body& body, const Field& hi
 }  // namespace
 
 Sym3 element_stress(const Body& body, const Field& u, const Field& history, int block, int quad, int station) {
+  assert(u.size() >= static_cast<std::size_t>(body.layout.size));
+  assert(block >= 0 && block < static_cast<int>(body.elements.size()) && station >= 0 &&
+         station < body.layout.blocks[block].elements);
+  assert(quad >= 0 && quad < static_cast<int>(body.mesh.blocks[block].section.quads.size()));
   const BlockElements& d = body.elements[block];
   const QuadReference& ref = d.table.quads[quad];
   const StationScale<double> st = d.table.scale<double>(station, scalar);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 
 #include "core/faults.hpp"
@@ -48,6 +49,7 @@ std::vector<long> tile_work(const SweptBody& mesh, const Tiling& tiling) {
 }
 
 std::vector<int> cut_evenly(const std::vector<long>& work, int parts) {
+  assert(parts > 0);
   if (work.empty()) return {};
   long low = *std::max_element(work.begin(), work.end()), high = std::accumulate(work.begin(), work.end(), 0L);
   while (low < high) {
@@ -61,6 +63,7 @@ std::vector<int> cut_evenly(const std::vector<long>& work, int parts) {
 }
 
 std::vector<TileCut> cut_tiles(const std::vector<const Body*>& bodies, int ranks, int rank) {
+  assert(0 <= rank && rank < ranks);
   std::vector<TileCut> out(bodies.size());
   if (ranks == 1) return out;
   std::vector<long> work;

@@ -1,6 +1,7 @@
 #include "damage/cone_program.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -431,6 +432,7 @@ ConeSolution InteriorPoint::solve(double accuracy) {
 
 ConeSolution solve_cone_program(const std::vector<ConePoint>& points, int unknowns, int half_bandwidth,
                                 double accuracy) {
+  assert(!points.empty() && unknowns > 0 && half_bandwidth >= 0);
   return InteriorPoint(points, unknowns, half_bandwidth).solve(accuracy);
 }
 

@@ -1,6 +1,7 @@
 #include "damage/enclosing_ball.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -20,6 +21,7 @@ struct Lifted {
 };
 
 Lifted lifted(std::span<const Vec5> points, FreeDirections free, const Vec5& held, std::span<const double> extra) {
+  assert(!points.empty() && (extra.empty() || extra.size() == points.size()));
   Lifted l;
   for (int d = 0; d < 5; ++d)
     if (free >> d & 1U) l.axis[l.dimensions++] = d;

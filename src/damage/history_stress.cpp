@@ -1,6 +1,7 @@
 #include "damage/history_stress.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
@@ -77,6 +78,7 @@ std::vector<double> HistoryStress::interfaces() const {
 }
 
 double HistoryStress::of_rows(const std::vector<double>& values, double depth, bool below_interface) const {
+  assert(values.size() == history_->depth.size());
   const Span span = span_at(depth, below_interface);
   const double* at = history_->depth.data() + span.first;
   const int above = static_cast<int>(std::upper_bound(at, at + span.count, depth) - at);

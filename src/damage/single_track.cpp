@@ -1,6 +1,7 @@
 #include "damage/single_track.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -341,6 +342,8 @@ ConeSolution Track::settled(SingleTrack& out) {
 /// The path moved by what the potentials leave; the largest |u + w| with the best sigma_x is `worst`.
 std::vector<Vec5> moved_path(const std::vector<Vec5>& path, const std::vector<ShapeTerm>& shapes,
                              const std::vector<double>& q, double& worst) {
+  assert(std::all_of(shapes.begin(), shapes.end(),
+                     [&](const ShapeTerm& t) { return t.unknown < static_cast<int>(q.size()); }));
   Vec5 w{};
   for (const ShapeTerm& t : shapes)
     for (int j = 0; j < 2; ++j) w[t.component[j]] += t.value[j] * q[t.unknown];

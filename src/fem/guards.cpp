@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/faults.hpp"
@@ -48,6 +49,7 @@ void require_shape(const BandSample& sample, const SweptBody& body) {
 }  // namespace
 
 std::optional<InvertedElement> inverted_element(const BandSample& s, const std::vector<Vec2>& section) {
+  assert(section.size() >= static_cast<std::size_t>(s.rows + 1) * static_cast<std::size_t>(s.columns + 1));
   std::optional<InvertedElement> worst;
   const int across = s.columns + 1, plane = (s.rows + 1) * across;
   for (int j = 0; j < s.stations; ++j)

@@ -1,5 +1,6 @@
 #include "fem/rolling_body.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -157,6 +158,7 @@ Field model_displacement(const RollingBody& b, const BodyState& state) {
 }
 
 Field yawed_displacement(const Body& body, const Rotation<double>& yaw_turn, const Field& u) {
+  assert(u.size() == static_cast<std::size_t>(body.layout.size));
   Field out = u;
   if (yaw_turn.s == 0) return out;
   each_node(body, [&](int block, int node, int station, std::ptrdiff_t x, int stride) {

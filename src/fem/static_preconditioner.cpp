@@ -1,6 +1,7 @@
 #include "fem/static_preconditioner.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/faults.hpp"
@@ -172,6 +173,7 @@ void StaticPreconditioner::set_contact(const MortarRows& rows, const std::vector
 }
 
 void StaticPreconditioner::gather_gaps(const MortarRows& rows, const std::vector<char>& active, double penalty) {
+  assert(active.size() == rows.rows.size());
   gaps_.clear();
   for (std::size_t k = 0; k < rows.rows.size(); ++k) {
     if (!active[k]) continue;

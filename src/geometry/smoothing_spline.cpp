@@ -3,6 +3,7 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -77,6 +78,7 @@ void add_end_rows(Rows& rows, const Basis& basis, int row) {
 }
 
 Coefficients least_squares(const Basis& basis, const std::vector<double>& t, const std::vector<Vec2>& points) {
+  assert(t.size() == points.size());
   const int n = static_cast<int>(t.size());
   Rows rows;
   Coefficients wanted = Coefficients::Zero(n + 2, 2);
@@ -103,6 +105,7 @@ Vec2 combine(const Coefficients& c, int first, const std::array<double, 4>& valu
 }
 
 std::vector<double> knots_of(const std::vector<double>& t, const std::vector<char>& chosen) {
+  assert(t.size() == chosen.size());
   std::vector<double> knots;
   for (std::size_t i = 0; i < t.size(); ++i)
     if (chosen[i]) knots.push_back(t[i]);
@@ -123,6 +126,7 @@ std::vector<char> spaced_knots(const std::vector<double>& t, double spacing) {
 
 /// Makes knots of the middle points of intervals that miss a point. Returns whether it found any.
 bool refine(std::vector<char>& chosen, const std::vector<double>& error, double tolerance) {
+  assert(chosen.size() == error.size());
   bool changed = false;
   std::size_t begin = 0;
   for (std::size_t end = 1; end < chosen.size(); ++end) {

@@ -1,5 +1,6 @@
 #include "halfspace/boussinesq_cerruti.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -87,6 +88,7 @@ RectangleInfluence rectangle_influence(const SurfaceCompliance& compliance, doub
 
 std::vector<RectangleInfluence> rectangle_influence_table(const SurfaceCompliance& compliance, int nx, int ny,
                                                           double dx, double dy) {
+  assert(nx > 0 && ny > 0 && dx > 0 && dy > 0);
   const auto width = static_cast<std::size_t>(ny) + 1;
   std::vector<RectangleInfluence> lower(width), upper(width);
   const auto fill = [&](std::vector<RectangleInfluence>& row, int i) {

@@ -1,5 +1,6 @@
 #include "halfspace/interior.hpp"
 
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -105,6 +106,7 @@ InteriorInfluence rectangle_interior(const HalfSpaceMaterial& m, double x, doubl
 
 std::vector<InteriorInfluence> rectangle_interior_table(const HalfSpaceMaterial& m, double z, int nx, int ny, double dx,
                                                         double dy) {
+  assert(z >= 0 && nx > 0 && ny > 0 && dx > 0 && dy > 0);
   const double nu = m.poisson, c = 1 / (2 * m.shear());
   const auto pitch = static_cast<std::size_t>(ny), width = pitch + 1;
   std::vector<InteriorInfluence> lower(width), upper(width), table(static_cast<std::size_t>(nx) * pitch);
@@ -132,6 +134,7 @@ InteriorDisplacement rectangle_displacement(const HalfSpaceMaterial& m, double x
 
 std::vector<InteriorDisplacement> rectangle_displacement_table(const HalfSpaceMaterial& m, double z, int nx, int ny,
                                                                double dx, double dy) {
+  assert(z >= 0 && nx > 0 && ny > 0 && dx > 0 && dy > 0);
   const double c = 1 / (2 * m.shear());
   const auto surface = rectangle_influence_table(at_depth(m, z), nx, ny, dx, dy);
   const auto pitch = static_cast<std::size_t>(ny);

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -160,6 +161,7 @@ std::vector<LayerExtent> layer_extents(const LayeredHalfSpace& body) {
 }
 
 std::vector<HalfSpaceLayer> cut_into_layers(const std::vector<GradedPoint>& table, double tolerance) {
+  assert(tolerance > 0);
   if (table.size() < 2 || table.front().depth != 0)
     throw CaseError("a graded modulus needs at least two depths, the first 0", "add rows to the table");
   std::vector<HalfSpaceLayer> layers;

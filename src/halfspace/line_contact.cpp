@@ -1,6 +1,7 @@
 #include "halfspace/line_contact.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -51,6 +52,7 @@ RectangleInfluence strip_influence(const SurfaceCompliance& compliance, double x
 }
 
 std::vector<RectangleInfluence> strip_influence_table(const SurfaceCompliance& compliance, int nx, double dx) {
+  assert(nx > 0 && dx > 0);
   double far = nx * dx;
   for (const ComplianceImage& image : compliance) far = std::max(far, image.depth);
   std::vector<RectangleInfluence> table;
@@ -79,6 +81,7 @@ InteriorInfluence strip_interior(const HalfSpaceMaterial& material, double x, do
 }
 
 std::vector<InteriorInfluence> strip_interior_table(const HalfSpaceMaterial& material, double z, int nx, double dx) {
+  assert(z >= 0 && nx > 0 && dx > 0);
   std::vector<InteriorInfluence> table;
   for (int i = 0; i < nx; ++i) table.push_back(strip_interior(material, i * dx, z, dx));
   return table;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -122,6 +123,7 @@ double yield_excess(const PlasticParameters<double>& p, const std::array<double,
 
 std::vector<MaterialState> drive_path(const PlasticMaterial& material, const MaterialPath& path, int increments,
                                       CallableRef<void(const MaterialState&)> at_increment) {
+  assert(increments > 0);
   Driver driver(material, path);
   std::vector<MaterialState> out;
   State state;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -183,12 +184,14 @@ Vec2 offset_point(const Profile& profile, double s, double depth) {
 }
 
 int material_at(const BandRows& rows, int row, double y, const std::vector<LayerMesh>& layers) {
+  assert(row >= 0 && row < rows.count() && rows.material[row] <= static_cast<int>(layers.size()));
   const int layer = rows.material[row];
   return layer > 0 && std::abs(y) < 0.5 * layers[layer - 1].width ? layer : 0;
 }
 
 std::vector<NodeLine> add_band(Section& section, const Profile& profile, const std::vector<double>& s,
                                const BandRows& rows, const std::vector<LayerMesh>& layers) {
+  assert(s.size() >= 2 && static_cast<int>(rows.depth.size()) == rows.count() + 1);
   std::vector<NodeLine> grid;
   for (double depth : rows.depth) {
     std::vector<Vec2> points;
@@ -207,6 +210,7 @@ std::vector<NodeLine> add_band(Section& section, const Profile& profile, const s
 }
 
 void seat_on_line(Section& band, const std::vector<NodeLine>& rows, const std::vector<Vec2>& line) {
+  assert(rows.size() >= 2 && rows.back().size() == rows[rows.size() - 2].size());
   const NodeLine& bottom = rows.back();
   const NodeLine& above = rows[rows.size() - 2];
   for (std::size_t c = 0; c < bottom.size(); ++c) {

@@ -1,12 +1,14 @@
 #include "mesh/grading.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
 namespace railstrata {
 
 std::vector<double> graded_points(double a, double b, const std::function<double(double)>& size) {
+  assert(a < b);
   constexpr int kSamples = 400;
   std::vector<double> count(kSamples + 1, 0.0);
   const double dx = (b - a) / kSamples;
@@ -24,6 +26,7 @@ std::vector<double> graded_points(double a, double b, const std::function<double
 }
 
 std::vector<double> growing_spacings(double length, double first, double ratio, double largest) {
+  assert(first > 0 && ratio > 1);
   std::vector<double> out;
   double rest = length, step = first;
   while (step * ratio < largest && rest > 2.7 * step * ratio) {
@@ -38,6 +41,7 @@ std::vector<double> growing_spacings(double length, double first, double ratio, 
 }
 
 bool snap_interior(std::vector<double>& points, double value) {
+  assert(points.size() >= 2 && std::is_sorted(points.begin(), points.end()));
   const auto nearest = std::min_element(points.begin(), points.end(),
                                         [&](double p, double q) { return std::abs(p - value) < std::abs(q - value); });
   if (nearest == points.begin() || nearest == points.end() - 1) return false;
@@ -121,6 +125,7 @@ StationPair ring_stations(double begin, double end, double step, int ratio, doub
 }
 
 std::vector<double> thinned(const std::vector<double>& stations, double largest) {
+  assert(stations.size() >= 2 && std::is_sorted(stations.begin(), stations.end()));
   std::vector<double> out{stations.front()};
   for (std::size_t i = 1; i + 1 < stations.size(); ++i)
     if (stations[i + 1] - out.back() > largest * (1 + 1e-9)) out.push_back(stations[i]);

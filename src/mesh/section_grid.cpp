@@ -93,6 +93,7 @@ double polyline_length(const std::vector<Vec2>& polyline) {
 }
 
 std::vector<Vec2> resampled(const std::vector<Vec2>& polyline, int intervals) {
+  assert(polyline.size() >= 2 && intervals > 0);
   const double length = polyline_length(polyline);
   std::vector<Vec2> out{polyline.front()};
   double walked = 0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <cassert>
 
 #include "core/parallel.hpp"
 
@@ -10,6 +11,7 @@ namespace railstrata {
 namespace {
 
 double dot(const Field& a, const Field& b) {
+  assert(a.size() == b.size());
   return ordered_sum(static_cast<std::ptrdiff_t>(a.size()), [&](std::ptrdiff_t begin, std::ptrdiff_t end) {
     double sum = 0;
     for (std::ptrdiff_t n = begin; n < end; ++n) sum += a[n] * b[n];
@@ -61,6 +63,7 @@ void Anderson::keep(const Field& y, const Field& residual) {
 }
 
 void Anderson::step(Field& y, Field& residual) {
+  assert(y.size() == residual.size() && (last_y_.empty() || last_y_.size() == y.size()));
   if (!last_y_.empty()) keep(y, residual);
   last_y_ = y;
   last_f_ = residual;

@@ -1,6 +1,7 @@
 #include "steady/steady_pass.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 
@@ -64,6 +65,8 @@ SteadyBody::SteadyBody(const SteadyGrid& grid, std::vector<SteadyRow> rows, RowM
     : response_(grid, moduli_of(rows), below),
       section_(section_of(grid), moduli_of(rows), below),
       rows_(std::move(rows)) {
+  assert(static_cast<int>(rows_.size()) == grid.rows() &&
+         (initial_stress.empty() || initial_stress.size() == rows_.size()));
   for (const SteadyRow& row : rows_) terms_.push_back(terms_of(row.law));
   initial_strain_.resize(rows_.size());
   for (std::size_t r = 0; r < initial_stress.size(); ++r)
@@ -108,6 +111,7 @@ std::array<double, 6> SteadyBody::stress_of(int row, const std::array<double, 6>
 }
 
 Field SteadyBody::uniform_strain(const std::vector<double>& history) const {
+  assert(history.size() == section_.grid().points() * kStreamlineHistory);
   const SteadyGrid& g = section_.grid();
   Field section(g.size());
   for (int c = 0; c < 6; ++c)
@@ -170,6 +174,7 @@ double SteadyBody::compare(Work& work) const {
 }
 
 PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, const PassLimits& limits) const {
+  assert(contact_strain.size() == grid().size() && state.residual_strain.size() == grid().size());
   const SteadyGrid& g = grid();
   Work work;
   work.before = uniform_strain(state.history);
@@ -202,6 +207,8 @@ PassResult SteadyBody::run_pass(const Field& contact_strain, PassState& state, c
 std::vector<std::vector<StationState>> SteadyBody::streamlines(const Field& contact_strain, const PassResult& result,
                                                                const PassState& state,
                                                                const std::vector<std::size_t>& points) const {
+  assert(contact_strain.size() == grid().size());
+  assert(std::all_of(points.begin(), points.end(), [&](std::size_t n) { return n < grid().points(); }));
   const SteadyGrid& g = grid();
   const Field before = uniform_strain(result.before);
   const std::size_t line = static_cast<std::size_t>(g.active_stations());
