@@ -57,8 +57,8 @@ inline double orthogonalize(const std::vector<Plane>& basis, std::size_t count, 
   return left;
 }
 
-/// One step of Arnoldi's process: the part of w across basis[0 … k], normalised, becomes basis[k + 1]. Returns column k
-/// of the Hessenberg matrix: w in the extended basis.
+/// One step of Arnoldi's process, A v_k = sum over i <= k + 1 of h_ik v_i [SaadSchultz1986]: the part of w across
+/// basis[0 … k], normalised, becomes basis[k + 1]. Returns column k of the Hessenberg matrix: w in the extended basis.
 inline std::vector<double> extend_basis(GmresSpace& space, std::size_t k) {
   Plane& w = space.w;
   std::vector<double> column(k + 2);

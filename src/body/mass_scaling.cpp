@@ -116,6 +116,10 @@ MassScaling::MassScaling(const Body& body, double wanted_step) : layout_(body.la
   }
 }
 
+// M (M + A)^-1 of a chain by elimination from its top, k = 0, 1, …: with the pivots
+//   p_0 = m_0 + a_0,   r_k = p_k - a_k,   p_k = m_k + a_(k-1) r_(k-1)/p_(k-1) + a_k
+// (the same as m_k + a_(k-1) + a_k - a_(k-1)^2/p_(k-1), without the difference) the sweeps of `scale` are
+//   f_k <- f_k + a_(k-1)/p_(k-1) f_(k-1) down,   f_k <- m_k/p_k f_k + a_k/p_k m_k/m_(k+1) f_(k+1) up.
 void MassScaling::add_chain(int block, const std::vector<int>& nodes, const Edges& edges, const Field& body_mass) {
   const BlockLayout& lay = layout_.blocks[block];
   const auto stations = static_cast<std::size_t>(lay.stations);

@@ -79,6 +79,9 @@ class Sweeper {
     return dt_ * row.area * c;
   }
 
+  // Projected Gauss-Seidel: row after row tau <- P(tau + w/d), P the projection on p >= 0 and the friction disc. With d
+  // at least the largest eigenvalue of the row's own 3x3 part of the (symmetric, positive) compliance, each row lowers
+  // the energy that the multipliers minimise, so that the sweeps converge; forward and backward in turn.
   void multipliers() {
     const std::size_t n = rows_.rows.size();
     std::vector<double>& diagonal = sys_.compliance;

@@ -24,7 +24,7 @@ double inner(const Vec6& a, const Vec6& b) {
 /// a^T J b, J = diag(1, -1, ..., -1).
 double j_inner(const Vec6& a, const Vec6& b) { return 2 * a[0] * b[0] - inner(a, b); }
 
-/// How far along d one may go from a inside the cone.
+/// How far along d one may go from a inside the cone: the least t > 0 with (a + t d)^T J (a + t d) = 0.
 double way_to_boundary(const Vec6& a, const Vec6& d) {
   const double c = j_inner(a, a), b = j_inner(a, d), e = j_inner(d, d), root = b * b - e * c;
   if (root < 0) return std::numeric_limits<double>::infinity();
@@ -38,6 +38,8 @@ struct Cone {
   Vec6 correction;  ///< W^-1 of the corrector's right side
   double eta = 1;
 
+  /// With s_, z_ over sqrt(s^T J s), sqrt(z^T J z): w = (s_ + J z_)/(2 gamma), gamma^2 = (1 + s_·z_)/2, and
+  /// eta^2 = sqrt(s^T J s/z^T J z).
   void scale(const Vec6& s) {
     const double rs = std::sqrt(std::max(j_inner(s, s), 1e-300)), rz = std::sqrt(std::max(j_inner(z, z), 1e-300));
     const double g = 0.5 / std::sqrt(0.5 * (1 + inner(s, z) / (rs * rz)));
@@ -136,6 +138,13 @@ class Band {
   std::vector<double> a_, scale_;
 };
 
+/// With the cone K = {s: s_0 >= |(s_1 … s_5)|}, and A_p dx = (dR, B_p dq + dc_p e_2):
+///   min R,  s_pi = (R, u_pi + B_p q + c_p e_2) in K;     max -sum of u_pi·z_pi,  z_pi in K,  sum of A_p^T z_pi = e_R.
+/// Both ends meet where s·z = 0. A step linearises s o z = mu e in the scaled variables lambda = W^-1 s = W z
+/// [NesterovTodd1998], o the product (a·b, a_0 b_1 + b_0 a_1, …):
+///   sum of A_p^T W^-2 A_p dx = sum of A_p^T W^-1 t - e_R,   ds = A_p dx,   dz = W^-1 t - z - W^-2 ds.
+/// The predictor has mu = 0 and t = 0; the corrector mu = (gap after the predictor over gap)^3 times the mean of s·z,
+/// and lambda o t = mu e - (W^-1 ds) o (W dz) of the predictor.
 class InteriorPoint {
  public:
   InteriorPoint(const std::vector<ConePoint>& points, int unknowns, int half_bandwidth);
@@ -250,7 +259,8 @@ void InteriorPoint::scale_cones() {
   for (const Local& l : local_) gap_ += l.gap;
 }
 
-/// The matrix of (q, R) with every c_p eliminated.
+/// The matrix of (q, R) with every c_p eliminated: sum of A_p^T (H - H e_2 e_2^T H/H_22) A_p, H the sum of W^-2 of a
+/// point.
 void InteriorPoint::assemble() {
   band_.clear();
   std::fill(border_.begin(), border_.end(), 0.);

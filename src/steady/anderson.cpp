@@ -62,6 +62,8 @@ void Anderson::keep(const Field& y, const Field& residual) {
   for (const Field& other : df_) gram_.back().push_back(dot(df, other));
 }
 
+// y <- y + f - (dY + dF) w,   w = argmin |f - dF w|,   f = g(y) - y   [WalkerNi2011]; dY, dF: differences of the last
+// points and residuals, w by the normal equations dF^T dF w = dF^T f.
 void Anderson::step(Field& y, Field& residual) {
   assert(y.size() == residual.size() && (last_y_.empty() || last_y_.size() == y.size()));
   if (!last_y_.empty()) keep(y, residual);
