@@ -57,19 +57,22 @@ std::vector<Option> track_options() {
 }
 
 std::vector<Option> body_options() {
-  return {
-      option("block_width", at<&C::geometry, &G::block_width>, "rail_shape = \"block\": width of the block", kLength,
-             {kMilli, 2.0}),
-      option("block_height", at<&C::geometry, &G::block_height>, "rail_shape = \"block\": height of the block", kLength,
-             {kMilli, 2.0}),
-      option("rim_thickness", at<&C::geometry, &G::rim_thickness>, "From the tape circle to the inner face of the rim",
-             kLength, {5 * kMilli, 0.5}),
-      option("web_thickness", at<&C::geometry, &G::web_thickness>, "Of the wheel's plate", kLength, {5 * kMilli, 0.2}),
-      option("web_offset", at<&C::geometry, &G::web_offset>,
-             "Lateral position of the plate's middle from the tape circle", kLength, {-0.07, 0.07}),
-      option("hub_radius", at<&C::geometry, &G::hub_radius>, "Outer radius of the hub", kLength, {0.01, 1.0}),
-      option("hub_width", at<&C::geometry, &G::hub_width>, "Lateral width of the hub", kLength, {0.01, 0.5}),
-      option("bore_radius", at<&C::geometry, &G::bore_radius>, "Radius of the axle seat", kLength, {0.005, 1.0})};
+  return {option("block_width", at<&C::geometry, &G::block_width>, "rail_shape = \"block\": width of the block",
+                 kLength, {kMilli, 2.0}),
+          option("block_height", at<&C::geometry, &G::block_height>, "rail_shape = \"block\": height of the block",
+                 kLength, {kMilli, 2.0}),
+          option("rim_thickness", at<&C::geometry, &G::wheel_section, &WheelSection::rim_thickness>,
+                 "From the tape circle to the inner face of the rim", kLength, {5 * kMilli, 0.5}),
+          option("web_thickness", at<&C::geometry, &G::wheel_section, &WheelSection::web_thickness>,
+                 "Of the wheel's plate", kLength, {5 * kMilli, 0.2}),
+          option("web_offset", at<&C::geometry, &G::wheel_section, &WheelSection::web_offset>,
+                 "Lateral position of the plate's middle from the tape circle", kLength, {-0.07, 0.07}),
+          option("hub_radius", at<&C::geometry, &G::wheel_section, &WheelSection::hub_radius>,
+                 "Outer radius of the hub", kLength, {0.01, 1.0}),
+          option("hub_width", at<&C::geometry, &G::wheel_section, &WheelSection::hub_width>, "Lateral width of the hub",
+                 kLength, {0.01, 0.5}),
+          option("bore_radius", at<&C::geometry, &G::wheel_section, &WheelSection::bore_radius>,
+                 "Radius of the axle seat", kLength, {0.005, 1.0})};
 }
 
 }  // namespace

@@ -22,6 +22,9 @@ struct ModulusPoint {
 
 inline std::array<double*, 2> columns(ModulusPoint& p) { return {&p.depth, &p.young}; }
 
+/// m, of a layer's thickness: the range of a case, and from where on finite elements take it.
+inline constexpr double kThinnestLayer = 0.01e-3, kThickestLayer = 50e-3, kThinnestMeshedLayer = 0.05e-3;
+
 struct LayerSpec {
   std::string name = "layer";  ///< of several of a body that have none in the file: "layer 1", "layer 2", …
   BodyId on = BodyId::rail;

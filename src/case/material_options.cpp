@@ -25,7 +25,7 @@ bool graded(const CaseSpec& spec, std::size_t index) { return spec.layers.at(ind
 // Thickness, Poisson's ratio and the ratio of moduli: what tests/bem/layer_range_test.cpp and
 // tests/halfspace/layered_test.cpp hold against closed forms. The modulus leaves room for every ratio of steel's.
 const Range kYoung{1e9, 1e14}, kPoisson{0.0, 0.499}, kYoungRatio{0.01, 100}, kDensityRange{100, 30000},
-    kLayerThickness{0.01 * kMilli, 50 * kMilli};
+    kLayerThickness{kThinnestLayer, kThickestLayer};
 constexpr std::string_view kBeyondPoisson = "0.5 is incompressible: take 0.499 for it",
                            kBeyondRatio = "the engines are verified in this range: take its end nearest to your layer",
                            kBeyondThickness =

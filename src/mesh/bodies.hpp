@@ -11,7 +11,7 @@ namespace railstrata {
 /// least 2; at least 3 from 3 mm on).
 struct LayerMesh {
   std::string name;
-  double thickness = 0;  ///< m, along the surface normal, 0.05 mm … 10 mm
+  double thickness = 0;  ///< m, along the surface normal
   double width =
       0.060;  ///< m, lateral extent, centred on the body's profile origin; clipped to the band that carries it
   int elements = 0;

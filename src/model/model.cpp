@@ -206,11 +206,11 @@ void require_sound_mesh(const SweptBody& body, BodyId id, const CaseSpec& spec) 
 
 /// Finite elements take less than the half-space engine, for which the ranges of a case are made.
 void refuse_beyond_elements(const CaseSpec& spec) {
-  constexpr double kThinnestLayer = 0.05e-3, kLargestPoisson = 0.495;
+  constexpr double kLargestPoisson = 0.495;
   for (const LayerSpec& layer : spec.layers)
-    if (layer.thickness < kThinnestLayer)
+    if (layer.thickness < kThinnestMeshedLayer)
       throw CaseError(fmt::format("layer \"{}\" is {:g} mm thick; finite elements take layers from {:g} mm on",
-                                  layer.name, 1e3 * layer.thickness, 1e3 * kThinnestLayer),
+                                  layer.name, 1e3 * layer.thickness, 1e3 * kThinnestMeshedLayer),
                       "`railstrata bem` takes it");
   const auto check = [&](const std::string& what, double poisson) {
     if (poisson > kLargestPoisson)
