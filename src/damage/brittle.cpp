@@ -12,15 +12,15 @@ namespace railstrata {
 namespace {
 
 PrincipalPeak peak_of_row(const StressHistory& history, const Sym3& residual, int row) {
-  PrincipalPeak peak;
+  std::optional<PrincipalPeak> peak;
   for (int column = 0; column < history.columns(); ++column) {
     const Sym3* cycle = history.cycle(row, column);
     for (int i = 0; i < history.samples(); ++i) {
       const double sigma = principal_stresses(cycle[i] + residual).x;
-      if (peak.row < 0 || sigma > peak.stress) peak = {sigma, row, column, i};
+      if (!peak || sigma > peak->stress) peak = {sigma, row, column, i};
     }
   }
-  return peak;
+  return peak.value_or(PrincipalPeak{});
 }
 
 }  // namespace
@@ -35,12 +35,12 @@ std::vector<BrittleZone> principal_peaks(const StressHistory& history, ResidualR
   double top = 0;
   for (int row = 0; row < history.rows(); ++row) {
     if (zones.empty() || zones.back().zone != history.zone[row]) {
-      zones.push_back({.zone = history.zone[row], .inside = {}, .surface = {}});
+      zones.push_back({.zone = history.zone[row], .inside = rows[row], .surface = {}});
       top = history.depth[row];
     }
     BrittleZone& zone = zones.back();
     zone.thickness = history.depth[row] - top;
-    if (zone.inside.row < 0 || rows[row].stress > zone.inside.stress) zone.inside = rows[row];
+    if (rows[row].stress > zone.inside.stress) zone.inside = rows[row];
     if (history.depth[row] == 0) zone.surface = rows[row];
   }
   return zones;

@@ -76,7 +76,7 @@ DangVanSection dang_van(const StressHistory& history, ResidualRows residual, std
     section.worst_column.push_back(static_cast<int>(worst - first));
     if (columns == 0 || std::isinf(limits[row].limit)) continue;
     const double utilisation = worst->stress / limits[row].limit;
-    if (section.row < 0 || utilisation > section.utilisation) {
+    if (!section.row || utilisation > section.utilisation) {
       section.row = row;
       section.utilisation = utilisation;
     }

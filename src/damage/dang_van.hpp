@@ -9,6 +9,7 @@
 //
 // c and limit are the material's and have no default: from two fatigue limits, alternating torsion t and tension f,
 // limit = t and c = 3 (t/f - 1/2).
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,7 +37,7 @@ DangVanStress dang_van_stress(std::span<const Sym3> cycle, const Sym3& residual,
 struct DangVanSection {
   std::vector<DangVanStress> point;  ///< row by row
   std::vector<int> worst_column;     ///< of each row
-  int row = -1;                      ///< with the largest utilisation; -1: no row counts
+  std::optional<int> row;            ///< with the largest utilisation; none: no row counts
   double utilisation = 0;            ///< s_DV/limit there; > 1: fatigue. Negative where pressure outweighs shear
 };
 /// Limits by row. In parallel; the bits do not depend on the number of threads. Throws std::invalid_argument when rows

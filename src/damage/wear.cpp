@@ -97,13 +97,13 @@ double archard_depth(const Streamline& line, const ArchardMap& map, double hardn
   return scale * depth / hardness;
 }
 
-LocalFatigue local_fatigue(const Streamline& line, double cyclic_shear_yield) {
+std::optional<LocalFatigue> local_fatigue(const Streamline& line, double cyclic_shear_yield) {
   check(line);
-  LocalFatigue worst;
+  std::optional<LocalFatigue> worst;
   for (std::size_t i = 0; i < line.p.size(); ++i) {
     if (!(line.p[i] > 0)) continue;
     const double index = (std::hypot(line.q_x[i], line.q_y[i]) - cyclic_shear_yield) / line.p[i];
-    if (worst.cell < 0 || index > worst.index) worst = {index, static_cast<int>(i)};
+    if (!worst || index > worst->index) worst = {index, static_cast<int>(i)};
   }
   return worst;
 }

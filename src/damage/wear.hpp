@@ -3,6 +3,7 @@
 //
 // Steady rolling: a point of the surface passes the cells of its row one after the other, dx each, dx/V long. What it
 // loses is the sum over the row. Depth is positive into the body.
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -72,8 +73,9 @@ double archard_depth(const Streamline& line, const ArchardMap& map, double hardn
 /// > 0: more traction than the surface carries elastically. Cells with p <= 0 have none. [EkbergKaboAndersson2002]
 struct LocalFatigue {
   double index = 0;
-  int cell = -1;  ///< of the largest; -1: no contact in this row
+  int cell = 0;  ///< of the largest
 };
-LocalFatigue local_fatigue(const Streamline& line, double cyclic_shear_yield);
+/// Nothing for a row without contact.
+std::optional<LocalFatigue> local_fatigue(const Streamline& line, double cyclic_shear_yield);
 
 }  // namespace railstrata

@@ -47,9 +47,9 @@ void add_dang_van(const CaseSpec& spec, BodyId body, const StressHistory& histor
                   BodyFatigue& out) {
   if (!any_zone(spec, body, says_dang_van)) return;
   const DangVanSection found = dang_van(history, residual, dang_van_limits(spec, body, history));
-  if (found.row < 0) return;
-  const int column = found.worst_column[found.row];
-  out.dang_van = place(spec, body, history, found.row, column, found.utilisation);
+  if (!found.row) return;
+  const int column = found.worst_column[*found.row];
+  out.dang_van = place(spec, body, history, *found.row, column, found.utilisation);
 }
 
 std::vector<CriticalPlaneMaterial> plane_materials(const CaseSpec& spec, BodyId body, const StressHistory& history,

@@ -157,7 +157,8 @@ StreamlineRow streamline_row(const SurfaceData& data, const Cells& cells, double
   row.wheel_archard_depth = wheel.archard;
   row.wheel_kth_depth = wheel.kth;
   heat(data, line, row);
-  if (std::isfinite(data.shear_strength)) row.local_fatigue = local_fatigue(line, data.shear_strength).index;
+  if (std::isfinite(data.shear_strength))
+    row.local_fatigue = local_fatigue(line, data.shear_strength).value_or(LocalFatigue{}).index;
   return row;
 }
 

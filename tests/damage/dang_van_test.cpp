@@ -97,7 +97,7 @@ TEST(DangVan, RowsWithoutALimitDoNotCount) {
   const DangVanSection s = dang_van(h, pressed, std::vector<DangVanLimit>{{0.3, 1}, {0.3, none}});
   EXPECT_EQ(s.row, 0);
   EXPECT_LT(s.utilisation, 0);
-  EXPECT_EQ(dang_van(h, pressed, std::vector<DangVanLimit>(2, {0.3, none})).row, -1);
+  EXPECT_EQ(dang_van(h, pressed, std::vector<DangVanLimit>(2, {0.3, none})).row, std::nullopt);
 }
 
 TEST(DangVan, HasTheSameBitsForAnyThreads) {
