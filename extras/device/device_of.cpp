@@ -2,17 +2,28 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 #include "core/faults.hpp"
 #include "device/card.hpp"
 #include "device/emulated_device.hpp"
 #include "device/engine.hpp"
 
 namespace railstrata::device {
+namespace {
+
+bool emulated_wanted() { return std::getenv("RAILSTRATA_EMULATED_DEVICE") != nullptr; }
+
+}  // namespace
+
+void require_at_hand() {
+  if (!emulated_wanted()) require_card();
+}
 
 std::unique_ptr<Device> device_of(const CaseSpec& spec) {
   if (!spec.run.rolling || spec.run.device == ComputeDevice::cpu) return nullptr;
-  if (spec.run.device == ComputeDevice::gpu) return open_card();
-  return std::make_unique<EmulatedDevice>(Protection::open, LaunchOrder::threads);
+  if (emulated_wanted()) return std::make_unique<EmulatedDevice>(Protection::open, LaunchOrder::threads);
+  return open_card();
 }
 
 EngineOf engine_on(Device* device) {

@@ -6,8 +6,11 @@
 
 namespace railstrata::device {
 
-/// Opens run.device; null for the processor, and for a case that does not roll. Throws EnvironmentError with what to do
-/// where the program was built without CUDA or no card is found.
+/// Throws EnvironmentError with what to do where the program was built without CUDA or no card is found. Opens nothing.
+/// For tests of the whole program RAILSTRATA_EMULATED_DEVICE in the environment puts an emulated device in its place.
+void require_at_hand();
+
+/// Opens run.device; null for the processor, and for a case that does not roll. Throws as require_at_hand.
 std::unique_ptr<Device> device_of(const CaseSpec& spec);
 
 /// What puts the fields of a rolling on a device, which must live longer; empty without one. Throws CaseError for what

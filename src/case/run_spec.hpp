@@ -21,8 +21,8 @@ enum class TimeStepMethod { automatic, uniform, mass_scaling, local };
 /// Element arithmetic while rolling; nodal values and the static preload stay double.
 enum class ArithmeticPrecision { double_precision, single_precision };
 
-/// Where the fields of a rolling are computed (docs/gpu.md). emulated: the card's kernels on the processor, for tests.
-enum class ComputeDevice { cpu, gpu, emulated };
+/// Where the fields of a rolling are computed (docs/gpu.md).
+enum class ComputeDevice { cpu, gpu };
 
 /// Where the half-space engine takes the leading edge of the patch (bem/leading_edge.hpp).
 enum class LeadingEdge {

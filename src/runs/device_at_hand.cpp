@@ -1,6 +1,6 @@
 #include "runs/device_at_hand.hpp"
 
-#include "device/card.hpp"
+#include "device/device_of.hpp"
 
 namespace railstrata {
 namespace {
@@ -15,7 +15,7 @@ void require_device(const CaseSpec& spec, const Ranks& ranks) {
   if (!on_a_device(spec)) return;
   if (!ranks.alone())
     throw CaseError("several ranks share a run on processors only", "start one rank, or run.device = \"cpu\"", kKey);
-  if (spec.run.device == ComputeDevice::gpu) device::require_card();
+  device::require_at_hand();
 }
 
 void require_device(const LoadedCase& loaded, const Ranks& ranks) {

@@ -26,7 +26,7 @@ TEST(DeviceCase, WhatADeviceDoesNotTakeIsRefusedWithARemedy) {
     }
   };
   refused("[run]\ndevice = \"gpu\"\ntime_step_method = \"local\"\n", "run.time_step_method = \"local\"");
-  refused("[run]\ndevice = \"emulated\"\nplasticity = true\n[material.rail]\nyield_strength = \"500 MPa\"\n",
+  refused("[run]\ndevice = \"gpu\"\nplasticity = true\n[material.rail]\nyield_strength = \"500 MPa\"\n",
           "run.plasticity = true");
 }
 

@@ -17,7 +17,6 @@ MPIRUN = shutil.which("mpirun")
 WORDS = ["--no-report", "--threads", "1"]
 ON_CARD = SMALL.replace("[run]\n", '[run]\ndevice = "gpu"\n')
 LINE = ON_CARD[:ON_CARD.index("device =")].count("\n") + 1
-EMULATED = ON_CARD.replace('"gpu"', '"emulated"')
 STUDY = '[study]\nbase = "case.toml"\nengines = ["fem"]\n[[group]]\nname = "g"\n'
 
 
@@ -128,11 +127,11 @@ class Emulated(FromOutside):
         if self.out.exists():
             file = self.out / "case.toml"
             text = file.read_text()
-            other = next(d for d in ("cpu", "emulated") if f'device = "{d}"' in text)
+            other = next(d for d in ("cpu", "gpu") if f'device = "{d}"' in text)
             file.write_text(text.replace(f'device = "{other}"', f'device = "{device}"'))
             words = ["run", "--resume", self.out]
         else:
-            words = ["run", self.case(EMULATED if device == "emulated" else SMALL), "--out", self.out]
+            words = ["run", self.case(ON_CARD if device == "gpu" else SMALL), "--out", self.out]
         if row is None:
             rc, _, err = railstrata(*words, *WORDS)
             self.assertIn(rc, (0, 1), err)
@@ -150,13 +149,15 @@ class Emulated(FromOutside):
         return True
 
     def test_interrupted_and_killed_runs_go_on_by_the_other(self):
+        os.environ["RAILSTRATA_EMULATED_DEVICE"] = "1"
+        self.addCleanup(os.environ.pop, "RAILSTRATA_EMULATED_DEVICE")
         self.out = self.folder / "whole"
         self.sit("cpu", None, None)
         whole = history(self.out)
         self.out = self.folder / "out"
         n = len(whole)
-        sittings = [("emulated", n // 5, signal.SIGINT), ("cpu", 2 * n // 5, signal.SIGKILL),
-                    ("emulated", 3 * n // 5, signal.SIGKILL), ("emulated", 4 * n // 5, signal.SIGTERM),
+        sittings = [("gpu", n // 5, signal.SIGINT), ("cpu", 2 * n // 5, signal.SIGKILL),
+                    ("gpu", 3 * n // 5, signal.SIGKILL), ("gpu", 4 * n // 5, signal.SIGTERM),
                     ("cpu", None, None)]
         all(self.sit(*sitting) for sitting in sittings)
         here = history(self.out)
