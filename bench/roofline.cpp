@@ -90,7 +90,7 @@ Need operator+(Need a, const Need& b) { return a += b; }
 template <SweepKind kind>
 Need element_need() {
   Counted::count = {};
-  const HexReference<double, MaterialParameters<double>> reference{};
+  const HexReference<double> reference{};
   const auto corner = [](int, int, Counted&, Counted&) {};
   const auto hourglass = [](ElementKinematics<Counted>&) {  // without the energy, which nobody reads in a step
     const Counted a[5], b[7];
@@ -103,9 +103,8 @@ Need element_need() {
     Counted s, d;
     add(s, d);
   };
-  Counted* const none = nullptr;
-  ElasticHex::forces<kind, Evaluation::commit>(reference, StationScale<Counted>{}, Rotation<double>{}, none, corner,
-                                               hourglass, change);
+  hex_forces<kind, Evaluation::finite>(reference, StationScale<Counted>{}, Rotation<double>{}, corner, hourglass,
+                                       change);
   return {static_cast<double>(Counted::count.operations), static_cast<double>(Counted::count.instructions), 0};
 }
 
@@ -202,8 +201,7 @@ __attribute__((flatten, noinline)) void evaluate_in_cache(const BlockElements& e
   Prefetch none;
   const Rotation<Real> turn{1, 0};
   for (int q = 0; q < quads; ++q)
-    traversal::evaluate_quad<BodyElement, Evaluation::commit, kind, false>(elements, q, scale, packs, 0, turn, rows,
-                                                                           none);
+    traversal::evaluate_quad<Evaluation::finite, kind, false>(elements, q, scale, packs, 0, turn, rows, none);
 }
 
 /// Rows of one node at the stations of a tile, in cache.

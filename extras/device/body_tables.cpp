@@ -127,7 +127,7 @@ void add_initial_stress(const Body& body, Records& records, std::vector<double>&
 template <class Real>
 ElementArrays<Real> element_arrays(Device& device, const Body& body, const StationLists& at,
                                    const std::vector<Real>& eigenstress, std::ptrdiff_t rows) {
-  std::vector<HexReference<Real, MaterialParameters<Real>>> references;
+  std::vector<HexReference<Real>> references;
   std::vector<Real> hourglass, line[7];
   for (std::size_t k = 0; k < body.elements.size(); ++k) {
     const ElementTable<Real>& t = body.elements[k].template of<Real>();
@@ -143,7 +143,7 @@ ElementArrays<Real> element_arrays(Device& device, const Body& body, const Stati
       line[n].resize(end, Real{0});
     }
   }
-  return {on_device<HexReference<Real, MaterialParameters<Real>>>(device, references),
+  return {on_device<HexReference<Real>>(device, references),
           on_device<Real>(device, hourglass),
           on_device<Real>(device, eigenstress),
           on_device<Real>(device, line[0]),

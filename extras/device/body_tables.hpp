@@ -12,7 +12,7 @@ namespace railstrata::device {
 /// Of elements whose arithmetic is in Real.
 template <class Real>
 struct ElementArrays {
-  DeviceArray<HexReference<Real, MaterialParameters<Real>>> references;
+  DeviceArray<HexReference<Real>> references;
   DeviceArray<Real> hourglass, eigenstress;
   DeviceArray<Real> inv_sigma, inv_c, v1, v2, v3;
   DeviceArray<Real> sigma, c;

@@ -8,7 +8,7 @@
 #include "device/step_state.hpp"
 #include "element/swept_hex.hpp"
 #include "fem/node_law.hpp"
-#include "material/elastic.hpp"
+#include "material/plastic.hpp"
 
 namespace railstrata::device {
 
@@ -54,10 +54,9 @@ RAILSTRATA_POINTWISE std::ptrdiff_t hourglass_table(const QuadRecord& q, const V
 /// f of the elements at displacement u: an index for every lane of every piece.
 template <SweepKind kind, class Real>
 struct ElementForces {
-  using Law = ElasticLaw;
   View<const Piece> pieces;
   View<const QuadRecord> quads;
-  View<const HexReference<Real, MaterialParameters<Real>>> references;
+  View<const HexReference<Real>> references;
   View<const Real> hourglass;  ///< [table][kHourglassEntries]
   View<const int> classes;     ///< per group of elements
   View<const Real> eigenstress;
@@ -102,9 +101,7 @@ struct ElementForces {
       for (int n = 0; n < 6; ++n) s[n] -= eigen(n);
     };
     const Rotation<Real> turned{static_cast<Real>(turn.c), static_cast<Real>(turn.s)};
-    Real* const none = nullptr;
-    SweptHex<Law>::template forces<kind, Evaluation::trial>(references[q.reference], scale, turned, none, corner,
-                                                            hourglass_of, leave, relieve);
+    hex_forces<kind, Evaluation::finite>(references[q.reference], scale, turned, corner, hourglass_of, leave, relieve);
   }
 };
 
@@ -113,7 +110,7 @@ template <SweepKind kind>
 struct ElementEnergies {
   View<const Piece> pieces;
   View<const QuadRecord> quads;
-  View<const HexReference<double, MaterialParameters<double>>> references;
+  View<const HexReference<double>> references;
   View<const double> hourglass;
   View<const int> classes;
   View<const double> eigenstress;
@@ -143,17 +140,13 @@ struct ElementEnergies {
       corner_ends<kind>(u, q.corner[c], q.stride, e, behind, frame, component, sum, difference);
     };
     auto kin = element_kinematics<kind, double>(reference.shape, scale, corner);
-    const double* const none = nullptr;
-    const auto stress = SweptHex<ElasticLaw>::template stress<kind, double>(reference, turn, kin, none);
+    const auto stress = hex_stress<kind, double>(reference, turn, kin);
     const std::ptrdiff_t table = hourglass_table(q, classes, e);
     stored = hourglass_forces([&](int n) { return hourglass[table + n]; }, kin);
-    const double(&a)[6] = stress.strain, (&b)[6] = stress.s;
     const double volume = reference.shape.volume * scale.v2;
-    strain = 0.5 * volume * (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2.0 * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]));
-    if (q.eigenstress < 0) return;
-    const auto given = [&](int n) { return -eigenstress[q.eigenstress + n]; };  // the initial stress
-    strain += volume * (a[0] * given(0) + a[1] * given(1) + a[2] * given(2) +
-                        2.0 * (a[3] * given(3) + a[4] * given(4) + a[5] * given(5)));
+    strain = 0.5 * volume * double_contraction(stress.strain, stress.s);
+    if (q.eigenstress >= 0)  // the initial stress
+      strain -= volume * double_contraction(stress.strain, &eigenstress[q.eigenstress]);
   }
 };
 

@@ -78,7 +78,6 @@ std::string not_on_a_device(const RollingSystem& system, bool local_steps) {
   if (local_steps) return "local time steps";
   for (const Body& b : system.bodies)
     if (!b.plastic.empty()) return "materials that yield";
-  if (BodyElement::kHistory > 0) return "elements with a history";
   return {};
 }
 

@@ -54,18 +54,9 @@ void find_free_nodes(Body& body) {
 
 }  // namespace
 
-HistoryLayout::HistoryLayout(const BodyLayout& layout, const SweptBody& mesh, int entries_) : entries(entries_) {
-  for (std::size_t b = 0; b < layout.blocks.size(); ++b) {
-    offset.push_back(size);
-    stride.push_back((layout.blocks[b].elements + 15) / 16 * 16);  // whole packs of any number type
-    size += static_cast<std::ptrdiff_t>(mesh.blocks[b].section.quads.size()) * entries * stride.back();
-  }
-}
-
 Body::Body(const SweptBody& swept, const std::vector<Elastic>& materials_, const ElementOptions& options_)
     : mesh(swept),
       layout(layout_of(swept)),
-      history(layout, swept, BodyElement::kHistory),
       materials(materials_),
       options(options_),
       tiling(tiling_of(swept, layout)),

@@ -18,24 +18,11 @@ struct NodeLine {
   int count, component, block, node;
 };
 
-/// Where an element's history stands: entry k of the elements of a quadrilateral at first + k * stride, + element.
-struct HistoryLayout {
-  HistoryLayout(const BodyLayout& layout, const SweptBody& mesh, int entries);
-  std::ptrdiff_t first(int block, int quad) const {
-    return offset[block] + static_cast<std::ptrdiff_t>(quad) * entries * stride[block];
-  }
-  int entries = 0;
-  std::vector<std::ptrdiff_t> offset;  ///< per block
-  std::vector<int> stride;
-  std::ptrdiff_t size = 0;
-};
-
 struct Body {
   Body(const SweptBody& mesh, const std::vector<Elastic>& materials, const ElementOptions& options);
 
   SweptBody mesh;
   BodyLayout layout;
-  HistoryLayout history;  ///< of BodyElement; what `plastic` keeps stands behind it
   std::vector<Elastic> materials;
   ElementOptions options;
   std::vector<BlockElements> elements;  ///< per block

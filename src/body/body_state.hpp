@@ -8,13 +8,13 @@ namespace railstrata {
 
 struct BodyState {
   BodyState() = default;
-  /// Zero everywhere. history_entries: numbers that the elements keep (kHistory of their class).
-  explicit BodyState(const Body& body, int history_entries = BodyElement::kHistory);
+  /// Zero everywhere, with the initial history.
+  explicit BodyState(const Body& body);
 
   Field u;        ///< m, displacements
   Field v;        ///< m/s, velocities at the half step before
   Field f;        ///< N, internal forces and what is added to them in a step; nothing of it survives the step
-  Field history;  ///< of the elements, as committed: [block][quadrilateral][entry][element], then those that are hot
+  Field history;  ///< of the elements that may yield, as the last pass left it (body/plastic_elements.hpp); else empty
 };
 
 struct StateArray {

@@ -13,10 +13,6 @@
 
 namespace railstrata {
 
-/// The element class of all bodies, fixed when the program is compiled. With another one its traversal is compiled
-/// (body/traversal.cpp), the states of bodies have its history and stresses are those of its law.
-using BodyElement = ElasticHex;
-
 /// Arithmetic of the elements while rolling; nodal values are kept in double precision. `single` wants displacements
 /// that are small against the body: relative to a frame that moves with it.
 enum class Precision { double_precision, single_precision };
@@ -33,7 +29,7 @@ inline constexpr int kHourglassGroup = 8;  ///< elements that share one hourglas
 template <class Real>
 struct ElementTable {
   using Line = std::vector<Real, CacheLineAllocator<Real>>;
-  std::vector<ReferenceOf<Real>> quads;
+  std::vector<HexReference<Real>> quads;
   std::vector<std::array<Real, kHourglassEntries>> hourglass;  ///< [class * quads + quad]; zero for the padding
   Line inv_sigma, inv_c, v1, v2, v3;                           ///< StationScale by element
   Line sigma, c;                                               ///< the same

@@ -54,7 +54,6 @@ void PlasticElements::add_quads(const Body& body, const MaterialOf& material_of)
 
 void PlasticElements::add_candidates(const Body& body, const Wanted& wanted) {
   const std::vector<Tile>& tiles = body.tiling.tiles;
-  directory_ = body.history.size;
   tile_quads_.resize(tiles.size());
   for (int t = 0; t < static_cast<int>(tiles.size()); ++t)
     for (int k = 0; k < static_cast<int>(quads_.size()); ++k) {
@@ -80,7 +79,7 @@ void PlasticElements::make_modes(const Body& body) {
 
 std::ptrdiff_t PlasticElements::slots_begin() const {
   constexpr std::ptrdiff_t kLine = 8;  // of memory
-  return directory_ + (static_cast<std::ptrdiff_t>(candidates_.size()) + kLine - 1) / kLine * kLine;
+  return (static_cast<std::ptrdiff_t>(candidates_.size()) + kLine - 1) / kLine * kLine;
 }
 
 std::ptrdiff_t PlasticElements::slot_size() const {
@@ -115,7 +114,7 @@ void PlasticElements::initialise(Field& history) const {
 void PlasticElements::add(Field& history, int candidate) const {
   const int slot = hot_places(history);
   history.resize(history.size() + static_cast<std::size_t>(slot_size()), 0.0);
-  history[directory_ + candidate] = 1 + slot;
+  history[candidate] = 1 + slot;
   double* const rows = history.data() + first_of(slot);
   const std::array<double, 6>& stress = quad(candidates_[candidate]).material.initial_stress;
   rows[PlasticEntries::kCandidate] = candidate;
@@ -131,10 +130,9 @@ bool PlasticElements::fits(const Field& history) const {
   for (int slot = 0; slot < slots; ++slot) {
     const double candidate = history[first_of(slot) + PlasticEntries::kCandidate];
     if (!(candidate >= 0 && candidate < static_cast<double>(candidates_.size()))) return false;
-    if (history[directory_ + static_cast<std::ptrdiff_t>(candidate)] != 1 + slot) return false;
+    if (history[static_cast<std::ptrdiff_t>(candidate)] != 1 + slot) return false;
   }
-  const auto directory = history.begin() + directory_;
-  return slots == std::count_if(directory, history.begin() + slots_begin(), [](double x) { return x != 0; });
+  return slots == std::count_if(history.begin(), history.begin() + slots_begin(), [](double x) { return x != 0; });
 }
 
 }  // namespace railstrata

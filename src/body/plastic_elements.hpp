@@ -10,7 +10,7 @@
 // become hot while a run goes on (extend_plastic_elements, body/plastic_pass.hpp) and stay hot. Which are is part of
 // the history, so that whatever carries a state carries it:
 //
-//   history = [of BodyElement][directory: a number per candidate, 0 cold, else 1 + its slot, padded][slot 0][slot 1] …
+//   history = [directory: a number per candidate, 0 cold, else 1 + its slot, padded][slot 0][slot 1] …
 //
 // with entries() * kTile numbers in a slot. Within hot places groups of eight elements sleep while they are far from
 // yielding.
@@ -68,7 +68,7 @@ class PlasticElements {
     int tile, quad, kind;  ///< kind: into quads
   };
   const std::vector<Place>& candidates() const { return candidates_; }
-  bool is_hot(const Field& history, int candidate) const { return history[directory_ + candidate] != 0; }
+  bool is_hot(const Field& history, int candidate) const { return history[candidate] != 0; }
   /// The eigenstress of a hot place in the body's history, entry k at + k * kTile; null where there is none.
   const double* eigenstress(const Field& history, int tile, int quad) const {
     const std::ptrdiff_t at = first(history, tile, quad);
@@ -122,15 +122,12 @@ class PlasticElements {
   std::ptrdiff_t slots_begin() const;
   std::ptrdiff_t slot_size() const;
   std::ptrdiff_t first_of(int slot) const { return slots_begin() + slot * slot_size() + PlasticEntries::kHeader; }
-  int slot_of(const Field& history, int candidate) const {
-    return static_cast<int>(history[directory_ + candidate]) - 1;
-  }
+  int slot_of(const Field& history, int candidate) const { return static_cast<int>(history[candidate]) - 1; }
   int candidate_of(const Field& history, int slot) const {
     return static_cast<int>(history[first_of(slot) + PlasticEntries::kCandidate]);
   }
 
   int terms_ = 0;
-  std::ptrdiff_t directory_ = 0;  ///< where it stands in the history
   std::vector<Place> candidates_;
   std::vector<int> hot_at_start_;
   std::vector<Quad> quads_;

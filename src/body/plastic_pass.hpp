@@ -35,7 +35,7 @@ int extend_plastic_elements(const Body& body, const Field& u, double psi, Field&
 /// the next pass starts from, stay; places that were cold in `from` are virgin. For trials from one state.
 void restore_points(const Body& body, const Field& from, Field& history);
 
-/// The eigenstress's part of the stored energy, added to what TraversalOf::energy finds for elastic elements [J],
+/// The eigenstress's part of the stored energy, added to what Traversal::energy finds for elastic elements [J],
 /// without that of the backstresses, which counts as plastic work.
 double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history);
 

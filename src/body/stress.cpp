@@ -17,16 +17,6 @@ auto corners_of(const BlockLayout& l, const std::array<int, 4>& quad, const Fiel
 
 double scalar(const double* x) { return *x; }
 
-// One more than the element keeps: it may keep none.
-template <class Element>
-std::array<double, Element::kHistory + 1> kept(const Body& body, const Field& history, int block, int quad,
-                                               int station) {
-  std::array<double, Element::kHistory + 1> out{};
-  const std::ptrdiff_t first = body.history.first(block, quad) + station;
-  for (int k = 0; k < Element::kHistory; ++k) out[k] = history[first + k * body.history.stride[block]];
-  return out;
-}
-
 }  // namespace
 
 Sym3 element_stress(const Body& body, const Field& u, const Field& history, int block, int quad, int station) {
@@ -48,7 +38,6 @@ Sym3 element_stress(const Body& body, const Field& u, const Field& history, int 
     difference = i == 0 ? q.c * dx + q.s * dz : q.c * dz - q.s * dx;
   };
   const auto kin = element_kinematics<SweepKind::revolve, double>(ref.shape, st, in_element);
-  const auto own = kept<BodyElement>(body, history, block, quad, station);
   const auto relieve = [&](double(&s)[6]) {
     const int tile = body.tiling.first_tile[block] + station / kTile;
     const double* rows = body.plastic.eigenstress(history, tile, quad);
@@ -56,7 +45,7 @@ Sym3 element_stress(const Body& body, const Field& u, const Field& history, int 
     if (!rows) return;
     for (int i = 0; i < 6; ++i) s[i] -= rows[(PlasticEntries::kEigenstress + i) * kTile + station % kTile];
   };
-  const auto p = BodyElement::stress<SweepKind::revolve, double>(ref, Rotation<double>{}, kin, own.data(), relieve);
+  const auto p = hex_stress<SweepKind::revolve, double>(ref, Rotation<double>{}, kin, relieve);
   // sigma = P F^T / det F, P and F with the element's frame as their right index
   const Vec3 f1 = rotate_back(q, {1 + kin.h1[0], kin.h1[1], kin.h1[2]});
   const Vec3 f2 = rotate_back(q, {kin.h2[0], 1 + kin.h2[1], kin.h2[2]});

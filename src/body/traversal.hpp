@@ -10,8 +10,7 @@
 // Elements that may yield (Body::plastic) have their eigenstress in the history, as the last pass over them left it
 // (body/plastic_pass.hpp); the traversal takes it off.
 //
-// An evaluation is `linear` (f = K u of the undeformed body), a `trial` (the history of the elements is read and left
-// alone) or a `commit` (a step that counts: the history advances). Stress and energy read what was committed.
+// The history is read and left alone; a pass over the elements that may yield advances it.
 #include <cassert>
 #include <vector>
 
@@ -45,38 +44,35 @@ template <class Real>
 struct QuadRows;
 }  // namespace traversal
 
-/// Workspace of the evaluations on one body; one for each thread of control. Element: element/swept_hex.hpp.
-template <class Element>
-class TraversalOf {
+/// Workspace of the evaluations on one body; one for each thread of control.
+class Traversal {
  public:
-  explicit TraversalOf(const Body& body);
+  explicit Traversal(const Body& body);
 
   const Body& body() const { return *body_; }
 
-  /// f = internal forces at displacement u (model frame, u = x - X), a trial; psi: rigid rotation of the body about its
+  /// f = internal forces at displacement u (model frame, u = x - X); psi: rigid rotation of the body about its
   /// axle, positive when rolling forward. Ghosts of u are refreshed; padding of f is not defined. In double precision.
   void internal_force(Field& u, double psi, Field& f, const Field& history);
-  void internal_force(Field& u, double psi, Field& f) requires(Element::kHistory == 0) {
+  void internal_force(Field& u, double psi, Field& f) {
     assert(body_->plastic.empty());
     internal_force(u, psi, f, Field());
   }
-  /// The same as a commit: the history advances to u.
-  void commit_internal_force(Field& u, double psi, Field& f, Field& history);
   /// f = K u, K the stiffness of the undeformed body.
   void linear_force(Field& u, Field& f);
   /// As internal_force and linear_force, of these chains alone. Border planes lack what other chains leave there, until
   /// an end() of all.
   void internal_force_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f, const Field& history);
   void linear_force_of(const std::vector<Chain>& chains, Field& u, Field& f);
-  /// At u, with the history as committed.
+  /// At u.
   StrainEnergy energy(Field& u, double psi, const Field& history);
 
   // -- a step in pieces: begin, every chain once (in parallel if wanted), end
   // ------------------------------------------
   void begin(Field& u, double psi);
-  /// Commits, in the precision of the body's options.
+  /// In the precision of the body's options.
   template <class Policy>
-  void chain_forces(const Chain& chain, const Field& u, Field& f, Field& history, const Policy& policy);
+  void chain_forces(const Chain& chain, const Field& u, Field& f, const Field& history, const Policy& policy);
   /// Forces on the border planes of all chains, and on the last station of an open block.
   void end(const std::vector<Chain>& chains, Field& f);
   /// The same for some section nodes of each block.
@@ -94,32 +90,25 @@ class TraversalOf {
     Field cosine, sine;  // of the element centres, turned back by psi: R of the element class
   };
   template <Evaluation how>
-  void all_forces(Field& u, double psi, Field& f, const Field& history, Field* advanced);
+  void all_forces(Field& u, double psi, Field& f, const Field& history);
   template <Evaluation how>
-  void forces_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f, const Field& history,
-                 Field* advanced);
+  void forces_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f, const Field& history);
   template <class Real, Evaluation how, class Policy>
-  void run_chain(const Chain& chain, const Field& u, Field& f, const Field& history, Field* advanced,
-                 const Policy& policy);
+  void run_chain(const Chain& chain, const Field& u, Field& f, const Field& history, const Policy& policy);
   template <class Real, Evaluation how, SweepKind kind, class Policy>
-  void run_tile(int tile, bool follows, const Field& u, Field& f, const Field& history, Field* advanced,
-                const Policy& policy);
+  void run_tile(int tile, bool follows, const Field& u, Field& f, const Field& history, const Policy& policy);
   template <SweepKind kind, class Real, class Policy>
   void complete_nodes(int tile, bool follows, const traversal::TileWork<Real>& work, int quad,
                       const traversal::QuadRows<Real>& rows, Field& f, const Policy& policy);
-  StrainEnergy tile_energy(const Tile& tile, const Field& u, const Field& history) const;
+  StrainEnergy tile_energy(const Tile& tile, const Field& u) const;
 
   const Body* body_;
-  HistoryLayout history_;
   Rotation<double> turn_;
   std::vector<CarriedFrame> frames_;  // per block
   Field border_first_, border_end_;   // forces of a tile on its border planes, [node][component]
   std::vector<Chain> all_chains_;     // of evaluations of the whole body
   std::vector<StrainEnergy> tile_energy_;
 };
-
-using Traversal = TraversalOf<BodyElement>;
-extern template class TraversalOf<BodyElement>;
 
 /// A single evaluation of elements to which nothing has happened, with a workspace of its own.
 inline void internal_force(const Body& body, Field& u, double psi, Field& f) {

@@ -56,8 +56,8 @@ QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, co
   return {quad_shape(kind, quad), material_parameters(material)};
 }
 
-ReferenceOf<float> rounded(const QuadReference& r) {
-  ReferenceOf<float> out{};
+HexReference<float> rounded(const QuadReference& r) {
+  HexReference<float> out{};
   auto f = [](double x) { return static_cast<float>(x); };
   for (int k = 0; k < 4; ++k) {
     out.shape.gx[k] = f(r.shape.gx[k]);
@@ -68,7 +68,7 @@ ReferenceOf<float> rounded(const QuadReference& r) {
   out.shape.volume = f(r.shape.volume);
   out.shape.even_y = f(r.shape.even_y);
   out.shape.even_z = f(r.shape.even_z);
-  out.law = r.law.rounded_to<float>();
+  out.material = r.material.rounded_to<float>();
   return out;
 }
 
@@ -142,9 +142,8 @@ Matrix24 linear_stiffness(const QuadReference& ref, SweepScale scale, const Hour
       k(3 * c + i, column) = s - d;
       k(3 * (c + 4) + i, column) = s + d;
     };
-    double* no_history = nullptr;
-    ElasticHex::forces<SweepKind::revolve, Evaluation::linear>(
-        ref, st, Rotation<double>{}, no_history, unit_displacement,
+    hex_forces<SweepKind::revolve, Evaluation::linear>(
+        ref, st, Rotation<double>{}, unit_displacement,
         [&](ElementKinematics<double>& kin) { hourglass_forces(entry, kin); }, add_forces);
   }
   return k;

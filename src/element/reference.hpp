@@ -10,11 +10,7 @@
 namespace railstrata {
 
 using HourglassStiffness = std::array<double, kHourglassEntries>;
-using ElasticHex = SweptHex<ElasticLaw>;
-/// What element classes of any law read.
-template <class Real>
-using ReferenceOf = HexReference<Real, MaterialParameters<Real>>;
-using QuadReference = ReferenceOf<double>;
+using QuadReference = HexReference<double>;
 
 /// The two numbers by which a station spacing scales the reference shape.
 struct SweepScale {
@@ -32,7 +28,7 @@ std::array<Vec3, 8> local_corners(SweepKind kind, const std::array<Vec2, 4>& qua
 QuadShape<double> quad_shape(SweepKind kind, const std::array<Vec2, 4>& quad);
 QuadReference quad_reference(SweepKind kind, const std::array<Vec2, 4>& quad, const Elastic& material);
 /// Rounded to single precision.
-ReferenceOf<float> rounded(const QuadReference& reference);
+HexReference<float> rounded(const QuadReference& reference);
 
 HourglassStiffness hourglass_stiffness(SweepKind kind, const std::array<Vec2, 4>& quad, SweepScale scale,
                                        const Elastic& material, ElementKind element, double kappa);

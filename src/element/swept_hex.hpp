@@ -1,6 +1,6 @@
 #pragma once
 // The 8-node hexahedron of a swept mesh: the element class, pointwise. Compiled for scalars and for float and double
-// packs alike; what it reads is made in element/reference.hpp, who calls it is body/traversal_kernel.hpp.
+// packs alike; what it reads is made in element/reference.hpp, who calls it is body/traversal.cpp.
 //
 // An element is a quadrilateral (corners k = 0..3, section coordinates y_k, z_k) carried over one station spacing. In
 // its own frame (1 along the sweep, 2 lateral, 3 up) the corners stand at (-+ a_k, y_k, b_k) with, for a spacing D,
@@ -29,6 +29,7 @@
 #include "core/rotation.hpp"
 #include "core/simd.hpp"
 #include "core/sweep_kind.hpp"
+#include "material/elastic.hpp"
 
 namespace railstrata {
 
@@ -234,67 +235,53 @@ RAILSTRATA_POINTWISE void element_forces(const QuadShape<Real>& r, const Station
   }
 }
 
-/// How an element is evaluated: the stiffness of the undeformed body; a trial, which leaves the history alone; a step
-/// that counts, which advances it.
-enum class Evaluation { linear, trial, commit };
+/// How an element is evaluated: the stiffness of the undeformed body; at finite rotation and strain.
+enum class Evaluation { linear, finite };
 
-/// What the elements of one quadrilateral read: their shape and their law's parameters.
-template <class Real, class LawParameters>
-struct HexReference {
-  QuadShape<Real> shape;
-  LawParameters law;
-};
-
-/// Of an element without eigenstress.
+/// Of an element without eigenstress, as one has that may yield (body/plastic_pass.hpp).
 struct NoEigenstress {
   template <class T>
   RAILSTRATA_POINTWISE void operator()(T (&)[6]) const {}
 };
 
-/// The element class: what one quadrilateral's elements read (Reference), what a station scales it by (StationScale),
-/// what an element keeps from step to step (kHistory numbers) and its forces. Law: material/elastic.hpp, ElasticLaw.
-template <class LawType>
-struct SweptHex {
-  using Law = LawType;
-  static constexpr int kHistory = Law::kHistory;
+/// What the elements of one quadrilateral read: their shape and their material.
+template <class Real>
+struct HexReference {
+  QuadShape<Real> shape;
+  MaterialParameters<Real> material;
+};
 
-  template <class Real>
-  using Reference = HexReference<Real, typename Law::template Parameters<Real>>;
-
-  /// Internal forces of one element (or of a pack of them).
-  ///   corner     as in element_kinematics
-  ///   hourglass  replaces the hourglass amplitudes of the kinematics by generalised forces
-  ///   history    kHistory numbers of the last committed step; advanced here, the caller keeps them or not
-  ///   change     as in element_forces
-  ///   relieve    takes an eigenstress off the mean stress; never of a linear evaluation
-  template <SweepKind kind, Evaluation how, class T, class Real, class Corner, class Hourglass, class Change,
-            class Relieve = NoEigenstress>
-  static RAILSTRATA_POINTWISE void forces(const Reference<Real>& r, const StationScale<T>& st,
-                                          const Rotation<Real>& turn, T* history, Corner&& corner,
-                                          Hourglass&& hourglass, Change&& change, Relieve&& relieve = {}) {
-    auto kin = element_kinematics<kind, T>(r.shape, st, corner);
-    ElementStress<T> stress;
-    if constexpr (how == Evaluation::linear)
-      stress = small_stress(kin, [&](const T(&strain)[6], T(&s)[6]) { Law::tangent_stress(r.law, strain, s); });
-    else
-      stress = finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
-        Law::update(r.law, strain, history, s);
-        relieve(s);
-      });
-    hourglass(kin);
-    element_forces(r.shape, st, stress, kin, change);
-  }
-
-  /// Stress and strain at a displacement with the history as it was committed.
-  template <SweepKind kind, class T, class Real, class Relieve = NoEigenstress>
-  static RAILSTRATA_POINTWISE ElementStress<T> stress(const Reference<Real>& r, const Rotation<Real>& turn,
-                                                      const ElementKinematics<T>& kin, const T* history,
-                                                      Relieve&& relieve = {}) {
-    return finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
-      Law::stress(r.law, strain, history, s);
+/// Internal forces of one element (or of a pack of them).
+///   corner     as in element_kinematics
+///   hourglass  replaces the hourglass amplitudes of the kinematics by generalised forces
+///   change     as in element_forces
+///   relieve    takes an eigenstress off the mean stress; never of a linear evaluation
+template <SweepKind kind, Evaluation how, class T, class Real, class Corner, class Hourglass, class Change,
+          class Relieve = NoEigenstress>
+RAILSTRATA_POINTWISE void hex_forces(const HexReference<Real>& r, const StationScale<T>& st, const Rotation<Real>& turn,
+                                     Corner&& corner, Hourglass&& hourglass, Change&& change, Relieve&& relieve = {}) {
+  auto kin = element_kinematics<kind, T>(r.shape, st, corner);
+  ElementStress<T> stress;
+  const MaterialParameters<Real>& m = r.material;
+  if constexpr (how == Evaluation::linear)
+    stress = small_stress(kin, [&](const T(&strain)[6], T(&s)[6]) { elastic_stress(m.lambda, m.mu, strain, s); });
+  else
+    stress = finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
+      elastic_stress(m.lambda, m.mu, strain, s);
       relieve(s);
     });
-  }
-};
+  hourglass(kin);
+  element_forces(r.shape, st, stress, kin, change);
+}
+
+/// Stress and strain of an element at a displacement.
+template <SweepKind kind, class T, class Real, class Relieve = NoEigenstress>
+RAILSTRATA_POINTWISE ElementStress<T> hex_stress(const HexReference<Real>& r, const Rotation<Real>& turn,
+                                                 const ElementKinematics<T>& kin, Relieve&& relieve = {}) {
+  return finite_stress<kind>(turn, kin, [&](const T(&strain)[6], T(&s)[6]) {
+    elastic_stress(r.material.lambda, r.material.mu, strain, s);
+    relieve(s);
+  });
+}
 
 }  // namespace railstrata

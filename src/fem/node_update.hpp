@@ -26,7 +26,7 @@ class RankExchange;
 
 /// Internal forces of both bodies at their displacements; drift: rotation of the body relative to its frame [rad].
 /// Nodes that wait for nothing are updated on the way (FuseUpdate), unless the energies are wanted, which are those of
-/// one moment. Commits the history. With several ranks each evaluates its own tiles and all get the forces
+/// one moment. With several ranks each evaluates its own tiles and all get the forces
 /// (fem/rank_exchange.hpp).
 void evaluate_elements(RollingBodies& bodies, BodyStates& states, const std::array<double, 2>& drift,
                        const StepScope& scope, RankExchange* exchange = nullptr);

@@ -18,7 +18,7 @@ namespace railstrata {
 namespace {
 
 constexpr std::size_t kZippedBlock = 1 << 16;  // bytes
-constexpr int kLevel = 3;                // half of zlib's best compression for a fifth of its time on our arrays
+constexpr int kLevel = 3;                      // half of zlib's best compression for a fifth of its time on our arrays
 constexpr std::uint8_t kHexahedron = 12;
 
 template <class T>
@@ -42,7 +42,8 @@ void append_bytes(std::string& out, const T* data, std::size_t count) {
 
 /// Header {blocks, block size, size of a last part block, compressed sizes…}, then the blocks.
 void append_compressed(std::string& out, std::string_view raw) {
-  std::vector<std::uint64_t> header = {(raw.size() + kZippedBlock - 1) / kZippedBlock, kZippedBlock, raw.size() % kZippedBlock};
+  std::vector<std::uint64_t> header = {(raw.size() + kZippedBlock - 1) / kZippedBlock, kZippedBlock,
+                                       raw.size() % kZippedBlock};
   std::string blocks, buffer(compressBound(kZippedBlock), '\0');
   for (std::size_t begin = 0; begin < raw.size(); begin += kZippedBlock) {
     const std::string_view block = raw.substr(begin, kZippedBlock);

@@ -31,9 +31,8 @@ RAILSTRATA_POINTWISE void elastic_stress(Real lambda, Real mu, const T (&strain)
   for (int i = 3; i < 6; ++i) stress[i] = 2 * mu * strain[i];
 }
 
-/// Material parameters that laws read, by quadrilateral; Real float or double. One list for all laws, so that what a
-/// body holds depends on none: a law reads what it needs. A further number stands here, in material_parameters and in
-/// rounded_to.
+/// Material parameters that an element reads; Real float or double. A further number stands here, in
+/// material_parameters and in rounded_to.
 template <class Real>
 struct MaterialParameters {
   Real lambda, mu;  ///< Pa
@@ -44,32 +43,6 @@ struct MaterialParameters {
   }
 };
 inline MaterialParameters<double> material_parameters(const Elastic& m) { return {m.lambda, m.mu}; }
-
-/// The law of an element without memory. What every law offers (element/swept_hex.hpp):
-///   Parameters<Real>   MaterialParameters
-///   kHistory           numbers that an element keeps from step to step
-///   stress             S at a strain, with the history as it stands
-///   update             the same at the end of a step that leads to this strain; advances the history. Trials call it
-///                      too, with a copy that nobody keeps
-///   tangent_stress     of the undeformed state, for the static solver
-struct ElasticLaw {
-  template <class Real>
-  using Parameters = MaterialParameters<Real>;
-  static constexpr int kHistory = 0;
-
-  template <class T, class Real>
-  static RAILSTRATA_POINTWISE void stress(const Parameters<Real>& p, const T (&strain)[6], const T*, T (&stress)[6]) {
-    elastic_stress(p.lambda, p.mu, strain, stress);
-  }
-  template <class T, class Real>
-  static RAILSTRATA_POINTWISE void update(const Parameters<Real>& p, const T (&strain)[6], T*, T (&stress)[6]) {
-    elastic_stress(p.lambda, p.mu, strain, stress);
-  }
-  template <class T, class Real>
-  static RAILSTRATA_POINTWISE void tangent_stress(const Parameters<Real>& p, const T (&strain)[6], T (&stress)[6]) {
-    elastic_stress(p.lambda, p.mu, strain, stress);
-  }
-};
 
 /// von Mises stress, sqrt(3/2 s:s).
 inline double von_mises(const Sym3& s) {

@@ -6,8 +6,8 @@
 
 namespace railstrata {
 
-/// The report as JSON, as web/src/report/data.ts reads it. Lines have six digits; maps and sections are packed to 16 bits a
-/// number and thinned to 300 points a side.
+/// The report as JSON, as web/src/report/data.ts reads it. Lines have six digits; maps and sections are packed to 16
+/// bits a number and thinned to 300 points a side.
 nlohmann::ordered_json report_payload(const Report& report);
 
 /// Six digits of a number; null for what is not finite.

@@ -284,4 +284,26 @@ TEST(SolidMass, OfTheRailIsThatOfItsSectionInGB2585) {
               5e-3);  // straight edges of up to 8 mm along its fillets
 }
 
+TEST(Body, IsConstantSoThatTwoTraversalsMayUseItAtATime) {
+  const Body body(distorted_body(SweepKind::revolve, true), {kSteel}, {});
+  const Field u = scattered_field(body, 1e-6);
+  Field alone = body.layout.field(), moved = u;
+  internal_force(body, moved, 0.2, alone);
+  std::array<Field, 2> f{body.layout.field(), body.layout.field()};
+  for_each(2, [&](std::ptrdiff_t k) {
+    Field mine = u;
+    for (int repeat = 0; repeat < 20; ++repeat) internal_force(body, mine, 0.2, f[static_cast<std::size_t>(k)]);
+  });
+  for (const Field& other : f)
+    for (const NodeLine& l : body.lines)
+      for (int j = 0; j < l.count; ++j) ASSERT_EQ(other[l.first + j], alone[l.first + j]);
+}
+
+TEST(BodyState, OfAnElasticBodyKeepsNoHistoryAndNamesItsArrays) {
+  const Body body(distorted_body(SweepKind::extrude), {kSteel}, {});
+  const BodyState state(body);
+  EXPECT_TRUE(state.history.empty());
+  for (const StateArray& a : kStateArrays) EXPECT_TRUE(fits(body, a, state.*a.values)) << a.name;
+}
+
 }  // namespace railstrata

@@ -47,8 +47,7 @@ std::array<Vec3, 8> forces(const Shape& shape, double theta, double psi, const s
         sum = component(turn(psi - theta, u[k + 4] + u[k]));
         difference = component(turn(psi - theta, u[k + 4] - u[k]));
       });
-  const double* no_history = nullptr;
-  const auto stress = ElasticHex::stress<SweepKind::revolve, double>(r, rotation_by(psi), kin, no_history);
+  const auto stress = hex_stress<SweepKind::revolve, double>(r, rotation_by(psi), kin);
   const double hourglass = hourglass_forces([&](int e) { return hg[static_cast<std::size_t>(e)]; }, kin);
   double f[8][3];
   element_forces(r.shape, st, stress, kin, [&](int k, int i, auto&& add) {
