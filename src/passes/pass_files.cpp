@@ -15,7 +15,8 @@
 #include "io/damage_files.hpp"
 #include "io/json_text.hpp"
 #include "io/output_file.hpp"
-#include "model/zone.hpp"
+#include "passes/pass_json.hpp"
+#include "passes/pass_way_files.hpp"
 
 namespace railstrata {
 namespace {
@@ -43,7 +44,57 @@ constexpr std::array kPassColumns{"pass",
                                   "error"};
 /// Those of the stationary method besides.
 constexpr std::array kFurtherColumns{"lateral_mm", "traction", "force_share", "cycle_accumulated", "cycle_net"};
-constexpr std::size_t kAccumulated = 1, kNet = 2, kCycleAccumulated = 19, kCycleNet = 20;
+
+constexpr int kBegun = 7;  // numbers of PassSeries::begun
+
+std::vector<std::string> state_names(const SteadyGrid& grid) {
+  std::vector<std::string> names{"passes"};
+  for (std::size_t n = 0; n < kPointPasses; ++n)
+    for (const char* what : {"accumulated", "net"}) names.push_back(fmt::format("{}_{}", what, n));
+  for (int n = 0; n < kBegun; ++n) names.push_back(fmt::format("begun_{}", n));
+  for (int n = 0; n < kStreamlineHistory; ++n) names.push_back(fmt::format("history_{}", n));
+  for (int n = 0; n < 6 * grid.active_stations(); ++n) names.push_back(fmt::format("strain_{}", n));
+  return names;
+}
+
+PassPoint point_of(const RailPasses& rail, const PassSeries& series, PassClass whole, const PassResult& last, int r,
+                   int j) {
+  const std::size_t n = rail.grid.point(r, j);
+  return {rail.grid.y(j),
+          rail.grid.depth(r),
+          rail.zone[static_cast<std::size_t>(r)],
+          {last.accumulated[n], last.net[n]},
+          class_of_point(series.points[n], whole),
+          last.residual_stress[n],
+          last.plastic_strain[n],
+          series.state.history[n * kStreamlineHistory + 6]};
+}
+
+double largest_strain(const PassResult& result) {
+  double out = 0;
+  for (const auto& e : result.plastic_strain) out = std::max(out, std::sqrt(double_contraction(e.data(), e.data())));
+  return out;
+}
+
+std::vector<ZoneTop> zones_of(const RailPasses& rail) {
+  std::vector<ZoneTop> out;
+  double top = 0;
+  for (std::size_t r = 0; r < rail.zone.size(); ++r) {
+    if (r == 0 || rail.zone[r] != rail.zone[r - 1]) out.push_back({rail.zone[r], top});
+    top += rail.grid.thickness[r];
+  }
+  return out;
+}
+
+Json grid_json(const SteadyGrid& g) {
+  return {{"stations", g.nx},
+          {"columns", g.ny},
+          {"rows", g.rows()},
+          {"dx_m", g.dx},
+          {"dy_m", g.dy},
+          {"row_m", g.thickness.front()},
+          {"deepest_m", g.depth(g.rows() - 1)}};
+}
 
 }  // namespace
 
@@ -68,99 +119,18 @@ std::vector<double> pass_values(const PassRow& r) {
           r.error};
 }
 
-namespace {
-
 std::vector<std::string> stationary_columns() {
   std::vector<std::string> names = pass_columns();
   names.insert(names.end(), kFurtherColumns.begin(), kFurtherColumns.end());
   return names;
 }
 
-std::vector<double> row_of(const PassRow& r) {
+std::vector<double> stationary_values(const PassRow& r, const std::optional<PassStrain>& cycle) {
+  const PassStrain known = cycle.value_or(PassStrain{kNone, kNone});
   std::vector<double> row = pass_values(r);
-  row.insert(row.end(), {kToMilli * r.place, r.traction, r.force_share, kNone, kNone});
+  row.insert(row.end(), {kToMilli * r.place, r.traction, r.force_share, known.accumulated, known.net});
   return row;
 }
-
-constexpr int kBegun = 7;  // numbers of PassSeries::begun
-
-std::vector<std::string> state_names(const SteadyGrid& grid) {
-  std::vector<std::string> names{"passes"};
-  for (std::size_t n = 0; n < kPointPasses; ++n)
-    for (const char* what : {"accumulated", "net"}) names.push_back(fmt::format("{}_{}", what, n));
-  for (int n = 0; n < kBegun; ++n) names.push_back(fmt::format("begun_{}", n));
-  for (int n = 0; n < kStreamlineHistory; ++n) names.push_back(fmt::format("history_{}", n));
-  for (int n = 0; n < 6 * grid.active_stations(); ++n) names.push_back(fmt::format("strain_{}", n));
-  return names;
-}
-
-}  // namespace
-
-void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series) {
-  const std::size_t points = result.accumulated.size();
-  series.table.push_back(row_of(pass));
-  series.points.resize(points);
-  series.begun.resize(points);
-  const bool whole = pass.pass % series.cycle == 0;
-  PassStrain largest;
-  for (std::size_t n = 0; n < points; ++n) {
-    std::array<double, kBegun>& begun = series.begun[n];
-    const std::array<double, 6>& strain = result.plastic_strain[n];
-    begun[6] += result.accumulated[n];
-    if (!whole) continue;
-    double change[6];
-    for (std::size_t c = 0; c < 6; ++c) change[c] = strain[c] - begun[c];
-    std::vector<PassStrain>& point = series.points[n];
-    remember_pass({begun[6], std::sqrt(double_contraction(change, change))}, point);
-    largest.accumulated = std::max(largest.accumulated, point.back().accumulated);
-    largest.net = std::max(largest.net, point.back().net);
-    std::copy(strain.begin(), strain.end(), begun.begin());
-    begun[6] = 0;
-  }
-  if (!whole) return;
-  series.table.back()[kCycleAccumulated] = largest.accumulated;
-  series.table.back()[kCycleNet] = largest.net;
-}
-
-std::vector<PassStrain> cycles_of(const PassSeries& series) {
-  std::vector<PassStrain> cycles;
-  for (const std::vector<double>& row : series.table)
-    if (!std::isnan(row[kCycleNet])) cycles.push_back({row[kCycleAccumulated], row[kCycleNet]});
-  return cycles;
-}
-
-PassVerdict verdict_of(const PassSeries& series) {
-  PassVerdict verdict = classify(cycles_of(series));
-  verdict.rate /= series.cycle;
-  return verdict;
-}
-
-PassStanding standing_of(const PassSeries& series, const PassRow& last) {
-  return standing_of(verdict_of(series), series.table, last);
-}
-
-PassStanding standing_of(const PassVerdict& verdict, const std::vector<std::vector<double>>& table,
-                         const PassRow& last) {
-  PassStanding out{verdict, last};
-  for (const std::vector<double>& row : table) {
-    out.ever_yielded = out.ever_yielded || row[kAccumulated] > 0;
-    if (row[kAccumulated] >= kNoFlow) out.first_quiet = static_cast<int>(row[0]) + 1;
-  }
-  return out;
-}
-
-void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes) {
-  if (passes.size() == kPointPasses) passes.erase(passes.begin());
-  passes.push_back(strain);
-}
-
-std::vector<PassStrain> strains_of(const std::vector<std::vector<double>>& table) {
-  std::vector<PassStrain> passes;
-  for (const std::vector<double>& row : table) passes.push_back({row[kAccumulated], row[kNet]});
-  return passes;
-}
-
-PassVerdict verdict_of(const std::vector<std::vector<double>>& table) { return classify(strains_of(table)); }
 
 void write_pass_rows(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                      const std::vector<std::string>& names, const std::vector<std::vector<double>>& table) {
@@ -217,6 +187,9 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
   for (int n = 0; n < series.state.passes; ++n) {
     series.table.emplace_back();
     for (const CsvColumn& column : rows.columns) series.table.back().push_back(column.values[n]);
+    const auto at = [&](const char* name) { return rows.column(name)[static_cast<std::size_t>(n)]; };
+    series.strains.push_back({at("accumulated_strain"), at("net_strain")});
+    if (!std::isnan(at("cycle_net"))) series.cycles.push_back({at("cycle_accumulated"), at("cycle_net")});
   }
   const std::size_t active = static_cast<std::size_t>(grid.active_stations());
   series.state.history.resize(grid.points() * kStreamlineHistory);
@@ -270,22 +243,13 @@ void write_pass_points(const std::filesystem::path& file, const std::vector<std:
   write_csv(file, provenance, columns);
 }
 
-namespace {
-
-PassPoint point_of(const RailPasses& rail, const PassSeries& series, PassClass whole, const PassResult& last, int r,
-                   int j) {
-  const std::size_t n = rail.grid.point(r, j);
-  return {rail.grid.y(j),
-          rail.grid.depth(r),
-          rail.zone[static_cast<std::size_t>(r)],
-          {last.accumulated[n], last.net[n]},
-          class_of_point(series.points[n], whole),
-          last.residual_stress[n],
-          last.plastic_strain[n],
-          series.state.history[n * kStreamlineHistory + 6]};
+std::vector<PassPoint> section_points(const RailPasses& rail, const PassSeries& series, const PassResult& last) {
+  const PassClass whole = verdict_of(series).kind;
+  std::vector<PassPoint> out;
+  for (int r = 0; r < rail.grid.rows(); ++r)
+    for (int j = 0; j < rail.grid.ny; ++j) out.push_back(point_of(rail, series, whole, last, r, j));
+  return out;
 }
-
-}  // namespace
 
 void write_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                     const RailPasses& rail, const PassSeries& series, const PassResult& last) {
@@ -294,104 +258,22 @@ void write_residual(const std::filesystem::path& folder, const std::vector<std::
       "After the last pass. y: contact frame. class: 0 elastic shakedown, 1 plastic shakedown, 2 ratchetting, "
       "3 transient. plastic_xy ...: tensor shears; plastic_p: accumulated over all passes.");
   const SteadyGrid& g = rail.grid;
-  const PassClass whole = verdict_of(series).kind;
-  std::vector<PassPoint> section, profile;
-  for (int r = 0; r < g.rows(); ++r)
-    for (int j = 0; j < g.ny; ++j) section.push_back(point_of(rail, series, whole, last, r, j));
-  std::size_t most = 0;
-  for (std::size_t n = 0; n < g.points(); ++n) {
-    const auto p = [&](std::size_t at) { return series.state.history[at * kStreamlineHistory + 6]; };
-    if (p(n) > p(most)) most = n;
-  }
-  const int column = most > 0 ? static_cast<int>(most) % g.ny : g.ny / 2;
-  for (int r = 0; r < g.rows(); ++r) profile.push_back(point_of(rail, series, whole, last, r, column));
+  const std::vector<PassPoint> section = section_points(rail, series, last);
+  const auto most = std::max_element(section.begin(), section.end(), [](const PassPoint& a, const PassPoint& b) {
+    return a.accumulated < b.accumulated;
+  });
+  const int column = most > section.begin() ? static_cast<int>(most - section.begin()) % g.ny : g.ny / 2;
+  std::vector<PassPoint> profile;
+  for (int r = 0; r < g.rows(); ++r) profile.push_back(section[g.point(r, column)]);
   write_pass_points(folder / "residual.csv", remarks, section);
   remarks.push_back("The column of the section with the largest plastic strain.");
   write_pass_points(folder / "profile.csv", remarks, profile);
 }
 
-namespace {
-
-Json points_by_class(const std::vector<std::vector<PassStrain>>& points, PassClass whole) {
-  Json out;
-  for (const PassClass kind :
-       {PassClass::elastic_shakedown, PassClass::plastic_shakedown, PassClass::ratchetting, PassClass::transient})
-    out[words(kind)] =
-        std::count_if(points.begin(), points.end(), [&](const auto& p) { return class_of_point(p, whole) == kind; });
-  return out;
-}
-
-}  // namespace
-
-Json ductility_json(double ductility, double reached, const std::vector<PassStrain>& cycles, int cycle) {
-  constexpr double kNormOfEquivalent = 1.2247448713915890;  // |E^p| = √(3/2) equivalent strain
-  const DuctilityReach reach = passes_to_ductility(kNormOfEquivalent * ductility, reached, cycles);
-  const auto passes = [&](double count) { return std::isfinite(count) ? Json(cycle * count) : Json(nullptr); };
-  return {{"strain", ductility},
-          {"reached", reached / kNormOfEquivalent},
-          {"passes", passes(reach.passes)},
-          {"earliest", passes(reach.earliest)},
-          {"latest", passes(reach.latest)}};
-}
-
-Json pass_verdict(const std::string& title, const std::vector<std::string>& columns,
-                  const std::vector<std::vector<double>>& table, const std::vector<std::vector<PassStrain>>& points) {
-  const PassVerdict verdict = verdict_of(table);
-  Json out{{"title", title}, {"passes", table.size()}};
-  out["class"] = words(verdict.kind);
-  out["net_strain_per_pass"] = verdict.rate;
-  out["trend"] = verdict.trend;
-  for (std::size_t c = 1; c < columns.size(); ++c) out["last_pass"][columns[c]] = table.back()[c];
-  out["points"] = points_by_class(points, verdict.kind);
-  return out;
-}
-
-namespace {
-
-double largest_strain(const PassResult& result) {
-  double out = 0;
-  for (const auto& e : result.plastic_strain) out = std::max(out, std::sqrt(double_contraction(e.data(), e.data())));
-  return out;
-}
-
-Json way_json(const SteadyGrid& g, const PassWay& way) {
-  Json out = Json::array();
-  for (const WayPoint& w : way.points)
-    out.push_back({{"name", w.name},
-                   {"y_m", g.y(static_cast<int>(w.point) % g.ny)},
-                   {"depth_m", g.depth(static_cast<int>(w.point) / g.ny)}});
-  return out;
-}
-
-Json zones_json(const CaseSpec& spec, const RailPasses& rail) {
-  Json out = Json::array();
-  double top = 0;
-  for (int r = 0; r < rail.grid.rows(); ++r) {
-    const int zone = rail.zone[static_cast<std::size_t>(r)];
-    if (r == 0 || zone != rail.zone[static_cast<std::size_t>(r) - 1])
-      out.push_back({{"name", zone_name(spec, BodyId::rail, zone)}, {"zone", zone}, {"top_m", top}});
-    top += rail.grid.thickness[static_cast<std::size_t>(r)];
-  }
-  return out;
-}
-
-Json grid_json(const SteadyGrid& g) {
-  return {{"stations", g.nx},
-          {"columns", g.ny},
-          {"rows", g.rows()},
-          {"dx_m", g.dx},
-          {"dy_m", g.dy},
-          {"row_m", g.thickness.front()},
-          {"deepest_m", g.depth(g.rows() - 1)}};
-}
-
-}  // namespace
-
 void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec, const RailPasses& rail,
                         const PassSeries& series, const PassResult& result, const PassWay& way,
                         const PassAnswer& answer) {
   const PassVerdict verdict = verdict_of(series);
-  const std::vector<double>& last = series.table.back();
   Json out{{"title", spec.title}, {"method", "stationary"}, {"passes", series.state.passes}};
   out["verdict"] = answer.verdict;
   out["law"] = answer.law;
@@ -399,22 +281,19 @@ void write_pass_summary(const std::filesystem::path& file, const CaseSpec& spec,
   out["passes_per_cycle"] = series.cycle;
   out["net_strain_per_pass"] = verdict.rate;
   out["trend"] = verdict.trend;
-  const std::vector<std::string> columns = stationary_columns();
-  for (std::size_t c = 1; c < columns.size(); ++c)
-    out["last_pass"][columns[c]] = std::isfinite(last[c]) ? Json(last[c]) : Json(nullptr);
+  out["last_pass"] = last_pass_json(stationary_columns(), series.table.back());
   if (answer.ductility)
-    out["ductility"] = ductility_json(*answer.ductility, largest_strain(result), cycles_of(series), series.cycle);
+    out["ductility"] = ductility_json(*answer.ductility, largest_strain(result), series.cycles, series.cycle);
   Summary summary;
   summary.shakedown = answer.shakedown;
   if (Json factors = shakedown_json(summary); !factors.is_null()) out["shakedown"] = std::move(factors);
-  out["points"] = points_by_class(series.points, verdict_of(series).kind);
-  out["zones"] = zones_json(spec, rail);
-  out["loops"] = way_json(rail.grid, way);
+  out["points"] = points_json(series.points, verdict.kind);
+  out["zones"] = zones_json(spec, zones_of(rail));
+  out["loops"] = loops_json(loops_of(rail, way));
   out["grid"] = grid_json(rail.grid);
   out["assumptions"] = {"pressure and friction are those of the elastic bodies",
-                        "straight endless rail, layers "
-                        "without sideways ends on a half-space",
-                        "small strains", "one patch, the same in every pass", "the wheel stays elastic"};
+                        "straight endless rail, layers without sideways ends on a half-space", "small strains",
+                        "one patch, the same in every pass", "the wheel stays elastic"};
   out["notes"] = rail.notes;
   write_whole_file(file, json_text(out, 2) + "\n");
 }

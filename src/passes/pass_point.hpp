@@ -1,8 +1,11 @@
 #pragma once
-// A point of the rail's section after a pass: what residual.csv says of it, by either method.
+// A point of the rail's section after a pass, and what one sees while the wheel goes over, by either method.
 #include <array>
+#include <string>
+#include <vector>
 
 #include "steady/pass_class.hpp"
+#include "steady/steady_pass.hpp"
 
 namespace railstrata {
 
@@ -16,6 +19,14 @@ struct PassPoint {
   std::array<double, 6> plastic{};  ///< Ep, tensor shears
   double accumulated = 0;           ///< p over all passes
   int row = -1, column = -1;        ///< of the fine zone's elements; none deeper and of the stationary method
+};
+
+/// A point and what it sees at the stations, in the order in which the load reaches them.
+struct PassLoop {
+  std::string name;                  ///< "governing", "surface", "above the border", "below the border"
+  double y = 0, depth = 0;           ///< m, as of PassPoint
+  std::vector<double> x;             ///< m, of the stations from the load
+  std::vector<StationState> states;  ///< as many, in the axes of PassPoint
 };
 
 }  // namespace railstrata

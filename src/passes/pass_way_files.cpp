@@ -1,29 +1,15 @@
 #include "passes/pass_way_files.hpp"
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "core/si_prefix.hpp"
 #include "io/csv.hpp"
-#include "io/vtk.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr const char* kTensor[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
-
-std::vector<WayLoop> loops_of(const RailPasses& rail, const PassWay& way) {
-  const SteadyGrid& g = rail.grid;
-  std::vector<WayLoop> out;
-  for (std::size_t k = 0; k < way.points.size(); ++k) {
-    const int n = static_cast<int>(way.points[k].point);
-    WayLoop loop{g.y(n % g.ny), g.depth(n / g.ny), {}, way.loops[k]};
-    for (std::size_t i = 0; i < loop.states.size(); ++i) loop.x.push_back(g.x(static_cast<int>(i)));
-    out.push_back(std::move(loop));
-  }
-  return out;
-}
 
 void write_along(const std::filesystem::path& file, std::vector<std::string> remarks, const RailPasses& rail,
                  const PassWay& way) {
@@ -64,8 +50,20 @@ VtkQuads quads_of(const SteadyGrid& g) {
 
 }  // namespace
 
+std::vector<PassLoop> loops_of(const RailPasses& rail, const PassWay& way) {
+  const SteadyGrid& g = rail.grid;
+  std::vector<PassLoop> out;
+  for (std::size_t k = 0; k < way.points.size(); ++k) {
+    const int n = static_cast<int>(way.points[k].point);
+    PassLoop loop{way.points[k].name, g.y(n % g.ny), g.depth(n / g.ny), {}, way.loops[k]};
+    for (std::size_t i = 0; i < loop.states.size(); ++i) loop.x.push_back(g.x(static_cast<int>(i)));
+    out.push_back(std::move(loop));
+  }
+  return out;
+}
+
 void write_loops(const std::filesystem::path& file, std::vector<std::string> remarks,
-                 const std::vector<WayLoop>& loops) {
+                 const std::vector<PassLoop>& loops) {
   remarks.emplace_back(
       "The last pass, station after station as the load goes over. point: its place in passes.json, loops. strain: "
       "tensor shears.");
@@ -92,28 +90,34 @@ void write_way(const std::filesystem::path& folder, const std::vector<std::strin
   write_along(folder / "along.csv", provenance, rail, way);
 }
 
-void write_section_vtk(const std::filesystem::path& file, const RailPasses& rail, const PassSeries& series,
-                       const PassResult& last) {
-  const SteadyGrid& g = rail.grid;
-  VtkQuads mesh = quads_of(g);
-  std::vector<double> stress, strain, p;
+void write_points_vtk(const std::filesystem::path& file, VtkQuads mesh, const std::vector<PassPoint>& points,
+                      PointColumns which) {
+  std::vector<double> stress, strain, p, accumulated, net;
   std::vector<std::int32_t> kind, zone;
-  const PassClass whole = verdict_of(series).kind;
-  for (std::size_t n = 0; n < g.points(); ++n) {
-    for (const double s : last.residual_stress[n]) stress.push_back(kToMega * s);
-    strain.insert(strain.end(), last.plastic_strain[n].begin(), last.plastic_strain[n].end());
-    p.push_back(series.state.history[n * kStreamlineHistory + 6]);
-    kind.push_back(static_cast<std::int32_t>(class_of_point(series.points[n], whole)));
-    zone.push_back(rail.zone[n / static_cast<std::size_t>(g.ny)]);
+  for (const PassPoint& at : points) {
+    for (const double s : at.stress) stress.push_back(kToMega * s);
+    strain.insert(strain.end(), at.plastic.begin(), at.plastic.end());
+    p.push_back(at.accumulated);
+    accumulated.push_back(at.strain.accumulated);
+    net.push_back(at.strain.net);
+    kind.push_back(static_cast<std::int32_t>(at.kind));
+    zone.push_back(at.zone);
   }
   mesh.cell_fields = {{"residual_stress_MPa", 6, std::move(stress)},
                       {"plastic_strain", 6, std::move(strain)},
-                      {"plastic_p", 1, std::move(p)},
-                      {"accumulated_strain", 1, last.accumulated},
-                      {"net_strain", 1, last.net},
-                      {"class", 1, std::move(kind)},
-                      {"zone", 1, std::move(zone)}};
+                      {"plastic_p", 1, std::move(p)}};
+  if (which == PointColumns::of_passes) {
+    mesh.cell_fields.push_back({"accumulated_strain", 1, std::move(accumulated)});
+    mesh.cell_fields.push_back({"net_strain", 1, std::move(net)});
+    mesh.cell_fields.push_back({"class", 1, std::move(kind)});
+  }
+  mesh.cell_fields.push_back({"zone", 1, std::move(zone)});
   write_vtp(file, mesh);
+}
+
+void write_section_vtk(const std::filesystem::path& file, const RailPasses& rail, const PassSeries& series,
+                       const PassResult& last) {
+  write_points_vtk(file, quads_of(rail.grid), section_points(rail, series, last), PointColumns::of_passes);
 }
 
 }  // namespace railstrata

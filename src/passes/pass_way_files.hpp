@@ -5,27 +5,26 @@
 #include <string>
 #include <vector>
 
+#include "io/vtk.hpp"
 #include "passes/pass_files.hpp"
 #include "passes/pass_way.hpp"
 
 namespace railstrata {
 
-/// Of one point, what it sees at the stations in the order in which the load reaches them.
-struct WayLoop {
-  double y = 0, depth = 0;           ///< m, of the point
-  std::vector<double> x;             ///< m, of the stations from the load
-  std::vector<StationState> states;  ///< as many
-};
+/// Of a way by the stationary method.
+std::vector<PassLoop> loops_of(const RailPasses& rail, const PassWay& way);
 /// loops.csv; remarks: "#" lines before its own.
 void write_loops(const std::filesystem::path& file, std::vector<std::string> remarks,
-                 const std::vector<WayLoop>& loops);
+                 const std::vector<PassLoop>& loops);
 
 void write_way(const std::filesystem::path& folder, const std::vector<std::string>& provenance, const RailPasses& rail,
                const PassWay& way);
 
-/// A cell a point of the section, at x = 0, z upward: residual_stress_MPa and plastic_strain (symmetric tensors),
-/// plastic_p, accumulated_strain and net_strain of the last pass, class, zone. Of a line contact one column as wide as
-/// the stations are long.
+/// A cell of the mesh a point, at x = 0, z upward: residual_stress_MPa and plastic_strain (symmetric tensors),
+/// plastic_p, of passes accumulated_strain and net_strain of the last one and class; zone.
+void write_points_vtk(const std::filesystem::path& file, VtkQuads mesh, const std::vector<PassPoint>& points,
+                      PointColumns which);
+/// The section of the stationary method. Of a line contact one column as wide as the stations are long.
 void write_section_vtk(const std::filesystem::path& file, const RailPasses& rail, const PassSeries& series,
                        const PassResult& last);
 

@@ -33,15 +33,6 @@ double largest_plastic_norm(const std::vector<PassPoint>& points);
 RolledPass rolled_pass(const RollingSystem& system, const Model& base, const PlasticSection& before,
                        const PlasticSection& after, const RailBefore& at_rest, double middle);
 
-/// All passes so far.
-struct RolledSeries {
-  int passes = 0;
-  PlasticSection section;                       ///< after the last one; without quadrilaterals before the first
-  std::vector<std::vector<PassStrain>> points;  ///< per quadrilateral its last passes
-  std::vector<std::vector<double>> table;       ///< passes.csv, in its units
-  double creepage_shift = 0;  ///< by what the creepage for a wanted traction differs from the estimate
-};
-
 /// Up to here the stations count as steady.
 inline constexpr double kLargestUnevenness = 0.1;
 /// RolledPass::uneven, from the sections of both halves, all of the same quadrilaterals.

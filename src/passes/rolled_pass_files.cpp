@@ -4,11 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "core/faults.hpp"
 #include "core/si_prefix.hpp"
@@ -17,6 +14,7 @@
 #include "io/output_file.hpp"
 #include "io/vtk.hpp"
 #include "model/zone.hpp"
+#include "passes/pass_json.hpp"
 #include "passes/pass_way_files.hpp"
 
 namespace railstrata {
@@ -24,12 +22,6 @@ namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNoQuad = -1;  // in state.csv: no element has become hot
-
-std::vector<std::string> rolled_columns() {
-  std::vector<std::string> names = pass_columns();
-  for (const char* name : {"traction", "creepage", "p_max_MPa", "lateral_mm"}) names.emplace_back(name);
-  return names;
-}
 
 /// Columns of the state before the numbers of a point.
 std::vector<std::string> state_heads() {
@@ -51,26 +43,56 @@ int whole(const CsvTable& table, const char* name, std::size_t row) {
   return static_cast<int>(v);
 }
 
+/// The points nearest across to the one with the largest plastic strain, from the surface down.
+std::vector<PassPoint> profile_of(const std::vector<PassPoint>& points) {
+  if (points.empty()) return {};
+  const auto most = std::max_element(points.begin(), points.end(), [](const PassPoint& a, const PassPoint& b) {
+    return a.accumulated < b.accumulated;
+  });
+  const double y = most->accumulated > 0 ? most->y : 0;
+  std::vector<PassPoint> out;
+  std::vector<PassPoint> sorted = points;
+  std::sort(sorted.begin(), sorted.end(), [](const PassPoint& a, const PassPoint& b) { return a.depth < b.depth; });
+  constexpr double kSameRow = 1e-4;  // m, rows follow the curved surface
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const PassPoint& p : sorted) nearest = std::min(nearest, std::abs(p.y - y));
+  for (const PassPoint& p : sorted)
+    if (std::abs(p.y - y) < nearest + kSameRow) out.push_back(p);
+  return out;
+}
+
+/// The rail's layers from the surface down, then the rail.
+std::vector<ZoneTop> zones_of(const CaseSpec& spec) {
+  std::vector<ZoneTop> out;
+  double top = 0;
+  for (const std::size_t layer : layers_on(spec, BodyId::rail)) {
+    out.push_back({static_cast<int>(out.size()) + 1, top});
+    top += spec.layers[layer].thickness;
+  }
+  out.push_back({0, top});
+  return out;
+}
+
+/// A cell a quadrilateral, in the axes of write_section_vtk.
+VtkQuads quads_of(const SectionMesh& section) {
+  VtkQuads mesh;
+  for (const Vec2& node : section.nodes) mesh.points.push_back({0, node.y, -node.z});
+  for (const std::array<int, 4>& quad : section.quads) mesh.cells.push_back({quad[0], quad[1], quad[2], quad[3]});
+  return mesh;
+}
+
 }  // namespace
 
-void add_rolled_pass(const PlasticSection& section, const PassContact& contact, RolledPass& pass,
-                     RolledSeries& series) {
-  std::map<std::pair<int, int>, std::vector<PassStrain>> earlier;
-  for (std::size_t n = 0; n < series.section.quads.size(); ++n)
-    earlier[{series.section.quads[n].block, series.section.quads[n].quad}] = series.points[n];
-  series.points.clear();
-  for (const PlasticSection::Quad& q : section.quads) series.points.push_back(earlier[{q.block, q.quad}]);
-  series.section = section;
-  ++series.passes;
-  pass.row.pass = series.passes;
-  std::vector<double> row = pass_values(pass.row);
+std::vector<std::string> rolled_columns() {
+  std::vector<std::string> names = pass_columns();
+  for (const char* name : {"traction", "creepage", "p_max_MPa", "lateral_mm"}) names.emplace_back(name);
+  return names;
+}
+
+std::vector<double> rolled_values(const PassRow& pass, const PassContact& contact) {
+  std::vector<double> row = pass_values(pass);
   row.insert(row.end(), {contact.traction, contact.creepage, kToMega * contact.p_max, kToMilli * contact.lateral});
-  series.table.push_back(std::move(row));
-  const PassClass whole = verdict_of(series.table).kind;
-  for (std::size_t n = 0; n < pass.points.size(); ++n) {
-    remember_pass(pass.points[n].strain, series.points[n]);
-    pass.points[n].kind = class_of_point(series.points[n], whole);
-  }
+  return row;
 }
 
 void write_rolled_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -120,6 +142,8 @@ RolledSeries read_rolled_series(const std::filesystem::path& state, const std::f
   for (int n = 0; n < series.passes; ++n) {
     series.table.emplace_back();
     for (const CsvColumn& column : rows.columns) series.table.back().push_back(column.values[n]);
+    series.strains.push_back({rows.column("accumulated_strain")[static_cast<std::size_t>(n)],
+                              rows.column("net_strain")[static_cast<std::size_t>(n)]});
   }
   series.section.point_entries = static_cast<int>(values.columns.size() - heads);
   if (nothing_hot) return series;
@@ -141,88 +165,9 @@ RolledSeries read_rolled_series(const std::filesystem::path& state, const std::f
   return series;
 }
 
-namespace {
-
-/// The points nearest across to the one with the largest plastic strain, from the surface down.
-std::vector<PassPoint> profile_of(const std::vector<PassPoint>& points) {
-  if (points.empty()) return {};
-  const auto most = std::max_element(points.begin(), points.end(), [](const PassPoint& a, const PassPoint& b) {
-    return a.accumulated < b.accumulated;
-  });
-  const double y = most->accumulated > 0 ? most->y : 0;
-  std::vector<PassPoint> out;
-  std::vector<PassPoint> sorted = points;
-  std::sort(sorted.begin(), sorted.end(), [](const PassPoint& a, const PassPoint& b) { return a.depth < b.depth; });
-  constexpr double kSameRow = 1e-4;  // m, rows follow the curved surface
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const PassPoint& p : sorted) nearest = std::min(nearest, std::abs(p.y - y));
-  for (const PassPoint& p : sorted)
-    if (std::abs(p.y - y) < nearest + kSameRow) out.push_back(p);
-  return out;
-}
-
-nlohmann::ordered_json way_json(const std::vector<RolledLoop>& loops) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  for (const RolledLoop& loop : loops) out.push_back({{"name", loop.name}, {"y_m", loop.y}, {"depth_m", loop.depth}});
-  return out;
-}
-
-/// The rail's layers from the surface down, then the rail.
-nlohmann::ordered_json zones_json(const CaseSpec& spec) {
-  nlohmann::ordered_json out = nlohmann::ordered_json::array();
-  double top = 0;
-  int zone = 0;
-  const auto add = [&](int number) {
-    out.push_back({{"name", zone_name(spec, BodyId::rail, number)}, {"zone", number}, {"top_m", top}});
-  };
-  for (const LayerSpec& layer : spec.layers) {
-    if (layer.on != BodyId::rail) continue;
-    add(++zone);
-    top += layer.thickness;
-  }
-  add(0);
-  return out;
-}
-
-/// A cell a quadrilateral, in the axes of write_section_vtk.
-void write_elements_vtk(const std::filesystem::path& file, const RolledPass& pass, PointColumns which) {
-  VtkQuads mesh;
-  for (const Vec2& node : pass.mesh.nodes) mesh.points.push_back({0, node.y, -node.z});
-  for (const std::array<int, 4>& quad : pass.mesh.quads) mesh.cells.push_back({quad[0], quad[1], quad[2], quad[3]});
-  std::vector<double> stress, strain, p, accumulated, net;
-  std::vector<std::int32_t> kind, zone;
-  for (const PassPoint& at : pass.points) {
-    for (const double s : at.stress) stress.push_back(kToMega * s);
-    strain.insert(strain.end(), at.plastic.begin(), at.plastic.end());
-    p.push_back(at.accumulated);
-    accumulated.push_back(at.strain.accumulated);
-    net.push_back(at.strain.net);
-    kind.push_back(static_cast<std::int32_t>(at.kind));
-    zone.push_back(at.zone);
-  }
-  mesh.cell_fields = {{"residual_stress_MPa", 6, std::move(stress)},
-                      {"plastic_strain", 6, std::move(strain)},
-                      {"plastic_p", 1, std::move(p)}};
-  if (which == PointColumns::of_passes) {
-    mesh.cell_fields.push_back({"accumulated_strain", 1, std::move(accumulated)});
-    mesh.cell_fields.push_back({"net_strain", 1, std::move(net)});
-    mesh.cell_fields.push_back({"class", 1, std::move(kind)});
-  }
-  mesh.cell_fields.push_back({"zone", 1, std::move(zone)});
-  write_vtp(file, mesh);
-}
-
-std::vector<WayLoop> files_loops(const std::vector<RolledLoop>& loops) {
-  std::vector<WayLoop> out;
-  for (const RolledLoop& loop : loops) out.push_back({loop.y, loop.depth, loop.x, loop.states});
-  return out;
-}
-
-}  // namespace
-
 void write_rolled_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                          const CaseSpec& spec, const PassRoll& roll, const RolledSeries& series, const RolledPass& pass,
-                         const std::vector<RolledLoop>& loops) {
+                         const std::vector<PassLoop>& loops) {
   const std::vector<PassPoint>& points = pass.points;
   std::vector<std::string> remarks = provenance;
   remarks.emplace_back(
@@ -232,16 +177,22 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   write_pass_points(folder / "residual.csv", remarks, points);
   remarks.emplace_back("Below the place with the largest plastic strain.");
   write_pass_points(folder / "profile.csv", remarks, profile_of(points));
-  if (!points.empty()) write_elements_vtk(folder / "section.vtp", pass, PointColumns::of_passes);
-  if (!loops.empty()) write_loops(folder / "loops.csv", provenance, files_loops(loops));
-  nlohmann::ordered_json out = pass_verdict(spec.title, rolled_columns(), series.table, series.points);
+  if (!points.empty()) write_points_vtk(folder / "section.vtp", quads_of(pass.mesh), points, PointColumns::of_passes);
+  if (!loops.empty()) write_loops(folder / "loops.csv", provenance, loops);
+  const PassVerdict verdict = classify(series.strains);
+  nlohmann::ordered_json out{{"title", spec.title},
+                             {"passes", series.table.size()},
+                             {"class", words(verdict.kind)},
+                             {"net_strain_per_pass", verdict.rate},
+                             {"trend", verdict.trend}};
+  out["last_pass"] = last_pass_json(rolled_columns(), series.table.back());
+  out["points"] = points_json(series.points, verdict.kind);
   out["engine"] = "fem";
-  out["verdict"] = pass_words(standing_of(verdict_of(series.table), series.table, pass.row));
+  out["verdict"] = pass_words(standing_of(verdict, series.strains, pass.row));
   if (spec.passes.ductility)
-    out["ductility"] =
-        ductility_json(*spec.passes.ductility, largest_plastic_norm(pass.points), strains_of(series.table), 1);
-  out["zones"] = zones_json(spec);
-  out["loops"] = way_json(loops);
+    out["ductility"] = ductility_json(*spec.passes.ductility, largest_plastic_norm(pass.points), series.strains, 1);
+  out["zones"] = zones_json(spec, zones_of(spec));
+  out["loops"] = loops_json(loops);
   out["roll"] = {{"half_length_m", roll.half_length},
                  {"length_m", roll.length},
                  {"steady_from_m", roll.from},
@@ -266,7 +217,7 @@ void write_run_residual(const std::filesystem::path& folder, const std::vector<s
       "depth: axes of the rigid contact point. plastic_xy ...: tensor shears.",
       kToMilli * residual.from, kToMilli * residual.to));
   write_pass_points(folder / "residual.csv", remarks, residual.pass.points, PointColumns::of_a_run);
-  write_elements_vtk(folder / "section.vtp", residual.pass, PointColumns::of_a_run);
+  write_points_vtk(folder / "section.vtp", quads_of(residual.pass.mesh), residual.pass.points, PointColumns::of_a_run);
   write_whole_file(folder / "residual.json", json_text(out, 2) + "\n");
 }
 

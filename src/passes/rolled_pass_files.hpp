@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "passes/pass_files.hpp"
+#include "passes/rolled_series.hpp"
 #include "passes/rolled_way.hpp"
 #include "passes/run_residual.hpp"
 
@@ -17,15 +18,9 @@ struct PassRoll {
   double from = 0, to = 0;  ///< m, the steady stations
 };
 
-/// Of the contact in the middle of a pass's end.
-struct PassContact {
-  double traction = 0, creepage = 0;  ///< F_x over F_z on the wheel; longitudinal
-  double p_max = 0;                   ///< Pa
-  double lateral = 0;                 ///< m, of the wheel, to the field side of the case's own place
-};
-
-/// Adds a pass to the series: its row, its points and their class.
-void add_rolled_pass(const PlasticSection& section, const PassContact& contact, RolledPass& pass, RolledSeries& series);
+/// passes.csv: its columns, and a row of it.
+std::vector<std::string> rolled_columns();
+std::vector<double> rolled_values(const PassRow& row, const PassContact& contact);
 
 void write_rolled_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                         const RolledSeries& series);
@@ -40,7 +35,7 @@ RolledSeries read_rolled_series(const std::filesystem::path& state, const std::f
 /// pass: the last one.
 void write_rolled_result(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                          const CaseSpec& spec, const PassRoll& roll, const RolledSeries& series, const RolledPass& pass,
-                         const std::vector<RolledLoop>& loops);
+                         const std::vector<PassLoop>& loops);
 
 /// residual.json of a single run, and where there is residual stress residual.csv and section.vtp.
 void write_run_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,

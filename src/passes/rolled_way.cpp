@@ -64,17 +64,17 @@ std::vector<Named> named_quads(const SweptBody& rail, Quad first) {
 
 }  // namespace
 
-std::vector<RolledLoop> rolled_loops(const RollingSystem& system, const Model& base, const PlasticSection& section,
-                                     const RolledPass& pass, const RolledRail& at) {
+std::vector<PassLoop> rolled_loops(const RollingSystem& system, const Model& base, const PlasticSection& section,
+                                   const RolledPass& pass, const RolledRail& at) {
   const PassPoint* most = governing(pass.points);
   if (!most) return {};
   const Body& rail = system.rail();
   const ContactPlane plane(base);
-  std::vector<RolledLoop> out;
+  std::vector<PassLoop> out;
   for (Named& named : named_quads(rail.mesh, section.quads[static_cast<std::size_t>(most - pass.points.data())])) {
     const Block& block = rail.mesh.blocks[named.quad.block];
     const Vec2 from = centre_of(block.section, named.quad.quad) - plane.point;
-    RolledLoop loop{std::move(named.name), dot(from, plane.across), dot(from, plane.into), {}, {}};
+    PassLoop loop{std::move(named.name), dot(from, plane.across), dot(from, plane.into), {}, {}};
     for (int e = block.stations.elements(); e-- > 0;) {
       const double x = 0.5 * (block.stations.at[e] + block.stations.at[e + 1]) - at.wheel;
       if (x > at.ahead || x < -at.behind) continue;

@@ -29,7 +29,7 @@ class RolledPasses {
 
   /// The next pass; the series advances. None if it was stopped on the way. Throws as solve_fem.
   struct Pass : RolledPass {
-    std::vector<RolledLoop> loops;
+    std::vector<PassLoop> loops;
   };
   std::optional<Pass> next(RolledSeries& series, const RunObserver& observer, const FemOptions& options,
                            std::optional<RunState> begun = {}) const;

@@ -1,0 +1,34 @@
+#pragma once
+// What passes.json has by either method.
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "case/case_fwd.hpp"
+#include "passes/pass_point.hpp"
+
+namespace railstrata {
+
+/// The row of the last pass, but for its number; null for what is not finite.
+nlohmann::ordered_json last_pass_json(const std::vector<std::string>& columns, const std::vector<double>& row);
+
+/// How many points there are of each class. points: the last passes of each; whole: the class of the series.
+nlohmann::ordered_json points_json(const std::vector<std::vector<PassStrain>>& points, PassClass whole);
+
+/// Passes until the ductility [equivalent strain] is used up, and between which two numbers that lies; null: never by
+/// this law. reached: the largest |E^p| so far; cycles of `cycle` passes.
+nlohmann::ordered_json ductility_json(double ductility, double reached, const std::vector<PassStrain>& cycles,
+                                      int cycle);
+
+/// A zone of the rail: 0 the rail itself, then its layers from the surface down.
+struct ZoneTop {
+  int zone = 0;
+  double top = 0;  ///< m below the surface
+};
+nlohmann::ordered_json zones_json(const CaseSpec& spec, const std::vector<ZoneTop>& zones);
+
+/// Where the points are whose loops are in loops.csv.
+nlohmann::ordered_json loops_json(const std::vector<PassLoop>& loops);
+
+}  // namespace railstrata

@@ -1,0 +1,56 @@
+#include "passes/pass_series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "passes/pass_files.hpp"
+
+namespace railstrata {
+
+void add_pass(const PassRow& pass, const PassResult& result, PassSeries& series) {
+  const std::size_t points = result.accumulated.size();
+  series.points.resize(points);
+  series.begun.resize(points);
+  const bool whole = pass.pass % series.cycle == 0;
+  PassStrain largest;
+  for (std::size_t n = 0; n < points; ++n) {
+    std::array<double, 7>& begun = series.begun[n];
+    const std::array<double, 6>& strain = result.plastic_strain[n];
+    begun[6] += result.accumulated[n];
+    if (!whole) continue;
+    double change[6];
+    for (std::size_t c = 0; c < 6; ++c) change[c] = strain[c] - begun[c];
+    std::vector<PassStrain>& point = series.points[n];
+    remember_pass({begun[6], std::sqrt(double_contraction(change, change))}, point);
+    largest.accumulated = std::max(largest.accumulated, point.back().accumulated);
+    largest.net = std::max(largest.net, point.back().net);
+    std::copy(strain.begin(), strain.end(), begun.begin());
+    begun[6] = 0;
+  }
+  series.strains.push_back(pass.largest);
+  if (whole) series.cycles.push_back(largest);
+  series.table.push_back(stationary_values(pass, whole ? std::optional(largest) : std::nullopt));
+}
+
+PassVerdict verdict_of(const PassSeries& series) {
+  PassVerdict verdict = classify(series.cycles);
+  verdict.rate /= series.cycle;
+  return verdict;
+}
+
+void remember_pass(const PassStrain& strain, std::vector<PassStrain>& passes) {
+  if (passes.size() == kPointPasses) passes.erase(passes.begin());
+  passes.push_back(strain);
+}
+
+PassStanding standing_of(const PassVerdict& verdict, const std::vector<PassStrain>& strains, const PassRow& last) {
+  PassStanding out{verdict, last};
+  for (std::size_t n = 0; n < strains.size(); ++n) {
+    out.ever_yielded = out.ever_yielded || strains[n].accumulated > 0;
+    if (strains[n].accumulated >= kNoFlow) out.first_quiet = static_cast<int>(n) + 2;
+  }
+  return out;
+}
+
+}  // namespace railstrata
