@@ -85,20 +85,20 @@ ContactArrays::ContactArrays(Device& device, const RollingSystem& sys, double dt
   ContactTables& t = tables_;
   t.rail = rail_.view();
   t.wheel = wheel_.view();
-  t.law = row_law(o, dt);
-  t.penalty = o.penalty;
-  t.max_sweeps = o.max_sweeps;
-  t.tolerance = o.tolerance;
-  t.half_length = search.half_length;
-  t.gap_limit = search.gap;
+  t.enforcement.law = row_law(o, dt);
+  t.enforcement.penalty = o.penalty;
+  t.enforcement.max_sweeps = o.max_sweeps;
+  t.enforcement.tolerance = o.tolerance;
+  t.search.half_length = search.half_length;
+  t.search.gap = search.gap;
   t.inner = rail.columns - 2;
   t.apart = mortar_law::independent_distance(rail, wheel);
   const double radius = smallest_radius(wheel);
-  t.reach = 1.05 * search.half_length / radius;
+  t.search.reach = 1.05 * search.half_length / radius;
   t.window = most_stations(rail.stations.at, 2 * search.half_length) + 1;
   constexpr int kMore = 8;  // stations beyond the reach, to both sides
-  t.band =
-      std::min(static_cast<int>(std::ceil(2 * t.reach / finest(wheel.stations.at))) + kMore, wheel.stations.nodes());
+  t.band = std::min(static_cast<int>(std::ceil(2 * t.search.reach / finest(wheel.stations.at))) + kMore,
+                    wheel.stations.nodes());
   t.patch = nodes_across(coarsest(across(rail)), finest(across(wheel))) *
             nodes_across(contact_facet(rail.stations.at), radius * finest(wheel.stations.at));
 
@@ -108,27 +108,27 @@ ContactArrays::ContactArrays(Device& device, const RollingSystem& sys, double dt
     array = {device, size};
     view = array.view();
   };
-  make(tractions_, t.tractions, nodes);
-  make(corrections_, t.corrections, 4 * nodes);
-  make(active_, t.active, nodes);
-  make(near_, t.near_nodes, slots);
-  make(edge_, t.at_edge, slots);
+  make(tractions_, t.kept.tractions, nodes);
+  make(corrections_, t.kept.corrections, 4 * nodes);
+  make(active_, t.kept.active, nodes);
+  make(near_, t.found.near, slots);
+  make(edge_, t.found.at_edge, slots);
   make(hits_, t.hits, 4 * (static_cast<std::size_t>(t.window) + 1) * static_cast<std::size_t>(rail.columns));
   make(rows_, t.rows, slots);
   make(weights_, t.weights, slots * static_cast<std::size_t>(t.patch));
   make(starts_, t.starts, slots);
   make(slips_, t.slips, slots);
   make(changes_, t.changes, std::max(slots, std::size_t{kRowNumbers}));
-  make(rail_before_, t.rail_before, slots);
-  make(rail_after_, t.rail_after, slots);
-  make(rail_force_, t.rail_force, slots);
-  make(rail_answer_, t.rail_answer, slots);
-  make(wheel_before_, t.wheel_before, band);
-  make(wheel_after_, t.wheel_after, band);
-  make(wheel_force_, t.wheel_force, band);
-  make(wheel_answer_, t.wheel_answer, band);
-  make(numbers_, t.numbers, kRowNumbers * slots);
-  make(parts_, t.parts, std::size_t{kRowNumbers} * kRowParts);
+  make(rail_before_, t.rail_nodes.before, slots);
+  make(rail_after_, t.rail_nodes.after, slots);
+  make(rail_force_, t.rail_nodes.force, slots);
+  make(rail_answer_, t.rail_nodes.answer, slots);
+  make(wheel_before_, t.wheel_nodes.before, band);
+  make(wheel_after_, t.wheel_nodes.after, band);
+  make(wheel_force_, t.wheel_nodes.force, band);
+  make(wheel_answer_, t.wheel_nodes.answer, band);
+  make(numbers_, t.totals.numbers, kRowNumbers * slots);
+  make(parts_, t.totals.parts, std::size_t{kRowNumbers} * kRowParts);
 }
 
 std::size_t ContactArrays::bytes() const {

@@ -44,40 +44,67 @@ struct RowRecord {
   int fault;
 };
 
-struct ContactTables {
-  SurfaceView rail, wheel;
+/// How the contact is enforced (contact/enforcement.hpp).
+struct EnforcementTables {
   RowLaw law;
   int penalty, max_sweeps;
-  double tolerance;               ///< m
-  double half_length, gap_limit;  ///< m, of the search
-  double reach;                   ///< rad, of the band before the axle
-  int inner;                      ///< columns of the rail that may be chosen
-  int apart;                      ///< contact/mortar.hpp: rows_apart()
-  int window, band, patch;        ///< room for: stations of the window, of the band; wheel nodes of a row
-  // kept from step to step
-  View<NodeTraction> tractions;   ///< [column * stations + station]
-  View<Tangential> corrections;   ///< of the rail's facets, [(station * columns + column) * 4 + Gauss point]
-  View<int> active;               ///< of the rail's facets: a chosen node is their corner
-  View<int> near_nodes, at_edge;  ///< by slot
+  double tolerance;  ///< m
+};
+
+/// Where it is searched.
+struct SearchLimits {
+  double half_length, gap;  ///< m
+  double reach;             ///< rad, of the band before the axle
+};
+
+/// What the search has found at the slots.
+struct FoundNodes {
+  View<int> near, at_edge;
+};
+
+/// What is kept from step to step.
+struct KeptContact {
+  View<NodeTraction> tractions;  ///< [column * stations + station]
+  View<Tangential> corrections;  ///< of the rail's facets, [(station * columns + column) * 4 + Gauss point]
+  View<int> active;              ///< of the rail's facets: a chosen node is their corner
+};
+
+/// Of the nodes of a surface in a step: velocities before and after it [m/s], forces [N], answers to an impulse [1/kg].
+struct SurfaceNodes {
+  View<Vec3> before, after, force;
+  View<double> answer;
+};
+
+/// What rows are summed of: [of kRowNumbers][slot], [of kRowNumbers][part].
+struct RowTotals {
+  View<double> numbers, parts;
+};
+
+struct ContactTables {
+  SurfaceView rail, wheel;
+  EnforcementTables enforcement;
+  SearchLimits search;
+  int inner;                ///< columns of the rail that may be chosen
+  int apart;                ///< contact/mortar.hpp: rows_apart()
+  int window, band, patch;  ///< room for: stations of the window, of the band; wheel nodes of a row
+  KeptContact kept;
+  FoundNodes found;
   // of a step
   View<mortar_law::Hit> hits;  ///< of the window's facets and a station before, as corrections
   View<RowRecord> rows;
   View<double> weights;  ///< m_AW, [slot * patch + station * columns + column]
   View<RowStart> starts;
   View<int> slips;
-  View<double> changes;  ///< m/s, of a sweep
-  View<Vec3> rail_before, rail_after, rail_force;
-  View<double> rail_answer;  ///< 1/kg
-  View<Vec3> wheel_before, wheel_after, wheel_force;
-  View<double> wheel_answer;
-  View<double> numbers, parts;  ///< what rows are summed of: [of kRowNumbers][slot], [of kRowNumbers][part]
+  View<double> changes;                  ///< m/s, of a sweep
+  SurfaceNodes rail_nodes, wheel_nodes;  ///< by slot; of the band
+  RowTotals totals;
 
   RAILSTRATA_POINTWISE int slots() const { return window * inner; }
   RAILSTRATA_POINTWISE int column_of(int slot) const { return slot % inner + 1; }
   RAILSTRATA_POINTWISE int station_of(int slot, const StepState& now) const { return now.window_first + slot / inner; }
   RAILSTRATA_POINTWISE Vec3 normal(int column) const { return {0, rail.outward[column].y, rail.outward[column].z}; }
   RAILSTRATA_POINTWISE NodeTraction& traction(int column, int station) const {
-    return tractions[static_cast<std::ptrdiff_t>(column) * rail.stations.nodes() + station];
+    return kept.tractions[static_cast<std::ptrdiff_t>(column) * rail.stations.nodes() + station];
   }
 };
 

@@ -56,10 +56,10 @@ RAILSTRATA_POINTWISE void make_ready(const RollingLaw& law, const ContactTables&
   constexpr int kMore = 3;
   const int ring = contact.wheel.stations.nodes();
   s.band_first =
-      (mortar_law::wheel_station(contact.wheel, s.on_wheel.psi - contact.reach, weight) - kMore + ring) % ring;
+      (mortar_law::wheel_station(contact.wheel, s.on_wheel.psi - contact.search.reach, weight) - kMore + ring) % ring;
   if (s.step % law.search_interval != 0) return;
   const double centre = contact.wheel.origin.x + s.pose.x - contact.rail.origin.x;
-  const mortar_law::Window window = mortar_law::window_around(contact.rail, centre, contact.half_length);
+  const mortar_law::Window window = mortar_law::window_around(contact.rail, centre, contact.search.half_length);
   s.window_first = window.first;
   s.window = std::min(window.stations, contact.window);
   if (window.stations > contact.window) s.fault = static_cast<int>(Fault::window_too_large);
@@ -85,8 +85,8 @@ struct BeginStep {
     record.time = s.time;
     record.step = s.step;
     record.axle = s.axle;
-    record.forces = s.forces;
-    record.largest_pressure = s.largest_pressure;
+    record.forces = s.contact.forces;
+    record.largest_pressure = s.contact.largest_pressure;
     record.balance = s.balance;
     record.reached_edge = s.reached_edge != 0;
     record.fault = s.fault;
@@ -121,8 +121,8 @@ struct FinishStep {
       book.spring = spring_energy(law.axle, s.axle.z, groups);
     }
     book.absorbed += dt * results[kAbsorbed];
-    book.friction += dt * s.losses.friction;
-    book.contact_normal += dt * s.losses.normal;
+    book.friction += dt * s.contact.losses.friction;
+    book.contact_normal += dt * s.contact.losses.normal;
     double kinetic = 0;
     if (measured) {
       const UpdateSums rail = sums_of(kRail), wheel = sums_of(kWheel);

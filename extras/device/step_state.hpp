@@ -16,6 +16,14 @@ enum class Fault : int {
   window_too_large
 };
 
+/// Of the contact in a step.
+struct ContactSums {
+  ContactForces forces;
+  ContactLosses losses;
+  double largest_pressure = 0;  ///< Pa
+  double largest_change = 0;    ///< m/s, of a sweep
+};
+
 struct StepState {
   // taken over from step to step
   double time = 0;
@@ -35,10 +43,7 @@ struct StepState {
   Rotation<double> turned;           ///< by on_wheel.psi
   int band_first = 0;                ///< station of the wheel where the band begins
   int window_first = 0, window = 0;  ///< stations of the rail that the last search looked at
-  // of the contact
-  ContactForces forces;
-  ContactLosses losses;
-  double largest_pressure = 0, largest_change = 0;
+  ContactSums contact;
 
   template <SweepKind kind>
   RAILSTRATA_POINTWISE const NodeStep& nodes() const {
