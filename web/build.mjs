@@ -5,11 +5,22 @@ import {build} from "esbuild";
 import {createHash} from "node:crypto";
 import {readdirSync, readFileSync, writeFileSync} from "node:fs";
 
-const script = {bundle: true, minify: true, format: "iife", target: ["chrome109", "firefox115", "safari16"],
-                legalComments: "none", charset: "utf8"};
+const script = {
+  bundle: true,
+  minify: true,
+  format: "iife",
+  target: ["chrome109", "firefox115", "safari16"],
+  legalComments: "none",
+  charset: "utf8"
+};
 await build({...script, entryPoints: {report: "src/report/main.ts", explore: "src/explore/main.ts"}, outdir: "dist"});
-await build({entryPoints: {report: "src/report/page.css", explore: "src/explore/explore.css"}, outdir: "dist",
-             minify: true, charset: "utf8"});
+await build({
+  entryPoints: {report: "src/report/page.css", explore: "src/explore/explore.css"},
+  outdir: "dist",
+  bundle: true,
+  minify: true,
+  charset: "utf8"
+});
 const worker = await build({...script, entryPoints: ["src/explore/worker.ts"], write: false});
 const glue = readFileSync("dist/engine.js", "utf8");
 writeFileSync("dist/worker.js", `${glue}\n${worker.outputFiles[0].text}`);
@@ -19,8 +30,10 @@ for (const file of ["report.js", "explore.js", "worker.js"])
   if (/<\/script|<!--/i.test(readFileSync(`dist/${file}`, "utf8")))
     throw new Error(`dist/${file} holds a text that would end its script element`);
 
-const below = (folder) => readdirSync(folder, {recursive: true, withFileTypes: true}).filter((e) => e.isFile())
-                              .map((e) => `${e.parentPath ?? e.path}/${e.name}`).sort();
+const below = (folder) => readdirSync(folder, {recursive: true, withFileTypes: true})
+                              .filter((e) => e.isFile())
+                              .map((e) => `${e.parentPath ?? e.path}/${e.name}`)
+                              .sort();
 const sources = ["package.json", "package-lock.json", "tsconfig.json", "build.mjs", ...below("src")];
 const made = below("dist").filter((file) => !file.endsWith("sources.json"));
 const sha256 = (file) => createHash("sha256").update(readFileSync(file)).digest("hex");

@@ -183,6 +183,17 @@ class Explorer(unittest.TestCase):
         table = BROWSER.downloads / "layer_3mm_2E0-explored.csv"
         BROWSER.wait(table.exists, "the table is saved", 10)
         self.assertIn("x_m,y_m,p_Pa", table.read_text())
+        numbers = table.read_text().split("# numbers\n")[1].split("\n\n")[0].splitlines()
+        self.assertEqual(numbers[0], "number,value,unit")
+        shown = {path: (float(value), unit) for path, value, unit in (line.split(",") for line in numbers[1:])}
+        summary = json.loads(self.data("summary"))
+        for path, unit in (("contact/p_max_Pa", "Pa"), ("contact/contact_angle_rad", "rad"),
+                           ("contact/approach_m", "m"), ("stress/rail/subsurface/von_mises_max/value_Pa", "Pa")):
+            value = summary
+            for key in path.split("/"):
+                value = value[key]
+            self.assertAlmostEqual(shown[path][0], value, delta=1e-9 * abs(value), msg=path)
+            self.assertEqual(shown[path][1], unit)
         link = BROWSER.js("return location.href")
         self.assertIn("#h1=1.7&t=-0.1", link)
         BROWSER.driver.get("about:blank")

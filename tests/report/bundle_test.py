@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""web/dist is what web/src is built to, the report's page and the explorer's, and holds nothing that would leave a page.
-usage: bundle_test.py WEB_DIR"""
+"""web/dist is what web/src is built to, the report's page and the explorer's, and holds nothing that would leave a
+page. usage: bundle_test.py WEB_DIR"""
 import hashlib
 import json
 import pathlib
@@ -30,7 +30,7 @@ class Bundle(unittest.TestCase):
         self.assertNotIn("dependencies", manifest)
         self.assertEqual(set(manifest["devDependencies"]), {"esbuild", "typescript"})
         for file in (WEB / "src").rglob("*.ts"):
-            for name in re.findall(r'from "([^"]+)"', file.read_text()):
+            for name in re.findall(r'^(?:import|\}).* from "([^"]+)";$', file.read_text(), re.M):
                 self.assertTrue(name.startswith("."), f"{file.name}: {name}")
 
     def test_the_lock_names_versions_and_no_place_to_fetch_them_from(self):

@@ -982,7 +982,8 @@ class WholeStudy(Page):
 
     def test_a_chart_for_each_thickness_has_a_line_for_each_stiffness_and_the_plain_case(self):
         for n, thickness in [(1, "0.5 mm"), (2, "10 mm")]:
-            names = self.js("return document.getElementById(arguments[0]).drawn.data.map(t => t.name)", f"plot-lines-{n}")
+            names = self.js("return document.getElementById(arguments[0]).drawn.data.map(t => t.name)",
+                            f"plot-lines-{n}")
             self.assertEqual(names, ["E₁ = E₀, half-space", "E₁ = 1.5 E₀, half-space", "E₁ = 4 E₀, half-space"])
             wanted = [*self.rows("plain"), *(r for r in self.rows("grid") if r["layer.0.thickness"] == thickness)]
             for k, row in enumerate(wanted):

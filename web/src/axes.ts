@@ -6,7 +6,7 @@ import type {Span} from "./types";
 
 export interface Axis {
   title: string;
-  range: Span;       // of a logarithmic axis exponents of ten; from high to low: it grows the other way
+  range: Span;  // of a logarithmic axis exponents of ten; from high to low: it grows the other way
   log?: boolean;
   names?: string[];  // of the places 0, 1, 2, …
 }
@@ -36,12 +36,10 @@ function decadeMarks(low: number, high: number): Mark[] {
   const digits = high - low < 1.5 ? [1, 2, 3, 5] : [1];
   const first = Math.floor(low);
   const all = Array.from({length: Math.ceil(high) - first + 1}, (_, k) => first + k);
-  return all.flatMap((power) => digits.map((d) => ({
-                                             at: power + Math.log10(d),
-                                             text: Math.abs(power) < 4 ? minus(String(Number((d * 10 ** power).toPrecision(1))))
-                                                 : d === 1             ? powerOfTen(power)
-                                                                       : `${d} × ${powerOfTen(power)}`
-                                           })));
+  const plain = (v: number) => minus(String(Number(v.toPrecision(1))));
+  const text = (d: number, power: number) =>
+      Math.abs(power) < 4 ? plain(d * 10 ** power) : `${d === 1 ? "" : `${d} × `}${powerOfTen(power)}`;
+  return all.flatMap((power) => digits.map((d) => ({at: power + Math.log10(d), text: text(d, power)})));
 }
 
 /// `apart`: pixels from one mark to the next at least.

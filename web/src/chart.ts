@@ -22,8 +22,8 @@ export interface Curve {
   width?: number;  // of the line, px; 0: marks alone
   dash?: Dash;
   mark?: "dot"|"circle"|"square"|"cross";
-  halo?: string;    // below it and broader, to be seen on any colour
-  quiet?: boolean;  // not in the legend
+  halo?: string;                             // below it and broader, to be seen on any colour
+  quiet?: boolean;                           // not in the legend
   words?: (x: number, y: number) => string;  // of a point; none: it says nothing
 }
 
@@ -36,7 +36,10 @@ export interface Cells {
   scale: Scale;
   gap?: number;  // px, between them
   words: (column: number, row: number) => string;
-  letters?: (column: number, row: number) => {lines: string[]; colour: string} | null;
+  letters?: (column: number, row: number) => {
+    lines: string[];
+    colour: string
+  } | null;
 }
 
 export interface Chart {
@@ -102,7 +105,8 @@ function paintCells(c: CanvasRenderingContext2D, p: Plane, cells: Cells, theme: 
   const pixels = new Uint32Array(image.data.buffer);
   const colours = pixelsOf(cells.scale, theme);
   const [low, top] = cells.scale.range;
-  const columns = Array.from({length: wide}, (_, i) => cellAt(cells.x, p.x[0] + ((i + 0.5) / wide) * (p.x[1] - p.x[0])));
+  const columns =
+      Array.from({length: wide}, (_, i) => cellAt(cells.x, p.x[0] + ((i + 0.5) / wide) * (p.x[1] - p.x[0])));
   for (let j = 0; j < high; ++j) {
     const row = cells.z[cellAt(cells.y, p.y[1] + ((j + 0.5) / high) * (p.y[0] - p.y[1]))];
     if (!row) continue;
@@ -128,8 +132,10 @@ function cellAt(borders: number[], v: number): number {
   if (before(0) || !before(n)) return v === borders[n] ? n - 1 : -1;
   while (high - low > 1) {
     const middle = (low + high) >> 1;
-    if (before(middle)) high = middle;
-    else low = middle;
+    if (before(middle))
+      high = middle;
+    else
+      low = middle;
   }
   return low;
 }
@@ -150,8 +156,9 @@ function paintTiles(c: CanvasRenderingContext2D, p: Plane, cells: Cells, theme: 
     if (!words) return;
     c.fillStyle = words.colour;
     const line = 1.2 * theme.size;
-    words.lines.forEach((text, k) => c.fillText(
-        text, 0.5 * (left + right), 0.5 * (top + bottom) + line * (k - 0.5 * (words.lines.length - 1))));
+    words.lines.forEach(
+        (text, k) =>
+            c.fillText(text, 0.5 * (left + right), 0.5 * (top + bottom) + line * (k - 0.5 * (words.lines.length - 1))));
   }));
 }
 
@@ -164,15 +171,19 @@ function paintMark(c: CanvasRenderingContext2D, mark: NonNullable<Curve["mark"]>
       c.moveTo(x - dx, y - dy);
       c.lineTo(x + dx, y + dy);
     }
-  if (mark === "dot") c.fill();
-  else c.stroke();
+  if (mark === "dot")
+    c.fill();
+  else
+    c.stroke();
 }
 
 /// Of marks alone those whose middle is in the plane, all of them.
 function paintCurve(c: CanvasRenderingContext2D, drawn: Drawn, curve: Curve): void {
   const width = curve.width ?? 1.8;
-  const places = curve.x.map((_, k) => placeOf(drawn, curve, k)).map((p) => (p && (width || inside(drawn.plane, p)) ? p : null));
-  const strokes: [string, number][] = [...(curve.halo ? [[curve.halo, 1.9] as [string, number]] : []), [curve.colour, 0]];
+  const places =
+      curve.x.map((_, k) => placeOf(drawn, curve, k)).map((p) => (p && (width || inside(drawn.plane, p)) ? p : null));
+  const strokes: [string, number][] =
+      [...(curve.halo ? [[curve.halo, 1.9] as [string, number]] : []), [curve.colour, 0]];
   for (const [colour, more] of strokes) {
     c.strokeStyle = c.fillStyle = colour;
     c.lineJoin = "round";
@@ -236,9 +247,7 @@ export function paintChart(host: HTMLElement, chart: Chart, theme: Theme, width:
 
 let ruler: CanvasRenderingContext2D|null = null;
 /// To measure letters with.
-function measuring(): CanvasRenderingContext2D {
-  return ruler ??= document.createElement("canvas").getContext("2d")!;
-}
+function measuring(): CanvasRenderingContext2D { return ruler ??= document.createElement("canvas").getContext("2d")!; }
 
 // ---- words
 
@@ -246,8 +255,8 @@ function measuring(): CanvasRenderingContext2D {
 export interface Reading {
   words: string;
   place: Pixel;
-  curve: number;              // -1: a cell
-  point: [number, number];    // of the curve; column and row of the cell
+  curve: number;            // -1: a cell
+  point: [number, number];  // of the curve; column and row of the cell
 }
 
 /// Of a point of a curve; null where it is missing, hidden or out of sight.
@@ -271,7 +280,7 @@ export function inside(p: Plane, [x, y]: Pixel): boolean {
   return x >= p.left - near && x <= p.left + p.width + near && y >= p.top - near && y <= p.top + p.height + near;
 }
 
-const kReach = 24;     // px, from a pointer to a point of a line
+const kReach = 24;   // px, from a pointer to a point of a line
 const kReachOn = 8;  // where cells are below it
 
 /// What is nearest to a pointer: a point of a curve, else the cell below it.

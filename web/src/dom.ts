@@ -5,8 +5,10 @@ export function element<K extends keyof HTMLElementTagNameMap>(
     tag: K, attributes: Record<string, string> = {}, ...children: Child[]): HTMLElementTagNameMap[K] {
   const e = document.createElement(tag);
   for (const [name, value] of Object.entries(attributes))
-    if (name === "style") e.style.cssText = value;  // the page's policy allows no attribute of it
-    else e.setAttribute(name, value);
+    if (name === "style")
+      e.style.cssText = value;  // the page's policy allows no attribute of it
+    else
+      e.setAttribute(name, value);
   for (const child of children)
     if (child !== null) e.append(child);
   return e;

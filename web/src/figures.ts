@@ -1,5 +1,5 @@
-// Figures: a frame with title, plot, words and buttons for picture and data. Every figure knows how to draw itself for a
-// theme and a width, so that it can be drawn again when the theme changes or the page is printed.
+// Figures: a frame with title, plot, words and buttons for picture and data. Every figure knows how to draw itself for
+// a theme and a width, so that it can be drawn again when the theme changes or the page is printed.
 import {paintChart, type Chart, type Curve, type Drawn} from "./chart";
 import {download, element} from "./dom";
 import {Looker} from "./look";
@@ -64,8 +64,9 @@ export function frame(figure: Figure): HTMLElement {
   const plot = element("div", {class: "plot", id: `plot-${figure.id}`, role, "aria-label": figure.title});
   const one: Shown = {figure, plot, keys: element("div", {class: "keys"}), looker: null, drawn: null};
   shown.set(figure.id, one);
-  const csv = tool("CSV", "Save the numbers of this figure",
-                   () => download(`${figure.id}.csv`, csvText(figure.table(), [...origin, figure.title])));
+  const csv = tool(
+      "CSV", "Save the numbers of this figure",
+      () => download(`${figure.id}.csv`, csvText(figure.table(), [...origin, figure.title])));
   csv.dataset["csv"] = figure.id;
   const png = tool("PNG", "Save this figure as a picture", () => savePicture(one));
   png.dataset["png"] = figure.id;
@@ -73,8 +74,9 @@ export function frame(figure: Figure): HTMLElement {
   return element(
       "figure",
       {id: figure.id, class: figure.wide ? "wide" : ""},
-      element("div", {class: "head"}, element("h3", {}, figure.title), ...(figure.controls ?? []),
-              element("div", {class: "tools"}, ...tools)),
+      element(
+          "div", {class: "head"}, element("h3", {}, figure.title), ...(figure.controls ?? []),
+          element("div", {class: "tools"}, ...tools)),
       one.keys,
       plot,
       figure.words ? element("figcaption", {}, ...figure.words) : null,
@@ -87,8 +89,10 @@ function lookTools(one: Shown): HTMLElement[] {
     for (const button of tools) button.hidden = !looker.look.view;
     draw(one, lastTheme, one.plot.clientWidth);
   });
-  one.plot.setAttribute("aria-description", "Drag: a part large, double click: the whole again. Keys: arrows from " +
-                        "point to point, + and −, 0 for the whole, shift and arrows to move it.");
+  one.plot.setAttribute(
+      "aria-description",
+      "Drag: a part large, double click: the whole again. Keys: arrows from " +
+          "point to point, + and −, 0 for the whole, shift and arrows to move it.");
   const pan = tool("move", "Drag moves what is drawn large, and does not frame a part", () => {
     looker.pans = !looker.pans;
     pan.setAttribute("aria-pressed", String(looker.pans));
@@ -121,11 +125,14 @@ function keyOf(one: Shown, curve: Curve, k: number): HTMLElement {
   swatch.style.borderColor = curve.colour;
   swatch.style.borderTopStyle = kStrokes[curve.dash ?? "solid"];
   const there = !hidden.has(k);
-  const key = element("button", {type: "button", class: "key", "aria-pressed": String(there), title: "show or hide"},
-                      swatch, curve.name);
+  const key = element(
+      "button", {type: "button", class: "key", "aria-pressed": String(there), title: "show or hide"}, swatch,
+      curve.name);
   key.addEventListener("click", () => {
-    if (there) hidden.add(k);
-    else hidden.delete(k);
+    if (there)
+      hidden.add(k);
+    else
+      hidden.delete(k);
     one.looker!.forgetWords();
     draw(one, lastTheme, one.plot.clientWidth);
     one.keys.querySelectorAll("button")[[...one.keys.children].indexOf(key)]?.focus();
@@ -133,7 +140,8 @@ function keyOf(one: Shown, curve: Curve, k: number): HTMLElement {
   return key;
 }
 
-const inLegend = ({chart}: Drawn) => (chart.legend ? chart.curves.flatMap((c, k) => (c.quiet ? [] : [[c, k] as const])) : []);
+const inLegend = ({chart}: Drawn) =>
+    (chart.legend ? chart.curves.flatMap((c, k) => (c.quiet ? [] : [[c, k] as const])) : []);
 
 function draw(one: Shown, theme: Theme, space: number): void {
   const {figure, plot} = one;
@@ -145,7 +153,7 @@ function draw(one: Shown, theme: Theme, space: number): void {
   (plot as HTMLElement & {drawn?: Drawn}).drawn = one.drawn;  // for who asks the page from outside
   const focused = [...one.keys.children].indexOf(document.activeElement!);
   one.keys.replaceChildren(...inLegend(one.drawn).map(([curve, k]) => keyOf(one, curve, k)));
-  if (focused >= 0) (one.keys.children[focused] as HTMLElement|undefined)?.focus();
+  if (focused >= 0) (one.keys.children[focused] as HTMLElement | undefined)?.focus();
 }
 
 /// Draws everything on the page; `width` for print, else what the frame offers.
@@ -172,8 +180,10 @@ function wrapped(c: CanvasRenderingContext2D, texts: string[], apart: string, wi
   const lines: string[][] = [[]];
   for (const text of texts) {
     const line = lines[lines.length - 1];
-    if (line.length && c.measureText([...line, text].join(apart)).width > width) lines.push([text]);
-    else line.push(text);
+    if (line.length && c.measureText([...line, text].join(apart)).width > width)
+      lines.push([text]);
+    else
+      line.push(text);
   }
   return lines;
 }

@@ -4,14 +4,14 @@ import {cellReading, inside, pointReading, readingAt, type Drawn, type Look, typ
 import {element} from "./dom";
 import type {Span} from "./types";
 
-const kDrag = 5;       // px: less is a click
-const kTwice = 350;    // ms between two taps of one
+const kDrag = 5;        // px: less is a click
+const kTwice = 350;     // ms between two taps of one
 const kClosest = 1e-4;  // of the whole: nothing is drawn larger
 
 type View = NonNullable<Look["view"]>;
 
-const span = ([low, high]: Span, from: number, to: number): Span =>
-    [low + from * (high - low), low + to * (high - low)];
+const span =
+    ([low, high]: Span, from: number, to: number): Span => [low + from * (high - low), low + to * (high - low)];
 
 /// The part of what is seen between two shares of the plane's width and height (from below).
 function part(p: Plane, x: Span, y: Span): View { return {x: span(p.x, ...x), y: span(p.y, ...y)}; }
@@ -27,8 +27,9 @@ export class Looker {
   private tapped = 0;
   private readonly box = element("div", {class: "box", hidden: ""});
 
-  constructor(private readonly host: HTMLElement, private readonly drawn: () => Drawn | null,
-              private readonly draw: () => void) {
+  constructor(
+      private readonly host: HTMLElement, private readonly drawn: () => Drawn | null,
+      private readonly draw: () => void) {
     host.tabIndex = 0;
     host.addEventListener("pointerdown", (e) => this.down(e));
     host.addEventListener("pointermove", (e) => this.move(e));
@@ -87,8 +88,10 @@ export class Looker {
     if (this.fingers.has(event.pointerId)) return this.touch(event.pointerId, place);
     if (Math.hypot(place[0] - this.from[0], place[1] - this.from[1]) < kDrag) return;
     this.read(null);
-    if (this.pans || event.shiftKey) this.moveView(this.from, place);
-    else this.frame(this.from, place);
+    if (this.pans || event.shiftKey)
+      this.moveView(this.from, place);
+    else
+      this.frame(this.from, place);
   }
 
   private up(event: PointerEvent): void {
@@ -197,12 +200,18 @@ export class Looker {
         {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]};
     const step = steps[event.key];
     this.start = p;
-    if (step && event.shiftKey) this.moveView([0, 0], [-40 * step[0], 40 * step[1]]);
-    else if (step) this.read(this.next(drawn, step));
-    else if (event.key === "+") this.enlarge(1.5, middle);
-    else if (event.key === "-") this.enlarge(1 / 1.5, middle);
-    else if (event.key === "0" || event.key === "Escape") this.whole();
-    else return void (this.start = null);
+    if (step && event.shiftKey)
+      this.moveView([0, 0], [-40 * step[0], 40 * step[1]]);
+    else if (step)
+      this.read(this.next(drawn, step));
+    else if (event.key === "+")
+      this.enlarge(1.5, middle);
+    else if (event.key === "-")
+      this.enlarge(1 / 1.5, middle);
+    else if (event.key === "0" || event.key === "Escape")
+      this.whole();
+    else
+      return void (this.start = null);
     this.start = null;
     event.preventDefault();
   }
@@ -221,11 +230,13 @@ export class Looker {
   }
 }
 
-function nextPoint(drawn: Drawn, look: Look, last: Reading|null, [right, up]: [number, number], middle: Pixel): Reading|null {
+function nextPoint(drawn: Drawn, look: Look, last: Reading|null, [right, up]: [number, number], middle: Pixel): Reading|
+    null {
   const curves = drawn.chart.curves.flatMap((curve, n) => (curve.words && !look.hidden.has(n) ? [n] : []));
   if (!curves.length) return null;
   if (!last) return nearest(drawn, look, curves[0], middle);
-  if (up) return nearest(drawn, look, curves[(curves.indexOf(last.curve) - up + curves.length) % curves.length], last.place);
+  if (up)
+    return nearest(drawn, look, curves[(curves.indexOf(last.curve) - up + curves.length) % curves.length], last.place);
   const count = drawn.chart.curves[last.curve].x.length;
   for (let k = last.point[0] + right; k >= 0 && k < count; k += right) {
     const reading = pointReading(drawn, look, last.curve, k);

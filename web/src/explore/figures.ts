@@ -1,294 +1,273 @@
-// The page's figures: patch, centre line, stresses below. Millimetres and MPa.
+// The explorer's figures: patch, centre line, stresses below. Millimetres and MPa.
+import {stepOf} from "../axes";
+import type {Cells, Chart, Curve} from "../chart";
 import {element} from "../dom";
-import {colourAt, colourBar, Plot, prepare, roundUp, stepOf, theme, type Axis, type Theme} from "./canvas";
+import {columnEdges, rowEdges} from "../edges";
+import {drawAll, type DataTable, type Figure} from "../figures";
+import {magnitudeScale, signedScale, stateScale, type Scale} from "../scale";
+import {fixedText, numberText} from "../text";
+import {kLight, type Theme} from "../theme";
+import type {Span, Values} from "../types";
 import {numbersOf, type Answer, type SectionHead, type Slice} from "./types";
 
-const kStick = "#0072b2", kSlip = "#e69f00", kPressure = "#7a3b9a", kTraction = "#d55e00";
-
-/// What a figure shows: the state now, the one before the last change, the pinned one.
+/// What the figures show: the state now, the one before the last change, the pinned one.
 export interface Shown {
   now: Answer;
   before: Answer|null;
   pinned: Answer|null;
 }
 
-export interface Figure {
-  node: HTMLElement;
-  draw(shown: Shown|null): void;
-  /// Head and rows, of what is shown.
-  table(answer: Answer): string[][];
+let shown: Shown|null = null;
+
+/// Draws all figures anew.
+export function show(state: Shown|null): void {
+  shown = state;
+  drawAll(kLight);
 }
 
-/// A patch in millimetres: y from its middle column's cells, index column + columns * station.
+/// The next round number above, so that scales jump seldom.
+function roundUp(value: number): number {
+  if (!(value > 0)) return 1;
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * ([1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].find((f) => f * power >= value) ?? 10);
+}
+
+const scaled = (a: Answer, s: Slice, factor: number) => Array.from(numbersOf(a, s), (v) => factor * v);
+const largest = (values: number[]) => values.reduce((a, b) => Math.max(a, b), 0);
+const empty = (names: string[]): DataTable => ({names, rows: []});
+
+// ---- the patch
+
+/// A patch in millimetres: index column + columns * station.
 interface Grid {
-  x: Float64Array;
-  y: Float64Array;
-  dx: number;
-  dy: number;
-  stations: number;
-  columns: number;
-  of: (name: "p"|"q_x"|"q_y"|"slip_x"|"slip_y"|"state") => Float32Array;
+  x: number[];
+  y: number[];
+  of: (name: "p"|"q_x"|"q_y"|"slip_x"|"slip_y"|"state", factor?: number) => number[];
 }
 
-function gridOf(a: Answer): Grid|null {
-  const head = a.head.patch;
-  if (!head || head.stations === 0) return null;
-  const all = (s: Slice) => numbersOf(a, s);
-  const first = (slice: Slice, k: number) => 1e3 * (all(slice)[k] ?? 0);
-  // evenly spaced: single precision must leave no seams between cells
-  const spread = (n: number, low: number, high: number): [Float64Array, number] => {
-    const step = n > 1 ? (high - low) / (n - 1) : 1;
-    return [Float64Array.from({length: n}, (_, k) => low + k * step), Math.abs(step)];
+function gridOf(a: Answer|null|undefined): Grid|null {
+  const head = a?.head.patch;
+  if (!a || !head || head.stations === 0) return null;
+  const {stations, columns} = head;
+  const at = (slice: Slice, k: number) => 1e3 * (numbersOf(a, slice)[k] ?? 0);
+  // evenly spaced: of single precision
+  const spread = (n: number, low: number, high: number) =>
+      Array.from({length: n}, (_, k) => low + (n > 1 ? k / (n - 1) : 0) * (high - low));
+  return {
+    x: spread(stations, at(head.x, 0), at(head.x, columns * (stations - 1))),
+    y: spread(columns, at(head.y, 0), at(head.y, columns - 1)),
+    of: (name, factor = 1) => scaled(a, head[name], factor),
   };
-  const last = head.columns * (head.stations - 1);
-  const [x, dx] = spread(head.stations, first(head.x, 0), first(head.x, last));
-  const [y, dy] = spread(head.columns, first(head.y, 0), first(head.y, head.columns - 1));
-  return {x, y, dx, dy, stations: head.stations, columns: head.columns, of: (name) => all(head[name])};
 }
 
 interface Window {
-  x: [number, number];
-  y: [number, number];
+  x: Span;
+  y: Span;
 }
 
 /// Around all of the patches, to round numbers: it jumps seldom.
-function windowOf(grids: Grid[]): Window {
-  let low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-  for (const g of grids) {
-    const p = g.of("p");
-    for (let i = 0; i < g.stations; ++i)
-      for (let j = 0; j < g.columns; ++j)
-        if (p[j + g.columns * i]! > 0) {
-          low = [Math.min(low[0]!, g.x[i]!), Math.min(low[1]!, g.y[j]!)];
-          high = [Math.max(high[0]!, g.x[i]!), Math.max(high[1]!, g.y[j]!)];
-        }
-  }
-  if (!(low[0]! < high[0]!)) return {x: [-10, 10], y: [-10, 10]};
-  const half = (k: number) => 2 * Math.ceil((0.5 * (high[k]! - low[k]!) + 0.8) / 2);
-  const middle = (k: number) => Math.round(0.5 * (high[k]! + low[k]!));
-  const span = (k: number): [number, number] => [middle(k) - half(k), middle(k) + half(k)];
+function windowOf(grids: (Grid|null)[]): Window {
+  const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
+  for (const g of grids)
+    g?.of("p").forEach((p, k) => {
+      if (!(p > 0)) return;
+      const at = [g.x[Math.floor(k / g.y.length)], g.y[k % g.y.length]];
+      at.forEach((v, n) => [low[n], high[n]] = [Math.min(low[n], v), Math.max(high[n], v)]);
+    });
+  if (!(low[0] < high[0])) return {x: [-10, 10], y: [-10, 10]};
+  const span = (n: number): Span => {
+    const half = 2 * Math.ceil((0.5 * (high[n] - low[n]) + 0.8) / 2);
+    const middle = Math.round(0.5 * (high[n] + low[n]));
+    return [middle - half, middle + half];
+  };
   return {x: span(0), y: span(1)};
 }
 
-function frame(title: string, caption: string, extra: HTMLElement[] = []): [HTMLElement, HTMLCanvasElement] {
-  const canvas = element("canvas", {role: "img", "aria-label": title});
-  const head = element("div", {class: "head"}, element("h3", {}, title), ...extra);
-  return [
-    element("figure", {}, head, element("div", {class: "place"}, canvas), element("figcaption", {}, caption)), canvas
-  ];
-}
-
-/// A plot of the patch's plane: x rolling, y across, both to one scale as far as the width goes.
-function patchPlot(canvas: HTMLCanvasElement, w: Window): Plot|null {
-  const left = 56, right = 58, top = 8, bottom = 38;
-  const place = canvas.parentElement?.clientWidth ?? 0;
-  const wide = place - left - right;
-  if (wide < 60) return null;
-  const ratio = (w.y[1] - w.y[0]) / (w.x[1] - w.x[0]);
-  const height = Math.min(Math.max(wide * ratio, 120), 330);
-  const width = Math.min(wide, height / ratio);
-  const g = prepare(canvas, height + top + bottom);
-  if (!g) return null;
-  const box = {left, top, width, height: Math.min(height, width * ratio)};
-  return new Plot(
-      g, box, {low: w.x[0], high: w.x[1], title: "x rolling → [mm]"}, {low: w.y[0], high: w.y[1], title: "y [mm]"},
-      theme());
-}
-
-function cells(p: Plot, g: Grid, colour: (k: number) => string | null): void {
-  const w = p.box.width / (p.x.high - p.x.low) * g.dx, h = p.box.height / (p.y.high - p.y.low) * g.dy;
-  p.clip(() => {
-    for (let i = 0; i < g.stations; ++i)
-      for (let j = 0; j < g.columns; ++j) {
-        const c = colour(j + g.columns * i);
-        if (c === null) continue;
-        const x = p.atX(g.x[i]!), y = p.atY(g.y[j]!);
-        p.fill(c, x - w / 2, y - h / 2, x + w / 2, y + h / 2);
-      }
-  });
+/// A row for each column of cells; nothing outside the contact.
+function rowsOfPatch(g: Grid, values: number[], there: number[]): Values[] {
+  const at = (i: number, j: number) => j + g.y.length * i;
+  return g.y.map((_, j) => g.x.map((_x, i) => (there[at(i, j)] > 0 ? values[at(i, j)] : null)));
 }
 
 /// The border of what bears pressure, along the cells.
-function outline(p: Plot, g: Grid, colour: string, dash: number[] = []): void {
+function outline(g: Grid, dash: Curve["dash"], theme: Theme): Curve {
+  const p = g.of("p");
   const pressed = (i: number, j: number) =>
-      i >= 0 && j >= 0 && i < g.stations && j < g.columns && g.of("p")[j + g.columns * i]! > 0;
-  const hx = 0.5 * g.dx, hy = 0.5 * g.dy;
-  p.clip(() => {
-    p.g.strokeStyle = colour;
-    p.g.lineWidth = 1.5;
-    p.g.setLineDash(dash);
-    p.g.beginPath();
-    const side = (x0: number, y0: number, x1: number, y1: number) => {
-      p.g.moveTo(p.atX(x0), p.atY(y0));
-      p.g.lineTo(p.atX(x1), p.atY(y1));
-    };
-    for (let i = -1; i < g.stations; ++i)
-      for (let j = -1; j < g.columns; ++j) {
-        const x = i < 0 ? g.x[0]! : g.x[i]!, y = j < 0 ? g.y[0]! : g.y[j]!;
-        const here = pressed(i, j);
-        if (j >= 0 && here !== pressed(i + 1, j)) side(x + hx, y - hy, x + hx, y + hy);
-        if (i >= 0 && here !== pressed(i, j + 1)) side(x - hx, y + hy, x + hx, y + hy);
+      i >= 0 && j >= 0 && i < g.x.length && j < g.y.length && p[j + g.y.length * i] > 0;
+  const [ex, ey] = [columnEdges(g.x), columnEdges(g.y)];
+  const x: Values = [];
+  const y: Values = [];
+  for (let i = 0; i <= g.x.length; ++i)
+    for (let j = 0; j <= g.y.length; ++j) {
+      if (j < g.y.length && pressed(i - 1, j) !== pressed(i, j)) {
+        x.push(ex[i], ex[i], null);
+        y.push(ey[j], ey[j + 1], null);
       }
-    p.g.stroke();
-  });
-}
-
-function arrows(p: Plot, g: Grid, top: number): void {
-  const q_x = g.of("q_x"), q_y = g.of("q_y"), pressure = g.of("p");
-  const every = Math.max(1, Math.round(1.25 / g.dx));
-  const length = p.box.width / (p.x.high - p.x.low) * 1.15 * every * g.dx / top;
-  p.clip(() => {
-    p.g.strokeStyle = "rgba(255,255,255,0.9)";
-    p.g.lineWidth = 1.2;
-    for (let i = every >> 1; i < g.stations; i += every)
-      for (let j = every >> 1; j < g.columns; j += every) {
-        const k = j + g.columns * i;
-        const u = q_x[k]! * length, v = -q_y[k]! * length;
-        if (!(pressure[k]! > 0) || Math.hypot(u, v) < 2) continue;
-        const x = p.atX(g.x[i]!) - u / 2, y = p.atY(g.y[j]!) - v / 2;
-        const size = Math.min(4, 0.4 * Math.hypot(u, v)), angle = Math.atan2(v, u);
-        p.g.beginPath();
-        p.g.moveTo(x, y);
-        p.g.lineTo(x + u, y + v);
-        for (const turn of [2.6, -2.6]) {
-          p.g.moveTo(x + u, y + v);
-          p.g.lineTo(x + u + size * Math.cos(angle + turn), y + v + size * Math.sin(angle + turn));
-        }
-        p.g.stroke();
+      if (i < g.x.length && pressed(i, j - 1) !== pressed(i, j)) {
+        x.push(ex[i], ex[i + 1], null);
+        y.push(ey[j], ey[j], null);
       }
-  });
-}
-
-function fieldTable(a: Answer): string[][] {
-  const g = gridOf(a);
-  if (!g) return [];
-  const names = ["p", "q_x", "q_y", "slip_x", "slip_y", "state"] as const;
-  const fields = names.map((n) => g.of(n));
-  const rows = [["x_m", "y_m", "p_Pa", "q_x_Pa", "q_y_Pa", "slip_x_m_per_s", "slip_y_m_per_s", "state"]];
-  for (let i = 0; i < g.stations; ++i)
-    for (let j = 0; j < g.columns; ++j) {
-      const k = j + g.columns * i;
-      const at = [1e-3 * g.x[i]!, 1e-3 * g.y[j]!].map((v) => String(Number(v.toPrecision(6))));
-      rows.push([...at, ...fields.map((f) => String(Number(f[k]!.toPrecision(7))))]);
     }
-  return rows;
+  return {name: "", x, y, colour: theme.ink, width: 1.5, dash};
 }
 
-type Paint = (p: Plot, g: Grid, all: Grid[], colours: Theme) => void;
+/// Of the traction on the rail, from the middle of every so many cells.
+function arrows(g: Grid, top: number): Curve {
+  const [q_x, q_y, p] = [g.of("q_x", 1e-6), g.of("q_y", 1e-6), g.of("p")];
+  const dx = g.x.length > 1 ? Math.abs(g.x[1] - g.x[0]) : 1;
+  const every = Math.max(1, Math.round(1.25 / dx));
+  const length = (1.15 * every * dx) / top;
+  const x: Values = [];
+  const y: Values = [];
+  for (let i = every >> 1; i < g.x.length; i += every)
+    for (let j = every >> 1; j < g.y.length; j += every) {
+      const k = j + g.y.length * i;
+      const [u, v] = [q_x[k] * length, q_y[k] * length];
+      if (!(p[k] > 0) || Math.hypot(u, v) < 0.1 * dx * every) continue;
+      const [x1, y1] = [g.x[i] + 0.5 * u, g.y[j] + 0.5 * v];
+      const head = (side: number) =>
+          [x1 - 0.3 * (u * Math.cos(side) - v * Math.sin(side)), y1 - 0.3 * (v * Math.cos(side) + u * Math.sin(side))];
+      const [left, right] = [head(0.5), head(-0.5)];
+      x.push(x1 - u, x1, null, left[0], x1, right[0], null);
+      y.push(y1 - v, y1, null, left[1], y1, right[1], null);
+    }
+  return {name: "", x, y, colour: "#ffffff", halo: "#1b1f24", width: 1.2};
+}
 
-function patchFigure(title: string, caption: string, paint: Paint): Figure {
-  const [node, canvas] = frame(title, caption);
-  const draw = (s: Shown|null) => {
-    const g = s && gridOf(s.now);
-    if (!s || !g) return;
-    const ghost = s.before && gridOf(s.before), pinned = s.pinned && gridOf(s.pinned);
-    const all = [g, ...(ghost ? [ghost] : [])];
-    const p = patchPlot(canvas, windowOf([...all, ...(pinned ? [pinned] : [])]));
-    if (!p) return;
-    p.axes();
-    paint(p, g, all, p.colours);
-    if (ghost) outline(p, ghost, p.colours.ink);
-    if (pinned) outline(p, pinned, p.colours.ink, [2, 3]);
+function fieldTable(): DataTable {
+  const names = ["x_m", "y_m", "p_Pa", "q_x_Pa", "q_y_Pa", "slip_x_m_per_s", "slip_y_m_per_s", "state"];
+  const g = gridOf(shown?.now);
+  if (!g) return empty(names);
+  const fields = (["p", "q_x", "q_y", "slip_x", "slip_y", "state"] as const).map((name) => g.of(name));
+  const row = (k: number) => [1e-3 * g.x[Math.floor(k / g.y.length)], 1e-3 * g.y[k % g.y.length]];
+  return {names, rows: fields[0].map((_, k) => [...row(k), ...fields.map((f) => f[k])])};
+}
+
+/// What a map of the patch shows of it; with the state before for the scale.
+interface PatchLook {
+  values: (g: Grid) => number[];
+  scale: (grids: Grid[]) => Scale;
+  unit?: string;
+  words: (v: number) => string;
+  arrows?: boolean;
+}
+
+function patchFigure(id: string, title: string, words: (string|Node)[], look: PatchLook): Figure {
+  const chart = (theme: Theme): Chart|null => {
+    const g = gridOf(shown?.now);
+    if (!g) return null;
+    const [ghost, pinned] = [gridOf(shown!.before), gridOf(shown!.pinned)];
+    const window = windowOf([g, ghost, pinned]);
+    const z = rowsOfPatch(g, look.values(g), look.scale === states ? g.of("state") : g.of("p"));
+    const scale = look.scale([g, ...(ghost ? [ghost] : [])]);
+    const cells: Cells = {
+      x: columnEdges(g.x),
+      y: columnEdges(g.y),
+      at: {x: g.x, y: g.y},
+      z,
+      scale,
+      words: (i, j) => `x ${fixedText(g.x[i], 2)} mm, y ${fixedText(g.y[j], 2)} mm\n${look.words(z[j][i]!)}`,
+    };
+    return {
+      x: {title: "x rolling → [mm]", range: window.x},
+      y: {title: "y [mm]", range: window.y},
+      height: 330,
+      equal: true,
+      cells,
+      curves: [
+        ...(look.arrows ? [arrows(g, scale.range[1])] : []),
+        ...(ghost ? [outline(ghost, "solid", theme)] : []),
+        ...(pinned ? [outline(pinned, "dot", theme)] : []),
+      ],
+      bar: look.unit ? {unit: look.unit} : undefined,
+    };
   };
-  return {node, draw, table: fieldTable};
+  return {id, title, words, chart, table: fieldTable};
 }
 
-const largest = (values: Float32Array) => values.reduce((a, b) => Math.max(a, b), 0);
-
-export function pressureMap(): Figure {
-  return patchFigure(
-      "Pressure", "Line: the border of the patch before the last change; dotted: of the pin.", (p, g, all) => {
-        const top = roundUp(1e-6 * Math.max(...all.map((one) => largest(one.of("p")))));
-        const values = g.of("p");
-        cells(p, g, (k) => (values[k]! > 0 ? colourAt(1e-6 * values[k]! / top) : null));
-        colourBar(p, 0, top, "MPa");
-      });
-}
-
+const inMPa = (values: (g: Grid) => number[]) => ({
+  values,
+  scale: (grids: Grid[]) => magnitudeScale(roundUp(Math.max(...grids.map((g) => largest(values(g)))))),
+  unit: "MPa",
+});
 const sizes = (g: Grid) => {
-  const q_x = g.of("q_x"), q_y = g.of("q_y");
-  return q_x.map((v, k) => Math.hypot(v, q_y[k]!));
+  const q_y = g.of("q_y", 1e-6);
+  return g.of("q_x", 1e-6).map((v, k) => Math.hypot(v, q_y[k]));
 };
+const states = () => stateScale;
 
-export function tractionMap(): Figure {
-  return patchFigure("Traction on the rail", "Colour: size; arrows: direction.", (p, g, all) => {
-    const top = roundUp(1e-6 * Math.max(...all.map((one) => largest(sizes(one)))));
-    const values = sizes(g), pressure = g.of("p");
-    cells(p, g, (k) => (pressure[k]! > 0 ? colourAt(1e-6 * values[k]! / top) : null));
-    arrows(p, g, 1e6 * top);
-    colourBar(p, 0, top, "MPa");
-  });
+export function patchFigures(): Figure[] {
+  const pressure = {...inMPa((g) => g.of("p", 1e-6)), words: (v: number) => `p ${fixedText(v, 1)} MPa`};
+  const traction = {...inMPa(sizes), words: (v: number) => `|q| ${fixedText(v, 1)} MPa`, arrows: true};
+  const state = {values: (g: Grid) => g.of("state"), scale: states, words: (v: number) => (v === 2 ? "slip" : "stick")};
+  const entry = (kind: string) => element("span", {class: "entry"}, element("span", {class: `swatch ${kind}`}), kind);
+  return [
+    patchFigure(
+        "pressure", "Pressure", ["Line: the border of the patch before the last change; dotted: of the pin."],
+        pressure),
+    patchFigure("traction", "Traction on the rail", ["Colour: size; arrows: direction."], traction),
+    patchFigure("state", "Stick and slip", [entry("stick"), entry("slip")], state),
+  ];
 }
 
-export function stateMap(): Figure {
-  const figure = patchFigure("Stick and slip", "", (p, g) => {
-    const state = g.of("state");
-    cells(p, g, (k) => (state[k] === 0 ? null : state[k] === 1 ? kStick : kSlip));
-  });
-  const entry = (kind: string, words: string) =>
-      element("span", {class: "entry"}, element("span", {class: `swatch ${kind}`}), words);
-  figure.node.querySelector("figcaption")!.replaceChildren(entry("stick", "stick"), entry("slip", "slip"));
-  return figure;
-}
+// ---- the centre line
 
 interface Line {
-  x: Float32Array;
-  p: Float32Array;
-  q: Float32Array;
-}
-function centreOf(a: Answer): Line|null {
-  const head = a.head.patch;
-  if (!head) return null;
-  const of = (s: Slice, factor: number) => numbersOf(a, s).map((v) => factor * v);
-  return {x: of(head.centre_x, 1e3), p: of(head.centre_p, 1e-6), q: of(head.centre_q_x, 1e-6)};
+  x: number[];
+  p: number[];
+  q: number[];
 }
 
-function lineAxes(canvas: HTMLCanvasElement, x: Axis, y: Axis, height = 250): Plot|null {
-  const g = prepare(canvas, height);
-  if (!g) return null;
-  const width = canvas.parentElement!.clientWidth;
-  return new Plot(g, {left: 56, top: 8, width: width - 78, height: height - 48}, x, y, theme());
+function centreOf(a: Answer|null|undefined): Line|null {
+  const head = a?.head.patch;
+  if (!a || !head) return null;
+  return {x: scaled(a, head.centre_x, 1e3), p: scaled(a, head.centre_p, 1e-6), q: scaled(a, head.centre_q_x, 1e-6)};
 }
 
-export function centreLine(): Figure {
-  const [node, canvas] = frame("Centre line", "");
-  const entry = (style: string, words: string) =>
-      element("span", {class: "entry"}, element("span", {class: `stroke ${style}`}), words);
-  const pin = element("span", {}, "pin");
-  const pinEntry = element("span", {class: "entry"}, element("span", {class: "stroke pin"}), pin);
-  node.querySelector("figcaption")!.replaceChildren(
-      entry("p", "pressure"), entry("q", "|q_x|"), entry("bound", "f p"), entry("ghost", "before"), pinEntry);
-  const draw = (s: Shown|null) => {
-    const now = s && centreOf(s.now);
-    if (!s || !now) return;
-    pin.textContent = s.pinned?.name ?? "pin";
-    const before = s.before && centreOf(s.before), pinned = s.pinned && centreOf(s.pinned);
-    const all = [now, before, pinned].filter((l): l is Line => l !== null);
-    const reach = all.map((l) => l.x.filter((_, k) => l.p[k]! > 0)).filter((x) => x.length > 0);
-    const end = 2 * Math.ceil((Math.max(1, ...reach.map((x) => Math.max(-Math.min(...x), Math.max(...x)))) + 0.6) / 2);
-    const p = lineAxes(
-        canvas, {low: -end, high: end, title: "x rolling → [mm]"},
-        {low: 0, high: roundUp(1.02 * Math.max(...all.map((l) => largest(l.p)))), title: "MPa"});
-    if (!p) return;
-    p.axes();
-    const size = (l: Line) => l.q.map(Math.abs);
-    const friction = s.now.head.values["drive.friction_coefficient"] ?? 0;
-    for (const [l, dash] of [[before, [5, 4]], [pinned, [2, 3]]] as const)
-      if (l) {
-        p.line(l.x, l.p, p.colours.soft, 1.5, [...dash]);
-        p.line(l.x, size(l), p.colours.soft, 1.5, [...dash]);
-      }
-    p.line(now.x, now.p.map((v) => friction * v), p.colours.soft, 1, [1, 2]);
-    p.line(now.x, now.p, kPressure);
-    p.line(now.x, size(now), kTraction);
-  };
-  const table = (a: Answer) => {
-    const l = centreOf(a);
-    const rows = l ? [...l.x].map((x, k) => [x, l.p[k]!, l.q[k]!].map((v) => String(Number(v.toPrecision(7))))) : [];
-    return [["x_mm", "p_MPa", "q_x_MPa"], ...rows];
-  };
-  return {node, draw, table};
+function centreCurves(now: Line, theme: Theme): Curve[] {
+  const words = (name: string) => (x: number, y: number) => `x ${fixedText(x, 2)} mm\n${name} ${fixedText(y, 1)} MPa`;
+  const friction = shown!.now.head.values["drive.friction_coefficient"] ?? 0;
+  const [before, pinned] = [centreOf(shown!.before), centreOf(shown!.pinned)];
+  const size = (l: Line) => l.q.map(Math.abs);
+  const quiet = {colour: theme.soft, width: 1.5};
+  const both = (l: Line|null, dash: "dash"|"dot", name: string): Curve[] => (l ? [
+    {...quiet, name, x: l.x, y: l.p, dash, words: words(`p, ${name}`)},
+    {...quiet, name, x: l.x, y: size(l), dash, quiet: true, words: words(`|q_x|, ${name}`)},
+  ] : []);
+  const others = [...both(before, "dash", "before"), ...both(pinned, "dot", shown!.pinned?.name ?? "pin")];
+  return [
+    ...others,
+    {name: "f p", x: now.x, y: now.p.map((v) => friction * v), colour: theme.soft, width: 1, dash: "dot"},
+    {name: "pressure", x: now.x, y: now.p, colour: "#7a3b9a", width: 2, words: words("p")},
+    {name: "|q_x|", x: now.x, y: size(now), colour: "#d55e00", width: 2, words: words("|q_x|")},
+  ];
 }
+
+export function centreFigure(): Figure {
+  const chart = (theme: Theme): Chart|null => {
+    const now = centreOf(shown?.now);
+    if (!now) return null;
+    const all = [now, centreOf(shown!.before), centreOf(shown!.pinned)].filter((l): l is Line => l !== null);
+    const reach = all.flatMap((l) => l.x.filter((_, k) => l.p[k] > 0)).map(Math.abs);
+    const end = 2 * Math.ceil((Math.max(1, largest(reach)) + 0.6) / 2);
+    return {
+      x: {title: "x rolling → [mm]", range: [-end, end]},
+      y: {title: "MPa", range: [0, roundUp(1.02 * Math.max(...all.map((l) => largest(l.p))))]},
+      height: 202,
+      grid: true,
+      legend: true,
+      curves: centreCurves(now, theme),
+    };
+  };
+  const table = (): DataTable => {
+    const l = centreOf(shown?.now);
+    const names = ["x_mm", "p_MPa", "q_x_MPa"];
+    return l ? {names, rows: l.x.map((x, k) => [x, l.p[k], l.q[k]])} : empty(names);
+  };
+  return {id: "centre-line", title: "Centre line", chart, table};
+}
+
+// ---- stresses below
 
 type Measure = "von_mises"|"tau_xz"|"sigma_1";
 const kMeasures: Record<Measure, string> = {
@@ -308,22 +287,17 @@ export function measureChoice(changed: () => void): Choice {
   return {node, value: () => node.value as Measure};
 }
 
-/// Borders of rows from their centres: the first begins at the surface.
-function borders(depth: Float32Array): number[] {
-  const out = [0];
-  for (const d of depth) out.push(2 * d - out[out.length - 1]!);
-  return out;
-}
-
 interface Below {
-  along: Float32Array;
-  depth: Float32Array;
-  values: Float32Array;
+  along: number[];
+  depth: number[];
+  rows: number[][];
 }
-function belowOf(a: Answer, head: SectionHead|undefined, measure: Measure): Below|null {
-  if (!head) return null;
-  const of = (s: Slice, factor: number) => numbersOf(a, s).map((v) => factor * v);
-  return {along: of(head.along, 1e3), depth: of(head.depth, 1e3), values: of(head[measure], 1e-6)};
+function belowOf(a: Answer|null|undefined, which: "section"|"cross", measure: Measure): Below|null {
+  const head: SectionHead|undefined = a?.head[which];
+  if (!a || !head) return null;
+  const [along, depth, values] =
+      [scaled(a, head.along, 1e3), scaled(a, head.depth, 1e3), scaled(a, head[measure], 1e-6)];
+  return {along, depth, rows: depth.map((_, r) => values.slice(r * along.length, (r + 1) * along.length))};
 }
 
 /// Depths of the rail's interfaces, mm.
@@ -332,101 +306,92 @@ function interfaces(a: Answer): number[] {
   return a.head.layers.filter((l) => l.on === "rail").map((l) => (depth += 1e3 * l.thickness));
 }
 
-function paintBelow(p: Plot, b: Below, top: number, signed: boolean): void {
-  const edge = borders(b.depth);
-  const n = b.along.length;
-  const dx = Math.abs(b.along[n - 1]! - b.along[0]!) / Math.max(1, n - 1);
-  const w = p.box.width / (p.x.high - p.x.low) * dx;
-  p.clip(() => {
-    for (let r = 0; r < b.depth.length; ++r)
-      for (let i = 0; i < b.along.length; ++i) {
-        const v = b.values[i + b.along.length * r]! / top;
-        const x = p.atX(Math.min(b.along[0]!, b.along[n - 1]!) + dx * (b.along[0]! <= b.along[n - 1]!? i : n - 1 - i));
-        p.fill(
-            colourAt(signed ? 0.5 + 0.5 * v : v, signed), x - w / 2, p.atY(edge[r]!), x + w / 2, p.atY(edge[r + 1]!));
-      }
-  });
-}
-
 /// Of the rail, through the patch's centre line or across it.
 export function sectionFigure(choice: Choice, which: "section"|"cross"): Figure {
   const along = which === "section";
-  const title = along ? "Stress below, along the rail" : "Stress below, across the rail";
-  const [node, canvas] = frame(title, "Lines: where a layer ends.", along ? [choice.node] : []);
-  const draw = (s: Shown|null) => {
-    const b = s && belowOf(s.now, s.now.head[which], choice.value());
-    if (!s || !b) return;
-    const edge = borders(b.depth), deepest = edge[edge.length - 1]!;
-    const window = windowOf([gridOf(s.now)].filter((g): g is Grid => g !== null));
+  const chart = (): Chart|null => {
+    const b = belowOf(shown?.now, which, choice.value());
+    if (!b) return null;
+    const window = windowOf([gridOf(shown!.now)]);
     const span = along ? window.x : window.y;
-    const p = lineAxes(
-        canvas, {low: span[0], high: span[1], title: along ? "x rolling → [mm]" : "y [mm]"},
-        {low: Math.min(deepest, span[1] - span[0]), high: 0, title: "depth [mm]"});
-    if (!p) return;
-    p.box.width -= 38;
+    const y = rowEdges(b.depth);
     const signed = choice.value() !== "von_mises";
-    const top = roundUp(b.values.reduce((m, v) => Math.max(m, Math.abs(v)), 0));
-    p.axes();
-    paintBelow(p, b, top, signed);
-    p.g.strokeStyle = signed ? "#1b1f24" : "#ffffff";
-    for (const d of interfaces(s.now))
-      p.clip(() => p.segment(p.box.left, p.atY(d), p.box.left + p.box.width, p.atY(d)));
-    colourBar(p, signed ? -top : 0, top, "MPa", signed);
+    const top = roundUp(largest(b.rows.flat().map(Math.abs)));
+    const place = (i: number, j: number) =>
+        `${along ? "x" : "y"} ${fixedText(b.along[i], 2)} mm, depth ${fixedText(b.depth[j], 2)} mm`;
+    return {
+      x: {title: along ? "x rolling → [mm]" : "y [mm]", range: span},
+      y: {title: "depth [mm]", range: [Math.min(y[y.length - 1], span[1] - span[0]), 0]},
+      height: 202,
+      cells: {
+        x: columnEdges(b.along),
+        y,
+        at: {x: b.along, y: b.depth},
+        z: b.rows,
+        scale: signed ? signedScale(top) : magnitudeScale(top),
+        words: (i, j) => `${place(i, j)}\n${kMeasures[choice.value()]} ${fixedText(b.rows[j][i], 1)} MPa`,
+      },
+      curves: interfaces(shown!.now).map((d) => ({
+                                           name: "",
+                                           x: span,
+                                           y: [d, d],
+                                           colour: signed ? "#1b1f24" : "#ffffff",
+                                           width: 1,
+                                         })),
+      bar: {unit: "MPa"},
+    };
   };
-  const table = (a: Answer) => {
-    const b = belowOf(a, a.head[which], choice.value());
-    if (!b) return [];
-    const rows = [[along ? "x_mm" : "y_mm", "depth_mm", `${choice.value()}_MPa`]];
-    b.values.forEach((v, k) => rows.push([
-      b.along[k % b.along.length]!, b.depth[Math.floor(k / b.along.length)]!, v
-    ].map((n) => String(Number(n.toPrecision(6))))));
-    return rows;
+  const table = (): DataTable => {
+    const names = [along ? "x_mm" : "y_mm", "depth_mm", `${choice.value()}_MPa`];
+    const b = belowOf(shown?.now, which, choice.value());
+    return b ? {names, rows: b.rows.flatMap((row, j) => row.map((v, i) => [b.along[i], b.depth[j], v]))} : empty(names);
   };
-  return {node, draw, table};
+  const [id, title] =
+      along ? ["section", "Stress below, along the rail"] : ["cross-section", "Stress below, across the rail"];
+  return {id, title, words: ["Lines: where a layer ends."], controls: along ? [choice.node] : [], chart, table};
 }
 
-/// The largest of each depth of the section along the rail.
-function overDepth(b: Below): Float32Array {
-  const n = b.along.length;
-  return b.depth.map((_, r) => {
-    let top = 0;
-    for (let i = 0; i < n; ++i) {
-      const v = b.values[i + n * r]!;
-      if (Math.abs(v) > Math.abs(top)) top = v;
-    }
-    return top;
-  });
-}
+/// The largest of each depth.
+const overDepth = (b: Below) => b.rows.map((row) => row.reduce((top, v) => (Math.abs(v) > Math.abs(top) ? v : top), 0));
 
 export function depthFigure(choice: Choice): Figure {
-  const [node, canvas] =
-      frame("Stress over depth", "Largest in the section along the rail. Dashed: before; dotted: pin.");
-  const draw = (s: Shown|null) => {
-    const now = s && belowOf(s.now, s.now.head.section, choice.value());
-    if (!s || !now) return;
-    const others = [s.before, s.pinned].map((a) => a && belowOf(a, a.head.section, choice.value()));
-    const all =
-        [now, ...others].filter((b): b is Below => b !== null).map((b) => ({depth: b.depth, top: overDepth(b)}));
-    const most = roundUp(Math.max(...all.map((l) => l.top.reduce((m, v) => Math.max(m, v), 0))));
-    const least = Math.min(0, ...all.map((l) => l.top.reduce((m, v) => Math.min(m, v), 0)));
-    const p = lineAxes(
-        canvas, {low: least < 0 ? -roundUp(-least) : 0, high: most, title: `${kMeasures[choice.value()]} [MPa]`},
-        {low: stepOf(Math.max(...now.depth), 4) * 4, high: 0, title: "depth [mm]"});
-    if (!p) return;
-    p.axes();
-    p.g.strokeStyle = p.colours.soft;
-    for (const d of interfaces(s.now))
-      p.clip(() => p.segment(p.box.left, p.atY(d), p.box.left + p.box.width, p.atY(d)));
-    others.forEach((b, k) => b && p.line(overDepth(b), b.depth, p.colours.soft, 1.5, k === 0 ? [5, 4] : [2, 3]));
-    p.line(overDepth(now), now.depth, kPressure);
+  const of = (a: Answer|null|undefined) => {
+    const b = belowOf(a, "section", choice.value());
+    return b && {depth: b.depth, top: overDepth(b)};
   };
-  const table = (a: Answer) => {
-    const b = belowOf(a, a.head.section, choice.value());
-    const top = b ? overDepth(b) : null;
-    return [
-      ["depth_mm", `${choice.value()}_MPa`],
-      ...(b && top ? [...b.depth].map((d, k) => [d, top[k]!].map((v) => String(Number(v.toPrecision(6))))) : [])
-    ];
+  const chart = (theme: Theme): Chart|null => {
+    const now = of(shown?.now);
+    if (!now) return null;
+    const others = ([[shown!.before, "dash"], [shown!.pinned, "dot"]] as const).flatMap(([a, dash]) => {
+      const line = of(a);
+      return line ? [{...line, dash}] : [];
+    });
+    const values = [now, ...others].flatMap((l) => l.top);
+    const least = Math.min(0, ...values);
+    const words = (v: number, depth: number) =>
+        `depth ${fixedText(depth, 2)} mm\n${kMeasures[choice.value()]} ${numberText(v)} MPa`;
+    const quiet = {name: "", colour: theme.soft, width: 1.5};
+    return {
+      x: {
+        title: `${kMeasures[choice.value()]} [MPa]`,
+        range: [least < 0 ? -roundUp(-least) : 0, roundUp(largest(values))]
+      },
+      y: {title: "depth [mm]", range: [4 * stepOf(Math.max(...now.depth), 4), 0]},
+      height: 202,
+      grid: true,
+      levels: interfaces(shown!.now),
+      curves: [
+        ...others.map(({depth, top, dash}): Curve => ({...quiet, x: top, y: depth, dash, words})),
+        {name: "", x: now.top, y: now.depth, colour: "#7a3b9a", width: 2, words},
+      ],
+    };
   };
-  return {node, draw, table};
+  const table = (): DataTable => {
+    const now = of(shown?.now);
+    const names = ["depth_mm", `${choice.value()}_MPa`];
+    return now ? {names, rows: now.depth.map((d, k) => [d, now.top[k]])} : empty(names);
+  };
+  const words =
+      ["Largest in the section along the rail. Dashed: before; dotted: pin; lines across: where a layer ends."];
+  return {id: "depth", title: "Stress over depth", words, chart, table};
 }

@@ -1,18 +1,9 @@
 // The explorer: sliders at the side, the contact that follows them.
 import {copy, download, element, embedded} from "../dom";
+import {csvText, frame, type Figure} from "../figures";
 import {controls} from "./controls";
 import {Engine} from "./engine";
-import {
-  centreLine,
-  depthFigure,
-  measureChoice,
-  pressureMap,
-  sectionFigure,
-  stateMap,
-  tractionMap,
-  type Figure,
-  type Shown
-} from "./figures";
+import {centreFigure, depthFigure, measureChoice, patchFigures, sectionFigure, show, type Shown} from "./figures";
 import {lasting, numbersCsv, table, tiles} from "./numbers";
 import {profiles, type Kind} from "./profiles";
 import {reportedAnswer} from "./reported";
@@ -44,11 +35,9 @@ const lastBox = element("div", {id: "lasting"});
 const noteBox = element("div", {});
 
 const choice = measureChoice(() => draw());
-const figures: [string, Figure][] = [
-  ["pressure", pressureMap()], ["traction", tractionMap()], ["state", stateMap()], ["centre-line", centreLine()],
-  ["depth", depthFigure(choice)], ["section", sectionFigure(choice, "section")],
-  ["cross-section", sectionFigure(choice, "cross")]
-];
+const patches = patchFigures();
+const lines = [centreFigure(), depthFigure(choice)];
+const sections = [sectionFigure(choice, "section"), sectionFigure(choice, "cross")];
 
 const engine = new Engine(seed, {answer: take, faults: showFaults, broken});
 
@@ -170,7 +159,7 @@ function askFrame(): void {
 }
 
 function draw(): void {
-  for (const [, figure] of figures) figure.draw(shown);
+  show(shown);
   if (!shown) return;
   const {now, pinned} = shown;
   tileBox.replaceChildren(...tiles(now, pinned, settled));
@@ -267,16 +256,13 @@ function copyCase(text: string): void {
 
 function csv(): void {
   if (!shown) return;
-  const join = (rows: string[][]) => rows.map((r) => r.join(",")).join("\n");
-  const a = shown.now;
+  const numbers = numbersCsv(shown.now);
   const parts = [
-    ["numbers", numbersCsv(a)],
-    ...figures.filter(([id]) => id !== "traction" && id !== "state")
-        .map(([id, f]) => [id === "pressure" ? "patch" : id, f.table(a)])
-  ] as [string, string[][]][];
-  const head = `# RailStrata ${seed.version}: ${state.command(a.request.cell)}\n`;
-  download(
-      `${seed.name || "case"}-explored.csv`, head + parts.map(([id, rows]) => `# ${id}\n${join(rows)}\n`).join("\n"));
+    csvText(numbers, ["numbers"]),
+    ...[patches[0], ...lines, ...sections].map((f) => csvText(f.table(), [f.id === "pressure" ? "patch" : f.id]))
+  ];
+  const head = `# RailStrata ${seed.version}: ${state.command(shown.now.request.cell)}\n`;
+  download(`${seed.name || "case"}-explored.csv`, head + parts.join("\n"));
 }
 
 function address(): void {
@@ -307,14 +293,12 @@ function build(): void {
           () => void copy(state.command(cell), say, "Command line")),
       button("CSV", "numbers, patch, lines and sections", csv),
       reported ? null : button("Link", "copy a link to this state", address));
-  const maps = element("div", {class: "grid three"}, ...figures.slice(0, 3).map(([, f]) => f.node));
-  const lines = element("div", {class: "grid two"}, ...figures.slice(3, 5).map(([, f]) => f.node));
-  const below = element("div", {class: "grid two"}, ...figures.slice(5).map(([, f]) => f.node));
+  const grid = (kind: string, all: Figure[]) => element("div", {class: `grid ${kind}`}, ...all.map(frame));
   const aside = element("aside", {}, cellChoice(), side.node, profileBox.node);
   const head = element("div", {class: "first"}, tileBox, faultBox);
   const results = element(
-      "div", {class: "results"}, maps, lines, below, element("h2", {}, "Does it last?"), lastBox,
-      element("h2", {}, "Numbers"), numberBox, noteBox);
+      "div", {class: "results"}, grid("three", patches), grid("two", lines), grid("two", sections),
+      element("h2", {}, "Does it last?"), lastBox, element("h2", {}, "Numbers"), numberBox, noteBox);
   const about = element(
       "p", {class: "note"}, `RailStrata ${seed.version}, the program's own half-space engine in this page: `,
       "nothing is sent anywhere. The numbers are those of ", element("code", {}, "railstrata bem"), ".");

@@ -1,15 +1,5 @@
 // Inside a report: its own result as a state to compare with.
-import type {Answer, SectionHead, Seed, Slice, Summary} from "./types";
-
-/// Numbers, centre line, border of the patch and largest stresses over depth of a result, SI (src/explore/page.cpp).
-export interface Reported {
-  summary: Summary;
-  x: number[];
-  p: number[];
-  q_x: number[];
-  patch?: {stations: number; columns: number; x: [number, number]; y: [number, number]; pressed: string};
-  section?: Record<"depth"|"von_mises"|"tau_xz"|"sigma_1", number[]>;
-}
+import type {Answer, SectionHead, Seed, Slice} from "./types";
 
 /// As an answer that has a centre line, where the pressure is, and one stress a depth; null outside of a report.
 export function reportedAnswer(seed: Seed): Answer|null {

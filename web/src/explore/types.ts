@@ -1,6 +1,15 @@
 // What the program puts into the page (src/explore/page.cpp), and what the engine answers (src/explore/solve.hpp).
+import type {Summary} from "../types";
 
-import type {Reported} from "./reported";
+/// Numbers, centre line, border of the patch and largest stresses over depth of a result, SI (src/explore/page.cpp).
+export interface Reported {
+  summary: Summary;
+  x: number[];
+  p: number[];
+  q_x: number[];
+  patch?: {stations: number; columns: number; x: [number, number]; y: [number, number]; pressed: string};
+  section?: Record<"depth"|"von_mises"|"tau_xz"|"sigma_1", number[]>;
+}
 
 export interface Seed {
   case: string;                   // text of the case file
@@ -60,34 +69,6 @@ export interface LayerHead {
   on: string;
   thickness: number;
   graded: boolean;
-}
-
-export interface StressMaximum {
-  value_Pa: number;
-  x_m: number|null;
-  y_m: number|null;
-  depth_m: number|null;
-}
-export type Zone = Record<"von_mises_max"|"sigma1_max", StressMaximum|null>|null;
-
-export interface ZoneFactors {
-  zone: string;
-  depth_m: number|null;
-  factors: Record<string, number|null>;
-  verdict: string;
-}
-
-export interface Summary {
-  title: string;
-  contact: Record<string, number|null>;
-  patches?: Record<string, number|null>[];
-  stress: Record<string, Record<string, Zone>>;
-  damage: Record<string, number|null>;
-  shakedown?: {
-    factors: Record<string, number|null>; verdict: string; governing: {body: string; zone: string; depth_m: number};
-    bodies:
-        {body: string; verdict: string; factors: Record<string, number|null>; zones: ZoneFactors[]; notes: string[]}[];
-  };
 }
 
 export interface Head {

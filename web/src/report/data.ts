@@ -223,6 +223,7 @@ export interface PassesSummary {
   verdict?: string;
   law?: string;
   class: string;
+  points?: Record<string, number>;  // of each class, in their order
   passes_per_cycle?: number;
   net_strain_per_pass: number|null;
   trend?: number|null;

@@ -17,13 +17,13 @@ import {
   type Plane
 } from "../canvas";
 import {element} from "../dom";
+import {columnEdges} from "../edges";
 import {frame, type DataTable, type Painted} from "../figures";
 import {magnitudeScale, rgb, stateScale, type Scale} from "../scale";
 import {fixedText} from "../text";
 import type {Theme} from "../theme";
 import type {BodyName, Values} from "../types";
 import {rowsOf, unpack, type Run} from "./data";
-import {columnEdges} from "./edges";
 import {
   contactY,
   hasTraction,

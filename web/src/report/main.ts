@@ -261,8 +261,7 @@ const passes = report.passes ? passesParts(report.passes) : [];
 const few = report.runs.length < 3 && !report.tables.length;
 const first = few ? [header(), glance, ...judgement] : [header(), ...judgement];
 const rest = few ? [] : [glance];
-const main =
-    element("main", {}, ...first, ...passes, ...studyParts(), chooser(), ...rest, stage, ...whatIfPart());
+const main = element("main", {}, ...first, ...passes, ...studyParts(), chooser(), ...rest, stage, ...whatIfPart());
 document.body.replaceChildren(main);
 document.documentElement.dataset.theme = isDark() ? "dark" : "light";
 showRuns();

@@ -1,11 +1,11 @@
 // Coloured maps with millimetres of equal length on both axes.
 import type {Cells, Chart, Curve, Dash} from "../chart";
+import {columnEdges} from "../edges";
 import type {DataTable, Plotted} from "../figures";
 import type {Scale} from "../scale";
 import {filled} from "../text";
 import type {Theme} from "../theme";
 import type {Span, Values} from "../types";
-import {columnEdges} from "./edges";
 
 export interface Line {
   x: Values;

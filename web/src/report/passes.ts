@@ -12,14 +12,18 @@ import {mapFigure, type Line, type Marker} from "./maps";
 /// What maps of a section take: of passes, or of a single run.
 export interface SectionStory {
   name: string;
-  summary: Pick<PassesSummary, "zones"|"loops">;
+  summary: Pick<PassesSummary, "zones"|"loops"|"points">;
   residual: Columns;
 }
 
-const kClasses = ["elastic shakedown", "plastic shakedown", "ratchetting", "no claim yet"];
-/// From good to bad and not known, told apart with any colour vision.
+/// Of the classes in their order, from good to bad and not known: told apart with any colour vision.
 const kClassFills = ["#0072b2", "#56b4e9", "#d55e00", "#b9bec5"];
 const kClassScale = kindScale(0, kClassFills.length, () => kClassFills);
+/// Words of the classes, by the number that residual.csv has: passes.json counts the points of each in their order.
+function classesOf(s: SectionStory): string[] {
+  const words = Object.keys(s.summary.points ?? {});
+  return kClassFills.map((_, k) => words[k] ?? `class ${k}`);
+}
 const several = (all: SectionStory[]) => all.length > 1;
 const called = (s: SectionStory, all: SectionStory[], words: string) => (several(all) ? `${words}: ${s.name}` : words);
 const strain = (v: number|null|undefined) => (v === 0 ? "0" : powerText(v));
@@ -246,8 +250,10 @@ function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: nu
     hover: q.hover,
     hoverY: "depth",
     bar: q.classes ? undefined : q.bar,
-    scale: q.classes ? kClassScale : q.signed ? signedScale(scale) : magnitudeScale(scale),
-    valueWords: q.classes ? kClasses : undefined,
+    scale: q.classes ? kClassScale
+        : q.signed   ? signedScale(scale)
+                     : magnitudeScale(scale),
+    valueWords: q.classes ? classesOf(s) : undefined,
     reversed: true,
     windowX: shown.across,
     windowY: [0, shown.foot],
@@ -258,7 +264,7 @@ function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: nu
 
 function classLegend(s: SectionStory): HTMLElement {
   const yielded = s.residual.class.filter((_, i) => s.residual.plastic_p[i] !== 0);
-  const there = kClasses.flatMap((name, k) => {
+  const there = classesOf(s).flatMap((name, k) => {
     if (!yielded.includes(k)) return [];
     const swatch = element("span", {class: "swatch", style: `background: ${kClassFills[k]}`});
     return [element("span", {class: "entry"}, swatch, name)];

@@ -1,4 +1,5 @@
 // The contact patch: maps of pressure, traction, slip and state, and the centre line.
+import {kColumns} from "../columns";
 import {element, table} from "../dom";
 import type {Figure} from "../figures";
 import {magnitudeScale, signedScale, stateScale} from "../scale";
@@ -95,7 +96,8 @@ export function patchWindow(patches: Patch[]): [x: Span, y: Span] {
   ];
 }
 
-/// Each from a cell's centre, as long as the traction on the rail is large; some fourteen across the window; the longest, of the traction `top`, reaches a little beyond the next.
+/// Each from a cell's centre, as long as the traction on the rail is large; some fourteen across the window. The
+/// longest, of the traction `top`, reaches a little beyond the next.
 export function tractionArrows(patch: Patch, [x, y]: [Span, Span], top: number): Arrow[] {
   const spacing = Math.max(x[1] - x[0], y[1] - y[0]) / 14;
   const cell = (at: number[]) => (at.length > 1 ? Math.abs(at[1] - at[0]) : spacing);
@@ -319,19 +321,19 @@ export function centreLines(runs: Run[]): Figure[] {
 
 /// The patches of wheels that touch at several places, a row each.
 export function patchesTable(runs: Run[]): HTMLElement|null {
-  const head = ["patch", "y of the rail", "angle", "F_x", "F_y", "F_z", "p_max", "area", "spin"];
-  const units = ["", "mm", "°", "kN", "kN", "kN", "MPa", "mm²", "rad/m"];
-  const keys = ["rail_y_m", "contact_angle_rad", "F_x_N", "F_y_N", "F_z_N", "p_max_Pa", "patch_area_m2", "spin_per_m"];
-  const factors = [1e3, 180 / Math.PI, 1e-3, 1e-3, 1e-3, 1e-6, 1e6, 1];
+  const keys = ["contact_angle_rad", "F_x_N", "F_y_N", "F_z_N", "p_max_Pa", "patch_area_m2", "spin_per_m"];
+  const columns = keys.map((key) => kColumns.find((c) => c.path === `contact/${key}`)!);
   const rows = runs.flatMap((run) => (run.summary.patches ?? []).map((patch, k) => {
     const numberOf = (path: string) => patch[path.replace("contact/", "")] ?? null;
-    const numbers = keys.map((key, n) => {
-      const value = withoutRoundOff(`contact/${key}`, patch[key] ?? null, numberOf);
-      return numberText(value === null ? null : factors[n] * value);
+    const numbers = columns.map(({path, unit}) => {
+      const value = withoutRoundOff(path, numberOf(path), numberOf);
+      return numberText(value === null ? null : unit.factor * value);
     });
-    return [`${runs.length > 1 ? `${runLabel(run)}, ` : ""}${k + 1}`, ...numbers];
+    const name = `${runs.length > 1 ? `${runLabel(run)}, ` : ""}${k + 1}`;
+    return [name, numberText(patch.rail_y_m === null ? null : 1e3 * patch.rail_y_m), ...numbers];
   }));
   if (!rows.length) return null;
-  const names = head.map((name, n) => (units[n] ? `${name} [${units[n]}]` : name));
-  return table("The patches share the load", names, rows, {class: "numbers", id: "patches"});
+  const names = columns.map(({label, unit}) => `${label} [${unit.shown}]`);
+  const head = ["patch", "y of the rail [mm]", ...names];
+  return table("The patches share the load", head, rows, {class: "numbers", id: "patches"});
 }

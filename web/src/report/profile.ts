@@ -14,12 +14,12 @@ import {
   type Pixel,
   type Plane
 } from "../canvas";
+import {columnEdges, rowEdges} from "../edges";
 import {rgb, type Scale} from "../scale";
 import {fixedText} from "../text";
 import {letters, type Theme} from "../theme";
 import type {BodyName, Span, Values} from "../types";
 import type {Geometry, Run} from "./data";
-import {columnEdges, rowEdges} from "./edges";
 
 /// A profile as a line over y, with the direction into its body.
 class Outline {
@@ -67,7 +67,8 @@ function turned(corners: Pixel[]): boolean {
 }
 
 /// The cells of a cross section: a row of values for each depth.
-export function cellsBelow(g: Geometry, body: BodyName, along: number[], depths: number[], values: Values[]): SectionCell[] {
+export function cellsBelow(
+    g: Geometry, body: BodyName, along: number[], depths: number[], values: Values[]): SectionCell[] {
   const outline = outlines(g)[body];
   const [y, depth] = [columnEdges(along), rowEdges(depths)];
   const out: SectionCell[] = [];

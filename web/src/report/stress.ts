@@ -1,12 +1,12 @@
 // Stresses below the surface: sections, depth lines, table of maxima.
 import type {Dash} from "../chart";
 import {table, type Cell} from "../dom";
+import {columnEdges, rowEdges} from "../edges";
 import type {Figure} from "../figures";
 import {magnitudeScale, signedScale} from "../scale";
 import {fixedText, numberText, percentText, powerText} from "../text";
 import type {BodyName, Span, StressMaximum, Values} from "../types";
 import {rowsOf, unpack, type Columns, type Run, type Section, type StressQuantity} from "./data";
-import {columnEdges, rowEdges} from "./edges";
 import {linesFigure, type Series} from "./lines";
 import {commonWindow, mapFigure, type Line, type MapSpec} from "./maps";
 import {contactY} from "./patch";
@@ -207,8 +207,7 @@ function depthLine(line: Columns, column: string): {x: Values; y: Values} {
 
 type Component = [column: string, name: string];
 
-function depthSeries(
-    run: Run, line: Columns, [column, name]: Component, n: number, dash: Dash, quiet = false): Series {
+function depthSeries(run: Run, line: Columns, [column, name]: Component, n: number, dash: Dash, quiet = false): Series {
   return {
     ...depthLine(line, column),
     name: `${name}, ${runLabel(run)}`,
