@@ -66,7 +66,7 @@ ExitCode run_and_report(const CommandOptions& options, const FemOptions& fem) {
 
 ExitCode command_run(const CommandOptions& options) {
   FemOptions fem;
-  const Control& asked = control_by_signals();
+  fem.control = &control_by_signals();
   fem.times.checkpoint_every = wall_time("--checkpoint-every", options.run.checkpoint_every);
   fem.times.limit = wall_time("--max-time", options.run.max_time);
   if (options.run.resume.empty() && options.case_file.empty())
@@ -75,7 +75,7 @@ ExitCode command_run(const CommandOptions& options) {
   MpiRanks mpi;
   fem.ranks = mpi.ranks();
   try {
-    if (mpi.any_asked(asked.stop)) throw Interrupted("stopped before the run began; nothing was written");
+    if (mpi.any_asked(fem.control->stop)) throw Interrupted("stopped before the run began; nothing was written");
     const ExitCode code = fem.ranks.speaks() ? run_and_report(options, fem) : run_along(options, fem);
     mpi.leave();
     return code;
