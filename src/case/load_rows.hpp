@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <string>
 
-#include "case/case_source.hpp"
 #include "case/case_fwd.hpp"
+#include "case/case_source.hpp"
 
 namespace railstrata {
 

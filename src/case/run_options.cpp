@@ -80,9 +80,8 @@ OptionTable run_table() {
        choice_at<&C::run, &R::precision>(
            "precision", "Element arithmetic while rolling; nodal values and the static preload are always double",
            {{"double", ArithmeticPrecision::double_precision}, {"single", ArithmeticPrecision::single_precision}}),
-       choice_at<&C::run, &R::device>(
-           "device", "Where steps of finite elements are computed (docs/gpu.md)",
-           {{"cpu", ComputeDevice::cpu}, {"gpu", ComputeDevice::gpu}}),
+       choice_at<&C::run, &R::device>("device", "Where steps of finite elements are computed (docs/gpu.md)",
+                                      {{"cpu", ComputeDevice::cpu}, {"gpu", ComputeDevice::gpu}}),
        option("preload_tolerance", at<&C::run, &R::preload_tolerance>, "Relative residual of the static equilibrium",
               kNumber, {1e-13, 0.1}),
        option("history_interval", at<&C::run, &R::history_interval>, "Rolling distance between rows of history.csv",

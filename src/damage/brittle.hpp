@@ -16,8 +16,8 @@ struct PrincipalPeak {
 
 struct BrittleZone {
   int zone = 0;
-  double thickness = 0;   ///< m, between its first and its last row; of the matrix as far as the section reaches
-  PrincipalPeak inside;   ///< of all its rows
+  double thickness = 0;  ///< m, between its first and its last row; of the matrix as far as the section reaches
+  PrincipalPeak inside;  ///< of all its rows
   std::optional<PrincipalPeak> surface;  ///< of the row at depth 0, if the zone has it
 };
 /// By zone, from the surface down.

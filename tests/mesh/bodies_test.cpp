@@ -235,7 +235,8 @@ TEST(WheelVolume, IsThatOfItsSectionRevolvedByPappus) {
   const auto ring = [](double inner, double outer, double width) {
     return 0.5 * width * (outer * outer - inner * inner);
   };
-  const double moment = ring_moment(rim) + ring(spec.section.hub_radius, 0.430 - spec.section.rim_thickness, spec.section.web_thickness) +
+  const double moment = ring_moment(rim) +
+                        ring(spec.section.hub_radius, 0.430 - spec.section.rim_thickness, spec.section.web_thickness) +
                         ring(spec.section.bore_radius, spec.section.hub_radius, spec.section.hub_width);
   EXPECT_NEAR(volume(wheel()) / (2 * std::numbers::pi * moment), 1.0, 0.005);
 }
