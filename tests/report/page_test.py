@@ -481,6 +481,13 @@ class Run(Page):
         self.assertAlmostEqual(float(told[2]), line["y"][k], delta=0.01 * line["y"][k])
         self.assertIn("half-space", told[3])
 
+    def test_the_marks_of_the_verdict_have_the_room_that_they_need(self):
+        self.js("document.querySelectorAll('#verdict details').forEach(d => d.open = true)")
+        for needed, there in self.js("return [...document.querySelectorAll('#verdict .mark')].map(m => [m.scrollWidth, "
+                                     "m.clientWidth])"):
+            self.assertGreater(there, 20)
+            self.assertLessEqual(needed, there + 1)
+
     def test_the_legend_hides_a_curve_and_shows_it_again(self):
         before = self.pixels("plot-history-forces")
         key = "document.querySelectorAll('#history-forces .keys button')[1]"

@@ -121,7 +121,7 @@ const kStrokes = {
 /// A curve in the legend: pressed it is not drawn, pressed again it is.
 function keyOf(one: Shown, curve: Curve, k: number): HTMLElement {
   const {hidden} = one.looker!.look;
-  const swatch = element("span", {class: curve.width === 0 ? "mark" : "stroke"});
+  const swatch = element("span", {class: curve.width === 0 ? "ring" : "stroke"});
   swatch.style.borderColor = curve.colour;
   swatch.style.borderTopStyle = kStrokes[curve.dash ?? "solid"];
   const there = !hidden.has(k);
