@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Holds every option that a string of src/ names ("a smaller run.step_safety") against the options that a case has.
+"""Holds every option that a string of src/ or extras/ names ("a smaller run.step_safety") against the options that a case has.
 
 usage: check_option_names.py RAILSTRATA SRC
 
@@ -59,9 +59,10 @@ def complaints(text, keys):
             yield f"{name} is never {word}: {', '.join(keys[key])}"
 
 
-def check(src, keys):
+def check(folders, keys):
     found, names = [], 0
-    for file in sorted(f for f in src.rglob("*") if f.suffix in {".hpp", ".cpp"}):
+    for file in sorted(f for folder in folders for f in folder.rglob("*")
+                       if f.suffix in {".hpp", ".cpp"} and "tests" not in f.relative_to(folder).parts):
         for line, text in texts_of(file.read_text()):
             names += any(key in text for key in keys)
             found += [f"{file}:{line}: {reason}" for reason in complaints(text, keys)]
@@ -87,11 +88,11 @@ def self_test():
 
 def main():
     self_test()
-    program, src = sys.argv[1], pathlib.Path(sys.argv[2])
+    program, folders = sys.argv[1], [pathlib.Path(word) for word in sys.argv[2:]]
     schema = json.loads(subprocess.run([program, "schema", "--json-schema"], capture_output=True, text=True,
                                        check=True).stdout)
-    found = check(src, keys_of(schema))
-    print("\n".join(found) or f"{src}: every option that a text names is there")
+    found = check(folders, keys_of(schema))
+    print("\n".join(found) or f"{', '.join(map(str, folders))}: every option that a text names is there")
     return 1 if found else 0
 
 

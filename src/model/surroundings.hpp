@@ -1,6 +1,6 @@
 #pragma once
 // The surroundings of a solved patch: how far the profiles turn over it, the nearest edges of bodies and layers, the
-// wheel's flange, and places outside of it where the bodies would touch as well. Warnings are made of it in post.
+// wheel's flange, and places outside of it where the bodies would touch as well. Warnings are made of it in judge.
 #include <optional>
 #include <string>
 
