@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks every #include of src/ against src/LAYERS: a room sees itself and the rooms on lines above its own, nothing
-else. Beside src/, extras/LAYERS says of each extra which floors of src/ it sees and which rooms see it. Every room has a
-card, README.md, whose first heading is the room's name; the files that a card names exist. Below the highest room
+else. Beside src/, extras/LAYERS says of each extra which floors of src/ it sees and which rooms see it. Every room has
+a card, README.md, whose first heading is the room's name; the files that a card names exist. Below the highest room
 nothing prints, logs, ends the program or touches signals: others can call it.
 
 usage: check_layers.py SRC

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Holds every option that a string of src/ or extras/ names ("a smaller run.step_safety") against the options that a case has.
+"""Holds every option that a string of src/ or extras/ names ("a smaller run.step_safety") against those of a case.
 
-usage: check_option_names.py RAILSTRATA SRC
+usage: check_option_names.py RAILSTRATA FOLDER...
 
 RAILSTRATA is the program: its `schema --json-schema` lists tables, keys and the words of choices.
 """

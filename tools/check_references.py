@@ -15,7 +15,8 @@ def main():
     root = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else ".")
     known = set(re.findall(r"^@\w+\{(\w+),", (root / "docs/references.bib").read_text(), re.M))
     missing = []
-    for file in sorted(f for place in ("src", "extras", "tests", "docs", "cases", "bench") for f in (root / place).rglob("*")):
+    places = ("src", "extras", "tests", "docs", "cases", "bench")
+    for file in sorted(f for place in places for f in (root / place).rglob("*")):
         if file.suffix not in {".hpp", ".cpp", ".md", ".toml"}:
             continue
         for number, line in enumerate(file.read_text().splitlines(), 1):

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""clang-tidy and cppcheck over src/ and extras/, shellcheck over the shell scripts, layout and size of all sources: what they find
-and a verdict.
+"""clang-tidy and cppcheck over src/ and extras/, shellcheck over the shell scripts, layout and size of all sources:
+what they find and a verdict.
 
 usage: lint.py [--jobs N] [--csv docs/reliability/lint.csv] [FILE.cpp ...]
 
@@ -31,8 +31,8 @@ BUILD = ROOT / "build-lint"
 PLACES = [ROOT / "src", ROOT / "extras"]
 FINDING = re.compile(r"^(\S+?):(\d+):(?:(\d+):)? (warning|error|style|performance|portability|note): (.*)$")
 SCRIPTS = ["railstrata", ".ci/run"]
-FORMATTED = ["src/**/*", "extras/**/*", "packaging/inside/*.cpp", "tests/**/*", "fuzz/**/*", "bench/**/*", "web/src/**/*",
-             "web/*"]
+FORMATTED = ["src/**/*", "extras/**/*", "packaging/inside/*.cpp", "tests/**/*", "fuzz/**/*", "bench/**/*",
+             "web/src/**/*", "web/*"]
 FORMATTED_SUFFIXES = statement_lines.CPP | statement_lines.SCRIPTS
 FORMAT_VERSION = "14."
 
@@ -78,8 +78,8 @@ def cppcheck(jobs):
     code, out, err = run("cppcheck", "--enable=warning,performance,portability", "--inline-suppr",
                          f"--suppressions-list={ROOT / 'tools/cppcheck.txt'}", "--std=c++20", "--language=c++",
                          "--library=googletest", "--template={file}:{line}:{column}: {severity}: {message} [{id}]",
-                         "--quiet", f"--cppcheck-build-dir={folder}", "-j", jobs, *(word for place in PLACES for word in ("-I", place)),
-                         *PLACES)
+                         "--quiet", f"--cppcheck-build-dir={folder}", "-j", jobs,
+                         *(word for place in PLACES for word in ("-I", place)), *PLACES)
     found = findings(err)
     if code and not found:
         found = {f"cppcheck failed: {(err or out).strip()}"}

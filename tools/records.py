@@ -12,8 +12,8 @@ def commit(root=ROOT):
         return subprocess.run(["git", "-C", str(root), *args], capture_output=True, text=True).stdout.strip()
 
     return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+"
-                                                                    if git("status", "--porcelain", "--", "src", "extras",
-                                                                           "tests", "cmake", "CMakeLists.txt") else "")
+                                                                    if git("status", "--porcelain", "--", "src",
+                                                                           "extras", "tests", "cmake", "CMakeLists.txt") else "")
 
 
 def rows_of(path):

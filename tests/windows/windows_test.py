@@ -255,8 +255,8 @@ class Contact(unittest.TestCase):
         driver = SOURCE / "tests/windows/contact_driver.c"
         with tempfile.TemporaryDirectory() as place:
             for compiler, program in ((COMPILER, "driver.exe"), ("gcc", "driver")):
-                subprocess.run([compiler, "-Wall", "-Werror", "-I", SOURCE / "extras", driver, "-o", f"{place}/{program}",
-                                *(["-ldl"] if compiler == "gcc" else [])], check=True)
+                subprocess.run([compiler, "-Wall", "-Werror", "-I", SOURCE / "extras", driver, "-o",
+                                f"{place}/{program}", *(["-ldl"] if compiler == "gcc" else [])], check=True)
             code, out, errors = wine(f"{place}/driver.exe", WINDOWS / "contact/contact_addon_win64.dll",
                                      input=lines.encode())
             self.assertEqual(code, 0, out + errors)
