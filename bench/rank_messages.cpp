@@ -1,6 +1,6 @@
 // Messages between two ranks of MPI: a ping-pong of plain sends (half of the way there and back), and the exchange that
-// a run makes of them (extras/mpi/plug_in.cpp, loaded as the program loads it), in bytes that a rank gives. Quantiles of
-// many, since other programs may have the cores.
+// a run makes of them (extras/mpi/plug_in.cpp, loaded as the program loads it), in bytes that a rank gives. Quantiles
+// of many, since other programs may have the cores.
 //
 // usage: mpirun -n 2 rank_messages PLUG_IN TIMES BYTES...
 #include <fmt/format.h>

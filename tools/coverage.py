@@ -38,9 +38,10 @@ def measure(rooms, jobs, ctest):
 
 
 def read(build, jobs):
-    done = subprocess.run(["gcovr", "--root", str(records.ROOT), "--filter",
-                           f"{records.ROOT}/(src|extras/[a-z]+/[a-z_]+[.])", "--exclude-throw-branches",
-                           "--exclude-unreachable-branches", "-j", str(jobs), "--json", "-", str(build)], cwd=records.ROOT, capture_output=True, text=True)
+    sources = f"{records.ROOT}/(src|extras/[a-z]+/[a-z_]+[.])"
+    done = subprocess.run(["gcovr", "--root", str(records.ROOT), "--filter", sources, "--exclude-throw-branches",
+                           "--exclude-unreachable-branches", "-j", str(jobs), "--json", "-", str(build)],
+                          cwd=records.ROOT, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"coverage: gcovr failed\n{done.stderr}")
     return json.loads(done.stdout)["files"]

@@ -11,9 +11,8 @@ def commit(root=ROOT):
     def git(*args):
         return subprocess.run(["git", "-C", str(root), *args], capture_output=True, text=True).stdout.strip()
 
-    return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+"
-                                                                    if git("status", "--porcelain", "--", "src",
-                                                                           "extras", "tests", "cmake", "CMakeLists.txt") else "")
+    changed = git("status", "--porcelain", "--", "src", "extras", "tests", "cmake", "CMakeLists.txt")
+    return (git("rev-parse", "--short=10", "HEAD") or "unknown") + ("+" if changed else "")
 
 
 def rows_of(path):
