@@ -198,6 +198,8 @@ function(railstrata_rooms variant wide_vectors)
     endforeach()
   endforeach()
 
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/LAYERS
+    ${CMAKE_SOURCE_DIR}/extras/LAYERS)
   set(extras "")
   file(STRINGS ${CMAKE_SOURCE_DIR}/extras/LAYERS lines REGEX "^[a-z]")
   foreach(line IN LISTS lines)
