@@ -154,7 +154,7 @@ function(railstrata_library_users folder level)
     railstrata_shared(railstrata_${user} railstrata-${user} ${folder} ${CMAKE_SOURCE_DIR}/cmake/${user}.map ${own_objects}
       ${plug_in_end})
     target_link_libraries(railstrata_${user} PRIVATE railstrata_library${installed_suffix} ${own_libraries}
-      ${ROOM_LIBS_core} ${ROOM_LIBS_io})
+      ${ROOM_LIBS_core} ${ROOM_LIBS_record})
   endforeach()
 endfunction()
 

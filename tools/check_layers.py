@@ -21,6 +21,9 @@ RESULTS = {"view.py", "compare.svg"}  # written by the program into its results
 FOLDERS = ("src/", "extras/", "tests/", "docs/", "tools/", "cases/", "web/src", "data/", "fuzz/", "cmake/", "bench/")
 LOUD = re.compile(r"\bspdlog\b|\bfmt::print\b|\bstd::(?:cout|cerr|clog)\b|\bf?(?:printf|puts)\(|\bstd(?:out|err)\b"
                   r"|\b_?exit\(|\babort\(|\b(?:signal|sigaction)\(")
+# SI prefixes and units are said in record/unit.hpp alone
+FACTOR = re.compile(r"\bconstexpr\b.*\bk(?:To)?(?:Milli|Micro|Nano|Mega|Kilo|Giga|Percent|Milli(?:metres?)|M(?:ega)?[Pp]a"
+                    r"(?:scals?)?|Degrees?)\s*=\s*[-\d.(]")
 LOUD_FILES = {"mpi/plug_in.cpp",  # the end of all ranks, where one has died
               "study/child_process.cpp",  # what a child does between fork and exec
               "cntc/message_file.cpp"}  # the screen, where a user of CONTACT's interface asks for it
@@ -134,6 +137,8 @@ def room_complaints(folder, levels, extras):
         word = loud_word(folder.name, file, line, level, max(levels.values()))
         if word:
             found.append(f"{file}:{number}: {folder.name} must not print, log, exit or handle signals: {word}")
+        if folder.name != "record" and FACTOR.search(line.split("//")[0]):
+            found.append(f"{file}:{number}: factors of units stand in record/unit.hpp alone")
         include = INCLUDE.match(line)
         reason = include and complaint(folder.name, include.group(1), levels, extras)
         if reason:
@@ -159,7 +164,7 @@ def test_includes():
             (src / room / "README.md").write_text(f"# {room}\n")
             (src / room / "a.hpp").write_text(f'#include <vector>\n#include "{room}/b.hpp"\n#include "{include}"\n')
         (src / "left" / "b.cpp").write_text('// puts("here")\nvoid f() { std::puts("there"); }\n')
-        (src / "top" / "b.cpp").write_text('void f() { std::puts("here"); }\n')
+        (src / "top" / "b.cpp").write_text('void f() { std::puts("here"); }\nconstexpr double kToMilli = 1e3;\n')
         found = check(src)
         expected = [
             'left must not include "right/a.hpp"',
@@ -167,6 +172,7 @@ def test_includes():
             'low must not include "top/a.hpp"',
             "stray: not a room",
             'top must not include "a.hpp"',
+            "b.cpp:2: factors of units",
         ]
         assert len(found) == len(expected) and all(e in f for e, f in zip(expected, found)), found
 

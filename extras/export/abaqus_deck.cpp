@@ -39,7 +39,7 @@ class DeckWriter {
   void body(const SolidBody& b, const char* name, long node0, long cell0) {
     add(out_, "*NODE, NSET=N_{}\n", name);
     for (std::size_t n = 0; n < b.points.size(); ++n) {
-      const Vec3 p = kMillimetres * b.points[n];
+      const Vec3 p = kToMilli * b.points[n];
       add(out_, "{}, {:.9g}, {:.9g}, {:.9g}\n", node0 + static_cast<long>(n) + 1, p.x, p.y, p.z);
     }
     for (std::size_t m = 0; m < b.materials.size(); ++m) elements(b, name, static_cast<int>(m), node0, cell0);
@@ -59,8 +59,8 @@ class DeckWriter {
       out_ += '\n';
     }
     const Elastic& m = b.materials[material];
-    add(out_, "*MATERIAL, NAME=M_{}\n*ELASTIC\n{:.9g}, {:.9g}\n*DENSITY\n{:.9g}\n", set, kMegapascals * young(m),
-        poisson(m), kTonnesPerCubicMillimetre * m.density);
+    add(out_, "*MATERIAL, NAME=M_{}\n*ELASTIC\n{:.9g}, {:.9g}\n*DENSITY\n{:.9g}\n", set, kToMega * young(m), poisson(m),
+        kTonnesPerCubicMetre * m.density);
     add(out_, "*SOLID SECTION, ELSET={}, MATERIAL=M_{}\n", set, set);
   }
 
@@ -79,7 +79,7 @@ class DeckWriter {
   void supports() {
     add(out_, "*NSET, NSET=FIXED\n");
     for (const long n : model_.rail.prescribed) add(out_, "{}\n", n + 1);
-    const Vec3 p = kMillimetres * model_.axle;
+    const Vec3 p = kToMilli * model_.axle;
     add(out_, "*NODE, NSET=AXLE\n{}, {:.9g}, {:.9g}, {:.9g}\n", axle(), p.x, p.y, p.z);
     add(out_, "*NSET, NSET=BORE\n");
     for (const long n : model_.wheel.prescribed) add(out_, "{}\n", rail_nodes() + n + 1);
@@ -95,8 +95,8 @@ class DeckWriter {
 
   void contact() {
     add(out_, "*SURFACE INTERACTION, NAME=RUNNING\n");
-    const double modulus = kMegapascals * young(model_.rail.materials.front()),
-                 stiffness = kStiffness * modulus / (kMillimetres * model_.element_size);
+    const double modulus = kToMega * young(model_.rail.materials.front()),
+                 stiffness = kStiffness * modulus / (kToMilli * model_.element_size);
     if (calculix())
       add(out_, "*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{:.6g}\n", stiffness);
     else
@@ -114,13 +114,13 @@ class DeckWriter {
   }
 
   void steps() {
-    const double push = kFirstPush * kMillimetres * model_.approach;
+    const double push = kFirstPush * kToMilli * model_.approach;
     add(out_, "** 1: the axle is moved down until the bodies touch\n*STEP, NLGEOM\n*STATIC\n1., 1.\n");
     add(out_, "*BOUNDARY\nAXLE, 3, 3, {:.9g}\n*END STEP\n", -push);
     add(out_, "** 2: it carries the load\n*STEP, NLGEOM, INC=200\n*STATIC\n1., 1.\n");
     add(out_, "*BOUNDARY, OP=NEW\nFIXED, 1, 3\nBORE, 1, 2\nAXLE, 1, 2\n");
     add(out_, "*CLOAD\nAXLE, 3, {:.9g}\n", -model_.axle_load);
-    add(out_, "*DLOAD\nALL, GRAV, {:.9g}, 0., 0., -1.\n", kMillimetres * model_.gravity);
+    add(out_, "*DLOAD\nALL, GRAV, {:.9g}, 0., 0., -1.\n", kToMilli * model_.gravity);
     output();
     add(out_, "*END STEP\n");
   }

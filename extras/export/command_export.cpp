@@ -14,9 +14,9 @@
 #include "export/contact_files.hpp"
 #include "export/dyna_deck.hpp"
 #include "export/export_readme.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
 #include "io/output_folder.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
 #include "runs/solve_half_space.hpp"
 
 namespace railstrata {

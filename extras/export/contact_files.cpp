@@ -36,24 +36,24 @@ struct Corner {
 };
 /// mm, of the grid in CONTACT's frame: smallest x and y.
 Corner low_corner(const PatchGrid& g) {
-  return {kMillimetres * (g.x0 - 0.5 * g.dx), -kMillimetres * (g.y(g.ny - 1) + 0.5 * g.dy)};
+  return {kToMilli * (g.x0 - 0.5 * g.dx), -kToMilli * (g.y(g.ny - 1) + 0.5 * g.dy)};
 }
 
 bool rolls(const CaseSpec& spec) { return spec.run.rolling && spec.drive.friction_coefficient > 0; }
 
-double shear_modulus(const MaterialSpec& m) { return 0.5 * kMegapascals * m.young / (1 + m.poisson); }
+double shear_modulus(const MaterialSpec& m) { return 0.5 * kToMega * m.young / (1 + m.poisson); }
 
 void add_heading(std::string& out, const CaseSpec& spec, const PatchGrid& g) {
   const double mx = g.nx, my = g.ny, friction = rolls(spec) ? spec.drive.friction_coefficient : 0;
   const Corner low = low_corner(g);
   const MaterialSpec &rail = spec.rail_material, &wheel = spec.wheel_material;
-  const double radius = kMillimetres * spec.geometry.wheel_radius;
+  const double radius = kToMilli * spec.geometry.wheel_radius;
   add_row(out, {0, 0, 0, 0, 0, 0, 0}, kFormat);
   add_row(out, {0, 0, 0, 0, 0, radius});
   add_row(out, {0, 0, 0, 0, 0, 0, 0, 1, 1});
-  add_row(out, {mx, my, low.x, low.y, kMillimetres * g.dx, kMillimetres * g.dy, 0, kMillimetres * g.dx});
+  add_row(out, {mx, my, low.x, low.y, kToMilli * g.dx, kToMilli * g.dy, 0, kToMilli * g.dx});
   add_row(out, {rolls(spec) ? 3.0 : 0.0, 0, shear_modulus(rail), shear_modulus(wheel), rail.poisson, wheel.poisson});
-  add_row(out, {0, 0, kMillimetres * spec.drive.speed, friction, friction});
+  add_row(out, {0, 0, kToMilli * spec.drive.speed, friction, friction});
 }
 
 void require_plain(const CaseSpec& spec) {
@@ -103,8 +103,8 @@ std::string contact_mat(const CaseSpec& spec, const Placement& placement, const 
     if (f.state[k] == ContactState::separated) return;
     const double slip = rolls(spec) ? std::hypot(f.slip_x[k], f.slip_y[k]) / spec.drive.speed : 0;
     add_row(out,
-            {static_cast<double>(number), static_cast<double>(f.state[k]), kMillimetres * gap[k], friction,
-             kMegapascals * f.p[k], kMegapascals * f.q_x[k], -kMegapascals * f.q_y[k], 0, 0, 0, slip},
+            {static_cast<double>(number), static_cast<double>(f.state[k]), kToMilli * gap[k], friction,
+             kToMega * f.p[k], kToMega * f.q_x[k], -kToMega * f.q_y[k], 0, 0, 0, slip},
             slip);
   });
   return out;
@@ -128,17 +128,17 @@ std::string contact_input(const CaseSpec& spec, const Placement& placement, cons
   add(out, " 0001341    H-G-I-A-O-W-R      HEAT, GAUSEI, IESTIM, MATFIL, OUTPUT, FLOW, RETURN\n");
   add(out, " 999  100  30  1  1e-6         MAXGS , MAXIN , MAXNR , MAXOUT, EPS\n");
   add(out, " {:.9g} {:.9g} {:.9g} {:.9g}   FN, CKSI, CETA, CPHI\n", patch.force.normal, -slip.x, slip.y,
-      slip.spin / kMillimetres);
+      slip.spin / kToMilli);
   add(out, " {:.6g} {:.6g}   FSTAT, FKIN\n", friction, friction);
-  if (rolling) add(out, " 0.0 {:.6g} {:.9g}   CHI, DQ, VELOC\n", kMillimetres * g.dx, kMillimetres * spec.drive.speed);
+  if (rolling) add(out, " 0.0 {:.6g} {:.9g}   CHI, DQ, VELOC\n", kToMilli * g.dx, kToMilli * spec.drive.speed);
   add(out, " {:.6g} {:.6g} {:.9g} {:.9g}   POISS 1,2, GG 1,2\n", rail.poisson, wheel.poisson, shear_modulus(rail),
       shear_modulus(wheel));
   add(out, " 1   IPOTCN\n {} {} {:.9g} {:.9g} {:.9g} {:.9g}   MX,MY,XL,YL,DX,DY\n", g.nx, g.ny, low.x, low.y,
-      kMillimetres * g.dx, kMillimetres * g.dy);
+      kToMilli * g.dx, kToMilli * g.dy);
   add(out, " 9 1   IBASE, IPLAN\n");
   const Plane gap = profile_gap(placement.wheel, placement.rail, placement.track, patch.contact, g).gap;
   each_cell(g, [&](int number, std::size_t k) {
-    add(out, " {:.9g}{}", kMillimetres * gap[k], number % g.nx == 0 || number % 8 == 0 ? "\n" : "");
+    add(out, " {:.9g}{}", kToMilli * gap[k], number % g.nx == 0 || number % 8 == 0 ? "\n" : "");
   });
   if (!extra.x.empty()) {
     add(out, "% EXRHS(I,2), EXRHS(I,3): variation of the rolling radius, local angle of spin\n");
@@ -164,10 +164,10 @@ std::string contact_stresses(const LayeredHalfSpace& rail, const BemPatch& patch
     for (int j = g.ny - 1; j >= 0; --j)
       for (int i = 0; i < g.nx; ++i) {
         const std::size_t k = g.index(i, j);
-        const Sym3 s = kMegapascals * interior.stress(plane, k);
-        for (const double v : {kMillimetres * g.x(i), -kMillimetres * g.y(j), kMillimetres * depth,
-                               kMillimetres * u.u_x[k], -kMillimetres * u.u_y[k], kMillimetres * u.u_z[k],
-                               (s.xx + s.yy + s.zz) / 3, von_mises(s), s.xx, -s.xy, s.xz, s.yy, -s.yz, s.zz})
+        const Sym3 s = kToMega * interior.stress(plane, k);
+        for (const double v :
+             {kToMilli * g.x(i), -kToMilli * g.y(j), kToMilli * depth, kToMilli * u.u_x[k], -kToMilli * u.u_y[k],
+              kToMilli * u.u_z[k], (s.xx + s.yy + s.zz) / 3, von_mises(s), s.xx, -s.xy, s.xz, s.yy, -s.yz, s.zz})
           add(out, "{:13.5g}", v);
         out += '\n';
       }

@@ -7,9 +7,11 @@
 #include <string>
 #include <utility>
 
+#include "record/unit.hpp"
+
 namespace railstrata {
 
-inline constexpr double kMillimetres = 1e3, kMegapascals = 1e-6, kTonnesPerCubicMillimetre = 1e-12;
+inline constexpr double kTonnesPerCubicMetre = 1e-12;  ///< of kg/m³ to t/mm³
 inline constexpr double kFirstPush = 0.6;  ///< of Hertz's approach: by which a deck's first step moves the axle down
 
 /// Appends a formatted text.

@@ -41,7 +41,7 @@ class DynaWriter {
   long axle() const { return rail_nodes() + static_cast<long>(model_.wheel.points.size()) + 1; }
 
   void node(long number, Vec3 at) {
-    const Vec3 p = kMillimetres * at;
+    const Vec3 p = kToMilli * at;
     add(out_, "{:8}{:16.8e}{:16.8e}{:16.8e}\n", number, p.x, p.y, p.z);
   }
   void nodes() {
@@ -59,8 +59,8 @@ class DynaWriter {
       const Elastic& e = b.materials[m];
       add(out_, "*PART\n{} {:.60}\n{:10}{:10}{:10}\n", name, one_line(b.material_names[m]), part, part, part);
       add(out_, "*SECTION_SOLID\n{:10}{:10}\n", part, model_.one_point ? 1 : -1);
-      add(out_, "*MAT_ELASTIC\n{:10}{:10.4g}{:10.6g}{:10.6g}\n", part, kTonnesPerCubicMillimetre * e.density,
-          kMegapascals * young(e), poisson(e));
+      add(out_, "*MAT_ELASTIC\n{:10}{:10.4g}{:10.6g}{:10.6g}\n", part, kTonnesPerCubicMetre * e.density,
+          kToMega * young(e), poisson(e));
     }
     out_ += "*ELEMENT_SOLID\n";
     for (std::size_t e = 0; e < b.cells.size(); ++e) {
@@ -105,9 +105,9 @@ class DynaWriter {
         2.0, 1.0);
     out_ += "$ the axle is moved down until the bodies touch, from time 1 on it carries the load\n";
     add(out_, "*BOUNDARY_PRESCRIBED_MOTION_RIGID\n{:10}{:10}{:10}{:10}{:10.3g}{:10}{:10.3f}{:10.3f}\n", parts_ + 1, 3,
-        2, kTouch, -kFirstPush * kMillimetres * model_.approach, 0, 1.0, 0.0);
+        2, kTouch, -kFirstPush * kToMilli * model_.approach, 0, 1.0, 0.0);
     add(out_, "*LOAD_RIGID_BODY\n{:10}{:10}{:10}{:10.7g}\n", parts_ + 1, 3, kLoad, -model_.axle_load);
-    add(out_, "*LOAD_BODY_Z\n{:10}{:10.7g}\n", kLoad, kMillimetres * model_.gravity);
+    add(out_, "*LOAD_BODY_Z\n{:10}{:10.7g}\n", kLoad, kToMilli * model_.gravity);
   }
 
   void contact() {

@@ -6,9 +6,9 @@
 #include "app/commands.hpp"
 #include "app/common_options.hpp"
 #include "app/control.hpp"
-#include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
+#include "record/output_file.hpp"
 #include "usetab/usetab.hpp"
 
 namespace railstrata {

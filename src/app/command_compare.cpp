@@ -13,13 +13,13 @@
 #include "app/common_options.hpp"
 #include "core/faults.hpp"
 #include "core/printable.hpp"
-#include "io/csv.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
+#include "record/csv.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
 #include "report/comparison_picture.hpp"
 #include "result/compare.hpp"
 #include "result/result_table.hpp"
@@ -29,33 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Quantity {
-  const char *name, *unit, *key, *path;  ///< for people; for JSON, in SI units; where summary.json has it
-  double scale;                          ///< SI to unit
-};
-constexpr Quantity kQuantities[] = {
-    {"p_max", "MPa", "p_max_Pa", "/contact/p_max_Pa", 1e-6},
-    {"q_max", "MPa", "q_max_Pa", "/contact/q_max_Pa", 1e-6},
-    {"patch length", "mm", "patch_length_m", "/contact/patch_length_m", 1e3},
-    {"patch width", "mm", "patch_width_m", "/contact/patch_width_m", 1e3},
-    {"patch area", "mm2", "patch_area_m2", "/contact/patch_area_m2", 1e6},
-    {"slip area fraction", "", "slip_area_fraction", "/contact/slip_area_fraction", 1},
-    {"F_x", "kN", "F_x_N", "/contact/F_x_N", 1e-3},
-    {"F_y", "kN", "F_y_N", "/contact/F_y_N", 1e-3},
-    {"F_z", "kN", "F_z_N", "/contact/F_z_N", 1e-3},
-    {"normal force in contact plane", "kN", "normal_force_N", "/contact/normal_force_N", 1e-3},
-    {"lateral force in contact plane", "kN", "lateral_force_N", "/contact/lateral_force_N", 1e-3},
-    {"creepage x", "1e-3", "creepage_x", "/contact/creepage_x", 1e3},
-    {"spin", "1/m", "spin_per_m", "/contact/spin_per_m", 1},
-    {"rail von Mises below surface", "MPa", "rail_subsurface_von_mises_Pa",
-     "/stress/rail/subsurface/von_mises_max/value_Pa", 1e-6},
-    {"its depth", "mm", "rail_subsurface_von_mises_depth_m", "/stress/rail/subsurface/von_mises_max/depth_m", 1e3},
-    {"rail von Mises at surface", "MPa", "rail_surface_von_mises_Pa", "/stress/rail/surface/von_mises_max/value_Pa",
-     1e-6},
-};
-
 struct Row {
-  const Quantity& quantity;
+  ResultColumn column;
   double a, b;         ///< SI
   double noise = 0;    ///< below it is what round-off leaves
   std::string of_a{};  ///< patch
@@ -70,10 +45,10 @@ struct Row {
 std::size_t patches_of(const ResultFolder& r) { return 1 + r.further.size(); }
 
 /// What a number of a result is of: "patch", "patch 1 of 2", "2 patches".
-std::string of_text(const ResultFolder& r, const ResultNumber* n) {
+std::string of_text(const ResultFolder& r, const ResultColumn& column) {
   const std::size_t patches = patches_of(r);
   if (patches == 1) return "patch";
-  return n && n->of_all_patches ? fmt::format("{} patches", patches) : fmt::format("patch 1 of {}", patches);
+  return column.of_all_patches ? fmt::format("{} patches", patches) : fmt::format("patch 1 of {}", patches);
 }
 
 double noise_of(const ResultFolder& r, const ResultNumber* n) {
@@ -81,12 +56,14 @@ double noise_of(const ResultFolder& r, const ResultNumber* n) {
   return round_off_size(n->round_off, [&](std::string_view path) { return r.number(std::string(path)); });
 }
 
+/// The columns of tables that either result has, but for the time it took.
 std::vector<Row> rows_of(const ResultFolder& a, const ResultFolder& b) {
   std::vector<Row> rows;
-  for (const Quantity& q : kQuantities) {
-    const ResultNumber* n = find_number(q.path);
-    rows.push_back({q, a.number(q.path), b.number(q.path), std::max(noise_of(a, n), noise_of(b, n)), of_text(a, n),
-                    of_text(b, n)});
+  for (const ResultColumn& c : table_columns()) {
+    const double of_a = a.number(c.path), of_b = b.number(c.path);
+    if (c.path.starts_with("/run/") || (std::isnan(of_a) && std::isnan(of_b))) continue;
+    const ResultNumber* n = find_number(c.path);
+    rows.push_back({c, of_a, of_b, std::max(noise_of(a, n), noise_of(b, n)), of_text(a, c), of_text(b, c)});
   }
   return rows;
 }
@@ -124,9 +101,10 @@ void print_table(const ResultFolder& a, const ResultFolder& b, const std::vector
   const bool several = patches_of(a) > 1 || patches_of(b) > 1;
   fmt::print("  {:<36} {:>12} {:>12} {:>12}{}\n", "", "A", "B", "(A-B)/|B|", several ? "  of" : "");
   for (const Row& r : rows) {
-    const Quantity& q = r.quantity;
-    fmt::print("  {:<36} {:>12} {:>12} {:>12}{}\n", fmt::format("{}{}{}", q.name, *q.unit ? ", " : "", q.unit),
-               number(q.scale * r.shown(r.a), "{:.4g}"), number(q.scale * r.shown(r.b), "{:.4g}"),
+    const Unit& unit = r.column.shown_unit;
+    fmt::print("  {:<36} {:>12} {:>12} {:>12}{}\n",
+               fmt::format("{}{}{}", r.column.title, unit.shown.empty() ? "" : ", ", unit.shown),
+               number(unit.factor * r.shown(r.a), "{:.4g}"), number(unit.factor * r.shown(r.b), "{:.4g}"),
                number(100 * r.relative(), "{:+.2f} %"), several ? fmt::format("  A: {}, B: {}", r.of_a, r.of_b) : "");
   }
   const auto field = [](const char* name, const FieldDifference& d) {
@@ -139,10 +117,6 @@ void print_table(const ResultFolder& a, const ResultFolder& b, const std::vector
   field("|q|", g.q);
 }
 
-nlohmann::ordered_json value(double v) {
-  return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
-}
-
 nlohmann::ordered_json as_json(const ResultFolder& a, const ResultFolder& b, const std::vector<Row>& rows,
                                const FieldComparison& g) {
   const auto side = [](const ResultFolder& r) {
@@ -151,13 +125,13 @@ nlohmann::ordered_json as_json(const ResultFolder& a, const ResultFolder& b, con
   };
   const auto field = [](const FieldDifference& d) {
     return nlohmann::ordered_json{
-        {"rms_relative", value(d.rms)}, {"largest_relative", value(d.largest)}, {"x_m", d.x}, {"y_m", d.y}};
+        {"rms_relative", json_number(d.rms)}, {"largest_relative", json_number(d.largest)}, {"x_m", d.x}, {"y_m", d.y}};
   };
   nlohmann::ordered_json out{{"a", side(a)}, {"b", side(b)}};
   for (const Row& r : rows)
-    out["numbers"][r.quantity.key] = {{"a", value(r.a)},
-                                      {"b", value(r.b)},
-                                      {"relative_difference", value(r.relative())},
+    out["numbers"][r.column.key()] = {{"a", json_number(r.a)},
+                                      {"b", json_number(r.b)},
+                                      {"relative_difference", json_number(r.relative())},
                                       {"of_a", r.of_a},
                                       {"of_b", r.of_b}};
   out["fields"] = {{"pressure", field(g.p)}, {"traction", field(g.q)}};
@@ -166,24 +140,29 @@ nlohmann::ordered_json as_json(const ResultFolder& a, const ResultFolder& b, con
 }
 
 std::string csv_text(const std::vector<Row>& rows) {
-  std::string out = "quantity,unit,a,b,relative_difference,of_a,of_b\n";
+  std::string out = "quantity,a,b,relative_difference,of_a,of_b\n";
   for (const Row& r : rows) {
-    const Quantity& q = r.quantity;
-    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{},{}\n", q.name, q.unit, q.scale * r.a, q.scale * r.b,
-                   r.relative(), r.of_a, r.of_b);
+    const ResultColumn& c = r.column;
+    fmt::format_to(std::back_inserter(out), "{},{},{},{},{},{}\n", c.name, c.factor * r.a, c.factor * r.b, r.relative(),
+                   r.of_a, r.of_b);
   }
   return out;
 }
 
 void write_fields(const fs::path& file, const std::vector<std::string>& origin, const FieldComparison& g) {
-  std::vector<CsvColumn> table{{"x_mm", {}},    {"y_mm", {}},    {"p_a_MPa", {}},
-                               {"p_b_MPa", {}}, {"q_a_MPa", {}}, {"q_b_MPa", {}}};
-  for (std::size_t k = 0; k < g.p_a.size(); ++k) {
-    const double row[] = {1e3 * g.x[k / g.y.size()], 1e3 * g.y[k % g.y.size()], 1e-6 * g.p_a[k],
-                          1e-6 * g.p_b[k],           1e-6 * g.q_a[k],           1e-6 * g.q_b[k]};
-    for (std::size_t c = 0; c < table.size(); ++c) table[c].values.push_back(row[c]);
-  }
-  write_csv(file, origin, table);
+  struct Point {
+    double x, y, p_a, p_b, q_a, q_b;
+  };
+  std::vector<Point> points;
+  for (std::size_t k = 0; k < g.p_a.size(); ++k)
+    points.push_back({g.x[k / g.y.size()], g.y[k % g.y.size()], g.p_a[k], g.p_b[k], g.q_a[k], g.q_b[k]});
+  write_csv(file, origin, points,
+            Columns<Point>{{"x", unit::kMillimetres, &Point::x},
+                           {"y", unit::kMillimetres, &Point::y},
+                           {"p_a", unit::kMPa, &Point::p_a},
+                           {"p_b", unit::kMPa, &Point::p_b},
+                           {"q_a", unit::kMPa, &Point::q_a},
+                           {"q_b", unit::kMPa, &Point::q_b}});
 }
 
 FieldComparison compare_fields_of(const ResultFolder& a, const ResultFolder& b) {

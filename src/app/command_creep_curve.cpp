@@ -12,6 +12,7 @@
 #include "core/faults.hpp"
 #include "io/output_folder.hpp"
 #include "many/creep_curve.hpp"
+#include "record/csv.hpp"
 #include "result/result_table.hpp"
 #include "runs/half_space_need.hpp"
 

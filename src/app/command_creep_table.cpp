@@ -9,6 +9,8 @@
 #include "app/common_options.hpp"
 #include "app/control.hpp"
 #include "app/option_values.hpp"
+#include "record/csv.hpp"
+#include "record/output_file.hpp"
 #include "study/creep_table_job.hpp"
 
 namespace railstrata {

@@ -10,8 +10,8 @@
 #include "app/option_values.hpp"
 #include "app/page_name.hpp"
 #include "explore/page.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 namespace {

@@ -17,7 +17,7 @@
 #include "device/card.hpp"
 #include "geometry/profile_names.hpp"
 #include "io/provenance.hpp"
-#include "io/this_process.hpp"
+#include "record/this_process.hpp"
 
 namespace railstrata {
 namespace {

@@ -15,10 +15,10 @@
 #include "case/units.hpp"
 #include "core/faults.hpp"
 #include "core/shell_word.hpp"
-#include "core/si_prefix.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
 #include "material/strain_claim.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
+#include "record/unit.hpp"
 #include "runs/material_fit.hpp"
 #include "runs/material_run.hpp"
 

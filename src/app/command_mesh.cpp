@@ -8,8 +8,8 @@
 #include "app/common_options.hpp"
 #include "app/mesh_report.hpp"
 #include "io/output_folder.hpp"
-#include "io/vtk.hpp"
 #include "mesh/unstructured.hpp"
+#include "record/vtk.hpp"
 
 namespace railstrata {
 namespace {

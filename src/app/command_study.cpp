@@ -16,7 +16,7 @@
 #include "app/shipped_files.hpp"
 #include "app/study_list.hpp"
 #include "core/faults.hpp"
-#include "io/json_text.hpp"
+#include "record/json.hpp"
 #include "study/study_job.hpp"
 
 namespace railstrata {

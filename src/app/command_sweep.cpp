@@ -19,6 +19,7 @@
 #include "many/each_case.hpp"
 #include "many/sweep.hpp"
 #include "many/sweep_page.hpp"
+#include "record/json.hpp"
 
 namespace railstrata {
 namespace {

@@ -10,7 +10,9 @@
 #include "app/option_values.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
-#include "io/json_text.hpp"
+#include "record/csv.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
 #include "study/wear_loop_job.hpp"
 
 namespace railstrata {

@@ -8,7 +8,7 @@
 #include <filesystem>
 
 #include "core/faults.hpp"
-#include "io/this_process.hpp"
+#include "record/this_process.hpp"
 
 namespace railstrata {
 namespace {

@@ -25,8 +25,8 @@
 #include "core/nearest_word.hpp"
 #include "core/parallel.hpp"
 #include "core/printable.hpp"
-#include "io/json_text.hpp"
 #include "io/provenance.hpp"
+#include "record/json.hpp"
 
 namespace railstrata {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <system_error>
 
-#include "io/this_process.hpp"
+#include "record/this_process.hpp"
 
 // Path of the data folder, seen from that of the program; the build gives the one it installs to.
 #ifndef RAILSTRATA_DATA_FROM_PROGRAM

@@ -12,7 +12,7 @@
 #include "app/option_values.hpp"
 #include "app/progress.hpp"
 #include "core/shell_word.hpp"
-#include "io/this_process.hpp"
+#include "record/this_process.hpp"
 #include "runs/half_space_need.hpp"
 #include "runs/memory_need.hpp"
 #include "runs/run_estimate.hpp"

@@ -44,9 +44,9 @@ std::string patches_text(const Summary& s) {
     out += fmt::format(
         "  patch {} at y = {} mm of the rail, {} mm of the wheel, at {}°: p_max {:.0f} MPa, F_x {}, normal force {}, "
         "lateral force {} kN, {:.1f} mm2, spin {} rad/m\n",
-        k + 1, fixed(1e3 * p.rail_y, 1), fixed(1e3 * p.wheel_y, 1),
-        fixed(result_unit::kDegrees.factor * c.contact_angle, 1), 1e-6 * c.patch.p_max, fixed(1e-3 * c.F_x, 2),
-        fixed(1e-3 * c.normal_force, 2), fixed(1e-3 * c.lateral_force, 2), 1e6 * c.patch.area, fixed(c.spin_per_m, 3));
+        k + 1, fixed(1e3 * p.rail_y, 1), fixed(1e3 * p.wheel_y, 1), fixed(unit::kDegrees.factor * c.contact_angle, 1),
+        1e-6 * c.patch.p_max, fixed(1e-3 * c.F_x, 2), fixed(1e-3 * c.normal_force, 2), fixed(1e-3 * c.lateral_force, 2),
+        1e6 * c.patch.area, fixed(c.spin_per_m, 3));
   }
   if (!out.empty())
     out +=
@@ -176,9 +176,9 @@ std::string name_of(const std::string& key) {
   return row ? std::string(row->name) : key;
 }
 
-const ResultUnit& unit_of(const std::string& key) {
+const Unit& unit_of(const std::string& key) {
   const CheckRow* row = find_check(key);
-  return row ? row->unit : result_unit::kNone;
+  return row ? row->unit : unit::kNone;
 }
 
 std::string checks_text(const Summary& s) {

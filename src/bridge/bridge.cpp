@@ -9,7 +9,7 @@
 #include "bridge/running_call.hpp"
 #include "core/faults.hpp"
 #include "core/parallel.hpp"
-#include "io/json_text.hpp"
+#include "record/json.hpp"
 
 namespace railstrata::bridge {
 namespace {

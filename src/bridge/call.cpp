@@ -9,7 +9,7 @@
 
 #include "bridge/bridge.hpp"
 #include "bridge/running_call.hpp"
-#include "io/json_text.hpp"
+#include "record/json.hpp"
 
 namespace railstrata::bridge {
 namespace {

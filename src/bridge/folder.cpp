@@ -1,7 +1,7 @@
 #include "bridge/functions.hpp"
 #include "bridge/patches.hpp"
-#include "io/csv.hpp"
 #include "io/result_folder.hpp"
+#include "record/csv.hpp"
 #include "report/passes_page.hpp"
 #include "runs/write_report.hpp"
 

@@ -1,5 +1,7 @@
 #include "capi/next_start.hpp"
 
+#include "record/unit.hpp"
+
 #include <algorithm>
 #include <utility>
 
@@ -39,9 +41,9 @@ void continue_traction(double share, const TangentialSolution& before, Tangentia
 }  // namespace
 
 NextStart::Coordinates NextStart::coordinates(const CaseSpec& spec) {
-  constexpr double kMillimetre = 1e-3, kCreepage = 1e-3, kTurn = 1e-2, kApproach = 0.1e-3;
+  constexpr double kCreepage = 1e-3, kTurn = 1e-2, kApproach = 0.1e-3;
   const double load = static_load(spec);
-  return {spec.geometry.lateral_shift / kMillimetre,
+  return {spec.geometry.lateral_shift / kMilli,
           spec.geometry.yaw / kTurn,
           spec.geometry.roll / kTurn,
           1e-5 * load,

@@ -1,6 +1,6 @@
 #include "case/case_tables.hpp"
 #include "case/option_slots.hpp"
-#include "core/si_prefix.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 namespace {

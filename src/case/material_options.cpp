@@ -4,7 +4,7 @@
 
 #include "case/option_slots.hpp"
 #include "case/strength_options.hpp"
-#include "core/si_prefix.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 namespace {

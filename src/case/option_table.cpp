@@ -8,6 +8,7 @@
 
 #include "case/case_tables.hpp"
 #include "case/option_slots.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 namespace {

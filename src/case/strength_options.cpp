@@ -3,7 +3,7 @@
 #include <numbers>
 
 #include "case/option_slots.hpp"
-#include "core/si_prefix.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 namespace {

@@ -57,7 +57,8 @@ std::vector<std::string> cells_of(const std::string& line, char separator, std::
   return out;
 }
 
-/// The unit that follows a key: "distance [mm]" and "distance_mm" have "mm", "spin_1_m" has "1/m"; nothing for a name
+/// The unit that follows a key: "distance [mm]" and "distance_mm" have "mm", "spin_per_m" and
+/// "spin_1_m" have "1/m"; nothing for a name
 /// that does not begin with the key.
 std::optional<std::string> unit_after(const std::string& name, std::string_view key) {
   if (!name.starts_with(key)) return std::nullopt;
@@ -66,6 +67,7 @@ std::optional<std::string> unit_after(const std::string& name, std::string_view 
   if (rest.size() > 2 && rest.front() == '[' && rest.back() == ']') return cell_of(rest.substr(1, rest.size() - 2));
   if (rest.front() != '_') return std::nullopt;
   rest.erase(0, 1);
+  if (rest.starts_with("per_")) rest.replace(0, 3, "1");
   std::replace(rest.begin(), rest.end(), '_', '/');
   return rest;
 }

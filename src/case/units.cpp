@@ -18,7 +18,7 @@ namespace railstrata {
 namespace {
 
 /// A unit is factor * 10^decimals in SI; the power of ten is kept apart so that decimal prefixes cost no rounding.
-struct Unit {
+struct InputUnit {
   double factor = 1;
   int decimals = 0;
   Dimension dimension;
@@ -26,7 +26,7 @@ struct Unit {
 
 struct Symbol {
   std::string_view text;
-  Unit unit;
+  InputUnit unit;
   bool takes_prefix;
 };
 
@@ -146,14 +146,14 @@ double scaled_number(std::string_view number, int decimals) {
   return value;
 }
 
-std::optional<Unit> find_symbol(std::string_view text) {
+std::optional<InputUnit> find_symbol(std::string_view text) {
   for (const Symbol& s : kSymbols)
     if (s.text == text) return s.unit;
   for (const Prefix& p : kPrefixes) {
     if (!text.starts_with(p.text)) continue;
     for (const Symbol& s : kSymbols)
       if (s.takes_prefix && s.text == text.substr(p.text.size()))
-        return Unit{s.unit.factor, s.unit.decimals + p.decimals, s.unit.dimension};
+        return InputUnit{s.unit.factor, s.unit.decimals + p.decimals, s.unit.dimension};
   }
   return std::nullopt;
 }
@@ -187,7 +187,7 @@ bool starts_with_comma(std::string_view text) {
   return text.size() > 1 && text[0] == ',' && text[1] >= '0' && text[1] <= '9';
 }
 
-void multiply(Unit& total, const Unit& u, int power) {
+void multiply(InputUnit& total, const InputUnit& u, int power) {
   total.factor *= std::pow(u.factor, power);
   total.decimals += power * u.decimals;
   total.dimension.mass += power * u.dimension.mass;
@@ -221,24 +221,24 @@ std::string with_root_sign(std::string_view unit) {
   return out;
 }
 
-Unit parse_unit(std::string_view whole, const Dimension& expected);
+InputUnit parse_unit(std::string_view whole, const Dimension& expected);
 
 /// "W/(m K)": what stands in brackets behind the only solidus is divided; without brackets nothing is.
-std::optional<Unit> parse_divided_group(std::string_view whole, const Dimension& expected) {
+std::optional<InputUnit> parse_divided_group(std::string_view whole, const Dimension& expected) {
   const auto at = whole.find("/(");
   if (at == std::string_view::npos || !whole.ends_with(')')) return std::nullopt;
   const std::string_view above = whole.substr(0, at), group = whole.substr(at + 2, whole.size() - at - 3);
   if (above.find('/') != std::string_view::npos || group.find_first_of("/()") != std::string_view::npos)
     return std::nullopt;
-  Unit total = parse_unit(above, expected);
+  InputUnit total = parse_unit(above, expected);
   multiply(total, parse_unit(group, expected), -1);
   return total;
 }
 
-Unit parse_unit(std::string_view whole, const Dimension& expected) {
+InputUnit parse_unit(std::string_view whole, const Dimension& expected) {
   if (const auto divided = parse_divided_group(whole, expected)) return *divided;
   static constexpr std::array<std::string_view, 6> kSeparators{" ", "\t", "*", "·", "⋅", "/"};
-  Unit total;
+  InputUnit total;
   bool divide = false, after_solidus = false;
   std::string_view rest = whole;
   while (!rest.empty()) {
@@ -296,7 +296,7 @@ double parse_quantity(std::string_view whole, const Dimension& expected) {
     return scaled_number(number, 0);
   }
   if (starts_with_comma(text.substr(length))) throw comma_in_number(text, length);
-  const Unit unit = parse_unit(with_root_sign(unit_text), expected);
+  const InputUnit unit = parse_unit(with_root_sign(unit_text), expected);
   const bool without_radian = expected == dimension::kSlope && unit.dimension == dimension::kNumber,
              with_radian = expected == dimension::kSpin && unit.dimension == kAngleOverLength;
   if (unit.dimension != expected && !without_radian && !with_radian)

@@ -10,11 +10,12 @@
 #include "core/nearest_word.hpp"
 #include "damage/positive.hpp"
 
+#include "record/unit.hpp"
+
 namespace railstrata {
 namespace {
 
-constexpr double kMPa = 1e6;
-constexpr double kTensilePerVickers = 3.2 * kMPa, kPressurePerVickers = 9.80665 * kMPa, kBrinellPerVickers = 0.95;
+constexpr double kTensilePerVickers = 3.2 * kMega, kPressurePerVickers = 9.80665 * kMega, kBrinellPerVickers = 0.95;
 
 constexpr std::string_view kRail = "EN 13674-1, minimum";
 constexpr std::string_view kRailHardness = "EN 13674-1, range of the running surface";
@@ -33,13 +34,13 @@ GradeNumber estimated(double low, double high, double unit, std::string_view sou
 
 /// Rail: usual yield strengths, least tensile strength, range of hardness.
 Grade rail(std::string_view name, double yield_low, double yield_high, double tensile, double soft, double hard) {
-  return {name, "rail", estimated(yield_low, yield_high, kMPa, kRailYield), standard(tensile, tensile, kMPa, kRail),
+  return {name, "rail", estimated(yield_low, yield_high, kMega, kRailYield), standard(tensile, tensile, kMega, kRail),
           standard(soft, hard, 1, kRailHardness)};
 }
 /// Wheel: least yield strength, range of tensile strength, least hardness.
 Grade wheel(std::string_view name, double yield, double tensile_low, double tensile_high, double hardness) {
-  return {name, "wheel", standard(yield, yield, kMPa, kWheel), standard(tensile_low, tensile_high, kMPa, kWheelTensile),
-          standard(hardness, hardness, 1, kWheel)};
+  return {name, "wheel", standard(yield, yield, kMega, kWheel),
+          standard(tensile_low, tensile_high, kMega, kWheelTensile), standard(hardness, hardness, 1, kWheel)};
 }
 
 std::string capitals(std::string_view text) {
@@ -61,11 +62,11 @@ const std::vector<Grade>& grades() {
       rail("R260", 470, 500, 880, 260, 300),
       rail("R350HT", 760, 820, 1175, 350, 390),
       rail("R400HT", 850, 950, 1280, 400, 440),
-      {"B320", "rail", {}, estimated(1100, 1100, kMPa, kBainitic), estimated(320, 360, 1, kBainitic)},
+      {"B320", "rail", {}, estimated(1100, 1100, kMega, kBainitic), estimated(320, 360, 1, kBainitic)},
       wheel("ER7", 520, 820, 940, 235),
       wheel("ER8", 540, 860, 980, 245),
       wheel("ER9", 580, 900, 1050, 255),
-      {"Hadfield", "crossing", estimated(360, 400, kMPa, kHadfield), estimated(1000, 1000, kMPa, kHadfield),
+      {"Hadfield", "crossing", estimated(360, 400, kMega, kHadfield), estimated(1000, 1000, kMega, kHadfield),
        estimated(200, 200, 1, kHadfield)},
   };
   return all;

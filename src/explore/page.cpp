@@ -16,9 +16,9 @@
 #include "case/text_file.hpp"
 #include "core/faults.hpp"
 #include "explore/assets.hpp"
-#include "io/json_text.hpp"
-#include "io/markup_text.hpp"
 #include "io/provenance.hpp"
+#include "record/json.hpp"
+#include "record/markup_text.hpp"
 #include "report/base64.hpp"
 #include "report/page_parts.hpp"
 #include "result/patch.hpp"
@@ -160,9 +160,9 @@ std::string scripts() { return policy_hash(explorer_script()) + " 'wasm-unsafe-e
 constexpr const char* kWorkers = "worker-src blob:; ";
 
 std::string page_of(const LoadedCase& loaded, const Json& seed) {
-  const std::string policy = fmt::format(
-      "default-src 'none'; script-src {}; style-src {}; {}base-uri 'none'; form-action 'none'",
-      scripts(), policy_hash(explorer_style()), kWorkers);
+  const std::string policy =
+      fmt::format("default-src 'none'; script-src {}; style-src {}; {}base-uri 'none'; form-action 'none'", scripts(),
+                  policy_hash(explorer_style()), kWorkers);
   return fmt::format(
              "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
              "http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"

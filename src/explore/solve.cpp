@@ -17,12 +17,12 @@
 #include "case/case_file.hpp"
 #include "core/faults.hpp"
 #include "explore/case_values.hpp"
-#include "io/json_text.hpp"
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
 #include "judge/check_limits.hpp"
 #include "material/elastic.hpp"
 #include "model/model.hpp"
+#include "record/json.hpp"
 #include "result/result_table.hpp"
 #include "result/stress_sections.hpp"
 #include "runs/solve_half_space.hpp"
@@ -105,7 +105,7 @@ Json layers_json(const CaseSpec& spec) {
 
 /// What is not as it should be, for people: checks that fail and warnings.
 Json doubts_json(const Summary& s) {
-  const auto unit = [](const CheckRow* row) { return row ? row->unit : result_unit::kNone; };
+  const auto unit = [](const CheckRow* row) { return row ? row->unit : unit::kNone; };
   const auto name = [](const CheckRow* row, const std::string& key) { return row ? std::string(row->name) : key; };
   Json out = Json::array();
   for (const Check& c : s.checks) {

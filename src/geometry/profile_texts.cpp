@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "record/unit.hpp"
+
 namespace railstrata {
 namespace {
-
-constexpr double kMillimetres = 1e3;
 
 /// In one line, without what begins a comment or ends a text.
 std::string one_line(std::string text) {
@@ -18,7 +18,7 @@ std::string one_line(std::string text) {
 }
 
 std::string row(Vec2 p, std::string_view between) {
-  return fmt::format("{:.10g}{}{:.10g}", kMillimetres * p.y, between, kMillimetres * p.z);
+  return fmt::format("{:.10g}{}{:.10g}", kToMilli * p.y, between, kToMilli * p.z);
 }
 
 }  // namespace

@@ -10,8 +10,8 @@
 #include <sstream>
 
 #include "core/faults.hpp"
-#include "io/output_file.hpp"
 #include "io/provenance.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 namespace {

@@ -3,8 +3,8 @@
 //
 // The file begins with a block of 512 bytes for people and for the check ("RailStrata checkpoint", format, SHA-256 of
 // all that follows), which HDF5 skips. Every byte of the file is covered. HDF5 works in memory only: the bytes reach
-// the disk as those of any other result do (io/output_file), under a new name that is renamed when the disk has them,
-// so readers that hold the old file open keep it and no lock stands in the way.
+// the disk as those of any other result do (record/output_file), under a new name that is renamed when the disk has
+// them, so readers that hold the old file open keep it and no lock stands in the way.
 #include <filesystem>
 #include <string>
 #include <string_view>

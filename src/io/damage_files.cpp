@@ -5,11 +5,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/si_prefix.hpp"
-#include "io/csv.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
 #include "judge/verdict.hpp"
+#include "record/csv.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
+#include "record/unit.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {
@@ -17,21 +17,16 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Factor {
-  const char* key;
-  double ShakedownFactors::*member;
-};
-constexpr Factor kFactors[] = {{"first_yield", &ShakedownFactors::first_yield},
-                               {"wandering", &ShakedownFactors::wandering},
-                               {"single_track", &ShakedownFactors::single_track},
-                               {"upper", &ShakedownFactors::upper},
-                               {"kinematic", &ShakedownFactors::kinematic}};
-
-Json factors_json(const ShakedownFactors& f) {
-  Json out;
-  for (const Factor& factor : kFactors) out[factor.key] = json_number(f.*factor.member);
-  return out;
+Columns<ShakedownFactors> factor_columns() {
+  using F = ShakedownFactors;
+  return {{"first_yield", unit::kNone, &F::first_yield},
+          {"wandering", unit::kNone, &F::wandering},
+          {"single_track", unit::kNone, &F::single_track},
+          {"upper", unit::kNone, &F::upper},
+          {"kinematic", unit::kNone, &F::kinematic}};
 }
+
+Json factors_json(const ShakedownFactors& f) { return json_record(f, factor_columns()); }
 
 Json governing_json(const BodyShakedown& b) {
   return {{"body", b.body}, {"zone", b.zone}, {"depth_m", json_number(b.depth)}, {"y_m", json_number(b.y)}};
@@ -57,87 +52,103 @@ Json value_json(const std::optional<FatigueValue>& v, const char* key) {
       {key, json_number(v->value)}, {"zone", v->zone}, {"depth_m", json_number(v->depth)}, {"y_m", json_number(v->y)}};
 }
 
-Json brittle_json(const BrittleSummary& z) {
-  return {{"zone", z.zone},
-          {"sigma1_max_Pa", json_number(z.sigma1)},
-          {"depth_m", json_number(z.depth)},
-          {"share_of_tensile_strength", json_number(z.share_of_tensile)},
-          {"critical_flaw_m", json_number(z.critical_flaw)},
-          {"thickness_m", json_number(z.thickness)}};
-}
-
-Json interface_json(const InterfaceSummary& i) {
-  return {{"above", i.above},
-          {"below", i.below},
-          {"depth_m", json_number(i.depth)},
-          {"tension_Pa", json_number(i.tension)},
-          {"shear_Pa", json_number(i.shear)},
-          {"shear_range_Pa", json_number(i.shear_range)},
-          {"sigma_xx_range_above_Pa", json_number(i.sigma_xx_range_above)},
-          {"sigma_xx_range_below_Pa", json_number(i.sigma_xx_range_below)},
-          {"delamination", json_number(i.delamination)}};
-}
-
-/// Of pure shear to uniaxial, in MPa.
-std::vector<double> uniaxial(const std::vector<double>& shear) {
-  std::vector<double> out(shear);
-  for (double& k : out) k *= std::numbers::sqrt3 * kToMega;
+Json brittle_json(const BrittleSummary& brittle) {
+  using B = BrittleSummary;
+  static const Columns<B> columns{{"sigma1_max", unit::kMPa, &B::sigma1},
+                                  {"depth", unit::kMillimetres, &B::depth},
+                                  {"share_of_tensile_strength", unit::kNone, &B::share_of_tensile},
+                                  {"critical_flaw", unit::kMillimetres, &B::critical_flaw},
+                                  {"thickness", unit::kMillimetres, &B::thickness}};
+  Json out{{"zone", brittle.zone}};
+  out.update(json_record(brittle, columns));
   return out;
+}
+
+Json interface_json(const InterfaceSummary& interface) {
+  using I = InterfaceSummary;
+  static const Columns<I> columns{{"depth", unit::kMillimetres, &I::depth},
+                                  {"tension", unit::kMPa, &I::tension},
+                                  {"shear", unit::kMPa, &I::shear},
+                                  {"shear_range", unit::kMPa, &I::shear_range},
+                                  {"sigma_xx_range_above", unit::kMPa, &I::sigma_xx_range_above},
+                                  {"sigma_xx_range_below", unit::kMPa, &I::sigma_xx_range_below},
+                                  {"delamination", unit::kNone, &I::delamination}};
+  Json out{{"above", interface.above}, {"below", interface.below}};
+  out.update(json_record(interface, columns));
+  return out;
+}
+
+/// A point of a section, or a row of it: what is there and what is asked for.
+struct StrengthPoint {
+  double y = 0, depth = 0;
+  int zone = 0;
+  double shear = 0, residual_x = 0, residual_y = 0;                 ///< Pa
+  double first_yield = 0, wandering = 0, upper = 0, kinematic = 0;  ///< Pa, shear strengths that the limits ask for
+};
+
+constexpr double kUniaxial = std::numbers::sqrt3 * kToMega;  ///< of pure shear, in MPa
+
+Columns<StrengthPoint> strength_columns() {
+  using S = StrengthPoint;
+  const auto uniaxial = [](const char* symbol, double S::*shear) {
+    return Column<S>{symbol, unit::both("_Pa", "_MPa", kUniaxial, "MPa"), shear};
+  };
+  return {{"y", unit::kMillimetres, &S::y},
+          {"depth", unit::kMillimetres, &S::depth},
+          {"zone", unit::kCount, &S::zone},
+          uniaxial("yield_strength", &S::shear),
+          {"initial_stress_x", unit::kMPa, &S::residual_x},
+          {"initial_stress_y", unit::kMPa, &S::residual_y},
+          uniaxial("required_first_yield", &S::first_yield),
+          uniaxial("required_wandering", &S::wandering),
+          uniaxial("required_upper", &S::upper),
+          uniaxial("required_kinematic", &S::kinematic),
+          {"used", unit::kNone, [](const S& s) { return kUniaxial * s.upper / (kUniaxial * s.shear); }}};
 }
 
 void write_profile(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                    const SectionShakedown& s) {
-  const std::vector<double> zone(s.zone.begin(), s.zone.end());
   const RequiredStrength& r = s.found.required;
-  write_csv(file, provenance,
-            {{"depth_mm", scaled(s.depth, kToMilli)},
-             {"zone", zone},
-             {"yield_strength_MPa", uniaxial(s.strength.shear)},
-             {"initial_stress_x_MPa", scaled(s.strength.residual_x, kToMega)},
-             {"initial_stress_y_MPa", scaled(s.strength.residual_y, kToMega)},
-             {"required_first_yield_MPa", uniaxial(r.first_yield)},
-             {"required_wandering_MPa", uniaxial(r.wandering)},
-             {"required_upper_MPa", uniaxial(r.upper)},
-             {"required_kinematic_MPa", uniaxial(r.kinematic)}});
+  std::vector<StrengthPoint> rows;
+  for (std::size_t i = 0; i < s.depth.size(); ++i)
+    rows.push_back({0, s.depth[i], s.zone[i], s.strength.shear[i], s.strength.residual_x[i], s.strength.residual_y[i],
+                    r.first_yield[i], r.wandering[i], r.upper[i], r.kinematic[i]});
+  write_csv(file, provenance, rows,
+            select(strength_columns(),
+                   {"depth", "zone", "yield_strength", "initial_stress_x", "initial_stress_y", "required_first_yield",
+                    "required_wandering", "required_upper", "required_kinematic"}));
 }
 
 void write_map(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                const SectionShakedown& s) {
-  std::vector<CsvColumn> columns{
-      {"y_mm", {}}, {"depth_mm", {}}, {"zone", {}}, {"required_upper_MPa", {}}, {"used", {}}};
-  const std::vector<double> required = uniaxial(s.found.pointwise), there = uniaxial(s.strength.shear);
+  std::vector<StrengthPoint> points;
   for (std::size_t r = 0; r < s.depth.size(); ++r)
     for (std::size_t c = 0; c < s.y.size(); ++c) {
-      const double asked = required[r * s.y.size() + c];
-      const double row[] = {kToMilli * s.y[c], kToMilli * s.depth[r], static_cast<double>(s.zone[r]), asked,
-                            asked / there[r]};
-      for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
+      StrengthPoint& point = points.emplace_back();
+      point = {.y = s.y[c], .depth = s.depth[r], .zone = s.zone[r], .shear = s.strength.shear[r]};
+      point.upper = s.found.pointwise[r * s.y.size() + c];
     }
-  write_csv(file, provenance, columns);
+  write_csv(file, provenance, points, select(strength_columns(), {"y", "depth", "zone", "required_upper", "used"}));
 }
 
 }  // namespace
 
 void write_streamlines(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                        const std::vector<StreamlineRow>& rows) {
+  using R = StreamlineRow;
   if (rows.empty()) return;
-  std::vector<CsvColumn> columns;
-  const auto add = [&](const char* name, double StreamlineRow::*member, double factor) {
-    columns.push_back({name, {}});
-    for (const StreamlineRow& r : rows) columns.back().values.push_back(factor * r.*member);
-  };
-  add("y_mm", &StreamlineRow::y, kToMilli);
-  add("width_mm", &StreamlineRow::width, kToMilli);
-  add("friction_energy_J_per_m2", &StreamlineRow::friction_energy, 1);
-  add("wear_usfd_nm", &StreamlineRow::usfd_depth, 1e9);
-  add("wear_kth_nm", &StreamlineRow::kth_depth, 1e9);
-  add("wear_archard_nm", &StreamlineRow::archard_depth, 1e9);
-  add("wheel_wear_usfd_nm", &StreamlineRow::wheel_usfd_depth, 1e9);
-  add("wheel_wear_kth_nm", &StreamlineRow::wheel_kth_depth, 1e9);
-  add("wheel_wear_archard_nm", &StreamlineRow::wheel_archard_depth, 1e9);
-  add("temperature_rise_K", &StreamlineRow::temperature_rise, 1);
-  add("local_fatigue", &StreamlineRow::local_fatigue, 1);
-  write_csv(file, provenance, columns);
+  write_csv(file, provenance, rows,
+            Columns<R>{{"y", unit::kMillimetres, &R::y},
+                       {"width", unit::kMillimetres, &R::width},
+                       {"friction_energy", unit::kJoulesPerSquareMetre, &R::friction_energy},
+                       {"wear_usfd", unit::kNanometres, &R::usfd_depth},
+                       {"wear_kth", unit::kNanometres, &R::kth_depth},
+                       {"wear_archard", unit::kNanometres, &R::archard_depth},
+                       {"wheel_wear_usfd", unit::kNanometres, &R::wheel_usfd_depth},
+                       {"wheel_wear_kth", unit::kNanometres, &R::wheel_kth_depth},
+                       {"wheel_wear_archard", unit::kNanometres, &R::wheel_archard_depth},
+                       {"temperature_rise", unit::kKelvins, &R::temperature_rise},
+                       {"local_fatigue", unit::kNone, &R::local_fatigue}});
 }
 
 Json shakedown_json(const Summary& summary) {
@@ -145,7 +156,7 @@ Json shakedown_json(const Summary& summary) {
   if (!governing) return nullptr;
   Json out;
   for (const ResultNumber& n : result_numbers())
-    if (n.group == kShakedownGroup) out["factors"][n.key()] = json_number(std::get<double>(n.value(summary)));
+    if (n.group == kShakedownGroup) out["factors"][n.key()] = json_number(n.value(summary));
   out["verdict"] = words_of(verdict_of(summary.shakedown)).words;
   out["fails_by"] = Json::array();
   for (const Verdict v : fails_by(summary)) out["fails_by"].push_back(words_of(v).words);
@@ -182,19 +193,17 @@ void write_shakedown(const std::filesystem::path& folder, const std::vector<std:
 
 void write_sliding_maps(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                         const std::vector<SlidingMap>& maps) {
+  using L = SlidingLimit;
   for (const SlidingMap& map : maps) {
-    std::vector<CsvColumn> columns{{"traction_coefficient", {}}};
-    for (const SlidingLimit& l : map.limits) columns[0].values.push_back(l.traction);
-    const auto add = [&](const std::string& name, double ShakedownFactors::*member, double factor) {
-      columns.push_back({name, {}});
-      for (const SlidingLimit& l : map.limits) columns.back().values.push_back(factor * l.factors.*member);
-    };
-    for (const Factor& f : kFactors)
-      if (f.member != &ShakedownFactors::single_track) add(f.key, f.member, 1);
-    for (const Factor& f : kFactors)
-      if (f.member != &ShakedownFactors::single_track)
-        add(fmt::format("p_max_{}_MPa", f.key), f.member, kToMega * map.p_max);
-    write_csv(folder / fmt::format("shakedown_{}_sliding.csv", body_word(map.body)), provenance, columns);
+    Columns<L> columns{{"traction_coefficient", unit::kNone, &L::traction}}, pressures;
+    for (const Column<ShakedownFactors>& f : factor_columns()) {
+      if (f.symbol == "single_track") continue;
+      const auto factor = [f](const L& limit) { return f.value(limit.factors); };
+      columns.push_back({f.symbol, unit::kNone, factor});
+      pressures.push_back({"p_max_" + f.symbol, unit::both("_Pa", "_MPa", kToMega * map.p_max, "MPa"), factor});
+    }
+    append(columns, pressures);
+    write_csv(folder / fmt::format("shakedown_{}_sliding.csv", body_word(map.body)), provenance, map.limits, columns);
   }
 }
 

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "geometry/turned_wheel.hpp"
-#include "io/output_file.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 namespace {

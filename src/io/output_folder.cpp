@@ -7,8 +7,8 @@
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/kept_inputs.hpp"
-#include "io/output_file.hpp"
 #include "io/provenance.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 

@@ -2,8 +2,8 @@
 // Running surfaces of wheel and rail where they stand, for pictures around the results.
 #include <filesystem>
 
-#include "io/vtk.hpp"
 #include "model/model.hpp"
+#include "record/vtk.hpp"
 
 namespace railstrata {
 

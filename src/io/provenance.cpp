@@ -11,8 +11,8 @@
 
 #include "core/faults.hpp"
 #include "core/simd.hpp"
-#include "io/json_text.hpp"
-#include "io/this_process.hpp"
+#include "record/json.hpp"
+#include "record/this_process.hpp"
 
 namespace railstrata {
 

@@ -1,76 +1,128 @@
 #include "io/result_files.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "core/si_prefix.hpp"
 #include "material/elastic.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 namespace {
 
-std::vector<double> state_numbers(const ContactField& f) {
-  std::vector<double> out;
-  for (ContactState s : f.state) out.push_back(static_cast<double>(s));
+/// A point of a patch, or of the line along it.
+struct PatchPoint {
+  int patch = 1;  ///< from 1 on
+  double x = 0, y = 0, z = 0, area = 0;
+  double p = 0, q_x = 0, q_y = 0, slip_x = 0, slip_y = 0;
+  ContactState state = ContactState::separated;
+};
+using P = PatchPoint;
+
+std::vector<P> patch_points(const std::vector<const ContactField*>& fields) {
+  std::vector<P> out;
+  for (const ContactField* field : fields) {
+    const ContactField& f = *field;
+    const int patch = out.empty() ? 1 : out.back().patch + 1;
+    for (int i = 0; i < f.size(); ++i)
+      out.push_back(
+          {patch, f.x[i], f.y[i], f.z[i], f.area[i], f.p[i], f.q_x[i], f.q_y[i], f.slip_x[i], f.slip_y[i], f.state[i]});
+  }
   return out;
 }
 
-std::string slip_column(const char* direction, const ContactField& f) {
-  return fmt::format("slip_{}_{}", direction, f.slip_is_distance ? "mm" : "mm_s");
+std::vector<P> line_points(const CentreLine& line) {
+  std::vector<P> out(line.x.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    out[i].x = line.x[i];
+    out[i].p = line.p[i];
+    out[i].q_x = line.q_x[i];
+    out[i].q_y = line.q_y[i];
+    out[i].slip_x = line.slip_x[i];
+  }
+  return out;
 }
 
-void push(std::vector<float>& out, const Sym3& s) {
-  for (double v : {s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}) out.push_back(static_cast<float>(kToMega * v));
+/// Slip in mm/s, of a shift in mm.
+Columns<P> patch_columns(const ContactField& f) {
+  const Unit slip = f.slip_is_distance ? unit::kMillimetres : unit::kMillimetresPerSecond;
+  return {{"patch", unit::kCount, &P::patch},
+          {"x", unit::kMillimetres, &P::x},
+          {"y", unit::kMillimetres, &P::y},
+          {"z", unit::kMillimetres, &P::z},
+          {"area", unit::kSquareMillimetres, &P::area},
+          {"p", unit::kMPa, &P::p},
+          {"q_x", unit::kMPa, &P::q_x},
+          {"q_y", unit::kMPa, &P::q_y},
+          {"slip_x", slip, &P::slip_x},
+          {"slip_y", slip, &P::slip_y},
+          {"state_0separated_1stick_2slip", unit::kCount, [](const P& p) { return static_cast<double>(p.state); }}};
 }
 
-constexpr const char* kComponents[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
+/// A point of a body; plastic: null where nothing may yield.
+struct StressPoint {
+  double x = 0, y = 0, depth = 0;
+  Sym3 stress;
+  int material = 0;
+  const ElementPlasticity* plastic = nullptr;
+};
+using S = StressPoint;
 
-/// Columns of what has yielded, behind those of the stress; none where nothing may yield.
-void add_plastic(const std::vector<ElementPlasticity>& states, std::vector<CsvColumn>& columns) {
-  if (states.empty()) return;
-  const auto components = [](const Sym3& s) { return std::array{s.xx, s.yy, s.zz, s.xy, s.yz, s.xz}; };
-  const auto add = [&](std::string name, auto&& value) {
-    columns.push_back({std::move(name), {}});
-    for (const ElementPlasticity& state : states) columns.back().values.push_back(value(state));
-  };
-  add("plastic_p", [](const ElementPlasticity& e) { return e.accumulated; });
-  for (std::size_t i = 0; i < 6; ++i)
-    add(fmt::format("plastic_{}", kComponents[i]), [&](const ElementPlasticity& e) { return components(e.strain)[i]; });
-  for (std::size_t i = 0; i < 6; ++i)
-    add(fmt::format("backstress_{}_MPa", kComponents[i]),
-        [&](const ElementPlasticity& e) { return kToMega * components(e.backstress)[i]; });
+const ElementPlasticity* plastic_at(const std::vector<ElementPlasticity>& states, std::size_t i) {
+  return states.empty() ? nullptr : &states[i];
+}
+
+Columns<S> place_columns() {
+  return {{"x", unit::kMillimetres, &S::x}, {"y", unit::kMillimetres, &S::y}, {"depth", unit::kMillimetres, &S::depth}};
+}
+
+/// Scalars of the stress, beside its components.
+Columns<S> measure_columns() {
+  return {{"von_mises", unit::kMPa, [](const S& s) { return von_mises(s.stress); }},
+          {"sigma_1", unit::kMPa, [](const S& s) { return principal_stresses(s.stress).x; }},
+          {"sigma_2", unit::kMPa, [](const S& s) { return principal_stresses(s.stress).y; }},
+          {"sigma_3", unit::kMPa, [](const S& s) { return principal_stresses(s.stress).z; }},
+          {"sigma_xz", unit::kMPa, [](const S& s) { return s.stress.xz; }},
+          {"tau_max", unit::kMPa, [](const S& s) { return largest_shear(principal_stresses(s.stress)); }},
+          {"material", unit::kCount, &S::material}};
+}
+
+Columns<S> accumulated_columns() {
+  return {{"plastic_strain_accumulated", unit::kNone, [](const S& s) { return s.plastic->accumulated; }}};
+}
+Columns<S> plastic_strain_columns() {
+  return tensor_columns<S>("plastic", unit::kNone, [](const S& s) { return s.plastic->strain; });
+}
+Columns<S> backstress_columns() {
+  return tensor_columns<S>("backstress", unit::kMPa, [](const S& s) { return s.plastic->backstress; });
+}
+Columns<S> stress_columns() { return tensor_columns<S>("sigma", unit::kMPa, &S::stress); }
+
+/// Behind the columns of the stress those of what has yielded.
+void write_stress_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
+                        const std::vector<S>& points, Columns<S> columns) {
+  if (!points.empty() && points.front().plastic)
+    for (const Columns<S>& more : {accumulated_columns(), plastic_strain_columns(), backstress_columns()})
+      append(columns, more);
+  write_csv(file, provenance, points, columns);
+}
+
+std::vector<S> section_points(const StressSection& section, bool longitudinal) {
+  std::vector<S> out;
+  const std::size_t n = section.along.size();
+  for (std::size_t i = 0; i < section.stress.size(); ++i) {
+    const double along = section.along[i % n];
+    out.push_back({longitudinal ? along : section.at, longitudinal ? section.at : along, section.depth[i / n],
+                   section.stress[i], section.material[i], plastic_at(section.plastic, i)});
+  }
+  return out;
 }
 
 void write_section(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                    const StressSection& section, bool longitudinal) {
-  const char* names[] = {"x_mm",         "y_mm",          "depth_mm",     "sigma_xx_MPa",
-                         "sigma_yy_MPa", "sigma_zz_MPa",  "sigma_xy_MPa", "sigma_yz_MPa",
-                         "sigma_xz_MPa", "von_mises_MPa", "sigma_1_MPa",  "material"};
-  std::vector<CsvColumn> columns;
-  for (const char* n : names) columns.push_back({n, {}});
-  for (std::size_t i = 0; i < section.stress.size(); ++i) {
-    const Sym3& s = section.stress[i];
-    const double along = section.along[i % section.along.size()], depth = section.depth[i / section.along.size()];
-    const double row[] = {kToMilli * (longitudinal ? along : section.at),
-                          kToMilli * (longitudinal ? section.at : along),
-                          kToMilli * depth,
-                          kToMega * s.xx,
-                          kToMega * s.yy,
-                          kToMega * s.zz,
-                          kToMega * s.xy,
-                          kToMega * s.yz,
-                          kToMega * s.xz,
-                          kToMega * von_mises(s),
-                          kToMega * principal_stresses(s).x,
-                          static_cast<double>(section.material[i])};
-    for (std::size_t k = 0; k < columns.size(); ++k)
-      columns[k].values.push_back(k < 3 ? std::round(1e6 * row[k]) / 1e6 : std::round(1e3 * row[k]) / 1e3);
-  }
-  add_plastic(section.plastic, columns);
-  write_csv(file, provenance, columns);
+  Columns<S> columns = rounded(place_columns(), 6);
+  append(columns, rounded(stress_columns(), 3));
+  append(columns, rounded(select(measure_columns(), {"von_mises", "sigma_1", "material"}), 3));
+  write_stress_table(file, provenance, section_points(section, longitudinal), columns);
 }
 
 /// Of a body without layers only the rail's: the wheel's would say the same.
@@ -83,56 +135,12 @@ bool shows_slices(const std::string& body, const StressSections& sections) {
 /// To a tenth of an MPa: they are looked at.
 void write_slices(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                   const std::vector<StressSection>& slices) {
-  std::vector<CsvColumn> columns{{"x_mm", {}},        {"y_mm", {}},         {"depth_mm", {}},    {"von_mises_MPa", {}},
-                                 {"sigma_1_MPa", {}}, {"sigma_xz_MPa", {}}, {"tau_max_MPa", {}}, {"material", {}}};
+  std::vector<S> points;
   for (const StressSection& slice : slices)
-    for (std::size_t i = 0; i < slice.stress.size(); ++i) {
-      const Sym3& s = slice.stress[i];
-      const Vec3 principal = principal_stresses(s);
-      const double y = slice.along[i % slice.along.size()], depth = slice.depth[i / slice.along.size()];
-      const double row[] = {kToMilli * slice.at,
-                            kToMilli * y,
-                            kToMilli * depth,
-                            kToMega * von_mises(s),
-                            kToMega * principal.x,
-                            kToMega * s.xz,
-                            kToMega * largest_shear(principal),
-                            static_cast<double>(slice.material[i])};
-      for (std::size_t k = 0; k < columns.size(); ++k)
-        columns[k].values.push_back(k < 3 ? std::round(1e4 * row[k]) / 1e4 : std::round(10 * row[k]) / 10);
-    }
-  write_csv(file, provenance, columns);
-}
-
-std::vector<CsvColumn> patch_columns(const ContactField& f) {
-  return {{"x_mm", scaled(f.x, kToMilli)},
-          {"y_mm", scaled(f.y, kToMilli)},
-          {"z_mm", scaled(f.z, kToMilli)},
-          {"area_mm2", scaled(f.area, 1e6)},
-          {"p_MPa", scaled(f.p, kToMega)},
-          {"q_x_MPa", scaled(f.q_x, kToMega)},
-          {"q_y_MPa", scaled(f.q_y, kToMega)},
-          {slip_column("x", f), scaled(f.slip_x, kToMilli)},
-          {slip_column("y", f), scaled(f.slip_y, kToMilli)},
-          {"state_0separated_1stick_2slip", state_numbers(f)}};
-}
-
-/// The rows of a further table of the same columns.
-void append(std::vector<CsvColumn>& columns, const std::vector<CsvColumn>& more) {
-  if (columns.empty()) {
-    columns = more;
-    return;
-  }
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    columns[k].values.insert(columns[k].values.end(), more[k].values.begin(), more[k].values.end());
-}
-
-/// Of every point the number of its patch, from 1 on.
-std::vector<double> patch_numbers(const std::vector<const ContactField*>& fields) {
-  std::vector<double> out;
-  for (std::size_t k = 0; k < fields.size(); ++k)
-    out.insert(out.end(), static_cast<std::size_t>(fields[k]->size()), static_cast<double>(k + 1));
-  return out;
+    for (const S& point : section_points(slice, false)) points.push_back(point);
+  Columns<S> columns = rounded(place_columns(), 4);
+  append(columns, rounded(select(measure_columns(), {"von_mises", "sigma_1", "sigma_xz", "tau_max", "material"}), 1));
+  write_csv(file, provenance, points, columns);
 }
 
 }  // namespace
@@ -146,93 +154,48 @@ void write_sections(const std::filesystem::path& folder, const std::string& body
 
 void write_patch_tables(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                         const std::vector<const ContactField*>& fields) {
-  std::vector<CsvColumn> columns;
-  for (const ContactField* field : fields) append(columns, patch_columns(*field));
-  if (fields.size() > 1) columns.insert(columns.begin(), {"patch", patch_numbers(fields)});
-  write_csv(folder / "patch.csv", provenance, columns);
-  const ContactField& f = *fields.front();
-  const CentreLine line = centre_line(f);
-  write_csv(folder / "centre_line.csv", provenance,
-            {{"x_mm", scaled(line.x, kToMilli)},
-             {"p_MPa", scaled(line.p, kToMega)},
-             {"q_x_MPa", scaled(line.q_x, kToMega)},
-             {"q_y_MPa", scaled(line.q_y, kToMega)},
-             {slip_column("x", f), scaled(line.slip_x, kToMilli)}});
+  Columns<P> columns = patch_columns(*fields.front());
+  const Columns<P> line = select(columns, {"x", "p", "q_x", "q_y", "slip_x"});
+  if (fields.size() == 1) columns.erase(columns.begin());
+  write_csv(folder / "patch.csv", provenance, patch_points(fields), columns);
+  write_csv(folder / "centre_line.csv", provenance, line_points(centre_line(*fields.front())), line);
 }
 
 void write_depth_line(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                       const DepthLine& line) {
-  const char* names[] = {"depth_mm",     "sigma_xx_MPa", "sigma_yy_MPa", "sigma_zz_MPa",
-                         "sigma_xy_MPa", "sigma_yz_MPa", "sigma_xz_MPa", "von_mises_MPa",
-                         "sigma_1_MPa",  "sigma_2_MPa",  "sigma_3_MPa",  "material"};
-  std::vector<CsvColumn> columns;
-  for (const char* n : names) columns.push_back({n, {}});
-  for (std::size_t i = 0; i < line.depth.size(); ++i) {
-    const Sym3& s = line.stress[i];
-    const Vec3 p = principal_stresses(s);
-    const double row[] = {kToMilli * line.depth[i],
-                          kToMega * s.xx,
-                          kToMega * s.yy,
-                          kToMega * s.zz,
-                          kToMega * s.xy,
-                          kToMega * s.yz,
-                          kToMega * s.xz,
-                          kToMega * von_mises(s),
-                          kToMega * p.x,
-                          kToMega * p.y,
-                          kToMega * p.z,
-                          static_cast<double>(line.material[i])};
-    for (std::size_t k = 0; k < columns.size(); ++k) columns[k].values.push_back(row[k]);
-  }
-  add_plastic(line.plastic, columns);
-  write_csv(file, provenance, columns);
+  std::vector<S> points;
+  for (std::size_t i = 0; i < line.depth.size(); ++i)
+    points.push_back({line.x, line.y, line.depth[i], line.stress[i], line.material[i], plastic_at(line.plastic, i)});
+  Columns<S> columns = select(place_columns(), {"depth"});
+  append(columns, stress_columns());
+  append(columns, select(measure_columns(), {"von_mises", "sigma_1", "sigma_2", "sigma_3", "material"}));
+  write_stress_table(file, provenance, points, columns);
 }
 
 VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel_x) {
   VtkQuads mesh;
-  std::vector<float> pressure, traction, slip;
-  std::vector<std::int32_t> state;
   for (const ContactField* field : fields) {
     const ContactField& f = *field;
     const auto first = static_cast<long long>(mesh.points.size());
-    for (int i = 0; i < f.size(); ++i) {
-      mesh.points.push_back({wheel_x + f.x[i], f.y[i], f.z[i]});
-      pressure.push_back(static_cast<float>(kToMega * f.p[i]));
-      for (double v : {f.q_x[i], f.q_y[i], 0.0}) traction.push_back(static_cast<float>(kToMega * v));
-      for (double v : {f.slip_x[i], f.slip_y[i], 0.0}) slip.push_back(static_cast<float>(kToMilli * v));
-      state.push_back(static_cast<std::int32_t>(f.state[i]));
-    }
+    for (int i = 0; i < f.size(); ++i) mesh.points.push_back({wheel_x + f.x[i], f.y[i], f.z[i]});
     for (long long s = 0; s + 1 < f.stations; ++s)
       for (long long c = 0; c + 1 < f.columns; ++c) {
         const long long a = first + s * f.columns + c;
         mesh.cells.push_back({a, a + f.columns, a + f.columns + 1, a + 1});
       }
   }
-  mesh.point_fields = {{"pressure_MPa", 1, pressure},
-                       {"traction_MPa", 3, traction},
-                       {fields.front()->slip_is_distance ? "slip_mm" : "slip_velocity_mm_s", 3, slip},
-                       {"state", 1, state}};
+  const std::vector<P> points = patch_points(fields);
+  const Columns<P> all = patch_columns(*fields.front()), none{{"", unit::kNone, [](const P&) { return 0.0; }}};
+  const auto vector = [&](const char* name, const char* x, const char* y) {
+    Columns<P> parts = select(all, {x, y});
+    append(parts, none);
+    return vtk_field<float>(name, points, parts);
+  };
+  mesh.point_fields = {vtk_field<float>("pressure", points, select(all, {"p"})), vector("traction", "q_x", "q_y"),
+                       vector(fields.front()->slip_is_distance ? "slip" : "slip_velocity", "slip_x", "slip_y"),
+                       vtk_field<std::int32_t>("state", points, select(all, {"state_0separated_1stick_2slip"}))};
   return mesh;
 }
-
-namespace {
-
-/// In the order of the cells.
-void add_plastic(const std::vector<ElementPlasticity>& states, std::vector<VtkField>& fields) {
-  if (states.empty()) return;
-  std::vector<float> accumulated, strain, backstress;
-  for (const ElementPlasticity& e : states) {
-    accumulated.push_back(static_cast<float>(e.accumulated));
-    for (double v : {e.strain.xx, e.strain.yy, e.strain.zz, e.strain.xy, e.strain.yz, e.strain.xz})
-      strain.push_back(static_cast<float>(v));
-    push(backstress, e.backstress);
-  }
-  fields.push_back({"plastic_p", 1, std::move(accumulated)});
-  fields.push_back({"plastic_strain", 6, std::move(strain)});
-  fields.push_back({"backstress_MPa", 6, std::move(backstress)});
-}
-
-}  // namespace
 
 VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
   VtkHexahedra mesh;
@@ -252,8 +215,7 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
       const Vec3 u = b.sample.displacement[static_cast<std::size_t>(s) * per_station + k];
       for (double v : {u.x, u.y, u.z}) displacement.push_back(static_cast<float>(kToMilli * v));
     }
-  std::vector<float> stress, equivalent, principal;
-  std::vector<std::int32_t> material;
+  std::vector<S> cells;
   std::vector<Sym3> sum(mesh.points.size());
   std::vector<int> count(mesh.points.size(), 0), top_material(mesh.points.size(), -1);
   for (int s = 0; s < b.sample.stations; ++s)
@@ -264,11 +226,8 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
         mesh.cells.push_back({a + q[0], a + q[1], a + q[2], a + q[3], a + per_station + q[0], a + per_station + q[1],
                               a + per_station + q[2], a + per_station + q[3]});
         const Sym3 value = b.at(c, r, s);
-        push(stress, value);
-        equivalent.push_back(static_cast<float>(kToMega * von_mises(value)));
-        principal.push_back(static_cast<float>(kToMega * principal_stresses(value).x));
         const int m = b.body->layer_of(section.quad_material[static_cast<std::size_t>(r) * band.columns + c]);
-        material.push_back(m);
+        cells.push_back({0, 0, 0, value, m, plastic_at(b.sample.plastic, cells.size())});
         for (long long n : mesh.cells.back()) {
           // at an interface the points belong to the material met first, from the surface down
           if (top_material[n] < 0) top_material[n] = m;
@@ -281,54 +240,51 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
   for (std::size_t n = 0; n < sum.size(); ++n)
     smooth.push_back(static_cast<float>(kToMega * von_mises((1.0 / std::max(count[n], 1)) * sum[n])));
   mesh.point_fields = {{"displacement_mm", 3, displacement}, {"von_mises_smooth_MPa", 1, smooth}};
-  mesh.cell_fields = {{"stress_MPa", 6, stress},
-                      {"von_mises_MPa", 1, equivalent},
-                      {"sigma1_MPa", 1, principal},
-                      {"material", 1, material}};
-  add_plastic(b.sample.plastic, mesh.cell_fields);
+  const Columns<S> measures = measure_columns();
+  mesh.cell_fields = {vtk_field<float>("stress", cells, stress_columns())};
+  add_vtk_fields<float>(mesh.cell_fields, cells, select(measures, {"von_mises", "sigma_1", "material"}));
+  if (b.sample.plastic.empty()) return mesh;
+  add_vtk_fields<float>(mesh.cell_fields, cells, accumulated_columns());
+  mesh.cell_fields.push_back(vtk_field<float>("plastic_strain", cells, plastic_strain_columns()));
+  mesh.cell_fields.push_back(vtk_field<float>("backstress", cells, backstress_columns()));
   return mesh;
 }
 
-HistoryLog::HistoryLog(const std::filesystem::path& file, const std::vector<std::string>& provenance)
-    : log_(
-          file, provenance,
-          {"time_ms",          "position_mm", "torque_N_m",       "F_x_N",          "F_y_N",         "F_z_N",
-           "p_max_MPa",        "creepage",    "lateral_creepage", "penetration_um", "contact_nodes", "axle_y_mm",
-           "axle_vx_m_s",      "axle_vz_m_s", "spin_rad_s",       "kinetic_J",      "strain_J",      "hourglass_J",
-           "weight_J",         "spring_J",    "torque_work_J",    "guide_work_J",   "friction_J",    "contact_normal_J",
-           "run_up_damping_J", "absorbed_J",  "dashpot_J",        "plastic_J",      "closure_J"}) {}
-
-void HistoryLog::add(const HistoryRow& r) {
-  const EnergyBalance& e = r.energy;
-  log_.add({1e3 * r.time,
-            kToMilli * r.position,
-            r.torque,
-            r.forces.x,
-            r.forces.y,
-            r.forces.z,
-            kToMega * r.p_max,
-            r.creepage,
-            r.lateral_creepage,
-            1e6 * r.forces.penetration,
-            static_cast<double>(r.forces.nodes),
-            kToMilli * r.axle_y,
-            r.axle_vx,
-            r.axle_vz,
-            r.spin,
-            e.kinetic,
-            e.strain,
-            e.hourglass,
-            e.weight,
-            e.spring,
-            e.torque_work,
-            e.guide_work,
-            e.friction,
-            e.contact_normal,
-            e.damping,
-            e.absorbed,
-            e.dashpot,
-            e.plastic,
-            r.closure});
+Columns<HistoryRow> history_columns() {
+  using H = HistoryRow;
+  const auto energy = [](const char* symbol, double EnergyBalance::*member) {
+    return Column<H>{symbol, unit::kJoules, [member](const H& h) { return h.energy.*member; }};
+  };
+  using E = EnergyBalance;
+  return {{"time", unit::kMilliseconds, &H::time},
+          {"position", unit::kMillimetres, &H::position},
+          {"torque", unit::kNewtonMetres, &H::torque},
+          {"F_x", unit::kNewtons, [](const H& h) { return h.forces.x; }},
+          {"F_y", unit::kNewtons, [](const H& h) { return h.forces.y; }},
+          {"F_z", unit::kNewtons, [](const H& h) { return h.forces.z; }},
+          {"p_max", unit::kMPa, &H::p_max},
+          {"creepage", unit::kNone, &H::creepage},
+          {"lateral_creepage", unit::kNone, &H::lateral_creepage},
+          {"penetration", unit::kMicrometres, [](const H& h) { return h.forces.penetration; }},
+          {"contact_nodes", unit::kCount, [](const H& h) { return h.forces.nodes; }},
+          {"axle_y", unit::kMillimetres, &H::axle_y},
+          {"axle_vx", unit::kMetresPerSecond, &H::axle_vx},
+          {"axle_vz", unit::kMetresPerSecond, &H::axle_vz},
+          {"spin", unit::kRadiansPerSecond, &H::spin},
+          energy("kinetic", &E::kinetic),
+          energy("strain", &E::strain),
+          energy("hourglass", &E::hourglass),
+          energy("weight", &E::weight),
+          energy("spring", &E::spring),
+          energy("torque_work", &E::torque_work),
+          energy("guide_work", &E::guide_work),
+          energy("friction", &E::friction),
+          energy("contact_normal", &E::contact_normal),
+          energy("run_up_damping", &E::damping),
+          energy("absorbed", &E::absorbed),
+          energy("dashpot", &E::dashpot),
+          energy("plastic", &E::plastic),
+          {"closure", unit::kJoules, &H::closure}};
 }
 
 }  // namespace railstrata

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/csv.hpp"
-#include "io/vtk.hpp"
+#include "record/csv.hpp"
+#include "record/vtk.hpp"
 #include "result/rolling_mean.hpp"
 #include "result/stress_maxima.hpp"
 #include "result/stress_sections.hpp"
@@ -35,19 +35,13 @@ void write_sections(const std::filesystem::path& folder, const std::string& body
 VtkQuads patch_mesh(const std::vector<const ContactField*>& fields, double wheel_x);
 
 /// A body's contact band around the wheel: nodes displaced by displacement_mm (a point field, not applied to the
-/// points), cell fields stress_MPa, von_mises_MPa, sigma1_MPa, material; the same stresses averaged to the points
-/// within each material, for smooth pictures (von_mises_smooth_MPa). Of a run with plasticity plastic_p (accumulated),
-/// plastic_strain and backstress_MPa (tensors) besides, means over an element.
+/// points), cell fields stress_MPa, von_mises_MPa, sigma_1_MPa, material; the same stresses averaged to the points
+/// within each material, for smooth pictures (von_mises_smooth_MPa). Of a run with plasticity
+/// plastic_strain_accumulated (accumulated), plastic_strain and backstress_MPa (tensors) besides, means over an
+/// element.
 VtkHexahedra band_mesh(const BandStress& band, double wheel_x);
 
-/// history.csv, a row at a time.
-class HistoryLog {
- public:
-  HistoryLog(const std::filesystem::path& file, const std::vector<std::string>& provenance);
-  void add(const HistoryRow& row);
-
- private:
-  CsvLog log_;
-};
+/// history.csv, a row at a time (RecordLog).
+Columns<HistoryRow> history_columns();
 
 }  // namespace railstrata

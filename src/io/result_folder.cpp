@@ -12,8 +12,8 @@
 
 #include "core/engine.hpp"
 #include "core/faults.hpp"
-#include "io/csv.hpp"
 #include "io/folder_kind.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 namespace {

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "io/damage_files.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {
@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 /// The numbers of one group, in the order of the table.
 void add_numbers(std::string_view group, const Summary& s, Json& out) {
   for (const ResultNumber& n : result_numbers())
-    if (n.group == group) out[n.key()] = std::visit([](auto v) { return json_number(v); }, n.value(s));
+    if (n.group == group) out[n.key()] = json_number(n.unit, n.value(s));
 }
 
 Json patches(const Summary& s) {

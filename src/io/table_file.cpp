@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/faults.hpp"
-#include "io/output_file.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 

@@ -10,7 +10,7 @@ namespace railstrata {
 /// Throws EnvironmentError where the program has no HDF5.
 void require_table_files();
 
-/// Writes the whole file (io/output_file). The same table has the same bytes. Throws EnvironmentError.
+/// Writes the whole file (record/output_file). The same table has the same bytes. Throws EnvironmentError.
 void write_force_table(const std::filesystem::path& file, const ForceTable& table, const TableRemarks& remarks);
 
 /// Throws CaseError: the file cannot be read, or is no such table.

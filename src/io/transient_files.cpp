@@ -1,76 +1,53 @@
 #include "io/transient_files.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include "core/si_prefix.hpp"
 
 namespace railstrata {
-namespace {
 
-struct HistoryColumn {
-  enum class Of { both, rolling, shift, timed };
-  const char* name;
-  double (*value)(const TransientRow&);
-  Of of = Of::both;
-};
-
-using Row = TransientRow;
-using Of = HistoryColumn::Of;
-constexpr HistoryColumn kColumns[] = {
-    {"step", [](const Row& r) { return static_cast<double>(r.step); }},
-    {"distance_mm", [](const Row& r) { return kToMilli * r.distance; }, Of::rolling},
-    {"time_ms", [](const Row& r) { return kToMilli * r.time; }, Of::timed},
-    {"wheel_load_N", [](const Row& r) { return r.load; }},
-    {"displacement_um", [](const Row& r) { return kToMicro * r.displacement_x; }, Of::shift},
-    {"lateral_displacement_um", [](const Row& r) { return kToMicro * r.displacement_y; }, Of::shift},
-    {"creepage", [](const Row& r) { return r.creepage_x; }, Of::rolling},
-    {"lateral_creepage", [](const Row& r) { return r.creepage_y; }, Of::rolling},
-    {"spin_1_m", [](const Row& r) { return r.spin; }, Of::rolling},
-    {"F_x_N", [](const Row& r) { return r.F_x; }},
-    {"F_y_N", [](const Row& r) { return r.F_y; }},
-    {"F_z_N", [](const Row& r) { return r.F_z; }},
-    {"normal_force_N", [](const Row& r) { return r.normal_force; }},
-    {"lateral_force_N", [](const Row& r) { return r.lateral_force; }},
-    {"spin_moment_N_m", [](const Row& r) { return r.spin_moment; }},
-    {"approach_um", [](const Row& r) { return kToMicro * r.approach; }},
-    {"p_max_MPa", [](const Row& r) { return kToMega * r.p_max; }},
-    {"q_max_MPa", [](const Row& r) { return kToMega * r.q_max; }},
-    {"contact_area_mm2", [](const Row& r) { return kToMicro * r.contact_area; }},
-    {"stick_area_mm2", [](const Row& r) { return kToMicro * r.stick_area; }},
-    {"slip_area_mm2", [](const Row& r) { return kToMicro * r.slip_area; }},
-    {"friction_power_W", [](const Row& r) { return r.friction_power; }, Of::rolling},
-    {"friction_work_J", [](const Row& r) { return r.friction_work; }},
-};
-
-bool has(const HistoryColumn& c, bool rolls, bool timed) {
-  return c.of == Of::both || (c.of == Of::timed && timed) || c.of == (rolls ? Of::rolling : Of::shift);
-}
-
-std::vector<std::string> names_of(bool rolls, bool timed) {
-  std::vector<std::string> out;
-  for (const HistoryColumn& c : kColumns)
-    if (has(c, rolls, timed)) out.emplace_back(c.name);
+Columns<TransientRow> transient_columns(bool rolls, bool timed) {
+  using R = TransientRow;
+  Columns<R> out{{"step", unit::kCount, &R::step}};
+  if (rolls) out.push_back({"distance", unit::kMillimetres, &R::distance});
+  if (timed) out.push_back({"time", unit::kMilliseconds, &R::time});
+  out.push_back({"wheel_load", unit::kNewtons, &R::load});
+  if (rolls)
+    append(out, {{"creepage", unit::kNone, &R::creepage_x},
+                 {"lateral_creepage", unit::kNone, &R::creepage_y},
+                 {"spin", unit::kPerMetre, &R::spin}});
+  else
+    append(out, {{"displacement", unit::kMicrometres, &R::displacement_x},
+                 {"lateral_displacement", unit::kMicrometres, &R::displacement_y}});
+  append(out, {{"F_x", unit::kNewtons, &R::F_x},
+               {"F_y", unit::kNewtons, &R::F_y},
+               {"F_z", unit::kNewtons, &R::F_z},
+               {"normal_force", unit::kNewtons, &R::normal_force},
+               {"lateral_force", unit::kNewtons, &R::lateral_force},
+               {"spin_moment", unit::kNewtonMetres, &R::spin_moment},
+               {"approach", unit::kMicrometres, &R::approach},
+               {"p_max", unit::kMPa, &R::p_max},
+               {"q_max", unit::kMPa, &R::q_max},
+               {"contact_area", unit::kSquareMillimetres, &R::contact_area},
+               {"stick_area", unit::kSquareMillimetres, &R::stick_area},
+               {"slip_area", unit::kSquareMillimetres, &R::slip_area}});
+  if (rolls) out.push_back({"friction_power", unit::kWatts, &R::friction_power});
+  out.push_back({"friction_work", unit::kJoules, &R::friction_work});
   return out;
 }
 
-double rounded(double value, double to) { return std::round(value / to) * to; }
-
-}  // namespace
-
-TransientLog::TransientLog(const std::filesystem::path& file, const std::vector<std::string>& provenance, bool rolls,
-                           bool timed)
-    : rolls_(rolls), timed_(timed), log_(file, provenance, names_of(rolls, timed)) {}
-
-void TransientLog::add(const TransientRow& row) {
-  std::vector<double> values;
-  for (const HistoryColumn& c : kColumns)
-    if (has(c, rolls_, timed_)) values.push_back(c.value(row));
-  log_.add(values);
+Columns<FilmCell> film_columns() {
+  using C = FilmCell;
+  return {{"step", unit::kCount, &C::step},
+          {"distance", unit::kMillimetres, &C::distance},
+          {"x", unit::kMillimetres, &C::x, 6},
+          {"y", unit::kMillimetres, &C::y, 6},
+          {"p", unit::kMPa, &C::p, 1},
+          {"q_x", unit::kMPa, &C::q_x, 1},
+          {"q_y", unit::kMPa, &C::q_y, 1},
+          {"state_0separated_1stick_2slip", unit::kCount, [](const C& c) { return static_cast<double>(c.state); }}};
 }
 
 PatchFilm::PatchFilm(const std::filesystem::path& file, const std::vector<std::string>& provenance)
-    : log_(file, provenance,
-           {"step", "distance_mm", "x_mm", "y_mm", "p_MPa", "q_x_MPa", "q_y_MPa", "state_0separated_1stick_2slip"}) {}
+    : log_(file, provenance, film_columns()) {}
 
 void PatchFilm::add(int step, double distance, const ContactField& f) {
   constexpr int kMostCells = 80;
@@ -78,10 +55,7 @@ void PatchFilm::add(int step, double distance, const ContactField& f) {
   for (int s = (f.stations / 2) % stride; s < f.stations; s += stride)
     for (int c = (f.columns / 2) % stride; c < f.columns; c += stride) {
       const auto k = static_cast<std::size_t>(s) * static_cast<std::size_t>(f.columns) + static_cast<std::size_t>(c);
-      if (!(f.p[k] > 0)) continue;
-      log_.add({static_cast<double>(step), kToMilli * distance, rounded(kToMilli * f.x[k], 1e-6),
-                rounded(kToMilli * f.y[k], 1e-6), rounded(kToMega * f.p[k], 0.1), rounded(kToMega * f.q_x[k], 0.1),
-                rounded(kToMega * f.q_y[k], 0.1), static_cast<double>(f.state[k])});
+      if (f.p[k] > 0) log_.add({step, distance, f.x[k], f.y[k], f.p[k], f.q_x[k], f.q_y[k], f.state[k]});
     }
 }
 
@@ -89,7 +63,7 @@ void PatchFilm::keep(const CsvTable& earlier, int end) {
   for (std::size_t i = 0; i < earlier.rows(); ++i) {
     std::vector<double> row;
     for (const CsvColumn& c : earlier.columns) row.push_back(c.values[i]);
-    if (row.front() < end) log_.add(row);
+    if (row.front() < end) log_.add_row(row);
   }
 }
 

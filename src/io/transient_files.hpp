@@ -4,26 +4,26 @@
 #include <string>
 #include <vector>
 
-#include "io/csv.hpp"
+#include "record/csv.hpp"
 #include "result/transient_row.hpp"
 
 namespace railstrata {
 
-/// history.csv of half-spaces. Columns that do not apply to what is followed are left out: a shift has displacements
-/// and no creepages, what rolls the other way round.
-class TransientLog {
- public:
-  TransientLog(const std::filesystem::path& file, const std::vector<std::string>& provenance, bool rolls, bool timed);
-  void add(const TransientRow& row);
+/// history.csv of half-spaces (RecordLog). Columns that do not apply to what is followed are left out: a shift has
+/// displacements and no creepages, what rolls the other way round.
+Columns<TransientRow> transient_columns(bool rolls, bool timed);
 
- private:
-  bool rolls_, timed_;
-  CsvLog log_;
+/// A cell in contact, in a state of the patch on its way.
+struct FilmCell {
+  int step = 0;
+  double distance = 0, x = 0, y = 0;  ///< m
+  double p = 0, q_x = 0, q_y = 0;     ///< Pa
+  ContactState state = ContactState::separated;
 };
 
 /// patch_film.csv: cells in contact in a number of states (of finite elements nodes in frames, `distance` the wheel's
-/// position), for the film of the page: at most some 80 cells along a
-/// side, pressures and tractions to a tenth of an MPa.
+/// position), for the film of the page: at most some 80 cells along a side, pressures and tractions to a tenth of an
+/// MPa.
 class PatchFilm {
  public:
   PatchFilm(const std::filesystem::path& file, const std::vector<std::string>& provenance);
@@ -32,7 +32,7 @@ class PatchFilm {
   void keep(const CsvTable& earlier, int end);
 
  private:
-  CsvLog log_;
+  RecordLog<FilmCell> log_;
 };
 
 }  // namespace railstrata

@@ -7,8 +7,8 @@
 #include "core/faults.hpp"
 #include "core/text.hpp"
 #include "io/folder_kind.hpp"
-#include "io/output_file.hpp"
 #include "io/output_folder.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 namespace {

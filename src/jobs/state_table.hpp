@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/csv.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 

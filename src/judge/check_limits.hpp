@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "material/strain_claim.hpp"
-#include "result/result_unit.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 
@@ -28,7 +28,7 @@ struct CheckRow {
   std::string_view name;  ///< for people
   std::string_view what;  ///< what the value is, or what the warning says
   CheckKind kind = CheckKind::run;
-  ResultUnit unit = result_unit::kShare;
+  Unit unit = unit::kShare;
   double fem_limit = kNone, bem_limit = kNone;  ///< SI; of kind `engines` the same
   std::string_view case_option{};               ///< where the limit comes from, if from the case
   std::string_view advice{};                    ///< of a warning: what follows, what to do
@@ -36,7 +36,7 @@ struct CheckRow {
 
   static constexpr CheckRow of_engines(std::string_view key, std::string_view name, std::string_view what,
                                        double limit) {
-    return {key, name, what, CheckKind::engines, result_unit::kShare, limit, limit};
+    return {key, name, what, CheckKind::engines, unit::kShare, limit, limit};
   }
 };
 
@@ -65,7 +65,7 @@ inline constexpr std::array kCheckRows{
     CheckRow{.key = "preload_residual",
              .name = "Static equilibrium",
              .what = "residual of the preload, relative to the load",
-             .unit = result_unit::kNone,
+             .unit = unit::kNone,
              .case_option = "run.preload_tolerance"},
     CheckRow{.key = "F_z_relative_to_weight",
              .name = "Vertical load",
@@ -105,17 +105,17 @@ inline constexpr std::array kCheckRows{
     CheckRow{.key = "patch_reaches_edge_of_fine_zone",
              .name = "Patch inside the fine mesh",
              .what = "outside once it touches the border of the fine zone",
-             .unit = result_unit::kInside,
+             .unit = unit::kInside,
              .fem_limit = 0},
     CheckRow{.key = "patch_reaches_edge_of_grid",
              .name = "Patch inside the grid",
              .what = "outside once it touches the border of the grid",
-             .unit = result_unit::kInside,
+             .unit = unit::kInside,
              .bem_limit = 0},
     CheckRow{.key = "patch_cut_off",
              .name = "Patch within the profiles",
              .what = "outside once pressure reaches where a profile or the block ends",
-             .unit = result_unit::kInside,
+             .unit = unit::kInside,
              .bem_limit = 0},
     CheckRow{.key = "cell_of_patch",
              .name = "Patch resolved",
@@ -136,21 +136,21 @@ inline constexpr std::array kCheckRows{
              .name = "Patch beyond the layer",
              .what = "twice the distance of the patch's far edge from the layer's middle",
              .kind = CheckKind::warning,
-             .unit = result_unit::kMillimetres,
+             .unit = unit::kMillimetres,
              .case_option = "layer.width",
              .advice = "a larger layer.width holds it"},
     CheckRow{.key = "patch_near_border_of_fine_zone",
              .name = "Patch near the border of the fine mesh",
              .what = "the contact patch nearly fills the fine mesh",
              .kind = CheckKind::warning,
-             .unit = result_unit::kMillimetres,
+             .unit = unit::kMillimetres,
              .case_option = "mesh.fine_width less two elements",
              .advice = "a larger mesh.fine_width gives it room"},
     CheckRow{.key = "von_mises_above_common_rail_yield",
              .name = "Von Mises stress above common rail yield",
              .what = "the elastic stress in the rail is above the proof stress of common rail steels",
              .kind = CheckKind::warning,
-             .unit = result_unit::kMPa,
+             .unit = unit::kMPa,
              .fem_limit = kCommonRailYield,
              .bem_limit = kCommonRailYield,
              .advice = "a real rail would yield there, and shake down or wear"},
@@ -166,7 +166,7 @@ inline constexpr std::array kCheckRows{
              .name = "Patch on a turning profile",
              .what = "angle that the profiles' normal spans over the patch",
              .kind = CheckKind::warning,
-             .unit = result_unit::kDegrees,
+             .unit = unit::kDegrees,
              .bem_limit = kLargestAngleSpanned,
              .advice = "conformal contact, which one contact plane does not describe; the finite elements follow the "
                        "profiles"},
@@ -187,7 +187,7 @@ inline constexpr std::array kCheckRows{
              .name = "Second contact",
              .what = "overlap of the bodies at a second place, which is left out",
              .kind = CheckKind::warning,
-             .unit = result_unit::kMicrometres,
+             .unit = unit::kMicrometres,
              .fem_limit = 0,
              .advice = "the load is shared there; `railstrata bem` shares it between both",
              .own_text = true},
@@ -215,14 +215,14 @@ inline constexpr std::array kCheckRows{
              .name = "Contact on the flange's crest",
              .what = "the wheel touches with its flange's crest, this far below the tape circle",
              .kind = CheckKind::warning,
-             .unit = result_unit::kMillimetres,
+             .unit = unit::kMillimetres,
              .case_option = "height of the flange less 2 mm",
              .advice = "check lateral_shift, gauge and back_to_back"},
     CheckRow{.key = "flange_outside_gauge",
              .name = "Flange outside the gauge",
              .what = "the flange's crest stands beyond the rail's gauge face",
              .kind = CheckKind::warning,
-             .unit = result_unit::kMillimetres,
+             .unit = unit::kMillimetres,
              .fem_limit = 0,
              .bem_limit = 0,
              .advice = "such a wheel is derailed; check lateral_shift, gauge and back_to_back"},
@@ -237,7 +237,7 @@ inline constexpr std::array kCheckRows{
              .name = "Measured while the torque rises",
              .what = "the measuring window begins before the torque has its full value",
              .kind = CheckKind::warning,
-             .unit = result_unit::kMillimetres,
+             .unit = unit::kMillimetres,
              .case_option = "run.positions less half of run.window",
              .advice = "the wanted traction cannot be reached there",
              .own_text = true},
@@ -252,7 +252,7 @@ inline constexpr std::array kCheckRows{
              .name = "Short friction memory",
              .what = "the memory distance that steady sliding needs, of friction.memory_distance",
              .kind = CheckKind::warning,
-             .unit = result_unit::kNone,
+             .unit = unit::kNone,
              .fem_limit = 1,
              .advice = "vibration may grow; a longer friction.memory_distance or a gentler fall prevents it",
              .own_text = true},
@@ -260,22 +260,22 @@ inline constexpr std::array kCheckRows{
              .name = "Case unchanged since the run",
              .what = "case.toml against the one of the run",
              .kind = CheckKind::note,
-             .unit = result_unit::kNone},
+             .unit = unit::kNone},
     CheckRow{.key = "summary_contradicted",
              .name = "Numbers agree with each other",
              .what = "summary.json against its own limits and against patch.csv",
              .kind = CheckKind::note,
-             .unit = result_unit::kNone},
+             .unit = unit::kNone},
     CheckRow{.key = "other_version",
              .name = "Other version",
              .what = "the result was not written by this version",
              .kind = CheckKind::note,
-             .unit = result_unit::kNone},
+             .unit = unit::kNone},
     CheckRow{.key = "cases_differ",
              .name = "Different cases",
              .what = "their options differ",
              .kind = CheckKind::note,
-             .unit = result_unit::kNone},
+             .unit = unit::kNone},
 };
 
 /// Null for a name that is not in the table (a result of another version).

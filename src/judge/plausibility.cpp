@@ -62,7 +62,7 @@ void warn_of_layers(const CaseSpec& spec, const PatchSurroundings& around, Warni
 
 std::string place(double rail_y, double wheel_y, double angle) {
   return fmt::format("y = {:.1f} mm of the rail, {:.1f} mm of the wheel, at {:.1f}°", 1e3 * rail_y, 1e3 * wheel_y,
-                     result_unit::kDegrees.factor * angle);
+                     unit::kDegrees.factor * angle);
 }
 
 void warn_of_second_contact(const PatchSurroundings& around, double angle, Warnings& out) {

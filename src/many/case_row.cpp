@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/csv.hpp"
-#include "io/output_file.hpp"
+#include "record/csv.hpp"
+#include "record/output_file.hpp"
 #include "result/result_table.hpp"
 
 namespace railstrata {

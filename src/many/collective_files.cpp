@@ -6,11 +6,11 @@
 #include <cmath>
 #include <utility>
 
-#include "core/si_prefix.hpp"
-#include "io/csv.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
 #include "many/result_columns.hpp"
+#include "record/csv.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
+#include "record/unit.hpp"
 #include "report/checks.hpp"
 #include "report/page.hpp"
 #include "report/read_run.hpp"
@@ -32,7 +32,7 @@ std::vector<double> in_units(std::vector<double> values, double unit) {
   return values;
 }
 
-Json finite(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
+Json finite(double v) { return json_number(v); }
 
 template <class Damage>
 std::vector<KnownWear> known_laws(const Damage& damage, const std::string& whose) {

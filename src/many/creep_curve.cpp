@@ -7,8 +7,8 @@
 #include <cmath>
 #include <iterator>
 
-#include "io/output_file.hpp"
 #include "many/axis.hpp"
+#include "record/output_file.hpp"
 #include "report/page.hpp"
 
 namespace railstrata {

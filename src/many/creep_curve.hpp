@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bem/creep_curve.hpp"
-#include "io/csv.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 

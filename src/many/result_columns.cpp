@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "io/spreadsheet_text.hpp"
+#include "record/spreadsheet_text.hpp"
 
 namespace railstrata {
 std::vector<ResultColumn> result_columns(bool stresses) {
@@ -17,8 +17,8 @@ std::vector<ResultColumn> result_columns(bool stresses) {
 }
 
 const std::vector<ResultColumn>& study_columns() {
-  using namespace result_unit;
-  const auto own = [](std::string name, std::string title, ResultUnit unit) {
+  using namespace unit;
+  const auto own = [](std::string name, std::string title, Unit unit) {
     const std::string_view in_column = unit.factor == unit.column_factor ? unit.shown : "";
     return ResultColumn{.name = std::move(name),
                         .factor = unit.column_factor,

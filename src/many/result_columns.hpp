@@ -25,7 +25,7 @@ std::string column_title(const std::string& name);
 /// The number of a summary; NaN where it is null or missing.
 double column_value(const ResultColumn& column, const nlohmann::ordered_json& summary);
 
-/// A cell of a CSV table: in quotes where it needs them, no formula to a spreadsheet (io/spreadsheet_text.hpp).
+/// A cell of a CSV table: in quotes where it needs them, no formula to a spreadsheet (record/spreadsheet_text.hpp).
 std::string csv_cell(const std::string& text);
 /// Empty for a number that does not apply.
 std::string csv_cell(double value);

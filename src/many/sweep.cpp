@@ -8,6 +8,7 @@
 #include "io/summary_json.hpp"
 #include "judge/bem_summary.hpp"
 #include "many/each_case.hpp"
+#include "record/csv.hpp"
 #include "runs/solve_half_space.hpp"
 
 namespace railstrata {

@@ -13,6 +13,7 @@
 #include "core/control.hpp"
 #include "many/axis.hpp"
 #include "many/case_row.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 

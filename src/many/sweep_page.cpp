@@ -6,8 +6,9 @@
 #include <cmath>
 #include <set>
 
-#include "io/output_file.hpp"
 #include "many/case_page.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
 #include "report/page.hpp"
 
 namespace railstrata {

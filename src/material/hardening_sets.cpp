@@ -9,10 +9,12 @@
 #include "core/faults.hpp"
 #include "core/nearest_word.hpp"
 
+#include "record/unit.hpp"
+
 namespace railstrata {
 namespace {
 
-constexpr double kMPa = 1e6, kSteel = 206e9;
+constexpr double kSteel = 206e9;
 
 /// The least squares fit of relative stress at 60 amplitudes, geometrically spaced, over K': the curve of one exponent
 /// is one curve times K' (tests/material/calibrate_test.cpp repeats the fit).
@@ -29,17 +31,17 @@ constexpr std::string_view kStored =
     "stored sets of a public transformation-plasticity model (ElasticPlasticTransformMaterial)";
 
 PlasticParameters<double> law(double yield, double saturation, double rate, std::initializer_list<Term> terms) {
-  PlasticParameters<double> out{0, yield * kMPa, saturation * kMPa, rate, {}, {}};
+  PlasticParameters<double> out{0, yield * kMega, saturation * kMega, rate, {}, {}};
   int k = 0;
   for (const Term& t : terms) {
-    out.modulus[k] = t.modulus * kMPa;
+    out.modulus[k] = t.modulus * kMega;
     out.recall[k++] = t.recall;
   }
   return out;
 }
 
 HardeningSet estimated(std::string_view name, std::string_view use, double tensile) {
-  return {name, Certainty::estimated, kEstimate, use, estimated_hardening(tensile * kMPa), tensile * kMPa, kSteel};
+  return {name, Certainty::estimated, kEstimate, use, estimated_hardening(tensile * kMega), tensile * kMega, kSteel};
 }
 
 HardeningSet published(std::string_view name, std::string_view source, std::string_view use, double young,
@@ -56,8 +58,8 @@ std::string capitals(std::string_view text) {
 }  // namespace
 
 double cyclic_strength_coefficient(double tensile) {
-  const double rm = tensile / kMPa, ductility = std::min(0.338, 1033 * std::pow(rm, -1.235));
-  return 3.1148 * kMPa * std::pow(rm, 0.897) / std::pow(ductility, kCyclicExponent);
+  const double rm = tensile / kMega, ductility = std::min(0.338, 1033 * std::pow(rm, -1.235));
+  return 3.1148 * kMega * std::pow(rm, 0.897) / std::pow(ductility, kCyclicExponent);
 }
 
 PlasticParameters<double> estimated_hardening(double tensile) {

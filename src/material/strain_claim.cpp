@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "core/si_prefix.hpp"
 #include "material/plastic.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 

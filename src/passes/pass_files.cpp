@@ -10,13 +10,13 @@
 #include <nlohmann/json.hpp>
 
 #include "core/faults.hpp"
-#include "core/si_prefix.hpp"
-#include "io/csv.hpp"
 #include "io/damage_files.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
 #include "passes/pass_json.hpp"
 #include "passes/pass_way_files.hpp"
+#include "record/csv.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 namespace {
@@ -24,26 +24,22 @@ namespace {
 using Json = nlohmann::ordered_json;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-/// Columns of passes.csv that both methods have; the strains of classify() have no unit, so that they are read back as
-/// they were.
-constexpr std::array kPassColumns{"pass",
-                                  "accumulated_strain",
-                                  "net_strain",
-                                  "net_y_mm",
-                                  "net_depth_mm",
-                                  "sigma_x_min_MPa",
-                                  "sigma_x_depth_mm",
-                                  "sigma_y_min_MPa",
-                                  "sigma_y_depth_mm",
-                                  "forward_um",
-                                  "lateral_um",
-                                  "sinking_um",
-                                  "force_N",
-                                  "balance",
-                                  "iterations",
-                                  "error"};
-/// Those of the stationary method besides.
-constexpr std::array kFurtherColumns{"lateral_mm", "traction", "force_share", "cycle_accumulated", "cycle_net"};
+/// A row of passes.csv by the stationary method; cycle: of one that the pass completes.
+struct StationaryRow {
+  const PassRow& pass;
+  PassStrain cycle;
+};
+
+Columns<StationaryRow> row_columns() {
+  using S = StationaryRow;
+  Columns<S> out = of_part<S>(pass_columns(), [](const S& s) -> const PassRow& { return s.pass; });
+  append(out, {{"lateral", unit::kMillimetres, [](const S& s) { return s.pass.place; }},
+               {"traction", unit::kNone, [](const S& s) { return s.pass.traction; }},
+               {"force_share", unit::kNone, [](const S& s) { return s.pass.force_share; }},
+               {"cycle_accumulated", unit::kNone, [](const S& s) { return s.cycle.accumulated; }},
+               {"cycle_net", unit::kNone, [](const S& s) { return s.cycle.net; }}});
+  return out;
+}
 
 constexpr int kBegun = 7;  // numbers of PassSeries::begun
 
@@ -98,38 +94,30 @@ Json grid_json(const SteadyGrid& g) {
 
 }  // namespace
 
-std::vector<std::string> pass_columns() { return {kPassColumns.begin(), kPassColumns.end()}; }
-
-std::vector<double> pass_values(const PassRow& r) {
-  return {static_cast<double>(r.pass),
-          r.largest.accumulated,
-          r.largest.net,
-          kToMilli * r.net_y,
-          kToMilli * r.net_depth,
-          kToMega * r.stress[0],
-          kToMilli * r.stress_depth[0],
-          kToMega * r.stress[1],
-          kToMilli * r.stress_depth[1],
-          kToMicro * r.forward,
-          kToMicro * r.lateral,
-          kToMicro * r.sinking,
-          r.force,
-          r.balance,
-          static_cast<double>(r.iterations),
-          r.error};
+Columns<PassRow> pass_columns() {
+  using R = PassRow;
+  return {{"pass", unit::kCount, &R::pass},
+          {"accumulated_strain", unit::kNone, [](const R& r) { return r.largest.accumulated; }},
+          {"net_strain", unit::kNone, [](const R& r) { return r.largest.net; }},
+          {"net_y", unit::kMillimetres, &R::net_y},
+          {"net_depth", unit::kMillimetres, &R::net_depth},
+          {"sigma_x_min", unit::kMPa, [](const R& r) { return r.stress[0]; }},
+          {"sigma_x_depth", unit::kMillimetres, [](const R& r) { return r.stress_depth[0]; }},
+          {"sigma_y_min", unit::kMPa, [](const R& r) { return r.stress[1]; }},
+          {"sigma_y_depth", unit::kMillimetres, [](const R& r) { return r.stress_depth[1]; }},
+          {"forward", unit::kMicrometres, &R::forward},
+          {"lateral", unit::kMicrometres, &R::lateral},
+          {"sinking", unit::kMicrometres, &R::sinking},
+          {"force", unit::kNewtons, &R::force},
+          {"balance", unit::kNone, &R::balance},
+          {"iterations", unit::kCount, &R::iterations},
+          {"error", unit::kNone, &R::error}};
 }
 
-std::vector<std::string> stationary_columns() {
-  std::vector<std::string> names = pass_columns();
-  names.insert(names.end(), kFurtherColumns.begin(), kFurtherColumns.end());
-  return names;
-}
+std::vector<std::string> stationary_columns() { return names_of(row_columns()); }
 
-std::vector<double> stationary_values(const PassRow& r, const std::optional<PassStrain>& cycle) {
-  const PassStrain known = cycle.value_or(PassStrain{kNone, kNone});
-  std::vector<double> row = pass_values(r);
-  row.insert(row.end(), {kToMilli * r.place, r.traction, r.force_share, known.accumulated, known.net});
-  return row;
+std::vector<double> stationary_values(const PassRow& pass, const std::optional<PassStrain>& cycle) {
+  return table_row(row_columns(), {pass, cycle.value_or(PassStrain{kNone, kNone})});
 }
 
 void write_pass_rows(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -217,30 +205,30 @@ PassSeries read_pass_series(const std::filesystem::path& state, const std::files
   return series;
 }
 
+PointLists point_lists(PointColumns which) {
+  using P = PassPoint;
+  PointLists out{{{"zone", unit::kCount, &P::zone}},
+                 {},
+                 tensor_columns<P>("sigma", unit::kMPa, &P::stress),
+                 tensor_columns<P>("plastic", unit::kNone, &P::plastic),
+                 {{"plastic_strain_accumulated", unit::kNone, &P::accumulated}}};
+  if (which == PointColumns::of_passes)
+    out.of_pass = {{"accumulated_strain", unit::kNone, [](const P& p) { return p.strain.accumulated; }},
+                   {"net_strain", unit::kNone, [](const P& p) { return p.strain.net; }},
+                   {"class", unit::kCount, [](const P& p) { return static_cast<double>(p.kind); }}};
+  return out;
+}
+
 void write_pass_points(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                        const std::vector<PassPoint>& points, PointColumns which) {
-  std::vector<CsvColumn> columns;
-  for (const char* name : {"y_mm", "depth_mm", "zone"}) columns.push_back({name, {}});
-  if (which == PointColumns::of_passes)
-    for (const char* name : {"accumulated_strain", "net_strain", "class"}) columns.push_back({name, {}});
-  for (const char* name :
-       {"sigma_xx_MPa", "sigma_yy_MPa", "sigma_zz_MPa", "tau_xy_MPa", "tau_yz_MPa", "tau_xz_MPa", "plastic_xx",
-        "plastic_yy", "plastic_zz", "plastic_xy", "plastic_yz", "plastic_xz", "plastic_p"})
-    columns.push_back({name, {}});
-  const bool of_elements = std::any_of(points.begin(), points.end(), [](const PassPoint& p) { return p.row >= 0; });
-  if (of_elements)
-    for (const char* name : {"row", "column"}) columns.push_back({name, {}});
-  for (const PassPoint& p : points) {
-    std::vector<double> row{kToMilli * p.y, kToMilli * p.depth, static_cast<double>(p.zone)};
-    if (which == PointColumns::of_passes)
-      row.insert(row.end(), {p.strain.accumulated, p.strain.net, static_cast<double>(p.kind)});
-    for (const double s : p.stress) row.push_back(kToMega * s);
-    for (const double e : p.plastic) row.push_back(e);
-    row.push_back(p.accumulated);
-    if (of_elements) row.insert(row.end(), {static_cast<double>(p.row), static_cast<double>(p.column)});
-    for (std::size_t c = 0; c < row.size(); ++c) columns[c].values.push_back(row[c]);
-  }
-  write_csv(file, provenance, columns);
+  using P = PassPoint;
+  const PointLists lists = point_lists(which);
+  Columns<P> columns{{"y", unit::kMillimetres, &P::y}, {"depth", unit::kMillimetres, &P::depth}};
+  for (const Columns<P>& more : {lists.zone, lists.of_pass, lists.stress, lists.plastic, lists.accumulated})
+    append(columns, more);
+  if (std::any_of(points.begin(), points.end(), [](const P& p) { return p.row >= 0; }))
+    append(columns, {{"row", unit::kCount, &P::row}, {"column", unit::kCount, &P::column}});
+  write_csv(file, provenance, points, columns);
 }
 
 std::vector<PassPoint> section_points(const RailPasses& rail, const PassSeries& series, const PassResult& last) {
@@ -256,7 +244,7 @@ void write_residual(const std::filesystem::path& folder, const std::vector<std::
   std::vector<std::string> remarks = provenance;
   remarks.push_back(
       "After the last pass. y: contact frame. class: 0 elastic shakedown, 1 plastic shakedown, 2 ratchetting, "
-      "3 transient. plastic_xy ...: tensor shears; plastic_p: accumulated over all passes.");
+      "3 transient. plastic_xy ...: tensor shears; plastic_strain_accumulated: accumulated over all passes.");
   const SteadyGrid& g = rail.grid;
   const std::vector<PassPoint> section = section_points(rail, series, last);
   const auto most = std::max_element(section.begin(), section.end(), [](const PassPoint& a, const PassPoint& b) {

@@ -10,13 +10,13 @@
 #include "passes/pass_point.hpp"
 #include "passes/pass_series.hpp"
 #include "passes/pass_way.hpp"
+#include "record/column.hpp"
 #include "result/summary.hpp"
 
 namespace railstrata {
 
-/// passes.csv: the columns that both methods have, and a row of them.
-std::vector<std::string> pass_columns();
-std::vector<double> pass_values(const PassRow& row);
+/// passes.csv: the columns that both methods have.
+Columns<PassRow> pass_columns();
 /// Those of the stationary method; cycle: of one that the pass completes.
 std::vector<std::string> stationary_columns();
 std::vector<double> stationary_values(const PassRow& row, const std::optional<PassStrain>& cycle);
@@ -25,6 +25,11 @@ void write_pass_rows(const std::filesystem::path& file, const std::vector<std::s
                      const std::vector<std::string>& names, const std::vector<std::vector<double>>& table);
 /// Quantities of a series of passes (class, strain of the last pass), or none of a single run.
 enum class PointColumns { of_passes, of_a_run };
+/// The columns of points: of the files of passes those of the last one too.
+struct PointLists {
+  Columns<PassPoint> zone, of_pass, stress, plastic, accumulated;
+};
+PointLists point_lists(PointColumns which);
 /// A table of points: residual.csv and profile.csv. Of elements with their row and column in the fine zone, -1 deeper.
 void write_pass_points(const std::filesystem::path& file, const std::vector<std::string>& provenance,
                        const std::vector<PassPoint>& points, PointColumns which = PointColumns::of_passes);

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "model/zone.hpp"
+#include "record/json.hpp"
 
 namespace railstrata {
 
@@ -13,8 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Json last_pass_json(const std::vector<std::string>& columns, const std::vector<double>& row) {
   Json out;
-  for (std::size_t c = 1; c < columns.size(); ++c)
-    out[columns[c]] = std::isfinite(row[c]) ? Json(row[c]) : Json(nullptr);
+  for (std::size_t c = 1; c < columns.size(); ++c) out[columns[c]] = json_number(row[c]);
   return out;
 }
 

@@ -1,33 +1,35 @@
 #include "passes/pass_way_files.hpp"
 
-#include <cstdint>
 #include <utility>
 
-#include "core/si_prefix.hpp"
-#include "io/csv.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 namespace {
-
-constexpr const char* kTensor[] = {"xx", "yy", "zz", "xy", "yz", "xz"};
 
 void write_along(const std::filesystem::path& file, std::vector<std::string> remarks, const RailPasses& rail,
                  const PassWay& way) {
   remarks.push_back(
       "The longitudinal section through the governing point in the last pass. x: from the middle of the patch, the "
       "load travels to +x. elastic: the same pressure on a rail that does not yield.");
+  struct Point {
+    double x, y, depth;
+    int zone;
+    double elastic, yielding;
+  };
   const SteadyGrid& g = rail.grid;
-  std::vector<CsvColumn> columns{
-      {"x_mm", {}}, {"y_mm", {}}, {"depth_mm", {}}, {"zone", {}}, {"von_mises_elastic_MPa", {}}, {"von_mises_MPa", {}}};
-  std::size_t n = 0;
+  std::vector<Point> points;
   for (int r = 0; r < g.rows(); ++r)
-    for (int i = 0; i < g.active_stations(); ++i, ++n) {
-      const double row[] = {kToMilli * g.x(i),        kToMilli * g.y(way.column),
-                            kToMilli * g.depth(r),    static_cast<double>(rail.zone[static_cast<std::size_t>(r)]),
-                            kToMega * way.elastic[n], kToMega * way.yielding[n]};
-      for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(row[c]);
-    }
-  write_csv(file, remarks, columns);
+    for (int i = 0; i < g.active_stations(); ++i)
+      points.push_back({g.x(i), g.y(way.column), g.depth(r), rail.zone[static_cast<std::size_t>(r)],
+                        way.elastic[points.size()], way.yielding[points.size()]});
+  write_csv(file, remarks, points,
+            Columns<Point>{{"x", unit::kMillimetres, &Point::x},
+                           {"y", unit::kMillimetres, &Point::y},
+                           {"depth", unit::kMillimetres, &Point::depth},
+                           {"zone", unit::kCount, &Point::zone},
+                           {"von_mises_elastic", unit::kMPa, &Point::elastic},
+                           {"von_mises", unit::kMPa, &Point::yielding}});
 }
 
 /// Corners of the section's cells, and the cells row by row.
@@ -67,21 +69,23 @@ void write_loops(const std::filesystem::path& file, std::vector<std::string> rem
   remarks.emplace_back(
       "The last pass, station after station as the load goes over. point: its place in passes.json, loops. strain: "
       "tensor shears.");
-  std::vector<CsvColumn> columns{{"point", {}}, {"y_mm", {}}, {"depth_mm", {}}, {"x_mm", {}}};
-  for (const char* c : kTensor) columns.push_back({std::string(c[0] == c[1] ? "sigma_" : "tau_") + c + "_MPa", {}});
-  for (const char* c : kTensor) columns.push_back({std::string("strain_") + c, {}});
-  columns.push_back({"plastic_p", {}});
+  struct Step {
+    int point;
+    double y, depth, x;
+    const StationState& state;
+  };
+  std::vector<Step> steps;
   for (std::size_t k = 0; k < loops.size(); ++k)
-    for (std::size_t i = 0; i < loops[k].states.size(); ++i) {
-      const StationState& s = loops[k].states[i];
-      std::vector<double> row{static_cast<double>(k), kToMilli * loops[k].y, kToMilli * loops[k].depth,
-                              kToMilli * loops[k].x[i]};
-      for (const double stress : s.stress) row.push_back(kToMega * stress);
-      row.insert(row.end(), s.strain.begin(), s.strain.end());
-      row.push_back(s.accumulated);
-      for (std::size_t c = 0; c < row.size(); ++c) columns[c].values.push_back(row[c]);
-    }
-  write_csv(file, remarks, columns);
+    for (std::size_t i = 0; i < loops[k].states.size(); ++i)
+      steps.push_back({static_cast<int>(k), loops[k].y, loops[k].depth, loops[k].x[i], loops[k].states[i]});
+  Columns<Step> columns{{"point", unit::kCount, &Step::point},
+                        {"y", unit::kMillimetres, &Step::y},
+                        {"depth", unit::kMillimetres, &Step::depth},
+                        {"x", unit::kMillimetres, &Step::x}};
+  append(columns, tensor_columns<Step>("sigma", unit::kMPa, [](const Step& s) { return s.state.stress; }));
+  append(columns, tensor_columns<Step>("strain", unit::kNone, [](const Step& s) { return s.state.strain; }));
+  append(columns, {{"plastic_strain_accumulated", unit::kNone, [](const Step& s) { return s.state.accumulated; }}});
+  write_csv(file, remarks, steps, columns);
 }
 
 void write_way(const std::filesystem::path& folder, const std::vector<std::string>& provenance, const RailPasses& rail,
@@ -92,26 +96,11 @@ void write_way(const std::filesystem::path& folder, const std::vector<std::strin
 
 void write_points_vtk(const std::filesystem::path& file, VtkQuads mesh, const std::vector<PassPoint>& points,
                       PointColumns which) {
-  std::vector<double> stress, strain, p, accumulated, net;
-  std::vector<std::int32_t> kind, zone;
-  for (const PassPoint& at : points) {
-    for (const double s : at.stress) stress.push_back(kToMega * s);
-    strain.insert(strain.end(), at.plastic.begin(), at.plastic.end());
-    p.push_back(at.accumulated);
-    accumulated.push_back(at.strain.accumulated);
-    net.push_back(at.strain.net);
-    kind.push_back(static_cast<std::int32_t>(at.kind));
-    zone.push_back(at.zone);
-  }
-  mesh.cell_fields = {{"residual_stress_MPa", 6, std::move(stress)},
-                      {"plastic_strain", 6, std::move(strain)},
-                      {"plastic_p", 1, std::move(p)}};
-  if (which == PointColumns::of_passes) {
-    mesh.cell_fields.push_back({"accumulated_strain", 1, std::move(accumulated)});
-    mesh.cell_fields.push_back({"net_strain", 1, std::move(net)});
-    mesh.cell_fields.push_back({"class", 1, std::move(kind)});
-  }
-  mesh.cell_fields.push_back({"zone", 1, std::move(zone)});
+  const PointLists lists = point_lists(which);
+  mesh.cell_fields = {vtk_field<double>("residual_stress", points, lists.stress),
+                      vtk_field<double>("plastic_strain", points, lists.plastic)};
+  for (const Columns<PassPoint>& columns : {lists.accumulated, lists.of_pass, lists.zone})
+    add_vtk_fields<double>(mesh.cell_fields, points, columns);
   write_vtp(file, mesh);
 }
 

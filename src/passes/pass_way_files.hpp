@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "io/vtk.hpp"
 #include "passes/pass_files.hpp"
 #include "passes/pass_way.hpp"
+#include "record/vtk.hpp"
 
 namespace railstrata {
 
@@ -21,7 +21,7 @@ void write_way(const std::filesystem::path& folder, const std::vector<std::strin
                const PassWay& way);
 
 /// A cell of the mesh a point, at x = 0, z upward: residual_stress_MPa and plastic_strain (symmetric tensors),
-/// plastic_p, of passes accumulated_strain and net_strain of the last one and class; zone.
+/// plastic_strain_accumulated, of passes accumulated_strain and net_strain of the last one and class; zone.
 void write_points_vtk(const std::filesystem::path& file, VtkQuads mesh, const std::vector<PassPoint>& points,
                       PointColumns which);
 /// The section of the stationary method. Of a line contact one column as wide as the stations are long.

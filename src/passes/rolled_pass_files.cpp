@@ -8,20 +8,36 @@
 #include <nlohmann/json.hpp>
 
 #include "core/faults.hpp"
-#include "core/si_prefix.hpp"
-#include "io/csv.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
-#include "io/vtk.hpp"
 #include "model/zone.hpp"
 #include "passes/pass_json.hpp"
 #include "passes/pass_way_files.hpp"
+#include "record/csv.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
+#include "record/unit.hpp"
+#include "record/vtk.hpp"
 
 namespace railstrata {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kNoQuad = -1;  // in state.csv: no element has become hot
+
+/// A row of passes.csv by the finite elements.
+struct RolledRow {
+  const PassRow& pass;
+  const PassContact& contact;
+};
+
+Columns<RolledRow> rolled_row_columns() {
+  using R = RolledRow;
+  Columns<R> out = of_part<R>(pass_columns(), [](const R& r) -> const PassRow& { return r.pass; });
+  append(out, {{"traction", unit::kNone, [](const R& r) { return r.contact.traction; }},
+               {"creepage", unit::kNone, [](const R& r) { return r.contact.creepage; }},
+               {"p_max", unit::kMPa, [](const R& r) { return r.contact.p_max; }},
+               {"lateral", unit::kMillimetres, [](const R& r) { return r.contact.lateral; }}});
+  return out;
+}
 
 /// Columns of the state before the numbers of a point.
 std::vector<std::string> state_heads() {
@@ -83,16 +99,10 @@ VtkQuads quads_of(const SectionMesh& section) {
 
 }  // namespace
 
-std::vector<std::string> rolled_columns() {
-  std::vector<std::string> names = pass_columns();
-  for (const char* name : {"traction", "creepage", "p_max_MPa", "lateral_mm"}) names.emplace_back(name);
-  return names;
-}
+std::vector<std::string> rolled_columns() { return names_of(rolled_row_columns()); }
 
 std::vector<double> rolled_values(const PassRow& pass, const PassContact& contact) {
-  std::vector<double> row = pass_values(pass);
-  row.insert(row.end(), {contact.traction, contact.creepage, kToMega * contact.p_max, kToMilli * contact.lateral});
-  return row;
+  return table_row(rolled_row_columns(), {pass, contact});
 }
 
 void write_rolled_table(const std::filesystem::path& file, const std::vector<std::string>& provenance,
@@ -173,7 +183,8 @@ void write_rolled_result(const std::filesystem::path& folder, const std::vector<
   remarks.emplace_back(
       "After the last pass. y, depth: axes of the rigid contact point. class: 0 elastic shakedown, 1 plastic "
       "shakedown, "
-      "2 ratchetting, 3 transient. plastic_xy ...: tensor shears; plastic_p: accumulated over all passes.");
+      "2 ratchetting, 3 transient. plastic_xy ...: tensor shears; plastic_strain_accumulated: accumulated over all "
+      "passes.");
   write_pass_points(folder / "residual.csv", remarks, points);
   remarks.emplace_back("Below the place with the largest plastic strain.");
   write_pass_points(folder / "profile.csv", remarks, profile_of(points));

@@ -23,24 +23,22 @@ std::string too_short(const Model& model, double a) {
 }
 
 constexpr ResidualNumber kNumbers[] = {
-    {"sigma_x_min", result_unit::kMPa, "Most compressive residual stress along the rail",
+    {"sigma_x_min", unit::kMPa, "Most compressive residual stress along the rail",
      [](const RunResidual& r) { return r.pass.row.stress[0]; }},
-    {"sigma_x_depth", result_unit::kMillimetres, "Its depth",
-     [](const RunResidual& r) { return r.pass.row.stress_depth[0]; }},
-    {"sigma_y_min", result_unit::kMPa, "Most compressive residual stress across the rail, along the surface",
+    {"sigma_x_depth", unit::kMillimetres, "Its depth", [](const RunResidual& r) { return r.pass.row.stress_depth[0]; }},
+    {"sigma_y_min", unit::kMPa, "Most compressive residual stress across the rail, along the surface",
      [](const RunResidual& r) { return r.pass.row.stress[1]; }},
-    {"sigma_y_depth", result_unit::kMillimetres, "Its depth",
-     [](const RunResidual& r) { return r.pass.row.stress_depth[1]; }},
-    {"plastic_strain", result_unit::kNone, "Largest equivalent plastic strain √(2/3) |E^p|",
+    {"sigma_y_depth", unit::kMillimetres, "Its depth", [](const RunResidual& r) { return r.pass.row.stress_depth[1]; }},
+    {"plastic_strain", unit::kNone, "Largest equivalent plastic strain √(2/3) |E^p|",
      [](const RunResidual& r) { return r.pass.row.strain; }},
-    {"balance", result_unit::kNone,
+    {"balance", unit::kNone,
      "Larger resultant of the shear stresses τ_xy and τ_xz over the section, over the integral of |σ_x|: 0 in "
      "equilibrium",
      [](const RunResidual& r) { return r.pass.row.balance; }},
-    {"steady_from", result_unit::kMillimetres, "First station of the mean, from where the wheel was put on",
+    {"steady_from", unit::kMillimetres, "First station of the mean, from where the wheel was put on",
      [](const RunResidual& r) { return r.from; }},
-    {"steady_to", result_unit::kMillimetres, "Last station of the mean", [](const RunResidual& r) { return r.to; }},
-    {"uneven", result_unit::kNone,
+    {"steady_to", unit::kMillimetres, "Last station of the mean", [](const RunResidual& r) { return r.to; }},
+    {"uneven", unit::kNone,
      "Largest difference of the plastic strain between the two halves of these stations, over the largest plastic "
      "strain: 0 where rolling is steady",
      [](const RunResidual& r) { return r.pass.uneven; }}};

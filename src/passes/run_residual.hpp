@@ -7,7 +7,7 @@
 
 #include "fem/rolling_run.hpp"
 #include "passes/rolled_pass.hpp"
-#include "result/result_unit.hpp"
+#include "record/unit.hpp"
 
 namespace railstrata {
 
@@ -27,7 +27,7 @@ RunResidual run_residual(const RollingSystem& system, const RollingState& end);
 /// A number of residual.json, SI.
 struct ResidualNumber {
   std::string_view name;  ///< its key, less the unit's ending
-  ResultUnit unit;
+  Unit unit;
   std::string_view doc;
   double (*value)(const RunResidual&);
 

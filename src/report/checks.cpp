@@ -196,7 +196,7 @@ ReportVerdict verdict_of(const Report& report) {
     if (!c.judged || c.ok) continue;
     ++failed;
     const CheckRow* row = find_check(c.name);
-    const ResultUnit& unit = row ? row->unit : result_unit::kNone;
+    const Unit& unit = row ? row->unit : unit::kNone;
     names += fmt::format("{}{}", names.empty() ? "" : "; ", row ? row->name : c.name);
     if (std::isfinite(c.value))
       names += fmt::format(" {}, limit {}", with_unit(unit, c.value, 3), limit_text(unit, c.limit));

@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/si_prefix.hpp"
+#include "record/unit.hpp"
 #include "report/svg_page.hpp"
 #include "result/patch.hpp"
 

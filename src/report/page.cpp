@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "io/json_text.hpp"
-#include "io/markup_text.hpp"
 #include "io/provenance.hpp"
+#include "record/json.hpp"
+#include "record/markup_text.hpp"
 #include "report/assets.hpp"
 #include "report/page_parts.hpp"
 #include "report/payload.hpp"
@@ -24,10 +24,10 @@ std::string frame_block(const FramedPage& frame) {
 std::string report_page(const Report& report) { return report_page(report, {}); }
 
 std::string report_page(const Report& report, const FramedPage& what_if) {
-  const std::string policy = fmt::format(
-      "default-src 'none'; script-src {}{}; style-src {}{}; {}base-uri 'none'; form-action 'none'",
-      policy_hash(report_script()), what_if.script_policy, policy_hash(report_style()), what_if.style_policy,
-      what_if.further_policy);
+  const std::string policy =
+      fmt::format("default-src 'none'; script-src {}{}; style-src {}{}; {}base-uri 'none'; form-action 'none'",
+                  policy_hash(report_script()), what_if.script_policy, policy_hash(report_style()),
+                  what_if.style_policy, what_if.further_policy);
   return fmt::format(
       "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
       "http-equiv=\"Content-Security-Policy\" content=\"{}\">\n"

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "core/faults.hpp"
-#include "io/csv.hpp"
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
+#include "record/csv.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
 #include "report/page.hpp"
 #include "report/payload.hpp"
 

@@ -10,10 +10,10 @@
 
 #include "core/engine.hpp"
 #include "core/faults.hpp"
-#include "core/si_prefix.hpp"
-#include "io/json_text.hpp"
 #include "io/provenance.hpp"
 #include "material/elastic.hpp"
+#include "record/json.hpp"
+#include "record/unit.hpp"
 #include "report/base64.hpp"
 #include "report/result_reference.hpp"
 #include "result/patch.hpp"
@@ -244,7 +244,7 @@ Json section(const CsvTable& table, bool longitudinal) {
            {"tau_max", packed(largest_shears(table))},
            {"material", material_digits(table.column("material"))}};
   for (const CsvColumn& c : table.columns)
-    if (c.name == "plastic_p") out["plastic_p"] = packed(c.values);
+    if (c.name == "plastic_strain_accumulated") out["plastic_strain_accumulated"] = packed(c.values);
   return out;
 }
 

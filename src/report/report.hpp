@@ -10,9 +10,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/csv.hpp"
 #include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 

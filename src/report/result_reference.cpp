@@ -35,7 +35,7 @@ std::string_view kind_word(CheckKind kind) {
 }
 
 // ---- for programs
-Json unit_json(const ResultUnit& unit) { return {{"si", unit.si()}, {"shown", unit.shown}, {"factor", unit.factor}}; }
+Json unit_json(const Unit& unit) { return {{"si", unit.si()}, {"shown", unit.shown}, {"factor", unit.factor}}; }
 
 Json limit_json(double limit) { return std::isfinite(limit) ? Json(limit) : Json(nullptr); }
 

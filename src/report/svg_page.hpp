@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/markup_text.hpp"
+#include "record/markup_text.hpp"
 
 namespace railstrata {
 

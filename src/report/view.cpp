@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "io/json_text.hpp"
-#include "io/output_file.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
 #include "report/assets.hpp"
 
 namespace railstrata {

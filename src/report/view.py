@@ -7,7 +7,7 @@
                                        xvfb-run -a python3 view.py --png view.png
 
 Both bodies are cut lengthwise through the largest pressure; the half on the field side is shown, seen from the track.
-Colours are von Mises stresses of the elements (--field sigma1_MPa: largest principal stresses); the black lines are the
+Colours are von Mises stresses of the elements (--field sigma_1_MPa: largest principal stresses); the black lines are the
 border of the layer. A half-space result has no elements: its patch is shown on the rail.
 Axes: x rolling direction, y to the field side, z up; metres. The arrows in the lower left corner of VTK's picture are
 10 mm long."""
@@ -30,7 +30,7 @@ HALF_HEIGHT = 0.026  # m, of what is seen
 def read_arguments():
     parser = argparse.ArgumentParser(description="Shows a RailStrata result")
     parser.add_argument("--png", help="write a picture instead of opening a window")
-    parser.add_argument("--field", default="von_mises_MPa", choices=["von_mises_MPa", "sigma1_MPa"])
+    parser.add_argument("--field", default="von_mises_MPa", choices=["von_mises_MPa", "sigma_1_MPa"])
     return parser.parse_known_args()[0]
 
 

@@ -10,18 +10,18 @@
 namespace railstrata {
 namespace {
 
-using namespace result_unit;
+using namespace unit;
 using C = ContactSummary;
 using P = PatchMeasures;
 using R = RunSummary;
 
 template <auto... Path>
-ResultValue at(const Summary& s) {
+double at(const Summary& s) {
   return (s.*....*Path);
 }
 template <auto Member>
-ResultValue count(const Summary& s) {
-  return static_cast<long>(s.run.*Member);
+double count(const Summary& s) {
+  return static_cast<double>(s.run.*Member);
 }
 template <auto Member>
 constexpr auto patch = &at<&Summary::contact, &C::patch, Member>;
@@ -44,550 +44,223 @@ constexpr RoundOff kOfForce{kNoise, kNormalForce}, kOfMoment{kNoise, kNormalForc
     kOfWork{kNoise, kNormalForce, "/contact/approach_m"};
 constexpr RoundOff kOfCreepage{1e-10}, kOfSpin{1e-8}, kOfAngle{1e-9};
 
+/// What is said of a number besides; nothing: it stands in summary.json, from both engines.
+enum Mark : unsigned { kColumn = 1, kShown = 2, kCompared = 4, kFem = 8, kBem = 16, kOfAll = 32 };
+constexpr unsigned kFile = 0, kMain = kColumn | kShown | kCompared;
+
+ResultNumber row(std::string_view symbol, const Unit& unit, double (*value)(const Summary&), std::string_view label,
+                 std::string_view name, std::string_view doc, unsigned marks = kFile, const RoundOff& round_off = {}) {
+  ResultNumber out;
+  static_cast<Column<Summary>&>(out) = {std::string(symbol), unit, value};
+  out.label = label;
+  out.name = name;
+  out.doc = doc;
+  out.engine = marks & kFem ? HadBy::finite_elements : marks & kBem ? HadBy::half_spaces : HadBy::both_engines;
+  out.column = marks & kColumn;
+  out.shown = marks & kShown;
+  out.comparable = marks & kCompared;
+  out.of_all_patches = marks & kOfAll;
+  out.round_off = round_off;
+  return out;
+}
+
 std::vector<ResultNumber> traction_numbers() {
-  return {{.group = "contact",
-           .symbol = "p_max",
-           .unit = kMPa,
-           .value = patch<&P::p_max>,
-           .label = "p_max",
-           .name = "Largest pressure p",
-           .doc = "Top of the parabola through the largest pressure and its neighbours",
-           .column = true,
-           .shown = true,
-           .comparable = true},
-          {.group = "contact",
-           .symbol = "q_max",
-           .unit = kMPa,
-           .value = patch<&P::q_max>,
-           .label = "q_max",
-           .name = "Largest shear |q|",
-           .doc = "Largest magnitude of the tangential traction; half-spaces: at the front of slip, else at a point",
-           .column = true,
-           .shown = true,
-           .comparable = true,
-           .round_off = kOfPressure},
-          {.group = "contact",
-           .symbol = "q_max_point",
-           .unit = kMPa,
-           .value = patch<&P::q_max_point>,
-           .label = "q_max of a point",
-           .name = "Largest shear |q| of a point",
-           .doc = "Misses the cusp at the front of slip: to be compared between elements and cells of one size",
-           .column = true,
-           .round_off = kOfPressure}};
+  return {row("p_max", kMPa, patch<&P::p_max>, "p_max", "Largest pressure p",
+              "Top of the parabola through the largest pressure and its neighbours", kMain),
+          row("q_max", kMPa, patch<&P::q_max>, "q_max", "Largest shear |q|",
+              "Largest magnitude of the tangential traction; half-spaces: at the front of slip, else at a point", kMain,
+              kOfPressure),
+          row("q_max_point", kMPa, patch<&P::q_max_point>, "q_max of a point", "Largest shear |q| of a point",
+              "Misses the cusp at the front of slip: to be compared between elements and cells of one size", kColumn,
+              kOfPressure)};
 }
 
 std::vector<ResultNumber> extent_numbers() {
-  return {{.group = "contact",
-           .symbol = "patch_length",
-           .unit = kMillimetres,
-           .value = patch<&P::length>,
-           .label = "length",
-           .name = "Patch length (along x)",
-           .doc = "Longest chord in the rolling direction, between the edges where p² extrapolates to zero",
-           .column = true,
-           .shown = true,
-           .comparable = true},
-          {.group = "contact",
-           .symbol = "patch_width",
-           .unit = kMillimetres,
-           .value = patch<&P::width>,
-           .label = "width",
-           .name = "Patch width (along y)",
-           .doc = "Longest chord across the rolling direction; a line contact has none",
-           .column = true,
-           .shown = true,
-           .comparable = true},
-          {.group = "contact",
-           .symbol = "patch_area",
-           .unit = kSquareMillimetres,
-           .value = patch<&P::area>,
-           .label = "area",
-           .name = "Patch area",
-           .doc = "Area between the edges of the columns' chords",
-           .column = true,
-           .shown = true,
-           .comparable = true},
-          {.group = "contact",
-           .symbol = "slip_area_fraction",
-           .unit = kShare,
-           .value = patch<&P::slip_area_fraction>,
-           .label = "slip area",
-           .name = "Slip area / patch area",
-           .doc = "Area of the slipping points, of the points in contact; finite elements: mean over the window. Null "
-                  "without friction (half-space)",
-           .column = true,
-           .shown = true,
-           .comparable = true}};
+  return {row("patch_length", kMillimetres, patch<&P::length>, "length", "Patch length (along x)",
+              "Longest chord in the rolling direction, between the edges where p² extrapolates to zero", kMain),
+          row("patch_width", kMillimetres, patch<&P::width>, "width", "Patch width (along y)",
+              "Longest chord across the rolling direction; a line contact has none", kMain),
+          row("patch_area", kSquareMillimetres, patch<&P::area>, "area", "Patch area",
+              "Area between the edges of the columns' chords", kMain),
+          row("slip_area_fraction", kShare, patch<&P::slip_area_fraction>, "slip area", "Slip area / patch area",
+              "Area of the slipping points, of the points in contact; finite elements: mean over the window. Null "
+              "without friction (half-space)",
+              kMain)};
 }
 
 std::vector<ResultNumber> force_numbers() {
-  return {{.group = "contact",
-           .symbol = "F_x",
-           .unit = kKilonewtons,
-           .value = contact<&C::F_x>,
-           .label = "F_x",
-           .name = "F_x on the wheel",
-           .doc = "Contact force on the wheel, rolling direction; positive drives",
-           .column = true,
-           .shown = true,
-           .comparable = true,
-           .round_off = kOfForce,
-           .of_all_patches = true},
-          {.group = "contact",
-           .symbol = "F_y",
-           .unit = kKilonewtons,
-           .value = contact<&C::F_y>,
-           .label = "F_y",
-           .name = "F_y on the wheel",
-           .doc = "Contact force on the wheel towards the field side, model frame",
-           .column = true,
-           .shown = true,
-           .round_off = kOfForce,
-           .of_all_patches = true},
-          {.group = "contact",
-           .symbol = "F_z",
-           .unit = kKilonewtons,
-           .value = contact<&C::F_z>,
-           .label = "F_z",
-           .name = "F_z on the wheel",
-           .doc = "Contact force on the wheel, upwards",
-           .column = true,
-           .shown = true,
-           .comparable = true,
-           .of_all_patches = true}};
+  return {row("F_x", kKilonewtons, contact<&C::F_x>, "F_x", "F_x on the wheel",
+              "Contact force on the wheel, rolling direction; positive drives", kMain | kOfAll, kOfForce),
+          row("F_y", kKilonewtons, contact<&C::F_y>, "F_y", "F_y on the wheel",
+              "Contact force on the wheel towards the field side, model frame", kColumn | kShown | kOfAll, kOfForce),
+          row("F_z", kKilonewtons, contact<&C::F_z>, "F_z", "F_z on the wheel", "Contact force on the wheel, upwards",
+              kMain | kOfAll)};
 }
 
 std::vector<ResultNumber> contact_plane_numbers() {
-  return {{.group = "contact",
-           .symbol = "contact_angle",
-           .unit = kDegrees,
-           .value = contact<&C::contact_angle>,
-           .label = "contact angle",
-           .name = "Contact angle",
-           .doc = "Of the common tangent at the rigid contact point",
-           .round_off = kOfAngle},
-          {.group = "contact",
-           .symbol = "normal_force",
-           .unit = kKilonewtons,
-           .value = contact<&C::normal_force>,
-           .label = "normal force",
-           .name = "Normal force in the contact plane",
-           .doc = "(F_y, F_z) along the normal of the contact plane",
-           .column = true,
-           .shown = true,
-           .comparable = true},
-          {.group = "contact",
-           .symbol = "lateral_force",
-           .unit = kKilonewtons,
-           .value = contact<&C::lateral_force>,
-           .label = "lateral force",
-           .name = "Lateral force in the contact plane",
-           .doc = "Lateral friction: of half-spaces (F_y, F_z) along the lateral tangent of the contact plane, of "
-                  "finite elements "
-                  "the sum over the nodes, each in its own plane",
-           .column = true,
-           .shown = true,
-           .round_off = kOfForce},
-          {.group = "contact",
-           .symbol = "spin_moment",
-           .unit = kNewtonMetres,
-           .value = contact<&C::spin_moment>,
-           .label = "spin moment",
-           .name = "Moment about the contact normal",
-           .doc = "Of the friction on the wheel, about the normal at the rigid contact point",
-           .engine = HadBy::half_spaces,
-           .shown = true,
-           .round_off = kOfMoment}};
+  return {row("contact_angle", kDegrees, contact<&C::contact_angle>, "contact angle", "Contact angle",
+              "Of the common tangent at the rigid contact point", kFile, kOfAngle),
+          row("normal_force", kKilonewtons, contact<&C::normal_force>, "normal force",
+              "Normal force in the contact plane", "(F_y, F_z) along the normal of the contact plane", kMain),
+          row("lateral_force", kKilonewtons, contact<&C::lateral_force>, "lateral force",
+              "Lateral force in the contact plane",
+              "Lateral friction: of half-spaces (F_y, F_z) along the lateral tangent of the contact plane, of finite "
+              "elements the sum over the nodes, each in its own plane",
+              kColumn | kShown, kOfForce),
+          row("spin_moment", kNewtonMetres, contact<&C::spin_moment>, "spin moment", "Moment about the contact normal",
+              "Of the friction on the wheel, about the normal at the rigid contact point", kShown, kOfMoment)};
 }
 
 std::vector<ResultNumber> motion_numbers() {
   return {
-      {.group = "contact",
-       .symbol = "creepage_x",
-       .unit = kPerMille,
-       .value = contact<&C::creepage_x>,
-       .label = "creepage",
-       .name = "Longitudinal creepage (negative: driving)",
-       .doc = "(V - ω r)/V with the rolling radius r",
-       .column = true,
-       .shown = true,
-       .comparable = true,
-       .round_off = kOfCreepage},
-      {.group = "contact",
-       .symbol = "creepage_y",
-       .unit = kPerMille,
-       .value = contact<&C::creepage_y>,
-       .label = "lateral creepage",
-       .name = "Lateral creepage",
-       .doc = "Along the contact plane, positive where the wheel slips to the field side; finite elements: 0, the axle "
-              "is guided",
-       .column = true,
-       .shown = true,
-       .round_off = kOfCreepage},
-      {.group = "contact",
-       .symbol = "spin",
-       .unit = kPerMetre,
-       .value = contact<&C::spin_per_m>,
-       .label = "spin",
-       .name = "Spin",
-       .doc = "Spin of the wheel about the contact normal, over V",
-       .column = true,
-       .shown = true,
-       .comparable = true,
-       .round_off = kOfSpin}};
+      row("creepage_x", kPerMille, contact<&C::creepage_x>, "creepage", "Longitudinal creepage (negative: driving)",
+          "(V - ω r)/V with the rolling radius r", kMain, kOfCreepage),
+      row("creepage_y", kPerMille, contact<&C::creepage_y>, "lateral creepage", "Lateral creepage",
+          "Along the contact plane, positive where the wheel slips to the field side", kColumn | kShown, kOfCreepage),
+      row("spin", kPerMetre, contact<&C::spin_per_m>, "spin", "Spin",
+          "Spin of the wheel about the contact normal, over V", kMain, kOfSpin)};
 }
 
 std::vector<ResultNumber> approach_numbers() {
-  return {
-      {.group = "contact",
-       .symbol = "approach",
-       .unit = kMicrometres,
-       .value = contact<&C::approach>,
-       .label = "approach",
-       .name = "Approach (finite elements: with the bending of rail and wheel)",
-       .doc = "Of the bodies under the load; finite elements: descent of the axle in the static preload, bending of "
+  return {row("approach", kMicrometres, contact<&C::approach>, "approach",
+              "Approach (finite elements: with the bending of rail and wheel)",
+              "Of the bodies under the load; finite elements: descent of the axle in the static preload, bending of "
               "rail and wheel included. A line contact has none: its distant points come together without end",
-       .column = true,
-       .shown = true},
-      {.group = "contact",
-       .symbol = "penetration_max",
-       .unit = kNanometres,
-       .value = contact<&C::penetration_max>,
-       .label = "penetration",
-       .name = "Largest penetration",
-       .doc = "Largest overlap of the surfaces during the run",
-       .engine = HadBy::finite_elements,
-       .shown = true},
-      {.group = "contact",
-       .symbol = "p_max_scatter",
-       .unit = kShare,
-       .value = contact<&C::p_max_scatter>,
-       .label = "scatter of p_max",
-       .name = "Scatter of p_max",
-       .doc = "Standard deviation over the window, of the mean",
-       .engine = HadBy::finite_elements}};
+              kColumn | kShown),
+          row("penetration_max", kNanometres, contact<&C::penetration_max>, "penetration", "Largest penetration",
+              "Largest overlap of the surfaces during the run", kShown | kFem),
+          row("p_max_scatter", kShare, contact<&C::p_max_scatter>, "scatter of p_max", "Scatter of p_max",
+              "Standard deviation over the window, of the mean", kFem)};
 }
 
 std::vector<ResultNumber> transient_numbers() {
-  return {{.group = "contact",
-           .symbol = "displacement_x",
-           .unit = kMicrometres,
-           .value = contact<&C::displacement_x>,
-           .label = "displacement",
-           .name = "Displacement of the wheel over the rail",
-           .doc = "In the rolling direction, by a shift since its start",
-           .engine = HadBy::half_spaces,
-           .shown = true,
-           .round_off = kOfApproach},
-          {.group = "contact",
-           .symbol = "displacement_y",
-           .unit = kMicrometres,
-           .value = contact<&C::displacement_y>,
-           .label = "lateral displ.",
-           .name = "Lateral displacement of the wheel over the rail",
-           .doc = "Along the contact plane, by a shift since its start",
-           .engine = HadBy::half_spaces,
-           .shown = true,
-           .round_off = kOfApproach},
-          {.group = "contact",
-           .symbol = "friction_work",
-           .unit = kJoules,
-           .value = contact<&C::friction_work>,
-           .label = "friction work",
-           .name = "Friction work since the start",
-           .doc = "Of a transient: heat that friction has made on the way",
-           .engine = HadBy::half_spaces,
-           .column = true,
-           .shown = true,
-           .round_off = kOfWork}};
+  return {row("displacement_x", kMicrometres, contact<&C::displacement_x>, "displacement",
+              "Displacement of the wheel over the rail", "In the rolling direction, by a shift since its start",
+              kShown | kBem, kOfApproach),
+          row("displacement_y", kMicrometres, contact<&C::displacement_y>, "lateral displ.",
+              "Lateral displacement of the wheel over the rail", "Along the contact plane, by a shift since its start",
+              kShown | kBem, kOfApproach),
+          row("friction_work", kJoules, contact<&C::friction_work>, "friction work", "Friction work since the start",
+              "Of a transient: heat that friction has made on the way", kColumn | kShown | kBem, kOfWork)};
 }
 
 std::vector<ResultNumber> plastic_numbers() {
-  return {{.group = "plastic",
-           .symbol = "strain",
-           .unit = kShare,
-           .value = plastic<&PlasticSummary::strain>,
-           .label = "plastic strain",
-           .name = "Plastic strain",
-           .doc = "Largest equivalent plastic strain of a point of either body at the end of the rolling",
-           .engine = HadBy::finite_elements},
-          {.group = "plastic",
-           .symbol = "accumulated",
-           .unit = kShare,
-           .value = plastic<&PlasticSummary::accumulated>,
-           .label = "accumulated plastic strain",
-           .name = "Accumulated plastic strain",
-           .doc = "Largest accumulated plastic strain of a point of either body at the end of the rolling",
-           .engine = HadBy::finite_elements},
-          {.group = "plastic",
-           .symbol = "elements",
-           .unit = kNone,
-           .value = plastic<&PlasticSummary::elements>,
-           .label = "yielded elements",
-           .name = "Elements that yielded",
-           .doc = "Of both bodies, with plastic strain at any of their points",
-           .engine = HadBy::finite_elements},
-          {.group = "plastic",
-           .symbol = "work",
-           .unit = kJoules,
-           .value = plastic<&PlasticSummary::work>,
-           .label = "plastic work",
-           .name = "Plastic work",
-           .doc = "Done on the plastic strains of both bodies",
-           .engine = HadBy::finite_elements},
-          {.group = "plastic",
-           .symbol = "dissipated",
-           .unit = kJoules,
-           .value = plastic<&PlasticSummary::dissipated>,
-           .label = "dissipated",
-           .name = "Dissipated plastic work",
-           .doc = "The plastic work less what the backstresses hold",
-           .engine = HadBy::finite_elements}};
+  return {row("strain", kShare, plastic<&PlasticSummary::strain>, "plastic strain", "Plastic strain",
+              "Largest equivalent plastic strain of a point of either body at the end of the rolling", kFem),
+          row("accumulated", kShare, plastic<&PlasticSummary::accumulated>, "accumulated plastic strain",
+              "Accumulated plastic strain",
+              "Largest accumulated plastic strain of a point of either body at the end of the rolling", kFem),
+          row("elements", kNone, plastic<&PlasticSummary::elements>, "yielded elements", "Elements that yielded",
+              "Of both bodies, with plastic strain at any of their points", kFem),
+          row("work", kJoules, plastic<&PlasticSummary::work>, "plastic work", "Plastic work",
+              "Done on the plastic strains of both bodies", kFem),
+          row("dissipated", kJoules, plastic<&PlasticSummary::dissipated>, "dissipated", "Dissipated plastic work",
+              "The plastic work less what the backstresses hold", kFem)};
 }
 
 std::vector<ResultNumber> plastic_place_numbers() {
-  return {{.group = "plastic",
-           .symbol = "x",
-           .unit = kMillimetres,
-           .value = plastic<&PlasticSummary::x>,
-           .label = "yielded at x",
-           .name = "Largest accumulated plastic strain, x",
-           .doc = "Along the rail from where the wheel was put on; none in the wheel",
-           .engine = HadBy::finite_elements},
-          {.group = "plastic",
-           .symbol = "y",
-           .unit = kMillimetres,
-           .value = plastic<&PlasticSummary::y>,
-           .label = "yielded at y",
-           .name = "Largest accumulated plastic strain, y",
-           .doc = "From the rigid contact point to the field side",
-           .engine = HadBy::finite_elements},
-          {.group = "plastic",
-           .symbol = "depth",
-           .unit = kMillimetres,
-           .value = plastic<&PlasticSummary::depth>,
-           .label = "yielded at depth",
-           .name = "Largest accumulated plastic strain, depth",
-           .doc = "Of the element's centre below the surface",
-           .engine = HadBy::finite_elements}};
+  return {row("x", kMillimetres, plastic<&PlasticSummary::x>, "yielded at x", "Largest accumulated plastic strain, x",
+              "Along the rail from where the wheel was put on; none in the wheel", kFem),
+          row("y", kMillimetres, plastic<&PlasticSummary::y>, "yielded at y", "Largest accumulated plastic strain, y",
+              "From the rigid contact point to the field side", kFem),
+          row("depth", kMillimetres, plastic<&PlasticSummary::depth>, "yielded at depth",
+              "Largest accumulated plastic strain, depth", "Of the element's centre below the surface", kFem)};
 }
 
 std::vector<ResultNumber> energy_numbers() {
-  return {{.group = "energy",
-           .symbol = "closure",
-           .unit = kShare,
-           .value = energy<&EnergySummary::closure>,
-           .label = "energy closure",
-           .name = "Energy closure",
-           .doc = "Energy gained or lost by the time steps, of the largest energy turned over",
-           .engine = HadBy::finite_elements},
-          {.group = "energy",
-           .symbol = "hourglass_share",
-           .unit = kShare,
-           .value = energy<&EnergySummary::hourglass_share>,
-           .label = "hourglass energy",
-           .name = "Hourglass energy",
-           .doc = "Largest hourglass energy, of the strain energy",
-           .engine = HadBy::finite_elements}};
+  return {row("closure", kShare, energy<&EnergySummary::closure>, "energy closure", "Energy closure",
+              "Energy gained or lost by the time steps, of the largest energy turned over", kFem),
+          row("hourglass_share", kShare, energy<&EnergySummary::hourglass_share>, "hourglass energy",
+              "Hourglass energy", "Largest hourglass energy, of the strain energy", kFem)};
 }
 
 std::vector<ResultNumber> time_numbers() {
-  return {{.group = "run",
-           .symbol = "wall",
-           .unit = kSeconds,
-           .value = run<&R::wall_s>,
-           .label = "wall time",
-           .name = "Wall time",
-           .doc = "Of the solution, with its output",
-           .column = true},
-          {.group = "run",
-           .symbol = "preload_wall",
-           .unit = kSeconds,
-           .value = run<&R::preload_wall_s>,
-           .label = "preload",
-           .name = "Wall time of the preload",
-           .doc = "Share of the static preload in the wall time",
-           .engine = HadBy::finite_elements},
-          {.group = "run",
-           .symbol = "output_wall",
-           .unit = kSeconds,
-           .value = run<&R::output_wall_s>,
-           .label = "output",
-           .name = "Wall time of the output",
-           .doc = "Share of writing in the wall time",
-           .engine = HadBy::finite_elements},
-          {.group = "run",
-           .symbol = "elements",
-           .unit = kNone,
-           .value = count<&R::elements>,
-           .label = "elements",
-           .name = "Elements",
-           .doc = "Finite elements, or cells of the half-space's grid"},
-          {.group = "run",
-           .symbol = "nodes",
-           .unit = kNone,
-           .value = count<&R::nodes>,
-           .label = "nodes",
-           .name = "Nodes",
-           .doc = "Of both bodies; half-space: 0"},
-          {.group = "run",
-           .symbol = "steps",
-           .unit = kNone,
-           .value = count<&R::steps>,
-           .label = "steps",
-           .name = "Time steps",
-           .doc = "Half-space: of a transient, else 0; static cases: 0"}};
+  return {row("wall", kSeconds, run<&R::wall_s>, "wall time", "Wall time", "Of the solution, with its output", kColumn),
+          row("preload_wall", kSeconds, run<&R::preload_wall_s>, "preload", "Wall time of the preload",
+              "Share of the static preload in the wall time", kFem),
+          row("output_wall", kSeconds, run<&R::output_wall_s>, "output", "Wall time of the output",
+              "Share of writing in the wall time", kFem),
+          row("elements", kCount, count<&R::elements>, "elements", "Elements",
+              "Finite elements, or cells of the half-space's grid"),
+          row("nodes", kCount, count<&R::nodes>, "nodes", "Nodes", "Of both bodies; half-space: 0"),
+          row("steps", kCount, count<&R::steps>, "steps", "Time steps",
+              "Half-space: of a transient, else 0; static cases: 0")};
 }
 
 std::vector<ResultNumber> step_numbers() {
-  return {{.group = "run",
-           .symbol = "dt",
-           .unit = kNanoseconds,
-           .value = run<&R::dt_s>,
-           .label = "time step",
-           .name = "Time step",
-           .doc = "Length of a step",
-           .engine = HadBy::finite_elements},
-          {.group = "run",
-           .symbol = "stable_step",
-           .unit = kNanoseconds,
-           .value = run<&R::stable_step>,
-           .label = "stable step",
-           .name = "Stable step",
-           .doc = "With selective mass scaling or local steps, if there are any",
-           .engine = HadBy::finite_elements},
-          {.group = "run",
-           .symbol = "unscaled_step",
-           .unit = kNanoseconds,
-           .value = run<&R::unscaled_step>,
-           .label = "unscaled step",
-           .name = "Stable step of the real masses",
-           .doc = "Without mass scaling and local steps",
-           .engine = HadBy::finite_elements},
-          {.group = "run",
-           .symbol = "added_mass",
-           .unit = kKilograms,
-           .value = run<&R::added_mass>,
-           .label = "added mass",
-           .name = "Added mass",
-           .doc = "By selective mass scaling of thin rows; 0: real masses",
-           .engine = HadBy::finite_elements},
-          {.group = "run",
-           .symbol = "local_stages",
-           .unit = kNone,
-           .value = run<&R::local_stages>,
-           .label = "stages",
-           .name = "Stages of local steps",
-           .doc = "The forces of the fine elements are evaluated so often a step; 1: one step for all",
-           .engine = HadBy::finite_elements},
-          {.group = "run",
-           .symbol = "fine_elements",
-           .unit = kNone,
-           .value = run<&R::fine_elements>,
-           .label = "fine elements",
-           .name = "Elements in local steps",
-           .doc = "0: one step for all",
-           .engine = HadBy::finite_elements}};
+  return {row("dt", kNanoseconds, run<&R::dt_s>, "time step", "Time step", "Length of a step", kFem),
+          row("stable_step", kNanoseconds, run<&R::stable_step>, "stable step", "Stable step",
+              "With selective mass scaling or local steps, if there are any", kFem),
+          row("unscaled_step", kNanoseconds, run<&R::unscaled_step>, "unscaled step", "Stable step of the real masses",
+              "Without mass scaling and local steps", kFem),
+          row("added_mass", kKilograms, run<&R::added_mass>, "added mass", "Added mass",
+              "By selective mass scaling of thin rows; 0: real masses", kFem),
+          row("local_stages", kNone, run<&R::local_stages>, "stages", "Stages of local steps",
+              "The forces of the fine elements are evaluated so often a step; 1: one step for all", kFem),
+          row("fine_elements", kNone, run<&R::fine_elements>, "fine elements", "Elements in local steps",
+              "0: one step for all", kFem)};
 }
 
 std::vector<ResultNumber> effort_numbers() {
-  return {{.group = "run",
-           .symbol = "element_steps",
-           .unit = kPerSecond,
-           .value = run<&R::element_steps_per_s>,
-           .label = "element steps",
-           .name = "Element steps per second",
-           .doc = "Elements times steps over the wall time without the preload",
-           .engine = HadBy::finite_elements},
-          {.group = "run",
-           .symbol = "threads",
-           .unit = kNone,
-           .value = count<&R::threads>,
-           .label = "threads",
-           .name = "Threads",
-           .doc = "That computed; results do not depend on them"},
-          {.group = "run",
-           .symbol = "peak_memory",
-           .unit = kMegabytes,
-           .value = run<&R::peak_memory_bytes>,
-           .label = "memory",
-           .name = "Largest memory",
-           .doc = "Largest resident memory of the program"}};
+  return {
+      row("element_steps", kPerSecond, run<&R::element_steps_per_s>, "element steps", "Element steps per second",
+          "Elements times steps over the wall time without the preload", kFem),
+      row("threads", kCount, count<&R::threads>, "threads", "Threads", "That computed; results do not depend on them"),
+      row("peak_memory", kMegabytes, run<&R::peak_memory_bytes>, "memory", "Largest memory",
+          "Largest resident memory of the program")};
 }
 
 template <auto Member>
-ResultValue shakedown_number(const Summary& s) {
+double shakedown_number(const Summary& s) {
   return s.shakedown.least(Member);
 }
 
 /// Left out of summary.json, and of tables, where no strength is known.
 std::vector<ResultNumber> shakedown_numbers() {
   using F = ShakedownFactors;
-  const auto row = [](std::string_view symbol, ResultValue (*value)(const Summary&), std::string_view name,
-                      std::string_view doc) {
-    return ResultNumber{.group = kShakedownGroup,
-                        .symbol = symbol,
-                        .unit = kNone,
-                        .value = value,
-                        .label = symbol,
-                        .name = name,
-                        .doc = doc,
-                        .column = true,
-                        .shown = true,
-                        .comparable = true};
-  };
-  return {row("first_yield", shakedown_number<&F::first_yield>, "Load factor to first yield",
-              "What the elastic stress may be multiplied by until the first point yields, residual stress of the "
-              "process included"),
-          row("wandering", shakedown_number<&F::wandering>, "Load factor to shakedown, any traffic",
-              "Elastic shakedown with residual stresses of depth alone: safe for every traffic, the limit itself where "
-              "wheels wander sideways over more than the patch"),
-          row("single_track", shakedown_number<&F::single_track>, "Load factor to shakedown, one track",
-              "Elastic shakedown where every wheel runs in the same place; null where it was not asked for"),
-          row("upper", shakedown_number<&F::upper>, "Upper bound of shakedown",
-              "No load beyond it can shake down elastically, whatever the residual stress"),
-          row("kinematic", shakedown_number<&F::kinematic>, "Load factor to ratchetting with hardening",
-              "Elastic shakedown of a material with unlimited linear kinematic hardening")};
+  return {
+      row("first_yield", kNone, shakedown_number<&F::first_yield>, "first_yield", "Load factor to first yield",
+          "What the elastic stress may be multiplied by until the first point yields, residual stress of the process "
+          "included",
+          kMain),
+      row("wandering", kNone, shakedown_number<&F::wandering>, "wandering", "Load factor to shakedown, any traffic",
+          "Elastic shakedown with residual stresses of depth alone: safe for every traffic, the limit itself where "
+          "wheels wander sideways over more than the patch",
+          kMain),
+      row("single_track", kNone, shakedown_number<&F::single_track>, "single_track",
+          "Load factor to shakedown, one track",
+          "Elastic shakedown where every wheel runs in the same place; null where it was not asked for", kMain),
+      row("upper", kNone, shakedown_number<&F::upper>, "upper", "Upper bound of shakedown",
+          "No load beyond it can shake down elastically, whatever the residual stress", kMain),
+      row("kinematic", kNone, shakedown_number<&F::kinematic>, "kinematic", "Load factor to ratchetting with hardening",
+          "Elastic shakedown of a material with unlimited linear kinematic hardening", kMain)};
 }
 
 template <auto Member>
-ResultValue of_layers(const Summary& s) {
+double of_layers(const Summary& s) {
   return layer_worst(s).*Member;
 }
 
 /// Left out of summary.json where there is no layer, or where nothing asks for its stress.
 std::vector<ResultNumber> layer_numbers() {
   using L = LayerWorst;
-  const auto row = [](std::string_view symbol, const ResultUnit& unit, ResultValue (*value)(const Summary&),
-                      std::string_view label, std::string_view name, std::string_view doc) {
-    return ResultNumber{.group = kLayersGroup,
-                        .symbol = symbol,
-                        .unit = unit,
-                        .value = value,
-                        .label = label,
-                        .name = name,
-                        .doc = doc,
-                        .column = true,
-                        .shown = true,
-                        .comparable = true};
-  };
   return {
       row("sigma_1", kMPa, of_layers<&L::sigma_1>, "layer σ₁", "Largest principal stress of the layers",
-          "Residual stress of the process included"),
+          "Residual stress of the process included", kMain),
       row("share_of_tensile", kNone, of_layers<&L::share_of_tensile>, "layer σ₁/R_m", "Share of tensile strength",
-          "Largest principal stress over the layer's tensile strength; at 1 a brittle layer cracks"),
+          "Largest principal stress over the layer's tensile strength; at 1 a brittle layer cracks", kMain),
       row("critical_flaw", kMillimetres, of_layers<&L::critical_flaw>, "critical flaw", "Critical flaw of the layers",
-          "Depth of the smallest edge crack that runs under that stress, of K_Ic; counts while it is small against "
-          "the layer's thickness"),
+          "Depth of the smallest edge crack that runs under that stress, of K_Ic; counts while it is small against the "
+          "layer's thickness",
+          kMain),
       row("interface_tension", kMPa, of_layers<&L::interface_tension>, "interface tension", "Tension at the interfaces",
-          "Largest normal traction"),
+          "Largest normal traction", kMain),
       row("interface_shear", kMPa, of_layers<&L::interface_shear>, "interface shear", "Shear at the interfaces",
-          "Largest shear traction"),
+          "Largest shear traction", kMain),
       row("interface_shear_range", kMPa, of_layers<&L::shear_range>, "interface Δτ", "Range of shear at the interfaces",
-          "Of tau_xz over a passage: what drives a crack along the interface"),
+          "Of tau_xz over a passage: what drives a crack along the interface", kMain),
       row("delamination", kNone, of_layers<&L::delamination>, "delamination", "Delamination index",
-          "(tension over bond_tension)² + (shear over bond_shear)²; at 1 the bond gives way")};
+          "(tension over bond_tension)² + (shear over bond_shear)²; at 1 the bond gives way", kMain)};
 }
 
 template <auto Member>
@@ -595,78 +268,50 @@ constexpr auto damage = &at<&Summary::damage, Member>;
 
 std::vector<ResultNumber> damage_numbers() {
   using D = DamageSummary;
-  const auto row = [](std::string_view symbol, const ResultUnit& unit, ResultValue (*value)(const Summary&),
-                      std::string_view label, std::string_view name, std::string_view doc, bool shown) {
-    return ResultNumber{.group = "damage",
-                        .symbol = symbol,
-                        .unit = unit,
-                        .value = value,
-                        .label = label,
-                        .name = name,
-                        .doc = doc,
-                        .column = shown,
-                        .shown = shown,
-                        .comparable = true};
-  };
   return {row("t_gamma", kNewtons, damage<&D::t_gamma>, "T-gamma", "T-gamma",
-              "|F_x creepage_x| + |F_y creepage_y|, of several patches their sum; J per m rolled", true),
+              "|F_x creepage_x| + |F_y creepage_y|, of several patches their sum; J per m rolled", kMain),
           row("t_gamma_with_spin", kNewtons, damage<&D::t_gamma_with_spin>, "with spin", "T-gamma with spin",
-              "And |M_z spin|", false),
+              "And |M_z spin|", kCompared),
           row("friction_energy", kJoulesPerMetre, damage<&D::friction_energy>, "friction energy",
               "Friction energy per distance", "Sum over the points of traction times slip times area, over the speed",
-              false),
+              kCompared),
           row("motion_energy", kJoulesPerMetre, damage<&D::motion_energy>, "energy by motion",
               "Energy of the rigid motion per distance",
               "Tractions times the rigid slip of the cells, over the speed: T-gamma with spin and the rolling radii of "
               "the rows, which a spin leaves out. In steady rolling it is the friction energy. Half-spaces",
-              false),
+              kCompared),
           row("rcf_damage", kNone, damage<&D::rcf_damage>, "RCF damage", "RCF damage of a passage",
               "Burstow's function of a patch's T-gamma for R260, of several the largest; break points 15, 65 and 175 "
-              "N; 1 is a visible crack, below zero "
-              "wear removes",
-              false),
+              "N; 1 is a visible crack, below zero wear removes",
+              kCompared),
           row("brr_wear", kWornArea, damage<&D::brr_wear>, "BRR wear", "BRR wear",
-              "Area worn off over distance, of T-gamma and the wheel's diameter", false),
+              "Area worn off over distance, of T-gamma and the wheel's diameter", kCompared),
           row("usfd_depth", kNanometres, damage<&D::usfd_depth>, "USFD wear", "Wear of a passage, USFD",
-              "Deepest, R8T wheel on 900A rail, dry, laboratory", true),
+              "Deepest, R8T wheel on 900A rail, dry, laboratory", kMain),
           row("kth_depth", kNanometres, damage<&D::kth_depth>, "KTH wear", "Wear of a passage, KTH map",
-              "Deepest, Jendel's map for dry laboratory surfaces over the rail's hardness", false),
+              "Deepest, Jendel's map for dry laboratory surfaces over the rail's hardness", kCompared),
           row("archard_depth", kNanometres, damage<&D::archard_depth>, "Archard wear", "Wear of a passage, Archard",
-              "Deepest, with the rail's wear_coefficient over its hardness", false),
+              "Deepest, with the rail's wear_coefficient over its hardness", kCompared),
           row("temperature_rise", kKelvins, damage<&D::temperature_rise>, "flash temperature", "Flash temperature",
-              "Largest rise of the surfaces' temperature in the patch", true),
+              "Largest rise of the surfaces' temperature in the patch", kMain),
           row("surface_fatigue", kNone, damage<&D::surface_fatigue>, "FI_surf", "Surface fatigue index",
-              "Utilised friction less k over p_max; above zero surface fatigue is to be expected", false),
+              "Utilised friction less k over p_max; above zero surface fatigue is to be expected", kCompared),
           row("local_fatigue", kNone, damage<&D::local_fatigue>, "local FI", "Local fatigue index",
-              "Largest |q|/p - k/p of a point", false)};
+              "Largest |q|/p - k/p of a point", kCompared)};
 }
 
 /// What stands beside the flash temperature.
 std::vector<ResultNumber> heat_numbers() {
   using D = DamageSummary;
-  return {{.group = "damage",
-           .symbol = "temperature_rise_lower",
-           .unit = kKelvins,
-           .value = damage<&D::temperature_rise_lower>,
-           .label = "flash temperature, at least",
-           .name = "Flash temperature, lower bound",
-           .doc = "With the bodies as half-spaces of their most effusive material"},
-          {.group = "damage",
-           .symbol = "temperature_rise_upper",
-           .unit = kKelvins,
-           .value = damage<&D::temperature_rise_upper>,
-           .label = "flash temperature, at most",
-           .name = "Flash temperature, upper bound",
-           .doc = "With the bodies as half-spaces of their least effusive material, whichever layer that is"},
-          {.group = "damage",
-           .symbol = "austenitisation",
-           .unit = kNone,
-           .value = damage<&D::austenitisation>,
-           .label = "austenitisation",
-           .name = "Share of austenitisation",
-           .doc = "Flash temperature over the austenitisation_rise of the rail's running surface; from 1 on martensite "
-                  "can form; null where the case does not give it",
-           .shown = true}};
+  return {row("temperature_rise_lower", kKelvins, damage<&D::temperature_rise_lower>, "flash temperature, at least",
+              "Flash temperature, lower bound", "With the bodies as half-spaces of their most effusive material"),
+          row("temperature_rise_upper", kKelvins, damage<&D::temperature_rise_upper>, "flash temperature, at most",
+              "Flash temperature, upper bound",
+              "With the bodies as half-spaces of their least effusive material, whichever layer that is"),
+          row("austenitisation", kNone, damage<&D::austenitisation>, "austenitisation", "Share of austenitisation",
+              "Flash temperature over the austenitisation_rise of the rail's running surface; from 1 on martensite can "
+              "form; null where the case does not give it",
+              kShown)};
 }
 
 /// The stresses that tables hold, in their order.
@@ -721,31 +366,37 @@ ResultColumn column_of(const StressColumn& c) {
 
 }  // namespace
 
-std::string ResultNumber::key() const { return fmt::format("{}{}", symbol, unit.key_ending); }
 std::string ResultNumber::path() const { return fmt::format("{}{}/{}", group.empty() ? "" : "/", group, key()); }
 std::string ResultNumber::column_name() const {
   const std::string_view prefix = group == kShakedownGroup ? "shakedown_" : group == kLayersGroup ? "layers_" : "";
   return fmt::format("{}{}{}", prefix, symbol, unit.column_ending);
 }
 
+std::string ResultColumn::key() const {
+  return name.substr(0, name.size() - shown_unit.column_ending.size()) + std::string(shown_unit.key_ending);
+}
+
 const std::vector<ResultNumber>& result_numbers() {
   static const std::vector<ResultNumber> numbers = [] {
-    std::vector<ResultNumber> out{
-        {.group = "",
-         .symbol = "position",
-         .unit = kMillimetres,
-         .value = at<&Summary::position>,
-         .label = "position",
-         .name = "Position of the wheel",
-         .doc =
-             "Of the axle along the rail; half-space: the case's last one, of a transient what it has rolled, static "
-             "cases 0"}};
-    for (const auto& part :
-         {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
-          approach_numbers(), transient_numbers(), damage_numbers(), heat_numbers(), shakedown_numbers(),
-          layer_numbers(), plastic_numbers(), plastic_place_numbers(), energy_numbers(), time_numbers(), step_numbers(),
-          effort_numbers()})
-      out.insert(out.end(), part.begin(), part.end());
+    std::vector<ResultNumber> out;
+    const auto add = [&](std::string_view group, std::initializer_list<std::vector<ResultNumber>> parts) {
+      for (const std::vector<ResultNumber>& part : parts)
+        for (const ResultNumber& number : part) {
+          out.push_back(number);
+          out.back().group = group;
+        }
+    };
+    add("", {{row("position", kMillimetres, at<&Summary::position>, "position", "Position of the wheel",
+                  "Of the axle along the rail; half-space: the case's last one, of a transient what it has rolled, "
+                  "static cases 0")}});
+    add("contact", {traction_numbers(), extent_numbers(), force_numbers(), contact_plane_numbers(), motion_numbers(),
+                    approach_numbers(), transient_numbers()});
+    add("damage", {damage_numbers(), heat_numbers()});
+    add(kShakedownGroup, {shakedown_numbers()});
+    add(kLayersGroup, {layer_numbers()});
+    add("plastic", {plastic_numbers(), plastic_place_numbers()});
+    add("energy", {energy_numbers()});
+    add("run", {time_numbers(), step_numbers(), effort_numbers()});
     return out;
   }();
   return numbers;
@@ -797,6 +448,11 @@ std::vector<ResultColumn> table_columns() {
   return out;
 }
 
+const ResultColumn& table_column(std::string_view name) {
+  static const std::vector<ResultColumn> all = table_columns();
+  return *std::find_if(all.begin(), all.end(), [&](const ResultColumn& c) { return c.name == name; });
+}
+
 const ResultNumber* find_number(std::string_view path) {
   const std::vector<ResultNumber>& all = result_numbers();
   const auto found = std::find_if(all.begin(), all.end(), [&](const ResultNumber& n) { return n.path() == path; });
@@ -811,51 +467,14 @@ double round_off_size(const RoundOff& row, const std::function<double(std::strin
 }
 
 double shown_value(const ResultNumber& row, const Summary& s) {
-  const auto number = [&](const ResultNumber& n) {
-    return std::visit([](auto v) { return static_cast<double>(v); }, n.value(s));
-  };
-  const double value = number(row);
-  const auto at = [&](std::string_view path) { return number(*find_number(path)); };
+  const double value = row.value(s);
+  const auto at = [&](std::string_view path) { return find_number(path)->value(s); };
   return row.round_off.share > 0 && std::abs(value) <= round_off_size(row.round_off, at) ? 0 : value;
 }
 
 double shown_beside_limit(double value, double limit) {
   constexpr double kTelling = 1e-6;
   return std::abs(value) < kTelling * limit ? 0 : value;
-}
-
-std::string fixed(double value, int decimals) {
-  const std::string text = fmt::format("{:.{}f}", value, decimals);
-  const bool zero = text.find_first_of("123456789") == std::string::npos;
-  return zero && text.starts_with('-') ? text.substr(1) : text;
-}
-
-std::string significant(double value, int digits) {
-  if (!std::isfinite(value)) return "-";
-  const double size = std::abs(value);
-  if (size == 0) return "0";
-  if (size < 1e-4 || size >= 1e7) return fmt::format("{:.{}g}", value, digits);
-  const int decimals = std::max(0, digits - 1 - static_cast<int>(std::floor(std::log10(size))));
-  return fmt::format("{:.{}f}", value, decimals);
-}
-
-namespace {
-
-std::string in_unit(const ResultUnit& unit, double value_si, const std::string& number) {
-  const auto bar = unit.shown.find('|');
-  if (bar != std::string_view::npos)
-    return std::string(value_si == 0 ? unit.shown.substr(0, bar) : unit.shown.substr(bar + 1));
-  return fmt::format("{}{}{}", number, unit.shown.empty() ? "" : " ", unit.shown);
-}
-
-}  // namespace
-
-std::string with_unit(const ResultUnit& unit, double value_si, int digits) {
-  return in_unit(unit, value_si, significant(unit.factor * value_si, digits));
-}
-
-std::string limit_text(const ResultUnit& unit, double value_si) {
-  return in_unit(unit, value_si, fmt::format("{:.6g}", unit.factor * value_si));
 }
 
 }  // namespace railstrata

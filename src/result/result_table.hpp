@@ -8,10 +8,10 @@
 #include <functional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
 
-#include "result/result_unit.hpp"
+#include "record/column.hpp"
+#include "record/number_text.hpp"
 #include "result/summary.hpp"
 
 namespace railstrata {
@@ -31,17 +31,11 @@ struct RoundOff {
   std::string_view of{}, times{};
 };
 
-/// Counts are whole numbers.
-using ResultValue = std::variant<double, long>;
-
-struct ResultNumber {
-  std::string_view group;   ///< object of summary.json that holds it: "contact", "energy", "run"; "" for none
-  std::string_view symbol;  ///< key and column without their units: "p_max"
-  ResultUnit unit;
-  ResultValue (*value)(const Summary&);
-  std::string_view label;  ///< short, as in the head of a table: "p_max"
-  std::string_view name;   ///< of the page and the screen
-  std::string_view doc;    ///< one line of the reference page
+struct ResultNumber : Column<Summary> {
+  std::string_view group{};  ///< object of summary.json that holds it: "contact", "energy", "run"; "" for none
+  std::string_view label{};  ///< short, as in the head of a table: "p_max"
+  std::string_view name{};   ///< of the page and the screen
+  std::string_view doc;      ///< one line of the reference page
   HadBy engine = HadBy::both_engines;
   bool column = false;      ///< stands in the tables of `sweep` and `study`
   bool shown = false;       ///< stands on the page and the screen
@@ -51,7 +45,6 @@ struct ResultNumber {
   RoundOff round_off{};
   bool of_all_patches = false;  ///< where a wheel touches at several places; else of the one with the largest pressure
 
-  std::string key() const;          ///< "p_max_Pa"
   std::string path() const;         ///< "/contact/p_max_Pa", a JSON pointer
   std::string column_name() const;  ///< "p_max_MPa"
 };
@@ -89,7 +82,7 @@ struct StressMeasure {
 };
 struct StressNumber {
   std::string_view key;
-  ResultUnit unit;
+  Unit unit;
   double StressMaximum::*member;
   std::string_view doc;
 };
@@ -104,28 +97,21 @@ struct ResultColumn {
   double factor = 1;
   std::string title{};       ///< what an axis or the head of a column calls it: "p_max"
   std::string_view unit{};   ///< in the column, for people: "MPa"
-  ResultUnit shown_unit{};   ///< for people, where it is not the column's own: a share as per cent
+  Unit shown_unit{};         ///< for people, where it is not the column's own: a share as per cent
   std::string_view doc{};    ///< one line
   bool of_stress = false;    ///< costs more than the contact
   bool of_strength = false;  ///< empty where no case says a strength
   bool of_all_patches = false;
   bool comparable = true;
   int digits = 4;
+
+  std::string key() const;  ///< "p_max_Pa", of numbers in SI
 };
+
+/// The column of this name. It must be there.
+const ResultColumn& table_column(std::string_view name);
 
 /// Every column of the tables in their order: contact, stresses of the rail, then the wall time.
 std::vector<ResultColumn> table_columns();
-
-/// A number of so many significant digits without an exponent where it can be avoided: "1067", "0.04381", "1.2e-09".
-std::string significant(double value, int digits);
-
-/// So many decimals, never "-0.00".
-std::string fixed(double value, int decimals);
-
-/// "1067 MPa", "24.6 %", "inside".
-std::string with_unit(const ResultUnit& unit, double value_si, int digits);
-
-/// A limit, without zeros at its end: "4 %", "500 MPa".
-std::string limit_text(const ResultUnit& unit, double value_si);
 
 }  // namespace railstrata

@@ -12,8 +12,8 @@
 #include "case/text_file.hpp"
 #include "case/units.hpp"
 #include "core/faults.hpp"
-#include "core/si_prefix.hpp"
 #include "io/provenance.hpp"
+#include "record/unit.hpp"
 #include "report/plots.hpp"
 
 namespace railstrata {

@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "core/faults.hpp"
-#include "core/si_prefix.hpp"
 #include "material/strain_claim.hpp"
 #include "model/material_strength.hpp"
+#include "record/unit.hpp"
 #include "report/plots.hpp"
 
 namespace railstrata {
@@ -17,7 +17,6 @@ namespace {
 constexpr std::size_t kMostTraced = 20000;  // states that a picture shows
 constexpr double kStill = 0.02;             // of the largest range: a component that moves less is not drawn
 constexpr std::size_t kMostLoops = 3;
-constexpr std::array kComponents{"xx", "yy", "zz", "xy", "yz", "xz"};
 
 CaseError beyond(const PlasticMaterial& material, const MaterialPathTable& table, const BeyondMaterial& e) {
   const auto row = static_cast<std::size_t>(e.point) % table.lines.size();
@@ -54,7 +53,7 @@ std::vector<std::size_t> moving(const std::vector<MaterialState>& trace, Tensor 
 Plot loops(const MaterialRun& run) {
   Plot out{"strain [%], shear as tensor", "stress [MPa]", {}};
   for (const std::size_t j : moving(run.trace, &MaterialState::stress)) {
-    PlotCurve curve{fmt::format("s_{0} by e_{0}", kComponents[j]), {}, {}, false};
+    PlotCurve curve{fmt::format("s_{0} by e_{0}", kTensorComponents[j]), {}, {}, false};
     for (const MaterialState& s : run.trace) {
       curve.x.push_back(kToPercent * s.strain[j]);
       curve.y.push_back(kToMega * s.stress[j]);
@@ -73,7 +72,7 @@ Plot along_path(const MaterialRun& run) {
     accumulated.y.push_back(kToPercent * run.trace[i].history[6]);
   }
   for (const std::size_t j : moving(run.trace, &MaterialState::strain)) {
-    PlotCurve curve{fmt::format("{}", kComponents[j]), accumulated.x, {}, false};
+    PlotCurve curve{fmt::format("{}", kTensorComponents[j]), accumulated.x, {}, false};
     for (const MaterialState& s : run.trace) curve.y.push_back(kToPercent * s.history[j]);
     out.curves.push_back(std::move(curve));
   }
@@ -84,7 +83,7 @@ Plot along_path(const MaterialRun& run) {
 Plot by_cycle(const MaterialRun& run) {
   Plot out{"cycle", "net plastic strain of a cycle [%]", {}};
   for (const std::size_t j : moving(run.trace, &MaterialState::strain)) {
-    PlotCurve curve{fmt::format("{}", kComponents[j]), {}, {}, run.cycles.size() < 3};
+    PlotCurve curve{fmt::format("{}", kTensorComponents[j]), {}, {}, run.cycles.size() < 3};
     for (std::size_t n = 0; n < run.cycles.size(); ++n) {
       curve.x.push_back(static_cast<double>(n + 1));
       curve.y.push_back(kToPercent * run.cycles[n].net[j]);
@@ -151,6 +150,7 @@ MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTabl
   for (std::size_t last = table.lines.size(); last <= out.states.size(); last += table.lines.size()) {
     const MaterialState& after = out.states[last - 1];
     MaterialCycle& cycle = out.cycles.emplace_back();
+    cycle.number = static_cast<int>(out.cycles.size());
     for (std::size_t j = 0; j < 6; ++j) cycle.net[j] = after.history[j] - before.history[j];
     cycle.accumulated = after.history[6] - before.history[6];
     before = after;
@@ -159,30 +159,20 @@ MaterialRun run_material(const PlasticMaterial& material, const MaterialPathTabl
 }
 
 std::vector<CsvColumn> point_columns(const MaterialRun& run, bool strains) {
-  std::vector<CsvColumn> out;
-  for (std::size_t j = 0; strains && j < 6; ++j) {
-    out.push_back({fmt::format("e_{}", kComponents[j]), {}});
-    for (const MaterialState& s : run.states) out.back().values.push_back(s.strain[j]);
-  }
-  for (std::size_t j = 0; j < 6; ++j) {
-    out.push_back({fmt::format("s_{}_MPa", kComponents[j]), {}});
-    for (const MaterialState& s : run.states) out.back().values.push_back(kToMega * s.stress[j]);
-  }
-  out.push_back({"p", {}});
-  for (const MaterialState& s : run.states) out.back().values.push_back(s.history[6]);
-  return out;
+  using M = MaterialState;
+  Columns<M> columns;
+  if (strains) columns = tensor_columns<M>("e", unit::kNone, &M::strain);
+  append(columns, tensor_columns<M>("s", unit::kMPa, &M::stress));
+  append(columns, {{"p", unit::kNone, [](const M& m) { return m.history[6]; }}});
+  return csv_columns(run.states, columns);
 }
 
 std::vector<CsvColumn> cycle_columns(const MaterialRun& run) {
-  std::vector<CsvColumn> out{{"cycle", {}}};
-  for (std::size_t n = 0; n < run.cycles.size(); ++n) out[0].values.push_back(static_cast<double>(n + 1));
-  for (std::size_t j = 0; j < 6; ++j) {
-    out.push_back({fmt::format("net_{}", kComponents[j]), {}});
-    for (const MaterialCycle& c : run.cycles) out.back().values.push_back(c.net[j]);
-  }
-  out.push_back({"p_of_cycle", {}});
-  for (const MaterialCycle& c : run.cycles) out.back().values.push_back(c.accumulated);
-  return out;
+  using C = MaterialCycle;
+  Columns<C> columns{{"cycle", unit::kCount, &C::number}};
+  append(columns, tensor_columns<C>("net", unit::kNone, &C::net));
+  append(columns, {{"p_of_cycle", unit::kNone, &C::accumulated}});
+  return csv_columns(run.cycles, columns);
 }
 
 std::string path_picture(const std::string& title, const MaterialRun& run, const std::vector<std::string>& remarks) {

@@ -8,12 +8,13 @@
 #include "case/case_file.hpp"
 #include "case/material_tables.hpp"
 #include "core/control.hpp"
-#include "io/csv.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 
 /// What one time through the rows of a path leaves.
 struct MaterialCycle {
+  int number = 0;               ///< from 1 on
   std::array<double, 6> net{};  ///< change of plastic strain
   double accumulated = 0;       ///< of p
   double largest_net() const;   ///< magnitude of its largest component

@@ -74,7 +74,7 @@ class SteadyPasses : public PassJob {
       if (c.ok) continue;
       sound_ = false;
       const CheckRow* row = find_check(c.name);
-      const ResultUnit unit = row ? row->unit : result_unit::kNone;
+      const Unit unit = row ? row->unit : unit::kNone;
       add(fmt::format("a check of the contact fails: {} is {}, limit {}", c.name, with_unit(unit, c.value, 3),
                       limit_text(unit, c.limit)));
     }
@@ -170,7 +170,7 @@ class SteadyPasses : public PassJob {
 
   /// Table before state: a table that has gone on is cut when the state is read.
   void save() override {
-    write_pass_table(folder() / kPassTable, origin(), series_);
+    write_csv(folder() / kPassTable, origin(), series_.table.columns);
     write_pass_state(folder() / kPassState, origin(), rail_.grid, series_);
   }
 

@@ -10,13 +10,13 @@
 #include "core/faults.hpp"
 #include "io/damage_files.hpp"
 #include "io/geometry_json.hpp"
-#include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/placed_surfaces.hpp"
 #include "io/result_files.hpp"
 #include "io/summary_json.hpp"
 #include "io/transient_files.hpp"
 #include "passes/rolled_pass_files.hpp"
+#include "record/output_file.hpp"
 #include "report/view.hpp"
 #include "result/stress_sections.hpp"
 
@@ -120,11 +120,11 @@ void save_checkpoint(const fs::path& folder, const CheckpointOrigin& origin, con
 
 // Made when there is something to put in: a run stopped before the rolling leaves none.
 struct FemWriter::GrowingFiles {
-  std::optional<HistoryLog> history;
+  std::optional<RecordLog<HistoryRow>> history;
   std::optional<PatchSeries> series;
 
-  HistoryLog& history_in(const fs::path& folder, const std::vector<std::string>& provenance) {
-    if (!history) history.emplace(folder / "history.csv", provenance);
+  RecordLog<HistoryRow>& history_in(const fs::path& folder, const std::vector<std::string>& provenance) {
+    if (!history) history.emplace(folder / "history.csv", provenance, history_columns());
     return *history;
   }
   PatchSeries& series_in(const fs::path& folder, const RollingSystem& system,
@@ -140,7 +140,7 @@ FemWriter::FemWriter(const RollingSystem& system, fs::path folder, CheckpointOri
       origin_(std::move(origin)),
       growing_(std::make_unique<GrowingFiles>()) {
   if (!begun) return;
-  HistoryLog& history = growing_->history_in(folder_, origin_.provenance);
+  RecordLog<HistoryRow>& history = growing_->history_in(folder_, origin_.provenance);
   for (const HistoryRow& row : begun->result.history) history.add(row);
   const CaseSpec& spec = system_.model.spec;
   if (spec.run.rolling && spec.output.patch_series)

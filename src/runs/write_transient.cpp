@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/result_files.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 namespace {
@@ -20,7 +20,8 @@ TransientWriter::TransientWriter(const CaseSpec& spec, const std::filesystem::pa
                                  const std::vector<std::string>& provenance)
     : wanted_frames_(spec.output.patch_series ? spec.output.series_frames : 0),
       series_folder_(folder / kSeriesFolder),
-      log_(folder / "history.csv", provenance, rolls(spec), rolls(spec) || !spec.transient.at_time.empty()),
+      log_(folder / "history.csv", provenance,
+           transient_columns(rolls(spec), rolls(spec) || !spec.transient.at_time.empty())),
       series_(folder / "patch.pvd") {
   if (wanted_frames_ == 0) return;
   make_folder(series_folder_, Above::there);

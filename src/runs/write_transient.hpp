@@ -1,11 +1,12 @@
 #pragma once
 // The files of a transient that grow while it is followed.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/transient_files.hpp"
-#include "io/vtk.hpp"
+#include "record/vtk.hpp"
 
 namespace railstrata {
 
@@ -22,7 +23,7 @@ class TransientWriter {
   bool is_frame(const TransientState& state) const;
   int wanted_frames_;
   std::filesystem::path series_folder_;
-  TransientLog log_;
+  RecordLog<TransientRow> log_;
   std::optional<PatchFilm> film_;
   PvdSeries series_;
   int frames_ = 0;

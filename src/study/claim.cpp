@@ -18,8 +18,8 @@
 #include "core/faults.hpp"
 #include "core/printable.hpp"
 #include "core/text.hpp"
-#include "io/output_file.hpp"
-#include "io/this_process.hpp"
+#include "record/output_file.hpp"
+#include "record/this_process.hpp"
 
 namespace railstrata {
 namespace {

@@ -6,9 +6,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "io/csv.hpp"
-#include "io/output_file.hpp"
 #include "io/table_file.hpp"
+#include "record/csv.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 namespace {

@@ -1,4 +1,5 @@
 #include "study/published_table.hpp"
+#include "record/json.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -202,7 +203,7 @@ ReportTable published_table(const Published& published, const std::vector<CaseRo
                                                       : &Answers::paper_mesh;
       a.*slot = v;
       if (fits && !n.other.empty()) other.*slot = ours(n, n.other, c, entries);
-      row.push_back(std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr));
+      row.push_back(json_number(v));
     }
     const double best = std::isfinite(a.converged)    ? a.converged
                         : std::isfinite(a.half_space) ? a.half_space

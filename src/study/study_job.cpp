@@ -9,11 +9,11 @@
 
 #include "core/faults.hpp"
 #include "core/printable.hpp"
-#include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "jobs/duration_text.hpp"
 #include "many/each_case.hpp"
+#include "record/output_file.hpp"
 #include "runs/device_at_hand.hpp"
 #include "runs/write_report.hpp"
 #include "study/study_page.hpp"

@@ -1,6 +1,6 @@
 #include "study/study_page.hpp"
 
-#include "io/output_file.hpp"
+#include "record/output_file.hpp"
 #include "report/page.hpp"
 #include "study/study_report.hpp"
 

@@ -14,6 +14,7 @@
 #include "judge/verdict.hpp"
 #include "many/axis.hpp"
 #include "many/case_page.hpp"
+#include "record/json.hpp"
 #include "report/checks.hpp"
 #include "report/read_run.hpp"
 #include "study/published_table.hpp"

@@ -10,11 +10,11 @@
 
 #include "core/faults.hpp"
 #include "io/checkpoint_file.hpp"
-#include "io/csv.hpp"
-#include "io/output_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/provenance.hpp"
 #include "io/result_folder.hpp"
+#include "record/csv.hpp"
+#include "record/output_file.hpp"
 #include "report/view.hpp"
 #include "runs/write_fem_result.hpp"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "core/faults.hpp"
-#include "io/csv.hpp"
 #include "many/collective_files.hpp"
+#include "record/csv.hpp"
 
 namespace railstrata {
 namespace {

@@ -8,8 +8,8 @@
 #include "case/load_rows.hpp"
 #include "core/faults.hpp"
 #include "geometry/profile_texts.hpp"
-#include "io/output_file.hpp"
 #include "many/collective_files.hpp"
+#include "record/output_file.hpp"
 #include "study/wear_loop_page.hpp"
 
 namespace railstrata {

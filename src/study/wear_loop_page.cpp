@@ -6,9 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "io/csv.hpp"
-#include "io/output_file.hpp"
 #include "many/collective_files.hpp"
+#include "record/csv.hpp"
+#include "record/json.hpp"
+#include "record/output_file.hpp"
 #include "report/page.hpp"
 
 namespace railstrata {
@@ -127,9 +128,7 @@ ReportTable steps_table(const WearLoopHistory& history) {
                 .columns = {"step", "passages so far", "deepest so far [µm]", "at y [mm]", "worn off [mm²]",
                             "p_max [MPa]", "T-gamma [N]"},
                 .rows = {}};
-  const auto finite = [](double v) {
-    return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
-  };
+  const auto finite = [](double v) { return json_number(v); };
   const auto larger = [](double a, double b) { return a > b; };
   for (const WornProfile& p : history.profiles) {
     const std::vector<double> depth = worn_depth(history.unworn, p.points);

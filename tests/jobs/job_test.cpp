@@ -9,8 +9,8 @@
 #include <iterator>
 
 #include "core/faults.hpp"
-#include "io/output_file.hpp"
 #include "jobs/state_table.hpp"
+#include "record/output_file.hpp"
 #include "tests/places.hpp"
 
 namespace railstrata {

@@ -83,7 +83,7 @@ class Passes(FromOutside):
         self.assertGreater(float(table[1]["accumulated_strain"]), 0.5 * float(table[0]["accumulated_strain"]))
         sides = {}
         for row in rows(whole / "residual.csv"):
-            sides[float(row["y_mm"])] = sides.get(float(row["y_mm"]), 0) + float(row["plastic_p"])
+            sides[float(row["y_mm"])] = sides.get(float(row["y_mm"]), 0) + float(row["plastic_strain_accumulated"])
         middle = sum(y * p for y, p in sides.items()) / sum(sides.values())
         self.assertGreater(middle, 0.5)
         self.passes("cut", *plan, "--passes", 3)
@@ -129,7 +129,7 @@ class Passes(FromOutside):
         self.assertAlmostEqual(1e3 * summary["loops"][0]["depth_m"], summary["last_pass"]["net_depth_mm"], places=9)
         flow = {}
         for row in rows(out / "loops.csv"):
-            flow.setdefault(row["point"], []).append(float(row["plastic_p"]))
+            flow.setdefault(row["point"], []).append(float(row["plastic_strain_accumulated"]))
         governing = next(iter(flow.values()))
         self.assertAlmostEqual(governing[-1] - governing[0], summary["last_pass"]["accumulated_strain"], delta=0.5 * (
             governing[-1] - governing[0]))
@@ -147,7 +147,7 @@ class Passes(FromOutside):
         out = self.passes("layer", *strength(400), "--passes", 1, case=LAYERED)
         zones = {}
         for row in rows(out / "residual.csv"):
-            zones[row["zone"]] = max(zones.get(row["zone"], 0), float(row["plastic_p"]))
+            zones[row["zone"]] = max(zones.get(row["zone"], 0), float(row["plastic_strain_accumulated"]))
         self.assertEqual(zones["1.0" if "1.0" in zones else "1"], 0)
         self.assertGreater(zones["0.0" if "0.0" in zones else "0"], 0)
 

@@ -39,7 +39,7 @@ class RolledPasses(FromOutside):
         self.assertEqual(told["class"], "elastic shakedown")
         self.assertEqual(told["last_pass"]["accumulated_strain"], 0)
         for row in table(out / "residual.csv"):
-            self.assertEqual(float(row["plastic_p"]), 0)
+            self.assertEqual(float(row["plastic_strain_accumulated"]), 0)
             self.assertEqual(float(row["sigma_xx_MPa"]), 0)
 
     @slow
@@ -126,11 +126,11 @@ class RolledPasses(FromOutside):
             self.assertEqual(x, sorted(x, reverse=True))  # the load comes and goes
             self.assertGreater(x[0], 8)
             self.assertLess(x[-1], -20)
-            p = [float(row["plastic_p"]) for row in mine]
+            p = [float(row["plastic_strain_accumulated"]) for row in mine]
             self.assertLess(max(before - now for before, now in zip(p, p[1:])), 0.05 * max(p))  # steady but for ringing
             section = min(table(out / "residual.csv"), key=lambda row: abs(float(row["y_mm"]) - 1e3 * point["y_m"]) +
                           abs(float(row["depth_mm"]) - 1e3 * point["depth_m"]))
-            after, flowed = float(section["plastic_p"]), float(section["accumulated_strain"])
+            after, flowed = float(section["plastic_strain_accumulated"]), float(section["accumulated_strain"])
             self.assertAlmostEqual(p[-1], after, delta=0.1 * after)
             self.assertAlmostEqual(p[0], after - flowed, delta=0.1 * after)  # as the pass before has left it
             # under the wheel the rail is pressed down hardest

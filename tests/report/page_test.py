@@ -610,9 +610,9 @@ class Yields(Page):
 
     def test_maps_have_the_sections_values(self):
         section = read_table(RESULTS / "yields" / "rail_longitudinal_section.csv")
-        x, depth, value = self.map_peak("plot-section-rail-longitudinal-plastic_p-0")
-        k = cells(section, "plastic_p")
-        self.assertAlmostEqual(value / section["plastic_p"][k], 1, delta=1e-4)
+        x, depth, value = self.map_peak("plot-section-rail-longitudinal-plastic_strain_accumulated-0")
+        k = cells(section, "plastic_strain_accumulated")
+        self.assertAlmostEqual(value / section["plastic_strain_accumulated"][k], 1, delta=1e-4)
         depths = sorted(set(section["depth_mm"]))
         self.assertAlmostEqual(depth, section["depth_mm"][k], delta=1e-2)
 
@@ -623,8 +623,8 @@ class Yields(Page):
             self.assertTrue(any(title in text for text in shown), shown)
         strains = self.saved("yielded-strain-1")
         section = read_table(RESULTS / "yields" / "rail_cross_section.csv")
-        largest = max(float(row["plastic_p"]) for row in strains if row["body"] == "rail")
-        self.assertAlmostEqual(largest / max(section["plastic_p"]), 1, delta=1e-3)
+        largest = max(float(row["plastic_strain_accumulated"]) for row in strains if row["body"] == "rail")
+        self.assertAlmostEqual(largest / max(section["plastic_strain_accumulated"]), 1, delta=1e-3)
         for k in (1, 2):
             self.assertGreater(max(float(row["von_mises_MPa"]) for row in self.saved(f"yielded-stress-{k}")), 300)
         self.assertEqual(self.js("return document.getElementById('plot-yielded-strain-2')"), None)

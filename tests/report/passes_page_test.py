@@ -53,7 +53,7 @@ class PassesPage(unittest.TestCase):
         for shown, value in zip(flat, table["sigma_xx_MPa"]):
             self.assertAlmostEqual(shown, value, delta=1e-5 * max(1, abs(value)))
         classes = [v for row in self.trace("plot-passes-class-1")["z"] for v in row]
-        self.assertEqual([v is None for v in classes], [p == 0 for p in table["plastic_p"]])
+        self.assertEqual([v is None for v in classes], [p == 0 for p in table["plastic_strain_accumulated"]])
 
     def test_curves_loops_and_both_stress_maps_are_those_of_the_tables(self):
         passes = read_table(self.folder / "passes.csv")

@@ -97,7 +97,7 @@ class View(unittest.TestCase):
 
     @slow
     def test_principal_stresses_have_tension_and_compression(self):
-        bodies = picture(RESULTS / "fem", "--field", "sigma1_MPa")[:, :1180]
+        bodies = picture(RESULTS / "fem", "--field", "sigma_1_MPa")[:, :1180]
         self.assertGreater(share(bodies, BLUE, 40), 5e-3)
         self.assertGreater(share(bodies, RED, 60), 2e-4)
 

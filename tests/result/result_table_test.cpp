@@ -84,11 +84,11 @@ TEST(ResultTable, KeepsTheColumnsOfTables) {
 }
 
 TEST(ResultTable, WritesNumbersAsPeopleReadThem) {
-  EXPECT_EQ(with_unit(result_unit::kMPa, 931.26e6, 4), "931.3 MPa");
-  EXPECT_EQ(with_unit(result_unit::kShare, 0.04, 3), "4.00 %");
-  EXPECT_EQ(limit_text(result_unit::kShare, 0.04), "4 %");
-  EXPECT_EQ(with_unit(result_unit::kInside, 0, 3), "inside");
-  EXPECT_EQ(with_unit(result_unit::kInside, 1, 3), "outside");
+  EXPECT_EQ(with_unit(unit::kMPa, 931.26e6, 4), "931.3 MPa");
+  EXPECT_EQ(with_unit(unit::kShare, 0.04, 3), "4.00 %");
+  EXPECT_EQ(limit_text(unit::kShare, 0.04), "4 %");
+  EXPECT_EQ(with_unit(unit::kInside, 0, 3), "inside");
+  EXPECT_EQ(with_unit(unit::kInside, 1, 3), "outside");
   EXPECT_EQ(significant(0, 4), "0");
   EXPECT_EQ(significant(-1.23456e-5, 3), "-1.23e-05");
   EXPECT_EQ(significant(kNotApplicable, 4), "-");

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "core/faults.hpp"
-#include "io/csv.hpp"
 #include "io/result_doubts.hpp"
 #include "io/result_folder.hpp"
+#include "record/csv.hpp"
 #include "result/patch.hpp"
 #include "runs/write_fem_result.hpp"
 #include "runs/write_half_space_result.hpp"

@@ -38,7 +38,7 @@ export interface Section {
   sigma_1: PackedNumbers;
   sigma_xz: PackedNumbers;
   tau_max: PackedNumbers;
-  plastic_p?: PackedNumbers;  // accumulated plastic strain, of runs with plasticity
+  plastic_strain_accumulated?: PackedNumbers;  // accumulated plastic strain, of runs with plasticity
   material: string;           // one digit (base 36) a cell
 }
 

@@ -148,10 +148,10 @@ const largest = (values: Values) => values.reduce<number>((m, v) => Math.max(m, 
 /// Across, where the rail has yielded or keeps a quarter of the largest stress, with room to either side.
 function windowOf(s: SectionStory, section: Section): Span {
   const {residual} = s;
-  const p = 0.02 * largest(residual.plastic_p);
+  const p = 0.02 * largest(residual.plastic_strain_accumulated);
   const stress = 0.25 * largest(residual.sigma_xx_MPa);
   const reach = residual.y_mm.filter(
-      (_, i) => residual.plastic_p[i] > p || (stress > 0 && Math.abs(residual.sigma_xx_MPa[i]) > stress));
+      (_, i) => residual.plastic_strain_accumulated[i] > p || (stress > 0 && Math.abs(residual.sigma_xx_MPa[i]) > stress));
   const deepest = Math.max(...section.depth);
   const half = residual.row && section.y.length > 1 ? 0.5 * Math.abs(section.y[1] - section.y[0]) : 0;  // of an element
   const all: Span = [Math.min(...section.y) - half, Math.max(...section.y) + half];
@@ -192,11 +192,11 @@ const kMaps: Quantity[] = [
     signed: true,
   },
   {
-    column: "plastic_p",
+    column: "plastic_strain_accumulated",
     title: "Plastic strain, accumulated over all passes",
     bar: "p",
     hover: "p %{z:.3g}",
-    unit: "plastic_p",
+    unit: "plastic_strain_accumulated",
     words: ["Every flow counts, to and fro: p grows in closed cycles too."],
   },
   {
@@ -235,7 +235,7 @@ function commonFrame(all: SectionStory[]): Frame {
 
 function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: number, shown: Frame): Figure {
   const section = sectionOf(s);
-  const yielded = (v: number, i: number) => (q.classes && s.residual.plastic_p[i] === 0 ? null : v);
+  const yielded = (v: number, i: number) => (q.classes && s.residual.plastic_strain_accumulated[i] === 0 ? null : v);
   const values = section.rows(s.residual[q.column].map(yielded));
   const across = (depth: number): Line => ({x: shown.across, y: [depth, depth]});
   return mapFigure({
@@ -263,7 +263,7 @@ function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: nu
 }
 
 function classLegend(s: SectionStory): HTMLElement {
-  const yielded = s.residual.class.filter((_, i) => s.residual.plastic_p[i] !== 0);
+  const yielded = s.residual.class.filter((_, i) => s.residual.plastic_strain_accumulated[i] !== 0);
   const there = classesOf(s).flatMap((name, k) => {
     if (!yielded.includes(k)) return [];
     const swatch = element("span", {class: "swatch", style: `background: ${kClassFills[k]}`});
@@ -364,7 +364,7 @@ function overPasses(
 
 const kLoops: [id: string, title: string, strain: string, stress: string, factor: number][] = [
   ["x", "Stress along the rail against strain, σ_x and ε_x", "strain_xx", "sigma_xx_MPa", 1],
-  ["xz", "Shear stress against shear strain, τ_xz and γ_xz", "strain_xz", "tau_xz_MPa", 2],
+  ["xz", "Shear stress against shear strain, τ_xz and γ_xz", "strain_xz", "sigma_xz_MPa", 2],
 ];
 
 function loopFigures(s: PassesStory, all: PassesStory[]): Figure[] {
@@ -458,7 +458,7 @@ export function passesParts(all: PassesStory[]): HTMLElement[] {
     profileFigure(all, "passes-profile-stress", "Residual stress with depth", "residual stress [MPa]", stress),
     profileFigure(
         all, "passes-profile-strain", "Plastic strain with depth", "plastic strain",
-        [["plastic_p", "accumulated, p"], ["plastic_xz", "shear, ε_xz"]]),
+        [["plastic_strain_accumulated", "accumulated, p"], ["plastic_xz", "shear, ε_xz"]]),
   ];
   const history = [
     strainFigure(all),

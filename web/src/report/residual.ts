@@ -30,15 +30,15 @@ function words(run: Run): string {
 }
 
 /// The column of elements with the largest plastic strain, from the surface down.
-function columnOf({row, column, plastic_p}: Columns): number[] {
+function columnOf({row, column, plastic_strain_accumulated}: Columns): number[] {
   const inZone = row.flatMap((r, i) => (r >= 0 ? [i] : []));
   if (!inZone.length) return [];
-  const most = inZone.reduce((a, b) => (plastic_p[b] > plastic_p[a] ? b : a));
+  const most = inZone.reduce((a, b) => (plastic_strain_accumulated[b] > plastic_strain_accumulated[a] ? b : a));
   return inZone.filter((i) => column[i] === column[most]).sort((a, b) => row[a] - row[b]);
 }
 
 const kLines: [column: string, name: string][] =
-    [["sigma_xx_MPa", "σ_x"], ["sigma_yy_MPa", "σ_y"], ["tau_xz_MPa", "τ_xz"]];
+    [["sigma_xx_MPa", "σ_x"], ["sigma_yy_MPa", "σ_y"], ["sigma_xz_MPa", "τ_xz"]];
 
 function profile(stories: SectionStory[]): Figure {
   const several = stories.length > 1;

@@ -13,7 +13,7 @@ import {contactY} from "./patch";
 import {measures, runLabel, zones} from "./words";
 
 type Plane = "longitudinal"|"cross";
-type Quantity = StressQuantity|"plastic_p";
+type Quantity = StressQuantity|"plastic_strain_accumulated";
 
 /// Where the material changes: along rows and along columns.
 function materialBorders(section: Section, x: number[], depth: number[]): Line[] {
@@ -65,7 +65,7 @@ function cutOf(run: Run, body: BodyName, plane: Plane): Cut|null {
       sigma_1: shape(section.sigma_1),
       sigma_xz: shape(section.sigma_xz),
       tau_max: shape(section.tau_max),
-      plastic_p: section.plastic_p ? shape(section.plastic_p) : [],
+      plastic_strain_accumulated: section.plastic_strain_accumulated ? shape(section.plastic_strain_accumulated) : [],
     },
   };
 }
@@ -110,11 +110,11 @@ const kKinds: Kind[] = [
   {key: "sigma_1", name: "Largest principal stress σ₁", column: "sigma_1_MPa", hover: "σ₁ %{z:.1f} MPa"},
   {key: "sigma_xz", name: "Shear stress τ_xz", column: "sigma_xz_MPa", hover: "τ_xz %{z:.1f} MPa"},
   {key: "tau_max", name: "Largest shear stress τ_max", column: "tau_max_MPa", hover: "τ_max %{z:.1f} MPa"},
-  {key: "plastic_p", name: "Accumulated plastic strain p", column: "plastic_p", hover: "p %{z:.2e}"},
+  {key: "plastic_strain_accumulated", name: "Accumulated plastic strain p", column: "plastic_strain_accumulated", hover: "p %{z:.2e}"},
 ];
 /// A value with its unit, to so many decimals of a stress.
 const valueText = (kind: Kind, v: number, decimals: number) =>
-    kind.key === "plastic_p" ? (v === 0 ? "0" : powerText(v)) : `${fixedText(v, decimals)} MPa`;
+    kind.key === "plastic_strain_accumulated" ? (v === 0 ? "0" : powerText(v)) : `${fixedText(v, decimals)} MPa`;
 export const kNormal: StressQuantity[] = ["von_mises", "sigma_1"];
 export const kShear: StressQuantity[] = ["sigma_xz", "tau_max"];
 
@@ -123,7 +123,7 @@ type Look = Pick<MapSpec, "floor"|"scale">;
 /// Colours of one quantity on all sections.
 function scaleOf(cuts: Cut[], kind: Kind): Look {
   const all = extreme(cuts, kind.key, true);
-  if (kind.key === "von_mises" || kind.key === "tau_max" || kind.key === "plastic_p")
+  if (kind.key === "von_mises" || kind.key === "tau_max" || kind.key === "plastic_strain_accumulated")
     return {scale: magnitudeScale(all)};
   if (kind.key === "sigma_xz") return {scale: signedScale(all)};
   // of the principal stress the tension counts: compression deeper than its range takes the darkest blue
@@ -172,7 +172,7 @@ export function sectionMaps(runs: Run[], body: BodyName, quantities: Quantity[] 
       labels: [plane.label, "depth [mm]"],
       hover: kind.hover,
       hoverY: "depth",
-      bar: kind.key === "plastic_p" ? "p" : "MPa",
+      bar: kind.key === "plastic_strain_accumulated" ? "p" : "MPa",
       ...scale,
       reversed: body === "rail",
       windowX,

@@ -45,7 +45,7 @@ function words(run: Run): string {
 
 // ---- pictures
 
-type Packed = "von_mises"|"plastic_p";
+type Packed = "von_mises"|"plastic_strain_accumulated";
 
 function cellsOf(run: Run, quantity: Packed): SectionCell[] {
   return kBodies.flatMap((body) => {
@@ -54,7 +54,7 @@ function cellsOf(run: Run, quantity: Packed): SectionCell[] {
     if (!run.geometry || !section || !packed) return [];
     const cells =
         cellsBelow(run.geometry, body, section.along, section.depth, rowsOf(unpack(packed), section.along.length));
-    return quantity === "plastic_p" ? cells.filter((cell) => cell.value > 0) : cells;
+    return quantity === "plastic_strain_accumulated" ? cells.filter((cell) => cell.value > 0) : cells;
   });
 }
 
@@ -78,11 +78,11 @@ const kStress: Look = {
   about: "",
 };
 const kStrain: Look = {
-  quantity: "plastic_p",
+  quantity: "plastic_strain_accumulated",
   title: "Accumulated plastic strain",
   name: "p",
   unit: "",
-  column: "plastic_p",
+  column: "plastic_strain_accumulated",
   text: powerText,
   about: " Without colour: not yielded.",
 };
@@ -91,7 +91,7 @@ function picture(run: Run, runs: Run[], look: Look, cells: SectionCell[], scale:
   const g = run.geometry!;
   const at = fixedText(run.sections.rail!.cross.at, 2);
   return {
-    id: `yielded-${look.quantity === "plastic_p" ? "strain" : "stress"}-${runs.indexOf(run) + 1}`,
+    id: `yielded-${look.quantity === "plastic_strain_accumulated" ? "strain" : "stress"}-${runs.indexOf(run) + 1}`,
     title: label(run, runs, look.title),
     words: [`On the profiles, rail at x = ${at} mm, seen against the rolling direction.${layerWords(g)}${look.about}`],
     paint: (host, theme, width) => paintSection(
@@ -116,8 +116,8 @@ function pictures(runs: Run[], look: Look): Painted[] {
 export function yieldedPart(runs: Run[]): HTMLElement|null {
   if (!runs.some((run) => run.summary.plastic)) return null;
   const told = runs.map((run) => element("p", {class: "yielded"}, named(run, runs), words(run)));
-  const bodies = kBodies.filter((body) => runs.some((run) => run.sections[body]?.longitudinal.plastic_p));
-  const along = bodies.flatMap((body) => sectionMaps(runs, body, ["plastic_p"]))
+  const bodies = kBodies.filter((body) => runs.some((run) => run.sections[body]?.longitudinal.plastic_strain_accumulated));
+  const along = bodies.flatMap((body) => sectionMaps(runs, body, ["plastic_strain_accumulated"]))
                     .filter((figure) => figure.id.includes("longitudinal"));
   const [strain, stress] = [pictures(runs, kStrain), pictures(runs, kStress)];
   const figures: Figure[] = runs.length > 1 ? [...stress, ...strain, ...along] : [...strain, ...stress, ...along];

@@ -1,4 +1,4 @@
-#include "io/output_file.hpp"
+#include "record/output_file.hpp"
 
 #include <fmt/format.h>
 #include <cerrno>
@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/faults.hpp"
-#include "io/disk.hpp"
-#include "io/this_process.hpp"
+#include "record/disk.hpp"
+#include "record/this_process.hpp"
 
 namespace railstrata {
 namespace {

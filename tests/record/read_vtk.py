@@ -1,4 +1,4 @@
-"""Reads the files written by tests/io/vtk_test.cpp with VTK's own readers and checks points, cells and fields."""
+"""Reads the files written by tests/record/vtk_test.cpp with VTK's own readers and checks points, cells and fields."""
 import sys
 import unittest
 import xml.etree.ElementTree as ElementTree

@@ -1,4 +1,4 @@
-#include "io/this_process.hpp"
+#include "record/this_process.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>

@@ -1,7 +1,7 @@
 #pragma once
 // Results for ParaView and VTK: XML files with appended raw data, UInt64 headers and zlib blocks (VTK 9.1,
-// ParaView 5.11 and meshio read them). Every file is written whole (io/output_file). Errors: EnvironmentError for the
-// disk, std::invalid_argument for arrays that do not fit or bad names.
+// ParaView 5.11 and meshio read them). Every file is written whole (record/output_file). Errors: EnvironmentError for
+// the disk, std::invalid_argument for arrays that do not fit or bad names.
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/vec.hpp"
+#include "record/column.hpp"
 
 namespace railstrata {
 
@@ -22,6 +22,23 @@ struct VtkField {
   std::variant<std::vector<float>, std::vector<double>, std::vector<std::int32_t>> values;
   std::vector<std::string> component_names = {};  ///< none: X Y Z for 3 components, XX YY ZZ XY YZ XZ for 6
 };
+
+/// An array of records as tables have them, a component a column; `name` without a unit, which is the columns'.
+template <class Number, class Record>
+VtkField vtk_field(const std::string& name, const std::vector<Record>& records, const Columns<Record>& columns) {
+  std::vector<Number> values;
+  for (const Record& record : records)
+    for (const Column<Record>& c : columns) values.push_back(static_cast<Number>(c.in_table(record)));
+  return {name + std::string(columns.front().unit.column_ending), static_cast<int>(columns.size()), std::move(values)};
+}
+
+/// An array for each column: whole numbers of counts.
+template <class Number, class Record>
+void add_vtk_fields(std::vector<VtkField>& fields, const std::vector<Record>& records, const Columns<Record>& columns) {
+  for (const Column<Record>& c : columns)
+    fields.push_back(c.unit.whole ? vtk_field<std::int32_t, Record>(c.symbol, records, {c})
+                                  : vtk_field<Number, Record>(c.symbol, records, {c}));
+}
 
 /// Cells of Corners nodes each, node numbers from 0, in VTK's order. Points in metres, stored in double precision.
 template <std::size_t Corners>

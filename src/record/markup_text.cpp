@@ -1,4 +1,4 @@
-#include "io/markup_text.hpp"
+#include "record/markup_text.hpp"
 
 namespace railstrata {
 

@@ -1,4 +1,4 @@
-#include "io/disk.hpp"
+#include "record/disk.hpp"
 
 #include <fcntl.h>
 #include <io.h>

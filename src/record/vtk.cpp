@@ -1,4 +1,4 @@
-#include "io/vtk.hpp"
+#include "record/vtk.hpp"
 
 #include <fmt/format.h>
 #include <zlib.h>
@@ -11,8 +11,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "io/markup_text.hpp"
-#include "io/output_file.hpp"
+#include "record/markup_text.hpp"
+#include "record/output_file.hpp"
 
 namespace railstrata {
 namespace {

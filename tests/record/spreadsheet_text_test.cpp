@@ -1,4 +1,4 @@
-#include "io/spreadsheet_text.hpp"
+#include "record/spreadsheet_text.hpp"
 
 #include <gtest/gtest.h>
 

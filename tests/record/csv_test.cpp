@@ -1,4 +1,4 @@
-#include "io/csv.hpp"
+#include "record/csv.hpp"
 
 #include <gtest/gtest.h>
 

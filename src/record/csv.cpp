@@ -1,8 +1,9 @@
-#include "io/csv.hpp"
+#include "record/csv.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "core/faults.hpp"
 
@@ -40,6 +42,14 @@ std::string row_text(std::span<const double> row) {
                   line > 0 ? fmt::format("{}:{}", file.string(), line) : file.string());
 }
 
+/// What earlier programs called a column.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kPresentNames{
+    {{"tau_xy_MPa", "sigma_xy_MPa"},
+     {"tau_yz_MPa", "sigma_yz_MPa"},
+     {"tau_xz_MPa", "sigma_xz_MPa"},
+     {"spin_1_m", "spin_per_m"},
+     {"plastic_p", "plastic_strain_accumulated"}}};
+
 std::vector<CsvColumn> columns_named(const std::string& line) {
   std::vector<CsvColumn> columns(1);
   for (char c : line) {
@@ -48,6 +58,9 @@ std::vector<CsvColumn> columns_named(const std::string& line) {
     else if (c != '\r')
       columns.back().name += c;
   }
+  for (CsvColumn& column : columns)
+    for (const auto& [old, present] : kPresentNames)
+      if (column.name == old) column.name = present;
   return columns;
 }
 

@@ -1,4 +1,4 @@
-#include "io/vtk.hpp"
+#include "record/vtk.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "core/faults.hpp"
-#include "io/output_file.hpp"
+#include "record/output_file.hpp"
 #include "tests/places.hpp"
 
 namespace railstrata {

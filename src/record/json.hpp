@@ -1,8 +1,10 @@
 #pragma once
-// JSON as text, whatever is in it.
+// Numbers and records as JSON, and JSON as text, whatever is in it.
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+
+#include "record/column.hpp"
 
 namespace railstrata {
 
@@ -17,6 +19,18 @@ std::string json_text(const Json& json, int indent = -1) {
 inline nlohmann::ordered_json json_number(double v) {
   return std::isfinite(v) ? nlohmann::ordered_json(v) : nlohmann::ordered_json(nullptr);
 }
-inline nlohmann::ordered_json json_number(long v) { return v; }
+
+/// The same in SI units of a count or a number of a record.
+inline nlohmann::ordered_json json_number(const Unit& unit, double v) {
+  return unit.whole && std::isfinite(v) ? nlohmann::ordered_json(static_cast<long>(v)) : json_number(v);
+}
+
+/// A record in SI units, a key a column.
+template <class Record>
+nlohmann::ordered_json json_record(const Record& record, const Columns<Record>& columns) {
+  nlohmann::ordered_json out;
+  for (const Column<Record>& c : columns) out[c.key()] = json_number(c.unit, c.value(record));
+  return out;
+}
 
 }  // namespace railstrata
