@@ -31,13 +31,13 @@ constexpr Chart kCharts[] = {
     {"moment", "Moment about the contact normal", "By the full theory, on the wheel.", "moment / (f F_n) [mm]"}};
 
 /// A column with its line on a chart.
-struct Column {
+struct CurveColumn {
   const char *name, *heading;
   double (*value)(const CreepCurvePoint&);
   std::string_view chart = {};
   const char *line = "full half-space theory, with the case's layers", *dash = "solid";
 };
-constexpr Column kColumns[] = {
+constexpr CurveColumn kColumns[] = {
     {"full", "full theory", [](const CreepCurvePoint& p) { return 0.0 - p.full; }, "creep"},
     {"fastsim", "FASTSIM", [](const CreepCurvePoint& p) { return 0.0 - p.fastsim; }, "creep", "FASTSIM, Hertz ellipse",
      "dash"},
@@ -55,7 +55,7 @@ ReportTable points_of(const CurveAxis& axis, const std::vector<CsvColumn>& table
                   .note = "Forces and moment over f F_n, on the wheel. creep_curve.csv has every digit.",
                   .columns = {axis.title},
                   .rows = {}};
-  for (const Column& c : kColumns) out.columns.emplace_back(c.heading);
+  for (const CurveColumn& c : kColumns) out.columns.emplace_back(c.heading);
   for (std::size_t i = 0; i < table.front().values.size(); ++i) {
     auto& row = out.rows.emplace_back();
     for (const CsvColumn& c : table) row.emplace_back(c.values[i]);
@@ -88,7 +88,7 @@ std::vector<double> curve_values(const CurveAxis& axis, double largest, int poin
 
 std::vector<CsvColumn> curve_table(const CurveAxis& axis, const std::vector<CreepCurvePoint>& curve) {
   std::vector<CsvColumn> out{{axis.column, {}}};
-  for (const Column& c : kColumns) out.push_back({c.name, {}});
+  for (const CurveColumn& c : kColumns) out.push_back({c.name, {}});
   for (const CreepCurvePoint& p : curve) {
     out.front().values.push_back(p.creepage);
     for (std::size_t k = 0; k < std::size(kColumns); ++k) out[k + 1].values.push_back(kColumns[k].value(p));
