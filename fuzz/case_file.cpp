@@ -74,6 +74,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const CaseError&) {
     promise(false, "the resolved case is a case");
   }
-  if (!overrides.empty()) fuzz::accepts([&] { combinations(parse_vary(overrides)); });
+  if (!overrides.empty()) fuzz::accepts([&] { combinations(parse_axes("--vary", overrides)); });
   return 0;
 }

@@ -63,8 +63,9 @@ TEST(TransientCaseFile, AHistoryFileStandsForItsColumns) {
   EXPECT_EQ(spec.transient.wheel_load, (std::vector<double>{80e3, 100.5e3}));
   EXPECT_EQ(spec.transient.creepage, (std::vector<double>{0, -1e-3}));
   EXPECT_EQ(spec.transient.spin, (std::vector<double>{0.1, 0.2}));
-  read_history_table("distance_mm,spin_per_m\n0,0.3\n10,0.4\n", "h.csv", spec);  // as results name it
-  EXPECT_EQ(spec.transient.spin, (std::vector<double>{0.3, 0.4}));
+  CaseSpec result;  // as results name it
+  read_history_table("distance_mm,spin_per_m\n0,0.3\n10,0.4\n", "h.csv", result);
+  EXPECT_EQ(result.transient.spin, (std::vector<double>{0.3, 0.4}));
 
   const TemporaryFolder temporary;
   const std::filesystem::path folder = temporary.path();
