@@ -71,7 +71,7 @@ class PassesPage(unittest.TestCase):
             self.assertAlmostEqual(most, max(along[column]), delta=1e-2)
 
     def test_the_border_of_the_layer_is_drawn(self):
-        border = self.trace("plot-passes-plastic-p-1", 1)
+        border = self.trace("plot-passes-plastic-strain-accumulated-1", 1)
         self.assertEqual(border["y"], [0.5, 0.5])
 
 

@@ -23,6 +23,9 @@ SRC = ROOT / "src"
 ENTRY = "explore/calls.cpp"
 # Rooms whose headers others include for the types, and whose functions nobody calls here: the linker would say.
 TYPES_ALONE = ("body/", "element/", "fem/", "mesh/", "contact/", "io/provenance.cpp")
+# Headers whose functions are in several sources.
+DEFINED_IN = {"fft/fft.hpp": ("fft/fft_lengths.cpp", "fft/fft_kiss.cpp"),
+              "case/case_tables.hpp": ("case/*_options.cpp",), "bem/subsurface.hpp": ("bem/subsurface_*.cpp",)}
 # Whole libraries of headers beside the system's own, which are not for this compiler.
 HEADERS = {"fmt": "/usr/include/fmt", "eigen3": "/usr/include/eigen3", "nlohmann": "/usr/include/nlohmann",
            "toml++": "/usr/include/toml++"}
@@ -59,8 +62,7 @@ def sources():
             own = header.removesuffix(".hpp") + ".cpp"
             if (SRC / own).exists() and not own.startswith(TYPES_ALONE):
                 todo.append(own)
-        if file.endswith("/fft.hpp"):
-            todo += [file.replace("fft.hpp", name) for name in ("fft_lengths.cpp", "fft_kiss.cpp")]
+        todo += (str(f.relative_to(SRC)) for pattern in DEFINED_IN.get(file, ()) for f in SRC.glob(pattern))
     return sorted(f for f in seen if f.endswith(".cpp")), sorted(seen)
 
 

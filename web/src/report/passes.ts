@@ -239,7 +239,7 @@ function sectionMap(s: SectionStory, all: SectionStory[], q: Quantity, scale: nu
   const values = section.rows(s.residual[q.column].map(yielded));
   const across = (depth: number): Line => ({x: shown.across, y: [depth, depth]});
   return mapFigure({
-    id: `${q.id ?? "passes"}-${q.column.replace("_MPa", "").replace("_", "-")}-${all.indexOf(s) + 1}`,
+    id: `${q.id ?? "passes"}-${q.column.replace("_MPa", "").replace(/_/g, "-")}-${all.indexOf(s) + 1}`,
     title: called(s, all, q.title),
     words: q.classes ? [classLegend(s), ...q.words] : q.words,
     z: values,
