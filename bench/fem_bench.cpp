@@ -296,7 +296,7 @@ HotShare hot_share(const Rolling& r) {
   double elements = 0;
   for (std::size_t k = 0; k < 2; ++k) {
     const Body& body = r.system.bodies[k];
-    const Field& history = r.stepper->state().bodies[k].history;
+    const PlasticHistory& history = r.stepper->state().bodies[k].history;
     out.hot += static_cast<double>(body.plastic.hot_elements(body, history));
     out.yielded += static_cast<double>(plastic_extent(body, history).yielded);
     elements += static_cast<double>(body.mesh.elements());

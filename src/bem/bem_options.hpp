@@ -1,12 +1,10 @@
 #pragma once
 // How the half-space engine solves a case.
+#include "bem/cell_range.hpp"
 #include "bem/influence_cache.hpp"
 #include "bem/rolling_contact.hpp"
 
 namespace railstrata {
-
-/// m, of BemOptions::cell: what commands and tools take.
-inline constexpr double kSmallestCell = 0.02e-3, kLargestCell = 5e-3;
 
 /// A solution of a similar case and its grid, to start the next one from: wheels of a vehicle move little from one time
 /// step to the next. Of one patch with one load.
@@ -17,7 +15,7 @@ struct BemNeighbour {
 };
 
 struct BemOptions {
-  double cell = 0.25e-3;         ///< m
+  double cell = kDefaultCell;    ///< m
   double largest_patch = 60e-3;  ///< m, of the potential contact area, per direction
   RollingOptions rolling;
   InfluenceCache* cache = nullptr;    ///< for sweeps; may be null

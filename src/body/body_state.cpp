@@ -6,15 +6,14 @@ BodyState::BodyState(const Body& body) : history(initial_history(body)) {
   for (Field* nodal : {&u, &v, &f}) *nodal = body.layout.field();
 }
 
-bool fits(const Body& body, const StateArray& array, const Field& values) {
-  if (array.values == &BodyState::history) {
-    return body.plastic.empty() ? values.empty() : body.plastic.fits(values);
-  }
-  return values.size() == static_cast<std::size_t>(body.layout.size);
+bool fits(const Body& body, const BodyState& state) {
+  for (const StateArray& a : kStateArrays)
+    if (a.restart && (state.*a.values).size() != static_cast<std::size_t>(body.layout.size)) return false;
+  return body.plastic.fits(state.history);
 }
 
-Field initial_history(const Body& body) {
-  Field out;
+PlasticHistory initial_history(const Body& body) {
+  PlasticHistory out;
   body.plastic.initialise(out);
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// The state of a body: named arrays, listed once. Checkpoints go through this list.
+// The state of a body: named arrays of its nodes, listed once, and the history of its elements. Checkpoints go through
+// this list.
 #include <array>
 
 #include "body/body.hpp"
@@ -11,10 +12,10 @@ struct BodyState {
   /// Zero everywhere, with the initial history.
   explicit BodyState(const Body& body);
 
-  Field u;        ///< m, displacements
-  Field v;        ///< m/s, velocities at the half step before
-  Field f;        ///< N, internal forces and what is added to them in a step; nothing of it survives the step
-  Field history;  ///< of the elements that may yield, as the last pass left it (body/plastic_elements.hpp); else empty
+  Field u;                 ///< m, displacements
+  Field v;                 ///< m/s, velocities at the half step before
+  Field f;                 ///< N, internal forces and what is added to them in a step; nothing of it survives the step
+  PlasticHistory history;  ///< of the elements that may yield, as the last pass left it; else empty
 };
 
 struct StateArray {
@@ -24,15 +25,13 @@ struct StateArray {
   bool restart;  ///< needed to go on
 };
 
-inline constexpr std::array<StateArray, 4> kStateArrays{{{"u", "m", &BodyState::u, true},
-                                                         {"v", "m/s", &BodyState::v, true},
-                                                         {"f", "N", &BodyState::f, false},
-                                                         {"history", "", &BodyState::history, true}}};
+inline constexpr std::array<StateArray, 3> kStateArrays{
+    {{"u", "m", &BodyState::u, true}, {"v", "m/s", &BodyState::v, true}, {"f", "N", &BodyState::f, false}}};
 
-/// Whether an array may be that of a body's state.
-bool fits(const Body& body, const StateArray& array, const Field& values);
+/// Whether the arrays that a restart needs and the history are those of a body.
+bool fits(const Body& body, const BodyState& state);
 
 /// The history of elements to which nothing has happened.
-Field initial_history(const Body& body);
+PlasticHistory initial_history(const Body& body);
 
 }  // namespace railstrata

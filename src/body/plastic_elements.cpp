@@ -77,25 +77,7 @@ void PlasticElements::make_modes(const Body& body) {
   });
 }
 
-std::ptrdiff_t PlasticElements::slots_begin() const {
-  constexpr std::ptrdiff_t kLine = 8;  // of memory
-  return (static_cast<std::ptrdiff_t>(candidates_.size()) + kLine - 1) / kLine * kLine;
-}
-
-std::ptrdiff_t PlasticElements::slot_size() const {
-  return PlasticEntries::kHeader + static_cast<std::ptrdiff_t>(entries()) * kTile;
-}
-
-int PlasticElements::hot_places(const Field& history) const {
-  if (empty()) return 0;
-  return static_cast<int>((static_cast<std::ptrdiff_t>(history.size()) - slots_begin()) / slot_size());
-}
-
-PlasticElements::Hot PlasticElements::hot(const Field& history, int slot) const {
-  return {candidates_[candidate_of(history, slot)], first_of(slot)};
-}
-
-long PlasticElements::hot_elements(const Body& body, const Field& history) const {
+long PlasticElements::hot_elements(const Body& body, const PlasticHistory& history) const {
   long count = 0;
   for (int k = 0; k < hot_places(history); ++k) {
     const Tile& tile = body.tiling.tiles[hot(history, k).tile];
@@ -104,35 +86,38 @@ long PlasticElements::hot_elements(const Body& body, const Field& history) const
   return count;
 }
 
-void PlasticElements::initialise(Field& history) const {
-  if (empty()) return;
-  history.resize(static_cast<std::size_t>(slots_begin()), 0.0);
-  history.reserve(static_cast<std::size_t>(first_of(static_cast<int>(hot_at_start_.size()))));
+void PlasticElements::initialise(PlasticHistory& history) const {
+  history = {};
+  history.slot_of.assign(candidates_.size(), PlasticHistory::kCold);
+  history.numbers.reserve(hot_at_start_.size() * static_cast<std::size_t>(slot_numbers()));
   for (int candidate : hot_at_start_) add(history, candidate);
 }
 
-void PlasticElements::add(Field& history, int candidate) const {
+void PlasticElements::add(PlasticHistory& history, int candidate) const {
   const int slot = hot_places(history);
-  history.resize(history.size() + static_cast<std::size_t>(slot_size()), 0.0);
-  history[candidate] = 1 + slot;
-  double* const rows = history.data() + first_of(slot);
+  history.places.push_back(candidate);
+  history.slot_of[candidate] = slot;
+  history.numbers.resize(history.numbers.size() + static_cast<std::size_t>(slot_numbers()), 0.0);
+  double* const own = rows(history, slot);
   const std::array<double, 6>& stress = quad(candidates_[candidate]).material.initial_stress;
-  rows[PlasticEntries::kCandidate] = candidate;
-  rows[PlasticEntries::kStressed] = stress == std::array<double, 6>{} ? 0 : 1;
+  own[PlasticEntries::kStressed * kTile] = stress == std::array<double, 6>{} ? 0 : 1;
   for (int i = 0; i < 6; ++i)
-    std::fill_n(rows + (PlasticEntries::kEigenstress + i) * kTile, kTile, stress[i] == 0 ? 0.0 : -stress[i]);
+    std::fill_n(own + (PlasticEntries::kEigenstress + i) * kTile, kTile, stress[i] == 0 ? 0.0 : -stress[i]);
 }
 
-bool PlasticElements::fits(const Field& history) const {
-  const auto size = static_cast<std::ptrdiff_t>(history.size());
-  if (size < slots_begin() || (size - slots_begin()) % slot_size() != 0) return false;
-  const int slots = hot_places(history);
-  for (int slot = 0; slot < slots; ++slot) {
-    const double candidate = history[first_of(slot) + PlasticEntries::kCandidate];
-    if (!(candidate >= 0 && candidate < static_cast<double>(candidates_.size()))) return false;
-    if (history[static_cast<std::ptrdiff_t>(candidate)] != 1 + slot) return false;
+bool PlasticElements::fits(const PlasticHistory& history) const {
+  if (history.numbers.size() != history.places.size() * static_cast<std::size_t>(slot_numbers())) return false;
+  std::vector<char> seen(candidates_.size(), 0);
+  for (int candidate : history.places) {
+    if (candidate < 0 || candidate >= static_cast<int>(seen.size()) || seen[candidate]) return false;
+    seen[candidate] = 1;
   }
-  return slots == std::count_if(history.begin(), history.begin() + slots_begin(), [](double x) { return x != 0; });
+  return true;
+}
+
+void PlasticElements::index(PlasticHistory& history) const {
+  history.slot_of.assign(candidates_.size(), PlasticHistory::kCold);
+  for (int slot = 0; slot < hot_places(history); ++slot) history.slot_of[history.places[slot]] = slot;
 }
 
 }  // namespace railstrata

@@ -8,18 +8,15 @@
 // A *place* is what one tile has of the elements of one quadrilateral. All places of a material that yields are
 // candidates; those that are *hot* keep numbers in the body's history, the others cost nothing and are elastic. Places
 // become hot while a run goes on (extend_plastic_elements, body/plastic_pass.hpp) and stay hot. Which are is part of
-// the history, so that whatever carries a state carries it:
-//
-//   history = [directory: a number per candidate, 0 cold, else 1 + its slot, padded][slot 0][slot 1] …
-//
-// with entries() * kTile numbers in a slot. Within hot places groups of eight elements sleep while they are far from
-// yielding.
+// the history (body/plastic_history.hpp), so that whatever carries a state carries it. Within hot places groups of
+// eight elements sleep while they are far from yielding.
 #include <array>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "body/element_tables.hpp"
+#include "body/plastic_history.hpp"
 #include "body/tiling.hpp"
 #include "element/plastic_reference.hpp"
 #include "material/plastic.hpp"
@@ -40,11 +37,10 @@ struct PlasticEntries {
   static constexpr int kEigenstress = 0;
   static constexpr int kBubbles = kEigenstressEntries;  ///< alpha_p [m], 3 by bubble
   static constexpr int kTouched = kBubbles + 9;         ///< of a group, at its first element: 0: never yielded
-  static constexpr int kWork = kTouched + 1;            ///< plastic work [J/m³], mean of the element
+  static constexpr int kStressed = kTouched + 1;        ///< of a place, at its first element: 0: no eigenstress
+  static constexpr int kWork = kStressed + 1;           ///< plastic work [J/m³], mean of the element
   static constexpr int kAwake = kWork + 1;              ///< of a group, at its first element
   static constexpr int kPoints = kAwake + 1;  ///< histories of the points: + of pair 0, - of pair 0, + of 1, …
-  /// Before them all: the candidate that the slot is of, and whether it has any eigenstress.
-  static constexpr int kHeader = 8, kCandidate = -kHeader, kStressed = 1 - kHeader;
 };
 
 class PlasticElements {
@@ -68,34 +64,33 @@ class PlasticElements {
     int tile, quad, kind;  ///< kind: into quads
   };
   const std::vector<Place>& candidates() const { return candidates_; }
-  bool is_hot(const Field& history, int candidate) const { return history[candidate] != 0; }
-  /// The eigenstress of a hot place in the body's history, entry k at + k * kTile; null where there is none.
-  const double* eigenstress(const Field& history, int tile, int quad) const {
-    const std::ptrdiff_t at = first(history, tile, quad);
-    if (at < 0) return nullptr;
-    const double* const rows = history.data() + at;
-    return rows[PlasticEntries::kStressed] != 0 ? rows : nullptr;
+  bool is_hot(const PlasticHistory& history, int candidate) const {
+    return history.slot_of[candidate] != PlasticHistory::kCold;
   }
-  /// Where the numbers of a quadrilateral's elements in a tile stand in the body's history, entry k at + k * kTile; -1
-  /// if they are elastic.
-  std::ptrdiff_t first(const Field& history, int tile, int quad) const {
-    if (tile_quads_.empty() || tile_quads_[tile].empty()) return -1;
+  /// The numbers of a quadrilateral's elements in a tile, entry k at + k * kTile; null if they are elastic.
+  const double* rows(const PlasticHistory& history, int tile, int quad) const {
+    if (tile_quads_.empty() || tile_quads_[tile].empty()) return nullptr;
     const int candidate = tile_quads_[tile][quad];
-    return candidate < 0 || !is_hot(history, candidate) ? -1 : first_of(slot_of(history, candidate));
+    return candidate < 0 || !is_hot(history, candidate) ? nullptr : rows(history, history.slot_of[candidate]);
   }
+  /// The same where the elements have any eigenstress, else null.
+  const double* eigenstress(const PlasticHistory& history, int tile, int quad) const {
+    const double* const own = rows(history, tile, quad);
+    return own && has_eigenstress(own) ? own : nullptr;
+  }
+  static bool has_eigenstress(const double* rows) { return rows[PlasticEntries::kStressed * kTile] != 0; }
 
-  /// A hot place.
-  struct Hot : Place {
-    std::ptrdiff_t first;
-  };
-  int hot_places(const Field& history) const;
+  int hot_places(const PlasticHistory& history) const { return static_cast<int>(history.places.size()); }
   /// In the order in which they became hot.
-  Hot hot(const Field& history, int slot) const;
-  /// All that the history has of a hot place: where it begins, and how many numbers.
-  std::ptrdiff_t slot_first(int slot) const { return first_of(slot) - PlasticEntries::kHeader; }
-  std::ptrdiff_t slot_numbers() const { return slot_size(); }
+  const Place& hot(const PlasticHistory& history, int slot) const { return candidates_[history.places[slot]]; }
+  /// All that the history has of a hot place: slot_numbers() of them.
+  const double* rows(const PlasticHistory& history, int slot) const {
+    return history.numbers.data() + slot * slot_numbers();
+  }
+  double* rows(PlasticHistory& history, int slot) const { return history.numbers.data() + slot * slot_numbers(); }
+  std::ptrdiff_t slot_numbers() const { return static_cast<std::ptrdiff_t>(entries()) * kTile; }
   /// Elements that are hot.
-  long hot_elements(const Body& body, const Field& history) const;
+  long hot_elements(const Body& body, const PlasticHistory& history) const;
 
   struct Quad {
     GaussShape<double> gauss;
@@ -109,23 +104,18 @@ class PlasticElements {
   const SweepScale& scale(int block, int hourglass_class) const { return scales_[block][hourglass_class]; }
 
   /// Adds its part to a body's history: of elements to which nothing has happened.
-  void initialise(Field& history) const;
+  void initialise(PlasticHistory& history) const;
   /// A place becomes hot, its elements virgin.
-  void add(Field& history, int candidate) const;
-  /// Whether a history is one of these elements, of which there are some.
-  bool fits(const Field& history) const;
+  void add(PlasticHistory& history, int candidate) const;
+  /// Whether places and numbers are those of a history of these elements.
+  bool fits(const PlasticHistory& history) const;
+  /// Completes a history of which places and numbers were read, and fit.
+  void index(PlasticHistory& history) const;
 
  private:
   void add_quads(const Body& body, const MaterialOf& material_of);
   void add_candidates(const Body& body, const Wanted& wanted);
   void make_modes(const Body& body);
-  std::ptrdiff_t slots_begin() const;
-  std::ptrdiff_t slot_size() const;
-  std::ptrdiff_t first_of(int slot) const { return slots_begin() + slot * slot_size() + PlasticEntries::kHeader; }
-  int slot_of(const Field& history, int candidate) const { return static_cast<int>(history[candidate]) - 1; }
-  int candidate_of(const Field& history, int slot) const {
-    return static_cast<int>(history[first_of(slot) + PlasticEntries::kCandidate]);
-  }
 
   int terms_ = 0;
   std::vector<Place> candidates_;

@@ -19,14 +19,14 @@ Sym3 turned(const Rotation<double>& turn, const std::array<double, 6>& t) {
   return {x.x, y.y, z.z, x.y, y.z, x.z};
 }
 
-/// Of the elements of a hot place: of(element of the block, its numbers, entry k at + k * kTile).
+/// of(place, block, element of the block, its numbers: entry k at + k * kTile), of all that have any eigenstress.
 template <class Of>
-void each_element(const Body& body, const Field& history, Of&& of) {
+void each_element(const Body& body, const PlasticHistory& history, Of&& of) {
   for (int slot = 0; slot < body.plastic.hot_places(history); ++slot) {
-    const PlasticElements::Hot place = body.plastic.hot(history, slot);
+    const PlasticElements::Place& place = body.plastic.hot(history, slot);
     const Tile& tile = body.tiling.tiles[place.tile];
-    const double* rows = history.data() + place.first;
-    if (rows[Entries::kStressed] == 0) continue;  // has never yielded
+    const double* rows = body.plastic.rows(history, slot);
+    if (!body.plastic.has_eigenstress(rows)) continue;
     for (int e = tile.first; e < tile.end; ++e) of(place, tile.block, e, rows + e - tile.first);
   }
 }
@@ -37,16 +37,16 @@ const double* point_of(const Body& body, const double* element, int point) {
 
 }  // namespace
 
-ElementPlasticity element_plasticity(const Body& body, double psi, const Field& history, int block, int quad,
+ElementPlasticity element_plasticity(const Body& body, double psi, const PlasticHistory& history, int block, int quad,
                                      int station) {
   ElementPlasticity out;
   const int tile = body.tiling.first_tile[block] + station / kTile;
-  const std::ptrdiff_t first = body.plastic.first(history, tile, quad);
-  if (first < 0) return out;
+  const double* rows = body.plastic.rows(history, tile, quad);
+  if (!rows) return out;
   const GaussShape<double>& gauss = body.plastic.quad_at(tile, quad).gauss;
   std::array<double, 6> strain{}, backstress{};
   for (int point = 0; point < kPoints; ++point) {
-    const double* at = point_of(body, history.data() + first + station % kTile, point);
+    const double* at = point_of(body, rows + station % kTile, point);
     const double weight = gauss.pair[point / 2].weight;
     for (std::size_t i = 0; i < 6; ++i) strain[i] += weight * at[i * kTile];
     for (int k = 0; k < body.plastic.terms(); ++k)
@@ -62,9 +62,9 @@ ElementPlasticity element_plasticity(const Body& body, double psi, const Field& 
   return out;
 }
 
-PlasticPeak plastic_peak(const Body& body, const Field& history) {
+PlasticPeak plastic_peak(const Body& body, const PlasticHistory& history) {
   PlasticPeak out;
-  each_element(body, history, [&](const PlasticElements::Hot& place, int block, int element, const double* rows) {
+  each_element(body, history, [&](const PlasticElements::Place& place, int block, int element, const double* rows) {
     for (int point = 0; point < kPoints; ++point) {
       const double p = point_of(body, rows, point)[6 * kTile];
       if (p > out.accumulated) out = {p, block, place.quad, element};
@@ -73,9 +73,9 @@ PlasticPeak plastic_peak(const Body& body, const Field& history) {
   return out;
 }
 
-double backstress_energy(const Body& body, const Field& history) {
+double backstress_energy(const Body& body, const PlasticHistory& history) {
   double sum = 0;
-  each_element(body, history, [&](const PlasticElements::Hot& place, int block, int element, const double* rows) {
+  each_element(body, history, [&](const PlasticElements::Place& place, int block, int element, const double* rows) {
     const PlasticElements::Quad& quad = body.plastic.quad(place);
     const ElementTable<double>& table = body.elements[block].table;
     const double volume = table.quads[place.quad].shape.volume * table.v2[element];

@@ -7,7 +7,7 @@
 namespace railstrata {
 
 /// psi: rotation of a wheel, as in the traversal. Zeros of an element that stays elastic.
-ElementPlasticity element_plasticity(const Body& body, double psi, const Field& history, int block, int quad,
+ElementPlasticity element_plasticity(const Body& body, double psi, const PlasticHistory& history, int block, int quad,
                                      int station);
 
 /// The element with the largest accumulated plastic strain of any of its points.
@@ -15,10 +15,10 @@ struct PlasticPeak {
   double accumulated = 0;                ///< of that point
   int block = 0, quad = 0, station = 0;  ///< of the element; nothing where nothing has yielded
 };
-PlasticPeak plastic_peak(const Body& body, const Field& history);
+PlasticPeak plastic_peak(const Body& body, const PlasticHistory& history);
 
 /// Energy that the backstresses hold, the integral of sum_i 3/(4 C_i) alpha_i:alpha_i [J]: part of plastic_work
 /// (body/plastic_pass.hpp), the rest of which has become heat. [Chaboche1989]
-double backstress_energy(const Body& body, const Field& history);
+double backstress_energy(const Body& body, const PlasticHistory& history);
 
 }  // namespace railstrata

@@ -10,7 +10,7 @@ namespace railstrata {
 namespace {
 
 using Entries = PlasticEntries;
-using Place = PlasticElements::Hot;
+using Place = PlasticElements::Place;
 constexpr int kNewton = 2;  // iterations of the law: 5e-14 of the yield stress at strain increments of 1e-4
 
 // Rows of a pack's numbers: entry k at rows[k * kTile].
@@ -84,7 +84,6 @@ struct PassScope {
   const Body& body;
   const Field& u;
   Rotation<double> turn;
-  double* history;
   PlasticLook look;
 };
 
@@ -185,9 +184,8 @@ PackWork pack_work(const Body& body, const Place& place, int element, double* ro
 }
 
 template <int terms>
-void advance_place(const PassScope& scope, const Place& place) {
+void advance_place(const PassScope& scope, const Place& place, double* rows) {
   const Tile& tile = scope.body.tiling.tiles[place.tile];
-  double* rows = scope.history + place.first;
   for (int group = tile.first; group < tile.end; group += kHourglassGroup) {
     double& awake = rows[Entries::kAwake * kTile + group - tile.first];
     if (scope.look == PlasticLook::awake && awake == 0) continue;
@@ -197,24 +195,26 @@ void advance_place(const PassScope& scope, const Place& place) {
     for (int e = group; e < std::min(group + kHourglassGroup, tile.end); e += kLanes)
       touched |= advance_pack<terms>(pack_work(scope.body, place, e, rows),
                                      pack_strain(scope.body, tile.block, place.quad, e, scope.turn, scope.u), wanted);
-    if (touched) rows[Entries::kTouched * kTile + group - tile.first] = rows[Entries::kStressed] = 1;
+    if (touched) rows[Entries::kTouched * kTile + group - tile.first] = rows[Entries::kStressed * kTile] = 1;
     if (wanted) awake = nearest > kSleepBelow ? 1 : 0;
   }
 }
 
-using AdvancePlace = void (*)(const PassScope&, const Place&);
+using AdvancePlace = void (*)(const PassScope&, const Place&, double* rows);
 AdvancePlace advance_with(int terms) {
   constexpr AdvancePlace kByTerms[kMostBackstresses + 1] = {advance_place<0>, advance_place<1>, advance_place<2>,
                                                             advance_place<3>, advance_place<4>};
   return kByTerms[terms];
 }
 
-// Sum over the hot places, in their order.
+// Sum of of_place(place, its numbers) over the hot places that have any eigenstress, in their order.
 template <class OfPlace>
-double sum_of_places(const PlasticElements& plastic, const Field& history, OfPlace&& of_place) {
+double sum_of_places(const PlasticElements& plastic, const PlasticHistory& history, OfPlace&& of_place) {
   std::vector<double> part(static_cast<std::size_t>(plastic.hot_places(history)));
-  for_each(static_cast<std::ptrdiff_t>(part.size()),
-           [&](std::ptrdiff_t k) { part[k] = of_place(plastic.hot(history, static_cast<int>(k))); });
+  for_each(static_cast<std::ptrdiff_t>(part.size()), [&](std::ptrdiff_t k) {
+    const double* rows = plastic.rows(history, static_cast<int>(k));
+    if (plastic.has_eigenstress(rows)) part[k] = of_place(plastic.hot(history, static_cast<int>(k)), rows);
+  });
   double sum = 0;
   for (double p : part) sum += p;
   return sum;
@@ -259,21 +259,21 @@ Pack volumes(const Body& body, int block, int quad, int element) {
 
 }  // namespace
 
-void advance_plastic_elements(const Body& body, const Field& u, double psi, Field& history, PlasticLook look,
+void advance_plastic_elements(const Body& body, const Field& u, double psi, PlasticHistory& history, PlasticLook look,
                               const TileCut* cut) {
   if (body.plastic.empty()) return;
-  const PassScope scope{body, u, turn_by(body, psi), history.data(), look};
+  const PassScope scope{body, u, turn_by(body, psi), look};
   const AdvancePlace advance = advance_with(body.plastic.terms());
   for_each(
       body.plastic.hot_places(history),
       [&](std::ptrdiff_t k) {
-        const PlasticElements::Hot place = body.plastic.hot(history, static_cast<int>(k));
-        if (!cut || cut->is_own(place.tile)) advance(scope, place);
+        const Place& place = body.plastic.hot(history, static_cast<int>(k));
+        if (!cut || cut->is_own(place.tile)) advance(scope, place, body.plastic.rows(history, static_cast<int>(k)));
       },
       true);
 }
 
-int extend_plastic_elements(const Body& body, const Field& u, double psi, Field& history) {
+int extend_plastic_elements(const Body& body, const Field& u, double psi, PlasticHistory& history) {
   const PlasticElements& plastic = body.plastic;
   const Rotation<double> turn = turn_by(body, psi);
   std::vector<char> near(plastic.candidates().size(), 0);
@@ -293,28 +293,28 @@ int extend_plastic_elements(const Body& body, const Field& u, double psi, Field&
   return added;
 }
 
-void restore_points(const Body& body, const Field& from, Field& history) {
+void restore_points(const Body& body, const PlasticHistory& from, PlasticHistory& history) {
   const std::ptrdiff_t kept = static_cast<std::ptrdiff_t>(Entries::kWork) * kTile;
   const std::ptrdiff_t end = static_cast<std::ptrdiff_t>(body.plastic.entries()) * kTile;
   const int common = body.plastic.hot_places(from);
   for_each(body.plastic.hot_places(history), [&](std::ptrdiff_t k) {
-    const std::ptrdiff_t first = body.plastic.hot(history, static_cast<int>(k)).first;
+    double* rows = body.plastic.rows(history, static_cast<int>(k));
     if (k < common)
-      std::copy(from.begin() + first + kept, from.begin() + first + end, history.begin() + first + kept);
+      std::copy(body.plastic.rows(from, static_cast<int>(k)) + kept, body.plastic.rows(from, static_cast<int>(k)) + end,
+                rows + kept);
     else
-      std::fill(history.begin() + first + kept, history.begin() + first + end, 0.0);
+      std::fill(rows + kept, rows + end, 0.0);
   });
 }
 
-double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history) {
+double plastic_strain_energy(const Body& body, const Field& u, double psi, const PlasticHistory& history) {
   const Rotation<double> turn = turn_by(body, psi);
-  return sum_of_places(body.plastic, history, [&](const Place& place) {
+  return sum_of_places(body.plastic, history, [&](const Place& place, const double* rows) {
     const Tile& tile = body.tiling.tiles[place.tile];
-    double* rows = const_cast<double*>(history.data()) + place.first;  // only read
-    if (rows[Entries::kStressed] == 0) return 0.0;
     Pack sum{};
     for (int e = tile.first; e < tile.end; e += kLanes)
-      sum += pack_energy(pack_work(body, place, e, rows), pack_strain(body, tile.block, place.quad, e, turn, u),
+      sum += pack_energy(pack_work(body, place, e, const_cast<double*>(rows)),  // only read
+                         pack_strain(body, tile.block, place.quad, e, turn, u),
                          volumes(body, tile.block, place.quad, e), body.plastic.point_entries());
     double total = 0;
     for (int l = 0; l < kLanes; ++l) total += sum[l];
@@ -322,15 +322,14 @@ double plastic_strain_energy(const Body& body, const Field& u, double psi, const
   });
 }
 
-double initial_stress_energy(const Body& body, const Field& u, double psi, const Field& history) {
+double initial_stress_energy(const Body& body, const Field& u, double psi, const PlasticHistory& history) {
   const Rotation<double> turn = turn_by(body, psi);
   std::vector<double> part(body.tiling.tiles.size(), 0.0);
   for_each(static_cast<std::ptrdiff_t>(part.size()), [&](std::ptrdiff_t t) {
     const Tile& tile = body.tiling.tiles[t];
     const int quads = static_cast<int>(body.mesh.blocks[tile.block].section.quads.size());
     for (int q = 0; q < quads; ++q) {
-      if (!body.initial_stress.rows(tile.block, q) || body.plastic.first(history, static_cast<int>(t), q) >= 0)
-        continue;
+      if (!body.initial_stress.rows(tile.block, q) || body.plastic.rows(history, static_cast<int>(t), q)) continue;
       const InitialStress::Stress stress = body.initial_stress.at(tile.block, q);
       Pack given[6], sum{};
       for (int i = 0; i < 6; ++i) given[i] = Pack{} + stress[i];
@@ -345,25 +344,24 @@ double initial_stress_energy(const Body& body, const Field& u, double psi, const
   return sum;
 }
 
-double plastic_work(const Body& body, const Field& history) {
-  return sum_of_places(body.plastic, history, [&](const Place& place) {
+double plastic_work(const Body& body, const PlasticHistory& history) {
+  return sum_of_places(body.plastic, history, [&](const Place& place, const double* rows) {
     const Tile& tile = body.tiling.tiles[place.tile];
-    if (history[place.first + Entries::kStressed] == 0) return 0.0;
-    const double* rows = history.data() + place.first + Entries::kWork * kTile;
     Pack sum{};
     for (int e = tile.first; e < tile.end; e += kLanes)
-      sum += volumes(body, tile.block, place.quad, e) * load(rows + e - tile.first);
+      sum += volumes(body, tile.block, place.quad, e) * load(rows + Entries::kWork * kTile + e - tile.first);
     double total = 0;
     for (int l = 0; l < kLanes; ++l) total += sum[l];
     return total;
   });
 }
 
-std::optional<PlasticState> plastic_state(const Body& body, const Field& history, int block, int quad, int station) {
+std::optional<PlasticState> plastic_state(const Body& body, const PlasticHistory& history, int block, int quad,
+                                          int station) {
   const int tile = body.tiling.first_tile[block] + station / kTile;
-  const std::ptrdiff_t first = body.plastic.first(history, tile, quad);
-  if (first < 0) return std::nullopt;
-  const double* rows = history.data() + first + station % kTile;
+  const double* rows = body.plastic.rows(history, tile, quad);
+  if (!rows) return std::nullopt;
+  rows += station % kTile;
   const GaussShape<double>& gauss = body.plastic.quad_at(tile, quad).gauss;
   PlasticState out;
   for (int point = 0; point < 2 * kGaussPairs; ++point) {
@@ -376,13 +374,12 @@ std::optional<PlasticState> plastic_state(const Body& body, const Field& history
   return out;
 }
 
-PlasticExtent plastic_extent(const Body& body, const Field& history) {
+PlasticExtent plastic_extent(const Body& body, const PlasticHistory& history) {
   PlasticExtent out;
   for (int k = 0; k < body.plastic.hot_places(history); ++k) {
-    const Place place = body.plastic.hot(history, k);
-    const Tile& tile = body.tiling.tiles[place.tile];
-    const double* rows = history.data() + place.first;
-    if (rows[Entries::kStressed] == 0) continue;
+    const Tile& tile = body.tiling.tiles[body.plastic.hot(history, k).tile];
+    const double* rows = body.plastic.rows(history, k);
+    if (!body.plastic.has_eigenstress(rows)) continue;
     for (int e = 0; e < tile.end - tile.first; ++e) {
       bool yielded = false;
       for (int point = 0; point < 2 * kGaussPairs; ++point) {

@@ -20,7 +20,7 @@ inline constexpr int kLookInterval = 16;
 /// Carries the plastic strains on to displacements u (model frame, or one that is turned by psi, as in the traversal)
 /// and writes the eigenstress; `history` is the body's. Ghosts of u must be right. Same bits for any number of threads.
 /// cut: the tiles that are looked at; null: all.
-void advance_plastic_elements(const Body& body, const Field& u, double psi, Field& history,
+void advance_plastic_elements(const Body& body, const Field& u, double psi, PlasticHistory& history,
                               PlasticLook look = PlasticLook::all, const TileCut* cut = nullptr);
 
 /// Steps between two calls of extend_plastic_elements: the wheel moves by some fifth of an element.
@@ -29,22 +29,22 @@ inline constexpr int kExtendInterval = 32;
 /// Cold elements whose mean stress has more than kSleepBelow of their yield stress at displacements u become hot, with
 /// their whole place. One that is beyond its yield stress already yields by the whole excess in the next step: the law
 /// is implicit. Returns how many places did.
-int extend_plastic_elements(const Body& body, const Field& u, double psi, Field& history);
+int extend_plastic_elements(const Body& body, const Field& u, double psi, PlasticHistory& history);
 
 /// Puts the histories of the points back to those of `from`; the eigenstress of the last pass and the bubbles, which
 /// the next pass starts from, stay; places that were cold in `from` are virgin. For trials from one state.
-void restore_points(const Body& body, const Field& from, Field& history);
+void restore_points(const Body& body, const PlasticHistory& from, PlasticHistory& history);
 
 /// The eigenstress's part of the stored energy, added to what Traversal::energy finds for elastic elements [J],
 /// without that of the backstresses, which counts as plastic work.
-double plastic_strain_energy(const Body& body, const Field& u, double psi, const Field& history);
+double plastic_strain_energy(const Body& body, const Field& u, double psi, const PlasticHistory& history);
 
 /// The initial stress's part of it in cold elements, the integral of S0:E [J]: stored energies count from the body
 /// before it has come to its equilibrium, and may be negative.
-double initial_stress_energy(const Body& body, const Field& u, double psi, const Field& history);
+double initial_stress_energy(const Body& body, const Field& u, double psi, const PlasticHistory& history);
 
 /// Work done on the plastic strains so far: dissipated and stored by hardening [J].
-double plastic_work(const Body& body, const Field& history);
+double plastic_work(const Body& body, const PlasticHistory& history);
 
 /// Plastic strain of one element.
 struct PlasticState {
@@ -53,13 +53,14 @@ struct PlasticState {
 };
 
 /// Nothing for elements that stay elastic.
-std::optional<PlasticState> plastic_state(const Body& body, const Field& history, int block, int quad, int station);
+std::optional<PlasticState> plastic_state(const Body& body, const PlasticHistory& history, int block, int quad,
+                                          int station);
 
 /// Largest accumulated plastic strain and largest norm sqrt(2/3 Ep:Ep) of any point.
 struct PlasticExtent {
   double accumulated = 0, strain = 0;
   long yielded = 0;  ///< elements with plastic strain
 };
-PlasticExtent plastic_extent(const Body& body, const Field& history);
+PlasticExtent plastic_extent(const Body& body, const PlasticHistory& history);
 
 }  // namespace railstrata

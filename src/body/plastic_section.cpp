@@ -15,7 +15,7 @@ using Entries = PlasticEntries;
 using HotPlace = PlasticElements::Place;
 
 /// Of hot places.
-std::vector<PlasticSection::Quad> quads_of(const Body& body, const Field& history) {
+std::vector<PlasticSection::Quad> quads_of(const Body& body, const PlasticHistory& history) {
   std::vector<PlasticSection::Quad> out;
   for (int slot = 0; slot < body.plastic.hot_places(history); ++slot) {
     const HotPlace p = body.plastic.hot(history, slot);
@@ -45,11 +45,12 @@ Range between(const Stations& stations, double from, double to) {
 }
 
 /// Adds the points of an element, pair by pair.
-void add_element(const Body& body, const Field& history, int block, int quad, int element, double weight, double* sum) {
+void add_element(const Body& body, const PlasticHistory& history, int block, int quad, int element, double weight,
+                 double* sum) {
   const int tile = body.tiling.first_tile[block] + element / kTile, entries = body.plastic.point_entries();
-  const std::ptrdiff_t first = body.plastic.first(history, tile, quad);
-  if (first < 0) return;
-  const double* rows = history.data() + first + element % kTile + Entries::kPoints * kTile;
+  const double* rows = body.plastic.rows(history, tile, quad);
+  if (!rows) return;
+  rows += element % kTile + Entries::kPoints * kTile;
   for (int pair = 0; pair < kGaussPairs; ++pair)
     for (int k = 0; k < entries; ++k) {
       const double plus = rows[((2 * pair) * entries + k) * kTile],
@@ -82,7 +83,7 @@ void put_place(const Body& body, const HotPlace& place, const double* points, do
   for (int e = tile.first; e < tile.end; ++e) {
     double* own = rows + e - tile.first;
     Eigenstress<double> eigen = eigenstress_of(body, place, e, points);
-    own[Entries::kTouched * kTile] = rows[Entries::kStressed] = 1;
+    own[Entries::kTouched * kTile] = rows[Entries::kStressed * kTile] = 1;
     each_entry(eigen, [&](int n, double x) { own[(Entries::kEigenstress + n) * kTile] = x; });
     for (int n = 0; n < 3; ++n)
       for (int i = 0; i < 3; ++i) own[(Entries::kBubbles + 3 * n + i) * kTile] = eigen.bubbles.a[n][i];
@@ -107,7 +108,7 @@ std::map<QuadKey, std::size_t> places_of(const PlasticSection& section) {
 
 }  // namespace
 
-PlasticSection plastic_section(const Body& body, const Field& history, double from, double to) {
+PlasticSection plastic_section(const Body& body, const PlasticHistory& history, double from, double to) {
   PlasticSection out;
   out.point_entries = body.plastic.point_entries();
   out.quads = quads_of(body, history);
@@ -138,9 +139,9 @@ PlasticSection on_quads(const PlasticSection& section, const PlasticSection& lik
   return out;
 }
 
-Field history_of_section(const Body& body, const PlasticSection& section) {
+PlasticHistory history_of_section(const Body& body, const PlasticSection& section) {
   const std::map<QuadKey, std::size_t> at = places_of(section);
-  Field out = initial_history(body);
+  PlasticHistory out = initial_history(body);
   std::vector<char> placed(section.quads.size(), 0);
   for (std::size_t c = 0; c < body.plastic.candidates().size(); ++c) {
     const HotPlace& place = body.plastic.candidates()[c];
@@ -148,8 +149,7 @@ Field history_of_section(const Body& body, const PlasticSection& section) {
     if (found == at.end()) continue;
     if (section.point_entries != body.plastic.point_entries()) refuse();
     if (!body.plastic.is_hot(out, static_cast<int>(c))) body.plastic.add(out, static_cast<int>(c));
-    put_place(body, place, section.point(found->second, 0),
-              out.data() + body.plastic.first(out, place.tile, place.quad));
+    put_place(body, place, section.point(found->second, 0), body.plastic.rows(out, out.slot_of[c]));
     placed[found->second] = 1;
   }
   for (std::size_t n = 0; n < placed.size(); ++n)

@@ -25,7 +25,7 @@ struct PlasticSection {
 
 /// Mean over the elements whose centres lie between two positions along the sweep [m]; of a block without such an
 /// element the one around their middle. Elements that stay elastic count with zeros. Extruded bodies.
-PlasticSection plastic_section(const Body& body, const Field& history, double from, double to);
+PlasticSection plastic_section(const Body& body, const PlasticHistory& history, double from, double to);
 
 /// A section's numbers for the quadrilaterals of another one, in their order; zeros where it has none.
 PlasticSection on_quads(const PlasticSection& section, const PlasticSection& like);
@@ -33,7 +33,7 @@ PlasticSection on_quads(const PlasticSection& section, const PlasticSection& lik
 /// A history with the section at every station, in equilibrium with nothing yet: the eigenstress is that of the plastic
 /// strains, no plastic work is done and all elements sleep. Throws CaseError if what has yielded may not yield in this
 /// body.
-Field history_of_section(const Body& body, const PlasticSection& section);
+PlasticHistory history_of_section(const Body& body, const PlasticSection& section);
 
 /// Mean of a quadrilateral's points, by their shares of the volume.
 struct SectionStrain {

@@ -19,7 +19,7 @@ double scalar(const double* x) { return *x; }
 
 }  // namespace
 
-Sym3 element_stress(const Body& body, const Field& u, const Field& history, int block, int quad, int station) {
+Sym3 element_stress(const Body& body, const Field& u, const PlasticHistory& history, int block, int quad, int station) {
   assert(u.size() >= static_cast<std::size_t>(body.layout.size));
   assert(block >= 0 && block < static_cast<int>(body.elements.size()) && station >= 0 &&
          station < body.layout.blocks[block].elements);

@@ -53,7 +53,7 @@ class Traversal {
 
   /// f = internal forces at displacement u (model frame, u = x - X); psi: rigid rotation of the body about its
   /// axle, positive when rolling forward. Ghosts of u are refreshed; padding of f is not defined. In double precision.
-  void internal_force(Field& u, double psi, Field& f, const Field& history);
+  void internal_force(Field& u, double psi, Field& f, const PlasticHistory& history);
   void internal_force(Field& u, double psi, Field& f) {
     assert(body_->plastic.empty());
     internal_force(u, psi, f, Field());
@@ -62,17 +62,18 @@ class Traversal {
   void linear_force(Field& u, Field& f);
   /// As internal_force and linear_force, of these chains alone. Border planes lack what other chains leave there, until
   /// an end() of all.
-  void internal_force_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f, const Field& history);
+  void internal_force_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f,
+                         const PlasticHistory& history);
   void linear_force_of(const std::vector<Chain>& chains, Field& u, Field& f);
   /// At u.
-  StrainEnergy energy(Field& u, double psi, const Field& history);
+  StrainEnergy energy(Field& u, double psi, const PlasticHistory& history);
 
   // -- a step in pieces: begin, every chain once (in parallel if wanted), end
   // ------------------------------------------
   void begin(Field& u, double psi);
   /// In the precision of the body's options.
   template <class Policy>
-  void chain_forces(const Chain& chain, const Field& u, Field& f, const Field& history, const Policy& policy);
+  void chain_forces(const Chain& chain, const Field& u, Field& f, const PlasticHistory& history, const Policy& policy);
   /// Forces on the border planes of all chains, and on the last station of an open block.
   void end(const std::vector<Chain>& chains, Field& f);
   /// The same for some section nodes of each block.
@@ -90,13 +91,13 @@ class Traversal {
     Field cosine, sine;  // of the element centres, turned back by psi: R of the element class
   };
   template <Evaluation how>
-  void all_forces(Field& u, double psi, Field& f, const Field& history);
+  void all_forces(Field& u, double psi, Field& f, const PlasticHistory& history);
   template <Evaluation how>
-  void forces_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f, const Field& history);
+  void forces_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f, const PlasticHistory& history);
   template <class Real, Evaluation how, class Policy>
-  void run_chain(const Chain& chain, const Field& u, Field& f, const Field& history, const Policy& policy);
+  void run_chain(const Chain& chain, const Field& u, Field& f, const PlasticHistory& history, const Policy& policy);
   template <class Real, Evaluation how, SweepKind kind, class Policy>
-  void run_tile(int tile, bool follows, const Field& u, Field& f, const Field& history, const Policy& policy);
+  void run_tile(int tile, bool follows, const Field& u, Field& f, const PlasticHistory& history, const Policy& policy);
   template <SweepKind kind, class Real, class Policy>
   void complete_nodes(int tile, bool follows, const traversal::TileWork<Real>& work, int quad,
                       const traversal::QuadRows<Real>& rows, Field& f, const Policy& policy);

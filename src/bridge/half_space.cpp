@@ -32,7 +32,7 @@ struct HalfSpaceRun {
 
 /// What a caller wants of a solution.
 struct Wanted {
-  double cell = 0.25e-3;
+  double cell = kDefaultCell;
   int threads = 0;
   bool stresses = true, single_track = false, maps = false;
 };

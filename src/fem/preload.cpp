@@ -337,8 +337,8 @@ class Preload {
   MortarContact contact_;
   SurfaceTractions tractions_;
   const RailBefore* before_;
-  const std::array<Field, 2> virgin_;
-  std::array<Field, 2> history_;  // at the present displacements
+  const std::array<PlasticHistory, 2> virgin_;
+  std::array<PlasticHistory, 2> history_;  // at the present displacements
   StaticPreconditioner preconditioner_;
   StaticVector u_;
   bool compliant_ = false;        // penalty contact: its springs are the contact, there are no multipliers

@@ -25,15 +25,15 @@ namespace railstrata {
 
 /// A rail over which wheels have rolled.
 struct RailBefore {
-  Field u;        ///< m, displacements of the rail at rest (fem/rail_at_rest.hpp)
-  Field history;  ///< of its elements
+  Field u;                 ///< m, displacements of the rail at rest (fem/rail_at_rest.hpp)
+  PlasticHistory history;  ///< of its elements
 };
 
 struct PreloadResult {
-  std::array<Field, 2> u;        ///< m, displacements by BodyId
-  std::array<Field, 2> history;  ///< of the elements, with what has yielded
-  Field before;                  ///< m, displacements of the rail without the wheel; empty: none
-  double axle_z = 0;             ///< m, displacement of the axle from the rigid contact position, negative: down
+  std::array<Field, 2> u;                 ///< m, displacements by BodyId
+  std::array<PlasticHistory, 2> history;  ///< of the elements, with what has yielded
+  Field before;                           ///< m, displacements of the rail without the wheel; empty: none
+  double axle_z = 0;  ///< m, displacement of the axle from the rigid contact position, negative: down
   SurfaceTractions tractions{0, 0};
   double residual = 0;                      ///< |r| / |load vector|
   double penetration = 0;                   ///< m, largest of the nodes in contact

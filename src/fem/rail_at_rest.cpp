@@ -14,7 +14,7 @@ constexpr double kRestForcing = 1e-3;  // of the residual, left over by a linear
 
 class RailAtRest {
  public:
-  RailAtRest(const Body& rail, const Field& history, bool endless)
+  RailAtRest(const Body& rail, const PlasticHistory& history, bool endless)
       : rail_(rail), history_(history), endless_(endless), elements_(rail), inverse_(rail.layout.field()) {
     stiffness_diagonal(rail_, inverse_);
     rail_.ties.apply_transpose(inverse_);
@@ -89,7 +89,7 @@ class RailAtRest {
   }
 
   const Body& rail_;
-  const Field& history_;
+  const PlasticHistory& history_;
   bool endless_;
   Traversal elements_;
   Field inverse_;
@@ -97,11 +97,11 @@ class RailAtRest {
 
 }  // namespace
 
-Field rail_at_rest(const RollingSystem& system, const Field& history, double tolerance) {
+Field rail_at_rest(const RollingSystem& system, const PlasticHistory& history, double tolerance) {
   return RailAtRest(system.rail(), history, false).solve(tolerance);
 }
 
-Field endless_rail_at_rest(const RollingSystem& system, const Field& history, double tolerance) {
+Field endless_rail_at_rest(const RollingSystem& system, const PlasticHistory& history, double tolerance) {
   return RailAtRest(system.rail(), history, true).solve(tolerance);
 }
 

@@ -175,10 +175,10 @@ void RankExchange::each_slot(int rank, const RollingBodies& bodies, BodyStates& 
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const PlasticElements& plastic = bodies[k].body.plastic;
     if (plastic.empty()) continue;
-    Field& history = states[k].history;
+    PlasticHistory& history = states[k].history;
     for (int slot = 0; slot < plastic.hot_places(history); ++slot)
       if (bodies[k].cut.owner[plastic.hot(history, slot).tile] == rank)
-        visit(history.data() + plastic.slot_first(slot), plastic.slot_numbers());
+        visit(plastic.rows(history, slot), plastic.slot_numbers());
   }
 }
 

@@ -20,7 +20,7 @@ PlasticExtent of_both(const PlasticExtent& a, const PlasticExtent& b) {
   return {std::max(a.accumulated, b.accumulated), std::max(a.strain, b.strain), a.yielded + b.yielded};
 }
 
-void add_remains(const RollingSystem& sys, const Field& rail, const Field& wheel, RunResult& out) {
+void add_remains(const RollingSystem& sys, const PlasticHistory& rail, const PlasticHistory& wheel, RunResult& out) {
   out.plastic = of_both(plastic_extent(sys.rail(), rail), plastic_extent(sys.wheel(), wheel));
   const PlasticPeak in_rail = plastic_peak(sys.rail(), rail), in_wheel = plastic_peak(sys.wheel(), wheel);
   const bool rail_more = in_rail.accumulated >= in_wheel.accumulated;
@@ -273,7 +273,7 @@ RunResult Roller::finish() {
 
 // A static case has one position with one sample.
 PositionSamples still_contact(const RollingSystem& sys, const PreloadResult& preload) {
-  const Field &rail = preload.history[kRail], &wheel = preload.history[kWheel];
+  const PlasticHistory &rail = preload.history[kRail], &wheel = preload.history[kWheel];
   const Field u_wheel = yawed_displacement(sys.wheel(), sys.wheel_surface().yaw, preload.u[kWheel]);
   const AxlePose pose{0, 0, preload.axle_z, 0};
   PositionSamples still{0.0, {take_sample(sys, {preload.u[kRail], rail}, {u_wheel, wheel}, preload.tractions, pose)}};
@@ -291,7 +291,8 @@ double hourglass_share(const RollingSystem& sys, PreloadResult& preload) {
 }
 
 void drop_fields(PreloadResult& preload) {
-  preload.u = preload.history = {};
+  preload.u = {};
+  preload.history = {};
   preload.before = {};
 }
 

@@ -32,8 +32,8 @@ struct HistoryRow {
 
 /// A body as it is sampled.
 struct SampledBody {
-  const Field& u;        ///< m, model frame
-  const Field& history;  ///< of the elements, as committed
+  const Field& u;                 ///< m, model frame
+  const PlasticHistory& history;  ///< of the elements, as committed
 };
 /// Time, axle, forces and creepage are left at zero.
 RollingSample take_sample(const RollingSystem& system, const SampledBody& rail, const SampledBody& wheel,

@@ -137,7 +137,7 @@ void StaticShare::linear_force(StaticVector& x, StaticVector& y) {
   share_forces(y);
 }
 
-void StaticShare::internal_force(StaticVector& u, const std::array<Field, 2>& history, StaticVector& y) {
+void StaticShare::internal_force(StaticVector& u, const std::array<PlasticHistory, 2>& history, StaticVector& y) {
   for (std::size_t k = 0; k < elements_.size(); ++k) {
     if (ranks_.alone())
       elements_[k].internal_force(u.body[k], 0, y.body[k], history[k]);

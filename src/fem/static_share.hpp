@@ -43,7 +43,7 @@ class StaticShare {
   /// y = K x of the elements, y.axle left alone.
   void linear_force(StaticVector& x, StaticVector& y);
   /// y = internal forces at displacements u, history by body.
-  void internal_force(StaticVector& u, const std::array<Field, 2>& history, StaticVector& y);
+  void internal_force(StaticVector& u, const std::array<PlasticHistory, 2>& history, StaticVector& y);
 
   /// Numbers in the order of the tiles that they belong to, sizes[r] of rank r: to every rank.
   void gather(double* all, const std::vector<std::ptrdiff_t>& sizes) const;

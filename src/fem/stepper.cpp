@@ -22,10 +22,8 @@ ReferenceFrame rolling_frame(const RollingSystem& sys, double dt) {
 }
 
 bool same_sizes(const RestartState& r, const RollingSystem& sys) {
-  for (std::size_t k = 0; k < sys.bodies.size(); ++k) {
-    for (const StateArray& a : kStateArrays)
-      if (a.restart && !fits(sys.bodies[k], a, r.state.bodies[k].*a.values)) return false;
-  }
+  for (std::size_t k = 0; k < sys.bodies.size(); ++k)
+    if (!fits(sys.bodies[k], r.state.bodies[k])) return false;
   const ContactSurface& surface = sys.rail_surface();
   const auto surface_nodes = static_cast<std::size_t>(surface.columns) * surface.stations.nodes();
   return r.state.groups.size() == static_cast<std::size_t>(sys.options.vehicle.suspension_groups) &&
@@ -59,6 +57,7 @@ Stepper::Stepper(const RollingSystem& system, RestartState restart, const Ranks&
   state_ = std::move(restart.state);
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     state_.bodies[k].f = sys_.bodies[k].layout.field();
+    sys_.bodies[k].plastic.index(state_.bodies[k].history);
     bodies_[k].frame.move_to(state_.time);
     if (bodies_[k].turns()) bodies_[k].surface_u = state_.bodies[k].u;
   }
@@ -72,9 +71,11 @@ Stepper::Stepper(const RollingSystem& system, RestartState restart, const Ranks&
 RestartState Stepper::restart_state() const {
   RestartState out = restart_beside_state();
   out.state = {state_.time, state_.step, {}, state_.axle, state_.groups, state_.tractions};
-  for (std::size_t k = 0; k < bodies_.size(); ++k)
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
     for (const StateArray& a : kStateArrays)
       if (a.restart) out.state.bodies[k].*a.values = state_.bodies[k].*a.values;
+    out.state.bodies[k].history = state_.bodies[k].history;
+  }
   return out;
 }
 

@@ -339,10 +339,15 @@ void describe(Archive& a, RestartState& m) {
     on("mean_z", v.mean.z);
     on("mean_spin", v.mean.spin);
   });
-  for (const BodyId id : kBodies)
+  for (const BodyId id : kBodies) {
+    BodyState& body = s.bodies[index_of(id)];
     for (const StateArray& array : kStateArrays)
-      if (array.restart)
-        a.numbers(fmt::format("{}_{}", array.name, body_word(id)).c_str(), s.bodies[index_of(id)].*array.values);
+      if (array.restart) a.numbers(fmt::format("{}_{}", array.name, body_word(id)).c_str(), body.*array.values);
+    a.numbers(fmt::format("history_{}", body_word(id)).c_str(), body.history.numbers);
+    if (!body.history.numbers.empty())
+      a.rows(fmt::format("plastic_places_{}", body_word(id)).c_str(), body.history.places,
+             [](auto& v, auto&& on) { on("candidate", v); });
+  }
   a.row("axle", s.axle, visit_axle);
   a.rows("suspension", s.groups, visit_mass);
   a.row("energy", m.balance, visit_energy);

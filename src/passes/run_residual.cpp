@@ -58,7 +58,7 @@ RunResidual run_residual(const RollingSystem& system, const RollingState& end) {
     return out;
   }
   const Body& rail = system.rail();
-  const Field& history = end.bodies[kRail].history;
+  const PlasticHistory& history = end.bodies[kRail].history;
   const double middle = 0.5 * (out.from + out.to);
   const PlasticSection after = plastic_section(rail, history, out.from, out.to), before = on_quads({}, after);
   const bool yielded = std::any_of(after.history.begin(), after.history.end(), [](double v) { return v != 0; });

@@ -19,8 +19,8 @@ struct CaseResult {
 };
 
 struct HalfSpaceSettings {
-  double cell = 0.25e-3;  ///< m, side of the cells of the potential contact area, 0.02e-3 to 5e-3
-  int threads = 0;        ///< 0: as many as OpenMP gives the calling thread
+  double cell = kDefaultCell;  ///< m, side of the cells of the potential contact area, 0.02e-3 to 5e-3
+  int threads = 0;             ///< 0: as many as OpenMP gives the calling thread
 };
 
 /// Solves a case by half-space theory [Kalker1990], as `railstrata bem` does. A static case (run.rolling = false) has

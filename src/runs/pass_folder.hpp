@@ -8,7 +8,7 @@ namespace railstrata {
 
 struct PassOrder : JobOrder {
   int passes = 20;              ///< since the first one
-  double cell = 0.25e-3;        ///< m, of the half-spaces; stationary method
+  double cell = kDefaultCell;   ///< m, of the half-spaces; stationary method
   double roll_length = 0;       ///< m, 0: chosen; finite elements
   double checkpoint_every = 0;  ///< s of wall time, 0: never; finite elements
 };

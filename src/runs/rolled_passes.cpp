@@ -147,7 +147,7 @@ std::optional<RolledPasses::Pass> RolledPasses::next(RolledSeries& series, const
   RolledRail rolled;
   RunObserver observer = follow;
   observer.finished = [&](const RollingState& state) {
-    const Field& history = state.bodies[kRail].history;
+    const PlasticHistory& history = state.bodies[kRail].history;
     rolled = {state.bodies[kRail].u, history, state.axle.pose().x, kBehind * roll_.half_length,
               kAhead * roll_.half_length};
     const double middle = 0.5 * (roll_.from + roll_.to);

@@ -14,7 +14,7 @@ namespace {
 /// programs may hold the cores.
 double force_seconds(const Body& body) {
   Field u(body.mass.size(), 0.0), f(body.mass.size(), 0.0);
-  const Field history = initial_history(body);
+  const PlasticHistory history = initial_history(body);
   Traversal elements(body);
   double best = 1e9;
   for (double spent = 0, last = 0; spent < 0.25; spent += last, best = std::min(best, last)) {

@@ -15,8 +15,8 @@ namespace railstrata {
 struct CreepTableOrder : JobOrder {
   std::vector<std::string> overrides;  ///< of the case
   std::vector<NumberAxis> axes;
-  double cell = 0.25e-3;  ///< m
-  int places = 200;       ///< where interpolation is compared with direct solutions
+  double cell = kDefaultCell;  ///< m
+  int places = 200;            ///< where interpolation is compared with direct solutions
 };
 
 /// Carries the table out; checks fail where points have no answer. To resume where no table was begun begins one.

@@ -12,7 +12,7 @@ struct WearLoopOrder : JobOrder {
   int steps = 0;               ///< end after so many; 0: no limit
   double passages = 0;         ///< of the whole collective; 0: no limit
   double max_wear = 0.005e-3;  ///< m, at the deepest place in one step
-  double cell = 0.25e-3;       ///< m
+  double cell = kDefaultCell;  ///< m
 };
 
 /// Carries the loop out; `at_end`: called with the worn rail once it is finished. Throws CaseError as wear_step, and

@@ -90,7 +90,7 @@ TEST(PlasticElements, HaveTheSameBitsOnAnyNumberOfThreads) {
       advance_plastic_elements(body, s.u, 0.2, s.history);
       t.internal_force(s.u, 0.2, s.f, s.history);
     }
-    std::vector<double> out(s.history.begin(), s.history.end());
+    std::vector<double> out(s.history.numbers.begin(), s.history.numbers.end());
     for (const NodeLine& l : body.lines) out.insert(out.end(), &s.f[l.first], &s.f[l.first] + l.count);
     out.push_back(t.energy(s.u, 0.2, s.history).strain);
     out.push_back(plastic_work(body, s.history));

@@ -31,7 +31,7 @@ TEST(PlasticField, APulledBarHasTheBackstressAndTheEnergiesOfLinearKinematicHard
       },
       0.7 * std::sqrt(kYoung / 7800) / 2);
   path.run(1, 16000, 2000);
-  const Field& history = path.state().history;
+  const PlasticHistory& history = path.state().history;
   const double plastic = (kYoung * kStrain - kYield) / (kYoung + kHardening);
   for (int station : {0, 1}) {
     const ElementPlasticity at = element_plasticity(body, 0, history, 0, 0, station);
@@ -60,7 +60,7 @@ struct YieldedRing {
     advance_plastic_elements(body, scattered_field(body, 1e-5), 0, history);
   }
   Body body;
-  Field history;
+  PlasticHistory history;
 };
 
 TEST(PlasticField, AnElementThatItsWheelHasTurnedToTheBottomHasTheTensorsOfItsOwnFrame) {

@@ -29,20 +29,14 @@ Body skewed_rail(int another = -1) {
   return body;
 }
 
-std::vector<PlasticElements::Hot> hot_places(const Body& body, const Field& history) {
-  std::vector<PlasticElements::Hot> out;
-  for (int slot = 0; slot < body.plastic.hot_places(history); ++slot) out.push_back(body.plastic.hot(history, slot));
-  return out;
-}
-
 /// Strains that are the same at all stations but not over the section, beyond yield; the bubbles at rest.
-Field yielded(const Body& body) {
+PlasticHistory yielded(const Body& body) {
   const Field u = nodal_field(body, [](Vec3 x) {
     const double z = x.z - 0.5, y = x.y + 0.1;
     return Vec3{2e-3 * x.x + 0.3 * z * z + 0.1 * y * z, 0.2 * y * z - 1e-3 * y, 0.25 * z * z};
   });
-  const Field virgin = initial_history(body);
-  Field history = virgin;
+  const PlasticHistory virgin = initial_history(body);
+  PlasticHistory history = virgin;
   for (int k = 0; k < 12; ++k) {
     restore_points(body, virgin, history);
     advance_plastic_elements(body, u, 0, history);
@@ -52,12 +46,13 @@ Field yielded(const Body& body) {
 
 TEST(PlasticSection, OfAStateThatIsTheSameAtAllStationsGivesItBack) {
   const Body body = skewed_rail();
-  const Field history = yielded(body);
+  const PlasticHistory history = yielded(body);
   ASSERT_GT(plastic_extent(body, history).yielded, 500);
   const PlasticSection section = plastic_section(body, history, 0.2, 0.4);
   EXPECT_EQ(section.quads.size(), 19u);
-  const Field again = history_of_section(body, section);
-  ASSERT_EQ(again.size(), history.size());
+  const PlasticHistory again = history_of_section(body, section);
+  ASSERT_EQ(again.places, history.places);
+  const PlasticElements& elements = body.plastic;
   const auto kind = [](int entry) {  // mean stress, hourglass forces, bubbles, points
     return entry < 6                          ? std::pair{0, 6}
            : entry < PlasticEntries::kBubbles ? std::pair{6, PlasticEntries::kBubbles}
@@ -65,33 +60,34 @@ TEST(PlasticSection, OfAStateThatIsTheSameAtAllStationsGivesItBack) {
                                               : std::pair{entry, entry + 1};
   };
   // each against the largest of its kind
-  for (const PlasticElements::Hot& place : hot_places(body, history))
-    for (int entry = 0; entry < body.plastic.entries(); ++entry) {
-      if (entry == PlasticEntries::kTouched || entry == PlasticEntries::kWork || entry == PlasticEntries::kAwake)
-        continue;
+  for (int slot = 0; slot < elements.hot_places(history); ++slot)
+    for (int entry = 0; entry < elements.entries(); ++entry) {
+      if (entry >= PlasticEntries::kTouched && entry < PlasticEntries::kPoints) continue;
       double largest = 0;
       const auto [first, end] = kind(entry);
-      for (const PlasticElements::Hot& p : hot_places(body, history))
-        for (int e = first * kTile; e < end * kTile; ++e) largest = std::max(largest, std::abs(history[p.first + e]));
-      const Tile& tile = body.tiling.tiles[place.tile];
+      for (int other = 0; other < elements.hot_places(history); ++other)
+        for (int e = first * kTile; e < end * kTile; ++e)
+          largest = std::max(largest, std::abs(elements.rows(history, other)[e]));
+      const Tile& tile = body.tiling.tiles[elements.hot(history, slot).tile];
       for (int e = 0; e < tile.end - tile.first; ++e) {
-        const std::ptrdiff_t at = place.first + entry * kTile + e;
-        ASSERT_NEAR(again[at], history[at], 1e-6 * largest) << "entry " << entry << ", element " << e;
+        const std::ptrdiff_t at = entry * kTile + e;
+        ASSERT_NEAR(elements.rows(again, slot)[at], elements.rows(history, slot)[at], 1e-6 * largest)
+            << "entry " << entry << ", element " << e;
       }
     }
 }
 
 TEST(PlasticSection, IsTheMeanOverItsStations) {
   const Body body = skewed_rail();
-  Field history = initial_history(body);
-  const PlasticElements::Hot place = body.plastic.hot(history, 0);
+  PlasticHistory history = initial_history(body);
+  double* const rows = body.plastic.rows(history, 0);
   const Stations& stations = body.mesh.blocks[0].stations;
   const int first = 10, end = 14, p = (PlasticEntries::kPoints + 6) * kTile;
   for (int e = first; e < end; ++e)  // p of the points + and - of the first pair
     for (int side : {0, 1})
-      history[place.first + p + side * body.plastic.point_entries() * kTile + e] = 1e-3 * (e - first) + 1e-4 * side;
+      rows[p + side * body.plastic.point_entries() * kTile + e] = 1e-3 * (e - first) + 1e-4 * side;
   const PlasticSection section = plastic_section(body, history, stations.at[first], stations.at[end]);
-  ASSERT_EQ(section.quads[0].quad, place.quad);
+  ASSERT_EQ(section.quads[0].quad, body.plastic.hot(history, 0).quad);
   EXPECT_NEAR(section.point(0, 0)[6], 1.55e-3, 1e-15);
   EXPECT_EQ(section.point(0, 1)[6], 0);
 }

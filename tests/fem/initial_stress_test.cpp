@@ -33,7 +33,7 @@ double largest_pressure(const PreloadResult& r) {
 }
 
 /// Of the element in the middle of the running surface that is next to a place along the rail.
-Sym3 surface_stress(const RollingSystem& sys, const Field& u, const Field& history, double x, int row) {
+Sym3 surface_stress(const RollingSystem& sys, const Field& u, const PlasticHistory& history, double x, int row) {
   const ContactBand& band = sys.rail().mesh.contact;
   const std::vector<double>& at = sys.rail().mesh.blocks[band.block].stations.at;
   const int e = static_cast<int>(std::lower_bound(at.begin(), at.end(), x) - at.begin());

@@ -69,8 +69,7 @@ TEST(PlasticRolling, GoesOnFromARestartStateWithTheSameBits) {
   rolled(whole, 32);
   rolled(whole, 35);
   expect_same_motion(whole, second);
-  for (std::size_t k = 0; k < 2; ++k)
-    EXPECT_TRUE(same_bits(whole.state().bodies[k].history, second.state().bodies[k].history));
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_TRUE(whole.state().bodies[k].history == second.state().bodies[k].history);
   EXPECT_GT(plastic_extent(system.rail(), second.state().bodies[kRail].history).yielded, 10);
 }
 
@@ -127,7 +126,7 @@ TEST(SlowPlasticRolling, PreloadBeyondYieldFindsOneEquilibriumHoweverCloselyItIs
   EXPECT_LT(fine.axle_z, hard.axle_z);
 }
 
-std::array<long, 2> hot_elements(const RollingSystem& sys, const std::array<Field, 2>& history) {
+std::array<long, 2> hot_elements(const RollingSystem& sys, const std::array<PlasticHistory, 2>& history) {
   return {sys.rail().plastic.hot_elements(sys.rail(), history[kRail]),
           sys.wheel().plastic.hot_elements(sys.wheel(), history[kWheel])};
 }
