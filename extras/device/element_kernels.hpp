@@ -20,11 +20,6 @@ struct StationTables {
   View<const double> cos_q, sin_q;
 };
 
-/// R of the element class: Q of an element turned back by the body's rotation.
-RAILSTRATA_POINTWISE Rotation<double> carried_frame(double cos_q, double sin_q, const Rotation<double>& turn) {
-  return {cos_q * turn.c + sin_q * turn.s, sin_q * turn.c - cos_q * turn.s};
-}
-
 /// Displacements at a corner's two ends as sum and difference, in the carried frame (body/scratch_rows.hpp).
 template <SweepKind kind, class Real>
 RAILSTRATA_POINTWISE void corner_ends(const View<const double>& u, std::ptrdiff_t x, int stride, int front, int behind,
@@ -38,9 +33,9 @@ RAILSTRATA_POINTWISE void corner_ends(const View<const double>& u, std::ptrdiff_
   const std::ptrdiff_t z = x + 2 * static_cast<std::ptrdiff_t>(stride);
   const double a = u[x + behind] + u[x + front], b = u[z + behind] + u[z + front];
   const double da = u[x + behind] - u[x + front], db = u[z + behind] - u[z + front];
-  const double c = frame.c, s = frame.s;
-  sum = static_cast<Real>(component == 0 ? c * a + s * b : c * b - s * a);
-  difference = static_cast<Real>(component == 0 ? c * da + s * db : c * db - s * da);
+  const PlaneVector<double> both = frame.forward(a, b), apart = frame.forward(da, db);
+  sum = static_cast<Real>(component == 0 ? both.x : both.z);
+  difference = static_cast<Real>(component == 0 ? apart.x : apart.z);
 }
 
 /// Where the hourglass stiffness of an element begins.
@@ -74,7 +69,7 @@ struct ElementForces {
     const int k = q.stations_at + e;
     const StationScale<Real> scale{at.inv_sigma[k], at.inv_c[k], at.v1[k], at.v2[k], at.v3[k], at.sigma[k], at.c[k]};
     Rotation<double> frame;
-    if constexpr (kind == SweepKind::revolve) frame = carried_frame(at.cos_q[k], at.sin_q[k], turn);
+    if constexpr (kind == SweepKind::revolve) frame = Rotation<double>{at.cos_q[k], at.sin_q[k]}.minus(turn);
     const int behind = e + 1 < q.stations ? e + 1 : 0;
     const auto corner = [&](int c, int component, Real& sum, Real& difference) {
       corner_ends<kind>(u, q.corner[c], q.stride, e, behind, frame, component, sum, difference);
@@ -134,7 +129,7 @@ struct ElementEnergies {
     const StationScale<double> scale{at.inv_sigma[k], at.inv_c[k], at.v1[k], at.v2[k], at.v3[k], at.sigma[k], at.c[k]};
     const Rotation<double> turn = now[0].turn_of_body<kind>();
     Rotation<double> frame;
-    if constexpr (kind == SweepKind::revolve) frame = carried_frame(at.cos_q[k], at.sin_q[k], turn);
+    if constexpr (kind == SweepKind::revolve) frame = Rotation<double>{at.cos_q[k], at.sin_q[k]}.minus(turn);
     const auto& reference = references[q.reference];
     const auto corner = [&](int c, int component, double& sum, double& difference) {
       corner_ends<kind>(u, q.corner[c], q.stride, e, behind, frame, component, sum, difference);
@@ -208,9 +203,10 @@ struct NodeForces {
     for (int i = 0; i < 3; ++i) carried[i] = side < 0 ? s[i] - d[i] : s[i] + d[i];
     force[1] += carried[1];
     if constexpr (kind == SweepKind::revolve) {
-      const Rotation<double> r = carried_frame(cos_q[n.stations_at + e], sin_q[n.stations_at + e], now[0].turn);
-      force[0] += r.c * carried[0] - r.s * carried[2];
-      force[2] += r.s * carried[0] + r.c * carried[2];
+      const Rotation<double> own{cos_q[n.stations_at + e], sin_q[n.stations_at + e]};
+      const PlaneVector<double> model = own.minus(now[0].turn).back(carried[0], carried[2]);
+      force[0] += model.x;
+      force[2] += model.z;
     } else {
       force[0] += carried[0];
       force[2] += carried[2];

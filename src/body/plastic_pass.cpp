@@ -38,9 +38,9 @@ PackStrain pack_strain(const Body& body, int block, int quad, int first, const R
   const std::array<int, 4>& nodes = body.mesh.blocks[block].section.quads[quad];
   Pack cosine{}, sine{}, real{};
   for (int l = 0; l < std::min(kLanes, lay.elements - first); ++l) {
-    const double c = elements.cos_q[first + l], s = elements.sin_q[first + l];
-    cosine[l] = c * turn.c + s * turn.s;
-    sine[l] = s * turn.c - c * turn.s;
+    const Rotation<double> frame = Rotation<double>{elements.cos_q[first + l], elements.sin_q[first + l]}.minus(turn);
+    cosine[l] = frame.c;
+    sine[l] = frame.s;
     real[l] = 1;
   }
   const StationScale<Pack> scale = elements.table.scale<Pack>(first, [](const double* x) { return load(x); });
@@ -48,7 +48,8 @@ PackStrain pack_strain(const Body& body, int block, int quad, int first, const R
     const auto carried = [&](int station) -> Pack {
       if (i == 1) return real * load(&u[lay.line(nodes[c], 1) + station]);
       const Pack x = load(&u[lay.line(nodes[c], 0) + station]), z = load(&u[lay.line(nodes[c], 2) + station]);
-      return i == 0 ? cosine * x + sine * z : cosine * z - sine * x;
+      const PlaneVector<Pack> at = Rotation<Pack>{cosine, sine}.forward(x, z);
+      return i == 0 ? at.x : at.z;
     };
     const Pack left = carried(first), right = carried(first + 1);
     sum = right + left;

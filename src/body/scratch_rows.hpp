@@ -2,6 +2,7 @@
 // The scratch memory of a tile: gather of displacements into it and scatter of forces out of it.
 #include "body/tiling.hpp"
 #include "core/array.hpp"
+#include "core/rotation.hpp"
 #include "core/sweep_kind.hpp"
 #include "core/vectorize.hpp"
 
@@ -39,11 +40,12 @@ void gather_displacements(const double* const (&line)[3], CarriedRows frame, int
     sy[j] = static_cast<Real>(y[j + 1] + y[j]);
     dy[j] = static_cast<Real>(y[j + 1] - y[j]);
     if constexpr (kind == SweepKind::revolve) {
-      const double c = frame.cosine[j], s = frame.sine[j];
-      sx[j] = static_cast<Real>(c * a + s * b);
-      sz[j] = static_cast<Real>(c * b - s * a);
-      dx[j] = static_cast<Real>(c * da + s * db);
-      dz[j] = static_cast<Real>(c * db - s * da);
+      const Rotation<double> carried{frame.cosine[j], frame.sine[j]};
+      const PlaneVector<double> both = carried.forward(a, b), apart = carried.forward(da, db);
+      sx[j] = static_cast<Real>(both.x);
+      sz[j] = static_cast<Real>(both.z);
+      dx[j] = static_cast<Real>(apart.x);
+      dz[j] = static_cast<Real>(apart.z);
     } else {
       sx[j] = static_cast<Real>(a);
       sz[j] = static_cast<Real>(b);
@@ -63,8 +65,9 @@ void scatter_forces(const Real* rows, CarriedRows frame, int count, double* comp
     const double a = x, b = z;
     fy = y;
     if constexpr (kind == SweepKind::revolve) {
-      fx = frame.cosine[j] * a - frame.sine[j] * b;
-      fz = frame.sine[j] * a + frame.cosine[j] * b;
+      const PlaneVector<double> model = Rotation<double>{frame.cosine[j], frame.sine[j]}.back(a, b);
+      fx = model.x;
+      fz = model.z;
     } else {
       fx = a;
       fz = b;

@@ -34,8 +34,9 @@ Sym3 element_stress(const Body& body, const Field& u, const PlasticHistory& hist
     double sx, dx, sz, dz;
     corner(k, 0, sx, dx);
     corner(k, 2, sz, dz);
-    sum = i == 0 ? q.c * sx + q.s * sz : q.c * sz - q.s * sx;
-    difference = i == 0 ? q.c * dx + q.s * dz : q.c * dz - q.s * dx;
+    const PlaneVector<double> both = q.forward(sx, sz), apart = q.forward(dx, dz);
+    sum = i == 0 ? both.x : both.z;
+    difference = i == 0 ? apart.x : apart.z;
   };
   const auto kin = element_kinematics<SweepKind::revolve, double>(ref.shape, st, in_element);
   const auto relieve = [&](double(&s)[6]) {

@@ -29,8 +29,9 @@ void Traversal::begin(Field& u, double psi) {
   for (std::size_t b = 0; b < frames_.size(); ++b) {
     const BlockElements& d = body_->elements[b];
     for (std::size_t e = 0; e < d.cos_q.size(); ++e) {
-      frames_[b].cosine[e] = d.cos_q[e] * turn_.c + d.sin_q[e] * turn_.s;  // theta - psi
-      frames_[b].sine[e] = d.sin_q[e] * turn_.c - d.cos_q[e] * turn_.s;
+      const Rotation<double> carried = Rotation<double>{d.cos_q[e], d.sin_q[e]}.minus(turn_);  // theta - psi
+      frames_[b].cosine[e] = carried.c;
+      frames_[b].sine[e] = carried.s;
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 // The energy book of a rolling.
+#include <array>
 
 namespace railstrata {
 
@@ -17,18 +18,47 @@ struct EnergyBalance {
   double absorbed = 0;        ///< end absorbers
   double dashpot = 0;         ///< suspension dashpots
   double plastic = 0;         ///< work on plastic strains: dissipated, and stored by hardening
-  double total() const {
-    return kinetic + strain + hourglass + weight + spring + friction + contact_normal + damping + absorbed + dashpot +
-           plastic - torque_work - guide_work;
-  }
+  double total() const;
 };
 
-/// Work and losses are summed over whole steps; the moment between two steps has half of the one that follows.
+/// state: of a moment; supplied, lost: summed over whole steps.
+enum class EnergyKind { state, supplied, lost };
+
+struct EnergyEntry {
+  const char* name;
+  double EnergyBalance::*value;
+  EnergyKind kind;
+};
+
+/// The entries in the order of history.csv and of restart files.
+inline constexpr std::array kEnergyEntries{
+    EnergyEntry{"kinetic", &EnergyBalance::kinetic, EnergyKind::state},
+    EnergyEntry{"strain", &EnergyBalance::strain, EnergyKind::state},
+    EnergyEntry{"hourglass", &EnergyBalance::hourglass, EnergyKind::state},
+    EnergyEntry{"weight", &EnergyBalance::weight, EnergyKind::state},
+    EnergyEntry{"spring", &EnergyBalance::spring, EnergyKind::state},
+    EnergyEntry{"torque_work", &EnergyBalance::torque_work, EnergyKind::supplied},
+    EnergyEntry{"guide_work", &EnergyBalance::guide_work, EnergyKind::supplied},
+    EnergyEntry{"friction", &EnergyBalance::friction, EnergyKind::lost},
+    EnergyEntry{"contact_normal", &EnergyBalance::contact_normal, EnergyKind::lost},
+    EnergyEntry{"run_up_damping", &EnergyBalance::damping, EnergyKind::lost},
+    EnergyEntry{"absorbed", &EnergyBalance::absorbed, EnergyKind::lost},
+    EnergyEntry{"dashpot", &EnergyBalance::dashpot, EnergyKind::lost},
+    EnergyEntry{"plastic", &EnergyBalance::plastic, EnergyKind::state}};
+
+inline double EnergyBalance::total() const {
+  double out = 0;
+  for (const EnergyEntry& e : kEnergyEntries)
+    if (e.kind != EnergyKind::supplied) out += this->*e.value;
+  for (const EnergyEntry& e : kEnergyEntries)
+    if (e.kind == EnergyKind::supplied) out -= this->*e.value;
+  return out;
+}
+
+/// Sums of whole steps have half of the step that follows at the moment between two steps.
 inline EnergyBalance halfway(const EnergyBalance& before, EnergyBalance now) {
-  using E = EnergyBalance;
-  for (double E::*sum :
-       {&E::torque_work, &E::guide_work, &E::friction, &E::contact_normal, &E::damping, &E::absorbed, &E::dashpot})
-    now.*sum = 0.5 * (before.*sum + now.*sum);
+  for (const EnergyEntry& e : kEnergyEntries)
+    if (e.kind != EnergyKind::state) now.*e.value = 0.5 * (before.*e.value + now.*e.value);
   return now;
 }
 

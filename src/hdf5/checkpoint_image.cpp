@@ -282,20 +282,8 @@ constexpr auto visit_forces = [](auto& f, auto&& on) {
   on("nodes", f.nodes);
   on("sweeps", f.sweeps);
 };
-constexpr auto visit_energy = [](auto& e, auto&& on) {
-  on("kinetic", e.kinetic);
-  on("strain", e.strain);
-  on("hourglass", e.hourglass);
-  on("weight", e.weight);
-  on("spring", e.spring);
-  on("torque_work", e.torque_work);
-  on("guide_work", e.guide_work);
-  on("friction", e.friction);
-  on("contact_normal", e.contact_normal);
-  on("damping", e.damping);
-  on("absorbed", e.absorbed);
-  on("dashpot", e.dashpot);
-  on("plastic", e.plastic);
+constexpr auto visit_energy = [](auto& balance, auto&& on) {
+  for (const EnergyEntry& e : kEnergyEntries) on(e.name, balance.*e.value);
 };
 constexpr auto visit_history = [](auto& h, auto&& on) {
   on("time", h.time);

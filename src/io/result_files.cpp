@@ -252,39 +252,25 @@ VtkHexahedra band_mesh(const BandStress& b, double wheel_x) {
 
 Columns<HistoryRow> history_columns() {
   using H = HistoryRow;
-  const auto energy = [](const char* symbol, double EnergyBalance::*member) {
-    return Column<H>{symbol, unit::kJoules, [member](const H& h) { return h.energy.*member; }};
-  };
-  using E = EnergyBalance;
-  return {{"time", unit::kMilliseconds, &H::time},
-          {"position", unit::kMillimetres, &H::position},
-          {"torque", unit::kNewtonMetres, &H::torque},
-          {"F_x", unit::kNewtons, [](const H& h) { return h.forces.x; }},
-          {"F_y", unit::kNewtons, [](const H& h) { return h.forces.y; }},
-          {"F_z", unit::kNewtons, [](const H& h) { return h.forces.z; }},
-          {"p_max", unit::kMPa, &H::p_max},
-          {"creepage", unit::kNone, &H::creepage},
-          {"lateral_creepage", unit::kNone, &H::lateral_creepage},
-          {"penetration", unit::kMicrometres, [](const H& h) { return h.forces.penetration; }},
-          {"contact_nodes", unit::kCount, [](const H& h) { return h.forces.nodes; }},
-          {"axle_y", unit::kMillimetres, &H::axle_y},
-          {"axle_vx", unit::kMetresPerSecond, &H::axle_vx},
-          {"axle_vz", unit::kMetresPerSecond, &H::axle_vz},
-          {"spin", unit::kRadiansPerSecond, &H::spin},
-          energy("kinetic", &E::kinetic),
-          energy("strain", &E::strain),
-          energy("hourglass", &E::hourglass),
-          energy("weight", &E::weight),
-          energy("spring", &E::spring),
-          energy("torque_work", &E::torque_work),
-          energy("guide_work", &E::guide_work),
-          energy("friction", &E::friction),
-          energy("contact_normal", &E::contact_normal),
-          energy("run_up_damping", &E::damping),
-          energy("absorbed", &E::absorbed),
-          energy("dashpot", &E::dashpot),
-          energy("plastic", &E::plastic),
-          {"closure", unit::kJoules, &H::closure}};
+  Columns<H> out{{"time", unit::kMilliseconds, &H::time},
+                 {"position", unit::kMillimetres, &H::position},
+                 {"torque", unit::kNewtonMetres, &H::torque},
+                 {"F_x", unit::kNewtons, [](const H& h) { return h.forces.x; }},
+                 {"F_y", unit::kNewtons, [](const H& h) { return h.forces.y; }},
+                 {"F_z", unit::kNewtons, [](const H& h) { return h.forces.z; }},
+                 {"p_max", unit::kMPa, &H::p_max},
+                 {"creepage", unit::kNone, &H::creepage},
+                 {"lateral_creepage", unit::kNone, &H::lateral_creepage},
+                 {"penetration", unit::kMicrometres, [](const H& h) { return h.forces.penetration; }},
+                 {"contact_nodes", unit::kCount, [](const H& h) { return h.forces.nodes; }},
+                 {"axle_y", unit::kMillimetres, &H::axle_y},
+                 {"axle_vx", unit::kMetresPerSecond, &H::axle_vx},
+                 {"axle_vz", unit::kMetresPerSecond, &H::axle_vz},
+                 {"spin", unit::kRadiansPerSecond, &H::spin}};
+  for (const EnergyEntry& e : kEnergyEntries)
+    out.push_back({e.name, unit::kJoules, [value = e.value](const H& h) { return h.energy.*value; }});
+  out.push_back({"closure", unit::kJoules, &H::closure});
+  return out;
 }
 
 }  // namespace railstrata
