@@ -94,8 +94,8 @@ void fill_totals(const RollingSolution& s, double speed, BemPatch& r) {
   r.dissipation = t.dissipation * (r.field.slip_is_distance ? 1.0 : speed);
   r.patch.slip_area = t.slip_area;
   for (std::size_t k = 0; k < r.field.p.size(); ++k) {
-    r.patch.p_max = std::max(r.patch.p_max, r.field.p[k]);
-    r.patch.q_max = std::max(r.patch.q_max, std::hypot(r.field.q_x[k], r.field.q_y[k]));
+    r.patch.largest_pressure = std::max(r.patch.largest_pressure, r.field.p[k]);
+    r.patch.largest_traction = std::max(r.patch.largest_traction, std::hypot(r.field.q_x[k], r.field.q_y[k]));
     if (r.field.p[k] > 0) {
       r.patch.area += r.field.area[k];
       if (r.field.state[k] == ContactState::separated)
@@ -296,7 +296,7 @@ BemResult result_of(const CaseSpec& spec, const Placement& placement, const std:
     r.effort.iterations += p.solution.normal.iterations + p.solution.tangential.iterations;
   }
   std::sort(r.further.begin(), r.further.end(),
-            [](const BemPatch& a, const BemPatch& b) { return a.patch.p_max > b.patch.p_max; });
+            [](const BemPatch& a, const BemPatch& b) { return a.patch.largest_pressure > b.patch.largest_pressure; });
   static_cast<BemPatch&>(r) = std::move(r.further.front());
   r.further.erase(r.further.begin());
   return r;

@@ -25,8 +25,8 @@ namespace railstrata {
 
 /// Sums and extremes over the cells.
 struct PatchTotals {
-  double p_max = 0, q_max = 0;     ///< Pa, of a cell
-  double area = 0, slip_area = 0;  ///< m²
+  double largest_pressure = 0, largest_traction = 0;  ///< Pa, of a cell; p_max and q_max of a result lie between cells
+  double area = 0, slip_area = 0;                     ///< m²
 };
 
 /// Resultants on the rail.

@@ -64,7 +64,7 @@ double shear_on_elements(const fs::path& case_file) {
     spec.bem.leading_edge = LeadingEdge::whole_cell;
     BemOptions bem;
     bem.cell = std::max(loaded.spec.mesh.element_size, kFinest);
-    return solve_bem(spec, place(spec, loaded.folder()), bem).patch.q_max;
+    return solve_bem(spec, place(spec, loaded.folder()), bem).patch.largest_traction;
   } catch (const CaseError&) {
     return std::numeric_limits<double>::quiet_NaN();
   } catch (const NumericalError&) {

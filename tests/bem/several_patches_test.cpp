@@ -78,8 +78,8 @@ TEST(SeveralPatches, TwoEqualOnesShareTheLoadInHalves) {
   half.geometry.cant = 0;
   const BemResult alone = solve_bem(half, place(half, {}), BemOptions{});
   ASSERT_TRUE(alone.further.empty());
-  EXPECT_NEAR(both.patch.p_max / alone.patch.p_max, 1, 2e-5);
-  EXPECT_NEAR(both.patch.q_max / alone.patch.q_max, 1, 1e-4);
+  EXPECT_NEAR(both.patch.largest_pressure / alone.patch.largest_pressure, 1, 2e-5);
+  EXPECT_NEAR(both.patch.largest_traction / alone.patch.largest_traction, 1, 1e-4);
   EXPECT_NEAR(both.rigid_slip.x / alone.rigid_slip.x, 1, 1e-3);
   EXPECT_EQ(both.patch.area, alone.patch.area);
   // each is pressed down by the other's N/(pi E* r) besides, which is no approach of its own
@@ -213,7 +213,7 @@ TEST(SlowSeveralPatches, PatchesThatReachTheRidgeBetweenThemAreOneInThePlaneOfTh
     double most = 0;
     for (std::size_t k = 0; k < r.field.p.size(); ++k)
       if (std::abs(r.field.y[k] - c.point.y) < 1e-3) most = std::max(most, r.field.p[k]);
-    EXPECT_GT(most, 0.2 * r.patch.p_max) << c.angle;
+    EXPECT_GT(most, 0.2 * r.patch.largest_pressure) << c.angle;
   }
 }
 

@@ -50,16 +50,16 @@ TEST(SolveHalfSpace, GivesPatchForcesStressesAndSummary) {
   EXPECT_GT(s.summary.run.threads, 0);
   EXPECT_NEAR(s.result.force.z, -(660 + 8000) * 9.81, 1e-4 * 8660 * 9.81);
   const double deepest = s.summary.rail.subsurface->von_mises.value;
-  EXPECT_GT(deepest, 0.3 * s.result.patch.p_max);
-  EXPECT_LT(deepest, s.result.patch.p_max);
+  EXPECT_GT(deepest, 0.3 * s.result.patch.largest_pressure);
+  EXPECT_LT(deepest, s.result.patch.largest_pressure);
   const InteriorPoint below = rail_interior(s.result).at({{0, 0, 1e-3}}).front();
-  EXPECT_LT(below.stress.zz, -0.5 * s.result.patch.p_max);  // a millimetre below the middle of the patch
+  EXPECT_LT(below.stress.zz, -0.5 * s.result.patch.largest_pressure);  // a millimetre below the middle of the patch
 }
 
 TEST(SolveHalfSpace, AStaticCaseIsWithoutFriction) {
   const HalfSpaceSolution s = solve({"run.rolling=false"});
   EXPECT_EQ(s.result.force.x, 0);
-  EXPECT_EQ(s.result.patch.q_max, 0);
+  EXPECT_EQ(s.result.patch.largest_traction, 0);
 }
 
 }  // namespace railstrata
