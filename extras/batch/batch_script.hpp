@@ -6,7 +6,7 @@
 
 namespace railstrata {
 
-/// What one case is estimated to need; 0 where it is not known.
+/// Estimated time and memory of one case; 0: not known.
 struct CaseNeed {
   double seconds = 0, memory_bytes = 0;
 };

@@ -54,7 +54,7 @@ nlohmann::ordered_json as_json(const std::string& title, const std::vector<CsvCo
   return out;
 }
 
-/// What of the case a curve leaves out.
+/// Notes on settings of the case that a curve ignores.
 std::vector<std::string> notes_of(const CaseSpec& spec) {
   std::vector<std::string> out;
   if (spec.transient.kind != TransientKind::none)

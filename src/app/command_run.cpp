@@ -34,7 +34,7 @@ void warn_of_shared_processors(int threads) {
   if (const std::string busy = competition(threads); !busy.empty()) spdlog::info("{}", busy);
 }
 
-// What of the ranks is not 0: silent.
+// Runs on ranks other than 0: no output.
 ExitCode run_along(const CommandOptions& options, const FemOptions& fem) {
   spdlog::set_level(spdlog::level::off);
   if (!options.run.resume.empty()) require_resume_alone(options);

@@ -10,7 +10,7 @@
 namespace railstrata {
 namespace {
 
-// What a terminal without Unicode shows as a question mark.
+// Replacements of characters that a terminal without Unicode shows as question marks.
 constexpr std::array kPlain{std::pair{"…", "..."}, std::pair{"√", "sqrt "}, std::pair{"±", "+-"}};
 
 /// Text as roff prints it: no request at the start of a line, hyphens that can be copied.

@@ -1,5 +1,5 @@
 #pragma once
-// What `check` and `mesh` say about a model's meshes.
+// The text of `check` and `mesh` about a model's meshes.
 #include <string>
 #include <vector>
 

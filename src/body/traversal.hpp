@@ -80,7 +80,7 @@ class Traversal {
   void end(const std::vector<Chain>& chains, Field& f, const std::vector<std::vector<int>>& nodes);
 
   /// Forces that the chains leave on the first plane of a tile and behind its last element, [node][component], tile
-  /// after tile within a block: for tiles that somebody else has evaluated, to be put here before end().
+  /// after tile within a block: for tiles that another rank or device has evaluated; to be put here before end().
   double* front_forces(int tile) { return &border_first_[body_->tiling.border[tile]]; }
   double* rear_forces(int tile) { return &border_end_[body_->tiling.border[tile]]; }
 

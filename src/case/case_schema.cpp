@@ -102,7 +102,7 @@ constexpr const char* kAboutTransient =
     "is\nfollowed and what comes out: [docs/bem.md](bem.md#transients). Signs: "
     "[conventions](conventions.md#axes-and-signs).\n";
 
-/// What a table's rows cannot say: how values of more than one number are written.
+/// Text below a table, on how values of more than one number are written.
 std::string more_about(const OptionTable& table) {
   if (table.name == "geometry")
     return "\n`rail_profile` and `wheel_profile` also take an arc, `\"arc:R=200 mm\"`: convex of this radius, hollow "

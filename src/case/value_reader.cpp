@@ -30,7 +30,7 @@ std::string columns_text(const Option& option) {
   return out;
 }
 
-/// What the value of an option must look like, with an example.
+/// Description of an option's value, with an example.
 std::string wanted(const Option& option) {
   struct Say {
     const Option& option;
@@ -234,7 +234,7 @@ class ValueReader {
     return true;
   }
 
-  /// A graded layer is as thick as its table says, and as stiff on the mean.
+  /// A graded layer takes its thickness and its mean stiffness from its table.
   void take_moduli(const std::string& key, LayerSpec& layer) {
     const std::vector<ModulusPoint>& rows = layer.young_table;
     const OptionTable& table = *find_table("layer");
