@@ -75,7 +75,7 @@ class Call {
 
   // while it lasts
   Control control;
-  /// The arguments of the progress function.
+  /// Progress, for the caller's progress function.
   void tell(const Json& how_far);
   std::string told() const;
 

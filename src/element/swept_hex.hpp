@@ -238,13 +238,13 @@ RAILSTRATA_POINTWISE void element_forces(const QuadShape<Real>& r, const Station
 /// How an element is evaluated: the stiffness of the undeformed body; at finite rotation and strain.
 enum class Evaluation { linear, finite };
 
-/// Of an element without eigenstress, as one has that may yield (body/plastic_pass.hpp).
+/// For elements without eigenstress; those that may yield have one (body/plastic_pass.hpp).
 struct NoEigenstress {
   template <class T>
   RAILSTRATA_POINTWISE void operator()(T (&)[6]) const {}
 };
 
-/// What the elements of one quadrilateral read: their shape and their material.
+/// Shape and material of the elements of one quadrilateral.
 template <class Real>
 struct HexReference {
   QuadShape<Real> shape;

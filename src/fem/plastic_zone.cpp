@@ -90,7 +90,7 @@ class Zone {
   bool yields() const {
     return std::any_of(laws_.begin(), laws_.end(), [](const Law& l) { return l.law.has_value(); });
   }
-  /// Of any quadrilateral, in the box or not.
+  /// Material of a quadrilateral, also outside the box.
   std::optional<PlasticMaterial> material(int block, int quad) const {
     const Section& section = mesh_.blocks[block].section;
     const Law& law = laws_[section.quad_material[quad]];

@@ -1,5 +1,5 @@
 #pragma once
-// What is looked at between two steps that an engine takes (fem/step_engine.hpp).
+// Values that an engine returns after a step (fem/step_engine.hpp).
 #include "fem/axle_law.hpp"
 #include "fem/contact_law.hpp"
 

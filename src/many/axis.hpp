@@ -43,7 +43,7 @@ std::vector<NumberAxis> parse_number_axes(const std::string& option, const std::
 /// A value as an override of the axis' key takes it.
 std::string axis_text(const NumberAxis& axis, double value);
 
-/// What a value is on a chart: its number, and what follows it ("0.2 mm": 0.2, "mm"); NaN for a word.
+/// A value's number for a chart, and the text after it ("0.2 mm": 0.2, "mm"); NaN for a word.
 std::pair<double, std::string> axis_value(const std::string& text);
 
 /// The share of the largest value that the k-th of n has, equal ratios over two and a half decades; k in [0, n].

@@ -5,7 +5,7 @@
 namespace railstrata {
 
 /// As build_model, with the rail's mesh of another model of the same rail. Whether the patch lies in its fine zone is
-/// the caller's business: a rolling says so (patch_reaches_edge_of_fine_zone).
+/// for the caller: a rolling reports it (patch_reaches_edge_of_fine_zone).
 Model build_model_on_rail(const CaseSpec& spec, const std::filesystem::path& folder, const SweptBody& rail);
 
 }  // namespace railstrata

@@ -49,7 +49,7 @@ std::vector<PassPoint> section_points(const RailPasses& rail, const PassSeries& 
 void write_residual(const std::filesystem::path& folder, const std::vector<std::string>& provenance,
                     const RailPasses& rail, const PassSeries& series, const PassResult& last);
 
-/// What passes.json says besides the series itself.
+/// Contents of passes.json besides the series itself.
 struct PassAnswer {
   std::string verdict, law;         ///< sentences (passes/pass_words.hpp)
   ShakedownSummary shakedown;       ///< of the elastic stress of the first of the tractions; empty: none

@@ -1,5 +1,5 @@
 #pragma once
-// What passes.json has by either method.
+// Contents of passes.json common to both methods.
 #include <string>
 #include <vector>
 

@@ -10,7 +10,7 @@
 
 namespace railstrata {
 
-/// Of one pass.
+/// Position and traction of one pass.
 struct PassPlan {
   double lateral = 0;        ///< m, to the field side
   std::size_t traction = 0;  ///< place among traction_coefficients; 0 without them

@@ -105,7 +105,7 @@ RowModuli moduli_of(const HalfSpaceMaterial& m) {
   return {e.lambda, e.mu};
 }
 
-/// Rows with what the case says of their material.
+/// Rows with their material from the case.
 class Rows {
  public:
   Rows(const CaseSpec& spec, const LayeredHalfSpace& body) : body_(body) {

@@ -9,7 +9,7 @@
 
 namespace railstrata {
 
-/// Of the rail at the end of a rolling.
+/// State of the rail at the end of a rolling.
 struct RolledRail {
   Field u, history;
   double wheel = 0;              ///< m, where the axle is

@@ -1,6 +1,6 @@
 #pragma once
-// What a run with run.plasticity leaves in the rail: plastic strain of the section and the residual stress of the rail
-// at rest, when the wheel has gone.
+// Residual state after a run with run.plasticity: plastic strain of the section and residual stress of the rail at
+// rest, without the wheel.
 #include <span>
 #include <string>
 #include <string_view>

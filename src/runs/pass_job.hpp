@@ -1,5 +1,5 @@
 #pragma once
-// What both kinds of passes (runs/pass_folder.hpp) share.
+// Base of the jobs of both kinds of passes (runs/pass_folder.hpp).
 #include <string>
 #include <vector>
 

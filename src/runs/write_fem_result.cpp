@@ -75,7 +75,7 @@ class PatchSeries {
   int frames_ = 0;
 };
 
-/// Of a position before the last.
+/// Folder of a position before the last.
 fs::path position_folder(double position) { return fmt::format("{}{:.10g}mm", kPositionFolder, 1e3 * position); }
 
 void write_position(const Model& model, const FemPosition& position, const fs::path& folder,

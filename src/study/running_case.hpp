@@ -27,7 +27,7 @@ class RunningCase {
   virtual double fraction() const = 0;
 };
 
-/// What cases of one call have in common.
+/// Settings common to the cases of one call.
 struct CaseSettings {
   std::string cell;  ///< of the half-space engine; empty: its default
   int threads = 1;   ///< of each
