@@ -3,7 +3,7 @@
 
 usage: fuzz.py BUILD [SECONDS] [--runs N] [--reader NAME]... [--merge]
 
-SECONDS: of each reader, 60 if nothing is said; --runs: until results.csv has so many executions of the reader, all runs
+SECONDS: of each reader, 60 by default; --runs: until results.csv has so many executions of the reader, all runs
 together. BUILD holds the targets (cmake --preset fuzz). What libFuzzer learns stays in BUILD/learned/READER and is
 taken up again; finds stay in BUILD/finds. Each run adds to fuzz/results.csv.
 --merge: puts what was learned into fuzz/corpus, as few inputs as cover the same code.

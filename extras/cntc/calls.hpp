@@ -36,7 +36,7 @@ int guarded(int ire, int icp, Problem* problem, const char* call, Work&& work) n
   }
 }
 
-/// The problem, made where there is none yet; null, and told, for wrong numbers.
+/// The problem, created if needed; null, with a report, for wrong numbers.
 inline Problem* problem_of(int ire, int icp, const char* call) noexcept {
   Problem* out = nullptr;
   guarded(ire, icp, nullptr, call, [&] { out = &registry().problem(ire, icp); });

@@ -259,7 +259,7 @@ ExitCode command_check(const CommandOptions& options) {
 }  // namespace
 
 const Command kCheckCommand{
-    "check", "Read a case and tell what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
+    "check", "Read a case and report what a run would be: contact point, mesh, stable step, memory, time. Runs nothing",
     "Examples:\n  railstrata check cases/quick\n  railstrata check cases/paper/base.toml --set mesh.element_size=\"2 "
     "mm\"\n  railstrata check cases/paper/base.toml --json\n",
     add_case, command_check};

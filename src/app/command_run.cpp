@@ -110,7 +110,7 @@ const Command kRunCommand{
     "Examples:\n  railstrata run cases/quick\n  railstrata run cases/paper/base.toml --threads 4 --out results/base\n "
     " railstrata run cases/quick --set layer.0.thickness=\"1 mm\" --out results/thin\n"
     "  railstrata run cases/paper/base.toml --max-time \"110 min\"; railstrata run --resume results/base\n\n"
-    "Ctrl-C, SIGTERM: finish the step, write a checkpoint, say how to go on (a second one quits at once). SIGUSR1: "
+    "Ctrl-C, SIGTERM: finish the step, write a checkpoint, print how to go on (a second one quits at once). SIGUSR1: "
     "write a checkpoint, go on.\n",
     declare_run,
     command_run,

@@ -105,7 +105,7 @@ class StrengthRules {
                                                                 : nullptr;
     if (!given) return;
     if (!begins_to_yield())
-      complain(given, ": says how the material hardens, and nothing where it begins to yield",
+      complain(given, ": gives how the material hardens, but not where it begins to yield",
                "add for example yield_strength = \"300 MPa\"");
     if (s_.kinematic_hardening.size() > kMostBackstresses)
       complain("kinematic_hardening",

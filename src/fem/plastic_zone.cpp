@@ -158,7 +158,7 @@ class ProcessStress {
 PlasticElements plastic_zone(const Model& model, BodyId id, const Body& body) {
   if (!model.spec.run.plasticity) return {};
   if (!Zone(model, BodyId::rail, model.rail).yields() && !Zone(model, BodyId::wheel, model.wheel).yields())
-    throw CaseError("run.plasticity = true, but no material of the case says a strength",
+    throw CaseError("run.plasticity = true, but no material of the case has a strength",
                     "give material.rail.yield_strength, or a ready set: material.rail.hardening = \"R260\"");
   const Zone zone(model, id, body.mesh);
   const ProcessStress process(model, id, body.mesh);

@@ -1,6 +1,6 @@
 #pragma once
 // Axes of many cases: keys of a case with the values that they take. `sweep --vary`, `creep-table --axis`, the tables
-// of a study file and Python's sweep say them in the same words.
+// of a study file and Python's sweep use the same words.
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -27,9 +27,9 @@ std::vector<std::string> axis_words();
 /// The key of a word; a key is its own.
 std::string axis_key(const std::string& word);
 
-/// The axis of a word or key. One value that says several is taken apart: "from:to:count" at equal distances,
-/// "log from:to:count" at equal ratios, "+-largest:count", odd, through 0 and by equal ratios over two and a half
-/// decades to both sides. Throws CaseError: a range of what is no number, values out of the key's range.
+/// The axis of a word or key. One value that stands for several is expanded: "from:to:count" at equal distances, "log
+/// from:to:count" at equal ratios, "+-largest:count", odd, through 0 and by equal ratios over two and a half decades to
+/// both sides. Throws CaseError: a range of what is no number, values out of the key's range.
 Axis make_axis(const std::string& word, std::vector<std::string> values);
 
 /// Reads options "WORD=v1,v2,…" or "WORD=RANGE"; blanks and quotes around values do not count. `option` names them in

@@ -1,5 +1,5 @@
 #pragma once
-// A creep-force table: half-space solutions over a grid of creepages, loads, places and whatever else a case says.
+// A creep-force table: half-space solutions over a grid of creepages, loads, places and any other key of a case.
 #include <array>
 #include <cstddef>
 #include <functional>

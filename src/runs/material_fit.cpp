@@ -32,7 +32,8 @@ auto at_place(const std::string& place, Work&& work) {
     return work();
   } catch (const std::invalid_argument& e) {
     throw CaseError(e.what(),
-                    "docs/material.md says what a fit needs: enough rows over the plastic strains of interest", place);
+                    "docs/material.md describes what a fit needs: enough rows over the plastic strains of interest",
+                    place);
   }
 }
 
@@ -100,7 +101,7 @@ void note_rate_at_edge(const PlasticParameters<double>& law, const std::vector<C
   if (law.saturation == 0 || (law.rate > kNear * bounds.low && kNear * law.rate < bounds.high)) return;
   notes.push_back(
       fmt::format("{}: the rate b = {:.4g} lies at the edge of its search, {:.4g} to {:.4g}: the curve does "
-                  "not tell it; give points of {} plastic strains",
+                  "not determine it; give points of {} plastic strains",
                   place, law.rate, bounds.low, bounds.high, law.rate <= kNear * bounds.low ? "larger" : "smaller"));
 }
 
@@ -158,7 +159,7 @@ std::vector<std::string> fit_remarks(const MaterialFit& fit, const std::string& 
     out.push_back(fmt::format("and to {}: error {:.2f} %, {:.2f} % at most", monotonic, kToPercent * fit.whole.error,
                               kToPercent * fit.whole.largest_error));
   else
-    out.emplace_back("yield_strength is that of the stabilised cycle: a monotonic curve (--monotonic) tells Q and b");
+    out.emplace_back("yield_strength is that of the stabilised cycle: a monotonic curve (--monotonic) gives Q and b");
   return out;
 }
 

@@ -25,7 +25,7 @@ void report_page(const WrittenPage& page, const Control& control);
 
 /// Solves the case of a finite element result by half-spaces and writes it to its folder half_space/, unless that holds
 /// this case already. Of several positions each has the one of the run's folder. Returns the folder; empty, with a note
-/// that says why, where the case or its profiles cannot be read any more or theory has no answer.
+/// of the reason, where the case or its profiles cannot be read any more or theory has no answer.
 std::filesystem::path half_space_reference(const std::filesystem::path& folder, std::vector<std::string>& notes);
 
 /// Writes the page for these folders; throws CaseError where one is no result, EnvironmentError for the disk. A single
