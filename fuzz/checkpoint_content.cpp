@@ -200,8 +200,8 @@ void leaves_nothing_open() {
 
 }  // namespace
 
-// HDF5 asks the heap for what a forged file says; where the system's heap would refuse, the sanitizers' are to refuse
-// too, and not to end the program.
+// HDF5 asks the heap for the sizes in a forged file; where the system's heap would refuse, the sanitizers' are to
+// refuse too, and not to end the program.
 extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1"; }
 extern "C" const char* __tsan_default_options() { return "allocator_may_return_null=1"; }
 

@@ -30,7 +30,7 @@ READERS = ["profile", "case_file", "history_table", "study_file", "published", "
 LONGEST = {"profile": 1200, "case_file": 1200, "history_table": 600, "study_file": 1600, "published": 1400,
            "results": 1200, "checkpoint": 700, "checkpoint_content": 700}
 LIMITS = ["-timeout=20", "-rss_limit_mb=2048", "-malloc_limit_mb=512"]
-# HDF5 asks for what a forged file says, is refused, and says so
+# HDF5 asks for the sizes in a forged file, is refused, and reports it
 OWN_LIMITS = {"checkpoint_content": ["-malloc_limit_mb=2147483647"]}
 # less paging than the defaults
 ENVIRONMENT = {**os.environ, "ASAN_OPTIONS": "quarantine_size_mb=8:malloc_context_size=8"}

@@ -88,7 +88,7 @@ recall = 100
     EXPECT_TRUE(spec.layers.at(0).material.strength.elastic);
     EXPECT_FALSE(spec.layers.at(1).material.strength.elastic);
     EXPECT_EQ(spec.layers.at(1).material.strength.kinematic_hardening, (std::vector<KinematicHardening>{{20e9, 100}}));
-    ASSERT_EQ(loaded.elastic_notes.size(), 3u) << "contact is elastic, and says so";
+    ASSERT_EQ(loaded.elastic_notes.size(), 3u) << "contact is elastic, with a note";
     EXPECT_EQ(loaded.elastic_notes[0].find("material.rail.isotropic_hardening: `run` and `bem` compute elastically"),
               0u);
   }
