@@ -1,5 +1,5 @@
 #pragma once
-// Between the functions of the interface, which have no way to fail, and those that throw.
+// Wraps functions that throw for the interface, whose functions must not throw.
 #include <limits>
 #include <new>
 #include <span>

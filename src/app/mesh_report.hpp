@@ -15,7 +15,7 @@ struct MeshRow {
                     ///< block limits the step
 };
 
-/// One row per block of both bodies.
+/// Rows of the table of meshes: one per block of both bodies.
 std::vector<MeshRow> mesh_rows(const Model& model);
 
 /// The rows as an aligned table.

@@ -65,13 +65,13 @@ class Traversal {
   void internal_force_of(const std::vector<Chain>& chains, Field& u, double psi, Field& f,
                          const PlasticHistory& history);
   void linear_force_of(const std::vector<Chain>& chains, Field& u, Field& f);
-  /// At u.
+  /// Strain energy at the displacements u [J].
   StrainEnergy energy(Field& u, double psi, const PlasticHistory& history);
 
   // -- a step in pieces: begin, every chain once (in parallel if wanted), end
   // ------------------------------------------
   void begin(Field& u, double psi);
-  /// In the precision of the body's options.
+  /// Runs in the precision of the body's options.
   template <class Policy>
   void chain_forces(const Chain& chain, const Field& u, Field& f, const PlasticHistory& history, const Policy& policy);
   /// Forces on the border planes of all chains, and on the last station of an open block.

@@ -12,7 +12,7 @@
 
 namespace railstrata {
 
-/// One-based; line 0: not in the text (a default, or an override of the command line).
+/// Line and column, one-based; line 0: not in the text (a default, or an override of the command line).
 struct TextPlace {
   int line = 0, column = 0;
 };

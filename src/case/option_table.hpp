@@ -38,7 +38,7 @@ class RowsSlot {
   using Rows = std::vector<std::vector<double>>;
   template <class Row>
   explicit RowsSlot(std::vector<Row>& member) : member_(&member), read_(read<Row>), write_(write<Row>) {}
-  /// One row at most.
+  /// A table with at most one row.
   template <class Row>
   explicit RowsSlot(std::optional<Row>& member) : member_(&member), read_(read_one<Row>), write_(write_one<Row>) {}
   Rows operator*() const { return read_(member_); }
@@ -134,7 +134,7 @@ struct Option {
   /// Set for an option that only some cases have (the thickness of a layer, unless a table gives it): whether this case
   /// does. Else the resolved case leaves it out.
   bool (*applies)(const CaseSpec&, std::size_t index) = nullptr;
-  std::string_view beyond{};  ///< what to do who needs a value out of the range
+  std::string_view beyond{};  ///< advice for a value out of the range
   /// For a table by depth: the numbers of a row, the depth first; its `doc` gives where depth 0 is.
   std::vector<Option> columns{};
   std::string_view example{};  ///< of a list or a table by depth
@@ -188,7 +188,7 @@ struct OptionTable {
 /// The words of an option with choices, in the table's order.
 std::vector<std::string> words_of(const Option& option);
 
-/// In the order of the reference page and of a resolved case.
+/// All tables, in the order of the reference page and of a resolved case.
 const std::vector<OptionTable>& case_tables();
 
 /// The table of a name; null if there is none.

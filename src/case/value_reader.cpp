@@ -61,7 +61,7 @@ void refuse_type(CaseSource& source, const WrittenValue& w) {
                   fmt::format("write {}", wanted(w.option)));
 }
 
-/// Another unit is offered where the value lies far from the range: who misses it by less means what he wrote.
+/// Suggests another unit where the value lies far from the range; a smaller miss is taken as meant.
 std::string remedy_beyond(const Option& option, const std::string& quantity, double value) {
   constexpr double kClose = 3;
   const bool close = option.range.holds(kClose * value) || option.range.holds(value / kClose);

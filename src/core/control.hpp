@@ -12,7 +12,7 @@ namespace railstrata {
 
 struct Control {
   /// Set from any thread or by a signal's handler. stop: end in good order and keep what is done; save: save the state
-  /// and go on, set back by who does so.
+  /// and go on; the code that saves resets it.
   std::atomic<bool> stop{false}, save{false};
 
   /// Called one at a time, from any thread; any may be empty. A phase ("rolling"; empty: none is under way), how far it

@@ -1,7 +1,8 @@
 #pragma once
 // Processes that compute one run together, and the one thing that they do with one another: each gives a part of a list
 // of numbers and gets the whole. There is one such operation only, it is blocking, and all ranks call it the same
-// number of times in the same order. Who provides it (extras/mpi/plug_in.cpp; threads, in tests) is not known here.
+// number of times in the same order. This room does not know the implementation (extras/mpi/plug_in.cpp; threads, in
+// tests).
 #include <algorithm>
 #include <cstddef>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// A request to stop what a thread computes. Who starts a computation has a flag and a StopWish; solvers that iterate
+// A request to stop what a thread computes. The caller of a computation has a flag and a StopWish; solvers that iterate
 // call stop_if_wished between two iterations.
 #include <atomic>
 

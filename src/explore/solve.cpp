@@ -171,8 +171,8 @@ struct Explorer::State {
   bool has_stress = false, has_shakedown = false;
   std::optional<StressSections> sections;
 
-  /// Operators of other layers are of no use again: who moves a slider leaves them behind. A cache that is begun anew
-  /// keeps the memory bounded.
+  /// Operators of other layers are not needed again after a slider has moved. A cache that is begun anew keeps the
+  /// memory bounded.
   InfluenceCache& cache_for(const CaseSpec& spec) {
     constexpr int kUses = 16;
     if (std::vector<double> stiffness = stiffness_of(spec); !cache || stiffness != cached || ++uses > kUses) {

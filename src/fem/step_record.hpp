@@ -5,7 +5,7 @@
 
 namespace railstrata {
 
-/// After a step.
+/// Values after a step.
 struct StepRecord {
   double time = 0;
   long step = 0;  ///< number of steps taken

@@ -11,7 +11,7 @@ namespace railstrata {
 /// a folder of results) and which command goes with it.
 Diagnostic no_result_here(const std::filesystem::path& folder);
 
-/// The command line that has begun a folder, with --force, for people to give again; "railstrata run CASE --out FOLDER
+/// The command line that began a folder, with --force, for the user to repeat; "railstrata run CASE --out FOLDER
 /// --force" where provenance.json does not give it.
 std::string command_again(const std::filesystem::path& folder);
 

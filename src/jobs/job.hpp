@@ -71,9 +71,9 @@ class Job {
   virtual void finish() = 0;
   /// Their page. False: a check of it fails.
   virtual bool write_page() { return true; }
-  /// In place of the results when it was stopped: keeps what is done.
+  /// Called instead of finish() after a stop: saves what is done.
   virtual void stop() { save(); }
-  /// It stopped by itself, for a limit of time.
+  /// True: stopped by itself, at a limit of time.
   virtual bool out_of_time() const { return false; }
 
   // For "stopped after pass 3; go on with --resume"; where nothing is to be added, to_resume() is empty.

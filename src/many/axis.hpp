@@ -49,7 +49,7 @@ std::pair<double, std::string> axis_value(const std::string& text);
 /// The share of the largest value that the k-th of n has, equal ratios over two and a half decades; k in [0, n].
 double decade_share(int k, int n);
 
-/// As many combinations as a sweep or a group of a study may have.
+/// Largest number of combinations of a sweep or of a group of a study.
 inline constexpr std::size_t kMostCases = 10'000;
 
 /// Every combination, the last key changing fastest: per case the value of each key. One empty combination of no keys.

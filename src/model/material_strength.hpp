@@ -32,7 +32,7 @@ class MaterialStrength {
   double hardness(double depth) const;
   /// m, the depth where the strength's table ends; infinite without one.
   double end() const;
-  /// How a strength that was not given is known; empty if it was, or is not known.
+  /// Source of an estimated strength; empty if it was given or is unknown.
   std::string note() const;
 
  private:
@@ -57,7 +57,7 @@ struct PlasticLaw {
   PlasticMaterial at(double depth) const;  ///< below the last row as there
 };
 
-/// None where the material is elastic on purpose (elastic = true) or has no strength. Throws CaseError.
+/// No law where the material is elastic on purpose (elastic = true) or has no strength. Throws CaseError.
 std::optional<PlasticLaw> plastic_law(const MaterialSpec& material, const std::string& name, const std::string& key);
 
 }  // namespace railstrata

@@ -1,5 +1,5 @@
 #pragma once
-// Where the wheels of a series of passes run across the rail and with what traction: [passes] of a case.
+// Lateral position and traction of the wheels of a series of passes: [passes] of a case.
 //
 // Pass n takes value n of each list, which begins again after its last one, and an offset of a normal distribution cut
 // at three deviations. The offset is a function of the seed and n alone: the same however the passes are cut by

@@ -7,7 +7,7 @@
 
 namespace railstrata {
 
-/// Where a series stands.
+/// Progress of a series.
 struct PassStanding {
   PassVerdict verdict;
   PassRow last;

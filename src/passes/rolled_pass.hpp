@@ -32,7 +32,7 @@ double largest_plastic_norm(const std::vector<PassPoint>& points);
 RolledPass rolled_pass(const RollingSystem& system, const Model& base, const PlasticSection& before,
                        const PlasticSection& after, const RailBefore& at_rest, double middle);
 
-/// Up to here the stations count as steady.
+/// Limit of RolledPass::uneven up to which the stations count as steady.
 inline constexpr double kLargestUnevenness = 0.1;
 /// RolledPass::uneven, from the sections of both halves, all of the same quadrilaterals.
 double unevenness(const PlasticSection& before, const PlasticSection& first, const PlasticSection& second);

@@ -70,7 +70,7 @@ Columns<Record> of_part(const Columns<Part>& columns, Get part) {
   return out;
 }
 
-/// Those of these symbols, in their order.
+/// The columns of these symbols, in their order.
 template <class Record>
 Columns<Record> select(const Columns<Record>& columns, std::initializer_list<std::string_view> symbols) {
   Columns<Record> out;

@@ -49,7 +49,7 @@ struct ResultNumber : Column<Summary> {
   std::string column_name() const;  ///< "p_max_MPa"
 };
 
-/// In the order of summary.json.
+/// All numbers, in the order of summary.json.
 const std::vector<ResultNumber>& result_numbers();
 
 /// The row of a number by its path; null if there is none.

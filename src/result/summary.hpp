@@ -75,7 +75,7 @@ struct PlasticSummary {
   std::string body, zone;         ///< where it is; empty: nothing has yielded
 };
 
-/// By what the elastic stress of the case may be multiplied (damage/shakedown.hpp).
+/// Factors by which the elastic stress of the case may be multiplied (damage/shakedown.hpp).
 struct ShakedownFactors {
   double first_yield = kNotApplicable, wandering = kNotApplicable, single_track = kNotApplicable,
          upper = kNotApplicable, kinematic = kNotApplicable;

@@ -34,7 +34,7 @@ struct ChosenMaterial {
 /// word: "rail", "wheel", "layer.0" or a layer's name. Throws CaseError: the card has no such.
 ChosenMaterial choose_material(const LoadedCase& card, const std::string& word);
 
-/// How it yields at a depth [m].
+/// The law of yielding at a depth [m].
 struct ChosenLaw {
   PlasticMaterial material;
   std::vector<std::string> notes;  ///< what is an estimate

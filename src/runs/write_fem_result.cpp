@@ -60,7 +60,7 @@ class PatchSeries {
   }
 
  private:
-  // The film takes the place of the one that was left once it has its frames: who is killed here loses none.
+  // The film replaces the earlier one when its frames are there: a kill loses none.
   void keep_film(const fs::path& out) {
     film_.keep(*left_, frames_);
     left_.reset();

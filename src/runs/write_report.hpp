@@ -1,5 +1,5 @@
 #pragma once
-// From result folders to a report.
+// Writes a report of result folders.
 #include <filesystem>
 #include <functional>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-// From a study file to the cases that must be computed.
+// Makes the cases to be computed from a study file.
 #include <filesystem>
 #include <optional>
 #include <string>
