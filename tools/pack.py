@@ -202,7 +202,7 @@ share/railstrata/examples).
 
 
 def ordinary(entry):
-    """Whoever packs does not show, and two of one build are the same."""
+    """Without the name of the packer; two of one build are the same."""
     entry.uid = entry.gid = entry.mtime = 0
     entry.uname = entry.gname = "root"
     return entry
